@@ -1,0 +1,78 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tushar {
+
+/// What `sus` returns to the shell.
+enum class ExitCode : int {
+  success = 0,
+  failure = 1,         ///< anything not named below: a file that cannot be written, memory, a defect of ours
+  badCommandLine = 2,  ///< an option that sus does not know
+  badInput = 3,        ///< the scene cannot be run as it is written
+  numerical = 4,       ///< a value became impossible during the run
+  interrupted = 5,     ///< ended early by Ctrl-C or SIGTERM, after writing its output
+};
+
+/// A place in a scene file, or the option on the command line that overrides it.
+struct Location {
+  std::string file;  ///< as the user named it; `--set PATH=VALUE` for an override
+  int line = 0;      ///< from 1; 0 where a line has no meaning
+  int column = 0;    ///< from 1, in bytes
+
+  /// `file:line:column`, or `file` alone where there is no line.
+  std::string text() const;
+};
+
+/// One thing wrong with a scene, in one sentence.
+struct InputProblem {
+  Location where;
+  std::string tagPath;   ///< `Grid/Level/Box/resolution`; may be empty
+  std::string sentence;  ///< what was found, what is allowed, did-you-mean
+
+  /// `scene.ups:12:7: Grid/Level: …`
+  std::string text() const;
+};
+
+/// Everything wrong with a scene: thrown once, after the whole file has been read.
+class InputError : public std::runtime_error {
+ public:
+  explicit InputError(std::vector<InputProblem> problems);
+  const std::vector<InputProblem>& problems() const { return problems_; }
+
+ private:
+  std::vector<InputProblem> problems_;
+};
+
+/// A task list that cannot be run: the mistake of whoever wrote the component.
+class TaskError : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// A value that cannot be: which one, where, when, and what the user can try.
+class NumericalError : public std::runtime_error {
+ public:
+  /// `what` names the value and where it stands; `advice` says what to try.
+  NumericalError(const std::string& what, std::string advice)
+      : std::runtime_error(what), advice_(std::move(advice)) {}
+  const std::string& advice() const { return advice_; }
+
+ private:
+  std::string advice_;
+};
+
+/// A file or folder that could not be written or read: the path and the system's reason.
+class FileError : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// ` (did you mean 'x'?)` for the candidate nearest to `word` if one is near enough, else nothing.
+std::string didYouMean(std::string_view word, const std::vector<std::string>& candidates);
+
+/// `'a', 'b' or 'c'`.
+std::string alternatives(const std::vector<std::string>& words);
+
+}  // namespace tushar

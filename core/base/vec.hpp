@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace tushar {
+
+/// A point or vector in D space axes (metres unless said otherwise).
+template <int D>
+using Vec = Eigen::Matrix<double, D, 1, Eigen::DontAlign>;
+
+/// A vector as scenes write it, [x,y,z]; axes that a scene leaves out are dropped with Level::reduce.
+using Vec3 = Vec<3>;
+
+/// Integer coordinates of a cell or node along D axes.
+template <int D>
+struct Index {
+  std::array<int, D> at{};
+
+  constexpr int& operator[](int axis) { return at[static_cast<std::size_t>(axis)]; }
+  constexpr int operator[](int axis) const { return at[static_cast<std::size_t>(axis)]; }
+  friend constexpr bool operator==(const Index&, const Index&) = default;
+
+  friend constexpr Index operator+(Index a, const Index& b) {
+    for (int d = 0; d < D; ++d) a[d] += b[d];
+    return a;
+  }
+  friend constexpr Index operator-(Index a, const Index& b) {
+    for (int d = 0; d < D; ++d) a[d] -= b[d];
+    return a;
+  }
+
+  static constexpr Index filled(int value) {
+    Index index;
+    index.at.fill(value);
+    return index;
+  }
+  /// One along `axis`, zero along the others.
+  static constexpr Index unit(int axis) {
+    Index index;
+    index[axis] = 1;
+    return index;
+  }
+};
+
+using Index3 = Index<3>;
+
+/// Names a particle for its whole life; new particles derive theirs from their parents'.
+using ParticleId = std::uint64_t;
+
+}  // namespace tushar
