@@ -1,0 +1,77 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+#include "core/base/vec.hpp"
+
+namespace tushar::grid {
+
+/// A half-open box of cells or nodes, [lower, upper) along each axis.
+/// Axes that a scene leaves out hold the single index 0.
+struct Box {
+  Index3 lower{};
+  Index3 upper{};
+
+  friend constexpr bool operator==(const Box&, const Box&) = default;
+
+  constexpr int extent(int axis) const { return upper[axis] - lower[axis]; }
+  constexpr bool empty() const { return extent(0) <= 0 || extent(1) <= 0 || extent(2) <= 0; }
+  constexpr std::size_t size() const {
+    return empty() ? 0
+                   : static_cast<std::size_t>(extent(0)) * static_cast<std::size_t>(extent(1)) *
+                         static_cast<std::size_t>(extent(2));
+  }
+
+  template <int D>
+  constexpr bool contains(const Index<D>& index) const {
+    for (int d = 0; d < D; ++d)
+      if (index[d] < lower[d] || index[d] >= upper[d]) return false;
+    return true;
+  }
+
+  constexpr Box intersect(const Box& other) const {
+    Box both;
+    for (int d = 0; d < 3; ++d) {
+      both.lower[d] = std::max(lower[d], other.lower[d]);
+      both.upper[d] = std::min(upper[d], other.upper[d]);
+    }
+    return both;
+  }
+
+  /// Larger by `width` on both sides of the first `dimension` axes.
+  constexpr Box grown(int width, int dimension) const {
+    Box box = *this;
+    for (int d = 0; d < dimension; ++d) {
+      box.lower[d] -= width;
+      box.upper[d] += width;
+    }
+    return box;
+  }
+
+  /// The nodes of this box of cells: one more along each of the first `dimension` axes.
+  constexpr Box nodes(int dimension) const {
+    Box box = *this;
+    for (int d = 0; d < dimension; ++d) ++box.upper[d];
+    return box;
+  }
+};
+
+/// Calls `visit(Index<D>)` for each index of the box in lexicographic order, the first axis fastest.
+/// This order is the order of every sum over cells: it does not depend on the patches.
+template <int D, class Visit>
+inline void forEach(const Box& box, Visit&& visit) {
+  Index<D> at;
+  if constexpr (D == 1) {
+    for (at[0] = box.lower[0]; at[0] < box.upper[0]; ++at[0]) visit(at);
+  } else if constexpr (D == 2) {
+    for (at[1] = box.lower[1]; at[1] < box.upper[1]; ++at[1])
+      for (at[0] = box.lower[0]; at[0] < box.upper[0]; ++at[0]) visit(at);
+  } else {
+    for (at[2] = box.lower[2]; at[2] < box.upper[2]; ++at[2])
+      for (at[1] = box.lower[1]; at[1] < box.upper[1]; ++at[1])
+        for (at[0] = box.lower[0]; at[0] < box.upper[0]; ++at[0]) visit(at);
+  }
+}
+
+}  // namespace tushar::grid

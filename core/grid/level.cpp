@@ -1,0 +1,88 @@
+#include "core/grid/level.hpp"
+
+namespace tushar::grid {
+
+Level::Level(const Domain& domain) : domain_(domain) {
+  chooseAxes();
+  makePatches();
+}
+
+void Level::chooseAxes() {
+  const auto isPlane = [&](int axis, int side) {
+    for (const BoundaryCondition& condition : domain_.boundaries.face(axis, side))
+      if (condition.kind == "symmetry") return true;
+    return false;
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    const double extent = domain_.upper[axis] - domain_.lower[axis];
+    const bool flat = extent == 0;
+    const bool thin = domain_.resolution[axis] == 1 && isPlane(axis, 0) && isPlane(axis, 1);
+    if (!flat) cellVolume_ *= extent / domain_.resolution[axis];
+    if (!flat && !thin) axes_.push_back(axis);
+  }
+  if (axes_.empty()) axes_.push_back(0);
+}
+
+void Level::makePatches() {
+  cells_.upper = Index3::filled(1);
+  for (auto& cuts : cuts_) cuts = {0, 1};
+  for (int d = 0; d < dimension(); ++d) {
+    const auto k = static_cast<std::size_t>(d);
+    const int cells = domain_.resolution[axis(d)];
+    const int parts = std::max(1, std::min(domain_.patches[axis(d)], cells));
+    const double extent = domain_.upper[axis(d)] - domain_.lower[axis(d)];
+    lower_[k] = domain_.lower[axis(d)];
+    spacing_[k] = extent > 0 ? extent / cells : 1.0;
+    cells_.upper[d] = cells;
+    cuts_[k].clear();
+    for (int part = 0; part <= parts; ++part)
+      cuts_[k].push_back(static_cast<int>(static_cast<long>(cells) * part / parts));
+  }
+  const Box blocks{{}, {{static_cast<int>(cuts_[0].size()) - 1, static_cast<int>(cuts_[1].size()) - 1,
+                         static_cast<int>(cuts_[2].size()) - 1}}};
+  patches_.reserve(blocks.size());
+  forEach<3>(blocks, [&](const Index3& block) {
+    Box cells;
+    for (int d = 0; d < 3; ++d) {
+      const auto& cuts = cuts_[static_cast<std::size_t>(d)];
+      cells.lower[d] = cuts[static_cast<std::size_t>(block[d])];
+      cells.upper[d] = cuts[static_cast<std::size_t>(block[d]) + 1];
+    }
+    patches_.emplace_back(*this, static_cast<int>(patches_.size()), cells);
+  });
+}
+
+double Level::minSpacing() const {
+  double least = spacing(0);
+  for (int d = 1; d < dimension(); ++d) least = std::min(least, spacing(d));
+  return least;
+}
+
+int Level::cellAlong(int kernelAxis, double x) const {
+  const int cells = cells_.upper[kernelAxis];
+  const double first = nodePosition(kernelAxis, 0), last = nodePosition(kernelAxis, cells);
+  if (!(x >= first)) return -1;
+  if (x >= last) return x == last ? cells - 1 : cells;
+  int cell = std::min(static_cast<int>((x - first) / spacing(kernelAxis)), cells - 1);
+  while (x < nodePosition(kernelAxis, cell)) --cell;
+  while (cell + 1 < cells && x >= nodePosition(kernelAxis, cell + 1)) ++cell;
+  return cell;
+}
+
+const Patch& Level::patchOf(const Index3& cell) const {
+  std::size_t number = 0;
+  for (int d = 2; d >= 0; --d) {
+    const auto& cuts = cuts_[static_cast<std::size_t>(d)];
+    const auto next = std::upper_bound(cuts.begin(), cuts.end() - 1, cell[d]);
+    number = number * (cuts.size() - 1) + static_cast<std::size_t>(next - cuts.begin() - 1);
+  }
+  return patches_[number];
+}
+
+const BoundaryCondition* Level::boundary(int kernelAxis, int side, const std::string& variable) const {
+  for (const BoundaryCondition& condition : domain_.boundaries.face(axis(kernelAxis), side))
+    if (condition.variable == variable) return &condition;
+  return nullptr;
+}
+
+}  // namespace tushar::grid

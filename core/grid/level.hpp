@@ -1,0 +1,117 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/grid/boundary.hpp"
+#include "core/grid/box.hpp"
+#include "core/grid/patch.hpp"
+
+namespace tushar::grid {
+
+/// A uniform grid as a scene describes it, in metres along x, y and z.
+struct Domain {
+  Vec3 lower = Vec3::Zero();
+  Vec3 upper = Vec3::Ones();
+  Index3 resolution{{1, 1, 1}};  ///< cells along x, y, z
+  Index3 patches{{1, 1, 1}};     ///< along x, y, z
+  BoundaryConditions boundaries;
+};
+
+/// The grid of a run: its geometry, its boundary conditions and its patches.
+///
+/// Kernels run in `dimension()` axes. An axis of the scene is left out when it has no extent, or has one cell
+/// between two symmetry planes; the axes that remain keep their order.
+class Level {
+ public:
+  /// Splits the domain into patches; along an axis with fewer cells than patches asked for, a patch per cell.
+  explicit Level(const Domain& domain);
+  Level(const Level&) = delete;
+  Level& operator=(const Level&) = delete;
+
+  int dimension() const { return static_cast<int>(axes_.size()); }
+  /// The scene's axis (0 for x, 1 for y, 2 for z) behind a kernel axis.
+  int axis(int kernelAxis) const { return axes_[static_cast<std::size_t>(kernelAxis)]; }
+
+  /// Every cell of the grid; lower is always 0.
+  const Box& cells() const { return cells_; }
+  Box nodes() const { return cells_.nodes(dimension()); }
+  const std::vector<Patch>& patches() const { return patches_; }
+  const Domain& domain() const { return domain_; }
+
+  /// Cell width along a kernel axis, m.
+  double spacing(int kernelAxis) const { return spacing_[static_cast<std::size_t>(kernelAxis)]; }
+  /// The least cell width, m.
+  double minSpacing() const;
+  /// Volume of a cell, m³; an axis without extent counts as 1 m.
+  double cellVolume() const { return cellVolume_; }
+  /// Position of a node along a kernel axis, m.
+  double nodePosition(int kernelAxis, int node) const {
+    return lower_[static_cast<std::size_t>(kernelAxis)] + node * spacing(kernelAxis);
+  }
+
+  /// The cell of a coordinate along a kernel axis: the c with nodePosition(c) <= x < nodePosition(c+1).
+  /// The upper end of the grid belongs to the last cell; outside the grid -1 or the number of cells.
+  int cellAlong(int kernelAxis, double x) const;
+  template <int D>
+  Index<D> cellOf(const Vec<D>& x) const {
+    Index<D> cell;
+    for (int d = 0; d < D; ++d) cell[d] = cellAlong(d, x[d]);
+    return cell;
+  }
+
+  /// The patch that holds a cell of the grid.
+  const Patch& patchOf(const Index3& cell) const;
+  /// Number of a cell in lexicographic order, x fastest, 0 for the first; independent of the patches.
+  template <int D>
+  std::uint64_t cellNumber(const Index<D>& cell) const {
+    std::uint64_t number = 0;
+    for (int d = D - 1; d >= 0; --d)
+      number = number * static_cast<std::uint64_t>(cells_.extent(d)) + static_cast<std::uint64_t>(cell[d]);
+    return number;
+  }
+
+  /// The components of a scene's vector along the kernel axes.
+  template <int D>
+  Vec<D> reduce(const Vec3& v) const {
+    Vec<D> reduced;
+    for (int d = 0; d < D; ++d) reduced[d] = v[axis(d)];
+    return reduced;
+  }
+  /// A direction back in x, y, z: zero along the axes left out.
+  template <int D>
+  Vec3 expandDirection(const Vec<D>& v) const {
+    Vec3 full = Vec3::Zero();
+    for (int d = 0; d < D; ++d) full[axis(d)] = v[d];
+    return full;
+  }
+  /// A point back in x, y, z: the middle of the domain along the axes left out.
+  template <int D>
+  Vec3 expandPoint(const Vec<D>& x) const {
+    Vec3 full = 0.5 * (domain_.lower + domain_.upper);
+    for (int d = 0; d < D; ++d) full[axis(d)] = x[d];
+    return full;
+  }
+
+  /// The condition for a variable on a face of the grid (`side` 0: lower, 1: upper), if the scene gives one.
+  const BoundaryCondition* boundary(int kernelAxis, int side, const std::string& variable) const;
+  bool isSymmetry(int kernelAxis, int side) const { return boundary(kernelAxis, side, "Symmetric") != nullptr; }
+
+ private:
+  void chooseAxes();
+  void makePatches();
+
+  Domain domain_;
+  std::vector<int> axes_;
+  std::array<double, 3> lower_{}, spacing_{};
+  double cellVolume_ = 1;
+  Box cells_;
+  std::array<std::vector<int>, 3> cuts_;  ///< first cell of each patch along each kernel axis, then the end
+  std::vector<Patch> patches_;
+};
+
+}  // namespace tushar::grid

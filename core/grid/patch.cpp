@@ -1,0 +1,28 @@
+#include "core/grid/patch.hpp"
+
+#include "core/grid/level.hpp"
+
+namespace tushar::grid {
+
+Box Patch::nodes() const { return cells_.nodes(level_->dimension()); }
+
+Box Patch::cellsWithin(int width) const {
+  return cells_.grown(width, level_->dimension()).intersect(level_->cells());
+}
+
+Box Patch::nodesWithin(int width) const { return nodes().grown(width, level_->dimension()).intersect(level_->nodes()); }
+
+bool Patch::isAtBoundary(int kernelAxis, int side) const {
+  return side == 0 ? cells_.lower[kernelAxis] == 0 : cells_.upper[kernelAxis] == level_->cells().upper[kernelAxis];
+}
+
+Box Patch::faceNodes(int kernelAxis, int side) const {
+  Box face = nodes();
+  if (side == 0)
+    face.upper[kernelAxis] = face.lower[kernelAxis] + 1;
+  else
+    face.lower[kernelAxis] = face.upper[kernelAxis] - 1;
+  return face;
+}
+
+}  // namespace tushar::grid

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "core/grid/box.hpp"
+
+namespace tushar::grid {
+
+class Level;
+
+/// A box of cells of the grid, the unit of work of a task.
+///
+/// A patch has all nodes of its cells: those on a face between two patches belong to both, and both complete
+/// them from the same particles in the same order, so they hold the same bits.
+class Patch {
+ public:
+  Patch(const Level& level, int id, const Box& cells) : level_(&level), id_(id), cells_(cells) {}
+
+  int id() const { return id_; }
+  const Level& level() const { return *level_; }
+  const Box& cells() const { return cells_; }
+  Box nodes() const;
+  /// Cells within `width` of the patch that are on the grid.
+  Box cellsWithin(int width) const;
+  /// Nodes within `width` of the patch's nodes that are on the grid.
+  Box nodesWithin(int width) const;
+  /// Whether a side (0: lower, 1: upper) along a kernel axis is a side of the grid.
+  bool isAtBoundary(int kernelAxis, int side) const;
+  /// The patch's nodes on one of its sides.
+  Box faceNodes(int kernelAxis, int side) const;
+
+ private:
+  const Level* level_;
+  int id_;
+  Box cells_;
+};
+
+}  // namespace tushar::grid
