@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+#include "core/base/vec.hpp"
+
+namespace tushar::data {
+
+/// Where a variable lives.
+enum class Centring { particle, node, cell, reduction };
+
+/// How one number of a variable is stored.
+enum class Number { real, id, integer };
+
+/// A variable's name and nature, whatever its type: what the graph, the archive and messages to users work with.
+/// Two labels with the same name are the same variable.
+struct Label {
+  std::string_view name;         ///< as seen in .ups and .uda: `p.mass`, `g.velocity`
+  std::string_view unit;         ///< SI; `1` without dimension
+  std::string_view description;  ///< a phrase, in the words of the field
+  Centring centring;
+  Number number;
+  int components;     ///< numbers per particle, node or cell
+  std::size_t bytes;  ///< per particle, node or cell
+  bool isVector;      ///< components follow the kernel axes
+};
+
+/// How a type is stored in a variable.
+template <class T>
+struct Stored;
+template <>
+struct Stored<double> {
+  static constexpr Number number = Number::real;
+  static constexpr int components = 1;
+  static constexpr bool isVector = false;
+};
+template <>
+struct Stored<ParticleId> {
+  static constexpr Number number = Number::id;
+  static constexpr int components = 1;
+  static constexpr bool isVector = false;
+};
+template <>
+struct Stored<int> {
+  static constexpr Number number = Number::integer;
+  static constexpr int components = 1;
+  static constexpr bool isVector = false;
+};
+template <int D>
+struct Stored<Vec<D>> {
+  static constexpr Number number = Number::real;
+  static constexpr int components = D;
+  static constexpr bool isVector = true;
+};
+
+template <Centring C, class T>
+struct FieldLabel : Label {
+  using Value = T;
+  static constexpr Centring centred = C;
+  constexpr FieldLabel(std::string_view name, std::string_view unit, std::string_view description)
+      : Label{name, unit, description, C, Stored<T>::number, Stored<T>::components, sizeof(T), Stored<T>::isVector} {}
+};
+
+/// A variable with one T per particle, node or cell.
+template <class T>
+using ParticleLabel = FieldLabel<Centring::particle, T>;
+template <class T>
+using NodeLabel = FieldLabel<Centring::node, T>;
+template <class T>
+using CellLabel = FieldLabel<Centring::cell, T>;
+
+/// A number over the whole grid, gathered from every patch by a reducer R (see reduction.hpp).
+template <class R>
+struct ReductionLabel : Label {
+  using Reducer = R;
+  constexpr ReductionLabel(std::string_view name, std::string_view unit, std::string_view description)
+      : Label{name, unit, description, Centring::reduction, Number::real, 1, sizeof(R), false} {}
+};
+
+/// Names every particle; kept by the framework in every particle set.
+inline constexpr ParticleLabel<ParticleId> particleId{"p.particleID", "1", "name of the particle for its whole life"};
+
+}  // namespace tushar::data

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <vector>
+
+#include "core/base/vec.hpp"
+#include "core/grid/box.hpp"
+#include "core/grid/patch.hpp"
+
+namespace tushar::data {
+
+/// Places in memory of the particles of one cell, in the order of their ids.
+struct ParticleRange {
+  int first = 0, last = 0;
+
+  int size() const { return last - first; }
+  bool empty() const { return first == last; }
+
+  struct Iterator {
+    int at;
+    int operator*() const { return at; }
+    Iterator& operator++() {
+      ++at;
+      return *this;
+    }
+    bool operator!=(const Iterator& other) const { return at != other.at; }
+  };
+  Iterator begin() const { return {first}; }
+  Iterator end() const { return {last}; }
+};
+
+/// Which particles a patch has of one material, cell by cell.
+///
+/// Owned particles come first in memory, sorted by (cell, id); ghost particles, those of cells within `reach()` of
+/// the patch that belong to other patches, follow in the same order. Sums run cell by cell in lexicographic order
+/// and by id within a cell, so they do not depend on who owns what.
+class ParticleSet {
+ public:
+  /// An empty set over a patch and the cells of the grid within `reach` of it.
+  void reset(const grid::Patch& patch, int reach);
+
+  int owned() const { return owned_; }
+  int total() const { return total_; }
+  const grid::Box& ownedCells() const { return owned_cells_; }
+  /// The patch's cells and those within reach of it.
+  const grid::Box& cells() const { return cells_; }
+
+  template <int D>
+  ParticleRange in(const Index<D>& cell) const {
+    return ranges_[offset(cell)];
+  }
+  template <int D>
+  ParticleRange& at(const Index<D>& cell) {
+    return ranges_[offset(cell)];
+  }
+
+  void setOwned(int count) { owned_ = total_ = count; }
+  void addGhosts(int count) { total_ += count; }
+  bool hasGhosts() const { return has_ghosts_; }
+  void markGhosts() { has_ghosts_ = true; }
+
+ private:
+  template <int D>
+  std::size_t offset(const Index<D>& cell) const {
+    std::ptrdiff_t at = cell[0] - cells_.lower[0];
+    if constexpr (D > 1) at += std::ptrdiff_t{cell[1] - cells_.lower[1]} * stride_[1];
+    if constexpr (D > 2) at += std::ptrdiff_t{cell[2] - cells_.lower[2]} * stride_[2];
+    return static_cast<std::size_t>(at);
+  }
+
+  grid::Box owned_cells_, cells_;
+  Index3 stride_{};
+  std::vector<ParticleRange> ranges_;
+  int owned_ = 0, total_ = 0;
+  bool has_ghosts_ = false;
+};
+
+}  // namespace tushar::data

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "core/base/vec.hpp"
+#include "core/data/label.hpp"
+
+namespace tushar::data {
+
+/// The least of all values; +infinity of none.
+struct Minimum {
+  double value = std::numeric_limits<double>::infinity();
+
+  void add(double x) {
+    if (x < value) value = x;
+  }
+  void merge(const Minimum& other) { add(other.value); }
+  std::vector<double> values() const { return {value}; }
+};
+
+/// The greatest of all values; -infinity of none.
+struct Maximum {
+  double value = -std::numeric_limits<double>::infinity();
+
+  void add(double x) {
+    if (x > value) value = x;
+  }
+  void merge(const Maximum& other) { add(other.value); }
+  std::vector<double> values() const { return {value}; }
+};
+
+/// A sum with the rounding error of each addition carried along (Knuth's two-sum), about 32 digits:
+/// its 16 leading digits do not depend on the order of the additions but in contrived cases.
+struct Sum {
+  double value = 0, error = 0;
+
+  void add(double x) {
+    const double sum = value + x;
+    const double part = sum - value;
+    error += (value - (sum - part)) + (x - part);
+    value = sum;
+  }
+  void merge(const Sum& other) {
+    add(other.value);
+    error += other.error;
+  }
+  double total() const { return value + error; }
+  std::vector<double> values() const { return {total()}; }
+};
+
+/// A sum of vectors in x, y, z.
+struct VectorSum {
+  Sum x, y, z;
+
+  void add(const Vec3& v) {
+    x.add(v[0]);
+    y.add(v[1]);
+    z.add(v[2]);
+  }
+  void merge(const VectorSum& other) {
+    x.merge(other.x);
+    y.merge(other.y);
+    z.merge(other.z);
+  }
+  std::vector<double> values() const { return {x.total(), y.total(), z.total()}; }
+};
+
+/// Norms of an error, unweighted over whatever it is added for: L1 = mean |e|, L2 = sqrt(mean e²), max |e|.
+struct Norm {
+  Sum absolute, squared, count;
+  double max = 0;
+
+  void add(double e) {
+    absolute.add(std::abs(e));
+    squared.add(e * e);
+    count.add(1);
+    max = std::abs(e) > max || std::isnan(e) ? std::abs(e) : max;
+  }
+  void merge(const Norm& other) {
+    absolute.merge(other.absolute);
+    squared.merge(other.squared);
+    count.merge(other.count);
+    max = other.max > max || std::isnan(other.max) ? other.max : max;
+  }
+  double l1() const { return absolute.total() / count.total(); }
+  double l2() const { return std::sqrt(squared.total() / count.total()); }
+  std::vector<double> values() const { return {l1(), l2(), max}; }
+};
+
+/// The time step; tasks of scheduleComputeStableTimeStep lower it.
+inline constexpr ReductionLabel<Minimum> delT{"delT", "s", "time step"};
+
+}  // namespace tushar::data
