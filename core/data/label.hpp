@@ -58,8 +58,8 @@ template <Centring C, class T>
 struct FieldLabel : Label {
   using Value = T;
   static constexpr Centring centred = C;
-  constexpr FieldLabel(std::string_view name, std::string_view unit, std::string_view description)
-      : Label{name, unit, description, C, Stored<T>::number, Stored<T>::components, sizeof(T), Stored<T>::isVector} {}
+  constexpr FieldLabel(std::string_view called, std::string_view inUnit, std::string_view meaning)
+      : Label{called, inUnit, meaning, C, Stored<T>::number, Stored<T>::components, sizeof(T), Stored<T>::isVector} {}
 };
 
 /// A variable with one T per particle, node or cell.
@@ -74,8 +74,8 @@ using CellLabel = FieldLabel<Centring::cell, T>;
 template <class R>
 struct ReductionLabel : Label {
   using Reducer = R;
-  constexpr ReductionLabel(std::string_view name, std::string_view unit, std::string_view description)
-      : Label{name, unit, description, Centring::reduction, Number::real, 1, sizeof(R), false} {}
+  constexpr ReductionLabel(std::string_view called, std::string_view inUnit, std::string_view meaning)
+      : Label{called, inUnit, meaning, Centring::reduction, Number::real, 1, sizeof(R), false} {}
 };
 
 /// Names every particle; kept by the framework in every particle set.

@@ -1,0 +1,103 @@
+#include "core/data/warehouse.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/data/views.hpp"
+
+namespace tushar::data {
+
+std::string VariableTable::key(std::string_view name, int material) {
+  return std::string(name) + "#" + std::to_string(material);
+}
+
+int VariableTable::number(const Label& label, int material) {
+  const auto [entry, added] = numbers_.try_emplace(key(label.name, material), size());
+  if (added) names_.push_back({&label, material});
+  return entry->second;
+}
+
+int VariableTable::find(std::string_view name, int material) const {
+  const auto entry = numbers_.find(key(name, material));
+  return entry == numbers_.end() ? -1 : entry->second;
+}
+
+void Warehouse::grow(int materials) {
+  const std::size_t places = place(table_->size(), 0);
+  old_.resize(std::max(old_.size(), places));
+  fresh_.resize(std::max(fresh_.size(), places));
+  reductions_.resize(std::max(reductions_.size(), static_cast<std::size_t>(table_->size())));
+  const std::size_t sets = place(materials, 0);
+  old_sets_.resize(std::max(old_sets_.size(), sets));
+  fresh_sets_.resize(std::max(fresh_sets_.size(), sets));
+}
+
+void Warehouse::resetReduction(int number) {
+  if (auto& slot = reductions_[static_cast<std::size_t>(number)]) slot->reset();
+}
+
+std::vector<double> Warehouse::reductionValues(int number) const {
+  const auto& slot = reductions_[static_cast<std::size_t>(number)];
+  return slot ? slot->values() : std::vector<double>{};
+}
+
+void Warehouse::take(Variable& variable, std::size_t bytes, std::size_t keep) {
+  variable.held = true;
+  if (bytes <= variable.values.capacity()) return;
+  if (keep == 0) {
+    const auto fits = std::find_if(pool_.rbegin(), pool_.rend(), [&](const Buffer& b) { return b.capacity() >= bytes; });
+    if (fits != pool_.rend()) {
+      std::swap(variable.values, *fits);
+      return;
+    }
+  }
+  ++allocations_;
+  variable.values.reserve(bytes, keep);
+}
+
+namespace {
+void fillWithNaN(Buffer& buffer, const Label& label, std::size_t fromByte, std::size_t toByte) {
+  if (!checked || label.number != Number::real) return;
+  auto* values = reinterpret_cast<double*>(buffer.data());
+  std::fill(values + fromByte / sizeof(double), values + toByte / sizeof(double),
+            std::numeric_limits<double>::quiet_NaN());
+}
+}  // namespace
+
+void Warehouse::allocateGrid(Variable& variable, const Label& label, const grid::Box& stored) {
+  const std::size_t bytes = stored.size() * label.bytes;
+  take(variable, bytes, 0);
+  variable.stored = stored;
+  fillWithNaN(variable.values, label, 0, bytes);
+}
+
+void Warehouse::allocateParticles(Variable& variable, const Label& label, int count, int keep) {
+  const std::size_t kept = static_cast<std::size_t>(keep) * label.bytes;
+  const std::size_t bytes = static_cast<std::size_t>(count) * label.bytes;
+  take(variable, bytes, kept);
+  fillWithNaN(variable.values, label, kept, bytes);
+}
+
+void Warehouse::free(Variable& variable) {
+  variable.held = false;
+  if (variable.values.capacity() == 0) return;
+  const auto empty = std::find_if(pool_.begin(), pool_.end(), [](const Buffer& b) { return b.capacity() == 0; });
+  if (empty != pool_.end())
+    std::swap(*empty, variable.values);
+  else {
+    pool_.push_back(std::move(variable.values));
+    variable.values = Buffer();
+  }
+}
+
+void Warehouse::swap(int number) {
+  for (int patch = 0; patch < patches(); ++patch)
+    std::swap(old_[place(number, patch)], fresh_[place(number, patch)]);
+}
+
+void Warehouse::swapSets(int material) {
+  for (int patch = 0; patch < patches(); ++patch)
+    std::swap(old_sets_[place(material, patch)], fresh_sets_[place(material, patch)]);
+}
+
+}  // namespace tushar::data

@@ -1,0 +1,122 @@
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "core/data/buffer.hpp"
+#include "core/data/label.hpp"
+#include "core/data/particle_set.hpp"
+#include "core/grid/level.hpp"
+
+namespace tushar::data {
+
+/// A label of one material; `material` is -1 for variables that belong to none.
+struct VariableName {
+  const Label* label;
+  int material;
+};
+
+/// Numbers the variables of a run, so that the time loop never looks up a name.
+class VariableTable {
+ public:
+  /// The number of a variable, given on first use.
+  int number(const Label& label, int material);
+  /// The number, or -1 where no task ever named the variable.
+  int find(std::string_view name, int material) const;
+  const VariableName& operator[](int number) const { return names_[static_cast<std::size_t>(number)]; }
+  int size() const { return static_cast<int>(names_.size()); }
+
+ private:
+  static std::string key(std::string_view name, int material);
+  std::vector<VariableName> names_;
+  std::unordered_map<std::string, int> numbers_;
+};
+
+/// The values of a variable on one patch.
+struct Variable {
+  Buffer values;
+  grid::Box stored;   ///< of node and cell variables: the box in memory, ghosts included
+  bool held = false;  ///< whether there are values
+};
+
+/// What tasks read as `requiresOld`: the state at the start of the step. The rest is new.
+enum class Generation { old, fresh };
+
+/// A reduction of some type.
+class ReductionSlot {
+ public:
+  virtual ~ReductionSlot() = default;
+  virtual void reset() = 0;
+  virtual std::vector<double> values() const = 0;
+};
+template <class R>
+class TypedReduction : public ReductionSlot {
+ public:
+  R reducer;
+  void reset() override { reducer = R{}; }
+  std::vector<double> values() const override { return reducer.values(); }
+};
+
+/// Holds the variables and particle sets of this rank, in two generations.
+///
+/// Every address is stable once a variable has been named; `swap` exchanges contents, not addresses.
+class Warehouse {
+ public:
+  Warehouse(const grid::Level& level, VariableTable& table) : level_(&level), table_(&table) {}
+
+  const grid::Level& level() const { return *level_; }
+  const VariableTable& table() const { return *table_; }
+  int patches() const { return static_cast<int>(level_->patches().size()); }
+
+  Variable& variable(Generation generation, int number, int patch) {
+    return (generation == Generation::old ? old_ : fresh_)[place(number, patch)];
+  }
+  ParticleSet& particles(Generation generation, int material, int patch) {
+    return (generation == Generation::old ? old_sets_ : fresh_sets_)[place(material, patch)];
+  }
+
+  template <class R>
+  R& reduction(int number) {
+    auto& slot = reductions_[static_cast<std::size_t>(number)];
+    if (!slot) slot = std::make_unique<TypedReduction<R>>();
+    return static_cast<TypedReduction<R>&>(*slot).reducer;
+  }
+  void resetReduction(int number);
+  /// The values of a reduction; none if no task has computed it.
+  std::vector<double> reductionValues(int number) const;
+
+  /// Makes room for all variables named so far, and for the particle sets of `materials` materials.
+  void grow(int materials);
+  /// Room for a node or cell variable over `stored`; NaN-filled in the dev preset.
+  void allocateGrid(Variable& variable, const Label& label, const grid::Box& stored);
+  /// Room for `count` particles; the first `keep` stay, the rest is NaN-filled in the dev preset.
+  void allocateParticles(Variable& variable, const Label& label, int count, int keep = 0);
+  /// Gives the memory of a variable back, for the next one that is allocated.
+  void free(Variable& variable);
+
+  /// What was computed becomes old: exchanges the two generations of a variable on every patch.
+  void swap(int number);
+  void swapSets(int material);
+
+  /// Allocations made so far; a test shows that variables nobody reads add none.
+  std::size_t allocations() const { return allocations_; }
+
+ private:
+  std::size_t place(int number, int patch) const {
+    return static_cast<std::size_t>(number) * level_->patches().size() + static_cast<std::size_t>(patch);
+  }
+  void take(Variable& variable, std::size_t bytes, std::size_t keep);
+
+  const grid::Level* level_;
+  VariableTable* table_;
+  std::deque<Variable> old_, fresh_;
+  std::deque<ParticleSet> old_sets_, fresh_sets_;
+  std::vector<std::unique_ptr<ReductionSlot>> reductions_;
+  std::vector<Buffer> pool_;
+  std::size_t allocations_ = 0;
+};
+
+}  // namespace tushar::data

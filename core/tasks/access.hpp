@@ -1,0 +1,106 @@
+#pragma once
+
+#include <utility>
+
+#include "core/tasks/context.hpp"
+#include "core/tasks/task.hpp"
+
+namespace tushar::tasks {
+
+/// An access as an argument of a task: it says what is used, and becomes one parameter of the body.
+template <class Label, AccessKind Kind>
+struct FieldAccess;
+
+template <data::Centring C, class T, AccessKind Kind>
+struct FieldAccess<data::FieldLabel<C, T>, Kind> {
+  const data::FieldLabel<C, T>* label;
+  int ghost = 0;
+  int index = -1;  ///< place among the task's accesses
+
+  void declare(std::vector<Access>& accesses) {
+    index = static_cast<int>(accesses.size());
+    accesses.push_back({label, Kind, ghost});
+  }
+
+  static constexpr bool readOnly = Kind == AccessKind::requiresOld || Kind == AccessKind::requiresNew;
+  using Element = std::conditional_t<readOnly, const T, T>;
+
+  decltype(auto) bind(const TaskContext& context) const {
+    if constexpr (Kind == AccessKind::creates)
+      return (context.column<T>(index));
+    else if constexpr (C == data::Centring::particle)
+      return context.particles<Element>(index, *label);
+    else
+      return context.grid<C, Element>(index, *label);
+  }
+};
+
+template <class R, AccessKind Kind>
+struct FieldAccess<data::ReductionLabel<R>, Kind> {
+  const data::ReductionLabel<R>* label;
+  int index = -1;
+
+  void declare(std::vector<Access>& accesses) {
+    index = static_cast<int>(accesses.size());
+    accesses.push_back({label, Kind, 0});
+  }
+  decltype(auto) bind(const TaskContext& context) const {
+    if constexpr (Kind == AccessKind::computes)
+      return (context.reduction<R>(index));
+    else
+      return context.reduction<R>(index).value;
+  }
+};
+
+/// A plain value handed to the body.
+template <class T>
+struct PlainArgument {
+  T value;
+  void declare(std::vector<Access>&) {}
+  const T& bind(const TaskContext&) const { return value; }
+};
+
+/// Reads the state at the start of the step: a view of const T over the patch and `ghost` cells or nodes beyond it.
+template <data::Centring C, class T>
+FieldAccess<data::FieldLabel<C, T>, AccessKind::requiresOld> requiresOld(const data::FieldLabel<C, T>& label,
+                                                                         int ghost = 0) {
+  return {&label, ghost};
+}
+/// Reads a reduction known at the start of the step, such as delT: a double.
+template <class R>
+FieldAccess<data::ReductionLabel<R>, AccessKind::requiresOld> requiresOld(const data::ReductionLabel<R>& label) {
+  return {&label};
+}
+/// Reads what an earlier task computed: a view of const T over the patch and `ghost` cells or nodes beyond it.
+template <data::Centring C, class T>
+FieldAccess<data::FieldLabel<C, T>, AccessKind::requiresNew> requiresNew(const data::FieldLabel<C, T>& label,
+                                                                         int ghost = 0) {
+  return {&label, ghost};
+}
+/// Writes every value of the patch: a view of T. Values are undefined before (NaN in the dev preset).
+template <data::Centring C, class T>
+FieldAccess<data::FieldLabel<C, T>, AccessKind::computes> computes(const data::FieldLabel<C, T>& label) {
+  return {&label};
+}
+/// Adds to a number over the whole grid: a reference to the reducer R.
+template <class R>
+FieldAccess<data::ReductionLabel<R>, AccessKind::computes> computes(const data::ReductionLabel<R>& label) {
+  return {&label};
+}
+/// Changes what an earlier task computed: a view of T.
+template <data::Centring C, class T>
+FieldAccess<data::FieldLabel<C, T>, AccessKind::modifies> modifies(const data::FieldLabel<C, T>& label) {
+  return {&label};
+}
+/// Gives the new particles their values: a std::vector<T> to append to, in the order of ParticleMaker::add.
+template <class T>
+FieldAccess<data::ParticleLabel<T>, AccessKind::creates> creates(const data::ParticleLabel<T>& label) {
+  return {&label};
+}
+/// Hands `value` to the body as it is.
+template <class T>
+PlainArgument<T> with(T value) {
+  return {std::move(value)};
+}
+
+}  // namespace tushar::tasks

@@ -1,0 +1,91 @@
+#include "core/tasks/prune.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace tushar::tasks {
+
+namespace {
+
+bool particlesAmong(const Names& names) {
+  return std::any_of(names.begin(), names.end(), [](const std::string& name) { return name.starts_with("p."); });
+}
+
+bool isNeeded(const Task& task, const Names& live) {
+  if (task.kind != TaskKind::work && particlesAmong(live)) return true;
+  return std::any_of(task.accesses.begin(), task.accesses.end(), [&](const Access& access) {
+    return access.writes() && live.contains(access.label->name);
+  });
+}
+
+/// What is live before a kept task, from what is live after it.
+void stepBack(const Task& task, Names& live) {
+  for (const Access& access : task.accesses)
+    if (access.kind == AccessKind::computes || access.kind == AccessKind::creates)
+      live.erase(std::string(access.label->name));
+  for (const Access& access : task.accesses)
+    if (access.kind == AccessKind::requiresNew || access.kind == AccessKind::modifies)
+      live.emplace(access.label->name);
+}
+
+struct Sweep {
+  std::vector<bool> kept;
+  std::vector<Names> liveAfter;  ///< of every task
+};
+
+Sweep sweep(const std::vector<Task>& tasks, Names live) {
+  Sweep result{std::vector<bool>(tasks.size()), std::vector<Names>(tasks.size())};
+  for (std::size_t t = tasks.size(); t-- > 0;) {
+    result.liveAfter[t] = live;
+    result.kept[t] = isNeeded(tasks[t], live);
+    if (result.kept[t]) stepBack(tasks[t], live);
+  }
+  return result;
+}
+
+std::string whyNot(const Task& task) {
+  std::string results;
+  for (const Access& access : task.accesses)
+    if (access.writes()) results += fmt::format("{}{}", results.empty() ? "" : ", ", access.label->name);
+  return fmt::format("nobody reads or saves {}", results.empty() ? "its results" : results);
+}
+
+std::vector<Task> select(const std::vector<Task>& tasks, const std::vector<bool>& kept) {
+  std::vector<Task> selected;
+  for (std::size_t t = 0; t < tasks.size(); ++t)
+    if (kept[t]) selected.push_back(tasks[t]);
+  return selected;
+}
+
+}  // namespace
+
+Names requiredOfState(const std::vector<Task>& tasks) {
+  Names names;
+  for (const Task& task : tasks)
+    for (const Access& access : task.accesses)
+      if (access.kind == AccessKind::requiresOld) names.emplace(access.label->name);
+  return names;
+}
+
+Pruned prune(const std::vector<Task>& tasks, const Names& wanted, bool repeated) {
+  Pruned result;
+  result.needed = wanted;
+  Sweep swept = sweep(tasks, wanted);
+  for (bool grew = repeated; grew;) {
+    const std::size_t before = result.needed.size();
+    result.needed.merge(requiredOfState(select(tasks, swept.kept)));
+    grew = result.needed.size() > before;
+    swept = sweep(tasks, result.needed);
+  }
+  result.kept = select(tasks, swept.kept);
+  for (std::size_t t = 0; t < tasks.size(); ++t) {
+    if (swept.kept[t])
+      result.liveAfter.push_back(swept.liveAfter[t]);
+    else
+      result.leftOut.push_back({tasks[t].name, whyNot(tasks[t])});
+  }
+  return result;
+}
+
+}  // namespace tushar::tasks

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/tasks/validate.hpp"
+
+namespace tushar::tasks {
+
+/// A task that a scene does not need, and why.
+struct LeftOut {
+  std::string task;
+  std::string reason;
+};
+
+/// What is left of a list, and what it takes.
+struct Pruned {
+  std::vector<Task> kept;
+  std::vector<LeftOut> leftOut;
+  /// Variables that must be there at the end: what was wanted, and (where the list is repeated) what it reads first.
+  Names needed;
+  /// `liveAfter[t]`: variables of the step in progress that are still to be read after kept task t.
+  std::vector<Names> liveAfter;
+};
+
+/// Step 2 of compiling: leaves out each task none of whose results reaches a wanted variable.
+///
+/// `wanted` names what others read at the end of the list: saved variables, the state that other lists require,
+/// reductions. `repeated` lists are run step after step, so what their own tasks require of the old state is wanted
+/// as well.
+Pruned prune(const std::vector<Task>& tasks, const Names& wanted, bool repeated);
+
+/// Names of the old state that the tasks read.
+Names requiredOfState(const std::vector<Task>& tasks);
+
+}  // namespace tushar::tasks

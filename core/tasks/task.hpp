@@ -1,0 +1,52 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/data/label.hpp"
+
+namespace tushar::tasks {
+
+class TaskContext;
+
+/// What a task does to a variable.
+enum class AccessKind {
+  requiresOld,  ///< reads the state at the start of the step
+  requiresNew,  ///< reads what an earlier task of the list computed
+  computes,     ///< writes every value
+  modifies,     ///< changes what an earlier task computed
+  creates,      ///< writes the values of particles that the task itself makes
+};
+
+/// One declared use of a variable.
+struct Access {
+  const data::Label* label;
+  AccessKind kind;
+  int ghost = 0;  ///< cells or nodes beyond the patch that are read
+
+  bool reads() const { return kind != AccessKind::computes && kind != AccessKind::creates; }
+  bool writes() const {
+    return kind == AccessKind::computes || kind == AccessKind::modifies || kind == AccessKind::creates;
+  }
+  bool isNew() const { return kind != AccessKind::requiresOld; }
+};
+
+enum class TaskKind {
+  work,          ///< runs a body
+  relocate,      ///< the framework's own: every particle goes to the patch and cell where it now is
+  newParticles,  ///< runs a body that replaces the particles of its patch by others
+};
+
+/// A task as a component declares it, before it is placed on patches.
+struct Task {
+  std::string name;
+  TaskKind kind = TaskKind::work;
+  std::vector<std::string> materials;  ///< names; empty for a task that belongs to no material
+  std::vector<Access> accesses;
+  std::function<void(const TaskContext&)> body;
+
+  bool perMaterial() const { return !materials.empty(); }
+};
+
+}  // namespace tushar::tasks

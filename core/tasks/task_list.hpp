@@ -1,0 +1,84 @@
+#pragma once
+
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "core/tasks/access.hpp"
+
+namespace tushar::tasks {
+
+/// The tasks of one phase of a run, in the order in which a component declares them.
+///
+/// A task is added as one starts a std::thread: a function and its arguments. Each access becomes one parameter of
+/// the body, so a body can neither read what it did not declare nor forget what it did.
+class TaskList {
+ public:
+  /// Runs `body(patch, arguments...)` on each patch.
+  template <class Body, class... Arguments>
+  void perPatch(std::string name, Body body, Arguments... arguments) {
+    std::vector<Access> accesses = declare(arguments...);
+    add({std::move(name), TaskKind::work, {}, std::move(accesses),
+         [body, bound = std::make_tuple(arguments...)](const TaskContext& context) {
+           std::apply([&](const auto&... argument) { body(context.patch(), argument.bind(context)...); }, bound);
+         }});
+  }
+
+  /// Runs `body(patch, material, arguments...)` on each patch, for each of `materials`, which must outlive the list
+  /// and have a `name`. The labels are variables of the material.
+  template <class Material, class Body, class... Arguments>
+  void perMaterial(std::string name, Body body, const std::vector<Material>& materials, Arguments... arguments) {
+    std::vector<Access> accesses = declare(arguments...);
+    add({std::move(name), TaskKind::work, names(materials), std::move(accesses),
+         [body, &materials, bound = std::make_tuple(arguments...)](const TaskContext& context) {
+           const Material& material = materials[static_cast<std::size_t>(context.material())];
+           std::apply([&](const auto&... argument) { body(context.patch(), material, argument.bind(context)...); },
+                      bound);
+         }});
+  }
+
+  /// Runs `body(patch, material, maker, arguments...)`: the particles that the body makes replace those of the patch.
+  /// Particle variables that are needed afterwards must be among what it `creates`; node and cell variables stay.
+  template <class Material, class Body, class... Arguments>
+  void newParticles(std::string name, Body body, const std::vector<Material>& materials, Arguments... arguments) {
+    std::vector<Access> accesses = declare(arguments...);
+    add({std::move(name), TaskKind::newParticles, names(materials), std::move(accesses),
+         [body, &materials, bound = std::make_tuple(arguments...)](const TaskContext& context) {
+           const Material& material = materials[static_cast<std::size_t>(context.material())];
+           std::apply(
+               [&](const auto&... argument) {
+                 body(context.patch(), material, context.maker(), argument.bind(context)...);
+               },
+               bound);
+         }});
+  }
+
+  /// From here on every particle is where `position` (computed before) says: in its new cell, on its new patch.
+  /// All particle variables that are needed afterwards go with it.
+  template <class Material, int D>
+  void relocate(const data::ParticleLabel<Vec<D>>& position, const std::vector<Material>& materials) {
+    add({"relocate", TaskKind::relocate, names(materials), {{&position, AccessKind::requiresNew, 0}}, {}});
+  }
+
+  const std::vector<Task>& tasks() const { return tasks_; }
+  void add(Task task) { tasks_.push_back(std::move(task)); }
+
+ private:
+  template <class... Arguments>
+  static std::vector<Access> declare(Arguments&... arguments) {
+    std::vector<Access> accesses;
+    (arguments.declare(accesses), ...);
+    return accesses;
+  }
+  template <class Material>
+  static std::vector<std::string> names(const std::vector<Material>& materials) {
+    std::vector<std::string> result;
+    for (const Material& material : materials) result.push_back(material.name);
+    return result;
+  }
+
+  std::vector<Task> tasks_;
+};
+
+}  // namespace tushar::tasks

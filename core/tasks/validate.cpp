@@ -1,0 +1,87 @@
+#include "core/tasks/validate.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "core/base/error.hpp"
+
+namespace tushar::tasks {
+
+namespace {
+
+class Validator {
+ public:
+  Validator(const std::vector<Task>& tasks, const Names& state) : state_(state) {
+    for (const Task& task : tasks) check(task);
+  }
+  const std::string& complaints() const { return complaints_; }
+
+ private:
+  void check(const Task& task) {
+    for (const Access& access : task.accesses) {
+      checkMaterial(task, access);
+      if (access.reads()) checkProducer(task, access);
+    }
+    for (const Access& access : task.accesses)
+      if (access.writes()) checkWriter(task, access);
+  }
+
+  void checkMaterial(const Task& task, const Access& access) {
+    if (access.label->centring == data::Centring::reduction) return;
+    const auto [entry, added] = per_material_.try_emplace(std::string(access.label->name), task.perMaterial());
+    if (entry->second != task.perMaterial())
+      complain(task, access, "is used both with and without a material; use two labels");
+  }
+
+  void checkProducer(const Task& task, const Access& access) {
+    const Names& available = access.isNew() ? produced_ : state_;
+    if (available.contains(access.label->name)) return;
+    if (access.isNew())
+      complain(task, access, "is required, but no earlier task of the list computes it" + nearest(access, available));
+    else
+      complain(task, access,
+               "is required at the start of the step, but no task of scheduleInitialize computes it" +
+                   nearest(access, available));
+  }
+
+  void checkWriter(const Task& task, const Access& access) {
+    const bool added = produced_.insert(std::string(access.label->name)).second;
+    const bool reduction = access.label->centring == data::Centring::reduction;
+    if (!added && !reduction && access.kind == AccessKind::computes)
+      complain(task, access, "is computed a second time; use modifies to change it");
+  }
+
+  static std::string nearest(const Access& access, const Names& available) {
+    return didYouMean(access.label->name, {available.begin(), available.end()});
+  }
+
+  void complain(const Task& task, const Access& access, const std::string& what) {
+    if (!complaints_.empty()) complaints_ += '\n';
+    complaints_ += fmt::format("task {}: {} {}", task.name, access.label->name, what);
+  }
+
+  const Names& state_;
+  Names produced_;
+  std::map<std::string, bool> per_material_;
+  std::string complaints_;
+};
+
+}  // namespace
+
+Names producedBy(const std::vector<Task>& tasks) {
+  Names names;
+  for (const Task& task : tasks) {
+    for (const Access& access : task.accesses)
+      if (access.writes()) names.emplace(access.label->name);
+    if (task.kind == TaskKind::newParticles) names.emplace(data::particleId.name);
+  }
+  return names;
+}
+
+void validate(const std::vector<Task>& tasks, const Names& state) {
+  const Validator validator(tasks, state);
+  if (!validator.complaints().empty()) throw TaskError(validator.complaints());
+}
+
+}  // namespace tushar::tasks
