@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <stdexcept>
 #include <string_view>
 
 #include "core/base/vec.hpp"
@@ -59,7 +60,13 @@ struct FieldLabel : Label {
   using Value = T;
   static constexpr Centring centred = C;
   constexpr FieldLabel(std::string_view called, std::string_view inUnit, std::string_view meaning)
-      : Label{called, inUnit, meaning, C, Stored<T>::number, Stored<T>::components, sizeof(T), Stored<T>::isVector} {}
+      : Label{called, inUnit, meaning, C, Stored<T>::number, Stored<T>::components, sizeof(T), Stored<T>::isVector} {
+    if (!called.starts_with(prefix())) throw std::invalid_argument("a label starts with p., g. or c.");
+  }
+  /// What the names of such labels start with, as in Uintah: p. for particles, g. for grid nodes, c. for cells.
+  static constexpr std::string_view prefix() {
+    return C == Centring::particle ? "p." : C == Centring::node ? "g." : "c.";
+  }
 };
 
 /// A variable with one T per particle, node or cell.

@@ -28,6 +28,11 @@ struct ParticleRange {
   Iterator end() const { return {last}; }
 };
 
+/// Consecutive particles of another patch that are ghosts of this one.
+struct GhostRun {
+  int patch, first, count;
+};
+
 /// Which particles a patch has of one material, cell by cell.
 ///
 /// Owned particles come first in memory, sorted by (cell, id); ghost particles, those of cells within `reach()` of
@@ -54,7 +59,10 @@ class ParticleSet {
   }
 
   void setOwned(int count) { owned_ = total_ = count; }
-  void addGhosts(int count) { total_ += count; }
+
+  /// Adds the particles of a ghost cell behind those that are there.
+  void addGhostCell(const Index3& cell, int patch, const ParticleRange& there);
+  const std::vector<GhostRun>& ghostRuns() const { return ghost_runs_; }
   bool hasGhosts() const { return has_ghosts_; }
   void markGhosts() { has_ghosts_ = true; }
 
@@ -70,6 +78,7 @@ class ParticleSet {
   grid::Box owned_cells_, cells_;
   Index3 stride_{};
   std::vector<ParticleRange> ranges_;
+  std::vector<GhostRun> ghost_runs_;
   int owned_ = 0, total_ = 0;
   bool has_ghosts_ = false;
 };

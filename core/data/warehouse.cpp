@@ -13,13 +13,25 @@ std::string VariableTable::key(std::string_view name, int material) {
 
 int VariableTable::number(const Label& label, int material) {
   const auto [entry, added] = numbers_.try_emplace(key(label.name, material), size());
-  if (added) names_.push_back({&label, material});
+  if (added) {
+    names_.push_back({&label, material});
+    ghosts_.push_back(0);
+  }
   return entry->second;
 }
 
 int VariableTable::find(std::string_view name, int material) const {
   const auto entry = numbers_.find(key(name, material));
   return entry == numbers_.end() ? -1 : entry->second;
+}
+
+void VariableTable::widen(int number, int ghost) {
+  const auto at = static_cast<std::size_t>(number);
+  ghosts_[at] = std::max(ghosts_[at], ghost);
+  if (names_[at].label->centring != Centring::particle) return;
+  const auto material = static_cast<std::size_t>(names_[at].material);
+  if (reaches_.size() <= material) reaches_.resize(material + 1, 0);
+  reaches_[material] = std::max(reaches_[material], ghost);
 }
 
 void Warehouse::grow(int materials) {

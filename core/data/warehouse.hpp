@@ -29,9 +29,19 @@ class VariableTable {
   const VariableName& operator[](int number) const { return names_[static_cast<std::size_t>(number)]; }
   int size() const { return static_cast<int>(names_.size()); }
 
+  /// Some task reads the variable `ghost` cells or nodes beyond its patch.
+  void widen(int number, int ghost);
+  /// How far beyond its patch a variable is ever read.
+  int ghost(int number) const { return ghosts_[static_cast<std::size_t>(number)]; }
+  /// How far beyond its patch any particle variable of a material is ever read.
+  int reach(int material) const {
+    return material < static_cast<int>(reaches_.size()) ? reaches_[static_cast<std::size_t>(material)] : 0;
+  }
+
  private:
   static std::string key(std::string_view name, int material);
   std::vector<VariableName> names_;
+  std::vector<int> ghosts_, reaches_;
   std::unordered_map<std::string, int> numbers_;
 };
 

@@ -30,6 +30,14 @@ struct Box {
     return true;
   }
 
+  /// Place of an index in memory that holds the box, the first axis fastest.
+  constexpr std::size_t offset(const Index3& at) const {
+    const auto x = static_cast<std::size_t>(at[0] - lower[0]);
+    const auto y = static_cast<std::size_t>(at[1] - lower[1]);
+    const auto z = static_cast<std::size_t>(at[2] - lower[2]);
+    return x + static_cast<std::size_t>(extent(0)) * (y + static_cast<std::size_t>(extent(1)) * z);
+  }
+
   constexpr Box intersect(const Box& other) const {
     Box both;
     for (int d = 0; d < 3; ++d) {

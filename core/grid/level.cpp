@@ -69,14 +69,34 @@ int Level::cellAlong(int kernelAxis, double x) const {
   return cell;
 }
 
+std::size_t Level::blockAlong(int kernelAxis, int cell) const {
+  const auto& cuts = cuts_[static_cast<std::size_t>(kernelAxis)];
+  return static_cast<std::size_t>(std::upper_bound(cuts.begin(), cuts.end() - 1, cell) - cuts.begin() - 1);
+}
+
 const Patch& Level::patchOf(const Index3& cell) const {
   std::size_t number = 0;
-  for (int d = 2; d >= 0; --d) {
-    const auto& cuts = cuts_[static_cast<std::size_t>(d)];
-    const auto next = std::upper_bound(cuts.begin(), cuts.end() - 1, cell[d]);
-    number = number * (cuts.size() - 1) + static_cast<std::size_t>(next - cuts.begin() - 1);
-  }
+  for (int d = 2; d >= 0; --d)
+    number = number * (cuts_[static_cast<std::size_t>(d)].size() - 1) + blockAlong(d, cell[d]);
   return patches_[number];
+}
+
+std::vector<const Patch*> Level::patchesOverlapping(const Box& cells) const {
+  std::vector<const Patch*> found;
+  const Box inside = cells.intersect(cells_);
+  if (inside.empty()) return found;
+  Box blocks;
+  for (int d = 0; d < 3; ++d) {
+    blocks.lower[d] = static_cast<int>(blockAlong(d, inside.lower[d]));
+    blocks.upper[d] = static_cast<int>(blockAlong(d, inside.upper[d] - 1)) + 1;
+  }
+  forEach<3>(blocks, [&](const Index3& block) {
+    std::size_t number = 0;
+    for (int d = 2; d >= 0; --d)
+      number = number * (cuts_[static_cast<std::size_t>(d)].size() - 1) + static_cast<std::size_t>(block[d]);
+    found.push_back(&patches_[number]);
+  });
+  return found;
 }
 
 const BoundaryCondition* Level::boundary(int kernelAxis, int side, const std::string& variable) const {

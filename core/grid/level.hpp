@@ -66,6 +66,8 @@ class Level {
 
   /// The patch that holds a cell of the grid.
   const Patch& patchOf(const Index3& cell) const;
+  /// The patches that hold cells of a box, by id.
+  std::vector<const Patch*> patchesOverlapping(const Box& cells) const;
   /// Number of a cell in lexicographic order, x fastest, 0 for the first; independent of the patches.
   template <int D>
   std::uint64_t cellNumber(const Index<D>& cell) const {
@@ -103,6 +105,7 @@ class Level {
 
  private:
   void chooseAxes();
+  std::size_t blockAlong(int kernelAxis, int cell) const;
   void makePatches();
 
   Domain domain_;

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "core/data/reduction.hpp"
 #include "core/data/views.hpp"
 #include "core/data/warehouse.hpp"
+#include "core/tasks/particle_maker.hpp"
 #include "core/tasks/task.hpp"
 
 namespace tushar::tasks {
@@ -16,38 +16,6 @@ struct BoundAccess {
   data::Generation generation = data::Generation::fresh;
   data::Generation set = data::Generation::old;  ///< the particle set that the values follow
   int ghost = 0;
-};
-
-/// A column of a particle set under construction; `Column<T>::values` is what the task's body fills.
-class ColumnBase {
- public:
-  virtual ~ColumnBase() = default;
-  virtual std::size_t size() const = 0;
-  virtual const std::byte* bytes() const = 0;
-};
-template <class T>
-class Column : public ColumnBase {
- public:
-  std::vector<T> values;
-  std::size_t size() const override { return values.size(); }
-  const std::byte* bytes() const override { return reinterpret_cast<const std::byte*>(values.data()); }
-};
-
-/// Gathers the particles that a task makes; they may come in any order.
-class ParticleMaker {
- public:
-  /// Announces a particle in a cell of the patch; each created label then needs one more value.
-  template <int D>
-  void add(const Index<D>& cell, ParticleId id) {
-    Index3 wide;
-    for (int d = 0; d < D; ++d) wide[d] = cell[d];
-    cells.push_back(wide);
-    ids.push_back(id);
-  }
-
-  std::vector<Index3> cells;
-  std::vector<ParticleId> ids;
-  std::vector<std::unique_ptr<ColumnBase>> columns;  ///< by access
 };
 
 /// Everything that a task's body may touch on one patch, for one material.
@@ -85,9 +53,7 @@ class TaskContext {
 
   template <class T>
   std::vector<T>& column(int access) const {
-    auto& column = maker_->columns[static_cast<std::size_t>(access)];
-    if (!column) column = std::make_unique<Column<T>>();
-    return static_cast<Column<T>&>(*column).values;
+    return maker_->column<T>(access);
   }
 
  private:

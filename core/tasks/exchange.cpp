@@ -1,0 +1,96 @@
+#include "core/tasks/exchange.hpp"
+
+#include <cstring>
+
+namespace tushar::tasks {
+
+using data::Generation;
+using data::ParticleSet;
+using data::Variable;
+using data::Warehouse;
+using grid::Box;
+using grid::Patch;
+
+namespace {
+
+/// Copies a box row by row.
+void copyBox(const Variable& from, Variable& to, const Box& box, std::size_t bytes) {
+  if (box.empty()) return;
+  Box rows = box;
+  rows.upper[0] = rows.lower[0] + 1;
+  const std::size_t length = static_cast<std::size_t>(box.extent(0)) * bytes;
+  grid::forEach<3>(rows, [&](const Index3& at) {
+    std::memcpy(to.values.data() + to.stored.offset(at) * bytes, from.values.data() + from.stored.offset(at) * bytes,
+                length);
+  });
+}
+
+/// The parts of `box` outside `hole`: below and above it, axis by axis.
+template <class Visit>
+void forEachPartOutside(Box box, const Box& hole, Visit&& visit) {
+  for (int d = 2; d >= 0; --d) {
+    Box below = box, above = box;
+    below.upper[d] = std::min(box.upper[d], hole.lower[d]);
+    above.lower[d] = std::max(box.lower[d], hole.upper[d]);
+    if (!below.empty()) visit(below);
+    if (!above.empty()) visit(above);
+    box.lower[d] = std::max(box.lower[d], hole.lower[d]);
+    box.upper[d] = std::min(box.upper[d], hole.upper[d]);
+  }
+}
+
+void fillPatch(Warehouse& warehouse, int number, Generation generation, const Patch& patch) {
+  const data::VariableName& name = warehouse.table()[number];
+  const bool nodes = name.label->centring == data::Centring::node;
+  const int width = warehouse.table().ghost(number);
+  Variable& here = warehouse.variable(generation, number, patch.id());
+  const Box own = nodes ? patch.nodes() : patch.cells();
+  for (const Patch* other : warehouse.level().patchesOverlapping(patch.cellsWithin(width + (nodes ? 1 : 0)))) {
+    if (other == &patch) continue;
+    const Variable& there = warehouse.variable(generation, number, other->id());
+    const Box theirs = (nodes ? other->nodes() : other->cells()).intersect(here.stored);
+    if (theirs.empty()) continue;
+    forEachPartOutside(theirs, own, [&](const Box& part) { copyBox(there, here, part, name.label->bytes); });
+  }
+}
+
+/// Appends the particles of the cells around the patch to its set.
+void addGhosts(Warehouse& warehouse, Generation generation, int material, const Patch& patch) {
+  ParticleSet& set = warehouse.particles(generation, material, patch.id());
+  const grid::Level& level = warehouse.level();
+  forEachPartOutside(set.cells(), set.ownedCells(), [&](const Box& part) {
+    for (const Patch* other : level.patchesOverlapping(part)) {
+      const ParticleSet& theirs = warehouse.particles(generation, material, other->id());
+      grid::forEach<3>(part.intersect(other->cells()),
+                       [&](const Index3& cell) { set.addGhostCell(cell, other->id(), theirs.in(cell)); });
+    }
+  });
+  set.markGhosts();
+}
+
+}  // namespace
+
+void fillGridGhosts(Warehouse& warehouse, int variable, Generation generation) {
+  if (warehouse.patches() == 1) return;
+  for (const Patch& patch : warehouse.level().patches()) fillPatch(warehouse, variable, generation, patch);
+}
+
+void fillParticleGhosts(Warehouse& warehouse, int variable, Generation generation, Generation setGeneration) {
+  if (warehouse.patches() == 1) return;
+  const auto [label, material] = warehouse.table()[variable];
+  for (const Patch& patch : warehouse.level().patches()) {
+    ParticleSet& set = warehouse.particles(setGeneration, material, patch.id());
+    if (!set.hasGhosts()) addGhosts(warehouse, setGeneration, material, patch);
+    Variable& here = warehouse.variable(generation, variable, patch.id());
+    warehouse.allocateParticles(here, *label, set.total(), set.owned());
+    std::byte* to = here.values.data() + static_cast<std::size_t>(set.owned()) * label->bytes;
+    for (const data::GhostRun& run : set.ghostRuns()) {
+      const Variable& there = warehouse.variable(generation, variable, run.patch);
+      const std::size_t length = static_cast<std::size_t>(run.count) * label->bytes;
+      std::memcpy(to, there.values.data() + static_cast<std::size_t>(run.first) * label->bytes, length);
+      to += length;
+    }
+  }
+}
+
+}  // namespace tushar::tasks

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "core/grid/level.hpp"
+#include "core/tasks/task.hpp"
+
+namespace tushar::tasks {
+
+/// One run of a task: on a patch, for a material (-1: none).
+struct Placement {
+  int task;
+  int patch;
+  int material;
+
+  friend bool operator==(const Placement&, const Placement&) = default;
+};
+
+/// Step 4 of compiling: which task runs where, in the order in which they run: task by task, material by material,
+/// patch by patch.
+std::vector<Placement> place(const std::vector<Task>& tasks, const grid::Level& level);
+
+}  // namespace tushar::tasks

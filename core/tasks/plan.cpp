@@ -1,0 +1,81 @@
+#include "core/tasks/plan.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace tushar::tasks {
+
+using data::Generation;
+
+std::vector<Generation> particleSetsBefore(const std::vector<Task>& tasks) {
+  std::vector<Generation> sets;
+  Generation now = Generation::old;
+  for (const Task& task : tasks) {
+    sets.push_back(now);
+    if (task.kind != TaskKind::work) now = Generation::fresh;
+  }
+  return sets;
+}
+
+namespace {
+
+/// A need for ghosts: they are complete once task `ready` is done (-1: from the start), and first read by `reader`.
+struct Need {
+  GhostFill fill;
+  int ready;
+  int reader;
+};
+
+class Needs {
+ public:
+  explicit Needs(const std::vector<Task>& tasks) : sets_(particleSetsBefore(tasks)) {
+    for (std::size_t t = 0; t < tasks.size(); ++t) visit(static_cast<int>(t), tasks[t]);
+  }
+  const std::vector<Need>& all() const { return needs_; }
+
+ private:
+  void visit(int t, const Task& task) {
+    const Generation set = sets_[static_cast<std::size_t>(t)];
+    for (const Access& access : task.accesses)
+      if (access.reads() && access.ghost > 0) need(t, task, access, set);
+    for (const Access& access : task.accesses)
+      if (access.writes()) last_write_[std::string(access.label->name)] = t;
+    if (task.kind != TaskKind::work) last_change_of_set_ = t;
+  }
+
+  void need(int t, const Task& task, const Access& access, Generation set) {
+    const Generation generation = access.isNew() ? Generation::fresh : Generation::old;
+    const auto written = last_write_.find(access.label->name);
+    int ready = access.isNew() && written != last_write_.end() ? written->second : -1;
+    if (access.isNew() && access.label->centring == data::Centring::particle)
+      ready = std::max(ready, last_change_of_set_);
+    const Need wanted{{access.label, generation, set, task.perMaterial()}, ready, t};
+    const bool known = std::any_of(needs_.begin(), needs_.end(),
+                                   [&](const Need& n) { return n.fill == wanted.fill && n.ready == wanted.ready; });
+    if (!known) needs_.push_back(wanted);
+  }
+
+  std::vector<Generation> sets_;
+  std::map<std::string, int, std::less<>> last_write_;
+  int last_change_of_set_ = -1;
+  std::vector<Need> needs_;
+};
+
+}  // namespace
+
+std::vector<Stage> plan(const std::vector<Task>& tasks) {
+  std::vector<Stage> stages(tasks.size());
+  std::vector<Need> open = Needs(tasks).all();
+  std::stable_sort(open.begin(), open.end(), [](const Need& a, const Need& b) { return a.reader < b.reader; });
+  while (!open.empty()) {
+    const int at = open.front().reader;
+    std::erase_if(open, [&](const Need& need) {
+      if (need.ready >= at) return false;
+      stages[static_cast<std::size_t>(at)].fills.push_back(need.fill);
+      return true;
+    });
+  }
+  return stages;
+}
+
+}  // namespace tushar::tasks

@@ -1,0 +1,207 @@
+#include "core/tasks/relocation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "core/base/error.hpp"
+
+namespace tushar::tasks {
+
+using data::Generation;
+using data::ParticleRange;
+using data::ParticleSet;
+using data::Variable;
+using grid::Patch;
+
+namespace {
+
+template <int D>
+Index3 widened(const Index<D>& cell) {
+  Index3 wide;
+  for (int d = 0; d < D; ++d) wide[d] = cell[d];
+  return wide;
+}
+
+template <std::size_t Words>
+void gatherWords(const std::byte* from, std::byte* to, const std::vector<int>& source) {
+  const auto* in = reinterpret_cast<const std::uint64_t*>(from);
+  auto* out = reinterpret_cast<std::uint64_t*>(to);
+  for (const int place : source) {
+    for (std::size_t w = 0; w < Words; ++w) out[w] = in[static_cast<std::size_t>(place) * Words + w];
+    out += Words;
+  }
+}
+
+/// to[k] = from[source[k]] for elements of `bytes` bytes.
+void gather(const std::byte* from, std::byte* to, const std::vector<int>& source, std::size_t bytes) {
+  if (bytes == 8) return gatherWords<1>(from, to, source);
+  if (bytes == 16) return gatherWords<2>(from, to, source);
+  if (bytes == 24) return gatherWords<3>(from, to, source);
+  for (const int place : source) {
+    std::memcpy(to, from + static_cast<std::size_t>(place) * bytes, bytes);
+    to += bytes;
+  }
+}
+
+/// Whether a position lies in the cell with these bounds.
+template <int D>
+bool isInside(const Vec<D>& x, const Vec<D>& lower, const Vec<D>& upper) {
+  bool inside = true;
+  for (int d = 0; d < D; ++d) inside &= (x[d] >= lower[d]) & (x[d] < upper[d]);
+  return inside;
+}
+
+/// A particle outside the grid: fine where it left through a free face, an error elsewhere.
+template <int D>
+void checkExit(const grid::Level& level, const Vec<D>& x, const Index<D>& cell, ParticleId id) {
+  for (int d = 0; d < D; ++d) {
+    const bool below = cell[d] < 0, above = cell[d] >= level.cells().upper[d];
+    const char axis = "xyz"[level.axis(d)];
+    if (!std::isfinite(x[d]))
+      throw NumericalError(fmt::format("p.x of particle {} is {} along {}", id, x[d], axis),
+                           "a smaller time step (timestep_multiplier)");
+    if ((below && level.isSymmetry(d, 0)) || (above && level.isSymmetry(d, 1)))
+      throw NumericalError(fmt::format("particle {} passed through the symmetry plane {}{} to {} = {}", id, axis,
+                                       below ? '-' : '+', axis, x[d]),
+                           "a smaller time step (timestep_multiplier)");
+  }
+}
+
+}  // namespace
+
+void Relocation::run(int material, int position, const std::vector<Carried>& carried) {
+  moves_.resize(static_cast<std::size_t>(warehouse_->patches()));
+  spare_.resize(moves_.size());
+  switch (warehouse_->level().dimension()) {
+    case 1: findMoves<1>(material, position); break;
+    case 2: findMoves<2>(material, position); break;
+    default: findMoves<3>(material, position);
+  }
+  for (const Patch& patch : warehouse_->level().patches()) rebuild(patch, material);
+  for (const Carried& variable : carried) carry(variable);
+}
+
+template <int D>
+void Relocation::findMoves(int material, int position) {
+  const grid::Level& level = warehouse_->level();
+  for (const Patch& patch : level.patches()) {
+    PatchMoves& moves = moves_[static_cast<std::size_t>(patch.id())];
+    moves.departed.clear();
+    moves.incoming.clear();
+    moves.firstIncoming.assign(patch.cells().size(), -1);
+  }
+  const int idNumber = warehouse_->table().find(data::particleId.name, material);
+  for (const Patch& patch : level.patches()) {
+    const ParticleSet& set = warehouse_->particles(Generation::old, material, patch.id());
+    const auto* x = reinterpret_cast<const Vec<D>*>(
+        warehouse_->variable(Generation::fresh, position, patch.id()).values.data());
+    const auto* ids = reinterpret_cast<const ParticleId*>(
+        warehouse_->variable(Generation::old, idNumber, patch.id()).values.data());
+    grid::forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+      Vec<D> lower, upper;
+      for (int d = 0; d < D; ++d) {
+        lower[d] = level.nodePosition(d, cell[d]);
+        upper[d] = level.nodePosition(d, cell[d] + 1);
+      }
+      for (const int p : set.in(cell))
+        if (!isInside<D>(x[p], lower, upper) && level.cellOf<D>(x[p]) != cell) move<D>(patch, x[p], ids[p], p);
+    });
+  }
+}
+
+template <int D>
+void Relocation::move(const Patch& from, const Vec<D>& x, ParticleId id, int place) {
+  const grid::Level& level = warehouse_->level();
+  moves_[static_cast<std::size_t>(from.id())].departed.push_back(place);
+  const Index<D> cell = level.cellOf<D>(x);
+  if (!level.cells().contains(cell)) {
+    checkExit<D>(level, x, cell, id);
+    ++dropped_;
+    return;
+  }
+  const Index3 wide = widened(cell);
+  receive(from.cells().contains(wide) ? from : level.patchOf(wide), wide, {id, from.id(), place, -1});
+}
+
+void Relocation::receive(const Patch& patch, const Index3& cell, const Incoming& particle) {
+  PatchMoves& moves = moves_[static_cast<std::size_t>(patch.id())];
+  const int added = static_cast<int>(moves.incoming.size());
+  moves.incoming.push_back(particle);
+  int* link = &moves.firstIncoming[patch.cells().offset(cell)];
+  while (*link >= 0 && moves.incoming[static_cast<std::size_t>(*link)].id < particle.id)
+    link = &moves.incoming[static_cast<std::size_t>(*link)].next;
+  moves.incoming.back().next = *link;
+  *link = added;
+}
+
+void Relocation::rebuild(const Patch& patch, int material) {
+  PatchMoves& moves = moves_[static_cast<std::size_t>(patch.id())];
+  const ParticleSet& before = warehouse_->particles(Generation::old, material, patch.id());
+  ParticleSet& after = warehouse_->particles(Generation::fresh, material, patch.id());
+  const int idNumber = warehouse_->table().find(data::particleId.name, material);
+  const auto* ids = reinterpret_cast<const ParticleId*>(
+      warehouse_->variable(Generation::old, idNumber, patch.id()).values.data());
+  after.reset(patch, warehouse_->table().reach(material));
+  moves.source.clear();
+  moves.foreign.clear();
+  moves.source.reserve(static_cast<std::size_t>(before.owned()) + moves.incoming.size());
+  moves.unchanged = moves.departed.empty() && moves.incoming.empty();
+  std::size_t nextDeparted = 0, cellNumber = 0;
+  grid::forEach<3>(patch.cells(), [&](const Index3& cell) {
+    const int first = static_cast<int>(moves.source.size());
+    mergeCell(patch.id(), before.in(cell), moves.firstIncoming[cellNumber++], ids, nextDeparted);
+    after.at(cell) = {first, static_cast<int>(moves.source.size())};
+  });
+  after.setOwned(static_cast<int>(moves.source.size()));
+}
+
+void Relocation::mergeCell(int patch, const ParticleRange& before, int first, const ParticleId* ids,
+                           std::size_t& nextDeparted) {
+  PatchMoves& moves = moves_[static_cast<std::size_t>(patch)];
+  int waiting = first;
+  const auto letIn = [&](ParticleId below, bool all) {
+    while (waiting >= 0 && (all || moves.incoming[static_cast<std::size_t>(waiting)].id < below)) {
+      const Incoming& particle = moves.incoming[static_cast<std::size_t>(waiting)];
+      if (particle.patch != patch) moves.foreign.emplace_back(static_cast<int>(moves.source.size()), waiting);
+      moves.source.push_back(particle.patch == patch ? particle.place : 0);
+      waiting = particle.next;
+    }
+  };
+  for (const int p : before) {
+    if (nextDeparted < moves.departed.size() && moves.departed[nextDeparted] == p) {
+      ++nextDeparted;
+      continue;
+    }
+    if (waiting >= 0) letIn(ids[p], false);
+    moves.source.push_back(p);
+  }
+  letIn(0, true);
+}
+
+void Relocation::carry(const Carried& carried) {
+  const data::Label& label = *warehouse_->table()[carried.variable].label;
+  for (std::size_t patch = 0; patch < moves_.size(); ++patch) {
+    const PatchMoves& moves = moves_[patch];
+    const Variable& from = warehouse_->variable(carried.from, carried.variable, static_cast<int>(patch));
+    warehouse_->allocateParticles(spare_[patch], label, static_cast<int>(moves.source.size()));
+    std::byte* to = spare_[patch].values.data();
+    if (moves.unchanged)
+      std::memcpy(to, from.values.data(), moves.source.size() * label.bytes);
+    else if (moves.foreign.size() < moves.source.size())
+      gather(from.values.data(), to, moves.source, label.bytes);
+    for (const auto& [place, index] : moves.foreign) {
+      const Incoming& particle = moves.incoming[static_cast<std::size_t>(index)];
+      const Variable& there = warehouse_->variable(carried.from, carried.variable, particle.patch);
+      std::memcpy(to + static_cast<std::size_t>(place) * label.bytes,
+                  there.values.data() + static_cast<std::size_t>(particle.place) * label.bytes, label.bytes);
+    }
+  }
+  for (std::size_t patch = 0; patch < moves_.size(); ++patch) {
+    Variable& to = warehouse_->variable(Generation::fresh, carried.variable, static_cast<int>(patch));
+    std::swap(to, spare_[patch]);
+  }
+}
+
+}  // namespace tushar::tasks

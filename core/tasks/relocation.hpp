@@ -1,0 +1,62 @@
+#pragma once
+
+#include <vector>
+
+#include "core/data/warehouse.hpp"
+
+namespace tushar::tasks {
+
+/// A particle variable that outlives a relocation, and where its values stand before.
+struct Carried {
+  int variable;
+  data::Generation from;
+};
+
+/// Brings particles to the cell and patch where they are now, in the order (cell, id), and their variables with them.
+///
+/// Keeps its working memory from step to step.
+class Relocation {
+ public:
+  explicit Relocation(data::Warehouse& warehouse) : warehouse_(&warehouse) {}
+
+  /// Builds the new particle set of a material from the old one and the new values of `position`; afterwards every
+  /// carried variable is new and follows the new set. Particles that left through a free face of the grid are dropped.
+  /// Throws NumericalError for a position that is not finite or lies behind a symmetry plane.
+  void run(int material, int position, const std::vector<Carried>& carried);
+
+  /// Particles that have left the grid since the start.
+  long dropped() const { return dropped_; }
+
+ private:
+  /// A particle that comes into a cell, from this patch or another.
+  struct Incoming {
+    ParticleId id;
+    int patch, place;  ///< where it was
+    int next;          ///< the incoming particle of the same cell with the next greater id, or -1
+  };
+  struct PatchMoves {
+    std::vector<int> departed;        ///< places of the patch's particles that leave their cell, ascending
+    std::vector<Incoming> incoming;   ///< particles that come into a cell of the patch
+    std::vector<int> firstIncoming;   ///< by cell, or -1
+    std::vector<int> source;          ///< for each particle of the new set its place before (0 if it comes from another patch)
+    std::vector<std::pair<int, int>> foreign;  ///< new place and index in `incoming` of those
+    bool unchanged = false;
+  };
+
+  template <int D>
+  void findMoves(int material, int position);
+  template <int D>
+  void move(const grid::Patch& from, const Vec<D>& x, ParticleId id, int place);
+  void receive(const grid::Patch& patch, const Index3& cell, const Incoming& particle);
+  void rebuild(const grid::Patch& patch, int material);
+  void mergeCell(int patch, const data::ParticleRange& before, int first, const ParticleId* ids,
+                 std::size_t& nextDeparted);
+  void carry(const Carried& variable);
+
+  data::Warehouse* warehouse_;
+  std::vector<PatchMoves> moves_;
+  std::vector<data::Variable> spare_;
+  long dropped_ = 0;
+};
+
+}  // namespace tushar::tasks

@@ -1,0 +1,124 @@
+#include "core/tasks/scheduler.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+
+#include "core/base/error.hpp"
+#include "core/tasks/exchange.hpp"
+
+namespace tushar::tasks {
+
+using Clock = std::chrono::steady_clock;
+using data::Generation;
+
+namespace {
+
+double seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
+
+int firstMaterial(const CompiledTask& task) { return task.task.perMaterial() ? 0 : -1; }
+
+std::string placeOf(const CompiledTask& task, const grid::Patch* patch, int material, const StepInfo& at) {
+  std::string text = "task " + task.task.name;
+  if (patch) text += fmt::format(", patch {}", patch->id());
+  if (material >= 0) text += ", material " + task.task.materials[static_cast<std::size_t>(material)];
+  return text + fmt::format(", step {}, time {:.6g} s", at.step, at.time);
+}
+
+/// Runs `work`; what it throws comes out again with the place added.
+template <class Work>
+void located(const CompiledTask& task, const grid::Patch* patch, int material, const StepInfo& at, Work&& work) {
+  try {
+    work();
+  } catch (const NumericalError& error) {
+    throw NumericalError(fmt::format("{} ({})", error.what(), placeOf(task, patch, material, at)), error.advice());
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw TaskError(fmt::format("{} ({})", error.what(), placeOf(task, patch, material, at)));
+  }
+}
+
+}  // namespace
+
+void Scheduler::run(TaskGraph& graph, const StepInfo& at) {
+  for (const CompiledTask& task : graph.tasks())
+    for (const int reduction : task.reductions) warehouse_->resetReduction(reduction);
+  auto started = Clock::now();
+  for (CompiledTask& task : graph.tasks()) {
+    if (!task.fills.empty()) {
+      exchange(task);
+      const auto exchanged = Clock::now();
+      task.exchangeSeconds += seconds(exchanged - started);
+      started = exchanged;
+    }
+    runWork(task, at);
+    free(task);
+    const auto done = Clock::now();
+    task.seconds += seconds(done - started);
+    started = done;
+  }
+}
+
+void Scheduler::exchange(CompiledTask& task) {
+  for (const NumberedFill& fill : task.fills) {
+    if (fill.particles)
+      fillParticleGhosts(*warehouse_, fill.variable, fill.generation, fill.set);
+    else
+      fillGridGhosts(*warehouse_, fill.variable, fill.generation);
+  }
+}
+
+void Scheduler::runWork(CompiledTask& task, const StepInfo& at) {
+  const int first = firstMaterial(task);
+  for (int m = first; m < first + static_cast<int>(task.materials.size()); ++m) {
+    const MaterialBinding& binding = task.materials[static_cast<std::size_t>(m - first)];
+    if (task.task.kind == TaskKind::relocate) {
+      located(task, nullptr, m, at, [&] { relocation_.run(m, binding.accesses.front().variable, binding.carried); });
+      continue;
+    }
+    for (const grid::Patch& patch : warehouse_->level().patches()) runPlaced(task, patch, m, at);
+  }
+}
+
+void Scheduler::runPlaced(CompiledTask& task, const grid::Patch& patch, int material, const StepInfo& at) {
+  const MaterialBinding& binding = task.materials[static_cast<std::size_t>(material - firstMaterial(task))];
+  located(task, &patch, material, at, [&] {
+    if (task.task.kind == TaskKind::newParticles) {
+      ParticleMaker maker(binding.accesses.size());
+      task.task.body(TaskContext(*warehouse_, patch, material, binding.accesses, &maker));
+      maker.install(*warehouse_, patch, material, binding.accesses);
+      return;
+    }
+    allocateOutputs(binding, patch, material);
+    task.task.body(TaskContext(*warehouse_, patch, material, binding.accesses));
+  });
+}
+
+void Scheduler::allocateOutputs(const MaterialBinding& binding, const grid::Patch& patch, int material) {
+  for (const Output& output : binding.outputs) {
+    data::Variable& variable = warehouse_->variable(Generation::fresh, output.variable, patch.id());
+    const data::Label& label = *warehouse_->table()[output.variable].label;
+    const int ghost = warehouse_->table().ghost(output.variable);
+    if (label.centring == data::Centring::particle)
+      warehouse_->allocateParticles(variable, label, warehouse_->particles(output.set, material, patch.id()).owned());
+    else if (label.centring == data::Centring::node)
+      warehouse_->allocateGrid(variable, label, patch.nodesWithin(ghost));
+    else
+      warehouse_->allocateGrid(variable, label, patch.cellsWithin(ghost));
+  }
+}
+
+void Scheduler::free(const CompiledTask& task) {
+  for (const MaterialBinding& binding : task.materials)
+    for (const int number : binding.freed)
+      for (const grid::Patch& patch : warehouse_->level().patches())
+        warehouse_->free(warehouse_->variable(Generation::fresh, number, patch.id()));
+}
+
+void Scheduler::commit(const TaskGraph& graph) {
+  for (const int number : graph.results()) warehouse_->swap(number);
+  for (const int material : graph.changedSets()) warehouse_->swapSets(material);
+}
+
+}  // namespace tushar::tasks

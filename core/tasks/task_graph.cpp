@@ -1,0 +1,139 @@
+#include "core/tasks/task_graph.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <ostream>
+
+#include "core/base/error.hpp"
+#include "core/tasks/lifetimes.hpp"
+
+namespace tushar::tasks {
+
+using data::Centring;
+using data::Generation;
+
+namespace {
+
+/// Every label that the tasks name, and the materials it has (0: belongs to none).
+std::map<std::string, std::pair<const data::Label*, int>, std::less<>> labelsOf(const std::vector<Task>& tasks) {
+  std::map<std::string, std::pair<const data::Label*, int>, std::less<>> labels;
+  for (const Task& task : tasks) {
+    const int materials = static_cast<int>(task.materials.size());
+    for (const Access& access : task.accesses) labels.try_emplace(std::string(access.label->name), access.label, materials);
+    if (task.kind != TaskKind::work) labels.try_emplace(std::string(data::particleId.name), &data::particleId, materials);
+  }
+  return labels;
+}
+
+int materialOf(const Access& access, int material) {
+  return access.label->centring == Centring::reduction ? -1 : material;
+}
+
+}  // namespace
+
+TaskGraph::TaskGraph(std::string name, Pruned pruned, const grid::Level& level, data::VariableTable& table)
+    : name_(std::move(name)),
+      pruned_(std::move(pruned)),
+      dependencies_(connect(pruned_.kept)),
+      placements_(place(pruned_.kept, level)),
+      sets_(particleSetsBefore(pruned_.kept)),
+      lifetimes_(lifetimes(pruned_)) {
+  for (std::size_t t = 0; t < pruned_.kept.size(); ++t) bind(t, level, table);
+  const std::vector<Stage> stages = plan(pruned_.kept);
+  for (std::size_t t = 0; t < stages.size(); ++t)
+    for (const GhostFill& fill : stages[t].fills)
+      for (int m = fill.perMaterial ? 0 : -1; m < (fill.perMaterial ? materials_ : 0); ++m)
+        tasks_[t].fills.push_back({table.number(*fill.label, m), fill.generation, fill.set,
+                                   fill.label->centring == Centring::particle});
+  noteResults(table);
+}
+
+void TaskGraph::bind(std::size_t t, const grid::Level& level, data::VariableTable& table) {
+  (void)level;
+  const Task& task = pruned_.kept[t];
+  CompiledTask compiled{task, {}, {}, {}};
+  const int count = static_cast<int>(task.materials.size());
+  materials_ = std::max(materials_, count);
+  if (task.kind == TaskKind::newParticles) checkCreated(t);
+  for (int m = task.perMaterial() ? 0 : -1; m < count; ++m) compiled.materials.push_back(bindMaterial(t, m, table));
+  for (const Access& access : task.accesses)
+    if (access.label->centring == Centring::reduction && access.kind == AccessKind::computes)
+      compiled.reductions.push_back(table.number(*access.label, -1));
+  tasks_.push_back(std::move(compiled));
+}
+
+MaterialBinding TaskGraph::bindMaterial(std::size_t t, int material, data::VariableTable& table) {
+  const Task& task = pruned_.kept[t];
+  MaterialBinding binding;
+  for (const Access& access : task.accesses) {
+    const int number = table.number(*access.label, materialOf(access, material));
+    const Generation generation = access.isNew() ? Generation::fresh : Generation::old;
+    const Generation set = access.isNew() ? sets_[t] : Generation::old;
+    binding.accesses.push_back({number, generation, set, access.ghost});
+    table.widen(number, access.ghost);
+    if (access.kind == AccessKind::computes && access.label->centring != Centring::reduction)
+      binding.outputs.push_back({number, set});
+  }
+  if (task.kind != TaskKind::work) table.number(data::particleId, material);
+  if (task.kind == TaskKind::relocate) binding.carried = carriedBy(t, material, table);
+  for (const std::string& label : lifetimes_[t]) binding.freed.push_back(table.find(label, material));
+  std::erase(binding.freed, -1);
+  return binding;
+}
+
+std::vector<Carried> TaskGraph::carriedBy(std::size_t t, int material, data::VariableTable& table) const {
+  if (sets_[t] == Generation::fresh)
+    throw TaskError("task relocate: a list relocates once, and before it makes new particles");
+  const std::vector<Task> before(pruned_.kept.begin(), pruned_.kept.begin() + static_cast<std::ptrdiff_t>(t));
+  const Names produced = producedBy(before);
+  const auto labels = labelsOf(pruned_.kept);
+  Names live = pruned_.liveAfter[t];
+  live.emplace(data::particleId.name);
+  std::vector<Carried> carried;
+  for (const std::string& name : live) {
+    const auto known = labels.find(name);
+    if (known == labels.end() || known->second.first->centring != Centring::particle) continue;
+    const bool fresh = produced.contains(name);
+    carried.push_back({table.number(*known->second.first, material), fresh ? Generation::fresh : Generation::old});
+  }
+  return carried;
+}
+
+void TaskGraph::checkCreated(std::size_t t) const {
+  const Task& task = pruned_.kept[t];
+  std::string missing;
+  for (const std::string& name : pruned_.liveAfter[t]) {
+    if (!name.starts_with("p.") || name == data::particleId.name) continue;
+    const bool created = std::any_of(task.accesses.begin(), task.accesses.end(), [&](const Access& access) {
+      return access.kind == AccessKind::creates && access.label->name == name;
+    });
+    if (!created) missing += (missing.empty() ? "" : ", ") + name;
+  }
+  if (!missing.empty())
+    throw TaskError(fmt::format("task {} makes new particles, but does not create {}, which is needed later", task.name,
+                                missing));
+}
+
+void TaskGraph::noteResults(data::VariableTable& table) {
+  Names written = producedBy(pruned_.kept);
+  bool changes = false;
+  for (const CompiledTask& compiled : tasks_) {
+    changes = changes || compiled.task.kind != TaskKind::work;
+    for (const MaterialBinding& binding : compiled.materials)
+      for (const Carried& carried : binding.carried) written.emplace(table[carried.variable].label->name);
+  }
+  Names needed = pruned_.needed;
+  if (changes) needed.emplace(data::particleId.name);
+  for (const std::string& name : needed)
+    if (written.contains(name))
+      for (int m = -1; m < materials_; ++m)
+        if (const int number = table.find(name, m);
+            number >= 0 && table[number].label->centring != Centring::reduction)
+          results_.push_back(number);
+  if (changes)
+    for (int m = 0; m < materials_; ++m) changed_sets_.push_back(m);
+}
+
+}  // namespace tushar::tasks

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "core/tasks/connect.hpp"
+#include "core/tasks/context.hpp"
+#include "core/tasks/place.hpp"
+#include "core/tasks/plan.hpp"
+#include "core/tasks/prune.hpp"
+#include "core/tasks/relocation.hpp"
+
+namespace tushar::tasks {
+
+/// A variable that a task writes, to be allocated before it runs.
+struct Output {
+  int variable;
+  data::Generation set;
+};
+
+/// What of a kept task depends on the material.
+struct MaterialBinding {
+  std::vector<BoundAccess> accesses;
+  std::vector<Output> outputs;
+  std::vector<Carried> carried;  ///< of a relocation
+  std::vector<int> freed;        ///< variables whose memory is free afterwards
+};
+
+/// A fill of ghosts, by number of variable.
+struct NumberedFill {
+  int variable;
+  data::Generation generation, set;
+  bool particles;
+};
+
+/// A task that is kept, with everything settled that the time loop would otherwise have to look up.
+struct CompiledTask {
+  Task task;
+  std::vector<MaterialBinding> materials;  ///< one for a task that belongs to no material
+  std::vector<NumberedFill> fills;
+  std::vector<int> reductions;  ///< to be reset before the list runs
+  double seconds = 0;           ///< time spent in it so far
+  double exchangeSeconds = 0;   ///< of that, time spent filling ghosts before it
+};
+
+/// A compiled task list.
+///
+/// prune → connect → place → plan → lifetimes, each a function of its own; here their results are bound to the
+/// variables of a run. Compile every list of a run before the warehouse first allocates: ghost widths add up.
+class TaskGraph {
+ public:
+  TaskGraph() = default;
+  /// Throws TaskError if a list makes particles without giving them all that is needed later.
+  TaskGraph(std::string name, Pruned pruned, const grid::Level& level, data::VariableTable& table);
+
+  const std::string& name() const { return name_; }
+  std::vector<CompiledTask>& tasks() { return tasks_; }
+  const std::vector<CompiledTask>& tasks() const { return tasks_; }
+  const std::vector<LeftOut>& leftOut() const { return pruned_.leftOut; }
+  const std::vector<Dependency>& dependencies() const { return dependencies_; }
+  const std::vector<Placement>& placements() const { return placements_; }
+  /// Variables that are new at the end and become old with the swap.
+  const std::vector<int>& results() const { return results_; }
+  /// Materials whose particle set is new at the end.
+  const std::vector<int>& changedSets() const { return changed_sets_; }
+  /// Most materials of any task.
+  int materials() const { return materials_; }
+
+  /// The tasks in order with what each reads and writes, then those left out and why.
+  void print(std::ostream& out) const;
+  /// The tasks and dependencies in Graphviz's language.
+  void printDot(std::ostream& out) const;
+
+ private:
+  void bind(std::size_t t, const grid::Level& level, data::VariableTable& table);
+  MaterialBinding bindMaterial(std::size_t t, int material, data::VariableTable& table);
+  std::vector<Carried> carriedBy(std::size_t t, int material, data::VariableTable& table) const;
+  void checkCreated(std::size_t t) const;
+  void noteResults(data::VariableTable& table);
+
+  std::string name_;
+  Pruned pruned_;
+  std::vector<Dependency> dependencies_;
+  std::vector<Placement> placements_;
+  std::vector<data::Generation> sets_;
+  std::vector<std::vector<std::string>> lifetimes_;
+  std::vector<CompiledTask> tasks_;
+  std::vector<int> results_, changed_sets_;
+  int materials_ = 0;
+};
+
+}  // namespace tushar::tasks

@@ -1,0 +1,58 @@
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include <ostream>
+
+#include "core/tasks/task_graph.hpp"
+
+namespace tushar::tasks {
+
+namespace {
+
+std::string_view word(AccessKind kind) {
+  switch (kind) {
+    case AccessKind::requiresOld: return "requires old";
+    case AccessKind::requiresNew: return "requires new";
+    case AccessKind::computes: return "computes";
+    case AccessKind::modifies: return "modifies";
+    default: return "creates";
+  }
+}
+
+void printAccesses(std::ostream& out, const Task& task, AccessKind kind) {
+  std::string line;
+  for (const Access& access : task.accesses) {
+    if (access.kind != kind) continue;
+    line += line.empty() ? "" : ", ";
+    line += access.label->name;
+    if (access.ghost > 0) line += fmt::format(" (ghost {})", access.ghost);
+  }
+  if (!line.empty()) fmt::print(out, "      {:<13} {}\n", word(kind), line);
+}
+
+}  // namespace
+
+void TaskGraph::print(std::ostream& out) const {
+  fmt::print(out, "{}\n", name_);
+  int number = 0;
+  for (const CompiledTask& compiled : tasks_) {
+    const Task& task = compiled.task;
+    std::string materials;
+    for (const std::string& material : task.materials) materials += (materials.empty() ? "" : ", ") + material;
+    fmt::print(out, "  {:>2}  {}{}\n", ++number, task.name, materials.empty() ? "" : " [" + materials + "]");
+    for (const AccessKind kind : {AccessKind::requiresOld, AccessKind::requiresNew, AccessKind::computes,
+                                  AccessKind::modifies, AccessKind::creates})
+      printAccesses(out, task, kind);
+  }
+  for (const LeftOut& task : leftOut()) fmt::print(out, "  --  {} left out: {}\n", task.task, task.reason);
+}
+
+void TaskGraph::printDot(std::ostream& out) const {
+  fmt::print(out, "digraph \"{}\" {{\n  rankdir=LR; node [shape=box, style=rounded];\n", name_);
+  for (std::size_t t = 0; t < tasks_.size(); ++t) fmt::print(out, "  t{} [label=\"{}\"];\n", t, tasks_[t].task.name);
+  for (const Dependency& d : dependencies_)
+    fmt::print(out, "  t{} -> t{} [label=\"{}\"];\n", d.before, d.after, d.label);
+  fmt::print(out, "}}\n");
+}
+
+}  // namespace tushar::tasks
