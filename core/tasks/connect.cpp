@@ -28,9 +28,11 @@ class Connector {
   void touchAllParticles(int task) {
     for (auto& [label, usage] : usages_)
       if (label.starts_with("p.")) write(task, label);
+    last_change_of_set_ = task;
   }
   void read(int task, const std::string& label) {
     Usage& usage = usages_[label];
+    if (usage.lastWriter < 0 && label.starts_with("p.")) usage.lastWriter = last_change_of_set_;
     if (usage.lastWriter >= 0 && usage.lastWriter != task) link(usage.lastWriter, task, label);
     usage.readersSince.insert(task);
   }
@@ -50,6 +52,7 @@ class Connector {
 
   std::map<std::string, Usage> usages_;
   std::vector<Dependency> dependencies_;
+  int last_change_of_set_ = -1;
 };
 
 }  // namespace

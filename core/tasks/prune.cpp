@@ -58,6 +58,19 @@ std::vector<Task> select(const std::vector<Task>& tasks, const std::vector<bool>
   return selected;
 }
 
+/// Particle variables that the list itself does not compute before it relocates, but needs afterwards.
+Names carriedFromState(const std::vector<Task>& tasks, const Sweep& swept) {
+  Names carried, produced;
+  for (std::size_t t = 0; t < tasks.size(); ++t) {
+    if (!swept.kept[t]) continue;
+    if (tasks[t].kind == TaskKind::relocate)
+      for (const std::string& name : swept.liveAfter[t])
+        if (name.starts_with("p.") && !produced.contains(name)) carried.insert(name);
+    produced.merge(producedBy({tasks[t]}));
+  }
+  return carried;
+}
+
 }  // namespace
 
 Names requiredOfState(const std::vector<Task>& tasks) {
@@ -75,6 +88,7 @@ Pruned prune(const std::vector<Task>& tasks, const Names& wanted, bool repeated)
   for (bool grew = repeated; grew;) {
     const std::size_t before = result.needed.size();
     result.needed.merge(requiredOfState(select(tasks, swept.kept)));
+    result.needed.merge(carriedFromState(tasks, swept));
     grew = result.needed.size() > before;
     swept = sweep(tasks, result.needed);
   }

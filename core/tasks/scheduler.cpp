@@ -32,6 +32,8 @@ void located(const CompiledTask& task, const grid::Patch* patch, int material, c
     work();
   } catch (const NumericalError& error) {
     throw NumericalError(fmt::format("{} ({})", error.what(), placeOf(task, patch, material, at)), error.advice());
+  } catch (const InputError&) {
+    throw;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {

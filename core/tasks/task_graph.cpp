@@ -40,7 +40,7 @@ TaskGraph::TaskGraph(std::string name, Pruned pruned, const grid::Level& level, 
       placements_(place(pruned_.kept, level)),
       sets_(particleSetsBefore(pruned_.kept)),
       lifetimes_(lifetimes(pruned_)) {
-  for (std::size_t t = 0; t < pruned_.kept.size(); ++t) bind(t, level, table);
+  for (std::size_t t = 0; t < pruned_.kept.size(); ++t) bind(t, table);
   const std::vector<Stage> stages = plan(pruned_.kept);
   for (std::size_t t = 0; t < stages.size(); ++t)
     for (const GhostFill& fill : stages[t].fills)
@@ -50,8 +50,7 @@ TaskGraph::TaskGraph(std::string name, Pruned pruned, const grid::Level& level, 
   noteResults(table);
 }
 
-void TaskGraph::bind(std::size_t t, const grid::Level& level, data::VariableTable& table) {
-  (void)level;
+void TaskGraph::bind(std::size_t t, data::VariableTable& table) {
   const Task& task = pruned_.kept[t];
   CompiledTask compiled{task, {}, {}, {}};
   const int count = static_cast<int>(task.materials.size());

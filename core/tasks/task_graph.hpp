@@ -73,7 +73,7 @@ class TaskGraph {
   void printDot(std::ostream& out) const;
 
  private:
-  void bind(std::size_t t, const grid::Level& level, data::VariableTable& table);
+  void bind(std::size_t t, data::VariableTable& table);
   MaterialBinding bindMaterial(std::size_t t, int material, data::VariableTable& table);
   std::vector<Carried> carriedBy(std::size_t t, int material, data::VariableTable& table) const;
   void checkCreated(std::size_t t) const;

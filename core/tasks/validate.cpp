@@ -19,6 +19,10 @@ class Validator {
 
  private:
   void check(const Task& task) {
+    if (task.kind != TaskKind::work) produced_.emplace(data::particleId.name);
+    if (task.kind == TaskKind::relocate)
+      for (const std::string& name : state_)
+        if (name.starts_with("p.")) produced_.insert(name);
     for (const Access& access : task.accesses) {
       checkMaterial(task, access);
       if (access.reads()) checkProducer(task, access);

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/core.hpp"
+#include "core/input/expression.hpp"
+#include "core/input/geometry.hpp"
+
+namespace tushar::mpm {
+
+/// A body of gas at the start: its shape and its state, which may vary in space.
+struct GasObject {
+  Location where;  ///< in the scene
+  std::shared_ptr<const input::GeometryPiece> shape;
+  Index3 particlesPerCell{{1, 1, 1}};  ///< along x, y, z
+  input::Expression density;           ///< kg/m³
+  input::Expression pressure;          ///< Pa
+  input::VectorExpression velocity;    ///< m/s
+};
+
+/// An ideal gas: p = (gamma - 1) rho epsilon, (3) of Tran, Kim & Berzins.
+struct Gas {
+  std::string name;
+  double gamma = 1.4;  ///< ratio of specific heats
+  std::vector<GasObject> objects;
+
+  /// Pressure [Pa] of density rho [kg/m³] and internal energy e [J/kg].
+  double pressure(double rho, double e) const { return (gamma - 1) * rho * e; }
+  /// Internal energy [J/kg] of density rho [kg/m³] and pressure p [Pa].
+  double internalEnergy(double rho, double p) const { return p / ((gamma - 1) * rho); }
+  /// Square of the speed of sound [m²/s²].
+  double soundSpeedSquared(double e) const { return gamma * (gamma - 1) * e; }
+};
+
+}  // namespace tushar::mpm

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "components/mpm/labels.hpp"
+#include "components/mpm/materials/gas.hpp"
+
+namespace tushar::mpm {
+
+/// Coefficients of the artificial viscosity of Monaghan & Pongracic, Appl. Numer. Math. 1 (1985) 187.
+struct Viscosity {
+  double quadratic = 0.6;  ///< C_q
+  double linear = 2.75;    ///< C_l
+};
+
+/// p = (gamma - 1) rho eps + a_v,  a_v = rho (C_q h² d² - C_l h c d) where the gas is compressed (d < 0), else 0:
+/// (16) of Tran, Kim & Berzins. h is the least cell width, d the divergence of the step just done.
+template <int D>
+void computePressure(const Patch& patch, const Gas& gas, const Viscosity& viscosity,
+                     ParticleView<const double> density, ParticleView<const double> internalEnergy,
+                     ParticleView<const double> divergence, ParticleView<double> pressure) {
+  const double h = patch.level().minSpacing();
+  for (int p = 0; p < density.owned(); ++p) {
+    const double d = std::min(divergence[p], 0.0) * h;
+    const double c = std::sqrt(gas.soundSpeedSquared(internalEnergy[p]));
+    pressure[p] = gas.pressure(density[p], internalEnergy[p]) +
+                  density[p] * (viscosity.quadratic * d * d - viscosity.linear * c * d);
+  }
+}
+
+/// p = (gamma - 1) rho eps: at the start nothing is compressed.
+template <int D>
+void computeInitialPressure(const Patch&, const Gas& gas, ParticleView<const double> density,
+                            ParticleView<const double> internalEnergy, ParticleView<double> pressure) {
+  for (int p = 0; p < density.owned(); ++p) pressure[p] = gas.pressure(density[p], internalEnergy[p]);
+}
+
+/// m_p = rho_p V_p with V_p = V_c / N_c: the particles of a cell share its volume equally; (4)-(5) of Tran, Kim &
+/// Berzins. Mass is not conserved: it changes whenever a particle crosses a face.
+template <int D>
+void shareCellVolume(const Patch& patch, const Gas&, ParticleView<const double> density, ParticleView<double> mass) {
+  const double volume = patch.level().cellVolume();
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    const data::ParticleRange particles = density.in(cell);
+    const double share = volume / std::max(particles.size(), 1);
+    for (const int p : particles) mass[p] = density[p] * share;
+  });
+}
+
+/// dt = cfl h / max_p(|v_p| + c_p), c = sqrt(gamma (gamma - 1) eps); h is the least cell width.
+template <int D>
+void computeStableTimeStep(const Patch& patch, const Gas& gas, double cfl, ParticleView<const Vec<D>> velocity,
+                           ParticleView<const double> internalEnergy, Minimum& dt) {
+  double fastest = 0;
+  for (int p = 0; p < velocity.owned(); ++p) {
+    const double speed = velocity[p].norm() + std::sqrt(gas.soundSpeedSquared(internalEnergy[p]));
+    fastest = speed > fastest ? speed : fastest;
+  }
+  if (fastest > 0) dt.add(cfl * patch.level().minSpacing() / fastest);
+}
+
+}  // namespace tushar::mpm

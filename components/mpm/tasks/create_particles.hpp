@@ -1,0 +1,45 @@
+#pragma once
+
+#include "components/mpm/labels.hpp"
+#include "components/mpm/materials/gas.hpp"
+
+namespace tushar::mpm {
+
+/// Fills each body with its particles: `particlesPerCell` along each axis, in the middle of equal parts of the cell,
+/// x_p = (c + (k + 1/2) / N) h, where that point is inside the shape. They start with the body's state there.
+///
+/// The id of a particle is its cell's number and its place in the cell, so that it does not depend on the patches.
+/// Throws InputError where two bodies claim the same point.
+template <int D>
+void createParticles(const Patch& patch, const Gas& gas, ParticleMaker& maker, std::vector<Vec<D>>& x,
+                     std::vector<Vec<D>>& velocity, std::vector<double>& density, std::vector<double>& internalEnergy) {
+  const Level& level = patch.level();
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    ParticleId inCell = 0;
+    for (const GasObject& object : gas.objects) {
+      Box places{{}, Index3::filled(1)};
+      for (int d = 0; d < D; ++d) places.upper[d] = object.particlesPerCell[level.axis(d)];
+      forEach<D>(places, [&](const Index<D>& k) {
+        Vec<D> at;
+        for (int d = 0; d < D; ++d) {
+          const double within = (k[d] + 0.5) / places.upper[d];
+          at[d] = level.nodePosition(d, 0) + (cell[d] + within) * level.spacing(d);
+        }
+        const Vec3 point = level.expandPoint<D>(at);
+        if (!object.shape->contains(point)) return;
+        refuseOverlap(gas, object, point);
+        maker.add(cell, (level.cellNumber(cell) << 16) + inCell++);
+        const double rho = object.density(point);
+        x.push_back(at);
+        velocity.push_back(level.reduce<D>(object.velocity(point)));
+        density.push_back(rho);
+        internalEnergy.push_back(gas.internalEnergy(rho, object.pressure(point)));
+      });
+    }
+  });
+}
+
+/// Throws InputError if another body of the gas claims the point, too.
+void refuseOverlap(const Gas& gas, const GasObject& object, const Vec3& point);
+
+}  // namespace tushar::mpm

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "components/mpm/labels.hpp"
+#include "components/mpm/materials/gas.hpp"
+
+namespace tushar::mpm {
+
+/// Mean density of the particles of each cell [kg/m³]; 0 where there is none.
+template <int D>
+void averageDensity(const Patch& patch, const Gas&, ParticleView<const double> density, CellView<double> mean) {
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    double sum = 0;
+    for (const int p : density.in(cell)) sum += density[p];
+    mean[cell] = sum / std::max(density.in(cell).size(), 1);
+  });
+}
+
+/// (18) of Tran, Kim & Berzins in its density form: where the mean density of a cell is an extremum along an axis,
+/// (r_{c-1} - r_c)(r_{c+1} - r_c) > 0, every particle of the cell gets (r_{c-1} - 2 r_c + r_{c+1}) / 3 more, so that
+/// the mean becomes that of the three cells. All cells at once; cells at the rim of the grid and next to empty ones
+/// stay. An extremum along k axes becomes the mean of its 2k + 1 cells.
+template <int D>
+void filterDensity(const Patch& patch, const Gas&, CellView<const double> mean, ParticleView<double> density) {
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    double excess = 0;
+    int extrema = 0;
+    for (int d = 0; d < D; ++d) {
+      const Index<D> below = cell - Index<D>::unit(d), above = cell + Index<D>::unit(d);
+      if (!mean.box().contains(below) || !mean.box().contains(above)) continue;
+      const double left = mean[below], here = mean[cell], right = mean[above];
+      if (left == 0 || here == 0 || right == 0 || !((left - here) * (right - here) > 0)) continue;
+      excess += left - 2 * here + right;
+      ++extrema;
+    }
+    if (extrema == 0) return;
+    for (const int p : density.in(cell)) density[p] += excess / (2 * extrema + 1);
+  });
+}
+
+}  // namespace tushar::mpm

@@ -1,0 +1,62 @@
+#pragma once
+
+#include "components/mpm/labels.hpp"
+#include "components/mpm/materials/gas.hpp"
+#include "components/mpm/shapes/linear.hpp"
+
+namespace tushar::mpm {
+
+/// m_i = sum_p S_i(x_p) m_p,   v_i = sum_p S_i(x_p) m_p v_p / m_i      (6)-(8) of Tran, Kim & Berzins.
+///
+/// `mass` [kg] and `velocity` [m/s] come out complete on all nodes of the patch: ghost particles contribute. A node
+/// that no particle touches has mass 0 and velocity 0.
+template <class Shape, int D = Shape::dimension>
+void interpolateParticlesToGrid(const Patch& patch, const Gas&, ParticleView<const Vec<D>> x,
+                                ParticleView<const double> particleMass, ParticleView<const Vec<D>> particleVelocity,
+                                NodeView<double> mass, NodeView<Vec<D>> velocity) {
+  mass.fill(0.0);
+  velocity.fill(Vec<D>::Zero());
+  forEach<D>(x.cells(), [&](const Index<D>& cell) {
+    const CellFrame<D> frame(patch.level(), cell);
+    std::array<double, Shape::nodes> m{};
+    std::array<Vec<D>, Shape::nodes> momentum;
+    momentum.fill(Vec<D>::Zero());
+    for (const int p : x.in(cell)) {
+      const auto s = Shape::weights(frame.coordinates(x[p]));
+      for (std::size_t k = 0; k < s.size(); ++k) {
+        const double share = s[k] * particleMass[p];
+        m[k] += share;
+        momentum[k] += share * particleVelocity[p];
+      }
+    }
+    for (int k = 0; k < Shape::nodes; ++k) {
+      const Index<D> node = Shape::node(cell, k);
+      if (!mass.box().contains(node)) continue;
+      mass[node] += m[static_cast<std::size_t>(k)];
+      velocity[node] += momentum[static_cast<std::size_t>(k)];
+    }
+  });
+  forEach<D>(mass.box(), [&](const Index<D>& node) {
+    if (mass[node] > 0) velocity[node] /= mass[node];
+  });
+}
+
+/// m_i alone: what the mass projection of a state is, for those who look at it.
+template <class Shape, int D = Shape::dimension>
+void interpolateMassToGrid(const Patch& patch, const Gas&, ParticleView<const Vec<D>> x,
+                           ParticleView<const double> particleMass, NodeView<double> mass) {
+  mass.fill(0.0);
+  forEach<D>(x.cells(), [&](const Index<D>& cell) {
+    const CellFrame<D> frame(patch.level(), cell);
+    std::array<double, Shape::nodes> m{};
+    for (const int p : x.in(cell)) {
+      const auto s = Shape::weights(frame.coordinates(x[p]));
+      for (std::size_t k = 0; k < s.size(); ++k) m[k] += s[k] * particleMass[p];
+    }
+    for (int k = 0; k < Shape::nodes; ++k)
+      if (const Index<D> node = Shape::node(cell, k); mass.box().contains(node))
+        mass[node] += m[static_cast<std::size_t>(k)];
+  });
+}
+
+}  // namespace tushar::mpm

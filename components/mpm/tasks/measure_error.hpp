@@ -1,0 +1,74 @@
+#pragma once
+
+#include "components/mpm/labels.hpp"
+#include "components/mpm/materials/gas.hpp"
+#include "components/reference/gas_solution.hpp"
+
+namespace tushar::mpm {
+
+/// Errors of density, velocity, pressure ((gamma - 1) rho eps, without artificial viscosity) and internal energy
+/// against the exact values at the particles.
+template <int D>
+void measureParticleError(const Patch& patch, const Gas& gas, const reference::GasReference* exact,
+                          const reference::Clock* clock, ParticleView<const Vec<D>> x,
+                          ParticleView<const double> density, ParticleView<const Vec<D>> velocity,
+                          ParticleView<const double> internalEnergyPerMass, Norm& rho, Norm& u, Norm& pressure,
+                          Norm& energy) {
+  const Level& level = patch.level();
+  for (int p = 0; p < density.owned(); ++p) {
+    const reference::GasState state = exact->at(level.expandPoint<D>(x[p]), clock->time);
+    rho.add(density[p] - state.density);
+    u.add((level.expandDirection<D>(velocity[p]) - state.velocity).norm());
+    pressure.add(gas.pressure(density[p], internalEnergyPerMass[p]) - state.pressure);
+    energy.add(internalEnergyPerMass[p] - state.energy);
+  }
+}
+
+/// Errors of the plain means over the particles of a cell against exact cell means. An empty cell counts as vacuum.
+template <int D>
+void measureCellError(const Patch& patch, const Gas& gas, const reference::GasReference* exact,
+                      const reference::Clock* clock, ParticleView<const double> density,
+                      ParticleView<const Vec<D>> velocity, ParticleView<const double> internalEnergyPerMass, Norm& rho,
+                      Norm& u, Norm& pressure, Norm& energy) {
+  const Level& level = patch.level();
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    reference::GasState mean{0, Vec3::Zero(), 0, 0};
+    for (const int p : density.in(cell)) {
+      mean.density += density[p];
+      mean.velocity += level.expandDirection<D>(velocity[p]);
+      mean.pressure += gas.pressure(density[p], internalEnergyPerMass[p]);
+      mean.energy += internalEnergyPerMass[p];
+    }
+    const double count = std::max(density.in(cell).size(), 1);
+    Vec<D> lower, upper;
+    for (int d = 0; d < D; ++d) {
+      lower[d] = level.nodePosition(d, cell[d]);
+      upper[d] = level.nodePosition(d, cell[d] + 1);
+    }
+    const auto state = exact->average(level.expandPoint<D>(lower), level.expandPoint<D>(upper), clock->time);
+    rho.add(mean.density / count - state.density);
+    u.add((mean.velocity / count - state.velocity).norm());
+    pressure.add(mean.pressure / count - state.pressure);
+    energy.add(mean.energy / count - state.energy);
+  });
+}
+
+/// Error of the nodal density m_i / V_i against the exact density at the node; V_i is the integral of S_i over the
+/// grid. Each node is counted once: by the patch whose cell begins there, the last ones by the patch at the rim.
+template <int D>
+void measureNodeError(const Patch& patch, const Gas&, const reference::GasReference* exact,
+                      const reference::Clock* clock, NodeView<const double> mass, Norm& error) {
+  const Level& level = patch.level();
+  forEach<D>(patch.nodes(), [&](const Index<D>& node) {
+    Vec<D> at;
+    double volume = level.cellVolume();
+    for (int d = 0; d < D; ++d) {
+      if (node[d] == patch.cells().upper[d] && !patch.isAtBoundary(d, 1)) return;
+      at[d] = level.nodePosition(d, node[d]);
+      if (node[d] == 0 || node[d] == level.cells().upper[d]) volume *= 0.5;
+    }
+    error.add(mass[node] / volume - exact->at(level.expandPoint<D>(at), clock->time).density);
+  });
+}
+
+}  // namespace tushar::mpm

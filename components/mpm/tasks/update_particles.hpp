@@ -1,0 +1,131 @@
+#pragma once
+
+#include "components/mpm/labels.hpp"
+#include "components/mpm/materials/gas.hpp"
+#include "components/mpm/shapes/linear.hpp"
+
+namespace tushar::mpm {
+
+/// The values of a node variable at the nodes of a cell, and what a particle in the cell makes of them.
+template <class Shape, int D = Shape::dimension>
+struct CellNodes {
+  std::array<Vec<D>, Shape::nodes> values;
+
+  CellNodes(NodeView<const Vec<D>> field, const Index<D>& cell) {
+    for (int k = 0; k < Shape::nodes; ++k) values[static_cast<std::size_t>(k)] = field[Shape::node(cell, k)];
+  }
+  /// sum_i S_i f_i
+  Vec<D> at(const std::array<double, Shape::nodes>& s) const {
+    Vec<D> sum = s[0] * values[0];
+    for (std::size_t k = 1; k < s.size(); ++k) sum += s[k] * values[k];
+    return sum;
+  }
+  /// Divergence in the middle of the cell.
+  double divergence(const Level& level) const {
+    double sum = 0;
+    for (int k = 0; k < Shape::nodes; ++k)
+      for (int d = 0; d < D; ++d) sum += values[static_cast<std::size_t>(k)][d] * Shape::centreGradient(level, k, d);
+    return sum;
+  }
+};
+
+/// Throws NumericalError for the first particle of the patch whose density is not positive or whose internal energy
+/// is negative (or either is not a number).
+template <int D>
+void refuseUnphysical(const Patch& patch, ParticleView<const Vec<D>> x, ParticleView<const double> before,
+                      ParticleView<double> density, ParticleView<double> internalEnergy);
+
+/// v_p += dt sum_i S_i a_i,   x_p += dt sum_i S_i v*_i                                  (12)-(13)
+/// eps_p -= (p_p / rho_p) d dt,   rho_p *= 1 - d dt,   d = div v* in the particle's cell   (14)-(15)
+/// of Tran, Kim & Berzins, with S at the old position and p, rho of the old state. Only the patch's own particles.
+template <class Shape, int D = Shape::dimension>
+void updateParticles(const Patch& patch, const Gas&, ParticleView<const Vec<D>> x, ParticleView<const Vec<D>> velocity,
+                     ParticleView<const double> density, ParticleView<const double> internalEnergy,
+                     ParticleView<const double> pressure, NodeView<const Vec<D>> acceleration,
+                     NodeView<const Vec<D>> velocityStar, double dt, ParticleView<Vec<D>> newX,
+                     ParticleView<Vec<D>> newVelocity, ParticleView<double> newDensity,
+                     ParticleView<double> newInternalEnergy, ParticleView<double> divergence) {
+  bool physical = true;
+  forEach<D>(x.cells(), [&](const Index<D>& cell) {
+    const data::ParticleRange particles = x.in(cell);
+    if (particles.empty()) return;
+    const CellFrame<D> frame(patch.level(), cell);
+    const CellNodes<Shape> a(acceleration, cell), v(velocityStar, cell);
+    const double d = v.divergence(patch.level());
+    for (const int p : particles) {
+      const auto s = Shape::weights(frame.coordinates(x[p]));
+      newVelocity[p] = velocity[p] + dt * a.at(s);
+      newX[p] = x[p] + dt * v.at(s);
+      newInternalEnergy[p] = internalEnergy[p] - pressure[p] / density[p] * d * dt;
+      newDensity[p] = density[p] * (1.0 - d * dt);
+      divergence[p] = d;
+      physical &= (newDensity[p] > 0) & (newInternalEnergy[p] >= 0);
+    }
+  });
+  if (!physical) refuseUnphysical<D>(patch, x, density, newDensity, newInternalEnergy);
+}
+
+/// The same with total energy conserved to round-off, for particles of constant mass.
+///
+/// The work of the pressure of a cell, -P_c V_c div(v½) dt with v½ = v* - a dt/2, goes to its particles in proportion
+/// to p_p times their volume m_p / rho_p; the kinetic energy that (12) loses, dt²/2 (sum_i S_i a_i² - |sum_i S_i a_i|²)
+/// per mass and never negative, becomes heat. Density follows (15).
+template <class Shape, int D = Shape::dimension>
+void updateParticlesConserving(const Patch& patch, const Gas&, ParticleView<const Vec<D>> x,
+                               ParticleView<const Vec<D>> velocity, ParticleView<const double> mass,
+                               ParticleView<const double> density, ParticleView<const double> internalEnergy,
+                               ParticleView<const double> pressure, NodeView<const Vec<D>> acceleration,
+                               NodeView<const Vec<D>> velocityStar, double dt, ParticleView<Vec<D>> newX,
+                               ParticleView<Vec<D>> newVelocity, ParticleView<double> newDensity,
+                               ParticleView<double> newInternalEnergy, ParticleView<double> divergence) {
+  bool physical = true;
+  const Level& level = patch.level();
+  forEach<D>(x.cells(), [&](const Index<D>& cell) {
+    const data::ParticleRange particles = x.in(cell);
+    double volume = 0;
+    for (const int p : particles) volume += mass[p] / density[p];
+    if (particles.empty()) return;
+    const CellFrame<D> frame(level, cell);
+    const CellNodes<Shape> a(acceleration, cell), v(velocityStar, cell);
+    const double d = v.divergence(level), halfway = d - 0.5 * dt * a.divergence(level);
+    const double workShare = halfway * dt * level.cellVolume() / volume;
+    for (const int p : particles) {
+      const auto s = Shape::weights(frame.coordinates(x[p]));
+      const Vec<D> ap = a.at(s);
+      double squares = 0;
+      for (std::size_t k = 0; k < s.size(); ++k) squares += s[k] * a.values[k].squaredNorm();
+      newVelocity[p] = velocity[p] + dt * ap;
+      newX[p] = x[p] + dt * v.at(s);
+      newInternalEnergy[p] = internalEnergy[p] - pressure[p] / density[p] * workShare +
+                             0.5 * dt * dt * (squares - ap.squaredNorm());
+      newDensity[p] = density[p] * (1.0 - d * dt);
+      divergence[p] = d;
+      physical &= (newDensity[p] > 0) & (newInternalEnergy[p] >= 0);
+    }
+  });
+  if (!physical) refuseUnphysical<D>(patch, x, density, newDensity, newInternalEnergy);
+}
+
+template <int D>
+void refuseUnphysical(const Patch& patch, ParticleView<const Vec<D>> x, ParticleView<const double> before,
+                      ParticleView<double> density, ParticleView<double> internalEnergy) {
+  forEach<D>(x.cells(), [&](const Index<D>& cell) {
+    for (const int p : x.in(cell)) {
+      const bool badDensity = !(density[p] > 0);
+      if (!badDensity && internalEnergy[p] >= 0) continue;
+      std::string position, neighbours;
+      for (int d = 0; d < D; ++d) {
+        position += fmt::format("{}{:.6g}", d ? ", " : "", x[p][d]);
+        neighbours += fmt::format("{}{}", d ? ", " : "", cell[d]);
+      }
+      throw NumericalError(
+          fmt::format("{} became {:.6g} for the particle at ({}) m in cell ({}), which holds {} particle(s); its "
+                      "density before was {:.6g} kg/m^3",
+                      badDensity ? "p.density" : "p.internalEnergy", badDensity ? density[p] : internalEnergy[p],
+                      position, neighbours, x.in(cell).size(), before[p]),
+          "a smaller <cfl>, more particles per cell (<res>), or <redistribute> in <gas_dynamics>");
+    }
+  });
+}
+
+}  // namespace tushar::mpm

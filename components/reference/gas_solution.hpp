@@ -1,0 +1,44 @@
+#pragma once
+
+#include "components/reference/gas_reference.hpp"
+#include "core/core.hpp"
+
+namespace tushar::reference {
+
+/// The time at which errors are measured, s; set before the tasks run.
+struct Clock {
+  double time = 0;
+};
+
+/// Error norms of a gas: one reduction per field.
+struct GasErrorLabels {
+  ReductionLabel<Norm> density, velocity, pressure, energy;
+};
+
+/// Against the exact values where the particles are.
+inline constexpr GasErrorLabels particleError{
+    {"ParticleError.density", "kg/m^3", "error of density at the particles"},
+    {"ParticleError.velocity", "m/s", "error of velocity at the particles, as a length"},
+    {"ParticleError.pressure", "Pa", "error of pressure (without artificial viscosity) at the particles"},
+    {"ParticleError.energy", "J/kg", "error of internal energy at the particles"}};
+
+/// Of cell means against exact cell means; cells without gas count as 0.
+inline constexpr GasErrorLabels cellError{{"CellError.density", "kg/m^3", "error of the mean density of cells"},
+                                          {"CellError.velocity", "m/s", "error of the mean velocity of cells"},
+                                          {"CellError.pressure", "Pa", "error of the mean pressure of cells"},
+                                          {"CellError.energy", "J/kg", "error of the mean internal energy of cells"}};
+
+/// max_i |m_i / V_i - rho_exact(x_i)| over the nodes.
+inline constexpr ReductionLabel<Norm> nodeError{"NodeError.density", "kg/m^3",
+                                                "error of nodal mass over nodal volume against the exact density"};
+
+/// A component that solves for a gas, and can measure how far its state is from an exact one.
+class GasSolution {
+ public:
+  virtual ~GasSolution() = default;
+  /// Adds diagnostic tasks that compute the error labels above against `exact` at `clock`'s time; both must outlive
+  /// the task list.
+  virtual void scheduleMeasureError(TaskList& tasks, const GasReference& exact, const Clock& clock) const = 0;
+};
+
+}  // namespace tushar::reference

@@ -1,0 +1,43 @@
+#pragma once
+
+// The names that a component uses.
+
+#include "core/base/error.hpp"
+#include "core/base/vec.hpp"
+#include "core/data/label.hpp"
+#include "core/data/reduction.hpp"
+#include "core/data/views.hpp"
+#include "core/grid/level.hpp"
+#include "core/simulation/component.hpp"
+#include "core/tasks/task_list.hpp"
+
+namespace tushar {
+
+using data::CellLabel;
+using data::CellView;
+using data::delT;
+using data::Maximum;
+using data::Minimum;
+using data::NodeLabel;
+using data::NodeView;
+using data::Norm;
+using data::ParticleLabel;
+using data::ParticleView;
+using data::ReductionLabel;
+using data::Sum;
+using data::VectorSum;
+using grid::Box;
+using grid::forEach;
+using grid::Level;
+using grid::Patch;
+using simulation::Component;
+using tasks::computes;
+using tasks::creates;
+using tasks::modifies;
+using tasks::ParticleMaker;
+using tasks::requiresNew;
+using tasks::requiresOld;
+using tasks::TaskList;
+using tasks::with;
+
+}  // namespace tushar

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "core/tasks/task_list.hpp"
+
+namespace tushar::simulation {
+
+/// A physics code: it declares tasks, the framework runs them.
+///
+/// A component does not change after construction: all that changes lives in the warehouse, so restart and threads
+/// are right by construction. Construct it from a checked scene; everything it needs later it keeps itself.
+class Component {
+ public:
+  virtual ~Component() = default;
+
+  /// The state at the start of a run: `computes` and `newParticles` tasks.
+  virtual void scheduleInitialize(tasks::TaskList& tasks) const = 0;
+  /// From the old state, lower `delT` to what the next step may take.
+  virtual void scheduleComputeStableTimeStep(tasks::TaskList& tasks) const = 0;
+  /// One step, from the old state to a new one.
+  virtual void scheduleTimeAdvance(tasks::TaskList& tasks) const = 0;
+  /// What can be said about a state, from the old state: totals, derived fields. Only what someone asks for is run.
+  virtual void scheduleDiagnostics(tasks::TaskList&) const {}
+};
+
+}  // namespace tushar::simulation
