@@ -1,0 +1,42 @@
+#pragma once
+
+#include <vector>
+
+#include "components/reference/gas_reference.hpp"
+#include "components/reference/riemann_solution.hpp"
+
+namespace tushar::reference {
+
+/// Two uniform gases that meet at a plane at t = 0.
+struct RiemannProblem {
+  RiemannState left;       ///< below the diaphragm
+  RiemannState right;      ///< above it
+  double gamma = 1.4;      ///< ratio of specific heats
+  double diaphragm = 0.5;  ///< its position along `axis`, m
+  int axis = 0;            ///< 0, 1 or 2: the normal of the plane
+  /// Velocities along the other axes, m/s: carried along with each gas, so that they jump at the contact alone.
+  Vec3 leftTransverse = Vec3::Zero();
+  Vec3 rightTransverse = Vec3::Zero();
+};
+
+/// The exact solution of a Riemann problem in space and time: shock tubes, Noh's plane wall, gas into vacuum.
+///
+/// In vacuum density, pressure and energy are 0 and the velocity is that of the nearer front.
+/// Source: E. F. Toro, Riemann Solvers and Numerical Methods for Fluid Dynamics, 3rd ed., chapter 4.
+class ExactRiemann : public GasReference {
+ public:
+  /// Throws std::invalid_argument as solveRiemann does, and where the axis or the diaphragm cannot be.
+  explicit ExactRiemann(const RiemannProblem& problem);
+
+  GasState at(const Vec3& x, double t) const override;
+  GasState average(const Vec3& lower, const Vec3& upper, double t) const override;
+  std::vector<double> breaks(int axis, double t) const override;
+
+  const RiemannSolution& solution() const { return solution_; }
+
+ private:
+  RiemannProblem problem_;
+  RiemannSolution solution_;
+};
+
+}  // namespace tushar::reference

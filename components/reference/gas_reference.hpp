@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "core/base/vec.hpp"
+
+namespace tushar::reference {
+
+/// What a gas is at a point, or its mean over a box.
+struct GasState {
+  double density = 0;            ///< kg/m^3
+  Vec3 velocity = Vec3::Zero();  ///< m/s
+  double pressure = 0;           ///< Pa
+  double energy = 0;             ///< internal energy per mass, J/kg
+};
+
+/// A solution of the gas equations that runs are measured against.
+class GasReference {
+ public:
+  virtual ~GasReference() = default;
+
+  /// The fields at position `x` (m) and time `t` (s).  Throws std::invalid_argument where t < 0.
+  virtual GasState at(const Vec3& x, double t) const = 0;
+
+  /// Mean of each field over the box [lower, upper] (m) at time `t` (s); an axis with no extent is a point.
+  /// Each is a plain volume mean, velocity and internal energy too: neither is weighted with mass.
+  /// Gauss-Legendre with 8 points per axis, split at `breaks` and then halved until two halves agree with
+  /// the whole to 1e-12 of the field's size (of the larger of speed and sound speed for velocities).  Throws
+  /// std::invalid_argument where upper < lower or t < 0.
+  virtual GasState average(const Vec3& lower, const Vec3& upper, double t) const;
+
+  /// Positions along `axis` (m), sorted, at which a field or its slope jumps at time `t` (s).
+  virtual std::vector<double> breaks(int axis, double t) const;
+
+ protected:
+  /// `average` of fields that vary along `axis` alone: the other axes cost nothing.
+  GasState averageAlong(int axis, const Vec3& lower, const Vec3& upper, double t) const;
+};
+
+}  // namespace tushar::reference

@@ -1,0 +1,229 @@
+#include "components/reference/riemann_solution.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string_view>
+
+namespace tushar::reference {
+
+namespace {
+
+constexpr double kRoundOff = 2 * std::numeric_limits<double>::epsilon();
+constexpr int kMostIterations = 500;
+
+/// One side seen so that its wave runs to the left: the right side is mirrored, u -> -u.
+struct Side {
+  double density, velocity, pressure, gamma;
+
+  Side(const RiemannState& state, double mirror, double heatRatio)
+      : density(state.density), velocity(mirror * state.velocity), pressure(state.pressure), gamma(heatRatio) {}
+
+  double soundSpeed() const { return density > 0 ? std::sqrt(gamma * pressure / density) : 0; }
+  /// Speed at which the gas expands into vacuum, Toro (4.77).
+  double front() const { return velocity + 2 * soundSpeed() / (gamma - 1); }
+  /// (gamma - 1) / (2 gamma): c ~ p^exponent along an isentrope.
+  double exponent() const { return (gamma - 1) / (2 * gamma); }
+  /// A and B of Toro (4.8).
+  double a() const { return 2 / ((gamma + 1) * density); }
+  double b() const { return (gamma - 1) / (gamma + 1) * pressure; }
+
+  /// Velocity lost on the way to pressure p, Toro (4.6)-(4.7).
+  double velocityChange(double p) const {
+    if (p > pressure) return (p - pressure) * std::sqrt(a() / (p + b()));
+    if (pressure == 0) return 0;
+    return 2 * soundSpeed() / (gamma - 1) * std::expm1(exponent() * std::log(p / pressure));
+  }
+
+  /// d velocityChange / dp, Toro (4.37); p > 0.
+  double slope(double p) const {
+    if (p > pressure) return std::sqrt(a() / (p + b())) * (1 - 0.5 * (p - pressure) / (p + b()));
+    return std::pow(p / pressure, exponent() - 1) * soundSpeed() / (gamma * pressure);
+  }
+
+  /// Toro (4.50) and (4.53).
+  double starDensity(double p) const {
+    if (p <= pressure) return pressure > 0 ? density * std::pow(p / pressure, 1 / gamma) : density;
+    const double ratio = (gamma - 1) / (gamma + 1);
+    return density * (p + ratio * pressure) / (ratio * p + pressure);
+  }
+
+  /// The wave that leads to pressure p and velocity u, Toro (4.51), (4.54)-(4.55).
+  RiemannWave wave(double p, double u) const {
+    if (p > pressure) {
+      const double speed = velocity - std::sqrt((p + b()) / a()) / density;
+      return {WaveKind::shock, speed, speed};
+    }
+    const double head = velocity - soundSpeed();
+    const double starSound = pressure > 0 ? soundSpeed() * std::pow(p / pressure, exponent()) : 0;
+    return {WaveKind::rarefaction, head, std::clamp(u - starSound, head, std::max(head, u))};
+  }
+
+  RiemannWave waveIntoVacuum() const { return {WaveKind::rarefaction, velocity - soundSpeed(), front()}; }
+
+  /// Inside the rarefaction, Toro (4.56).
+  RiemannState inFan(double xi) const {
+    const double sound = soundSpeed();
+    const double ratio = 2 / (gamma + 1) * (1 + 0.5 * (gamma - 1) * (velocity - xi) / sound);
+    const double u = 2 / (gamma + 1) * (sound + 0.5 * (gamma - 1) * velocity + xi);
+    const double relative = std::max(0.0, ratio);
+    return {density * std::pow(relative, 2 / (gamma - 1)), u, pressure * std::pow(relative, 2 * gamma / (gamma - 1))};
+  }
+};
+
+RiemannWave mirrored(const RiemannWave& wave) { return {wave.kind, -wave.head, -wave.tail}; }
+
+RiemannState mirrored(const RiemannState& state) { return {state.density, -state.velocity, state.pressure}; }
+
+void checkSide(std::string_view name, const RiemannState& state) {
+  const auto fail = [&](std::string_view reason) {
+    throw std::invalid_argument(
+        fmt::format("The {} side of the Riemann problem (density {}, velocity {}, pressure {}) {}.", name,
+                    state.density, state.velocity, state.pressure, reason));
+  };
+  if (!std::isfinite(state.density) || !std::isfinite(state.velocity) || !std::isfinite(state.pressure)) {
+    fail("has a value that is not finite");
+  }
+  if (state.density < 0) fail("has a negative density");
+  if (state.pressure < 0) fail("has a negative pressure");
+  if (state.density == 0 && state.pressure > 0) fail("is vacuum and cannot have a pressure");
+}
+
+void checkProblem(const RiemannState& left, const RiemannState& right, double gamma) {
+  if (!(gamma > 1) || !std::isfinite(gamma)) {
+    throw std::invalid_argument(
+        fmt::format("The gamma of a Riemann problem must be above 1 and finite, not {}.", gamma));
+  }
+  checkSide("left", left);
+  checkSide("right", right);
+  if (left.density == 0 && right.density == 0) {
+    throw std::invalid_argument("Both sides of the Riemann problem are vacuum: there is no gas to follow.");
+  }
+}
+
+/// Newton's method, kept inside a bracket, for the pressure at which both sides have the same velocity.
+class StarPressure {
+ public:
+  StarPressure(const Side& left, const Side& right) : left_(left), right_(right) {}
+
+  double solve() {
+    const double least = std::min(left_.pressure, right_.pressure);
+    const double excess = least > 0 ? mismatch(least) : -1;
+    if (excess == 0) return least;
+    return excess > 0 ? betweenRarefactions() : search(least);
+  }
+
+ private:
+  /// Toro (4.5): increasing and concave in p.
+  double mismatch(double p) const {
+    return left_.velocityChange(p) + right_.velocityChange(p) - (right_.velocity + left_.velocity);
+  }
+
+  /// Toro (4.46), exact for two rarefactions.
+  double betweenRarefactions() const {
+    const double z = left_.exponent();
+    const double closing = 0.5 * (left_.gamma - 1) * (left_.velocity + right_.velocity);
+    const double cl = left_.soundSpeed();
+    const double cr = right_.soundSpeed();
+    const double scale = cl + cr * std::pow(left_.pressure / right_.pressure, z);
+    return left_.pressure * std::pow((cl + cr + closing) / scale, 1 / z);
+  }
+
+  /// A pressure above p*: the ram pressure of the lighter gas, raised until it stops the approach.
+  double upperBound() const {
+    const double most = std::max(left_.pressure, right_.pressure);
+    const double closing = std::max(0.0, left_.velocity + right_.velocity);
+    double p = std::max(most, std::min(left_.density, right_.density) * closing * closing);
+    while (mismatch(p) < 0) p *= 4;
+    return p;
+  }
+
+  double search(double least) {
+    lower_ = least;
+    upper_ = upperBound();
+    double p = upper_;
+    double previousStep = upper_ - lower_;
+    for (int i = 0; i < kMostIterations; ++i) {
+      const double next = step(p, previousStep);
+      previousStep = std::abs(next - p);
+      p = next;
+      if (previousStep <= kRoundOff * p) break;
+    }
+    return p;
+  }
+
+  /// Newton's step, or the bracket's middle where that leaves the bracket or does not halve the last step.
+  double step(double p, double previousStep) {
+    const double f = mismatch(p);
+    if (f == 0) return p;
+    (f < 0 ? lower_ : upper_) = p;
+    const double newton = p - f / (left_.slope(p) + right_.slope(p));
+    const bool good = newton > lower_ && newton < upper_ && 2 * std::abs(newton - p) <= previousStep;
+    const bool settled = std::abs(newton - p) <= kRoundOff * p;
+    return good || settled ? newton : middle();
+  }
+
+  double middle() const { return lower_ > 0 ? std::sqrt(lower_) * std::sqrt(upper_) : 1e-3 * upper_; }
+
+  Side left_, right_;  // both with their wave running to the left
+  double lower_ = 0;
+  double upper_ = 0;
+};
+
+void fillVacuum(RiemannSolution& s, const Side& left, const Side& right) {
+  s.leftWave = left.waveIntoVacuum();
+  s.rightWave = mirrored(right.waveIntoVacuum());
+  if (left.density == 0) s.leftWave = {WaveKind::rarefaction, s.rightWave.tail, s.rightWave.tail};
+  if (right.density == 0) s.rightWave = {WaveKind::rarefaction, s.leftWave.tail, s.leftWave.tail};
+  s.starVelocity = 0.5 * (s.leftWave.tail + s.rightWave.tail);
+}
+
+void fillStar(RiemannSolution& s, const Side& left, const Side& right) {
+  const double p = StarPressure(left, right).solve();
+  s.starPressure = p;
+  s.starVelocity =
+      0.5 * (s.left.velocity + s.right.velocity) + 0.5 * (right.velocityChange(p) - left.velocityChange(p));
+  s.starDensityLeft = left.starDensity(p);
+  s.starDensityRight = right.starDensity(p);
+  s.leftWave = left.wave(p, s.starVelocity);
+  s.rightWave = mirrored(right.wave(p, -s.starVelocity));
+}
+
+/// What stands between a side's undisturbed gas and the contact, at `xi` in the view of that side.
+RiemannState behindHead(const Side& side, const RiemannWave& wave, double xi, const RiemannState& star) {
+  const bool fan = side.density > 0 && wave.kind == WaveKind::rarefaction && xi < wave.tail;
+  return fan ? side.inFan(xi) : star;
+}
+
+}  // namespace
+
+bool RiemannSolution::hasVacuum() const { return starPressure == 0; }
+
+RiemannState RiemannSolution::sample(double xi) const {
+  if (xi < leftWave.head && left.density > 0) return left;
+  if (xi >= rightWave.head && right.density > 0) return right;
+  if (xi < starVelocity) {
+    const RiemannState star{starDensityLeft, hasVacuum() ? leftWave.tail : starVelocity, starPressure};
+    return behindHead(Side(left, 1, gamma), leftWave, xi, star);
+  }
+  const RiemannState star{starDensityRight, hasVacuum() ? -rightWave.tail : -starVelocity, starPressure};
+  return mirrored(behindHead(Side(right, -1, gamma), mirrored(rightWave), -xi, star));
+}
+
+RiemannSolution solveRiemann(const RiemannState& left, const RiemannState& right, double gamma) {
+  checkProblem(left, right, gamma);
+  RiemannSolution solution;
+  solution.left = left;
+  solution.right = right;
+  solution.gamma = gamma;
+  const Side leftSide(left, 1, gamma);
+  const Side rightSide(right, -1, gamma);
+  const bool vacuum = left.density == 0 || right.density == 0 || leftSide.front() <= -rightSide.front();
+  vacuum ? fillVacuum(solution, leftSide, rightSide) : fillStar(solution, leftSide, rightSide);
+  return solution;
+}
+
+}  // namespace tushar::reference

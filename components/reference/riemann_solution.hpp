@@ -1,0 +1,53 @@
+#pragma once
+
+namespace tushar::reference {
+
+/// One side of a Riemann problem.  density = pressure = 0 is vacuum; pressure = 0 alone is a cold gas.
+struct RiemannState {
+  double density = 0;   ///< kg/m^3
+  double velocity = 0;  ///< along the axis of the problem, m/s
+  double pressure = 0;  ///< Pa
+};
+
+enum class WaveKind { shock, rarefaction };
+
+/// The wave that runs into one side.
+struct RiemannWave {
+  WaveKind kind = WaveKind::rarefaction;
+  double head = 0;  ///< speed of its edge towards the undisturbed gas, m/s
+  double tail = 0;  ///< speed of its other edge, m/s; equals `head` in a shock; at the edge of vacuum, the front
+};
+
+/// The self-similar solution of a Riemann problem of an ideal gas.
+///
+/// Source: E. F. Toro, Riemann Solvers and Numerical Methods for Fluid Dynamics, 3rd ed., chapter 4.
+/// Made by solveRiemann.  Values are exact to round-off of the input: about 1e-14, relative to the larger of the
+/// flow's velocity and sound speed.
+struct RiemannSolution {
+  RiemannState left;            ///< as given
+  RiemannState right;           ///< as given
+  double gamma = 0;             ///< ratio of specific heats
+  double starPressure = 0;      ///< p*, Pa; 0 where the waves leave vacuum between them
+  double starVelocity = 0;      ///< u*, the contact's speed, m/s; the mean speed of the two fronts around vacuum
+  double starDensityLeft = 0;   ///< rho*L, kg/m^3
+  double starDensityRight = 0;  ///< rho*R, kg/m^3
+  RiemannWave leftWave;
+  RiemannWave rightWave;
+
+  /// The state at x/t = `xi` (m/s), which may be infinite.  On a discontinuity: the state to its right.
+  /// In vacuum density and pressure are 0 and the velocity is that of the nearer front.
+  RiemannState sample(double xi) const;
+
+  /// True where vacuum is, or forms, between the two waves.
+  bool hasVacuum() const;
+};
+
+/// Solves the Riemann problem of an ideal gas exactly, vacuum and cold gas included.
+///
+/// p* is found by Newton's method on Toro (4.5) inside a bracket that falls back to bisection, to round-off; two
+/// rarefactions use the closed form (4.46).  Vacuum: section 4.6.
+/// Throws std::invalid_argument where gamma <= 1, a value is not finite, a density or pressure is negative, a pressure
+/// stands in vacuum, or both sides are vacuum.
+RiemannSolution solveRiemann(const RiemannState& left, const RiemannState& right, double gamma);
+
+}  // namespace tushar::reference

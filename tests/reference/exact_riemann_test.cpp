@@ -1,0 +1,162 @@
+#include "components/reference/exact_riemann.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "tests/reference/riemann_problems.hpp"
+
+namespace tushar::reference {
+namespace {
+
+Vec3 along(int axis, double x) {
+  Vec3 point = Vec3::Zero();
+  point[axis] = x;
+  return point;
+}
+
+/// Mean by 20000 midpoints in each piece between breaks.
+double bruteMean(const GasReference& gas, double a, double b, double t, double (*field)(const GasState&)) {
+  std::vector<double> edges{a};
+  for (double x : gas.breaks(0, t)) {
+    if (x > a && x < b) edges.push_back(x);
+  }
+  edges.push_back(b);
+  double sum = 0;
+  for (std::size_t k = 0; k + 1 < edges.size(); ++k) {
+    const auto f = [&](double x) { return field(gas.at(Vec3(x, 0, 0), t)); };
+    sum += (edges[k + 1] - edges[k]) * midpointMean(f, edges[k], edges[k + 1], 20000);
+  }
+  return sum / (b - a);
+}
+
+TEST(ExactRiemann, StartsAsTwoUniformStates) {
+  const ExactRiemann sod(sodTube());
+  EXPECT_EQ(sod.at(Vec3(0.499, 0, 0), 0).density, 1);
+  EXPECT_EQ(sod.at(Vec3(0.501, 0, 0), 0).density, 0.125);
+  EXPECT_DOUBLE_EQ(sod.at(Vec3(0.501, 0, 0), 0).energy, 2.0);
+  EXPECT_DOUBLE_EQ(sod.average(Vec3(0.4, 0, 0), Vec3(0.6, 0, 0), 0).density, 0.5625);
+}
+
+TEST(ExactRiemann, IsSelfSimilar) {
+  const ExactRiemann sod(sodTube());
+  for (const double xi : {-1.5, -1.0, 0.0, 0.5, 1.2, 1.9}) {
+    EXPECT_NEAR(sod.at(Vec3(0.5 + 0.1 * xi, 0, 0), 0.1).density, sod.at(Vec3(0.5 + 0.2 * xi, 0, 0), 0.2).density,
+                1e-14);
+  }
+}
+
+TEST(ExactRiemann, BreaksWhereItsWavesAre) {
+  const std::vector<double> breaks = ExactRiemann(sodTube()).breaks(0, 0.2);
+  ASSERT_EQ(breaks.size(), 4u);
+  EXPECT_NEAR(breaks[0], 0.5 - 0.2 * 1.18321596, 1e-8);
+  EXPECT_NEAR(breaks[1], 0.5 - 0.2 * 0.07027281, 1e-8);
+  EXPECT_NEAR(breaks[2], 0.5 + 0.2 * 0.92745262, 1e-8);
+  EXPECT_NEAR(breaks[3], 0.5 + 0.2 * 1.75215573, 1e-8);
+}
+
+TEST(ExactRiemann, HasNoBreaksAcrossItsAxis) { EXPECT_TRUE(ExactRiemann(sodTube()).breaks(1, 0.2).empty()); }
+
+TEST(ExactRiemann, AveragesSodAsBruteForceDoes) {
+  const ExactRiemann sod(sodTube());
+  for (const auto& [a, b] : {std::pair{0.0, 1.0}, {0.26, 0.27}, {0.30, 0.31}, {0.2, 0.5}, {0.68, 0.69}, {0.85, 0.86}}) {
+    const GasState mean = sod.average(Vec3(a, 0, 0), Vec3(b, 0, 0), 0.2);
+    // Brute force is a midpoint rule: 1e-10 is its error, not that of the average.
+    EXPECT_NEAR(mean.density, bruteMean(sod, a, b, 0.2, [](const GasState& g) { return g.density; }), 2e-10);
+    EXPECT_NEAR(mean.velocity[0], bruteMean(sod, a, b, 0.2, [](const GasState& g) { return g.velocity[0]; }), 2e-10);
+    EXPECT_NEAR(mean.pressure, bruteMean(sod, a, b, 0.2, [](const GasState& g) { return g.pressure; }), 2e-10);
+    EXPECT_NEAR(mean.energy, bruteMean(sod, a, b, 0.2, [](const GasState& g) { return g.energy; }), 2e-10);
+  }
+}
+
+TEST(ExactRiemann, AveragesHardTubesAsBruteForceDoes) {
+  for (const RiemannProblem& problem : hardTubes()) {
+    const ExactRiemann gas(problem);
+    const double t = 0.2 / std::max(gas.solution().rightWave.head, -gas.solution().leftWave.head);
+    const GasState mean = gas.average(Vec3(0.25, 0, 0), Vec3(0.75, 0, 0), t);
+    const double density = bruteMean(gas, 0.25, 0.75, t, [](const GasState& g) { return g.density; });
+    EXPECT_NEAR(mean.density / density, 1, 1e-7);
+  }
+}
+
+TEST(ExactRiemann, AveragesSodExactlyInEachPartOfAFan) {
+  // rho is a quintic of x in a fan of gamma = 1.4, so its mean is known: rho (c/c0)^5, c linear.
+  const ExactRiemann sod(sodTube());
+  const auto antiderivative = [&](double x) {
+    const double c0 = std::sqrt(1.4);
+    const double y = (1 - 0.2 * (x - 0.5) / 0.2 / c0) / 1.2;
+    return -std::pow(y, 6) / 6 * 1.2 * c0;  // dy/dx = -1/(1.2 c0) at t = .2
+  };
+  for (const auto& [a, b] : {std::pair{0.27, 0.48}, {0.3, 0.3001}, {0.4, 0.41}}) {
+    const double exact = (antiderivative(b) - antiderivative(a)) / (b - a);
+    EXPECT_NEAR(sod.average(Vec3(a, 0, 0), Vec3(b, 0, 0), 0.2).density, exact, 1e-11);
+  }
+}
+
+TEST(ExactRiemann, AveragesAddUp) {
+  const ExactRiemann sod(sodTube());
+  double sum = 0;
+  for (int c = 0; c < 800; ++c) sum += sod.average(Vec3(c / 800.0, 0, 0), Vec3((c + 1) / 800.0, 0, 0), 0.2).density;
+  EXPECT_NEAR(sum / 800, sod.average(Vec3(0, 0, 0), Vec3(1, 0, 0), 0.2).density, 1e-13);
+  EXPECT_NEAR(sum / 800, 0.5625, 1e-13);  // no gas crosses the walls before the waves reach them
+}
+
+TEST(ExactRiemann, LosesAndGainsMassThroughTheBoxAlone) {
+  const ExactRiemann moving(tube({1, .75, 1}, {.125, 0, .1}, .3));
+  const Vec3 lower(-1, 0, 0);
+  const Vec3 upper(2, 0, 0);
+  for (const double t : {0.1, 0.2, 0.4}) {
+    const double gained = 3 * (moving.average(lower, upper, t).density - moving.average(lower, upper, 0).density);
+    EXPECT_NEAR(gained, 0.75 * t, 1e-12);  // rho u = .75 flows in on the left, nothing leaves
+  }
+}
+
+TEST(ExactRiemann, LooksAlikeAlongEveryAxis) {
+  RiemannProblem problem = sodTube();
+  const ExactRiemann x(problem);
+  for (int axis = 1; axis < 3; ++axis) {
+    problem.axis = axis;
+    const ExactRiemann other(problem);
+    for (const double s : {0.1, 0.4, 0.6, 0.8, 0.9}) {
+      EXPECT_EQ(other.at(along(axis, s), 0.2).density, x.at(along(0, s), 0.2).density);
+      EXPECT_EQ(other.at(along(axis, s), 0.2).velocity[axis], x.at(along(0, s), 0.2).velocity[0]);
+    }
+    const GasState box = other.average(Vec3(0.3, 0.3, 0.3), Vec3(0.7, 0.7, 0.7), 0.2);
+    EXPECT_EQ(box.density, x.average(Vec3(0.3, 0, 0), Vec3(0.7, 0, 0), 0.2).density);
+  }
+}
+
+TEST(ExactRiemann, CarriesTransverseVelocitiesUpToTheContact) {
+  RiemannProblem problem = sodTube();
+  problem.leftTransverse = Vec3(99, 2, 3);
+  problem.rightTransverse = Vec3(99, -4, 5);
+  const ExactRiemann gas(problem);
+  const double contact = 0.5 + 0.2 * gas.solution().starVelocity;
+  EXPECT_EQ(gas.at(Vec3(contact - 1e-6, 0, 0), 0.2).velocity.tail<2>(), Vec<2>(2, 3));
+  EXPECT_EQ(gas.at(Vec3(contact + 1e-6, 0, 0), 0.2).velocity.tail<2>(), Vec<2>(-4, 5));
+  EXPECT_NEAR(gas.at(Vec3(contact + 1e-6, 0, 0), 0.2).velocity[0], 0.92745262, 1e-8);
+}
+
+TEST(ExactRiemann, HasNothingInVacuum) {
+  const ExactRiemann gas(tube({1, 0, 1}, {0, 0, 0}));
+  const GasState nothing = gas.at(Vec3(2, 0, 0), 0.1);
+  EXPECT_EQ(nothing.density, 0);
+  EXPECT_EQ(nothing.pressure, 0);
+  EXPECT_EQ(nothing.energy, 0);
+  EXPECT_EQ(nothing.velocity[0], gas.solution().leftWave.tail);
+  EXPECT_NEAR(gas.average(Vec3(0, 0, 0), Vec3(2, 0, 0), 0.1).density, 0.25, 1e-13);  // all the gas, .5 of it
+}
+
+TEST(ExactRiemann, RefusesWhatCannotBe) {
+  RiemannProblem problem = sodTube();
+  problem.axis = 3;
+  EXPECT_THROW(ExactRiemann{problem}, std::invalid_argument);
+  const ExactRiemann sod(sodTube());
+  EXPECT_THROW(sod.at(Vec3::Zero(), -1), std::invalid_argument);
+  EXPECT_THROW(sod.average(Vec3(1, 0, 0), Vec3(0, 0, 0), 0.1), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace tushar::reference
