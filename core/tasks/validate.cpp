@@ -19,10 +19,10 @@ class Validator {
 
  private:
   void check(const Task& task) {
-    if (task.kind != TaskKind::work) produced_.emplace(data::particleId.name);
+    if (task.kind != TaskKind::work) carried_.emplace(data::particleId.name);
     if (task.kind == TaskKind::relocate)
       for (const std::string& name : state_)
-        if (name.starts_with("p.")) produced_.insert(name);
+        if (name.starts_with("p.")) carried_.insert(name);
     for (const Access& access : task.accesses) {
       checkMaterial(task, access);
       if (access.reads()) checkProducer(task, access);
@@ -41,6 +41,7 @@ class Validator {
   void checkProducer(const Task& task, const Access& access) {
     const Names& available = access.isNew() ? produced_ : state_;
     if (available.contains(access.label->name)) return;
+    if (access.isNew() && carried_.contains(access.label->name)) return;
     if (access.isNew())
       complain(task, access, "is required, but no earlier task of the list computes it" + nearest(access, available));
     else
@@ -67,6 +68,7 @@ class Validator {
 
   const Names& state_;
   Names produced_;
+  Names carried_;  ///< what a relocation brought along from the old state
   std::map<std::string, bool> per_material_;
   std::string complaints_;
 };

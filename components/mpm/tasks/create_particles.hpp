@@ -5,6 +5,9 @@
 
 namespace tushar::mpm {
 
+/// Throws InputError if another body of the gas claims the point, too.
+void refuseOverlap(const Gas& gas, const GasObject& object, const Vec3& point);
+
 /// Fills each body with its particles: `particlesPerCell` along each axis, in the middle of equal parts of the cell,
 /// x_p = (c + (k + 1/2) / N) h, where that point is inside the shape. They start with the body's state there.
 ///
@@ -38,8 +41,5 @@ void createParticles(const Patch& patch, const Gas& gas, ParticleMaker& maker, s
     }
   });
 }
-
-/// Throws InputError if another body of the gas claims the point, too.
-void refuseOverlap(const Gas& gas, const GasObject& object, const Vec3& point);
 
 }  // namespace tushar::mpm

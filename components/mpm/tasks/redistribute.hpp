@@ -23,7 +23,7 @@ struct Redistribution {
 template <int D>
 struct Piece {
   ParticleId id = 0;
-  Vec<D> x, velocity;
+  Vec<D> x = Vec<D>::Zero(), velocity = Vec<D>::Zero();
   double mass = 0, volume = 0, internalEnergy = 0, divergence = 0;
 
   double density() const { return mass / volume; }

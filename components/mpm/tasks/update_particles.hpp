@@ -32,7 +32,7 @@ struct CellNodes {
 /// Throws NumericalError for the first particle of the patch whose density is not positive or whose internal energy
 /// is negative (or either is not a number).
 template <int D>
-void refuseUnphysical(const Patch& patch, ParticleView<const Vec<D>> x, ParticleView<const double> before,
+void refuseUnphysical(ParticleView<const Vec<D>> x, ParticleView<const double> before,
                       ParticleView<double> density, ParticleView<double> internalEnergy);
 
 /// v_p += dt sum_i S_i a_i,   x_p += dt sum_i S_i v*_i                                  (12)-(13)
@@ -62,7 +62,7 @@ void updateParticles(const Patch& patch, const Gas&, ParticleView<const Vec<D>> 
       physical &= (newDensity[p] > 0) & (newInternalEnergy[p] >= 0);
     }
   });
-  if (!physical) refuseUnphysical<D>(patch, x, density, newDensity, newInternalEnergy);
+  if (!physical) refuseUnphysical<D>(x, density, newDensity, newInternalEnergy);
 }
 
 /// The same with total energy conserved to round-off, for particles of constant mass.
@@ -103,11 +103,11 @@ void updateParticlesConserving(const Patch& patch, const Gas&, ParticleView<cons
       physical &= (newDensity[p] > 0) & (newInternalEnergy[p] >= 0);
     }
   });
-  if (!physical) refuseUnphysical<D>(patch, x, density, newDensity, newInternalEnergy);
+  if (!physical) refuseUnphysical<D>(x, density, newDensity, newInternalEnergy);
 }
 
 template <int D>
-void refuseUnphysical(const Patch& patch, ParticleView<const Vec<D>> x, ParticleView<const double> before,
+void refuseUnphysical(ParticleView<const Vec<D>> x, ParticleView<const double> before,
                       ParticleView<double> density, ParticleView<double> internalEnergy) {
   forEach<D>(x.cells(), [&](const Index<D>& cell) {
     for (const int p : x.in(cell)) {
