@@ -51,7 +51,7 @@ struct Side {
     return density * (p + ratio * pressure) / (ratio * p + pressure);
   }
 
-  /// The wave that leads to pressure p and velocity u, Toro (4.51), (4.54)-(4.55).
+  /// The wave that leads to pressure p and velocity u, Toro (4.52), (4.54)-(4.55).
   RiemannWave wave(double p, double u) const {
     if (p > pressure) {
       const double speed = velocity - std::sqrt((p + b()) / a()) / density;

@@ -248,7 +248,7 @@ TEST(RiemannSolution, LeavesColdGasThatPartsAlone) {
 
 TEST(RiemannSolution, SolvesLeBlanc) {
   const RiemannSolution s = solve(leblancTube());
-  // Loubere & Shashkov, J. Comput. Phys. 209 (2005), section 5: shock at .33 + .829 t, post-shock density 4e-3.
+  // Strong shock: density x (gamma + 1)/(gamma - 1) = 4, speed 4/3 u*.
   EXPECT_NEAR(s.rightWave.head, 0.829, 5e-4);
   EXPECT_NEAR(s.starDensityRight, 4e-3, 1e-8);
   EXPECT_NEAR(s.starVelocity, 0.62184, 5e-5);
