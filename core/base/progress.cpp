@@ -1,0 +1,36 @@
+#include "core/base/progress.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace tushar {
+
+Progress::Progress(bool quiet, std::FILE* stream)
+    : quiet_(quiet), terminal_(!quiet && isatty(fileno(stream))), stream_(stream), started_(Clock::now()), next_(started_) {}
+
+void Progress::line(const std::string& text) {
+  if (quiet_) return;
+  finish();
+  fmt::print(stream_, "{}\n", text);
+  std::fflush(stream_);
+}
+
+bool Progress::due() { return terminal_ && Clock::now() >= next_; }
+
+void Progress::live(int step, double time, double delT, double maxTime) {
+  const auto now = Clock::now();
+  next_ = now + std::chrono::milliseconds(100);
+  const double elapsed = std::chrono::duration<double>(now - started_).count();
+  const double done = maxTime > 0 ? time / maxTime : 0;
+  fmt::print(stream_, "\r\033[Kstep {}  t = {:.5g} s  dt = {:.3g} s  {:.0f} %  {:.0f} s left", step, time, delT,
+             100 * done, done > 0 ? elapsed / done - elapsed : 0.0);
+  std::fflush(stream_);
+  drawn_ = true;
+}
+
+void Progress::finish() {
+  if (drawn_) fmt::print(stream_, "\r\033[K");
+  drawn_ = false;
+}
+
+}  // namespace tushar

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/output/snapshot.hpp"
+#include "core/tasks/task_list.hpp"
+
+namespace tushar::simulation {
+
+/// An error norm that an analysis module measures: `density` at the `particle`s, by the reduction `label` of type
+/// data::Norm. `norms` lists those that mean something, of L1, L2 and max.
+struct MeasuredError {
+  std::string field, place;
+  const data::Label* label;
+  std::vector<std::string> norms;
+};
+
+/// A `DataAnalysis/Module`: it looks at the state of a run through diagnostic tasks.
+class Analysis {
+ public:
+  virtual ~Analysis() = default;
+  /// Adds diagnostic tasks. They see the state as old.
+  virtual void schedule(tasks::TaskList& tasks) const = 0;
+  /// The state is now that of `time` [s]. Called before the tasks run.
+  virtual void setTime(double time) = 0;
+  /// What the tasks measure; they are run at the end of the run.
+  virtual std::vector<MeasuredError> errors() const { return {}; }
+  /// A table of exact values to draw beside the result, one column an array, `x` first; empty where there is none.
+  virtual std::vector<output::Array> exactProfile(const grid::Level&) const { return {}; }
+};
+
+}  // namespace tushar::simulation

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <functional>
+#include <iosfwd>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/input/diagnostics.hpp"
+#include "core/simulation/analysis.hpp"
+#include "core/simulation/component.hpp"
+
+namespace tushar::simulation {
+
+/// Builds a component on a grid, from what was read of the scene before.
+using MakeComponent = std::function<std::unique_ptr<Component>(const grid::Level&)>;
+
+/// A component that sus knows: one line of the table in components/components.cpp.
+struct ComponentKind {
+  std::string name;                    ///< the `type` of SimulationComponent
+  std::string sentence;                ///< what it is
+  std::vector<std::string> sections;   ///< tags below the root that it reads
+  std::vector<std::string> boundaryLabels;  ///< labels of boundary conditions that it understands
+  /// Reads its sections from the root of the scene; every problem goes to the diagnostics.
+  std::function<MakeComponent(const input::Element& root, input::Diagnostics&)> read;
+  std::function<void(std::ostream&)> describe;  ///< its manual
+};
+
+/// Builds a module for a component; throws InputError if the two do not go together.
+using MakeAnalysis = std::function<std::unique_ptr<Analysis>(const Component&, const grid::Level&)>;
+
+/// An on-the-fly analysis that sus knows: a `DataAnalysis/Module name=`.
+struct AnalysisKind {
+  std::string name;
+  std::string sentence;
+  std::function<MakeAnalysis(const input::Element& module, input::Diagnostics&)> read;
+  std::function<void(std::ostream&)> describe;
+};
+
+/// Everything that a scene can pick.
+struct Catalogue {
+  std::vector<ComponentKind> components;
+  std::vector<AnalysisKind> analyses;
+};
+
+/// The entry of that name, or null.
+template <class Kind>
+const Kind* findKind(const std::vector<Kind>& kinds, std::string_view name) {
+  for (const Kind& kind : kinds)
+    if (kind.name == name) return &kind;
+  return nullptr;
+}
+template <class Kind>
+std::vector<std::string> namesOf(const std::vector<Kind>& kinds) {
+  std::vector<std::string> names;
+  for (const Kind& kind : kinds) names.push_back(kind.name);
+  return names;
+}
+
+}  // namespace tushar::simulation

@@ -1,0 +1,135 @@
+#include "core/simulation/phases.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ostream>
+
+namespace tushar::simulation {
+
+using tasks::Names;
+using tasks::producedBy;
+using tasks::prune;
+using tasks::Pruned;
+using tasks::requiredOfState;
+
+namespace {
+
+const data::Label* findProduced(const std::vector<tasks::Task>& tasks, std::string_view name) {
+  if (name == data::particleId.name) return &data::particleId;
+  for (const tasks::Task& task : tasks)
+    for (const tasks::Access& access : task.accesses)
+      if (access.writes() && access.label->name == name) return access.label;
+  return nullptr;
+}
+
+Names united(Names a, const Names& b) {
+  a.insert(b.begin(), b.end());
+  return a;
+}
+
+}  // namespace
+
+Phases::Phases(const Component& component, const std::vector<std::unique_ptr<Analysis>>& analyses,
+               const std::vector<SaveRequest>& saves, const grid::Level& level, data::VariableTable& table) {
+  Lists lists;
+  component.scheduleInitialize(lists.initialize);
+  component.scheduleComputeStableTimeStep(lists.stableTimeStep);
+  component.scheduleTimeAdvance(lists.timeAdvance);
+  component.scheduleDiagnostics(lists.diagnostics);
+  for (const auto& analysis : analyses) analysis->schedule(lists.diagnostics);
+  validateAll(lists);
+  noteMaterials(lists);
+  sortSaves(lists, saves);
+  compile(lists, analyses, level, table);
+}
+
+void Phases::validateAll(const Lists& lists) const {
+  const Names state = producedBy(lists.initialize.tasks());
+  Names withDelT = state;
+  withDelT.emplace(data::delT.name);
+  tasks::validate(lists.initialize.tasks(), {});
+  tasks::validate(lists.stableTimeStep.tasks(), state);
+  tasks::validate(lists.timeAdvance.tasks(), withDelT);
+  tasks::validate(lists.diagnostics.tasks(), state);
+}
+
+void Phases::noteMaterials(const Lists& lists) {
+  for (const tasks::Task& task : lists.initialize.tasks())
+    if (task.materials.size() > materials_.size()) materials_ = task.materials;
+}
+
+void Phases::sortSaves(const Lists& lists, const std::vector<SaveRequest>& saves) {
+  Names known = united(producedBy(lists.initialize.tasks()), producedBy(lists.timeAdvance.tasks()));
+  known = united(known, producedBy(lists.diagnostics.tasks()));
+  std::vector<InputProblem> problems;
+  for (const SaveRequest& save : saves) {
+    const data::Label* label = nullptr;
+    for (const auto* list : {&lists.timeAdvance, &lists.initialize, &lists.diagnostics})
+      if (!label && known.contains(save.label)) label = findProduced(list->tasks(), save.label);
+    if (!label)
+      problems.push_back({save.where, "DataArchiver/save",
+                          fmt::format("no task of this component computes '{}'{}; there are {}", save.label,
+                                      didYouMean(save.label, {known.begin(), known.end()}),
+                                      alternatives({known.begin(), known.end()}))});
+    else if (!save.material.empty() &&
+             std::find(materials_.begin(), materials_.end(), save.material) == materials_.end())
+      problems.push_back({save.where, "DataArchiver/save",
+                          fmt::format("there is no material '{}'{}; there are {}", save.material,
+                                      didYouMean(save.material, materials_), alternatives(materials_))});
+    else if (label->centring == data::Centring::reduction)
+      saved_globals_.push_back(save.label);
+    else
+      saved_fields_.push_back(save);
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+}
+
+void Phases::compile(const Lists& lists, const std::vector<std::unique_ptr<Analysis>>& analyses,
+                     const grid::Level& level, data::VariableTable& table) {
+  const Names diagnosed = producedBy(lists.diagnostics.tasks());
+  const Names stepped = united(producedBy(lists.initialize.tasks()), producedBy(lists.timeAdvance.tasks()));
+  Names reported, derived, savedState;
+  for (const auto& [what, label] : {std::pair{"mass", "TotalMass"}, {"momentum", "TotalMomentum"}, {"energy", "TotalEnergy"}})
+    if (diagnosed.contains(label)) totals_.emplace_back(what, label);
+  for (const auto& total : totals_) reported.insert(total.second);
+  for (const auto& analysis : analyses)
+    for (const MeasuredError& error : analysis->errors()) reported.emplace(error.label->name);
+  for (const SaveRequest& save : saved_fields_)
+    (stepped.contains(save.label) ? savedState : derived).insert(save.label);
+
+  Pruned stable = prune(lists.stableTimeStep.tasks(), {std::string(data::delT.name)}, false);
+  Pruned step = prune(lists.diagnostics.tasks(), {saved_globals_.begin(), saved_globals_.end()}, false);
+  Pruned output = prune(lists.diagnostics.tasks(), derived, false);
+  Pruned end = prune(lists.diagnostics.tasks(), reported, false);
+  Names read = requiredOfState(stable.kept);
+  for (const Pruned* pruned : {&step, &output, &end}) read = united(read, requiredOfState(pruned->kept));
+  const Pruned bare = prune(lists.timeAdvance.tasks(), read, true);
+  Pruned advance = prune(lists.timeAdvance.tasks(), united(read, savedState), true);
+  Pruned init = prune(lists.initialize.tasks(), advance.needed, false);
+
+  for (const std::string& name : bare.needed)
+    if (name != data::delT.name) state_.push_back(name);
+  if (stepped.contains(data::particleId.name) && !bare.needed.contains(data::particleId.name)) {
+    state_.emplace_back(data::particleId.name);
+    std::sort(state_.begin(), state_.end());
+  }
+  initialize = tasks::TaskGraph("initialize", std::move(init), level, table);
+  stableTimeStep = tasks::TaskGraph("computeStableTimeStep", std::move(stable), level, table);
+  timeAdvance = tasks::TaskGraph("timeAdvance", std::move(advance), level, table);
+  everyStep = tasks::TaskGraph("diagnostics of every step", std::move(step), level, table);
+  everyOutput = tasks::TaskGraph("diagnostics of every output", std::move(output), level, table);
+  report = tasks::TaskGraph("diagnostics of the report", std::move(end), level, table);
+}
+
+void Phases::printSchedule(std::ostream& out) const {
+  initialize.print(out);
+  stableTimeStep.print(out);
+  timeAdvance.print(out);
+  for (const tasks::TaskGraph* graph : {&everyStep, &everyOutput, &report})
+    if (!graph->tasks().empty()) graph->print(out);
+}
+
+void Phases::printDot(std::ostream& out) const { timeAdvance.printDot(out); }
+
+}  // namespace tushar::simulation

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <iosfwd>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/simulation/analysis.hpp"
+#include "core/simulation/component.hpp"
+#include "core/simulation/settings.hpp"
+#include "core/tasks/scheduler.hpp"
+
+namespace tushar::simulation {
+
+/// The task lists of a run, compiled against each other: what a later one reads, an earlier one must leave behind.
+///
+/// The diagnostics are compiled three times from one list, each time for what is asked for then: the globals saved
+/// in every step, the derived fields of an output, the totals and errors of the report.
+class Phases {
+ public:
+  /// Throws InputError for a saved label that no task computes, TaskError for a list that does not fit together.
+  Phases(const Component& component, const std::vector<std::unique_ptr<Analysis>>& analyses,
+         const std::vector<SaveRequest>& saves, const grid::Level& level, data::VariableTable& table);
+
+  tasks::TaskGraph initialize, stableTimeStep, timeAdvance, everyStep, everyOutput, report;
+
+  /// Names of the variables that a step needs of the one before, sorted: the state of a run.
+  const std::vector<std::string>& state() const { return state_; }
+  /// Saved variables of particles, nodes and cells.
+  const std::vector<SaveRequest>& savedFields() const { return saved_fields_; }
+  /// Saved reductions.
+  const std::vector<std::string>& savedGlobals() const { return saved_globals_; }
+  const std::vector<std::string>& materials() const { return materials_; }
+  /// Totals whose drift the component can report, as pairs of what they are (mass, momentum, energy) and their label.
+  const std::vector<std::pair<std::string, std::string>>& totals() const { return totals_; }
+
+  void printSchedule(std::ostream& out) const;
+  void printDot(std::ostream& out) const;
+
+ private:
+  struct Lists {
+    tasks::TaskList initialize, stableTimeStep, timeAdvance, diagnostics;
+  };
+  void validateAll(const Lists& lists) const;
+  void sortSaves(const Lists& lists, const std::vector<SaveRequest>& saves);
+  void compile(const Lists& lists, const std::vector<std::unique_ptr<Analysis>>& analyses, const grid::Level& level,
+               data::VariableTable& table);
+  void noteMaterials(const Lists& lists);
+
+  std::vector<std::string> state_, saved_globals_, materials_;
+  std::vector<SaveRequest> saved_fields_;
+  std::vector<std::pair<std::string, std::string>> totals_;
+};
+
+}  // namespace tushar::simulation

@@ -1,0 +1,118 @@
+#include "core/simulation/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace tushar::simulation {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json errorsOf(const Report& report) {
+  Json errors = Json::object();
+  for (const ErrorNorms& error : report.errors)
+    for (const auto& [norm, value] : error.norms) errors[error.field][error.place][norm] = value;
+  return errors;
+}
+
+Json wallOf(const Report& report) {
+  Json tasks = Json::object();
+  for (const TaskTime& task : report.tasks) tasks[task.name] = task.seconds;
+  return {{"startup", report.wallStartup}, {"loop", report.wallLoop}, {"output", report.wallOutput},
+          {"exchange", report.exchange},   {"tasks", tasks}};
+}
+
+Json driftOf(const Report& report) {
+  Json drift = Json::object();
+  for (const Drift& d : report.drifts) drift[d.name] = d.change;
+  return drift;
+}
+
+Json tasksOf(const Report& report) {
+  Json leftOut = Json::array();
+  for (const tasks::LeftOut& task : report.leftOut) leftOut.push_back({{"name", task.task}, {"why", task.reason}});
+  return {{"kept", report.kept}, {"left_out", leftOut}};
+}
+
+std::string errorTable(const Report& report) {
+  if (report.errors.empty()) return "";
+  std::string text = fmt::format("\n  {:<24} {:>12} {:>12} {:>12}   unit\n", "error of", "L1", "L2", "max");
+  for (const ErrorNorms& error : report.errors) {
+    const auto norm = [&](const char* name) {
+      const auto found = error.norms.find(name);
+      return found == error.norms.end() ? std::string("-") : fmt::format("{:.5g}", found->second);
+    };
+    text += fmt::format("  {:<24} {:>12} {:>12} {:>12}   {}\n", error.field + ", " + error.place, norm("L1"), norm("L2"),
+                        norm("max"), error.unit);
+  }
+  return text;
+}
+
+std::string driftTable(const Report& report) {
+  if (report.drifts.empty()) return "";
+  std::string text = fmt::format("\n  {:<24} {:>12} {:>12} {:>12}\n", "drift of", "start", "end", "change");
+  for (const Drift& drift : report.drifts)
+    text += fmt::format("  {:<24} {:>12.6g} {:>12.6g} {:>12.2e}   {}\n", drift.name, drift.start, drift.end, drift.change,
+                        drift.relative ? "relative" : drift.unit);
+  return text;
+}
+
+std::string timeTable(const Report& report) {
+  std::string text = fmt::format("\n  {:<36} {:>10}\n", "wall time", "ms");
+  const auto row = [&](const std::string& name, double seconds) {
+    text += fmt::format("  {:<36} {:>10.2f}\n", name, 1e3 * seconds);
+  };
+  row("start-up", report.wallStartup);
+  row("time loop", report.wallLoop);
+  for (const TaskTime& task : report.tasks) row("  " + task.name, task.seconds);
+  if (report.patches > 1) row("  ghost exchange", report.exchange);
+  row("output", report.wallOutput);
+  return text;
+}
+
+}  // namespace
+
+std::string toJson(const Report& report) {
+  Json json;
+  json["scene"] = report.scene;
+  json["title"] = report.title;
+  json["component"] = report.component;
+  json["version"] = report.version;
+  json["build"] = report.build;
+  json["layout"] = {{"dimension", report.dimension}, {"cells", report.cells},     {"patches", report.patches},
+                    {"ranks", report.ranks},         {"threads", report.threads}};
+  json["steps"] = report.steps;
+  json["time"] = report.time;
+  json["ended"] = report.ended;
+  json["particles"] = report.particles;
+  json["particles_dropped"] = report.dropped;
+  json["particle_steps_per_second"] = report.wallLoop > 0 ? report.particleSteps / report.wallLoop : 0;
+  json["wall"] = wallOf(report);
+  json["errors"] = errorsOf(report);
+  json["drift"] = driftOf(report);
+  json["tasks"] = tasksOf(report);
+  json["archive"] = report.archive;
+  json["fingerprint"] = report.fingerprint;
+  return json.dump(2) + "\n";
+}
+
+std::string toText(const Report& report) {
+  std::string text = fmt::format("{} steps to t = {:.6g} s ({}), {} cells", report.steps, report.time, report.ended,
+                                 report.cells);
+  if (report.particles > 0) {
+    text += fmt::format(", {} particles", report.particles);
+    if (report.dropped > 0) text += fmt::format(" ({} left the grid)", report.dropped);
+    if (report.wallLoop > 0)
+      text += fmt::format(", {:.3g} million particle-steps/s", 1e-6 * report.particleSteps / report.wallLoop);
+  }
+  text += "\n" + errorTable(report) + driftTable(report) + timeTable(report);
+  if (!report.archive.empty()) text += fmt::format("\n  saved in {}\n", report.archive);
+  text += fmt::format("\n  fingerprint {}\n", report.fingerprint);
+  return text;
+}
+
+}  // namespace tushar::simulation

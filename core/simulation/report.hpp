@@ -1,0 +1,59 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/tasks/prune.hpp"
+
+namespace tushar::simulation {
+
+/// Norms of one error; NaN where a norm has no meaning.
+struct ErrorNorms {
+  std::string field, place;
+  std::map<std::string, double> norms;  ///< L1, L2, max
+  std::string unit;
+};
+
+/// Change of a total from the start to the end of a run.
+struct Drift {
+  std::string name;        ///< mass, momentum, energy
+  double start = 0, end = 0;
+  double change = 0;       ///< relative to the start where that is not 0, else absolute
+  bool relative = true;
+  std::string unit;
+};
+
+/// Wall time of a task over the whole run.
+struct TaskTime {
+  std::string name;
+  double seconds = 0;
+};
+
+/// What a run has to say about itself.
+struct Report {
+  std::string scene, title, component, version, build;
+  int dimension = 0, patches = 0, ranks = 1, threads = 1;
+  long cells = 0, particles = 0, dropped = 0;
+  int steps = 0;
+  double time = 0;  ///< reached, s
+  std::string ended;  ///< why: maxTime, max_Timesteps, max_wall_time, interrupted
+  double particleSteps = 0;
+  double wallStartup = 0, wallLoop = 0, wallOutput = 0;  ///< s
+  std::vector<TaskTime> tasks;
+  double exchange = 0;  ///< s of the loop spent filling ghosts
+  std::vector<ErrorNorms> errors;
+  std::vector<Drift> drifts;
+  std::vector<std::string> kept;
+  std::vector<tasks::LeftOut> leftOut;
+  std::string fingerprint;
+  std::string archive;  ///< folder, if anything was saved
+};
+
+/// As JSON: the keys are listed in README.md.
+std::string toJson(const Report& report);
+/// As a table for a terminal.
+std::string toText(const Report& report);
+
+}  // namespace tushar::simulation

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/grid/level.hpp"
+#include "core/simulation/time_control.hpp"
+
+namespace tushar::simulation {
+
+/// One `<save label= material=>`.
+struct SaveRequest {
+  std::string label;
+  std::string material;  ///< empty: all
+  Location where;
+};
+
+/// The `DataArchiver` section.
+struct ArchiveSettings {
+  std::string filebase;
+  double outputInterval = 0;       ///< s; 0: none
+  int outputTimestepInterval = 0;  ///< steps; 0: none
+  bool outputInitTimestep = false;
+  bool outputLastTimestep = false;
+  bool doubleAsFloat = false;
+  int compression = 0;  ///< of gzip, 0-9
+  std::vector<SaveRequest> saves;
+};
+
+/// How a run is asked for on the command line.
+struct RunOptions {
+  std::string jsonPath;       ///< where the report goes; empty: nowhere
+  std::string outputFolder;   ///< instead of the current folder
+  bool quiet = false;         ///< no progress
+};
+
+}  // namespace tushar::simulation

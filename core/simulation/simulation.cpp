@@ -1,0 +1,248 @@
+#include "core/simulation/simulation.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/base/interrupt.hpp"
+#include "core/simulation/gather.hpp"
+
+namespace tushar::simulation {
+
+using data::Generation;
+using Clock = std::chrono::steady_clock;
+
+namespace {
+
+double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+}  // namespace
+
+Simulation::Simulation(Problem problem, const RunOptions& options, Clock::time_point startedAt)
+    : problem_(std::move(problem)),
+      options_(options),
+      started_at_(startedAt),
+      phases_(*problem_.component, problem_.analyses, problem_.archive.saves, *problem_.level, table_),
+      warehouse_(*problem_.level, table_),
+      scheduler_(warehouse_),
+      time_(problem_.time),
+      progress_(options.quiet, stdout) {
+  warehouse_.grow(static_cast<int>(phases_.materials().size()));
+}
+
+std::vector<double> Simulation::reduction(std::string_view label) const {
+  const int number = table_.find(label, -1);
+  return number < 0 ? std::vector<double>{} : warehouse_.reductionValues(number);
+}
+
+Report Simulation::run() {
+  initialize();
+  const auto before = measureTotals();
+  const bool saves = !phases_.savedFields().empty() || !phases_.savedGlobals().empty();
+  if (saves) {
+    const output::ArchiveOptions how{problem_.archive.doubleAsFloat, problem_.archive.compression, TUSHAR_VERSION};
+    archive_ = std::make_unique<output::Archive>(options_.outputFolder.empty()
+                                                     ? problem_.archive.filebase
+                                                     : options_.outputFolder + "/" + problem_.archive.filebase,
+                                                 problem_.inputXml, how);
+  }
+  saveGlobals();
+  if (archive_ && problem_.archive.outputInitTimestep) save();
+  wall_startup_ = since(started_at_) - wall_output_;
+  const auto loopStarted = Clock::now();
+  const double outputBefore = wall_output_;
+  while (!time_.done() && !isInterrupted() && !outOfWallTime()) step();
+  wall_loop_ = since(loopStarted) - (wall_output_ - outputBefore);
+  if (archive_ && (problem_.archive.outputLastTimestep || isInterrupted())) save();
+  progress_.finish();
+  if (archive_) archive_->flush();
+  return makeReport(before);
+}
+
+void Simulation::initialize() {
+  scheduler_.run(phases_.initialize, {0, time_.time()});
+  scheduler_.commit(phases_.initialize);
+}
+
+void Simulation::step() {
+  const tasks::StepInfo at{time_.step() + 1, time_.time()};
+  scheduler_.run(phases_.stableTimeStep, at);
+  double& dt = warehouse_.reduction<data::Minimum>(table_.number(data::delT, -1)).value;
+  dt = time_.next(dt, nextOutputTime());
+  scheduler_.run(phases_.timeAdvance, at);
+  scheduler_.commit(phases_.timeAdvance);
+  time_.advance();
+  particle_steps_ += static_cast<double>(particleCount(warehouse_, static_cast<int>(phases_.materials().size())));
+  if (progress_.due()) progress_.live(time_.step(), time_.time(), time_.delT(), problem_.time.maxTime);
+  saveGlobals();
+  saveIfDue();
+}
+
+bool Simulation::outOfWallTime() const { return since(started_at_) > problem_.time.maxWallTime; }
+
+void Simulation::saveGlobals() {
+  if (!archive_ || phases_.savedGlobals().empty()) return;
+  scheduler_.run(phases_.everyStep, {time_.step(), time_.time()});
+  const auto started = Clock::now();
+  for (const std::string& name : phases_.savedGlobals()) {
+    const data::Label& label = *table_[table_.find(name, -1)].label;
+    archive_->appendGlobal(
+        {name, std::string(label.unit), std::string(label.description), time_.time(), reduction(name)});
+  }
+  wall_output_ += since(started);
+}
+
+double Simulation::nextOutputTime() const {
+  const double interval = problem_.archive.outputInterval;
+  if (interval <= 0) return std::numeric_limits<double>::infinity();
+  return problem_.time.initTime + static_cast<double>(outputs_ + 1) * interval;
+}
+
+bool Simulation::outputDue() const {
+  const int every = problem_.archive.outputTimestepInterval;
+  if (every > 0 && time_.step() % every == 0) return true;
+  const double slack = 1e-12 * std::abs(nextOutputTime());
+  return time_.time() >= nextOutputTime() - slack;
+}
+
+void Simulation::saveIfDue() {
+  if (!archive_ || !outputDue()) return;
+  if (problem_.archive.outputInterval > 0)
+    while (time_.time() >= nextOutputTime() * (1 - 1e-12)) ++outputs_;
+  save();
+}
+
+void Simulation::save() {
+  if (archive_->lastStep() == time_.step()) return;
+  const auto started = Clock::now();
+  scheduler_.run(phases_.everyOutput, {time_.step(), time_.time()});
+  archive_->write(snapshot());
+  wall_output_ += since(started);
+  progress_.line(fmt::format("step {:>6}  t = {:<12.6g} dt = {:<10.4g} saved in {}", time_.step(), time_.time(),
+                             time_.delT(), archive_->folder().string()));
+}
+
+output::Snapshot Simulation::snapshot() {
+  output::Snapshot snapshot;
+  snapshot.step = time_.step();
+  snapshot.time = time_.time();
+  snapshot.delT = time_.delT();
+  snapshot.grid = gridInfo(*problem_.level);
+  for (std::size_t m = 0; m < phases_.materials().size(); ++m) {
+    const int number = table_.find("p.x", static_cast<int>(m));
+    if (number < 0) continue;
+    snapshot.particles.push_back({phases_.materials()[m], static_cast<int>(m), {}});
+    snapshot.particles.back().arrays.push_back(gatherArray(warehouse_, Generation::old, number));
+  }
+  for (const SaveRequest& save : phases_.savedFields()) addField(snapshot, save);
+  for (const auto& analysis : problem_.analyses) {
+    analysis->setTime(time_.time());
+    for (output::Array& column : analysis->exactProfile(*problem_.level)) snapshot.reference.push_back(std::move(column));
+  }
+  return snapshot;
+}
+
+void Simulation::addField(output::Snapshot& snapshot, const SaveRequest& save) {
+  for (int m = -1; m < static_cast<int>(phases_.materials().size()); ++m) {
+    const int number = table_.find(save.label, m);
+    const std::string material = m < 0 ? "" : phases_.materials()[static_cast<std::size_t>(m)];
+    if (number < 0 || save.label == "p.x" || (!save.material.empty() && save.material != material)) continue;
+    const data::Label& label = *table_[number].label;
+    const bool derived = !warehouse_.variable(Generation::old, number, 0).held;
+    output::Array array = gatherArray(warehouse_, derived ? Generation::fresh : Generation::old, number);
+    const bool empty = std::visit([](const auto& values) { return values.empty(); }, array.values);
+    if (label.centring == data::Centring::particle)
+      snapshot.particles[static_cast<std::size_t>(m)].arrays.push_back(std::move(array));
+    else if (!empty)
+      snapshot.fields.push_back({label.centring == data::Centring::node ? output::Centring::node : output::Centring::cell,
+                                 material, m, std::move(array)});
+  }
+}
+
+std::vector<std::vector<double>> Simulation::measureTotals() {
+  for (const auto& analysis : problem_.analyses) analysis->setTime(time_.time());
+  scheduler_.run(phases_.report, {time_.step(), time_.time()});
+  std::vector<std::vector<double>> totals;
+  for (const auto& total : phases_.totals()) totals.push_back(reduction(total.second));
+  return totals;
+}
+
+std::string Simulation::whyEnded() const {
+  if (isInterrupted()) return "interrupted";
+  if (time_.time() >= problem_.time.maxTime) return "maxTime";
+  return time_.done() ? "max_Timesteps" : "max_wall_time";
+}
+
+Report Simulation::makeReport(const std::vector<std::vector<double>>& before) {
+  Report report;
+  report.scene = problem_.scenePath;
+  report.title = problem_.title;
+  report.component = problem_.componentName;
+  report.version = TUSHAR_VERSION;
+  report.build = TUSHAR_BUILD_TYPE;
+  report.dimension = problem_.level->dimension();
+  report.patches = warehouse_.patches();
+  report.cells = static_cast<long>(problem_.level->cells().size());
+  report.particles = particleCount(warehouse_, static_cast<int>(phases_.materials().size()));
+  report.dropped = scheduler_.relocation().dropped();
+  report.steps = time_.step();
+  report.time = time_.time();
+  report.ended = whyEnded();
+  report.particleSteps = particle_steps_;
+  report.wallStartup = wall_startup_;
+  report.wallLoop = wall_loop_;
+  reportTasks(report);
+  reportDrift(report, before);
+  reportErrors(report);
+  report.wallOutput = wall_output_;
+  if (archive_) report.archive = archive_->folder().string();
+  report.fingerprint = fingerprint(warehouse_, phases_.state(), static_cast<int>(phases_.materials().size()));
+  return report;
+}
+
+void Simulation::reportTasks(Report& report) {
+  for (const tasks::TaskGraph* graph : {&phases_.stableTimeStep, &phases_.timeAdvance}) {
+    for (const tasks::CompiledTask& task : graph->tasks()) {
+      report.tasks.push_back({task.task.name, task.seconds});
+      report.kept.push_back(task.task.name);
+      report.exchange += task.exchangeSeconds;
+    }
+    for (const tasks::LeftOut& task : graph->leftOut()) report.leftOut.push_back(task);
+  }
+}
+
+void Simulation::reportDrift(Report& report, const std::vector<std::vector<double>>& before) {
+  const auto after = measureTotals();
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    double start = 0, end = 0, change = 0;
+    for (std::size_t i = 0; i < before[k].size(); ++i) {
+      start += before[k][i] * before[k][i];
+      end += after[k][i] * after[k][i];
+      change += (after[k][i] - before[k][i]) * (after[k][i] - before[k][i]);
+    }
+    const auto& [what, label] = phases_.totals()[k];
+    const bool scalar = before[k].size() == 1;
+    Drift drift{what, std::sqrt(start), std::sqrt(end), std::sqrt(change), start > 0, {}};
+    if (scalar) {
+      drift.start = before[k][0];
+      drift.end = after[k][0];
+      drift.change = after[k][0] - before[k][0];
+    }
+    if (drift.relative) drift.change /= std::abs(drift.start);
+    drift.unit = std::string(table_[table_.find(label, -1)].label->unit);
+    report.drifts.push_back(drift);
+  }
+}
+
+void Simulation::reportErrors(Report& report) {
+  for (const auto& analysis : problem_.analyses)
+    for (const MeasuredError& error : analysis->errors()) {
+      const std::vector<double> values = reduction(error.label->name);
+      if (values.size() != 3) continue;
+      ErrorNorms norms{error.field, error.place, {}, std::string(error.label->unit)};
+      for (const std::string& norm : error.norms) norms.norms[norm] = values[norm == "L1" ? 0 : norm == "L2" ? 1 : 2];
+      report.errors.push_back(norms);
+    }
+}
+
+}  // namespace tushar::simulation
