@@ -1,0 +1,39 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/base/vec.hpp"
+#include "core/input/expression.hpp"
+
+namespace tushar::input {
+
+/// What a number must satisfy, and how that is said.
+struct Constraint {
+  std::function<bool(double)> holds;
+  std::string allowed;  ///< follows "a value": `greater than 0`, `of at least 1`, `from 0 to 1`
+};
+
+Constraint greaterThan(double limit);
+Constraint lessThan(double limit);
+Constraint atLeast(double limit);
+Constraint atMost(double limit);
+/// Both ends included.
+Constraint between(double least, double most);
+inline Constraint positive() { return greaterThan(0); }
+inline Constraint nonNegative() { return atLeast(0); }
+
+/// Vectors and lists satisfy a constraint if all components do; formulas that are not constant always do.
+bool satisfies(double value, const Constraint& constraint);
+bool satisfies(const Vec3& value, const Constraint& constraint);
+bool satisfies(const Index3& value, const Constraint& constraint);
+bool satisfies(const std::vector<double>& value, const Constraint& constraint);
+bool satisfies(const std::vector<int>& value, const Constraint& constraint);
+bool satisfies(const Expression& value, const Constraint& constraint);
+bool satisfies(const VectorExpression& value, const Constraint& constraint);
+
+/// `found '-1', expected a value greater than 0 m`; the unit "1" is not said.
+std::string violation(const std::string& found, const Constraint& constraint, const std::string& unit);
+
+}  // namespace tushar::input

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/input/element.hpp"
+
+namespace tushar::input {
+
+/// Collects everything wrong with a scene, so that the user sees all of it at once.
+class Diagnostics {
+ public:
+  /// `tagPath` may be empty.
+  void error(const Location& where, std::string tagPath, std::string sentence);
+  /// A problem of a tag or of its value.
+  void error(const Element& element, std::string sentence);
+
+  bool any() const { return !problems_.empty(); }
+  std::size_t size() const { return problems_.size(); }
+  /// Grouped by file in the order in which files were first complained of, then by line and column.
+  std::vector<InputProblem> sorted() const;
+  /// Throws InputError with all problems, sorted, if there is any.
+  void throwIfAny() const;
+
+ private:
+  std::vector<InputProblem> problems_;
+};
+
+}  // namespace tushar::input

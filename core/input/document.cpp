@@ -1,0 +1,208 @@
+#include "core/input/document.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <sstream>
+
+#include "core/input/override.hpp"
+#include "core/input/text.hpp"
+#include "core/input/xml_file.hpp"
+
+namespace tushar::input {
+
+namespace {
+
+constexpr const char* rootName = "Uintah_specification";
+
+/// Turns parsed files into one tree, following the includes.
+class TreeBuilder {
+ public:
+  explicit TreeBuilder(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+
+  std::unique_ptr<Node> build(const XmlFile& file) {
+    including_.push_back(file.name());
+    auto root = makeTag(file, file.root());
+    including_.pop_back();
+    return root;
+  }
+
+ private:
+  std::unique_ptr<Node> makeTag(const XmlFile& file, const pugi::xml_node& xml);
+  void addChildren(const XmlFile& file, const pugi::xml_node& xml, Node& parent);
+  void addChild(const XmlFile& file, const pugi::xml_node& xml, Node& parent);
+  void addAttributes(const pugi::xml_node& xml, Node& node);
+  void addInclude(const XmlFile& file, const pugi::xml_node& xml, Node& parent);
+  void addSection(const XmlFile& file, const pugi::xml_node& include, const Location& where, Node& parent);
+  bool isCycle(const std::string& path, const Location& where);
+  void checkAttributesOfInclude(const pugi::xml_node& xml, const Location& where);
+
+  Diagnostics& diagnostics_;
+  std::vector<std::string> including_;
+};
+
+std::unique_ptr<Node> TreeBuilder::makeTag(const XmlFile& file, const pugi::xml_node& xml) {
+  auto node = std::make_unique<Node>();
+  node->name = xml.name();
+  node->where = file.locate(xml);
+  addAttributes(xml, *node);
+  addChildren(file, xml, *node);
+  node->text = trimmed(node->text);
+  return node;
+}
+
+void TreeBuilder::addChildren(const XmlFile& file, const pugi::xml_node& xml, Node& parent) {
+  for (const pugi::xml_node& child : xml.children()) addChild(file, child, parent);
+}
+
+void TreeBuilder::addChild(const XmlFile& file, const pugi::xml_node& xml, Node& parent) {
+  if (xml.type() == pugi::node_pcdata || xml.type() == pugi::node_cdata) {
+    parent.text += xml.value();
+  } else if (xml.type() == pugi::node_comment) {
+    auto comment = std::make_unique<Node>();
+    comment->kind = Node::Kind::comment;
+    comment->text = xml.value();
+    parent.append(std::move(comment));
+  } else if (xml.type() == pugi::node_element && std::string_view(xml.name()) == "include") {
+    addInclude(file, xml, parent);
+  } else if (xml.type() == pugi::node_element) {
+    parent.append(makeTag(file, xml));
+  }
+}
+
+void TreeBuilder::addAttributes(const pugi::xml_node& xml, Node& node) {
+  for (const pugi::xml_attribute& attribute : xml.attributes()) {
+    if (xml.attribute(attribute.name()) != attribute) {
+      diagnostics_.error(node.where, {},
+                         fmt::format("attribute '{}' of <{}> is given twice", attribute.name(), node.name));
+    } else {
+      node.attributes.push_back({attribute.name(), trimmed(attribute.value()), node.where});
+    }
+  }
+}
+
+void TreeBuilder::checkAttributesOfInclude(const pugi::xml_node& xml, const Location& where) {
+  const std::vector<std::string> known{"href", "section", "excludeSectionTag"};
+  for (const pugi::xml_attribute& attribute : xml.attributes()) {
+    const std::string name = attribute.name();
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    diagnostics_.error(where, {},
+                       fmt::format("unknown attribute '{}' of <include>{}; allowed here: {}", name,
+                                   didYouMean(name, known), listed(known)));
+  }
+}
+
+bool TreeBuilder::isCycle(const std::string& path, const Location& where) {
+  const auto same = [&](const std::string& other) {
+    std::error_code ignored;
+    return other == path || std::filesystem::equivalent(other, path, ignored);
+  };
+  if (std::none_of(including_.begin(), including_.end(), same)) return false;
+  diagnostics_.error(where, {},
+                     fmt::format("cannot include '{}': it is being included already, so it would never end", path));
+  return true;
+}
+
+void TreeBuilder::addInclude(const XmlFile& file, const pugi::xml_node& xml, Node& parent) {
+  const Location where = file.locate(xml);
+  checkAttributesOfInclude(xml, where);
+  const std::string href = trimmed(xml.attribute("href").value());
+  if (href.empty()) {
+    diagnostics_.error(where, {}, "<include> needs the attribute 'href', the file to include");
+    return;
+  }
+  const std::string path = (std::filesystem::path(file.name()).parent_path() / href).string();
+  if (isCycle(path, where)) return;
+  const auto text = XmlFile::slurp(path, where, diagnostics_);
+  if (!text) return;
+  const XmlFile included(*text, path, diagnostics_);
+  including_.push_back(path);
+  if (included.root()) addSection(included, xml, where, parent);
+  including_.pop_back();
+}
+
+std::vector<std::string> namesOfTags(const pugi::xml_node& xml) {
+  std::set<std::string> names;
+  for (const pugi::xml_node& child : xml.children()) {
+    if (child.type() == pugi::node_element) names.insert(child.name());
+  }
+  return {names.begin(), names.end()};
+}
+
+void TreeBuilder::addSection(const XmlFile& file, const pugi::xml_node& include, const Location& where, Node& parent) {
+  std::istringstream path(include.attribute("section").value());
+  pugi::xml_node section = file.root();
+  for (std::string name; std::getline(path, name, '/');) {
+    const pugi::xml_node next = section.child(trimmed(name).c_str());
+    if (!next) {
+      diagnostics_.error(where, {},
+                         fmt::format("there is no <{}> in <{}> of '{}'{}", trimmed(name), section.name(), file.name(),
+                                     didYouMean(trimmed(name), namesOfTags(section))));
+      return;
+    }
+    section = next;
+  }
+  const bool withTag = trimmed(include.attribute("excludeSectionTag").value()) == "false" && section != file.root();
+  withTag ? addChild(file, section, parent) : addChildren(file, section, parent);
+}
+
+std::unique_ptr<Node> bareRoot(const std::string& file) {
+  auto node = std::make_unique<Node>();
+  node->name = rootName;
+  node->where = {file, 1, 1};
+  return node;
+}
+
+void write(const Node& node, pugi::xml_node xml) {
+  for (const Attribute& attribute : node.attributes) {
+    xml.append_attribute(attribute.name.c_str()) = attribute.value.c_str();
+  }
+  if (!node.text.empty()) xml.append_child(pugi::node_pcdata).set_value(node.text.c_str());
+  for (const auto& child : node.children) {
+    if (child->kind == Node::Kind::comment) {
+      xml.append_child(pugi::node_comment).set_value(child->text.c_str());
+    } else {
+      write(*child, xml.append_child(child->name.c_str()));
+    }
+  }
+}
+
+}  // namespace
+
+Document Document::load(const std::string& path, Diagnostics& diagnostics) {
+  const auto text = XmlFile::slurp(path, {path, 0, 0}, diagnostics);
+  return text ? parse(*text, path, diagnostics) : Document(path, bareRoot(path));
+}
+
+Document Document::parse(std::string_view text, const std::string& name, Diagnostics& diagnostics) {
+  const XmlFile file(text, name, diagnostics);
+  if (!file.root()) return {name, bareRoot(name)};
+  auto root = TreeBuilder(diagnostics).build(file);
+  if (root->name != rootName) {
+    diagnostics.error(root->where, {},
+                      fmt::format("the outermost tag is <{}>, expected <{}>{}", root->name, rootName,
+                                  didYouMean(root->name, {rootName})));
+    root = bareRoot(name);
+  }
+  return {name, std::move(root)};
+}
+
+void Document::set(const std::string& change, Diagnostics& diagnostics) {
+  const Location where{"--set " + change, 0, 0};
+  if (const auto parsed = parseOverride(change, where, diagnostics)) apply(*parsed, *root_, where, diagnostics);
+}
+
+std::string Document::text() const {
+  pugi::xml_document document;
+  auto declaration = document.append_child(pugi::node_declaration);
+  declaration.append_attribute("version") = "1.0";
+  declaration.append_attribute("encoding") = "UTF-8";
+  write(*root_, document.append_child(root_->name.c_str()));
+  std::ostringstream out;
+  document.save(out, "  ", pugi::format_default, pugi::encoding_utf8);
+  return out.str();
+}
+
+}  // namespace tushar::input

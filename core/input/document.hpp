@@ -1,0 +1,44 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "core/input/diagnostics.hpp"
+#include "core/input/element.hpp"
+#include "core/input/node.hpp"
+
+namespace tushar::input {
+
+/// A scene file as a tree of tags that remember where they stand.
+///
+/// `<include href="other.xml" section="A/B"/>` is replaced by the children of that section of the other file (of its
+/// root where no section is given; with `excludeSectionTag="false"`, by the section's tag itself). `href` is relative
+/// to the including file.
+class Document {
+ public:
+  /// Reads a file. Whatever is wrong with it goes to `diagnostics`; the document then has a bare root.
+  static Document load(const std::string& path, Diagnostics& diagnostics);
+  /// Reads a scene from memory; positions and included files are told as if it were the file `name`.
+  static Document parse(std::string_view text, const std::string& name, Diagnostics& diagnostics);
+
+  /// Overrides one value, `Grid/Level/Box/resolution=[200,1,1]`. `Tag[2]` picks the second of several siblings,
+  /// `Tag[@label='left']` one by its attribute, and a path that ends in `@type` sets an attribute. Missing tags are
+  /// created. What is overridden is from then on at the location `--set PATH=VALUE`.
+  void set(const std::string& change, Diagnostics& diagnostics);
+
+  /// `<Uintah_specification>`.
+  Element root() const { return Element(*root_); }
+  /// The scene as XML with includes resolved and overrides applied.
+  std::string text() const;
+  /// As given to load or parse.
+  const std::string& path() const { return path_; }
+
+ private:
+  Document(std::string path, std::unique_ptr<Node> root) : path_(std::move(path)), root_(std::move(root)) {}
+
+  std::string path_;
+  std::unique_ptr<Node> root_;
+};
+
+}  // namespace tushar::input

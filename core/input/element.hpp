@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/input/node.hpp"
+
+namespace tushar::input {
+
+/// A tag of a scene: a handle, cheap to copy, valid as long as its Document lives.
+class Element {
+ public:
+  explicit Element(const Node& node) : node_(&node) {}
+
+  const std::string& name() const { return node_->name; }
+  /// The tag's own text, without blanks at its ends.
+  const std::string& text() const { return node_->text; }
+  /// Where the name of the tag starts, or the option that overrides it.
+  const Location& where() const { return node_->where; }
+  /// The tags from the root (left out) down to this one: `Grid/Level/Box/resolution`.
+  std::string path() const;
+
+  std::optional<std::string> attribute(std::string_view name) const;
+  const std::vector<Attribute>& attributes() const { return node_->attributes; }
+
+  /// The first child of that name, if any.
+  std::optional<Element> child(std::string_view name) const;
+  /// All children, in the order of the file.
+  std::vector<Element> children() const;
+  std::vector<Element> children(std::string_view name) const;
+  /// None for the root.
+  std::optional<Element> parent() const;
+
+  /// The same tag of the same document.
+  friend bool operator==(const Element&, const Element&) = default;
+
+ private:
+  const Node* node_;
+};
+
+}  // namespace tushar::input

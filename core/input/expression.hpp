@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "core/base/vec.hpp"
+#include "core/input/parsed.hpp"
+
+namespace tushar::input {
+
+/// A formula in the position x, y, z (m) and the time t (s), such as `1e5*(1 + 0.1*sin(2*pi*x))`.
+///
+/// Knows the operators + - * / ^, comparisons, && ||, `condition ? a : b`, the constants pi and e, and the usual
+/// functions (sin, cos, exp, ln, sqrt, abs, min, max, …). A formula with none of x, y, z, t is evaluated once, when it
+/// is read. Copies are independent; one object must not be evaluated by two threads at a time.
+class Expression {
+ public:
+  /// The constant `value`.
+  Expression(double value = 0.0);
+  Expression(const Expression& other);
+  Expression(Expression&& other) noexcept;
+  Expression& operator=(Expression other) noexcept;
+  ~Expression();
+
+  /// Reads a formula or a plain number; infinite or undefined constants are refused.
+  static Parsed<Expression> parse(std::string_view text);
+
+  double operator()(const Vec3& x, double t = 0) const { return constant_ ? value_ : evaluate(x, t); }
+  /// Whether it is the same everywhere and always.
+  bool isConstant() const { return constant_; }
+  bool dependsOnTime() const { return dependsOnTime_; }
+  /// As it was written.
+  const std::string& text() const { return text_; }
+
+ private:
+  struct Program;
+  double evaluate(const Vec3& x, double t) const;
+
+  std::string text_;
+  double value_ = 0;
+  bool constant_ = true;
+  bool dependsOnTime_ = false;
+  mutable std::unique_ptr<Program> program_;  // compiled at the first evaluation of each copy
+};
+
+/// Three formulas, `[fx,fy,fz]`.
+class VectorExpression {
+ public:
+  /// The constant `value`.
+  VectorExpression(const Vec3& value = Vec3::Zero());
+
+  static Parsed<VectorExpression> parse(std::string_view text);
+
+  Vec3 operator()(const Vec3& x, double t = 0) const {
+    return {components_[0](x, t), components_[1](x, t), components_[2](x, t)};
+  }
+  bool isConstant() const;
+  bool dependsOnTime() const;
+  /// `axis` is 0, 1 or 2.
+  const Expression& operator[](int axis) const { return components_[static_cast<std::size_t>(axis)]; }
+  std::string text() const;
+
+ private:
+  std::array<Expression, 3> components_;
+};
+
+}  // namespace tushar::input

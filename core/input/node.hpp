@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/base/error.hpp"
+
+namespace tushar::input {
+
+/// An XML attribute and where it was given: the place of its tag, or the option that overrides it.
+struct Attribute {
+  std::string name;
+  std::string value;
+  Location where;
+};
+
+/// A tag (or comment) as a Document keeps it; read it through Element.
+struct Node {
+  enum class Kind { tag, comment };
+
+  Kind kind = Kind::tag;
+  std::string name;  ///< empty for a comment
+  std::string text;  ///< own text without blanks at its ends; what a comment says
+  Location where;
+  std::vector<Attribute> attributes;
+  std::vector<std::unique_ptr<Node>> children;
+  const Node* parent = nullptr;
+
+  /// Appends a child and returns it; the pointer stays valid for the life of this node.
+  Node& append(std::unique_ptr<Node> child) {
+    child->parent = this;
+    children.push_back(std::move(child));
+    return *children.back();
+  }
+};
+
+}  // namespace tushar::input

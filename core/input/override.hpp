@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/input/diagnostics.hpp"
+#include "core/input/node.hpp"
+
+namespace tushar::input {
+
+/// One tag of the path of an override: `Box`, `Box[2]` or `Box[@label='left']`.
+struct OverrideStep {
+  std::string name;
+  int index = 0;          ///< from 1; 0 where none is given
+  std::string attribute;  ///< empty where none is given
+  std::string value;      ///< of `attribute`
+};
+
+/// `Grid/Level/Box/resolution=[200,1,1]` taken apart.
+struct Override {
+  std::vector<OverrideStep> steps;
+  std::string attribute;  ///< the attribute to set; empty where the text of the tag is set
+  std::string value;
+};
+
+/// Reads `PATH=VALUE`; none, and a sentence in `diagnostics`, where it has no such form.
+std::optional<Override> parseOverride(std::string_view text, const Location& where, Diagnostics& diagnostics);
+
+/// Sets the value below `root`, creating missing tags; they and the tag set are from then on at `where`.
+void apply(const Override& change, Node& root, const Location& where, Diagnostics& diagnostics);
+
+}  // namespace tushar::input

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace tushar::input {
+
+/// What text was read as: a value, or a sentence that says what is wrong with the text.
+template <class T>
+struct Parsed {
+  std::optional<T> value;
+  std::string problem;  ///< empty exactly if there is a value
+
+  explicit operator bool() const { return value.has_value(); }
+  const T& operator*() const { return *value; }
+
+  static Parsed ok(T value) { return {std::move(value), {}}; }
+  static Parsed wrong(std::string sentence) { return {std::nullopt, std::move(sentence)}; }
+};
+
+}  // namespace tushar::input

@@ -1,0 +1,305 @@
+#pragma once
+
+#include <algorithm>
+#include <cassert>
+#include <functional>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "core/input/constraint.hpp"
+#include "core/input/diagnostics.hpp"
+#include "core/input/element.hpp"
+#include "core/input/schema_base.hpp"
+#include "core/input/values.hpp"
+
+namespace tushar::input {
+
+/// The names of a choice and what each stands for.
+template <class E>
+using Choices = std::vector<std::pair<std::string, E>>;
+
+/// How one tag is read into a structure S: each tag and attribute that it may have is declared once, with its type,
+/// default, unit, limits and a sentence. Reading, the messages and the manual all come from these declarations.
+///
+/// S must be default-constructible. Units are as in "m/s"; "1" means none. Schemas that are passed to others are kept
+/// by reference and must outlive them (make them function-local statics).
+template <class S>
+class Schema : public SchemaBase {
+ public:
+  /// `name` is the tag's; `sentence` says what it is for.
+  Schema(std::string name, std::string sentence) : SchemaBase(std::move(name), std::move(sentence)) {}
+
+  /// Reads the tag; every problem goes to `diagnostics`, and what it concerns keeps its default.
+  S read(const Element& element, Diagnostics& diagnostics) const {
+    S object{};
+    readInto(&object, element, diagnostics);
+    return object;
+  }
+
+  /// What an empty tag means.
+  S defaults() const {
+    S object{};
+    setDefaults(&object);
+    return object;
+  }
+
+  /// A tag with a value; `byDefault` if it is left out.
+  template <class T, class... C>
+  Schema& value(std::string name, T S::*member, std::type_identity_t<T> byDefault, std::string unit,
+                std::string sentence, const C&... constraints) {
+    return put(withDefault(valueEntry<T>(member, name, unit, sentence, constraints...), member, byDefault));
+  }
+
+  /// A tag with a value that must be given.
+  template <class T, class... C>
+  Schema& required(std::string name, T S::*member, std::string unit, std::string sentence, const C&... constraints) {
+    return put(mandatory(valueEntry<T>(member, name, unit, sentence, constraints...)));
+  }
+
+  /// A tag with a value that may be left out.
+  template <class T, class... C>
+  Schema& optional(std::string name, std::optional<T> S::*member, std::string unit, std::string sentence,
+                   const C&... constraints) {
+    return put(valueEntry<T>(member, name, unit, sentence, constraints...));
+  }
+
+  /// A tag with a value that may be given any number of times, at least `atLeast` times.
+  template <class T, class... C>
+  Schema& values(std::string name, std::vector<T> S::*member, std::string unit, std::string sentence, int atLeast,
+                 const C&... constraints) {
+    SchemaEntry entry = valueEntry<T>(member, name, unit, sentence, constraints...);
+    entry.repeatable = true;
+    entry.atLeast = atLeast;
+    return put(std::move(entry));
+  }
+
+  /// The tag's own text, which must be given.
+  template <class T, class... C>
+  Schema& text(T S::*member, std::string unit, std::string sentence, const C&... constraints) {
+    SchemaEntry entry = mandatory(valueEntry<T>(member, "", unit, sentence, constraints...));
+    entry.place = SchemaEntry::Place::text;
+    return put(std::move(entry));
+  }
+
+  /// A tag with one of several words.
+  template <class E>
+  Schema& choice(std::string name, E S::*member, std::type_identity_t<Choices<E>> choices,
+                 std::type_identity_t<E> byDefault, std::string sentence) {
+    return put(withDefaultChoice(choiceEntry<E>(member, name, choices, sentence), member, choices, byDefault));
+  }
+  template <class E>
+  Schema& requiredChoice(std::string name, E S::*member, std::type_identity_t<Choices<E>> choices,
+                         std::string sentence) {
+    return put(mandatory(choiceEntry<E>(member, name, choices, sentence)));
+  }
+  template <class E>
+  Schema& optionalChoice(std::string name, std::optional<E> S::*member, std::type_identity_t<Choices<E>> choices,
+                         std::string sentence) {
+    return put(choiceEntry<E>(member, name, choices, sentence));
+  }
+
+  /// The same for attributes.
+  template <class T, class... C>
+  Schema& attributeValue(std::string name, T S::*member, std::type_identity_t<T> byDefault, std::string unit,
+                         std::string sentence, const C&... constraints) {
+    return put(attribute(withDefault(valueEntry<T>(member, name, unit, sentence, constraints...), member, byDefault)));
+  }
+  template <class T, class... C>
+  Schema& requiredAttribute(std::string name, T S::*member, std::string unit, std::string sentence,
+                            const C&... constraints) {
+    return put(attribute(mandatory(valueEntry<T>(member, name, unit, sentence, constraints...))));
+  }
+  template <class T, class... C>
+  Schema& optionalAttribute(std::string name, std::optional<T> S::*member, std::string unit, std::string sentence,
+                            const C&... constraints) {
+    return put(attribute(valueEntry<T>(member, name, unit, sentence, constraints...)));
+  }
+  template <class E>
+  Schema& choiceAttribute(std::string name, E S::*member, std::type_identity_t<Choices<E>> choices,
+                          std::type_identity_t<E> byDefault, std::string sentence) {
+    return put(
+        attribute(withDefaultChoice(choiceEntry<E>(member, name, choices, sentence), member, choices, byDefault)));
+  }
+  template <class E>
+  Schema& requiredChoiceAttribute(std::string name, E S::*member, std::type_identity_t<Choices<E>> choices,
+                                  std::string sentence) {
+    return put(attribute(mandatory(choiceEntry<E>(member, name, choices, sentence))));
+  }
+
+  /// A tag read by another schema, which may be left out: the member is then empty.
+  template <class T>
+  Schema& section(std::string name, std::optional<T> S::*member, const Schema<T>& schema, std::string sentence = "") {
+    return put(nestedEntry<T>(name, schema, sentence, [member](S& s, T value) { s.*member = std::move(value); }));
+  }
+  /// A tag read by another schema, which may be left out: the member then has that schema's defaults.
+  template <class T>
+  Schema& section(std::string name, T S::*member, const Schema<T>& schema, std::string sentence = "") {
+    SchemaEntry entry =
+        nestedEntry<T>(name, schema, sentence, [member](S& s, T value) { s.*member = std::move(value); });
+    entry.setDefault = [member, &schema](void* object) { static_cast<S*>(object)->*member = schema.defaults(); };
+    return put(std::move(entry));
+  }
+  /// A tag read by another schema, which must be given.
+  template <class T>
+  Schema& requiredSection(std::string name, T S::*member, const Schema<T>& schema, std::string sentence = "") {
+    return put(
+        mandatory(nestedEntry<T>(name, schema, sentence, [member](S& s, T value) { s.*member = std::move(value); })));
+  }
+  /// A tag read by another schema, any number of times, at least `atLeast` times.
+  template <class T>
+  Schema& list(std::string name, std::vector<T> S::*member, const Schema<T>& schema, std::string sentence = "",
+               int atLeast = 0) {
+    SchemaEntry entry =
+        nestedEntry<T>(name, schema, sentence, [member](S& s, T value) { (s.*member).push_back(std::move(value)); });
+    entry.repeatable = true;
+    entry.atLeast = atLeast;
+    return put(std::move(entry));
+  }
+
+  /// A tag (with all that is in it) that is accepted and means nothing here; `sentence` says why.
+  Schema& ignored(std::string name, std::string sentence) { return put(ignoredEntry(name, sentence)); }
+  Schema& ignoredAttribute(std::string name, std::string sentence) {
+    return put(attribute(ignoredEntry(name, sentence)));
+  }
+
+  /// Reads what declarations cannot say. `read` is called once with the element of *this* schema, whether or not any
+  /// of the tags that it `takes` over (`name` itself if none are listed) is given.
+  Schema& custom(std::string name, std::function<void(S&, const Element&, Diagnostics&)> read,
+                 std::vector<std::string> takes, std::string sentence,
+                 std::function<void(std::ostream&, int)> describeBelow = {}) {
+    SchemaEntry entry = named(name, sentence);
+    entry.form = SchemaEntry::Form::custom;
+    entry.takes = std::move(takes);
+    entry.describe = std::move(describeBelow);
+    entry.fill = [read = std::move(read)](void* object, const Element& element, Diagnostics& diagnostics) {
+      read(*static_cast<S*>(object), element, diagnostics);
+    };
+    return put(std::move(entry));
+  }
+
+  /// Checks values against each other; called only if the element had no problem so far.
+  Schema& check(std::function<void(const S&, const Element&, Diagnostics&)> check) {
+    addCheck([check = std::move(check)](const void* object, const Element& element, Diagnostics& diagnostics) {
+      check(*static_cast<const S*>(object), element, diagnostics);
+    });
+    return *this;
+  }
+
+  /// Marks the last declaration as one that Uintah does not have.
+  Schema& ours() {
+    markLastOurs();
+    return *this;
+  }
+
+ private:
+  Schema& put(SchemaEntry entry) {
+    add(std::move(entry));
+    return *this;
+  }
+
+  static SchemaEntry named(const std::string& name, const std::string& sentence) {
+    SchemaEntry entry;
+    entry.name = name;
+    entry.sentence = sentence;
+    return entry;
+  }
+
+  static SchemaEntry attribute(SchemaEntry entry) {
+    entry.place = SchemaEntry::Place::attribute;
+    return entry;
+  }
+
+  static SchemaEntry mandatory(SchemaEntry entry) {
+    entry.atLeast = 1;
+    return entry;
+  }
+
+  static SchemaEntry ignoredEntry(const std::string& name, const std::string& sentence) {
+    SchemaEntry entry = named(name, sentence);
+    entry.form = SchemaEntry::Form::ignored;
+    return entry;
+  }
+
+  template <class T>
+  static void store(T S::*member, void* object, T value) {
+    static_cast<S*>(object)->*member = std::move(value);
+  }
+  template <class T>
+  static void store(std::optional<T> S::*member, void* object, T value) {
+    static_cast<S*>(object)->*member = std::move(value);
+  }
+  template <class T>
+  static void store(std::vector<T> S::*member, void* object, T value) {
+    (static_cast<S*>(object)->*member).push_back(std::move(value));
+  }
+
+  /// Reads a T into `member`, which is a T, an optional T or a list of T.
+  template <class T, class Member, class... C>
+  static SchemaEntry valueEntry(Member member, const std::string& name, const std::string& unit,
+                                const std::string& sentence, const C&... constraints) {
+    SchemaEntry entry = named(name, sentence);
+    entry.type = typeName<T>;
+    entry.unit = unit;
+    ((entry.limits += (entry.limits.empty() ? "" : " and ") + constraints.allowed), ...);
+    entry.assign = [=](void* object, const std::string& text) -> std::string {
+      Parsed<T> parsed = parse<T>(text);
+      if (!parsed) return parsed.problem;
+      std::string problem;
+      ((problem.empty() && !satisfies(*parsed, constraints) ? void(problem = violation(text, constraints, unit))
+                                                            : void()),
+       ...);
+      if (problem.empty()) store(member, object, *std::move(parsed.value));
+      return problem;
+    };
+    return entry;
+  }
+
+  template <class T>
+  static SchemaEntry withDefault(SchemaEntry entry, T S::*member, const T& byDefault) {
+    entry.fallback = toText(byDefault);
+    entry.setDefault = [member, byDefault](void* object) { static_cast<S*>(object)->*member = byDefault; };
+    return entry;
+  }
+
+  template <class E, class Member>
+  static SchemaEntry choiceEntry(Member member, const std::string& name, const Choices<E>& choices,
+                                 const std::string& sentence) {
+    SchemaEntry entry = named(name, sentence);
+    for (const auto& [word, meaning] : choices) entry.choices.push_back(word);
+    entry.assign = [member, choices, words = entry.choices](void* object, const std::string& text) {
+      const std::string problem = choiceProblem(text, words);
+      if (!problem.empty()) return problem;
+      const auto found = std::find(words.begin(), words.end(), text) - words.begin();
+      store(member, object, E(choices[static_cast<std::size_t>(found)].second));
+      return std::string();
+    };
+    return entry;
+  }
+
+  template <class E>
+  static SchemaEntry withDefaultChoice(SchemaEntry entry, E S::*member, const Choices<E>& choices, const E& byDefault) {
+    const auto isDefault = [&](const auto& choice) { return choice.second == byDefault; };
+    const auto found = std::find_if(choices.begin(), choices.end(), isDefault);
+    assert(found != choices.end());
+    entry.fallback = found->first;
+    entry.setDefault = [member, byDefault](void* object) { static_cast<S*>(object)->*member = byDefault; };
+    return entry;
+  }
+
+  template <class T, class Store>
+  static SchemaEntry nestedEntry(const std::string& name, const Schema<T>& schema, const std::string& sentence,
+                                 Store keep) {
+    SchemaEntry entry = named(name, sentence.empty() ? schema.sentence() : sentence);
+    entry.form = SchemaEntry::Form::nested;
+    entry.fill = [keep, &schema](void* object, const Element& element, Diagnostics& diagnostics) {
+      keep(*static_cast<S*>(object), schema.read(element, diagnostics));
+    };
+    entry.describe = [&schema](std::ostream& out, int indent) { schema.describeContents(out, indent); };
+    return entry;
+  }
+};
+
+}  // namespace tushar::input

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <functional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "core/input/diagnostics.hpp"
+#include "core/input/element.hpp"
+
+namespace tushar::input {
+
+/// One declaration of a schema, with the type of the structure that it fills erased.
+struct SchemaEntry {
+  enum class Place { attribute, tag, text };
+  /// How a tag is read: as one value, by another schema, by a function of the parent, or not at all.
+  enum class Form { value, nested, custom, ignored };
+
+  Place place = Place::tag;
+  Form form = Form::value;
+  std::string name;
+  std::string sentence;
+  std::string type;
+  std::string unit;
+  std::string fallback;  ///< the default as text; empty where there is none
+  std::string limits;
+  std::vector<std::string> choices;
+  std::vector<std::string> takes;  ///< the tags that it reads; empty for attributes and text
+  bool ours = false;
+  bool repeatable = false;
+  int atLeast = 0;  ///< how many must be given
+
+  std::function<void(void* object)> setDefault;
+  /// Reads a value; returns a sentence where it is wrong.
+  std::function<std::string(void* object, const std::string& text)> assign;
+  /// Reads a nested tag; for Form::custom, the parent.
+  std::function<void(void* object, const Element& element, Diagnostics& diagnostics)> fill;
+  /// The manual of what is below the tag.
+  std::function<void(std::ostream& out, int indent)> describe;
+};
+
+/// Why `text` is none of `words`, or nothing.
+std::string choiceProblem(const std::string& text, const std::vector<std::string>& words);
+
+/// What a Schema does without knowing the structure that it fills.
+class SchemaBase {
+ public:
+  const std::string& name() const { return name_; }
+  const std::string& sentence() const { return sentence_; }
+  /// The tags that may be given, in the order of their declaration.
+  std::vector<std::string> tagNames() const;
+  std::vector<std::string> attributeNames() const;
+  /// Writes the manual of the tag and of all that it may contain, indented by that many blanks.
+  void describe(std::ostream& out, int indent = 0) const;
+  /// The same without the line of the tag itself.
+  void describeContents(std::ostream& out, int indent = 0) const;
+
+ protected:
+  using Check = std::function<void(const void* object, const Element& element, Diagnostics& diagnostics)>;
+
+  SchemaBase(std::string name, std::string sentence) : name_(std::move(name)), sentence_(std::move(sentence)) {}
+
+  void add(SchemaEntry entry);
+  void addCheck(Check check) { checks_.push_back(std::move(check)); }
+  void markLastOurs();
+  void setDefaults(void* object) const;
+  void readInto(void* object, const Element& element, Diagnostics& diagnostics) const;
+
+ private:
+  void readAttributes(void* object, const Element& element, Diagnostics& diagnostics) const;
+  void readTags(void* object, const Element& element, Diagnostics& diagnostics) const;
+  void readText(void* object, const Element& element, Diagnostics& diagnostics) const;
+  void reportUnknown(const Element& element, Diagnostics& diagnostics) const;
+
+  std::string name_;
+  std::string sentence_;
+  std::vector<SchemaEntry> entries_;
+  std::vector<Check> checks_;
+};
+
+}  // namespace tushar::input

@@ -1,0 +1,95 @@
+#include "core/input/xml_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include "core/input/text.hpp"
+
+namespace tushar::input {
+
+namespace {
+
+bool isDeclaredLatin1(std::string_view text) {
+  std::string declaration(text.substr(0, text.find('>')));
+  std::transform(declaration.begin(), declaration.end(), declaration.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return declaration.starts_with("<?xml") && declaration.find("iso-8859-1") != std::string::npos;
+}
+
+std::string latin1ToUtf8(std::string_view text) {
+  std::string out;
+  out.reserve(text.size());
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80) {
+      out += c;
+    } else {
+      out += static_cast<char>(0xC0 | (byte >> 6));
+      out += static_cast<char>(0x80 | (byte & 0x3F));
+    }
+  }
+  return out;
+}
+
+/// Why the file at `path` cannot be opened at all, or nothing.
+std::string accessProblem(const std::string& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) return "this is a folder, expected a file";
+  if (!std::filesystem::exists(path, ignored)) return "there is no such file";
+  return {};
+}
+
+}  // namespace
+
+std::optional<std::string> XmlFile::slurp(const std::string& path, const Location& where, Diagnostics& diagnostics) {
+  const std::string prefix = where.file == path ? "" : fmt::format("cannot include '{}': ", path);
+  std::string problem = accessProblem(path);
+  std::string text;
+  if (problem.empty()) {
+    errno = 0;
+    std::ifstream file(path, std::ios::binary);
+    text.assign(std::istreambuf_iterator<char>(file), {});
+    if (!file || errno != 0) problem = "it cannot be read: " + std::generic_category().message(errno ? errno : EIO);
+  }
+  if (problem.empty() && trimmed(text).empty()) problem = "the file is empty";
+  if (problem.empty()) return text;
+  diagnostics.error(where, {}, prefix + problem);
+  return std::nullopt;
+}
+
+XmlFile::XmlFile(std::string_view text, std::string name, Diagnostics& diagnostics)
+    : name_(std::move(name)), text_(isDeclaredLatin1(text) ? latin1ToUtf8(text) : std::string(text)) {
+  for (std::size_t i = 0; i < text_.size(); ++i) {
+    if (text_[i] == '\n') lineStarts_.push_back(static_cast<std::ptrdiff_t>(i) + 1);
+  }
+  parse(diagnostics);
+}
+
+void XmlFile::parse(Diagnostics& diagnostics) {
+  const unsigned options = pugi::parse_default | pugi::parse_comments;
+  const pugi::xml_parse_result result = document_.load_buffer(text_.data(), text_.size(), options, pugi::encoding_utf8);
+  if (!result) {
+    diagnostics.error(locate(result.offset), {}, fmt::format("this is not well-formed XML: {}", result.description()));
+    document_.reset();
+  }
+  for (auto next = root().next_sibling(); next; next = next.next_sibling()) {
+    if (next.type() != pugi::node_element) continue;
+    diagnostics.error(locate(next), {},
+                      fmt::format("a second outermost tag <{}> after <{}>", next.name(), root().name()));
+  }
+}
+
+Location XmlFile::locate(std::ptrdiff_t offset) const {
+  const auto after = std::upper_bound(lineStarts_.begin(), lineStarts_.end(), offset);
+  const auto line = after - lineStarts_.begin();
+  return {name_, static_cast<int>(line), static_cast<int>(offset - *std::prev(after)) + 1};
+}
+
+}  // namespace tushar::input

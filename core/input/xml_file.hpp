@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <pugixml.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/input/diagnostics.hpp"
+
+namespace tushar::input {
+
+/// One parsed XML file that knows the line and column of each of its nodes.
+class XmlFile {
+ public:
+  /// Reads the file into memory; none, and a sentence, if that fails. `where` is the tag that asks for the file.
+  static std::optional<std::string> slurp(const std::string& path, const Location& where, Diagnostics& diagnostics);
+
+  /// Parses `text`, which is called `name` in messages. Text declared to be ISO-8859-1 is converted to UTF-8.
+  XmlFile(std::string_view text, std::string name, Diagnostics& diagnostics);
+
+  /// The outermost tag; empty if the file is malformed.
+  pugi::xml_node root() const { return document_.document_element(); }
+  const std::string& name() const { return name_; }
+  Location locate(const pugi::xml_node& node) const { return locate(node.offset_debug()); }
+
+ private:
+  Location locate(std::ptrdiff_t offset) const;
+  void parse(Diagnostics& diagnostics);
+
+  std::string name_;
+  std::string text_;
+  std::vector<std::ptrdiff_t> lineStarts_{0};
+  pugi::xml_document document_;
+};
+
+}  // namespace tushar::input
