@@ -1,0 +1,214 @@
+#include "core/input/geometry.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+
+#include "core/input/geometry/combined.hpp"
+#include "core/input/geometry/shapes.hpp"
+#include "core/input/schema.hpp"
+#include "core/input/text.hpp"
+
+namespace tushar::input {
+
+namespace {
+
+/// A kind of shape: how it is read and described.
+struct Kind {
+  std::string name;
+  std::function<PiecePtr(const Element&, Diagnostics&)> read;
+  std::function<void(std::ostream&, int)> describe;
+};
+
+template <class T>
+Kind simple() {
+  const auto read = [](const Element& element, Diagnostics& diagnostics) -> PiecePtr {
+    const std::size_t before = diagnostics.size();
+    auto piece = std::make_shared<T>(T::schema().read(element, diagnostics));
+    return diagnostics.size() == before ? piece : nullptr;
+  };
+  const auto describe = [](std::ostream& out, int indent) { T::schema().describe(out, indent); };
+  return {T::schema().name(), read, describe};
+}
+
+/// A reference to a shape that is wrong is null without a sentence of its own.
+bool allRead(const std::vector<PiecePtr>& pieces) {
+  return std::find(pieces.begin(), pieces.end(), nullptr) == pieces.end();
+}
+
+/// What a union, a difference or an intersection is made of.
+struct Operands {
+  std::vector<PiecePtr> pieces;
+};
+
+std::vector<Element> shapesIn(const Element& parent) {
+  const std::vector<std::string> shapes = geometryNames();
+  std::vector<Element> found = parent.children();
+  std::erase_if(found, [&](const Element& child) {
+    return std::find(shapes.begin(), shapes.end(), child.name()) == shapes.end();
+  });
+  return found;
+}
+
+void readOperands(Operands& operands, const Element& parent, Diagnostics& diagnostics) {
+  for (const Element& shape : shapesIn(parent)) operands.pieces.push_back(readShape(shape, diagnostics));
+}
+
+/// Of a tag with exactly two shapes, or with at least one.
+Schema<Operands> operandsSchema(const std::string& name, const std::string& sentence, bool exactlyTwo) {
+  const auto checkCount = [exactlyTwo](const Operands& operands, const Element& element, Diagnostics& diagnostics) {
+    const std::size_t count = operands.pieces.size();
+    if (exactlyTwo ? count == 2 : count >= 1) return;
+    diagnostics.error(element,
+                      fmt::format("found {} shapes in <{}>, expected {}", count, element.name(),
+                                  exactlyTwo ? "two: what to take away from, and what to take away" : "at least one"));
+  };
+  Schema<Operands> schema(name, sentence);
+  schema.ignoredAttribute("label", "an empty tag with this label, further down, stands for this shape")
+      .ignoredAttribute("name", "another word for label")
+      .custom("shapes", readOperands, geometryNames(), exactlyTwo ? "two shapes" : "any number of shapes")
+      .check(checkCount);
+  return schema;
+}
+
+Kind combined(const Schema<Operands>& schema, const std::function<PiecePtr(std::vector<PiecePtr>)>& combine) {
+  const auto read = [schema, combine](const Element& element, Diagnostics& diagnostics) -> PiecePtr {
+    const std::size_t before = diagnostics.size();
+    Operands operands = schema.read(element, diagnostics);
+    if (diagnostics.size() != before || !allRead(operands.pieces)) return nullptr;
+    return combine(std::move(operands.pieces));
+  };
+  const auto describe = [schema](std::ostream& out, int indent) { schema.describe(out, indent); };
+  return {schema.name(), read, describe};
+}
+
+const std::vector<Kind>& kinds() {
+  static const std::vector<Kind> all{
+      simple<Box>(),
+      simple<Cylinder>(),
+      simple<Sphere>(),
+      simple<Cone>(),
+      simple<Ellipsoid>(),
+      simple<Parallelepiped>(),
+      simple<Torus>(),
+      combined(operandsSchema("union", "What is in any of its shapes.", false),
+               [](std::vector<PiecePtr> pieces) { return std::make_shared<Union>(std::move(pieces)); }),
+      combined(operandsSchema("difference", "What is in its first shape but not in its second.", true),
+               [](std::vector<PiecePtr> pieces) { return std::make_shared<Difference>(pieces[0], pieces[1]); }),
+      combined(operandsSchema("intersection", "What is in all of its shapes.", false),
+               [](std::vector<PiecePtr> pieces) { return std::make_shared<Intersection>(std::move(pieces)); })};
+  return all;
+}
+
+const Kind* findKind(const std::string& name) {
+  const auto found = std::find_if(kinds().begin(), kinds().end(), [&](const Kind& kind) { return kind.name == name; });
+  return found == kinds().end() ? nullptr : &*found;
+}
+
+std::optional<std::string> labelOf(const Element& shape) {
+  const auto label = shape.attribute("label");
+  return label ? label : shape.attribute("name");
+}
+
+bool isEmpty(const Element& element) { return element.children().empty() && element.text().empty(); }
+
+bool isLabelledDefinition(const Element& element) {
+  return !isEmpty(element) && labelOf(element) && findKind(element.name());
+}
+
+/// Collects the labelled shapes that stand wholly above `until`; returns whether that was reached.
+bool collectAbove(const Element& from, const Element& until, std::vector<Element>& found) {
+  if (from == until) return true;
+  const std::size_t place = found.size();
+  if (isLabelledDefinition(from)) found.push_back(from);
+  for (const Element& child : from.children()) {
+    if (!collectAbove(child, until, found)) continue;
+    if (isLabelledDefinition(from)) found.erase(found.begin() + static_cast<std::ptrdiff_t>(place));
+    return true;
+  }
+  return false;
+}
+
+std::vector<Element> labelledAbove(const Element& shape) {
+  Element root = shape;
+  while (const auto parent = root.parent()) root = *parent;
+  std::vector<Element> found;
+  collectAbove(root, shape, found);
+  return found;
+}
+
+std::optional<Element> definition(const std::string& label, const std::vector<Element>& labelled) {
+  for (const Element& shape : labelled) {
+    if (labelOf(shape) == label) return shape;
+  }
+  return std::nullopt;
+}
+
+PiecePtr readReference(const Element& reference, const std::string& label, Diagnostics& diagnostics) {
+  const std::vector<Element> labelled = labelledAbove(reference);
+  const auto original = definition(label, labelled);
+  if (!original) {
+    std::vector<std::string> labels;
+    for (const Element& shape : labelled) labels.push_back(*labelOf(shape));
+    diagnostics.error(reference,
+                      fmt::format("there is no shape labelled '{}' above{}", label, didYouMean(label, labels)));
+    return nullptr;
+  }
+  if (original->name() != reference.name()) {
+    diagnostics.error(reference, fmt::format("'{}' is the <{}> at {}, not a <{}>", label, original->name(),
+                                             original->where().text(), reference.name()));
+    return nullptr;
+  }
+  Diagnostics toldAlready;
+  return findKind(original->name())->read(*original, toldAlready);
+}
+
+void checkLabelIsNew(const Element& shape, const std::string& label, Diagnostics& diagnostics) {
+  const auto first = definition(label, labelledAbove(shape));
+  if (!first) return;
+  diagnostics.error(shape, fmt::format("the label '{}' is that of the <{}> at {} already; to use that one again, leave "
+                                       "this tag empty",
+                                       label, first->name(), first->where().text()));
+}
+
+}  // namespace
+
+std::vector<std::string> geometryNames() {
+  return {"box",   "cylinder", "sphere",     "cone",        "ellipsoid", "parallelepiped",
+          "torus", "union",    "difference", "intersection"};
+}
+
+PiecePtr readShape(const Element& shape, Diagnostics& diagnostics) {
+  const Kind* kind = findKind(shape.name());
+  if (!kind) {
+    diagnostics.error(shape, fmt::format("unknown shape <{}>{}; the shapes are: {}", shape.name(),
+                                         didYouMean(shape.name(), geometryNames()), listed(geometryNames())));
+    return nullptr;
+  }
+  const auto label = labelOf(shape);
+  if (label && isEmpty(shape)) return readReference(shape, *label, diagnostics);
+  if (label) checkLabelIsNew(shape, *label, diagnostics);
+  return kind->read(shape, diagnostics);
+}
+
+PiecePtr readGeometry(const Element& parent, Diagnostics& diagnostics) {
+  const std::vector<Element> shapes = shapesIn(parent);
+  if (shapes.empty()) {
+    diagnostics.error(parent,
+                      fmt::format("<{}> has no shape; the shapes are: {}", parent.name(), listed(geometryNames())));
+    return nullptr;
+  }
+  const std::size_t before = diagnostics.size();
+  std::vector<PiecePtr> pieces;
+  for (const Element& shape : shapes) pieces.push_back(readShape(shape, diagnostics));
+  if (diagnostics.size() != before || !allRead(pieces)) return nullptr;
+  return pieces.size() == 1 ? pieces[0] : std::make_shared<Union>(std::move(pieces));
+}
+
+void describeGeometry(std::ostream& out, int indent) {
+  for (const Kind& kind : kinds()) kind.describe(out, indent);
+}
+
+}  // namespace tushar::input

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "core/input/diagnostics.hpp"
+#include "core/input/element.hpp"
+#include "core/input/geometry/piece.hpp"
+
+namespace tushar::input {
+
+/// The tags that are shapes, for Schema::custom to take over: `.custom("shape", …, geometryNames(), …)`.
+std::vector<std::string> geometryNames();
+
+/// The shapes among the children of a `<geom_object>` (or the like), united if there are several; other children are
+/// left to the schema of `parent`. Null, after a sentence, if there is none or if one is wrong.
+///
+/// A shape with a `label` (or `name`) can be used again, further down in the document, by an empty tag of the same
+/// kind with that label.
+PiecePtr readGeometry(const Element& parent, Diagnostics& diagnostics);
+
+/// One shape. Null, after a sentence, if it is unknown or wrong.
+PiecePtr readShape(const Element& shape, Diagnostics& diagnostics);
+
+/// The manual of all shapes, indented by that many blanks.
+void describeGeometry(std::ostream& out, int indent = 0);
+
+}  // namespace tushar::input

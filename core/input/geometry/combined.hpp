@@ -1,0 +1,45 @@
+#pragma once
+
+#include <vector>
+
+#include "core/input/geometry/piece.hpp"
+
+namespace tushar::input {
+
+/// Inside any of its pieces.
+class Union : public GeometryPiece {
+ public:
+  /// At least one piece.
+  explicit Union(std::vector<PiecePtr> pieces) : pieces_(std::move(pieces)) {}
+  bool contains(const Vec3& point) const override;
+  Box3 bounds() const override;
+
+ private:
+  std::vector<PiecePtr> pieces_;
+};
+
+/// Inside all of its pieces.
+class Intersection : public GeometryPiece {
+ public:
+  /// At least one piece.
+  explicit Intersection(std::vector<PiecePtr> pieces) : pieces_(std::move(pieces)) {}
+  bool contains(const Vec3& point) const override;
+  Box3 bounds() const override;
+
+ private:
+  std::vector<PiecePtr> pieces_;
+};
+
+/// Inside the first piece and outside of the second.
+class Difference : public GeometryPiece {
+ public:
+  Difference(PiecePtr from, PiecePtr taken) : from_(std::move(from)), taken_(std::move(taken)) {}
+  bool contains(const Vec3& point) const override { return from_->contains(point) && !taken_->contains(point); }
+  Box3 bounds() const override { return from_->bounds(); }
+
+ private:
+  PiecePtr from_;
+  PiecePtr taken_;
+};
+
+}  // namespace tushar::input

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <memory>
+
+#include "core/base/vec.hpp"
+
+namespace tushar::input {
+
+/// An axis-aligned box (m); empty where `max` is not above `min`.
+struct Box3 {
+  Vec3 min = Vec3::Zero();
+  Vec3 max = Vec3::Zero();
+
+  bool isEmpty() const { return !((max - min).array() > 0).all(); }
+  /// The smallest box that holds both.
+  Box3 hull(const Box3& other) const { return {min.cwiseMin(other.min), max.cwiseMax(other.max)}; }
+  /// What both have in common; may be empty.
+  Box3 common(const Box3& other) const { return {min.cwiseMax(other.min), max.cwiseMin(other.max)}; }
+};
+
+/// A region of space (m).
+class GeometryPiece {
+ public:
+  virtual ~GeometryPiece() = default;
+  virtual bool contains(const Vec3& point) const = 0;
+  /// A box outside of which no point is contained.
+  virtual Box3 bounds() const = 0;
+};
+
+/// Pieces never change once read, so they are shared freely.
+using PiecePtr = std::shared_ptr<const GeometryPiece>;
+
+}  // namespace tushar::input

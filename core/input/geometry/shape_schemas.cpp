@@ -1,0 +1,150 @@
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+
+#include <cmath>
+
+#include "core/input/geometry/shapes.hpp"
+
+// What the scene says of each shape, and what makes it degenerate.
+
+namespace tushar::input {
+
+namespace {
+
+/// A label, which readGeometry looks up itself.
+template <class T>
+Schema<T> shapeSchema(const std::string& name, const std::string& sentence) {
+  Schema<T> schema(name, sentence);
+  schema.ignoredAttribute("label", "an empty tag with this label, further down, stands for this shape");
+  schema.ignoredAttribute("name", "another word for label");
+  return schema;
+}
+
+template <class T>
+void checkAxis(const T& shape, const Element& element, Diagnostics& diagnostics) {
+  if (shape.bottom != shape.top) return;
+  diagnostics.error(element, fmt::format("bottom and top are both {}, so the <{}> has no height", toText(shape.bottom),
+                                         element.name()));
+}
+
+void checkBox(const Box& box, const Element& element, Diagnostics& diagnostics) {
+  for (int d = 0; d < 3; ++d) {
+    if (box.max[d] > box.min[d]) continue;
+    diagnostics.error(element, fmt::format("the box has no extent along {}: max {} must be above min {}", "xyz"[d],
+                                           box.max[d], box.min[d]));
+  }
+}
+
+void checkEllipsoid(const Ellipsoid& shape, const Element& element, Diagnostics& diagnostics) {
+  const bool radii = shape.rx && shape.ry && shape.rz;
+  const bool axes = shape.v1 && shape.v2 && shape.v3;
+  const bool any = shape.rx || shape.ry || shape.rz;
+  if (radii == axes || (axes && any) || (radii && (shape.v1 || shape.v2 || shape.v3))) {
+    diagnostics.error(element, "expected either <rx>, <ry> and <rz> or <v1>, <v2> and <v3>");
+    return;
+  }
+  const auto v = shape.semiAxes();
+  if (v[0].isZero(0) || v[1].isZero(0) || v[2].isZero(0)) {
+    diagnostics.error(element, "the semi-axes v1, v2 and v3 must not be zero");
+    return;
+  }
+  // Scenes give directions to a few digits.
+  const auto skewed = [](const Vec3& a, const Vec3& b) { return std::abs(a.dot(b)) > 1e-6 * a.norm() * b.norm(); };
+  if (skewed(v[0], v[1]) || skewed(v[1], v[2]) || skewed(v[2], v[0])) {
+    diagnostics.error(element, "the semi-axes v1, v2 and v3 must be perpendicular to each other");
+  }
+}
+
+void checkCone(const Cone& cone, const Element& element, Diagnostics& diagnostics) {
+  checkAxis(cone, element, diagnostics);
+  if (cone.bottomRadius > 0 || cone.topRadius > 0) return;
+  diagnostics.error(element, "bottom_radius and top_radius are both 0, so the <cone> has no volume");
+}
+
+void checkParallelepiped(const Parallelepiped& shape, const Element& element, Diagnostics& diagnostics) {
+  const auto edges = shape.edges();
+  const double scale = edges.col(0).norm() * edges.col(1).norm() * edges.col(2).norm();
+  if (std::abs(edges.determinant()) > 1e-12 * scale) return;  // 1e-12: what rounding leaves of a flat one
+  diagnostics.error(element, "p1, p2, p3 and p4 lie in one plane, so the <parallelepiped> has no volume");
+}
+
+}  // namespace
+
+const Schema<Box>& Box::schema() {
+  static const Schema<Box> schema = shapeSchema<Box>("box", "A box along the axes, without its upper faces.")
+                                        .required("min", &Box::min, "m", "lower corner")
+                                        .required("max", &Box::max, "m", "upper corner")
+                                        .check(checkBox);
+  return schema;
+}
+
+const Schema<Sphere>& Sphere::schema() {
+  static const Schema<Sphere> schema = shapeSchema<Sphere>("sphere", "A ball.")
+                                           .required("origin", &Sphere::origin, "m", "its centre")
+                                           .required("radius", &Sphere::radius, "m", "its radius", positive());
+  return schema;
+}
+
+const Schema<Ellipsoid>& Ellipsoid::schema() {
+  static const Schema<Ellipsoid> schema =
+      shapeSchema<Ellipsoid>("ellipsoid", "An ellipsoid, by three radii or by three semi-axes.")
+          .required("origin", &Ellipsoid::origin, "m", "its centre")
+          .optional("rx", &Ellipsoid::rx, "m", "radius along x", positive())
+          .optional("ry", &Ellipsoid::ry, "m", "radius along y", positive())
+          .optional("rz", &Ellipsoid::rz, "m", "radius along z", positive())
+          .optional("v1", &Ellipsoid::v1, "m", "first semi-axis")
+          .optional("v2", &Ellipsoid::v2, "m", "second semi-axis")
+          .optional("v3", &Ellipsoid::v3, "m", "third semi-axis")
+          .check(checkEllipsoid);
+  return schema;
+}
+
+const Schema<Cone>& Cone::schema() {
+  static const Schema<Cone> schema =
+      shapeSchema<Cone>("cone", "A cone, or what is left of one whose tip is cut off.")
+          .required("bottom", &Cone::bottom, "m", "centre of one end, which belongs to it")
+          .required("top", &Cone::top, "m", "centre of the other end, which does not")
+          .required("bottom_radius", &Cone::bottomRadius, "m", "radius at the bottom", nonNegative())
+          .required("top_radius", &Cone::topRadius, "m", "radius at the top", nonNegative())
+          .check(checkCone);
+  return schema;
+}
+
+const Schema<Cylinder>& Cylinder::schema() {
+  static const Schema<Cylinder> schema =
+      shapeSchema<Cylinder>("cylinder", "A circular cylinder in any direction.")
+          .required("bottom", &Cylinder::bottom, "m", "centre of one end, which belongs to it")
+          .required("top", &Cylinder::top, "m", "centre of the other end, which does not")
+          .required("radius", &Cylinder::radius, "m", "its radius", positive())
+          .value("cylinder_end", &Cylinder::cylinderEnd, false, "", "a pressure acts on its end, not on its side")
+          .value("axisymmetric_end", &Cylinder::axisymmetricEnd, false, "", "the same in an axisymmetric scene")
+          .value("axisymmetric_side", &Cylinder::axisymmetricSide, false, "",
+                 "a pressure acts on its side in an axisymmetric scene")
+          .check(checkAxis<Cylinder>);
+  return schema;
+}
+
+const Schema<Parallelepiped>& Parallelepiped::schema() {
+  static const Schema<Parallelepiped> schema =
+      shapeSchema<Parallelepiped>("parallelepiped", "A sheared box: one corner and the three next to it.")
+          .required("p1", &Parallelepiped::p1, "m", "the corner")
+          .required("p2", &Parallelepiped::p2, "m", "the corner at the end of the first edge")
+          .required("p3", &Parallelepiped::p3, "m", "the corner at the end of the second edge")
+          .required("p4", &Parallelepiped::p4, "m", "the corner at the end of the third edge")
+          .check(checkParallelepiped);
+  return schema;
+}
+
+const Schema<Torus>& Torus::schema() {
+  static const Schema<Torus> schema =
+      shapeSchema<Torus>("torus", "A ring.")
+          .required("center", &Torus::center, "m", "its centre")
+          .required("major_radius", &Torus::majorRadius, "m", "radius of the ring", nonNegative())
+          .required("minor_radius", &Torus::minorRadius, "m", "radius of the tube", positive())
+          .requiredChoice("axis", &Torus::axis, {{"x", 0}, {"y", 1}, {"z", 2}}, "axis of the ring")
+          .value("theta", &Torus::theta, 0.0, "rad", "tilt of the axis: z towards -x, y towards z, x towards y");
+  return schema;
+}
+
+}  // namespace tushar::input

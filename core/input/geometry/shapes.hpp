@@ -1,0 +1,101 @@
+#pragma once
+
+#include <array>
+
+#include "core/input/geometry/piece.hpp"
+#include "core/input/schema.hpp"
+
+namespace tushar::input {
+
+// Flat faces are half-open, as those of cells: a point on the lower face (bottom, p1) is inside, one on the upper face
+// is not, so that abutting pieces never share a particle. Round surfaces belong to the piece.
+
+/// min <= p < max along each axis.
+struct Box : GeometryPiece {
+  Vec3 min = Vec3::Zero();
+  Vec3 max = Vec3::Zero();
+
+  bool contains(const Vec3& point) const override;
+  Box3 bounds() const override { return {min, max}; }
+  static const Schema<Box>& schema();
+};
+
+/// |p - origin| <= radius.
+struct Sphere : GeometryPiece {
+  Vec3 origin = Vec3::Zero();
+  double radius = 0;
+
+  bool contains(const Vec3& point) const override;
+  Box3 bounds() const override;
+  static const Schema<Sphere>& schema();
+};
+
+/// Sum over its semi-axes v of ((p - origin).v / v.v)^2 <= 1; the semi-axes are perpendicular.
+struct Ellipsoid : GeometryPiece {
+  Vec3 origin = Vec3::Zero();
+  std::optional<double> rx, ry, rz;  ///< along the axes of space …
+  std::optional<Vec3> v1, v2, v3;    ///< … or along any directions
+
+  std::array<Vec3, 3> semiAxes() const;
+  bool contains(const Vec3& point) const override;
+  Box3 bounds() const override;
+  static const Schema<Ellipsoid>& schema();
+};
+
+/// With s from 0 at the bottom to 1 at the top: 0 <= s < 1 and distance from the axis <= radius(s), which is linear.
+struct Cone : GeometryPiece {
+  Vec3 bottom = Vec3::Zero();
+  Vec3 top = Vec3::Zero();
+  double bottomRadius = 0;
+  double topRadius = 0;
+
+  bool contains(const Vec3& point) const override;
+  Box3 bounds() const override;
+  static const Schema<Cone>& schema();
+};
+
+/// A cone of one radius. The flags say on which of its surfaces a pressure acts.
+struct Cylinder : GeometryPiece {
+  Vec3 bottom = Vec3::Zero();
+  Vec3 top = Vec3::Zero();
+  double radius = 0;
+  bool cylinderEnd = false;
+  bool axisymmetricEnd = false;
+  bool axisymmetricSide = false;
+
+  bool contains(const Vec3& point) const override;
+  Box3 bounds() const override;
+  static const Schema<Cylinder>& schema();
+};
+
+/// The corner p1 and the three corners next to it; p = p1 + a (p2 - p1) + b (p3 - p1) + c (p4 - p1) with a, b and c
+/// at least 0 and below 1.
+struct Parallelepiped : GeometryPiece {
+  Vec3 p1 = Vec3::Zero();
+  Vec3 p2 = Vec3::Zero();
+  Vec3 p3 = Vec3::Zero();
+  Vec3 p4 = Vec3::Zero();
+
+  /// The edges from p1, one per column.
+  Eigen::Matrix<double, 3, 3, Eigen::DontAlign> edges() const;
+  bool contains(const Vec3& point) const override;
+  Box3 bounds() const override;
+  static const Schema<Parallelepiped>& schema();
+};
+
+/// (R - d)^2 + h^2 <= r^2 with d the distance from the axis and h that from the plane of the ring.
+struct Torus : GeometryPiece {
+  Vec3 center = Vec3::Zero();
+  double majorRadius = 0;  ///< R, of the ring
+  double minorRadius = 0;  ///< r, of the tube
+  int axis = 2;
+  double theta = 0;  ///< the axis z tilts towards -x, y towards z, x towards y (rad)
+
+  /// Of length 1, tilted by theta.
+  Vec3 direction() const;
+  bool contains(const Vec3& point) const override;
+  Box3 bounds() const override;
+  static const Schema<Torus>& schema();
+};
+
+}  // namespace tushar::input
