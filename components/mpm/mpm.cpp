@@ -124,10 +124,10 @@ void Mpm<D>::scheduleComputePressure(TaskList& tasks) const {
 template <int D>
 void Mpm<D>::scheduleDiagnostics(TaskList& tasks) const {
   tasks.perMaterial("mpm::sumTotals", sumTotals<D>, materials_, requiresOld(p::mass), requiresOld(p::velocity<D>),
-                    requiresOld(p::internalEnergy), computes(totalMass), computes(totalMomentum),
-                    computes(kineticEnergy), computes(internalEnergy), computes(totalEnergy));
+                    requiresOld(p::internalEnergy), computes(total::mass), computes(total::momentum),
+                    computes(total::kineticEnergy), computes(total::internalEnergy), computes(total::energy));
   tasks.perMaterial("mpm::sumCenterOfMass", sumCenterOfMass<D>, materials_, requiresOld(p::mass),
-                    requiresOld(p::x<D>), computes(centerOfMassPosition));
+                    requiresOld(p::x<D>), computes(total::centerOfMass));
   tasks.perMaterial("mpm::computeVolume", computeVolume, materials_, requiresOld(p::mass), requiresOld(p::density),
                     computes(p::volume));
 }

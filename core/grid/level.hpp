@@ -54,6 +54,14 @@ class Level {
     return lower_[static_cast<std::size_t>(kernelAxis)] + node * spacing(kernelAxis);
   }
 
+  /// The middle of a cell, m.
+  template <int D>
+  Vec<D> cellCentre(const Index<D>& cell) const {
+    Vec<D> centre;
+    for (int d = 0; d < D; ++d) centre[d] = 0.5 * (nodePosition(d, cell[d]) + nodePosition(d, cell[d] + 1));
+    return centre;
+  }
+
   /// The cell of a coordinate along a kernel axis: the c with nodePosition(c) <= x < nodePosition(c+1).
   /// The upper end of the grid belongs to the last cell; outside the grid -1 or the number of cells.
   int cellAlong(int kernelAxis, double x) const;
