@@ -144,8 +144,8 @@ void readFaces(const Element& section, const FacesSection& faces, const std::vec
     const std::vector<Element> tags = elements[f].children("BCType");
     for (std::size_t k = 0; k < faces.faces[f].conditions.size() && k < tags.size(); ++k) {
       const ConditionSection& condition = faces.faces[f].conditions[k];
-      if (const std::string problem = input::choiceProblem(condition.label, labels); !problem.empty())
-        diagnostics.error(tags[k], "label: " + problem);
+      const std::string problem = labels.empty() ? "" : input::choiceProblem(condition.label, labels);
+      if (!problem.empty()) diagnostics.error(tags[k], "label: " + problem);
       domain.boundaries.faces[static_cast<std::size_t>(faces.faces[f].face)].push_back(
           {condition.label, condition.var, conditionValue(condition, tags[k], diagnostics)});
     }
