@@ -1,7 +1,5 @@
 #include "core/input/document.hpp"
 
-#include <unistd.h>
-
 #include <filesystem>
 
 #include "tests/input/support.hpp"
@@ -85,11 +83,10 @@ TEST(Document, SaysThatAFileIsEmpty) {
 }
 
 TEST(Document, SaysWhyAFileCannotBeRead) {
-  if (geteuid() == 0) GTEST_SKIP() << "the superuser can read every file";
-  const std::string path = temporaryFile("secret.ups", scene(""));
-  std::filesystem::permissions(path, std::filesystem::perms::none);
+  const std::string path = "/proc/self/mem";  // can be opened, but has nothing to read at its start
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "there is no such file on this system";
 
-  EXPECT_EQ(problemsOfFile(path), Lines{path + ": it cannot be read: Permission denied"});
+  EXPECT_EQ(problemsOfFile(path), Lines{path + ": it cannot be read: Input/output error"});
 }
 
 TEST(Document, SaysWhereXmlIsMalformed) {

@@ -32,6 +32,11 @@ TEST(Expression, DependsOnPlaceAndTime) {
   EXPECT_EQ(expression(point, 7), 7532);
 }
 
+TEST(Expression, TellsExponentsFromTheConstantE) {
+  EXPECT_EQ((*Expression::parse("1e5*x"))(point), 2e5);
+  EXPECT_DOUBLE_EQ((*Expression::parse("e^x"))(point), std::exp(2.0));
+}
+
 TEST(Expression, KnowsConditions) {
   const Expression expression = *Expression::parse("x < 2.5 && y == 3 ? 1 : 2");
 

@@ -16,11 +16,11 @@ PiecePtr pieceOf(const std::string& shapes) {
   return piece;
 }
 
-/// All children of the root are taken for geom_objects; `inside` starts on line 2, column 1.
+/// All children of a section M are taken for geom_objects; `inside` starts on line 2, column 1.
 Lines problemsOf(const std::string& inside) {
-  const Document document = documentOf("\n" + inside);
+  const Document document = documentOf("<M>\n" + inside + "</M>");
   Diagnostics diagnostics;
-  for (const Element& object : document.root().children()) readGeometry(object, diagnostics);
+  for (const Element& object : document.root().child("M")->children()) readGeometry(object, diagnostics);
   return told(diagnostics);
 }
 
@@ -153,11 +153,12 @@ TEST(Geometry, UnitesSeveralShapesOfOneObject) {
 }
 
 TEST(Geometry, FindsAShapeAgainByItsLabel) {
-  const Document document = documentOf("<a><difference>" + box("[0,0,0]", "[2,2,2]") +
-                                       box("[0,0,0]", "[1,1,1]", "gp3") + "</difference></a><b><box label='gp3'/></b>");
+  const Document document =
+      documentOf("<M><a><difference>" + box("[0,0,0]", "[2,2,2]") + box("[0,0,0]", "[1,1,1]", "gp3") +
+                 "</difference></a><b><box label='gp3'/></b></M>");
   Diagnostics diagnostics;
 
-  const PiecePtr piece = readGeometry(*document.root().child("b"), diagnostics);
+  const PiecePtr piece = readGeometry(*document.root().child("M")->child("b"), diagnostics);
 
   ASSERT_NE(piece, nullptr);
   expectBounds(*piece, {0, 0, 0}, {1, 1, 1});
@@ -165,33 +166,44 @@ TEST(Geometry, FindsAShapeAgainByItsLabel) {
 
 TEST(Geometry, SaysThatALabelIsUnknown) {
   EXPECT_EQ(problemsOf("<a>" + box("[0,0,0]", "[1,1,1]", "gp3") + "</a>\n<b><box label='gp4'/></b>"),
-            Lines{"s.ups:3:5: b/box: there is no shape labelled 'gp4' above (did you mean 'gp3'?)"});
+            Lines{"s.ups:3:5: M/b/box: there is no shape labelled 'gp4' above (did you mean 'gp3'?)"});
 }
 
 TEST(Geometry, SaysThatALabelIsOfAnotherKind) {
   EXPECT_EQ(problemsOf("<a>" + box("[0,0,0]", "[1,1,1]", "gp3") + "</a>\n<b><sphere label='gp3'/></b>"),
-            Lines{"s.ups:3:5: b/sphere: 'gp3' is the <box> at s.ups:2:5, not a <sphere>"});
+            Lines{"s.ups:3:5: M/b/sphere: 'gp3' is the <box> at s.ups:2:5, not a <sphere>"});
 }
 
 TEST(Geometry, SaysThatALabelIsTaken) {
   EXPECT_EQ(problemsOf("<a>" + box("[0,0,0]", "[1,1,1]", "g") + "</a>\n<b>" + box("[0,0,0]", "[2,2,2]", "g") + "</b>"),
-            Lines{"s.ups:3:5: b/box: the label 'g' is that of the <box> at s.ups:2:5 already; to use that one again, "
+            Lines{"s.ups:3:5: M/b/box: the label 'g' is that of the <box> at s.ups:2:5 already; to use that one again, "
                   "leave this tag empty"});
+}
+
+TEST(Geometry, KeepsTheLabelsOfSectionsApart) {
+  const Document document = documentOf("<M><a>" + box("[0,0,0]", "[1,1,1]", "g") + "</a></M><P><b>" +
+                                       box("[0,0,0]", "[2,2,2]", "g") + "</b></P>");
+  Diagnostics diagnostics;
+
+  const PiecePtr piece = readGeometry(*document.root().child("P")->child("b"), diagnostics);
+
+  ASSERT_NE(piece, nullptr);
+  expectBounds(*piece, {0, 0, 0}, {2, 2, 2});
 }
 
 TEST(Geometry, DoesNotFindAShapeWithinItself) {
   EXPECT_EQ(problemsOf("<a><union label='u'><union label='u'/></union></a>"),
-            Lines{"s.ups:2:22: a/union/union: there is no shape labelled 'u' above"});
+            Lines{"s.ups:2:22: M/a/union/union: there is no shape labelled 'u' above"});
 }
 
 TEST(Geometry, TellsOfAWrongShapeOnlyOnce) {
   EXPECT_EQ(problemsOf("<a>" + box("[0,0,0]", "[1,1,x]", "g") + "</a><b><union><box label='g'/></union></b>"),
-            Lines{"s.ups:2:36: a/box/max: in '[1,1,x]': found 'x', expected a number"});
+            Lines{"s.ups:2:38: M/a/box/max: in '[1,1,x]': found 'x', expected a number"});
 }
 
 TEST(Geometry, SaysThatThereIsNoShape) {
   EXPECT_EQ(problemsOf("<a><res>[1,1,1]</res></a>"),
-            Lines{"s.ups:2:2: a: <a> has no shape; the shapes are: box, cylinder, sphere, cone, ellipsoid, "
+            Lines{"s.ups:2:2: M/a: <a> has no shape; the shapes are: box, cylinder, sphere, cone, ellipsoid, "
                   "parallelepiped, torus, union, difference, intersection"});
 }
 
@@ -209,42 +221,41 @@ TEST(Geometry, SaysThatAShapeIsUnknown) {
 TEST(Geometry, SaysThatAShapeInAUnionIsUnknown) {
   EXPECT_EQ(
       problemsOf("<a><union>" + box("[0,0,0]", "[1,1,1]") + "<spere/></union></a>"),
-      Lines{"s.ups:2:56: a/union/spere: unknown tag <spere> in <union> (did you mean 'sphere'?); allowed here: box, "
+      Lines{"s.ups:2:59: M/a/union/spere: unknown tag <spere> in <union> (did you mean 'sphere'?); allowed here: box, "
             "cylinder, sphere, cone, ellipsoid, parallelepiped, torus, union, difference, intersection"});
 }
 
 TEST(Geometry, SaysHowManyShapesAreNeeded) {
   EXPECT_EQ(problemsOf("<a><difference>" + box("[0,0,0]", "[1,1,1]") + "</difference></a>"),
-            Lines{"s.ups:2:5: a/difference: found 1 shapes in <difference>, expected two: what to take away from, and "
-                  "what to take away"});
-  EXPECT_EQ(problemsOf("<a><union/></a>"),
-            Lines{"s.ups:2:5: a/union: found 0 shapes in <union>, expected at least one"});
+            Lines{"s.ups:2:5: M/a/difference: expected two shapes (what to take away from, and what to take away) in "
+                  "<difference>, found 1"});
+  EXPECT_EQ(problemsOf("<a><union/></a>"), Lines{"s.ups:2:5: M/a/union: expected a shape in <union>, found 0"});
 }
 
 TEST(Geometry, SaysThatABoxIsFlat) {
   EXPECT_EQ(problemsOf("<a>" + box("[0,0,0]", "[1,0,-2]") + "</a>"),
-            (Lines{"s.ups:2:5: a/box: the box has no extent along y: max 0 must be above min 0",
-                   "s.ups:2:5: a/box: the box has no extent along z: max -2 must be above min 0"}));
+            (Lines{"s.ups:2:5: M/a/box: the box has no extent along y: max 0 must be above min 0",
+                   "s.ups:2:5: M/a/box: the box has no extent along z: max -2 must be above min 0"}));
 }
 
 TEST(Geometry, SaysThatARadiusIsNotPositive) {
   EXPECT_EQ(problemsOf("<a><sphere><origin>[0,0,0]</origin><radius>0</radius></sphere></a>"),
-            Lines{"s.ups:2:37: a/sphere/radius: found '0', expected a value greater than 0 m"});
+            Lines{"s.ups:2:37: M/a/sphere/radius: found '0', expected a value greater than 0 m"});
 }
 
 TEST(Geometry, SaysThatACylinderHasNoHeight) {
   EXPECT_EQ(problemsOf("<a><cylinder><bottom>[0,0,1]</bottom><top>[0,0,1]</top><radius>1</radius></cylinder></a>"),
-            Lines{"s.ups:2:5: a/cylinder: bottom and top are both [0,0,1], so the <cylinder> has no height"});
+            Lines{"s.ups:2:5: M/a/cylinder: bottom and top are both [0,0,1], so the <cylinder> has no height"});
 }
 
 TEST(Geometry, SaysThatAConeHasNoVolume) {
   EXPECT_EQ(problemsOf("<a><cone><bottom>[0,0,0]</bottom><top>[0,0,1]</top><bottom_radius>0</bottom_radius>"
                        "<top_radius>0</top_radius></cone></a>"),
-            Lines{"s.ups:2:5: a/cone: bottom_radius and top_radius are both 0, so the <cone> has no volume"});
+            Lines{"s.ups:2:5: M/a/cone: bottom_radius and top_radius are both 0, so the <cone> has no volume"});
 }
 
 TEST(Geometry, SaysThatAnEllipsoidIsGivenByHalves) {
-  const std::string sentence = "s.ups:2:5: a/ellipsoid: expected either <rx>, <ry> and <rz> or <v1>, <v2> and <v3>";
+  const std::string sentence = "s.ups:2:5: M/a/ellipsoid: expected either <rx>, <ry> and <rz> or <v1>, <v2> and <v3>";
 
   EXPECT_EQ(problemsOf("<a><ellipsoid><origin>[0,0,0]</origin><rx>1</rx></ellipsoid></a>"), Lines{sentence});
   EXPECT_EQ(problemsOf(
@@ -256,18 +267,19 @@ TEST(Geometry, SaysThatSemiAxesAreWrong) {
   EXPECT_EQ(
       problemsOf(
           "<a><ellipsoid><origin>[0,0,0]</origin><v1>[1,0,0]</v1><v2>[1,1,0]</v2><v3>[0,0,1]</v3></ellipsoid></a>"),
-      Lines{"s.ups:2:5: a/ellipsoid: the semi-axes v1, v2 and v3 must be perpendicular to each other"});
+      Lines{"s.ups:2:5: M/a/ellipsoid: the semi-axes v1, v2 and v3 must be perpendicular to each other"});
   EXPECT_EQ(
       problemsOf(
           "<a><ellipsoid><origin>[0,0,0]</origin><v1>[1,0,0]</v1><v2>[0,0,0]</v2><v3>[0,0,1]</v3></ellipsoid></a>"),
-      Lines{"s.ups:2:5: a/ellipsoid: the semi-axes v1, v2 and v3 must not be zero"});
+      Lines{"s.ups:2:5: M/a/ellipsoid: the semi-axes v1, v2 and v3 must not be zero"});
 }
 
 TEST(Geometry, SaysThatAParallelepipedIsFlat) {
   EXPECT_EQ(
       problemsOf(
           "<a><parallelepiped><p1>[0,0,0]</p1><p2>[1,0,0]</p2><p3>[0,1,0]</p3><p4>[1,1,0]</p4></parallelepiped></a>"),
-      Lines{"s.ups:2:5: a/parallelepiped: p1, p2, p3 and p4 lie in one plane, so the <parallelepiped> has no volume"});
+      Lines{
+          "s.ups:2:5: M/a/parallelepiped: p1, p2, p3 and p4 lie in one plane, so the <parallelepiped> has no volume"});
 }
 
 TEST(Geometry, DescribesEveryShape) {
