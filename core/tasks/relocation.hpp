@@ -38,7 +38,9 @@ class Relocation {
     std::vector<int> departed;        ///< places of the patch's particles that leave their cell, ascending
     std::vector<Incoming> incoming;   ///< particles that come into a cell of the patch
     std::vector<int> firstIncoming;   ///< by cell, or -1
-    std::vector<int> source;          ///< for each particle of the new set its place before (0 if it comes from another patch)
+    /// For each particle of the new set its place before (0 if it comes from another patch); filled up to `count`.
+    std::vector<int> source;
+    int count = 0;
     std::vector<std::pair<int, int>> foreign;  ///< new place and index in `incoming` of those
     bool unchanged = false;
   };
@@ -49,8 +51,8 @@ class Relocation {
   void move(const grid::Patch& from, const Vec<D>& x, ParticleId id, int place);
   void receive(const grid::Patch& patch, const Index3& cell, const Incoming& particle);
   void rebuild(const grid::Patch& patch, int material);
-  void mergeCell(int patch, const data::ParticleRange& before, int first, const ParticleId* ids,
-                 std::size_t& nextDeparted);
+  static void mergeCell(int patch, PatchMoves& moves, const data::ParticleRange& before, int firstIncoming,
+                        const ParticleId* ids, std::size_t& nextDeparted);
   void carry(const Carried& variable);
 
   data::Warehouse* warehouse_;

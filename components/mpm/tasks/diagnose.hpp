@@ -10,15 +10,22 @@ template <int D>
 void sumTotals(const Patch& patch, const Gas&, ParticleView<const double> mass, ParticleView<const Vec<D>> velocity,
                ParticleView<const double> internalEnergyPerMass, Sum& total, VectorSum& momentum, Sum& kinetic,
                Sum& internal, Sum& energy) {
-  for (int p = 0; p < mass.owned(); ++p) {
-    const double m = mass[p], ke = 0.5 * m * velocity[p].squaredNorm(), ie = m * internalEnergyPerMass[p];
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    double m = 0, ke = 0, ie = 0;
+    Vec<D> mv = Vec<D>::Zero();
+    for (const int p : mass.in(cell)) {
+      m += mass[p];
+      mv += mass[p] * velocity[p];
+      ke += 0.5 * mass[p] * velocity[p].squaredNorm();
+      ie += mass[p] * internalEnergyPerMass[p];
+    }
+    if (mass.in(cell).empty()) return;
     total.add(m);
-    momentum.add(patch.level().expandDirection<D>(m * velocity[p]));
+    momentum.add(patch.level().expandDirection<D>(mv));
     kinetic.add(ke);
     internal.add(ie);
-    energy.add(ke);
-    energy.add(ie);
-  }
+    energy.add(ke + ie);
+  });
 }
 
 /// Sum of mass times position [kg m].
