@@ -142,16 +142,56 @@ void Relocation::rebuild(const Patch& patch, int material) {
       warehouse_->variable(Generation::old, idNumber, patch.id()).values.data());
   after.reset(patch, warehouse_->table().reach(material));
   moves.foreign.clear();
+  moves.pieces.clear();
   moves.source.resize(static_cast<std::size_t>(before.owned()) + moves.incoming.size());
   moves.count = 0;
-  moves.unchanged = moves.departed.empty() && moves.incoming.empty();
-  std::size_t nextDeparted = 0, cellNumber = 0;
-  grid::forEach<3>(patch.cells(), [&](const Index3& cell) {
-    const int first = moves.count;
-    mergeCell(patch.id(), moves, before.in(cell), moves.firstIncoming[cellNumber++], ids, nextDeparted);
-    after.at(cell) = {first, moves.count};
+  std::size_t nextDeparted = 0;
+  const int* firstIncoming = moves.firstIncoming.data();
+  grid::Box rows = patch.cells();
+  rows.upper[0] = rows.lower[0] + 1;
+  grid::forEach<3>(rows, [&](const Index3& cell) {
+    const ParticleRange* from = before.row(cell);
+    ParticleRange* to = after.row(cell);
+    for (int k = 0; k < patch.cells().extent(0); ++k, ++from, ++to, ++firstIncoming) {
+      const int first = moves.count;
+      const bool stays = nextDeparted == moves.departed.size() || moves.departed[nextDeparted] >= from->last;
+      if (stays && *firstIncoming < 0)
+        keepCell(moves, *from);
+      else
+        mergeCell(patch.id(), moves, *from, *firstIncoming, ids, nextDeparted);
+      *to = {first, moves.count};
+    }
   });
   after.setOwned(moves.count);
+  gatherShortCopies(moves);
+}
+
+/// Appends a cell that nobody leaves and nobody enters.
+void Relocation::keepCell(PatchMoves& moves, const ParticleRange& before) {
+  if (before.empty()) return;
+  Piece* last = moves.pieces.empty() ? nullptr : &moves.pieces.back();
+  if (last && last->from >= 0 && last->from + last->count == before.first)
+    last->count += before.size();
+  else
+    moves.pieces.push_back({moves.count, before.size(), before.first});
+  moves.count += before.size();
+}
+
+/// Turns copies too short to be worth a call into gathers, and joins neighbouring gathers.
+void Relocation::gatherShortCopies(PatchMoves& moves) {
+  constexpr int worthwhile = 32;
+  std::size_t kept = 0;
+  for (Piece piece : moves.pieces) {
+    if (piece.from >= 0 && piece.count < worthwhile) {
+      for (int k = 0; k < piece.count; ++k) moves.source[static_cast<std::size_t>(piece.to + k)] = piece.from + k;
+      piece.from = -1;
+    }
+    if (kept > 0 && piece.from < 0 && moves.pieces[kept - 1].from < 0)
+      moves.pieces[kept - 1].count += piece.count;
+    else
+      moves.pieces[kept++] = piece;
+  }
+  moves.pieces.resize(kept);
 }
 
 /// Appends the particles of one cell: those that stay, in their order, and those that come in between by id.
@@ -177,6 +217,7 @@ void Relocation::mergeCell(int patch, PatchMoves& moves, const ParticleRange& be
     source[next++] = p;
   }
   while (waiting >= 0) letInOne();
+  if (next > moves.count) moves.pieces.push_back({moves.count, next - moves.count, -1});
   moves.count = next;
 }
 
@@ -187,10 +228,14 @@ void Relocation::carry(const Carried& carried) {
     const Variable& from = warehouse_->variable(carried.from, carried.variable, static_cast<int>(patch));
     warehouse_->allocateParticles(spare_[patch], label, moves.count);
     std::byte* to = spare_[patch].values.data();
-    if (moves.unchanged)
-      std::memcpy(to, from.values.data(), static_cast<std::size_t>(moves.count) * label.bytes);
-    else if (static_cast<int>(moves.foreign.size()) < moves.count)
-      gather(from.values.data(), to, moves.source.data(), moves.count, label.bytes);
+    for (const Piece& piece : moves.pieces) {
+      std::byte* there = to + static_cast<std::size_t>(piece.to) * label.bytes;
+      if (piece.from >= 0)
+        std::memcpy(there, from.values.data() + static_cast<std::size_t>(piece.from) * label.bytes,
+                    static_cast<std::size_t>(piece.count) * label.bytes);
+      else if (from.held && from.values.data())
+        gather(from.values.data(), there, moves.source.data() + piece.to, piece.count, label.bytes);
+    }
     for (const auto& [place, index] : moves.foreign) {
       const Incoming& particle = moves.incoming[static_cast<std::size_t>(index)];
       const Variable& there = warehouse_->variable(carried.from, carried.variable, particle.patch);

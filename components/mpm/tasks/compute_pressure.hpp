@@ -49,17 +49,16 @@ void shareCellVolume(const Patch& patch, const Gas&, ParticleView<const double> 
 template <int D>
 void computeStableTimeStep(const Patch& patch, const Gas& gas, double cfl, ParticleView<const Vec<D>> velocity,
                            ParticleView<const double> internalEnergy, Minimum& dt) {
-  constexpr int lanes = 8;  // independent maxima, so that the loop runs in vector registers
-  std::array<double, lanes> fastest{};
-  const auto look = [&](int p, std::size_t lane) {
-    const double speed = length(velocity[p]) + std::sqrt(gas.soundSpeedSquared(internalEnergy[p]));
-    fastest[lane] = speed > fastest[lane] ? speed : fastest[lane];
-  };
-  const int count = velocity.owned(), whole = count - count % lanes;
-  for (int p = 0; p < whole; p += lanes)
-    for (int lane = 0; lane < lanes; ++lane) look(p + lane, static_cast<std::size_t>(lane));
-  for (int p = whole; p < count; ++p) look(p, 0);
-  const double greatest = *std::max_element(fastest.begin(), fastest.end());
+  constexpr int chunk = 256;
+  std::array<double, chunk> speed;
+  double greatest = 0;
+  for (int first = 0; first < velocity.owned(); first += chunk) {
+    const int count = std::min(chunk, velocity.owned() - first);
+    for (int k = 0; k < count; ++k)
+      speed[static_cast<std::size_t>(k)] =
+          length(velocity[first + k]) + std::sqrt(gas.soundSpeedSquared(internalEnergy[first + k]));
+    greatest = std::max(greatest, Eigen::Map<const Eigen::ArrayXd>(speed.data(), count).maxCoeff());
+  }
   if (greatest > 0) dt.add(cfl * patch.level().minSpacing() / greatest);
 }
 
