@@ -39,7 +39,7 @@ struct Archive::State {
         folder(makeNextFolder(filebase)),
         xdmf_file(folder / (filebase.stem().string() + ".xdmf")),
         index(how.version),
-        xdmf(filebase.stem().string(), how.doubleAsFloat) {}
+        xdmf(how.doubleAsFloat) {}
 
   void writePending();
   void writeIndex() { replaceFile(folder / "index.xml", index.text()); }

@@ -13,7 +13,7 @@ namespace tushar::output {
 struct ArchiveOptions {
   bool doubleAsFloat = false;  ///< keep 4 of the 8 bytes of each real number
   int compression = 0;         ///< gzip level, 0 (none) to 9
-  std::string version;         ///< of the program that writes
+  std::string version{};       ///< of the program that writes
 };
 
 /// A global quantity at one time.

@@ -26,7 +26,7 @@ void moveInto(const std::filesystem::path& temporary, const std::filesystem::pat
 /// Where a file is written before it has its name.
 std::filesystem::path temporaryOf(const std::filesystem::path& file);
 
-/// A name as part of a path, in the file system or in HDF5: '/' becomes '_'.
+/// A name as part of a path, in the file system, in HDF5 or in XDMF: '/' and ':' become '_'.
 std::string nameInPath(std::string name);
 
 /// The name of a block's group: that of the material, or `material2` where it has none.

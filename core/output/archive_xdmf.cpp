@@ -63,8 +63,7 @@ void addAttribute(pugi::xml_node grid, const Context& context, const char* centr
   addHeavyItem(attribute, context, path, array, shape);
 }
 
-void addParticles(pugi::xml_node at, const Context& context, const ParticleBlock& block) {
-  pugi::xml_node grid = addGrid(at, groupName(block.material, block.materialIndex), "Uniform");
+void addPointCloud(pugi::xml_node grid, const Context& context, const ParticleBlock& block) {
   pugi::xml_node topology = grid.append_child("Topology");
   set(topology, "TopologyType", "Polyvertex");
   set(topology, "NodesPerElement", 1);
@@ -89,50 +88,70 @@ Vec3 firstNode(const GridInfo& grid) {
   return at;
 }
 
-void addFields(pugi::xml_node at, const Context& context, const Snapshot& snapshot, Centring centring) {
+void addUniformGrid(pugi::xml_node grid, const GridInfo& info, Centring centring) {
   const bool cells = centring == Centring::cell;
-  const auto isHere = [&](const FieldBlock& field) { return field.centring == centring; };
-  if (std::none_of(snapshot.fields.begin(), snapshot.fields.end(), isHere)) return;
-  const Shape shape = fieldShape(snapshot.grid, centring);
-  Shape points = shape;
+  Shape points = fieldShape(info, centring);
   if (cells)
     for (auto& extent : points) ++extent;
-  pugi::xml_node grid = addGrid(at, cells ? "cells" : "nodes", "Uniform");
   pugi::xml_node topology = grid.append_child("Topology");
   set(topology, "TopologyType", "3DCoRectMesh");
   set(topology, "Dimensions", fmt::format("{}", fmt::join(points, " ")));
   pugi::xml_node geometry = grid.append_child("Geometry");
   set(geometry, "GeometryType", "ORIGIN_DXDYDZ");
-  addLightItem(geometry, reversed(cells ? snapshot.grid.lower : firstNode(snapshot.grid)));
-  addLightItem(geometry, reversed(snapshot.grid.spacing));
-  for (const FieldBlock& field : snapshot.fields) {
-    if (!isHere(field)) continue;
-    const std::string group = field.materialIndex < 0 ? "" : groupName(field.material, field.materialIndex) + "/";
-    addAttribute(grid, context, cells ? "Cell" : "Node", group + field.array.label, pathInFile(field), field.array,
-                 shape);
-  }
+  addLightItem(geometry, reversed(cells ? info.lower : firstNode(info)));
+  addLightItem(geometry, reversed(info.spacing));
 }
 
 }  // namespace
 
-XdmfIndex::XdmfIndex(const std::string& name, bool doubleAsFloat) : double_as_float_(doubleAsFloat) {
+XdmfIndex::XdmfIndex(bool doubleAsFloat) : double_as_float_(doubleAsFloat) {
   pugi::xml_node root = document_.append_child("Xdmf");
   set(root, "Version", "3.0");
-  times_ = addGrid(root.append_child("Domain"), name, "Collection");
-  set(times_, "CollectionType", "Temporal");
+  domain_ = root.append_child("Domain");
+}
+
+pugi::xml_node XdmfIndex::addTime(const std::string& block, const Snapshot& snapshot, const char* type) {
+  pugi::xml_node times = domain_.find_child_by_attribute("Grid", "Name", block.c_str());
+  if (!times) {
+    times = addGrid(domain_, block, "Collection");
+    set(times, "CollectionType", "Temporal");
+  }
+  const std::string step = fmt::format("{} at step {}", block, snapshot.step);
+  times.remove_child(times.find_child_by_attribute("Grid", "Name", step.c_str()));
+  pugi::xml_node grid = addGrid(times, step, type);
+  set(grid.append_child("Time"), "Value", snapshot.time);
+  return grid;
+}
+
+void XdmfIndex::addFields(const Snapshot& snapshot, Centring centring) {
+  const Context context{outputName(snapshot.step), double_as_float_};
+  const bool cells = centring == Centring::cell;
+  const auto isHere = [&](const FieldBlock& field) { return field.centring == centring; };
+  if (std::none_of(snapshot.fields.begin(), snapshot.fields.end(), isHere)) return;
+  pugi::xml_node grid = addTime(cells ? "cells" : "nodes", snapshot, "Uniform");
+  addUniformGrid(grid, snapshot.grid, centring);
+  for (const FieldBlock& field : snapshot.fields) {
+    if (!isHere(field)) continue;
+    const std::string group = field.materialIndex < 0 ? "" : groupName(field.material, field.materialIndex) + "/";
+    addAttribute(grid, context, cells ? "Cell" : "Node", group + field.array.label, pathInFile(field), field.array,
+                 fieldShape(snapshot.grid, centring));
+  }
+}
+
+/// A time without particles is an empty collection: the readers refuse a grid of 0 points.
+void XdmfIndex::addParticles(const Snapshot& snapshot, const ParticleBlock& block) {
+  const std::string name = groupName(block.material, block.materialIndex);
+  if (block.count() == 0) {
+    set(addTime(name, snapshot, "Collection"), "CollectionType", "Spatial");
+    return;
+  }
+  addPointCloud(addTime(name, snapshot, "Uniform"), {outputName(snapshot.step), double_as_float_}, block);
 }
 
 void XdmfIndex::add(const Snapshot& snapshot) {
-  const std::string name = fmt::format("step {}", snapshot.step);
-  times_.remove_child(times_.find_child_by_attribute("Grid", "Name", name.c_str()));
-  const Context context{outputName(snapshot.step), double_as_float_};
-  pugi::xml_node at = addGrid(times_, name, "Collection");
-  set(at, "CollectionType", "Spatial");
-  set(at.append_child("Time"), "Value", snapshot.time);
-  for (const ParticleBlock& block : snapshot.particles)
-    if (block.count() > 0) addParticles(at, context, block);
-  addFields(at, context, snapshot, Centring::cell);
-  addFields(at, context, snapshot, Centring::node);
+  for (const ParticleBlock& block : snapshot.particles) addParticles(snapshot, block);
+  addFields(snapshot, Centring::cell);
+  addFields(snapshot, Centring::node);
 }
 
 std::string XdmfIndex::text() const { return textOf(document_); }

@@ -7,11 +7,11 @@
 
 namespace tushar::output {
 
-/// The XDMF file that shows an archive to ParaView: a temporal collection; at each time a point cloud per material and
-/// a uniform grid for the cells and one for the nodes. The numbers stay in the HDF5 files.
+/// The XDMF file that shows an archive to ParaView: a temporal collection for each material, of point clouds, and one
+/// each for the cells and the nodes, of uniform grids. The numbers stay in the HDF5 files.
 class XdmfIndex {
  public:
-  XdmfIndex(const std::string& name, bool doubleAsFloat);
+  explicit XdmfIndex(bool doubleAsFloat);
 
   /// Adds a time, or replaces that of the same step.
   void add(const Snapshot& snapshot);
@@ -19,9 +19,13 @@ class XdmfIndex {
   std::string text() const;
 
  private:
-  pugi::xml_document document_;
-  pugi::xml_node times_;
+  pugi::xml_node addTime(const std::string& block, const Snapshot& snapshot, const char* type);
+  void addParticles(const Snapshot& snapshot, const ParticleBlock& block);
+  void addFields(const Snapshot& snapshot, Centring centring);
+
   bool double_as_float_;
+  pugi::xml_document document_;
+  pugi::xml_node domain_;
 };
 
 }  // namespace tushar::output
