@@ -1,0 +1,66 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/output/snapshot.hpp"
+
+namespace tushar::output {
+
+/// How an archive keeps its numbers.
+struct ArchiveOptions {
+  bool doubleAsFloat = false;  ///< keep 4 of the 8 bytes of each real number
+  int compression = 0;         ///< gzip level, 0 (none) to 9
+  std::string version{};       ///< of the program that writes
+};
+
+/// A global quantity at one time.
+struct GlobalSample {
+  std::string name, unit, description;
+  double time = 0;  ///< s
+  std::vector<double> values;
+};
+
+/// The `.uda` folder of a run: the scene, an index, an HDF5 file per output, an XDMF file that shows them to ParaView,
+/// and a text file per global quantity. One process writes it. Any function may throw FileError, which names the file
+/// and the system's reason.
+///
+///     sod.uda -> sod.uda.001      link to the newest run
+///     sod.uda.001/input.xml       the scene
+///                 index.xml       variables, globals and times
+///                 sod.xdmf        for ParaView
+///                 KineticEnergy.dat
+///                 t00042.h5       /grid, /particles/<material>/<label>, /cells/…, /nodes/…, /reference/<column>
+///
+/// Files other than `.dat` are put in place whole by a rename, so that a killed run leaves none of them torn.
+class Archive {
+ public:
+  /// Makes the folder `filebase.NNN`, NNN one above the highest there is, and points the link `filebase` to it.
+  /// FileError if `filebase` exists and is not a link, or if nothing can be written there.
+  Archive(const std::filesystem::path& filebase, const std::string& inputXml, const ArchiveOptions& options = {});
+  /// Flushes; an error in that is lost, so call flush() first.
+  ~Archive();
+  Archive(const Archive&) = delete;
+  Archive& operator=(const Archive&) = delete;
+
+  /// Writes an output, then the index, the XDMF file and the pending samples. A step that is written again replaces
+  /// what was there.
+  void write(const Snapshot& snapshot);
+  /// Adds a line to `<name>.dat`. It is kept in memory until there are many, or write() or flush() is called.
+  void appendGlobal(const GlobalSample& sample);
+  /// Writes what is kept in memory.
+  void flush();
+
+  /// The folder of this run, `sod.uda.001`.
+  const std::filesystem::path& folder() const;
+  /// The step of the last write(), -1 before the first.
+  int lastStep() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace tushar::output

@@ -1,0 +1,115 @@
+#include "core/output/archive_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <fstream>
+#include <optional>
+#include <system_error>
+
+#include "core/base/error.hpp"
+
+namespace tushar::output {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+[[noreturn]] void fail(const char* what, const fs::path& path, const std::error_code& why) {
+  throw FileError(fmt::format("cannot {} '{}': {}", what, path.string(), why.message()));
+}
+
+std::error_code lastError() { return {errno ? errno : EIO, std::generic_category()}; }
+
+/// The number of `sod.uda.007` among the folders of `sod.uda`.
+std::optional<int> numberOf(const fs::path& entry, const std::string& base) {
+  const std::string name = entry.filename().string();
+  if (name.size() <= base.size() + 1 || !name.starts_with(base + ".")) return {};
+  int number = 0;
+  const auto [end, error] = std::from_chars(name.data() + base.size() + 1, name.data() + name.size(), number);
+  if (error != std::errc() || end != name.data() + name.size() || number < 0) return {};
+  return number;
+}
+
+fs::path parentOf(const fs::path& filebase) { return filebase.has_parent_path() ? filebase.parent_path() : "."; }
+
+int nextNumber(const fs::path& filebase) {
+  std::error_code error;
+  int next = 0;
+  for (const auto& entry : fs::directory_iterator(parentOf(filebase), error))
+    next = std::max(next, numberOf(entry.path(), filebase.filename().string()).value_or(-1) + 1);
+  if (error) fail("read the folder", parentOf(filebase), error);
+  return next;
+}
+
+void refuseToReplace(const fs::path& filebase) {
+  std::error_code error;
+  const fs::file_status status = fs::symlink_status(filebase, error);
+  if (fs::exists(status) && !fs::is_symlink(status))
+    throw FileError(fmt::format("cannot make '{}' the link to the newest archive: it is a {} of its own; move it away",
+                                filebase.string(), fs::is_directory(status) ? "folder" : "file"));
+}
+
+void writeText(const fs::path& file, const std::string& text, std::ios::openmode mode) {
+  errno = 0;
+  std::ofstream out(file, std::ios::binary | mode);
+  if (!out) fail("write", file, lastError());
+  out << text;
+  out.close();
+  if (!out) fail("write", file, lastError());
+}
+
+}  // namespace
+
+fs::path makeNextFolder(const fs::path& filebase) {
+  refuseToReplace(filebase);
+  std::error_code error;
+  fs::create_directories(parentOf(filebase), error);
+  if (error) fail("make the folder", parentOf(filebase), error);
+  for (int number = nextNumber(filebase);; ++number) {
+    const fs::path folder = fmt::format("{}.{:03}", filebase.string(), number);
+    if (fs::create_directory(folder, error)) return folder;
+    if (error) fail("make the folder", folder, error);
+  }
+}
+
+void pointLink(const fs::path& filebase, const fs::path& folder) {
+  refuseToReplace(filebase);
+  const fs::path temporary = temporaryOf(folder);
+  std::error_code error;
+  fs::remove(temporary, error);
+  fs::create_directory_symlink(folder.filename(), temporary, error);
+  if (error) fail("make the link", filebase, error);
+  moveInto(temporary, filebase);
+}
+
+void replaceFile(const fs::path& file, const std::string& text) {
+  const fs::path temporary = temporaryOf(file);
+  writeText(temporary, text, std::ios::trunc);
+  moveInto(temporary, file);
+}
+
+void appendToFile(const fs::path& file, const std::string& text) { writeText(file, text, std::ios::app); }
+
+void moveInto(const fs::path& temporary, const fs::path& file) {
+  std::error_code error;
+  fs::rename(temporary, file, error);
+  if (error) fail("write", file, error);
+}
+
+fs::path temporaryOf(const fs::path& file) { return fs::path(file) += ".tmp"; }
+
+std::string nameInPath(std::string name) {
+  std::replace_if(name.begin(), name.end(), [](char c) { return c == '/' || c == ':'; }, '_');
+  return name;
+}
+
+std::string groupName(const std::string& material, int materialIndex) {
+  return material.empty() || material == "." ? fmt::format("material{}", materialIndex) : nameInPath(material);
+}
+
+std::string outputName(int step) { return fmt::format("t{:05}.h5", step); }
+
+}  // namespace tushar::output

@@ -1,0 +1,195 @@
+#include "core/output/archive_hdf5.hpp"
+
+#include <fmt/format.h>
+#include <hdf5.h>
+
+#include <algorithm>
+#include <cassert>
+#include <type_traits>
+
+#include "core/base/error.hpp"
+
+namespace tushar::output {
+
+namespace {
+
+static_assert(std::is_same_v<hid_t, std::int64_t>);
+
+/// Closes an HDF5 id at the end of its scope.
+class Handle {
+ public:
+  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
+  ~Handle() {
+    if (id_ >= 0) close_(id_);
+  }
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  operator hid_t() const { return id_; }
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+/// Keeps HDF5 from printing its errors while it lives.
+class Silence {
+ public:
+  Silence() {
+    H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  }
+  ~Silence() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
+  Silence(const Silence&) = delete;
+  Silence& operator=(const Silence&) = delete;
+
+ private:
+  H5E_auto2_t function_ = nullptr;
+  void* data_ = nullptr;
+};
+
+herr_t keepFirst(unsigned, const H5E_error2_t* error, void* kept) {
+  auto& text = *static_cast<std::string*>(kept);
+  if (text.empty() && error->desc) text = error->desc;
+  return 0;
+}
+
+/// The innermost message of the error stack; of a message that quotes the system's, only that.
+std::string reason() {
+  std::string text;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keepFirst, &text);
+  const std::string mark = "error message = '";
+  if (const auto start = text.find(mark); start != std::string::npos) {
+    const auto from = start + mark.size();
+    text = text.substr(from, text.find('\'', from) - from);
+  }
+  return text.empty() ? "HDF5 gives no reason" : text;
+}
+
+/// Returns a result of HDF5 unless it says failure.
+template <class Result>
+Result checked(Result result, const std::filesystem::path& path, const std::string& what) {
+  if (result >= 0) return result;
+  throw FileError(fmt::format("cannot write {} '{}': {}", what, path.string(), reason()));
+}
+
+hid_t memoryType(double) { return H5T_NATIVE_DOUBLE; }
+hid_t memoryType(std::uint64_t) { return H5T_NATIVE_UINT64; }
+hid_t memoryType(std::int32_t) { return H5T_NATIVE_INT32; }
+
+hid_t fileType(double, bool asFloat) { return asFloat ? H5T_IEEE_F32LE : H5T_IEEE_F64LE; }
+hid_t fileType(std::uint64_t, bool) { return H5T_STD_U64LE; }
+hid_t fileType(std::int32_t, bool) { return H5T_STD_I32LE; }
+
+/// About a megabyte, whole along the axes that vary fastest.
+std::vector<hsize_t> chunkOf(const std::vector<hsize_t>& shape) {
+  std::vector<hsize_t> chunk(shape.size());
+  hsize_t room = 1 << 17;
+  for (std::size_t k = shape.size(); k-- > 0;) {
+    chunk[k] = std::clamp<hsize_t>(room, 1, shape[k]);
+    room /= chunk[k];
+  }
+  return chunk;
+}
+
+bool setCompression(hid_t creation, const std::vector<hsize_t>& shape, int level) {
+  if (level <= 0 || std::count(shape.begin(), shape.end(), hsize_t{0}) > 0) return true;
+  return H5Pset_chunk(creation, static_cast<int>(shape.size()), chunkOf(shape).data()) >= 0 &&
+         H5Pset_shuffle(creation) >= 0 && H5Pset_deflate(creation, static_cast<unsigned>(level)) >= 0;
+}
+
+Handle parentsMade() {
+  const hid_t links = H5Pcreate(H5P_LINK_CREATE);
+  H5Pset_create_intermediate_group(links, 1);
+  return {links, H5Pclose};
+}
+
+Handle vectorSpace(hsize_t size) { return {H5Screate_simple(1, &size, nullptr), H5Sclose}; }
+Handle scalarSpace() { return {H5Screate(H5S_SCALAR), H5Sclose}; }
+
+Handle stringType() {
+  const hid_t type = H5Tcopy(H5T_C_S1);
+  H5Tset_size(type, H5T_VARIABLE);
+  H5Tset_cset(type, H5T_CSET_UTF8);
+  return {type, H5Tclose};
+}
+
+}  // namespace
+
+Hdf5File::Hdf5File(std::filesystem::path path, bool doubleAsFloat, int compression)
+    : path_(std::move(path)), double_as_float_(doubleAsFloat), compression_(compression) {
+  const Silence silence;
+  file_ = checked(H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), path_, "the file");
+}
+
+Hdf5File::~Hdf5File() {
+  const Silence silence;
+  if (file_ >= 0) H5Fclose(file_);
+}
+
+void Hdf5File::group(const std::string& name) {
+  const Silence silence;
+  const Handle links = parentsMade();
+  const Handle made(H5Gcreate2(file_, name.c_str(), links, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+  checked<hid_t>(made, path_, name + " in");
+}
+
+void Hdf5File::dataset(const std::string& name, const Array& array, std::vector<std::uint64_t> shape) {
+  const Silence silence;
+  std::vector<hsize_t> full(shape.begin(), shape.end());
+  if (array.components > 1) full.push_back(static_cast<hsize_t>(array.components));
+  const Handle space(H5Screate_simple(static_cast<int>(full.size()), full.data(), nullptr), H5Sclose);
+  const Handle links = parentsMade();
+  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  checked(setCompression(creation, full, compression_) ? 0 : -1, path_, name + ", compressed, in");
+  std::visit(
+      [&](const auto& values) {
+        using Number = typename std::decay_t<decltype(values)>::value_type;
+        assert(static_cast<hsize_t>(H5Sget_simple_extent_npoints(space)) == values.size());
+        const Handle data(
+            H5Dcreate2(file_, name.c_str(), fileType(Number{}, double_as_float_), space, links, creation, H5P_DEFAULT),
+            H5Dclose);
+        checked<hid_t>(data, path_, name + " in");
+        checked(H5Dwrite(data, memoryType(Number{}), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), path_,
+                name + " in");
+      },
+      array.values);
+  attribute(name, "unit", array.unit);
+  attribute(name, "description", array.description);
+}
+
+void Hdf5File::writeAttribute(const std::string& object, const char* name, Id space, Id type, const void* data) {
+  const Silence silence;
+  const Handle made(H5Acreate_by_name(file_, object.c_str(), name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                    H5Aclose);
+  const std::string what = fmt::format("attribute {} of {} in", name, object);
+  checked<hid_t>(made, path_, what);
+  checked(H5Awrite(made, type, data), path_, what);
+}
+
+void Hdf5File::attribute(const std::string& object, const char* name, double value) {
+  writeAttribute(object, name, scalarSpace(), H5T_NATIVE_DOUBLE, &value);
+}
+
+void Hdf5File::attribute(const std::string& object, const char* name, int value) {
+  writeAttribute(object, name, scalarSpace(), H5T_NATIVE_INT, &value);
+}
+
+void Hdf5File::attribute(const std::string& object, const char* name, const std::string& value) {
+  const char* text = value.c_str();
+  writeAttribute(object, name, scalarSpace(), stringType(), &text);
+}
+
+void Hdf5File::attribute(const std::string& object, const char* name, const Vec3& value) {
+  writeAttribute(object, name, vectorSpace(3), H5T_NATIVE_DOUBLE, value.data());
+}
+
+void Hdf5File::attribute(const std::string& object, const char* name, const Index3& value) {
+  writeAttribute(object, name, vectorSpace(3), H5T_NATIVE_INT, value.at.data());
+}
+
+void Hdf5File::close() {
+  const Silence silence;
+  checked(H5Fclose(std::exchange(file_, -1)), path_, "the file");
+}
+
+}  // namespace tushar::output

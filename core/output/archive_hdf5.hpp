@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/output/snapshot.hpp"
+
+namespace tushar::output {
+
+/// Writes one HDF5 file. It needs no MPI and never starts it. Each function may throw FileError with the path and the
+/// innermost reason of HDF5, whose own printing is kept silent.
+class Hdf5File {
+ public:
+  /// Creates the file, in place of one that exists. Real numbers are kept in 4 bytes if `doubleAsFloat`, and all are
+  /// packed by gzip at level `compression` if that is above 0.
+  Hdf5File(std::filesystem::path path, bool doubleAsFloat, int compression);
+  /// Closes the file if close() was not called, and then says nothing of errors.
+  ~Hdf5File();
+  Hdf5File(const Hdf5File&) = delete;
+  Hdf5File& operator=(const Hdf5File&) = delete;
+
+  /// Makes a group, `/particles/gas`, with those above it.
+  void group(const std::string& name);
+  /// Writes an array as a dataset of shape `shape` × components (the last only where there are several), with the
+  /// attributes unit and description. The groups above it are made.
+  void dataset(const std::string& name, const Array& array, std::vector<std::uint64_t> shape);
+  /// Attributes of a group that exists; `/` is the root.
+  void attribute(const std::string& object, const char* name, double value);
+  void attribute(const std::string& object, const char* name, int value);
+  void attribute(const std::string& object, const char* name, const std::string& value);
+  void attribute(const std::string& object, const char* name, const Vec3& value);
+  void attribute(const std::string& object, const char* name, const Index3& value);
+  /// Writes all to the disk and closes: here a full disk is noticed.
+  void close();
+
+ private:
+  using Id = std::int64_t;  ///< HDF5's hid_t
+  void writeAttribute(const std::string& object, const char* name, Id space, Id type, const void* data);
+
+  std::filesystem::path path_;
+  bool double_as_float_;
+  int compression_;
+  Id file_ = -1;
+};
+
+}  // namespace tushar::output

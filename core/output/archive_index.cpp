@@ -1,0 +1,79 @@
+#include "core/output/archive_index.hpp"
+
+#include <fmt/ranges.h>
+
+#include "core/output/archive_files.hpp"
+#include "core/output/archive_snapshot.hpp"
+#include "core/output/archive_xml.hpp"
+
+namespace tushar::output {
+
+namespace {
+
+std::string typeOf(const Array& array) {
+  constexpr const char* names[] = {"double", "uint64", "int32"};
+  return names[array.values.index()];
+}
+
+}  // namespace
+
+void ArchiveIndex::addVariable(const Array& array, const std::string& centring, const std::string& material) {
+  Variable& variable = variables_[array.label];
+  variable.centring = centring;
+  variable.unit = array.unit;
+  variable.description = array.description;
+  variable.type = typeOf(array);
+  variable.components = array.components;
+  if (!material.empty()) variable.materials.insert(material);
+}
+
+void ArchiveIndex::add(const Snapshot& snapshot) {
+  for (const ParticleBlock& block : snapshot.particles)
+    for (const Array& array : block.arrays)
+      if (isHeld(block, array)) addVariable(array, "particle", groupName(block.material, block.materialIndex));
+  for (const FieldBlock& field : snapshot.fields)
+    addVariable(field.array, field.centring == Centring::cell ? "cell" : "node",
+                field.materialIndex < 0 ? "" : groupName(field.material, field.materialIndex));
+  outputs_[snapshot.step] = {snapshot.time, snapshot.delT};
+}
+
+void ArchiveIndex::add(const GlobalSample& sample, const std::string& file) {
+  globals_[sample.name] = {sample.unit, sample.description, file, sample.values.size()};
+}
+
+std::string ArchiveIndex::text() const {
+  pugi::xml_document document;
+  pugi::xml_node root = document.append_child("tushar_archive");
+  set(root, "version", version_);
+  pugi::xml_node variables = root.append_child("variables");
+  for (const auto& [name, variable] : variables_) {
+    pugi::xml_node node = variables.append_child("variable");
+    set(node, "name", name);
+    set(node, "centring", variable.centring);
+    set(node, "type", variable.type);
+    set(node, "components", variable.components);
+    set(node, "unit", variable.unit);
+    set(node, "description", variable.description);
+    if (!variable.materials.empty()) set(node, "materials", fmt::format("{}", fmt::join(variable.materials, ", ")));
+  }
+  pugi::xml_node globals = root.append_child("globals");
+  for (const auto& [name, global] : globals_) {
+    pugi::xml_node node = globals.append_child("global");
+    set(node, "name", name);
+    set(node, "href", global.file);
+    set(node, "components", global.components);
+    set(node, "unit", global.unit);
+    set(node, "description", global.description);
+  }
+  pugi::xml_node outputs = root.append_child("timesteps");
+  for (const auto& [step, output] : outputs_) {
+    pugi::xml_node node = outputs.append_child("timestep");
+    set(node, "href", outputName(step));
+    set(node, "time", output.time);
+    set(node, "delT", output.delT);
+    node.text() = step;
+  }
+  return textOf(document);
+}
+
+}  // namespace tushar::output

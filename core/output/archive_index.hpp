@@ -1,0 +1,42 @@
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+
+#include "core/output/archive.hpp"
+
+namespace tushar::output {
+
+/// What `index.xml` says of an archive: its variables, globals and outputs.
+class ArchiveIndex {
+ public:
+  explicit ArchiveIndex(std::string version) : version_(std::move(version)) {}
+
+  void add(const Snapshot& snapshot);
+  void add(const GlobalSample& sample, const std::string& file);
+  /// The whole file.
+  std::string text() const;
+
+ private:
+  struct Variable {
+    std::string centring, unit, description, type;
+    int components;
+    std::set<std::string> materials;
+  };
+  struct Global {
+    std::string unit, description, file;
+    std::size_t components;
+  };
+  struct Output {
+    double time, delT;
+  };
+  void addVariable(const Array& array, const std::string& centring, const std::string& material);
+
+  std::string version_;
+  std::map<std::string, Variable> variables_;
+  std::map<std::string, Global> globals_;
+  std::map<int, Output> outputs_;  ///< by step
+};
+
+}  // namespace tushar::output

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/output/archive.hpp"
+
+namespace tushar::output {
+
+/// Writes a snapshot as an HDF5 file, first under a temporary name. FileError if it cannot.
+void writeSnapshot(const std::filesystem::path& file, const Snapshot& snapshot, const ArchiveOptions& options);
+
+/// Where a particle array stands in the HDF5 file: `/particles/gas/p.density`.
+std::string pathInFile(const ParticleBlock& block, const Array& array);
+
+/// Where a field stands: `/cells/c.temperature` or `/nodes/gas/g.mass`.
+std::string pathInFile(const FieldBlock& field);
+
+/// Whether the array is part of the file; a variable that is not held at this time has no values.
+bool isHeld(const ParticleBlock& block, const Array& array);
+
+/// Number of entries of a field along z, y, x.
+std::vector<std::uint64_t> fieldShape(const GridInfo& grid, Centring centring);
+
+/// Axes (0 x, 1 y, 2 z) that the scene uses.
+std::vector<int> axesInUse(const GridInfo& grid);
+
+}  // namespace tushar::output

@@ -1,0 +1,159 @@
+#include "core/output/archive_xdmf.hpp"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "core/output/archive_files.hpp"
+#include "core/output/archive_snapshot.hpp"
+#include "core/output/archive_xml.hpp"
+
+namespace tushar::output {
+
+namespace {
+
+using Shape = std::vector<std::uint64_t>;
+
+/// What the items of one output share.
+struct Context {
+  std::string file;  ///< of HDF5, relative to the XDMF file
+  bool doubleAsFloat;
+};
+
+pugi::xml_node addGrid(pugi::xml_node parent, const std::string& name, const char* type) {
+  pugi::xml_node grid = parent.append_child("Grid");
+  set(grid, "Name", name);
+  set(grid, "GridType", type);
+  return grid;
+}
+
+/// The readers know no 8-byte unsigned integers, so ids are read as signed ones.
+void addHeavyItem(pugi::xml_node parent, const Context& context, const std::string& path, const Array& array,
+                  Shape shape) {
+  if (array.components > 1) shape.push_back(static_cast<std::uint64_t>(array.components));
+  const bool real = std::holds_alternative<std::vector<double>>(array.values);
+  const bool wide = real ? !context.doubleAsFloat : std::holds_alternative<std::vector<std::uint64_t>>(array.values);
+  pugi::xml_node item = parent.append_child("DataItem");
+  set(item, "Dimensions", fmt::format("{}", fmt::join(shape, " ")));
+  set(item, "NumberType", real ? "Float" : "Int");
+  set(item, "Precision", wide ? 8 : 4);
+  set(item, "Format", "HDF");
+  item.text() = (context.file + ":" + path).c_str();
+}
+
+void addLightItem(pugi::xml_node parent, const Vec3& zyx) {
+  pugi::xml_node item = parent.append_child("DataItem");
+  set(item, "Dimensions", 3);
+  set(item, "NumberType", "Float");
+  set(item, "Precision", 8);
+  set(item, "Format", "XML");
+  item.text() = fmt::format("{} {} {}", zyx[0], zyx[1], zyx[2]).c_str();
+}
+
+void addAttribute(pugi::xml_node grid, const Context& context, const char* centre, const std::string& name,
+                  const std::string& path, const Array& array, const Shape& shape) {
+  pugi::xml_node attribute = grid.append_child("Attribute");
+  set(attribute, "Name", name);
+  set(attribute, "AttributeType",
+      array.components == 1   ? "Scalar"
+      : array.components == 3 ? "Vector"
+      : array.components == 9 ? "Tensor"
+                              : "Matrix");
+  set(attribute, "Center", centre);
+  addHeavyItem(attribute, context, path, array, shape);
+}
+
+void addPointCloud(pugi::xml_node grid, const Context& context, const ParticleBlock& block) {
+  pugi::xml_node topology = grid.append_child("Topology");
+  set(topology, "TopologyType", "Polyvertex");
+  set(topology, "NodesPerElement", 1);
+  set(topology, "NumberOfElements", block.count());
+  pugi::xml_node geometry = grid.append_child("Geometry");
+  set(geometry, "GeometryType", "XYZ");
+  const Array& x = block.arrays.front();
+  addHeavyItem(geometry, context, pathInFile(block, x), x, {block.count()});
+  for (std::size_t k = 1; k < block.arrays.size(); ++k) {
+    const Array& array = block.arrays[k];
+    if (!isHeld(block, array)) continue;
+    addAttribute(grid, context, "Node", array.label, pathInFile(block, array), array, {block.count()});
+  }
+}
+
+Vec3 reversed(const Vec3& xyz) { return {xyz[2], xyz[1], xyz[0]}; }
+
+/// Where the first node of the nodes' grid stands: an axis that is not in use has its one node in the middle.
+Vec3 firstNode(const GridInfo& grid) {
+  Vec3 at = grid.lower + grid.spacing / 2;
+  for (const int axis : axesInUse(grid)) at[axis] = grid.lower[axis];
+  return at;
+}
+
+void addUniformGrid(pugi::xml_node grid, const GridInfo& info, Centring centring) {
+  const bool cells = centring == Centring::cell;
+  Shape points = fieldShape(info, centring);
+  if (cells)
+    for (auto& extent : points) ++extent;
+  pugi::xml_node topology = grid.append_child("Topology");
+  set(topology, "TopologyType", "3DCoRectMesh");
+  set(topology, "Dimensions", fmt::format("{}", fmt::join(points, " ")));
+  pugi::xml_node geometry = grid.append_child("Geometry");
+  set(geometry, "GeometryType", "ORIGIN_DXDYDZ");
+  addLightItem(geometry, reversed(cells ? info.lower : firstNode(info)));
+  addLightItem(geometry, reversed(info.spacing));
+}
+
+}  // namespace
+
+XdmfIndex::XdmfIndex(bool doubleAsFloat) : double_as_float_(doubleAsFloat) {
+  pugi::xml_node root = document_.append_child("Xdmf");
+  set(root, "Version", "3.0");
+  domain_ = root.append_child("Domain");
+}
+
+pugi::xml_node XdmfIndex::addTime(const std::string& block, const Snapshot& snapshot, const char* type) {
+  pugi::xml_node times = domain_.find_child_by_attribute("Grid", "Name", block.c_str());
+  if (!times) {
+    times = addGrid(domain_, block, "Collection");
+    set(times, "CollectionType", "Temporal");
+  }
+  const std::string step = fmt::format("{} at step {}", block, snapshot.step);
+  times.remove_child(times.find_child_by_attribute("Grid", "Name", step.c_str()));
+  pugi::xml_node grid = addGrid(times, step, type);
+  set(grid.append_child("Time"), "Value", snapshot.time);
+  return grid;
+}
+
+void XdmfIndex::addFields(const Snapshot& snapshot, Centring centring) {
+  const Context context{outputName(snapshot.step), double_as_float_};
+  const bool cells = centring == Centring::cell;
+  const auto isHere = [&](const FieldBlock& field) { return field.centring == centring; };
+  if (std::none_of(snapshot.fields.begin(), snapshot.fields.end(), isHere)) return;
+  pugi::xml_node grid = addTime(cells ? "cells" : "nodes", snapshot, "Uniform");
+  addUniformGrid(grid, snapshot.grid, centring);
+  for (const FieldBlock& field : snapshot.fields) {
+    if (!isHere(field)) continue;
+    const std::string group = field.materialIndex < 0 ? "" : groupName(field.material, field.materialIndex) + "/";
+    addAttribute(grid, context, cells ? "Cell" : "Node", group + field.array.label, pathInFile(field), field.array,
+                 fieldShape(snapshot.grid, centring));
+  }
+}
+
+/// A time without particles is an empty collection: the readers refuse a grid of 0 points.
+void XdmfIndex::addParticles(const Snapshot& snapshot, const ParticleBlock& block) {
+  const std::string name = groupName(block.material, block.materialIndex);
+  if (block.count() == 0) {
+    set(addTime(name, snapshot, "Collection"), "CollectionType", "Spatial");
+    return;
+  }
+  addPointCloud(addTime(name, snapshot, "Uniform"), {outputName(snapshot.step), double_as_float_}, block);
+}
+
+void XdmfIndex::add(const Snapshot& snapshot) {
+  for (const ParticleBlock& block : snapshot.particles) addParticles(snapshot, block);
+  addFields(snapshot, Centring::cell);
+  addFields(snapshot, Centring::node);
+}
+
+std::string XdmfIndex::text() const { return textOf(document_); }
+
+}  // namespace tushar::output

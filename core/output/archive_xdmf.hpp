@@ -1,0 +1,31 @@
+#pragma once
+
+#include <pugixml.hpp>
+#include <string>
+
+#include "core/output/archive.hpp"
+
+namespace tushar::output {
+
+/// The XDMF file that shows an archive to ParaView: a temporal collection for each material, of point clouds, and one
+/// each for the cells and the nodes, of uniform grids. The numbers stay in the HDF5 files.
+class XdmfIndex {
+ public:
+  explicit XdmfIndex(bool doubleAsFloat);
+
+  /// Adds a time, or replaces that of the same step.
+  void add(const Snapshot& snapshot);
+  /// The whole file.
+  std::string text() const;
+
+ private:
+  pugi::xml_node addTime(const std::string& block, const Snapshot& snapshot, const char* type);
+  void addParticles(const Snapshot& snapshot, const ParticleBlock& block);
+  void addFields(const Snapshot& snapshot, Centring centring);
+
+  bool double_as_float_;
+  pugi::xml_document document_;
+  pugi::xml_node domain_;
+};
+
+}  // namespace tushar::output

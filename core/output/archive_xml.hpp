@@ -1,0 +1,24 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <pugixml.hpp>
+#include <sstream>
+#include <string>
+
+namespace tushar::output {
+
+/// Sets an attribute; numbers are written so that they read back exactly.
+template <class Value>
+void set(pugi::xml_node node, const char* name, const Value& value) {
+  node.append_attribute(name) = fmt::format("{}", value).c_str();
+}
+
+/// The document as text.
+inline std::string textOf(const pugi::xml_document& document) {
+  std::ostringstream out;
+  document.save(out, " ");
+  return out.str();
+}
+
+}  // namespace tushar::output

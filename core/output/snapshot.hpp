@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/base/vec.hpp"
+
+namespace tushar::output {
+
+/// A named column of numbers, as it goes to the archive.
+struct Array {
+  std::string label, unit, description;
+  int components = 1;  ///< 1 scalar, 3 vector, 9 tensor by rows
+  /// Entry by entry: values[entry * components + k].
+  std::variant<std::vector<double>, std::vector<std::uint64_t>, std::vector<std::int32_t>> values;
+
+  /// Number of particles, cells, nodes or rows that have a value.
+  std::size_t entries() const {
+    const std::size_t numbers = std::visit([](const auto& all) { return all.size(); }, values);
+    return numbers / static_cast<std::size_t>(components);
+  }
+};
+
+/// The particles of a material. The first array is p.x [m], with 3 components always; the others have as many entries
+/// as it has, or none where a variable is not held at this time: such an array is left out of the archive.
+struct ParticleBlock {
+  std::string material;
+  int materialIndex = 0;
+  std::vector<Array> arrays;
+
+  std::size_t count() const { return arrays.empty() ? 0 : arrays.front().entries(); }
+};
+
+enum class Centring { cell, node };
+
+/// A field over all cells or nodes of the grid, x fastest.
+struct FieldBlock {
+  Centring centring = Centring::cell;
+  std::string material;    ///< empty where the field belongs to none
+  int materialIndex = -1;  ///< -1 where the field belongs to none
+  Array array;
+};
+
+/// The geometry of the grid. An axis that the scene leaves out has one cell, as wide as the domain, and one node.
+struct GridInfo {
+  Vec3 lower = Vec3::Zero();    ///< corner of the domain, m
+  Vec3 spacing = Vec3::Ones();  ///< cell widths, m
+  Index3 cells = Index3::filled(1);
+  int dimension = 0;  ///< number of axes that the scene uses
+};
+
+/// The state at one time, gathered over patches in an order that no layout changes.
+struct Snapshot {
+  int step = 0;
+  double time = 0, delT = 0;  ///< s
+  GridInfo grid;
+  std::vector<ParticleBlock> particles;
+  std::vector<FieldBlock> fields;
+  std::vector<Array> reference;  ///< table of exact values: columns of 1 component, `x` first; often empty
+};
+
+}  // namespace tushar::output

@@ -1,0 +1,103 @@
+#!/usr/bin/env python3
+"""Reads an XDMF file with VTK's own reader, the one of ParaView, and compares with the HDF5 files.
+
+    python3 tests/output/xdmf_test.py sod.uda/sod.xdmf
+
+Needs h5py, numpy and a VTK with the XDMF reader: `pip install vtk h5py`, or Debian's python3-paraview with
+python3-h5py (Debian's python3-vtk9 comes without that reader).
+"""
+import glob
+import os
+import sys
+import unittest
+
+try:
+    import h5py
+    import numpy as np
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
+    from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
+    from vtkmodules.vtkIOXdmf2 import vtkXdmfReader
+    MISSING = None
+except ImportError as error:
+    MISSING = str(error)
+
+XDMF = None
+
+
+def all_datasets(group):
+    """Path below `group` -> values, for all datasets."""
+    found = {}
+    group.visititems(lambda name, item: found.update({name: item[()]}) if isinstance(item, h5py.Dataset) else None)
+    return found
+
+
+@unittest.skipIf(MISSING, MISSING)
+class Xdmf(unittest.TestCase):
+    def setUp(self):
+        files = sorted(glob.glob(os.path.join(glob.escape(os.path.dirname(XDMF)), "t*.h5")))
+        self.outputs = [h5py.File(file, "r") for file in files]
+        self.outputs.sort(key=lambda output: output.attrs["time"])
+        self.reader = vtkXdmfReader()
+        self.reader.SetFileName(XDMF)
+        self.reader.UpdateInformation()
+
+    def tearDown(self):
+        for output in self.outputs:
+            output.close()
+
+    def blocks(self, output):
+        """Block name -> data set, at the time of an output."""
+        self.reader.UpdateTimeStep(output.attrs["time"])
+        top = self.reader.GetOutputDataObject(0)
+        if not top.IsA("vtkMultiBlockDataSet"):
+            names = list(output.get("particles", {})) + ["cells" if "cells" in output else "nodes"]
+            return {names[0]: top}
+        name = vtkCompositeDataSet.NAME()
+        return {top.GetMetaData(i).Get(name): top.GetBlock(i) for i in range(top.GetNumberOfBlocks())}
+
+    def assert_same(self, name, read, kept):
+        np.testing.assert_array_equal(vtk_to_numpy(read).ravel(), np.ravel(kept), err_msg=name)
+
+    def test_lists_every_time(self):
+        times = Pipeline.TIME_STEPS()
+        information = self.reader.GetOutputInformation(0)
+        read = [information.Get(times, k) for k in range(information.Length(times))]
+        self.assertEqual(read, [output.attrs["time"] for output in self.outputs])
+
+    def test_shows_every_particle_array(self):
+        for output in self.outputs:
+            for material, group in output.get("particles", {}).items():
+                block = self.blocks(output)[material]
+                count = len(group["p.x"])
+                self.assertEqual(block.GetNumberOfPoints(), count, material)
+                if count == 0:
+                    continue
+                self.assertEqual(block.GetNumberOfCells(), count, material)
+                self.assert_same("p.x", block.GetPoints().GetData(), group["p.x"])
+                for label in set(group) - {"p.x"}:
+                    self.assert_same(label, block.GetPointData().GetArray(label), group[label])
+
+    def test_shows_every_field(self):
+        for output in self.outputs:
+            for centring in ("cells", "nodes"):
+                for name, values in all_datasets(output[centring]).items() if centring in output else ():
+                    block = self.blocks(output)[centring]
+                    data = block.GetCellData() if centring == "cells" else block.GetPointData()
+                    self.assert_same(name, data.GetArray(name), values)
+
+    def test_places_the_cells_where_the_grid_is(self):
+        for output in self.outputs:
+            if "cells" not in output:
+                continue
+            grid, block = output["grid"].attrs, self.blocks(output)["cells"]
+            np.testing.assert_allclose(block.GetOrigin(), grid["lower"], rtol=1e-15)
+            np.testing.assert_allclose(block.GetSpacing(), grid["spacing"], rtol=1e-15)
+            np.testing.assert_array_equal(block.GetDimensions(), grid["cells"] + 1)
+
+
+if __name__ == "__main__":
+    if len(sys.argv) < 2 or not os.path.exists(sys.argv[1]):
+        sys.exit("usage: python3 tests/output/xdmf_test.py PATH_TO_XDMF")
+    XDMF = sys.argv.pop(1)
+    unittest.main()
