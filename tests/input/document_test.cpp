@@ -70,7 +70,7 @@ TEST(Document, SaysThatAFileIsMissing) {
 }
 
 TEST(Document, SaysThatAFolderIsNoFile) {
-  const std::string folder = testing::TempDir() + "folder.ups";
+  const std::string folder = test::temporaryFolder() + "folder.ups";
   std::filesystem::create_directory(folder);
 
   EXPECT_EQ(problemsOfFile(folder), Lines{folder + ": this is a folder, expected a file"});
@@ -175,7 +175,7 @@ TEST_F(Include, InsertsTheSectionItselfWhenAsked) {
 TEST_F(Include, SaysThatTheFileIsMissing) {
   const Lines lines = problems("<include href='othr.xml'/>");
 
-  EXPECT_EQ(lines, Lines{path_ + ":2:8: cannot include '" + testing::TempDir() + "othr.xml': there is no such file"});
+  EXPECT_EQ(lines, Lines{path_ + ":2:8: cannot include '" + test::temporaryFolder() + "othr.xml': there is no such file"});
 }
 
 TEST_F(Include, SaysThatTheSectionIsMissing) {
@@ -189,7 +189,7 @@ TEST_F(Include, SuggestsTheNearestSection) {
 
   const Lines lines = problems("<include href='near.xml' section='Material'/>");
 
-  EXPECT_EQ(lines, Lines{path_ + ":2:8: there is no <Material> in <Uintah_Include> of '" + testing::TempDir() +
+  EXPECT_EQ(lines, Lines{path_ + ":2:8: there is no <Material> in <Uintah_Include> of '" + test::temporaryFolder() +
                          "near.xml' (did you mean 'Materials'?)"});
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/input/diagnostics.hpp"
 #include "core/input/document.hpp"
+#include "tests/support/temporary.hpp"
 
 namespace tushar::input {
 
@@ -35,7 +36,7 @@ inline Document documentOf(const std::string& inside) {
 
 /// Writes a file into the folder for temporary files; returns its path.
 inline std::string temporaryFile(const std::string& name, const std::string& text) {
-  const std::string path = testing::TempDir() + name;
+  const std::string path = test::temporaryFolder() + name;
   std::ofstream(path) << text;
   return path;
 }
