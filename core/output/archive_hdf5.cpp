@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <system_error>
 #include <type_traits>
 
 #include "core/base/error.hpp"
@@ -53,23 +54,11 @@ herr_t keepFirst(unsigned, const H5E_error2_t* error, void* kept) {
   return 0;
 }
 
-/// The innermost message of the error stack; of a message that quotes the system's, only that.
+/// The innermost message of the error stack.
 std::string reason() {
   std::string text;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keepFirst, &text);
-  const std::string mark = "error message = '";
-  if (const auto start = text.find(mark); start != std::string::npos) {
-    const auto from = start + mark.size();
-    text = text.substr(from, text.find('\'', from) - from);
-  }
   return text.empty() ? "HDF5 gives no reason" : text;
-}
-
-/// Returns a result of HDF5 unless it says failure.
-template <class Result>
-Result checked(Result result, const std::filesystem::path& path, const std::string& what) {
-  if (result >= 0) return result;
-  throw FileError(fmt::format("cannot write {} '{}': {}", what, path.string(), reason()));
 }
 
 hid_t memoryType(double) { return H5T_NATIVE_DOUBLE; }
@@ -115,10 +104,19 @@ Handle stringType() {
 
 }  // namespace
 
+/// Returns a result of HDF5 unless it, or the disk behind it, says failure.
+template <class Result>
+Result Hdf5File::checked(Result result, const std::string& what) const {
+  if (result >= 0 && failure_.error == 0) return result;
+  throw FileError(fmt::format("cannot write {} '{}': {}", what, path_.string(),
+                              failure_.error ? std::generic_category().message(failure_.error) : reason()));
+}
+
 Hdf5File::Hdf5File(std::filesystem::path path, bool doubleAsFloat, int compression)
     : path_(std::move(path)), double_as_float_(doubleAsFloat), compression_(compression) {
   const Silence silence;
-  file_ = checked(H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), path_, "the file");
+  const Handle access(diskAccess(failure_), H5Pclose);
+  file_ = checked(H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), "the file");
 }
 
 Hdf5File::~Hdf5File() {
@@ -130,7 +128,7 @@ void Hdf5File::group(const std::string& name) {
   const Silence silence;
   const Handle links = parentsMade();
   const Handle made(H5Gcreate2(file_, name.c_str(), links, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
-  checked<hid_t>(made, path_, name + " in");
+  checked<hid_t>(made, name + " in");
 }
 
 void Hdf5File::dataset(const std::string& name, const Array& array, std::vector<std::uint64_t> shape) {
@@ -140,7 +138,7 @@ void Hdf5File::dataset(const std::string& name, const Array& array, std::vector<
   const Handle space(H5Screate_simple(static_cast<int>(full.size()), full.data(), nullptr), H5Sclose);
   const Handle links = parentsMade();
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  checked(setCompression(creation, full, compression_) ? 0 : -1, path_, name + ", compressed, in");
+  checked(setCompression(creation, full, compression_) ? 0 : -1, name + ", compressed, in");
   std::visit(
       [&](const auto& values) {
         using Number = typename std::decay_t<decltype(values)>::value_type;
@@ -148,9 +146,8 @@ void Hdf5File::dataset(const std::string& name, const Array& array, std::vector<
         const Handle data(
             H5Dcreate2(file_, name.c_str(), fileType(Number{}, double_as_float_), space, links, creation, H5P_DEFAULT),
             H5Dclose);
-        checked<hid_t>(data, path_, name + " in");
-        checked(H5Dwrite(data, memoryType(Number{}), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), path_,
-                name + " in");
+        checked<hid_t>(data, name + " in");
+        checked(H5Dwrite(data, memoryType(Number{}), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), name + " in");
       },
       array.values);
   attribute(name, "unit", array.unit);
@@ -162,8 +159,8 @@ void Hdf5File::writeAttribute(const std::string& object, const char* name, Id sp
   const Handle made(H5Acreate_by_name(file_, object.c_str(), name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
                     H5Aclose);
   const std::string what = fmt::format("attribute {} of {} in", name, object);
-  checked<hid_t>(made, path_, what);
-  checked(H5Awrite(made, type, data), path_, what);
+  checked<hid_t>(made, what);
+  checked(H5Awrite(made, type, data), what);
 }
 
 void Hdf5File::attribute(const std::string& object, const char* name, double value) {
@@ -189,7 +186,7 @@ void Hdf5File::attribute(const std::string& object, const char* name, const Inde
 
 void Hdf5File::close() {
   const Silence silence;
-  checked(H5Fclose(std::exchange(file_, -1)), path_, "the file");
+  checked(H5Fclose(std::exchange(file_, -1)), "the file");
 }
 
 }  // namespace tushar::output

@@ -6,12 +6,13 @@
 #include <utility>
 #include <vector>
 
+#include "core/output/archive_disk.hpp"
 #include "core/output/snapshot.hpp"
 
 namespace tushar::output {
 
 /// Writes one HDF5 file. It needs no MPI and never starts it. Each function may throw FileError with the path and the
-/// innermost reason of HDF5, whose own printing is kept silent.
+/// reason: the system's, or else the innermost of HDF5, whose own printing is kept silent.
 class Hdf5File {
  public:
   /// Creates the file, in place of one that exists. Real numbers are kept in 4 bytes if `doubleAsFloat`, and all are
@@ -38,11 +39,14 @@ class Hdf5File {
 
  private:
   using Id = std::int64_t;  ///< HDF5's hid_t
+  template <class Result>
+  Result checked(Result result, const std::string& what) const;
   void writeAttribute(const std::string& object, const char* name, Id space, Id type, const void* data);
 
   std::filesystem::path path_;
   bool double_as_float_;
   int compression_;
+  DiskFailure failure_;
   Id file_ = -1;
 };
 

@@ -1,0 +1,1 @@
+"""What the Python tools of Tushar share."""
