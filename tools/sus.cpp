@@ -9,6 +9,7 @@
 #include "components/components.hpp"
 #include "core/base/error.hpp"
 #include "core/base/interrupt.hpp"
+#include "core/base/launcher.hpp"
 #include "core/input/geometry.hpp"
 #include "core/simulation/scene.hpp"
 
@@ -94,6 +95,8 @@ void writeFile(const std::string& path, const std::string& text) {
 
 ExitCode runScene(const Arguments& arguments, const simulation::Catalogue& known,
                   std::chrono::steady_clock::time_point startedAt) {
+  if (launchedRanks() > 1)
+    throw std::runtime_error(fmt::format("started on {} ranks, but runs on one so far; start it without mpirun", launchedRanks()));
   simulation::Problem problem = simulation::readScene(arguments.scene, arguments.overrides, known);
   simulation::Simulation run(std::move(problem), arguments.run, startedAt);
   if (!arguments.graph.empty()) {
