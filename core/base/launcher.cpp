@@ -1,6 +1,7 @@
 #include "core/base/launcher.hpp"
 
 #include <cstdlib>
+#include <initializer_list>
 
 namespace tushar {
 
