@@ -16,7 +16,9 @@ COLOURS = ["#2b6cb0", "#c05621", "#2f855a", "#6b46c1", "#b83280", "#2c7a7b"]
 STYLE = {"font.family": "DejaVu Sans", "font.size": 10, "axes.spines.top": False, "axes.spines.right": False,
          "axes.edgecolor": "#4a5568", "axes.labelcolor": "#1a202c", "xtick.color": "#4a5568", "ytick.color": "#4a5568",
          "axes.grid": True, "grid.color": "#e2e8f0", "grid.linewidth": 0.8, "axes.axisbelow": True,
-         "legend.frameon": False, "figure.dpi": 150, "svg.fonttype": "none", "mathtext.default": "regular"}
+         "legend.frameon": False, "figure.dpi": 150, "svg.fonttype": "none", "figure.constrained_layout.w_pad": 0.12,
+         "figure.constrained_layout.h_pad": 0.12, "figure.constrained_layout.wspace": 0.03,
+         "figure.constrained_layout.hspace": 0.03}
 
 
 def pretty_unit(unit):
@@ -85,7 +87,6 @@ class Figure:
         for panel in panels[max(0, len(labels) - columns):len(labels)] if not flat else ():
             panel.set_xlabel(f"{'xyz'[self.grid.axes[0]]} [m]")
             panel.tick_params(labelbottom=True)
-        self.figure.get_layout_engine().set(w_pad=0.12, h_pad=0.12, wspace=0.03, hspace=0.03)
         self.figure.suptitle(title, fontsize=12.5, fontweight="semibold", color="#1a202c")
         self._legend(panels[0])
 
