@@ -26,6 +26,7 @@ using data::ParticleView;
 using data::ReductionLabel;
 using data::Sum;
 using data::VectorSum;
+using data::WideSum;
 using grid::Box;
 using grid::forEach;
 using grid::Level;

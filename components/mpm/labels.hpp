@@ -37,12 +37,15 @@ namespace c {
 inline constexpr CellLabel<double> density{"c.density", "kg/m^3", "mean density of the particles in the cell"};
 }  // namespace c
 
-inline constexpr ReductionLabel<Sum> totalMass{"TotalMass", "kg", "mass of all particles"};
-inline constexpr ReductionLabel<VectorSum> totalMomentum{"TotalMomentum", "kg m/s", "momentum of all particles"};
+/// Totals over all particles.
+namespace total {
+inline constexpr ReductionLabel<Sum> mass{"TotalMass", "kg", "mass of all particles"};
+inline constexpr ReductionLabel<VectorSum> momentum{"TotalMomentum", "kg m/s", "momentum of all particles"};
 inline constexpr ReductionLabel<Sum> kineticEnergy{"KineticEnergy", "J", "kinetic energy of all particles"};
 inline constexpr ReductionLabel<Sum> internalEnergy{"InternalEnergy", "J", "internal energy of all particles"};
-inline constexpr ReductionLabel<Sum> totalEnergy{"TotalEnergy", "J", "kinetic and internal energy of all particles"};
-inline constexpr ReductionLabel<VectorSum> centerOfMassPosition{"CenterOfMassPosition", "kg m",
+inline constexpr ReductionLabel<Sum> energy{"TotalEnergy", "J", "kinetic and internal energy of all particles"};
+inline constexpr ReductionLabel<VectorSum> centerOfMass{"CenterOfMassPosition", "kg m",
                                                                 "sum of mass times position, as in Uintah"};
+}  // namespace total
 
 }  // namespace tushar::mpm

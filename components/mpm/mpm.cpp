@@ -123,11 +123,14 @@ void Mpm<D>::scheduleComputePressure(TaskList& tasks) const {
 
 template <int D>
 void Mpm<D>::scheduleDiagnostics(TaskList& tasks) const {
-  tasks.perMaterial("mpm::sumTotals", sumTotals<D>, materials_, requiresOld(p::mass), requiresOld(p::velocity<D>),
-                    requiresOld(p::internalEnergy), computes(totalMass), computes(totalMomentum),
-                    computes(kineticEnergy), computes(internalEnergy), computes(totalEnergy));
+  tasks.perMaterial("mpm::sumMass", sumMass<D>, materials_, requiresOld(p::mass), computes(total::mass));
+  tasks.perMaterial("mpm::sumMomentum", sumMomentum<D>, materials_, requiresOld(p::mass), requiresOld(p::velocity<D>),
+                    computes(total::momentum));
+  tasks.perMaterial("mpm::sumEnergy", sumEnergy<D>, materials_, requiresOld(p::mass), requiresOld(p::velocity<D>),
+                    requiresOld(p::internalEnergy), computes(total::kineticEnergy), computes(total::internalEnergy),
+                    computes(total::energy));
   tasks.perMaterial("mpm::sumCenterOfMass", sumCenterOfMass<D>, materials_, requiresOld(p::mass),
-                    requiresOld(p::x<D>), computes(centerOfMassPosition));
+                    requiresOld(p::x<D>), computes(total::centerOfMass));
   tasks.perMaterial("mpm::computeVolume", computeVolume, materials_, requiresOld(p::mass), requiresOld(p::density),
                     computes(p::volume));
 }

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -14,6 +15,15 @@ using Vec = Eigen::Matrix<double, D, 1, Eigen::DontAlign>;
 
 /// A vector as scenes write it, [x,y,z]; axes that a scene leaves out are dropped with Level::reduce.
 using Vec3 = Vec<3>;
+
+/// Euclidean length; in one dimension without the root.
+template <int D>
+double length(const Vec<D>& v) {
+  if constexpr (D == 1)
+    return std::abs(v[0]);
+  else
+    return v.norm();
+}
 
 /// Integer coordinates of a cell or node along D axes.
 template <int D>

@@ -58,6 +58,10 @@ class ParticleSet {
     return ranges_[offset(cell)];
   }
 
+  /// The ranges of consecutive cells along the first axis, from `cell` on.
+  ParticleRange* row(const Index3& cell) { return &ranges_[offset(cell)]; }
+  const ParticleRange* row(const Index3& cell) const { return &ranges_[offset(cell)]; }
+
   void setOwned(int count) { owned_ = total_ = count; }
 
   /// Adds the particles of a ghost cell behind those that are there.

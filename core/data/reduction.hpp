@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -48,6 +49,23 @@ struct Sum {
   }
   double total() const { return value + error; }
   std::vector<double> values() const { return {total()}; }
+};
+
+/// Adds to a Sum by four lanes that do not wait for one another.
+class WideSum {
+ public:
+  explicit WideSum(Sum& sum) : sum_(&sum) {}
+  WideSum(const WideSum&) = delete;
+  WideSum& operator=(const WideSum&) = delete;
+  ~WideSum() {
+    for (const Sum& lane : lanes_) sum_->merge(lane);
+  }
+  void add(double x) { lanes_[next_++ % lanes_.size()].add(x); }
+
+ private:
+  std::array<Sum, 4> lanes_;
+  std::size_t next_ = 0;
+  Sum* sum_;
 };
 
 /// A sum of vectors in x, y, z.

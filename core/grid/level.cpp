@@ -33,6 +33,7 @@ void Level::makePatches() {
     const double extent = domain_.upper[axis(d)] - domain_.lower[axis(d)];
     lower_[k] = domain_.lower[axis(d)];
     spacing_[k] = extent > 0 ? extent / cells : 1.0;
+    inverse_spacing_[k] = 1.0 / spacing_[k];
     cells_.upper[d] = cells;
     cuts_[k].clear();
     for (int part = 0; part <= parts; ++part)

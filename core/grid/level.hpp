@@ -45,6 +45,8 @@ class Level {
 
   /// Cell width along a kernel axis, m.
   double spacing(int kernelAxis) const { return spacing_[static_cast<std::size_t>(kernelAxis)]; }
+  /// One over the cell width, 1/m: a division saved wherever kernels go from metres to cells.
+  double inverseSpacing(int kernelAxis) const { return inverse_spacing_[static_cast<std::size_t>(kernelAxis)]; }
   /// The least cell width, m.
   double minSpacing() const;
   /// Volume of a cell, m³; an axis without extent counts as 1 m.
@@ -52,6 +54,14 @@ class Level {
   /// Position of a node along a kernel axis, m.
   double nodePosition(int kernelAxis, int node) const {
     return lower_[static_cast<std::size_t>(kernelAxis)] + node * spacing(kernelAxis);
+  }
+
+  /// The middle of a cell, m.
+  template <int D>
+  Vec<D> cellCentre(const Index<D>& cell) const {
+    Vec<D> centre;
+    for (int d = 0; d < D; ++d) centre[d] = 0.5 * (nodePosition(d, cell[d]) + nodePosition(d, cell[d] + 1));
+    return centre;
   }
 
   /// The cell of a coordinate along a kernel axis: the c with nodePosition(c) <= x < nodePosition(c+1).
@@ -110,7 +120,7 @@ class Level {
 
   Domain domain_;
   std::vector<int> axes_;
-  std::array<double, 3> lower_{}, spacing_{};
+  std::array<double, 3> lower_{}, spacing_{}, inverse_spacing_{};
   double cellVolume_ = 1;
   Box cells_;
   std::array<std::vector<int>, 3> cuts_;  ///< first cell of each patch along each kernel axis, then the end

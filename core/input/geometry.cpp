@@ -61,13 +61,12 @@ Schema<Operands> operandsSchema(const std::string& name, const std::string& sent
   const auto checkCount = [exactlyTwo](const Operands& operands, const Element& element, Diagnostics& diagnostics) {
     const std::size_t count = operands.pieces.size();
     if (exactlyTwo ? count == 2 : count >= 1) return;
-    diagnostics.error(element,
-                      fmt::format("found {} shapes in <{}>, expected {}", count, element.name(),
-                                  exactlyTwo ? "two: what to take away from, and what to take away" : "at least one"));
+    const char* expected = exactlyTwo ? "two shapes (what to take away from, and what to take away)" : "a shape";
+    diagnostics.error(element, fmt::format("expected {} in <{}>, found {}", expected, element.name(), count));
   };
   Schema<Operands> schema(name, sentence);
-  schema.ignoredAttribute("label", "an empty tag with this label, further down, stands for this shape")
-      .ignoredAttribute("name", "another word for label")
+  schema.foreignAttribute("label", "an empty tag with this label, further down, stands for this shape")
+      .foreignAttribute("name", "another word for label")
       .custom("shapes", readOperands, geometryNames(), exactlyTwo ? "two shapes" : "any number of shapes")
       .check(checkCount);
   return schema;
@@ -131,11 +130,12 @@ bool collectAbove(const Element& from, const Element& until, std::vector<Element
   return false;
 }
 
+/// In the same section of the scene (MaterialProperties, PhysicalBC, …), as each has labels of its own.
 std::vector<Element> labelledAbove(const Element& shape) {
-  Element root = shape;
-  while (const auto parent = root.parent()) root = *parent;
+  Element section = shape;
+  while (section.parent() && section.parent()->parent()) section = *section.parent();
   std::vector<Element> found;
-  collectAbove(root, shape, found);
+  collectAbove(section, shape, found);
   return found;
 }
 

@@ -16,8 +16,8 @@ std::vector<std::string> geometryNames();
 /// The shapes among the children of a `<geom_object>` (or the like), united if there are several; other children are
 /// left to the schema of `parent`. Null, after a sentence, if there is none or if one is wrong.
 ///
-/// A shape with a `label` (or `name`) can be used again, further down in the document, by an empty tag of the same
-/// kind with that label.
+/// A shape with a `label` (or `name`) can be used again, further down in the same section of the scene (the tag below
+/// the root), by an empty tag of the same kind with that label.
 PiecePtr readGeometry(const Element& parent, Diagnostics& diagnostics);
 
 /// One shape. Null, after a sentence, if it is unknown or wrong.

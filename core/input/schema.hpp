@@ -165,6 +165,13 @@ class Schema : public SchemaBase {
     return put(attribute(ignoredEntry(name, sentence)));
   }
 
+  /// An attribute with text that something other than this schema reads.
+  Schema& foreignAttribute(std::string name, std::string sentence) {
+    SchemaEntry entry = ignoredEntry(name, sentence);
+    entry.type = typeName<std::string>;
+    return put(attribute(std::move(entry)));
+  }
+
   /// Reads what declarations cannot say. `read` is called once with the element of *this* schema, whether or not any
   /// of the tags that it `takes` over (`name` itself if none are listed) is given.
   Schema& custom(std::string name, std::function<void(S&, const Element&, Diagnostics&)> read,

@@ -105,7 +105,7 @@ std::string title(const SchemaEntry& entry) {
 }
 
 std::string presence(const SchemaEntry& entry) {
-  if (entry.form == Form::ignored) return "ignored";
+  if (entry.form == Form::ignored) return entry.type.empty() ? "ignored" : "optional";
   if (entry.form == Form::custom) return {};
   if (entry.atLeast > 1) return fmt::format("at least {}", entry.atLeast);
   if (entry.atLeast == 1) return entry.repeatable ? "at least one" : "required";

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cerrno>
 #include <filesystem>
@@ -46,20 +47,27 @@ std::string accessProblem(const std::string& path) {
   return {};
 }
 
+/// Appends the file to `text`; returns why that failed, or nothing.
+std::string readAll(const std::string& path, std::string& text) {
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  std::array<char, 65536> chunk;
+  while (file.read(chunk.data(), chunk.size()) || file.gcount() > 0) {
+    text.append(chunk.data(), static_cast<std::size_t>(file.gcount()));
+  }
+  if (file.is_open() && !file.bad()) return {};
+  return "it cannot be read: " + std::generic_category().message(errno ? errno : EIO);
+}
+
 }  // namespace
 
 std::optional<std::string> XmlFile::slurp(const std::string& path, const Location& where, Diagnostics& diagnostics) {
-  const std::string prefix = where.file == path ? "" : fmt::format("cannot include '{}': ", path);
-  std::string problem = accessProblem(path);
   std::string text;
-  if (problem.empty()) {
-    errno = 0;
-    std::ifstream file(path, std::ios::binary);
-    text.assign(std::istreambuf_iterator<char>(file), {});
-    if (!file || errno != 0) problem = "it cannot be read: " + std::generic_category().message(errno ? errno : EIO);
-  }
+  std::string problem = accessProblem(path);
+  if (problem.empty()) problem = readAll(path, text);
   if (problem.empty() && trimmed(text).empty()) problem = "the file is empty";
   if (problem.empty()) return text;
+  const std::string prefix = where.file == path ? "" : fmt::format("cannot include '{}': ", path);
   diagnostics.error(where, {}, prefix + problem);
   return std::nullopt;
 }

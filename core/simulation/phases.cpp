@@ -1,6 +1,7 @@
 #include "core/simulation/phases.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ostream.h>
 
 #include <algorithm>
 #include <ostream>
@@ -123,11 +124,20 @@ void Phases::compile(const Lists& lists, const std::vector<std::unique_ptr<Analy
 }
 
 void Phases::printSchedule(std::ostream& out) const {
-  initialize.print(out);
-  stableTimeStep.print(out);
-  timeAdvance.print(out);
+  for (const tasks::TaskGraph* graph : {&initialize, &stableTimeStep, &timeAdvance}) {
+    graph->print(out);
+    graph->printLeftOut(out);
+  }
   for (const tasks::TaskGraph* graph : {&everyStep, &everyOutput, &report})
     if (!graph->tasks().empty()) graph->print(out);
+  out << "diagnostics that are never run\n";
+  for (const tasks::LeftOut& task : everyStep.leftOut()) {
+    const auto leavesOut = [&](const tasks::TaskGraph& graph) {
+      return std::any_of(graph.leftOut().begin(), graph.leftOut().end(),
+                         [&](const tasks::LeftOut& other) { return other.task == task.task; });
+    };
+    if (leavesOut(everyOutput) && leavesOut(report)) fmt::print(out, "  --  {} left out: {}\n", task.task, task.reason);
+  }
 }
 
 void Phases::printDot(std::ostream& out) const { timeAdvance.printDot(out); }

@@ -201,12 +201,13 @@ Report Simulation::makeReport(const std::vector<std::vector<double>>& before) {
 }
 
 void Simulation::reportTasks(Report& report) {
-  for (const tasks::TaskGraph* graph : {&phases_.stableTimeStep, &phases_.timeAdvance}) {
+  for (const tasks::TaskGraph* graph : {&phases_.stableTimeStep, &phases_.timeAdvance, &phases_.everyStep}) {
     for (const tasks::CompiledTask& task : graph->tasks()) {
       report.tasks.push_back({task.task.name, task.seconds});
       report.kept.push_back(task.task.name);
       report.exchange += task.exchangeSeconds;
     }
+    if (graph == &phases_.everyStep) continue;
     for (const tasks::LeftOut& task : graph->leftOut()) report.leftOut.push_back(task);
   }
 }

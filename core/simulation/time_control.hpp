@@ -9,12 +9,12 @@ struct TimeSettings {
   double maxTime = 0;                  ///< s
   double initTime = 0;                 ///< s
   double deltMin = 0;                  ///< s
-  double deltMax = std::numeric_limits<double>::infinity();   ///< s
-  double deltInit = std::numeric_limits<double>::infinity();  ///< greatest first time step, s
-  double maxDeltIncrease = std::numeric_limits<double>::infinity();  ///< greatest ratio of a step to the one before
+  double deltMax = std::numeric_limits<double>::max();   ///< s
+  double deltInit = std::numeric_limits<double>::max();  ///< greatest first time step, s
+  double maxDeltIncrease = std::numeric_limits<double>::max();  ///< greatest ratio of a step to the one before
   double timestepMultiplier = 1;
   int maxTimesteps = std::numeric_limits<int>::max();
-  double maxWallTime = std::numeric_limits<double>::infinity();  ///< s
+  double maxWallTime = std::numeric_limits<double>::max();  ///< s
   bool endAtMaxTimeExactly = false;
   bool clampTimeToOutput = false;
 };

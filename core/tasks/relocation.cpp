@@ -25,24 +25,21 @@ Index3 widened(const Index<D>& cell) {
 }
 
 template <std::size_t Words>
-void gatherWords(const std::byte* from, std::byte* to, const std::vector<int>& source) {
+void gatherWords(const std::byte* from, std::byte* to, const int* source, int count) {
   const auto* in = reinterpret_cast<const std::uint64_t*>(from);
   auto* out = reinterpret_cast<std::uint64_t*>(to);
-  for (const int place : source) {
-    for (std::size_t w = 0; w < Words; ++w) out[w] = in[static_cast<std::size_t>(place) * Words + w];
-    out += Words;
-  }
+  for (int k = 0; k < count; ++k)
+    for (std::size_t w = 0; w < Words; ++w)
+      out[static_cast<std::size_t>(k) * Words + w] = in[static_cast<std::size_t>(source[k]) * Words + w];
 }
 
-/// to[k] = from[source[k]] for elements of `bytes` bytes.
-void gather(const std::byte* from, std::byte* to, const std::vector<int>& source, std::size_t bytes) {
-  if (bytes == 8) return gatherWords<1>(from, to, source);
-  if (bytes == 16) return gatherWords<2>(from, to, source);
-  if (bytes == 24) return gatherWords<3>(from, to, source);
-  for (const int place : source) {
-    std::memcpy(to, from + static_cast<std::size_t>(place) * bytes, bytes);
-    to += bytes;
-  }
+/// to[k] = from[source[k]] for `count` elements of `bytes` bytes.
+void gather(const std::byte* from, std::byte* to, const int* source, int count, std::size_t bytes) {
+  if (bytes == 8) return gatherWords<1>(from, to, source, count);
+  if (bytes == 16) return gatherWords<2>(from, to, source, count);
+  if (bytes == 24) return gatherWords<3>(from, to, source, count);
+  for (int k = 0; k < count; ++k)
+    std::memcpy(to + static_cast<std::size_t>(k) * bytes, from + static_cast<std::size_t>(source[k]) * bytes, bytes);
 }
 
 /// Whether a position lies in the cell with these bounds.
@@ -144,40 +141,84 @@ void Relocation::rebuild(const Patch& patch, int material) {
   const auto* ids = reinterpret_cast<const ParticleId*>(
       warehouse_->variable(Generation::old, idNumber, patch.id()).values.data());
   after.reset(patch, warehouse_->table().reach(material));
-  moves.source.clear();
   moves.foreign.clear();
-  moves.source.reserve(static_cast<std::size_t>(before.owned()) + moves.incoming.size());
-  moves.unchanged = moves.departed.empty() && moves.incoming.empty();
-  std::size_t nextDeparted = 0, cellNumber = 0;
-  grid::forEach<3>(patch.cells(), [&](const Index3& cell) {
-    const int first = static_cast<int>(moves.source.size());
-    mergeCell(patch.id(), before.in(cell), moves.firstIncoming[cellNumber++], ids, nextDeparted);
-    after.at(cell) = {first, static_cast<int>(moves.source.size())};
+  moves.pieces.clear();
+  moves.source.resize(static_cast<std::size_t>(before.owned()) + moves.incoming.size());
+  moves.count = 0;
+  std::size_t nextDeparted = 0;
+  const int* firstIncoming = moves.firstIncoming.data();
+  grid::Box rows = patch.cells();
+  rows.upper[0] = rows.lower[0] + 1;
+  grid::forEach<3>(rows, [&](const Index3& cell) {
+    const ParticleRange* from = before.row(cell);
+    ParticleRange* to = after.row(cell);
+    for (int k = 0; k < patch.cells().extent(0); ++k, ++from, ++to, ++firstIncoming) {
+      const int first = moves.count;
+      const bool stays = nextDeparted == moves.departed.size() || moves.departed[nextDeparted] >= from->last;
+      if (stays && *firstIncoming < 0)
+        keepCell(moves, *from);
+      else
+        mergeCell(patch.id(), moves, *from, *firstIncoming, ids, nextDeparted);
+      *to = {first, moves.count};
+    }
   });
-  after.setOwned(static_cast<int>(moves.source.size()));
+  after.setOwned(moves.count);
+  gatherShortCopies(moves);
 }
 
-void Relocation::mergeCell(int patch, const ParticleRange& before, int first, const ParticleId* ids,
-                           std::size_t& nextDeparted) {
-  PatchMoves& moves = moves_[static_cast<std::size_t>(patch)];
-  int waiting = first;
-  const auto letIn = [&](ParticleId below, bool all) {
-    while (waiting >= 0 && (all || moves.incoming[static_cast<std::size_t>(waiting)].id < below)) {
-      const Incoming& particle = moves.incoming[static_cast<std::size_t>(waiting)];
-      if (particle.patch != patch) moves.foreign.emplace_back(static_cast<int>(moves.source.size()), waiting);
-      moves.source.push_back(particle.patch == patch ? particle.place : 0);
-      waiting = particle.next;
+/// Appends a cell that nobody leaves and nobody enters.
+void Relocation::keepCell(PatchMoves& moves, const ParticleRange& before) {
+  if (before.empty()) return;
+  Piece* last = moves.pieces.empty() ? nullptr : &moves.pieces.back();
+  if (last && last->from >= 0 && last->from + last->count == before.first)
+    last->count += before.size();
+  else
+    moves.pieces.push_back({moves.count, before.size(), before.first});
+  moves.count += before.size();
+}
+
+/// Turns copies too short to be worth a call into gathers, and joins neighbouring gathers.
+void Relocation::gatherShortCopies(PatchMoves& moves) {
+  constexpr int worthwhile = 32;
+  std::size_t kept = 0;
+  for (Piece piece : moves.pieces) {
+    if (piece.from >= 0 && piece.count < worthwhile) {
+      for (int k = 0; k < piece.count; ++k) moves.source[static_cast<std::size_t>(piece.to + k)] = piece.from + k;
+      piece.from = -1;
     }
+    if (kept > 0 && piece.from < 0 && moves.pieces[kept - 1].from < 0)
+      moves.pieces[kept - 1].count += piece.count;
+    else
+      moves.pieces[kept++] = piece;
+  }
+  moves.pieces.resize(kept);
+}
+
+/// Appends the particles of one cell: those that stay, in their order, and those that come in between by id.
+void Relocation::mergeCell(int patch, PatchMoves& moves, const ParticleRange& before, int firstIncoming,
+                           const ParticleId* ids, std::size_t& nextDeparted) {
+  int* source = moves.source.data();
+  int next = moves.count, waiting = firstIncoming;
+  const auto isDeparted = [&](int p) {
+    return nextDeparted < moves.departed.size() && moves.departed[nextDeparted] == p;
   };
-  for (const int p : before) {
-    if (nextDeparted < moves.departed.size() && moves.departed[nextDeparted] == p) {
+  const auto letInOne = [&] {
+    const Incoming& particle = moves.incoming[static_cast<std::size_t>(waiting)];
+    if (particle.patch != patch) moves.foreign.emplace_back(next, waiting);
+    source[next++] = particle.patch == patch ? particle.place : 0;
+    waiting = particle.next;
+  };
+  for (int p = before.first; p < before.last; ++p) {
+    if (isDeparted(p)) {
       ++nextDeparted;
       continue;
     }
-    if (waiting >= 0) letIn(ids[p], false);
-    moves.source.push_back(p);
+    while (waiting >= 0 && moves.incoming[static_cast<std::size_t>(waiting)].id < ids[p]) letInOne();
+    source[next++] = p;
   }
-  letIn(0, true);
+  while (waiting >= 0) letInOne();
+  if (next > moves.count) moves.pieces.push_back({moves.count, next - moves.count, -1});
+  moves.count = next;
 }
 
 void Relocation::carry(const Carried& carried) {
@@ -185,12 +226,16 @@ void Relocation::carry(const Carried& carried) {
   for (std::size_t patch = 0; patch < moves_.size(); ++patch) {
     const PatchMoves& moves = moves_[patch];
     const Variable& from = warehouse_->variable(carried.from, carried.variable, static_cast<int>(patch));
-    warehouse_->allocateParticles(spare_[patch], label, static_cast<int>(moves.source.size()));
+    warehouse_->allocateParticles(spare_[patch], label, moves.count);
     std::byte* to = spare_[patch].values.data();
-    if (moves.unchanged)
-      std::memcpy(to, from.values.data(), moves.source.size() * label.bytes);
-    else if (moves.foreign.size() < moves.source.size())
-      gather(from.values.data(), to, moves.source, label.bytes);
+    for (const Piece& piece : moves.pieces) {
+      std::byte* there = to + static_cast<std::size_t>(piece.to) * label.bytes;
+      if (piece.from >= 0)
+        std::memcpy(there, from.values.data() + static_cast<std::size_t>(piece.from) * label.bytes,
+                    static_cast<std::size_t>(piece.count) * label.bytes);
+      else if (from.held && from.values.data())
+        gather(from.values.data(), there, moves.source.data() + piece.to, piece.count, label.bytes);
+    }
     for (const auto& [place, index] : moves.foreign) {
       const Incoming& particle = moves.incoming[static_cast<std::size_t>(index)];
       const Variable& there = warehouse_->variable(carried.from, carried.variable, particle.patch);

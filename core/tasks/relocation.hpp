@@ -34,13 +34,20 @@ class Relocation {
     int patch, place;  ///< where it was
     int next;          ///< the incoming particle of the same cell with the next greater id, or -1
   };
+  /// Consecutive places of the new set: a copy of consecutive places before from `from` on, or (-1) gathered by
+  /// `source`.
+  struct Piece {
+    int to, count, from;
+  };
   struct PatchMoves {
-    std::vector<int> departed;        ///< places of the patch's particles that leave their cell, ascending
-    std::vector<Incoming> incoming;   ///< particles that come into a cell of the patch
-    std::vector<int> firstIncoming;   ///< by cell, or -1
-    std::vector<int> source;          ///< for each particle of the new set its place before (0 if it comes from another patch)
-    std::vector<std::pair<int, int>> foreign;  ///< new place and index in `incoming` of those
-    bool unchanged = false;
+    std::vector<int> departed;       ///< places of the patch's particles that leave their cell, ascending
+    std::vector<Incoming> incoming;  ///< particles that come into a cell of the patch
+    std::vector<int> firstIncoming;  ///< by cell, or -1
+    std::vector<Piece> pieces;
+    /// For each gathered particle of the new set its place before (0 if it comes from another patch).
+    std::vector<int> source;
+    int count = 0;                             ///< of the new set
+    std::vector<std::pair<int, int>> foreign;  ///< new place and index in `incoming` of those from other patches
   };
 
   template <int D>
@@ -49,8 +56,10 @@ class Relocation {
   void move(const grid::Patch& from, const Vec<D>& x, ParticleId id, int place);
   void receive(const grid::Patch& patch, const Index3& cell, const Incoming& particle);
   void rebuild(const grid::Patch& patch, int material);
-  void mergeCell(int patch, const data::ParticleRange& before, int first, const ParticleId* ids,
-                 std::size_t& nextDeparted);
+  static void keepCell(PatchMoves& moves, const data::ParticleRange& before);
+  static void mergeCell(int patch, PatchMoves& moves, const data::ParticleRange& before, int firstIncoming,
+                        const ParticleId* ids, std::size_t& nextDeparted);
+  static void gatherShortCopies(PatchMoves& moves);
   void carry(const Carried& variable);
 
   data::Warehouse* warehouse_;

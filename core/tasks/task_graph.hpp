@@ -67,8 +67,10 @@ class TaskGraph {
   /// Most materials of any task.
   int materials() const { return materials_; }
 
-  /// The tasks in order with what each reads and writes, then those left out and why.
+  /// The tasks in order with what each reads and writes.
   void print(std::ostream& out) const;
+  /// The tasks left out, and why.
+  void printLeftOut(std::ostream& out) const;
   /// The tasks and dependencies in Graphviz's language.
   void printDot(std::ostream& out) const;
 

@@ -44,6 +44,9 @@ void TaskGraph::print(std::ostream& out) const {
                                   AccessKind::modifies, AccessKind::creates})
       printAccesses(out, task, kind);
   }
+}
+
+void TaskGraph::printLeftOut(std::ostream& out) const {
   for (const LeftOut& task : leftOut()) fmt::print(out, "  --  {} left out: {}\n", task.task, task.reason);
 }
 

@@ -40,8 +40,8 @@ struct Linear {
 
   /// dS_k/dx_d in the middle of the cell, 1/m.
   static double centreGradient(const Level& level, int k, int d) {
-    const double sign = (k >> d) & 1 ? 1.0 : -1.0;
-    return sign / (level.spacing(d) * (1 << (D - 1)));
+    constexpr double others = 1.0 / (1 << (D - 1));  // the other axes' factors in the middle, 1/2 each
+    return ((k >> d) & 1 ? others : -others) * level.inverseSpacing(d);
   }
 };
 
@@ -54,7 +54,7 @@ struct CellFrame {
   CellFrame(const Level& level, const Index<D>& cell) {
     for (int d = 0; d < D; ++d) {
       origin[d] = level.nodePosition(d, cell[d]);
-      inverseSpacing[d] = 1.0 / level.spacing(d);
+      inverseSpacing[d] = level.inverseSpacing(d);
     }
   }
   Vec<D> coordinates(const Vec<D>& x) const { return (x - origin).cwiseProduct(inverseSpacing); }

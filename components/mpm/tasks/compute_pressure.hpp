@@ -49,12 +49,17 @@ void shareCellVolume(const Patch& patch, const Gas&, ParticleView<const double> 
 template <int D>
 void computeStableTimeStep(const Patch& patch, const Gas& gas, double cfl, ParticleView<const Vec<D>> velocity,
                            ParticleView<const double> internalEnergy, Minimum& dt) {
-  double fastest = 0;
-  for (int p = 0; p < velocity.owned(); ++p) {
-    const double speed = velocity[p].norm() + std::sqrt(gas.soundSpeedSquared(internalEnergy[p]));
-    fastest = speed > fastest ? speed : fastest;
+  constexpr int chunk = 256;
+  std::array<double, chunk> speed;
+  double greatest = 0;
+  for (int first = 0; first < velocity.owned(); first += chunk) {
+    const int count = std::min(chunk, velocity.owned() - first);
+    for (int k = 0; k < count; ++k)
+      speed[static_cast<std::size_t>(k)] =
+          length(velocity[first + k]) + std::sqrt(gas.soundSpeedSquared(internalEnergy[first + k]));
+    greatest = std::max(greatest, Eigen::Map<const Eigen::ArrayXd>(speed.data(), count).maxCoeff());
   }
-  if (fastest > 0) dt.add(cfl * patch.level().minSpacing() / fastest);
+  if (greatest > 0) dt.add(cfl * patch.level().minSpacing() / greatest);
 }
 
 }  // namespace tushar::mpm

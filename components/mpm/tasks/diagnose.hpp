@@ -5,20 +5,47 @@
 
 namespace tushar::mpm {
 
-/// Mass [kg], momentum [kg m/s], kinetic and internal energy [J] of all particles.
+/// Mass of all particles [kg].
 template <int D>
-void sumTotals(const Patch& patch, const Gas&, ParticleView<const double> mass, ParticleView<const Vec<D>> velocity,
-               ParticleView<const double> internalEnergyPerMass, Sum& total, VectorSum& momentum, Sum& kinetic,
-               Sum& internal, Sum& energy) {
-  for (int p = 0; p < mass.owned(); ++p) {
-    const double m = mass[p], ke = 0.5 * m * velocity[p].squaredNorm(), ie = m * internalEnergyPerMass[p];
-    total.add(m);
-    momentum.add(patch.level().expandDirection<D>(m * velocity[p]));
-    kinetic.add(ke);
-    internal.add(ie);
-    energy.add(ke);
-    energy.add(ie);
-  }
+void sumMass(const Patch& patch, const Gas&, ParticleView<const double> mass, Sum& total) {
+  WideSum sum(total);
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    double m = 0;
+    for (const int p : mass.in(cell)) m += mass[p];
+    sum.add(m);
+  });
+}
+
+/// Momentum of all particles [kg m/s].
+template <int D>
+void sumMomentum(const Patch& patch, const Gas&, ParticleView<const double> mass,
+                 ParticleView<const Vec<D>> velocity, VectorSum& total) {
+  WideSum x(total.x), y(total.y), z(total.z);
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    Vec<D> momentum = Vec<D>::Zero();
+    for (const int p : mass.in(cell)) momentum += mass[p] * velocity[p];
+    const Vec3 wide = patch.level().expandDirection<D>(momentum);
+    x.add(wide[0]);
+    y.add(wide[1]);
+    z.add(wide[2]);
+  });
+}
+
+/// Kinetic, internal and total energy of all particles [J].
+template <int D>
+void sumEnergy(const Patch& patch, const Gas&, ParticleView<const double> mass, ParticleView<const Vec<D>> velocity,
+               ParticleView<const double> internalEnergy, Sum& kinetic, Sum& internal, Sum& total) {
+  WideSum kineticSum(kinetic), internalSum(internal), totalSum(total);
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    double ke = 0, ie = 0;
+    for (const int p : mass.in(cell)) {
+      ke += 0.5 * mass[p] * velocity[p].squaredNorm();
+      ie += mass[p] * internalEnergy[p];
+    }
+    kineticSum.add(ke);
+    internalSum.add(ie);
+    totalSum.add(ke + ie);
+  });
 }
 
 /// Sum of mass times position [kg m].

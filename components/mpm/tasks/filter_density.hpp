@@ -18,22 +18,24 @@ void averageDensity(const Patch& patch, const Gas&, ParticleView<const double> d
 /// (18) of Tran, Kim & Berzins in its density form: where the mean density of a cell is an extremum along an axis,
 /// (r_{c-1} - r_c)(r_{c+1} - r_c) > 0, every particle of the cell gets (r_{c-1} - 2 r_c + r_{c+1}) / 3 more, so that
 /// the mean becomes that of the three cells. All cells at once; cells at the rim of the grid and next to empty ones
-/// stay. An extremum along k axes becomes the mean of its 2k + 1 cells.
+/// stay. An extremum that is as sharp along k axes becomes the mean of its 2k + 1 cells, so that it is never overshot;
+/// one that is sharp along one axis only, and mere round-off along the others, is treated as in one dimension.
 template <int D>
 void filterDensity(const Patch& patch, const Gas&, CellView<const double> mean, ParticleView<double> density) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    double excess = 0;
-    int extrema = 0;
+    double excess = 0, size = 0, sharpest = 0;
     for (int d = 0; d < D; ++d) {
       const Index<D> below = cell - Index<D>::unit(d), above = cell + Index<D>::unit(d);
       if (!mean.box().contains(below) || !mean.box().contains(above)) continue;
       const double left = mean[below], here = mean[cell], right = mean[above];
       if (left == 0 || here == 0 || right == 0 || !((left - here) * (right - here) > 0)) continue;
-      excess += left - 2 * here + right;
-      ++extrema;
+      const double along = left - 2 * here + right;
+      excess += along;
+      size += std::abs(along);
+      sharpest = std::max(sharpest, std::abs(along));
     }
-    if (extrema == 0) return;
-    for (const int p : density.in(cell)) density[p] += excess / (2 * extrema + 1);
+    if (sharpest == 0) return;
+    for (const int p : density.in(cell)) density[p] += excess / (1 + 2 * (size / sharpest));
   });
 }
 

@@ -45,7 +45,6 @@ void updateParticles(const Patch& patch, const Gas&, ParticleView<const Vec<D>> 
                      NodeView<const Vec<D>> velocityStar, double dt, ParticleView<Vec<D>> newX,
                      ParticleView<Vec<D>> newVelocity, ParticleView<double> newDensity,
                      ParticleView<double> newInternalEnergy, ParticleView<double> divergence) {
-  bool physical = true;
   forEach<D>(x.cells(), [&](const Index<D>& cell) {
     const data::ParticleRange particles = x.in(cell);
     if (particles.empty()) return;
@@ -56,13 +55,16 @@ void updateParticles(const Patch& patch, const Gas&, ParticleView<const Vec<D>> 
       const auto s = Shape::weights(frame.coordinates(x[p]));
       newVelocity[p] = velocity[p] + dt * a.at(s);
       newX[p] = x[p] + dt * v.at(s);
-      newInternalEnergy[p] = internalEnergy[p] - pressure[p] / density[p] * d * dt;
-      newDensity[p] = density[p] * (1.0 - d * dt);
       divergence[p] = d;
-      physical &= (newDensity[p] > 0) & (newInternalEnergy[p] >= 0);
     }
   });
-  if (!physical) refuseUnphysical<D>(x, density, newDensity, newInternalEnergy);
+  int unphysical = 0;
+  for (int p = 0; p < x.owned(); ++p) {
+    newInternalEnergy[p] = internalEnergy[p] - pressure[p] / density[p] * divergence[p] * dt;
+    newDensity[p] = density[p] * (1.0 - divergence[p] * dt);
+    unphysical += !(newDensity[p] > 0) + !(newInternalEnergy[p] >= 0);
+  }
+  if (unphysical > 0) refuseUnphysical<D>(x, density, newDensity, newInternalEnergy);
 }
 
 /// The same with total energy conserved to round-off, for particles of constant mass.
@@ -78,7 +80,7 @@ void updateParticlesConserving(const Patch& patch, const Gas&, ParticleView<cons
                                NodeView<const Vec<D>> velocityStar, double dt, ParticleView<Vec<D>> newX,
                                ParticleView<Vec<D>> newVelocity, ParticleView<double> newDensity,
                                ParticleView<double> newInternalEnergy, ParticleView<double> divergence) {
-  bool physical = true;
+  int unphysical = 0;
   const Level& level = patch.level();
   forEach<D>(x.cells(), [&](const Index<D>& cell) {
     const data::ParticleRange particles = x.in(cell);
@@ -100,10 +102,10 @@ void updateParticlesConserving(const Patch& patch, const Gas&, ParticleView<cons
                              0.5 * dt * dt * (squares - ap.squaredNorm());
       newDensity[p] = density[p] * (1.0 - d * dt);
       divergence[p] = d;
-      physical &= (newDensity[p] > 0) & (newInternalEnergy[p] >= 0);
+      unphysical += !(newDensity[p] > 0) + !(newInternalEnergy[p] >= 0);
     }
   });
-  if (!physical) refuseUnphysical<D>(x, density, newDensity, newInternalEnergy);
+  if (unphysical > 0) refuseUnphysical<D>(x, density, newDensity, newInternalEnergy);
 }
 
 template <int D>

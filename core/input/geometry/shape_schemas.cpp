@@ -16,8 +16,8 @@ namespace {
 template <class T>
 Schema<T> shapeSchema(const std::string& name, const std::string& sentence) {
   Schema<T> schema(name, sentence);
-  schema.ignoredAttribute("label", "an empty tag with this label, further down, stands for this shape");
-  schema.ignoredAttribute("name", "another word for label");
+  schema.foreignAttribute("label", "an empty tag with this label, further down, stands for this shape");
+  schema.foreignAttribute("name", "another word for label");
   return schema;
 }
 

@@ -1,0 +1,24 @@
+#include "components/components.hpp"
+
+#include "components/heat/heat.hpp"
+#include "components/mpm/input.hpp"
+#include "components/reference/modules.hpp"
+#include "core/simulation/exact_solution.hpp"
+
+namespace tushar {
+
+simulation::Catalogue catalogue() {
+  return {
+      {
+          heat::kind(),
+          mpm::kind(),
+      },
+      {
+          reference::exactRiemannKind(),
+          reference::simpleWaveKind(),
+          simulation::exactSolutionKind(),
+      },
+  };
+}
+
+}  // namespace tushar

@@ -1,0 +1,64 @@
+#pragma once
+
+#include "core/core.hpp"
+#include "core/input/diagnostics.hpp"
+#include "core/input/expression.hpp"
+#include "core/simulation/catalogue.hpp"
+
+namespace tushar::heat {
+
+namespace c {
+inline constexpr CellLabel<double> temperature{"c.temperature", "K", "temperature"};
+}
+inline constexpr ReductionLabel<Sum> totalEnergy{"TotalEnergy", "J", "heat in all cells, from 0 K"};
+
+/// The `Heat` section.
+struct Settings {
+  double conductivity = 1;            ///< k, W/(m K)
+  double density = 1;                 ///< rho, kg/m³
+  double specificHeat = 1;            ///< c, J/(kg K)
+  double cfl = 0.9;                   ///< part of the greatest stable time step
+  input::Expression temperature{0.0};  ///< at the start, K
+
+  double diffusivity() const { return conductivity / (density * specificHeat); }  ///< m²/s
+};
+
+/// Heat conduction, rho c dT/dt = k div grad T, explicit in time, centred in space, in D dimensions.
+///
+/// At a face with `Temperature` Dirichlet the value [K] is kept, with Neumann the outward derivative [K/m]; any other
+/// face is insulated. The smallest complete component: copy it with tools/new_component.
+template <int D>
+class Heat : public Component {
+ public:
+  explicit Heat(Settings settings) : settings_(std::move(settings)) {}
+
+  void scheduleInitialize(TaskList& tasks) const override;
+  void scheduleComputeStableTimeStep(TaskList& tasks) const override;
+  void scheduleTimeAdvance(TaskList& tasks) const override;
+  void scheduleDiagnostics(TaskList& tasks) const override;
+
+ private:
+  Settings settings_;
+};
+
+/// T at the middle of each cell, from the scene's formula.
+template <int D>
+void initialize(const Patch& patch, const Settings& settings, CellView<double> temperature);
+
+/// dt = cfl / (2 a sum_d 1/h_d²), a = k / (rho c): the limit of the explicit method (von Neumann).
+template <int D>
+void computeStableTimeStep(const Patch& patch, const Settings& settings, Minimum& dt);
+
+/// T' = T + dt a sum_d (T_{i-1} - 2 T_i + T_{i+1}) / h_d².
+template <int D>
+void conduct(const Patch& patch, const Settings& settings, CellView<const double> temperature, double dt,
+             CellView<double> newTemperature);
+
+/// Heat in the patch's cells [J].
+template <int D>
+void sumEnergy(const Patch& patch, const Settings& settings, CellView<const double> temperature, Sum& energy);
+
+/// What sus knows of this component.
+simulation::ComponentKind kind();
+
+}  // namespace tushar::heat

@@ -1,0 +1,222 @@
+#include "components/mpm/input.hpp"
+
+#include <fmt/format.h>
+
+#include "components/mpm/mpm.hpp"
+#include "core/input/geometry.hpp"
+#include "core/simulation/by_dimension.hpp"
+
+namespace tushar::mpm {
+
+using input::Diagnostics;
+using input::Element;
+using input::Schema;
+
+namespace {
+
+const Schema<Redistribution>& redistributeSchema() {
+  using Mode = Redistribution::Mode;
+  static const Schema<Redistribution> schema =
+      Schema<Redistribution>("redistribute", "New particles where a cell holds too few or too many.")
+          .choice("mode", &Redistribution::mode, {{"split_merge", Mode::splitMerge}, {"reseed", Mode::reseed}},
+                  Mode::splitMerge, "halve large particles and join near ones, or put new ones at midpoints")
+          .ours()
+          .value("min_particles", &Redistribution::minParticles, 2, "1", "least number in a cell that is not empty",
+                 input::positive())
+          .ours()
+          .value("max_particles", &Redistribution::maxParticles, 16, "1", "greatest number in a cell",
+                 input::positive())
+          .ours()
+          .value("target_particles", &Redistribution::targetParticles, 4, "1", "number in a cell that is seeded anew",
+                 input::positive())
+          .ours()
+          .check([](const Redistribution& r, const Element& element, Diagnostics& diagnostics) {
+            if (r.minParticles > r.maxParticles)
+              diagnostics.error(element, "min_particles is greater than max_particles");
+            if (r.mode == Mode::reseed && (r.targetParticles < r.minParticles || r.targetParticles > r.maxParticles))
+              diagnostics.error(element, "target_particles is not between min_particles and max_particles");
+          });
+  return schema;
+}
+
+const Schema<GasDynamics>& gasDynamicsSchema() {
+  static const Schema<Viscosity> viscosity =
+      Schema<Viscosity>("artificial_viscosity", "Of Monaghan & Pongracic (1985), (16) of the paper.")
+          .value("quadratic", &Viscosity::quadratic, 0.6, "1", "C_q", input::nonNegative())
+          .ours()
+          .value("linear", &Viscosity::linear, 2.75, "1", "C_l", input::nonNegative())
+          .ours();
+  static const Schema<GasDynamics> schema =
+      Schema<GasDynamics>("gas_dynamics", "The gas method of Tran, Kim & Berzins (2009).")
+          .value("cfl", &GasDynamics::cfl, 0.2125, "1", "dt max(|v| + c) / h", input::positive())
+          .ours()
+          .section("artificial_viscosity", &GasDynamics::viscosity, viscosity)
+          .ours()
+          .value("density_filter", &GasDynamics::densityFilter, true, "1",
+                 "smooth extrema of the cells' density, (18) of the paper")
+          .ours()
+          .choice("volume_model", &GasDynamics::volumeModel,
+                  {{"cell_share", VolumeModel::cellShare}, {"tracked", VolumeModel::tracked}}, VolumeModel::cellShare,
+                  "particles share their cell's volume, as in the paper, or keep their mass, which conserves mass and "
+                  "energy")
+          .ours()
+          .section("redistribute", &GasDynamics::redistribute, redistributeSchema())
+          .ours();
+  return schema;
+}
+
+struct MpmSection {
+  int integrator = 0, interpolator = 0;
+  GasDynamics gas;
+};
+const Schema<MpmSection>& mpmSchema() {
+  static const Schema<MpmSection> schema =
+      Schema<MpmSection>("MPM", "The Material Point Method.")
+          .choice("time_integrator", &MpmSection::integrator, {{"explicit", 0}}, 0, "how time advances")
+          .choice("interpolator", &MpmSection::interpolator, {{"linear", 0}}, 0, "shape functions")
+          .requiredSection("gas_dynamics", &MpmSection::gas, gasDynamicsSchema())
+          .ours();
+  return schema;
+}
+
+struct ObjectSection {
+  Location where;
+  std::shared_ptr<const input::GeometryPiece> shape;
+  Index3 res{{1, 1, 1}};
+  std::optional<input::Expression> density, pressure, temperature;
+  input::VectorExpression velocity;
+};
+const Schema<ObjectSection>& objectSchema() {
+  static const Schema<ObjectSection> schema =
+      Schema<ObjectSection>("geom_object", "A body of material at the start.")
+          .custom("shape",
+                  [](ObjectSection& object, const Element& element, Diagnostics& diagnostics) {
+                    object.where = element.where();
+                    object.shape = input::readGeometry(element, diagnostics);
+                  },
+                  input::geometryNames(), "the body's shape; several are united", input::describeGeometry)
+          .required("res", &ObjectSection::res, "1", "particles per cell along x, y, z", input::between(1, 32))
+          .value("velocity", &ObjectSection::velocity, input::VectorExpression(), "m/s", "velocity at the start")
+          .optional("temperature", &ObjectSection::temperature, "K",
+                    "temperature at the start, in place of <pressure>: p = (gamma - 1) rho c_v T", input::positive())
+          .optional("density", &ObjectSection::density, "kg/m^3", "density at the start, if not that of the material",
+                    input::positive())
+          .ours()
+          .optional("pressure", &ObjectSection::pressure, "Pa", "pressure at the start", input::positive())
+          .ours()
+          .check([](const ObjectSection& object, const Element& element, Diagnostics& diagnostics) {
+            if (object.pressure.has_value() == object.temperature.has_value())
+              diagnostics.error(element, object.pressure ? "gives both <pressure> and <temperature>; keep one"
+                                                         : "gives neither <pressure> nor <temperature>");
+          });
+  return schema;
+}
+
+struct ModelSection {
+  int type = 0;
+  double gamma = 1.4;
+  double specificHeat = 717.5;
+};
+const Schema<ModelSection>& modelSchema() {
+  static const Schema<ModelSection> schema =
+      Schema<ModelSection>("constitutive_model", "How the material answers to being deformed.")
+          .requiredChoiceAttribute("type", &ModelSection::type, {{"ideal_gas", 0}}, "p = (gamma - 1) rho epsilon")
+          .value("gamma", &ModelSection::gamma, 1.4, "1", "ratio of specific heats", input::greaterThan(1))
+          .value("specific_heat", &ModelSection::specificHeat, 717.5, "J/(kg K)",
+                 "c_v, for bodies that give a temperature", input::positive());
+  return schema;
+}
+
+struct MaterialSection {
+  std::string name;
+  std::optional<double> density;
+  ModelSection model;
+  std::vector<ObjectSection> objects;
+  double thermalConductivity = 0, specificHeat = 0;
+};
+const Schema<MaterialSection>& materialSchema() {
+  static const Schema<MaterialSection> schema =
+      Schema<MaterialSection>("material", "A material and the bodies made of it.")
+          .attributeValue("name", &MaterialSection::name, "gas", "1", "its name")
+          .optional("density", &MaterialSection::density, "kg/m^3", "density at the start", input::positive())
+          .requiredSection("constitutive_model", &MaterialSection::model, modelSchema())
+          .value("thermal_conductivity", &MaterialSection::thermalConductivity, 0, "W/(m K)",
+                 "must be 0: the gas method conducts no heat", input::between(0, 0))
+          .value("specific_heat", &MaterialSection::specificHeat, 0, "J/(kg K)",
+                 "accepted for Uintah's sake: the constitutive model has its own", input::nonNegative())
+          .list("geom_object", &MaterialSection::objects, objectSchema(), "a body of material at the start", 1)
+          .check([](const MaterialSection& material, const Element& element, Diagnostics& diagnostics) {
+            const auto bodies = element.children("geom_object");
+            for (std::size_t k = 0; k < material.objects.size(); ++k)
+              if (!material.density && !material.objects[k].density)
+                diagnostics.error(bodies[k], "has no <density>, and neither has its material");
+          });
+  return schema;
+}
+
+struct MaterialList {
+  std::vector<MaterialSection> materials;
+};
+struct MaterialProperties {
+  MaterialList mpm;
+};
+const Schema<MaterialProperties>& propertiesSchema() {
+  static const Schema<MaterialList> list =
+      Schema<MaterialList>("MPM", "The materials of the Material Point Method.")
+          .list("material", &MaterialList::materials, materialSchema(), "a material", 1)
+          .check([](const MaterialList& read, const Element& element, Diagnostics& diagnostics) {
+            if (read.materials.size() > 1)
+              diagnostics.error(element.children("material")[1],
+                                "the gas method takes one material; give it several <geom_object>s instead");
+          });
+  static const Schema<MaterialProperties> schema =
+      Schema<MaterialProperties>("MaterialProperties", "What there is.")
+          .requiredSection("MPM", &MaterialProperties::mpm, list);
+  return schema;
+}
+
+/// The pressure of a body, from its temperature where it gives that.
+input::Expression pressureOf(const ObjectSection& object, const input::Expression& density, const ModelSection& model) {
+  if (object.pressure) return *object.pressure;
+  const std::string text = fmt::format("({})*({})*({})", (model.gamma - 1) * model.specificHeat, density.text(),
+                                       object.temperature->text());
+  return *input::Expression::parse(text);
+}
+
+Gas makeGas(const MaterialSection& material) {
+  Gas gas;
+  gas.name = material.name;
+  gas.gamma = material.model.gamma;
+  for (const ObjectSection& object : material.objects) {
+    const input::Expression density = object.density ? *object.density : input::Expression(*material.density);
+    gas.objects.push_back(
+        {object.where, object.shape, object.res, density, pressureOf(object, density, material.model), object.velocity});
+  }
+  return gas;
+}
+
+}  // namespace
+
+simulation::ComponentKind kind() {
+  simulation::ComponentKind kind;
+  kind.name = "mpm";
+  kind.sentence = "the Material Point Method: gas dynamics of Tran, Kim & Berzins";
+  kind.sections = {"MPM", "MaterialProperties"};
+  kind.boundaryLabels = {"Symmetric"};
+  kind.describe = [](std::ostream& out) {
+    mpmSchema().describe(out);
+    propertiesSchema().describe(out);
+  };
+  kind.read = [](const Element& root, Diagnostics& diagnostics) -> simulation::MakeComponent {
+    const std::size_t before = diagnostics.size();
+    const MpmSection method = simulation::readSection(root, mpmSchema(), diagnostics);
+    const MaterialProperties properties = simulation::readSection(root, propertiesSchema(), diagnostics);
+    if (diagnostics.size() > before) return {};
+    std::vector<Gas> gases;
+    for (const MaterialSection& material : properties.mpm.materials) gases.push_back(makeGas(material));
+    return [method, gases](const Level& level) { return simulation::makeByDimension<Mpm>(level, method.gas, gases); };
+  };
+  return kind;
+}
+
+}  // namespace tushar::mpm

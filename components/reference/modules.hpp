@@ -1,0 +1,12 @@
+#pragma once
+
+#include "core/simulation/catalogue.hpp"
+
+namespace tushar::reference {
+
+/// `exactRiemann`: errors against the exact solution of a shock tube.
+simulation::AnalysisKind exactRiemannKind();
+/// `simpleWave`: errors against a right-running simple wave.
+simulation::AnalysisKind simpleWaveKind();
+
+}  // namespace tushar::reference

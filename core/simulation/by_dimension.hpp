@@ -1,0 +1,35 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "core/grid/level.hpp"
+#include "core/input/schema.hpp"
+#include "core/simulation/component.hpp"
+
+namespace tushar::simulation {
+
+/// A component of as many dimensions as the grid has axes.
+template <template <int> class C, class... Arguments>
+std::unique_ptr<Component> makeByDimension(const grid::Level& level, const Arguments&... arguments) {
+  if (level.dimension() == 1) return std::make_unique<C<1>>(arguments...);
+  if (level.dimension() == 2) return std::make_unique<C<2>>(arguments...);
+  return std::make_unique<C<3>>(arguments...);
+}
+
+/// Reads the section that a schema describes from the root of a scene; a missing one is a problem, a second one too.
+template <class S>
+S readSection(const input::Element& root, const input::Schema<S>& schema, input::Diagnostics& diagnostics) {
+  const auto sections = root.children(schema.name());
+  if (sections.empty()) {
+    diagnostics.error(root, fmt::format("the section <{}> is missing", schema.name()));
+    return schema.defaults();
+  }
+  if (sections.size() > 1)
+    diagnostics.error(sections[1], fmt::format("<{}> is given twice; the first is at {}", schema.name(),
+                                               sections[0].where().text()));
+  return schema.read(sections.front(), diagnostics);
+}
+
+}  // namespace tushar::simulation

@@ -1,0 +1,156 @@
+#include "core/simulation/scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/input/schema.hpp"
+
+namespace tushar::simulation {
+
+using input::Diagnostics;
+using input::Document;
+using input::Element;
+
+namespace {
+
+const std::vector<std::string> sharedSections{"Meta", "SimulationComponent", "Time", "DataArchiver", "Grid",
+                                              "DataAnalysis"};
+
+struct Meta {
+  std::string title;
+};
+const input::Schema<Meta>& metaSchema() {
+  static const input::Schema<Meta> schema =
+      input::Schema<Meta>("Meta", "About the scene.").value("title", &Meta::title, "", "1", "its name");
+  return schema;
+}
+
+struct ComponentTag {
+  std::string type;
+};
+const input::Schema<ComponentTag>& componentSchema() {
+  static const input::Schema<ComponentTag> schema =
+      input::Schema<ComponentTag>("SimulationComponent", "The physics.")
+          .requiredAttribute("type", &ComponentTag::type, "1", "name of the component; sus --list names them");
+  return schema;
+}
+
+/// The section of that name; a missing or second one is a problem.
+std::optional<Element> section(const Element& root, const std::string& name, bool required, Diagnostics& diagnostics) {
+  const std::vector<Element> all = root.children(name);
+  if (all.empty()) {
+    if (required) diagnostics.error(root, fmt::format("the section <{}> is missing", name));
+    return {};
+  }
+  for (std::size_t k = 1; k < all.size(); ++k)
+    diagnostics.error(all[k], fmt::format("<{}> is given twice; the first is at {}", name, all[0].where().text()));
+  return all.front();
+}
+
+const ComponentKind* readComponentKind(const Element& root, const Catalogue& catalogue, Diagnostics& diagnostics) {
+  const auto tag = section(root, "SimulationComponent", true, diagnostics);
+  if (!tag) return nullptr;
+  const std::size_t before = diagnostics.size();
+  const ComponentTag read = componentSchema().read(*tag, diagnostics);
+  if (diagnostics.size() > before) return nullptr;
+  const ComponentKind* kind = findKind(catalogue.components, read.type);
+  if (!kind) diagnostics.error(*tag, "type: " + input::choiceProblem(read.type, namesOf(catalogue.components)));
+  return kind;
+}
+
+void refuseUnknownSections(const Element& root, const ComponentKind* kind, const Catalogue& catalogue,
+                           Diagnostics& diagnostics) {
+  std::vector<std::string> known = sharedSections;
+  for (const ComponentKind& other : catalogue.components)
+    if (!kind || kind == &other) known.insert(known.end(), other.sections.begin(), other.sections.end());
+  for (const Element& child : root.children())
+    if (std::find(known.begin(), known.end(), child.name()) == known.end())
+      diagnostics.error(child, fmt::format("unknown section <{}>{}; allowed here: {}", child.name(),
+                                           didYouMean(child.name(), known), fmt::join(known, ", ")));
+}
+
+struct ReadModule {
+  Element element;
+  MakeAnalysis make;
+};
+
+std::vector<ReadModule> readModules(const Element& root, const Catalogue& catalogue, Diagnostics& diagnostics) {
+  std::vector<ReadModule> modules;
+  const auto analysis = section(root, "DataAnalysis", false, diagnostics);
+  if (!analysis) return modules;
+  for (const Element& child : analysis->children()) {
+    if (child.name() != "Module") {
+      diagnostics.error(child, fmt::format("unknown tag <{}>{}; allowed here: Module", child.name(),
+                                           didYouMean(child.name(), {"Module"})));
+      continue;
+    }
+    const auto name = child.attribute("name");
+    const AnalysisKind* kind = name ? findKind(catalogue.analyses, *name) : nullptr;
+    if (!name)
+      diagnostics.error(child, "the attribute name is missing; there are " + alternatives(namesOf(catalogue.analyses)));
+    else if (!kind)
+      diagnostics.error(child, "name: " + input::choiceProblem(*name, namesOf(catalogue.analyses)));
+    else
+      modules.push_back({child, kind->read(child, diagnostics)});
+  }
+  return modules;
+}
+
+std::vector<std::unique_ptr<Analysis>> makeModules(const std::vector<ReadModule>& modules, const Problem& problem) {
+  std::vector<std::unique_ptr<Analysis>> analyses;
+  std::vector<InputProblem> problems;
+  for (const ReadModule& module : modules) {
+    try {
+      analyses.push_back(module.make(*problem.component, *problem.level));
+    } catch (const InputError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+  return analyses;
+}
+
+}  // namespace
+
+Problem readScene(const std::string& path, const std::vector<std::string>& overrides, const Catalogue& catalogue) {
+  Diagnostics diagnostics;
+  Document document = Document::load(path, diagnostics);
+  diagnostics.throwIfAny();
+  for (const std::string& change : overrides) document.set(change, diagnostics);
+  const Element root = document.root();
+
+  Problem problem;
+  problem.scenePath = path;
+  problem.inputXml = document.text();
+  const ComponentKind* kind = readComponentKind(root, catalogue, diagnostics);
+  refuseUnknownSections(root, kind, catalogue, diagnostics);
+  if (const auto meta = section(root, "Meta", false, diagnostics))
+    problem.title = metaSchema().read(*meta, diagnostics).title;
+  if (const auto time = section(root, "Time", true, diagnostics)) problem.time = readTime(*time, diagnostics);
+  if (const auto archive = section(root, "DataArchiver", false, diagnostics))
+    problem.archive = readArchive(*archive, diagnostics);
+  grid::Domain domain;
+  if (const auto grid = section(root, "Grid", true, diagnostics))
+    domain = readGrid(*grid, kind ? kind->boundaryLabels : std::vector<std::string>{}, diagnostics);
+  MakeComponent makeComponent;
+  if (kind) makeComponent = kind->read(root, diagnostics);
+  const std::vector<ReadModule> modules = readModules(root, catalogue, diagnostics);
+  diagnostics.throwIfAny();
+
+  problem.componentName = kind->name;
+  problem.level = std::make_unique<grid::Level>(domain);
+  problem.component = makeComponent(*problem.level);
+  problem.analyses = makeModules(modules, problem);
+  return problem;
+}
+
+void describeSharedSections(std::ostream& out) {
+  metaSchema().describe(out);
+  componentSchema().describe(out);
+  describeTime(out);
+  describeArchive(out);
+  describeGrid(out);
+}
+
+}  // namespace tushar::simulation

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/input/document.hpp"
+#include "core/simulation/catalogue.hpp"
+#include "core/simulation/simulation.hpp"
+
+namespace tushar::simulation {
+
+/// Reads a scene, applies the overrides of the command line (`PATH=VALUE`), checks everything, and builds the grid, the
+/// component and the analysis modules. Throws InputError with all problems of the scene at once. Writes nothing.
+Problem readScene(const std::string& path, const std::vector<std::string>& overrides, const Catalogue& catalogue);
+
+/// The manual of the sections that every component shares: Time, DataArchiver, Grid.
+void describeSharedSections(std::ostream& out);
+
+/// The `Time` section.
+TimeSettings readTime(const input::Element& section, input::Diagnostics& diagnostics);
+/// The `DataArchiver` section.
+ArchiveSettings readArchive(const input::Element& section, input::Diagnostics& diagnostics);
+/// The `Grid` section; `boundaryLabels` are those that the component understands.
+grid::Domain readGrid(const input::Element& section, const std::vector<std::string>& boundaryLabels,
+                      input::Diagnostics& diagnostics);
+
+void describeTime(std::ostream& out);
+void describeArchive(std::ostream& out);
+void describeGrid(std::ostream& out);
+
+}  // namespace tushar::simulation

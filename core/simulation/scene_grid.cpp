@@ -1,0 +1,208 @@
+#include <fmt/format.h>
+
+#include "core/input/schema.hpp"
+#include "core/simulation/scene.hpp"
+
+namespace tushar::simulation {
+
+using input::Diagnostics;
+using input::Element;
+using input::Schema;
+
+namespace {
+
+/// More cells than this cannot be numbered by an int.
+constexpr double mostCells = 2147483647.0;
+
+struct GridBox {
+  std::string label;
+  Vec3 lower = Vec3::Zero(), upper = Vec3::Ones();
+  std::optional<Index3> resolution;
+  Index3 patches{{1, 1, 1}};
+  Index3 extraCells{};
+};
+
+struct LevelSection {
+  std::vector<GridBox> boxes;
+  std::optional<Vec3> spacing;
+  Index3 periodic{};
+};
+
+struct ConditionSection {
+  std::string id, label, var;
+  std::optional<std::string> value;
+};
+
+struct FaceSection {
+  int face = 0;
+  std::vector<ConditionSection> conditions;
+};
+
+struct FacesSection {
+  std::vector<FaceSection> faces;
+};
+
+struct GridSection {
+  FacesSection boundaries;
+  LevelSection level;
+};
+
+const Schema<GridBox>& boxSchema() {
+  static const Schema<GridBox> schema =
+      Schema<GridBox>("Box", "The box that is divided into cells.")
+          .attributeValue("label", &GridBox::label, "", "1", "its name")
+          .required("lower", &GridBox::lower, "m", "its lower corner")
+          .required("upper", &GridBox::upper, "m", "its upper corner")
+          .optional("resolution", &GridBox::resolution, "1", "cells along x, y, z (or give <spacing> of the Level)",
+                    input::atLeast(1))
+          .value("patches", &GridBox::patches, Index3{{1, 1, 1}}, "1", "patches along x, y, z", input::atLeast(1))
+          .value("extraCells", &GridBox::extraCells, Index3{}, "1",
+                 "accepted for Uintah's sake: what a shape function needs around the grid follows from it",
+                 input::nonNegative())
+          .check([](const GridBox& box, const Element& element, Diagnostics& diagnostics) {
+            for (int axis = 0; axis < 3; ++axis)
+              if (box.upper[axis] < box.lower[axis])
+                diagnostics.error(element, fmt::format("upper is below lower along {}: {:g} < {:g} m", "xyz"[axis],
+                                                       box.upper[axis], box.lower[axis]));
+          });
+  return schema;
+}
+
+const Schema<LevelSection>& levelSchema() {
+  static const Schema<LevelSection> schema =
+      Schema<LevelSection>("Level", "A grid of cells of one size.")
+          .list("Box", &LevelSection::boxes, boxSchema(), "the box that is divided into cells", 1)
+          .optional("spacing", &LevelSection::spacing, "m", "cell widths, in place of the resolution of the Box",
+                    input::positive())
+          .value("periodic", &LevelSection::periodic, Index3{}, "1", "axes along which the grid repeats: none yet",
+                 input::between(0, 0))
+          .check([](const LevelSection& level, const Element& element, Diagnostics& diagnostics) {
+            if (level.boxes.size() > 1)
+              diagnostics.error(element.children("Box")[1],
+                                fmt::format("a Level has one Box here; this is a second one (the first is at {})",
+                                            element.children("Box")[0].where().text()));
+            for (const GridBox& box : level.boxes)
+              if (box.resolution.has_value() == level.spacing.has_value())
+                diagnostics.error(element, box.resolution ? "gives both spacing and resolution; keep one"
+                                                          : "gives neither <resolution> of its Box nor <spacing>");
+          });
+  return schema;
+}
+
+const Schema<ConditionSection>& conditionSchema() {
+  static const Schema<ConditionSection> schema =
+      Schema<ConditionSection>("BCType", "What a variable does at a face.")
+          .attributeValue("id", &ConditionSection::id, "all", "1", "material that it holds for; all is what there is")
+          .requiredAttribute("label", &ConditionSection::label, "1", "the variable")
+          .requiredAttribute("var", &ConditionSection::var, "1", "symmetry, Dirichlet or Neumann")
+          .optional("value", &ConditionSection::value, "SI unit of the variable", "a number or a vector")
+          .check([](const ConditionSection& condition, const Element& element, Diagnostics& diagnostics) {
+            const std::vector<std::string> kinds{"symmetry", "Dirichlet", "Neumann"};
+            if (const std::string problem = input::choiceProblem(condition.var, kinds); !problem.empty())
+              diagnostics.error(element, "var: " + problem);
+            else if (condition.var != "symmetry" && !condition.value)
+              diagnostics.error(element, "a " + condition.var + " condition needs a <value>");
+            if (condition.id != "all" && condition.id != "0")
+              diagnostics.error(element, "id: found '" + condition.id + "', expected 'all'");
+          });
+  return schema;
+}
+
+const Schema<FaceSection>& faceSchema() {
+  static const Schema<FaceSection> schema =
+      Schema<FaceSection>("Face", "A side of the grid.")
+          .requiredChoiceAttribute("side", &FaceSection::face,
+                                   {{"x-", 0}, {"x+", 1}, {"y-", 2}, {"y+", 3}, {"z-", 4}, {"z+", 5}}, "which")
+          .list("BCType", &FaceSection::conditions, conditionSchema(), "what a variable does there", 1);
+  return schema;
+}
+
+const Schema<GridSection>& gridSchema() {
+  static const Schema<FacesSection> faces =
+      Schema<FacesSection>("BoundaryConditions", "What happens at the sides of the grid; a side that is not named is free.")
+          .list("Face", &FacesSection::faces, faceSchema(), "a side");
+  static const Schema<GridSection> schema = Schema<GridSection>("Grid", "The grid and what happens at its sides.")
+                                                .section("BoundaryConditions", &GridSection::boundaries, faces)
+                                                .requiredSection("Level", &GridSection::level, levelSchema());
+  return schema;
+}
+
+Vec3 conditionValue(const ConditionSection& condition, const Element& element, Diagnostics& diagnostics) {
+  if (!condition.value) return Vec3::Zero();
+  if (const auto vector = input::parse<Vec3>(*condition.value)) return *vector;
+  const auto number = input::parse<double>(*condition.value);
+  if (!number) diagnostics.error(element, "value: " + number.problem);
+  return {number ? *number : 0.0, 0, 0};
+}
+
+void readFaces(const Element& section, const FacesSection& faces, const std::vector<std::string>& labels,
+               grid::Domain& domain, Diagnostics& diagnostics) {
+  const auto group = section.child("BoundaryConditions");
+  if (!group) return;
+  const std::vector<Element> elements = group->children("Face");
+  for (std::size_t f = 0; f < faces.faces.size() && f < elements.size(); ++f) {
+    const std::vector<Element> tags = elements[f].children("BCType");
+    for (std::size_t k = 0; k < faces.faces[f].conditions.size() && k < tags.size(); ++k) {
+      const ConditionSection& condition = faces.faces[f].conditions[k];
+      const std::string problem = labels.empty() ? "" : input::choiceProblem(condition.label, labels);
+      if (!problem.empty()) diagnostics.error(tags[k], "label: " + problem);
+      domain.boundaries.faces[static_cast<std::size_t>(faces.faces[f].face)].push_back(
+          {condition.label, condition.var, conditionValue(condition, tags[k], diagnostics)});
+    }
+  }
+}
+
+Index3 resolutionOf(const GridBox& box, const LevelSection& level, const Element& element, Diagnostics& diagnostics) {
+  if (box.resolution) return *box.resolution;
+  Index3 resolution = Index3::filled(1);
+  for (int axis = 0; level.spacing && axis < 3; ++axis) {
+    const double cells = (box.upper[axis] - box.lower[axis]) / (*level.spacing)[axis];
+    if (cells > mostCells || (cells > 0.5 && std::abs(cells - std::round(cells)) > 1e-6 * cells))
+      diagnostics.error(element, fmt::format("spacing along {} gives {:g} cells, which is not a whole number",
+                                             "xyz"[axis], cells));
+    else
+      resolution[axis] = std::max(1, static_cast<int>(std::lround(cells)));
+  }
+  return resolution;
+}
+
+void checkSize(const grid::Domain& domain, const Element& element, Diagnostics& diagnostics) {
+  double cells = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    cells *= domain.resolution[axis];
+    if (domain.upper[axis] == domain.lower[axis] && domain.resolution[axis] > 1)
+      diagnostics.error(element, fmt::format("there are {} cells along {}, where the box has no extent",
+                                             domain.resolution[axis], "xyz"[axis]));
+    if (domain.patches[axis] > domain.resolution[axis])
+      diagnostics.error(element, fmt::format("there are {} patches along {}, but only {} cell(s)", domain.patches[axis],
+                                             "xyz"[axis], domain.resolution[axis]));
+  }
+  if (domain.upper == domain.lower) diagnostics.error(element, "the box has no extent along any axis");
+  if (cells > mostCells)
+    diagnostics.error(element, fmt::format("resolution [{},{},{}] makes {:.3g} cells; the most is {:.3g}",
+                                           domain.resolution[0], domain.resolution[1], domain.resolution[2], cells,
+                                           mostCells));
+}
+
+}  // namespace
+
+grid::Domain readGrid(const Element& section, const std::vector<std::string>& boundaryLabels,
+                      Diagnostics& diagnostics) {
+  const std::size_t before = diagnostics.size();
+  const GridSection read = gridSchema().read(section, diagnostics);
+  grid::Domain domain;
+  readFaces(section, read.boundaries, boundaryLabels, domain, diagnostics);
+  if (diagnostics.size() > before || read.level.boxes.empty()) return domain;
+  const GridBox& box = read.level.boxes.front();
+  const Element element = section.child("Level")->children("Box").front();
+  domain.lower = box.lower;
+  domain.upper = box.upper;
+  domain.resolution = resolutionOf(box, read.level, element, diagnostics);
+  domain.patches = box.patches;
+  checkSize(domain, element, diagnostics);
+  return domain;
+}
+
+void describeGrid(std::ostream& out) { gridSchema().describe(out); }
+
+}  // namespace tushar::simulation

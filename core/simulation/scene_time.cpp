@@ -1,0 +1,106 @@
+#include "core/input/schema.hpp"
+#include "core/simulation/scene.hpp"
+
+namespace tushar::simulation {
+
+using input::Diagnostics;
+using input::Element;
+using input::Schema;
+
+namespace {
+
+constexpr double unlimited = std::numeric_limits<double>::max();
+
+const Schema<TimeSettings>& timeSchema() {
+  static const Schema<TimeSettings> schema =
+      Schema<TimeSettings>("Time", "How far a run goes, and in which steps.")
+          .required("maxTime", &TimeSettings::maxTime, "s", "time at which the run ends", input::positive())
+          .value("initTime", &TimeSettings::initTime, 0, "s", "time at which the run starts")
+          .value("delt_min", &TimeSettings::deltMin, 0, "s", "least time step", input::nonNegative())
+          .value("delt_max", &TimeSettings::deltMax, unlimited, "s", "greatest time step", input::positive())
+          .value("delt_init", &TimeSettings::deltInit, unlimited, "s", "greatest first time step", input::positive())
+          .value("max_delt_increase", &TimeSettings::maxDeltIncrease, unlimited, "1",
+                 "greatest ratio of a time step to the one before", input::positive())
+          .value("timestep_multiplier", &TimeSettings::timestepMultiplier, 1, "1",
+                 "factor on the time step that the physics allow", input::positive())
+          .value("max_Timesteps", &TimeSettings::maxTimesteps, std::numeric_limits<int>::max(), "1",
+                 "number of steps after which the run ends", input::positive())
+          .value("max_wall_time", &TimeSettings::maxWallTime, unlimited, "s",
+                 "wall time after which the run ends, its output written", input::positive())
+          .value("end_at_max_time_exactly", &TimeSettings::endAtMaxTimeExactly, false, "1",
+                 "shorten the last step so that it ends at maxTime")
+          .value("clamp_time_to_output", &TimeSettings::clampTimeToOutput, false, "1",
+                 "shorten steps so that outputs are at multiples of outputInterval")
+          .check([](const TimeSettings& time, const Element& element, Diagnostics& diagnostics) {
+            if (time.maxTime <= time.initTime)
+              diagnostics.error(element, "maxTime is not after initTime; nothing would be computed");
+            if (time.deltMin > time.deltMax) diagnostics.error(element, "delt_min is greater than delt_max");
+          });
+  return schema;
+}
+
+const Schema<SaveRequest>& saveSchema() {
+  static const Schema<SaveRequest> schema =
+      Schema<SaveRequest>("save", "A variable to be saved.")
+          .requiredAttribute("label", &SaveRequest::label, "1", "its name, such as p.x or KineticEnergy")
+          .attributeValue("material", &SaveRequest::material, "", "1", "only of this material")
+          .ignoredAttribute("levels", "there is one level")
+          .custom("where", [](SaveRequest& save, const Element& element, Diagnostics&) { save.where = element.where(); },
+                  {}, "");
+  return schema;
+}
+
+/// Whether a tag of the archiver that stands without a value is given; `<tag>false</tag>` says no.
+bool isOn(const Element& archiver, const char* tag) {
+  const auto element = archiver.child(tag);
+  return element && element->text() != "false";
+}
+
+const Schema<ArchiveSettings>& archiveSchema() {
+  static const Schema<ArchiveSettings> schema =
+      Schema<ArchiveSettings>("DataArchiver", "What is saved, where and how often.")
+          .required("filebase", &ArchiveSettings::filebase, "1", "name of the folder, such as sod.uda")
+          .value("outputInterval", &ArchiveSettings::outputInterval, 0, "s", "time between outputs",
+                 input::nonNegative())
+          .value("outputTimestepInterval", &ArchiveSettings::outputTimestepInterval, 0, "1",
+                 "steps between outputs", input::nonNegative())
+          .custom("outputInitTimestep",
+                  [](ArchiveSettings& archive, const Element& element, Diagnostics&) {
+                    archive.outputInitTimestep = isOn(element, "outputInitTimestep");
+                    archive.outputLastTimestep = isOn(element, "outputLastTimestep");
+                  },
+                  {"outputInitTimestep", "outputLastTimestep"}, "also save the state at the start, or at the end")
+          .value("outputDoubleAsFloat", &ArchiveSettings::doubleAsFloat, false, "1", "save with 7 digits")
+          .value("compression", &ArchiveSettings::compression, 0, "1", "level of gzip, 0 for none",
+                 input::between(0, 9))
+          .ours()
+          .list("save", &ArchiveSettings::saves, saveSchema(), "a variable to be saved")
+          .custom("checkpoint",
+                  [](ArchiveSettings&, const Element& element, Diagnostics& diagnostics) {
+                    for (const Element& tag : element.children("checkpoint"))
+                      diagnostics.error(tag, "checkpoints are not available yet; take the tag out, and use <save> to "
+                                             "keep what you need");
+                  },
+                  {"checkpoint"}, "not available yet")
+          .check([](const ArchiveSettings& archive, const Element& element, Diagnostics& diagnostics) {
+            if (archive.outputInterval > 0 && archive.outputTimestepInterval > 0)
+              diagnostics.error(element, "gives both outputInterval and outputTimestepInterval; keep one");
+            if (archive.filebase.find('/') != std::string::npos)
+              diagnostics.error(element, "filebase '" + archive.filebase +
+                                             "' contains '/'; name a folder within the one where sus is started");
+          });
+  return schema;
+}
+
+}  // namespace
+
+TimeSettings readTime(const Element& section, Diagnostics& diagnostics) {
+  return timeSchema().read(section, diagnostics);
+}
+ArchiveSettings readArchive(const Element& section, Diagnostics& diagnostics) {
+  return archiveSchema().read(section, diagnostics);
+}
+void describeTime(std::ostream& out) { timeSchema().describe(out); }
+void describeArchive(std::ostream& out) { archiveSchema().describe(out); }
+
+}  // namespace tushar::simulation

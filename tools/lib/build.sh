@@ -1,0 +1,70 @@
+# Shared by tools/run and tools/test: installs what is missing, configures and builds a preset. Sourced, not run.
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+
+packages=(
+  g++ cmake ninja-build pkg-config
+  libopenmpi-dev openmpi-bin libhdf5-openmpi-dev libeigen3-dev libpugixml-dev libfmt-dev libcli11-dev
+  nlohmann-json3-dev libmuparser-dev libxxhash-dev
+)
+test_packages=(libgtest-dev libbenchmark-dev python3 python3-h5py python3-matplotlib python3-vtk9)
+
+say() { printf '%s\n' "tushar: $*" >&2; }
+
+missing_packages() {
+  local package
+  for package in "$@"; do
+    case "$(dpkg-query -W -f '${Status}' "$package" 2>/dev/null)" in
+      'install ok installed') ;;
+      *) printf '%s\n' "$package" ;;
+    esac
+  done
+}
+
+# install_missing PACKAGE...: nothing to do where there is no dpkg; then cmake says what it misses.
+install_missing() {
+  command -v dpkg-query >/dev/null || { say "this is not Debian; the packages needed are: $*"; return 0; }
+  local missing sudo=
+  mapfile -t missing < <(missing_packages "$@")
+  [ ${#missing[@]} -eq 0 ] && return 0
+  if [ "$(id -u)" -ne 0 ]; then
+    if command -v sudo >/dev/null && sudo -n true 2>/dev/null; then sudo=sudo; else
+      say "these Debian packages are missing, and installing them takes root: ${missing[*]}"
+      say "please run: sudo apt-get update && sudo apt-get install --no-install-recommends ${missing[*]}"
+      exit 1
+    fi
+  fi
+  say "installing ${missing[*]}"
+  export DEBIAN_FRONTEND=noninteractive
+  local log
+  log=$(mktemp)
+  if ! { $sudo apt-get update -qq && $sudo apt-get install -y -qq --no-install-recommends "${missing[@]}"; } >"$log" 2>&1; then
+    tail -n 20 "$log" >&2
+    say "apt-get could not install them (above: its last lines); install them by hand and try again"
+    exit 1
+  fi
+  rm -f "$log"
+}
+
+# build PRESET [TARGET...]: configures where that has not been done, then builds.
+build() {
+  local preset=$1 log
+  shift
+  log=$(mktemp)
+  if [ ! -f "$root/build/$preset/build.ninja" ]; then
+    say "configuring build/$preset"
+    if ! (cd "$root" && cmake --preset "$preset") >"$log" 2>&1; then
+      cat "$log" >&2
+      exit 1
+    fi
+  fi
+  if ! ninja -C "$root/build/$preset" -n "$@" 2>/dev/null | grep -q 'no work to do'; then
+    say "building build/$preset (the first time takes some minutes)"
+    if ! ninja -C "$root/build/$preset" "$@" >"$log" 2>&1; then
+      cat "$log" >&2
+      say "the build failed"
+      exit 1
+    fi
+  fi
+  rm -f "$log"
+}

@@ -1,0 +1,159 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <ctime>
+#include <fstream>
+#include <iostream>
+
+#include "components/components.hpp"
+#include "core/base/error.hpp"
+#include "core/base/interrupt.hpp"
+#include "core/base/launcher.hpp"
+#include "core/input/geometry.hpp"
+#include "core/simulation/scene.hpp"
+
+namespace {
+
+using namespace tushar;
+
+struct Arguments {
+  std::string scene, describe, graph;
+  std::vector<std::string> overrides;
+  bool check = false, list = false, schedule = false, version = false;
+  simulation::RunOptions run;
+};
+
+/// When the process started: now, less the processor time that it has used.
+std::chrono::steady_clock::time_point processStart() {
+  const double used = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+  return std::chrono::steady_clock::now() -
+         std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(used));
+}
+
+/// Uintah's words begin with one dash: -validate becomes --validate. Single letters stay.
+std::vector<std::string> withTwoDashes(int count, char** words) {
+  std::vector<std::string> result;
+  for (int k = count - 1; k > 0; --k) {
+    std::string word = words[k];
+    const bool oneDash = word.size() > 2 && word[0] == '-' && word[1] != '-' && std::isalpha(word[1]);
+    result.push_back(oneDash ? "-" + word : word);
+  }
+  return result;
+}
+
+void declare(CLI::App& app, Arguments& arguments) {
+  app.footer(
+      "Exit codes: 0 done, 1 failure (files, memory, a defect of sus), 2 bad command line, 3 bad scene,\n"
+      "            4 a value became impossible during the run, 5 interrupted (output written)");
+  app.add_option("scene", arguments.scene, "the scene to run (.ups)");
+  app.add_option("--set", arguments.overrides, "override a value of the scene: PATH=VALUE, e.g.\n"
+                                               "Grid/Level/Box/resolution=[200,1,1]; may be repeated")
+      ->allow_extra_args(false);
+  app.add_option("--json", arguments.run.jsonPath, "write the report to a file, as JSON");
+  app.add_option("--output", arguments.run.outputFolder, "put the .uda into this folder");
+  app.add_flag("--quiet", arguments.run.quiet, "no progress, no report on the screen");
+  app.add_flag("--check,--validate", arguments.check, "check the scene, run nothing");
+  app.add_flag("--schedule", arguments.schedule, "print the tasks in order, what they read and write, what is left out");
+  app.add_option("--graph", arguments.graph, "write the tasks of a step to a file, for Graphviz (dot)");
+  app.add_flag("--list", arguments.list, "list components, analysis modules and shapes");
+  app.add_option("--describe", arguments.describe, "the manual of a component, a module, or 'scene'");
+  app.add_flag("-V,--version", arguments.version, "version");
+}
+
+void printList(const simulation::Catalogue& known) {
+  fmt::print("components (SimulationComponent type=)\n");
+  for (const auto& kind : known.components) fmt::print("  {:<16} {}\n", kind.name, kind.sentence);
+  fmt::print("analysis modules (DataAnalysis/Module name=)\n");
+  for (const auto& kind : known.analyses) fmt::print("  {:<16} {}\n", kind.name, kind.sentence);
+  fmt::print("shapes (geom_object)\n");
+  for (const std::string& name : input::geometryNames()) fmt::print("  {}\n", name);
+}
+
+ExitCode describe(const std::string& name, const simulation::Catalogue& known) {
+  if (name == "scene") {
+    simulation::describeSharedSections(std::cout);
+  } else if (const auto* component = findKind(known.components, name)) {
+    component->describe(std::cout);
+  } else if (const auto* analysis = findKind(known.analyses, name)) {
+    analysis->describe(std::cout);
+  } else {
+    std::vector<std::string> names = namesOf(known.components);
+    for (const std::string& other : namesOf(known.analyses)) names.push_back(other);
+    names.emplace_back("scene");
+    fmt::print(stderr, "sus: nothing is called '{}'{}; there are {}\n", name, didYouMean(name, names),
+               alternatives(names));
+    return ExitCode::badCommandLine;
+  }
+  return ExitCode::success;
+}
+
+void writeFile(const std::string& path, const std::string& text) {
+  std::ofstream file(path);
+  if (!(file << text) || !file.flush()) throw FileError(fmt::format("{}: cannot be written", path));
+}
+
+ExitCode runScene(const Arguments& arguments, const simulation::Catalogue& known,
+                  std::chrono::steady_clock::time_point startedAt) {
+  if (launchedRanks() > 1)
+    throw std::runtime_error(fmt::format("started on {} ranks, but runs on one so far; start it without mpirun", launchedRanks()));
+  simulation::Problem problem = simulation::readScene(arguments.scene, arguments.overrides, known);
+  simulation::Simulation run(std::move(problem), arguments.run, startedAt);
+  if (!arguments.graph.empty()) {
+    std::ostringstream dot;
+    run.phases().printDot(dot);
+    writeFile(arguments.graph, dot.str());
+  }
+  if (arguments.schedule) run.phases().printSchedule(std::cout);
+  if (arguments.check) fmt::print("{}: fine\n", arguments.scene);
+  if (arguments.check || arguments.schedule || !arguments.graph.empty()) return ExitCode::success;
+  catchInterrupts();
+  const simulation::Report report = run.run();
+  if (!arguments.run.quiet) fmt::print("{}", toText(report));
+  if (!arguments.run.jsonPath.empty()) writeFile(arguments.run.jsonPath, toJson(report));
+  return report.ended == "interrupted" ? ExitCode::interrupted : ExitCode::success;
+}
+
+ExitCode dispatch(const Arguments& arguments, std::chrono::steady_clock::time_point startedAt) {
+  const simulation::Catalogue known = catalogue();
+  if (arguments.version) {
+    fmt::print("sus {} ({})\n", TUSHAR_VERSION, TUSHAR_BUILD_TYPE);
+    return ExitCode::success;
+  }
+  if (arguments.list) {
+    printList(known);
+    return ExitCode::success;
+  }
+  if (!arguments.describe.empty()) return describe(arguments.describe, known);
+  if (arguments.scene.empty()) {
+    fmt::print(stderr, "sus: no scene given; sus scene.ups runs one, sus -h lists the options\n");
+    return ExitCode::badCommandLine;
+  }
+  return runScene(arguments, known, startedAt);
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  const auto startedAt = processStart();
+  Arguments arguments;
+  CLI::App app("sus: runs a scene (.ups) with the component that it names", "sus");
+  declare(app, arguments);
+  try {
+    app.parse(withTwoDashes(count, words));
+    return static_cast<int>(dispatch(arguments, startedAt));
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::badCommandLine);
+  } catch (const InputError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return static_cast<int>(ExitCode::badInput);
+  } catch (const NumericalError& error) {
+    fmt::print(stderr, "sus: {}\n     try {}\n", error.what(), error.advice());
+    return static_cast<int>(ExitCode::numerical);
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "sus: not enough memory for this scene\n");
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "sus: {}\n", error.what());
+  }
+  return static_cast<int>(ExitCode::failure);
+}
