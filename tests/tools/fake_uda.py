@@ -1,0 +1,132 @@
+"""Archives for tests, as core/output writes them: Sod's shock tube, and heat in 1-D and 2-D."""
+import os
+
+import h5py
+import numpy as np
+
+INDEX = """<?xml version="1.0"?>
+<tushar_archive version="0.1.0">
+ <variables>
+{variables} </variables>
+ <globals>
+{globals} </globals>
+ <timesteps>
+{outputs} </timesteps>
+</tushar_archive>
+"""
+
+
+def sod(x, time):
+    """Density, velocity, pressure and internal energy of Sod's problem, diaphragm at 0.5; states rounded to 5 digits
+    from Toro (2009), table 4.3."""
+    gamma, p, u = 1.4, 0.30313, 0.92745
+    left, right = 0.42632, 0.26557
+    c = np.sqrt(gamma)
+    tail = u - np.sqrt(gamma * p / left)
+    speed = 1.75216
+    xi = (np.asarray(x) - 0.5) / max(time, 1e-12)
+    fan_u = 2 / (gamma + 1) * (c + xi)
+    fan_c = np.maximum(c - (gamma - 1) / 2 * fan_u, 0)
+    fan_rho = (fan_c / c) ** (2 / (gamma - 1))
+    where = [xi < -c, xi < tail, xi < u, xi < speed]
+    density = np.select(where, [1, fan_rho, left, right], 0.125)
+    velocity = np.select(where, [0, fan_u, u, u], 0)
+    pressure = np.select(where, [1, fan_rho ** gamma, p, p], 0.1)
+    return density, velocity, pressure, pressure / ((gamma - 1) * density)
+
+
+def write_index(folder, variables, globals_, outputs, title):
+    """variables: (name, centring, components, unit, materials); globals_: (name, unit); outputs: (step, time)."""
+    lines = "".join(f'  <variable name="{name}" centring="{centring}" type="double" components="{components}" unit="{unit}" '
+                    f'description="the {name}"' + (f' materials="{materials}"' if materials else "") + " />\n"
+                    for name, centring, components, unit, materials in variables)
+    more = "".join(f'  <global name="{name}" href="{name}.dat" components="1" unit="{unit}" description="the {name}" />\n'
+                   for name, unit in globals_)
+    times = "".join(f'  <timestep href="t{step:05}.h5" time="{time}" delT="0.001">{step}</timestep>\n'
+                    for step, time in outputs)
+    with open(os.path.join(folder, "index.xml"), "w", encoding="utf-8") as file:
+        file.write(INDEX.format(variables=lines, globals=more, outputs=times))
+    with open(os.path.join(folder, "input.xml"), "w", encoding="utf-8") as file:
+        file.write(f"<Uintah_specification><Meta><title>{title}</title></Meta></Uintah_specification>")
+
+
+def open_output(folder, step, time, cells, spacing, dimension):
+    file = h5py.File(os.path.join(folder, f"t{step:05}.h5"), "w")
+    file.attrs.update(step=step, time=time, delT=0.001, version="0.1.0")
+    file.create_group("grid").attrs.update(lower=np.zeros(3), spacing=np.array(spacing, float), cells=np.array(cells),
+                                           dimension=dimension)
+    return file
+
+
+def make_folder(where, name):
+    folder = os.path.join(where, name + ".uda.000")
+    os.makedirs(folder)
+    os.symlink(os.path.basename(folder), os.path.join(where, name + ".uda"))
+    return folder
+
+
+def make_sod(where, name="sod", count=400, noise=0.0, leave_out=()):
+    """A tube of 100 cells with `count` particles; returns the path of the link."""
+    folder = make_folder(where, name)
+    outputs = [(0, 0.0), (100, 0.1), (200, 0.2)]
+    units = {"p.density": "kg/m^3", "p.velocity": "m/s", "p.pressure": "Pa", "p.internalEnergy": "J/kg"}
+    variables = [("p.x", "particle", 3, "m", "gas")] + [
+        (label, "particle", 3 if label == "p.velocity" else 1, unit, "gas")
+        for label, unit in units.items() if label not in leave_out]
+    write_index(folder, variables, [("KineticEnergy", "J")], outputs, "Sod's shock tube")
+    random = np.random.default_rng(1)
+    for step, time in outputs:
+        with open_output(folder, step, time, (100, 1, 1), (0.01, 1, 1), 1) as file:
+            x = (np.arange(count) + 0.5) / count
+            group = file.create_group("particles/gas")
+            group.attrs["index"] = 0
+            group["p.x"] = np.column_stack([x, np.full(count, 0.5), np.full(count, 0.5)])
+            for label, values in zip(units, sod(x, time)):
+                values = values * (1 + noise * random.standard_normal(count))
+                if label in leave_out:
+                    continue
+                wide = np.column_stack([values, 0 * values, 0 * values])
+                group[label] = wide if label == "p.velocity" else values
+            line = np.linspace(0, 1, 1001)
+            for column, values in zip(("x", "density", "velocity", "pressure", "energy"), (line, *sod(line, time))):
+                file[f"reference/{column}"] = values
+    with open(os.path.join(folder, "KineticEnergy.dat"), "w", encoding="utf-8") as file:
+        file.write("# time [s] KineticEnergy [J]\n0 0\n0.1 0.05\n0.2 0.1\n0.3 0.")  # the last line is not complete
+    return os.path.join(where, name + ".uda")
+
+
+def make_heat(where, cells=(50, 1, 1), dimension=1, name="heat"):
+    """A cell field, warm in the middle, and a node field; returns the path of the link."""
+    folder = make_folder(where, name)
+    write_index(folder, [("c.temperature", "cell", 1, "K", ""), ("g.mass", "node", 1, "kg", "")], [], [(0, 0.0), (10, 1.0)],
+                "Heat")
+    for step, time in ((0, 0.0), (10, 1.0)):
+        with open_output(folder, step, time, cells, [1 / n for n in cells], dimension) as file:
+            z, y, x = np.meshgrid(*[(np.arange(n) + 0.5) / n for n in reversed(cells)], indexing="ij")
+            file["cells/c.temperature"] = 300 + 50 * np.exp(-20 * ((x - 0.5) ** 2 + 2 * (y - 0.5) ** 2)) / (1 + time)
+            nodes = [n + 1 if axis < dimension else n for axis, n in enumerate(cells)]
+            file["nodes/g.mass"] = np.ones(nodes[::-1])
+    return os.path.join(where, name + ".uda")
+
+
+def make_disks(where, name="disks"):
+    """Two materials of particles in 2-D, and one without any; returns the path of the link."""
+    folder = make_folder(where, name)
+    write_index(folder, [("p.x", "particle", 3, "m", "left, right, none"),
+                         ("p.density", "particle", 1, "kg/m^3", "left, right, none"),
+                         ("p.velocity", "particle", 3, "m/s", "left, right")], [], [(3, 0.5)], "Two disks")
+    with open_output(folder, 3, 0.5, (40, 40, 1), (0.025, 0.025, 1), 2) as file:
+        side = np.linspace(-0.2, 0.2, 60)
+        x, y = (axis.ravel() for axis in np.meshgrid(side, side))
+        x, y = x[x ** 2 + y ** 2 < 0.04], y[x ** 2 + y ** 2 < 0.04]
+        for index, (material, centre) in enumerate((("left", 0.3), ("right", 0.7))):
+            group = file.create_group(f"particles/{material}")
+            group.attrs["index"] = index
+            group["p.x"] = np.column_stack([x + centre, y + centre, np.full(len(x), 0.5)])
+            group["p.density"] = 1000 + 100 * (x ** 2 + y ** 2) / 0.04 + index
+            group["p.velocity"] = np.column_stack([y, -x, 0 * x])
+        group = file.create_group("particles/none")
+        group.attrs["index"] = 2
+        group["p.x"] = np.zeros((0, 3))
+        group["p.density"] = np.zeros(0)
+    return os.path.join(where, name + ".uda")

@@ -1,0 +1,215 @@
+#!/usr/bin/env python3
+"""Tests of tools/uda, tools/plot and the library behind them: python3 tests/tools/uda_test.py"""
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+TOOLS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "tools")
+sys.path[:0] = [os.path.join(TOOLS, "python"), os.path.dirname(os.path.abspath(__file__))]
+from tushar.interpreter import ensure
+
+ensure("h5py", "matplotlib")
+
+import numpy as np
+
+import fake_uda
+from tushar.uda import Uda, UdaError
+
+
+def run(tool, *arguments):
+    """Exit code, standard output and standard error of a tool."""
+    done = subprocess.run([sys.executable, os.path.join(TOOLS, tool), *arguments], capture_output=True, text=True,
+                          encoding="utf-8")
+    return done.returncode, done.stdout, done.stderr
+
+
+class WithArchives(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.sod = fake_uda.make_sod(cls.folder.name)
+        cls.part = fake_uda.make_sod(cls.folder.name, "part", leave_out=("p.pressure", "p.internalEnergy"))
+        cls.heat = fake_uda.make_heat(cls.folder.name)
+        cls.plate = fake_uda.make_heat(cls.folder.name, (6, 4, 1), 2, "plate")
+        cls.disks = fake_uda.make_disks(cls.folder.name)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+
+class Library(WithArchives):
+    def test_reads_the_link_and_the_folder_alike(self):
+        for path in (self.sod, self.sod + "/", self.sod + ".000"):
+            self.assertEqual(Uda(path).times, [0.0, 0.1, 0.2])
+        self.assertEqual(Uda(self.sod).steps, [0, 100, 200])
+        self.assertEqual(Uda(self.sod).title, "Sod's shock tube")
+
+    def test_returns_particles_of_the_last_output_unless_told(self):
+        uda = Uda(self.sod)
+        x = uda.particles("p.x")[:, 0]
+        np.testing.assert_array_equal(uda.particles("p.density"), fake_uda.sod(x, 0.2)[0])
+        np.testing.assert_array_equal(uda.particles("p.density", index=1), fake_uda.sod(x, 0.1)[0])
+
+    def test_joins_the_materials_in_the_order_of_the_scene(self):
+        uda = Uda(self.disks)
+        left, right = uda.particles("p.density", "left"), uda.particles("p.density", "right")
+        self.assertEqual(list(uda.materials().values()), [len(left), len(right), 0])
+        np.testing.assert_array_equal(uda.particles("p.density"), np.concatenate([left, right]))
+        self.assertEqual(len(uda.particles("p.density", "none")), 0)
+
+    def test_shapes_fields_by_z_y_x(self):
+        uda = Uda(self.plate)
+        self.assertEqual(uda.field("c.temperature").shape, (1, 4, 6))
+        self.assertEqual(uda.field("g.mass").shape, (1, 5, 7))
+
+    def test_places_cells_and_nodes(self):
+        grid = Uda(self.plate).grid()
+        self.assertEqual(grid.axes, [0, 1])
+        np.testing.assert_allclose(grid.coordinates("cell")[1], [0.125, 0.375, 0.625, 0.875])
+        np.testing.assert_allclose(grid.coordinates("node")[1], [0, 0.25, 0.5, 0.75, 1])
+        np.testing.assert_allclose(grid.coordinates("node")[2], [0.5])
+
+    def test_reads_globals_without_a_line_that_is_not_complete(self):
+        times, energy = Uda(self.sod).globals("KineticEnergy")
+        np.testing.assert_array_equal(times, [0, 0.1, 0.2])
+        np.testing.assert_array_equal(energy, [0, 0.05, 0.1])
+
+    def test_reads_the_exact_solution(self):
+        self.assertEqual(set(Uda(self.sod).reference()), {"x", "density", "velocity", "pressure", "energy"})
+        self.assertEqual(Uda(self.heat).reference(), {})
+
+    def test_finds_the_nearest_time(self):
+        self.assertEqual(Uda(self.sod).index_at(0.11), 1)
+
+    def test_names_what_is_there_when_a_name_is_wrong(self):
+        uda = Uda(self.sod)
+        with self.assertRaisesRegex(UdaError, r"no particle variable 'p.densty' \(did you mean 'p.density'\?\); there is"):
+            uda.particles("p.densty")
+        with self.assertRaisesRegex(UdaError, r"no material 'Gas' \(did you mean 'gas'\?\)"):
+            uda.particles("p.density", "Gas")
+        with self.assertRaisesRegex(UdaError, r"no output 7: .* has 3, 0 to 2"):
+            uda.particles("p.density", index=7)
+
+    def test_says_where_an_archive_may_be(self):
+        os.unlink(self.disks)
+        with self.assertRaisesRegex(UdaError, r"is no folder; there is '.*disks.uda.000'"):
+            Uda(self.disks)
+        os.symlink("disks.uda.000", self.disks)
+        with self.assertRaisesRegex(UdaError, "has no index.xml"):
+            Uda(self.folder.name)
+
+    def test_reads_an_archive_without_outputs(self):
+        folder = fake_uda.make_folder(self.folder.name, "young")
+        fake_uda.write_index(folder, [], [], [], "Young")
+        self.assertEqual(Uda(folder).times, [])
+        with self.assertRaisesRegex(UdaError, "has no outputs yet"):
+            Uda(folder).index_at(0)
+        self.assertEqual(run("uda", folder)[0], 0)
+        self.assertIn("has no outputs yet", run("plot", folder)[2])
+
+
+class Command(WithArchives):
+    def test_lists_what_is_there(self):
+        code, out, _ = run("uda", self.sod)
+        self.assertEqual(code, 0)
+        for part in ("Sod's shock tube", "3 outputs", "400 particles of gas", "p.velocity", "[m/s]", "vector",
+                     "KineticEnergy", "[J]", "100 cells in 1-D"):
+            self.assertIn(part, out)
+
+    def test_prints_positions_and_values(self):
+        code, out, err = run("uda", self.sod, "p.density", "p.pressure", "--time", "0.1")
+        rows = out.splitlines()
+        self.assertEqual((code, len(rows)), (0, 401))
+        self.assertEqual(rows[0].split(), ["x", "[m]", "p.density", "[kg/m^3]", "p.pressure", "[Pa]"])
+        self.assertEqual(rows[1].split(), ["0.00125", "1", "1"])
+        self.assertIn("t = 0.1 s", err)
+
+    def test_prints_a_global_over_time(self):
+        self.assertEqual(run("uda", self.sod, "KineticEnergy")[1].split()[-2:], ["0.2", "0.1"])
+
+    def test_writes_csv_with_every_digit(self):
+        code, _, _ = run("uda", self.sod, "p.velocity", "--csv", self.path("out.csv"))
+        table = np.loadtxt(self.path("out.csv"), delimiter=",", skiprows=1)
+        self.assertEqual(code, 0)
+        np.testing.assert_array_equal(table[:, 1:], Uda(self.sod).particles("p.velocity"))
+        with open(self.path("out.csv"), encoding="utf-8") as file:
+            self.assertEqual(file.readline(), "x [m],p.velocity.x [m/s],p.velocity.y [m/s],p.velocity.z [m/s]\n")
+
+    def test_prints_statistics(self):
+        out = run("uda", self.disks, "p.density", "--stats", "--material", "left")[1]
+        row = next(line for line in out.splitlines() if line.startswith("p.density"))
+        density = Uda(self.disks).particles("p.density", "left")
+        numbers = [float(word) for word in row.split()[2:]]
+        np.testing.assert_allclose(numbers, [len(density), density.min(), density.max(), density.mean(), density.std()],
+                                   rtol=1e-6)  # seven digits are printed
+
+    def test_prints_nothing_of_a_material_without_particles(self):
+        code, out, _ = run("uda", self.disks, "p.density", "--material", "none", "--stats")
+        self.assertEqual(code, 0)
+        self.assertIn("p.density [kg/m^3]", out)
+
+    def test_prints_fields_with_their_positions(self):
+        rows = run("uda", self.plate, "c.temperature", "--csv", "-")[1].splitlines()
+        self.assertEqual(len(rows), 25)
+        self.assertTrue(rows[2].startswith("0.25,0.125,"))
+
+    def test_fails_with_a_sentence(self):
+        for arguments, sentence in (((self.sod, "p.presure"), "did you mean 'p.pressure'?"),
+                                    ((self.path("none.uda"),), "is no folder"),
+                                    ((self.sod, "p.density", "KineticEnergy"), "do not fit in one table"),
+                                    ((self.sod, "p.density", "--csv", "/dev/null/x"), "Not a directory")):
+            code, _, err = run("uda", *arguments)
+            self.assertEqual(code, 1)
+            self.assertIn(sentence, err)
+            self.assertNotIn("Traceback", err)
+
+
+class Plot(WithArchives):
+    def plot(self, *arguments, out="out.png"):
+        code, _, err = run("plot", *arguments, "--out", self.path(out))
+        self.assertEqual(code, 0, err)
+        with open(self.path(out), "rb") as file:
+            return file.read(), err
+
+    def test_writes_png_and_svg(self):
+        self.assertTrue(self.plot(self.sod)[0].startswith(b"\x89PNG"))
+        self.assertIn(b"<svg", self.plot(self.sod, out="out.svg")[0])
+
+    def test_shows_the_four_profiles_with_units_time_and_legend(self):
+        svg = self.plot(self.sod, "--time", "0.1", out="four.svg")[0].decode()
+        for text in ("density [kg/m³]", "velocity [m/s]", "pressure [Pa]", "specific internal energy [J/kg]", "x [m]",
+                     "t = 0.1 s", "particles", "exact"):
+            self.assertIn(text, svg)
+
+    def test_says_what_is_missing(self):
+        svg, err = self.plot(self.part, out="part.svg")
+        self.assertIn('no pressure: the scene does not save it; add <save label="p.pressure"/>', err)
+        self.assertNotIn(b"pressure", svg)
+
+    def test_says_which_time_it_took(self):
+        self.assertIn("the output nearest to t = 0.19 s is that at 0.2 s", self.plot(self.sod, "--time", "0.19")[1])
+
+    def test_draws_fields_images_and_points(self):
+        self.assertIn(b"temperature [K]", self.plot(self.heat, out="heat.svg")[0])
+        self.assertIn(b"temperature [K]", self.plot(self.plate, out="plate.svg")[0])
+        self.assertIn("density [kg/m³]", self.plot(self.disks, out="disks.svg")[0].decode())
+        self.assertIn(b"|velocity| [m/s]", self.plot(self.disks, "p.velocity", out="speed.svg")[0])
+
+    def test_fails_with_a_sentence(self):
+        for arguments, sentence in (((self.sod, "p.presure"), "did you mean 'p.pressure'?"),
+                                    ((self.sod, "--out", self.path("out.xyz")), "not supported"),
+                                    ((self.sod, "--out", self.path("no/out.png")), "No such file")):
+            code, _, err = run("plot", *arguments)
+            self.assertEqual(code, 1)
+            self.assertIn(sentence, err)
+            self.assertNotIn("Traceback", err)
+
+
+if __name__ == "__main__":
+    unittest.main()
