@@ -1,13 +1,27 @@
 #include "core/simulation/exact_solution.hpp"
 
-#include "core/core.hpp"
+#include <optional>
+
+#include "core/data/reduction.hpp"
 #include "core/input/schema.hpp"
+#include "core/tasks/task_list.hpp"
 
 namespace tushar::simulation {
 
+using data::CellLabel;
+using data::NodeLabel;
+using data::Norm;
+using data::ReductionLabel;
+using grid::forEach;
+using grid::Level;
+using grid::Patch;
 using input::Diagnostics;
 using input::Element;
 using input::Schema;
+using tasks::computes;
+using tasks::requiresOld;
+using tasks::TaskList;
+using tasks::with;
 
 namespace {
 

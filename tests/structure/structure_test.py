@@ -1,0 +1,62 @@
+#!/usr/bin/env python3
+"""The folders keep their order: what includes what, and who may see MPI, HDF5 and PETSc."""
+import pathlib
+import re
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+# A folder includes itself and those before it.
+ORDER = ["core/base", "core/input", "core/grid", "core/data", "core/tasks", "core/solvers", "core/output",
+         "core/simulation", "core", "components", "tools"]
+INCLUDE = re.compile(r'^\s*#include\s+[<"]([^>"]+)[>"]', re.MULTILINE)
+FOREIGN = {"mpi.h": r"core/base/mpi.*|core/tasks/exchange.*", "hdf5.h": r"core/output/archive.*",
+           "petsc": r"core/solvers/petsc.*"}
+
+
+def sources():
+    for folder in ("core", "components", "tools"):
+        for file in sorted((ROOT / folder).rglob("*")):
+            if file.suffix in (".hpp", ".cpp"):
+                yield file.relative_to(ROOT).as_posix(), file.read_text()
+
+
+def layer(path):
+    """Place in ORDER of the folder that a file belongs to."""
+    matching = [folder for folder in ORDER if path.startswith(folder + "/")]
+    return ORDER.index(max(matching, key=len))
+
+
+class Structure(unittest.TestCase):
+    def test_a_folder_includes_itself_and_those_before_it(self):
+        wrong = [f"{path} includes {name}" for path, text in sources() for name in INCLUDE.findall(text)
+                 if (ROOT / name).is_file() and layer(name) > layer(path)]
+        self.assertEqual(wrong, [])
+
+    def test_every_include_of_ours_exists(self):
+        wrong = [f"{path} includes {name}" for path, text in sources() for name in INCLUDE.findall(text)
+                 if name.split("/")[0] in ("core", "components") and not (ROOT / name).is_file()]
+        self.assertEqual(wrong, [])
+
+    def test_core_knows_no_component(self):
+        wrong = [path for path, text in sources() if path.startswith("core/") and '"components/' in text]
+        self.assertEqual(wrong, [])
+
+    def test_only_their_own_files_include_mpi_hdf5_and_petsc(self):
+        wrong = [f"{path} includes {name}" for path, text in sources() for name in INCLUDE.findall(text)
+                 for library, allowed in FOREIGN.items() if name.startswith(library) and not re.match(allowed, path)]
+        self.assertEqual(wrong, [])
+
+    def test_no_file_has_more_than_400_lines(self):
+        long = [path for path, text in sources() if text.count("\n") > 400]
+        self.assertEqual(long, [])
+
+    def test_the_top_level_holds_what_it_should_and_nothing_else(self):
+        allowed = {"CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "core", "components", "ups", "tests",
+                   "tools", "build"}
+        found = {entry.name for entry in ROOT.iterdir() if not entry.name.startswith(".")}
+        left_by_runs = {name for name in found if ".uda" in name}
+        self.assertEqual(found - allowed - left_by_runs, set())
+
+
+if __name__ == "__main__":
+    unittest.main()
