@@ -2,25 +2,33 @@
 """Reads an XDMF file with VTK's own reader, the one of ParaView, and compares with the HDF5 files.
 
     python3 tests/output/xdmf_test.py sod.uda/sod.xdmf
+    SUS=build/dev/sus python3 tests/output/xdmf_test.py        # runs ups/mpm/sod.ups first
 
-Needs h5py, numpy and a VTK with the XDMF reader: `pip install vtk h5py`, or Debian's python3-paraview with
-python3-h5py (Debian's python3-vtk9 comes without that reader).
+Needs h5py, numpy and a VTK with the XDMF reader, or all is skipped: `pip install vtk h5py`, or Debian's python3-paraview
+with python3-h5py. Debian's python3-vtk9 comes without that reader, and cannot be installed beside python3-paraview.
 """
 import glob
 import os
+import subprocess
 import sys
+import tempfile
 import unittest
 
+ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+sys.path.insert(0, os.path.join(ROOT, "tools", "python"))
+from tushar.interpreter import ensure
+
+MISSING = None
 try:
+    ensure("h5py", "numpy", "vtkmodules.vtkIOXdmf2")
     import h5py
     import numpy as np
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
     from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
     from vtkmodules.vtkIOXdmf2 import vtkXdmfReader
-    MISSING = None
-except ImportError as error:
-    MISSING = str(error)
+except SystemExit:
+    MISSING = "no Python here has h5py and a VTK that reads XDMF: pip install vtk h5py, or Debian's python3-paraview"
 
 XDMF = None
 
@@ -96,8 +104,20 @@ class Xdmf(unittest.TestCase):
             np.testing.assert_array_equal(block.GetDimensions(), grid["cells"] + 1)
 
 
+def run_scene(sus, folder):
+    """Runs Sod's problem and returns its XDMF file."""
+    scene = os.path.join(ROOT, "ups", "mpm", "sod.ups")
+    subprocess.run([sus, scene, "--output", folder, "--quiet"], check=True)
+    return os.path.join(folder, "sod.uda", "sod.xdmf")
+
+
 if __name__ == "__main__":
-    if len(sys.argv) < 2 or not os.path.exists(sys.argv[1]):
-        sys.exit("usage: python3 tests/output/xdmf_test.py PATH_TO_XDMF")
-    XDMF = sys.argv.pop(1)
-    unittest.main()
+    with tempfile.TemporaryDirectory() as folder:
+        if len(sys.argv) > 1 and sys.argv[1].endswith(".xdmf"):
+            XDMF = sys.argv.pop(1)
+        elif "SUS" in os.environ:
+            XDMF = run_scene(os.environ["SUS"], folder)
+        else:
+            sys.exit("usage: python3 tests/output/xdmf_test.py PATH_TO_XDMF, or with the path of sus in SUS")
+        program = unittest.main(exit=False)
+    sys.exit(not program.result.wasSuccessful())
