@@ -53,12 +53,19 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.add_option("--json", arguments.run.jsonPath, "write the report to a file, as JSON");
   app.add_option("--output", arguments.run.outputFolder, "put the .uda into this folder");
   app.add_flag("--quiet", arguments.run.quiet, "no progress, no report on the screen");
-  app.add_flag("--check,--validate", arguments.check, "check the scene, run nothing");
+  app.add_flag("--check,--validate", arguments.check, "check the scene and make its start; run and write nothing");
   app.add_flag("--schedule", arguments.schedule, "print the tasks in order, what they read and write, what is left out");
   app.add_option("--graph", arguments.graph, "write the tasks of a step to a file, for Graphviz (dot)");
   app.add_flag("--list", arguments.list, "list components, analysis modules and shapes");
   app.add_option("--describe", arguments.describe, "the manual of a component, a module, or 'scene'");
   app.add_flag("-V,--version", arguments.version, "version");
+}
+
+std::vector<std::string> optionNames(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
 }
 
 void printList(const simulation::Catalogue& known) {
@@ -105,7 +112,7 @@ ExitCode runScene(const Arguments& arguments, const simulation::Catalogue& known
     writeFile(arguments.graph, dot.str());
   }
   if (arguments.schedule) run.phases().printSchedule(std::cout);
-  if (arguments.check) fmt::print("{}: fine\n", arguments.scene);
+  if (arguments.check) fmt::print("{}: fine, {} particles at the start\n", arguments.scene, run.tryStart());
   if (arguments.check || arguments.schedule || !arguments.graph.empty()) return ExitCode::success;
   catchInterrupts();
   const simulation::Report report = run.run();
@@ -142,6 +149,11 @@ int main(int count, char** words) {
   try {
     app.parse(withTwoDashes(count, words));
     return static_cast<int>(dispatch(arguments, startedAt));
+  } catch (const CLI::ExtrasError&) {
+    for (const std::string& word : app.remaining())
+      fmt::print(stderr, "sus: unknown option '{}'{}; sus -h lists the options\n", word,
+                 didYouMean(word, optionNames(app)));
+    return static_cast<int>(ExitCode::badCommandLine);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::badCommandLine);
   } catch (const InputError& error) {

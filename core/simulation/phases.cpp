@@ -31,21 +31,18 @@ Names united(Names a, const Names& b) {
 
 }  // namespace
 
-Phases::Phases(const Component& component, const std::vector<std::unique_ptr<Analysis>>& analyses,
-               const std::vector<SaveRequest>& saves, const grid::Level& level, data::VariableTable& table) {
-  Lists lists;
-  component.scheduleInitialize(lists.initialize);
-  component.scheduleComputeStableTimeStep(lists.stableTimeStep);
-  component.scheduleTimeAdvance(lists.timeAdvance);
-  component.scheduleDiagnostics(lists.diagnostics);
-  for (const auto& analysis : analyses) analysis->schedule(lists.diagnostics);
-  validateAll(lists);
-  noteMaterials(lists);
-  sortSaves(lists, saves);
-  compile(lists, analyses, level, table);
+Phases::Phases(const Component& component, const std::vector<std::unique_ptr<Analysis>>& analyses) {
+  component.scheduleInitialize(lists_.initialize);
+  component.scheduleComputeStableTimeStep(lists_.stableTimeStep);
+  component.scheduleTimeAdvance(lists_.timeAdvance);
+  component.scheduleDiagnostics(lists_.diagnostics);
+  for (const auto& analysis : analyses) analysis->schedule(lists_.diagnostics);
+  validateAll();
+  noteMaterials();
 }
 
-void Phases::validateAll(const Lists& lists) const {
+void Phases::validateAll() const {
+  const Lists& lists = lists_;
   const Names state = producedBy(lists.initialize.tasks());
   Names withDelT = state;
   withDelT.emplace(data::delT.name);
@@ -55,20 +52,16 @@ void Phases::validateAll(const Lists& lists) const {
   tasks::validate(lists.diagnostics.tasks(), state);
 }
 
-void Phases::noteMaterials(const Lists& lists) {
-  for (const tasks::Task& task : lists.initialize.tasks())
+void Phases::noteMaterials() {
+  for (const tasks::Task& task : lists_.initialize.tasks())
     if (task.materials.size() > materials_.size()) materials_ = task.materials;
 }
 
-void Phases::sortSaves(const Lists& lists, const std::vector<SaveRequest>& saves) {
-  Names known = united(producedBy(lists.initialize.tasks()), producedBy(lists.timeAdvance.tasks()));
-  known = united(known, producedBy(lists.diagnostics.tasks()));
+std::vector<InputProblem> Phases::problemsOf(const std::vector<SaveRequest>& saves) const {
+  const Names known = saveable();
   std::vector<InputProblem> problems;
   for (const SaveRequest& save : saves) {
-    const data::Label* label = nullptr;
-    for (const auto* list : {&lists.timeAdvance, &lists.initialize, &lists.diagnostics})
-      if (!label && known.contains(save.label)) label = findProduced(list->tasks(), save.label);
-    if (!label)
+    if (!known.contains(save.label))
       problems.push_back({save.where, "DataArchiver/save",
                           fmt::format("no task of this component computes '{}'{}; there are {}", save.label,
                                       didYouMean(save.label, {known.begin(), known.end()}),
@@ -78,16 +71,34 @@ void Phases::sortSaves(const Lists& lists, const std::vector<SaveRequest>& saves
       problems.push_back({save.where, "DataArchiver/save",
                           fmt::format("there is no material '{}'{}; there are {}", save.material,
                                       didYouMean(save.material, materials_), alternatives(materials_))});
-    else if (label->centring == data::Centring::reduction)
-      saved_globals_.push_back(save.label);
-    else
-      saved_fields_.push_back(save);
   }
-  if (!problems.empty()) throw InputError(std::move(problems));
+  return problems;
 }
 
-void Phases::compile(const Lists& lists, const std::vector<std::unique_ptr<Analysis>>& analyses,
+Names Phases::saveable() const {
+  Names names;
+  for (const auto* list : {&lists_.initialize, &lists_.timeAdvance, &lists_.diagnostics})
+    names.merge(producedBy(list->tasks()));
+  return names;
+}
+
+void Phases::sortSaves(const std::vector<SaveRequest>& saves) {
+  for (const SaveRequest& save : saves) {
+    const data::Label* label = nullptr;
+    for (const auto* list : {&lists_.timeAdvance, &lists_.initialize, &lists_.diagnostics})
+      if (!label) label = findProduced(list->tasks(), save.label);
+    if (label && label->centring == data::Centring::reduction)
+      saved_globals_.push_back(save.label);
+    else if (label)
+      saved_fields_.push_back(save);
+  }
+}
+
+void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, const std::vector<SaveRequest>& saves,
                      const grid::Level& level, data::VariableTable& table) {
+  if (std::vector<InputProblem> problems = problemsOf(saves); !problems.empty()) throw InputError(std::move(problems));
+  sortSaves(saves);
+  const Lists& lists = lists_;
   const Names diagnosed = producedBy(lists.diagnostics.tasks());
   const Names stepped = united(producedBy(lists.initialize.tasks()), producedBy(lists.timeAdvance.tasks()));
   Names reported, derived, savedState;

@@ -18,9 +18,15 @@ namespace tushar::simulation {
 /// in every step, the derived fields of an output, the totals and errors of the report.
 class Phases {
  public:
-  /// Throws InputError for a saved label that no task computes, TaskError for a list that does not fit together.
-  Phases(const Component& component, const std::vector<std::unique_ptr<Analysis>>& analyses,
-         const std::vector<SaveRequest>& saves, const grid::Level& level, data::VariableTable& table);
+  /// Takes down the lists. Throws TaskError for one that reads what nobody writes.
+  Phases(const Component& component, const std::vector<std::unique_ptr<Analysis>>& analyses);
+
+  /// What is wrong with the labels and materials that a scene wants saved.
+  std::vector<InputProblem> problemsOf(const std::vector<SaveRequest>& saves) const;
+  /// Compiles the lists. Throws InputError for a saved label that no task computes, TaskError for lists that do not
+  /// fit together.
+  void compile(const std::vector<std::unique_ptr<Analysis>>& analyses, const std::vector<SaveRequest>& saves,
+               const grid::Level& level, data::VariableTable& table);
 
   tasks::TaskGraph initialize, stableTimeStep, timeAdvance, everyStep, everyOutput, report;
 
@@ -41,12 +47,12 @@ class Phases {
   struct Lists {
     tasks::TaskList initialize, stableTimeStep, timeAdvance, diagnostics;
   };
-  void validateAll(const Lists& lists) const;
-  void sortSaves(const Lists& lists, const std::vector<SaveRequest>& saves);
-  void compile(const Lists& lists, const std::vector<std::unique_ptr<Analysis>>& analyses, const grid::Level& level,
-               data::VariableTable& table);
-  void noteMaterials(const Lists& lists);
+  void validateAll() const;
+  void noteMaterials();
+  tasks::Names saveable() const;
+  void sortSaves(const std::vector<SaveRequest>& saves);
 
+  Lists lists_;
   std::vector<std::string> state_, saved_globals_, materials_;
   std::vector<SaveRequest> saved_fields_;
   std::vector<std::pair<std::string, std::string>> totals_;

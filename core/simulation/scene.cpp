@@ -111,6 +111,15 @@ std::vector<std::unique_ptr<Analysis>> makeModules(const std::vector<ReadModule>
   return analyses;
 }
 
+/// Names what is wrong with the saved labels, even where the rest of the scene is wrong, too: a component's labels do
+/// not depend on the grid.
+void checkSaves(const MakeComponent& make, const std::vector<SaveRequest>& saves, Diagnostics& diagnostics) {
+  const grid::Level anyLevel{grid::Domain{}};
+  const auto component = make(anyLevel);
+  for (const InputProblem& problem : Phases(*component, {}).problemsOf(saves))
+    diagnostics.error(problem.where, problem.tagPath, problem.sentence);
+}
+
 }  // namespace
 
 Problem readScene(const std::string& path, const std::vector<std::string>& overrides, const Catalogue& catalogue) {
@@ -136,6 +145,7 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   MakeComponent makeComponent;
   if (kind) makeComponent = kind->read(root, diagnostics);
   const std::vector<ReadModule> modules = readModules(root, catalogue, diagnostics);
+  if (makeComponent) checkSaves(makeComponent, problem.archive.saves, diagnostics);
   diagnostics.throwIfAny();
 
   problem.componentName = kind->name;

@@ -22,12 +22,18 @@ Simulation::Simulation(Problem problem, const RunOptions& options, Clock::time_p
     : problem_(std::move(problem)),
       options_(options),
       started_at_(startedAt),
-      phases_(*problem_.component, problem_.analyses, problem_.archive.saves, *problem_.level, table_),
+      phases_(*problem_.component, problem_.analyses),
       warehouse_(*problem_.level, table_),
       scheduler_(warehouse_),
       time_(problem_.time),
       progress_(options.quiet, stdout) {
+  phases_.compile(problem_.analyses, problem_.archive.saves, *problem_.level, table_);
   warehouse_.grow(static_cast<int>(phases_.materials().size()));
+}
+
+long Simulation::tryStart() {
+  initialize();
+  return particleCount(warehouse_, static_cast<int>(phases_.materials().size()));
 }
 
 std::vector<double> Simulation::reduction(std::string_view label) const {

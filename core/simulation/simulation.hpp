@@ -31,6 +31,8 @@ class Simulation {
 
   const Phases& phases() const { return phases_; }
   data::Warehouse& warehouse() { return warehouse_; }
+  /// Makes the state at the start, and nothing else; the number of particles. Throws what a run would throw there.
+  long tryStart();
   /// Runs to the end of the scene, or to an interrupt. Throws NumericalError, TaskError or FileError.
   Report run();
 
