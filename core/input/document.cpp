@@ -144,8 +144,8 @@ void TreeBuilder::addSection(const XmlFile& file, const pugi::xml_node& include,
     }
     section = next;
   }
-  const bool withTag = trimmed(include.attribute("excludeSectionTag").value()) == "false" && section != file.root();
-  withTag ? addChild(file, section, parent) : addChildren(file, section, parent);
+  const bool contentsOnly = trimmed(include.attribute("excludeSectionTag").value()) == "true" || section == file.root();
+  !contentsOnly ? addChild(file, section, parent) : addChildren(file, section, parent);
 }
 
 std::unique_ptr<Node> bareRoot(const std::string& file) {

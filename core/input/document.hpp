@@ -12,8 +12,8 @@ namespace tushar::input {
 
 /// A scene file as a tree of tags that remember where they stand.
 ///
-/// `<include href="other.xml" section="A/B"/>` is replaced by the children of that section of the other file (of its
-/// root where no section is given; with `excludeSectionTag="false"`, by the section's tag itself). `href` is relative
+/// `<include href="other.xml" section="A/B"/>` is replaced by that section of the other file, its tag included (by what
+/// is below the root where no section is given; by what is below the tag with `excludeSectionTag="true"`). `href` is relative
 /// to the including file.
 class Document {
  public:

@@ -145,9 +145,10 @@ class Include : public testing::Test {
   std::string path_;
 };
 
-TEST_F(Include, InsertsTheChildrenOfTheSection) {
+TEST_F(Include, InsertsTheChildrenOfTheSectionWhenAsked) {
   Diagnostics diagnostics;
-  const Document document = load("<x/><include href='other.xml' section='A/B'/><y/>", diagnostics);
+  const Document document =
+      load("<x/><include href='other.xml' section='A/B' excludeSectionTag='true'/><y/>", diagnostics);
 
   const Element grid = *document.root().child("Grid");
 
@@ -165,9 +166,9 @@ TEST_F(Include, InsertsTheWholeFileWithoutASection) {
   EXPECT_EQ(document.root().child("Grid")->children().at(0).name(), "A");
 }
 
-TEST_F(Include, InsertsTheSectionItselfWhenAsked) {
+TEST_F(Include, InsertsTheSectionItself) {
   Diagnostics diagnostics;
-  const Document document = load("<include href='other.xml' section='A/B' excludeSectionTag='false'/>", diagnostics);
+  const Document document = load("<include href='other.xml' section='A/B'/>", diagnostics);
 
   EXPECT_EQ(document.root().child("Grid")->children().at(0).name(), "B");
 }
