@@ -83,8 +83,8 @@ std::string toJson(const Report& report) {
   json["component"] = report.component;
   json["version"] = report.version;
   json["build"] = report.build;
-  json["layout"] = {{"dimension", report.dimension}, {"cells", report.cells},     {"patches", report.patches},
-                    {"ranks", report.ranks},         {"threads", report.threads}};
+  json["layout"] = {{"dimension", report.dimension}, {"cells", report.cells},     {"h", report.spacing},
+                    {"patches", report.patches},     {"ranks", report.ranks},     {"threads", report.threads}};
   json["steps"] = report.steps;
   json["time"] = report.time;
   json["ended"] = report.ended;

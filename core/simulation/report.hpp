@@ -36,6 +36,7 @@ struct Report {
   std::string scene, title, component, version, build;
   int dimension = 0, patches = 0, ranks = 1, threads = 1;
   long cells = 0, particles = 0, dropped = 0;
+  double spacing = 0;  ///< least cell width, m
   int steps = 0;
   double time = 0;  ///< reached, s
   std::string ended;  ///< why: maxTime, max_Timesteps, max_wall_time, interrupted

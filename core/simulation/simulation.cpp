@@ -188,6 +188,7 @@ Report Simulation::makeReport(const std::vector<std::vector<double>>& before) {
   report.build = TUSHAR_BUILD_TYPE;
   report.dimension = problem_.level->dimension();
   report.patches = warehouse_.patches();
+  report.spacing = problem_.level->minSpacing();
   report.cells = static_cast<long>(problem_.level->cells().size());
   report.particles = particleCount(warehouse_, static_cast<int>(phases_.materials().size()));
   report.dropped = scheduler_.relocation().dropped();

@@ -1,0 +1,199 @@
+"""Runs scenes over methods and resolutions, again and again in turn, and gathers error and run time of each."""
+import csv
+import dataclasses
+import hashlib
+import itertools
+import json
+import math
+import pathlib
+import statistics
+import subprocess
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+SHORT = {"resolution": lambda value: [f"Grid/Level/Box/resolution={value if value.startswith('[') else f'[{value},1,1]'}"],
+         "particles": lambda value: [f"MaterialProperties/MPM/material/geom_object/res=[{value},1,1]"],
+         "cfl": lambda value: [f"MPM/gas_dynamics/cfl={value}"]}
+
+
+class StudyError(Exception):
+    """What went wrong, in a sentence."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Method:
+    """A scene with some of its values overridden: one line in the figures."""
+    name: str
+    scene: str
+    sets: tuple = ()
+
+
+@dataclasses.dataclass(frozen=True)
+class Case:
+    """A method with one value for each thing that is varied."""
+    method: Method
+    varied: tuple  # of (name, value)
+
+    def overrides(self):
+        sets = list(self.method.sets)
+        for name, value in self.varied:
+            sets += SHORT[name](value) if name in SHORT else [f"{name}={value}"]
+        return sets
+
+    def key(self):
+        text = json.dumps([self.method.name, self.method.scene, self.overrides()])
+        return hashlib.sha1(text.encode()).hexdigest()[:12]
+
+
+READY = {
+    "sod": ([Method("paper", "ups/mpm/sod.ups"),
+             Method("tracked volume", "ups/mpm/sod.ups", ("MPM/gas_dynamics/volume_model=tracked",)),
+             Method("tracked, 4 per cell", "ups/mpm/sod.ups",
+                    ("MPM/gas_dynamics/volume_model=tracked", "MaterialProperties/MPM/material/geom_object[1]/res=[4,1,1]",
+                     "MaterialProperties/MPM/material/geom_object[2]/res=[4,1,1]"))],
+            {"resolution": ["100", "200", "400", "800"]}, "density.cell.L1"),
+    "smooth": ([Method(f"{n} particles per cell", "ups/mpm/smooth_wave.ups",
+                       (f"MaterialProperties/MPM/material/geom_object/res=[{n},1,1]",)) for n in (4, 8)],
+               {"resolution": ["50", "100", "200", "400", "800"]}, "density.particle.L1"),
+    "heat": ([Method("explicit", "ups/heat/sine.ups")], {"resolution": ["16", "32", "64", "128"]},
+             "temperature.cell.L1"),
+}
+
+
+class Study:
+    """The cases of a study and what is known of them; kept in study.json, so that it can go on where it stopped."""
+
+    def __init__(self, methods, varied, repeats, folder, sus, error):
+        values = [[(name, value) for value in values] for name, values in varied.items()]
+        self.cases = [Case(method, combination) for method in methods for combination in itertools.product(*values)]
+        self.repeats, self.folder, self.sus, self.error = repeats, pathlib.Path(folder), sus, error
+        self.folder.mkdir(parents=True, exist_ok=True)
+        self.runs = self._known_runs()
+
+    def _known_runs(self):
+        """Reports of earlier runs of this study by case; those of another program are forgotten."""
+        path = self.folder / "study.json"
+        if not path.exists():
+            return {}
+        known = json.loads(path.read_text())
+        return known["runs"] if known.get("program") == self._program() else {}
+
+    def _program(self):
+        return hashlib.sha1(pathlib.Path(self.sus).read_bytes()).hexdigest()
+
+    def todo(self):
+        """Cases still to be run, a whole round of all before the next one."""
+        for repeat in range(self.repeats):
+            for case in self.cases:
+                if len(self.runs.get(case.key(), [])) <= repeat:
+                    yield case
+
+    def run(self, say):
+        """Runs what is left; `say(text)` is told how far it is."""
+        left = list(self.todo())
+        seconds = {}
+        for number, case in enumerate(left):
+            rest = sum(seconds.get(other.key(), 0) for other in left[number:])
+            known = all(other.key() in seconds for other in left[number:])
+            varied = " ".join(f"{name}={value}" for name, value in case.varied)
+            say(f"{number + 1}/{len(left)}  {case.method.name}  {varied}" + (f"  ({rest:.0f} s left)" if known else ""))
+            started = time.monotonic()
+            self.runs.setdefault(case.key(), []).append(self._report(case))
+            seconds[case.key()] = time.monotonic() - started
+            self._save()
+
+    def _report(self, case):
+        """The report of one run of a case; a run that dies gives the sentence that it died with."""
+        path = self.folder / "run.json"
+        path.unlink(missing_ok=True)
+        command = [str(self.sus), case.method.scene, "--quiet", "--json", str(path), "--output", str(self.folder)]
+        for override in ["DataArchiver/outputInterval=0", *case.overrides()]:
+            command += ["--set", override]
+        done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+        if done.returncode not in (0, 4):
+            raise StudyError(f"{case.method.scene}: {done.stderr.strip() or 'sus failed'}")
+        for archive in self.folder.glob("*.uda*"):
+            remove(archive)
+        if done.returncode == 4:
+            return {"died": done.stderr.strip()}
+        report = json.loads(path.read_text())
+        path.unlink()
+        return report
+
+    def _save(self):
+        path = self.folder / "study.json.tmp"
+        path.write_text(json.dumps({"program": self._program(), "error": self.error, "rows": self.rows(),
+                                    "runs": self.runs}, indent=1))
+        path.replace(self.folder / "study.json")
+
+    def rows(self):
+        """One row a case that has run: error, cell width, median run time, orders against the case before."""
+        rows = []
+        for case in self.cases:
+            reports = self.runs.get(case.key())
+            if not reports:
+                continue
+            row = {"method": case.method.name, "scene": case.method.scene, **dict(case.varied)}
+            if "died" in reports[0]:
+                rows.append({**row, "died": reports[0]["died"]})
+                continue
+            first = reports[0]
+            row |= {"h": first["layout"]["h"], "error": value_at(first["errors"], self.error),
+                    "seconds": statistics.median(report["wall"]["loop"] for report in reports),
+                    "steps": first["steps"], "particles": first["particles"], "cells": first["layout"]["cells"],
+                    "mass_drift": first["drift"].get("mass"), "energy_drift": first["drift"].get("energy"),
+                    "fingerprint": first["fingerprint"],
+                    "tasks": {name: statistics.median(report["wall"]["tasks"][name] for report in reports)
+                              for name in first["wall"]["tasks"]}}
+            before = rows[-1] if rows and rows[-1]["method"] == row["method"] and "h" in rows[-1] else None
+            row["order"] = order(before, row)
+            rows.append(row)
+        return rows
+
+
+def order(before, row):
+    """Observed order of the error in h between two rows; None where there is none."""
+    if before is None or before["h"] == row["h"] or not before["error"] > 0 or not row["error"] > 0:
+        return None
+    return math.log(before["error"] / row["error"]) / math.log(before["h"] / row["h"])
+
+
+def value_at(tree, path):
+    """errors, `density.cell.L1` -> number; StudyError naming what there is."""
+    for word in path.split("."):
+        if word not in tree:
+            raise StudyError(f"there is no error '{path}': at '{word}' there is only {', '.join(tree) or 'nothing'}")
+        tree = tree[word]
+    return tree
+
+
+def remove(path):
+    """Deletes a link, or a folder of files."""
+    if path.is_symlink() or path.is_file():
+        path.unlink()
+        return
+    for entry in path.iterdir():
+        remove(entry)
+    path.rmdir()
+
+
+def write_csv(rows, path):
+    columns = list(dict.fromkeys(name for row in rows for name in row if name != "tasks"))
+    with open(path, "w", newline="") as file:
+        table = csv.DictWriter(file, columns, extrasaction="ignore")
+        table.writeheader()
+        table.writerows(rows)
+
+
+def write_markdown(rows, error, command, path):
+    lines = [f"`{command}`", "", f"| method | h | error ({error}) | order | time loop [ms] | steps | mass drift |",
+             "|---|---|---|---|---|---|---|"]
+    for row in rows:
+        if "died" in row:
+            lines.append(f"| {row['method']} | | died | | | | |")
+            continue
+        rank = "" if row["order"] is None else f"{row['order']:.2f}"
+        drift = "" if row["mass_drift"] is None else f"{row['mass_drift']:.1e}"
+        lines.append(f"| {row['method']} | {row['h']:g} | {row['error']:.4g} | {rank} | {1e3 * row['seconds']:.3g} "
+                     f"| {row['steps']} | {drift} |")
+    pathlib.Path(path).write_text("\n".join(lines) + "\n")
