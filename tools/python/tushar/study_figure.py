@@ -55,7 +55,7 @@ def _order_triangle(axes, lines, order):
     if best is None:
         return
     right, left = best[-2]["h"], best[-1]["h"]
-    top = best[-1]["error"] * (0.75 if order == 1 else 0.45)
+    top = best[-1]["error"] * (0.75 if order == 1 else 0.2)
     bottom = top * (left / right) ** order
     axes.plot([left, right, right, left], [bottom, bottom, top, bottom], color="#718096", linewidth=0.8)
     axes.annotate(str(order), (right, (top * bottom) ** 0.5), textcoords="offset points", xytext=(4, -3), fontsize=8,
