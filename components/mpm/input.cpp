@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "components/mpm/conserving/conserving_mpm.hpp"
 #include "components/mpm/mpm.hpp"
 #include "core/input/geometry.hpp"
 #include "core/simulation/by_dimension.hpp"
@@ -65,17 +66,42 @@ const Schema<GasDynamics>& gasDynamicsSchema() {
   return schema;
 }
 
+const Schema<ConservingGasDynamics>& conservingSchema() {
+  static const Schema<Viscosity> viscosity =
+      Schema<Viscosity>("artificial_viscosity", "q = rho |dv| (C_q |dv| + C_l c) where a cell is compressed.")
+          .value("quadratic", &Viscosity::quadratic, 1, "1", "C_q", input::nonNegative())
+          .ours()
+          .value("linear", &Viscosity::linear, 0.5, "1", "C_l", input::nonNegative())
+          .ours();
+  static const Schema<ConservingGasDynamics> schema =
+      Schema<ConservingGasDynamics>("conserving_gas_dynamics",
+                                    "A gas method that conserves mass and total energy, in one dimension.")
+          .value("cfl", &ConservingGasDynamics::cfl, 0.5, "1", "dt max(|v| + c) / h", input::positive())
+          .ours()
+          .section("artificial_viscosity", &ConservingGasDynamics::viscosity, viscosity)
+          .ours();
+  return schema;
+}
+
 struct MpmSection {
   int integrator = 0, interpolator = 0;
-  GasDynamics gas;
+  std::optional<GasDynamics> gas;
+  std::optional<ConservingGasDynamics> conserving;
 };
 const Schema<MpmSection>& mpmSchema() {
   static const Schema<MpmSection> schema =
       Schema<MpmSection>("MPM", "The Material Point Method.")
           .choice("time_integrator", &MpmSection::integrator, {{"explicit", 0}}, 0, "how time advances")
           .choice("interpolator", &MpmSection::interpolator, {{"linear", 0}}, 0, "shape functions")
-          .requiredSection("gas_dynamics", &MpmSection::gas, gasDynamicsSchema())
-          .ours();
+          .section("gas_dynamics", &MpmSection::gas, gasDynamicsSchema())
+          .ours()
+          .section("conserving_gas_dynamics", &MpmSection::conserving, conservingSchema())
+          .ours()
+          .check([](const MpmSection& mpm, const Element& element, Diagnostics& diagnostics) {
+            if (mpm.gas.has_value() == mpm.conserving.has_value())
+              diagnostics.error(element, std::string(mpm.gas ? "gives both" : "gives neither") +
+                                             " <gas_dynamics> and <conserving_gas_dynamics>; keep one");
+          });
   return schema;
 }
 
@@ -195,6 +221,17 @@ Gas makeGas(const MaterialSection& material) {
   return gas;
 }
 
+std::unique_ptr<Component> makeComponent(const Level& level, const MpmSection& method, const std::vector<Gas>& gases,
+                                         const Location& where) {
+  if (method.gas) return simulation::makeByDimension<Mpm>(level, *method.gas, gases);
+  if (level.dimension() > 1)
+    throw InputError({{where, "MPM/conserving_gas_dynamics",
+                       fmt::format("runs in one dimension so far, and this grid has {}: give all other axes one cell "
+                                   "between two symmetry planes, or use <gas_dynamics>",
+                                   level.dimension())}});
+  return std::make_unique<ConservingMpm>(*method.conserving, gases);
+}
+
 }  // namespace
 
 simulation::ComponentKind kind() {
@@ -214,7 +251,9 @@ simulation::ComponentKind kind() {
     if (diagnostics.size() > before) return {};
     std::vector<Gas> gases;
     for (const MaterialSection& material : properties.mpm.materials) gases.push_back(makeGas(material));
-    return [method, gases](const Level& level) { return simulation::makeByDimension<Mpm>(level, method.gas, gases); };
+    return [method, gases, where = root.children("MPM").front().where()](const Level& level) {
+      return makeComponent(level, method, gases, where);
+    };
   };
   return kind;
 }

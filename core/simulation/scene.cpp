@@ -114,7 +114,9 @@ std::vector<std::unique_ptr<Analysis>> makeModules(const std::vector<ReadModule>
 /// Names what is wrong with the saved labels, even where the rest of the scene is wrong, too: a component's labels do
 /// not depend on the grid.
 void checkSaves(const MakeComponent& make, const std::vector<SaveRequest>& saves, Diagnostics& diagnostics) {
-  const grid::Level anyLevel{grid::Domain{}};
+  grid::Domain line;
+  line.upper = {1, 0, 0};
+  const grid::Level anyLevel(line);
   const auto component = make(anyLevel);
   for (const InputProblem& problem : Phases(*component, {}).problemsOf(saves))
     diagnostics.error(problem.where, problem.tagPath, problem.sentence);

@@ -38,6 +38,9 @@ class ParticleMaker {
     ids_.push_back(id);
   }
 
+  /// Leaves the particles of the patch as they are; nothing else may have been added.
+  void keepAll() { keeps_all_ = true; }
+
   /// The values of a created label.
   template <class T>
   std::vector<T>& column(int access) {
@@ -55,6 +58,7 @@ class ParticleMaker {
   std::vector<std::size_t> sortedOrder(const grid::Patch& patch) const;
   void makeSet(data::ParticleSet& set, const grid::Patch& patch, int reach, const std::vector<std::size_t>& order) const;
 
+  bool keeps_all_ = false;
   std::vector<Index3> cells_;
   std::vector<ParticleId> ids_;
   std::vector<std::unique_ptr<ColumnBase>> columns_;  ///< by access
