@@ -78,6 +78,9 @@ const Schema<ConservingGasDynamics>& conservingSchema() {
                                     "A gas method that conserves mass and total energy, in one dimension.")
           .value("cfl", &ConservingGasDynamics::cfl, 0.5, "1", "dt max(|v| + c) / h", input::positive())
           .ours()
+          .value("longest_particle", &ConservingGasDynamics::longestParticle, 2.5, "1",
+                 "length in cells beyond which a particle is halved; halving costs accuracy", input::between(1, 2.9))
+          .ours()
           .section("artificial_viscosity", &ConservingGasDynamics::viscosity, viscosity)
           .ours();
   return schema;

@@ -69,6 +69,12 @@ class ParticleSet {
   const std::vector<GhostRun>& ghostRuns() const { return ghost_runs_; }
   bool hasGhosts() const { return has_ghosts_; }
   void markGhosts() { has_ghosts_ = true; }
+  /// The ghosts are out of date: their patches have other particles now.
+  void forgetGhosts() {
+    total_ = owned_;
+    ghost_runs_.clear();
+    has_ghosts_ = false;
+  }
 
  private:
   template <int D>

@@ -41,7 +41,7 @@ void ParticleMaker::makeSet(data::ParticleSet& set, const grid::Patch& patch, in
 
 void ParticleMaker::install(data::Warehouse& warehouse, const grid::Patch& patch, int material,
                             const std::vector<BoundAccess>& accesses) const {
-  if (keeps_all_) return;
+  if (keeps_all_) return warehouse.particles(Generation::fresh, material, patch.id()).forgetGhosts();
   const std::vector<std::size_t> order = sortedOrder(patch);
   makeSet(warehouse.particles(Generation::fresh, material, patch.id()), patch, warehouse.table().reach(material), order);
   const auto write = [&](int number, const data::Label& label, const std::byte* values) {

@@ -21,22 +21,24 @@ void ConservingMpm::scheduleComputeStableTimeStep(TaskList& tasks) const {
 }
 
 void ConservingMpm::scheduleTimeAdvance(TaskList& tasks) const {
+  constexpr int overhang = Extent::overhang;
   tasks.perMaterial("mpm::updateParticles", conserving::updateParticles, materials_, requiresOld(p::x<1>),
                     requiresOld(p::length), requiresOld(p::velocity<1>), requiresOld(p::velocityGradient),
-                    requiresOld(p::internalEnergy), requiresOld(p::affineEnergy), requiresOld(g::velocity<1>, 1),
-                    requiresOld(g::acceleration<1>, 1), requiresOld(c::stress, 1), requiresOld(c::internalEnergy, 1),
+                    requiresOld(p::internalEnergy), requiresOld(p::affineEnergy), requiresOld(g::velocity<1>, overhang),
+                    requiresOld(g::acceleration<1>, overhang), requiresOld(c::stress, overhang), requiresOld(c::internalEnergy, overhang),
                     requiresOld(delT), computes(p::x<1>), computes(p::length), computes(p::velocity<1>),
                     computes(p::velocityGradient), computes(p::internalEnergy), computes(p::affineEnergy));
   tasks.relocate(p::x<1>, materials_);
-  tasks.perMaterial("mpm::limitGradient", conserving::limitGradient, materials_, requiresNew(p::x<1>),
-                    requiresNew(p::length), requiresNew(p::internalEnergy), requiresNew(p::affineEnergy),
+  tasks.perMaterial("mpm::limitGradient", conserving::limitGradient, materials_, requiresNew(p::length),
+                    requiresNew(p::internalEnergy), requiresNew(p::affineEnergy),
                     modifies(p::velocityGradient));
   scheduleRedistribute(tasks);
   scheduleGridState(tasks);
 }
 
 void ConservingMpm::scheduleRedistribute(TaskList& tasks) const {
-  tasks.newParticles("mpm::redistribute", conserving::splitLong, materials_, requiresNew(data::particleId, 1),
+  tasks.newParticles("mpm::redistribute", conserving::splitLong, materials_, with(method_.longestParticle),
+                     requiresNew(data::particleId, 1),
                      requiresNew(p::x<1>, 1), requiresNew(p::length, 1), requiresNew(p::mass, 1),
                      requiresNew(p::velocity<1>, 1), requiresNew(p::velocityGradient, 1),
                      requiresNew(p::internalEnergy, 1), requiresNew(p::affineEnergy, 1), creates(p::x<1>),

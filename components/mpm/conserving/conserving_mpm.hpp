@@ -10,6 +10,7 @@ namespace tushar::mpm {
 /// The `conserving_gas_dynamics` section.
 struct ConservingGasDynamics {
   double cfl = 0.5;
+  double longestParticle = 2.5;  ///< cells; longer ones are halved
   Viscosity viscosity{1.0, 0.5};
 };
 

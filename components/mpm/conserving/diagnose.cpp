@@ -11,7 +11,7 @@ void measureCellError(const Patch& patch, const Gas& gas, const reference::GasRe
   std::vector<double> momentum(patch.cells().size(), 0.0);
   forEach<1>(x.cells(), [&](const Index<1>& cell) {
     for (const int p : x.in(cell)) {
-      const Extent extent(level, x[p][0], length[p]);
+      const Extent extent(level, cell[0], x[p][0], length[p]);
       for (int k = 0; k < extent.cells; ++k)
         if (const Index<1> c{{extent.firstCell + k}}; patch.cells().contains(c))
           momentum[static_cast<std::size_t>(c[0] - patch.cells().lower[0])] +=

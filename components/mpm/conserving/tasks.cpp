@@ -9,40 +9,6 @@ namespace {
 
 double crossSection(const Level& level) { return level.cellVolume() / level.spacing(0); }
 
-/// Values of a node field at the nodes that a particle touches.
-std::array<double, Extent::most + 1> gathered(NodeView<const Vec<1>> field, const Extent& extent) {
-  std::array<double, Extent::most + 1> values{};
-  for (int k = 0; k <= extent.cells; ++k) values[static_cast<std::size_t>(k)] = field[Index<1>{{extent.firstCell + k}}][0];
-  return values;
-}
-
-/// Mean over the particle: sum_i w_i f_i.
-double mean(const Extent& extent, const std::array<double, Extent::most + 1>& values) {
-  double sum = 0;
-  for (std::size_t k = 0; k < values.size(); ++k) sum += extent.weight[k] * values[k];
-  return sum;
-}
-
-/// x_i - x_p at the nodes that a particle touches.
-std::array<double, Extent::most + 1> arms(const Level& level, const Extent& extent, double x) {
-  std::array<double, Extent::most + 1> arm{};
-  for (int k = 0; k <= extent.cells; ++k)
-    arm[static_cast<std::size_t>(k)] = level.nodePosition(0, extent.firstCell + k) - x;
-  return arm;
-}
-
-/// B, or less where its energy ½ I B² would exceed K_A + e / 2.
-double limitedGradient(double gradient, double inertia, double affine, double internal) {
-  const double energy = 0.5 * inertia * gradient * gradient, most = affine + 0.5 * internal;
-  return energy > most ? gradient * std::sqrt(most / energy) : gradient;
-}
-
-double inertiaOf(const Extent& extent, const std::array<double, Extent::most + 1>& arm) {
-  double sum = 0;
-  for (std::size_t k = 0; k < arm.size(); ++k) sum += extent.weight[k] * arm[k] * arm[k];
-  return sum;
-}
-
 }  // namespace
 
 void createParticles(const Patch& patch, const Gas& gas, ParticleMaker& maker, std::vector<Vec<1>>& x,
@@ -78,7 +44,7 @@ void interpolateParticlesToGrid(const Patch& patch, const Gas&, ParticleView<con
   cellInternalEnergy.fill(0);
   forEach<1>(x.cells(), [&](const Index<1>& cell) {
     for (const int p : x.in(cell)) {
-      const Extent extent(level, x[p][0], length[p]);
+      const Extent extent(level, cell[0], x[p][0], length[p]);
       for (int k = 0; k < extent.cells; ++k) {
         const Index<1> c{{extent.firstCell + k}};
         if (!cellMass.box().contains(c)) continue;
@@ -165,47 +131,53 @@ void updateParticles(const Patch& patch, const Gas&, ParticleView<const Vec<1>> 
                      ParticleView<double> newAffineEnergy) {
   const Level& level = patch.level();
   const double area = crossSection(level);
-  for (int p = 0; p < x.owned(); ++p) {
-    const Extent extent(level, x[p][0], length[p]);
-    const auto v = gathered(nodeVelocity, extent), a = gathered(acceleration, extent);
-    const auto arm = arms(level, extent, x[p][0]);
-    double gained = 0;
-    for (int k = 0; k < extent.cells; ++k) {
-      const auto c = static_cast<std::size_t>(k);
-      const Index<1> cell{{extent.firstCell + k}};
-      const double opening = v[c + 1] - v[c] + 0.5 * dt * (a[c + 1] - a[c]);
-      gained += extent.part[c] * std::max(-0.8, -stress[cell] * area * opening * dt / cellInternalEnergy[cell]);
+  const auto cellWork = [&](const Index<1>& cell, double opening) {
+    return std::max(-0.8, -stress[cell] * area * opening * dt / cellInternalEnergy[cell]);
+  };
+  forEach<1>(patch.cells(), [&](const Index<1>& cell) {
+    for (const int p : x.in(cell)) {
+      const Extent extent(level, cell[0], x[p][0], length[p]);
+      std::array<double, Extent::most + 1> star;
+      double work = 0, slipEnergy = 0, inertia = 0, speed = 0, square = 0, lastHalf = 0;
+      for (int k = 0; k <= extent.cells; ++k) {
+        const auto at = static_cast<std::size_t>(k);
+        const Index<1> node{{extent.firstCell + k}};
+        const double v = nodeVelocity[node][0], a = acceleration[node][0], w = extent.weight[at];
+        const double arm = level.nodePosition(0, node[0]) - x[p][0], slip = velocity[p][0] + gradient[p] * arm - v;
+        const double half = v + 0.5 * dt * a;
+        star[at] = v + dt * a;
+        speed += w * star[at];
+        square += w * star[at] * star[at];
+        slipEnergy += 0.5 * w * slip * slip;
+        inertia += w * arm * arm;
+        if (k > 0) work += extent.part[at - 1] * cellWork(Index<1>{{node[0] - 1}}, half - lastHalf);
+        lastHalf = half;
+      }
+      const double leftSpeed = extent.atLeft(star), rightSpeed = extent.atRight(star);
+      const double left = extent.left + dt * leftSpeed, right = extent.right + dt * rightSpeed;
+      newX[p][0] = 0.5 * (left + right);
+      newLength[p] = right - left;
+      newVelocity[p][0] = speed;
+      newGradient[p] = (rightSpeed - leftSpeed) / (extent.right - extent.left);
+      newInternalEnergy[p] = internalEnergy[p] * (1 + work) + slipEnergy + affineEnergy[p] -
+                             0.5 * inertia * gradient[p] * gradient[p];
+      newAffineEnergy[p] = std::max(0.0, 0.5 * (square - speed * speed));
     }
-    std::array<double, Extent::most + 1> star{}, starSquared{}, slipSquared{};
-    for (std::size_t k = 0; k < star.size(); ++k) {
-      const double slip = velocity[p][0] + gradient[p] * arm[k] - v[k];
-      star[k] = v[k] + dt * a[k];
-      starSquared[k] = star[k] * star[k];
-      slipSquared[k] = slip * slip;
-    }
-    const double kept = affineEnergy[p] - 0.5 * inertiaOf(extent, arm) * gradient[p] * gradient[p];
-    newInternalEnergy[p] = internalEnergy[p] * (1 + gained) + 0.5 * mean(extent, slipSquared) + kept;
-    newVelocity[p][0] = mean(extent, star);
-    newAffineEnergy[p] = std::max(0.0, 0.5 * (mean(extent, starSquared) - newVelocity[p][0] * newVelocity[p][0]));
-    const double leftSpeed = extent.at(level, extent.left, star), rightSpeed = extent.at(level, extent.right, star);
-    const double left = extent.left + dt * leftSpeed, right = extent.right + dt * rightSpeed;
-    newX[p][0] = 0.5 * (left + right);
-    newLength[p] = right - left;
-    newGradient[p] = (rightSpeed - leftSpeed) / (extent.right - extent.left);
-  }
+  });
 }
 
-void limitGradient(const Patch& patch, const Gas&, ParticleView<const Vec<1>> x, ParticleView<const double> length,
+void limitGradient(const Patch& patch, const Gas&, ParticleView<const double> length,
                    ParticleView<const double> internalEnergy, ParticleView<const double> affineEnergy,
                    ParticleView<double> gradient) {
-  for (int p = 0; p < x.owned(); ++p) {
-    const Extent extent(patch.level(), x[p][0], length[p]);
-    const double inertia = inertiaOf(extent, arms(patch.level(), extent, x[p][0]));
-    gradient[p] = limitedGradient(gradient[p], inertia, affineEnergy[p], internalEnergy[p]);
+  const double h = patch.level().spacing(0);
+  for (int p = 0; p < length.owned(); ++p) {
+    const double inertia = length[p] * length[p] / 12 + h * h / 4;
+    const double energy = 0.5 * inertia * gradient[p] * gradient[p], most = affineEnergy[p] + 0.5 * internalEnergy[p];
+    if (energy > most) gradient[p] *= std::sqrt(most / energy);
   }
 }
 
-void splitLong(const Patch& patch, const Gas&, ParticleMaker& maker, ParticleView<const ParticleId> ids,
+void splitLong(const Patch& patch, const Gas&, ParticleMaker& maker, double longestInCells, ParticleView<const ParticleId> ids,
                ParticleView<const Vec<1>> x, ParticleView<const double> length, ParticleView<const double> mass,
                ParticleView<const Vec<1>> velocity, ParticleView<const double> gradient,
                ParticleView<const double> internalEnergy, ParticleView<const double> affineEnergy,
@@ -213,7 +185,7 @@ void splitLong(const Patch& patch, const Gas&, ParticleMaker& maker, ParticleVie
                std::vector<Vec<1>>& newVelocity, std::vector<double>& newGradient,
                std::vector<double>& newInternalEnergy, std::vector<double>& newAffineEnergy) {
   const Level& level = patch.level();
-  const double longest = 1.5 * level.spacing(0);
+  const double longest = longestInCells * level.spacing(0);
   bool any = false;
   forEach<1>(x.cells(), [&](const Index<1>& cell) {
     for (const int p : x.in(cell)) any = any || length[p] > longest;

@@ -52,15 +52,15 @@ void updateParticles(const Patch& patch, const Gas& gas, ParticleView<const Vec<
                      ParticleView<double> newGradient, ParticleView<double> newInternalEnergy,
                      ParticleView<double> newAffineEnergy);
 
-/// B is scaled down where ½ I B² exceeds K_A by more than e / 2.
-void limitGradient(const Patch& patch, const Gas& gas, ParticleView<const Vec<1>> x, ParticleView<const double> length,
+/// B is scaled down where ½ I B² could exceed K_A by more than e / 2; I is at most L² / 12 + h² / 4.
+void limitGradient(const Patch& patch, const Gas& gas, ParticleView<const double> length,
                    ParticleView<const double> internalEnergy, ParticleView<const double> affineEnergy,
                    ParticleView<double> gradient);
 
-/// Halves particles longer than 1.5 h: children at a quarter of the length to both sides of the centre with velocities
+/// Halves particles longer than `longestInCells` cells: children at a quarter of the length to both sides of the centre with velocities
 /// v ∓ L B / 4, whose kinetic energy comes from K_A, then from e. A child may lie in the next cell: each patch makes the
 /// children that lie in its own cells, of its own particles and of its ghosts (1 cell).
-void splitLong(const Patch& patch, const Gas& gas, ParticleMaker& maker, ParticleView<const ParticleId> ids,
+void splitLong(const Patch& patch, const Gas& gas, ParticleMaker& maker, double longestInCells, ParticleView<const ParticleId> ids,
                ParticleView<const Vec<1>> x, ParticleView<const double> length, ParticleView<const double> mass,
                ParticleView<const Vec<1>> velocity, ParticleView<const double> gradient,
                ParticleView<const double> internalEnergy, ParticleView<const double> affineEnergy,
