@@ -33,22 +33,20 @@ struct Extent {
     right = std::min(centre + 0.5 * length, level.nodePosition(0, last + 1));
     firstCell = cell;
     while (firstCell > 0 && left < level.nodePosition(0, firstCell)) --firstCell;
-    const double shareOfCell = 1.0 / ((right - left) * inverse);
     double from = leftWithin = (left - level.nodePosition(0, firstCell)) * inverse;
     for (int k = firstCell;; ++k) {
       const bool ends = k == last || cells == most - 1 || right <= level.nodePosition(0, k + 1);
       const double to = ends ? (right - level.nodePosition(0, k)) * inverse : 1.0;
-      const double share = (to - from) * shareOfCell, upper = share * 0.5 * (from + to);
+      const double inCell = to - from, upper = inCell * 0.5 * (from + to);
       const auto at = static_cast<std::size_t>(cells++);
-      part[at] = share;
-      weight[at] += share - upper;
+      part[at] = inCell;
+      weight[at] += inCell - upper;
       weight[at + 1] += upper;
-      if (ends) {
-        rightWithin = to;
-        return;
-      }
+      rightWithin = to;
+      if (ends) break;
       from = 0;
     }
+    normalise();
   }
 
   /// Values of a node field, given at the nodes from firstCell on, at the two ends.
@@ -60,6 +58,16 @@ struct Extent {
   double atRight(const Values& values) const {
     const auto k = static_cast<std::size_t>(cells);
     return values[k - 1] + rightWithin * (values[k] - values[k - 1]);
+  }
+
+ private:
+  /// Divides by the length in cells, as the sum of its parts: short intervals far from 0 lose digits in right - left.
+  void normalise() {
+    double length = 0;
+    for (const double inCell : part) length += inCell;
+    const double scale = 1 / length;
+    for (double& share : part) share *= scale;
+    for (double& share : weight) share *= scale;
   }
 };
 
