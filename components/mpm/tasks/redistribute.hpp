@@ -35,7 +35,9 @@ struct CellShape {
   Vec<D> lower, spacing;
   double volume = 0;
   Vec<D> densitySlope = Vec<D>::Zero(), pressureSlope = Vec<D>::Zero();
-  std::array<Vec<D>, D> velocitySlope{};  ///< of each velocity component
+  std::array<Vec<D>, D> velocitySlope;  ///< of each velocity component
+
+  CellShape() { velocitySlope.fill(Vec<D>::Zero()); }
 };
 
 /// The id of a new particle: it depends on its parent's id and place only, so it is the same on every layout.

@@ -1,0 +1,54 @@
+#!/usr/bin/env python3
+"""The same bits on any patches: every scene, every variant, in one, two and three dimensions."""
+import pathlib
+import sys
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from sus import ROOT, run
+
+TRACKED = "MPM/gas_dynamics/volume_model=tracked"
+RESEED = "MPM/gas_dynamics/redistribute/mode=reseed"
+PLANE = ("Grid/Level/Box/resolution=[40,6,1]", "Grid/Level/Box/upper=[1,.15,1]")
+SPACE = ("Grid/Level/Box/resolution=[20,4,3]", "Grid/Level/Box/upper=[1,.2,.15]")
+
+
+class Layouts(unittest.TestCase):
+    def assert_same(self, scene, layouts, *sets):
+        """One fingerprint and one number of steps, whatever the patches."""
+        prints = {}
+        for layout in layouts:
+            result = run(scene, *sets, f"Grid/Level/Box/patches={layout}")
+            self.assertEqual(result.code, 0, result.err)
+            prints.setdefault((result.report["fingerprint"], result.report["steps"]), []).append(layout)
+        self.assertEqual(len(prints), 1, f"{scene} {sets}: {prints}")
+
+    def test_every_scene_on_1_2_3_7_and_64_patches(self):
+        for scene in sorted((ROOT / "ups/mpm").glob("*.ups")) + sorted((ROOT / "ups/heat").glob("*.ups")):
+            self.assert_same(scene, [f"[{n},1,1]" for n in (1, 2, 3, 7, 64)])
+
+    def test_particles_that_keep_their_mass(self):
+        self.assert_same("ups/mpm/sod.ups", ["[1,1,1]", "[7,1,1]", "[64,1,1]"], TRACKED)
+
+    def test_redistribution_in_both_modes_and_volume_models(self):
+        for sets in ((RESEED,), (TRACKED,), (RESEED, TRACKED)):
+            self.assert_same("ups/mpm/sod_redistribute.ups", ["[1,1,1]", "[3,1,1]", "[64,1,1]"], *sets)
+
+    def test_two_dimensions(self):
+        for sets in ((), (TRACKED,)):
+            self.assert_same("ups/mpm/sod.ups", ["[1,1,1]", "[3,2,1]", "[40,6,1]"], *PLANE, *sets)
+        self.assert_same("ups/mpm/sod_redistribute.ups", ["[1,1,1]", "[5,3,1]"], *PLANE, RESEED)
+        self.assert_same("ups/heat/sine.ups", ["[1,1,1]", "[3,2,1]"], *PLANE)
+
+    def test_three_dimensions(self):
+        self.assert_same("ups/mpm/sod.ups", ["[1,1,1]", "[3,2,2]", "[20,4,3]"], *SPACE)
+        self.assert_same("ups/mpm/sod_redistribute.ups", ["[1,1,1]", "[4,2,3]"], *SPACE, TRACKED)
+
+    def test_a_value_that_differs_gives_another_fingerprint(self):
+        ours = run("ups/mpm/sod.ups").report["fingerprint"]
+        other = run("ups/mpm/sod.ups", "MPM/gas_dynamics/cfl=0.2125000001").report["fingerprint"]
+        self.assertNotEqual(ours, other)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,36 @@
+#!/usr/bin/env python3
+"""Golden schedules: what each scene runs, reads and writes, and what it leaves out.
+
+After a wanted change: python3 tests/regression/schedules_test.py --write, and look at the difference.
+"""
+import pathlib
+import subprocess
+import sys
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from sus import ROOT, SUS
+
+GOLDEN = ROOT / "tests/golden"
+
+
+def schedules():
+    """Name of the golden file -> the schedule that sus prints now."""
+    for scene in sorted((ROOT / "ups").rglob("*.ups")):
+        text = subprocess.run([SUS, "--schedule", scene], capture_output=True, text=True, check=True).stdout
+        yield scene.parent.name + "_" + scene.stem + ".txt", text
+
+
+class Schedules(unittest.TestCase):
+    def test_every_scene_runs_what_it_ran(self):
+        self.maxDiff = None
+        for name, text in schedules():
+            self.assertEqual((GOLDEN / name).read_text(), text, name)
+
+
+if __name__ == "__main__":
+    if "--write" in sys.argv:
+        for name, text in schedules():
+            (GOLDEN / name).write_text(text)
+    else:
+        unittest.main()

@@ -1,0 +1,30 @@
+"""Runs sus for tests: the program in $SUS, from the root of the repository, output in a folder that goes away."""
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SUS = str(pathlib.Path(os.environ.get("SUS", ROOT / "build/dev/sus")).resolve())
+
+
+class Result:
+    """Exit code, what was printed, the report if there is one, and the names of the files left behind."""
+
+    def __init__(self, done, report, files):
+        self.code, self.out, self.err = done.returncode, done.stdout, done.stderr
+        self.report, self.files = report, files
+
+
+def run(scene, *sets, options=("--quiet",), outputs=False):
+    """Runs a scene with overrides; without `outputs` only the totals are kept."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder, "report.json")
+        command = [SUS, str(scene), *options, "--output", folder, "--json", str(path)]
+        for override in sets if outputs else ("DataArchiver/outputInterval=0", *sets):
+            command += ["--set", override]
+        done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=300)
+        report = json.loads(path.read_text()) if path.exists() else None
+        files = sorted(str(file.relative_to(folder)) for file in pathlib.Path(folder).rglob("*"))
+        return Result(done, report, files)
