@@ -1,0 +1,100 @@
+#include "core/grid/level.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <set>
+
+#include "tests/support/levels.hpp"
+
+namespace tushar::grid {
+
+using test::domain;
+
+TEST(Box, IsVisitedWithTheFirstAxisFastest) {
+  const Box box{{{1, 5, 0}}, {{3, 7, 1}}};
+  std::vector<Index<2>> visited;
+
+  forEach<2>(box, [&](const Index<2>& at) { visited.push_back(at); });
+
+  const std::vector<Index<2>> expected{{{1, 5}}, {{2, 5}}, {{1, 6}}, {{2, 6}}};
+  EXPECT_EQ(visited, expected);
+}
+
+TEST(Box, GivesConsecutiveOffsetsInTheOrderOfVisits) {
+  const Box box{{{-1, 2, 3}}, {{2, 4, 6}}};
+  std::size_t next = 0;
+
+  forEach<3>(box, [&](const Index3& at) { EXPECT_EQ(box.offset(at), next++); });
+
+  EXPECT_EQ(next, box.size());
+}
+
+TEST(Level, LeavesOutAxesWithOneCellBetweenSymmetryPlanesOrWithoutExtent) {
+  Domain flat = domain({{8, 4, 1}});
+  flat.upper[1] = 0;
+  flat.resolution[1] = 1;
+  Domain open = domain({{8, 1, 1}});
+  open.boundaries.face(1, 1).clear();
+
+  EXPECT_EQ(Level(domain({{8, 1, 1}})).dimension(), 1);
+  EXPECT_EQ(Level(domain({{8, 1, 3}})).axis(1), 2);
+  EXPECT_EQ(Level(flat).dimension(), 1);
+  EXPECT_EQ(Level(open).dimension(), 2);
+}
+
+TEST(Level, CountsTheCrossSectionInTheVolumeOfItsCells) {
+  EXPECT_NEAR(Level(domain({{8, 1, 1}})).cellVolume(), 0.6 * 0.4 / 8, 1e-16);
+}
+
+TEST(Level, TilesTheGridWithPatches) {
+  for (const Index3& patches : {Index3{{1, 1, 1}}, {{3, 2, 1}}, {{7, 5, 4}}, {{16, 6, 4}}}) {
+    const Level level(domain({{16, 6, 4}}, patches));
+    std::vector<int> owners(level.cells().size(), 0);
+    for (const Patch& patch : level.patches())
+      forEach<3>(patch.cells(), [&](const Index3& cell) {
+        ++owners[level.cells().offset(cell)];
+        EXPECT_EQ(&level.patchOf(cell), &patch);
+      });
+    EXPECT_EQ(std::set<int>(owners.begin(), owners.end()), std::set<int>{1});
+  }
+}
+
+TEST(Level, FindsThePatchesThatOverlapABox) {
+  const Level level(domain({{16, 6, 1}}, {{4, 3, 1}}));
+
+  std::set<int> found;
+  for (const Patch* patch : level.patchesOverlapping({{{3, 1, 0}}, {{5, 2, 1}}})) found.insert(patch->id());
+
+  EXPECT_EQ(found, (std::set<int>{0, 1}));
+}
+
+TEST(Level, PutsAPointOnAFaceIntoTheCellAboveAndTheUpperEndIntoTheLast) {
+  const Level level(domain({{10, 1, 1}}));
+
+  for (int cell = 0; cell < 10; ++cell) EXPECT_EQ(level.cellAlong(0, level.nodePosition(0, cell)), cell);
+  EXPECT_EQ(level.cellAlong(0, 1.0), 9);
+  EXPECT_EQ(level.cellAlong(0, std::nextafter(1.0, 2.0)), 10);
+  EXPECT_EQ(level.cellAlong(0, -1e-300), -1);
+  EXPECT_EQ(level.cellAlong(0, std::numeric_limits<double>::quiet_NaN()), -1);
+}
+
+TEST(Level, ExpandsPointsToTheMiddleOfAxesLeftOut) {
+  const Level level(domain({{10, 1, 1}}));
+
+  EXPECT_EQ(level.expandPoint<1>(Vec<1>(0.25)), Vec3(0.25, 0.3, 0.2));
+  EXPECT_EQ(level.expandDirection<1>(Vec<1>(2.0)), Vec3(2, 0, 0));
+}
+
+TEST(Patch, HasTheNodesOfItsCellsAndThoseWithinReachOnTheGrid) {
+  const Level level(domain({{9, 1, 1}}, {{3, 1, 1}}));
+  const Patch& middle = level.patches()[1];
+
+  EXPECT_EQ(middle.nodes(), (Box{{{3, 0, 0}}, {{7, 1, 1}}}));
+  EXPECT_EQ(middle.nodesWithin(2), (Box{{{1, 0, 0}}, {{9, 1, 1}}}));
+  EXPECT_EQ(middle.cellsWithin(9), level.cells());
+  EXPECT_FALSE(middle.isAtBoundary(0, 0));
+  EXPECT_TRUE(level.patches()[2].isAtBoundary(0, 1));
+}
+
+}  // namespace tushar::grid

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "core/grid/level.hpp"
+
+namespace tushar::test {
+
+/// A grid of unit length along x (and 0.6, 0.4 along y, z where they have cells), symmetry planes all around.
+inline grid::Domain domain(const Index3& resolution, const Index3& patches = {{1, 1, 1}}) {
+  grid::Domain domain;
+  domain.upper = {1, 0.6, 0.4};
+  domain.resolution = resolution;
+  domain.patches = patches;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const int side : {0, 1})
+      domain.boundaries.face(axis, side).push_back({"Symmetric", "symmetry", Vec3::Zero()});
+  return domain;
+}
+
+}  // namespace tushar::test
