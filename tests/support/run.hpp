@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+
+#include "core/tasks/scheduler.hpp"
+#include "core/tasks/task_list.hpp"
+#include "tests/support/levels.hpp"
+
+namespace tushar::test {
+
+/// A grid, a warehouse and a scheduler, to run small task lists on.
+class Runner {
+ public:
+  explicit Runner(const grid::Domain& domain) : level(domain), warehouse(level, table), scheduler(warehouse) {}
+
+  /// Compiles a list; compile all before the first run.
+  tasks::TaskGraph compile(const tasks::TaskList& list, const tasks::Names& wanted, bool repeated = false) {
+    tasks::TaskGraph graph("test", tasks::prune(list.tasks(), wanted, repeated), level, table);
+    materials_ = std::max(materials_, graph.materials());
+    return graph;
+  }
+  /// Runs a graph and makes its results the old state.
+  void step(tasks::TaskGraph& graph) {
+    warehouse.grow(materials_);
+    scheduler.run(graph, {7, 0.5});
+    scheduler.commit(graph);
+  }
+
+  grid::Level level;
+  data::VariableTable table;
+  data::Warehouse warehouse;
+  tasks::Scheduler scheduler;
+
+ private:
+  int materials_ = 0;
+};
+
+}  // namespace tushar::test

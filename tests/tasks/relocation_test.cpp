@@ -1,0 +1,171 @@
+#include "core/tasks/relocation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "core/base/error.hpp"
+#include "tests/support/run.hpp"
+
+namespace tushar::tasks {
+
+namespace {
+
+using data::Generation;
+using data::ParticleLabel;
+using data::ParticleView;
+using grid::forEach;
+using grid::Patch;
+
+template <int D>
+constexpr ParticleLabel<Vec<D>> x{"p.x", "m", "position"};
+constexpr ParticleLabel<double> mark{"p.mark", "1", "a value that belongs to the id"};
+constexpr data::ReductionLabel<data::Sum> wrong{"wrong", "1", "particles that are not where they should be"};
+
+struct Material {
+  std::string name;
+};
+const std::vector<Material> gas{{"gas"}};
+
+double markOf(ParticleId id) { return 0.5 + static_cast<double>(id % 1000003); }
+
+/// A number from 0 to 1 that depends on its argument only.
+double noise(std::uint64_t seed) {
+  seed = (seed ^ (seed >> 31)) * 0x7fb5d329728ea185ULL;
+  seed = (seed ^ (seed >> 27)) * 0x81dadef4bc2dd44dULL;
+  return static_cast<double>((seed ^ (seed >> 33)) >> 11) * 0x1.0p-53;
+}
+
+template <int D>
+void create(const Patch& patch, const Material&, ParticleMaker& maker, std::vector<Vec<D>>& position,
+            std::vector<double>& marks) {
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    for (ParticleId k = 3; k-- > 0;) {  // in descending order: the framework sorts
+      const ParticleId id = 3 * patch.level().cellNumber(cell) + k;
+      Vec<D> at;
+      for (int d = 0; d < D; ++d)
+        at[d] = patch.level().nodePosition(d, cell[d]) + noise(7 * id + static_cast<std::uint64_t>(d)) * patch.level().spacing(d);
+      maker.add(cell, id);
+      position.push_back(at);
+      marks.push_back(markOf(id));
+    }
+  });
+}
+
+/// Everyone jumps up to two and a half cells, and stays on the grid.
+template <int D>
+void wander(const Patch& patch, const Material&, ParticleView<const Vec<D>> from, ParticleView<const ParticleId> ids,
+            ParticleView<Vec<D>> to) {
+  for (int p = 0; p < from.owned(); ++p)
+    for (int d = 0; d < D; ++d) {
+      const double jump = (noise(ids[p] * 31 + static_cast<std::uint64_t>(d) + static_cast<std::uint64_t>(from[p][d] * 1e9)) - 0.5);
+      const double end = patch.level().nodePosition(d, patch.level().cells().upper[d]);
+      to[p][d] = std::clamp(from[p][d] + 5 * jump * patch.level().spacing(d), 0.0, end);
+    }
+}
+
+/// Counts particles in a wrong cell, out of order, or with another's mark; ghosts included.
+template <int D>
+void inspect(const Patch& patch, const Material&, ParticleView<const Vec<D>> position, ParticleView<const ParticleId> ids,
+             ParticleView<const double> marks, data::Sum& errors) {
+  forEach<D>(position.cells(), [&](const Index<D>& cell) {
+    bool first = true;
+    ParticleId before = 0;
+    for (const int p : position.in(cell)) {
+      errors.add(patch.level().template cellOf<D>(position[p]) != cell);
+      errors.add(marks[p] != markOf(ids[p]));
+      errors.add(!first && ids[p] <= before);
+      before = ids[p];
+      first = false;
+    }
+  });
+}
+
+/// Positions by id after some steps, and what `inspect` found on the way.
+template <int D>
+std::pair<std::map<ParticleId, Vec<D>>, double> wanderFor(int steps, const Index3& resolution, const Index3& patches) {
+  test::Runner run(test::domain(resolution, patches));
+  TaskList start, advance;
+  start.newParticles("create", create<D>, gas, creates(x<D>), creates(mark));
+  advance.perMaterial("wander", wander<D>, gas, requiresOld(x<D>), requiresOld(data::particleId), computes(x<D>));
+  advance.relocate(x<D>, gas);
+  advance.perMaterial("inspect", inspect<D>, gas, requiresNew(x<D>, 1), requiresNew(data::particleId, 1),
+                      requiresNew(mark, 1), computes(wrong));
+  TaskGraph begin = run.compile(start, {"p.x", "p.mark", "p.particleID"});
+  TaskGraph step = run.compile(advance, {"p.x", "p.mark", "wrong"}, true);
+  run.step(begin);
+  double errors = 0;
+  for (int k = 0; k < steps; ++k) {
+    run.step(step);
+    errors += run.warehouse.reductionValues(run.table.find("wrong", -1)).at(0);
+  }
+  std::map<ParticleId, Vec<D>> positions;
+  for (int patch = 0; patch < run.warehouse.patches(); ++patch) {
+    const auto* ids = reinterpret_cast<const ParticleId*>(
+        run.warehouse.variable(Generation::old, run.table.find("p.particleID", 0), patch).values.data());
+    const auto* at = reinterpret_cast<const Vec<D>*>(
+        run.warehouse.variable(Generation::old, run.table.find("p.x", 0), patch).values.data());
+    for (int p = 0; p < run.warehouse.particles(Generation::old, 0, patch).owned(); ++p) positions[ids[p]] = at[p];
+  }
+  return {positions, errors};
+}
+
+template <int D>
+void expectSameOnAll(const Index3& resolution, const std::vector<Index3>& layouts) {
+  const auto reference = wanderFor<D>(25, resolution, {{1, 1, 1}});
+  EXPECT_EQ(reference.second, 0);
+  EXPECT_EQ(reference.first.size(), 3 * grid::Box({{}, resolution}).size());
+  for (const Index3& layout : layouts) {
+    const auto other = wanderFor<D>(25, resolution, layout);
+    EXPECT_EQ(other.second, 0);
+    EXPECT_TRUE(other.first == reference.first) << layout[0] << ' ' << layout[1] << ' ' << layout[2];
+  }
+}
+
+/// The sentence of an advance in which everyone moves by `shift`, on a grid with a free upper x face if `open`.
+std::string shifted(double shift, bool open, long& dropped) {
+  grid::Domain domain = test::domain({{8, 1, 1}}, {{2, 1, 1}});
+  if (open) domain.boundaries.face(0, 1).clear();
+  test::Runner run(domain);
+  TaskList start, advance;
+  start.newParticles("create", create<1>, gas, creates(x<1>), creates(mark));
+  advance.perMaterial("shift", [shift](const Patch&, const Material&, ParticleView<const Vec<1>> from, ParticleView<Vec<1>> to) {
+    for (int p = 0; p < from.owned(); ++p) to[p] = Vec<1>(from[p][0] + shift);
+  }, gas, requiresOld(x<1>), computes(x<1>));
+  advance.relocate(x<1>, gas);
+  TaskGraph begin = run.compile(start, {"p.x"}), step = run.compile(advance, {"p.x"}, true);
+  run.step(begin);
+  try {
+    run.step(step);
+  } catch (const NumericalError& error) {
+    return error.what();
+  }
+  dropped = run.scheduler.relocation().dropped();
+  return "";
+}
+
+}  // namespace
+
+TEST(Relocation, KeepsEveryParticleInItsCellInOrderAndWithItsValuesOnAnyPatches) {
+  expectSameOnAll<1>({{30, 1, 1}}, {{{2, 1, 1}}, {{7, 1, 1}}, {{30, 1, 1}}});
+  expectSameOnAll<2>({{9, 6, 1}}, {{{3, 2, 1}}, {{9, 6, 1}}});
+  expectSameOnAll<3>({{5, 4, 3}}, {{{2, 2, 2}}, {{5, 4, 3}}});
+}
+
+TEST(Relocation, DropsAndCountsWhatLeavesThroughAFreeFace) {
+  long dropped = 0;
+
+  EXPECT_EQ(shifted(0.25, true, dropped), "");
+
+  EXPECT_EQ(dropped, 6);  // the particles of the last two of eight cells
+}
+
+TEST(Relocation, RefusesToLetParticlesThroughASymmetryPlaneOrToNowhere) {
+  long dropped = 0;
+
+  EXPECT_NE(shifted(0.25, false, dropped).find("passed through the symmetry plane x+ to x = "), std::string::npos);
+  EXPECT_NE(shifted(std::nan(""), false, dropped).find("is nan along x (task relocate, material gas, step 7"),
+            std::string::npos);
+}
+
+}  // namespace tushar::tasks

@@ -1,0 +1,157 @@
+#include "core/tasks/scheduler.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/base/error.hpp"
+#include "tests/support/run.hpp"
+
+namespace tushar::tasks {
+
+namespace {
+
+using data::CellLabel;
+using data::CellView;
+using data::NodeLabel;
+using data::NodeView;
+using data::Sum;
+using grid::forEach;
+using grid::Patch;
+
+constexpr CellLabel<double> number{"c.number", "1", "number of the cell"}, doubled{"c.doubled", "1", "twice that"};
+constexpr NodeLabel<double> nodeNumber{"g.number", "1", "number of the node"};
+constexpr data::ReductionLabel<Sum> wrong{"wrong", "1", "ghosts that differ from what their owner has"};
+
+double numberOf(const Index3& at) { return 1 + at[0] + 1000 * at[1] + 1000000 * at[2]; }
+
+template <int D>
+Index3 wide(const Index<D>& at) {
+  Index3 index;
+  for (int d = 0; d < D; ++d) index[d] = at[d];
+  return index;
+}
+
+template <int D>
+void fillCells(const Patch& patch, CellView<double> field) {
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) { field[cell] = numberOf(wide(cell)); });
+}
+template <int D>
+void fillNodes(const Patch& patch, NodeView<double> field) {
+  forEach<D>(patch.nodes(), [&](const Index<D>& node) { field[node] = numberOf(wide(node)); });
+}
+template <int D>
+void checkGhosts(const Patch&, CellView<const double> cells, NodeView<const double> nodes, Sum& differing) {
+  forEach<D>(cells.box(), [&](const Index<D>& at) { differing.add(cells[at] != numberOf(wide(at))); });
+  forEach<D>(nodes.box(), [&](const Index<D>& at) { differing.add(nodes[at] != numberOf(wide(at))); });
+}
+
+template <int D>
+double differingGhosts(const Index3& resolution, const Index3& patches, int width) {
+  test::Runner run(test::domain(resolution, patches));
+  TaskList list;
+  list.perPatch("fillCells", fillCells<D>, computes(number));
+  list.perPatch("fillNodes", fillNodes<D>, computes(nodeNumber));
+  list.perPatch("check", checkGhosts<D>, requiresNew(number, width), requiresNew(nodeNumber, width), computes(wrong));
+  TaskGraph graph = run.compile(list, {"wrong"});
+  run.step(graph);
+  return run.warehouse.reductionValues(run.table.find("wrong", -1)).at(0);
+}
+
+void twice(const Patch& patch, CellView<const double> from, CellView<double> to) {
+  forEach<1>(patch.cells(), [&](const Index<1>& cell) { to[cell] = 2 * from[cell]; });
+}
+
+}  // namespace
+
+TEST(Scheduler, FillsGhostCellsAndNodesFromTheirOwnersCornersIncluded) {
+  for (const int width : {1, 2, 3}) {
+    for (const int patches : {1, 2, 7, 20}) EXPECT_EQ(differingGhosts<1>({{20, 1, 1}}, {{patches, 1, 1}}, width), 0);
+    EXPECT_EQ(differingGhosts<2>({{9, 7, 1}}, {{3, 2, 1}}, width), 0);
+    EXPECT_EQ(differingGhosts<2>({{6, 5, 1}}, {{6, 5, 1}}, width), 0);
+    EXPECT_EQ(differingGhosts<3>({{5, 4, 6}}, {{3, 2, 2}}, width), 0);
+    EXPECT_EQ(differingGhosts<3>({{3, 3, 3}}, {{3, 3, 3}}, width), 0);
+  }
+}
+
+TEST(Scheduler, HandsTheNewStateToTheNextStepAsOld) {
+  test::Runner run(test::domain({{8, 1, 1}}, {{3, 1, 1}}));
+  TaskList start, advance;
+  start.perPatch("fill", fillCells<1>, computes(number));
+  advance.perPatch("double", twice, requiresOld(number), computes(number));
+  TaskGraph begin = run.compile(start, {"c.number"}), step = run.compile(advance, {"c.number"}, true);
+
+  run.step(begin);
+  run.step(step);
+  run.step(step);
+
+  const int last = run.level.patches().back().id();
+  const data::Variable& held = run.warehouse.variable(data::Generation::old, run.table.find("c.number", -1), last);
+  const auto* values = reinterpret_cast<const double*>(held.values.data());
+  EXPECT_EQ(values[held.stored.offset({{7, 0, 0}})], 4 * numberOf({{7, 0, 0}}));
+}
+
+TEST(Scheduler, TellsTaskPatchStepAndTimeOfANumericalErrorAndKeepsTheOldState) {
+  test::Runner run(test::domain({{8, 1, 1}}, {{2, 1, 1}}));
+  TaskList start, advance;
+  start.perPatch("fill", fillCells<1>, computes(number));
+  advance.perPatch("fail", [](const Patch& patch, CellView<const double>, CellView<double>) {
+    if (patch.id() == 1) throw NumericalError("c.number became nan", "less");
+  }, requiresOld(number), computes(number));
+  TaskGraph begin = run.compile(start, {"c.number"}), step = run.compile(advance, {"c.number"}, true);
+  run.step(begin);
+
+  try {
+    run.step(step);
+    FAIL();
+  } catch (const NumericalError& error) {
+    EXPECT_STREQ(error.what(), "c.number became nan (task fail, patch 1, step 7, time 0.5 s)");
+    EXPECT_EQ(error.advice(), "less");
+  }
+  const data::Variable& held = run.warehouse.variable(data::Generation::old, run.table.find("c.number", -1), 0);
+  EXPECT_EQ(reinterpret_cast<const double*>(held.values.data())[0], numberOf({{0, 0, 0}}));
+}
+
+TEST(Scheduler, TurnsAnyOtherExceptionIntoATaskError) {
+  test::Runner run(test::domain({{8, 1, 1}}));
+  TaskList list;
+  list.perPatch("fail", [](const Patch&, CellView<double>) { throw std::out_of_range("no such thing"); },
+                computes(number));
+  TaskGraph graph = run.compile(list, {"c.number"});
+
+  try {
+    run.step(graph);
+    FAIL();
+  } catch (const TaskError& error) {
+    EXPECT_STREQ(error.what(), "no such thing (task fail, patch 0, step 7, time 0.5 s)");
+  }
+}
+
+TEST(Scheduler, RefusesABodyThatLeavesWhatItDeclared) {
+  if (!data::checked) GTEST_SKIP() << "views are checked in the dev preset only";
+  test::Runner run(test::domain({{8, 1, 1}}, {{2, 1, 1}}));
+  TaskList list;
+  list.perPatch("fill", fillCells<1>, computes(number));
+  list.perPatch("reach", [](const Patch& patch, CellView<const double> field, CellView<double> to) {
+    forEach<1>(patch.cells(), [&](const Index<1>& cell) { to[cell] = field[cell + Index<1>::unit(0)]; });
+  }, requiresNew(number), computes(doubled));
+  TaskGraph graph = run.compile(list, {"c.doubled"});
+
+  EXPECT_THROW(run.step(graph), TaskError);
+}
+
+TEST(Scheduler, NeverAllocatesWhatNobodyReads) {
+  const auto allocations = [](const Names& wanted) {
+    test::Runner run(test::domain({{8, 1, 1}}));
+    TaskList list;
+    list.perPatch("fill", fillCells<1>, computes(number));
+    list.perPatch("double", twice, requiresNew(number), computes(doubled));
+    TaskGraph graph = run.compile(list, wanted);
+    run.step(graph);
+    return run.warehouse.allocations();
+  };
+
+  EXPECT_EQ(allocations({"c.number"}), 1u);
+  EXPECT_EQ(allocations({"c.doubled"}), 2u);
+  EXPECT_EQ(allocations({}), 0u);
+}
+
+}  // namespace tushar::tasks
