@@ -1,0 +1,149 @@
+#!/usr/bin/env python3
+"""Broken scenes: each gets its sentence, a documented exit code, and nothing is written."""
+import pathlib
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from sus import ROOT, run
+
+SOD = (ROOT / "ups/mpm/sod.ups").read_text()
+BOX = "Grid/Level/Box/"
+GAS = "MPM/gas_dynamics/"
+MATERIAL = "MaterialProperties/MPM/material/"
+LEFT = MATERIAL + "geom_object[1]/"
+
+# name: (override, sentence after the location)
+OVERRIDES = {
+    "unknown component": ("SimulationComponent/@type=mpn",
+                          "SimulationComponent: type: found 'mpn', expected 'heat' or 'mpm' (did you mean 'mpm'?)"),
+    "unknown tag": (BOX + "resolutoin=[3,1,1]", BOX + "resolutoin: unknown tag <resolutoin> in <Box> (did you mean "
+                    "'resolution'?); allowed here: lower, upper, resolution, patches, extraCells"),
+    "unknown section": ("Gird/x=1", "Gird: unknown section <Gird> (did you mean 'Grid'?); allowed here: Meta, "
+                        "SimulationComponent, Time, DataArchiver, Grid, DataAnalysis, MPM, MaterialProperties"),
+    "unknown constitutive model": (MATERIAL + "constitutive_model/@type=ideal_gaz",
+                                   MATERIAL + "constitutive_model: attribute 'type': found 'ideal_gaz', expected "
+                                   "'ideal_gas' (did you mean 'ideal_gas'?)"),
+    "unknown module": ("DataAnalysis/Module/@name=exactRieman", "DataAnalysis/Module: name: found 'exactRieman', expected "
+                       "'exactRiemann', 'simpleWave' or 'exactSolution' (did you mean 'exactRiemann'?)"),
+    "unknown choice": (GAS + "volume_model=tracket", GAS + "volume_model: found 'tracket', expected 'cell_share' or "
+                       "'tracked' (did you mean 'tracked'?)"),
+    "unknown boundary label": ("Grid/BoundaryConditions/Face[1]/BCType/@label=Symetric",
+                               "Grid/BoundaryConditions/Face/BCType: label: found 'Symetric', expected 'Symmetric' (did you "
+                               "mean 'Symmetric'?)"),
+    "unknown boundary kind": ("Grid/BoundaryConditions/Face[1]/BCType/@var=symetry",
+                              "Grid/BoundaryConditions/Face/BCType: var: found 'symetry', expected 'symmetry', 'Dirichlet' "
+                              "or 'Neumann' (did you mean 'symmetry'?)"),
+    "unknown side": ("Grid/BoundaryConditions/Face[1]/@side=w-", "Grid/BoundaryConditions/Face: attribute 'side': found "
+                     "'w-', expected 'x-', 'x+', 'y-', 'y+', 'z-' or 'z+' (did you mean 'x-'?)"),
+    "negative resolution": (BOX + "resolution=[-5,1,1]", BOX + "resolution: found '[-5,1,1]', expected a value of at least 1"),
+    "zero resolution": (BOX + "resolution=[0,1,1]", BOX + "resolution: found '[0,1,1]', expected a value of at least 1"),
+    "huge resolution": (BOX + "resolution=[2000000000,100,1]", "Grid/Level/Box: resolution [2000000000,100,1] makes 2e+11 "
+                        "cells; the most is 2.15e+09"),
+    "fractional resolution": (BOX + "resolution=[1.5,1,1]", BOX + "resolution: in '[1.5,1,1]': found '1.5', expected an integer"),
+    "not a number": ("Time/maxTime=soon", "Time/maxTime: found 'soon', expected a number"),
+    "infinite": ("Time/maxTime=inf", "Time/maxTime: found 'inf', expected"),
+    "maxTime of 0": ("Time/maxTime=0", "Time/maxTime: found '0', expected a value greater than 0 s"),
+    "dt of 0": ("Time/delt_max=0", "Time/delt_max: found '0', expected a value greater than 0 s"),
+    "no multiplier": ("Time/timestep_multiplier=0", "Time/timestep_multiplier: found '0', expected a value greater than 0"),
+    "negative cfl": (GAS + "cfl=-1", GAS + "cfl: found '-1', expected a value greater than 0"),
+    "inverted box": (BOX + "upper=[-1,1,1]", "Grid/Level/Box: upper is below lower along x: -1 < 0 m"),
+    "no extent": (BOX + "upper=[0,1,1]", "Grid/Level/Box: there are 100 cells along x, where the box has no extent"),
+    "more patches than cells": (BOX + "patches=[101,1,1]", "Grid/Level/Box: there are 101 patches along x, but only 100 cell(s)"),
+    "both spacing and resolution": ("Grid/Level/spacing=[.01,1,1]", "Grid/Level: gives both spacing and resolution; keep one"),
+    "periodic": ("Grid/Level/periodic=[1,0,0]", "Grid/Level/periodic: found '[1,0,0]', expected a value from 0 to 0"),
+    "no particles": (LEFT + "res=[0,1,1]", "MaterialProperties/MPM/material/geom_object/res: found '[0,1,1]', expected a value "
+                     "from 1 to 32"),
+    "negative density": (LEFT + "density=-1", "MaterialProperties/MPM/material/geom_object/density: found '-1', expected a value "
+                         "greater than 0 kg/m^3"),
+    "gamma of 1": (MATERIAL + "constitutive_model/gamma=1", MATERIAL + "constitutive_model/gamma: found '1', expected a value "
+                   "greater than 1"),
+    "bad formula": (LEFT + "density=1+", "MaterialProperties/MPM/material/geom_object/density: found '1+', expected a number"),
+    "pressure and temperature": (LEFT + "temperature=300", "MaterialProperties/MPM/material/geom_object: gives both <pressure> and "
+                                 "<temperature>; keep one"),
+    "flat shape": (LEFT + "box/max=[0,1,1]", "MaterialProperties/MPM/material/geom_object/box"),
+    "overlapping boxes": (LEFT + "box/max=[0.6,1,1]", "geom_object: overlaps the geom_object at"),
+    "both output intervals": ("DataArchiver/outputTimestepInterval=5", "DataArchiver: gives both outputInterval and "
+                              "outputTimestepInterval; keep one"),
+    "folder in filebase": ("DataArchiver/filebase=a/b.uda", "DataArchiver: filebase 'a/b.uda' contains '/'"),
+    "unknown saved label": ("DataArchiver/save[1]/@label=p.densty", "DataArchiver/save: no task of this component computes "
+                            "'p.densty' (did you mean 'p.density'?); there are 'CenterOfMassPosition'"),
+    "unknown saved material": ("DataArchiver/save[1]/@material=gass", "DataArchiver/save: there is no material 'gass' (did you "
+                               "mean 'gas'?); there are 'gas'"),
+    "checkpoint": ("DataArchiver/checkpoint/@cycle=2", "DataArchiver/checkpoint: checkpoints are not available yet"),
+    "redistribution that cannot be": (GAS + "redistribute/min_particles=20", GAS + "redistribute: min_particles is greater than "
+                                      "max_particles"),
+    "ambiguous override": (MATERIAL + "geom_object/cfl=1", "--set"),
+    "override without a value": ("Time/maxTime", "--set"),
+}
+
+# name: (scene, position, sentence)
+TEXTS = {
+    "empty file": ("", "", "is empty"),
+    "unclosed tag": ("<Uintah_specification>\n  <Time>\n", ":", "this is not well-formed XML"),
+    "wrong root": ("<Uintah_spec>\n</Uintah_spec>\n", ":1:2", "Uintah_specification"),
+    "tag given twice": (SOD.replace("<Time>", "<Time>\n    <maxTime>1</maxTime>"), ":15:6", "Time/maxTime: tag <maxTime> is given twice, on line 14 and on line 15; one is allowed"),
+    "missing section": (SOD[:SOD.index("  <Grid>")] + SOD[SOD.index("  </Grid>") + 10:], ":10:2", "the section <Grid> is missing"),
+    "missing value": (SOD.replace("<maxTime>0.2</maxTime>", ""), ":13:4", "Time: missing tag <maxTime> in <Time>"),
+    "missing attribute": (SOD.replace('side="x-"', ""), ":19:8", "missing attribute 'side' of <Face>"),
+    "unknown attribute": (SOD.replace('side="x-"', 'side="x-" sied="x"'), ":19:8", "unknown attribute 'sied' of <Face> (did you mean 'side'?)"),
+    "text among tags": (SOD.replace("<Time>", "<Time> soon "), ":13:4", "text 'soon' in <Time>, where only tags are allowed"),
+    "second Box": (SOD.replace("</Level>", "<Box><lower>[1,0,0]</lower><upper>[2,1,1]</upper><resolution>[9,1,1]</resolution>"
+                               "</Box></Level>"), ":", "a Level has one Box here; this is a second one"),
+    "no method": (SOD[:SOD.index("    <gas_dynamics>")] + SOD[SOD.index("    </gas_dynamics>") + 20:], ":",
+                  "gives neither <gas_dynamics> and <conserving_gas_dynamics>"),
+    "unknown shape": (SOD.replace('<box label="left">', '<bax label="left">').replace("</min><max>[0.5,1,1]</max></box>",
+                      "</min><max>[0.5,1,1]</max></bax>"), ":", "(did you mean 'box'?)"),
+}
+
+
+class BrokenScenes(unittest.TestCase):
+    def assert_refused(self, result, sentence):
+        self.assertEqual(result.code, 3, result.err)
+        self.assertIn(sentence, result.err)
+        self.assertEqual(result.files, [])
+        self.assertEqual(result.out, "")
+
+    def test_overrides_that_cannot_be(self):
+        for name, (override, sentence) in OVERRIDES.items():
+            with self.subTest(name):
+                result = run("ups/mpm/sod.ups", override, outputs=True)
+                self.assert_refused(result, sentence)
+                self.assertEqual(len(result.err.strip().splitlines()), 1, result.err)
+
+    def test_scenes_that_cannot_be(self):
+        for name, (text, position, sentence) in TEXTS.items():
+            with self.subTest(name), tempfile.TemporaryDirectory() as folder:
+                scene = pathlib.Path(folder, "scene.ups")
+                scene.write_text(text)
+                result = run(scene, outputs=True)
+                self.assert_refused(result, sentence)
+                self.assertIn(f"{scene}{position}", result.err)
+
+    def test_a_missing_file_and_a_folder(self):
+        self.assert_refused(run("ups/mpm/sodd.ups", outputs=True), "ups/mpm/sodd.ups: there is no such file")
+        self.assert_refused(run("ups/mpm", outputs=True), "ups/mpm")
+
+    def test_all_mistakes_of_a_scene_at_once_in_the_order_of_lines(self):
+        text = SOD.replace("<maxTime>0.2", "<maxTime>-1").replace("[100,1,1]", "[0,1,1]").replace("<cfl>0.2125", "<cfl>x")
+        text = text.replace('label="p.density"', 'label="p.dnsity"').replace("<gamma>1.4</gamma></c", "<gama>2</gama></c")
+        with tempfile.TemporaryDirectory() as folder:
+            scene = pathlib.Path(folder, "scene.ups")
+            scene.write_text(text)
+            result = run(scene, outputs=True)
+        lines = result.err.strip().splitlines()
+        self.assertEqual(len(lines), 4, result.err)
+        for line, tag in zip(lines, ("Time/maxTime", "Grid/Level/Box/resolution", "MPM/gas_dynamics/cfl", "gama")):
+            self.assertIn(tag, line)
+        numbers = [int(line.split(":")[1]) for line in lines]
+        self.assertEqual(numbers, sorted(numbers))
+
+    def test_a_bad_command_line_exits_with_2(self):
+        result = run("ups/mpm/sod.ups", options=("--quiet", "--jsn", "x"))
+        self.assertEqual(result.code, 2)
+        self.assertIn("sus: unknown option '--jsn' (did you mean '--json'?)", result.err)
+
+
+if __name__ == "__main__":
+    unittest.main()
