@@ -1,0 +1,156 @@
+#pragma once
+
+#include "components/euler/boundary.hpp"
+#include "components/euler/limiters.hpp"
+#include "components/euler/tasks/advance.hpp"
+#include "components/euler/tasks/row_kernels.hpp"
+
+namespace tushar::euler {
+
+/// Cells are constant.
+struct Constant {
+  static constexpr int reach = 1;
+};
+/// Cells have limited slopes.
+template <class Limited>
+struct Sloped {
+  static constexpr int reach = 2;
+};
+
+/// The state that a step reads or writes: T is double or const double.
+template <int D, class T>
+struct StateViews {
+  CellView<T> density;
+  CellView<std::conditional_t<std::is_const_v<T>, const Vec<D>, Vec<D>>> momentum;
+  CellView<T> totalEnergy;
+};
+
+/// What a block of cells needs on the way, around it too.
+template <int D>
+struct Work {
+  /// Room for blocks of a patch.
+  Work(const Box& cells, int reach)
+      : w(roomFor(cells, reach)), predicted(reach > 1 ? roomFor(cells, reach) : 0), flux(roomFor(cells, reach)) {
+    for (int d = 0; d < D; ++d) slopes.emplace_back(reach > 1 ? roomFor(cells, reach) : 0);
+  }
+  static std::size_t roomFor(const Box& cells, int reach) {
+    std::size_t room = 1;
+    for (int d = 0; d < D; ++d) room *= static_cast<std::size_t>(std::min(cells.extent(d), kBlock<D>[d]) + 2 * reach);
+    return room;
+  }
+  void hold(const Box& box) {
+    w.hold(box);
+    predicted.hold(box);
+    flux.hold(box);
+    for (Rows<D>& slope : slopes) slope.hold(box);
+  }
+
+  Rows<D> w, predicted, flux;
+  std::vector<Rows<D>> slopes;
+};
+
+/// rho, v, p of the cells of the work's box that are on the grid.
+template <int D>
+void recover(const Gas& gas, const Level& level, const StateViews<D, const double>& old, Rows<D>& w) {
+  forEachRow<D>(w.box().intersect(level.cells()), [&](const Index<D>& first, int count) {
+    recoverRow<D>(gas, &old.density[first], old.momentum[first].data(), &old.totalEnergy[first], count, w.at(first));
+  });
+}
+
+/// Slopes, and values half a step later, of the cells of `box`.
+template <int D, class Limited>
+void predict(const Gas& gas, const Level& level, const Box& box, double dt, Work<D>& work) {
+  std::array<double, 3> halfStep{};
+  for (int d = 0; d < D; ++d) halfStep[static_cast<std::size_t>(d)] = 0.5 * dt / level.spacing(d);
+  forEachRow<D>(box, [&](const Index<D>& first, int count) {
+    const Pointers<D> w = work.w.at(first);
+    AxisPointers<D> slopes;
+    for (std::size_t d = 0; d < slopes.size(); ++d) {
+      slopes[d] = work.slopes[d].at(first);
+      for (std::size_t k = 0; k < w.size(); ++k)
+        limitRow<Limited>(w[k], work.w.stride(static_cast<int>(d)), count, slopes[d][k]);
+    }
+    predictRow<D>(gas, halfStep, w, slopes, count, work.predicted.at(first));
+  });
+}
+
+/// The lower faces of the cells of `faces` across an axis.
+template <int D, class Flux, int Axis>
+void computeFluxes(const Gas& gas, const Box& faces, Work<D>& work, Constant) {
+  forEachRow<D>(faces, [&](const Index<D>& first, int count) {
+    fluxRow<D, Flux, Axis>(gas, work.w.at(first), work.w.stride(Axis), count, work.flux.at(first));
+  });
+}
+template <int D, class Flux, int Axis, class Limited>
+void computeFluxes(const Gas& gas, const Box& faces, Work<D>& work, Sloped<Limited>) {
+  forEachRow<D>(faces, [&](const Index<D>& first, int count) {
+    slopedFluxRow<D, Flux, Axis>(gas, work.predicted.at(first), work.slopes[Axis].at(first), work.w.stride(Axis), count,
+                                 work.flux.at(first));
+  });
+}
+
+/// Adds what flows in across an axis; the first axis starts from the old state.
+template <int D, int Axis>
+void addFluxes(double ratio, const Box& block, const StateViews<D, const double>& old, Rows<D>& flux,
+               const StateViews<D, double>& fresh) {
+  forEachRow<D>(block, [&](const Index<D>& first, int count) {
+    const Pointers<D> f = flux.at(first);
+    const auto update = [&](const double* from, double* to, std::size_t number, int step) {
+      updateRow(Axis == 0 ? from : to, f[number], flux.stride(Axis), ratio, step, count, to);
+    };
+    update(&old.density[first], &fresh.density[first], kDensity, 1);
+    for (int k = 0; k < D; ++k)
+      update(old.momentum[first].data() + k, fresh.momentum[first].data() + k, kVelocity(k), D);
+    update(&old.totalEnergy[first], &fresh.totalEnergy[first], kPressure<D>, 1);
+  });
+}
+
+template <int D, class Flux, class Shape, int Axis>
+void sweep(const Gas& gas, const Level& level, const Box& block, double dt, const StateViews<D, const double>& old,
+           Work<D>& work, const StateViews<D, double>& fresh) {
+  Box faces = block;
+  ++faces.upper[Axis];
+  computeFluxes<D, Flux, Axis>(gas, faces, work, Shape{});
+  addFluxes<D, Axis>(dt / level.spacing(Axis), block, old, work.flux, fresh);
+}
+
+template <class Limited, int D>
+void predictIfSloped(const Gas& gas, const Level& level, const Box& block, double dt, Work<D>& work, Sloped<Limited>) {
+  predict<D, Limited>(gas, level, block.grown(1, D), dt, work);
+}
+
+/// Advance<D> of one method.
+template <int D, class Flux, class Shape>
+void advance(const Patch& patch, const Gas& gas, CellView<const double> density, CellView<const Vec<D>> momentum,
+             CellView<const double> totalEnergy, double dt, CellView<double> newDensity, CellView<Vec<D>> newMomentum,
+             CellView<double> newTotalEnergy) {
+  const Level& level = patch.level();
+  const StateViews<D, const double> old{density, momentum, totalEnergy};
+  const StateViews<D, double> fresh{newDensity, newMomentum, newTotalEnergy};
+  const GhostRules<D> rules = ghostRules<D>(level);
+  Work<D> work(patch.cells(), Shape::reach);
+  forEachBlock<D>(patch.cells(), [&](const Box& block) {
+    work.hold(block.grown(Shape::reach, D));
+    recover<D>(gas, level, old, work.w);
+    fillBeyondGrid<D>(level, rules, work.w);
+    if constexpr (Shape::reach > 1) predictIfSloped(gas, level, block, dt, work, Shape{});
+    sweep<D, Flux, Shape, 0>(gas, level, block, dt, old, work, fresh);
+    if constexpr (D > 1) sweep<D, Flux, Shape, 1>(gas, level, block, dt, old, work, fresh);
+    if constexpr (D > 2) sweep<D, Flux, Shape, 2>(gas, level, block, dt, old, work, fresh);
+  });
+}
+
+template <int D, class Flux>
+Advance<D> chooseShape(const Method& method) {
+  if (method.reconstruction == Reconstruction::firstOrder) return advance<D, Flux, Constant>;
+  if (method.limiter == Limiter::minmod) return advance<D, Flux, Sloped<Minmod>>;
+  if (method.limiter == Limiter::vanLeer) return advance<D, Flux, Sloped<VanLeer>>;
+  return advance<D, Flux, Sloped<Mc>>;
+}
+
+template <int D>
+Advance<D> chooseAdvance(const Method& method) {
+  return method.flux == FluxKind::exact ? chooseShape<D, ExactFlux>(method) : chooseShape<D, Hllc>(method);
+}
+
+}  // namespace tushar::euler
