@@ -55,7 +55,7 @@ struct EulerSection {
   FluxKind flux = FluxKind::hllc;
   Reconstruction reconstruction = Reconstruction::musclHancock;
   Limiter limiter = Limiter::vanLeer;
-  double cfl = 0.4;
+  double cfl = 0.8;
   GasSection gas;
   std::vector<GasObject> objects;
 };
@@ -70,7 +70,7 @@ const Schema<EulerSection>& schema() {
           .choice("limiter", &EulerSection::limiter,
                   {{"minmod", Limiter::minmod}, {"van_leer", Limiter::vanLeer}, {"mc", Limiter::mc}}, Limiter::vanLeer,
                   "of the slopes, from the most to the least diffusive")
-          .value("cfl", &EulerSection::cfl, 0.4, "1", "dt times the greatest sum over axes of (|v| + c) / h",
+          .value("cfl", &EulerSection::cfl, 0.8, "1", "dt times the greatest sum over axes of (|v| + c) / h",
                  input::positive(), input::atMost(1))
           .section("gas", &EulerSection::gas, gasSchema())
           .list(

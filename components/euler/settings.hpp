@@ -34,7 +34,7 @@ struct Method {
 struct Settings {
   Location where;  ///< in the scene
   Method method;
-  double cfl = 0.4;  ///< dt max(sum_d (|v_d| + c) / h_d)
+  double cfl = 0.8;  ///< dt max(sum_d (|v_d| + c) / h_d)
   Gas gas;
   std::vector<GasObject> objects;  ///< where they overlap, the last one counts
 };

@@ -7,11 +7,11 @@
 
 namespace tushar::euler {
 
-/// Cells are constant.
+/// Cells are constant: the values at their faces are their own.
 struct Constant {
   static constexpr int reach = 1;
 };
-/// Cells have limited slopes.
+/// Cells have limited slopes: the values at their faces are those half a step later.
 template <class Limited>
 struct Sloped {
   static constexpr int reach = 2;
@@ -29,9 +29,11 @@ struct StateViews {
 template <int D>
 struct Work {
   /// Room for blocks of a patch.
-  Work(const Box& cells, int reach)
-      : w(roomFor(cells, reach)), predicted(reach > 1 ? roomFor(cells, reach) : 0), flux(roomFor(cells, reach)) {
-    for (int d = 0; d < D; ++d) slopes.emplace_back(reach > 1 ? roomFor(cells, reach) : 0);
+  Work(const Box& cells, int reach) : w(roomFor(cells, reach)), flux(roomFor(cells, reach)) {
+    for (int d = 0; d < D && reach > 1; ++d) {
+      lower.emplace_back(roomFor(cells, reach));
+      upper.emplace_back(roomFor(cells, reach));
+    }
   }
   static std::size_t roomFor(const Box& cells, int reach) {
     std::size_t room = 1;
@@ -40,13 +42,14 @@ struct Work {
   }
   void hold(const Box& box) {
     w.hold(box);
-    predicted.hold(box);
     flux.hold(box);
-    for (Rows<D>& slope : slopes) slope.hold(box);
+    for (Rows<D>& values : lower) values.hold(box);
+    for (Rows<D>& values : upper) values.hold(box);
   }
 
-  Rows<D> w, predicted, flux;
-  std::vector<Rows<D>> slopes;
+  Rows<D> w;                          ///< primitive values of cells
+  std::vector<Rows<D>> lower, upper;  ///< primitive values at faces, per axis; none where cells are constant
+  Rows<D> flux;                       ///< through lower faces, of one axis at a time
 };
 
 /// rho, v, p of the cells of the work's box that are on the grid.
@@ -57,35 +60,35 @@ void recover(const Gas& gas, const Level& level, const StateViews<D, const doubl
   });
 }
 
-/// Slopes, and values half a step later, of the cells of `box`.
+/// Values at the faces of the cells of `box`, half a step later.
+template <int D>
+void predict(const Gas&, const Level&, const Box&, double, Work<D>&, Constant) {}
 template <int D, class Limited>
-void predict(const Gas& gas, const Level& level, const Box& box, double dt, Work<D>& work) {
-  std::array<double, 3> halfStep{};
-  for (int d = 0; d < D; ++d) halfStep[static_cast<std::size_t>(d)] = 0.5 * dt / level.spacing(d);
+void predict(const Gas& gas, const Level& level, const Box& box, double dt, Work<D>& work, Sloped<Limited>) {
+  std::array<double, 3> ratio{};
+  std::array<std::ptrdiff_t, 3> stride{};
+  for (int d = 0; d < D; ++d) {
+    ratio[static_cast<std::size_t>(d)] = 0.5 * dt / level.spacing(d);
+    stride[static_cast<std::size_t>(d)] = work.w.stride(d);
+  }
   forEachRow<D>(box, [&](const Index<D>& first, int count) {
-    const Pointers<D> w = work.w.at(first);
-    AxisPointers<D> slopes;
-    for (std::size_t d = 0; d < slopes.size(); ++d) {
-      slopes[d] = work.slopes[d].at(first);
-      for (std::size_t k = 0; k < w.size(); ++k)
-        limitRow<Limited>(w[k], work.w.stride(static_cast<int>(d)), count, slopes[d][k]);
+    AxisPointers<D> lower, upper;
+    for (std::size_t d = 0; d < lower.size(); ++d) {
+      lower[d] = work.lower[d].at(first);
+      upper[d] = work.upper[d].at(first);
     }
-    predictRow<D>(gas, halfStep, w, slopes, count, work.predicted.at(first));
+    predictRow<D, Limited>(gas, work.w.at(first), stride, ratio, count, lower, upper);
   });
 }
 
-/// The lower faces of the cells of `faces` across an axis.
-template <int D, class Flux, int Axis>
-void computeFluxes(const Gas& gas, const Box& faces, Work<D>& work, Constant) {
+/// Fluxes through the lower faces of the cells of `faces` across an axis.
+template <int D, class Flux, class Shape, int Axis>
+void computeFluxes(const Gas& gas, const Box& faces, Work<D>& work) {
+  constexpr bool constant = Shape::reach == 1;
+  Rows<D>& below = constant ? work.w : work.upper[Axis];
+  Rows<D>& above = constant ? work.w : work.lower[Axis];
   forEachRow<D>(faces, [&](const Index<D>& first, int count) {
-    fluxRow<D, Flux, Axis>(gas, work.w.at(first), work.w.stride(Axis), count, work.flux.at(first));
-  });
-}
-template <int D, class Flux, int Axis, class Limited>
-void computeFluxes(const Gas& gas, const Box& faces, Work<D>& work, Sloped<Limited>) {
-  forEachRow<D>(faces, [&](const Index<D>& first, int count) {
-    slopedFluxRow<D, Flux, Axis>(gas, work.predicted.at(first), work.slopes[Axis].at(first), work.w.stride(Axis), count,
-                                 work.flux.at(first));
+    fluxRow<D, Flux, Axis>(gas, below.at(first - Index<D>::unit(Axis)), above.at(first), count, work.flux.at(first));
   });
 }
 
@@ -110,13 +113,8 @@ void sweep(const Gas& gas, const Level& level, const Box& block, double dt, cons
            Work<D>& work, const StateViews<D, double>& fresh) {
   Box faces = block;
   ++faces.upper[Axis];
-  computeFluxes<D, Flux, Axis>(gas, faces, work, Shape{});
+  computeFluxes<D, Flux, Shape, Axis>(gas, faces, work);
   addFluxes<D, Axis>(dt / level.spacing(Axis), block, old, work.flux, fresh);
-}
-
-template <class Limited, int D>
-void predictIfSloped(const Gas& gas, const Level& level, const Box& block, double dt, Work<D>& work, Sloped<Limited>) {
-  predict<D, Limited>(gas, level, block.grown(1, D), dt, work);
 }
 
 /// Advance<D> of one method.
@@ -133,7 +131,7 @@ void advance(const Patch& patch, const Gas& gas, CellView<const double> density,
     work.hold(block.grown(Shape::reach, D));
     recover<D>(gas, level, old, work.w);
     fillBeyondGrid<D>(level, rules, work.w);
-    if constexpr (Shape::reach > 1) predictIfSloped(gas, level, block, dt, work, Shape{});
+    predict<D>(gas, level, block.grown(1, D), dt, work, Shape{});
     sweep<D, Flux, Shape, 0>(gas, level, block, dt, old, work, fresh);
     if constexpr (D > 1) sweep<D, Flux, Shape, 1>(gas, level, block, dt, old, work, fresh);
     if constexpr (D > 2) sweep<D, Flux, Shape, 2>(gas, level, block, dt, old, work, fresh);

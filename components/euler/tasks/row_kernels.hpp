@@ -27,81 +27,81 @@ void recoverRow(const Gas& gas, const double* density, const double* momentum, c
   }
 }
 
-/// Limited slopes per cell width, of one number; neighbours are `stride` apart.
-template <class Limited>
-void limitRow(const double* w, std::ptrdiff_t stride, int count, double* slope) {
-#pragma GCC ivdep
-  for (std::ptrdiff_t i = 0; i < count; ++i) slope[i] = Limited::slope(w[i] - w[i - stride], w[i + stride] - w[i]);
+/// The values at both faces of a cell across each axis.
+template <int D>
+struct FaceValues {
+  std::array<State<D>, static_cast<std::size_t>(D)> lower, upper;
+};
+
+/// W -+ slope / 2, with the limited slopes of cell `i`; neighbours along axis d are `stride[d]` apart.
+template <int D, class Limited>
+FaceValues<D> reconstruct(const Pointers<D>& w, const std::array<std::ptrdiff_t, 3>& stride, std::ptrdiff_t i) {
+  FaceValues<D> faces;
+  for (std::size_t d = 0; d < faces.lower.size(); ++d)
+    for (std::size_t k = 0; k < w.size(); ++k) {
+      const double half = 0.5 * Limited::slope(w[k][i] - w[k][i - stride[d]], w[k][i + stride[d]] - w[k][i]);
+      faces.lower[d][k] = w[k][i] - half;
+      faces.upper[d][k] = w[k][i] + half;
+    }
+  return faces;
 }
 
-/// dW/dt dt/2 = -sum_d A_d(W) slope_d (dt / 2 h_d), Toro (14.39)-(14.40) with `halfStep` = dt / 2 h_d of each axis.
-template <int D>
-State<D> halfStepChange(const Gas& gas, const State<D>& w,
-                        const std::array<State<D>, static_cast<std::size_t>(D)>& slope,
-                        const std::array<double, 3>& halfStep) {
-  const double inverse = 1 / w[kDensity];
-  const double stiffness = gas.gamma * (w[kPressure<D>] + gas.pInfinity);
-  State<D> change{};
-  for (int d = 0; d < D; ++d) {
-    const auto axis = static_cast<std::size_t>(d);
-    const State<D>& s = slope[axis];
-    const double h = halfStep[axis], u = w[kVelocity(d)];
-    change[kDensity] -= h * (u * s[kDensity] + w[kDensity] * s[kVelocity(d)]);
-    for (int k = 0; k < D; ++k)
-      change[kVelocity(k)] -= h * (k == d ? u * s[kVelocity(k)] + s[kPressure<D>] * inverse : u * s[kVelocity(k)]);
-    change[kPressure<D>] -= h * (u * s[kPressure<D>] + stiffness * s[kVelocity(d)]);
-  }
-  return change;
+/// F of primitive values, across an axis.
+template <int D, int Axis>
+State<D> fluxOf(const Gas& gas, const State<D>& w) {
+  return fluxOf<D, Axis>(FaceState<D>{w, conserved<D>(gas, w)[kPressure<D>]});
 }
 
-/// W half a step later. Where a face of the cell would lose its positive density or p + p_inf: W itself, and no slope.
+/// Adds what the fluxes of a cell's own face values bring in half a step, Toro (14.42); `ratio` is dt / 2 h.
+template <int D, int Axis>
+void addHalfStep(const Gas& gas, const FaceValues<D>& faces, double ratio, State<D>& change) {
+  const State<D> in = fluxOf<D, Axis>(gas, faces.lower[Axis]), out = fluxOf<D, Axis>(gas, faces.upper[Axis]);
+  for (std::size_t k = 0; k < change.size(); ++k) change[k] += ratio * (in[k] - out[k]);
+}
+
+/// Primitive values after a change of the conserved ones.
 template <int D>
-void predictRow(const Gas& gas, const std::array<double, 3>& halfStep, const Pointers<D>& w,
-                const AxisPointers<D>& slopes, int count, const Pointers<D>& predicted) {
+State<D> later(const Gas& gas, const State<D>& w, const State<D>& change) {
+  State<D> u = conserved<D>(gas, w);
+  for (std::size_t k = 0; k < u.size(); ++k) u[k] += change[k];
+  return primitive<D>(gas, u);
+}
+
+/// W at the faces of `count` cells half a step later; W of the cell itself at all of them where a face would lose its
+/// positive density or p + p_inf. `ratio` is dt / 2 h of each axis.
+template <int D, class Limited>
+void predictRow(const Gas& gas, const Pointers<D>& w, const std::array<std::ptrdiff_t, 3>& stride,
+                const std::array<double, 3>& ratio, int count, const AxisPointers<D>& lower,
+                const AxisPointers<D>& upper) {
 #pragma GCC ivdep
   for (std::ptrdiff_t i = 0; i < count; ++i) {
-    const State<D> before = load<D>(w, i);
-    std::array<State<D>, static_cast<std::size_t>(D)> slope;
-    for (std::size_t d = 0; d < slope.size(); ++d) slope[d] = load<D>(slopes[d], i);
-    const State<D> change = halfStepChange<D>(gas, before, slope, halfStep);
-    double densityDrop = 0, pressureDrop = 0;
-    for (const State<D>& s : slope) {
-      const double density = 0.5 * std::abs(s[kDensity]), pressure = 0.5 * std::abs(s[kPressure<D>]);
-      densityDrop = density > densityDrop ? density : densityDrop;
-      pressureDrop = pressure > pressureDrop ? pressure : pressureDrop;
-    }
-    const double leastDensity = before[kDensity] + change[kDensity] - densityDrop;
-    const double leastPressure = before[kPressure<D>] + change[kPressure<D>] + gas.pInfinity - pressureDrop;
-    const double least = leastDensity < leastPressure ? leastDensity : leastPressure;
-    const double keep = least > 0 ? 1.0 : 0.0;
-    for (std::size_t k = 0; k < before.size(); ++k) {
-      predicted[k][i] = before[k] + keep * change[k];
-      for (std::size_t d = 0; d < slope.size(); ++d) slopes[d][k][i] = keep * slope[d][k];
-    }
+    FaceValues<D> faces = reconstruct<D, Limited>(w, stride, i);
+    State<D> change{};
+    addHalfStep<D, 0>(gas, faces, ratio[0], change);
+    if constexpr (D > 1) addHalfStep<D, 1>(gas, faces, ratio[1], change);
+    if constexpr (D > 2) addHalfStep<D, 2>(gas, faces, ratio[2], change);
+    double least = 1;
+    for (auto* side : {&faces.lower, &faces.upper})
+      for (State<D>& face : *side) {
+        face = later<D>(gas, face, change);
+        const double stiff = face[kPressure<D>] + gas.pInfinity;
+        least = face[kDensity] < least ? face[kDensity] : least;
+        least = stiff < least ? stiff : least;
+      }
+    for (std::size_t d = 0; d < lower.size(); ++d)
+      for (std::size_t k = 0; k < w.size(); ++k) {
+        lower[d][k][i] = least > 0 ? faces.lower[d][k] : w[k][i];
+        upper[d][k][i] = least > 0 ? faces.upper[d][k] : w[k][i];
+      }
   }
 }
 
-/// Fluxes through the lower faces of `count` cells across `Axis`, from constant cells.
+/// Fluxes through the lower faces of `count` cells across `Axis`, between what stands on both sides.
 template <int D, class Flux, int Axis>
-void fluxRow(const Gas& gas, const Pointers<D>& w, std::ptrdiff_t stride, int count, const Pointers<D>& flux) {
+void fluxRow(const Gas& gas, const Pointers<D>& below, const Pointers<D>& above, int count, const Pointers<D>& flux) {
 #pragma GCC ivdep
   for (std::ptrdiff_t i = 0; i < count; ++i)
-    store<D>(flux, i, fluxOf<D, Axis>(Flux::template solve<D, Axis>(gas, load<D>(w, i - stride), load<D>(w, i))));
-}
-
-/// The same from cells with slopes.
-template <int D, class Flux, int Axis>
-void slopedFluxRow(const Gas& gas, const Pointers<D>& w, const Pointers<D>& slope, std::ptrdiff_t stride, int count,
-                   const Pointers<D>& flux) {
-#pragma GCC ivdep
-  for (std::ptrdiff_t i = 0; i < count; ++i) {
-    State<D> left, right;
-    for (std::size_t k = 0; k < left.size(); ++k) {
-      left[k] = w[k][i - stride] + 0.5 * slope[k][i - stride];
-      right[k] = w[k][i] - 0.5 * slope[k][i];
-    }
-    store<D>(flux, i, fluxOf<D, Axis>(Flux::template solve<D, Axis>(gas, left, right)));
-  }
+    store<D>(flux, i, fluxOf<D, Axis>(Flux::template solve<D, Axis>(gas, load<D>(below, i), load<D>(above, i))));
 }
 
 /// new = old - ratio (flux of the upper face - flux of the lower face) of one number, `step` apart in old and new,
