@@ -18,7 +18,7 @@ void forEachRow(const Box& box, Visit&& visit) {
 
 /// Cells of a block of work: it and what it needs around it stay in the second-level cache.
 template <int D>
-inline constexpr Index3 kBlock = D == 1   ? Index3{{1024, 1, 1}}
+inline constexpr Index3 kBlock = D == 1   ? Index3{{256, 1, 1}}
                                  : D == 2 ? Index3{{128, 16, 1}}
                                           : Index3{{64, 8, 8}};
 

@@ -50,6 +50,7 @@ struct Work {
   Rows<D> w;                          ///< primitive values of cells
   std::vector<Rows<D>> lower, upper;  ///< primitive values at faces, per axis; none where cells are constant
   Rows<D> flux;                       ///< through lower faces, of one axis at a time
+  std::vector<double> least;          ///< of a row: least density and p + p_inf at faces
 };
 
 /// rho, v, p of the cells of the work's box that are on the grid.
@@ -60,24 +61,32 @@ void recover(const Gas& gas, const Level& level, const StateViews<D, const doubl
   });
 }
 
-/// Values at the faces of the cells of `box`, half a step later.
+/// Adds the half step's change of a row across an axis, and sets its limited values at the faces.
+template <int D, class Limited, int Axis>
+void reconstruct(const Gas& gas, const Index<D>& first, int count, double ratio, Work<D>& work) {
+  const Pointers<D> w = work.w.at(first), lower = work.lower[Axis].at(first), upper = work.upper[Axis].at(first);
+  for (std::size_t k = 0; k < w.size(); ++k)
+    reconstructRow<Limited>(w[k], work.w.stride(Axis), count, lower[k], upper[k]);
+  halfStepRow<D, Axis>(gas, lower, upper, ratio, count, work.flux.at(first));
+}
+
+/// Values at the faces of the cells of `box`, half a step later. The rows of fluxes hold the change on the way.
 template <int D>
 void predict(const Gas&, const Level&, const Box&, double, Work<D>&, Constant) {}
 template <int D, class Limited>
 void predict(const Gas& gas, const Level& level, const Box& box, double dt, Work<D>& work, Sloped<Limited>) {
-  std::array<double, 3> ratio{};
-  std::array<std::ptrdiff_t, 3> stride{};
-  for (int d = 0; d < D; ++d) {
-    ratio[static_cast<std::size_t>(d)] = 0.5 * dt / level.spacing(d);
-    stride[static_cast<std::size_t>(d)] = work.w.stride(d);
-  }
   forEachRow<D>(box, [&](const Index<D>& first, int count) {
-    AxisPointers<D> lower, upper;
-    for (std::size_t d = 0; d < lower.size(); ++d) {
-      lower[d] = work.lower[d].at(first);
-      upper[d] = work.upper[d].at(first);
-    }
-    predictRow<D, Limited>(gas, work.w.at(first), stride, ratio, count, lower, upper);
+    const auto ratio = [&](int d) { return 0.5 * dt / level.spacing(d); };
+    reconstruct<D, Limited, 0>(gas, first, count, ratio(0), work);
+    if constexpr (D > 1) reconstruct<D, Limited, 1>(gas, first, count, ratio(1), work);
+    if constexpr (D > 2) reconstruct<D, Limited, 2>(gas, first, count, ratio(2), work);
+    const Pointers<D> change = work.flux.at(first);
+    work.least.assign(static_cast<std::size_t>(count), 1.0);
+    for (std::size_t d = 0; d < D; ++d)
+      for (Rows<D>* values : {&work.lower[d], &work.upper[d]})
+        changeRow<D>(gas, change, count, values->at(first), work.least.data());
+    for (std::size_t d = 0; d < D; ++d)
+      flattenRow<D>(work.least.data(), work.w.at(first), count, work.lower[d].at(first), work.upper[d].at(first));
   });
 }
 

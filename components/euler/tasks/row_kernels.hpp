@@ -10,8 +10,6 @@ namespace tushar::euler {
 
 template <int D>
 using Pointers = typename Rows<D>::Pointers;
-template <int D>
-using AxisPointers = std::array<Pointers<D>, static_cast<std::size_t>(D)>;
 
 /// rho, v, p of `count` cells whose rho, rho v (D numbers per cell) and E are given.
 template <int D>
@@ -27,23 +25,15 @@ void recoverRow(const Gas& gas, const double* density, const double* momentum, c
   }
 }
 
-/// The values at both faces of a cell across each axis.
-template <int D>
-struct FaceValues {
-  std::array<State<D>, static_cast<std::size_t>(D)> lower, upper;
-};
-
-/// W -+ slope / 2, with the limited slopes of cell `i`; neighbours along axis d are `stride[d]` apart.
-template <int D, class Limited>
-FaceValues<D> reconstruct(const Pointers<D>& w, const std::array<std::ptrdiff_t, 3>& stride, std::ptrdiff_t i) {
-  FaceValues<D> faces;
-  for (std::size_t d = 0; d < faces.lower.size(); ++d)
-    for (std::size_t k = 0; k < w.size(); ++k) {
-      const double half = 0.5 * Limited::slope(w[k][i] - w[k][i - stride[d]], w[k][i + stride[d]] - w[k][i]);
-      faces.lower[d][k] = w[k][i] - half;
-      faces.upper[d][k] = w[k][i] + half;
-    }
-  return faces;
+/// w -+ slope / 2 of one number, with limited slopes; neighbours are `stride` apart.
+template <class Limited>
+void reconstructRow(const double* w, std::ptrdiff_t stride, int count, double* lower, double* upper) {
+#pragma GCC ivdep
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
+    const double half = 0.5 * Limited::slope(w[i] - w[i - stride], w[i + stride] - w[i]);
+    lower[i] = w[i] - half;
+    upper[i] = w[i] + half;
+  }
 }
 
 /// F of primitive values, across an axis.
@@ -52,48 +42,41 @@ State<D> fluxOf(const Gas& gas, const State<D>& w) {
   return fluxOf<D, Axis>(FaceState<D>{w, conserved<D>(gas, w)[kPressure<D>]});
 }
 
-/// Adds what the fluxes of a cell's own face values bring in half a step, Toro (14.42); `ratio` is dt / 2 h.
+/// What the fluxes of a cell's own face values across an axis change in half a step, Toro (14.42), added to the change
+/// of the axes before; `ratio` is dt / 2 h.
 template <int D, int Axis>
-void addHalfStep(const Gas& gas, const FaceValues<D>& faces, double ratio, State<D>& change) {
-  const State<D> in = fluxOf<D, Axis>(gas, faces.lower[Axis]), out = fluxOf<D, Axis>(gas, faces.upper[Axis]);
-  for (std::size_t k = 0; k < change.size(); ++k) change[k] += ratio * (in[k] - out[k]);
-}
-
-/// Primitive values after a change of the conserved ones.
-template <int D>
-State<D> later(const Gas& gas, const State<D>& w, const State<D>& change) {
-  State<D> u = conserved<D>(gas, w);
-  for (std::size_t k = 0; k < u.size(); ++k) u[k] += change[k];
-  return primitive<D>(gas, u);
-}
-
-/// W at the faces of `count` cells half a step later; W of the cell itself at all of them where a face would lose its
-/// positive density or p + p_inf. `ratio` is dt / 2 h of each axis.
-template <int D, class Limited>
-void predictRow(const Gas& gas, const Pointers<D>& w, const std::array<std::ptrdiff_t, 3>& stride,
-                const std::array<double, 3>& ratio, int count, const AxisPointers<D>& lower,
-                const AxisPointers<D>& upper) {
+void halfStepRow(const Gas& gas, const Pointers<D>& lower, const Pointers<D>& upper, double ratio, int count,
+                 const Pointers<D>& change) {
 #pragma GCC ivdep
   for (std::ptrdiff_t i = 0; i < count; ++i) {
-    FaceValues<D> faces = reconstruct<D, Limited>(w, stride, i);
-    State<D> change{};
-    addHalfStep<D, 0>(gas, faces, ratio[0], change);
-    if constexpr (D > 1) addHalfStep<D, 1>(gas, faces, ratio[1], change);
-    if constexpr (D > 2) addHalfStep<D, 2>(gas, faces, ratio[2], change);
-    double least = 1;
-    for (auto* side : {&faces.lower, &faces.upper})
-      for (State<D>& face : *side) {
-        face = later<D>(gas, face, change);
-        const double stiff = face[kPressure<D>] + gas.pInfinity;
-        least = face[kDensity] < least ? face[kDensity] : least;
-        least = stiff < least ? stiff : least;
-      }
-    for (std::size_t d = 0; d < lower.size(); ++d)
-      for (std::size_t k = 0; k < w.size(); ++k) {
-        lower[d][k][i] = least > 0 ? faces.lower[d][k] : w[k][i];
-        upper[d][k][i] = least > 0 ? faces.upper[d][k] : w[k][i];
-      }
+    const State<D> in = fluxOf<D, Axis>(gas, load<D>(lower, i)), out = fluxOf<D, Axis>(gas, load<D>(upper, i));
+    State<D> sum = Axis == 0 ? State<D>{} : load<D>(change, i);
+    for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += ratio * (in[k] - out[k]);
+    store<D>(change, i, sum);
   }
+}
+
+/// Changes primitive values by a change of the conserved ones; lowers `least` to the density and p + p_inf found.
+template <int D>
+void changeRow(const Gas& gas, const Pointers<D>& change, int count, const Pointers<D>& values, double* least) {
+#pragma GCC ivdep
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
+    State<D> u = conserved<D>(gas, load<D>(values, i));
+    for (std::size_t k = 0; k < u.size(); ++k) u[k] += change[k][i];
+    const State<D> w = primitive<D>(gas, u);
+    const double stiff = w[kPressure<D>] + gas.pInfinity;
+    const double lower = w[kDensity] < stiff ? w[kDensity] : stiff;
+    least[i] = lower < least[i] ? lower : least[i];
+    store<D>(values, i, w);
+  }
+}
+
+/// Takes the cells whose `least` is not positive as constant: their values at both faces become those of the cell.
+template <int D>
+void flattenRow(const double* least, const Pointers<D>& w, int count, const Pointers<D>& lower,
+                const Pointers<D>& upper) {
+  for (std::ptrdiff_t i = 0; i < count; ++i)
+    for (std::size_t k = 0; k < w.size() && !(least[i] > 0); ++k) lower[k][i] = upper[k][i] = w[k][i];
 }
 
 /// Fluxes through the lower faces of `count` cells across `Axis`, between what stands on both sides.
