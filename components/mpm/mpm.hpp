@@ -22,10 +22,6 @@ class Mpm : public Component, public reference::GasSolution {
   void scheduleDiagnostics(TaskList& tasks) const override;
   void scheduleMeasureError(TaskList& tasks, const reference::GasReference& reference,
                             const reference::Clock& clock) const override;
-  std::vector<reference::MeasuredPlace> measuredPlaces() const override {
-    using Place = reference::MeasuredPlace;
-    return {Place::particle, Place::cell, Place::node};
-  }
 
  private:
   using Shape = Linear<D>;

@@ -42,7 +42,9 @@ class GasSolution {
  public:
   virtual ~GasSolution() = default;
   /// The places whose error labels scheduleMeasureError's tasks compute.
-  virtual std::vector<MeasuredPlace> measuredPlaces() const = 0;
+  virtual std::vector<MeasuredPlace> measuredPlaces() const {
+    return {MeasuredPlace::particle, MeasuredPlace::cell, MeasuredPlace::node};
+  }
   /// Adds diagnostic tasks that compute the error labels of those places against `exact` at `clock`'s time; both must
   /// outlive the task list.
   virtual void scheduleMeasureError(TaskList& tasks, const GasReference& exact, const Clock& clock) const = 0;
