@@ -16,6 +16,15 @@ void forEachRow(const Box& box, Visit&& visit) {
   forEach<D>(starts, [&](const Index<D>& first) { visit(first, box.extent(0)); });
 }
 
+/// Where a row of `count` cells of a view begins; both of its ends are checked where views are.
+template <int D, class T>
+T* rowOf(const CellView<T>& view, Index<D> first, int count) {
+  T* row = &view[first];
+  first[0] += count - 1;
+  static_cast<void>(view[first]);
+  return row;
+}
+
 /// Cells of a block of work: it and what it needs around it stay in the second-level cache.
 template <int D>
 inline constexpr Index3 kBlock = D == 1   ? Index3{{256, 1, 1}}

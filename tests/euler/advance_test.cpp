@@ -180,14 +180,15 @@ TEST(Advance, StopsAtAWall) {
 }
 
 TEST(Advance, IsOfSecondOrderOnASmoothWave) {
-  const auto wave = [](double x) { return 1 + 0.5 * std::exp(-std::pow((x - 0.3) / 0.1, 2)); };
+  // Without an extremum, where limiters are of first order.
+  const auto wave = [](double x) { return 1 + 0.5 * std::tanh((x - 0.4) / 0.05); };
   const auto errorOf = [&](int cells, Method method) {
     GasBox<1> box(
         openBox(1, cells), [&](const Vec<1>& x) { return gasAt(wave(x[0]), 1, 1); }, method);
-    box.run(0.3, 0.8);
+    box.run(0.2, 0.8);
     double error = 0;
     for (int i = 0; i < cells; ++i)
-      error += std::abs(box.density[static_cast<std::size_t>(i)] - wave((i + 0.5) / cells - 0.3));
+      error += std::abs(box.density[static_cast<std::size_t>(i)] - wave((i + 0.5) / cells - 0.2));
     return error / cells;
   };
   for (const Limiter limiter : {Limiter::vanLeer, Limiter::mc}) {

@@ -68,9 +68,7 @@ TEST(SodsTube, HasTheErrorsOfTheTable) {
   }
 }
 
-TEST(SodsTube, IsAsGoodWithTheExactFlux) {
-  EXPECT_NEAR(densityError({"Euler/flux=exact"}, 100) / densityError({}, 100), 1, 0.05);
-}
+TEST(SodsTube, IsBetterWithTheExactFlux) { EXPECT_LT(densityError({"Euler/flux=exact"}, 100), densityError({}, 100)); }
 
 TEST(SodsTube, HasOneFingerprintOnAnyPatches) {
   const std::string whole = run("ups/euler/sod.ups", {}).fingerprint;
@@ -89,7 +87,7 @@ TEST(LaxAndLiu, HasOneFingerprintOnAnyPatches) {
 
 TEST(Sedov, KeepsMassAndEnergy) {
   for (const simulation::Drift& drift : run("ups/euler/sedov.ups", {"Grid/Level/Box/resolution=[60,60,1]"}).drifts)
-    if (drift.name != "momentum") EXPECT_NEAR(drift.change, 0, 1e-12) << drift.name;
+    EXPECT_NEAR(drift.name == "momentum" ? 0 : drift.change, 0, 1e-12) << drift.name;
 }
 
 TEST(EulerScene, MeasuresCellsAlone) {

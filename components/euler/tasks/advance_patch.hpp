@@ -57,7 +57,8 @@ struct Work {
 template <int D>
 void recover(const Gas& gas, const Level& level, const StateViews<D, const double>& old, Rows<D>& w) {
   forEachRow<D>(w.box().intersect(level.cells()), [&](const Index<D>& first, int count) {
-    recoverRow<D>(gas, &old.density[first], old.momentum[first].data(), &old.totalEnergy[first], count, w.at(first));
+    recoverRow<D>(gas, rowOf(old.density, first, count), rowOf(old.momentum, first, count)->data(),
+                  rowOf(old.totalEnergy, first, count), count, w.at(first));
   });
 }
 
@@ -110,10 +111,11 @@ void addFluxes(double ratio, const Box& block, const StateViews<D, const double>
     const auto update = [&](const double* from, double* to, std::size_t number, int step) {
       updateRow(Axis == 0 ? from : to, f[number], flux.stride(Axis), ratio, step, count, to);
     };
-    update(&old.density[first], &fresh.density[first], kDensity, 1);
-    for (int k = 0; k < D; ++k)
-      update(old.momentum[first].data() + k, fresh.momentum[first].data() + k, kVelocity(k), D);
-    update(&old.totalEnergy[first], &fresh.totalEnergy[first], kPressure<D>, 1);
+    update(rowOf(old.density, first, count), rowOf(fresh.density, first, count), kDensity, 1);
+    const double* momentum = rowOf(old.momentum, first, count)->data();
+    double* newMomentum = rowOf(fresh.momentum, first, count)->data();
+    for (int k = 0; k < D; ++k) update(momentum + k, newMomentum + k, kVelocity(k), D);
+    update(rowOf(old.totalEnergy, first, count), rowOf(fresh.totalEnergy, first, count), kPressure<D>, 1);
   });
 }
 

@@ -2,27 +2,33 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+
 #include "components/euler/labels.hpp"
 #include "components/euler/rows.hpp"
 
 namespace tushar::euler {
 
-/// Throws NumericalError: the first of `count` cells whose density or p + p_inf is not positive.
+/// Throws NumericalError: of `count` cells, the one whose density or p + p_inf is the least.
 template <int D>
 [[noreturn]] void refuseState(const Patch& patch, const Gas& gas, const Index<D>& first, int count,
                               CellView<const double> density, CellView<const Vec<D>> momentum,
                               CellView<const double> totalEnergy) {
-  Index<D> cell = first;
+  const auto pressureOf = [&](const Index<D>& cell) {
+    return gas.pressure(totalEnergy[cell] - 0.5 * momentum[cell].squaredNorm() / density[cell]);
+  };
+  Index<D> worst = first, cell = first;
+  double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < count; ++i, ++cell[0]) {
-    const double rho = density[cell];
-    const double pressure = gas.pressure(totalEnergy[cell] - 0.5 * momentum[cell].squaredNorm() / rho);
-    if (rho > 0 && pressure + gas.pInfinity > 0) continue;
-    const Vec3 at = patch.level().expandPoint<D>(patch.level().cellCentre<D>(cell));
-    throw NumericalError(fmt::format("density {:.6g} kg/m^3 and pressure {:.6g} Pa in the cell at ({:g}, {:g}, {:g})",
-                                     rho, pressure, at[0], at[1], at[2]),
-                         "a smaller Euler/cfl, Euler/limiter minmod, or Euler/reconstruction first_order");
+    const double here = std::min(density[cell], pressureOf(cell) + gas.pInfinity);
+    if (here >= least) continue;
+    least = std::isnan(here) ? -std::numeric_limits<double>::infinity() : here;
+    worst = cell;
   }
-  throw std::logic_error("refuseState was called for a row of good states");
+  const Vec3 at = patch.level().expandPoint<D>(patch.level().cellCentre<D>(worst));
+  throw NumericalError(fmt::format("density {:.6g} kg/m^3 and pressure {:.6g} Pa in the cell at ({:g}, {:g}, {:g})",
+                                   density[worst], pressureOf(worst), at[0], at[1], at[2]),
+                       "a smaller Euler/cfl, Euler/limiter minmod, or Euler/reconstruction first_order");
 }
 
 /// dt = cfl / max(sum_d (|v_d| + c) / h_d).
@@ -39,7 +45,8 @@ void computeStableTimeStep(const Patch& patch, const Gas& gas, double cfl, CellV
   forEachRow<D>(patch.cells(), [&](Index<D> first, int cells) {
     for (int done = 0; done < cells; done += chunk, first[0] += chunk) {
       const int count = std::min(chunk, cells - done);
-      const double *rho = &density[first], *m = momentum[first].data(), *energy = &totalEnergy[first];
+      const double *rho = rowOf(density, first, count), *energy = rowOf(totalEnergy, first, count);
+      const double* m = rowOf(momentum, first, count)->data();
       double bad = 0;
       for (int i = 0; i < count; ++i) {
         const double inverse = 1 / rho[i];
