@@ -27,9 +27,10 @@ State<D> fluxOf(const FaceState<D>& face) {
 
 /// The approximate Riemann solver of three waves.
 ///
-/// Wave speeds of Einfeldt, Toro (10.52)-(10.54); contact speed (10.37); star states (10.39). The pressure between the
-/// waves is the mean of (10.36) of both sides, equal but for round-off, so that the mirrored problem gives the
-/// mirrored flux to the last bit. Source: E. F. Toro, Riemann Solvers, 3rd ed., chapter 10.
+/// Wave speeds: the outer ones of both states and of Einfeldt's mean (section 10.5), of the contact (10.37). Between
+/// the waves the states (10.39) and the mean of the two pressures (10.36), which are equal but for round-off: so the
+/// mirrored problem gives the mirrored flux to the last bit.
+/// Source: E. F. Toro, Riemann Solvers and Numerical Methods for Fluid Dynamics, 3rd ed., chapter 10.
 struct Hllc {
   template <int D, int Axis>
   static FaceState<D> solve(const Gas& gas, const State<D>& left, const State<D>& right) {

@@ -80,8 +80,8 @@ const Schema<EulerSection>& schema() {
   return schema;
 }
 
-/// The values that a face may prescribe, checked before the grid is made.
-void checkBoundaries(const Element& root, Diagnostics& diagnostics) {
+/// The values that a face may prescribe: Dirichlet ones, with a positive density and p + p_infinity.
+void checkBoundaries(const Element& root, double pInfinity, Diagnostics& diagnostics) {
   const auto grid = root.child("Grid");
   const auto group = grid ? grid->child("BoundaryConditions") : std::nullopt;
   if (!group) return;
@@ -95,9 +95,12 @@ void checkBoundaries(const Element& root, Diagnostics& diagnostics) {
                                                  var, label));
       const auto text = condition.child("value");
       const auto value = text ? input::parse<double>(text->text()) : input::parse<double>("1");
-      if (label == "Density" && value && !(*value > 0))
-        diagnostics.error(condition,
-                          fmt::format("value: found '{}', expected a value greater than 0 kg/m^3", text->text()));
+      const auto limit = [&](const std::string& of, double least, const std::string& unit) {
+        if (label == of && value && !input::satisfies(*value, input::greaterThan(least)))
+          diagnostics.error(condition, "value: " + input::violation(text->text(), input::greaterThan(least), unit));
+      };
+      limit("Density", 0, "kg/m^3");
+      limit("Pressure", -pInfinity, "Pa");
     }
 }
 
@@ -112,8 +115,8 @@ simulation::ComponentKind kind() {
   kind.describe = [](std::ostream& out) { schema().describe(out); };
   kind.read = [](const Element& root, Diagnostics& diagnostics) -> simulation::MakeComponent {
     const std::size_t before = diagnostics.size();
-    checkBoundaries(root, diagnostics);
     const EulerSection read = simulation::readSection(root, schema(), diagnostics);
+    checkBoundaries(root, read.gas.pInfinity, diagnostics);
     if (diagnostics.size() > before) return {};
     Settings settings;
     settings.where = root.child("Euler")->where();

@@ -131,6 +131,12 @@ TEST(EulerScene, RefusesAFluxAtAFace) {
       "gas out");
 }
 
+TEST(EulerScene, RefusesAnInflowOfNoPressure) {
+  EXPECT_EQ(problemOf(changedScene("<BCType id=\"all\" label=\"Symmetric\" var=\"symmetry\"/>",
+                                   "<BCType label=\"Pressure\" var=\"Dirichlet\"><value>-1</value></BCType>")),
+            "value: found '-1', expected a value greater than 0 Pa");
+}
+
 TEST(EulerScene, RefusesAnInflowOfNoDensity) {
   EXPECT_EQ(problemOf(changedScene("<BCType id=\"all\" label=\"Symmetric\" var=\"symmetry\"/>",
                                    "<BCType label=\"Density\" var=\"Dirichlet\"><value>0</value></BCType>")),

@@ -3,8 +3,8 @@
 #include "components/euler/fluxes.hpp"
 #include "components/euler/rows.hpp"
 
-// The equations, as loops over the cells of a row. Rows overlap nowhere but where a comment says so, which the
-// compiler is told by ivdep; all loops vectorise, with the same bits for each cell wherever a row begins.
+// The equations, as loops over the cells of a row. No turn of a loop reads what another one writes, which the compiler
+// is told by ivdep; all loops but that of the exact flux vectorise, to the same bits of a cell wherever its row begins.
 
 namespace tushar::euler {
 
@@ -42,8 +42,8 @@ State<D> fluxOf(const Gas& gas, const State<D>& w) {
   return fluxOf<D, Axis>(FaceState<D>{w, conserved<D>(gas, w)[kPressure<D>]});
 }
 
-/// What the fluxes of a cell's own face values across an axis change in half a step, Toro (14.42), added to the change
-/// of the axes before; `ratio` is dt / 2 h.
+/// What the fluxes of a cell's own face values across an axis change in half a step (Toro, section 14.4), added to the
+/// change of the axes before; `ratio` is dt / 2 h.
 template <int D, int Axis>
 void halfStepRow(const Gas& gas, const Pointers<D>& lower, const Pointers<D>& upper, double ratio, int count,
                  const Pointers<D>& change) {
