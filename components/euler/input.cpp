@@ -100,7 +100,7 @@ void checkBoundaries(const Element& root, double pInfinity, Diagnostics& diagnos
           diagnostics.error(condition, "value: " + input::violation(text->text(), input::greaterThan(least), unit));
       };
       limit("Density", 0, "kg/m^3");
-      limit("Pressure", -pInfinity, "Pa");
+      limit("Pressure", 0 - pInfinity, "Pa");
     }
 }
 
