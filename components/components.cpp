@@ -1,5 +1,6 @@
 #include "components/components.hpp"
 
+#include "components/euler/input.hpp"
 #include "components/heat/heat.hpp"
 #include "components/mpm/input.hpp"
 #include "components/reference/modules.hpp"
@@ -10,6 +11,7 @@ namespace tushar {
 simulation::Catalogue catalogue() {
   return {
       {
+          euler::kind(),
           heat::kind(),
           mpm::kind(),
       },

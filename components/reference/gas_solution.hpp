@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "components/reference/gas_reference.hpp"
 #include "core/core.hpp"
 
@@ -32,12 +34,19 @@ inline constexpr GasErrorLabels cellError{{"CellError.density", "kg/m^3", "error
 inline constexpr ReductionLabel<Norm> nodeError{"NodeError.density", "kg/m^3",
                                                 "error of nodal mass over nodal volume against the exact density"};
 
+/// Where a component can measure errors.
+enum class MeasuredPlace { particle, cell, node };
+
 /// A component that solves for a gas, and can measure how far its state is from an exact one.
 class GasSolution {
  public:
   virtual ~GasSolution() = default;
-  /// Adds diagnostic tasks that compute the error labels above against `exact` at `clock`'s time; both must outlive
-  /// the task list.
+  /// The places whose error labels scheduleMeasureError's tasks compute.
+  virtual std::vector<MeasuredPlace> measuredPlaces() const {
+    return {MeasuredPlace::particle, MeasuredPlace::cell, MeasuredPlace::node};
+  }
+  /// Adds diagnostic tasks that compute the error labels of those places against `exact` at `clock`'s time; both must
+  /// outlive the task list.
   virtual void scheduleMeasureError(TaskList& tasks, const GasReference& exact, const Clock& clock) const = 0;
 };
 

@@ -42,9 +42,11 @@ std::vector<MeasuredError> GasError::errors() const {
     errors.push_back({"pressure", place, &labels.pressure, norms});
     errors.push_back({"energy", place, &labels.energy, norms});
   };
-  add("particle", particleError, {"L1", "L2", "max"});
-  add("cell", cellError, {"L1", "L2"});
-  errors.push_back({"density", "node", &nodeError, {"max"}});
+  for (const MeasuredPlace place : solution_->measuredPlaces()) {
+    if (place == MeasuredPlace::particle) add("particle", particleError, {"L1", "L2", "max"});
+    if (place == MeasuredPlace::cell) add("cell", cellError, {"L1", "L2"});
+    if (place == MeasuredPlace::node) errors.push_back({"density", "node", &nodeError, {"max"}});
+  }
   return errors;
 }
 

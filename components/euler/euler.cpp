@@ -1,0 +1,57 @@
+#include "components/euler/euler.hpp"
+
+#include "components/euler/tasks/advance.hpp"
+#include "components/euler/tasks/compute_stable_time_step.hpp"
+#include "components/euler/tasks/diagnose.hpp"
+#include "components/euler/tasks/initialize.hpp"
+#include "components/euler/tasks/measure_error.hpp"
+
+namespace tushar::euler {
+
+template <int D>
+void Euler<D>::scheduleInitialize(TaskList& tasks) const {
+  tasks.perPatch("euler::initialize", initialize<D>, with(settings_), computes(c::density), computes(c::momentum<D>),
+                 computes(c::totalEnergy));
+}
+
+template <int D>
+void Euler<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
+  tasks.perPatch("euler::computeStableTimeStep", computeStableTimeStep<D>, with(settings_.gas), with(settings_.cfl),
+                 requiresOld(c::density), requiresOld(c::momentum<D>), requiresOld(c::totalEnergy), computes(delT));
+}
+
+template <int D>
+void Euler<D>::scheduleTimeAdvance(TaskList& tasks) const {
+  const int ghost = reach(settings_.method);
+  tasks.perPatch("euler::advance", chooseAdvance<D>(settings_.method), with(settings_.gas),
+                 requiresOld(c::density, ghost), requiresOld(c::momentum<D>, ghost), requiresOld(c::totalEnergy, ghost),
+                 requiresOld(delT), computes(c::density), computes(c::momentum<D>), computes(c::totalEnergy));
+}
+
+template <int D>
+void Euler<D>::scheduleDiagnostics(TaskList& tasks) const {
+  tasks.perPatch("euler::sumMass", sumMass<D>, requiresOld(c::density), computes(total::mass));
+  tasks.perPatch("euler::sumMomentum", sumMomentum<D>, requiresOld(c::momentum<D>), computes(total::momentum));
+  tasks.perPatch("euler::sumEnergy", sumEnergy<D>, requiresOld(c::totalEnergy), computes(total::energy));
+  tasks.perPatch("euler::computePressure", computePressure<D>, with(settings_.gas), requiresOld(c::density),
+                 requiresOld(c::momentum<D>), requiresOld(c::totalEnergy), computes(c::pressure));
+  tasks.perPatch("euler::computeVelocity", computeVelocity<D>, requiresOld(c::density), requiresOld(c::momentum<D>),
+                 computes(c::velocity<D>));
+  tasks.perPatch("euler::computeInternalEnergy", computeInternalEnergy<D>, requiresOld(c::density),
+                 requiresOld(c::momentum<D>), requiresOld(c::totalEnergy), computes(c::internalEnergy));
+}
+
+template <int D>
+void Euler<D>::scheduleMeasureError(TaskList& tasks, const reference::GasReference& exact,
+                                    const reference::Clock& clock) const {
+  tasks.perPatch("euler::measureCellError", measureCellError<D>, with(settings_.gas), with(&exact), with(&clock),
+                 requiresOld(c::density), requiresOld(c::momentum<D>), requiresOld(c::totalEnergy),
+                 computes(reference::cellError.density), computes(reference::cellError.velocity),
+                 computes(reference::cellError.pressure), computes(reference::cellError.energy));
+}
+
+template class Euler<1>;
+template class Euler<2>;
+template class Euler<3>;
+
+}  // namespace tushar::euler

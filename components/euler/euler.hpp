@@ -1,0 +1,35 @@
+#pragma once
+
+#include "components/euler/labels.hpp"
+#include "components/euler/settings.hpp"
+#include "components/reference/gas_solution.hpp"
+
+namespace tushar::euler {
+
+/// Godunov's method for the Euler equations of gas dynamics in D dimensions: dU/dt + sum_d dF_d(U)/dx_d = 0,
+/// U = (rho, rho v, E).
+///
+/// A face with `Symmetric` is a wall; one with Dirichlet values of `Density`, `Velocity` or `Pressure` lets gas in;
+/// any other one lets it out. Mass, momentum and energy change by what flows through the sides of the grid alone.
+template <int D>
+class Euler : public Component, public reference::GasSolution {
+ public:
+  explicit Euler(Settings settings) : settings_(std::move(settings)) {}
+
+  void scheduleInitialize(TaskList& tasks) const override;
+  void scheduleComputeStableTimeStep(TaskList& tasks) const override;
+  void scheduleTimeAdvance(TaskList& tasks) const override;
+  void scheduleDiagnostics(TaskList& tasks) const override;
+  void scheduleMeasureError(TaskList& tasks, const reference::GasReference& exact,
+                            const reference::Clock& clock) const override;
+  std::vector<reference::MeasuredPlace> measuredPlaces() const override { return {reference::MeasuredPlace::cell}; }
+
+ private:
+  Settings settings_;
+};
+
+extern template class Euler<1>;
+extern template class Euler<2>;
+extern template class Euler<3>;
+
+}  // namespace tushar::euler

@@ -1,0 +1,132 @@
+#include "components/euler/input.hpp"
+
+#include <fmt/format.h>
+
+#include "components/euler/euler.hpp"
+#include "core/simulation/by_dimension.hpp"
+
+namespace tushar::euler {
+
+using input::Diagnostics;
+using input::Element;
+using input::Schema;
+
+namespace {
+
+const Schema<GasObject>& objectSchema() {
+  static const Schema<GasObject> schema =
+      Schema<GasObject>("geom_object", "The gas of a region at the start; where regions overlap, the last one counts.")
+          .custom(
+              "shape",
+              [](GasObject& object, const Element& element, Diagnostics& diagnostics) {
+                object.where = element.where();
+                object.shape = input::readGeometry(element, diagnostics);
+              },
+              input::geometryNames(), "the region: cells whose middle is inside; several are united",
+              input::describeGeometry)
+          .required("density", &GasObject::density, "kg/m^3", "density at the start", input::positive())
+          .value("velocity", &GasObject::velocity, input::VectorExpression(), "m/s", "velocity at the start")
+          .required("pressure", &GasObject::pressure, "Pa", "pressure at the start; above -p_infinity");
+  return schema;
+}
+
+enum class GasType { ideal, stiffened };
+struct GasSection {
+  GasType type = GasType::ideal;
+  double gamma = 1.4, pInfinity = 0;
+};
+const Schema<GasSection>& gasSchema() {
+  static const Schema<GasSection> schema =
+      Schema<GasSection>("gas", "p = (gamma - 1) rho epsilon - gamma p_infinity.")
+          .choiceAttribute("type", &GasSection::type,
+                           {{"ideal_gas", GasType::ideal}, {"stiffened_gas", GasType::stiffened}}, GasType::ideal,
+                           "an ideal gas has p_infinity = 0")
+          .value("gamma", &GasSection::gamma, 1.4, "1", "ratio of specific heats", input::greaterThan(1))
+          .value("p_infinity", &GasSection::pInfinity, 0, "Pa", "stiffness: 0 for air, about 6e8 for water",
+                 input::nonNegative())
+          .check([](const GasSection& gas, const Element& element, Diagnostics& diagnostics) {
+            if (gas.type == GasType::ideal && gas.pInfinity > 0)
+              diagnostics.error(element, "an ideal_gas has no p_infinity; use type=\"stiffened_gas\"");
+          });
+  return schema;
+}
+
+struct EulerSection {
+  FluxKind flux = FluxKind::hllc;
+  Reconstruction reconstruction = Reconstruction::musclHancock;
+  Limiter limiter = Limiter::vanLeer;
+  double cfl = 0.8;
+  GasSection gas;
+  std::vector<GasObject> objects;
+};
+const Schema<EulerSection>& schema() {
+  static const Schema<EulerSection> schema =
+      Schema<EulerSection>("Euler", "Gas dynamics by finite volumes: Godunov's method and MUSCL-Hancock.")
+          .choice("flux", &EulerSection::flux, {{"hllc", FluxKind::hllc}, {"exact", FluxKind::exact}}, FluxKind::hllc,
+                  "the Riemann solver at faces: three waves, or the exact solution (slow)")
+          .choice("reconstruction", &EulerSection::reconstruction,
+                  {{"first_order", Reconstruction::firstOrder}, {"muscl_hancock", Reconstruction::musclHancock}},
+                  Reconstruction::musclHancock, "constant cells, or cells with slopes and a half step: second order")
+          .choice("limiter", &EulerSection::limiter,
+                  {{"minmod", Limiter::minmod}, {"van_leer", Limiter::vanLeer}, {"mc", Limiter::mc}}, Limiter::vanLeer,
+                  "of the slopes, from the most to the least diffusive")
+          .value("cfl", &EulerSection::cfl, 0.8, "1", "dt times the greatest sum over axes of (|v| + c) / h",
+                 input::positive(), input::atMost(1))
+          .section("gas", &EulerSection::gas, gasSchema())
+          .list(
+              "geom_object", &EulerSection::objects, objectSchema(),
+              "the gas of a region at the start; where regions overlap, the last one counts; they must cover the grid",
+              1);
+  return schema;
+}
+
+/// The values that a face may prescribe: Dirichlet ones, with a positive density and p + p_infinity.
+void checkBoundaries(const Element& root, double pInfinity, Diagnostics& diagnostics) {
+  const auto grid = root.child("Grid");
+  const auto group = grid ? grid->child("BoundaryConditions") : std::nullopt;
+  if (!group) return;
+  for (const Element& face : group->children("Face"))
+    for (const Element& condition : face.children("BCType")) {
+      const std::string label = condition.attribute("label").value_or(""),
+                        var = condition.attribute("var").value_or("");
+      if (label != "Symmetric" && var != "Dirichlet")
+        diagnostics.error(condition, fmt::format("var: found '{}', expected 'Dirichlet' for {} of gas that flows in; a "
+                                                 "face with no condition lets gas out",
+                                                 var, label));
+      const auto text = condition.child("value");
+      const auto value = text ? input::parse<double>(text->text()) : input::parse<double>("1");
+      const auto limit = [&](const std::string& of, double least, const std::string& unit) {
+        if (label == of && value && !input::satisfies(*value, input::greaterThan(least)))
+          diagnostics.error(condition, "value: " + input::violation(text->text(), input::greaterThan(least), unit));
+      };
+      limit("Density", 0, "kg/m^3");
+      limit("Pressure", 0 - pInfinity, "Pa");
+    }
+}
+
+}  // namespace
+
+simulation::ComponentKind kind() {
+  simulation::ComponentKind kind;
+  kind.name = "euler";
+  kind.sentence = "finite-volume gas dynamics: Godunov's method and MUSCL-Hancock";
+  kind.sections = {"Euler"};
+  kind.boundaryLabels = {"Symmetric", "Density", "Velocity", "Pressure"};
+  kind.describe = [](std::ostream& out) { schema().describe(out); };
+  kind.read = [](const Element& root, Diagnostics& diagnostics) -> simulation::MakeComponent {
+    const std::size_t before = diagnostics.size();
+    const EulerSection read = simulation::readSection(root, schema(), diagnostics);
+    checkBoundaries(root, read.gas.pInfinity, diagnostics);
+    if (diagnostics.size() > before) return {};
+    Settings settings;
+    settings.where = root.child("Euler")->where();
+    settings.method = {read.flux, read.reconstruction, read.limiter};
+    settings.cfl = read.cfl;
+    settings.gas = {read.gas.gamma, read.gas.pInfinity};
+    settings.objects = read.objects;
+    return [settings](const Level& level) { return simulation::makeByDimension<Euler>(level, settings); };
+  };
+  return kind;
+}
+
+}  // namespace tushar::euler

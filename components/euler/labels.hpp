@@ -1,0 +1,26 @@
+#pragma once
+
+#include "core/core.hpp"
+
+namespace tushar::euler {
+
+/// Cell variables. The first three are the state; the others are derived when a scene saves them.
+namespace c {
+inline constexpr CellLabel<double> density{"c.density", "kg/m^3", "mass density"};
+template <int D>
+inline constexpr CellLabel<Vec<D>> momentum{"c.momentum", "kg/(m^2 s)", "momentum per volume"};
+inline constexpr CellLabel<double> totalEnergy{"c.totalEnergy", "J/m^3", "internal and kinetic energy per volume"};
+inline constexpr CellLabel<double> pressure{"c.pressure", "Pa", "pressure"};
+template <int D>
+inline constexpr CellLabel<Vec<D>> velocity{"c.velocity", "m/s", "velocity"};
+inline constexpr CellLabel<double> internalEnergy{"c.internalEnergy", "J/kg", "internal energy per mass"};
+}  // namespace c
+
+/// Totals over all cells.
+namespace total {
+inline constexpr ReductionLabel<Sum> mass{"TotalMass", "kg", "mass in all cells"};
+inline constexpr ReductionLabel<VectorSum> momentum{"TotalMomentum", "kg m/s", "momentum in all cells"};
+inline constexpr ReductionLabel<Sum> energy{"TotalEnergy", "J", "internal and kinetic energy in all cells"};
+}  // namespace total
+
+}  // namespace tushar::euler

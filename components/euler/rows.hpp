@@ -1,0 +1,96 @@
+#pragma once
+
+#include <vector>
+
+#include "components/euler/gas.hpp"
+#include "core/core.hpp"
+
+namespace tushar::euler {
+
+/// Calls `visit(first, count)` for each row of the box along the first axis.
+template <int D, class Visit>
+void forEachRow(const Box& box, Visit&& visit) {
+  Box starts = box;
+  starts.upper[0] = starts.lower[0] + 1;
+  if (box.empty()) return;
+  forEach<D>(starts, [&](const Index<D>& first) { visit(first, box.extent(0)); });
+}
+
+/// Where a row of `count` cells of a view begins; both of its ends are checked where views are.
+template <int D, class T>
+T* rowOf(const CellView<T>& view, Index<D> first, int count) {
+  T* row = &view[first];
+  first[0] += count - 1;
+  static_cast<void>(view[first]);
+  return row;
+}
+
+/// Cells of a block of work: it and what it needs around it stay in the second-level cache.
+template <int D>
+inline constexpr Index3 kBlock = D == 1   ? Index3{{256, 1, 1}}
+                                 : D == 2 ? Index3{{128, 16, 1}}
+                                          : Index3{{64, 8, 8}};
+
+/// Calls `visit(block)` for boxes that tile the box, none larger than kBlock.
+template <int D, class Visit>
+void forEachBlock(const Box& box, Visit&& visit) {
+  Box blocks{{}, Index3::filled(1)};
+  for (int d = 0; d < D; ++d) blocks.upper[d] = (box.extent(d) + kBlock<D>[d] - 1) / kBlock<D>[d];
+  forEach<D>(blocks, [&](const Index<D>& at) {
+    Box block = box;
+    for (int d = 0; d < D; ++d) {
+      block.lower[d] = box.lower[d] + at[d] * kBlock<D>[d];
+      block.upper[d] = std::min(block.lower[d] + kBlock<D>[d], box.upper[d]);
+    }
+    visit(block);
+  });
+}
+
+/// One State per cell of a box, each number in an array of its own, the first axis fastest.
+template <int D>
+class Rows {
+ public:
+  static constexpr std::size_t numbers = static_cast<std::size_t>(D) + 2;
+  using Pointers = std::array<double*, numbers>;
+
+  /// Room for boxes of up to `cells` cells.
+  explicit Rows(std::size_t cells) : cells_(cells), values_(cells * numbers) {}
+
+  /// The box that the rows hold from now on.
+  void hold(const Box& box) {
+    box_ = box;
+    stride_ = {1, box.extent(0), static_cast<std::ptrdiff_t>(box.extent(0)) * box.extent(1)};
+  }
+  const Box& box() const { return box_; }
+  /// Distance in memory of neighbours along an axis.
+  std::ptrdiff_t stride(int axis) const { return stride_[static_cast<std::size_t>(axis)]; }
+
+  /// The numbers of a cell; those of the next cell of its row follow.
+  Pointers at(const Index<D>& cell) {
+    std::ptrdiff_t offset = 0;
+    for (int d = 0; d < D; ++d) offset += (cell[d] - box_.lower[d]) * stride(d);
+    Pointers pointers;
+    for (std::size_t k = 0; k < numbers; ++k) pointers[k] = values_.data() + k * cells_ + offset;
+    return pointers;
+  }
+
+ private:
+  std::size_t cells_;
+  std::vector<double> values_;
+  Box box_;
+  std::array<std::ptrdiff_t, 3> stride_{};
+};
+
+/// The State at place `i` of rows.
+template <int D>
+State<D> load(const typename Rows<D>::Pointers& rows, std::ptrdiff_t i) {
+  State<D> state;
+  for (std::size_t k = 0; k < state.size(); ++k) state[k] = rows[k][i];
+  return state;
+}
+template <int D>
+void store(const typename Rows<D>::Pointers& rows, std::ptrdiff_t i, const State<D>& state) {
+  for (std::size_t k = 0; k < state.size(); ++k) rows[k][i] = state[k];
+}
+
+}  // namespace tushar::euler

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "components/euler/gas.hpp"
+#include "core/base/error.hpp"
+#include "core/input/expression.hpp"
+#include "core/input/geometry.hpp"
+
+namespace tushar::euler {
+
+/// The gas of a region at the start, which may vary in space.
+struct GasObject {
+  Location where;  ///< in the scene
+  std::shared_ptr<const input::GeometryPiece> shape;
+  input::Expression density;         ///< kg/m³
+  input::Expression pressure;        ///< Pa
+  input::VectorExpression velocity;  ///< m/s
+};
+
+enum class FluxKind { exact, hllc };
+enum class Reconstruction { firstOrder, musclHancock };
+enum class Limiter { minmod, vanLeer, mc };
+
+/// Which of the methods.
+struct Method {
+  FluxKind flux = FluxKind::hllc;
+  Reconstruction reconstruction = Reconstruction::musclHancock;
+  Limiter limiter = Limiter::vanLeer;
+};
+
+/// The `Euler` section.
+struct Settings {
+  Location where;  ///< in the scene
+  Method method;
+  double cfl = 0.8;  ///< dt max(sum_d (|v_d| + c) / h_d)
+  Gas gas;
+  std::vector<GasObject> objects;  ///< where they overlap, the last one counts
+};
+
+}  // namespace tushar::euler

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "components/euler/labels.hpp"
+#include "components/euler/settings.hpp"
+
+namespace tushar::euler {
+
+/// One step on a patch: the body of the task, with the gas, the state before [kg/m³, kg/(m² s), J/m³], the time step
+/// [s] and the state after.
+///
+/// U' = U - dt sum_d (F_{d,i+1/2} - F_{d,i-1/2}) / h_d, all axes at once (unsplit). First order: F of the cells on
+/// both sides of a face. MUSCL-Hancock: limited slopes of rho, v, p along each axis; what the fluxes of a cell's own
+/// face values change in half a step is added to each of them; F of what then stands on both sides of a face. A cell
+/// whose values at a face would lose their positive density or p + p_inf is taken as constant for this step.
+/// Source: B. van Leer, SIAM J. Sci. Stat. Comput. 5 (1984) 1; Toro, sections 6.3, 14.4 and 16.5.
+template <int D>
+using Advance = void (*)(const Patch& patch, const Gas& gas, CellView<const double> density,
+                         CellView<const Vec<D>> momentum, CellView<const double> totalEnergy, double dt,
+                         CellView<double> newDensity, CellView<Vec<D>> newMomentum, CellView<double> newTotalEnergy);
+
+/// The body for a method: each is compiled on its own, so that no loop over cells asks which one it is.
+template <int D>
+Advance<D> chooseAdvance(const Method& method);
+
+/// How many cells beyond a patch a step reads.
+inline int reach(const Method& method) { return method.reconstruction == Reconstruction::firstOrder ? 1 : 2; }
+
+}  // namespace tushar::euler

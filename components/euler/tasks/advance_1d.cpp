@@ -1,0 +1,7 @@
+#include "components/euler/tasks/advance_patch.hpp"
+
+namespace tushar::euler {
+
+template Advance<1> chooseAdvance<1>(const Method&);
+
+}  // namespace tushar::euler

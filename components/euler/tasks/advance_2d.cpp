@@ -1,0 +1,7 @@
+#include "components/euler/tasks/advance_patch.hpp"
+
+namespace tushar::euler {
+
+template Advance<2> chooseAdvance<2>(const Method&);
+
+}  // namespace tushar::euler

@@ -1,0 +1,7 @@
+#include "components/euler/tasks/advance_patch.hpp"
+
+namespace tushar::euler {
+
+template Advance<3> chooseAdvance<3>(const Method&);
+
+}  // namespace tushar::euler

@@ -1,0 +1,165 @@
+#pragma once
+
+#include "components/euler/boundary.hpp"
+#include "components/euler/limiters.hpp"
+#include "components/euler/tasks/advance.hpp"
+#include "components/euler/tasks/row_kernels.hpp"
+
+namespace tushar::euler {
+
+/// Cells are constant: the values at their faces are their own.
+struct Constant {
+  static constexpr int reach = 1;
+};
+/// Cells have limited slopes: the values at their faces are those half a step later.
+template <class Limited>
+struct Sloped {
+  static constexpr int reach = 2;
+};
+
+/// The state that a step reads or writes: T is double or const double.
+template <int D, class T>
+struct StateViews {
+  CellView<T> density;
+  CellView<std::conditional_t<std::is_const_v<T>, const Vec<D>, Vec<D>>> momentum;
+  CellView<T> totalEnergy;
+};
+
+/// What a block of cells needs on the way, around it too.
+template <int D>
+struct Work {
+  /// Room for blocks of a patch.
+  Work(const Box& cells, int reach) : w(roomFor(cells, reach)), flux(roomFor(cells, reach)) {
+    for (int d = 0; d < D && reach > 1; ++d) {
+      lower.emplace_back(roomFor(cells, reach));
+      upper.emplace_back(roomFor(cells, reach));
+    }
+  }
+  static std::size_t roomFor(const Box& cells, int reach) {
+    std::size_t room = 1;
+    for (int d = 0; d < D; ++d) room *= static_cast<std::size_t>(std::min(cells.extent(d), kBlock<D>[d]) + 2 * reach);
+    return room;
+  }
+  void hold(const Box& box) {
+    w.hold(box);
+    flux.hold(box);
+    for (Rows<D>& values : lower) values.hold(box);
+    for (Rows<D>& values : upper) values.hold(box);
+  }
+
+  Rows<D> w;                          ///< primitive values of cells
+  std::vector<Rows<D>> lower, upper;  ///< primitive values at faces, per axis; none where cells are constant
+  Rows<D> flux;                       ///< through lower faces, of one axis at a time
+  std::vector<double> least;          ///< of a row: least density and p + p_inf at faces
+};
+
+/// rho, v, p of the cells of the work's box that are on the grid.
+template <int D>
+void recover(const Gas& gas, const Level& level, const StateViews<D, const double>& old, Rows<D>& w) {
+  forEachRow<D>(w.box().intersect(level.cells()), [&](const Index<D>& first, int count) {
+    recoverRow<D>(gas, rowOf(old.density, first, count), rowOf(old.momentum, first, count)->data(),
+                  rowOf(old.totalEnergy, first, count), count, w.at(first));
+  });
+}
+
+/// Adds the half step's change of a row across an axis, and sets its limited values at the faces.
+template <int D, class Limited, int Axis>
+void reconstruct(const Gas& gas, const Index<D>& first, int count, double ratio, Work<D>& work) {
+  const Pointers<D> w = work.w.at(first), lower = work.lower[Axis].at(first), upper = work.upper[Axis].at(first);
+  for (std::size_t k = 0; k < w.size(); ++k)
+    reconstructRow<Limited>(w[k], work.w.stride(Axis), count, lower[k], upper[k]);
+  halfStepRow<D, Axis>(gas, lower, upper, ratio, count, work.flux.at(first));
+}
+
+/// Values at the faces of the cells of `box`, half a step later. The rows of fluxes hold the change on the way.
+template <int D>
+void predict(const Gas&, const Level&, const Box&, double, Work<D>&, Constant) {}
+template <int D, class Limited>
+void predict(const Gas& gas, const Level& level, const Box& box, double dt, Work<D>& work, Sloped<Limited>) {
+  forEachRow<D>(box, [&](const Index<D>& first, int count) {
+    const auto ratio = [&](int d) { return 0.5 * dt / level.spacing(d); };
+    reconstruct<D, Limited, 0>(gas, first, count, ratio(0), work);
+    if constexpr (D > 1) reconstruct<D, Limited, 1>(gas, first, count, ratio(1), work);
+    if constexpr (D > 2) reconstruct<D, Limited, 2>(gas, first, count, ratio(2), work);
+    const Pointers<D> change = work.flux.at(first);
+    work.least.assign(static_cast<std::size_t>(count), 1.0);
+    for (std::size_t d = 0; d < D; ++d)
+      for (Rows<D>* values : {&work.lower[d], &work.upper[d]})
+        changeRow<D>(gas, change, count, values->at(first), work.least.data());
+    for (std::size_t d = 0; d < D; ++d)
+      flattenRow<D>(work.least.data(), work.w.at(first), count, work.lower[d].at(first), work.upper[d].at(first));
+  });
+}
+
+/// Fluxes through the lower faces of the cells of `faces` across an axis.
+template <int D, class Flux, class Shape, int Axis>
+void computeFluxes(const Gas& gas, const Box& faces, Work<D>& work) {
+  constexpr bool constant = Shape::reach == 1;
+  Rows<D>& below = constant ? work.w : work.upper[Axis];
+  Rows<D>& above = constant ? work.w : work.lower[Axis];
+  forEachRow<D>(faces, [&](const Index<D>& first, int count) {
+    fluxRow<D, Flux, Axis>(gas, below.at(first - Index<D>::unit(Axis)), above.at(first), count, work.flux.at(first));
+  });
+}
+
+/// Adds what flows in across an axis; the first axis starts from the old state.
+template <int D, int Axis>
+void addFluxes(double ratio, const Box& block, const StateViews<D, const double>& old, Rows<D>& flux,
+               const StateViews<D, double>& fresh) {
+  forEachRow<D>(block, [&](const Index<D>& first, int count) {
+    const Pointers<D> f = flux.at(first);
+    const auto update = [&](const double* from, double* to, std::size_t number, int step) {
+      updateRow(Axis == 0 ? from : to, f[number], flux.stride(Axis), ratio, step, count, to);
+    };
+    update(rowOf(old.density, first, count), rowOf(fresh.density, first, count), kDensity, 1);
+    const double* momentum = rowOf(old.momentum, first, count)->data();
+    double* newMomentum = rowOf(fresh.momentum, first, count)->data();
+    for (int k = 0; k < D; ++k) update(momentum + k, newMomentum + k, kVelocity(k), D);
+    update(rowOf(old.totalEnergy, first, count), rowOf(fresh.totalEnergy, first, count), kPressure<D>, 1);
+  });
+}
+
+template <int D, class Flux, class Shape, int Axis>
+void sweep(const Gas& gas, const Level& level, const Box& block, double dt, const StateViews<D, const double>& old,
+           Work<D>& work, const StateViews<D, double>& fresh) {
+  Box faces = block;
+  ++faces.upper[Axis];
+  computeFluxes<D, Flux, Shape, Axis>(gas, faces, work);
+  addFluxes<D, Axis>(dt / level.spacing(Axis), block, old, work.flux, fresh);
+}
+
+/// Advance<D> of one method.
+template <int D, class Flux, class Shape>
+void advance(const Patch& patch, const Gas& gas, CellView<const double> density, CellView<const Vec<D>> momentum,
+             CellView<const double> totalEnergy, double dt, CellView<double> newDensity, CellView<Vec<D>> newMomentum,
+             CellView<double> newTotalEnergy) {
+  const Level& level = patch.level();
+  const StateViews<D, const double> old{density, momentum, totalEnergy};
+  const StateViews<D, double> fresh{newDensity, newMomentum, newTotalEnergy};
+  const GhostRules<D> rules = ghostRules<D>(level);
+  Work<D> work(patch.cells(), Shape::reach);
+  forEachBlock<D>(patch.cells(), [&](const Box& block) {
+    work.hold(block.grown(Shape::reach, D));
+    recover<D>(gas, level, old, work.w);
+    fillBeyondGrid<D>(level, rules, work.w);
+    predict<D>(gas, level, block.grown(1, D), dt, work, Shape{});
+    sweep<D, Flux, Shape, 0>(gas, level, block, dt, old, work, fresh);
+    if constexpr (D > 1) sweep<D, Flux, Shape, 1>(gas, level, block, dt, old, work, fresh);
+    if constexpr (D > 2) sweep<D, Flux, Shape, 2>(gas, level, block, dt, old, work, fresh);
+  });
+}
+
+template <int D, class Flux>
+Advance<D> chooseShape(const Method& method) {
+  if (method.reconstruction == Reconstruction::firstOrder) return advance<D, Flux, Constant>;
+  if (method.limiter == Limiter::minmod) return advance<D, Flux, Sloped<Minmod>>;
+  if (method.limiter == Limiter::vanLeer) return advance<D, Flux, Sloped<VanLeer>>;
+  return advance<D, Flux, Sloped<Mc>>;
+}
+
+template <int D>
+Advance<D> chooseAdvance(const Method& method) {
+  return method.flux == FluxKind::exact ? chooseShape<D, ExactFlux>(method) : chooseShape<D, Hllc>(method);
+}
+
+}  // namespace tushar::euler

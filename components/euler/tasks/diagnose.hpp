@@ -1,0 +1,65 @@
+#pragma once
+
+#include "components/euler/gas.hpp"
+#include "components/euler/labels.hpp"
+
+namespace tushar::euler {
+
+/// Mass in the patch [kg].
+template <int D>
+void sumMass(const Patch& patch, CellView<const double> density, Sum& mass) {
+  WideSum sum(mass);
+  const double volume = patch.level().cellVolume();
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) { sum.add(volume * density[cell]); });
+}
+
+/// Momentum in the patch [kg m/s].
+template <int D>
+void sumMomentum(const Patch& patch, CellView<const Vec<D>> momentum, VectorSum& total) {
+  WideSum x(total.x), y(total.y), z(total.z);
+  const double volume = patch.level().cellVolume();
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    const Vec3 wide = volume * patch.level().expandDirection<D>(momentum[cell]);
+    x.add(wide[0]);
+    y.add(wide[1]);
+    z.add(wide[2]);
+  });
+}
+
+/// Internal and kinetic energy in the patch [J].
+template <int D>
+void sumEnergy(const Patch& patch, CellView<const double> totalEnergy, Sum& energy) {
+  WideSum sum(energy);
+  const double volume = patch.level().cellVolume();
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) { sum.add(volume * totalEnergy[cell]); });
+}
+
+/// Internal energy per volume [J/m³] of a cell: E - rho v² / 2.
+template <int D>
+double internalEnergyPerVolume(double density, const Vec<D>& momentum, double totalEnergy) {
+  return totalEnergy - 0.5 * momentum.squaredNorm() / density;
+}
+
+template <int D>
+void computePressure(const Patch& patch, const Gas& gas, CellView<const double> density,
+                     CellView<const Vec<D>> momentum, CellView<const double> totalEnergy, CellView<double> pressure) {
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    pressure[cell] = gas.pressure(internalEnergyPerVolume<D>(density[cell], momentum[cell], totalEnergy[cell]));
+  });
+}
+
+template <int D>
+void computeVelocity(const Patch& patch, CellView<const double> density, CellView<const Vec<D>> momentum,
+                     CellView<Vec<D>> velocity) {
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) { velocity[cell] = momentum[cell] / density[cell]; });
+}
+
+template <int D>
+void computeInternalEnergy(const Patch& patch, CellView<const double> density, CellView<const Vec<D>> momentum,
+                           CellView<const double> totalEnergy, CellView<double> internalEnergy) {
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    internalEnergy[cell] = internalEnergyPerVolume<D>(density[cell], momentum[cell], totalEnergy[cell]) / density[cell];
+  });
+}
+
+}  // namespace tushar::euler

@@ -1,0 +1,48 @@
+#include "components/euler/tasks/initialize.hpp"
+
+#include <fmt/format.h>
+
+namespace tushar::euler {
+
+namespace {
+
+const GasObject& objectAt(const Settings& settings, const Vec3& point) {
+  for (auto object = settings.objects.rbegin(); object != settings.objects.rend(); ++object)
+    if (object->shape->contains(point)) return *object;
+  throw InputError({{settings.where, "Euler",
+                     fmt::format("no geom_object contains the middle of the cell at ({:g}, {:g}, {:g}); every cell "
+                                 "needs a gas at the start",
+                                 point[0], point[1], point[2])}});
+}
+
+void checkState(const Gas& gas, const GasObject& object, const Vec3& point, double density, double pressure) {
+  if (density > 0 && pressure + gas.pInfinity > 0) return;
+  throw InputError({{object.where, "Euler/geom_object",
+                     fmt::format("density {:g} kg/m^3 and pressure {:g} Pa at ({:g}, {:g}, {:g}); the density and the "
+                                 "pressure + p_infinity must be positive",
+                                 density, pressure, point[0], point[1], point[2])}});
+}
+
+}  // namespace
+
+template <int D>
+void initialize(const Patch& patch, const Settings& settings, CellView<double> density, CellView<Vec<D>> momentum,
+                CellView<double> totalEnergy) {
+  const Level& level = patch.level();
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    const Vec3 point = level.expandPoint<D>(level.cellCentre<D>(cell));
+    const GasObject& object = objectAt(settings, point);
+    const double rho = object.density(point), p = object.pressure(point);
+    checkState(settings.gas, object, point, rho, p);
+    const Vec<D> v = level.reduce<D>(object.velocity(point));
+    density[cell] = rho;
+    momentum[cell] = rho * v;
+    totalEnergy[cell] = settings.gas.internalEnergy(p) + 0.5 * rho * v.squaredNorm();
+  });
+}
+
+template void initialize<1>(const Patch&, const Settings&, CellView<double>, CellView<Vec<1>>, CellView<double>);
+template void initialize<2>(const Patch&, const Settings&, CellView<double>, CellView<Vec<2>>, CellView<double>);
+template void initialize<3>(const Patch&, const Settings&, CellView<double>, CellView<Vec<3>>, CellView<double>);
+
+}  // namespace tushar::euler

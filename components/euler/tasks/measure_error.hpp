@@ -1,0 +1,32 @@
+#pragma once
+
+#include "components/euler/gas.hpp"
+#include "components/euler/labels.hpp"
+#include "components/euler/tasks/diagnose.hpp"
+#include "components/reference/gas_solution.hpp"
+
+namespace tushar::euler {
+
+/// Errors of density, velocity, pressure and internal energy of the cells against the exact means over them.
+template <int D>
+void measureCellError(const Patch& patch, const Gas& gas, const reference::GasReference* exact,
+                      const reference::Clock* clock, CellView<const double> density, CellView<const Vec<D>> momentum,
+                      CellView<const double> totalEnergy, Norm& rho, Norm& u, Norm& pressure, Norm& energy) {
+  const Level& level = patch.level();
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    Vec<D> lower, upper;
+    for (int d = 0; d < D; ++d) {
+      lower[d] = level.nodePosition(d, cell[d]);
+      upper[d] = level.nodePosition(d, cell[d] + 1);
+    }
+    const auto mean = exact->average(level.expandPoint<D>(lower), level.expandPoint<D>(upper), clock->time);
+    const double internal = internalEnergyPerVolume<D>(density[cell], momentum[cell], totalEnergy[cell]);
+    const Vec<D> velocity = momentum[cell] / density[cell];
+    rho.add(density[cell] - mean.density);
+    u.add((level.expandDirection<D>(velocity) - mean.velocity).norm());
+    pressure.add(gas.pressure(internal) - mean.pressure);
+    energy.add(internal / density[cell] - mean.energy);
+  });
+}
+
+}  // namespace tushar::euler
