@@ -199,13 +199,6 @@ TEST(Advance, IsOfSecondOrderOnASmoothWave) {
   EXPECT_NEAR(std::log2(errorOf(400, first) / errorOf(800, first)), 1, 0.15);
 }
 
-TEST(Advance, GivesAStiffenedGasWithoutStiffnessTheBitsOfAnIdealOne) {
-  GasBox<1> ideal(closedBox(1, 100), sodGas, {}, Gas{1.4}), stiff(closedBox(1, 100), sodGas, {}, Gas{1.4, 0});
-  ideal.run(0.1, 0.8);
-  stiff.run(0.1, 0.8);
-  expectSame<1>(ideal, stiff);
-}
-
 TEST(Advance, MovesAStiffenedGasAsAnIdealOneOfHigherPressure) {
   const auto raised = [](double by) {
     return [by](const Vec<1>& x) { return gasAt(sodGas(x)[0], 0, sodGas(x)[2] + by); };
