@@ -1,0 +1,99 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "core/data/buffer.hpp"
+#include "core/data/reduction.hpp"
+#include "core/data/views.hpp"
+
+namespace tushar::data {
+
+TEST(Label, StoresAsManyNumbersAsThereAreAxes) {
+  EXPECT_EQ((ParticleLabel<Vec<1>>("p.v", "m/s", "")).bytes, 8u);
+  EXPECT_EQ((ParticleLabel<Vec<3>>("p.v", "m/s", "")).bytes, 24u);
+}
+
+TEST(Label, StartsWithThePrefixOfItsCentring) {
+  EXPECT_THROW(ParticleLabel<double>("g.mass", "kg", ""), std::invalid_argument);
+  EXPECT_THROW(CellLabel<double>("mass", "kg", ""), std::invalid_argument);
+}
+
+TEST(Sum, DoesNotDependOnTheOrder) {
+  std::mt19937 generator(1);
+  std::uniform_real_distribution<double> exponent(-20, 20);
+  std::vector<double> values;
+  for (int k = 0; k < 1000; ++k) values.push_back((k % 2 ? 1 : -1) * std::exp(exponent(generator)));
+  const auto sumOf = [&] {
+    Sum sum;
+    for (const double value : values) sum.add(value);
+    return sum.total();
+  };
+
+  const double first = sumOf();
+
+  for (int k = 0; k < 20; ++k) {
+    std::shuffle(values.begin(), values.end(), generator);
+    EXPECT_EQ(sumOf(), first);
+  }
+}
+
+TEST(Sum, IsTheSameInLanes) {
+  Sum plain, wide;
+  {
+    WideSum lanes(wide);
+    for (int k = 1; k < 1000; ++k) {
+      plain.add(1.0 / k);
+      lanes.add(1.0 / k);
+    }
+  }
+
+  EXPECT_EQ(plain.total(), wide.total());
+}
+
+TEST(Norm, HasMeanRootMeanSquareAndMaximum) {
+  Norm norm, rest;
+  norm.add(3);
+  rest.add(-4);
+  norm.merge(rest);
+
+  EXPECT_EQ(norm.values(), (std::vector<double>{3.5, std::sqrt(12.5), 4}));
+}
+
+TEST(Norm, DoesNotHideANaN) {
+  Norm norm;
+  norm.add(std::nan(""));
+  norm.add(1);
+
+  EXPECT_TRUE(std::isnan(norm.max));
+}
+
+TEST(Buffer, KeepsWhatItIsToldToKeepWhenItGrows) {
+  Buffer buffer;
+  buffer.reserve(8);
+  buffer.data()[7] = std::byte{42};
+
+  buffer.reserve(1 << 20, 8);
+
+  EXPECT_EQ(buffer.data()[7], std::byte{42});
+  EXPECT_EQ(reinterpret_cast<std::uintptr_t>(buffer.data()) % 64, 0u);
+}
+
+TEST(View, RefusesWhatIsOutsideNamingTheLabel) {
+  if (!checked) GTEST_SKIP() << "views are checked in the dev preset only";
+  constexpr CellLabel<double> label{"c.height", "m", "height"};
+  std::vector<double> values(4);
+  const grid::Box box{{}, {{4, 1, 1}}};
+  const CellView<double> view(values.data(), box, box, &label);
+
+  try {
+    view[Index<1>{{4}}] = 1;
+    FAIL();
+  } catch (const AccessError& error) {
+    EXPECT_STREQ(error.what(),
+                 "c.height was used at (4,0,0), outside the box (0,0,0) to (3,0,0) that the task declared; declare more "
+                 "ghosts or stay inside");
+  }
+}
+
+}  // namespace tushar::data
