@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <ctime>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 
@@ -100,6 +101,13 @@ void writeFile(const std::string& path, const std::string& text) {
   if (!(file << text) || !file.flush()) throw FileError(fmt::format("{}: cannot be written", path));
 }
 
+/// Throws FileError now rather than after a long run; leaves no file behind.
+void checkWritable(const std::string& path) {
+  const bool existed = std::filesystem::exists(path);
+  if (!std::ofstream(path, std::ios::app)) throw FileError(fmt::format("{}: cannot be written", path));
+  if (!existed) std::filesystem::remove(path);
+}
+
 ExitCode runScene(const Arguments& arguments, const simulation::Catalogue& known,
                   std::chrono::steady_clock::time_point startedAt) {
   if (launchedRanks() > 1)
@@ -114,6 +122,7 @@ ExitCode runScene(const Arguments& arguments, const simulation::Catalogue& known
   if (arguments.schedule) run.phases().printSchedule(std::cout);
   if (arguments.check) fmt::print("{}: fine, {} particles at the start\n", arguments.scene, run.tryStart());
   if (arguments.check || arguments.schedule || !arguments.graph.empty()) return ExitCode::success;
+  if (!arguments.run.jsonPath.empty()) checkWritable(arguments.run.jsonPath);
   catchInterrupts();
   const simulation::Report report = run.run();
   if (!arguments.run.quiet) fmt::print("{}", toText(report));

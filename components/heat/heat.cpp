@@ -30,7 +30,12 @@ template <int D>
 void initialize(const Patch& patch, const Settings& settings, CellView<double> temperature) {
   const Level& level = patch.level();
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    temperature[cell] = settings.temperature(level.expandPoint<D>(level.cellCentre<D>(cell)));
+    const Vec3 middle = level.expandPoint<D>(level.cellCentre<D>(cell));
+    temperature[cell] = settings.temperature(middle);
+    if (!std::isfinite(temperature[cell]))
+      throw NumericalError(fmt::format("c.temperature is {} at ({:g}, {:g}, {:g})", temperature[cell], middle[0],
+                                       middle[1], middle[2]),
+                           "another formula for <temperature>");
   });
 }
 

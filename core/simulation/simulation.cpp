@@ -68,6 +68,10 @@ Report Simulation::run() {
 void Simulation::initialize() {
   scheduler_.run(phases_.initialize, {0, time_.time()});
   scheduler_.commit(phases_.initialize);
+  const int materials = static_cast<int>(phases_.materials().size());
+  if (materials > 0 && particleCount(warehouse_, materials) == 0)
+    throw InputError({{{problem_.scenePath, 0, 0}, "MaterialProperties",
+                       "there are no particles: no geom_object has a point on the grid"}});
 }
 
 void Simulation::step() {

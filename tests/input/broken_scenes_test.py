@@ -63,6 +63,9 @@ OVERRIDES = {
     "pressure and temperature": (LEFT + "temperature=300", "MaterialProperties/MPM/material/geom_object: gives both <pressure> and "
                                  "<temperature>; keep one"),
     "flat shape": (LEFT + "box/max=[0,1,1]", "MaterialProperties/MPM/material/geom_object/box"),
+    "density that is not a number": (LEFT + "density=sqrt(x-0.2)", "geom_object: its density is -nan at the point (0.000625, "
+                                     "0.5, 0.5); density must be greater than 0"),
+    "pressure negative in places": (LEFT + "pressure=x-0.1", "geom_object: its pressure is -0.099375 at the point"),
     "overlapping boxes": (LEFT + "box/max=[0.6,1,1]", "geom_object: overlaps the geom_object at"),
     "both output intervals": ("DataArchiver/outputTimestepInterval=5", "DataArchiver: gives both outputInterval and "
                               "outputTimestepInterval; keep one"),
@@ -77,6 +80,8 @@ OVERRIDES = {
     "ambiguous override": (MATERIAL + "geom_object/cfl=1", "--set"),
     "override without a value": ("Time/maxTime", "--set"),
 }
+
+FAR = "<min>[5,0,0]</min><max>[6,1,1]</max>"
 
 # name: (scene, position, sentence)
 TEXTS = {
@@ -93,6 +98,9 @@ TEXTS = {
                                "</Box></Level>"), ":", "a Level has one Box here; this is a second one"),
     "no method": (SOD[:SOD.index("    <gas_dynamics>")] + SOD[SOD.index("    </gas_dynamics>") + 20:], ":",
                   "gives neither <gas_dynamics> and <conserving_gas_dynamics>"),
+    "no particle on the grid": (SOD.replace("<min>[0,0,0]</min><max>[0.5,1,1]</max>", FAR)
+                                .replace("<min>[0.5,0,0]</min><max>[1,1,1]</max>", FAR.replace("5,", "7,").replace("6,", "8,")), ":",
+                                "there are no particles: no geom_object has a point on the grid"),
     "unknown shape": (SOD.replace('<box label="left">', '<bax label="left">').replace("</min><max>[0.5,1,1]</max></box>",
                       "</min><max>[0.5,1,1]</max></bax>"), ":", "(did you mean 'box'?)"),
 }

@@ -8,6 +8,10 @@ namespace tushar::mpm {
 /// Throws InputError if another body of the gas claims the point, too.
 void refuseOverlap(const Gas& gas, const GasObject& object, const Vec3& point);
 
+/// Throws InputError unless density is positive, pressure not negative, and all of the state finite.
+void refuseImpossible(const GasObject& object, const Vec3& point, double density, double pressure,
+                      const Vec3& velocity);
+
 /// Fills each body with its particles: `particlesPerCell` along each axis, in the middle of equal parts of the cell,
 /// x_p = (c + (k + 1/2) / N) h, where that point is inside the shape. They start with the body's state there.
 ///
@@ -32,11 +36,13 @@ void createParticles(const Patch& patch, const Gas& gas, ParticleMaker& maker, s
         if (!object.shape->contains(point)) return;
         refuseOverlap(gas, object, point);
         maker.add(cell, (level.cellNumber(cell) << 16) + inCell++);
-        const double rho = object.density(point);
+        const double rho = object.density(point), p = object.pressure(point);
+        const Vec3 v = object.velocity(point);
+        refuseImpossible(object, point, rho, p, v);
         x.push_back(at);
-        velocity.push_back(level.reduce<D>(object.velocity(point)));
+        velocity.push_back(level.reduce<D>(v));
         density.push_back(rho);
-        internalEnergy.push_back(gas.internalEnergy(rho, object.pressure(point)));
+        internalEnergy.push_back(gas.internalEnergy(rho, p));
       });
     }
   });
