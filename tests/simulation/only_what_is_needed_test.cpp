@@ -39,10 +39,12 @@ bool isHdf5Started() {
 }  // namespace
 
 TEST(OnlyWhatIsNeeded, ARunWithoutSaveStartsNoHdf5AndWritesNothing) {
+  const bool before = isHdf5Started();  // by another test of this process; ctest gives each its own
+
   const std::string folder = runSod(false);
 
   EXPECT_TRUE(std::filesystem::is_empty(folder));
-  EXPECT_FALSE(isHdf5Started());
+  EXPECT_EQ(isHdf5Started(), before);
 }
 
 TEST(OnlyWhatIsNeeded, ARunWithSaveDoesStartHdf5) {
