@@ -47,8 +47,9 @@ GhostRules<D> ghostRules(const Level& level) {
 template <int D>
 void fillBeyondGrid(const Level& level, const GhostRules<D>& rules, Rows<D>& rows) {
   const Box grid = level.cells();
-  Box known = rows.box().intersect(grid);
+  Box known = level.clipCells(rows.box());
   for (int d = 0; d < D; ++d) {
+    if (level.isPeriodic(d)) continue;
     for (std::size_t side = 0; side < 2; ++side) {
       Box beyond = known;
       beyond.lower[d] = side == 0 ? rows.box().lower[d] : grid.upper[d];

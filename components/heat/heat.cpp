@@ -50,9 +50,10 @@ namespace {
 
 /// T in the cell next to `cell` along axis `d`; beyond the grid, what makes the boundary condition hold at the face.
 template <int D>
-double neighbour(const Level& level, CellView<const double> temperature, const Index<D>& cell, int d, int side) {
+double neighbour(const Patch& patch, CellView<const double> temperature, const Index<D>& cell, int d, int side) {
   const Index<D> next = side == 0 ? cell - Index<D>::unit(d) : cell + Index<D>::unit(d);
-  if (level.cells().contains(next)) return temperature[next];
+  if (patch.cellsWithin(1).contains(next)) return temperature[next];
+  const Level& level = patch.level();
   const auto* condition = level.boundary(d, side, "Temperature");
   if (!condition) return temperature[cell];
   if (condition->kind == "Dirichlet") return 2 * condition->value[0] - temperature[cell];
@@ -68,8 +69,8 @@ void conduct(const Patch& patch, const Settings& settings, CellView<const double
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     double curvature = 0;
     for (int d = 0; d < D; ++d)
-      curvature += (neighbour<D>(level, temperature, cell, d, 0) - 2 * temperature[cell] +
-                    neighbour<D>(level, temperature, cell, d, 1)) /
+      curvature += (neighbour<D>(patch, temperature, cell, d, 0) - 2 * temperature[cell] +
+                    neighbour<D>(patch, temperature, cell, d, 1)) /
                    (level.spacing(d) * level.spacing(d));
     newTemperature[cell] = temperature[cell] + dt * settings.diffusivity() * curvature;
   });

@@ -85,6 +85,9 @@ struct ReductionLabel : Label {
       : Label{called, inUnit, meaning, Centring::reduction, Number::real, 1, sizeof(R), false} {}
 };
 
+/// The name of the label that says where particles are: ghosts beyond a periodic face have it moved there.
+inline constexpr std::string_view positionName = "p.x";
+
 /// Names every particle; kept by the framework in every particle set.
 inline constexpr ParticleLabel<ParticleId> particleId{"p.particleID", "1", "name of the particle for its whole life"};
 

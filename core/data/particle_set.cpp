@@ -14,15 +14,15 @@ void ParticleSet::reset(const grid::Patch& patch, int reach) {
   has_ghosts_ = false;
 }
 
-void ParticleSet::addGhostCell(const Index3& cell, int patch, const ParticleRange& there) {
+void ParticleSet::addGhostCell(const Index3& cell, int patch, const ParticleRange& there, const Index3& shift) {
   at(cell) = {total_, total_ + there.size()};
   total_ += there.size();
   if (there.empty()) return;
   GhostRun* last = ghost_runs_.empty() ? nullptr : &ghost_runs_.back();
-  if (last && last->patch == patch && last->first + last->count == there.first)
+  if (last && last->patch == patch && last->shift == shift && last->first + last->count == there.first)
     last->count += there.size();
   else
-    ghost_runs_.push_back({patch, there.first, there.size()});
+    ghost_runs_.push_back({patch, there.first, there.size(), shift});
 }
 
 }  // namespace tushar::data

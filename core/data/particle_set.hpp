@@ -28,9 +28,10 @@ struct ParticleRange {
   Iterator end() const { return {last}; }
 };
 
-/// Consecutive particles of another patch that are ghosts of this one.
+/// Consecutive particles of a patch that are ghosts of another, or of its own periodic image.
 struct GhostRun {
   int patch, first, count;
+  Index3 shift;  ///< in cells, of the image they belong to; zero on the grid itself
 };
 
 /// Which particles a patch has of one material, cell by cell.
@@ -64,8 +65,8 @@ class ParticleSet {
 
   void setOwned(int count) { owned_ = total_ = count; }
 
-  /// Adds the particles of a ghost cell behind those that are there.
-  void addGhostCell(const Index3& cell, int patch, const ParticleRange& there);
+  /// Adds the particles of a ghost cell behind those that are there: those of cell - shift on `patch`.
+  void addGhostCell(const Index3& cell, int patch, const ParticleRange& there, const Index3& shift = {});
   const std::vector<GhostRun>& ghostRuns() const { return ghost_runs_; }
   bool hasGhosts() const { return has_ghosts_; }
   void markGhosts() { has_ghosts_ = true; }

@@ -57,6 +57,8 @@ struct Box {
     return box;
   }
 
+  constexpr Box shifted(const Index3& by) const { return {lower + by, upper + by}; }
+
   /// The nodes of this box of cells: one more along each of the first `dimension` axes.
   constexpr Box nodes(int dimension) const {
     Box box = *this;

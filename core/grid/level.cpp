@@ -16,11 +16,13 @@ void Level::chooseAxes() {
   for (int axis = 0; axis < 3; ++axis) {
     const double extent = domain_.upper[axis] - domain_.lower[axis];
     const bool flat = extent == 0;
-    const bool thin = domain_.resolution[axis] == 1 && isPlane(axis, 0) && isPlane(axis, 1);
+    const bool thin = domain_.resolution[axis] == 1 &&
+                      ((isPlane(axis, 0) && isPlane(axis, 1)) || domain_.periodic[axis] != 0);
     if (!flat) cellVolume_ *= extent / domain_.resolution[axis];
     if (!flat && !thin) axes_.push_back(axis);
   }
   if (axes_.empty()) axes_.push_back(0);
+  for (int d = 0; d < dimension(); ++d) is_periodic_ = is_periodic_ || isPeriodic(d);
 }
 
 void Level::makePatches() {
@@ -98,6 +100,33 @@ std::vector<const Patch*> Level::patchesOverlapping(const Box& cells) const {
     found.push_back(&patches_[number]);
   });
   return found;
+}
+
+Box Level::clip(const Box& box, const Box& grid) const {
+  Box clipped = box;
+  for (int d = 0; d < 3; ++d) {
+    if (d < dimension() && isPeriodic(d)) continue;
+    clipped.lower[d] = std::max(box.lower[d], grid.lower[d]);
+    clipped.upper[d] = std::min(box.upper[d], grid.upper[d]);
+  }
+  return clipped;
+}
+
+std::vector<Index3> Level::imagesOverlapping(const Box& cells) const {
+  Box images{{}, Index3::filled(1)};
+  for (int d = 0; d < dimension(); ++d) {
+    if (!isPeriodic(d)) continue;
+    const int count = cells_.upper[d];
+    const auto imageOf = [&](int cell) { return cell >= 0 ? cell / count : -((count - 1 - cell) / count); };
+    images.lower[d] = imageOf(cells.lower[d]);
+    images.upper[d] = imageOf(cells.upper[d] - 1) + 1;
+  }
+  std::vector<Index3> shifts;
+  forEach<3>(images, [&](Index3 image) {
+    for (int d = 0; d < 3; ++d) image[d] *= cells_.upper[d];
+    shifts.push_back(image);
+  });
+  return shifts;
 }
 
 const BoundaryCondition* Level::boundary(int kernelAxis, int side, const std::string& variable) const {

@@ -19,13 +19,18 @@ struct Domain {
   Vec3 upper = Vec3::Ones();
   Index3 resolution{{1, 1, 1}};  ///< cells along x, y, z
   Index3 patches{{1, 1, 1}};     ///< along x, y, z
+  Index3 periodic{};             ///< 1 along axes where the grid repeats without end
   BoundaryConditions boundaries;
 };
 
 /// The grid of a run: its geometry, its boundary conditions and its patches.
 ///
 /// Kernels run in `dimension()` axes. An axis of the scene is left out when it has no extent, or has one cell
-/// between two symmetry planes; the axes that remain keep their order.
+/// between two symmetry planes or repeats one cell; the axes that remain keep their order.
+///
+/// Along a periodic axis cells and nodes are numbered on beyond both ends: those outside the grid are images of those
+/// inside, and ghosts of the patches there.  The first and the last node of the grid are one and the same; both patches
+/// complete it.
 class Level {
  public:
   /// Splits the domain into patches; along an axis with fewer cells than patches asked for, a patch per cell.
@@ -40,6 +45,9 @@ class Level {
   /// Every cell of the grid; lower is always 0.
   const Box& cells() const { return cells_; }
   Box nodes() const { return cells_.nodes(dimension()); }
+  /// The part of a box of cells that lies on the grid or, along periodic axes, on its images.
+  Box clipCells(const Box& cells) const { return clip(cells, cells_); }
+  Box clipNodes(const Box& nodes) const { return clip(nodes, this->nodes()); }
   const std::vector<Patch>& patches() const { return patches_; }
   const Domain& domain() const { return domain_; }
 
@@ -78,6 +86,9 @@ class Level {
   const Patch& patchOf(const Index3& cell) const;
   /// The patches that hold cells of a box, by id.
   std::vector<const Patch*> patchesOverlapping(const Box& cells) const;
+  /// The periodic images of the grid that hold cells of a box, as shifts in cells: cell c + shift is an image of c.
+  /// Zero among them where the box holds cells of the grid.
+  std::vector<Index3> imagesOverlapping(const Box& cells) const;
   /// Number of a cell in lexicographic order, x fastest, 0 for the first; independent of the patches.
   template <int D>
   std::uint64_t cellNumber(const Index<D>& cell) const {
@@ -111,10 +122,15 @@ class Level {
 
   /// The condition for a variable on a face of the grid (`side` 0: lower, 1: upper), if the scene gives one.
   const BoundaryCondition* boundary(int kernelAxis, int side, const std::string& variable) const;
+  bool isPeriodic(int kernelAxis) const { return domain_.periodic[axis(kernelAxis)] != 0; }
+  bool isPeriodic() const { return is_periodic_; }
+  /// How far apart the images of a point are along a kernel axis, m.
+  double period(int kernelAxis) const { return nodePosition(kernelAxis, cells_.upper[kernelAxis]) - nodePosition(kernelAxis, 0); }
   bool isSymmetry(int kernelAxis, int side) const { return boundary(kernelAxis, side, "Symmetric") != nullptr; }
 
  private:
   void chooseAxes();
+  Box clip(const Box& box, const Box& grid) const;
   std::size_t blockAlong(int kernelAxis, int cell) const;
   void makePatches();
 
@@ -122,6 +138,7 @@ class Level {
   std::vector<int> axes_;
   std::array<double, 3> lower_{}, spacing_{}, inverse_spacing_{};
   double cellVolume_ = 1;
+  bool is_periodic_ = false;
   Box cells_;
   std::array<std::vector<int>, 3> cuts_;  ///< first cell of each patch along each kernel axis, then the end
   std::vector<Patch> patches_;

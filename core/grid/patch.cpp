@@ -6,13 +6,12 @@ namespace tushar::grid {
 
 Box Patch::nodes() const { return cells_.nodes(level_->dimension()); }
 
-Box Patch::cellsWithin(int width) const {
-  return cells_.grown(width, level_->dimension()).intersect(level_->cells());
-}
+Box Patch::cellsWithin(int width) const { return level_->clipCells(cells_.grown(width, level_->dimension())); }
 
-Box Patch::nodesWithin(int width) const { return nodes().grown(width, level_->dimension()).intersect(level_->nodes()); }
+Box Patch::nodesWithin(int width) const { return level_->clipNodes(nodes().grown(width, level_->dimension())); }
 
 bool Patch::isAtBoundary(int kernelAxis, int side) const {
+  if (level_->isPeriodic(kernelAxis)) return false;
   return side == 0 ? cells_.lower[kernelAxis] == 0 : cells_.upper[kernelAxis] == level_->cells().upper[kernelAxis];
 }
 

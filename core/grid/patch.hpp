@@ -18,11 +18,11 @@ class Patch {
   const Level& level() const { return *level_; }
   const Box& cells() const { return cells_; }
   Box nodes() const;
-  /// Cells within `width` of the patch that are on the grid.
+  /// Cells within `width` of the patch that are on the grid or, along periodic axes, images of such.
   Box cellsWithin(int width) const;
-  /// Nodes within `width` of the patch's nodes that are on the grid.
+  /// Nodes within `width` of the patch's nodes that are on the grid or images of such.
   Box nodesWithin(int width) const;
-  /// Whether a side (0: lower, 1: upper) along a kernel axis is a side of the grid.
+  /// Whether a side (0: lower, 1: upper) along a kernel axis is a side of the grid; never so along a periodic axis.
   bool isAtBoundary(int kernelAxis, int side) const;
   /// The patch's nodes on one of its sides.
   Box faceNodes(int kernelAxis, int side) const;

@@ -29,7 +29,7 @@ void append(output::Array& array, const Label& label, const grid::Level& level, 
       reals.insert(reals.end(), numbers, numbers + label.components);
       return;
     }
-    Vec3 wide = label.name == "p.x" ? level.expandPoint<1>(Vec<1>::Zero()) : Vec3::Zero();
+    Vec3 wide = label.name == data::positionName ? level.expandPoint<1>(Vec<1>::Zero()) : Vec3::Zero();
     for (int d = 0; d < label.components; ++d) wide[level.axis(d)] = numbers[d];
     reals.insert(reals.end(), wide.data(), wide.data() + 3);
   }

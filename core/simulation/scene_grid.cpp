@@ -74,8 +74,8 @@ const Schema<LevelSection>& levelSchema() {
           .list("Box", &LevelSection::boxes, boxSchema(), "the box that is divided into cells", 1)
           .optional("spacing", &LevelSection::spacing, "m", "cell widths, in place of the resolution of the Box",
                     input::positive())
-          .value("periodic", &LevelSection::periodic, Index3{}, "1", "axes along which the grid repeats: none yet",
-                 input::between(0, 0))
+          .value("periodic", &LevelSection::periodic, Index3{}, "1",
+                 "1 along axes where the grid repeats without end", input::between(0, 1))
           .check([](const LevelSection& level, const Element& element, Diagnostics& diagnostics) {
             if (level.boxes.size() > 1)
               diagnostics.error(element.children("Box")[1],
@@ -184,6 +184,17 @@ void checkSize(const grid::Domain& domain, const Element& element, Diagnostics& 
                                            mostCells));
 }
 
+/// A side of a periodic axis takes no conditions.
+void checkPeriodic(const Element& section, const grid::Domain& domain, Diagnostics& diagnostics) {
+  const auto group = section.child("BoundaryConditions");
+  if (!group) return;
+  const std::string sides[] = {"x-", "x+", "y-", "y+", "z-", "z+"};
+  for (const Element& face : group->children("Face"))
+    for (int k = 0; k < 6; ++k)
+      if (domain.periodic[k / 2] != 0 && face.attribute("side") == sides[k])
+        diagnostics.error(face, fmt::format("{} is periodic, so this side can have no condition", "xyz"[k / 2]));
+}
+
 }  // namespace
 
 grid::Domain readGrid(const Element& section, const std::vector<std::string>& boundaryLabels,
@@ -199,6 +210,8 @@ grid::Domain readGrid(const Element& section, const std::vector<std::string>& bo
   domain.upper = box.upper;
   domain.resolution = resolutionOf(box, read.level, element, diagnostics);
   domain.patches = box.patches;
+  domain.periodic = read.level.periodic;
+  checkPeriodic(section, domain, diagnostics);
   checkSize(domain, element, diagnostics);
   return domain;
 }

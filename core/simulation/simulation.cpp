@@ -139,7 +139,7 @@ output::Snapshot Simulation::snapshot() {
   snapshot.delT = time_.delT();
   snapshot.grid = gridInfo(*problem_.level);
   for (std::size_t m = 0; m < phases_.materials().size(); ++m) {
-    const int number = table_.find("p.x", static_cast<int>(m));
+    const int number = table_.find(data::positionName, static_cast<int>(m));
     if (number < 0) continue;
     snapshot.particles.push_back({phases_.materials()[m], static_cast<int>(m), {}});
     snapshot.particles.back().arrays.push_back(gatherArray(warehouse_, Generation::old, number));
@@ -156,7 +156,7 @@ void Simulation::addField(output::Snapshot& snapshot, const SaveRequest& save) {
   for (int m = -1; m < static_cast<int>(phases_.materials().size()); ++m) {
     const int number = table_.find(save.label, m);
     const std::string material = m < 0 ? "" : phases_.materials()[static_cast<std::size_t>(m)];
-    if (number < 0 || save.label == "p.x" || (!save.material.empty() && save.material != material)) continue;
+    if (number < 0 || save.label == data::positionName || (!save.material.empty() && save.material != material)) continue;
     const data::Label& label = *table_[number].label;
     const bool derived = !warehouse_.variable(Generation::old, number, 0).held;
     output::Array array = gatherArray(warehouse_, derived ? Generation::fresh : Generation::old, number);

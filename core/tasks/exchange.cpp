@@ -13,14 +13,14 @@ using grid::Patch;
 
 namespace {
 
-/// Copies a box row by row.
-void copyBox(const Variable& from, Variable& to, const Box& box, std::size_t bytes) {
+/// Copies to a box, row by row, the values of the box `shift` cells before it.
+void copyBox(const Variable& from, Variable& to, const Box& box, const Index3& shift, std::size_t bytes) {
   if (box.empty()) return;
   Box rows = box;
   rows.upper[0] = rows.lower[0] + 1;
   const std::size_t length = static_cast<std::size_t>(box.extent(0)) * bytes;
   grid::forEach<3>(rows, [&](const Index3& at) {
-    std::memcpy(to.values.data() + to.stored.offset(at) * bytes, from.values.data() + from.stored.offset(at) * bytes,
+    std::memcpy(to.values.data() + to.stored.offset(at) * bytes, from.values.data() + from.stored.offset(at - shift) * bytes,
                 length);
   });
 }
@@ -39,19 +39,26 @@ void forEachPartOutside(Box box, const Box& hole, Visit&& visit) {
   }
 }
 
+/// Calls `visit(patch, shift)` for each patch and each of its images that holds cells of a box.
+template <class Visit>
+void forEachSource(const grid::Level& level, const Box& cells, Visit&& visit) {
+  for (const Index3& shift : level.imagesOverlapping(cells))
+    for (const Patch* patch : level.patchesOverlapping(cells.shifted(Index3{} - shift))) visit(*patch, shift);
+}
+
 void fillPatch(Warehouse& warehouse, int number, Generation generation, const Patch& patch) {
   const data::VariableName& name = warehouse.table()[number];
   const bool nodes = name.label->centring == data::Centring::node;
   const int width = warehouse.table().ghost(number);
   Variable& here = warehouse.variable(generation, number, patch.id());
   const Box own = nodes ? patch.nodes() : patch.cells();
-  for (const Patch* other : warehouse.level().patchesOverlapping(patch.cellsWithin(width + (nodes ? 1 : 0)))) {
-    if (other == &patch) continue;
-    const Variable& there = warehouse.variable(generation, number, other->id());
-    const Box theirs = (nodes ? other->nodes() : other->cells()).intersect(here.stored);
-    if (theirs.empty()) continue;
-    forEachPartOutside(theirs, own, [&](const Box& part) { copyBox(there, here, part, name.label->bytes); });
-  }
+  forEachSource(warehouse.level(), patch.cellsWithin(width + (nodes ? 1 : 0)), [&](const Patch& other, const Index3& shift) {
+    if (&other == &patch && shift == Index3{}) return;
+    const Variable& there = warehouse.variable(generation, number, other.id());
+    const Box theirs = (nodes ? other.nodes() : other.cells()).shifted(shift).intersect(here.stored);
+    if (theirs.empty()) return;
+    forEachPartOutside(theirs, own, [&](const Box& part) { copyBox(there, here, part, shift, name.label->bytes); });
+  });
 }
 
 /// Appends the particles of the cells around the patch to its set.
@@ -59,24 +66,36 @@ void addGhosts(Warehouse& warehouse, Generation generation, int material, const 
   ParticleSet& set = warehouse.particles(generation, material, patch.id());
   const grid::Level& level = warehouse.level();
   forEachPartOutside(set.cells(), set.ownedCells(), [&](const Box& part) {
-    for (const Patch* other : level.patchesOverlapping(part)) {
-      const ParticleSet& theirs = warehouse.particles(generation, material, other->id());
-      grid::forEach<3>(part.intersect(other->cells()),
-                       [&](const Index3& cell) { set.addGhostCell(cell, other->id(), theirs.in(cell)); });
-    }
+    forEachSource(level, part, [&](const Patch& other, const Index3& shift) {
+      const ParticleSet& theirs = warehouse.particles(generation, material, other.id());
+      grid::forEach<3>(part.intersect(other.cells().shifted(shift)), [&](const Index3& cell) {
+        set.addGhostCell(cell, other.id(), theirs.in(cell - shift), shift);
+      });
+    });
   });
   set.markGhosts();
 }
 
+/// Moves positions to the image where they are ghosts.
+void shiftPositions(const grid::Level& level, const Index3& shift, double* x, int count) {
+  const int dimension = level.dimension();
+  for (int d = 0; d < dimension; ++d) {
+    const double by = shift[d] / level.cells().upper[d] * level.period(d);
+    for (int k = 0; by != 0 && k < count; ++k) x[k * dimension + d] += by;
+  }
+}
+
+bool hasGhosts(const Warehouse& warehouse) { return warehouse.patches() > 1 || warehouse.level().isPeriodic(); }
+
 }  // namespace
 
 void fillGridGhosts(Warehouse& warehouse, int variable, Generation generation) {
-  if (warehouse.patches() == 1) return;
+  if (!hasGhosts(warehouse)) return;
   for (const Patch& patch : warehouse.level().patches()) fillPatch(warehouse, variable, generation, patch);
 }
 
 void fillParticleGhosts(Warehouse& warehouse, int variable, Generation generation, Generation setGeneration) {
-  if (warehouse.patches() == 1) return;
+  if (!hasGhosts(warehouse)) return;
   const auto [label, material] = warehouse.table()[variable];
   for (const Patch& patch : warehouse.level().patches()) {
     ParticleSet& set = warehouse.particles(setGeneration, material, patch.id());
@@ -88,6 +107,8 @@ void fillParticleGhosts(Warehouse& warehouse, int variable, Generation generatio
       const Variable& there = warehouse.variable(generation, variable, run.patch);
       const std::size_t length = static_cast<std::size_t>(run.count) * label->bytes;
       std::memcpy(to, there.values.data() + static_cast<std::size_t>(run.first) * label->bytes, length);
+      if (label->name == data::positionName && !(run.shift == Index3{}))
+        shiftPositions(warehouse.level(), run.shift, reinterpret_cast<double*>(to), run.count);
       to += length;
     }
   }

@@ -50,6 +50,17 @@ bool isInside(const Vec<D>& x, const Vec<D>& lower, const Vec<D>& upper) {
   return inside;
 }
 
+/// Brings a position back to the grid along periodic axes.
+template <int D>
+void wrap(const grid::Level& level, Vec<D>& x) {
+  for (int d = 0; d < D; ++d) {
+    if (!level.isPeriodic(d) || !std::isfinite(x[d])) continue;
+    const double first = level.nodePosition(d, 0), last = level.nodePosition(d, level.cells().upper[d]);
+    if (x[d] < first || x[d] > last) x[d] -= std::floor((x[d] - first) / level.period(d)) * level.period(d);
+    x[d] = std::clamp(x[d], first, last);
+  }
+}
+
 /// A particle outside the grid: fine where it left through a free face, an error elsewhere.
 template <int D>
 void checkExit(const grid::Level& level, const Vec<D>& x, const Index<D>& cell, ParticleId id) {
@@ -92,7 +103,7 @@ void Relocation::findMoves(int material, int position) {
   const int idNumber = warehouse_->table().find(data::particleId.name, material);
   for (const Patch& patch : level.patches()) {
     const ParticleSet& set = warehouse_->particles(Generation::old, material, patch.id());
-    const auto* x = reinterpret_cast<const Vec<D>*>(
+    auto* x = reinterpret_cast<Vec<D>*>(
         warehouse_->variable(Generation::fresh, position, patch.id()).values.data());
     const auto* ids = reinterpret_cast<const ParticleId*>(
         warehouse_->variable(Generation::old, idNumber, patch.id()).values.data());
@@ -109,9 +120,10 @@ void Relocation::findMoves(int material, int position) {
 }
 
 template <int D>
-void Relocation::move(const Patch& from, const Vec<D>& x, ParticleId id, int place) {
+void Relocation::move(const Patch& from, Vec<D>& x, ParticleId id, int place) {
   const grid::Level& level = warehouse_->level();
   moves_[static_cast<std::size_t>(from.id())].departed.push_back(place);
+  if (level.isPeriodic()) wrap<D>(level, x);
   const Index<D> cell = level.cellOf<D>(x);
   if (!level.cells().contains(cell)) {
     checkExit<D>(level, x, cell, id);

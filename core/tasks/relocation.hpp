@@ -20,7 +20,8 @@ class Relocation {
   explicit Relocation(data::Warehouse& warehouse) : warehouse_(&warehouse) {}
 
   /// Builds the new particle set of a material from the old one and the new values of `position`; afterwards every
-  /// carried variable is new and follows the new set. Particles that left through a free face of the grid are dropped.
+  /// carried variable is new and follows the new set. Particles that left through a periodic face come in at the opposite
+  /// one; those that left through a free face are dropped.
   /// Throws NumericalError for a position that is not finite or lies behind a symmetry plane.
   void run(int material, int position, const std::vector<Carried>& carried);
 
@@ -53,7 +54,7 @@ class Relocation {
   template <int D>
   void findMoves(int material, int position);
   template <int D>
-  void move(const grid::Patch& from, const Vec<D>& x, ParticleId id, int place);
+  void move(const grid::Patch& from, Vec<D>& x, ParticleId id, int place);
   void receive(const grid::Patch& patch, const Index3& cell, const Incoming& particle);
   void rebuild(const grid::Patch& patch, int material);
   static void keepCell(PatchMoves& moves, const data::ParticleRange& before);

@@ -97,4 +97,31 @@ TEST(Patch, HasTheNodesOfItsCellsAndThoseWithinReachOnTheGrid) {
   EXPECT_TRUE(level.patches()[2].isAtBoundary(0, 1));
 }
 
+TEST(Level, GoesOnBeyondItsEndsAlongPeriodicAxes) {
+  Domain ring = domain({{8, 4, 1}}, {{2, 1, 1}});
+  ring.boundaries.faces[0].clear();
+  ring.boundaries.faces[1].clear();
+  ring.periodic[0] = 1;
+  const Level level(ring);
+  const Patch& first = level.patches().front();
+
+  EXPECT_EQ(first.cellsWithin(2), (Box{{{-2, 0, 0}}, {{6, 4, 1}}}));
+  EXPECT_EQ(first.nodesWithin(1), (Box{{{-1, 0, 0}}, {{6, 5, 1}}}));
+  EXPECT_FALSE(first.isAtBoundary(0, 0));
+  EXPECT_TRUE(first.isAtBoundary(1, 0));
+  EXPECT_EQ(level.clipCells({{{-3, -3, 0}}, {{9, 9, 1}}}), (Box{{{-3, 0, 0}}, {{9, 4, 1}}}));
+  EXPECT_EQ(level.imagesOverlapping({{{-1, 0, 0}}, {{3, 1, 1}}}), (std::vector<Index3>{{{-8, 0, 0}}, {{0, 0, 0}}}));
+  EXPECT_EQ(level.imagesOverlapping({{{8, 0, 0}}, {{17, 1, 1}}}), (std::vector<Index3>{{{8, 0, 0}}, {{16, 0, 0}}}));
+  EXPECT_DOUBLE_EQ(level.period(0), 0.6);
+}
+
+TEST(Level, LeavesOutAPeriodicAxisOfOneCell) {
+  Domain ring = domain({{8, 1, 1}});
+  ring.boundaries.faces[2].clear();
+  ring.boundaries.faces[3].clear();
+  ring.periodic[1] = 1;
+
+  EXPECT_EQ(Level(ring).dimension(), 1);
+}
+
 }  // namespace tushar::grid

@@ -53,10 +53,10 @@ struct Work {
   std::vector<double> least;          ///< of a row: least density and p + p_inf at faces
 };
 
-/// rho, v, p of the cells of the work's box that are on the grid.
+/// rho, v, p of the cells of the work's box that are on the grid or its images.
 template <int D>
 void recover(const Gas& gas, const Level& level, const StateViews<D, const double>& old, Rows<D>& w) {
-  forEachRow<D>(w.box().intersect(level.cells()), [&](const Index<D>& first, int count) {
+  forEachRow<D>(level.clipCells(w.box()), [&](const Index<D>& first, int count) {
     recoverRow<D>(gas, rowOf(old.density, first, count), rowOf(old.momentum, first, count)->data(),
                   rowOf(old.totalEnergy, first, count), count, w.at(first));
   });

@@ -65,7 +65,7 @@ void measureNodeError(const Patch& patch, const Gas&, const reference::GasRefere
     for (int d = 0; d < D; ++d) {
       if (node[d] == patch.cells().upper[d] && !patch.isAtBoundary(d, 1)) return;
       at[d] = level.nodePosition(d, node[d]);
-      if (node[d] == 0 || node[d] == level.cells().upper[d]) volume *= 0.5;
+      if (!level.isPeriodic(d) && (node[d] == 0 || node[d] == level.cells().upper[d])) volume *= 0.5;
     }
     error.add(mass[node] / volume - exact->at(level.expandPoint<D>(at), clock->time).density);
   });
