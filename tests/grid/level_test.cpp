@@ -112,7 +112,7 @@ TEST(Level, GoesOnBeyondItsEndsAlongPeriodicAxes) {
   EXPECT_EQ(level.clipCells({{{-3, -3, 0}}, {{9, 9, 1}}}), (Box{{{-3, 0, 0}}, {{9, 4, 1}}}));
   EXPECT_EQ(level.imagesOverlapping({{{-1, 0, 0}}, {{3, 1, 1}}}), (std::vector<Index3>{{{-8, 0, 0}}, {{0, 0, 0}}}));
   EXPECT_EQ(level.imagesOverlapping({{{8, 0, 0}}, {{17, 1, 1}}}), (std::vector<Index3>{{{8, 0, 0}}, {{16, 0, 0}}}));
-  EXPECT_DOUBLE_EQ(level.period(0), 0.6);
+  EXPECT_DOUBLE_EQ(level.period(0), 1.0);
 }
 
 TEST(Level, LeavesOutAPeriodicAxisOfOneCell) {
