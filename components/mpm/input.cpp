@@ -66,30 +66,72 @@ const Schema<GasDynamics>& gasDynamicsSchema() {
   return schema;
 }
 
-const Schema<ConservingGasDynamics>& conservingSchema() {
+const Schema<Remap>& remapSchema() {
+  static const Schema<Remap> schema =
+      Schema<Remap>("remap", "One new particle per cell, with the mass, momentum and energy of what lies in it.")
+          .value("every", &Remap::every, 4, "1", "steps", input::positive())
+          .ours()
+          .value("overfilled", &Remap::overfilled, 0.02, "1", "or once a cell holds this share more than its volume",
+                 input::nonNegative())
+          .ours();
+  return schema;
+}
+
+/// The section as it is written; what is not given follows from the transfer and the dimension.
+struct ConservingSection {
+  Transfer transfer = Transfer::apic;
+  double cfl = 0.5, advectiveCfl = 0.8;
+  std::optional<double> longestParticle;
+  std::optional<Viscosity> viscosity;
+  std::optional<Remap> remap;
+};
+const Schema<ConservingSection>& conservingSchema() {
   static const Schema<Viscosity> viscosity =
       Schema<Viscosity>("artificial_viscosity", "q = rho |dv| (C_q |dv| + C_l c) where a cell is compressed.")
           .value("quadratic", &Viscosity::quadratic, 1, "1", "C_q", input::nonNegative())
           .ours()
           .value("linear", &Viscosity::linear, 0.5, "1", "C_l", input::nonNegative())
           .ours();
-  static const Schema<ConservingGasDynamics> schema =
-      Schema<ConservingGasDynamics>("conserving_gas_dynamics",
-                                    "A gas method that conserves mass and total energy, in one dimension.")
-          .value("cfl", &ConservingGasDynamics::cfl, 0.5, "1", "dt max(|v| + c) / h", input::positive())
+  static const Schema<ConservingSection> schema =
+      Schema<ConservingSection>("conserving_gas_dynamics",
+                                "A gas method that conserves mass, momentum and total energy.")
+          .choice("transfer", &ConservingSection::transfer,
+                  {{"apic", Transfer::apic}, {"affine_flip", Transfer::affineFlip}}, Transfer::apic,
+                  "particles take the grid's velocity, or, where the gas is smooth, its change: of second order")
           .ours()
-          .value("longest_particle", &ConservingGasDynamics::longestParticle, 2.5, "1",
-                 "length in cells beyond which a particle is halved; halving costs accuracy", input::between(1, 2.9))
+          .value("cfl", &ConservingSection::cfl, 0.5, "1", "dt max(|v| + c) / h; affine_flip: dt max(c) / h",
+                 input::positive())
           .ours()
-          .section("artificial_viscosity", &ConservingGasDynamics::viscosity, viscosity)
+          .value("advective_cfl", &ConservingSection::advectiveCfl, 0.8, "1", "affine_flip: dt max |v_d| / h",
+                 input::between(0.01, 1))
+          .ours()
+          .optional("longest_particle", &ConservingSection::longestParticle, "1",
+                    "length in cells beyond which a particle is halved (2.5 in one dimension with apic, else 1.4); "
+                    "halving costs accuracy", input::between(1, 2.9))
+          .ours()
+          .section("artificial_viscosity", &ConservingSection::viscosity, viscosity)
+          .ours()
+          .section("remap", &ConservingSection::remap, remapSchema())
           .ours();
   return schema;
+}
+
+ConservingGasDynamics settle(const ConservingSection& read, int dimension) {
+  const bool apic = read.transfer == Transfer::apic;
+  ConservingGasDynamics method;
+  method.transfer = read.transfer;
+  method.cfl = read.cfl;
+  method.advectiveCfl = read.advectiveCfl;
+  method.longestParticle = read.longestParticle.value_or(apic && dimension == 1 ? 2.5 : 1.4);
+  method.viscosity = read.viscosity.value_or(apic ? Viscosity{1, 0.5} : Viscosity{0.25, 0.25});
+  method.remap = read.remap;
+  return method;
 }
 
 struct MpmSection {
   int integrator = 0, interpolator = 0;
   std::optional<GasDynamics> gas;
-  std::optional<ConservingGasDynamics> conserving;
+  std::optional<ConservingSection> conserving;
 };
 const Schema<MpmSection>& mpmSchema() {
   static const Schema<MpmSection> schema =
@@ -224,15 +266,9 @@ Gas makeGas(const MaterialSection& material) {
   return gas;
 }
 
-std::unique_ptr<Component> makeComponent(const Level& level, const MpmSection& method, const std::vector<Gas>& gases,
-                                         const Location& where) {
+std::unique_ptr<Component> makeComponent(const Level& level, const MpmSection& method, const std::vector<Gas>& gases) {
   if (method.gas) return simulation::makeByDimension<Mpm>(level, *method.gas, gases);
-  if (level.dimension() > 1)
-    throw InputError({{where, "MPM/conserving_gas_dynamics",
-                       fmt::format("runs in one dimension so far, and this grid has {}: give all other axes one cell "
-                                   "between two symmetry planes, or use <gas_dynamics>",
-                                   level.dimension())}});
-  return std::make_unique<ConservingMpm>(*method.conserving, gases);
+  return simulation::makeByDimension<ConservingMpm>(level, settle(*method.conserving, level.dimension()), gases);
 }
 
 }  // namespace
@@ -254,9 +290,7 @@ simulation::ComponentKind kind() {
     if (diagnostics.size() > before) return {};
     std::vector<Gas> gases;
     for (const MaterialSection& material : properties.mpm.materials) gases.push_back(makeGas(material));
-    return [method, gases, where = root.children("MPM").front().where()](const Level& level) {
-      return makeComponent(level, method, gases, where);
-    };
+    return [method, gases](const Level& level) { return makeComponent(level, method, gases); };
   };
   return kind;
 }

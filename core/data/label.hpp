@@ -48,11 +48,12 @@ struct Stored<int> {
   static constexpr int components = 1;
   static constexpr bool isVector = false;
 };
-template <int D>
-struct Stored<Vec<D>> {
+/// Vectors along the kernel axes; wider matrices are stored column by column.
+template <int Rows, int Columns>
+struct Stored<Eigen::Matrix<double, Rows, Columns, Eigen::DontAlign>> {
   static constexpr Number number = Number::real;
-  static constexpr int components = D;
-  static constexpr bool isVector = true;
+  static constexpr int components = Rows * Columns;
+  static constexpr bool isVector = Columns == 1;
 };
 
 template <Centring C, class T>

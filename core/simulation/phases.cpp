@@ -44,8 +44,7 @@ Phases::Phases(const Component& component, const std::vector<std::unique_ptr<Ana
 void Phases::validateAll() const {
   const Lists& lists = lists_;
   const Names state = producedBy(lists.initialize.tasks());
-  Names withDelT = state;
-  withDelT.emplace(data::delT.name);
+  const Names withDelT = united(state, producedBy(lists.stableTimeStep.tasks()));
   tasks::validate(lists.initialize.tasks(), {});
   tasks::validate(lists.stableTimeStep.tasks(), state);
   tasks::validate(lists.timeAdvance.tasks(), withDelT);
@@ -110,7 +109,10 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   for (const SaveRequest& save : saved_fields_)
     (stepped.contains(save.label) ? savedState : derived).insert(save.label);
 
-  Pruned stable = prune(lists.stableTimeStep.tasks(), {std::string(data::delT.name)}, false);
+  const Names decided = producedBy(lists.stableTimeStep.tasks());
+  Names wanted = requiredOfState(lists.timeAdvance.tasks());
+  std::erase_if(wanted, [&](const std::string& name) { return !decided.contains(name); });
+  Pruned stable = prune(lists.stableTimeStep.tasks(), united(wanted, {std::string(data::delT.name)}), false);
   Pruned step = prune(lists.diagnostics.tasks(), {saved_globals_.begin(), saved_globals_.end()}, false);
   Pruned output = prune(lists.diagnostics.tasks(), derived, false);
   Pruned end = prune(lists.diagnostics.tasks(), reported, false);
@@ -121,7 +123,7 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   Pruned init = prune(lists.initialize.tasks(), advance.needed, false);
 
   for (const std::string& name : bare.needed)
-    if (name != data::delT.name) state_.push_back(name);
+    if (!decided.contains(name)) state_.push_back(name);
   if (stepped.contains(data::particleId.name) && !bare.needed.contains(data::particleId.name)) {
     state_.emplace_back(data::particleId.name);
     std::sort(state_.begin(), state_.end());

@@ -53,7 +53,6 @@ OVERRIDES = {
     "more patches than cells": (BOX + "patches=[101,1,1]", "Grid/Level/Box: there are 101 patches along x, but only 100 cell(s)"),
     "both spacing and resolution": ("Grid/Level/spacing=[.01,1,1]", "Grid/Level: gives both spacing and resolution; keep one"),
     "periodic": ("Grid/Level/periodic=[2,0,0]", "Grid/Level/periodic: found '[2,0,0]', expected a value from 0 to 1"),
-    "periodic with a condition": ("Grid/Level/periodic=[1,0,0]", "x is periodic, so this side can have no condition"),
     "no particles": (LEFT + "res=[0,1,1]", "MaterialProperties/MPM/material/geom_object/res: found '[0,1,1]', expected a value "
                      "from 1 to 32"),
     "negative density": (LEFT + "density=-1", "MaterialProperties/MPM/material/geom_object/density: found '-1', expected a value "
@@ -113,6 +112,11 @@ class BrokenScenes(unittest.TestCase):
         self.assertIn(sentence, result.err)
         self.assertEqual(result.files, [])
         self.assertEqual(result.out, "")
+
+    def test_periodic_sides_take_no_conditions(self):
+        result = run("ups/mpm/sod.ups", "Grid/Level/periodic=[1,0,0]")
+        self.assertNotEqual(result.code, 0)
+        self.assertEqual(result.err.count("x is periodic, so this side can have no condition"), 2, result.err)
 
     def test_overrides_that_cannot_be(self):
         for name, (override, sentence) in OVERRIDES.items():

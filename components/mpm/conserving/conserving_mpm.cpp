@@ -1,94 +1,169 @@
 #include "components/mpm/conserving/conserving_mpm.hpp"
 
+#include "components/mpm/conserving/cells.hpp"
+#include "components/mpm/conserving/create_boxes.hpp"
 #include "components/mpm/conserving/diagnose.hpp"
-#include "components/mpm/conserving/tasks.hpp"
+#include "components/mpm/conserving/redistribute.hpp"
+#include "components/mpm/conserving/stable_time_step.hpp"
+#include "components/mpm/conserving/transfer.hpp"
 #include "components/mpm/tasks/diagnose.hpp"
 #include "components/mpm/tasks/measure_error.hpp"
 
 namespace tushar::mpm {
 
-void ConservingMpm::scheduleInitialize(TaskList& tasks) const {
-  tasks.newParticles("mpm::createParticles", conserving::createParticles, materials_, creates(p::x<1>),
-                     creates(p::length), creates(p::mass), creates(p::velocity<1>), creates(p::velocityGradient),
+using conserving::AffineFlip;
+using conserving::Apic;
+
+template <int D>
+void ConservingMpm<D>::scheduleInitialize(TaskList& tasks) const {
+  tasks.newParticles("mpm::createParticles", conserving::createBoxes<D>, materials_, creates(p::x<D>),
+                     creates(p::edges<D>), creates(p::mass), creates(p::velocity<D>), creates(p::modes<D>),
                      creates(p::internalEnergy), creates(p::affineEnergy));
+  if (method_.remap) tasks.perPatch("mpm::countSteps", conserving::keepCount, with(0.0), computes(remapAge));
   scheduleGridState(tasks);
 }
 
-void ConservingMpm::scheduleComputeStableTimeStep(TaskList& tasks) const {
-  tasks.perMaterial("mpm::computeStableTimeStep", conserving::computeStableTimeStep, materials_, with(method_.cfl),
-                    requiresOld(p::velocity<1>), requiresOld(p::internalEnergy), requiresOld(g::velocity<1>),
-                    requiresOld(g::acceleration<1>), computes(delT));
+template <int D>
+void ConservingMpm<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
+  tasks.perMaterial("mpm::computeStableTimeStep",
+                    method_.transfer == Transfer::apic ? conserving::computeAcousticTimeStep<D>
+                                                       : conserving::computeStableTimeStep<D>,
+                    materials_, with(method_), requiresOld(p::velocity<D>), requiresOld(p::internalEnergy),
+                    requiresOld(c::velocityGradient<D>), computes(delT));
+  if (method_.remap)
+    tasks.perPatch("mpm::countSteps", conserving::countSteps, with(*method_.remap), requiresOld(remapAge),
+                   requiresOld(cellFill), computes(remapCount));
 }
 
-void ConservingMpm::scheduleTimeAdvance(TaskList& tasks) const {
-  constexpr int overhang = Extent::overhang;
-  tasks.perMaterial("mpm::updateParticles", conserving::updateParticles, materials_, requiresOld(p::x<1>),
-                    requiresOld(p::length), requiresOld(p::velocity<1>), requiresOld(p::velocityGradient),
-                    requiresOld(p::internalEnergy), requiresOld(p::affineEnergy), requiresOld(g::velocity<1>, overhang),
-                    requiresOld(g::acceleration<1>, overhang), requiresOld(c::stress, overhang), requiresOld(c::internalEnergy, overhang),
-                    requiresOld(delT), computes(p::x<1>), computes(p::length), computes(p::velocity<1>),
-                    computes(p::velocityGradient), computes(p::internalEnergy), computes(p::affineEnergy));
-  tasks.relocate(p::x<1>, materials_);
-  tasks.perMaterial("mpm::limitGradient", conserving::limitGradient, materials_, requiresNew(p::length),
-                    requiresNew(p::internalEnergy), requiresNew(p::affineEnergy),
-                    modifies(p::velocityGradient));
+template <int D>
+void ConservingMpm<D>::scheduleTimeAdvance(TaskList& tasks) const {
+  if (method_.transfer == Transfer::apic)
+    scheduleStep<Apic>(tasks);
+  else
+    scheduleStep<AffineFlip>(tasks);
+  tasks.relocate(p::x<D>, materials_);
   scheduleRedistribute(tasks);
+  const double spare = method_.transfer == Transfer::apic ? Apic::spareEnergy : AffineFlip::spareEnergy;
+  tasks.perMaterial("mpm::limitModes", conserving::limitModes<D>, materials_, with(spare), requiresNew(p::edges<D>),
+                    requiresNew(p::internalEnergy), requiresNew(p::affineEnergy), modifies(p::modes<D>));
   scheduleGridState(tasks);
 }
 
-void ConservingMpm::scheduleRedistribute(TaskList& tasks) const {
-  tasks.newParticles("mpm::redistribute", conserving::splitLong, materials_, with(method_.longestParticle),
-                     requiresNew(data::particleId, 1),
-                     requiresNew(p::x<1>, 1), requiresNew(p::length, 1), requiresNew(p::mass, 1),
-                     requiresNew(p::velocity<1>, 1), requiresNew(p::velocityGradient, 1),
-                     requiresNew(p::internalEnergy, 1), requiresNew(p::affineEnergy, 1), creates(p::x<1>),
-                     creates(p::length), creates(p::mass), creates(p::velocity<1>), creates(p::velocityGradient),
-                     creates(p::internalEnergy), creates(p::affineEnergy));
+template <int D>
+template <class Scheme>
+void ConservingMpm<D>::scheduleStep(TaskList& tasks) const {
+  constexpr int overhang = Footprint<D>::overhang;
+  tasks.perMaterial("mpm::computeStress", conserving::computeStress<D, Scheme>, materials_, requiresOld(c::pressure),
+                    requiresOld(c::viscosity), requiresOld(c::velocityGradient<D>), requiresOld(delT),
+                    computes(c::stress<D>));
+  tasks.perMaterial("mpm::computeInternalForce", conserving::computeAcceleration<D>, materials_,
+                    requiresNew(c::stress<D>, 1), requiresOld(g::mass), computes(g::acceleration<D>));
+  tasks.perMaterial("mpm::computeRelaxation", conserving::computeRelaxation<D>, materials_, requiresOld(c::shock, 1),
+                    computes(g::relaxation));
+  tasks.perMaterial("mpm::computeWork", conserving::computeWork<D>, materials_, requiresNew(c::stress<D>),
+                    requiresOld(c::internalEnergy), requiresOld(g::velocity<D>), requiresNew(g::acceleration<D>),
+                    requiresOld(delT), computes(c::work));
+  tasks.perMaterial("mpm::updateParticles", conserving::updateParticles<D, Scheme>, materials_, requiresOld(p::x<D>),
+                    requiresOld(p::edges<D>), requiresOld(p::velocity<D>), requiresOld(p::modes<D>),
+                    requiresOld(p::internalEnergy), requiresOld(p::affineEnergy), requiresOld(g::velocity<D>, overhang),
+                    requiresNew(g::acceleration<D>, overhang), requiresNew(g::relaxation, overhang),
+                    requiresNew(c::work, overhang), requiresOld(delT), computes(p::x<D>), computes(p::edges<D>),
+                    computes(p::velocity<D>), computes(p::modes<D>), computes(p::internalEnergy),
+                    computes(p::affineEnergy));
 }
 
-void ConservingMpm::scheduleGridState(TaskList& tasks) const {
-  constexpr int reach = conserving::reach;
-  tasks.perMaterial("mpm::interpolateParticlesToGrid", conserving::interpolateParticlesToGrid, materials_,
-                    requiresNew(p::x<1>, reach), requiresNew(p::length, reach), requiresNew(p::mass, reach),
-                    requiresNew(p::velocity<1>, reach), requiresNew(p::velocityGradient, reach),
-                    requiresNew(p::internalEnergy, reach), computes(g::mass), computes(g::velocity<1>),
-                    computes(c::mass), computes(c::internalEnergy));
-  tasks.perMaterial("mpm::computeStress", conserving::computeStress, materials_, with(method_.viscosity),
-                    requiresNew(c::mass), requiresNew(c::internalEnergy), requiresNew(g::velocity<1>),
-                    computes(c::stress));
-  tasks.perMaterial("mpm::computeInternalForce", conserving::computeAcceleration, materials_, requiresNew(c::stress, 1),
-                    requiresNew(g::mass), computes(g::acceleration<1>));
+template <int D>
+void ConservingMpm<D>::scheduleRedistribute(TaskList& tasks) const {
+  constexpr int overhang = Footprint<D>::overhang;
+  const auto schedule = [&](auto body, auto... more) {
+    tasks.newParticles("mpm::redistribute", body, materials_, with(method_.longestParticle),
+                       requiresNew(data::particleId, overhang), requiresNew(p::x<D>, overhang),
+                       requiresNew(p::edges<D>, overhang), requiresNew(p::mass, overhang),
+                       requiresNew(p::velocity<D>, overhang), requiresNew(p::modes<D>, overhang),
+                       requiresNew(p::internalEnergy, overhang), requiresNew(p::affineEnergy, overhang), more...,
+                       creates(p::x<D>), creates(p::edges<D>), creates(p::mass), creates(p::velocity<D>),
+                       creates(p::modes<D>), creates(p::internalEnergy), creates(p::affineEnergy));
+  };
+  if (!method_.remap) return schedule(conserving::redistribute<D>);
+  tasks.perMaterial("mpm::gatherInCells", conserving::gatherInCells<D>, materials_, requiresNew(p::x<D>, overhang),
+                    requiresNew(p::edges<D>, overhang), requiresNew(p::mass, overhang),
+                    requiresNew(p::internalEnergy, overhang), requiresOld(remapCount), computes(c::movedMass),
+                    computes(c::movedEnergy));
+  schedule(conserving::redistributeOrRemap<D>, requiresNew(c::movedMass, overhang + 1),
+           requiresNew(c::movedEnergy, overhang + 1), requiresOld(remapCount));
+  tasks.perPatch("mpm::countSteps", conserving::keepCount, requiresOld(remapCount), computes(remapAge));
 }
 
-void ConservingMpm::scheduleDiagnostics(TaskList& tasks) const {
-  tasks.perMaterial("mpm::sumMass", sumMass<1>, materials_, requiresOld(p::mass), computes(total::mass));
-  tasks.perMaterial("mpm::sumMomentum", sumMomentum<1>, materials_, requiresOld(p::mass), requiresOld(p::velocity<1>),
+template <int D>
+void ConservingMpm<D>::scheduleGridState(TaskList& tasks) const {
+  constexpr int reach = Footprint<D>::reach;
+  const auto schedule = [&](auto body, auto... more) {
+    tasks.perMaterial("mpm::interpolateParticlesToGrid", body, materials_, requiresNew(p::x<D>, reach),
+                      requiresNew(p::edges<D>, reach), requiresNew(p::mass, reach), requiresNew(p::velocity<D>, reach),
+                      requiresNew(p::modes<D>, reach), requiresNew(p::internalEnergy, reach), computes(g::mass),
+                      computes(g::velocity<D>), computes(c::mass), computes(c::internalEnergy), more...);
+  };
+  if (method_.remap)
+    schedule(conserving::interpolateAndMeasureFill<D>, computes(c::fill), computes(cellFill));
+  else
+    schedule(conserving::interpolateParticlesToGrid<D>);
+  tasks.perMaterial("mpm::computeVelocityGradient", conserving::computeVelocityGradient<D>, materials_,
+                    requiresNew(g::velocity<D>), computes(c::velocityGradient<D>));
+  if (method_.transfer == Transfer::apic)
+    scheduleComputePressure<Apic>(tasks);
+  else
+    scheduleComputePressure<AffineFlip>(tasks);
+}
+
+template <int D>
+template <class Scheme>
+void ConservingMpm<D>::scheduleComputePressure(TaskList& tasks) const {
+  tasks.perMaterial("mpm::computePressure", conserving::computePressure<D, Scheme>, materials_,
+                    with(method_.viscosity), requiresNew(c::mass), requiresNew(c::internalEnergy),
+                    requiresNew(c::velocityGradient<D>, 1), computes(c::pressure), computes(c::viscosity),
+                    computes(c::shock));
+}
+
+template <int D>
+void ConservingMpm<D>::scheduleDiagnostics(TaskList& tasks) const {
+  constexpr int overhang = Footprint<D>::overhang;
+  tasks.perMaterial("mpm::sumMass", sumMass<D>, materials_, requiresOld(p::mass), computes(total::mass));
+  tasks.perMaterial("mpm::sumMomentum", sumMomentum<D>, materials_, requiresOld(p::mass), requiresOld(p::velocity<D>),
                     computes(total::momentum));
-  tasks.perMaterial("mpm::sumEnergy", conserving::sumEnergy, materials_, requiresOld(p::mass),
-                    requiresOld(p::velocity<1>), requiresOld(p::internalEnergy), requiresOld(p::affineEnergy),
+  tasks.perMaterial("mpm::sumEnergy", conserving::sumEnergy<D>, materials_, requiresOld(p::mass),
+                    requiresOld(p::velocity<D>), requiresOld(p::internalEnergy), requiresOld(p::affineEnergy),
                     computes(total::kineticEnergy), computes(total::internalEnergy), computes(total::energy));
-  tasks.perMaterial("mpm::sumCenterOfMass", sumCenterOfMass<1>, materials_, requiresOld(p::mass), requiresOld(p::x<1>),
+  tasks.perMaterial("mpm::sumCenterOfMass", sumCenterOfMass<D>, materials_, requiresOld(p::mass), requiresOld(p::x<D>),
                     computes(total::centerOfMass));
-  tasks.perMaterial("mpm::computeDensity", conserving::computeDensity, materials_, requiresOld(p::mass),
-                    requiresOld(p::length), requiresOld(p::internalEnergy), computes(p::density), computes(p::pressure),
-                    computes(p::volume));
+  tasks.perMaterial("mpm::computeDensity", conserving::computeDensity<D>, materials_, requiresOld(p::mass),
+                    requiresOld(p::edges<D>), requiresOld(p::internalEnergy), computes(p::density),
+                    computes(p::pressure), computes(p::volume));
+  tasks.perMaterial("mpm::computeCellDensity", conserving::computeCellDensity<D>, materials_, requiresOld(c::mass),
+                    computes(c::density));
+  tasks.perMaterial("mpm::computeCellVelocity", conserving::computeCellVelocity<D>, materials_,
+                    requiresOld(p::x<D>, overhang), requiresOld(p::edges<D>, overhang), requiresOld(p::mass, overhang),
+                    requiresOld(p::velocity<D>, overhang), requiresOld(p::modes<D>, overhang), requiresOld(c::mass),
+                    computes(c::velocity<D>));
 }
 
-void ConservingMpm::scheduleMeasureError(TaskList& tasks, const reference::GasReference& exact,
-                                         const reference::Clock& clock) const {
-  tasks.perMaterial("mpm::measureParticleError", measureParticleError<1>, materials_, with(&exact), with(&clock),
-                    requiresOld(p::x<1>), requiresNew(p::density), requiresOld(p::velocity<1>),
+template <int D>
+void ConservingMpm<D>::scheduleMeasureError(TaskList& tasks, const reference::GasReference& exact,
+                                            const reference::Clock& clock) const {
+  tasks.perMaterial("mpm::measureParticleError", measureParticleError<D>, materials_, with(&exact), with(&clock),
+                    requiresOld(p::x<D>), requiresNew(p::density), requiresOld(p::velocity<D>),
                     requiresOld(p::internalEnergy), computes(reference::particleError.density),
                     computes(reference::particleError.velocity), computes(reference::particleError.pressure),
                     computes(reference::particleError.energy));
-  tasks.perMaterial("mpm::measureCellError", conserving::measureCellError, materials_, with(&exact), with(&clock),
-                    requiresOld(p::x<1>, conserving::reach), requiresOld(p::length, conserving::reach),
-                    requiresOld(p::mass, conserving::reach), requiresOld(p::velocity<1>, conserving::reach),
-                    requiresOld(c::mass), requiresOld(c::internalEnergy), computes(reference::cellError.density),
-                    computes(reference::cellError.velocity), computes(reference::cellError.pressure),
-                    computes(reference::cellError.energy));
-  tasks.perMaterial("mpm::measureNodeError", measureNodeError<1>, materials_, with(&exact), with(&clock),
+  tasks.perMaterial("mpm::measureCellError", conserving::measureCellError<D>, materials_, with(&exact), with(&clock),
+                    requiresOld(c::mass), requiresNew(c::velocity<D>), requiresOld(c::internalEnergy),
+                    computes(reference::cellError.density), computes(reference::cellError.velocity),
+                    computes(reference::cellError.pressure), computes(reference::cellError.energy));
+  tasks.perMaterial("mpm::measureNodeError", measureNodeError<D>, materials_, with(&exact), with(&clock),
                     requiresOld(g::mass), computes(reference::nodeError));
 }
+
+template class ConservingMpm<1>;
+template class ConservingMpm<2>;
+template class ConservingMpm<3>;
 
 }  // namespace tushar::mpm

@@ -1,25 +1,21 @@
 #pragma once
 
-#include "components/mpm/conserving/labels.hpp"
-#include "components/mpm/gas_dynamics.hpp"
+#include "components/mpm/conserving/scheme.hpp"
 #include "components/mpm/materials/gas.hpp"
 #include "components/reference/gas_solution.hpp"
 
 namespace tushar::mpm {
 
-/// The `conserving_gas_dynamics` section.
-struct ConservingGasDynamics {
-  double cfl = 0.5;
-  double longestParticle = 2.5;  ///< cells; longer ones are halved
-  Viscosity viscosity{1.0, 0.5};
-};
-
-/// A particle method for gas that conserves mass and total energy to round-off and keeps densities and energies
-/// positive, in one dimension. Particles are intervals of constant mass that tile the gas, so that no cell empties;
-/// they carry a velocity, its slope, and the kinetic energy of the motion about the mean (as in the affine
-/// particle-in-cell method of Jiang et al., ACM Trans. Graph. 34 (2015) 51), and touch the grid with their whole length
-/// (as in GIMP, Bardenhagen & Kober, CMES 5 (2004) 477). The grid's state is gathered at the end of a step, so that the
-/// next time step may follow from it.
+/// A particle method for gas in D dimensions that conserves mass, momentum and total energy to round-off and keeps
+/// densities and energies positive.
+///
+/// Particles are boxes of constant mass that tile the gas, so that no cell empties; they carry a multilinear velocity and
+/// the kinetic energy of the motion about its mean (as in the affine particle-in-cell method of Jiang et al., ACM Trans.
+/// Graph. 34 (2015) 51), and touch the grid with their whole box (as in GIMP, Bardenhagen & Kober, CMES 5 (2004) 477).
+/// The grid's state is gathered at the end of a step, so that the next time step may follow from it.
+///
+/// conserving_mpm.cpp is the schedule; the bodies of its tasks are beside it.
+template <int D>
 class ConservingMpm : public Component, public reference::GasSolution {
  public:
   ConservingMpm(const ConservingGasDynamics& method, std::vector<Gas> materials)
@@ -33,11 +29,20 @@ class ConservingMpm : public Component, public reference::GasSolution {
                             const reference::Clock& clock) const override;
 
  private:
+  /// Adds the tasks whose bodies depend on the transfer.
+  template <class Scheme>
+  void scheduleStep(TaskList& tasks) const;
+  template <class Scheme>
+  void scheduleComputePressure(TaskList& tasks) const;
   void scheduleRedistribute(TaskList& tasks) const;
   void scheduleGridState(TaskList& tasks) const;
 
   ConservingGasDynamics method_;
   std::vector<Gas> materials_;
 };
+
+extern template class ConservingMpm<1>;
+extern template class ConservingMpm<2>;
+extern template class ConservingMpm<3>;
 
 }  // namespace tushar::mpm

@@ -2,6 +2,7 @@
 
 #include "components/mpm/labels.hpp"
 #include "components/mpm/materials/gas.hpp"
+#include "components/mpm/tasks/symmetry.hpp"
 
 namespace tushar::mpm {
 
@@ -22,14 +23,8 @@ void computeAndIntegrateAcceleration(const Patch&, const Gas&, NodeView<const do
 template <int D>
 void setGridBoundaryConditions(const Patch& patch, const Gas&, NodeView<Vec<D>> acceleration,
                                NodeView<Vec<D>> velocityStar) {
-  for (int d = 0; d < D; ++d)
-    for (const int side : {0, 1}) {
-      if (!patch.isAtBoundary(d, side) || !patch.level().isSymmetry(d, side)) continue;
-      forEach<D>(patch.faceNodes(d, side), [&](const Index<D>& node) {
-        acceleration[node][d] = 0;
-        velocityStar[node][d] = 0;
-      });
-    }
+  stopAtSymmetryPlanes<D>(patch, acceleration);
+  stopAtSymmetryPlanes<D>(patch, velocityStar);
 }
 
 }  // namespace tushar::mpm

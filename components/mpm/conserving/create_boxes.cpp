@@ -1,0 +1,97 @@
+#include "components/mpm/conserving/create_boxes.hpp"
+
+#include "components/mpm/conserving/diagnose.hpp"
+#include "components/mpm/tasks/create_particles.hpp"
+
+namespace tushar::mpm::conserving {
+
+namespace {
+
+bool isUniform(const GasObject& object) {
+  return object.density.isConstant() && object.pressure.isConstant() && object.velocity.isConstant();
+}
+
+const GasObject& objectAt(const Gas& gas, const Vec3& point) {
+  for (const GasObject& object : gas.objects)
+    if (object.shape->contains(point)) return object;
+  return gas.objects.front();
+}
+
+/// What a box holds, as integrals over it.
+template <int D>
+struct Contents {
+  double mass = 0, energy = 0;
+  Vec<D> momentum = Vec<D>::Zero();
+  Modes<D> moments = Modes<D>::Zero();  ///< column a - 1: momentum times phi_a
+};
+
+/// Integrals over a box about `x`, Gauss-Legendre with 3 points per axis.
+template <int D>
+Contents<D> integrate(const Level& level, const Gas& gas, const GasObject& object, const Vec<D>& x,
+                      const Vec<D>& edges) {
+  static const std::array<double, 3> at{-std::sqrt(0.6), 0, std::sqrt(0.6)}, weight{5.0 / 18, 8.0 / 18, 5.0 / 18};
+  Contents<D> sum;
+  const double volume = edges.prod() * crossSection<D>(level);
+  Box points{{}, Index3::filled(1)};
+  for (int d = 0; d < D; ++d) points.upper[d] = 3;
+  forEach<D>(points, [&](const Index<D>& k) {
+    Vec<D> offset;
+    double v = volume;
+    for (int d = 0; d < D; ++d) {
+      offset[d] = 0.5 * edges[d] * at[static_cast<std::size_t>(k[d])];
+      v *= weight[static_cast<std::size_t>(k[d])];
+    }
+    const Vec3 point = level.expandPoint<D>(x + offset);
+    const double rho = object.density(point), p = object.pressure(point);
+    const Vec<D> u = level.reduce<D>(object.velocity(point));
+    refuseImpossible(object, point, rho, p, object.velocity(point));
+    sum.mass += v * rho;
+    sum.momentum += v * rho * u;
+    sum.energy += v * rho * (gas.internalEnergy(rho, p) + 0.5 * u.squaredNorm());
+    for (int a = 1; a < (1 << D); ++a) sum.moments.col(a - 1) += v * rho * productOver(a, offset) * u;
+  });
+  return sum;
+}
+
+}  // namespace
+
+template <int D>
+void createBoxes(const Patch& patch, const Gas& gas, ParticleMaker& maker, std::vector<Vec<D>>& x,
+                 std::vector<Vec<D>>& edges, std::vector<double>& mass, std::vector<Vec<D>>& velocity,
+                 std::vector<Modes<D>>& modes, std::vector<double>& internalEnergy, std::vector<double>& affineEnergy) {
+  const Level& level = patch.level();
+  std::vector<double> density;
+  createParticles<D>(patch, gas, maker, x, velocity, density, internalEnergy);
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    const GasObject& object = objectAt(gas, level.expandPoint<D>(x[k]));
+    Vec<D> box, inertia;
+    for (int d = 0; d < D; ++d) {
+      box[d] = level.spacing(d) / object.particlesPerCell[level.axis(d)];
+      inertia[d] = box[d] * box[d] / 12;
+    }
+    edges.push_back(box);
+    mass.push_back(density[k] * box.prod() * crossSection<D>(level));
+    modes.push_back(Modes<D>::Zero());
+    affineEnergy.push_back(0);
+    if (isUniform(object)) continue;
+    const Contents<D> held = integrate<D>(level, gas, object, x[k], box);
+    mass[k] = held.mass;
+    velocity[k] = held.momentum / held.mass;
+    for (int a = 1; a < (1 << D); ++a)
+      modes[k].col(a - 1) = held.moments.col(a - 1) / (held.mass * productOver(a, inertia));
+    affineEnergy[k] = modalEnergy<D>(modes[k], inertia);
+    internalEnergy[k] = held.energy / held.mass - 0.5 * velocity[k].squaredNorm() - affineEnergy[k];
+  }
+}
+
+template void createBoxes<1>(const Patch&, const Gas&, ParticleMaker&, std::vector<Vec<1>>&, std::vector<Vec<1>>&,
+                             std::vector<double>&, std::vector<Vec<1>>&, std::vector<Modes<1>>&, std::vector<double>&,
+                             std::vector<double>&);
+template void createBoxes<2>(const Patch&, const Gas&, ParticleMaker&, std::vector<Vec<2>>&, std::vector<Vec<2>>&,
+                             std::vector<double>&, std::vector<Vec<2>>&, std::vector<Modes<2>>&, std::vector<double>&,
+                             std::vector<double>&);
+template void createBoxes<3>(const Patch&, const Gas&, ParticleMaker&, std::vector<Vec<3>>&, std::vector<Vec<3>>&,
+                             std::vector<double>&, std::vector<Vec<3>>&, std::vector<Modes<3>>&, std::vector<double>&,
+                             std::vector<double>&);
+
+}  // namespace tushar::mpm::conserving
