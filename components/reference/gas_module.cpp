@@ -11,8 +11,7 @@ namespace {
 /// Measures a component's gas against an exact solution, whatever that is.
 class GasError : public simulation::Analysis {
  public:
-  GasError(ReferencePointer exact, const GasSolution& solution)
-      : exact_(std::move(exact)), solution_(&solution) {}
+  GasError(ReferencePointer exact, const GasSolution& solution) : exact_(std::move(exact)), solution_(&solution) {}
 
   void schedule(TaskList& tasks) const override { solution_->scheduleMeasureError(tasks, *exact_, clock_); }
   void setTime(double time) override { clock_.time = time; }
@@ -42,7 +41,7 @@ std::vector<MeasuredError> GasError::errors() const {
 }
 
 std::vector<output::Array> GasError::exactProfile(const Level& level) const {
-  if (level.dimension() != 1) return {};
+  if (level.dimension() != 1 || !exact_->holdsAt(clock_.time)) return {};
   constexpr int points = 2000;
   std::vector<std::vector<double>> columns(5);
   for (int k = 0; k <= points; ++k) {
@@ -73,8 +72,7 @@ simulation::MakeAnalysis measureAgainst(std::function<ReferencePointer(const Lev
   };
   return [=](const Component& component, const Level& level) -> std::unique_ptr<simulation::Analysis> {
     const auto* solution = dynamic_cast<const GasSolution*>(&component);
-    if (!solution)
-      throw problem("measures a gas, but this component does not solve for one; take the module out");
+    if (!solution) throw problem("measures a gas, but this component does not solve for one; take the module out");
     try {
       return std::make_unique<GasError>(build(level), *solution);
     } catch (const std::invalid_argument& error) {

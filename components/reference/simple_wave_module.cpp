@@ -1,6 +1,6 @@
-#include "components/reference/simple_wave.hpp"
 #include "components/reference/gas_module.hpp"
 #include "components/reference/modules.hpp"
+#include "components/reference/simple_wave.hpp"
 
 namespace tushar::reference {
 
