@@ -18,6 +18,7 @@ simulation::Catalogue catalogue() {
       {
           reference::exactRiemannKind(),
           reference::simpleWaveKind(),
+          reference::isentropicVortexKind(),
           simulation::exactSolutionKind(),
       },
   };

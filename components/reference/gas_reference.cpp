@@ -3,33 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
+
+#include "components/reference/gas_fields.hpp"
 
 namespace tushar::reference {
 
 namespace {
 
-/// Density, the three velocities, pressure, energy.
-using Fields = Eigen::Array<double, 6, 1, Eigen::DontAlign>;
-
 constexpr double kTolerance = 1e-12;
 constexpr int kMostHalvings = 40;
-
-// Abramowitz & Stegun, Handbook of Mathematical Functions, table 25.4, n = 8.
-constexpr std::array<double, 4> kGaussPoint{0.18343464249564980494, 0.52553240991632898582, 0.79666647741362673959,
-                                            0.96028985649753623168};
-constexpr std::array<double, 4> kGaussWeight{0.36268378337836198297, 0.31370664587788728734, 0.22238103445337447054,
-                                             0.10122853629037625915};
-
-Fields toFields(const GasState& state) {
-  Fields fields;
-  fields << state.density, state.velocity.array(), state.pressure, state.energy;
-  return fields;
-}
-
-GasState toState(const Fields& fields) { return {fields[0], fields.segment<3>(1).matrix(), fields[4], fields[5]}; }
 
 /// Means over a box, one axis inside the other.
 class BoxMean {
@@ -79,14 +63,10 @@ class BoxMean {
   }
 
   Fields gauss(int axis, Vec3 x, double a, double b) const {
-    const double middle = 0.5 * (a + b);
-    const double half = 0.5 * (b - a);
     Fields sum = Fields::Zero();
-    for (std::size_t k = 0; k < kGaussPoint.size(); ++k) {
-      for (double side : {-1.0, 1.0}) {
-        x[axis] = middle + side * half * kGaussPoint[k];
-        sum += 0.5 * kGaussWeight[k] * over(axis + 1, x);
-      }
+    for (const QuadraturePoint& point : kGauss8) {
+      x[axis] = a + (b - a) * point.at;
+      sum += point.weight * over(axis + 1, x);
     }
     return sum;
   }
@@ -99,13 +79,17 @@ class BoxMean {
 
 }  // namespace
 
-std::vector<double> GasReference::breaks(int, double) const { return {}; }
-
-GasState GasReference::average(const Vec3& lower, const Vec3& upper, double t) const {
+void checkBox(const Vec3& lower, const Vec3& upper) {
   if (!(upper.array() >= lower.array()).all()) {
     throw std::invalid_argument(fmt::format("No mean over the box [{}, {}, {}] to [{}, {}, {}]: upper is below lower.",
                                             lower[0], lower[1], lower[2], upper[0], upper[1], upper[2]));
   }
+}
+
+std::vector<double> GasReference::breaks(int, double) const { return {}; }
+
+GasState GasReference::average(const Vec3& lower, const Vec3& upper, double t) const {
+  checkBox(lower, upper);
   return toState(BoxMean(*this, lower, upper, t).over(0, lower));
 }
 

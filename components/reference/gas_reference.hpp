@@ -19,8 +19,12 @@ class GasReference {
  public:
   virtual ~GasReference() = default;
 
-  /// The fields at position `x` (m) and time `t` (s).  Throws std::invalid_argument where t < 0.
+  /// The fields at position `x` (m) and time `t` (s).  Throws std::invalid_argument where t < 0, std::domain_error
+  /// where it does not hold.
   virtual GasState at(const Vec3& x, double t) const = 0;
+
+  /// Whether it has values at time `t` (s).
+  virtual bool holdsAt(double t) const { return t >= 0; }
 
   /// Mean of each field over the box [lower, upper] (m) at time `t` (s); an axis with no extent is a point.
   /// Each is a plain volume mean, velocity and internal energy too: neither is weighted with mass.

@@ -8,5 +8,7 @@ namespace tushar::reference {
 simulation::AnalysisKind exactRiemannKind();
 /// `simpleWave`: errors against a right-running simple wave.
 simulation::AnalysisKind simpleWaveKind();
+/// `isentropicVortex`: errors against a smooth vortex that a uniform flow carries along.
+simulation::AnalysisKind isentropicVortexKind();
 
 }  // namespace tushar::reference

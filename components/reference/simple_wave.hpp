@@ -32,6 +32,8 @@ class SimpleWave : public GasReference {
   GasState at(const Vec3& x, double t) const override;
   GasState average(const Vec3& lower, const Vec3& upper, double t) const override;
 
+  bool holdsAt(double t) const override { return t >= 0 && t < breakingTime_; }
+
   /// First time (s) at which characteristics meet, -1 / min d(u + c)/dx over [lower, upper]; infinite if they never do.
   /// The slope is differenced, so it is good to about 1e-8 for profiles wider than 1/200 of that interval.
   double breakingTime() const { return breakingTime_; }

@@ -100,10 +100,11 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   const Lists& lists = lists_;
   const Names diagnosed = producedBy(lists.diagnostics.tasks());
   const Names stepped = united(producedBy(lists.initialize.tasks()), producedBy(lists.timeAdvance.tasks()));
-  Names reported, derived, savedState;
+  Names totals, derived, savedState;
   for (const auto& [what, label] : {std::pair{"mass", "TotalMass"}, {"momentum", "TotalMomentum"}, {"energy", "TotalEnergy"}})
     if (diagnosed.contains(label)) totals_.emplace_back(what, label);
-  for (const auto& total : totals_) reported.insert(total.second);
+  for (const auto& total : totals_) totals.insert(total.second);
+  Names reported = totals;
   for (const auto& analysis : analyses)
     for (const MeasuredError& error : analysis->errors()) reported.emplace(error.label->name);
   for (const SaveRequest& save : saved_fields_)
@@ -115,6 +116,7 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   Pruned stable = prune(lists.stableTimeStep.tasks(), united(wanted, {std::string(data::delT.name)}), false);
   Pruned step = prune(lists.diagnostics.tasks(), {saved_globals_.begin(), saved_globals_.end()}, false);
   Pruned output = prune(lists.diagnostics.tasks(), derived, false);
+  Pruned begin = prune(lists.diagnostics.tasks(), totals, false);
   Pruned end = prune(lists.diagnostics.tasks(), reported, false);
   Names read = requiredOfState(stable.kept);
   for (const Pruned* pruned : {&step, &output, &end}) read = united(read, requiredOfState(pruned->kept));
@@ -133,6 +135,7 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   timeAdvance = tasks::TaskGraph("timeAdvance", std::move(advance), level, table);
   everyStep = tasks::TaskGraph("diagnostics of every step", std::move(step), level, table);
   everyOutput = tasks::TaskGraph("diagnostics of every output", std::move(output), level, table);
+  startTotals = tasks::TaskGraph("totals of the start", std::move(begin), level, table);
   report = tasks::TaskGraph("diagnostics of the report", std::move(end), level, table);
 }
 

@@ -14,8 +14,8 @@ namespace tushar::simulation {
 
 /// The task lists of a run, compiled against each other: what a later one reads, an earlier one must leave behind.
 ///
-/// The diagnostics are compiled three times from one list, each time for what is asked for then: the globals saved
-/// in every step, the derived fields of an output, the totals and errors of the report.
+/// The diagnostics are compiled four times from one list, each time for what is asked for then: the totals at the
+/// start, the globals saved in every step, the derived fields of an output, the totals and errors of the report.
 class Phases {
  public:
   /// Takes down the lists. Throws TaskError for one that reads what nobody writes.
@@ -28,7 +28,7 @@ class Phases {
   void compile(const std::vector<std::unique_ptr<Analysis>>& analyses, const std::vector<SaveRequest>& saves,
                const grid::Level& level, data::VariableTable& table);
 
-  tasks::TaskGraph initialize, stableTimeStep, timeAdvance, everyStep, everyOutput, report;
+  tasks::TaskGraph initialize, stableTimeStep, timeAdvance, startTotals, everyStep, everyOutput, report;
 
   /// Names of the variables that a step needs of the one before, sorted: the state of a run.
   const std::vector<std::string>& state() const { return state_; }

@@ -46,7 +46,7 @@ class Simulation {
   double nextOutputTime() const;
   output::Snapshot snapshot();
   void addField(output::Snapshot& snapshot, const SaveRequest& save);
-  std::vector<std::vector<double>> measureTotals();
+  std::vector<std::vector<double>> measureTotals(tasks::TaskGraph& graph);
   std::string whyEnded() const;
   bool outOfWallTime() const;
   Report makeReport(const std::vector<std::vector<double>>& before);

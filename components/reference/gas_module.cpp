@@ -1,0 +1,84 @@
+#include "components/reference/gas_module.hpp"
+
+#include "components/reference/gas_solution.hpp"
+
+namespace tushar::reference {
+
+using simulation::MeasuredError;
+
+namespace {
+
+/// Measures a component's gas against an exact solution, whatever that is.
+class GasError : public simulation::Analysis {
+ public:
+  GasError(ReferencePointer exact, const GasSolution& solution) : exact_(std::move(exact)), solution_(&solution) {}
+
+  void schedule(TaskList& tasks) const override { solution_->scheduleMeasureError(tasks, *exact_, clock_); }
+  void setTime(double time) override { clock_.time = time; }
+  std::vector<MeasuredError> errors() const override;
+  std::vector<output::Array> exactProfile(const Level& level) const override;
+
+ private:
+  ReferencePointer exact_;
+  const GasSolution* solution_;
+  Clock clock_;
+};
+
+std::vector<MeasuredError> GasError::errors() const {
+  std::vector<MeasuredError> errors;
+  const auto add = [&](const char* place, const GasErrorLabels& labels, const std::vector<std::string>& norms) {
+    errors.push_back({"density", place, &labels.density, norms});
+    errors.push_back({"velocity", place, &labels.velocity, norms});
+    errors.push_back({"pressure", place, &labels.pressure, norms});
+    errors.push_back({"energy", place, &labels.energy, norms});
+  };
+  for (const MeasuredPlace place : solution_->measuredPlaces()) {
+    if (place == MeasuredPlace::particle) add("particle", particleError, {"L1", "L2", "max"});
+    if (place == MeasuredPlace::cell) add("cell", cellError, {"L1", "L2"});
+    if (place == MeasuredPlace::node) errors.push_back({"density", "node", &nodeError, {"max"}});
+  }
+  return errors;
+}
+
+std::vector<output::Array> GasError::exactProfile(const Level& level) const {
+  if (level.dimension() != 1 || !exact_->holdsAt(clock_.time)) return {};
+  constexpr int points = 2000;
+  std::vector<std::vector<double>> columns(5);
+  for (int k = 0; k <= points; ++k) {
+    const double at = level.nodePosition(0, 0) +
+                      (level.nodePosition(0, level.cells().upper[0]) - level.nodePosition(0, 0)) * k / points;
+    Vec<1> x;
+    x[0] = at;
+    const GasState state = exact_->at(level.expandPoint<1>(x), clock_.time);
+    columns[0].push_back(at);
+    columns[1].push_back(state.density);
+    columns[2].push_back(state.velocity[level.axis(0)]);
+    columns[3].push_back(state.pressure);
+    columns[4].push_back(state.energy);
+  }
+  return {{"x", "m", "position", 1, columns[0]},
+          {"density", "kg/m^3", "exact density", 1, columns[1]},
+          {"velocity", "m/s", "exact velocity", 1, columns[2]},
+          {"pressure", "Pa", "exact pressure", 1, columns[3]},
+          {"energy", "J/kg", "exact internal energy", 1, columns[4]}};
+}
+
+}  // namespace
+
+simulation::MakeAnalysis measureAgainst(std::function<ReferencePointer(const Level&)> build,
+                                        const input::Element& module) {
+  const auto problem = [where = module.where(), path = module.path()](const std::string& sentence) {
+    return InputError({InputProblem{where, path, sentence}});
+  };
+  return [=](const Component& component, const Level& level) -> std::unique_ptr<simulation::Analysis> {
+    const auto* solution = dynamic_cast<const GasSolution*>(&component);
+    if (!solution) throw problem("measures a gas, but this component does not solve for one; take the module out");
+    try {
+      return std::make_unique<GasError>(build(level), *solution);
+    } catch (const std::invalid_argument& error) {
+      throw problem(error.what());
+    }
+  };
+}
+
+}  // namespace tushar::reference

@@ -1,0 +1,59 @@
+#include "components/reference/gas_module.hpp"
+#include "components/reference/modules.hpp"
+#include "components/reference/simple_wave.hpp"
+
+namespace tushar::reference {
+
+using input::Diagnostics;
+using input::Element;
+using input::Schema;
+using simulation::AnalysisKind;
+
+namespace {
+
+struct WaveSection {
+  std::string name;
+  input::Expression velocity{0.0};
+  double density = 1, soundSpeed = 1, gamma = 1.4;
+  double lower = 0, upper = 1;
+};
+const Schema<WaveSection>& waveSchema() {
+  static const Schema<WaveSection> schema =
+      Schema<WaveSection>("Module", "Errors against a simple wave that runs to the right into gas at rest.")
+          .requiredAttribute("name", &WaveSection::name, "1", "simpleWave")
+          .required("velocity", &WaveSection::velocity, "m/s", "velocity at t = 0, a formula in x")
+          .ours()
+          .value("density", &WaveSection::density, 1, "kg/m^3", "density at rest", input::positive())
+          .ours()
+          .value("sound_speed", &WaveSection::soundSpeed, 1, "m/s", "speed of sound at rest", input::positive())
+          .ours()
+          .value("gamma", &WaveSection::gamma, 1.4, "1", "ratio of specific heats", input::greaterThan(1))
+          .ours()
+          .value("lower", &WaveSection::lower, 0, "m", "where the profile begins")
+          .ours()
+          .value("upper", &WaveSection::upper, 1, "m", "where the profile ends")
+          .ours();
+  return schema;
+}
+
+}  // namespace
+
+AnalysisKind simpleWaveKind() {
+  AnalysisKind kind{"simpleWave", "errors against a right-running simple wave", {}, {}};
+  kind.describe = [](std::ostream& out) { waveSchema().describe(out); };
+  kind.read = [](const Element& module, Diagnostics& diagnostics) {
+    return readModule(waveSchema(), module, diagnostics, [](const WaveSection& read) {
+      SimpleWaveProblem problem;
+      problem.velocity = [velocity = read.velocity](double x) { return velocity(Vec3(x, 0, 0)); };
+      problem.density = read.density;
+      problem.soundSpeed = read.soundSpeed;
+      problem.gamma = read.gamma;
+      problem.lower = read.lower;
+      problem.upper = read.upper;
+      return std::make_shared<SimpleWave>(problem);
+    });
+  };
+  return kind;
+}
+
+}  // namespace tushar::reference

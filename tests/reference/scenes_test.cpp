@@ -1,0 +1,78 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "components/components.hpp"
+#include "core/simulation/scene.hpp"
+
+// The references as modules of scenes: what they measure falls with the resolution, what they refuse they say.
+
+namespace tushar::reference {
+
+namespace {
+
+using Overrides = std::vector<std::string>;
+
+simulation::Report run(const std::string& scene, const Overrides& overrides) {
+  simulation::Problem problem = simulation::readScene(scene, overrides, catalogue());
+  problem.archive.saves.clear();
+  simulation::RunOptions options;
+  options.quiet = true;
+  return simulation::Simulation(std::move(problem), options, std::chrono::steady_clock::now()).run();
+}
+
+double cellError(const simulation::Report& report, const std::string& field) {
+  for (const simulation::ErrorNorms& error : report.errors)
+    if (error.field == field && error.place == "cell") return error.norms.at("L1");
+  throw std::logic_error("the report has no cell error of " + field);
+}
+
+/// Order of the L1 error of the cell means of a field between two runs, the second on the finer grid.
+double orderOf(const std::string& field, const simulation::Report& coarse, const simulation::Report& fine) {
+  return std::log(cellError(coarse, field) / cellError(fine, field)) / std::log(coarse.spacing / fine.spacing);
+}
+
+std::string cells(int x, int y = 1, int z = 1) {
+  return "Grid/Level/Box/resolution=[" + std::to_string(x) + "," + std::to_string(y) + "," + std::to_string(z) + "]";
+}
+
+/// What is wrong with a scene, without its place.
+std::string problemOf(const std::string& scene, const Overrides& overrides) {
+  try {
+    simulation::readScene(scene, overrides, catalogue());
+  } catch (const InputError& error) {
+    return error.problems().size() == 1 ? error.problems()[0].sentence : std::string(error.what());
+  }
+  return "nothing";
+}
+
+}  // namespace
+
+TEST(VortexScene, IsOfSecondOrder) {
+  const auto coarse = run("ups/euler/vortex.ups", {cells(48, 48)}), fine = run("ups/euler/vortex.ups", {cells(96, 96)});
+  EXPECT_GT(orderOf("density", coarse, fine), 1.9);
+  EXPECT_GT(orderOf("velocity", coarse, fine), 1.9);
+  EXPECT_GT(orderOf("pressure", coarse, fine), 1.9);
+  EXPECT_GT(orderOf("energy", coarse, fine), 1.9);
+}
+
+TEST(VortexScene, MeasuresTheSameInThreeDimensions) {
+  const std::string steps = "Time/delt_max=0.05";  // the same in both, below what either would take
+  const auto plane = run("ups/euler/vortex.ups", {cells(16, 16), steps});
+  const auto space = run("ups/euler/vortex.ups", {cells(16, 16, 2), steps});
+  EXPECT_EQ(plane.steps, space.steps);
+  EXPECT_NEAR(cellError(space, "density") / cellError(plane, "density"), 1, 1e-12);
+}
+
+TEST(VortexScene, NeedsThePlaneInWhichItTurns) {
+  EXPECT_EQ(problemOf("ups/euler/vortex.ups", {"DataAnalysis/Module/axis=x"}),
+            "axis: a vortex around x needs a grid in y and z, but this one has no z");
+}
+
+TEST(VortexScene, RefusesAnEmptyMiddle) {
+  EXPECT_EQ(problemOf("ups/euler/vortex.ups", {"DataAnalysis/Module/strength=12"}),
+            "A vortex of strength 12 m/s leaves no gas in its middle; the strength must be below 10.0828 m/s.");
+}
+
+}  // namespace tushar::reference
