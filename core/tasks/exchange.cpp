@@ -52,12 +52,18 @@ void fillPatch(Warehouse& warehouse, int number, Generation generation, const Pa
   const int width = warehouse.table().ghost(number);
   Variable& here = warehouse.variable(generation, number, patch.id());
   const Box own = nodes ? patch.nodes() : patch.cells();
+  // The last node of a periodic axis is the image of the first, with other rounding: a node of the grid is never taken
+  // from an image, whatever the patches.
+  const Box grid = nodes ? warehouse.level().nodes() : warehouse.level().cells();
   forEachSource(warehouse.level(), patch.cellsWithin(width + (nodes ? 1 : 0)), [&](const Patch& other, const Index3& shift) {
     if (&other == &patch && shift == Index3{}) return;
     const Variable& there = warehouse.variable(generation, number, other.id());
     const Box theirs = (nodes ? other.nodes() : other.cells()).shifted(shift).intersect(here.stored);
     if (theirs.empty()) return;
-    forEachPartOutside(theirs, own, [&](const Box& part) { copyBox(there, here, part, shift, name.label->bytes); });
+    forEachPartOutside(theirs, own, [&](const Box& part) {
+      if (shift == Index3{}) return copyBox(there, here, part, shift, name.label->bytes);
+      forEachPartOutside(part, grid, [&](const Box& beyond) { copyBox(there, here, beyond, shift, name.label->bytes); });
+    });
   });
 }
 

@@ -43,9 +43,6 @@ void ConservingMpm<D>::scheduleTimeAdvance(TaskList& tasks) const {
     scheduleStep<AffineFlip>(tasks);
   tasks.relocate(p::x<D>, materials_);
   scheduleRedistribute(tasks);
-  const double spare = method_.transfer == Transfer::apic ? Apic::spareEnergy : AffineFlip::spareEnergy;
-  tasks.perMaterial("mpm::limitModes", conserving::limitModes<D>, materials_, with(spare), requiresNew(p::edges<D>),
-                    requiresNew(p::internalEnergy), requiresNew(p::affineEnergy), modifies(p::modes<D>));
   scheduleGridState(tasks);
 }
 
@@ -97,6 +94,9 @@ void ConservingMpm<D>::scheduleRedistribute(TaskList& tasks) const {
 template <int D>
 void ConservingMpm<D>::scheduleGridState(TaskList& tasks) const {
   constexpr int reach = Footprint<D>::reach;
+  const double spare = method_.transfer == Transfer::apic ? Apic::spareEnergy : AffineFlip::spareEnergy;
+  tasks.perMaterial("mpm::limitModes", conserving::limitModes<D>, materials_, with(spare), requiresNew(p::edges<D>),
+                    requiresNew(p::internalEnergy), requiresNew(p::affineEnergy), modifies(p::modes<D>));
   const auto schedule = [&](auto body, auto... more) {
     tasks.perMaterial("mpm::interpolateParticlesToGrid", body, materials_, requiresNew(p::x<D>, reach),
                       requiresNew(p::edges<D>, reach), requiresNew(p::mass, reach), requiresNew(p::velocity<D>, reach),
