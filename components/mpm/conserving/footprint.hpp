@@ -18,9 +18,10 @@ struct Span {
   std::array<double, Most> part{};           ///< by cell; they sum to 1
   std::array<double, Most + 1> weight{};     ///< by node; they sum to 1
   std::array<double, Most + 1> arm{};        ///< of nodes from the centre, m
+  std::array<double, Most + 1> atLower{}, atUpper{};  ///< shares of nodes in the value at the ends
   double inertia = 0;                        ///< sum of weight times arm², m²
   double lower = 0, upper = 0;               ///< ends, m
-  double lowerWithin = 0, upperWithin = 0;   ///< coordinates of the ends in their cells, 0 to 1
+  double lowerWithin = 0, upperWithin = 0;            ///< coordinates of the ends in their cells, 0 to 1
 
   /// Along kernel axis `d`; `cell` is that of the centre. What reaches beyond the grid is cut off.
   Span(const Level& level, int d, int cell, double centre, double length) {
@@ -39,6 +40,10 @@ struct Span {
     lowerWithin = from - below;
     upperWithin = to - (below + cells - 1);
     distribute(1 / (to - from));
+    atLower[0] = 1 - lowerWithin;
+    atLower[1] = lowerWithin;
+    atUpper[index(cells - 1)] = 1 - upperWithin;
+    atUpper[index(cells)] = upperWithin;
     const double offset = origin + below * h - 0.5 * (lower + upper);
     for (int k = 0; k <= cells; ++k) {
       arm[index(k)] = offset + k * h;
@@ -48,10 +53,6 @@ struct Span {
 
   int nodes() const { return cells + 1; }
   double length() const { return upper - lower; }
-  /// Share of node k in the value at the lower and at the upper end.
-  double atLower(int k) const { return k == 0 ? 1 - lowerWithin : k == 1 ? lowerWithin : 0.0; }
-  double atUpper(int k) const { return k == cells ? upperWithin : k == cells - 1 ? 1 - upperWithin : 0.0; }
-
  private:
   static constexpr std::size_t index(int k) { return static_cast<std::size_t>(k); }
   static double snap(double x) {
@@ -79,7 +80,6 @@ struct Footprint {
   /// Cells beyond a patch whose particles may touch its nodes.
   static constexpr int reach = overhang + 1;
   static constexpr int most = 2 * overhang;
-  static constexpr int modes = 1 << D;
 
   std::array<Span<most + (D > 1)>, D> along;
 
@@ -99,31 +99,24 @@ struct Footprint {
     cells<D - 1>(box, cell, 1.0, visit);
   }
 
-  /// Weights at a node: of the mean over the box, and of the means over its 2 D faces.
-  struct Weights {
-    double mean = 1;
-    std::array<double, D> lower, upper;
-  };
-  using Phi = std::array<double, modes>;  ///< phi_a at a node
+  /// Coefficients of a multilinear field about the centre, sum of f_a phi_a; `Axis` is the last one it depends on.
+  template <int Axis>
+  using Field = std::array<Vec<D>, (1 << (Axis + 1))>;
 
-  /// Calls `visit(node, w, phi)` for each node of `box` that the particle touches.
+  /// Calls `visit(node, w, f)` for each node of `box` that the particle touches, with the weight and the field there.
   template <class Visit>
-  void forEachNode(const Box& box, Visit&& visit) const {
+  void forEachNode(const Box& box, const Field<D - 1>& field, Visit&& visit) const {
     Index<D> node;
-    Phi phi;
-    phi[0] = 1;
-    nodes<D - 1>(box, node, 1.0, phi, visit);
+    nodes<D - 1>(box, node, 1.0, field, visit);
   }
-  /// Calls `visit(node, Weights, phi)` for each node that the particle touches.
-  template <class Visit>
-  void forEachNodeWithFaces(Visit&& visit) const {
-    Index<D> node;
-    Phi phi;
-    phi[0] = 1;
-    Weights weights;
-    weights.lower.fill(1);
-    weights.upper.fill(1);
-    faces<D - 1>(node, weights, phi, visit);
+
+  /// The field on a plane across its last axis, `arm` from the centre.
+  template <int Axis>
+  static Field<Axis - 1> slice(const Field<Axis>& field, double arm) {
+    constexpr std::size_t half = std::size_t{1} << Axis;
+    Field<Axis - 1> result;
+    for (std::size_t a = 0; a < half; ++a) result[a] = field[a] + arm * field[a + half];
+    return result;
   }
 
  private:
@@ -131,12 +124,6 @@ struct Footprint {
   Footprint(const Level& level, const Index<D>& cell, const Vec<D>& centre, const Vec<D>& edges,
             std::index_sequence<Axis...>)
       : along{{{level, static_cast<int>(Axis), cell[Axis], centre[Axis], edges[Axis]}...}} {}
-
-  static void extend(int axis, double arm, Phi& phi) {
-    const int step = 1 << axis;
-    for (int a = 0; a < modes; a += 2 * step)
-      phi[static_cast<std::size_t>(a + step)] = phi[static_cast<std::size_t>(a)] * arm;
-  }
 
   template <int Axis, class Visit>
   void cells(const Box& box, Index<D>& cell, double part, Visit& visit) const {
@@ -153,37 +140,17 @@ struct Footprint {
   }
 
   template <int Axis, class Visit>
-  void nodes(const Box& box, Index<D>& node, double weight, Phi& phi, Visit& visit) const {
+  void nodes(const Box& box, Index<D>& node, double weight, const Field<Axis>& field, Visit& visit) const {
     const auto& span = along[Axis];
     const int end = std::min(span.nodes(), box.upper[Axis] - span.first);
     for (int k = std::max(0, box.lower[Axis] - span.first); k < end; ++k) {
       const auto at = static_cast<std::size_t>(k);
       node[Axis] = span.first + k;
-      extend(Axis, span.arm[at], phi);
+      const double w = weight * span.weight[at];
       if constexpr (Axis == 0)
-        visit(node, weight * span.weight[at], phi);
+        visit(node, w, Vec<D>(field[0] + span.arm[at] * field[1]));
       else
-        nodes<Axis - 1>(box, node, weight * span.weight[at], phi, visit);
-    }
-  }
-
-  template <int Axis, class Visit>
-  void faces(Index<D>& node, const Weights& outer, Phi& phi, Visit& visit) const {
-    const auto& span = along[Axis];
-    for (int k = 0; k < span.nodes(); ++k) {
-      const double w = span.weight[static_cast<std::size_t>(k)];
-      node[Axis] = span.first + k;
-      extend(Axis, span.arm[static_cast<std::size_t>(k)], phi);
-      Weights inner;
-      inner.mean = outer.mean * w;
-      for (std::size_t d = 0; d < D; ++d) {
-        inner.lower[d] = outer.lower[d] * (d == Axis ? span.atLower(k) : w);
-        inner.upper[d] = outer.upper[d] * (d == Axis ? span.atUpper(k) : w);
-      }
-      if constexpr (Axis == 0)
-        visit(node, inner, phi);
-      else
-        faces<Axis - 1>(node, inner, phi, visit);
+        nodes<Axis - 1>(box, node, w, slice<Axis>(field, span.arm[at]), visit);
     }
   }
 };

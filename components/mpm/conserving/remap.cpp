@@ -21,7 +21,7 @@ double relativeSlope(const Level& level, CellView<const double> values, const In
   const Index<D> below = cell - Index<D>::unit(d), above = cell + Index<D>::unit(d);
   if (!values.box().contains(below) || !values.box().contains(above) || !(values[cell] > 0)) return 0;
   const double rise = values[above] - values[cell], fall = values[cell] - values[below];
-  return rise * fall > 0 ? 2 * rise * fall / (rise + fall) * level.inverseSpacing(d) / values[cell] : 0.0;
+  return rise * fall > 0 ? 2 * rise * fall * level.inverseSpacing(d) / ((rise + fall) * values[cell]) : 0.0;
 }
 
 /// Relative slopes of a cell variable, such that a box of these edges keeps at least a fifth of the mean everywhere.

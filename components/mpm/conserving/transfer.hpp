@@ -8,6 +8,15 @@
 
 namespace tushar::mpm::conserving {
 
+/// The velocity of a particle as a field about its centre.
+template <int D>
+typename Footprint<D>::template Field<D - 1> fieldOf(const Vec<D>& velocity, const Modes<D>& modes) {
+  typename Footprint<D>::template Field<D - 1> field;
+  field[0] = velocity;
+  for (std::size_t a = 1; a < field.size(); ++a) field[a] = modes.col(static_cast<int>(a) - 1);
+  return field;
+}
+
 /// m_i = sum w m,   v_i = sum w m u(x_i) / m_i on the patch's nodes,   M_c = sum o m,   IE_c = sum o m e in its cells;
 /// w and o as in Footprint, u the velocity of the particle's modes. Symmetry planes: no normal velocity.
 /// `visitPart(cell, volume)` is told of each part of a box that lies in a cell of the patch.
@@ -31,14 +40,11 @@ void gatherOnGrid(const Patch& patch, ParticleView<const Vec<D>> x, ParticleView
         cellInternalEnergy[c] += part * energy;
         visitPart(c, part * volume);
       });
-      const Vec<D> mean = m * velocity[p];
-      const Modes<D> moment = m * modes[p];
-      footprint.forEachNode(nodeMass.box(), [&](const Index<D>& node, double w, const auto& phi) {
-        Vec<D> momentum = mean;
-        for (int a = 1; a < (1 << D); ++a) momentum += phi[static_cast<std::size_t>(a)] * moment.col(a - 1);
-        nodeMass[node] += w * m;
-        nodeVelocity[node] += w * momentum;
-      });
+      footprint.forEachNode(nodeMass.box(), fieldOf<D>(velocity[p], modes[p]),
+                            [&](const Index<D>& node, double w, const Vec<D>& u) {
+                              nodeMass[node] += w * m;
+                              nodeVelocity[node] += w * m * u;
+                            });
     }
   });
   forEach<D>(nodeMass.box(), [&](const Index<D>& node) {
@@ -75,17 +81,90 @@ void interpolateAndMeasureFill(const Patch& patch, const Gas&, ParticleView<cons
   forEach<D>(patch.cells(), [&](const Index<D>& cell) { greatest.add(fill[cell]); });
 }
 
-/// What a particle takes from the nodes it touches, means over its box or its faces; (E1)-(E3) of updateParticles.
-template <int D>
+/// What a particle takes from the nodes on a line (Axis = 0), a plane, or all of its footprint (Axis = D - 1): sums
+/// with the weights along these axes; (E1)-(E3) of updateParticles.
+template <int D, int Axis>
 struct Gathered {
-  std::array<Vec<D>, (1 << D)> moments;  ///< y phi_a
-  Vec<D> lowerFace = Vec<D>::Zero(), upperFace = Vec<D>::Zero();  ///< normal velocity of the faces, m/s
-  Tensor<D> jump = Tensor<D>::Zero();  ///< column d: y on the upper minus y on the lower face across axis d, m/s
-  double slipEnergy = 0;               ///< beta (2 - beta) |r|² / 2, J/kg
-  double square = 0;                   ///< |y|², J/kg
+  std::array<Vec<D>, (1 << (Axis + 1))> moments;  ///< y phi_a
+  std::array<Vec<D>, Axis + 1> lower, upper;      ///< velocity with which the faces across each axis move, m/s
+  Vec<D> moving = Vec<D>::Zero();                 ///< the same velocity over all of it
+  double slipEnergy = 0;                          ///< beta (2 - beta) |r|² / 2, J/kg
+  double square = 0;                              ///< |y|², J/kg
 
-  Gathered() { moments.fill(Vec<D>::Zero()); }
+  Gathered() {
+    moments.fill(Vec<D>::Zero());
+    lower.fill(Vec<D>::Zero());
+    upper.fill(Vec<D>::Zero());
+  }
 };
+
+/// The node fields that particles are updated from.
+template <int D>
+struct NodeMotion {
+  NodeView<const Vec<D>> velocity, acceleration;
+  NodeView<const double> relaxation;
+  double dt;
+};
+
+/// Adds a node of a line.
+template <int D, class Scheme>
+[[gnu::always_inline]] inline void addNode(const Footprint<D>& footprint, std::size_t k, const Index<D>& node, const NodeMotion<D>& motion,
+             const Vec<D>& field, Gathered<D, 0>& sum) {
+  const auto& span = footprint.along[0];
+  const double w = span.weight[k];
+  const Vec<D> v = motion.velocity[node], dv = motion.dt * motion.acceleration[node], r = field - v;
+  const Vec<D> moving = v + Scheme::faceTime * dv;
+  const double beta = Scheme::transfer == Transfer::apic ? 1.0 : motion.relaxation[node];
+  const Vec<D> y = v + dv + (1 - beta) * r, wy = w * y;
+  sum.moments[0] += wy;
+  sum.moments[1] += span.arm[k] * wy;
+  sum.lower[0] += span.atLower[k] * moving;
+  sum.upper[0] += span.atUpper[k] * moving;
+  sum.moving += w * moving;
+  sum.slipEnergy += w * (0.5 * beta * (2 - beta)) * r.squaredNorm();
+  sum.square += wy.dot(y);
+}
+
+/// Adds a line to a plane, or a plane to the footprint.
+template <int D, int Axis>
+[[gnu::always_inline]] inline void addSlice(const Footprint<D>& footprint, std::size_t k, const Gathered<D, Axis - 1>& slice,
+              Gathered<D, Axis>& sum) {
+  constexpr std::size_t half = std::size_t{1} << Axis;
+  const auto& span = footprint.along[Axis];
+  const double w = span.weight[k];
+  for (std::size_t a = 0; a < half; ++a) {
+    sum.moments[a] += w * slice.moments[a];
+    sum.moments[a + half] += w * span.arm[k] * slice.moments[a];
+  }
+  for (std::size_t d = 0; d < Axis; ++d) {
+    sum.lower[d] += w * slice.lower[d];
+    sum.upper[d] += w * slice.upper[d];
+  }
+  sum.lower[Axis] += span.atLower[k] * slice.moving;
+  sum.upper[Axis] += span.atUpper[k] * slice.moving;
+  sum.moving += w * slice.moving;
+  sum.slipEnergy += w * slice.slipEnergy;
+  sum.square += w * slice.square;
+}
+
+template <int D, class Scheme, int Axis>
+[[gnu::always_inline]] inline Gathered<D, Axis> gatherFromNodes(const Footprint<D>& footprint, Index<D> node, const NodeMotion<D>& motion,
+                                  const typename Footprint<D>::template Field<Axis>& field) {
+  Gathered<D, Axis> sum;
+  const auto& span = footprint.along[Axis];
+  for (int k = 0; k < span.nodes(); ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    node[Axis] = span.first + k;
+    if constexpr (Axis == 0)
+      addNode<D, Scheme>(footprint, at, node, motion, field[0] + span.arm[at] * field[1], sum);
+    else
+      addSlice<D, Axis>(footprint, at,
+                        gatherFromNodes<D, Scheme, Axis - 1>(footprint, node, motion,
+                                                             Footprint<D>::template slice<Axis>(field, span.arm[at])),
+                        sum);
+  }
+  return sum;
+}
 
 /// Particles after a step, from node velocities v, accelerations a and relaxations beta, and the work f of cells.
 ///
@@ -106,39 +185,24 @@ void updateParticles(const Patch& patch, const Gas&, ParticleView<const Vec<D>> 
                      ParticleView<Modes<D>> newModes, ParticleView<double> newInternalEnergy,
                      ParticleView<double> newAffineEnergy) {
   constexpr bool apic = Scheme::transfer == Transfer::apic;
+  const NodeMotion<D> motion{nodeVelocity, acceleration, relaxation, dt};
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     for (const int p : x.in(cell)) {
       const Footprint<D> footprint(patch.level(), cell, x[p], edges[p]);
-      const Vec<D> v0 = velocity[p];
       const Modes<D> u = modes[p];
-      Gathered<D> taken;
-      footprint.forEachNodeWithFaces([&](const Index<D>& node, const auto& w, const auto& phi) {
-        const Vec<D> v = nodeVelocity[node], dv = dt * acceleration[node], moving = v + Scheme::faceTime * dv;
-        Vec<D> r = v0 - v;
-        for (int a = 1; a < (1 << D); ++a) r += phi[static_cast<std::size_t>(a)] * u.col(a - 1);
-        const double beta = apic ? 1.0 : relaxation[node];
-        const Vec<D> y = v + dv + (1 - beta) * r;
-        taken.slipEnergy += w.mean * 0.5 * beta * (2 - beta) * r.squaredNorm();
-        taken.square += w.mean * y.squaredNorm();
-        for (std::size_t a = 0; a < (apic ? 1 : 1 << D); ++a) taken.moments[a] += w.mean * phi[a] * y;
-        for (int d = 0; d < D; ++d) {
-          const auto k = static_cast<std::size_t>(d);
-          taken.lowerFace[d] += w.lower[k] * moving[d];
-          taken.upperFace[d] += w.upper[k] * moving[d];
-          if constexpr (apic) taken.jump.col(d) += (w.upper[k] - w.lower[k]) * y;
-        }
-      });
+      const auto taken = gatherFromNodes<D, Scheme, D - 1>(footprint, cell, motion, fieldOf<D>(velocity[p], u));
       double done = 0;
       footprint.forEachCell(work.box(), [&](const Index<D>& c, double part) { done += part * work[c]; });
 
       const Vec<D> mean = taken.moments[0], inertia = footprint.inertia();
       Modes<D> fresh = Modes<D>::Zero();
-      for (int d = 0; d < D; ++d) {
-        const auto& span = footprint.along[static_cast<std::size_t>(d)];
-        const double lower = span.lower + dt * taken.lowerFace[d], upper = span.upper + dt * taken.upperFace[d];
-        newX[p][d] = 0.5 * (lower + upper);
-        newEdges[p][d] = upper - lower;
-        if constexpr (apic) fresh.col(gradientColumn(d)) = taken.jump.col(d) / span.length();
+      for (std::size_t d = 0; d < D; ++d) {
+        const auto& span = footprint.along[d];
+        const int axis = static_cast<int>(d);
+        const double lower = span.lower + dt * taken.lower[d][axis], upper = span.upper + dt * taken.upper[d][axis];
+        newX[p][axis] = 0.5 * (lower + upper);
+        newEdges[p][axis] = upper - lower;
+        if constexpr (apic) fresh.col(gradientColumn(axis)) = (taken.upper[d] - taken.lower[d]) / span.length();
       }
       if constexpr (!apic)
         for (int a = 1; a < (1 << D); ++a)
