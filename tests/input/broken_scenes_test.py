@@ -70,6 +70,8 @@ OVERRIDES = {
     "both output intervals": ("DataArchiver/outputTimestepInterval=5", "DataArchiver: gives both outputInterval and "
                               "outputTimestepInterval; keep one"),
     "folder in filebase": ("DataArchiver/filebase=a/b.uda", "DataArchiver: filebase 'a/b.uda' contains '/'"),
+    "unknown placement": (LEFT + "placement=jitterd", "MaterialProperties/MPM/material/geom_object/placement: found 'jitterd', "
+                          "expected 'midpoint', 'jittered' or 'random' (did you mean 'jittered'?)"),
     "unknown saved label": ("DataArchiver/save[1]/@label=p.densty", "DataArchiver/save: no task of this component computes "
                             "'p.densty' (did you mean 'p.density'?); there are 'CenterOfMassPosition'"),
     "unknown saved material": ("DataArchiver/save[1]/@material=gass", "DataArchiver/save: there is no material 'gass' (did you "
@@ -133,6 +135,11 @@ class BrokenScenes(unittest.TestCase):
                 result = run(scene, outputs=True)
                 self.assert_refused(result, sentence)
                 self.assertIn(f"{scene}{position}", result.err)
+
+    def test_intervals_that_cannot_stand_anywhere(self):
+        result = run("ups/mpm/sod_conserving.ups", LEFT + "placement=random", outputs=True)
+        self.assert_refused(result, "geom_object: placement: the particles of <conserving_gas_dynamics> are intervals that fill "
+                                    "the gas; use midpoint, or <gas_dynamics>")
 
     def test_a_missing_file_and_a_folder(self):
         self.assert_refused(run("ups/mpm/sodd.ups", outputs=True), "ups/mpm/sodd.ups: there is no such file")
