@@ -23,12 +23,11 @@ inline constexpr NodeLabel<double> massProjectionError{
 inline constexpr NodeLabel<double> massProjectionBound{"g.massProjectionBound", "kg", "what |E_m^i| cannot exceed"};
 }  // namespace g
 
-/// Of |E_m^i| over the volume of a cell, which is |E_m^i| / h in the paper.
-inline constexpr ReductionLabel<Norm> massProjectionError{"MassProjectionError", "kg/m^3",
-                                                          "error of the projection of mass over the cell volume"};
-/// Of |E_m^i| over its bound.
-inline constexpr ReductionLabel<Norm> massProjectionRatio{"MassProjectionRatio", "1",
-                                                          "error of the projection of mass over its bound"};
+/// The greatest |E_m^i| over the volume of a cell, which is |E_m^i| / h in the paper.
+inline constexpr ReductionLabel<Maximum> massProjectionError{
+    "MassProjectionError", "kg/m^3", "greatest error of the projection of mass, over the cell volume"};
+inline constexpr ReductionLabel<Maximum> massProjectionRatio{"MassProjectionRatio", "1",
+                                                             "greatest error of the projection of mass over its bound"};
 
 /// A particle, seen from a cell: 0 is the lower face, 1 the upper.
 struct PlacedDensity {
@@ -50,10 +49,10 @@ struct CellProjection {
 /// straight between its points, from place 0 to place 1.
 CellProjection projectCell(const std::vector<PlacedDensity>& particles, const std::vector<PlacedDensity>& line);
 
-/// E_m^i and its bound at the nodes [kg], and their norms over the nodes. A node beside a cell without particles has
-/// neither: it gets 0, and is left out of the norms.
+/// E_m^i and its bound at the nodes [kg], the greatest |E_m^i| over the cell volume [kg/m³] and over its bound. A node
+/// beside a cell without particles has neither: it gets 0 for both.
 void measureMassProjection(const Patch& patch, const Gas& gas, ParticleView<const Vec<1>> x,
                            ParticleView<const double> density, NodeView<double> error, NodeView<double> bound,
-                           Norm& errorNorm, Norm& ratioNorm);
+                           Maximum& greatestError, Maximum& greatestRatio);
 
 }  // namespace tushar::mpm
