@@ -269,8 +269,8 @@ Gas makeGas(const MaterialSection& material) {
   gas.gamma = material.model.gamma;
   for (const ObjectSection& object : material.objects) {
     const input::Expression density = object.density ? *object.density : input::Expression(*material.density);
-    gas.objects.push_back({object.where, object.shape, object.res, density,
-                           pressureOf(object, density, material.model), object.velocity, object.placement, object.seed});
+    gas.objects.push_back({object.where, object.shape, object.res, density, pressureOf(object, density, material.model),
+                           object.velocity, object.placement, object.seed});
   }
   return gas;
 }

@@ -126,8 +126,8 @@ CellProjection projectCell(const std::vector<PlacedDensity>& particles, const st
       };
       const double middle = 0.5 * (a.place + b.place);
       integral += simpson(width, value(a.place), value(middle), value(b.place));
-      square += simpson(width, std::pow(gradient(a.place), 2), std::pow(gradient(middle), 2),
-                        std::pow(gradient(b.place), 2));
+      square +=
+          simpson(width, std::pow(gradient(a.place), 2), std::pow(gradient(middle), 2), std::pow(gradient(b.place), 2));
     }
     for (const PlacedDensity& particle : particles) sum += particle.density * shape(particle.place);
     cell.error[node] = integral - sum / static_cast<double>(particles.size());
@@ -168,8 +168,8 @@ simulation::AnalysisKind massProjectionKind() {
   kind.describe = [](std::ostream& out) { schema().describe(out); };
   kind.read = [](const input::Element& module, input::Diagnostics& diagnostics) -> simulation::MakeAnalysis {
     schema().read(module, diagnostics);
-    return [where = module.where(), path = module.path()](
-               const Component& component, const Level& level) -> std::unique_ptr<simulation::Analysis> {
+    return [where = module.where(), path = module.path()](const Component& component,
+                                                          const Level& level) -> std::unique_ptr<simulation::Analysis> {
       const auto* mpm = dynamic_cast<const Mpm<1>*>(&component);
       if (const std::string why = misfit(mpm, level); !why.empty()) throw InputError({{where, path, why}});
       return std::make_unique<MassProjection>(mpm->materials());

@@ -36,7 +36,7 @@ struct PlacedDensity {
 };
 
 /// D_2 of the particles of a cell, sorted by place:
-/// sqrt(1 / (12 N²) + 1/N sum_k (z_k - (2k-1)/(2N))²), (20) with z in [0,1]; from Hickernell, Math. Comp. 67 (1998) 299.
+/// sqrt(1 / (12 N²) + 1/N sum_k (z_k - (2k-1)/(2N))²), (20) with z in [0,1]; Hickernell, Math. Comp. 67 (1998) 299.
 double discrepancy(const std::vector<PlacedDensity>& particles);
 
 /// What a cell has to do with the error of its lower and its upper node, over its volume [kg/m³].

@@ -43,9 +43,8 @@ void createParticles(const Patch& patch, const Gas& gas, ParticleMaker& maker, s
       forEach<D>(places, [&](const Index<D>& k) {
         Vec<D> at;
         for (int d = 0; d < D; ++d) {
-          const double within = placeInCell(object.placement, k[d], places.upper[d], [&] {
-            return drawn(object.seed, level.cellNumber(cell), place, d);
-          });
+          const double within = placeInCell(object.placement, k[d], places.upper[d],
+                                            [&] { return drawn(object.seed, level.cellNumber(cell), place, d); });
           at[d] = level.nodePosition(d, 0) + (cell[d] + within) * level.spacing(d);
         }
         ++place;
