@@ -2,6 +2,7 @@
 
 #include "components/euler/input.hpp"
 #include "components/heat/heat.hpp"
+#include "components/mpm/analysis/mass_projection.hpp"
 #include "components/mpm/input.hpp"
 #include "components/reference/modules.hpp"
 #include "core/simulation/exact_solution.hpp"
@@ -16,6 +17,7 @@ simulation::Catalogue catalogue() {
           mpm::kind(),
       },
       {
+          mpm::massProjectionKind(),
           reference::exactRiemannKind(),
           reference::simpleWaveKind(),
           reference::isentropicVortexKind(),

@@ -156,6 +156,8 @@ struct ObjectSection {
   Index3 res{{1, 1, 1}};
   std::optional<input::Expression> density, pressure, temperature;
   input::VectorExpression velocity;
+  Placement placement = Placement::midpoint;
+  int seed = 0;
 };
 const Schema<ObjectSection>& objectSchema() {
   static const Schema<ObjectSection> schema =
@@ -174,6 +176,13 @@ const Schema<ObjectSection>& objectSchema() {
                     input::positive())
           .ours()
           .optional("pressure", &ObjectSection::pressure, "Pa", "pressure at the start", input::positive())
+          .ours()
+          .choice("placement", &ObjectSection::placement,
+                  {{"midpoint", Placement::midpoint}, {"jittered", Placement::jittered}, {"random", Placement::random}},
+                  Placement::midpoint,
+                  "particles in the middle of equal parts of a cell, anywhere in these parts, or anywhere in the cell")
+          .ours()
+          .value("seed", &ObjectSection::seed, 0, "1", "another one draws other places", input::nonNegative())
           .ours()
           .check([](const ObjectSection& object, const Element& element, Diagnostics& diagnostics) {
             if (object.pressure.has_value() == object.temperature.has_value())
@@ -260,10 +269,20 @@ Gas makeGas(const MaterialSection& material) {
   gas.gamma = material.model.gamma;
   for (const ObjectSection& object : material.objects) {
     const input::Expression density = object.density ? *object.density : input::Expression(*material.density);
-    gas.objects.push_back(
-        {object.where, object.shape, object.res, density, pressureOf(object, density, material.model), object.velocity});
+    gas.objects.push_back({object.where, object.shape, object.res, density, pressureOf(object, density, material.model),
+                           object.velocity, object.placement, object.seed});
   }
   return gas;
+}
+
+/// The particles of the conserving method fill their cells: they cannot stand just anywhere.
+void refusePlacements(const MaterialProperties& properties, Diagnostics& diagnostics) {
+  for (const MaterialSection& material : properties.mpm.materials)
+    for (const ObjectSection& object : material.objects)
+      if (object.placement != Placement::midpoint)
+        diagnostics.error(object.where, "MaterialProperties/MPM/material/geom_object",
+                          "placement: the particles of <conserving_gas_dynamics> are boxes that fill the gas; use "
+                          "midpoint, or <gas_dynamics>");
 }
 
 std::unique_ptr<Component> makeComponent(const Level& level, const MpmSection& method, const std::vector<Gas>& gases) {
@@ -287,6 +306,7 @@ simulation::ComponentKind kind() {
     const std::size_t before = diagnostics.size();
     const MpmSection method = simulation::readSection(root, mpmSchema(), diagnostics);
     const MaterialProperties properties = simulation::readSection(root, propertiesSchema(), diagnostics);
+    if (method.conserving) refusePlacements(properties, diagnostics);
     if (diagnostics.size() > before) return {};
     std::vector<Gas> gases;
     for (const MaterialSection& material : properties.mpm.materials) gases.push_back(makeGas(material));

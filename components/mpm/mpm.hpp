@@ -16,6 +16,9 @@ class Mpm : public Component, public reference::GasSolution {
  public:
   Mpm(GasDynamics method, std::vector<Gas> materials) : method_(method), materials_(std::move(materials)) {}
 
+  const GasDynamics& method() const { return method_; }
+  const std::vector<Gas>& materials() const { return materials_; }
+
   void scheduleInitialize(TaskList& tasks) const override;
   void scheduleComputeStableTimeStep(TaskList& tasks) const override;
   void scheduleTimeAdvance(TaskList& tasks) const override;

@@ -21,7 +21,7 @@ Json errorsOf(const Report& report) {
 
 Json wallOf(const Report& report) {
   Json tasks = Json::object();
-  for (const TaskTime& task : report.tasks) tasks[task.name] = task.seconds;
+  for (const TaskTime& task : report.tasks) tasks[task.name] = tasks.value(task.name, 0.0) + task.seconds;
   return {{"startup", report.wallStartup}, {"loop", report.wallLoop}, {"output", report.wallOutput},
           {"exchange", report.exchange},   {"tasks", tasks}};
 }

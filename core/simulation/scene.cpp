@@ -97,12 +97,13 @@ std::vector<ReadModule> readModules(const Element& root, const Catalogue& catalo
   return modules;
 }
 
-std::vector<std::unique_ptr<Analysis>> makeModules(const std::vector<ReadModule>& modules, const Problem& problem) {
+std::vector<std::unique_ptr<Analysis>> makeModules(const std::vector<ReadModule>& modules, const Component& component,
+                                                   const grid::Level& level) {
   std::vector<std::unique_ptr<Analysis>> analyses;
   std::vector<InputProblem> problems;
   for (const ReadModule& module : modules) {
     try {
-      analyses.push_back(module.make(*problem.component, *problem.level));
+      analyses.push_back(module.make(component, level));
     } catch (const InputError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
@@ -111,14 +112,21 @@ std::vector<std::unique_ptr<Analysis>> makeModules(const std::vector<ReadModule>
   return analyses;
 }
 
-/// Names what is wrong with the saved labels, even where the rest of the scene is wrong, too: a component's labels do
-/// not depend on the grid.
-void checkSaves(const MakeComponent& make, const std::vector<SaveRequest>& saves, Diagnostics& diagnostics) {
+/// Names what is wrong with the saved labels, even where the rest of the scene is wrong, too: the labels of a component
+/// and of its modules do not depend on the grid. Says nothing where a module cannot be had: its labels are not known.
+void checkSaves(const MakeComponent& make, const std::vector<ReadModule>& modules,
+                const std::vector<SaveRequest>& saves, Diagnostics& diagnostics) {
   grid::Domain line;
   line.upper = {1, 0, 0};
   const grid::Level anyLevel(line);
   const auto component = make(anyLevel);
-  for (const InputProblem& problem : Phases(*component, {}).problemsOf(saves))
+  std::vector<std::unique_ptr<Analysis>> analyses;
+  try {
+    analyses = makeModules(modules, *component, anyLevel);
+  } catch (const InputError&) {
+    return;
+  }
+  for (const InputProblem& problem : Phases(*component, analyses).problemsOf(saves))
     diagnostics.error(problem.where, problem.tagPath, problem.sentence);
 }
 
@@ -147,13 +155,14 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   MakeComponent makeComponent;
   if (kind) makeComponent = kind->read(root, diagnostics);
   const std::vector<ReadModule> modules = readModules(root, catalogue, diagnostics);
-  if (makeComponent) checkSaves(makeComponent, problem.archive.saves, diagnostics);
+  const bool modulesAreRight = std::all_of(modules.begin(), modules.end(), [](const auto& m) { return m.make; });
+  if (makeComponent && modulesAreRight) checkSaves(makeComponent, modules, problem.archive.saves, diagnostics);
   diagnostics.throwIfAny();
 
   problem.componentName = kind->name;
   problem.level = std::make_unique<grid::Level>(domain);
   problem.component = makeComponent(*problem.level);
-  problem.analyses = makeModules(modules, problem);
+  problem.analyses = makeModules(modules, *problem.component, *problem.level);
   return problem;
 }
 

@@ -90,9 +90,14 @@ void Simulation::step() {
 
 bool Simulation::outOfWallTime() const { return since(started_at_) > problem_.time.maxWallTime; }
 
+void Simulation::diagnose(tasks::TaskGraph& graph) {
+  for (const auto& analysis : problem_.analyses) analysis->setTime(time_.time());
+  scheduler_.run(graph, {time_.step(), time_.time()});
+}
+
 void Simulation::saveGlobals() {
   if (!archive_ || phases_.savedGlobals().empty()) return;
-  scheduler_.run(phases_.everyStep, {time_.step(), time_.time()});
+  diagnose(phases_.everyStep);
   const auto started = Clock::now();
   for (const std::string& name : phases_.savedGlobals()) {
     const data::Label& label = *table_[table_.find(name, -1)].label;
@@ -125,7 +130,7 @@ void Simulation::saveIfDue() {
 void Simulation::save() {
   if (archive_->lastStep() == time_.step()) return;
   const auto started = Clock::now();
-  scheduler_.run(phases_.everyOutput, {time_.step(), time_.time()});
+  diagnose(phases_.everyOutput);
   archive_->write(snapshot());
   wall_output_ += since(started);
   progress_.line(fmt::format("step {:>6}  t = {:<12.6g} dt = {:<10.4g} saved in {}", time_.step(), time_.time(),
@@ -145,10 +150,8 @@ output::Snapshot Simulation::snapshot() {
     snapshot.particles.back().arrays.push_back(gatherArray(warehouse_, Generation::old, number));
   }
   for (const SaveRequest& save : phases_.savedFields()) addField(snapshot, save);
-  for (const auto& analysis : problem_.analyses) {
-    analysis->setTime(time_.time());
+  for (const auto& analysis : problem_.analyses)
     for (output::Array& column : analysis->exactProfile(*problem_.level)) snapshot.reference.push_back(std::move(column));
-  }
   return snapshot;
 }
 
@@ -170,7 +173,7 @@ void Simulation::addField(output::Snapshot& snapshot, const SaveRequest& save) {
 }
 
 std::vector<std::vector<double>> Simulation::measureTotals(tasks::TaskGraph& graph) {
-  scheduler_.run(graph, {time_.step(), time_.time()});
+  diagnose(graph);
   std::vector<std::vector<double>> totals;
   for (const auto& total : phases_.totals()) totals.push_back(reduction(total.second));
   return totals;
@@ -223,7 +226,6 @@ void Simulation::reportTasks(Report& report) {
 }
 
 void Simulation::reportDrift(Report& report, const std::vector<std::vector<double>>& before) {
-  for (const auto& analysis : problem_.analyses) analysis->setTime(time_.time());
   const auto after = measureTotals(phases_.report);
   for (std::size_t k = 0; k < before.size(); ++k) {
     double start = 0, end = 0, change = 0;
@@ -250,9 +252,10 @@ void Simulation::reportErrors(Report& report) {
   for (const auto& analysis : problem_.analyses)
     for (const MeasuredError& error : analysis->errors()) {
       const std::vector<double> values = reduction(error.label->name);
-      if (values.size() != 3) continue;
+      if (values.empty()) continue;
       ErrorNorms norms{error.field, error.place, {}, std::string(error.label->unit)};
-      for (const std::string& norm : error.norms) norms.norms[norm] = values[norm == "L1" ? 0 : norm == "L2" ? 1 : 2];
+      for (const std::string& norm : error.norms)
+        norms.norms[norm] = values.size() == 1 ? values[0] : values[norm == "L1" ? 0 : norm == "L2" ? 1 : 2];
       report.errors.push_back(norms);
     }
 }

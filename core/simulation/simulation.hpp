@@ -39,6 +39,8 @@ class Simulation {
  private:
   void initialize();
   void step();
+  /// Runs diagnostics on the state as it is now.
+  void diagnose(tasks::TaskGraph& graph);
   void saveGlobals();
   void save();
   void saveIfDue();

@@ -26,7 +26,8 @@ OVERRIDES = {
                                    MATERIAL + "constitutive_model: attribute 'type': found 'ideal_gaz', expected "
                                    "'ideal_gas' (did you mean 'ideal_gas'?)"),
     "unknown module": ("DataAnalysis/Module/@name=exactRieman", "DataAnalysis/Module: name: found 'exactRieman', expected "
-                       "'exactRiemann', 'simpleWave', 'isentropicVortex' or 'exactSolution' (did you mean 'exactRiemann'?)"),
+                       "'massProjection', 'exactRiemann', 'simpleWave', 'isentropicVortex' or 'exactSolution' (did you mean "
+                       "'exactRiemann'?)"),
     "unknown choice": (GAS + "volume_model=tracket", GAS + "volume_model: found 'tracket', expected 'cell_share' or "
                        "'tracked' (did you mean 'tracked'?)"),
     "unknown boundary label": ("Grid/BoundaryConditions/Face[1]/BCType/@label=Symetric",
@@ -70,8 +71,10 @@ OVERRIDES = {
     "both output intervals": ("DataArchiver/outputTimestepInterval=5", "DataArchiver: gives both outputInterval and "
                               "outputTimestepInterval; keep one"),
     "folder in filebase": ("DataArchiver/filebase=a/b.uda", "DataArchiver: filebase 'a/b.uda' contains '/'"),
+    "unknown placement": (LEFT + "placement=jitterd", "MaterialProperties/MPM/material/geom_object/placement: found 'jitterd', "
+                          "expected 'midpoint', 'jittered' or 'random' (did you mean 'jittered'?)"),
     "unknown saved label": ("DataArchiver/save[1]/@label=p.densty", "DataArchiver/save: no task of this component computes "
-                            "'p.densty' (did you mean 'p.density'?); there are 'CenterOfMassPosition'"),
+                            "'p.densty' (did you mean 'p.density'?); there are 'CellError.density'"),
     "unknown saved material": ("DataArchiver/save[1]/@material=gass", "DataArchiver/save: there is no material 'gass' (did you "
                                "mean 'gas'?); there are 'gas'"),
     "checkpoint": ("DataArchiver/checkpoint/@cycle=2", "DataArchiver/checkpoint: checkpoints are not available yet"),
@@ -133,6 +136,24 @@ class BrokenScenes(unittest.TestCase):
                 result = run(scene, outputs=True)
                 self.assert_refused(result, sentence)
                 self.assertIn(f"{scene}{position}", result.err)
+
+    def test_boxes_that_cannot_stand_anywhere(self):
+        result = run("ups/mpm/sod_conserving.ups", LEFT + "placement=random", outputs=True)
+        self.assert_refused(result, "geom_object: placement: the particles of <conserving_gas_dynamics> are boxes that fill "
+                                    "the gas; use midpoint, or <gas_dynamics>")
+
+    def test_a_mass_projection_that_cannot_be_measured(self):
+        for sets, sentence in (((BOX + "resolution=[20,2,1]",), "works in one dimension, as its theorem does, and this grid has 2"),
+                               ((GAS + "volume_model=tracked",), "volume_model is tracked; use cell_share")):
+            self.assert_refused(run("ups/mpm/mass_projection.ups", *sets, outputs=True), sentence)
+        self.assert_refused(run("ups/heat/sine.ups", "DataAnalysis/Module[2]/@name=massProjection", outputs=True),
+                            "DataAnalysis/Module: measures the <gas_dynamics> of the component mpm, and this scene runs none")
+
+    def test_labels_of_modules_can_be_saved_where_the_module_is(self):
+        result = run("ups/mpm/sod.ups", "DataArchiver/save[1]/@label=g.massProjectionError", outputs=True)
+        self.assert_refused(result, "no task of this component computes 'g.massProjectionError'")
+        self.assertEqual(run("ups/mpm/sod.ups", "DataArchiver/save[1]/@label=g.massProjectionError",
+                             "DataAnalysis/Module[2]/@name=massProjection", outputs=True).code, 0)
 
     def test_a_missing_file_and_a_folder(self):
         self.assert_refused(run("ups/mpm/sodd.ups", outputs=True), "ups/mpm/sodd.ups: there is no such file")

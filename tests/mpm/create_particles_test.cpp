@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <set>
 
 #include "components/mpm/tasks/diagnose.hpp"
 #include "core/input/document.hpp"
@@ -79,6 +80,51 @@ TEST(CreateParticles, GivesTheSameIdsOnAnyPatches) {
 
   EXPECT_EQ(reference.size(), 30u);
   for (const int patches : {2, 7, 10}) EXPECT_EQ(made(gas, patches), reference);
+}
+
+TEST(CreateParticles, DrawsAPlaceInEachPartOfACellWhereJittered) {
+  Gas gas = gasOf({{"[0,-1,-1]", "[2,2,2]"}}, 4);
+  gas.objects[0].placement = Placement::jittered;
+
+  const auto positions = made(gas, 1);
+
+  ASSERT_EQ(positions.size(), 40u);
+  int k = 0;
+  double spread = 0;
+  for (const auto& [id, x] : positions) {
+    const double within = x * 40 - k++;
+    EXPECT_TRUE(within > 0 && within < 1);
+    spread += (within - 0.5) * (within - 0.5) / 40;
+  }
+  EXPECT_NEAR(spread, 1.0 / 12, 0.02);
+}
+
+TEST(CreateParticles, DrawsPlacesThatFollowFromSeedCellAndNumberAlone) {
+  Gas gas = gasOf({{"[0,-1,-1]", "[0.45,2,2]"}, {"[0.45,-1,-1]", "[2,2,2]"}}, 5);
+  for (GasObject& object : gas.objects) object.placement = Placement::random;
+  const auto reference = made(gas, 1);
+
+  for (const int patches : {2, 7, 10}) EXPECT_EQ(made(gas, patches), reference);
+  gas.objects[0].seed = 1;
+  const auto other = made(gas, 3);
+  const auto last = [](const auto& positions) { return positions.rbegin()->second; };
+  EXPECT_NE(other.begin()->second, reference.begin()->second);
+  EXPECT_EQ(last(other), last(reference));
+}
+
+TEST(CreateParticles, DrawsNumbersThatAreSpreadEvenlyAndNeverTwice) {
+  std::set<double> numbers;
+  double sum = 0;
+  for (std::uint64_t cell = 0; cell < 100; ++cell)
+    for (int place = 0; place < 10; ++place)
+      for (int axis = 0; axis < 3; ++axis) {
+        const double number = drawn(3, cell, place, axis);
+        EXPECT_TRUE(number > 0 && number < 1);
+        numbers.insert(number);
+        sum += number;
+      }
+  EXPECT_EQ(numbers.size(), 3000u);
+  EXPECT_NEAR(sum / 3000, 0.5, 0.02);
 }
 
 TEST(CreateParticles, RefusesBodiesThatOverlapNamingThePoint) {

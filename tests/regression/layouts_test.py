@@ -39,6 +39,13 @@ class Layouts(unittest.TestCase):
         for sets in ((RESEED,), (TRACKED,), (RESEED, TRACKED)):
             self.assert_same("ups/mpm/sod_redistribute.ups", ["[1,1,1]", "[3,1,1]", "[64,1,1]"], *sets)
 
+    def test_particles_at_drawn_places(self):
+        for placement in ("jittered", "random"):
+            sets = [f"MaterialProperties/MPM/material/geom_object/placement={placement}",
+                    "MaterialProperties/MPM/material/geom_object/seed=5"]
+            self.assert_same("ups/mpm/smooth_wave.ups", ["[1,1,1]", "[7,1,1]", "[64,1,1]"], "Time/max_Timesteps=20", *sets)
+            self.assert_same("ups/mpm/smooth_wave.ups", ["[1,1,1]", "[3,2,1]"], "Time/max_Timesteps=5", *PLANE, *sets)
+
     def test_two_dimensions(self):
         for sets in ((), (TRACKED,)):
             self.assert_same("ups/mpm/sod.ups", ["[1,1,1]", "[3,2,1]", "[40,6,1]"], *PLANE, *sets)

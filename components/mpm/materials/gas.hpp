@@ -10,6 +10,13 @@
 
 namespace tushar::mpm {
 
+/// Where in a cell the particles of a body start.
+enum class Placement {
+  midpoint,  ///< in the middle of equal parts of the cell
+  jittered,  ///< one anywhere in each of these parts
+  random,    ///< anywhere in the cell, each on its own
+};
+
 /// A body of gas at the start: its shape and its state, which may vary in space.
 struct GasObject {
   Location where;  ///< in the scene
@@ -18,6 +25,8 @@ struct GasObject {
   input::Expression density;           ///< kg/m³
   input::Expression pressure;          ///< Pa
   input::VectorExpression velocity;    ///< m/s
+  Placement placement = Placement::midpoint;
+  int seed = 0;  ///< of the places that are drawn
 };
 
 /// An ideal gas: p = (gamma - 1) rho epsilon, (3) of Tran, Kim & Berzins.

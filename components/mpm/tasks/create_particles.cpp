@@ -1,6 +1,14 @@
 #include "components/mpm/tasks/create_particles.hpp"
 
+#include "components/mpm/tasks/mixed.hpp"
+
 namespace tushar::mpm {
+
+double drawn(int seed, std::uint64_t cellNumber, int place, int axis) {
+  const auto counter = static_cast<std::uint64_t>(3 * place + axis);
+  const std::uint64_t bits = mixed(mixed(mixed(static_cast<std::uint64_t>(seed)) + cellNumber) + counter);
+  return (static_cast<double>(bits >> 32) + 0.5) * 0x1p-32;  // half an interval away from either end
+}
 
 void refuseOverlap(const Gas& gas, const GasObject& object, const Vec3& point) {
   for (const GasObject& other : gas.objects)

@@ -12,8 +12,21 @@ void refuseOverlap(const Gas& gas, const GasObject& object, const Vec3& point);
 void refuseImpossible(const GasObject& object, const Vec3& point, double density, double pressure,
                       const Vec3& velocity);
 
+/// A number in (0, 1) that follows from its arguments alone: the same on any patches, in any order of drawing.
+/// `place` counts the particles that a cell might hold.
+double drawn(int seed, std::uint64_t cellNumber, int place, int axis);
+
+/// Where the particle of part k of `parts` along an axis stands in its cell: 0 is the lower face, 1 the upper.
+/// `draw()` gives a number in (0, 1).
+template <class Draw>
+double placeInCell(Placement placement, int k, int parts, const Draw& draw) {
+  if (placement == Placement::random) return draw();
+  return (k + (placement == Placement::jittered ? draw() : 0.5)) / parts;
+}
+
 /// Fills each body with its particles: `particlesPerCell` along each axis, in the middle of equal parts of the cell,
-/// x_p = (c + (k + 1/2) / N) h, where that point is inside the shape. They start with the body's state there.
+/// x_p = (c + (k + 1/2) / N) h, or where the body's `placement` puts them, if that point is inside the shape. They
+/// start with the body's state there.
 ///
 /// The id of a particle is its cell's number and its place in the cell, so that it does not depend on the patches.
 /// Throws InputError where two bodies claim the same point.
@@ -23,15 +36,18 @@ void createParticles(const Patch& patch, const Gas& gas, ParticleMaker& maker, s
   const Level& level = patch.level();
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     ParticleId inCell = 0;
+    int place = 0;
     for (const GasObject& object : gas.objects) {
       Box places{{}, Index3::filled(1)};
       for (int d = 0; d < D; ++d) places.upper[d] = object.particlesPerCell[level.axis(d)];
       forEach<D>(places, [&](const Index<D>& k) {
         Vec<D> at;
         for (int d = 0; d < D; ++d) {
-          const double within = (k[d] + 0.5) / places.upper[d];
+          const double within = placeInCell(object.placement, k[d], places.upper[d],
+                                            [&] { return drawn(object.seed, level.cellNumber(cell), place, d); });
           at[d] = level.nodePosition(d, 0) + (cell[d] + within) * level.spacing(d);
         }
+        ++place;
         const Vec3 point = level.expandPoint<D>(at);
         if (!object.shape->contains(point)) return;
         refuseOverlap(gas, object, point);

@@ -3,17 +3,11 @@
 #include <bit>
 #include <cmath>
 
+#include "components/mpm/tasks/mixed.hpp"
+
 namespace tushar::mpm {
 
 namespace {
-
-/// Bit mixer of Steele, Lea & Flood, OOPSLA 2014 (SplitMix64): a bijection of 64-bit words.
-std::uint64_t mixed(std::uint64_t z) {
-  z += 0x9e3779b97f4a7c15ULL;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-  return z ^ (z >> 31);
-}
 
 double minmod(double a, double b) { return a * b <= 0 ? 0.0 : (std::abs(a) < std::abs(b) ? a : b); }
 

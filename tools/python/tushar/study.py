@@ -10,7 +10,8 @@ import statistics
 import subprocess
 import time
 
-ROOT = pathlib.Path(__file__).resolve().parents[3]
+from tushar.program import ROOT
+
 SHORT = {"resolution": lambda value: [f"Grid/Level/Box/resolution={value if value.startswith('[') else f'[{value},1,1]'}"],
          "particles": lambda value: [f"MaterialProperties/MPM/material/geom_object/res=[{value},1,1]"],
          "cfl": lambda value: [f"MPM/gas_dynamics/cfl={value}"]}
@@ -68,7 +69,8 @@ class Study:
     def __init__(self, methods, varied, repeats, folder, sus, error):
         values = [[(name, value) for value in values] for name, values in varied.items()]
         self.cases = [Case(method, combination) for method in methods for combination in itertools.product(*values)]
-        self.repeats, self.folder, self.sus, self.error = repeats, pathlib.Path(folder), sus, error
+        self.repeats, self.error = repeats, error
+        self.folder, self.sus = pathlib.Path(folder).resolve(), pathlib.Path(sus).resolve()
         self.folder.mkdir(parents=True, exist_ok=True)
         self.runs = self._known_runs()
 
@@ -81,7 +83,7 @@ class Study:
         return known["runs"] if known.get("program") == self._program() else {}
 
     def _program(self):
-        return hashlib.sha1(pathlib.Path(self.sus).read_bytes()).hexdigest()
+        return hashlib.sha1(self.sus.read_bytes()).hexdigest()
 
     def todo(self):
         """Cases still to be run, a whole round of all before the next one."""
@@ -135,7 +137,8 @@ class Study:
             reports = self.runs.get(case.key())
             if not reports:
                 continue
-            row = {"method": case.method.name, "scene": case.method.scene, **dict(case.varied)}
+            row = {"method": case.method.name, "scene": case.method.scene, **dict(case.varied),
+                   "varied": dict(case.varied)}
             if "died" in reports[0]:
                 rows.append({**row, "died": reports[0]["died"]})
                 continue
@@ -145,12 +148,18 @@ class Study:
                     "steps": first["steps"], "particles": first["particles"], "cells": first["layout"]["cells"],
                     "mass_drift": first["drift"].get("mass"), "energy_drift": first["drift"].get("energy"),
                     "fingerprint": first["fingerprint"],
-                    "tasks": {name: statistics.median(report["wall"]["tasks"][name] for report in reports)
-                              for name in first["wall"]["tasks"]}}
+                    "tasks": time_by_task(reports)}
             before = rows[-1] if rows and rows[-1]["method"] == row["method"] and "h" in rows[-1] else None
             row["order"] = order(before, row)
             rows.append(row)
         return rows
+
+
+def time_by_task(reports):
+    """Task -> median of its time over the runs [s], and that of what the time loop spent outside of tasks."""
+    walls = [report["wall"] for report in reports]
+    tasks = {name: statistics.median(wall["tasks"][name] for wall in walls) for name in walls[0]["tasks"]}
+    return tasks | {"between tasks": statistics.median(wall["loop"] - sum(wall["tasks"].values()) for wall in walls)}
 
 
 def order(before, row):
@@ -180,11 +189,14 @@ def remove(path):
 
 
 def write_csv(rows, path):
-    columns = list(dict.fromkeys(name for row in rows for name in row if name != "tasks"))
+    """A line a row; after all else a column a task, `tasks.NAME` [s], empty where a method has no such task."""
+    flat = [{name: value for name, value in row.items() if name not in ("tasks", "varied")} for row in rows]
+    times = [{f"tasks.{name}": seconds for name, seconds in row.get("tasks", {}).items()} for row in rows]
+    columns = list(dict.fromkeys(name for part in (flat, times) for row in part for name in row))
     with open(path, "w", newline="") as file:
-        table = csv.DictWriter(file, columns, extrasaction="ignore")
+        table = csv.DictWriter(file, columns)
         table.writeheader()
-        table.writerows(rows)
+        table.writerows(row | tasks for row, tasks in zip(flat, times))
 
 
 def write_markdown(rows, error, command, path):

@@ -63,20 +63,40 @@ def _order_triangle(axes, lines, order):
 
 
 def _time_by_task(lines):
-    """A bar a method, at its finest cells: share of each task in the time loop."""
-    figure, axes = plt.subplots(figsize=(7.5, 1.6 + 0.5 * len(lines)), layout="constrained")
-    names = list(dict.fromkeys(task for line in lines.values() for task in line[-1]["tasks"]))
-    colours = plt.get_cmap("tab20").colors
-    for at, (method, line) in enumerate(lines.items()):
-        row, left = line[-1], 0.0
+    """A stacked bar a method and resolution: what each task takes of a step, per cell; the time loop at its end."""
+    bars = [(method, row) for method, line in lines.items() for row in line]
+    colours = _colours_of_tasks(bars)
+    tall = 0.8 + 0.24 * len(bars) + 0.17 * len(lines), 0.3 + 0.16 * (len(colours) // 3 + 1)
+    figure, (axes, key) = plt.subplots(2, 1, figsize=(9.6, sum(tall)), height_ratios=tall, layout="constrained")
+    heights, at = [], 0.0
+    for number, (method, row) in enumerate(bars):
+        at += 1.7 if number and method != bars[number - 1][0] else 1.0
+        heights.append(at)
+        left = 0.0
         for task, seconds in row["tasks"].items():
-            share = 100 * seconds / row["seconds"]
-            axes.barh(at, share, left=left, color=colours[names.index(task) % 20],
-                      label=task if task not in axes.get_legend_handles_labels()[1] else None)
-            left += share
-        axes.barh(at, max(0.0, 100 - left), left=left, color="#e2e8f0")
-    axes.set_yticks(range(len(lines)), [f"{name}, h = {line[-1]['h']:g}" for name, line in lines.items()])
-    axes.set_xlabel("share of the time loop [%]")
-    axes.grid(False)
-    axes.legend(loc="upper center", bbox_to_anchor=(0.4, -0.25 - 0.25 / len(lines)), ncols=3, fontsize=7)
+            width = 1e9 * seconds / (row["steps"] * row["cells"])
+            axes.barh(at, width, left=left, color=colours[task], height=0.85)
+            left += width
+        axes.annotate(f"{1e3 * row['seconds']:.3g} ms", (left, at), xytext=(4, 0), textcoords="offset points", va="center",
+                      fontsize=8)
+    axes.set_yticks(heights, [_name_of_bar(method, row) for method, row in bars], fontsize=8)
+    axes.invert_yaxis()
+    axes.margins(x=0.1)
+    axes.set_xlabel("time per step and cell [ns]; at the end of each bar the whole time loop")
+    axes.grid(False, axis="y")
+    key.axis("off")
+    key.legend([plt.Rectangle((0, 0), 1, 1, color=colour) for colour in colours.values()], colours, loc="center", ncols=3,
+               fontsize=8)
     return figure
+
+
+def _colours_of_tasks(bars):
+    """Task -> colour, the same in all bars; grey for what is no task."""
+    names = [task for task in dict.fromkeys(task for _, row in bars for task in row["tasks"]) if task != "between tasks"]
+    palette = plt.get_cmap("tab20").colors + plt.get_cmap("tab20b").colors
+    return {name: palette[number % len(palette)] for number, name in enumerate(names)} | {"between tasks": "#cbd5e0"}
+
+
+def _name_of_bar(method, row):
+    varied = [f"{name.split('/')[-1]} = {value}" for name, value in row["varied"].items()]
+    return ", ".join([method, *varied])
