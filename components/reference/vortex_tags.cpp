@@ -15,8 +15,11 @@ MovingFrame frameOf(const VortexTags& tags, const grid::Level& level) {
           fmt::format("axis: a vortex around {} needs a grid in {} and {}, but this one has no {}", "xyz"[tags.axis],
                       "yzx"[tags.axis], "zxy"[tags.axis], "xyz"[d]));
   }
+  MovingFrame frame{tags.centre, tags.velocity};
   const grid::Domain& domain = level.domain();
-  return {tags.centre, tags.velocity, tags.period.value_or(domain.upper - domain.lower)};
+  for (int d = 0; d < 3; ++d)
+    if (domain.periodic[d] != 0) frame.periods[d] = domain.upper[d] - domain.lower[d];
+  return frame;
 }
 
 }  // namespace tushar::reference

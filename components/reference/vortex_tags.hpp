@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "components/reference/moving_frame.hpp"
@@ -15,7 +14,6 @@ struct VortexTags {
   double gamma = 1.4;
   int axis = 2;
   Vec3 centre = Vec3::Zero(), velocity = Vec3::Zero();
-  std::optional<Vec3> period;
 };
 
 /// Declares them as tags of the module `name`; S is derived from VortexTags.
@@ -30,14 +28,11 @@ void declareVortexTags(input::Schema<S>& schema, const std::string& name) {
                             "what it turns around")
       .ours()
       .value("gamma", static_cast<double S::*>(&S::gamma), 1.4, "1", "ratio of specific heats", input::greaterThan(1))
-      .ours()
-      .optional("period", static_cast<std::optional<Vec3> S::*>(&S::period), "m",
-                "lengths after which the flow repeats, 0 where it does not; those of the grid if not given",
-                input::nonNegative())
       .ours();
 }
 
-/// Where the vortex goes on a grid. Throws std::invalid_argument where the plane in which it turns is not in the grid.
+/// Where the vortex goes on a grid, which may repeat. Throws std::invalid_argument where the plane in which it turns is
+/// not in the grid.
 MovingFrame frameOf(const VortexTags& tags, const grid::Level& level);
 
 }  // namespace tushar::reference
