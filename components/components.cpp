@@ -19,6 +19,7 @@ simulation::Catalogue catalogue() {
           reference::exactRiemannKind(),
           reference::simpleWaveKind(),
           reference::isentropicVortexKind(),
+          reference::greshoKind(),
           simulation::exactSolutionKind(),
       },
   };

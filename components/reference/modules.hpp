@@ -10,5 +10,7 @@ simulation::AnalysisKind exactRiemannKind();
 simulation::AnalysisKind simpleWaveKind();
 /// `isentropicVortex`: errors against a smooth vortex that a uniform flow carries along.
 simulation::AnalysisKind isentropicVortexKind();
+/// `gresho`: errors against a vortex of two rings.
+simulation::AnalysisKind greshoKind();
 
 }  // namespace tushar::reference

@@ -82,4 +82,16 @@ TEST(VortexScene, RefusesAnEmptyMiddle) {
             "A vortex of strength 12 m/s leaves no gas in its middle; the strength must be below 10.0828 m/s.");
 }
 
+TEST(GreshoScene, HasErrorsThatFall) {
+  const auto coarse = run("ups/euler/gresho.ups", {cells(32, 32), "Time/maxTime=0.5"});
+  const auto fine = run("ups/euler/gresho.ups", {cells(64, 64), "Time/maxTime=0.5"});
+  EXPECT_GT(orderOf("velocity", coarse, fine), 1);
+  EXPECT_GT(orderOf("pressure", coarse, fine), 1);
+}
+
+TEST(GreshoScene, NeedsRoomForTheVortex) {
+  EXPECT_EQ(problemOf("ups/euler/gresho.ups", {"DataAnalysis/Module/radius=0.3"}),
+            "A Gresho vortex of radius 0.3 m is 1.2 m wide and does not fit into a period of 1 m.");
+}
+
 }  // namespace tushar::reference
