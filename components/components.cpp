@@ -20,6 +20,7 @@ simulation::Catalogue catalogue() {
           reference::simpleWaveKind(),
           reference::isentropicVortexKind(),
           reference::greshoKind(),
+          reference::nohKind(),
           simulation::exactSolutionKind(),
       },
   };

@@ -12,5 +12,7 @@ simulation::AnalysisKind simpleWaveKind();
 simulation::AnalysisKind isentropicVortexKind();
 /// `gresho`: errors against a vortex of two rings.
 simulation::AnalysisKind greshoKind();
+/// `noh`: errors against cold gas that falls into a plane, a line or a point.
+simulation::AnalysisKind nohKind();
 
 }  // namespace tushar::reference

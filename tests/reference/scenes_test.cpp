@@ -94,4 +94,29 @@ TEST(GreshoScene, NeedsRoomForTheVortex) {
             "A Gresho vortex of radius 0.3 m is 1.2 m wide and does not fit into a period of 1 m.");
 }
 
+TEST(NohScene, HasErrorsThatFallInOneTwoAndThreeDimensions) {
+  const std::string line = "Grid/Level/Box/upper=[1,0,0]";
+  const std::string falling =
+      "Euler/geom_object/velocity=[-x/sqrt(x^2+y^2+z^2),-y/sqrt(x^2+y^2+z^2),-z/sqrt(x^2+y^2+z^2)]";
+  const auto order = [](const Overrides& coarse, const Overrides& fine) {
+    return orderOf("density", run("ups/euler/noh.ups", coarse), run("ups/euler/noh.ups", fine));
+  };
+  EXPECT_GT(order({cells(50), line}, {cells(100), line}), 0.8);
+  EXPECT_GT(order({cells(50, 50)}, {cells(100, 100)}), 0.6);
+  const std::string cube = "DataAnalysis/Module/within/max=[0.35,0.35,0.35]";
+  EXPECT_GT(order({cells(16, 16, 16), falling, cube}, {cells(32, 32, 32), falling, cube}), 0.4);  // from 32 to 64: .96
+}
+
+TEST(NohScene, MeasuresWithinItsRegionAlone) {
+  const auto inside = run("ups/euler/noh.ups", {cells(40, 40)});
+  const auto farther = run("ups/euler/noh.ups", {cells(40, 40), "DataAnalysis/Module/within/max=[1,1,1]"});
+  EXPECT_EQ(inside.fingerprint, farther.fingerprint);
+  EXPECT_NE(cellError(inside, "density"), cellError(farther, "density"));
+}
+
+TEST(NohScene, RefusesARegionUpsideDown) {
+  EXPECT_EQ(problemOf("ups/euler/noh.ups", {"DataAnalysis/Module/within/max=[-1,1,1]"}),
+            "max is below min along x: -1 < 0 m");
+}
+
 }  // namespace tushar::reference
