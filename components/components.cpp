@@ -21,6 +21,8 @@ simulation::Catalogue catalogue() {
           reference::exactRiemannKind(),
           reference::simpleWaveKind(),
           reference::isentropicVortexKind(),
+          reference::greshoKind(),
+          reference::nohKind(),
           simulation::exactSolutionKind(),
       },
   };

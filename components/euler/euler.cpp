@@ -33,6 +33,8 @@ void Euler<D>::scheduleDiagnostics(TaskList& tasks) const {
   tasks.perPatch("euler::sumMass", sumMass<D>, requiresOld(c::density), computes(total::mass));
   tasks.perPatch("euler::sumMomentum", sumMomentum<D>, requiresOld(c::momentum<D>), computes(total::momentum));
   tasks.perPatch("euler::sumEnergy", sumEnergy<D>, requiresOld(c::totalEnergy), computes(total::energy));
+  tasks.perPatch("euler::sumKineticEnergy", sumKineticEnergy<D>, requiresOld(c::density), requiresOld(c::momentum<D>),
+                 computes(total::kineticEnergy));
   tasks.perPatch("euler::computePressure", computePressure<D>, with(settings_.gas), requiresOld(c::density),
                  requiresOld(c::momentum<D>), requiresOld(c::totalEnergy), computes(c::pressure));
   tasks.perPatch("euler::computeVelocity", computeVelocity<D>, requiresOld(c::density), requiresOld(c::momentum<D>),

@@ -21,6 +21,7 @@ namespace total {
 inline constexpr ReductionLabel<Sum> mass{"TotalMass", "kg", "mass in all cells"};
 inline constexpr ReductionLabel<VectorSum> momentum{"TotalMomentum", "kg m/s", "momentum in all cells"};
 inline constexpr ReductionLabel<Sum> energy{"TotalEnergy", "J", "internal and kinetic energy in all cells"};
+inline constexpr ReductionLabel<Sum> kineticEnergy{"KineticEnergy", "J", "kinetic energy of all cells"};
 }  // namespace total
 
 }  // namespace tushar::euler

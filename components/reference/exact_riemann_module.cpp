@@ -22,26 +22,25 @@ const Schema<State>& stateSchema() {
   return schema;
 }
 
-struct RiemannSection {
-  std::string name;
+struct RiemannSection : GasTags {
   State left, right;
-  double gamma = 1.4, diaphragm = 0.5;
+  double diaphragm = 0.5;
   int axis = 0;
 };
 const Schema<RiemannSection>& riemannSchema() {
-  static const Schema<RiemannSection> schema =
-      Schema<RiemannSection>("Module", "Errors against the exact solution of a shock tube (Toro, ch. 4).")
-          .requiredAttribute("name", &RiemannSection::name, "1", "exactRiemann")
-          .requiredSection("left", &RiemannSection::left, stateSchema(), "the gas below the diaphragm")
-          .ours()
-          .requiredSection("right", &RiemannSection::right, stateSchema(), "the gas above it")
-          .ours()
-          .value("gamma", &RiemannSection::gamma, 1.4, "1", "ratio of specific heats", input::greaterThan(1))
-          .ours()
-          .value("diaphragm", &RiemannSection::diaphragm, 0.5, "m", "where the two meet at t = 0")
-          .ours()
-          .choice("axis", &RiemannSection::axis, {{"x", 0}, {"y", 1}, {"z", 2}}, 0, "the normal of the diaphragm")
-          .ours();
+  static const Schema<RiemannSection> schema = [] {
+    Schema<RiemannSection> declared("Module", "Errors against the exact solution of a shock tube (Toro, ch. 4).");
+    declareGasTags(declared, "exactRiemann");
+    declared.requiredSection("left", &RiemannSection::left, stateSchema(), "the gas below the diaphragm")
+        .ours()
+        .requiredSection("right", &RiemannSection::right, stateSchema(), "the gas above it")
+        .ours()
+        .value("diaphragm", &RiemannSection::diaphragm, 0.5, "m", "where the two meet at t = 0")
+        .ours()
+        .choice("axis", &RiemannSection::axis, {{"x", 0}, {"y", 1}, {"z", 2}}, 0, "the normal of the diaphragm")
+        .ours();
+    return declared;
+  }();
   return schema;
 }
 

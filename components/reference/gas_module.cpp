@@ -66,7 +66,7 @@ std::vector<output::Array> GasError::exactProfile(const Level& level) const {
 }  // namespace
 
 simulation::MakeAnalysis measureAgainst(std::function<ReferencePointer(const Level&)> build,
-                                        const input::Element& module) {
+                                        const std::optional<Region>& within, const input::Element& module) {
   const auto problem = [where = module.where(), path = module.path()](const std::string& sentence) {
     return InputError({InputProblem{where, path, sentence}});
   };
@@ -74,7 +74,9 @@ simulation::MakeAnalysis measureAgainst(std::function<ReferencePointer(const Lev
     const auto* solution = dynamic_cast<const GasSolution*>(&component);
     if (!solution) throw problem("measures a gas, but this component does not solve for one; take the module out");
     try {
-      return std::make_unique<GasError>(build(level), *solution);
+      ReferencePointer exact = build(level);
+      if (within) exact = std::make_shared<Within>(exact, *within);
+      return std::make_unique<GasError>(std::move(exact), *solution);
     } catch (const std::invalid_argument& error) {
       throw problem(error.what());
     }

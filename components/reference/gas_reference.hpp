@@ -26,6 +26,9 @@ class GasReference {
   /// Whether it has values at time `t` (s).
   virtual bool holdsAt(double t) const { return t >= 0; }
 
+  /// Whether errors are to be measured at `x` (m).
+  virtual bool covers(const Vec3&) const { return true; }
+
   /// Mean of each field over the box [lower, upper] (m) at time `t` (s); an axis with no extent is a point.
   /// Each is a plain volume mean, velocity and internal energy too: neither is weighted with mass.
   /// Gauss-Legendre with 8 points per axis, split at `breaks` and then halved until two halves agree with

@@ -1,7 +1,6 @@
 #include "components/reference/gas_module.hpp"
 #include "components/reference/isentropic_vortex.hpp"
 #include "components/reference/modules.hpp"
-#include "components/reference/vortex_tags.hpp"
 
 namespace tushar::reference {
 

@@ -10,5 +10,9 @@ simulation::AnalysisKind exactRiemannKind();
 simulation::AnalysisKind simpleWaveKind();
 /// `isentropicVortex`: errors against a smooth vortex that a uniform flow carries along.
 simulation::AnalysisKind isentropicVortexKind();
+/// `gresho`: errors against a vortex of two rings.
+simulation::AnalysisKind greshoKind();
+/// `noh`: errors against cold gas that falls into a plane, a line or a point.
+simulation::AnalysisKind nohKind();
 
 }  // namespace tushar::reference

@@ -11,28 +11,27 @@ using simulation::AnalysisKind;
 
 namespace {
 
-struct WaveSection {
-  std::string name;
+struct WaveSection : GasTags {
   input::Expression velocity{0.0};
-  double density = 1, soundSpeed = 1, gamma = 1.4;
+  double density = 1, soundSpeed = 1;
   double lower = 0, upper = 1;
 };
 const Schema<WaveSection>& waveSchema() {
-  static const Schema<WaveSection> schema =
-      Schema<WaveSection>("Module", "Errors against a simple wave that runs to the right into gas at rest.")
-          .requiredAttribute("name", &WaveSection::name, "1", "simpleWave")
-          .required("velocity", &WaveSection::velocity, "m/s", "velocity at t = 0, a formula in x")
-          .ours()
-          .value("density", &WaveSection::density, 1, "kg/m^3", "density at rest", input::positive())
-          .ours()
-          .value("sound_speed", &WaveSection::soundSpeed, 1, "m/s", "speed of sound at rest", input::positive())
-          .ours()
-          .value("gamma", &WaveSection::gamma, 1.4, "1", "ratio of specific heats", input::greaterThan(1))
-          .ours()
-          .value("lower", &WaveSection::lower, 0, "m", "where the profile begins")
-          .ours()
-          .value("upper", &WaveSection::upper, 1, "m", "where the profile ends")
-          .ours();
+  static const Schema<WaveSection> schema = [] {
+    Schema<WaveSection> declared("Module", "Errors against a simple wave that runs to the right into gas at rest.");
+    declareGasTags(declared, "simpleWave");
+    declared.required("velocity", &WaveSection::velocity, "m/s", "velocity at t = 0, a formula in x")
+        .ours()
+        .value("density", &WaveSection::density, 1, "kg/m^3", "density at rest", input::positive())
+        .ours()
+        .value("sound_speed", &WaveSection::soundSpeed, 1, "m/s", "speed of sound at rest", input::positive())
+        .ours()
+        .value("lower", &WaveSection::lower, 0, "m", "where the profile begins")
+        .ours()
+        .value("upper", &WaveSection::upper, 1, "m", "where the profile ends")
+        .ours();
+    return declared;
+  }();
   return schema;
 }
 

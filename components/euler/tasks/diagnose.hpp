@@ -34,6 +34,16 @@ void sumEnergy(const Patch& patch, CellView<const double> totalEnergy, Sum& ener
   forEach<D>(patch.cells(), [&](const Index<D>& cell) { sum.add(volume * totalEnergy[cell]); });
 }
 
+/// Kinetic energy in the patch [J].
+template <int D>
+void sumKineticEnergy(const Patch& patch, CellView<const double> density, CellView<const Vec<D>> momentum,
+                      Sum& energy) {
+  WideSum sum(energy);
+  const double half = 0.5 * patch.level().cellVolume();
+  forEach<D>(patch.cells(),
+             [&](const Index<D>& cell) { sum.add(half * momentum[cell].squaredNorm() / density[cell]); });
+}
+
 /// Internal energy per volume [J/m³] of a cell: E - rho v² / 2.
 template <int D>
 double internalEnergyPerVolume(double density, const Vec<D>& momentum, double totalEnergy) {

@@ -1,0 +1,33 @@
+#include "components/reference/noh.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace tushar::reference {
+
+Noh::Noh(const NohProblem& problem) : RadialReference(problem.centre, problem.round), problem_(problem) {
+  if (!(problem.density > 0 && problem.speed > 0 && problem.pressure >= 0 && problem.gamma > 1))
+    throw std::invalid_argument(fmt::format(
+        "Noh's problem needs a positive density and speed, a pressure of at least 0 and a gamma above 1, not "
+        "{}, {}, {} and {}.",
+        problem.density, problem.speed, problem.pressure, problem.gamma));
+  const double gamma = problem.gamma;
+  behind_.density = problem.density * std::pow((gamma + 1) / (gamma - 1), dimension());
+  behind_.energy = 0.5 * problem.speed * problem.speed;
+  behind_.pressure = (gamma - 1) * behind_.density * behind_.energy;
+}
+
+RadialState Noh::atRadius(double r, double t) const {
+  if (r < shockRadius(t)) return behind_;
+  const double squeezed = t > 0 ? std::pow(1 + problem_.speed * t / r, dimension() - 1) : 1;
+  RadialState state;
+  state.density = problem_.density * squeezed;
+  state.velocity = -problem_.speed;
+  state.pressure = problem_.pressure > 0 ? problem_.pressure * std::pow(squeezed, problem_.gamma) : 0;
+  state.energy = state.pressure / ((problem_.gamma - 1) * state.density);
+  return state;
+}
+
+}  // namespace tushar::reference
