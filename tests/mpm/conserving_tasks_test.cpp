@@ -96,7 +96,7 @@ TEST(ConservingStep, KeepsMomentumAndTotalEnergy) {
 }
 
 TEST(ConservingStep, GathersAllMassAndReproducesLinearVelocities) {
-  BoxCloud<2> cloud(resolution<2>());
+  BoxCloud<2> cloud(Index3{{9, 9, 1}});
   const Vec<2> mean(0.3, -0.2);
   const Tensor<2> slope{{1.0, 0.5}, {-0.25, 2.0}};
   setLinearVelocity<2>(cloud, mean, slope);
@@ -106,11 +106,11 @@ TEST(ConservingStep, GathersAllMassAndReproducesLinearVelocities) {
               std::accumulate(cloud.mass.begin(), cloud.mass.end(), 0.0), 1e-12);
   EXPECT_NEAR(std::accumulate(step.cellMass.values.begin(), step.cellMass.values.end(), 0.0),
               std::accumulate(cloud.mass.begin(), cloud.mass.end(), 0.0), 1e-12);
-  forEach<2>(cloud.level.cells(), [&](const Index<2>& cell) {
-    if (cell[0] == 0 || cell[1] == 0 || cell[0] == 6 || cell[1] == 5) return;  // boxes are cut off at the rim
+  const Box awayFromTheRim{{{3, 3, 0}}, {{7, 7, 1}}};  // there boxes are cut off
+  forEach<2>(awayFromTheRim, [&](const Index<2>& cell) {
     const Vec<2> corner(cloud.level.nodePosition(0, cell[0]), cloud.level.nodePosition(1, cell[1]));
     EXPECT_NEAR((step.velocity.read()[cell] - mean - slope * corner).norm(), 0, 1e-12);
-    if (cell[0] < 5 && cell[1] < 4) { EXPECT_NEAR((step.gradient.read()[cell] - slope).norm(), 0, 1e-11); }
+    if (cell[0] < 6 && cell[1] < 6) { EXPECT_NEAR((step.gradient.read()[cell] - slope).norm(), 0, 1e-11); }
   });
 }
 
