@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The same bits on any patches: every scene, every variant, in one, two and three dimensions."""
 import pathlib
+import re
 import sys
 import unittest
 
@@ -13,6 +14,14 @@ PLANE = ("Grid/Level/Box/resolution=[40,6,1]", "Grid/Level/Box/upper=[1,.15,1]")
 SPACE = ("Grid/Level/Box/resolution=[20,4,3]", "Grid/Level/Box/upper=[1,.2,.15]")
 
 
+def scenes(dimensions):
+    """The scenes of particles and of heat with so many axes of more than one cell."""
+    for scene in sorted((ROOT / "ups/mpm").glob("*.ups")) + sorted((ROOT / "ups/heat").glob("*.ups")):
+        cells = re.search(r"<resolution>\s*\[(.*?)\]", scene.read_text()).group(1).split(",")
+        if sum(int(count) > 1 for count in cells) == dimensions:
+            yield scene
+
+
 class Layouts(unittest.TestCase):
     def assert_same(self, scene, layouts, *sets):
         """One fingerprint and one number of steps, whatever the patches."""
@@ -23,9 +32,13 @@ class Layouts(unittest.TestCase):
             prints.setdefault((result.report["fingerprint"], result.report["steps"]), []).append(layout)
         self.assertEqual(len(prints), 1, f"{scene} {sets}: {prints}")
 
-    def test_every_scene_on_1_2_3_7_and_64_patches(self):
-        for scene in sorted((ROOT / "ups/mpm").glob("*.ups")) + sorted((ROOT / "ups/heat").glob("*.ups")):
+    def test_every_scene_in_one_dimension_on_1_2_3_7_and_64_patches(self):
+        for scene in scenes(1):
             self.assert_same(scene, [f"[{n},1,1]" for n in (1, 2, 3, 7, 64)])
+
+    def test_every_scene_in_two_dimensions(self):
+        for scene in scenes(2):
+            self.assert_same(scene, ["[1,1,1]", "[3,2,1]", "[7,5,1]"], "Time/max_Timesteps=12")
 
     def test_finite_volumes_in_one_and_two_dimensions(self):
         self.assert_same("ups/euler/sod.ups", [f"[{n},1,1]" for n in (1, 2, 3, 7, 64)])
