@@ -16,6 +16,7 @@ from tushar.interpreter import ensure
 
 ensure("matplotlib")
 
+from tushar.shorthand import SHORT
 from tushar.study import order, time_by_task
 
 METHODS = ("--method", "paper=ups/mpm/sod.ups", "--method",
@@ -94,6 +95,14 @@ class Figures(unittest.TestCase):
     def test_the_time_of_a_task_is_its_median_and_the_rest_is_between(self):
         reports = [{"wall": {"loop": loop, "tasks": {"a": a, "b": b}}} for loop, a, b in ((10, 2, 3), (20, 9, 4), (12, 3, 5))]
         self.assertEqual(time_by_task(reports), {"a": 3, "b": 4, "between tasks": 5})
+
+    def test_short_names_find_their_place_in_any_scene(self):
+        self.assertEqual(SHORT["resolution"]("ups/mpm/lax_liu_3.ups", "50"), ["Grid/Level/Box/resolution=[50,50,1]"])
+        self.assertEqual(SHORT["resolution"]("ups/mpm/sod.ups", "[7,5,3]"), ["Grid/Level/Box/resolution=[7,5,3]"])
+        self.assertEqual(SHORT["cfl"]("ups/euler/sod.ups", ".4"), ["Euler/cfl=.4"])
+        self.assertEqual(SHORT["cfl"]("ups/mpm/sod_conserving.ups", ".4"), ["MPM/conserving_gas_dynamics/cfl=.4"])
+        self.assertEqual(SHORT["particles"]("ups/mpm/sod.ups", "4"),
+                         [f"MaterialProperties/MPM/material/geom_object[{body}]/res=[4,1,1]" for body in (1, 2)])
 
     def test_the_observed_order_is_that_between_two_cell_widths(self):
         self.assertAlmostEqual(order({"h": .1, "error": 4}, {"h": .05, "error": 1}), 2)

@@ -11,11 +11,7 @@ import subprocess
 import time
 
 from tushar.program import ROOT
-
-SHORT = {"resolution": lambda value: [f"Grid/Level/Box/resolution={value if value.startswith('[') else f'[{value},1,1]'}"],
-         "particles": lambda value: [f"MaterialProperties/MPM/material/geom_object/res=[{value},1,1]"],
-         "cfl": lambda value: [f"MPM/gas_dynamics/cfl={value}"]}
-
+from tushar.shorthand import SHORT
 
 class StudyError(Exception):
     """What went wrong, in a sentence."""
@@ -38,29 +34,12 @@ class Case:
     def overrides(self):
         sets = list(self.method.sets)
         for name, value in self.varied:
-            sets += SHORT[name](value) if name in SHORT else [f"{name}={value}"]
+            sets += SHORT[name](self.method.scene, value) if name in SHORT else [f"{name}={value}"]
         return sets
 
     def key(self):
         text = json.dumps([self.method.name, self.method.scene, self.overrides()])
         return hashlib.sha1(text.encode()).hexdigest()[:12]
-
-
-READY = {
-    "sod": ([Method("paper", "ups/mpm/sod.ups"),
-             Method("tracked volume", "ups/mpm/sod.ups", ("MPM/gas_dynamics/volume_model=tracked",)),
-             Method("tracked, 4 per cell", "ups/mpm/sod.ups",
-                    ("MPM/gas_dynamics/volume_model=tracked", "MaterialProperties/MPM/material/geom_object[1]/res=[4,1,1]",
-                     "MaterialProperties/MPM/material/geom_object[2]/res=[4,1,1]")),
-             Method("conserving", "ups/mpm/sod_conserving.ups"),
-             Method("MUSCL van Leer", "ups/euler/sod.ups")],
-            {"resolution": ["100", "200", "400", "800"]}, "density.cell.L1"),
-    "smooth": ([Method(f"{n} particles per cell", "ups/mpm/smooth_wave.ups",
-                       (f"MaterialProperties/MPM/material/geom_object/res=[{n},1,1]",)) for n in (4, 8)],
-               {"resolution": ["50", "100", "200", "400", "800"]}, "density.particle.L1"),
-    "heat": ([Method("explicit", "ups/heat/sine.ups")], {"resolution": ["16", "32", "64", "128"]},
-             "temperature.cell.L1"),
-}
 
 
 class Study:

@@ -35,17 +35,20 @@ def draw(rows, error, folder):
 
 
 def _against(lines, column, label, error):
-    figure, axes = plt.subplots(figsize=(6, 4.6), layout="constrained")
+    tall = 4.3, 0.24 * ((len(lines) + 1) // 2)
+    figure, (axes, key) = plt.subplots(2, 1, figsize=(6.6, sum(tall)), height_ratios=tall, layout="constrained")
     for number, (name, line) in enumerate(lines.items()):
         axes.loglog([row[column] for row in line], [row["error"] for row in line], color=COLOURS[number % len(COLOURS)],
-                    marker=MARKERS[number % len(MARKERS)], markersize=5, linewidth=1.4, label=name)
+                    marker=MARKERS[number % len(MARKERS)], linestyle="-" if number < len(COLOURS) else "--", markersize=5,
+                    linewidth=1.4, label=name)
     if column == "h":
         for order in (1, 2):
             _order_triangle(axes, lines, order)
     axes.set_xlabel(label)
     axes.set_ylabel("error, " + error.replace(".", " "))
     axes.grid(True, which="minor", linewidth=0.3)
-    axes.legend()
+    key.axis("off")
+    key.legend(*axes.get_legend_handles_labels(), loc="center", ncols=2, fontsize=8, handlelength=2.6)
     return figure
 
 

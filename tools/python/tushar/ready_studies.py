@@ -1,0 +1,53 @@
+"""The studies that need no more than their name."""
+from tushar.study import Method
+
+CONSERVING = "MPM/conserving_gas_dynamics"
+SECOND_ORDER = (f"{CONSERVING}/transfer=affine_flip",)
+
+
+def remapped(every):
+    return (f"{CONSERVING}/remap/every={every}",)
+
+
+def limited(scene, *limiters):
+    """A line for each limiter of the finite volumes."""
+    names = {"minmod": "minmod", "van_leer": "van Leer", "mc": "MC"}
+    return [Method(f"MUSCL {names[limiter]}", scene, (f"Euler/limiter={limiter}",)) for limiter in limiters]
+
+
+SOD = [Method("paper", "ups/mpm/sod.ups"),
+       Method("paper, tracked volume", "ups/mpm/sod.ups", ("MPM/gas_dynamics/volume_model=tracked",)),
+       Method("conserving apic", "ups/mpm/sod_conserving.ups"),
+       Method("conserving apic, remapped every 5", "ups/mpm/sod_conserving.ups", remapped(5)),
+       Method("conserving affine_flip", "ups/mpm/sod_conserving.ups", SECOND_ORDER),
+       Method("conserving affine_flip, remapped every 4", "ups/mpm/sod_conserving.ups", SECOND_ORDER + remapped(4)),
+       Method("Godunov HLLC", "ups/euler/sod.ups", ("Euler/reconstruction=first_order",)),
+       *limited("ups/euler/sod.ups", "minmod", "van_leer", "mc")]
+
+SMOOTH = [*(Method(f"paper, {n} particles per cell", "ups/mpm/smooth_wave.ups",
+                   (f"MaterialProperties/MPM/material/geom_object/res=[{n},1,1]",)) for n in (4, 8)),
+          Method("conserving apic, remapped every 4", "ups/mpm/smooth_wave_conserving.ups", (f"{CONSERVING}/transfer=apic",)),
+          Method("conserving affine_flip, remapped every 4", "ups/mpm/smooth_wave_conserving.ups"),
+          Method("conserving affine_flip, remapped every step", "ups/mpm/smooth_wave_conserving.ups", remapped(1)),
+          *limited("ups/euler/smooth_wave.ups", "minmod", "van_leer", "mc")]
+
+
+def plane(name):
+    """The conserving method and the finite volumes on a scene that both have."""
+    return [Method("conserving apic, remapped every 5", f"ups/mpm/{name}.ups",
+                   (f"{CONSERVING}/transfer=apic", *remapped(5))),
+            *(Method(f"conserving affine_flip, remapped every {'step' if n == 1 else n}", f"ups/mpm/{name}.ups",
+                     SECOND_ORDER + remapped(n)) for n in (4, 1)),
+            *limited(f"ups/euler/{name}.ups", "minmod", "van_leer", "mc")]
+
+
+# name -> (methods, what is varied, the error)
+READY = {
+    "sod": (SOD, {"resolution": ["100", "200", "400", "800"]}, "density.cell.L1"),
+    "smooth": (SMOOTH, {"resolution": ["50", "100", "200", "400", "800"]}, "density.cell.L1"),
+    "vortex": (plane("vortex"), {"resolution": ["32", "64", "128"]}, "density.cell.L1"),
+    "gresho": (plane("gresho"), {"resolution": ["40", "80", "160"]}, "velocity.cell.L1"),
+    "noh": (plane("noh"), {"resolution": ["50", "100", "200"]}, "density.cell.L1"),
+    "heat": ([Method("explicit", "ups/heat/sine.ups")], {"resolution": ["16", "32", "64", "128"]},
+             "temperature.cell.L1"),
+}

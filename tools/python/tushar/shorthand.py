@@ -1,0 +1,39 @@
+"""Short names for what studies vary, whatever the scene's component: resolution, particles, cfl."""
+import pathlib
+import xml.etree.ElementTree as xml
+
+from tushar.program import ROOT
+
+CFL = ("MPM/gas_dynamics", "MPM/conserving_gas_dynamics", "Euler")
+
+
+def root_of(scene):
+    return xml.parse(pathlib.Path(ROOT) / scene).getroot()
+
+
+def cells_of(scene):
+    return [int(count) for count in root_of(scene).find("Grid/Level/Box/resolution").text.strip(" []").split(",")]
+
+
+def resolution(scene, value):
+    """`N` cells along x, and along the other axes in the scene's proportion; `[nx,ny,nz]` as it stands."""
+    if not value.startswith("["):
+        cells = cells_of(scene)
+        value = "[" + ",".join(str(max(1, round(count * int(value) / cells[0]))) if count > 1 else "1" for count in cells) + "]"
+    return [f"Grid/Level/Box/resolution={value}"]
+
+
+def particles(scene, value):
+    """`P` particles per cell along each axis of more than one cell, in every body."""
+    bodies = root_of(scene).findall("MaterialProperties/MPM/material/geom_object")
+    each = "[" + ",".join(value if count > 1 else "1" for count in cells_of(scene)) + "]"
+    return [f"MaterialProperties/MPM/material/geom_object[{number}]/res={each}" for number in range(1, len(bodies) + 1)]
+
+
+def cfl(scene, value):
+    """In the section of the scene's method."""
+    sections = [path for path in CFL if root_of(scene).find(path) is not None]
+    return [f"{path}/cfl={value}" for path in sections or CFL[:1]]
+
+
+SHORT = {"resolution": resolution, "particles": particles, "cfl": cfl}
