@@ -5,13 +5,17 @@ import hashlib
 import itertools
 import json
 import math
+import os
 import pathlib
+import re
 import statistics
 import subprocess
+import tempfile
 import time
 
 from tushar.program import ROOT
 from tushar.shorthand import SHORT
+
 
 class StudyError(Exception):
     """What went wrong, in a sentence."""
@@ -38,8 +42,25 @@ class Case:
         return sets
 
     def key(self):
-        text = json.dumps([self.method.name, self.method.scene, self.overrides()])
+        """The same only for the same scene, letter by letter, with the same overrides."""
+        text = json.dumps([self.method.name, self.method.scene, scene_text(self.method.scene), self.overrides()])
         return hashlib.sha1(text.encode()).hexdigest()[:12]
+
+
+def scene_path(scene):
+    """A scene as the caller or, failing that, the root of the repository knows it."""
+    return pathlib.Path(scene).resolve() if os.path.exists(scene) else ROOT / scene
+
+
+def scene_text(scene, outer=()):
+    """What a scene says, with the files that it includes; '' for one that cannot be read, which sus will say."""
+    path = scene_path(scene)
+    try:
+        text = path.read_text(errors="replace")
+    except OSError:
+        return ""
+    included = re.findall(r"""<include\b[^>]*href\s*=\s*["']([^"']+)""", text)
+    return text + "".join(scene_text(path.parent / name, (*outer, path)) for name in included if path not in outer)
 
 
 class Study:
@@ -87,21 +108,16 @@ class Study:
 
     def _report(self, case):
         """The report of one run of a case; a run that dies gives the sentence that it died with."""
-        path = self.folder / "run.json"
-        path.unlink(missing_ok=True)
-        command = [str(self.sus), case.method.scene, "--quiet", "--json", str(path), "--output", str(self.folder)]
-        for override in ["DataArchiver/outputInterval=0", *case.overrides()]:
-            command += ["--set", override]
-        done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
-        if done.returncode not in (0, 4):
-            raise StudyError(f"{case.method.scene}: {done.stderr.strip() or 'sus failed'}")
-        for archive in self.folder.glob("*.uda*"):
-            remove(archive)
-        if done.returncode == 4:
-            return {"died": done.stderr.strip()}
-        report = json.loads(path.read_text())
-        path.unlink()
-        return report
+        with tempfile.TemporaryDirectory(prefix="run-", dir=self.folder) as folder:
+            path = pathlib.Path(folder, "report.json")
+            command = [str(self.sus), str(scene_path(case.method.scene)), "--quiet", "--json", str(path),
+                       "--output", folder]
+            for override in ["DataArchiver/outputInterval=0", *case.overrides()]:
+                command += ["--set", override]
+            done = subprocess.run(command, capture_output=True, text=True)
+            if done.returncode not in (0, 4):
+                raise StudyError(f"{case.method.scene}: {done.stderr.strip() or 'sus failed'}")
+            return {"died": done.stderr.strip()} if done.returncode == 4 else json.loads(path.read_text())
 
     def _save(self):
         path = self.folder / "study.json.tmp"
@@ -155,16 +171,6 @@ def value_at(tree, path):
             raise StudyError(f"there is no error '{path}': at '{word}' there is only {', '.join(tree) or 'nothing'}")
         tree = tree[word]
     return tree
-
-
-def remove(path):
-    """Deletes a link, or a folder of files."""
-    if path.is_symlink() or path.is_file():
-        path.unlink()
-        return
-    for entry in path.iterdir():
-        remove(entry)
-    path.rmdir()
 
 
 def write_csv(rows, path):

@@ -1,0 +1,65 @@
+#!/usr/bin/env python3
+"""Tests of tools/study: it runs what has changed, from any folder, and touches nothing that is not its own."""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from sus import ROOT, SUS
+
+
+class Study(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.here = pathlib.Path(self.folder.name)
+        self.scene = self.here / "my.ups"
+        self.scene.write_text((ROOT / "ups/heat/sine.ups").read_text())
+
+    def study(self, *words):
+        command = [sys.executable, ROOT / "tools/study", "--repeat", "1", "--sus", SUS, *words]
+        return subprocess.run(command, cwd=self.here, capture_output=True, text=True, timeout=120)
+
+    def rows(self, *words):
+        done = self.study("my.ups", "--error", "temperature.cell.L1", "--out", "out", *words)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return json.loads((self.here / "out/study.json").read_text())["rows"]
+
+    def test_leaves_archives_alone_that_it_has_not_made(self):
+        (self.here / "out/precious.uda.000").mkdir(parents=True)
+        (self.here / "out/precious.uda.000/t00000.h5").write_text("data")
+        self.rows()
+        self.assertTrue((self.here / "out/precious.uda.000/t00000.h5").exists())
+        self.assertEqual([entry.name for entry in (self.here / "out").iterdir() if entry.name.startswith("run")], [])
+
+    def test_runs_again_what_an_edited_scene_changes(self):
+        self.assertEqual(self.rows()[0]["h"], 1 / 64)
+        self.scene.write_text(self.scene.read_text().replace("[64,1,1]", "[32,1,1]"))
+        self.assertEqual(self.rows()[0]["h"], 1 / 32)
+
+    def test_runs_again_what_an_edited_include_changes(self):
+        text = self.scene.read_text()
+        start, end = text.index("<Heat>"), text.index("</Heat>") + len("</Heat>")
+        included = self.here / "slab.ups"
+        included.write_text("<slab>" + text[start:end] + "</slab>")
+        self.scene.write_text(text[:start] + '<include href="slab.ups"/>' + text[end:])
+        before = self.rows()[0]["error"]
+        included.write_text(included.read_text().replace("sin(pi*x)", "2*sin(pi*x)"))
+        self.assertNotEqual(self.rows()[0]["error"], before)
+
+    def test_runs_a_ready_study_from_another_folder(self):
+        done = self.study("heat", "--vary", "resolution=16")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue((self.here / "study-heat/study.md").exists())
+
+    def test_refuses_to_repeat_nothing(self):
+        done = self.study("my.ups", "--repeat", "0")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("found '0', expected a whole number of at least 1", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
