@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Golden schedules: what each scene runs, reads and writes, and what it leaves out.
 
-After a wanted change: python3 tests/regression/schedules_test.py --write, and look at the difference.
+After a wanted change, and for a new scene: python3 tests/regression/schedules_test.py --write, and look at the difference.
 """
 import pathlib
 import subprocess
@@ -25,6 +25,8 @@ class Schedules(unittest.TestCase):
     def test_every_scene_runs_what_it_ran(self):
         self.maxDiff = None
         for name, text in schedules():
+            self.assertTrue((GOLDEN / name).exists(), f"tests/golden/{name} is missing; make it by: python3 "
+                                                      "tests/regression/schedules_test.py --write")
             self.assertEqual((GOLDEN / name).read_text(), text, name)
 
 

@@ -70,6 +70,9 @@ class NewComponent(unittest.TestCase):
                              capture_output=True, text=True)
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertIn("temperature, cell", run.stdout)
+        scene = self.copy / "ups/shallow_water/shallow_water.ups"
+        schedule = subprocess.run([sus, "--schedule", scene], capture_output=True, text=True).stdout
+        self.assertEqual((self.copy / "tests/golden/shallow_water_shallow_water.txt").read_text(), schedule)
         tests = [self.compile(str(file.relative_to(self.copy)))
                  for file in sorted((self.copy / "tests/shallow_water").glob("*_test.cpp"))]
         program = self.link([*new, *tests], "-lgtest_main", "-lgtest")
