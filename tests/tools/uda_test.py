@@ -187,6 +187,11 @@ class Plot(WithArchives):
                      "t = 0.1 s", "particles", "exact"):
             self.assertIn(text, svg)
 
+    def test_needs_an_archive_and_nothing_else(self):
+        code, _, err = run("plot")
+        self.assertEqual(code, 2)
+        self.assertIn("the following arguments are required: archive\n", err)
+
     def test_says_what_is_missing(self):
         svg, err = self.plot(self.part, out="part.svg")
         self.assertIn('no pressure: the scene does not save it; add <save label="p.pressure"/>', err)
