@@ -15,6 +15,13 @@ std::optional<std::string> Element::attribute(std::string_view wanted) const {
   return std::nullopt;
 }
 
+const Location& Element::whereOf(std::string_view wanted) const {
+  for (const Attribute& attribute : node_->attributes) {
+    if (attribute.name == wanted) return attribute.where;
+  }
+  return where();
+}
+
 std::optional<Element> Element::child(std::string_view wanted) const {
   for (const auto& node : node_->children) {
     if (node->name == wanted) return Element(*node);

@@ -24,6 +24,8 @@ class Element {
   std::string path() const;
 
   std::optional<std::string> attribute(std::string_view name) const;
+  /// Where an attribute was given; where the tag is if it was not.
+  const Location& whereOf(std::string_view attribute) const;
   const std::vector<Attribute>& attributes() const { return node_->attributes; }
 
   /// The first child of that name, if any.

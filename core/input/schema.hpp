@@ -187,6 +187,14 @@ class Schema : public SchemaBase {
     return put(std::move(entry));
   }
 
+  /// Keeps where the tag stands or, with the name of an attribute, where that was given.
+  Schema& location(Location S::*member, std::string attribute = "") {
+    addLocate([member, attribute = std::move(attribute)](void* object, const Element& element) {
+      static_cast<S*>(object)->*member = element.whereOf(attribute);
+    });
+    return *this;
+  }
+
   /// Checks values against each other; called only if the element had no problem so far.
   Schema& check(std::function<void(const S&, const Element&, Diagnostics&)> check) {
     addCheck([check = std::move(check)](const void* object, const Element& element, Diagnostics& diagnostics) {

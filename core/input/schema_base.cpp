@@ -184,6 +184,7 @@ void SchemaBase::setDefaults(void* object) const {
 void SchemaBase::readInto(void* object, const Element& element, Diagnostics& diagnostics) const {
   const std::size_t before = diagnostics.size();
   setDefaults(object);
+  for (const Locate& locate : locates_) locate(object, element);
   reportUnknown(element, diagnostics);
   readAttributes(object, element, diagnostics);
   readTags(object, element, diagnostics);

@@ -56,12 +56,14 @@ class SchemaBase {
   void describeContents(std::ostream& out, int indent = 0) const;
 
  protected:
+  using Locate = std::function<void(void* object, const Element& element)>;
   using Check = std::function<void(const void* object, const Element& element, Diagnostics& diagnostics)>;
 
   SchemaBase(std::string name, std::string sentence) : name_(std::move(name)), sentence_(std::move(sentence)) {}
 
   void add(SchemaEntry entry);
   void addCheck(Check check) { checks_.push_back(std::move(check)); }
+  void addLocate(Locate locate) { locates_.push_back(std::move(locate)); }
   void markLastOurs();
   void setDefaults(void* object) const;
   void readInto(void* object, const Element& element, Diagnostics& diagnostics) const;
@@ -75,6 +77,7 @@ class SchemaBase {
   std::string name_;
   std::string sentence_;
   std::vector<SchemaEntry> entries_;
+  std::vector<Locate> locates_;
   std::vector<Check> checks_;
 };
 

@@ -67,7 +67,7 @@ std::vector<InputProblem> Phases::problemsOf(const std::vector<SaveRequest>& sav
                                       alternatives({known.begin(), known.end()}))});
     else if (!save.material.empty() &&
              std::find(materials_.begin(), materials_.end(), save.material) == materials_.end())
-      problems.push_back({save.where, "DataArchiver/save",
+      problems.push_back({save.whereOfMaterial, "DataArchiver/save",
                           fmt::format("there is no material '{}'{}; there are {}", save.material,
                                       didYouMean(save.material, materials_), alternatives(materials_))});
   }

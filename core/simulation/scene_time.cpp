@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "core/input/schema.hpp"
 #include "core/simulation/scene.hpp"
 
@@ -45,9 +47,21 @@ const Schema<SaveRequest>& saveSchema() {
           .requiredAttribute("label", &SaveRequest::label, "1", "its name, such as p.x or KineticEnergy")
           .attributeValue("material", &SaveRequest::material, "", "1", "only of this material")
           .ignoredAttribute("levels", "there is one level")
-          .custom("where", [](SaveRequest& save, const Element& element, Diagnostics&) { save.where = element.where(); },
-                  {}, "");
+          .location(&SaveRequest::where, "label")
+          .location(&SaveRequest::whereOfMaterial, "material");
   return schema;
+}
+
+/// Of each two saves that ask for one variable of one material, the second is a problem.
+void refuseSavedTwice(const std::vector<SaveRequest>& saves, Diagnostics& diagnostics) {
+  for (std::size_t k = 0; k < saves.size(); ++k)
+    for (std::size_t before = 0; before < k; ++before) {
+      const std::string &one = saves[before].material, &other = saves[k].material;
+      if (saves[before].label != saves[k].label || (one != other && !one.empty() && !other.empty())) continue;
+      diagnostics.error(saves[k].where, "DataArchiver/save",
+                        fmt::format("'{}' is saved already, by {}; keep one", saves[k].label, saves[before].where.text()));
+      break;
+    }
 }
 
 /// Whether a tag of the archiver that stands without a value is given; `<tag>false</tag>` says no.
@@ -85,6 +99,7 @@ const Schema<ArchiveSettings>& archiveSchema() {
           .check([](const ArchiveSettings& archive, const Element& element, Diagnostics& diagnostics) {
             if (archive.outputInterval > 0 && archive.outputTimestepInterval > 0)
               diagnostics.error(element, "gives both outputInterval and outputTimestepInterval; keep one");
+            refuseSavedTwice(archive.saves, diagnostics);
             if (archive.filebase.find('/') != std::string::npos)
               diagnostics.error(element, "filebase '" + archive.filebase +
                                              "' contains '/'; name a folder within the one where sus is started");

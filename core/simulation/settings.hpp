@@ -14,7 +14,8 @@ namespace tushar::simulation {
 struct SaveRequest {
   std::string label;
   std::string material;  ///< empty: all
-  Location where;
+  Location where;            ///< of the label
+  Location whereOfMaterial;
 };
 
 /// The `DataArchiver` section.

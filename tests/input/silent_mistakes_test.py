@@ -1,0 +1,43 @@
+#!/usr/bin/env python3
+"""Mistakes that would run as another problem than the one meant, or die late: each is refused at its place at once."""
+import pathlib
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from sus import ROOT, run
+
+
+class SilentMistakes(unittest.TestCase):
+    def assert_refused(self, result, *sentences):
+        self.assertEqual(result.code, 3, result.err)
+        for sentence in sentences:
+            self.assertIn(sentence, result.err)
+        self.assertEqual((result.files, result.out), ([], ""))
+
+    def assert_edited_is_refused(self, scene, before, after, *sentences, sets=()):
+        """Runs a scene in which `before` reads `after`; SCENE in a sentence is its file."""
+        text = (ROOT / scene).read_text()
+        self.assertIn(before, text)
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "scene.ups")
+            path.write_text(text.replace(before, after))
+            result = run(path, *sets, outputs=True)
+            self.assert_refused(result, *(sentence.replace("SCENE", str(path)) for sentence in sentences))
+
+    def test_an_overridden_label_is_blamed_on_the_option(self):
+        self.assert_refused(run("ups/mpm/sod.ups", "DataArchiver/save[1]/@label=p.foo", outputs=True),
+                            "--set DataArchiver/save[1]/@label=p.foo: DataArchiver/save: no task")
+
+    def test_a_variable_saved_twice(self):
+        self.assert_edited_is_refused("ups/mpm/sod.ups", '<save label="p.x"/>', '<save label="p.density"/>',
+                                      "SCENE:41:6: DataArchiver/save: 'p.density' is saved already, by SCENE:40:6; keep one")
+        self.assert_edited_is_refused("ups/mpm/sod.ups", '<save label="p.x"/>', '<save label="p.density" material="gas"/>',
+                                      "SCENE:41:6: DataArchiver/save: 'p.density' is saved already")
+        self.assert_edited_is_refused("ups/mpm/sod.ups", '<save label="p.x"/>', '<save label="KineticEnergy"/>',
+                                      "'KineticEnergy' is saved already")
+
+
+if __name__ == "__main__":
+    unittest.main()
