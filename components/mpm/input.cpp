@@ -19,6 +19,7 @@ const Schema<Redistribution>& redistributeSchema() {
   using Mode = Redistribution::Mode;
   static const Schema<Redistribution> schema =
       Schema<Redistribution>("redistribute", "New particles where a cell holds too few or too many.")
+          .location(&Redistribution::where)
           .choice("mode", &Redistribution::mode, {{"split_merge", Mode::splitMerge}, {"reseed", Mode::reseed}},
                   Mode::splitMerge, "halve large particles and join near ones, or put new ones at midpoints")
           .ours()
@@ -285,7 +286,19 @@ void refusePlacements(const MaterialProperties& properties, Diagnostics& diagnos
                           "midpoint, or <gas_dynamics>");
 }
 
+/// Cells that are seeded anew with more than max_particles would be seeded anew in every step.
+void checkSeeds(const Redistribution& how, int dimension) {
+  const int along = how.seededAlongAxis(dimension);
+  const int seeds = static_cast<int>(std::pow(along, dimension));
+  if (how.mode != Redistribution::Mode::reseed || seeds <= how.maxParticles) return;
+  throw InputError({{how.where, "MPM/gas_dynamics/redistribute",
+                     fmt::format("target_particles: {} in a cell become {}, {} along each of {} axes, and max_particles is "
+                                 "{}; lower the one or raise the other",
+                                 how.targetParticles, seeds, along, dimension, how.maxParticles)}});
+}
+
 std::unique_ptr<Component> makeComponent(const Level& level, const MpmSection& method, const std::vector<Gas>& gases) {
+  if (method.gas && method.gas->redistribute) checkSeeds(*method.gas->redistribute, level.dimension());
   if (method.gas) return simulation::makeByDimension<Mpm>(level, *method.gas, gases);
   return simulation::makeByDimension<ConservingMpm>(level, settle(*method.conserving, level.dimension()), gases);
 }

@@ -38,6 +38,16 @@ class SilentMistakes(unittest.TestCase):
         self.assert_edited_is_refused("ups/mpm/sod.ups", '<save label="p.x"/>', '<save label="KineticEnergy"/>',
                                       "'KineticEnergy' is saved already")
 
+    def test_a_reseeded_cell_with_more_than_max_particles(self):
+        how = "MPM/gas_dynamics/redistribute/"
+        sets = (how + "mode=reseed", how + "target_particles=5", how + "max_particles=8")
+        plane, space = "Grid/Level/Box/resolution=[20,2,1]", "Grid/Level/Box/resolution=[20,2,2]"
+        self.assert_refused(run("ups/mpm/sod_redistribute.ups", *sets, plane, outputs=True),
+                            "ups/mpm/sod_redistribute.ups:57:8: MPM/gas_dynamics/redistribute: target_particles: 5 in a cell "
+                            "become 9, 3 along each of 2 axes, and max_particles is 8; lower the one or raise the other")
+        self.assertEqual(run("ups/mpm/sod_redistribute.ups", *sets, "Time/max_Timesteps=1").code, 0)
+        self.assertEqual(run("ups/mpm/sod_redistribute.ups", *sets, space, "Time/max_Timesteps=1").code, 0)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -169,9 +169,7 @@ template <int D>
 void redistributeCell(std::vector<Piece<D>>& pieces, const CellShape<D>& cell, const Gas& gas,
                       const Redistribution& how) {
   if (how.mode == Redistribution::Mode::reseed) {
-    int alongAxis = 1;
-    while (std::pow(alongAxis, D) < how.targetParticles) ++alongAxis;
-    reseed<D>(pieces, cell, gas, alongAxis);
+    reseed<D>(pieces, cell, gas, how.seededAlongAxis(D));
     return;
   }
   split<D>(pieces, cell, how.minParticles);

@@ -13,10 +13,18 @@ struct Redistribution {
     splitMerge,  ///< halve the large ones, join neighbours
     reseed,      ///< put new ones at the midpoints of equal parts of the cell
   };
+  Location where;  ///< in the scene
   Mode mode = Mode::splitMerge;
   int minParticles = 2;     ///< per cell
   int maxParticles = 16;    ///< per cell
   int targetParticles = 4;  ///< per cell, of `reseed`; along each axis its D-th root, rounded up
+
+  /// Particles along each axis of a cell that is seeded anew.
+  int seededAlongAxis(int dimension) const {
+    int number = 1;
+    while (std::pow(number, dimension) < targetParticles) ++number;
+    return number;
+  }
 };
 
 /// A particle with all that redistribution needs to know of it.
