@@ -4,7 +4,8 @@
 
 namespace tushar::simulation {
 
-/// `exactSolution`: errors of any scalar cell or node variable against a formula in x, y, z and t.
+/// `exactSolution`: errors of a scalar cell or node variable without a material, of the state or of the diagnostics,
+/// against a formula in x, y, z and t.
 AnalysisKind exactSolutionKind();
 
 }  // namespace tushar::simulation

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "core/input/schema.hpp"
 
@@ -97,13 +98,24 @@ std::vector<ReadModule> readModules(const Element& root, const Catalogue& catalo
   return modules;
 }
 
+/// A report has one place for the errors of a field. Throws InputError for a module that measures what is `measured`
+/// already, and adds to it.
+void refuseMeasuredTwice(const Analysis& analysis, const Element& module, std::set<std::string>& measured) {
+  for (const MeasuredError& error : analysis.errors())
+    if (const std::string what = error.field + ", " + error.place; !measured.insert(what).second)
+      throw InputError({{module.where(), module.path(),
+                         fmt::format("the errors of '{}' are measured by a module above already; keep one", what)}});
+}
+
 std::vector<std::unique_ptr<Analysis>> makeModules(const std::vector<ReadModule>& modules, const Component& component,
                                                    const grid::Level& level) {
   std::vector<std::unique_ptr<Analysis>> analyses;
   std::vector<InputProblem> problems;
+  std::set<std::string> measured;
   for (const ReadModule& module : modules) {
     try {
       analyses.push_back(module.make(component, level));
+      refuseMeasuredTwice(*analyses.back(), module.element, measured);
     } catch (const InputError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }

@@ -48,6 +48,31 @@ class SilentMistakes(unittest.TestCase):
         self.assertEqual(run("ups/mpm/sod_redistribute.ups", *sets, "Time/max_Timesteps=1").code, 0)
         self.assertEqual(run("ups/mpm/sod_redistribute.ups", *sets, space, "Time/max_Timesteps=1").code, 0)
 
+    def test_exact_solutions_of_what_cannot_be_measured(self):
+        label = "DataAnalysis/Module/label"
+        self.assert_refused(run("ups/heat/sine.ups", label + "=c.temp", outputs=True),
+                            f"{label}: found 'c.temp', expected 'c.temperature'")
+        self.assert_edited_is_refused("ups/heat/sine.ups", "c.temperature</label>", "p.x</label>",
+                                      f"SCENE:49:8: {label}: found 'p.x', expected 'c.temperature'")
+        exact = '<Module name="exactSolution"><label>LABEL</label><value>0</value></Module></DataAnalysis>'
+        self.assert_edited_is_refused("ups/euler/sod.ups", "</DataAnalysis>", exact.replace("LABEL", "c.momentum"),
+                                      "found 'c.momentum', expected 'c.density', 'c.internalEnergy', 'c.pressure' or "
+                                      "'c.totalEnergy'")
+        self.assert_edited_is_refused("ups/mpm/sod.ups", "</DataAnalysis>", exact.replace("LABEL", "g.mass"),
+                                      "this component has no scalar variable of cells or nodes without a material")
+
+    def test_errors_measured_twice(self):
+        module = '<Module name="exactSolution"><label>LABEL</label><value>0</value></Module></DataAnalysis>'
+        self.assert_edited_is_refused("ups/heat/sine.ups", "</DataAnalysis>", module.replace("LABEL", "c.temperature"),
+                                      "SCENE:52:4: DataAnalysis/Module: the errors of 'temperature, cell' are measured by a "
+                                      "module above already; keep one")
+        self.assert_edited_is_refused("ups/euler/sod.ups", "</DataAnalysis>", module.replace("LABEL", "c.density"),
+                                      "the errors of 'density, cell' are measured by a module above already")
+        again = (ROOT / "ups/euler/sod.ups").read_text()
+        again = again[again.index("  <Module"):again.index("</Module>") + 9]
+        self.assert_edited_is_refused("ups/euler/sod.ups", "</DataAnalysis>", again + "</DataAnalysis>",
+                                      "the errors of 'density, cell' are measured by a module above already")
+
 
 if __name__ == "__main__":
     unittest.main()

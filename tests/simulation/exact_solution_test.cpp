@@ -1,0 +1,39 @@
+#include <gtest/gtest.h>
+
+#include "components/components.hpp"
+#include "core/simulation/scene.hpp"
+
+// The module exactSolution: what it can measure, and in which unit.
+
+namespace tushar::simulation {
+
+namespace {
+
+/// The error of a variable of Lax & Liu's problem after a step of a nanosecond, against a formula.
+ErrorNorms errorOf(const std::string& label, const std::string& formula) {
+  const std::string module = "DataAnalysis/Module/";
+  Problem problem = readScene("ups/euler/lax_liu_3.ups",
+                              {"Time/max_Timesteps=1", "Time/delt_max=1e-9", "Grid/Level/Box/resolution=[10,10,1]",
+                               module + "@name=exactSolution", module + "label=" + label, module + "value=" + formula},
+                              catalogue());
+  problem.archive.saves.clear();
+  RunOptions options;
+  options.quiet = true;
+  return Simulation(std::move(problem), options, std::chrono::steady_clock::now()).run().errors.at(0);
+}
+
+}  // namespace
+
+TEST(ExactSolution, MeasuresTheStateAndWhatDiagnosticsComputeOfIt) {
+  const ErrorNorms density = errorOf("c.density", "0"), pressure = errorOf("c.pressure", "0");
+
+  EXPECT_NEAR(density.norms.at("max"), 1.5, 1e-6);
+  EXPECT_NEAR(pressure.norms.at("max"), 1.5, 1e-6);
+}
+
+TEST(ExactSolution, HasTheUnitOfWhatItMeasures) {
+  EXPECT_EQ(errorOf("c.density", "0").unit, "kg/m^3");
+  EXPECT_EQ(errorOf("c.pressure", "0").unit, "Pa");
+}
+
+}  // namespace tushar::simulation
