@@ -55,6 +55,9 @@ class Study(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertTrue((self.here / "study-heat/study.md").exists())
 
+    def test_varies_the_resolution_of_a_scene_in_another_folder(self):
+        self.assertEqual([row["h"] for row in self.rows("--vary", "resolution=16,32")], [1 / 16, 1 / 32])
+
     def test_refuses_to_repeat_nothing(self):
         done = self.study("my.ups", "--repeat", "0")
         self.assertEqual(done.returncode, 2)

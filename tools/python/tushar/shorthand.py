@@ -1,14 +1,13 @@
 """Short names for what studies vary, whatever the scene's component: resolution, particles, cfl."""
-import pathlib
 import xml.etree.ElementTree as xml
 
-from tushar.program import ROOT
+from tushar.program import scene_path
 
 CFL = ("MPM/gas_dynamics", "MPM/conserving_gas_dynamics", "Euler")
 
 
 def root_of(scene):
-    return xml.parse(pathlib.Path(ROOT) / scene).getroot()
+    return xml.parse(scene_path(scene)).getroot()
 
 
 def cells_of(scene):

@@ -5,7 +5,6 @@ import hashlib
 import itertools
 import json
 import math
-import os
 import pathlib
 import re
 import statistics
@@ -13,7 +12,7 @@ import subprocess
 import tempfile
 import time
 
-from tushar.program import ROOT
+from tushar.program import scene_path
 from tushar.shorthand import SHORT
 
 
@@ -45,11 +44,6 @@ class Case:
         """The same only for the same scene, letter by letter, with the same overrides."""
         text = json.dumps([self.method.name, self.method.scene, scene_text(self.method.scene), self.overrides()])
         return hashlib.sha1(text.encode()).hexdigest()[:12]
-
-
-def scene_path(scene):
-    """A scene as the caller or, failing that, the root of the repository knows it."""
-    return pathlib.Path(scene).resolve() if os.path.exists(scene) else ROOT / scene
 
 
 def scene_text(scene, outer=()):
