@@ -23,6 +23,7 @@ simulation::Catalogue catalogue() {
           reference::isentropicVortexKind(),
           reference::greshoKind(),
           reference::nohKind(),
+          reference::sedovKind(),
           simulation::exactSolutionKind(),
       },
   };

@@ -14,5 +14,7 @@ simulation::AnalysisKind isentropicVortexKind();
 simulation::AnalysisKind greshoKind();
 /// `noh`: errors against cold gas that falls into a plane, a line or a point.
 simulation::AnalysisKind nohKind();
+/// `sedov`: errors against a self-similar blast wave.
+simulation::AnalysisKind sedovKind();
 
 }  // namespace tushar::reference

@@ -26,8 +26,8 @@ OVERRIDES = {
                                    MATERIAL + "constitutive_model: attribute 'type': found 'ideal_gaz', expected "
                                    "'ideal_gas' (did you mean 'ideal_gas'?)"),
     "unknown module": ("DataAnalysis/Module/@name=exactRieman", "DataAnalysis/Module: name: found 'exactRieman', expected "
-                       "'massProjection', 'exactRiemann', 'simpleWave', 'isentropicVortex', 'gresho', 'noh' or "
-                       "'exactSolution' (did you mean 'exactRiemann'?)"),
+                       "'massProjection', 'exactRiemann', 'simpleWave', 'isentropicVortex', 'gresho', 'noh', "
+                       "'sedov' or 'exactSolution' (did you mean 'exactRiemann'?)"),
     "unknown choice": (GAS + "volume_model=tracket", GAS + "volume_model: found 'tracket', expected 'cell_share' or "
                        "'tracked' (did you mean 'tracked'?)"),
     "unknown boundary label": ("Grid/BoundaryConditions/Face[1]/BCType/@label=Symetric",

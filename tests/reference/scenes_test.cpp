@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -117,6 +118,36 @@ TEST(NohScene, MeasuresWithinItsRegionAlone) {
 TEST(NohScene, RefusesARegionUpsideDown) {
   EXPECT_EQ(problemOf("ups/euler/noh.ups", {"DataAnalysis/Module/within/max=[-1,1,1]"}),
             "max is below min along x: -1 < 0 m");
+}
+
+/// Runs the blast in d dimensions on n cells of 1.2 / n m per axis, all of its energy (1 J, J/m or J/m²) in the first.
+simulation::Report blast(int d, int n) {
+  const auto corner = [d](double along, double across) {
+    return fmt::format("[{},{},{}]", along, d > 1 ? along : across, d > 2 ? along : across);
+  };
+  const double h = 1.2 / n;
+  return run("ups/euler/sedov.ups",
+             {cells(n, d > 1 ? n : 1, d > 2 ? n : 1), "Time/maxTime=0.8", "Grid/Level/Box/upper=" + corner(1.2, 0),
+              "Euler/geom_object[1]/box/max=[1.2,1.2,1.2]", "Euler/geom_object[2]/box/max=" + corner(h, 1.2),
+              fmt::format("Euler/geom_object[2]/pressure={}", 0.4 / std::pow(2 * h, d)),
+              "DataAnalysis/Module/energy=1"});
+}
+
+TEST(SedovScene, HasErrorsThatFallInOneTwoAndThreeDimensions) {
+  // Few cells across the shell behind the shock, so the order is low.
+  const int coarse[] = {60, 40, 12}, fine[] = {120, 80, 20};
+  for (int d = 1; d <= 3; ++d) {
+    const auto wide = blast(d, coarse[d - 1]), narrow = blast(d, fine[d - 1]);
+    EXPECT_GT(orderOf("density", wide, narrow), 0.25) << d;
+    EXPECT_GT(orderOf("velocity", wide, narrow), 0.25) << d;
+    EXPECT_GT(orderOf("pressure", wide, narrow), 0.25) << d;
+  }
+}
+
+TEST(SedovScene, RefusesAGasThatLeavesAVoid) {
+  const std::string space = "Grid/Level/Box/resolution=[4,4,4]";
+  EXPECT_EQ(problemOf("ups/euler/sedov.ups", {space, "DataAnalysis/Module/gamma=8"}),
+            "A blast in three dimensions leaves a void in its middle for gamma of 7 and more, such as 8.");
 }
 
 }  // namespace tushar::reference
