@@ -1,6 +1,13 @@
-#include "components/reference/exact_riemann.hpp"
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
 #include "components/reference/gas_module.hpp"
 #include "components/reference/modules.hpp"
+#include "components/reference/tilted_tube.hpp"
 
 namespace tushar::reference {
 
@@ -18,14 +25,15 @@ const Schema<State>& stateSchema() {
   static const Schema<State> schema = Schema<State>("left", "A uniform gas.")
                                           .required("density", &State::density, "kg/m^3", "rho", input::nonNegative())
                                           .required("pressure", &State::pressure, "Pa", "p", input::nonNegative())
-                                          .value("velocity", &State::velocity, 0, "m/s", "u along the axis");
+                                          .value("velocity", &State::velocity, 0, "m/s", "u along the normal");
   return schema;
 }
 
 struct RiemannSection : GasTags {
   State left, right;
   double diaphragm = 0.5;
-  int axis = 0;
+  Vec3 normal = Vec3::UnitX();
+  std::optional<double> mirror;
 };
 const Schema<RiemannSection>& riemannSchema() {
   static const Schema<RiemannSection> schema = [] {
@@ -35,13 +43,56 @@ const Schema<RiemannSection>& riemannSchema() {
         .ours()
         .requiredSection("right", &RiemannSection::right, stateSchema(), "the gas above it")
         .ours()
-        .value("diaphragm", &RiemannSection::diaphragm, 0.5, "m", "where the two meet at t = 0")
+        .value("normal", &RiemannSection::normal, Vec3::UnitX(), "1", "direction of the tube, of any length")
         .ours()
-        .choice("axis", &RiemannSection::axis, {{"x", 0}, {"y", 1}, {"z", 2}}, 0, "the normal of the diaphragm")
-        .ours();
+        .value("diaphragm", &RiemannSection::diaphragm, 0.5, "m", "the two meet where normal . x is this at t = 0")
+        .ours()
+        .optional("mirror", &RiemannSection::mirror, "m",
+                  "the tube is mirrored where normal . x is this, and again half a period of the grid further on")
+        .ours()
+        .check([](const RiemannSection& read, const Element& element, Diagnostics& diagnostics) {
+          if (read.normal.isZero(0)) diagnostics.error(element, "normal is [0,0,0], which is no direction");
+        });
     return declared;
   }();
   return schema;
+}
+
+/// Length along the tube after which a periodic grid stands again, m; 0 where it never does. Throws
+/// std::invalid_argument where the axes do not agree.
+double periodAlong(const Vec3& normal, const grid::Level& level) {
+  const grid::Domain& domain = level.domain();
+  std::vector<double> lengths;
+  for (int d = 0; d < 3; ++d)
+    if (domain.periodic[d] != 0 && normal[d] != 0)
+      lengths.push_back(std::abs(normal[d]) * (domain.upper[d] - domain.lower[d]));
+  if (lengths.empty()) return 0;
+  const double period = *std::min_element(lengths.begin(), lengths.end());
+  for (const double length : lengths)
+    if (std::abs(std::remainder(length, period)) > 1e-9 * period)
+      throw std::invalid_argument(
+          fmt::format("normal: along it the grid repeats every {:g} m for one axis, but every {:g} m for another", period,
+                      length));
+  return period;
+}
+
+ReferencePointer tubeOn(const grid::Level& level, const RiemannSection& read) {
+  const double length = read.normal.norm();
+  const Vec3 normal = read.normal / length, axes = axesOf(level);
+  for (int d = 0; d < 3; ++d)
+    if (normal[d] != 0 && axes[d] == 0)
+      throw std::invalid_argument(
+          fmt::format("normal: points along {}, but this grid has no {}", "xyz"[d], "xyz"[d]));
+  RiemannProblem problem;
+  problem.left = {read.left.density, read.left.velocity, read.left.pressure};
+  problem.right = {read.right.density, read.right.velocity, read.right.pressure};
+  problem.gamma = read.gamma;
+  problem.diaphragm = read.diaphragm / length;
+  TubePlacement placement{normal, {}, periodAlong(normal, level)};
+  if (read.mirror) placement.mirror = *read.mirror / length;
+  if (normal.maxCoeff(&problem.axis) == 1 && !read.mirror && placement.period == 0)
+    return std::make_shared<ExactRiemann>(problem);
+  return std::make_shared<TiltedTube>(problem, placement);
 }
 
 }  // namespace
@@ -50,15 +101,8 @@ AnalysisKind exactRiemannKind() {
   AnalysisKind kind{"exactRiemann", "errors against the exact solution of a shock tube", {}, {}};
   kind.describe = [](std::ostream& out) { riemannSchema().describe(out); };
   kind.read = [](const Element& module, Diagnostics& diagnostics) {
-    return readModule(riemannSchema(), module, diagnostics, [](const RiemannSection& read) {
-      RiemannProblem problem;
-      problem.left = {read.left.density, read.left.velocity, read.left.pressure};
-      problem.right = {read.right.density, read.right.velocity, read.right.pressure};
-      problem.gamma = read.gamma;
-      problem.diaphragm = read.diaphragm;
-      problem.axis = read.axis;
-      return std::make_shared<ExactRiemann>(problem);
-    });
+    return readModuleOfGrid(riemannSchema(), module, diagnostics,
+                            [](const RiemannSection& read, const grid::Level& level) { return tubeOn(level, read); });
   };
   return kind;
 }

@@ -150,4 +150,23 @@ TEST(SedovScene, RefusesAGasThatLeavesAVoid) {
             "A blast in three dimensions leaves a void in its middle for gamma of 7 and more, such as 8.");
 }
 
+TEST(DiagonalTubeScene, HasErrorsThatFall) {
+  const auto coarse = run("ups/euler/sod_diagonal.ups", {cells(50, 50)});
+  const auto fine = run("ups/euler/sod_diagonal.ups", {cells(100, 100)});
+  EXPECT_GT(orderOf("density", coarse, fine), 0.7);
+  EXPECT_GT(orderOf("velocity", coarse, fine), 0.7);
+  EXPECT_GT(orderOf("pressure", coarse, fine), 0.7);
+}
+
+TEST(DiagonalTubeScene, RefusesWhatTheGridCannotHold) {
+  const std::string scene = "ups/euler/sod_diagonal.ups", normal = "DataAnalysis/Module/normal=";
+  EXPECT_EQ(problemOf(scene, {normal + "[1,1,1]"}), "normal: points along z, but this grid has no z");
+  EXPECT_EQ(problemOf(scene, {normal + "[1,1.1,0]"}),
+            "normal: along it the grid repeats every 1.34535 m for one axis, but every 1.47988 m for another");
+  EXPECT_EQ(problemOf(scene, {normal + "[0,0,0]"}), "normal is [0,0,0], which is no direction");
+  EXPECT_EQ(problemOf(scene, {"DataAnalysis/Module/diaphragm=1"}),
+            "The diaphragm must stand between two mirrors, which are 0.707107 m apart along the tube, but it is 0.707107 "
+            "m from the first.");
+}
+
 }  // namespace tushar::reference

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+
+#include "components/reference/exact_riemann.hpp"
+#include "components/reference/piecewise_mean.hpp"
+
+namespace tushar::reference {
+
+/// How a tube lies in space.
+struct TubePlacement {
+  Vec3 normal = Vec3::UnitX();   ///< along the tube; a unit vector
+  std::optional<double> mirror;  ///< distance from the origin along the tube of a plane that it is mirrored at, m
+  double period = 0;             ///< length along the tube after which it and its image stand again, m; 0: never
+};
+
+/// The exact solution of a Riemann problem in a tube that lies in any direction.
+///
+/// With s = normal . x the fields are those of ExactRiemann at s along x. Where there is a mirror, the tube is the side
+/// of it that the diaphragm is on; beyond stands its image. With a period, a second mirror stands half a period away.
+/// It holds until a wave reaches a mirror.
+class TiltedTube : public GasReference {
+ public:
+  /// `problem` along x, its diaphragm a distance from the origin along the tube. Throws std::invalid_argument as
+  /// ExactRiemann does, where the normal is no unit vector or the diaphragm does not stand between the mirrors, and
+  /// where a period has no mirror or gas moves at a mirror.
+  TiltedTube(const RiemannProblem& problem, const TubePlacement& placement);
+
+  /// Throws std::domain_error from the time on at which a wave reaches a mirror.
+  GasState at(const Vec3& x, double t) const override;
+  bool holdsAt(double t) const override { return t >= 0 && t < meetingTime_; }
+  /// By piecewiseMean, cut at each wave; the axes across the tube cost nothing.
+  GasState average(const Vec3& lower, const Vec3& upper, double t) const override;
+
+ private:
+  void checkMirrors() const;
+  void findMeetingTime();
+  /// Where a plane at `position` along the tube and its images cut the box.
+  void addImages(double position, const Vec3& lower, const Vec3& upper, std::vector<Plane>& planes) const;
+
+  ExactRiemann tube_;
+  RiemannProblem problem_;
+  TubePlacement placement_;
+  double side_ = 1;         ///< 1 where the tube stands above its mirror, -1 below
+  double meetingTime_ = 0;  ///< s
+};
+
+}  // namespace tushar::reference
