@@ -40,6 +40,10 @@ class Layouts(unittest.TestCase):
         for scene in scenes(2):
             self.assert_same(scene, ["[1,1,1]", "[3,2,1]", "[7,5,1]"], "Time/max_Timesteps=12")
 
+    def test_every_scene_in_three_dimensions(self):
+        for scene in scenes(3):
+            self.assert_same(scene, ["[1,1,1]", "[3,2,2]"], "Time/max_Timesteps=6")
+
     def test_finite_volumes_in_one_and_two_dimensions(self):
         self.assert_same("ups/euler/sod.ups", [f"[{n},1,1]" for n in (1, 2, 3, 7, 64)])
         for scene in ("lax_liu_3", "sedov", "shock_bubble", "vortex", "gresho", "noh", "sod_diagonal"):
