@@ -1,12 +1,14 @@
 #include "core/output/archive_files.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <fstream>
-#include <optional>
+#include <sstream>
 #include <system_error>
 
 #include "core/base/error.hpp"
@@ -91,12 +93,37 @@ void replaceFile(const fs::path& file, const std::string& text) {
   moveInto(temporary, file);
 }
 
+void replaceFileOnDisk(const fs::path& file, const std::string& text) {
+  const fs::path temporary = temporaryOf(file);
+  writeText(temporary, text, std::ios::trunc);
+  syncToDisk(temporary);
+  moveInto(temporary, file);
+  syncToDisk(parentOf(file));
+}
+
 void appendToFile(const fs::path& file, const std::string& text) { writeText(file, text, std::ios::app); }
 
 void moveInto(const fs::path& temporary, const fs::path& file) {
   std::error_code error;
   fs::rename(temporary, file, error);
   if (error) fail("write", file, error);
+}
+
+void syncToDisk(const fs::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) fail("open", path, lastError());
+  const bool done = ::fsync(descriptor) == 0;
+  const std::error_code why = lastError();
+  ::close(descriptor);
+  if (!done) fail("write", path, why);
+}
+
+std::optional<std::string> textOf(const fs::path& file) {
+  std::ostringstream text;
+  std::ifstream in(file, std::ios::binary);
+  if (!in) return {};
+  text << in.rdbuf();
+  return in.bad() ? std::nullopt : std::optional(text.str());
 }
 
 fs::path temporaryOf(const fs::path& file) { return fs::path(file) += ".tmp"; }
@@ -111,6 +138,15 @@ std::string groupName(const std::string& material, int materialIndex) {
   return material.empty() || material == "." ? fmt::format("material{}", materialIndex) : nameInPath(material);
 }
 
-std::string outputName(int step) { return fmt::format("t{:05}.h5", step); }
+std::string stepName(int step) { return fmt::format("t{:05}", step); }
+
+std::string outputName(int step) { return stepName(step) + ".h5"; }
+
+std::optional<int> stepOf(const std::string& name) {
+  int step = 0;
+  if (!name.starts_with("t") || std::from_chars(name.data() + 1, name.data() + name.size(), step).ec != std::errc())
+    return {};
+  return stepName(step) == name ? std::optional(step) : std::nullopt;
+}
 
 }  // namespace tushar::output

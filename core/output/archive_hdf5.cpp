@@ -1,7 +1,6 @@
 #include "core/output/archive_hdf5.hpp"
 
 #include <fmt/format.h>
-#include <hdf5.h>
 
 #include <algorithm>
 #include <cassert>
@@ -9,61 +8,11 @@
 #include <type_traits>
 
 #include "core/base/error.hpp"
+#include "core/output/archive_hdf5_handles.hpp"
 
 namespace tushar::output {
 
 namespace {
-
-static_assert(std::is_same_v<hid_t, std::int64_t>);
-
-/// Closes an HDF5 id at the end of its scope.
-class Handle {
- public:
-  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
-  ~Handle() {
-    if (id_ >= 0) close_(id_);
-  }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  operator hid_t() const { return id_; }
-
- private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
-
-/// Keeps HDF5 from printing its errors while it lives.
-class Silence {
- public:
-  Silence() {
-    H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  }
-  ~Silence() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
-  Silence(const Silence&) = delete;
-  Silence& operator=(const Silence&) = delete;
-
- private:
-  H5E_auto2_t function_ = nullptr;
-  void* data_ = nullptr;
-};
-
-herr_t keepFirst(unsigned, const H5E_error2_t* error, void* kept) {
-  auto& text = *static_cast<std::string*>(kept);
-  if (text.empty() && error->desc) text = error->desc;
-  return 0;
-}
-
-/// The innermost message of the error stack.
-std::string reason() {
-  std::string text;
-  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keepFirst, &text);
-  return text.empty() ? "HDF5 gives no reason" : text;
-}
-
-hid_t memoryType(double) { return H5T_NATIVE_DOUBLE; }
-hid_t memoryType(std::uint64_t) { return H5T_NATIVE_UINT64; }
-hid_t memoryType(std::int32_t) { return H5T_NATIVE_INT32; }
 
 hid_t fileType(double, bool asFloat) { return asFloat ? H5T_IEEE_F32LE : H5T_IEEE_F64LE; }
 hid_t fileType(std::uint64_t, bool) { return H5T_STD_U64LE; }
@@ -95,13 +44,6 @@ Handle parentsMade() {
 Handle vectorSpace(hsize_t size) { return {H5Screate_simple(1, &size, nullptr), H5Sclose}; }
 Handle scalarSpace() { return {H5Screate(H5S_SCALAR), H5Sclose}; }
 
-Handle stringType() {
-  const hid_t type = H5Tcopy(H5T_C_S1);
-  H5Tset_size(type, H5T_VARIABLE);
-  H5Tset_cset(type, H5T_CSET_UTF8);
-  return {type, H5Tclose};
-}
-
 }  // namespace
 
 /// Returns a result of HDF5 unless it, or the disk behind it, says failure.
@@ -109,7 +51,7 @@ template <class Result>
 Result Hdf5File::checked(Result result, const std::string& what) const {
   if (result >= 0 && failure_.error == 0) return result;
   throw FileError(fmt::format("cannot write {} '{}': {}", what, path_.string(),
-                              failure_.error ? std::generic_category().message(failure_.error) : reason()));
+                              failure_.error ? std::generic_category().message(failure_.error) : hdf5Reason()));
 }
 
 Hdf5File::Hdf5File(std::filesystem::path path, bool doubleAsFloat, int compression)
@@ -169,6 +111,10 @@ void Hdf5File::attribute(const std::string& object, const char* name, double val
 
 void Hdf5File::attribute(const std::string& object, const char* name, int value) {
   writeAttribute(object, name, scalarSpace(), H5T_NATIVE_INT, &value);
+}
+
+void Hdf5File::attribute(const std::string& object, const char* name, std::uint64_t value) {
+  writeAttribute(object, name, scalarSpace(), H5T_NATIVE_UINT64, &value);
 }
 
 void Hdf5File::attribute(const std::string& object, const char* name, const std::string& value) {

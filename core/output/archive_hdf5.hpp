@@ -31,6 +31,7 @@ class Hdf5File {
   /// Attributes of a group that exists; `/` is the root.
   void attribute(const std::string& object, const char* name, double value);
   void attribute(const std::string& object, const char* name, int value);
+  void attribute(const std::string& object, const char* name, std::uint64_t value);
   void attribute(const std::string& object, const char* name, const std::string& value);
   void attribute(const std::string& object, const char* name, const Vec3& value);
   void attribute(const std::string& object, const char* name, const Index3& value);

@@ -14,8 +14,9 @@ namespace tushar::output {
 struct Array {
   std::string label, unit, description;
   int components = 1;  ///< 1 scalar, 3 vector, 9 tensor by rows
+  using Values = std::variant<std::vector<double>, std::vector<std::uint64_t>, std::vector<std::int32_t>>;
   /// Entry by entry: values[entry * components + k].
-  std::variant<std::vector<double>, std::vector<std::uint64_t>, std::vector<std::int32_t>> values;
+  Values values;
 
   /// Number of particles, cells, nodes or rows that have a value.
   std::size_t entries() const {

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/output/snapshot.hpp"
+
+namespace tushar::output {
+
+/// Reads one HDF5 file that Hdf5File wrote. It needs no MPI and never starts it. Each function may throw FileError with
+/// the path and HDF5's innermost reason.
+class Hdf5Input {
+ public:
+  explicit Hdf5Input(std::filesystem::path path);
+  ~Hdf5Input();
+  Hdf5Input(const Hdf5Input&) = delete;
+  Hdf5Input& operator=(const Hdf5Input&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  /// Whether there is a group or dataset of that path.
+  bool has(const std::string& name) const;
+  /// Names in a group, sorted; none where there is no such group.
+  std::vector<std::string> names(const std::string& group) const;
+  /// The numbers of a dataset, whatever its shape, as they were written.
+  Array::Values dataset(const std::string& name) const;
+
+  /// Attributes of a group; `/` is the root.
+  double real(const std::string& object, const char* name) const;
+  int integer(const std::string& object, const char* name) const;
+  std::uint64_t count(const std::string& object, const char* name) const;
+  std::string text(const std::string& object, const char* name) const;
+  Vec3 vector(const std::string& object, const char* name) const;
+  Index3 index(const std::string& object, const char* name) const;
+
+ private:
+  using Id = std::int64_t;  ///< HDF5's hid_t
+  template <class Result>
+  Result checked(Result result, const std::string& what) const;
+  void readAttribute(const std::string& object, const char* name, Id type, std::size_t numbers, void* data) const;
+
+  std::filesystem::path path_;
+  Id file_ = -1;
+};
+
+}  // namespace tushar::output

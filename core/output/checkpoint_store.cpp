@@ -1,0 +1,91 @@
+#include "core/output/checkpoint_store.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <system_error>
+
+#include "core/base/error.hpp"
+#include "core/output/archive_files.hpp"
+#include "core/output/checkpoint_manifest.hpp"
+
+namespace tushar::output {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* latestName = "LATEST";
+
+void makeFolder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw FileError(fmt::format("cannot make the folder '{}': {}", folder.string(), error.message()));
+}
+
+}  // namespace
+
+CheckpointStore::CheckpointStore(fs::path archive, int cycle) : folder_(archive / "checkpoints"), cycle_(cycle) {}
+
+fs::path CheckpointStore::folder(int step) const { return folder_ / stepName(step); }
+
+std::vector<int> CheckpointStore::steps() const {
+  std::vector<int> found;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder_, error))
+    if (const auto step = stepOf(entry.path().filename().string())) found.push_back(*step);
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+int CheckpointStore::latest() const {
+  const std::vector<int> all = steps();
+  std::string name = textOf(folder_ / latestName).value_or("");
+  if (name.ends_with('\n')) name.pop_back();
+  const auto named = stepOf(name);
+  if (named && std::binary_search(all.begin(), all.end(), *named)) return *named;
+  return all.empty() ? -1 : all.back();
+}
+
+void CheckpointStore::write(int step, const std::function<void(const fs::path&)>& fill) const {
+  makeFolder(folder_);
+  removeLeftovers();
+  const fs::path temporary = temporaryOf(folder(step));
+  try {
+    makeFolder(temporary);
+    fill(temporary);
+    writeManifest(temporary);
+    moveInto(temporary, folder(step));
+  } catch (...) {
+    removeLeftovers();
+    throw;
+  }
+  syncToDisk(folder_);
+  setLatest(step);
+  const std::vector<int> all = steps();
+  for (std::size_t k = 0; k + static_cast<std::size_t>(cycle_) < all.size(); ++k) remove(all[k]);
+}
+
+void CheckpointStore::goBackTo(int step) const {
+  setLatest(step);
+  for (const int other : steps())
+    if (other > step) remove(other);
+}
+
+void CheckpointStore::setLatest(int step) const { replaceFileOnDisk(folder_ / latestName, stepName(step) + "\n"); }
+
+/// Takes its name away first, so that nobody takes what is half removed for a checkpoint.
+void CheckpointStore::remove(int step) const {
+  moveInto(folder(step), temporaryOf(folder(step)));
+  removeLeftovers();
+}
+
+void CheckpointStore::removeLeftovers() const {
+  std::error_code ignored;
+  std::vector<fs::path> leftovers;
+  for (const auto& entry : fs::directory_iterator(folder_, ignored))
+    if (entry.path().extension() == ".tmp") leftovers.push_back(entry.path());
+  for (const fs::path& path : leftovers) fs::remove_all(path, ignored);
+}
+
+}  // namespace tushar::output

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace tushar::output {
+
+/// The folder `checkpoints` of an archive. It knows nothing of what a checkpoint holds.
+///
+///     sod.uda.001/checkpoints/LATEST     the name of the newest, `t00050`
+///                             t00040/    the one before
+///                             t00050/    files, and the manifest that tells whether they are as they were written
+///
+/// A checkpoint is written under a temporary name, brought to the disk, and then renamed; only then LATEST is replaced
+/// (by a rename, too), and only then the oldest is removed. So a run that is killed, or finds the disk full, leaves the
+/// checkpoints before as they were.
+class CheckpointStore {
+ public:
+  /// `cycle` is how many checkpoints are kept, at least 1. Nothing is made before the first write().
+  explicit CheckpointStore(std::filesystem::path archive, int cycle);
+
+  /// Writes a checkpoint: `fill` puts its files into the folder that it is given. Throws FileError, or what `fill`
+  /// throws; no trace of the checkpoint is left then.
+  void write(int step, const std::function<void(const std::filesystem::path& folder)>& fill) const;
+  /// Makes the checkpoint of a step the latest, and removes those after it.
+  void goBackTo(int step) const;
+
+  /// The folder of a step's checkpoint.
+  std::filesystem::path folder(int step) const;
+  /// Steps of the checkpoints that there are, whole or not, ascending.
+  std::vector<int> steps() const;
+  /// The step that LATEST names, or the last that there is where LATEST says nothing; -1 where there are none.
+  int latest() const;
+
+ private:
+  void setLatest(int step) const;
+  void remove(int step) const;
+  void removeLeftovers() const;
+
+  std::filesystem::path folder_;
+  int cycle_;
+};
+
+}  // namespace tushar::output
