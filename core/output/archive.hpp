@@ -23,6 +23,13 @@ struct GlobalSample {
   std::vector<double> values;
 };
 
+/// How far an archive had come when a checkpoint was written.
+struct ArchivePoint {
+  int step = 0;
+  double time = 0;          ///< s
+  std::string index, xdmf;  ///< what index.xml and the XDMF file said
+};
+
 /// The `.uda` folder of a run: the scene, an index, an HDF5 file per output, an XDMF file that shows them to ParaView,
 /// and a text file per global quantity. One process writes it. Any function may throw FileError, which names the file
 /// and the system's reason.
@@ -40,6 +47,10 @@ class Archive {
   /// Makes the folder `filebase.NNN`, NNN one above the highest there is, and points the link `filebase` to it.
   /// FileError if `filebase` exists and is not a link, or if nothing can be written there.
   Archive(const std::filesystem::path& filebase, const std::string& inputXml, const ArchiveOptions& options = {});
+  /// Goes on in the folder of another run from a point on: what came after it is cut off, outputs and lines of `.dat`
+  /// files alike. `name` is that of the filebase. Where index.xml or the XDMF file is damaged, the point's is taken.
+  Archive(const std::filesystem::path& folder, const std::string& name, const ArchivePoint& from,
+          const std::string& inputXml, const ArchiveOptions& options);
   /// Flushes; an error in that is lost, so call flush() first.
   ~Archive();
   Archive(const Archive&) = delete;
@@ -52,6 +63,8 @@ class Archive {
   void appendGlobal(const GlobalSample& sample);
   /// Writes what is kept in memory.
   void flush();
+  /// Writes what is kept in memory, and waits until all is on the disk. Where the archive stands then.
+  ArchivePoint sync(int step, double time);
 
   /// The folder of this run, `sod.uda.001`.
   const std::filesystem::path& folder() const;

@@ -96,6 +96,15 @@ void Hdf5File::dataset(const std::string& name, const Array& array, std::vector<
   attribute(name, "description", array.description);
 }
 
+void Hdf5File::text(const std::string& name, const std::string& value) {
+  const Silence silence;
+  const Handle links = parentsMade(), space = scalarSpace(), type = stringType();
+  const Handle data(H5Dcreate2(file_, name.c_str(), type, space, links, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
+  checked<hid_t>(data, name + " in");
+  const char* characters = value.c_str();
+  checked(H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, &characters), name + " in");
+}
+
 void Hdf5File::writeAttribute(const std::string& object, const char* name, Id space, Id type, const void* data) {
   const Silence silence;
   const Handle made(H5Acreate_by_name(file_, object.c_str(), name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),

@@ -28,6 +28,8 @@ class Hdf5File {
   /// Writes an array as a dataset of shape `shape` × components (the last only where there are several), with the
   /// attributes unit and description. The groups above it are made.
   void dataset(const std::string& name, const Array& array, std::vector<std::uint64_t> shape);
+  /// Writes a text of any length as a dataset. The groups above it are made.
+  void text(const std::string& name, const std::string& value);
   /// Attributes of a group that exists; `/` is the root.
   void attribute(const std::string& object, const char* name, double value);
   void attribute(const std::string& object, const char* name, int value);

@@ -24,6 +24,13 @@ Array::Values valuesLike(hid_t type) {
   return std::vector<std::int32_t>{};
 }
 
+/// The text that HDF5 has put into memory of its own.
+std::string taken(char* characters) {
+  const std::string text = characters ? characters : "";
+  H5free_memory(characters);
+  return text;
+}
+
 }  // namespace
 
 /// Returns a result of HDF5 unless it says failure.
@@ -78,6 +85,15 @@ Array::Values Hdf5Input::dataset(const std::string& name) const {
   return read;
 }
 
+std::string Hdf5Input::text(const std::string& name) const {
+  const Silence silence;
+  const Handle data(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
+  checked<hid_t>(data, name + " of");
+  char* characters = nullptr;
+  checked(H5Dread(data, stringType(), H5S_ALL, H5S_ALL, H5P_DEFAULT, &characters), name + " of");
+  return taken(characters);
+}
+
 void Hdf5Input::readAttribute(const std::string& object, const char* name, Id type, std::size_t numbers,
                               void* data) const {
   const Silence silence;
@@ -109,11 +125,9 @@ std::uint64_t Hdf5Input::count(const std::string& object, const char* name) cons
 }
 
 std::string Hdf5Input::text(const std::string& object, const char* name) const {
-  char* chars = nullptr;
-  readAttribute(object, name, stringType(), 1, &chars);
-  const std::string text = chars ? chars : "";
-  H5free_memory(chars);
-  return text;
+  char* characters = nullptr;
+  readAttribute(object, name, stringType(), 1, &characters);
+  return taken(characters);
 }
 
 Vec3 Hdf5Input::vector(const std::string& object, const char* name) const {

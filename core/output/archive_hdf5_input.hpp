@@ -25,6 +25,8 @@ class Hdf5Input {
   std::vector<std::string> names(const std::string& group) const;
   /// The numbers of a dataset, whatever its shape, as they were written.
   Array::Values dataset(const std::string& name) const;
+  /// A dataset that Hdf5File::text wrote.
+  std::string text(const std::string& name) const;
 
   /// Attributes of a group; `/` is the root.
   double real(const std::string& object, const char* name) const;

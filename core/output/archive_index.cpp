@@ -2,6 +2,9 @@
 
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <string_view>
+
 #include "core/output/archive_files.hpp"
 #include "core/output/archive_snapshot.hpp"
 #include "core/output/archive_xml.hpp"
@@ -15,7 +18,40 @@ std::string typeOf(const Array& array) {
   return names[array.values.index()];
 }
 
+std::set<std::string> separated(const std::string& names) {
+  constexpr std::string_view comma = ", ";
+  std::set<std::string> all;
+  for (std::size_t from = 0, to; from < names.size(); from = to + comma.size()) {
+    to = std::min(names.find(comma, from), names.size());
+    all.insert(names.substr(from, to - from));
+  }
+  return all;
+}
+
 }  // namespace
+
+ArchiveIndex::ArchiveIndex(std::string version, const std::string& text, int step) : version_(std::move(version)) {
+  pugi::xml_document document;
+  document.load_string(text.c_str());
+  const pugi::xml_node root = document.child(rootName);
+  const auto word = [](const pugi::xml_node& node, const char* name) { return node.attribute(name).as_string(); };
+  for (const pugi::xml_node& node : root.child("variables"))
+    variables_[word(node, "name")] = {word(node, "centring"),    word(node, "unit"),
+                                      word(node, "description"), word(node, "type"),
+                                      node.attribute("components").as_int(), separated(word(node, "materials"))};
+  for (const pugi::xml_node& node : root.child("globals"))
+    globals_[word(node, "name")] = {word(node, "unit"), word(node, "description"), word(node, "href"),
+                                    node.attribute("components").as_uint()};
+  for (const pugi::xml_node& node : root.child("timesteps"))
+    if (const int at = node.text().as_int(); at <= step)
+      outputs_[at] = {node.attribute("time").as_double(), node.attribute("delT").as_double()};
+}
+
+std::vector<std::string> ArchiveIndex::globals() const {
+  std::vector<std::string> names;
+  for (const auto& global : globals_) names.push_back(global.first);
+  return names;
+}
 
 void ArchiveIndex::addVariable(const Array& array, const std::string& centring, const std::string& material) {
   Variable& variable = variables_[array.label];
@@ -43,7 +79,7 @@ void ArchiveIndex::add(const GlobalSample& sample, const std::string& file) {
 
 std::string ArchiveIndex::text() const {
   pugi::xml_document document;
-  pugi::xml_node root = document.append_child("tushar_archive");
+  pugi::xml_node root = document.append_child(rootName);
   set(root, "version", version_);
   pugi::xml_node variables = root.append_child("variables");
   for (const auto& [name, variable] : variables_) {

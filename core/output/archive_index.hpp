@@ -3,6 +3,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "core/output/archive.hpp"
 
@@ -11,10 +12,17 @@ namespace tushar::output {
 /// What `index.xml` says of an archive: its variables, globals and outputs.
 class ArchiveIndex {
  public:
+  static constexpr const char* rootName = "tushar_archive";
+
   explicit ArchiveIndex(std::string version) : version_(std::move(version)) {}
+  /// Goes on from the text of another index, without its outputs after `step`.
+  ArchiveIndex(std::string version, const std::string& text, int step);
 
   void add(const Snapshot& snapshot);
   void add(const GlobalSample& sample, const std::string& file);
+  std::vector<std::string> globals() const;
+  /// The step of the last output; -1 where there is none.
+  int lastStep() const { return outputs_.empty() ? -1 : outputs_.rbegin()->first; }
   /// The whole file.
   std::string text() const;
 

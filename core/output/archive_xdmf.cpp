@@ -3,6 +3,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <string_view>
 
 #include "core/output/archive_files.hpp"
 #include "core/output/archive_snapshot.hpp"
@@ -19,6 +21,14 @@ struct Context {
   std::string file;  ///< of HDF5, relative to the XDMF file
   bool doubleAsFloat;
 };
+
+/// Between the name of a block and a step, in the name of the block's grid at that step.
+constexpr std::string_view atStep = " at step ";
+
+int stepOfTime(const std::string& gridName) {
+  const std::size_t at = gridName.rfind(atStep);
+  return at == std::string::npos ? 0 : std::atoi(gridName.c_str() + at + atStep.size());
+}
 
 pugi::xml_node addGrid(pugi::xml_node parent, const std::string& name, const char* type) {
   pugi::xml_node grid = parent.append_child("Grid");
@@ -105,9 +115,22 @@ void addUniformGrid(pugi::xml_node grid, const GridInfo& info, Centring centring
 }  // namespace
 
 XdmfIndex::XdmfIndex(bool doubleAsFloat) : double_as_float_(doubleAsFloat) {
-  pugi::xml_node root = document_.append_child("Xdmf");
+  pugi::xml_node root = document_.append_child(rootName);
   set(root, "Version", "3.0");
   domain_ = root.append_child("Domain");
+}
+
+XdmfIndex::XdmfIndex(bool doubleAsFloat, const std::string& text, int step) : XdmfIndex(doubleAsFloat) {
+  pugi::xml_document before;
+  before.load_string(text.c_str());
+  for (const pugi::xml_node& times : before.child(rootName).child("Domain")) {
+    pugi::xml_node kept = domain_.append_copy(times);
+    for (pugi::xml_node grid = kept.child("Grid"), next; grid; grid = next) {
+      next = grid.next_sibling("Grid");
+      if (stepOfTime(grid.attribute("Name").as_string()) > step) kept.remove_child(grid);
+    }
+    if (!kept.child("Grid")) domain_.remove_child(kept);
+  }
 }
 
 pugi::xml_node XdmfIndex::addTime(const std::string& block, const Snapshot& snapshot, const char* type) {
@@ -116,7 +139,7 @@ pugi::xml_node XdmfIndex::addTime(const std::string& block, const Snapshot& snap
     times = addGrid(domain_, block, "Collection");
     set(times, "CollectionType", "Temporal");
   }
-  const std::string step = fmt::format("{} at step {}", block, snapshot.step);
+  const std::string step = fmt::format("{}{}{}", block, atStep, snapshot.step);
   times.remove_child(times.find_child_by_attribute("Grid", "Name", step.c_str()));
   pugi::xml_node grid = addGrid(times, step, type);
   set(grid.append_child("Time"), "Value", snapshot.time);

@@ -11,7 +11,11 @@ namespace tushar::output {
 /// each for the cells and the nodes, of uniform grids. The numbers stay in the HDF5 files.
 class XdmfIndex {
  public:
+  static constexpr const char* rootName = "Xdmf";
+
   explicit XdmfIndex(bool doubleAsFloat);
+  /// Goes on from the text of another, without its times after `step`.
+  XdmfIndex(bool doubleAsFloat, const std::string& text, int step);
 
   /// Adds a time, or replaces that of the same step.
   void add(const Snapshot& snapshot);

@@ -25,6 +25,7 @@ void writeSample(const std::filesystem::path& path) {
   file.dataset("/a/ids", {"ids", "", "", 1, std::vector<std::uint64_t>{7, ~std::uint64_t{0}}}, {2});
   file.dataset("/a/marks", {"marks", "", "", 1, std::vector<std::int32_t>{-7}}, {1});
   file.dataset("/a/none", {"none", "", "", 1, std::vector<double>{}}, {0});
+  file.text("/scene/text", std::string(200000, 'a') + "ü");
   file.close();
 }
 
@@ -46,6 +47,7 @@ TEST(Hdf5Input, ReadsBackToTheBitWhatWasWritten) {
   EXPECT_EQ(file.dataset("/a/ids"), (Array::Values{std::vector<std::uint64_t>{7, ~std::uint64_t{0}}}));
   EXPECT_EQ(file.dataset("/a/marks"), (Array::Values{std::vector<std::int32_t>{-7}}));
   EXPECT_EQ(file.dataset("/a/none"), (Array::Values{std::vector<double>{}}));
+  EXPECT_EQ(file.text("/scene/text"), std::string(200000, 'a') + "ü");
 }
 
 TEST(Hdf5Input, KnowsWhatThereIs) {

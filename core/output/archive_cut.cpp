@@ -1,0 +1,41 @@
+#include "core/output/archive_cut.hpp"
+
+#include <charconv>
+#include <pugixml.hpp>
+#include <system_error>
+#include <vector>
+
+#include "core/output/archive_files.hpp"
+
+namespace tushar::output {
+
+namespace fs = std::filesystem;
+
+std::string linesUpTo(const std::string& lines, double time) {
+  std::size_t kept = 0;
+  for (std::size_t end; (end = lines.find('\n', kept)) != std::string::npos; kept = end + 1) {
+    double at = time;
+    const bool isHeader = lines[kept] == '#';
+    if (!isHeader && std::from_chars(lines.data() + kept, lines.data() + end, at).ec != std::errc()) break;
+    if (at > time) break;
+  }
+  return lines.substr(0, kept);
+}
+
+void removeOutputsAfter(const fs::path& folder, int step) {
+  std::vector<fs::path> later;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (const auto found = stepOf(entry.path().stem().string()); entry.path().extension() == ".h5" && found > step)
+      later.push_back(entry.path());
+  std::error_code ignored;
+  for (const fs::path& output : later) fs::remove(output, ignored);
+}
+
+std::string xmlOr(const fs::path& file, const char* root, const std::string& otherwise) {
+  const std::string text = textOf(file).value_or("");
+  pugi::xml_document document;
+  const bool whole = document.load_string(text.c_str()) && std::string(document.document_element().name()) == root;
+  return whole ? text : otherwise;
+}
+
+}  // namespace tushar::output

@@ -1,0 +1,112 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "core/output/archive.hpp"
+#include "core/output/archive_cut.hpp"
+#include "tests/output/snapshots.hpp"
+
+namespace tushar::output {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const ArchiveOptions options{};
+
+void advance(Archive& archive, int firstStep, int lastStep) {
+  for (int step = firstStep; step <= lastStep; ++step) {
+    const double time = 0.1 * step;
+    archive.appendGlobal({"KineticEnergy", "J", "energy of motion", time, {1.5 * step}});
+    archive.appendGlobal({"TotalMomentum", "kg m/s", "momentum", time, {1, 2, time}});
+    if (step % 2 == 0) archive.write(snapshot3d(step, time));
+  }
+}
+
+/// Name and content of each file of a folder; of HDF5 files, which keep the time of their making, the size.
+std::map<std::string, std::string> contents(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    std::ostringstream text;
+    text << std::ifstream(entry.path()).rdbuf();
+    const bool heavy = entry.path().extension() == ".h5";
+    files[entry.path().filename()] = heavy ? std::to_string(text.str().size()) : text.str();
+  }
+  return files;
+}
+
+/// An archive that came to step 7, as it stood at step 4.
+ArchivePoint runToStep7(const fs::path& filebase) {
+  Archive archive(filebase, "<scene/>", options);
+  advance(archive, 0, 4);
+  const ArchivePoint point = archive.sync(4, 0.1 * 4);
+  advance(archive, 5, 7);
+  return point;
+}
+
+std::map<std::string, std::string> uncut(const fs::path& filebase) {
+  Archive archive(filebase, "<scene/>", options);
+  advance(archive, 0, 9);
+  archive.flush();
+  return contents(archive.folder());
+}
+
+std::map<std::string, std::string> goneOn(const fs::path& folder, const ArchivePoint& point) {
+  Archive archive(folder, "sod.uda", point, "<scene/>", options);
+  EXPECT_EQ(archive.lastStep(), 4);
+  EXPECT_FALSE(fs::exists(folder / "t00006.h5"));
+  advance(archive, 5, 9);
+  archive.flush();
+  return contents(folder);
+}
+
+}  // namespace
+
+TEST(ArchiveResume, EndsWithTheFilesOfARunThatWasNotCut) {
+  const TemporaryFolder here;
+  const auto expected = uncut(here / "other/sod.uda");
+  const ArchivePoint point = runToStep7(here / "sod.uda");
+
+  EXPECT_EQ(goneOn(here / "sod.uda.000", point), expected);
+}
+
+TEST(ArchiveResume, TakesThePointsIndexWhereThatOfTheFolderIsDamaged) {
+  const TemporaryFolder here;
+  const auto expected = uncut(here / "other/sod.uda");
+  const ArchivePoint point = runToStep7(here / "sod.uda");
+  fs::resize_file(here / "sod.uda.000/index.xml", 100);
+  fs::remove(here / "sod.uda.000/sod.xdmf");
+
+  EXPECT_EQ(goneOn(here / "sod.uda.000", point), expected);
+}
+
+TEST(ArchiveResume, BeginsAGlobalAnewWhoseFileIsGone) {
+  const TemporaryFolder here;
+  const ArchivePoint point = runToStep7(here / "sod.uda");
+  fs::remove(here / "sod.uda.000/KineticEnergy.dat");
+
+  EXPECT_EQ(goneOn(here / "sod.uda.000", point).at("KineticEnergy.dat"),
+            "# time [s] KineticEnergy [J]\n0.5 7.5\n0.6000000000000001 9\n0.7000000000000001 10.5\n0.8 12\n0.9 13.5\n");
+}
+
+TEST(ArchiveResume, StoresTheSceneWithWhatWasOverridden) {
+  const TemporaryFolder here;
+  const ArchivePoint point = runToStep7(here / "sod.uda");
+  const Archive archive(here / "sod.uda.000", "sod.uda", point, "<scene>longer</scene>", options);
+
+  EXPECT_EQ(contents(archive.folder()).at("input.xml"), "<scene>longer</scene>");
+}
+
+TEST(ArchiveResume, KeepsTheLinesUpToATimeAndNoTornOne) {
+  const std::string lines = "# time [s]\n0 1\n0.1 2\n0.30000000000000004 3\n0.4 4\n";
+  EXPECT_EQ(linesUpTo(lines, 0.1 * 3), "# time [s]\n0 1\n0.1 2\n0.30000000000000004 3\n");
+  EXPECT_EQ(linesUpTo(lines, 0.3), "# time [s]\n0 1\n0.1 2\n");
+  EXPECT_EQ(linesUpTo(lines, 9), lines);
+  EXPECT_EQ(linesUpTo("# time [s]\n0 1\n0.1 2", 9), "# time [s]\n0 1\n");
+  EXPECT_EQ(linesUpTo("# time [s]\n0 1\nx 2\n0.1 3\n", 9), "# time [s]\n0 1\n");
+  EXPECT_EQ(linesUpTo("", 9), "");
+}
+
+}  // namespace tushar::output
