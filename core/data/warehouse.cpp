@@ -53,6 +53,26 @@ std::vector<double> Warehouse::reductionValues(int number) const {
   return slot ? slot->values() : std::vector<double>{};
 }
 
+std::span<const std::byte> Warehouse::reductionBytes(int number) const {
+  const auto& slot = reductions_[static_cast<std::size_t>(number)];
+  return slot ? slot->bytes() : std::span<const std::byte>{};
+}
+
+void Warehouse::restoreReduction(int number, std::vector<std::byte> bytes) {
+  restored_[number] = std::move(bytes);
+  if (reductions_[static_cast<std::size_t>(number)]) takeRestored(number);
+}
+
+void Warehouse::takeRestored(int number) {
+  const auto restored = restored_.find(number);
+  if (restored == restored_.end()) return;
+  const std::span<std::byte> bytes = reductions_[static_cast<std::size_t>(number)]->bytes();
+  if (bytes.size() != restored->second.size())
+    throw AccessError(fmt::format("{} was restored from another type", (*table_)[number].label->name));
+  std::copy(restored->second.begin(), restored->second.end(), bytes.begin());
+  restored_.erase(restored);
+}
+
 void Warehouse::take(Variable& variable, std::size_t bytes, std::size_t keep) {
   variable.held = true;
   if (bytes <= variable.values.capacity()) return;

@@ -2,7 +2,9 @@
 
 #include <deque>
 #include <memory>
+#include <span>
 #include <string>
+#include <type_traits>
 #include <unordered_map>
 #include <vector>
 
@@ -61,13 +63,18 @@ class ReductionSlot {
   virtual ~ReductionSlot() = default;
   virtual void reset() = 0;
   virtual std::vector<double> values() const = 0;
+  /// The reducer as it lies in memory.
+  virtual std::span<std::byte> bytes() = 0;
 };
 template <class R>
 class TypedReduction : public ReductionSlot {
+  static_assert(std::is_trivially_copyable_v<R>, "a checkpoint keeps a reducer as bytes");
+
  public:
   R reducer;
   void reset() override { reducer = R{}; }
   std::vector<double> values() const override { return reducer.values(); }
+  std::span<std::byte> bytes() override { return std::as_writable_bytes(std::span(&reducer, 1)); }
 };
 
 /// Holds the variables and particle sets of this rank, in two generations.
@@ -91,12 +98,19 @@ class Warehouse {
   template <class R>
   R& reduction(int number) {
     auto& slot = reductions_[static_cast<std::size_t>(number)];
-    if (!slot) slot = std::make_unique<TypedReduction<R>>();
+    if (!slot) {
+      slot = std::make_unique<TypedReduction<R>>();
+      takeRestored(number);
+    }
     return static_cast<TypedReduction<R>&>(*slot).reducer;
   }
   void resetReduction(int number);
   /// The values of a reduction; none if no task has computed it.
   std::vector<double> reductionValues(int number) const;
+  /// The reducer as it lies in memory; nothing if no task has computed it.
+  std::span<const std::byte> reductionBytes(int number) const;
+  /// Gives a reduction the bytes that it had in another run.
+  void restoreReduction(int number, std::vector<std::byte> bytes);
 
   /// Makes room for all variables named so far, and for the particle sets of `materials` materials.
   void grow(int materials);
@@ -119,12 +133,14 @@ class Warehouse {
     return static_cast<std::size_t>(number) * level_->patches().size() + static_cast<std::size_t>(patch);
   }
   void take(Variable& variable, std::size_t bytes, std::size_t keep);
+  void takeRestored(int number);
 
   const grid::Level* level_;
   VariableTable* table_;
   std::deque<Variable> old_, fresh_;
   std::deque<ParticleSet> old_sets_, fresh_sets_;
   std::vector<std::unique_ptr<ReductionSlot>> reductions_;
+  std::unordered_map<int, std::vector<std::byte>> restored_;  ///< reductions that no task has named yet
   std::vector<Buffer> pool_;
   std::size_t allocations_ = 0;
 };

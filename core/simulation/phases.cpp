@@ -29,6 +29,14 @@ Names united(Names a, const Names& b) {
   return a;
 }
 
+/// What is needed of a step for the next, less what is decided anew before each, and with the particles' names where
+/// there are particles.
+std::vector<std::string> namesOfState(Names needed, const Names& decided, const Names& computed) {
+  std::erase_if(needed, [&](const std::string& name) { return decided.contains(name); });
+  if (computed.contains(data::particleId.name)) needed.emplace(data::particleId.name);
+  return {needed.begin(), needed.end()};
+}
+
 }  // namespace
 
 Phases::Phases(const Component& component, const std::vector<std::unique_ptr<Analysis>>& analyses) {
@@ -124,12 +132,8 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   Pruned advance = prune(lists.timeAdvance.tasks(), united(read, savedState), true);
   Pruned init = prune(lists.initialize.tasks(), advance.needed, false);
 
-  for (const std::string& name : bare.needed)
-    if (!decided.contains(name)) state_.push_back(name);
-  if (stepped.contains(data::particleId.name) && !bare.needed.contains(data::particleId.name)) {
-    state_.emplace_back(data::particleId.name);
-    std::sort(state_.begin(), state_.end());
-  }
+  state_ = namesOfState(bare.needed, decided, stepped);
+  lasting_ = namesOfState(advance.needed, decided, stepped);
   initialize = tasks::TaskGraph("initialize", std::move(init), level, table);
   stableTimeStep = tasks::TaskGraph("computeStableTimeStep", std::move(stable), level, table);
   timeAdvance = tasks::TaskGraph("timeAdvance", std::move(advance), level, table);

@@ -32,6 +32,8 @@ class Phases {
 
   /// Names of the variables that a step needs of the one before, sorted: the state of a run.
   const std::vector<std::string>& state() const { return state_; }
+  /// Names of the variables that outlive a step, sorted: the state, and what is saved besides.
+  const std::vector<std::string>& lasting() const { return lasting_; }
   /// Saved variables of particles, nodes and cells.
   const std::vector<SaveRequest>& savedFields() const { return saved_fields_; }
   /// Saved reductions.
@@ -53,7 +55,7 @@ class Phases {
   void sortSaves(const std::vector<SaveRequest>& saves);
 
   Lists lists_;
-  std::vector<std::string> state_, saved_globals_, materials_;
+  std::vector<std::string> state_, lasting_, saved_globals_, materials_;
   std::vector<SaveRequest> saved_fields_;
   std::vector<std::pair<std::string, std::string>> totals_;
 };

@@ -32,9 +32,26 @@ double TimeControl::next(double stable, double nextOutput) {
   return del_t_;
 }
 
+void TimeControl::resume(int step, double time, double delT) {
+  step_ = step;
+  time_ = target_ = time;
+  del_t_ = delT;
+}
+
 void TimeControl::advance() {
   time_ = target_;
   ++step_;
+}
+
+double Milestones::next() const {
+  if (interval_ <= 0) return std::numeric_limits<double>::infinity();
+  return start_ + static_cast<double>(passed_ + 1) * interval_;
+}
+
+bool Milestones::isReached(double time) const { return time >= next() - 1e-12 * std::abs(next()); }
+
+void Milestones::pass(double time) {
+  while (isReached(time)) ++passed_;
 }
 
 }  // namespace tushar::simulation

@@ -34,6 +34,8 @@ class TimeControl {
   /// delt_max, max_delt_increase, and (where the scene asks) up to maxTime or the next output exactly.
   /// Throws NumericalError for a step that is not positive or too small to move time on.
   double next(double stable, double nextOutput);
+  /// Goes on from where another run was: after `step` steps, the last of `delT` [s], at `time` [s].
+  void resume(int step, double time, double delT);
   /// Moves time on by the step that `next` gave.
   void advance();
 
@@ -43,6 +45,23 @@ class TimeControl {
   double del_t_ = 0;
   double target_ = 0;  ///< where the step ends
   int step_ = 0;
+};
+
+/// The times start + k interval, k = 1, 2, …, that a run passes one after the other.
+class Milestones {
+ public:
+  /// An interval of 0 [s] means none.
+  Milestones(double start, double interval) : start_(start), interval_(interval) {}
+
+  /// The first that has not been passed, s; infinity where there are none.
+  double next() const;
+  bool isReached(double time) const;
+  /// Passes those up to `time` [s].
+  void pass(double time);
+
+ private:
+  double start_, interval_;
+  long passed_ = 0;
 };
 
 }  // namespace tushar::simulation

@@ -27,6 +27,8 @@ class Relocation {
 
   /// Particles that have left the grid since the start.
   long dropped() const { return dropped_; }
+  /// Goes on counting from what another run had dropped.
+  void setDropped(long dropped) { dropped_ = dropped; }
 
  private:
   /// A particle that comes into a cell, from this patch or another.

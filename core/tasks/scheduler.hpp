@@ -21,7 +21,7 @@ class Scheduler {
   /// Makes the results of a graph the old state.
   void commit(const TaskGraph& graph);
 
-  const Relocation& relocation() const { return relocation_; }
+  Relocation& relocation() { return relocation_; }
 
  private:
   void exchange(CompiledTask& task);

@@ -1,0 +1,57 @@
+#include "core/simulation/particle_order.hpp"
+
+namespace tushar::simulation {
+
+using data::Generation;
+using data::ParticleRange;
+using grid::Patch;
+
+ParticleOrder::ParticleOrder(data::Warehouse& warehouse, int material) : warehouse_(&warehouse), material_(material) {
+  const grid::Box& cells = warehouse.level().cells();
+  std::vector<std::int32_t> perCell(cells.size());
+  for (const Patch& patch : warehouse.level().patches()) {
+    const data::ParticleSet& set = warehouse.particles(Generation::old, material, patch.id());
+    forEachRow(patch.cells(), [&](const Index3& first) {
+      const ParticleRange* row = set.row(first);
+      std::int32_t* counts = &perCell[cells.offset(first)];
+      for (int k = 0; k < patch.cells().extent(0); ++k) counts[k] = row[k].size();
+    });
+  }
+  sum(perCell);
+}
+
+ParticleOrder::ParticleOrder(data::Warehouse& warehouse, int material, const std::vector<std::int32_t>& perCell)
+    : warehouse_(&warehouse), material_(material) {
+  sum(perCell);
+}
+
+void ParticleOrder::sum(const std::vector<std::int32_t>& perCell) {
+  starts_.assign(perCell.size() + 1, 0);
+  for (std::size_t k = 0; k < perCell.size(); ++k) starts_[k + 1] = starts_[k] + static_cast<std::size_t>(perCell[k]);
+}
+
+std::vector<std::int32_t> ParticleOrder::perCell() const {
+  std::vector<std::int32_t> counts(starts_.size() - 1);
+  for (std::size_t k = 0; k < counts.size(); ++k) counts[k] = static_cast<std::int32_t>(starts_[k + 1] - starts_[k]);
+  return counts;
+}
+
+void ParticleOrder::install() {
+  for (const Patch& patch : warehouse_->level().patches()) {
+    data::ParticleSet& set = warehouse_->particles(Generation::old, material_, patch.id());
+    set.reset(patch, warehouse_->table().reach(material_));
+    int next = 0;
+    forEachRow(patch.cells(), [&](const Index3& first) {
+      ParticleRange* row = set.row(first);
+      const std::size_t* start = startOf(first);
+      for (int k = 0; k < patch.cells().extent(0); ++k) {
+        const int count = static_cast<int>(start[k + 1] - start[k]);
+        row[k] = {next, next + count};
+        next += count;
+      }
+    });
+    set.setOwned(next);
+  }
+}
+
+}  // namespace tushar::simulation
