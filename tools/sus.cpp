@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <optional>
 
 #include "components/components.hpp"
 #include "core/base/error.hpp"
@@ -21,7 +22,8 @@ using namespace tushar;
 struct Arguments {
   std::string scene, describe, graph;
   std::vector<std::string> overrides;
-  bool check = false, list = false, schedule = false, version = false;
+  bool check = false, list = false, restart = false, schedule = false, version = false;
+  std::optional<int> checkpoint;  ///< step of the one to restart from
   simulation::RunOptions run;
 };
 
@@ -47,7 +49,11 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.footer(
       "Exit codes: 0 done, 1 failure (files, memory, a defect of sus), 2 bad command line, 3 bad scene,\n"
       "            4 a value became impossible during the run, 5 interrupted (output written)");
-  app.add_option("scene", arguments.scene, "the scene to run (.ups)");
+  app.add_option("scene", arguments.scene, "the scene to run (.ups), or with --restart the folder of a run (.uda)");
+  CLI::Option* restart = app.add_flag("--restart", arguments.restart,
+                                     "go on with the run of a .uda, in that folder, from its last whole checkpoint");
+  app.add_option("-t", arguments.checkpoint, "with --restart: from the checkpoint of this step; later ones are removed")
+      ->needs(restart);
   app.add_option("--set", arguments.overrides, "override a value of the scene: PATH=VALUE, e.g.\n"
                                                "Grid/Level/Box/resolution=[200,1,1]; may be repeated")
       ->allow_extra_args(false);
@@ -108,11 +114,21 @@ void checkWritable(const std::string& path) {
   if (!existed) std::filesystem::remove(path);
 }
 
+simulation::Problem readProblem(const Arguments& arguments, const simulation::Catalogue& known) {
+  if (!arguments.restart) return simulation::readScene(arguments.scene, arguments.overrides, known);
+  const simulation::Restart restart = simulation::findRestart(arguments.scene, arguments.checkpoint);
+  for (const std::string& note : restart.notes) fmt::print(stderr, "sus: {}\n", note);
+  if (!restart.notes.empty()) fmt::print(stderr, "sus: goes on from the checkpoint of step {}\n", restart.step);
+  simulation::Problem problem = simulation::readScene(restart.scene().string(), arguments.overrides, known);
+  problem.restart = restart;
+  return problem;
+}
+
 ExitCode runScene(const Arguments& arguments, const simulation::Catalogue& known,
                   std::chrono::steady_clock::time_point startedAt) {
   if (launchedRanks() > 1)
     throw std::runtime_error(fmt::format("started on {} ranks, but runs on one so far; start it without mpirun", launchedRanks()));
-  simulation::Problem problem = simulation::readScene(arguments.scene, arguments.overrides, known);
+  simulation::Problem problem = readProblem(arguments, known);
   simulation::Simulation run(std::move(problem), arguments.run, startedAt);
   if (!arguments.graph.empty()) {
     std::ostringstream dot;
@@ -142,7 +158,12 @@ ExitCode dispatch(const Arguments& arguments, std::chrono::steady_clock::time_po
   }
   if (!arguments.describe.empty()) return describe(arguments.describe, known);
   if (arguments.scene.empty()) {
-    fmt::print(stderr, "sus: no scene given; sus scene.ups runs one, sus -h lists the options\n");
+    fmt::print(stderr, "sus: no scene given; sus scene.ups runs one, sus -restart x.uda goes on with one, sus -h lists "
+                       "the options\n");
+    return ExitCode::badCommandLine;
+  }
+  if (arguments.restart && !arguments.run.outputFolder.empty()) {
+    fmt::print(stderr, "sus: --output has no meaning with --restart: a run goes on in its own folder\n");
     return ExitCode::badCommandLine;
   }
   return runScene(arguments, known, startedAt);

@@ -64,6 +64,41 @@ void refuseSavedTwice(const std::vector<SaveRequest>& saves, Diagnostics& diagno
     }
 }
 
+void checkIntervals(const CheckpointSettings& checkpoint, const Element& element, Diagnostics& diagnostics) {
+  const int given = checkpoint.interval.has_value() + checkpoint.timestepInterval.has_value() +
+                    checkpoint.walltimeInterval.has_value() + checkpoint.walltimeIntervalHours.has_value();
+  if (given != 1)
+    diagnostics.error(element, fmt::format("gives {} of interval, timestepInterval, walltimeInterval and "
+                                           "walltimeIntervalHours; give one",
+                                           given == 0 ? "none" : "more than one"));
+  if (checkpoint.walltimeStart && !checkpoint.walltimeInterval)
+    diagnostics.error(element, "gives walltimeStart without walltimeInterval");
+  if (checkpoint.walltimeStartHours && !checkpoint.walltimeIntervalHours)
+    diagnostics.error(element, "gives walltimeStartHours without walltimeIntervalHours");
+}
+
+const Schema<CheckpointSettings>& checkpointSchema() {
+  using Settings = CheckpointSettings;
+  static const Schema<Settings> schema =
+      Schema<Settings>("checkpoint", "The whole state, from which sus -restart goes on: at the start, at one of these "
+                                     "intervals, and at the end.")
+          .attributeValue("cycle", &Settings::cycle, 2, "1", "how many are kept", input::atLeast(1))
+          .optionalAttribute("interval", &Settings::interval, "s", "simulated time between them", input::positive())
+          .optionalAttribute("timestepInterval", &Settings::timestepInterval, "1", "steps between them",
+                             input::positive())
+          .optionalAttribute("walltimeInterval", &Settings::walltimeInterval, "s", "wall time between them",
+                             input::positive())
+          .optionalAttribute("walltimeStart", &Settings::walltimeStart, "s",
+                             "wall time of the first; walltimeInterval if it is left out", input::positive())
+          .optionalAttribute("walltimeIntervalHours", &Settings::walltimeIntervalHours, "h", "wall time between them",
+                             input::positive())
+          .optionalAttribute("walltimeStartHours", &Settings::walltimeStartHours, "h",
+                             "wall time of the first; walltimeIntervalHours if it is left out", input::positive())
+          .ignoredAttribute("lastTimestep", "the last state is always kept")
+          .check(checkIntervals);
+  return schema;
+}
+
 /// Whether a tag of the archiver that stands without a value is given; `<tag>false</tag>` says no.
 bool isOn(const Element& archiver, const char* tag) {
   const auto element = archiver.child(tag);
@@ -89,13 +124,7 @@ const Schema<ArchiveSettings>& archiveSchema() {
                  input::between(0, 9))
           .ours()
           .list("save", &ArchiveSettings::saves, saveSchema(), "a variable to be saved")
-          .custom("checkpoint",
-                  [](ArchiveSettings&, const Element& element, Diagnostics& diagnostics) {
-                    for (const Element& tag : element.children("checkpoint"))
-                      diagnostics.error(tag, "checkpoints are not available yet; take the tag out, and use <save> to "
-                                             "keep what you need");
-                  },
-                  {"checkpoint"}, "not available yet")
+          .section("checkpoint", &ArchiveSettings::checkpoint, checkpointSchema())
           .check([](const ArchiveSettings& archive, const Element& element, Diagnostics& diagnostics) {
             if (archive.outputInterval > 0 && archive.outputTimestepInterval > 0)
               diagnostics.error(element, "gives both outputInterval and outputTimestepInterval; keep one");

@@ -18,6 +18,15 @@ struct SaveRequest {
   Location whereOfMaterial;
 };
 
+/// The tag `checkpoint`: how many are kept, and one of the intervals.
+struct CheckpointSettings {
+  int cycle = 2;
+  std::optional<double> interval;       ///< s of simulated time
+  std::optional<int> timestepInterval;  ///< steps
+  std::optional<double> walltimeStart, walltimeInterval;            ///< s
+  std::optional<double> walltimeStartHours, walltimeIntervalHours;  ///< h
+};
+
 /// The `DataArchiver` section.
 struct ArchiveSettings {
   std::string filebase;
@@ -28,6 +37,7 @@ struct ArchiveSettings {
   bool doubleAsFloat = false;
   int compression = 0;  ///< of gzip, 0-9
   std::vector<SaveRequest> saves;
+  std::optional<CheckpointSettings> checkpoint;
 };
 
 /// How a run is asked for on the command line.

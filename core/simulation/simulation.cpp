@@ -10,13 +10,6 @@
 namespace tushar::simulation {
 
 using data::Generation;
-using Clock = std::chrono::steady_clock;
-
-namespace {
-
-double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-}  // namespace
 
 Simulation::Simulation(Problem problem, const RunOptions& options, Clock::time_point startedAt)
     : problem_(std::move(problem)),
@@ -26,13 +19,15 @@ Simulation::Simulation(Problem problem, const RunOptions& options, Clock::time_p
       warehouse_(*problem_.level, table_),
       scheduler_(warehouse_),
       time_(problem_.time),
-      progress_(options.quiet, stdout) {
+      progress_(options.quiet, stdout),
+      outputs_(problem_.time.initTime, problem_.archive.outputInterval) {
+  if (problem_.archive.checkpoint) checkpoints_.emplace(*problem_.archive.checkpoint, problem_.time.initTime);
   phases_.compile(problem_.analyses, problem_.archive.saves, *problem_.level, table_);
   warehouse_.grow(static_cast<int>(phases_.materials().size()));
 }
 
 long Simulation::tryStart() {
-  initialize();
+  problem_.restart ? resume() : initialize();
   return particleCount(warehouse_, static_cast<int>(phases_.materials().size()));
 }
 
@@ -42,27 +37,39 @@ std::vector<double> Simulation::reduction(std::string_view label) const {
 }
 
 Report Simulation::run() {
-  initialize();
-  const auto before = measureTotals(phases_.startTotals);
-  const bool saves = !phases_.savedFields().empty() || !phases_.savedGlobals().empty();
-  if (saves) {
-    const output::ArchiveOptions how{problem_.archive.doubleAsFloat, problem_.archive.compression, TUSHAR_VERSION};
-    archive_ = std::make_unique<output::Archive>(options_.outputFolder.empty()
-                                                     ? problem_.archive.filebase
-                                                     : options_.outputFolder + "/" + problem_.archive.filebase,
-                                                 problem_.inputXml, how);
+  begin();
+  openArchive();
+  if (!problem_.restart) {
+    saveGlobals();
+    if (saves_ && problem_.archive.outputInitTimestep) save();
+    if (checkpoints_) checkpoint();
   }
-  saveGlobals();
-  if (archive_ && problem_.archive.outputInitTimestep) save();
   wall_startup_ = since(started_at_) - wall_output_;
   const auto loopStarted = Clock::now();
   const double outputBefore = wall_output_;
-  while (!time_.done() && !isInterrupted() && !outOfWallTime()) step();
+  while (!hasEnded()) step();
   wall_loop_ = since(loopStarted) - (wall_output_ - outputBefore);
-  if (archive_ && (problem_.archive.outputLastTimestep || isInterrupted())) save();
+  if (saves_ && (problem_.archive.outputLastTimestep || isInterrupted())) save();
   progress_.finish();
   if (archive_) archive_->flush();
-  return makeReport(before);
+  checkpointAtEnd();
+  return makeReport();
+}
+
+void Simulation::begin() {
+  if (problem_.restart) return resume();
+  initialize();
+  totals_at_start_ = measureTotals(phases_.startTotals);
+}
+
+void Simulation::openArchive() {
+  saves_ = !phases_.savedFields().empty() || !phases_.savedGlobals().empty();
+  const ArchiveSettings& settings = problem_.archive;
+  const output::ArchiveOptions how{settings.doubleAsFloat, settings.compression, TUSHAR_VERSION};
+  if (problem_.restart) return reopenArchive(how);
+  if (!saves_ && !checkpoints_) return;
+  const std::filesystem::path folder = options_.outputFolder;
+  archive_ = std::make_unique<output::Archive>(folder / settings.filebase, problem_.inputXml, how);
 }
 
 void Simulation::initialize() {
@@ -78,7 +85,7 @@ void Simulation::step() {
   const tasks::StepInfo at{time_.step() + 1, time_.time()};
   scheduler_.run(phases_.stableTimeStep, at);
   double& dt = warehouse_.reduction<data::Minimum>(table_.number(data::delT, -1)).value;
-  dt = time_.next(dt, nextOutputTime());
+  dt = time_.next(dt, outputs_.next());
   scheduler_.run(phases_.timeAdvance, at);
   scheduler_.commit(phases_.timeAdvance);
   time_.advance();
@@ -86,7 +93,10 @@ void Simulation::step() {
   if (progress_.due()) progress_.live(time_.step(), time_.time(), time_.delT(), problem_.time.maxTime);
   saveGlobals();
   saveIfDue();
+  checkpointIfDue();
 }
+
+bool Simulation::hasEnded() const { return time_.done() || isInterrupted() || outOfWallTime(); }
 
 bool Simulation::outOfWallTime() const { return since(started_at_) > problem_.time.maxWallTime; }
 
@@ -107,24 +117,15 @@ void Simulation::saveGlobals() {
   wall_output_ += since(started);
 }
 
-double Simulation::nextOutputTime() const {
-  const double interval = problem_.archive.outputInterval;
-  if (interval <= 0) return std::numeric_limits<double>::infinity();
-  return problem_.time.initTime + static_cast<double>(outputs_ + 1) * interval;
-}
-
 bool Simulation::outputDue() const {
   const int every = problem_.archive.outputTimestepInterval;
-  if (every > 0 && time_.step() % every == 0) return true;
-  const double slack = 1e-12 * std::abs(nextOutputTime());
-  return time_.time() >= nextOutputTime() - slack;
+  return (every > 0 && time_.step() % every == 0) || outputs_.isReached(time_.time());
 }
 
 void Simulation::saveIfDue() {
-  if (!archive_ || !outputDue()) return;
-  if (problem_.archive.outputInterval > 0)
-    while (time_.time() >= nextOutputTime() * (1 - 1e-12)) ++outputs_;
-  save();
+  const bool due = outputDue();
+  outputs_.pass(time_.time());
+  if (saves_ && due) save();
 }
 
 void Simulation::save() {
@@ -172,9 +173,9 @@ void Simulation::addField(output::Snapshot& snapshot, const SaveRequest& save) {
   }
 }
 
-std::vector<std::vector<double>> Simulation::measureTotals(tasks::TaskGraph& graph) {
+Simulation::Totals Simulation::measureTotals(tasks::TaskGraph& graph) {
   diagnose(graph);
-  std::vector<std::vector<double>> totals;
+  Totals totals;
   for (const auto& total : phases_.totals()) totals.push_back(reduction(total.second));
   return totals;
 }
@@ -185,7 +186,7 @@ std::string Simulation::whyEnded() const {
   return time_.done() ? "max_Timesteps" : "max_wall_time";
 }
 
-Report Simulation::makeReport(const std::vector<std::vector<double>>& before) {
+Report Simulation::makeReport() {
   Report report;
   report.scene = problem_.scenePath;
   report.title = problem_.title;
@@ -205,7 +206,7 @@ Report Simulation::makeReport(const std::vector<std::vector<double>>& before) {
   report.wallStartup = wall_startup_;
   report.wallLoop = wall_loop_;
   reportTasks(report);
-  reportDrift(report, before);
+  reportDrift(report);
   reportErrors(report);
   report.wallOutput = wall_output_;
   if (archive_) report.archive = archive_->folder().string();
@@ -225,8 +226,9 @@ void Simulation::reportTasks(Report& report) {
   }
 }
 
-void Simulation::reportDrift(Report& report, const std::vector<std::vector<double>>& before) {
-  const auto after = measureTotals(phases_.report);
+void Simulation::reportDrift(Report& report) {
+  const Totals& before = totals_at_start_;
+  const Totals after = measureTotals(phases_.report);
   for (std::size_t k = 0; k < before.size(); ++k) {
     double start = 0, end = 0, change = 0;
     for (std::size_t i = 0; i < before[k].size(); ++i) {

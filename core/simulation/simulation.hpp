@@ -1,14 +1,20 @@
 #pragma once
 
 #include <chrono>
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/base/progress.hpp"
 #include "core/output/archive.hpp"
+#include "core/output/checkpoint_store.hpp"
+#include "core/simulation/checkpoint_control.hpp"
 #include "core/simulation/phases.hpp"
 #include "core/simulation/report.hpp"
+#include "core/simulation/restart.hpp"
+#include "core/simulation/stored_state.hpp"
 
 namespace tushar::simulation {
 
@@ -21,9 +27,10 @@ struct Problem {
   std::unique_ptr<grid::Level> level;
   std::unique_ptr<Component> component;
   std::vector<std::unique_ptr<Analysis>> analyses;
+  std::optional<Restart> restart;  ///< where the run goes on; none where it starts
 };
 
-/// A run: it initialises, steps through time, saves what is asked for, and reports.
+/// A run: it initialises or goes on from a checkpoint, steps through time, saves what is asked for, and reports.
 class Simulation {
  public:
   /// Compiles the task graphs. `startedAt` is when the process started. Throws what Phases throws.
@@ -31,29 +38,47 @@ class Simulation {
 
   const Phases& phases() const { return phases_; }
   data::Warehouse& warehouse() { return warehouse_; }
-  /// Makes the state at the start, and nothing else; the number of particles. Throws what a run would throw there.
+  /// Makes the state at the start (or reads the checkpoint), and nothing else; the number of particles. Throws what a
+  /// run would throw there.
   long tryStart();
   /// Runs to the end of the scene, or to an interrupt. Throws NumericalError, TaskError or FileError.
   Report run();
 
  private:
+  using Clock = std::chrono::steady_clock;
+  using Totals = std::vector<std::vector<double>>;
+
+  /// Seconds that have passed.
+  static double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+  void begin();
   void initialize();
+  void openArchive();
+  void reopenArchive(const output::ArchiveOptions& how);
   void step();
   /// Runs diagnostics on the state as it is now.
   void diagnose(tasks::TaskGraph& graph);
+  bool hasEnded() const;
   void saveGlobals();
   void save();
   void saveIfDue();
   bool outputDue() const;
-  double nextOutputTime() const;
   output::Snapshot snapshot();
   void addField(output::Snapshot& snapshot, const SaveRequest& save);
-  std::vector<std::vector<double>> measureTotals(tasks::TaskGraph& graph);
+  void resume();
+  void checkScene(const output::Hdf5Input& file) const;
+  output::CheckpointStore checkpointStore() const;
+  StateNames stateNames() const;
+  void checkpointIfDue();
+  void checkpointAtEnd();
+  void checkpoint();
+  void writeCheckpoint(const std::filesystem::path& file, const output::ArchivePoint& point);
+  Totals measureTotals(tasks::TaskGraph& graph);
   std::string whyEnded() const;
   bool outOfWallTime() const;
-  Report makeReport(const std::vector<std::vector<double>>& before);
+  Report makeReport();
   void reportErrors(Report& report);
-  void reportDrift(Report& report, const std::vector<std::vector<double>>& before);
+  void reportDrift(Report& report);
   void reportTasks(Report& report);
   std::vector<double> reduction(std::string_view label) const;
 
@@ -67,7 +92,11 @@ class Simulation {
   TimeControl time_;
   Progress progress_;
   std::unique_ptr<output::Archive> archive_;
-  long outputs_ = 0;  ///< intervals of output that are done
+  bool saves_ = false;  ///< whether the scene asks for outputs or globals
+  Milestones outputs_;
+  std::optional<CheckpointControl> checkpoints_;  ///< none where the scene asks for none
+  int last_checkpoint_ = -1;                      ///< step of the last that was written or read
+  Totals totals_at_start_;
   double particle_steps_ = 0, wall_loop_ = 0, wall_output_ = 0, wall_startup_ = 0;
 };
 

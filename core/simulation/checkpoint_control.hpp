@@ -1,0 +1,24 @@
+#pragma once
+
+#include "core/simulation/settings.hpp"
+#include "core/simulation/time_control.hpp"
+
+namespace tushar::simulation {
+
+/// When checkpoints are due. A run is never led another way by them: no time step is shortened.
+class CheckpointControl {
+ public:
+  CheckpointControl(const CheckpointSettings& settings, double initTime);
+
+  /// Whether a checkpoint is due after a step that led to `time` [s], `wall` [s] after the process started.
+  bool isDue(int step, double time, double wall) const;
+  /// A checkpoint has been written, or a run starts or goes on here.
+  void note(double time, double wall);
+
+ private:
+  int every_;  ///< steps; 0: none
+  Milestones times_;
+  double wall_interval_, next_wall_;
+};
+
+}  // namespace tushar::simulation
