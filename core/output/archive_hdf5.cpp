@@ -41,6 +41,13 @@ Handle parentsMade() {
   return {links, H5Pclose};
 }
 
+/// Property of a dataset: it does not keep the time of its making, so that equal content makes equal files.
+Handle withoutTimes() {
+  const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
+  H5Pset_obj_track_times(creation, false);
+  return {creation, H5Pclose};
+}
+
 Handle vectorSpace(hsize_t size) { return {H5Screate_simple(1, &size, nullptr), H5Sclose}; }
 Handle scalarSpace() { return {H5Screate(H5S_SCALAR), H5Sclose}; }
 
@@ -79,7 +86,7 @@ void Hdf5File::dataset(const std::string& name, const Array& array, std::vector<
   if (array.components > 1) full.push_back(static_cast<hsize_t>(array.components));
   const Handle space(H5Screate_simple(static_cast<int>(full.size()), full.data(), nullptr), H5Sclose);
   const Handle links = parentsMade();
-  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  const Handle creation = withoutTimes();
   checked(setCompression(creation, full, compression_) ? 0 : -1, name + ", compressed, in");
   std::visit(
       [&](const auto& values) {
@@ -99,7 +106,8 @@ void Hdf5File::dataset(const std::string& name, const Array& array, std::vector<
 void Hdf5File::text(const std::string& name, const std::string& value) {
   const Silence silence;
   const Handle links = parentsMade(), space = scalarSpace(), type = stringType();
-  const Handle data(H5Dcreate2(file_, name.c_str(), type, space, links, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
+  const Handle creation = withoutTimes();
+  const Handle data(H5Dcreate2(file_, name.c_str(), type, space, links, creation, H5P_DEFAULT), H5Dclose);
   checked<hid_t>(data, name + " in");
   const char* characters = value.c_str();
   checked(H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, &characters), name + " in");

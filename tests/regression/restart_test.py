@@ -1,0 +1,125 @@
+#!/usr/bin/env python3
+"""Cut and restart equals uncut: the same bits, the same archive, on any patches."""
+import pathlib
+import sys
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from uda import Folder
+
+EVERY = "DataArchiver/checkpoint/@timestepInterval={}"
+PATCHES = "Grid/Level/Box/patches={}"
+ALL = "Time/max_Timesteps=100000"
+TRACKED = "MPM/gas_dynamics/volume_model=tracked"
+RESEED = "MPM/gas_dynamics/redistribute/mode=reseed"
+PLANE = ("Grid/Level/Box/resolution=[40,6,1]", "Grid/Level/Box/upper=[1,.15,1]")
+SPACE = ("Grid/Level/Box/resolution=[20,4,3]", "Grid/Level/Box/upper=[1,.2,.15]")
+
+
+def light_files(uda):
+    """Name and text of the files beside the outputs, and the content of the outputs; without scene and checkpoints."""
+    return {path.name: path.read_bytes() for path in uda.iterdir()
+            if path.is_file() and path.name != "input.xml"}
+
+
+class Restart(unittest.TestCase):
+    def folder(self):
+        folder = Folder()
+        self.addCleanup(folder.cleanup)
+        return folder
+
+    def assert_well(self, result):
+        code, errors, report = result
+        self.assertEqual((code, errors), (0, ""))
+        return report
+
+    def assert_same(self, scene, *sets, cut, until=ALL, before="[1,1,1]", after="[1,1,1]"):
+        """A run that is cut after some steps, and goes on from a checkpoint before that, ends like the uncut one."""
+        uncut, pieces = self.folder(), self.folder()
+        every = EVERY.format(max(1, cut // 3))
+        expected = self.assert_well(uncut.run(scene, until, *sets))
+        self.assert_well(pieces.run(scene, every, f"Time/max_Timesteps={cut}", PATCHES.format(before),
+                                    "DataArchiver/outputLastTimestep=false", *sets))
+        step = int(pieces.checkpoints[0].name[1:])
+        self.assertLess(step, cut)
+        report = self.assert_well(pieces.restart(until, PATCHES.format(after), step=step))
+        for key in ("fingerprint", "steps", "time", "particles", "particles_dropped", "drift", "errors"):
+            self.assertEqual(report[key], expected[key], f"{scene} {sets} {key}")
+        return uncut, pieces
+
+    def test_sod(self):
+        for after in ("[1,1,1]", "[3,1,1]", "[64,1,1]"):
+            self.assert_same("ups/mpm/sod.ups", cut=100, before="[7,1,1]", after=after)
+        self.assert_same("ups/mpm/sod.ups", TRACKED, cut=60, after="[7,1,1]")
+
+    def test_redistribution(self):
+        self.assert_same("ups/mpm/sod_redistribute.ups", cut=200, after="[5,1,1]")
+        self.assert_same("ups/mpm/sod_redistribute.ups", RESEED, TRACKED, cut=200, before="[64,1,1]")
+
+    def test_conserving(self):
+        self.assert_same("ups/mpm/sod_conserving.ups", cut=90, before="[2,1,1]", after="[7,1,1]")
+
+    def test_smooth_wave(self):
+        self.assert_same("ups/mpm/smooth_wave.ups", cut=30, after="[2,1,1]")
+
+    def test_particles_that_leave_the_grid_stay_counted(self):
+        folder = self.folder()
+        scene = folder.path / "open.ups"
+        wall = '<Face side="x+"><BCType id="all" label="Symmetric" var="symmetry"/></Face>'
+        scene.write_text(pathlib.Path("ups/mpm/sod.ups").read_text().replace(wall, ""))
+        right = "MaterialProperties/MPM/material/geom_object[2]/"
+        wind = (right + "velocity=[0.5,0,0]", right + "res=[8,1,1]")
+        self.assert_same(scene, *wind, cut=100, after="[3,1,1]")
+        self.assertGreater(self.assert_well(folder.run(scene, *wind))["particles_dropped"], 0)
+
+    def test_two_and_three_dimensions(self):
+        self.assert_same("ups/mpm/sod.ups", *PLANE, cut=40, before="[3,2,1]", after="[40,6,1]")
+        self.assert_same("ups/mpm/sod.ups", *SPACE, cut=20, after="[3,2,2]")
+        self.assert_same("ups/heat/sine.ups", *PLANE, cut=30, after="[3,2,1]")
+
+    def test_finite_volumes(self):
+        self.assert_same("ups/euler/sod.ups", cut=40, after="[7,1,1]")
+        self.assert_same("ups/euler/lax_liu_3.ups", cut=8, until="Time/max_Timesteps=12", before="[3,2,1]", after="[7,5,1]")
+
+    def test_heat(self):
+        self.assert_same("ups/heat/sine.ups", cut=50, after="[3,1,1]")
+
+    def test_outputs_stay_at_their_times(self):
+        sets = ("Time/clamp_time_to_output=true", "Time/max_delt_increase=1.1", "Time/delt_init=1e-5")
+        self.assert_same("ups/mpm/sod.ups", *sets, cut=100, after="[2,1,1]")
+
+    def test_the_archive_is_that_of_the_uncut_run(self):
+        uncut, pieces = self.assert_same("ups/mpm/sod.ups", cut=130, after="[7,1,1]")
+        self.assertEqual(light_files(pieces.uda), light_files(uncut.uda))
+        self.assertEqual([path.name for path in pieces.path.glob("*.uda.*")], ["sod.uda.000"])
+        self.assertEqual(len((pieces.uda / "KineticEnergy.dat").read_text().splitlines()), 1 + 219)
+
+    def test_a_finished_run_is_extended(self):
+        sets = ("Time/end_at_max_time_exactly=false", "DataArchiver/outputLastTimestep=false")
+        longer, extended = self.folder(), self.folder()
+        every = EVERY.format(1000)
+        expected = self.assert_well(longer.run("ups/mpm/sod.ups", "Time/maxTime=0.25", *sets))
+        finished = self.assert_well(extended.run("ups/mpm/sod.ups", every, *sets))
+        again = self.assert_well(extended.restart())
+        self.assertEqual(again["fingerprint"], finished["fingerprint"])
+        self.assertEqual(again["errors"], finished["errors"])
+        report = self.assert_well(extended.restart("Time/maxTime=0.25"))
+        self.assertEqual(report["fingerprint"], expected["fingerprint"])
+        self.assertEqual(light_files(extended.uda), light_files(longer.uda))
+        self.assertEqual(self.assert_well(extended.restart())["steps"], expected["steps"])
+
+    def test_a_scene_that_saves_nothing_restarts_too(self):
+        text = pathlib.Path("ups/heat/sine.ups").read_text()
+        start, end = text.index("<save"), text.rindex("<save")
+        folder = self.folder()
+        scene = folder.path / "bare.ups"
+        scene.write_text(text[:start] + text[text.index("/>", end) + 2:])
+        full = self.assert_well(folder.run(scene))
+        self.assertEqual(list(folder.path.glob("*.uda*")), [])
+        self.assert_well(folder.run(scene, EVERY.format(10), "Time/max_Timesteps=25"))
+        self.assertEqual(self.assert_well(folder.restart(ALL, step=20))["fingerprint"], full["fingerprint"])
+        self.assertEqual(sorted(path.name for path in folder.uda.iterdir()), ["checkpoints", "index.xml", "input.xml"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,50 @@
+"""Runs sus in a folder of its own that keeps its .uda from one run to the next."""
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+
+from sus import ROOT, SUS
+
+
+MEMORY = next((path for path in ("/dev/shm",) if os.access(path, os.W_OK)), None)
+
+
+class Folder:
+    """A temporary folder for the .uda of a scene; `folder.cleanup()` removes it. It is in memory, where waiting for the
+    disk takes no time, unless it is wanted on the disk."""
+
+    def __init__(self, on_disk=False):
+        self.temporary = tempfile.TemporaryDirectory(dir=None if on_disk else MEMORY)
+        self.path = pathlib.Path(self.temporary.name)
+        self.cleanup = self.temporary.cleanup
+
+    def command(self, words, sets):
+        command = [SUS, *map(str, words), "--quiet", "--json", str(self.path / "report.json")]
+        for override in sets:
+            command += ["--set", override]
+        return command
+
+    def finish(self, words, sets):
+        """Exit code, errors and (of a run that ended well) the report."""
+        (self.path / "report.json").unlink(missing_ok=True)
+        done = subprocess.run(self.command(words, sets), cwd=ROOT, capture_output=True, text=True, timeout=300)
+        report = self.path / "report.json"
+        return done.returncode, done.stderr, json.loads(report.read_text()) if report.exists() else None
+
+    def run(self, scene, *sets):
+        return self.finish([scene, "--output", self.path], sets)
+
+    def restart(self, *sets, step=None):
+        return self.finish(["-restart", self.uda, *([] if step is None else ["-t", step])], sets)
+
+    @property
+    def uda(self):
+        """The link to the newest .uda."""
+        return next(path for path in self.path.iterdir() if path.suffix == ".uda")
+
+    @property
+    def checkpoints(self):
+        """Folders of the checkpoints, by step."""
+        return sorted(path for path in (self.uda / "checkpoints").iterdir() if path.is_dir())
