@@ -162,6 +162,10 @@ ExitCode dispatch(const Arguments& arguments, std::chrono::steady_clock::time_po
                        "the options\n");
     return ExitCode::badCommandLine;
   }
+  if (!arguments.restart && std::filesystem::is_directory(arguments.scene + "/checkpoints")) {
+    fmt::print(stderr, "sus: {0} is the folder of a run; sus -restart {0} goes on with it\n", arguments.scene);
+    return ExitCode::badCommandLine;
+  }
   if (arguments.restart && !arguments.run.outputFolder.empty()) {
     fmt::print(stderr, "sus: --output has no meaning with --restart: a run goes on in its own folder\n");
     return ExitCode::badCommandLine;

@@ -54,8 +54,9 @@ std::vector<double> Warehouse::reductionValues(int number) const {
 }
 
 std::span<const std::byte> Warehouse::reductionBytes(int number) const {
-  const auto& slot = reductions_[static_cast<std::size_t>(number)];
-  return slot ? slot->bytes() : std::span<const std::byte>{};
+  if (const auto& slot = reductions_[static_cast<std::size_t>(number)]) return slot->bytes();
+  const auto restored = restored_.find(number);
+  return restored == restored_.end() ? std::span<const std::byte>{} : std::span<const std::byte>(restored->second);
 }
 
 void Warehouse::restoreReduction(int number, std::vector<std::byte> bytes) {

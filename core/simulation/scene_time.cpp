@@ -71,9 +71,9 @@ void checkIntervals(const CheckpointSettings& checkpoint, const Element& element
     diagnostics.error(element, fmt::format("gives {} of interval, timestepInterval, walltimeInterval and "
                                            "walltimeIntervalHours; give one",
                                            given == 0 ? "none" : "more than one"));
-  if (checkpoint.walltimeStart && !checkpoint.walltimeInterval)
+  else if (checkpoint.walltimeStart && !checkpoint.walltimeInterval)
     diagnostics.error(element, "gives walltimeStart without walltimeInterval");
-  if (checkpoint.walltimeStartHours && !checkpoint.walltimeIntervalHours)
+  else if (checkpoint.walltimeStartHours && !checkpoint.walltimeIntervalHours)
     diagnostics.error(element, "gives walltimeStartHours without walltimeIntervalHours");
 }
 

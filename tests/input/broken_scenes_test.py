@@ -77,7 +77,12 @@ OVERRIDES = {
                             "'p.densty' (did you mean 'p.density'?); there are 'CellError.density'"),
     "unknown saved material": ("DataArchiver/save[1]/@material=gass", "DataArchiver/save: there is no material 'gass' (did you "
                                "mean 'gas'?); there are 'gas'"),
-    "checkpoint": ("DataArchiver/checkpoint/@cycle=2", "DataArchiver/checkpoint: checkpoints are not available yet"),
+    "checkpoint without interval": ("DataArchiver/checkpoint/@cycle=2", "DataArchiver/checkpoint: gives none of interval, "
+                                    "timestepInterval, walltimeInterval and walltimeIntervalHours; give one"),
+    "no checkpoint kept": ("DataArchiver/checkpoint/@cycle=0", "DataArchiver/checkpoint: attribute 'cycle': found '0', "
+                           "expected a value of at least 1"),
+    "unknown checkpoint interval": ("DataArchiver/checkpoint/@timestepinterval=2", "DataArchiver/checkpoint: unknown attribute "
+                                    "'timestepinterval' of <checkpoint> (did you mean 'timestepInterval'?)"),
     "redistribution that cannot be": (GAS + "redistribute/min_particles=20", GAS + "redistribute: min_particles is greater than "
                                       "max_particles"),
     "ambiguous override": (MATERIAL + "geom_object/cfl=1", "--set"),
@@ -97,6 +102,13 @@ TEXTS = {
     "missing attribute": (SOD.replace('side="x-"', ""), ":19:8", "missing attribute 'side' of <Face>"),
     "unknown attribute": (SOD.replace('side="x-"', 'side="x-" sied="x"'), ":19:8", "unknown attribute 'sied' of <Face> (did you mean 'side'?)"),
     "text among tags": (SOD.replace("<Time>", "<Time> soon "), ":13:4", "text 'soon' in <Time>, where only tags are allowed"),
+    "two checkpoint intervals": (SOD.replace("<filebase>", '<checkpoint interval="1" timestepInterval="2"/><filebase>'), ":",
+                                 "gives more than one of interval, timestepInterval, walltimeInterval and "
+                                 "walltimeIntervalHours; give one"),
+    "start without wall time": (SOD.replace("<filebase>", '<checkpoint interval="1" walltimeStart="2"/><filebase>'), ":",
+                                "DataArchiver/checkpoint: gives walltimeStart without walltimeInterval"),
+    "second checkpoint": (SOD.replace("<filebase>", '<checkpoint interval="1"/><checkpoint interval="2"/><filebase>'), ":",
+                          "tag <checkpoint> is given twice"),
     "second Box": (SOD.replace("</Level>", "<Box><lower>[1,0,0]</lower><upper>[2,1,1]</upper><resolution>[9,1,1]</resolution>"
                                "</Box></Level>"), ":", "a Level has one Box here; this is a second one"),
     "no method": (SOD[:SOD.index("    <gas_dynamics>")] + SOD[SOD.index("    </gas_dynamics>") + 20:], ":",

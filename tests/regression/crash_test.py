@@ -32,9 +32,9 @@ class Crash(unittest.TestCase):
         self.assertEqual((code, errors), (0, ""))
         return report["fingerprint"], with_none
 
-    def killed_after(self, seconds, words, sets):
+    def killed_after(self, here, seconds, words, sets):
         """Whether the run came to its end before it was killed."""
-        run = subprocess.Popen(self.here.command(words, sets), cwd=ROOT, stderr=subprocess.PIPE, text=True)
+        run = subprocess.Popen(here.command(words, sets), cwd=ROOT, stderr=subprocess.PIPE, text=True)
         try:
             errors = run.communicate(timeout=seconds)[1]
         except subprocess.TimeoutExpired:
@@ -44,24 +44,39 @@ class Crash(unittest.TestCase):
         self.assertIn(run.returncode, (0, -9))
         return run.returncode == 0
 
+    def kill_until_done(self, here, chance, whole):
+        """Kills a run at random instants, and goes on from what is left of it, until it is done; the number of kills.
+        `whole` is the time of a run that is let alone."""
+        sets = every(10, cycle=chance.choice((1, 2)))
+        kills = 0
+        while True:
+            seconds = chance.uniform(0, (0.5 + 0.1 * kills) * whole)
+            if list(here.path.glob("*.uda/checkpoints/t?????")):
+                layout = f"Grid/Level/Box/patches={chance.choice(LAYOUTS)}"
+                done = self.killed_after(here, seconds, ["-restart", here.uda], [layout])
+            else:
+                for path in here.path.glob("*.uda*"):
+                    path.unlink() if path.is_symlink() else shutil.rmtree(path)
+                done = self.killed_after(here, seconds, [SOD, "--output", here.path], sets)
+            if done:
+                return kills
+            kills += 1
+
     def test_a_run_that_is_killed_over_and_over_ends_with_the_bits_of_the_uncut_one(self):
         fingerprint, other = self.uncut()
+        started = time.monotonic()
+        self.here.run(SOD, *every(10))
+        whole = time.monotonic() - started
         chance = random.Random(20)
-        start = [SOD, "--output", self.here.path]
-        sets = every(10, cycle=1)
-        lives = 0
-        while not list(self.here.path.glob("*.uda/checkpoints/t*")):
-            shutil.rmtree(self.here.path)
-            self.here.path.mkdir()
-            self.killed_after(chance.uniform(0.02, 0.3), start, sets)
-        while not self.killed_after(chance.uniform(0.02, 0.25 + 0.02 * lives),
-                                    ["-restart", self.here.uda], [f"Grid/Level/Box/patches={chance.choice(LAYOUTS)}"]):
-            lives += 1
-        code, errors, report = self.here.restart()
-        self.assertEqual((code, errors, report["fingerprint"]), (0, "", fingerprint))
-        self.assertGreater(lives, 2)
-        for name in ("index.xml", "sod.xdmf", "KineticEnergy.dat"):
-            self.assertEqual((self.here.uda / name).read_text(), (other.uda / name).read_text())
+        kills = 0
+        while kills < 10:
+            here = Folder(on_disk=True)
+            self.addCleanup(here.cleanup)
+            kills += self.kill_until_done(here, chance, whole)
+            code, errors, report = here.restart()
+            self.assertEqual((code, errors, report["fingerprint"]), (0, "", fingerprint))
+            for name in ("index.xml", "sod.xdmf", "KineticEnergy.dat"):
+                self.assertEqual((here.uda / name).read_text(), (other.uda / name).read_text())
 
     def files(self):
         return {path: path.read_bytes() for path in self.here.uda.rglob("*") if path.is_file()}

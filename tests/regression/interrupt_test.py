@@ -1,15 +1,22 @@
 #!/usr/bin/env python3
-"""Ctrl-C and SIGTERM end a run after the step, with its output and report written."""
+"""Ctrl-C, SIGTERM and max_wall_time end a run after the step, with its output, report and a checkpoint written."""
 import json
 import os
 import pathlib
 import signal
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from sus import ROOT
+from uda import Folder
+
 SUS = os.environ.get("SUS", "build/dev/sus")
+SOD = "ups/mpm/sod.ups"
+FINE = "Grid/Level/Box/resolution=[2000,1,1]"
 
 
 class Interrupt(unittest.TestCase):
@@ -34,6 +41,37 @@ class Interrupt(unittest.TestCase):
             self.assertEqual(report["ended"], "interrupted")
             self.assertLess(report["time"], 0.2)
             self.assertIn(f"t{report['steps']:05d}.h5", outputs)
+
+    def folder(self):
+        here = Folder()
+        self.addCleanup(here.cleanup)
+        return here
+
+    def assert_goes_on_to_the_bits_of_the_uncut_run(self, here):
+        self.assertEqual(len(here.checkpoints), 1)
+        step = int(here.checkpoints[0].name[1:])
+        end = f"Time/max_Timesteps={step + 100}"
+        expected = self.folder().run(SOD, FINE, end)[2]
+        code, errors, report = here.restart(end, "Time/max_wall_time=1000")
+        self.assertEqual((code, errors), (0, ""))
+        self.assertEqual(report["fingerprint"], expected["fingerprint"])
+
+    def test_an_interrupted_run_goes_on_from_there_whether_or_not_it_asks_for_checkpoints(self):
+        for sets in ((FINE,), (FINE, "DataArchiver/checkpoint/@interval=1000", "DataArchiver/checkpoint/@cycle=1")):
+            here = self.folder()
+            run = subprocess.Popen(here.command([SOD, "--output", here.path], sets), cwd=ROOT)
+            while not list(here.path.glob("*.uda/t00000.h5")):
+                time.sleep(0.01)
+            time.sleep(0.1)
+            run.send_signal(signal.SIGTERM)
+            self.assertEqual(run.wait(timeout=60), 5)
+            self.assert_goes_on_to_the_bits_of_the_uncut_run(here)
+
+    def test_max_wall_time_ends_a_run_with_a_checkpoint(self):
+        here = self.folder()
+        code, errors, report = here.run(SOD, FINE, "Time/max_wall_time=0.2")
+        self.assertEqual((code, errors, report["ended"]), (0, "", "max_wall_time"))
+        self.assert_goes_on_to_the_bits_of_the_uncut_run(here)
 
 
 if __name__ == "__main__":
