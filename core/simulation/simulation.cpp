@@ -57,7 +57,10 @@ Report Simulation::run() {
 }
 
 void Simulation::begin() {
-  if (problem_.restart) return resume();
+  if (problem_.restart) {
+    lock_.emplace(problem_.restart->archive);
+    return resume();
+  }
   initialize();
   totals_at_start_ = measureTotals(phases_.startTotals);
 }
@@ -70,6 +73,7 @@ void Simulation::openArchive() {
   if (!saves_ && !checkpoints_) return;
   const std::filesystem::path folder = options_.outputFolder;
   archive_ = std::make_unique<output::Archive>(folder / settings.filebase, problem_.inputXml, how);
+  lock_.emplace(archive_->folder());
 }
 
 void Simulation::initialize() {

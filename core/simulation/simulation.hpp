@@ -10,6 +10,7 @@
 #include "core/base/progress.hpp"
 #include "core/output/archive.hpp"
 #include "core/output/checkpoint_store.hpp"
+#include "core/output/folder_lock.hpp"
 #include "core/simulation/checkpoint_control.hpp"
 #include "core/simulation/phases.hpp"
 #include "core/simulation/report.hpp"
@@ -91,6 +92,7 @@ class Simulation {
   tasks::Scheduler scheduler_;
   TimeControl time_;
   Progress progress_;
+  std::optional<output::FolderLock> lock_;  ///< on the archive's folder
   std::unique_ptr<output::Archive> archive_;
   bool saves_ = false;  ///< whether the scene asks for outputs or globals
   Milestones outputs_;

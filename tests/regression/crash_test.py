@@ -170,6 +170,18 @@ class Crash(unittest.TestCase):
         (here.uda / "checkpoints/t00200").rename(here.uda / "checkpoints/t00150")
         assert_refused(here.uda, "the checkpoint is of step 200; give its folder the name t00200", options=("-t", "150"))
 
+    def test_two_runs_never_write_to_one_folder(self):
+        run = subprocess.Popen(self.here.command([SOD, "--output", self.here.path],
+                                                 [*every(1000), "Grid/Level/Box/resolution=[5000,1,1]"]), cwd=ROOT)
+        while not list(self.here.path.glob("*.uda/checkpoints/LATEST")):
+            time.sleep(0.01)
+        code, errors, _ = self.here.restart()
+        run.kill()
+        run.wait()
+        self.assertEqual((code, errors), (1, f"sus: another run is writing to '{self.here.uda.resolve()}'; wait for its "
+                                             "end, or end it\n"))
+        self.assertEqual(self.here.restart("Time/max_Timesteps=1")[0], 0)
+
     def test_an_earlier_checkpoint_can_be_chosen_and_later_ones_are_forgotten(self):
         fingerprint, _ = self.uncut()
         self.here.run(SOD, *every(100, cycle=9))

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+
+namespace tushar::output {
+
+/// Keeps a folder to one process while it lives, also where that process is killed. A file system without locks gives
+/// none. FileError if another process has the folder.
+class FolderLock {
+ public:
+  explicit FolderLock(const std::filesystem::path& folder);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int descriptor_;
+};
+
+}  // namespace tushar::output
