@@ -29,12 +29,19 @@ std::size_t sizeOf(const Array::Values& values) {
   return std::visit([](const auto& all) { return all.size(); }, values);
 }
 
-Array arrayOf(const Label& label, std::size_t entries) {
-  Array array{std::string(label.name), std::string(label.unit), std::string(label.description), label.components, {}};
-  if (label.number == data::Number::id) array.values = std::vector<std::uint64_t>{};
-  if (label.number == data::Number::integer) array.values = std::vector<std::int32_t>{};
-  std::visit([&](auto& all) { all.resize(entries * static_cast<std::size_t>(label.components)); }, array.values);
-  return array;
+Array::Values emptyValues(data::Number number) {
+  if (number == data::Number::id) return std::vector<std::uint64_t>{};
+  if (number == data::Number::integer) return std::vector<std::int32_t>{};
+  return std::vector<double>{};
+}
+
+/// An array for all entries of a variable, in the memory of `scratch` where that is of the same type.
+Array arrayOf(const Label& label, std::size_t entries, Array::Values scratch = {}) {
+  Array::Values values = emptyValues(label.number);
+  if (scratch.index() == values.index()) values = std::move(scratch);
+  std::visit([&](auto& all) { all.resize(entries * static_cast<std::size_t>(label.components)); }, values);
+  return {std::string(label.name), std::string(label.unit), std::string(label.description), label.components,
+          std::move(values)};
 }
 
 const char* folderOf(Centring centring) {
@@ -116,7 +123,7 @@ class StateWriter : StateWalk {
   void writeField(int number, const std::string& path) {
     const std::size_t bytes = label(number).bytes;
     const Box all = allOf(level_, label(number));
-    Array array = arrayOf(label(number), all.size());
+    Array array = arrayOf(label(number), all.size(), std::move(scratch_));
     std::byte* to = bytesOf(array.values);
     for (const Patch& patch : level_.patches()) {
       const Variable& from = variable(number, patch);
@@ -128,6 +135,7 @@ class StateWriter : StateWalk {
     }
     const auto extent = [&](int axis) { return static_cast<std::uint64_t>(all.extent(axis)); };
     file_.dataset(path, array, {extent(2), extent(1), extent(0)});
+    scratch_ = std::move(array.values);
   }
 
   void writeParticles(int material) {
@@ -141,7 +149,7 @@ class StateWriter : StateWalk {
 
   void writeColumn(int number, const std::string& path, const ParticleOrder& order) {
     const std::size_t bytes = label(number).bytes;
-    Array array = arrayOf(label(number), order.count());
+    Array array = arrayOf(label(number), order.count(), std::move(scratch_));
     std::byte* to = bytesOf(array.values);
     for (const Patch& patch : level_.patches()) {
       const std::byte* from = variable(number, patch).values.data();
@@ -150,6 +158,7 @@ class StateWriter : StateWalk {
       });
     }
     file_.dataset(path, array, {order.count()});
+    scratch_ = std::move(array.values);
   }
 
   void writeReduction(int number, const std::string& path) {
@@ -163,6 +172,7 @@ class StateWriter : StateWalk {
   }
 
   output::Hdf5File& file_;
+  Array::Values scratch_;  ///< memory that is used again: new memory costs as much as the copying
 };
 
 class StateReader : StateWalk {
