@@ -57,6 +57,10 @@ Box allOf(const grid::Level& level, const Label& label) {
   return label.centring == Centring::node ? level.nodes() : level.cells();
 }
 
+Box ownOf(const Patch& patch, const Label& label) {
+  return label.centring == Centring::node ? patch.nodes() : patch.cells();
+}
+
 std::size_t wordsOf(std::size_t bytes) { return (bytes + sizeof(std::uint64_t) - 1) / sizeof(std::uint64_t); }
 
 /// What writing and reading share: which variables there are, and where they stand in the file.
@@ -127,7 +131,7 @@ class StateWriter : StateWalk {
     std::byte* to = bytesOf(array.values);
     for (const Patch& patch : level_.patches()) {
       const Variable& from = variable(number, patch);
-      const Box own = label(number).centring == Centring::node ? patch.nodes() : patch.cells();
+      const Box own = ownOf(patch, label(number));
       forEachRow(own, [&](const Index3& first) {
         std::memcpy(to + all.offset(first) * bytes, from.values.data() + from.stored.offset(first) * bytes,
                     static_cast<std::size_t>(own.extent(0)) * bytes);
@@ -216,6 +220,7 @@ class StateReader : StateWalk {
     return stored(path, arrayOf(label, 0).values, entries * static_cast<std::size_t>(label.components));
   }
 
+  /// Ghosts are left to the first exchange.
   void readField(int number, const std::string& path) {
     const std::size_t bytes = label(number).bytes;
     const Box all = allOf(level_, label(number));
@@ -223,12 +228,13 @@ class StateReader : StateWalk {
     const std::byte* from = bytesOf(values);
     const int ghost = table_.ghost(number);
     for (const Patch& patch : level_.patches()) {
-      const Box here = label(number).centring == Centring::node ? patch.nodesWithin(ghost) : patch.cellsWithin(ghost);
+      const bool nodes = label(number).centring == Centring::node;
+      const Box own = ownOf(patch, label(number));
       Variable& to = variable(number, patch);
-      warehouse_.allocateGrid(to, label(number), here);
-      forEachRow(here, [&](const Index3& first) {
-        std::memcpy(to.values.data() + here.offset(first) * bytes, from + all.offset(first) * bytes,
-                    static_cast<std::size_t>(here.extent(0)) * bytes);
+      warehouse_.allocateGrid(to, label(number), nodes ? patch.nodesWithin(ghost) : patch.cellsWithin(ghost));
+      forEachRow(own, [&](const Index3& first) {
+        std::memcpy(to.values.data() + to.stored.offset(first) * bytes, from + all.offset(first) * bytes,
+                    static_cast<std::size_t>(own.extent(0)) * bytes);
       });
     }
   }
