@@ -32,7 +32,7 @@ SMOOTH = [*(Method(f"paper, {n} particles per cell", "ups/mpm/smooth_wave.ups",
           *limited("ups/euler/smooth_wave.ups", "minmod", "van_leer", "mc")]
 
 
-def plane(name):
+def both(name):
     """The conserving method and the finite volumes on a scene that both have."""
     return [Method("conserving apic, remapped every 5", f"ups/mpm/{name}.ups",
                    (f"{CONSERVING}/transfer=apic", *remapped(5))),
@@ -45,9 +45,10 @@ def plane(name):
 READY = {
     "sod": (SOD, {"resolution": ["100", "200", "400", "800"]}, "density.cell.L1"),
     "smooth": (SMOOTH, {"resolution": ["50", "100", "200", "400", "800"]}, "density.cell.L1"),
-    "vortex": (plane("vortex"), {"resolution": ["32", "64", "128"]}, "density.cell.L1"),
-    "gresho": (plane("gresho"), {"resolution": ["40", "80", "160"]}, "velocity.cell.L1"),
-    "noh": (plane("noh"), {"resolution": ["50", "100", "200"]}, "density.cell.L1"),
+    "vortex": (both("vortex"), {"resolution": ["32", "64", "128"]}, "density.cell.L1"),
+    "vortex_3d": (both("vortex_3d"), {"resolution": ["16", "32", "64"]}, "density.cell.L1"),
+    "gresho": (both("gresho"), {"resolution": ["40", "80", "160"]}, "velocity.cell.L1"),
+    "noh": (both("noh"), {"resolution": ["50", "100", "200"]}, "density.cell.L1"),
     "heat": ([Method("explicit", "ups/heat/sine.ups")], {"resolution": ["16", "32", "64", "128"]},
              "temperature.cell.L1"),
 }
