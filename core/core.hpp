@@ -13,6 +13,7 @@
 
 namespace tushar {
 
+using data::Bound;
 using data::CellLabel;
 using data::CellView;
 using data::delT;
@@ -23,6 +24,7 @@ using data::NodeView;
 using data::Norm;
 using data::ParticleLabel;
 using data::ParticleView;
+using data::recomputeTimeStep;
 using data::ReductionLabel;
 using data::Sum;
 using data::VectorSum;

@@ -141,8 +141,9 @@ ExitCode runScene(const Arguments& arguments, const simulation::Catalogue& known
   if (!arguments.run.jsonPath.empty()) checkWritable(arguments.run.jsonPath);
   catchInterrupts();
   const simulation::Report report = run.run();
-  if (!arguments.run.quiet) fmt::print("{}", toText(report));
   if (!arguments.run.jsonPath.empty()) writeFile(arguments.run.jsonPath, toJson(report));
+  if (!report.failure.empty()) throw NumericalError(report.failure, report.advice);
+  if (!arguments.run.quiet) fmt::print("{}", toText(report));
   return report.ended == "interrupted" ? ExitCode::interrupted : ExitCode::success;
 }
 

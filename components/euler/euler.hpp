@@ -20,6 +20,9 @@ class Euler : public Component, public reference::GasSolution {
   void scheduleComputeStableTimeStep(TaskList& tasks) const override;
   void scheduleTimeAdvance(TaskList& tasks) const override;
   void scheduleDiagnostics(TaskList& tasks) const override;
+  std::string advice() const override {
+    return "a smaller Euler/cfl, Euler/limiter minmod, or Euler/reconstruction first_order";
+  }
   void scheduleMeasureError(TaskList& tasks, const reference::GasReference& exact,
                             const reference::Clock& clock) const override;
   std::vector<reference::MeasuredPlace> measuredPlaces() const override { return {reference::MeasuredPlace::cell}; }

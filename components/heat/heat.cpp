@@ -30,12 +30,7 @@ template <int D>
 void initialize(const Patch& patch, const Settings& settings, CellView<double> temperature) {
   const Level& level = patch.level();
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    const Vec3 middle = level.expandPoint<D>(level.cellCentre<D>(cell));
-    temperature[cell] = settings.temperature(middle);
-    if (!std::isfinite(temperature[cell]))
-      throw NumericalError(fmt::format("c.temperature is {} at ({:g}, {:g}, {:g})", temperature[cell], middle[0],
-                                       middle[1], middle[2]),
-                           "another formula for <temperature>");
+    temperature[cell] = settings.temperature(level.expandPoint<D>(level.cellCentre<D>(cell)));
   });
 }
 
@@ -43,7 +38,7 @@ template <int D>
 void computeStableTimeStep(const Patch& patch, const Settings& settings, Minimum& dt) {
   double sum = 0;
   for (int d = 0; d < D; ++d) sum += 1 / (patch.level().spacing(d) * patch.level().spacing(d));
-  dt.add(settings.cfl / (2 * settings.diffusivity() * sum));
+  dt.add(settings.cfl / (2 * settings.diffusivity() * sum), "conduction");
 }
 
 namespace {

@@ -8,7 +8,7 @@
 namespace tushar::heat {
 
 namespace c {
-inline constexpr CellLabel<double> temperature{"c.temperature", "K", "temperature"};
+inline constexpr CellLabel<double> temperature{"c.temperature", "K", "temperature", Bound::finite};
 }
 inline constexpr ReductionLabel<Sum> totalEnergy{"TotalEnergy", "J", "heat in all cells, from 0 K"};
 
@@ -36,6 +36,7 @@ class Heat : public Component {
   void scheduleComputeStableTimeStep(TaskList& tasks) const override;
   void scheduleTimeAdvance(TaskList& tasks) const override;
   void scheduleDiagnostics(TaskList& tasks) const override;
+  std::string advice() const override { return "a <temperature> that is finite everywhere, or a smaller <cfl>"; }
 
  private:
   Settings settings_;

@@ -23,6 +23,9 @@ class Mpm : public Component, public reference::GasSolution {
   void scheduleComputeStableTimeStep(TaskList& tasks) const override;
   void scheduleTimeAdvance(TaskList& tasks) const override;
   void scheduleDiagnostics(TaskList& tasks) const override;
+  std::string advice() const override {
+    return "a smaller <cfl>, more particles per cell (<res>), or <redistribute> in <gas_dynamics>";
+  }
   void scheduleMeasureError(TaskList& tasks, const reference::GasReference& reference,
                             const reference::Clock& clock) const override;
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -55,13 +56,18 @@ class TaskError : public std::runtime_error {
 /// A value that cannot be: which one, where, when, and what the user can try.
 class NumericalError : public std::runtime_error {
  public:
-  /// `what` names the value and where it stands; `advice` says what to try.
-  NumericalError(const std::string& what, std::string advice)
-      : std::runtime_error(what), advice_(std::move(advice)) {}
+  /// `what` names the value and where it stands; `advice` says what to try, empty for what the component advises.
+  /// `value` is the name of the value alone, `cell` the number of its cell: of the errors of a task on several patches
+  /// the one of the least cell is told, so that the patches do not matter.
+  NumericalError(const std::string& what, std::string advice, std::string value = {}, std::uint64_t cell = 0)
+      : std::runtime_error(what), advice_(std::move(advice)), value_(std::move(value)), cell_(cell) {}
   const std::string& advice() const { return advice_; }
+  const std::string& value() const { return value_; }
+  std::uint64_t cell() const { return cell_; }
 
  private:
-  std::string advice_;
+  std::string advice_, value_;
+  std::uint64_t cell_;
 };
 
 /// A file or folder that could not be written or read: the path and the system's reason.

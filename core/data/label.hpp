@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/base/vec.hpp"
+#include "core/data/bound.hpp"
 
 namespace tushar::data {
 
@@ -25,6 +26,7 @@ struct Label {
   int components;     ///< numbers per particle, node or cell
   std::size_t bytes;  ///< per particle, node or cell
   bool isVector;      ///< components follow the kernel axes
+  Bound bound;        ///< looked at after every task that writes the variable; a broken one ends the run or the step
 };
 
 /// How a type is stored in a variable.
@@ -60,8 +62,12 @@ template <Centring C, class T>
 struct FieldLabel : Label {
   using Value = T;
   static constexpr Centring centred = C;
-  constexpr FieldLabel(std::string_view called, std::string_view inUnit, std::string_view meaning)
-      : Label{called, inUnit, meaning, C, Stored<T>::number, Stored<T>::components, sizeof(T), Stored<T>::isVector} {
+  constexpr FieldLabel(std::string_view called, std::string_view inUnit, std::string_view meaning,
+                       Bound bounded = Bound::none)
+      : Label{called,    inUnit, meaning, C, Stored<T>::number, Stored<T>::components, sizeof(T), Stored<T>::isVector,
+              bounded} {
+    if (bounded != Bound::none && Stored<T>::number != Number::real)
+      throw std::invalid_argument("only real numbers have bounds");
     if (!called.starts_with(prefix())) throw std::invalid_argument("a label starts with p., g. or c.");
   }
   /// What the names of such labels start with, as in Uintah: p. for particles, g. for grid nodes, c. for cells.
@@ -83,7 +89,7 @@ template <class R>
 struct ReductionLabel : Label {
   using Reducer = R;
   constexpr ReductionLabel(std::string_view called, std::string_view inUnit, std::string_view meaning)
-      : Label{called, inUnit, meaning, Centring::reduction, Number::real, 1, sizeof(R), false} {}
+      : Label{called, inUnit, meaning, Centring::reduction, Number::real, 1, sizeof(R), false, Bound::none} {}
 };
 
 /// The name of the label that says where particles are: ghosts beyond a periodic face have it moved there.

@@ -2,7 +2,10 @@
 
 #include <array>
 #include <cmath>
+#include <compare>
 #include <limits>
+#include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "core/base/vec.hpp"
@@ -10,14 +13,43 @@
 
 namespace tushar::data {
 
-/// The least of all values; +infinity of none.
+/// A few words that say where a value comes from, such as `CFL`: plain bytes, so that a message can carry them.
+class Reason {
+ public:
+  constexpr Reason() = default;
+  /// Of a literal of at most 31 letters.
+  template <std::size_t N>
+  constexpr Reason(const char (&words)[N]) {
+    static_assert(N <= std::tuple_size_v<decltype(letters_)>, "a reason has at most 31 letters");
+    for (std::size_t k = 0; k < N; ++k) letters_[k] = words[k];
+  }
+  /// Of any text; what is beyond 31 letters is cut off.
+  static Reason of(std::string_view words) {
+    Reason reason;
+    words.copy(reason.letters_.data(), reason.letters_.size() - 1);
+    return reason;
+  }
+  constexpr std::string_view text() const { return letters_.data(); }
+
+  friend constexpr auto operator<=>(const Reason&, const Reason&) = default;
+
+ private:
+  std::array<char, 32> letters_{};
+};
+
+/// The least of all values and, where given, its reason; +infinity of none. Of the reasons of equal values the first
+/// in the alphabet counts, so that the order of the additions does not matter.
 struct Minimum {
   double value = std::numeric_limits<double>::infinity();
+  Reason reason{};
 
-  void add(double x) {
-    if (x < value) value = x;
+  void add(double x, const Reason& why = {}) {
+    if (x < value || (x == value && why < reason)) {
+      value = x;
+      reason = why;
+    }
   }
-  void merge(const Minimum& other) { add(other.value); }
+  void merge(const Minimum& other) { add(other.value, other.reason); }
   std::vector<double> values() const { return {value}; }
 };
 
@@ -107,7 +139,13 @@ struct Norm {
   std::vector<double> values() const { return {l1(), l2(), max}; }
 };
 
-/// The time step; tasks of scheduleComputeStableTimeStep lower it.
+/// The time step; tasks of scheduleComputeStableTimeStep lower it, each with the name of its limit as the reason.
 inline constexpr ReductionLabel<Minimum> delT{"delT", "s", "time step"};
+
+/// What the time step may be multiplied by so that no bound breaks. A task of scheduleTimeAdvance that computes less
+/// than 1 asks for the step to be undone and repeated with a smaller one; the reason names the bound. The step ends
+/// with that task: none after it sees what must not be. The old state stays as it is.
+inline constexpr ReductionLabel<Minimum> recomputeTimeStep{"recomputeTimeStep", "1",
+                                                           "factor on the time step that keeps every bound"};
 
 }  // namespace tushar::data

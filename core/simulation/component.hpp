@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "core/tasks/task_list.hpp"
 
 namespace tushar::simulation {
@@ -18,6 +20,8 @@ class Component {
   virtual void scheduleComputeStableTimeStep(tasks::TaskList& tasks) const = 0;
   /// One step, from the old state to a new one.
   virtual void scheduleTimeAdvance(tasks::TaskList& tasks) const = 0;
+  /// What a user can try when a value breaks its bound: continues `try `.
+  virtual std::string advice() const { return "a smaller time step (timestep_multiplier in <Time>)"; }
   /// What can be said about a state, from the old state: totals, derived fields. Only what someone asks for is run.
   virtual void scheduleDiagnostics(tasks::TaskList&) const {}
 };

@@ -32,7 +32,7 @@ Names united(Names a, const Names& b) {
 /// What is needed of a step for the next, less what is decided anew before each, and with the particles' names where
 /// there are particles.
 std::vector<std::string> namesOfState(Names needed, const Names& decided, const Names& computed) {
-  std::erase_if(needed, [&](const std::string& name) { return decided.contains(name); });
+  std::erase_if(needed, [&](const std::string& name) { return decided.contains(name) || name == data::recomputeTimeStep.name; });
   if (computed.contains(data::particleId.name)) needed.emplace(data::particleId.name);
   return {needed.begin(), needed.end()};
 }
@@ -128,6 +128,7 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   Pruned end = prune(lists.diagnostics.tasks(), reported, false);
   Names read = requiredOfState(stable.kept);
   for (const Pruned* pruned : {&step, &output, &end}) read = united(read, requiredOfState(pruned->kept));
+  read.emplace(data::recomputeTimeStep.name);
   const Pruned bare = prune(lists.timeAdvance.tasks(), read, true);
   Pruned advance = prune(lists.timeAdvance.tasks(), united(read, savedState), true);
   Pruned init = prune(lists.initialize.tasks(), advance.needed, false);

@@ -26,6 +26,12 @@ Json wallOf(const Report& report) {
           {"exchange", report.exchange},   {"tasks", tasks}};
 }
 
+Json limitsOf(const Report& report) {
+  Json limits = Json::object();
+  for (const auto& [limit, steps] : report.limits) limits[limit] = steps;
+  return limits;
+}
+
 Json driftOf(const Report& report) {
   Json drift = Json::object();
   for (const Drift& d : report.drifts) drift[d.name] = d.change;
@@ -36,6 +42,14 @@ Json tasksOf(const Report& report) {
   Json leftOut = Json::array();
   for (const tasks::LeftOut& task : report.leftOut) leftOut.push_back({{"name", task.task}, {"why", task.reason}});
   return {{"kept", report.kept}, {"left_out", leftOut}};
+}
+
+std::string limitLine(const Report& report) {
+  std::string text;
+  for (const auto& [limit, steps] : report.limits)
+    text += fmt::format("{}{} {}", text.empty() ? "time step ruled by " : ", ", limit, steps);
+  if (report.retries > 0) text += fmt::format("; {} repeated with a smaller one", report.retries);
+  return text.empty() ? "" : text + "\n";
 }
 
 std::string errorTable(const Report& report) {
@@ -86,8 +100,11 @@ std::string toJson(const Report& report) {
   json["layout"] = {{"dimension", report.dimension}, {"cells", report.cells},     {"h", report.spacing},
                     {"patches", report.patches},     {"ranks", report.ranks},     {"threads", report.threads}};
   json["steps"] = report.steps;
+  json["retries"] = report.retries;
+  json["time_step_limits"] = limitsOf(report);
   json["time"] = report.time;
   json["ended"] = report.ended;
+  json["failure"] = report.failure;
   json["particles"] = report.particles;
   json["particles_dropped"] = report.dropped;
   json["particle_steps_per_second"] = report.wallLoop > 0 ? report.particleSteps / report.wallLoop : 0;
@@ -109,7 +126,7 @@ std::string toText(const Report& report) {
     if (report.wallLoop > 0)
       text += fmt::format(", {:.3g} million particle-steps/s", 1e-6 * report.particleSteps / report.wallLoop);
   }
-  text += "\n" + errorTable(report) + driftTable(report) + timeTable(report);
+  text += "\n" + limitLine(report) + errorTable(report) + driftTable(report) + timeTable(report);
   if (!report.archive.empty()) text += fmt::format("\n  saved in {}\n", report.archive);
   text += fmt::format("\n  fingerprint {}\n", report.fingerprint);
   return text;

@@ -37,9 +37,11 @@ struct Report {
   int dimension = 0, patches = 0, ranks = 1, threads = 1;
   long cells = 0, particles = 0, dropped = 0;
   double spacing = 0;  ///< least cell width, m
-  int steps = 0;
+  int steps = 0, retries = 0;  ///< taken; undone and repeated
+  std::vector<std::pair<std::string, int>> limits;  ///< of the time step, and how many steps each has ruled
   double time = 0;  ///< reached, s
-  std::string ended;  ///< why: maxTime, max_Timesteps, max_wall_time, interrupted
+  std::string ended;  ///< why: maxTime, max_Timesteps, max_wall_time, interrupted, failed
+  std::string failure, advice;  ///< of a run that failed: the value that cannot be, and what to try
   double particleSteps = 0;
   double wallStartup = 0, wallLoop = 0, wallOutput = 0;  ///< s
   std::vector<TaskTime> tasks;

@@ -33,6 +33,9 @@ const Schema<TimeSettings>& timeSchema() {
                  "shorten the last step so that it ends at maxTime")
           .value("clamp_time_to_output", &TimeSettings::clampTimeToOutput, false, "1",
                  "shorten steps so that outputs are at multiples of outputInterval")
+          .value("recompute_timestep", &TimeSettings::recomputeTimeStep, false, "1",
+                 "where a value becomes impossible, undo the step and repeat it with half the time step, up to 20 times")
+          .ours()
           .check([](const TimeSettings& time, const Element& element, Diagnostics& diagnostics) {
             if (time.maxTime <= time.initTime)
               diagnostics.error(element, "maxTime is not after initTime; nothing would be computed");

@@ -47,8 +47,13 @@ Report Simulation::run() {
   wall_startup_ = since(started_at_) - wall_output_;
   const auto loopStarted = Clock::now();
   const double outputBefore = wall_output_;
-  while (!hasEnded()) step();
+  try {
+    while (!hasEnded()) step();
+  } catch (const NumericalError& error) {
+    failure_ = advised(error);
+  }
   wall_loop_ = since(loopStarted) - (wall_output_ - outputBefore);
+  if (failure_) saveLastGood();
   if (saves_ && (problem_.archive.outputLastTimestep || isInterrupted())) save();
   progress_.finish();
   if (archive_) archive_->flush();
@@ -76,8 +81,28 @@ void Simulation::openArchive() {
   lock_.emplace(archive_->folder());
 }
 
+NumericalError Simulation::advised(const NumericalError& error) const {
+  if (!error.advice().empty()) return error;
+  const bool repeats = problem_.time.recomputeTimeStep || time_.delT() == 0;
+  return {error.what(), problem_.component->advice() + (repeats ? "" : "; or recompute_timestep in <Time>"),
+          error.value()};
+}
+
+void Simulation::saveLastGood() {
+  if (!archive_) return;
+  if (saves_) save();
+  checkpoint();
+  failure_ = NumericalError(fmt::format("{}; the last whole step, {} at t = {:.6g} s, is saved: sus -restart {}",
+                                        failure_->what(), time_.step(), time_.time(), archive_->folder().string()),
+                            failure_->advice(), failure_->value());
+}
+
 void Simulation::initialize() {
-  scheduler_.run(phases_.initialize, {0, time_.time()});
+  try {
+    scheduler_.run(phases_.initialize, {0, time_.time()});
+  } catch (const NumericalError& error) {
+    throw advised(error);
+  }
   scheduler_.commit(phases_.initialize);
   const int materials = static_cast<int>(phases_.materials().size());
   if (materials > 0 && particleCount(warehouse_, materials) == 0)
@@ -86,11 +111,13 @@ void Simulation::initialize() {
 }
 
 void Simulation::step() {
-  const tasks::StepInfo at{time_.step() + 1, time_.time()};
-  scheduler_.run(phases_.stableTimeStep, at);
-  double& dt = warehouse_.reduction<data::Minimum>(table_.number(data::delT, -1)).value;
-  dt = time_.next(dt, outputs_.next());
-  scheduler_.run(phases_.timeAdvance, at);
+  scheduler_.run(phases_.stableTimeStep, {time_.step() + 1, time_.time()});
+  auto& dt = warehouse_.reduction<data::Minimum>(table_.number(data::delT, -1));
+  dt.value = time_.next(dt, outputs_.next());
+  const auto tryStep = [&] {
+    return scheduler_.run(phases_.timeAdvance, {time_.step() + 1, time_.time(), dt.value, time_.repeats(), time_.mayHalve()});
+  };
+  while (const auto asked = tryStep()) dt.value = time_.repeat(*asked);
   scheduler_.commit(phases_.timeAdvance);
   time_.advance();
   particle_steps_ += static_cast<double>(particleCount(warehouse_, static_cast<int>(phases_.materials().size())));
@@ -185,6 +212,7 @@ Simulation::Totals Simulation::measureTotals(tasks::TaskGraph& graph) {
 }
 
 std::string Simulation::whyEnded() const {
+  if (failure_) return "failed";
   if (isInterrupted()) return "interrupted";
   if (time_.time() >= problem_.time.maxTime) return "maxTime";
   return time_.done() ? "max_Timesteps" : "max_wall_time";
@@ -204,8 +232,15 @@ Report Simulation::makeReport() {
   report.particles = particleCount(warehouse_, static_cast<int>(phases_.materials().size()));
   report.dropped = scheduler_.relocation().dropped();
   report.steps = time_.step();
+  report.retries = time_.retries();
+  for (const auto& [limit, steps] : time_.limits())
+    report.limits.emplace_back(limit.text().empty() ? "unnamed" : limit.text(), steps);
   report.time = time_.time();
   report.ended = whyEnded();
+  if (failure_) {
+    report.failure = failure_->what();
+    report.advice = failure_->advice();
+  }
   report.particleSteps = particle_steps_;
   report.wallStartup = wall_startup_;
   report.wallLoop = wall_loop_;

@@ -42,7 +42,8 @@ class Simulation {
   /// Makes the state at the start (or reads the checkpoint), and nothing else; the number of particles. Throws what a
   /// run would throw there.
   long tryStart();
-  /// Runs to the end of the scene, or to an interrupt. Throws NumericalError, TaskError or FileError.
+  /// Runs to the end of the scene, to an interrupt, or to a value that cannot be, which the report then tells: the last
+  /// whole step is saved. Throws TaskError, FileError, and NumericalError for a start that cannot be.
   Report run();
 
  private:
@@ -56,6 +57,9 @@ class Simulation {
   void initialize();
   void openArchive();
   void reopenArchive(const output::ArchiveOptions& how);
+  NumericalError advised(const NumericalError& error) const;
+  /// The old state is that of the last whole step: writes it and a checkpoint, where the scene saves anything.
+  void saveLastGood();
   void step();
   /// Runs diagnostics on the state as it is now.
   void diagnose(tasks::TaskGraph& graph);
@@ -99,6 +103,7 @@ class Simulation {
   std::optional<CheckpointControl> checkpoints_;  ///< none where the scene asks for none
   int last_checkpoint_ = -1;                      ///< step of the last that was written or read
   Totals totals_at_start_;
+  std::optional<NumericalError> failure_;
   double particle_steps_ = 0, wall_loop_ = 0, wall_output_ = 0, wall_startup_ = 0;
 };
 

@@ -11,13 +11,25 @@ namespace tushar::simulation {
 
 bool TimeControl::done() const { return time_ >= settings_.maxTime || step_ >= settings_.maxTimesteps; }
 
-double TimeControl::next(double stable, double nextOutput) {
-  double dt = settings_.timestepMultiplier * stable;
+void TimeControl::lower(double& dt, double most, const data::Reason& limit) {
+  if (!(most < dt)) return;
+  dt = most;
+  limit_ = limit;
+}
+
+double TimeControl::next(const data::Minimum& stable, double nextOutput) {
+  double dt = settings_.timestepMultiplier * stable.value;
+  limit_ = stable.reason;
+  repeats_ = 0;
   if (step_ == 0)
-    dt = std::min(dt, settings_.deltInit);
+    lower(dt, settings_.deltInit, "delt_init");
   else
-    dt = std::min(dt, settings_.maxDeltIncrease * del_t_);
-  dt = std::min(std::max(dt, settings_.deltMin), settings_.deltMax);
+    lower(dt, settings_.maxDeltIncrease * del_t_, "max_delt_increase");
+  if (dt < settings_.deltMin) {
+    dt = settings_.deltMin;
+    limit_ = "delt_min";
+  }
+  lower(dt, settings_.deltMax, "delt_max");
   if (!(dt > 0) || !std::isfinite(dt))
     throw NumericalError(fmt::format("the time step became {:.6g} s (step {}, time {:.6g} s)", dt, step_ + 1, time_),
                          "a scene in which something moves or has a speed of sound, or <delt_max>");
@@ -26,8 +38,8 @@ double TimeControl::next(double stable, double nextOutput) {
                                      dt, time_, step_ + 1),
                          "delt_min, or whatever keeps speeds finite");
   target_ = time_ + dt;
-  if (settings_.clampTimeToOutput && nextOutput < target_) target_ = nextOutput;
-  if (settings_.endAtMaxTimeExactly && settings_.maxTime < target_) target_ = settings_.maxTime;
+  if (settings_.clampTimeToOutput) lower(target_, nextOutput, "clamp_time_to_output");
+  if (settings_.endAtMaxTimeExactly) lower(target_, settings_.maxTime, "end_at_max_time_exactly");
   del_t_ = target_ == time_ + dt ? dt : target_ - time_;
   return del_t_;
 }
@@ -38,9 +50,35 @@ void TimeControl::resume(int step, double time, double delT) {
   del_t_ = delT;
 }
 
+bool TimeControl::mayHalve() const {
+  const double dt = 0.5 * del_t_;
+  return settings_.recomputeTimeStep && repeats_ < most_repeats_ && dt >= settings_.deltMin && time_ + dt > time_;
+}
+
+double TimeControl::repeat(const data::Minimum& asked) {
+  const double dt = del_t_ * std::clamp(asked.value, 0.1, 0.9);
+  const std::string where = fmt::format("(step {}, time {:.6g} s)", step_ + 1, time_);
+  const std::string advice = "whatever keeps the bound of " + std::string(asked.reason.text()) + ", or a lower delt_min";
+  if (repeats_ == most_repeats_)
+    throw NumericalError(fmt::format("the bound of {} would still break with a time step of {:.6g} s, after {} repeats {}",
+                                     asked.reason.text(), del_t_, most_repeats_, where), advice);
+  if (dt < settings_.deltMin || time_ + dt == time_)
+    throw NumericalError(fmt::format("the bound of {} would break unless the time step fell to {:.6g} s, below {} {}",
+                                     asked.reason.text(), dt,
+                                     dt < settings_.deltMin ? fmt::format("delt_min = {:.6g} s", settings_.deltMin)
+                                                            : "what moves time on", where), advice);
+  ++retries_;
+  ++repeats_;
+  limit_ = asked.reason;
+  target_ = time_ + dt;
+  del_t_ = dt;
+  return dt;
+}
+
 void TimeControl::advance() {
   time_ = target_;
   ++step_;
+  ++limits_[limit_];
 }
 
 double Milestones::next() const {

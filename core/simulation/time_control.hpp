@@ -1,6 +1,9 @@
 #pragma once
 
 #include <limits>
+#include <map>
+
+#include "core/data/reduction.hpp"
 
 namespace tushar::simulation {
 
@@ -17,6 +20,7 @@ struct TimeSettings {
   double maxWallTime = std::numeric_limits<double>::max();  ///< s
   bool endAtMaxTimeExactly = false;
   bool clampTimeToOutput = false;
+  bool recomputeTimeStep = false;  ///< whether a value that breaks its bound makes the step be repeated
 };
 
 /// Where a run is in time, and how far the next step may go.
@@ -33,18 +37,40 @@ class TimeControl {
   /// The next time step [s] from what the physics allow: timestep_multiplier times `stable`, within delt_min and
   /// delt_max, max_delt_increase, and (where the scene asks) up to maxTime or the next output exactly.
   /// Throws NumericalError for a step that is not positive or too small to move time on.
-  double next(double stable, double nextOutput);
+  double next(const data::Minimum& stable, double nextOutput);
+  /// A shorter time step [s] from where `next` started: times the factor that was `asked` for, but at least 0.1 and at
+  /// most 0.9. Throws NumericalError for the 21st time in a step, for less than delt_min, and for a step too small to
+  /// move time on.
+  double repeat(const data::Minimum& asked);
   /// Goes on from where another run was: after `step` steps, the last of `delT` [s], at `time` [s].
   void resume(int step, double time, double delT);
-  /// Moves time on by the step that `next` gave.
+  /// Moves time on by the step that `next` or `repeat` gave.
   void advance();
 
+  /// Whether a value that breaks its bound may have the step repeated with half the time step: where the scene asks
+  /// for it, and `repeat` would not throw.
+  bool mayHalve() const;
+  /// How often the step in progress was repeated.
+  int repeats() const { return repeats_; }
+  /// Steps that were undone and repeated so far.
+  int retries() const { return retries_; }
+  /// How many steps each limit has ruled: the reason of the stable step, a tag of the Time section, or the bound that
+  /// made the step be repeated.
+  const std::map<data::Reason, int>& limits() const { return limits_; }
+
  private:
+  static constexpr int most_repeats_ = 20;  ///< of a step
+
+  void lower(double& dt, double most, const data::Reason& limit);
+
   TimeSettings settings_;
   double time_;
   double del_t_ = 0;
   double target_ = 0;  ///< where the step ends
   int step_ = 0;
+  int retries_ = 0, repeats_ = 0;
+  data::Reason limit_;  ///< that rules the step
+  std::map<data::Reason, int> limits_;
 };
 
 /// The times start + k interval, k = 1, 2, …, that a run passes one after the other.

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "core/base/error.hpp"
+#include "core/tasks/broken_value.hpp"
 
 namespace tushar::tasks {
 
@@ -61,25 +62,21 @@ void wrap(const grid::Level& level, Vec<D>& x) {
   }
 }
 
-/// A particle outside the grid: fine where it left through a free face, an error elsewhere.
+/// Whether a particle may leave the grid to `cell`: yes through a free face.
 template <int D>
-void checkExit(const grid::Level& level, const Vec<D>& x, const Index<D>& cell, ParticleId id) {
+bool mayLeave(const grid::Level& level, const Vec<D>& x, const Index<D>& cell) {
+  bool may = true;
   for (int d = 0; d < D; ++d) {
     const bool below = cell[d] < 0, above = cell[d] >= level.cells().upper[d];
-    const char axis = "xyz"[level.axis(d)];
-    if (!std::isfinite(x[d]))
-      throw NumericalError(fmt::format("p.x of particle {} is {} along {}", id, x[d], axis),
-                           "a smaller time step (timestep_multiplier)");
-    if ((below && level.isSymmetry(d, 0)) || (above && level.isSymmetry(d, 1)))
-      throw NumericalError(fmt::format("particle {} passed through the symmetry plane {}{} to {} = {}", id, axis,
-                                       below ? '-' : '+', axis, x[d]),
-                           "a smaller time step (timestep_multiplier)");
+    may = may && std::isfinite(x[d]) && !(below && level.isSymmetry(d, 0)) && !(above && level.isSymmetry(d, 1));
   }
+  return may;
 }
 
 }  // namespace
 
 void Relocation::run(int material, int position, const std::vector<Carried>& carried) {
+  escape_.reset();
   moves_.resize(static_cast<std::size_t>(warehouse_->patches()));
   spare_.resize(moves_.size());
   switch (warehouse_->level().dimension()) {
@@ -114,24 +111,50 @@ void Relocation::findMoves(int material, int position) {
         upper[d] = level.nodePosition(d, cell[d] + 1);
       }
       for (const int p : set.in(cell))
-        if (!isInside<D>(x[p], lower, upper) && level.cellOf<D>(x[p]) != cell) move<D>(patch, x[p], ids[p], p);
+        if (!isInside<D>(x[p], lower, upper) && level.cellOf<D>(x[p]) != cell) move<D>(patch, cell, x[p], ids[p], p);
     });
   }
+  if (escape_) refuseEscape<D>(position);
 }
 
 template <int D>
-void Relocation::move(const Patch& from, Vec<D>& x, ParticleId id, int place) {
+void Relocation::move(const Patch& from, const Index<D>& fromCell, Vec<D>& x, ParticleId id, int place) {
   const grid::Level& level = warehouse_->level();
   moves_[static_cast<std::size_t>(from.id())].departed.push_back(place);
   if (level.isPeriodic()) wrap<D>(level, x);
   const Index<D> cell = level.cellOf<D>(x);
   if (!level.cells().contains(cell)) {
-    checkExit<D>(level, x, cell, id);
-    ++dropped_;
+    ++leaving_;
+    const Escape escape{level.cellNumber<D>(fromCell), id, from.id(), place};
+    if (!mayLeave<D>(level, x, cell) && (!escape_ || escape < *escape_)) escape_ = escape;
     return;
   }
   const Index3 wide = widened(cell);
   receive(from.cells().contains(wide) ? from : level.patchOf(wide), wide, {id, from.id(), place, -1});
+}
+
+template <int D>
+void Relocation::refuseEscape(int position) const {
+  const auto [cellNumber, id, patch, place] = *escape_;
+  if (const auto broken = firstBroken(*warehouse_, {position, Generation::old}, data::Bound::finite))
+    throw NumericalError(fmt::format("{}; patch {}", broken->sentence, broken->patch), "", broken->label);
+  const grid::Level& level = warehouse_->level();
+  const auto at = [&](Generation generation) {
+    return reinterpret_cast<const Vec<D>*>(warehouse_->variable(generation, position, patch).values.data())[place];
+  };
+  const Vec<D> x = at(Generation::fresh);
+  int through = 0, side = 0;
+  for (int d = 0; d < D; ++d)
+    for (const int s : {0, 1})
+      if (level.isSymmetry(d, s) && level.cellAlong(d, x[d]) == (s == 0 ? -1 : level.cells().upper[d])) {
+        through = d;
+        side = s;
+      }
+  const char axis = "xyz"[level.axis(through)];
+  throw NumericalError(fmt::format("particle {} passed through the symmetry plane {}{}, from {} = {:.6g} m to {:.6g} m; "
+                                   "patch {}",
+                                   id, axis, "-+"[side], axis, at(Generation::old)[through], x[through], patch),
+                       "", "p.x", cellNumber);
 }
 
 void Relocation::receive(const Patch& patch, const Index3& cell, const Incoming& particle) {

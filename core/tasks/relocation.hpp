@@ -1,5 +1,8 @@
 #pragma once
 
+#include <compare>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/data/warehouse.hpp"
@@ -25,6 +28,10 @@ class Relocation {
   /// Throws NumericalError for a position that is not finite or lies behind a symmetry plane.
   void run(int material, int position, const std::vector<Carried>& carried);
 
+  /// A step begins, perhaps for the second time.
+  void start() { leaving_ = 0; }
+  /// The step counts.
+  void commit() { dropped_ += std::exchange(leaving_, 0); }
   /// Particles that have left the grid since the start.
   long dropped() const { return dropped_; }
   /// Goes on counting from what another run had dropped.
@@ -36,6 +43,14 @@ class Relocation {
     ParticleId id;
     int patch, place;  ///< where it was
     int next;          ///< the incoming particle of the same cell with the next greater id, or -1
+  };
+  /// A particle that went where none can be; of several the first by cell and id.
+  struct Escape {
+    std::uint64_t cell;
+    ParticleId id;
+    int patch, place;
+
+    friend auto operator<=>(const Escape&, const Escape&) = default;
   };
   /// Consecutive places of the new set: a copy of consecutive places before from `from` on, or (-1) gathered by
   /// `source`.
@@ -56,7 +71,9 @@ class Relocation {
   template <int D>
   void findMoves(int material, int position);
   template <int D>
-  void move(const grid::Patch& from, Vec<D>& x, ParticleId id, int place);
+  void move(const grid::Patch& from, const Index<D>& cell, Vec<D>& x, ParticleId id, int place);
+  template <int D>
+  [[noreturn]] void refuseEscape(int position) const;
   void receive(const grid::Patch& patch, const Index3& cell, const Incoming& particle);
   void rebuild(const grid::Patch& patch, int material);
   static void keepCell(PatchMoves& moves, const data::ParticleRange& before);
@@ -68,6 +85,8 @@ class Relocation {
   data::Warehouse* warehouse_;
   std::vector<PatchMoves> moves_;
   std::vector<data::Variable> spare_;
+  std::optional<Escape> escape_;
+  long leaving_ = 0;  ///< in the step in progress
   long dropped_ = 0;
 };
 

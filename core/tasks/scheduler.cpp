@@ -18,20 +18,25 @@ double seconds(Clock::duration duration) { return std::chrono::duration<double>(
 
 int firstMaterial(const CompiledTask& task) { return task.task.perMaterial() ? 0 : -1; }
 
-std::string placeOf(const CompiledTask& task, const grid::Patch* patch, int material, const StepInfo& at) {
+/// `patch` is -1 for a task that runs on all at once.
+std::string placeOf(const CompiledTask& task, int patch, int material, const StepInfo& at) {
   std::string text = "task " + task.task.name;
-  if (patch) text += fmt::format(", patch {}", patch->id());
+  if (patch >= 0) text += fmt::format(", patch {}", patch);
   if (material >= 0) text += ", material " + task.task.materials[static_cast<std::size_t>(material)];
-  return text + fmt::format(", step {}, time {:.6g} s", at.step, at.time);
+  text += fmt::format(", step {}, time {:.6g} s", at.step, at.time);
+  if (at.delT > 0) text += fmt::format(", time step {:.6g} s", at.delT);
+  if (at.repeats > 0) text += fmt::format(" after {} repeats", at.repeats);
+  return text;
 }
 
 /// Runs `work`; what it throws comes out again with the place added.
 template <class Work>
-void located(const CompiledTask& task, const grid::Patch* patch, int material, const StepInfo& at, Work&& work) {
+void located(const CompiledTask& task, int patch, int material, const StepInfo& at, Work&& work) {
   try {
     work();
   } catch (const NumericalError& error) {
-    throw NumericalError(fmt::format("{} ({})", error.what(), placeOf(task, patch, material, at)), error.advice());
+    throw NumericalError(fmt::format("{} ({})", error.what(), placeOf(task, patch, material, at)), error.advice(),
+                         error.value(), error.cell());
   } catch (const InputError&) {
     throw;
   } catch (const std::bad_alloc&) {
@@ -43,7 +48,8 @@ void located(const CompiledTask& task, const grid::Patch* patch, int material, c
 
 }  // namespace
 
-void Scheduler::run(TaskGraph& graph, const StepInfo& at) {
+std::optional<data::Minimum> Scheduler::run(TaskGraph& graph, const StepInfo& at) {
+  relocation_.start();
   for (const CompiledTask& task : graph.tasks())
     for (const int reduction : task.reductions) warehouse_->resetReduction(reduction);
   auto started = Clock::now();
@@ -54,11 +60,29 @@ void Scheduler::run(TaskGraph& graph, const StepInfo& at) {
       task.exchangeSeconds += seconds(exchanged - started);
       started = exchanged;
     }
-    runWork(task, at);
+    const auto asked = runOrAsk(task, at);
     free(task);
     const auto done = Clock::now();
     task.seconds += seconds(done - started);
     started = done;
+    if (asked) return asked;
+  }
+  return std::nullopt;
+}
+
+std::optional<data::Minimum> Scheduler::askedBy(const CompiledTask& task) {
+  if (task.recomputeTimeStep < 0) return std::nullopt;
+  const auto& factor = warehouse_->reduction<data::Minimum>(task.recomputeTimeStep);
+  return factor.value < 1 ? std::optional(factor) : std::nullopt;
+}
+
+std::optional<data::Minimum> Scheduler::runOrAsk(CompiledTask& task, const StepInfo& at) {
+  try {
+    runWork(task, at);
+    return askedBy(task);
+  } catch (const NumericalError& error) {
+    if (!at.mayRepeat) throw;
+    return data::Minimum{0.5, data::Reason::of(error.value().empty() ? task.task.name : error.value())};
   }
 }
 
@@ -75,17 +99,41 @@ void Scheduler::runWork(CompiledTask& task, const StepInfo& at) {
   const int first = firstMaterial(task);
   for (int m = first; m < first + static_cast<int>(task.materials.size()); ++m) {
     const MaterialBinding& binding = task.materials[static_cast<std::size_t>(m - first)];
-    if (task.task.kind == TaskKind::relocate) {
-      located(task, nullptr, m, at, [&] { relocation_.run(m, binding.accesses.front().variable, binding.carried); });
-      continue;
-    }
-    for (const grid::Patch& patch : warehouse_->level().patches()) runPlaced(task, patch, m, at);
+    if (task.task.kind == TaskKind::relocate)
+      located(task, -1, m, at, [&] { relocation_.run(m, binding.accesses.front().variable, binding.carried); });
+    else
+      runOnPatches(task, m, at);
   }
+}
+
+void Scheduler::runOnPatches(CompiledTask& task, int material, const StepInfo& at) {
+  const MaterialBinding& binding = task.materials[static_cast<std::size_t>(material - firstMaterial(task))];
+  std::optional<NumericalError> first;
+  bool kept = true;
+  for (const grid::Patch& patch : warehouse_->level().patches()) {
+    try {
+      runPlaced(task, patch, material, at);
+      kept = kept && keepsBounds(*warehouse_, binding.bounded, patch);
+    } catch (const NumericalError& error) {
+      if (!first || error.cell() < first->cell()) first = error;
+    }
+  }
+  if (kept && !first) return;
+  if (askedBy(task)) return;  // what was computed will not be used
+  if (first) throw NumericalError(*first);
+  refuseBroken(task, binding, material, at);
+}
+
+void Scheduler::refuseBroken(const CompiledTask& task, const MaterialBinding& binding, int material,
+                             const StepInfo& at) {
+  if (const auto broken = firstBroken(*warehouse_, binding.bounded))
+    throw NumericalError(fmt::format("{} ({})", broken->sentence, placeOf(task, broken->patch, material, at)), "",
+                         broken->label);
 }
 
 void Scheduler::runPlaced(CompiledTask& task, const grid::Patch& patch, int material, const StepInfo& at) {
   const MaterialBinding& binding = task.materials[static_cast<std::size_t>(material - firstMaterial(task))];
-  located(task, &patch, material, at, [&] {
+  located(task, patch.id(), material, at, [&] {
     if (task.task.kind == TaskKind::newParticles) {
       ParticleMaker maker(binding.accesses.size());
       task.task.body(TaskContext(*warehouse_, patch, material, binding.accesses, &maker));
@@ -119,6 +167,7 @@ void Scheduler::free(const CompiledTask& task) {
 }
 
 void Scheduler::commit(const TaskGraph& graph) {
+  relocation_.commit();
   for (const int number : graph.results()) warehouse_->swap(number);
   for (const int material : graph.changedSets()) warehouse_->swapSets(material);
 }

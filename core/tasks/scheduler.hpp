@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "core/tasks/task_graph.hpp"
 
 namespace tushar::tasks {
@@ -7,7 +9,10 @@ namespace tushar::tasks {
 /// Where in a run a graph is executed; named in errors.
 struct StepInfo {
   int step = 0;
-  double time = 0;  ///< s
+  double time = 0;         ///< s
+  double delT = 0;         ///< s; 0 where it has no meaning
+  int repeats = 0;         ///< of this step so far
+  bool mayRepeat = false;  ///< whether a NumericalError asks for the step to be repeated, instead of being thrown
 };
 
 /// Runs compiled task graphs on the warehouse of this rank.
@@ -15,9 +20,13 @@ class Scheduler {
  public:
   explicit Scheduler(data::Warehouse& warehouse) : warehouse_(&warehouse), relocation_(warehouse) {}
 
-  /// Runs every task on every patch. A body that throws ends the run of the graph: a NumericalError comes out with
-  /// task, patch, material, step and time added; anything else as TaskError. The old generation is never touched.
-  void run(TaskGraph& graph, const StepInfo& at);
+  /// Runs every task on every patch, and looks whether what it wrote keeps the bounds of its labels. The old generation
+  /// is never touched. A body that throws and a broken bound end the run of the graph: a NumericalError comes out with
+  /// task, patch, material, step and time added; anything else as TaskError.
+  ///
+  /// If a task asks by recomputeTimeStep for a smaller time step, the graph ends with that task and the factor and
+  /// reason come back; running the graph once more repeats the step. Else nothing comes back: all is done.
+  std::optional<data::Minimum> run(TaskGraph& graph, const StepInfo& at);
   /// Makes the results of a graph the old state.
   void commit(const TaskGraph& graph);
 
@@ -25,7 +34,11 @@ class Scheduler {
 
  private:
   void exchange(CompiledTask& task);
+  std::optional<data::Minimum> askedBy(const CompiledTask& task);
+  std::optional<data::Minimum> runOrAsk(CompiledTask& task, const StepInfo& at);
   void runWork(CompiledTask& task, const StepInfo& at);
+  void runOnPatches(CompiledTask& task, int material, const StepInfo& at);
+  void refuseBroken(const CompiledTask& task, const MaterialBinding& binding, int material, const StepInfo& at);
   void runPlaced(CompiledTask& task, const grid::Patch& patch, int material, const StepInfo& at);
   void allocateOutputs(const MaterialBinding& binding, const grid::Patch& patch, int material);
   void free(const CompiledTask& task);

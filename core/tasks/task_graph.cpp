@@ -52,7 +52,7 @@ TaskGraph::TaskGraph(std::string name, Pruned pruned, const grid::Level& level, 
 
 void TaskGraph::bind(std::size_t t, data::VariableTable& table) {
   const Task& task = pruned_.kept[t];
-  CompiledTask compiled{task, {}, {}, {}};
+  CompiledTask compiled{task, {}, {}, {}, -1};
   const int count = static_cast<int>(task.materials.size());
   materials_ = std::max(materials_, count);
   if (task.kind == TaskKind::newParticles) checkCreated(t);
@@ -60,6 +60,9 @@ void TaskGraph::bind(std::size_t t, data::VariableTable& table) {
   for (const Access& access : task.accesses)
     if (access.label->centring == Centring::reduction && access.kind == AccessKind::computes)
       compiled.reductions.push_back(table.number(*access.label, -1));
+  for (const Access& access : task.accesses)
+    if (access.writes() && access.label->name == data::recomputeTimeStep.name)
+      compiled.recomputeTimeStep = table.number(*access.label, -1);
   tasks_.push_back(std::move(compiled));
 }
 
@@ -74,6 +77,8 @@ MaterialBinding TaskGraph::bindMaterial(std::size_t t, int material, data::Varia
     table.widen(number, access.ghost);
     if (access.kind == AccessKind::computes && access.label->centring != Centring::reduction)
       binding.outputs.push_back({number, set});
+    if (access.writes() && access.label->bound != data::Bound::none)
+      binding.bounded.push_back({number, task.kind == TaskKind::newParticles ? Generation::fresh : set});
   }
   if (task.kind != TaskKind::work) table.number(data::particleId, material);
   if (task.kind == TaskKind::relocate) binding.carried = carriedBy(t, material, table);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/tasks/broken_value.hpp"
 #include "core/tasks/connect.hpp"
 #include "core/tasks/context.hpp"
 #include "core/tasks/place.hpp"
@@ -24,6 +25,7 @@ struct MaterialBinding {
   std::vector<BoundAccess> accesses;
   std::vector<Output> outputs;
   std::vector<Carried> carried;  ///< of a relocation
+  std::vector<Bounded> bounded;  ///< what it writes and must keep a bound
   std::vector<int> freed;        ///< variables whose memory is free afterwards
 };
 
@@ -40,6 +42,7 @@ struct CompiledTask {
   std::vector<MaterialBinding> materials;  ///< one for a task that belongs to no material
   std::vector<NumberedFill> fills;
   std::vector<int> reductions;  ///< to be reset before the list runs
+  int recomputeTimeStep = -1;   ///< number of that reduction, for a task that may ask for the step to be repeated
   double seconds = 0;           ///< time spent in it so far
   double exchangeSeconds = 0;   ///< of that, time spent filling ghosts before it
 };

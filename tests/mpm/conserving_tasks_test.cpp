@@ -22,6 +22,7 @@ struct Step {
   std::vector<Vec<D>> x, edges, v;
   std::vector<Modes<D>> modes;
   std::vector<double> energy, affine;
+  Minimum factor;
 
   Step(const BoxCloud<D>& of, double dt)
       : cloud(of), mass(of.level), relaxation(of.level), velocity(of.level), acceleration(of.level),
@@ -46,7 +47,7 @@ struct Step {
                                cloud.read(cloud.v), cloud.read(cloud.modes), cloud.read(cloud.energy),
                                cloud.read(cloud.affine), velocity.read(), acceleration.read(), relaxation.read(),
                                work.read(), dt, cloud.write(x), cloud.write(edges), cloud.write(v), cloud.write(modes),
-                               cloud.write(energy), cloud.write(affine));
+                               cloud.write(energy), cloud.write(affine), factor);
   }
 };
 

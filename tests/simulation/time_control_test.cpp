@@ -18,14 +18,20 @@ TimeSettings until(double maxTime) {
   return settings;
 }
 
-std::string refusal(double stable) {
-  TimeControl time(until(1));
+/// The sentence of the NumericalError that `work` throws; empty if it throws none.
+template <class Work>
+std::string whatOf(Work&& work) {
   try {
-    time.next(stable, never);
+    work();
   } catch (const NumericalError& error) {
     return error.what();
   }
   return "";
+}
+
+std::string refusal(double stable) {
+  TimeControl time(until(1));
+  return whatOf([&] { time.next({stable}, never); });
 }
 
 }  // namespace
@@ -36,9 +42,9 @@ TEST(TimeControl, MultipliesAndBoundsTheStableStep) {
   settings.deltMin = 0.01;
   settings.deltMax = 0.1;
 
-  EXPECT_EQ(TimeControl(settings).next(0.1, never), 0.05);
-  EXPECT_EQ(TimeControl(settings).next(1e-9, never), 0.01);
-  EXPECT_EQ(TimeControl(settings).next(9, never), 0.1);
+  EXPECT_EQ(TimeControl(settings).next({0.1}, never), 0.05);
+  EXPECT_EQ(TimeControl(settings).next({1e-9}, never), 0.01);
+  EXPECT_EQ(TimeControl(settings).next({9}, never), 0.1);
 }
 
 TEST(TimeControl, LimitsTheFirstStepAndTheGrowthOfTheOthers) {
@@ -47,9 +53,9 @@ TEST(TimeControl, LimitsTheFirstStepAndTheGrowthOfTheOthers) {
   settings.maxDeltIncrease = 2;
   TimeControl time(settings);
 
-  EXPECT_EQ(time.next(0.1, never), 0.001);
+  EXPECT_EQ(time.next({0.1}, never), 0.001);
   time.advance();
-  EXPECT_EQ(time.next(0.1, never), 0.002);
+  EXPECT_EQ(time.next({0.1}, never), 0.002);
 }
 
 TEST(TimeControl, EndsAtMaxTimeExactlyAndAtOutputsWhereAsked) {
@@ -59,7 +65,7 @@ TEST(TimeControl, EndsAtMaxTimeExactlyAndAtOutputsWhereAsked) {
 
   for (const double output : {0.17, 0.17, 0.5, 0.5}) {
     if (time.done()) break;
-    time.next(0.1, output);
+    time.next({0.1}, output);
     time.advance();
   }
 
@@ -70,7 +76,7 @@ TEST(TimeControl, EndsAtMaxTimeExactlyAndAtOutputsWhereAsked) {
 TEST(TimeControl, RunsPastMaxTimeWhereNotAsked) {
   TimeControl time(until(0.25));
   while (!time.done()) {
-    time.next(0.1, never);
+    time.next({0.1}, never);
     time.advance();
   }
 
@@ -84,7 +90,60 @@ TEST(TimeControl, RefusesStepsThatLeadNowhere) {
   TimeSettings settings = until(2);
   settings.initTime = 1;
   TimeControl late(settings);
-  EXPECT_THROW(late.next(1e-17, never), NumericalError);
+  EXPECT_THROW(late.next({1e-17}, never), NumericalError);
+}
+
+TEST(TimeControl, CountsWhichLimitRuledEachStep) {
+  TimeSettings settings = until(1);
+  settings.deltInit = 0.001;
+  settings.maxDeltIncrease = 50;
+  settings.endAtMaxTimeExactly = true;
+  TimeControl time(settings);
+
+  while (!time.done()) {
+    time.next({0.3, "CFL"}, never);
+    time.advance();
+  }
+
+  const std::map<data::Reason, int> expected{
+      {"delt_init", 1}, {"max_delt_increase", 1}, {"CFL", 3}, {"end_at_max_time_exactly", 1}};
+  EXPECT_EQ(time.limits(), expected);
+}
+
+TEST(TimeControl, RepeatsAStepFromTheSameTimeWithTheFactorAskedFor) {
+  TimeSettings settings = until(1);
+  settings.maxDeltIncrease = 2;
+  TimeControl time(settings);
+  time.next({0.25, "CFL"}, never);
+
+  EXPECT_EQ(time.repeat({0.5, "density"}), 0.125);
+  EXPECT_EQ(time.repeat({0.99, "density"}), 0.9 * 0.125);  // at least a tenth less
+  EXPECT_EQ(time.repeat({0, "density"}), 0.1 * 0.9 * 0.125);  // at most ten times less
+  time.advance();
+
+  EXPECT_EQ(time.step(), 1);
+  EXPECT_EQ(time.time(), time.delT());
+  EXPECT_EQ(time.retries(), 3);
+  EXPECT_EQ(time.limits(), (std::map<data::Reason, int>{{"density", 1}}));
+  EXPECT_EQ(time.next({9, "CFL"}, never), 2 * time.delT());
+}
+
+TEST(TimeControl, SaysWhyAStepCannotBeRepeatedAnyMore) {
+  TimeSettings settings = until(1);
+  TimeControl unlimited(settings);
+  settings.deltMin = 0.1;
+  TimeControl limited(settings);
+  unlimited.next({0.25}, never);
+  limited.next({0.25}, never);
+  limited.repeat({0.5, "density"});
+  for (int k = 0; k < 20; ++k) unlimited.repeat({0.5, "density"});
+
+  EXPECT_EQ(whatOf([&] { limited.repeat({0.5, "density"}); }),
+            "the bound of density would break unless the time step fell to 0.0625 s, below delt_min = 0.1 s (step 1, "
+            "time 0 s)");
+  EXPECT_EQ(whatOf([&] { unlimited.repeat({0.5, "density"}); }),
+            "the bound of density would still break with a time step of 2.38419e-07 s, after 20 repeats (step 1, time "
+            "0 s)");
 }
 
 }  // namespace tushar::simulation

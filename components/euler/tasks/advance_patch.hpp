@@ -3,6 +3,7 @@
 #include "components/euler/boundary.hpp"
 #include "components/euler/limiters.hpp"
 #include "components/euler/tasks/advance.hpp"
+#include "components/euler/tasks/check_state.hpp"
 #include "components/euler/tasks/row_kernels.hpp"
 
 namespace tushar::euler {
@@ -15,14 +16,6 @@ struct Constant {
 template <class Limited>
 struct Sloped {
   static constexpr int reach = 2;
-};
-
-/// The state that a step reads or writes: T is double or const double.
-template <int D, class T>
-struct StateViews {
-  CellView<T> density;
-  CellView<std::conditional_t<std::is_const_v<T>, const Vec<D>, Vec<D>>> momentum;
-  CellView<T> totalEnergy;
 };
 
 /// What a block of cells needs on the way, around it too.
@@ -128,6 +121,17 @@ void sweep(const Gas& gas, const Level& level, const Box& block, double dt, cons
   addFluxes<D, Axis>(dt / level.spacing(Axis), block, old, work.flux, fresh);
 }
 
+/// Whether the new states of a block can be, looked at while they are in the cache.
+template <int D>
+bool canBe(const Gas& gas, const Box& block, const StateViews<D, double>& fresh) {
+  bool fine = true;
+  forEachRow<D>(block, [&](const Index<D>& first, int count) {
+    fine &= canBe<D>(gas, rowOf(fresh.density, first, count), rowOf(fresh.momentum, first, count)->data(),
+                     rowOf(fresh.totalEnergy, first, count), count);
+  });
+  return fine;
+}
+
 /// Advance<D> of one method.
 template <int D, class Flux, class Shape>
 void advance(const Patch& patch, const Gas& gas, CellView<const double> density, CellView<const Vec<D>> momentum,
@@ -138,6 +142,7 @@ void advance(const Patch& patch, const Gas& gas, CellView<const double> density,
   const StateViews<D, double> fresh{newDensity, newMomentum, newTotalEnergy};
   const GhostRules<D> rules = ghostRules<D>(level);
   Work<D> work(patch.cells(), Shape::reach);
+  bool fine = true;
   forEachBlock<D>(patch.cells(), [&](const Box& block) {
     work.hold(block.grown(Shape::reach, D));
     recover<D>(gas, level, old, work.w);
@@ -146,7 +151,9 @@ void advance(const Patch& patch, const Gas& gas, CellView<const double> density,
     sweep<D, Flux, Shape, 0>(gas, level, block, dt, old, work, fresh);
     if constexpr (D > 1) sweep<D, Flux, Shape, 1>(gas, level, block, dt, old, work, fresh);
     if constexpr (D > 2) sweep<D, Flux, Shape, 2>(gas, level, block, dt, old, work, fresh);
+    fine &= canBe<D>(gas, block, fresh);
   });
+  if (!fine) refuseBroken<D>(patch, gas, fresh, &old);
 }
 
 template <int D, class Flux>

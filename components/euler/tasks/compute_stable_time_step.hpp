@@ -1,35 +1,8 @@
 #pragma once
 
-#include <fmt/format.h>
-
-#include <limits>
-
-#include "components/euler/labels.hpp"
-#include "components/euler/rows.hpp"
+#include "components/euler/tasks/check_state.hpp"
 
 namespace tushar::euler {
-
-/// Throws NumericalError: of `count` cells, the one whose density or p + p_inf is the least.
-template <int D>
-[[noreturn]] void refuseState(const Patch& patch, const Gas& gas, const Index<D>& first, int count,
-                              CellView<const double> density, CellView<const Vec<D>> momentum,
-                              CellView<const double> totalEnergy) {
-  const auto pressureOf = [&](const Index<D>& cell) {
-    return gas.pressure(totalEnergy[cell] - 0.5 * momentum[cell].squaredNorm() / density[cell]);
-  };
-  Index<D> worst = first, cell = first;
-  double least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < count; ++i, ++cell[0]) {
-    const double here = std::min(density[cell], pressureOf(cell) + gas.pInfinity);
-    if (here >= least) continue;
-    least = std::isnan(here) ? -std::numeric_limits<double>::infinity() : here;
-    worst = cell;
-  }
-  const Vec3 at = patch.level().expandPoint<D>(patch.level().cellCentre<D>(worst));
-  throw NumericalError(fmt::format("density {:.6g} kg/m^3 and pressure {:.6g} Pa in the cell at ({:g}, {:g}, {:g})",
-                                   density[worst], pressureOf(worst), at[0], at[1], at[2]),
-                       "a smaller Euler/cfl, Euler/limiter minmod, or Euler/reconstruction first_order");
-}
 
 /// dt = cfl / max(sum_d (|v_d| + c) / h_d).
 /// Throws NumericalError where a density, or p + p_inf, is not positive.
@@ -60,14 +33,14 @@ void computeStableTimeStep(const Patch& patch, const Gas& gas, double cfl, CellV
         bad = least > 0 ? bad : 1.0;
         rate[static_cast<std::size_t>(i)] = sum * inverse + std::sqrt(gas.gamma * p * inverse) * widths;
       }
-      if (bad != 0) refuseState<D>(patch, gas, first, count, density, momentum, totalEnergy);
+      if (bad != 0) refuseBroken<D, const double>(patch, gas, {density, momentum, totalEnergy}, nullptr);
       for (int i = count; i < chunk; ++i) rate[static_cast<std::size_t>(i)] = 0;
       for (std::size_t i = 0; i < chunk; i += lanes)
         for (std::size_t k = 0; k < lanes; ++k) greatest[k] = rate[i + k] > greatest[k] ? rate[i + k] : greatest[k];
     }
   });
   const double most = *std::max_element(greatest.begin(), greatest.end());
-  if (most > 0) dt.add(cfl / most);
+  if (most > 0) dt.add(cfl / most, "CFL");
 }
 
 }  // namespace tushar::euler

@@ -95,7 +95,7 @@ void computeRelaxation(const Patch& patch, const Gas&, CellView<const double> sh
   });
 }
 
-/// f_c = -dt V_c T_c : grad(v + dt a / 2) / IE_c, the work of the forces of computeAcceleration; at least -0.8.
+/// f_c = -dt V_c T_c : grad(v + dt a / 2) / IE_c, the work of the forces of computeAcceleration.
 template <int D>
 void computeWork(const Patch& patch, const Gas&, CellView<const Tensor<D>> stress,
                  CellView<const double> internalEnergy, NodeView<const Vec<D>> velocity,
@@ -111,7 +111,7 @@ void computeWork(const Patch& patch, const Gas&, CellView<const Tensor<D>> stres
       power += (velocity[node] + 0.5 * dt * acceleration[node]).dot(t * gradient);
     }
     const double energy = internalEnergy[cell];
-    work[cell] = energy > 0 ? std::max(-0.8, -dt * level.cellVolume() * power / energy) : 0.0;
+    work[cell] = energy > 0 ? -dt * level.cellVolume() * power / energy : 0.0;
   });
 }
 

@@ -66,7 +66,7 @@ void ConservingMpm<D>::scheduleStep(TaskList& tasks) const {
                     requiresNew(g::acceleration<D>, overhang), requiresNew(g::relaxation, overhang),
                     requiresNew(c::work, overhang), requiresOld(delT), computes(p::x<D>), computes(p::edges<D>),
                     computes(p::velocity<D>), computes(p::modes<D>), computes(p::internalEnergy),
-                    computes(p::affineEnergy));
+                    computes(p::affineEnergy), computes(recomputeTimeStep));
 }
 
 template <int D>

@@ -80,6 +80,8 @@ struct Footprint {
   /// Cells beyond a patch whose particles may touch its nodes.
   static constexpr int reach = overhang + 1;
   static constexpr int most = 2 * overhang;
+  /// Cells along an axis that no particle may be longer than.
+  static constexpr double longest = D == 1 ? 3 : 2;
 
   std::array<Span<most + (D > 1)>, D> along;
 

@@ -8,12 +8,14 @@ namespace tushar::mpm {
 /// Variables of the conserving gas method alone.
 namespace p {
 template <int D>
-inline constexpr ParticleLabel<Vec<D>> edges{"p.edges", "m", "edge lengths of the box that the particle fills"};
+inline constexpr ParticleLabel<Vec<D>> edges{"p.edges", "m", "edge lengths of the box that the particle fills",
+                                               Bound::positive};
 template <int D>
 inline constexpr ParticleLabel<Modes<D>> modes{"p.velocityModes", "1/s",
-                                               "velocity gradient within, and its mixed derivatives"};
+                                               "velocity gradient within, and its mixed derivatives", Bound::finite};
 inline constexpr ParticleLabel<double> affineEnergy{"p.affineEnergy", "J/kg",
-                                                    "kinetic energy per mass of the motion about the mean velocity"};
+                                                    "kinetic energy per mass of the motion about the mean velocity",
+                                                    Bound::nonNegative};
 }  // namespace p
 
 namespace g {
@@ -22,15 +24,16 @@ inline constexpr NodeLabel<double> relaxation{"g.relaxation", "1",
 }  // namespace g
 
 namespace c {
-inline constexpr CellLabel<double> mass{"c.mass", "kg", "mass of the parts of particles in the cell"};
-inline constexpr CellLabel<double> internalEnergy{"c.internalEnergy", "J", "internal energy of those parts"};
+inline constexpr CellLabel<double> mass{"c.mass", "kg", "mass of the parts of particles in the cell", Bound::nonNegative};
+inline constexpr CellLabel<double> internalEnergy{"c.internalEnergy", "J", "internal energy of those parts",
+                                                  Bound::nonNegative};
 inline constexpr CellLabel<double> fill{"c.fill", "1", "volume of the parts of particles in the cell over its own"};
 template <int D>
 inline constexpr CellLabel<Vec<D>> velocity{"c.velocity", "m/s", "momentum over mass of the parts of particles in the cell"};
 template <int D>
 inline constexpr CellLabel<Tensor<D>> velocityGradient{"c.velocityGradient", "1/s", "in the middle of the cell"};
 inline constexpr CellLabel<double> pressure{"c.pressure", "Pa", "pressure of the cell"};
-inline constexpr CellLabel<double> viscosity{"c.viscosity", "Pa", "artificial viscosity of the cell"};
+inline constexpr CellLabel<double> viscosity{"c.viscosity", "Pa", "artificial viscosity of the cell", Bound::finite};
 inline constexpr CellLabel<double> shock{"c.shock", "1", "whether a shock runs through the cell: 0 to 1"};
 template <int D>
 inline constexpr CellLabel<Tensor<D>> stress{"c.stress", "Pa",

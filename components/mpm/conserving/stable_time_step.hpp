@@ -15,7 +15,7 @@ void limitDeformation(const Patch& patch, const Gas& gas, CellView<const Tensor<
     const double divergence = gradient[cell].trace();
     fastest = std::max({fastest, -divergence, (gas.gamma - 1) * divergence, gradient[cell].diagonal().cwiseAbs().maxCoeff()});
   });
-  if (fastest > 0) dt.add(0.4 / fastest);
+  if (fastest > 0) dt.add(0.4 / fastest, "deformation");
 }
 
 /// dt = min(cfl h / max c, advectiveCfl h / max |v_d|) over the particles, and limitDeformation.
@@ -29,8 +29,8 @@ void computeStableTimeStep(const Patch& patch, const Gas& gas, const ConservingG
     hottest = std::max(hottest, internalEnergy[p]);
   }
   const double h = patch.level().minSpacing();
-  if (hottest > 0) dt.add(method.cfl * h / std::sqrt(gas.soundSpeedSquared(hottest)));
-  if (fastest > 0) dt.add(method.advectiveCfl * h / fastest);
+  if (hottest > 0) dt.add(method.cfl * h / std::sqrt(gas.soundSpeedSquared(hottest)), "CFL");
+  if (fastest > 0) dt.add(method.advectiveCfl * h / fastest, "advection");
   limitDeformation<D>(patch, gas, gradient, dt);
 }
 

@@ -166,6 +166,18 @@ template <int D, class Scheme, int Axis>
   return sum;
 }
 
+/// Asks for a smaller time step where a box would shrink to less than .4 of its length or become longer than `most`.
+inline void limitEdge(double before, double after, double most, Minimum& factor) {
+  if (!(after > 0.4 * before)) factor.add(0.5 * before / (before - after), "compression");
+  if (!(after < most)) factor.add(0.9 * (most - before) / (after - before), "stretch");
+}
+
+/// Asks for a smaller time step where work would take more than .8 of the internal energy, or the new one be negative.
+inline void limitCooling(double work, double energy, Minimum& factor) {
+  if (!(work > -0.8)) factor.add(-0.7 / work, "cooling");
+  if (!(energy >= 0)) factor.add(0.5, "cooling");
+}
+
 /// Particles after a step, from node velocities v, accelerations a and relaxations beta, and the work f of cells.
 ///
 /// With z = u(x_i), r = z - v_i, y = z - beta r + dt a_i (apic: beta = 1, so that y = v_i + dt a_i), and means over the
@@ -174,7 +186,7 @@ template <int D, class Scheme, int Axis>
 ///   (E2) new affine energy  K_A = 1/2 sum over a of I_a |u_a|²;  apic: (<|y|²> - |u_0|²) / 2
 ///   (E3) new e = e (1 + sum o_c f_c) + K_A,old - K_old + <beta (2 - beta) |r|²> / 2 + (<|y|²> - |u_0|²) / 2 - K_A
 /// so that the kinetic energy that a transfer loses becomes heat. Each face moves with the mean of its normal velocity
-/// v + dt a / 2 (apic: v + dt a).
+/// v + dt a / 2 (apic: v + dt a). A step that limitEdge or limitCooling refuse is to be repeated with `factor` times dt.
 template <int D, class Scheme>
 void updateParticles(const Patch& patch, const Gas&, ParticleView<const Vec<D>> x, ParticleView<const Vec<D>> edges,
                      ParticleView<const Vec<D>> velocity, ParticleView<const Modes<D>> modes,
@@ -183,7 +195,7 @@ void updateParticles(const Patch& patch, const Gas&, ParticleView<const Vec<D>> 
                      NodeView<const double> relaxation, CellView<const double> work, double dt,
                      ParticleView<Vec<D>> newX, ParticleView<Vec<D>> newEdges, ParticleView<Vec<D>> newVelocity,
                      ParticleView<Modes<D>> newModes, ParticleView<double> newInternalEnergy,
-                     ParticleView<double> newAffineEnergy) {
+                     ParticleView<double> newAffineEnergy, Minimum& factor) {
   constexpr bool apic = Scheme::transfer == Transfer::apic;
   const NodeMotion<D> motion{nodeVelocity, acceleration, relaxation, dt};
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
@@ -202,6 +214,7 @@ void updateParticles(const Patch& patch, const Gas&, ParticleView<const Vec<D>> 
         const double lower = span.lower + dt * taken.lower[d][axis], upper = span.upper + dt * taken.upper[d][axis];
         newX[p][axis] = 0.5 * (lower + upper);
         newEdges[p][axis] = upper - lower;
+        limitEdge(span.length(), upper - lower, Footprint<D>::longest * patch.level().spacing(axis), factor);
         if constexpr (apic) fresh.col(gradientColumn(axis)) = (taken.upper[d] - taken.lower[d]) / span.length();
       }
       if constexpr (!apic)
@@ -214,6 +227,7 @@ void updateParticles(const Patch& patch, const Gas&, ParticleView<const Vec<D>> 
       newAffineEnergy[p] = affine;
       newInternalEnergy[p] = internalEnergy[p] * (1 + done) + affineEnergy[p] - modalEnergy<D>(u, inertia) +
                              taken.slipEnergy + (within - affine);
+      limitCooling(done, newInternalEnergy[p], factor);
     }
   });
 }

@@ -59,7 +59,7 @@ void computeStableTimeStep(const Patch& patch, const Gas& gas, double cfl, Parti
           length(velocity[first + k]) + std::sqrt(gas.soundSpeedSquared(internalEnergy[first + k]));
     greatest = std::max(greatest, Eigen::Map<const Eigen::ArrayXd>(speed.data(), count).maxCoeff());
   }
-  if (greatest > 0) dt.add(cfl * patch.level().minSpacing() / greatest);
+  if (greatest > 0) dt.add(cfl * patch.level().minSpacing() / greatest, "CFL");
 }
 
 }  // namespace tushar::mpm

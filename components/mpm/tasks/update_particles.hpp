@@ -29,12 +29,6 @@ struct CellNodes {
   }
 };
 
-/// Throws NumericalError for the first particle of the patch whose density is not positive or whose internal energy
-/// is negative (or either is not a number).
-template <int D>
-void refuseUnphysical(ParticleView<const Vec<D>> x, ParticleView<const double> before,
-                      ParticleView<double> density, ParticleView<double> internalEnergy);
-
 /// v_p += dt sum_i S_i a_i,   x_p += dt sum_i S_i v*_i                                  (12)-(13)
 /// eps_p -= (p_p / rho_p) d dt,   rho_p *= 1 - d dt,   d = div v* in the particle's cell   (14)-(15)
 /// of Tran, Kim & Berzins, with S at the old position and p, rho of the old state. Only the patch's own particles.
@@ -58,13 +52,10 @@ void updateParticles(const Patch& patch, const Gas&, ParticleView<const Vec<D>> 
       divergence[p] = d;
     }
   });
-  int unphysical = 0;
   for (int p = 0; p < x.owned(); ++p) {
     newInternalEnergy[p] = internalEnergy[p] - pressure[p] / density[p] * divergence[p] * dt;
     newDensity[p] = density[p] * (1.0 - divergence[p] * dt);
-    unphysical += !(newDensity[p] > 0) + !(newInternalEnergy[p] >= 0);
   }
-  if (unphysical > 0) refuseUnphysical<D>(x, density, newDensity, newInternalEnergy);
 }
 
 /// The same with total energy conserved to round-off, for particles of constant mass.
@@ -80,7 +71,6 @@ void updateParticlesConserving(const Patch& patch, const Gas&, ParticleView<cons
                                NodeView<const Vec<D>> velocityStar, double dt, ParticleView<Vec<D>> newX,
                                ParticleView<Vec<D>> newVelocity, ParticleView<double> newDensity,
                                ParticleView<double> newInternalEnergy, ParticleView<double> divergence) {
-  int unphysical = 0;
   const Level& level = patch.level();
   forEach<D>(x.cells(), [&](const Index<D>& cell) {
     const data::ParticleRange particles = x.in(cell);
@@ -102,30 +92,6 @@ void updateParticlesConserving(const Patch& patch, const Gas&, ParticleView<cons
                              0.5 * dt * dt * (squares - ap.squaredNorm());
       newDensity[p] = density[p] * (1.0 - d * dt);
       divergence[p] = d;
-      unphysical += !(newDensity[p] > 0) + !(newInternalEnergy[p] >= 0);
-    }
-  });
-  if (unphysical > 0) refuseUnphysical<D>(x, density, newDensity, newInternalEnergy);
-}
-
-template <int D>
-void refuseUnphysical(ParticleView<const Vec<D>> x, ParticleView<const double> before,
-                      ParticleView<double> density, ParticleView<double> internalEnergy) {
-  forEach<D>(x.cells(), [&](const Index<D>& cell) {
-    for (const int p : x.in(cell)) {
-      const bool badDensity = !(density[p] > 0);
-      if (!badDensity && internalEnergy[p] >= 0) continue;
-      std::string position, neighbours;
-      for (int d = 0; d < D; ++d) {
-        position += fmt::format("{}{:.6g}", d ? ", " : "", x[p][d]);
-        neighbours += fmt::format("{}{}", d ? ", " : "", cell[d]);
-      }
-      throw NumericalError(
-          fmt::format("{} became {:.6g} for the particle at ({}) m in cell ({}), which holds {} particle(s); its "
-                      "density before was {:.6g} kg/m^3",
-                      badDensity ? "p.density" : "p.internalEnergy", badDensity ? density[p] : internalEnergy[p],
-                      position, neighbours, x.in(cell).size(), before[p]),
-          "a smaller <cfl>, more particles per cell (<res>), or <redistribute> in <gas_dynamics>");
     }
   });
 }

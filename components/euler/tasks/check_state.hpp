@@ -1,0 +1,87 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+
+#include "components/euler/labels.hpp"
+#include "components/euler/rows.hpp"
+#include "core/tasks/broken_value.hpp"
+
+namespace tushar::euler {
+
+/// The state that a step reads or writes: T is double or const double.
+template <int D, class T>
+struct StateViews {
+  CellView<T> density;
+  CellView<std::conditional_t<std::is_const_v<T>, const Vec<D>, Vec<D>>> momentum;
+  CellView<T> totalEnergy;
+};
+
+/// Whether the states of a row of cells can be: rho > 0 and, without a division, p + p_inf > 0, which is
+/// rho (E - p_inf) > |rho v|² / 2; all of it finite.
+template <int D>
+bool canBe(const Gas& gas, const double* density, const double* momentum, const double* totalEnergy, int count) {
+  std::uint64_t broken = 0;
+  for (int i = 0; i < count; ++i) {
+    double squared = 0;
+    for (int d = 0; d < D; ++d) squared += momentum[i * D + d] * momentum[i * D + d];
+    const double energy = density[i] * (totalEnergy[i] - gas.pInfinity);
+    const bool fine = (density[i] > 0) & (energy > 0.5 * squared) & (energy <= std::numeric_limits<double>::max());
+    broken |= static_cast<std::uint64_t>(!fine);
+  }
+  return broken == 0;
+}
+
+/// p of a cell [Pa].
+template <int D, class T>
+double pressureIn(const Gas& gas, const StateViews<D, T>& state, const Index<D>& cell) {
+  return gas.pressure(state.totalEnergy[cell] - 0.5 * state.momentum[cell].squaredNorm() / state.density[cell]);
+}
+
+/// Throws NumericalError for a cell whose state cannot be; `before` is the state at the start of the step, with at
+/// least one ghost cell, or null.
+template <int D, class T>
+[[noreturn]] void refuseState(const Level& level, const Gas& gas, const Index<D>& cell, const StateViews<D, T>& state,
+                              const StateViews<D, const double>* before) {
+  const bool ofDensity = !(state.density[cell] > 0 && std::isfinite(state.density[cell]));
+  const auto number = [&](const auto& of, const Index<D>& at) {
+    const double value = ofDensity ? of.density[at] : pressureIn(gas, of, at);
+    return std::isnan(value) ? std::string("nan") : fmt::format("{:.6g}", value);
+  };
+  const auto nameOf = [&](const Index<D>& at) {
+    Index3 wide;
+    for (int d = 0; d < D; ++d) wide[d] = at[d];
+    return tasks::nameOf(level, wide);
+  };
+  const std::string label = ofDensity ? "c.density" : "c.pressure";
+  std::string text = fmt::format("{} became {} {}", label, number(state, cell), ofDensity ? "kg/m^3" : "Pa");
+  if (before) text += " from " + number(*before, cell);
+  text += fmt::format(", but must be finite and greater than {:g}: {} at x = {}", ofDensity ? 0 : 0 - gas.pInfinity,
+                      nameOf(cell), D > 1 ? "(" : "");
+  for (int d = 0; d < D; ++d) text += fmt::format("{}{:.6g}", d ? ", " : "", level.cellCentre<D>(cell)[d]);
+  text += D > 1 ? ") m" : " m";
+  if (!ofDensity) text += fmt::format(", density {:.6g} kg/m^3", state.density[cell]);
+  const char* separator = "; around it before the step: ";
+  for (int k = 0; before && k < 2 * D; ++k) {
+    const Index<D> next = k % 2 == 0 ? cell - Index<D>::unit(k / 2) : cell + Index<D>::unit(k / 2);
+    if (!level.cells().contains(next)) continue;
+    text += separator + number(*before, next) + " in " + nameOf(next);
+    separator = ", ";
+  }
+  throw NumericalError(text, "", label, level.cellNumber<D>(cell));
+}
+
+/// Throws NumericalError for the first cell of the patch whose state cannot be, if there is one.
+template <int D, class T>
+void refuseBroken(const Patch& patch, const Gas& gas, const StateViews<D, T>& state,
+                  const StateViews<D, const double>* before) {
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    const bool fine = canBe<D>(gas, &state.density[cell], state.momentum[cell].data(), &state.totalEnergy[cell], 1);
+    if (!fine || !(pressureIn(gas, state, cell) + gas.pInfinity > 0)) refuseState<D>(patch.level(), gas, cell, state, before);
+  });
+}
+
+}  // namespace tushar::euler

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/data/warehouse.hpp"
+
+namespace tushar::tasks {
+
+/// A variable that a task writes and whose numbers must keep the bound of its label.
+struct Bounded {
+  int variable;
+  data::Generation set;  ///< the particle set that the values follow once the task is done
+};
+
+/// Whether all that a task has written on a patch keeps its bounds.
+bool keepsBounds(data::Warehouse& warehouse, const std::vector<Bounded>& written, const grid::Patch& patch);
+
+/// A value that breaks its bound, in words.
+struct BrokenValue {
+  std::string label;
+  int patch;
+  std::string sentence;  ///< value, bound, particle, cell, position, the value before, those around it, how many broke
+};
+
+/// Of what a task has written on all patches, the first value in the order of variables, cells and ids that breaks its
+/// bound: the same on any patches. None if all is well.
+std::optional<BrokenValue> firstBroken(data::Warehouse& warehouse, const std::vector<Bounded>& written);
+
+/// The same for one variable and a bound that is not its label's.
+std::optional<BrokenValue> firstBroken(data::Warehouse& warehouse, const Bounded& written, data::Bound bound);
+
+/// `cell (3, 4)`, or `node (3, 4)`.
+std::string nameOf(const grid::Level& level, const Index3& at, const char* what = "cell");
+
+}  // namespace tushar::tasks
