@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Golden schedules: what each scene runs, reads and writes, and what it leaves out.
+"""Golden schedules: what each scene runs, reads and writes, and what it leaves out; those of ups/stability run what
+others run.
 
 After a wanted change, and for a new scene: python3 tests/regression/schedules_test.py --write, and look at the difference.
 """
@@ -17,6 +18,8 @@ GOLDEN = ROOT / "tests/golden"
 def schedules():
     """Name of the golden file -> the schedule that sus prints now."""
     for scene in sorted((ROOT / "ups").rglob("*.ups")):
+        if scene.parent.name == "stability":
+            continue
         text = subprocess.run([SUS, "--schedule", scene], capture_output=True, text=True, check=True).stdout
         yield scene.parent.name + "_" + scene.stem + ".txt", text
 

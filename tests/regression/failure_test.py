@@ -1,0 +1,59 @@
+#!/usr/bin/env python3
+"""A run that goes wrong: what it says, what it leaves behind, and that one can go on from there."""
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from sus import ROOT, SUS
+
+
+def without_redistribution(folder):
+    """Sod's tube by the paper's method with one particle per cell, which empties a cell and dies."""
+    text = (ROOT / "ups/mpm/sod_redistribute.ups").read_text()
+    start, end = text.index("      <redistribute>"), text.index("</redistribute>") + len("</redistribute>")
+    scene = pathlib.Path(folder, "bare.ups")
+    scene.write_text(text[:start] + text[end:])
+    return scene
+
+
+def run(*words):
+    return subprocess.run([SUS, *map(str, words)], capture_output=True, text=True)
+
+
+class Failure(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def died(self, *sets):
+        done = run(without_redistribution(self.folder), "--quiet", "--output", self.folder,
+                   *(word for one in sets for word in ("--set", one)))
+        self.assertEqual(done.returncode, 4)
+        return done.stderr
+
+    def test_the_sentence_is_the_same_on_any_patches(self):
+        said = {re.sub(r"patch \d+|saved: .*", "", self.died(f"Grid/Level/Box/patches=[{n},1,1]")) for n in (1, 3, 100)}
+        self.assertEqual(len(said), 1, said)
+
+    def test_the_last_whole_step_is_saved_and_can_be_gone_on_from(self):
+        said = self.died()
+        archive = re.search(r"the last whole step, (\d+) at t = \S+ s, is saved: sus -restart (\S+)\n", said)
+        again = run("-restart", archive[2], "--quiet", "--json", f"{self.folder}/again.json")
+        self.assertEqual(again.returncode, 4)
+        self.assertIn(said[:said.index(" (task")], again.stderr)
+        self.assertIn(f"step {int(archive[1]) + 1},", again.stderr)
+        self.assertIn('"ended": "failed"', pathlib.Path(self.folder, "again.json").read_text())
+
+    def test_a_step_is_repeated_where_the_scene_asks_for_it(self):
+        done = run(without_redistribution(self.folder), "--output", self.folder, "--set", "Time/recompute_timestep=true")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r"time step ruled by CFL \d+, .*p.density \d+; \d+ repeated with a smaller one")
+
+
+if __name__ == "__main__":
+    unittest.main()
