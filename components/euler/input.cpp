@@ -24,9 +24,12 @@ const Schema<GasObject>& objectSchema() {
               },
               input::geometryNames(), "the region: cells whose middle is inside; several are united",
               input::describeGeometry)
-          .required("density", &GasObject::density, "kg/m^3", "density at the start", input::positive())
-          .value("velocity", &GasObject::velocity, input::VectorExpression(), "m/s", "velocity at the start")
-          .required("pressure", &GasObject::pressure, "Pa", "pressure at the start; above -p_infinity");
+          .required("density", &GasObject::density, "kg/m^3", "density at the start", input::positive(),
+                    input::WithoutTime())
+          .value("velocity", &GasObject::velocity, input::VectorExpression(), "m/s", "velocity at the start",
+                 input::WithoutTime())
+          .required("pressure", &GasObject::pressure, "Pa", "pressure at the start; above -p_infinity",
+                    input::WithoutTime());
   return schema;
 }
 

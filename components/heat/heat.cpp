@@ -30,7 +30,12 @@ template <int D>
 void initialize(const Patch& patch, const Settings& settings, CellView<double> temperature) {
   const Level& level = patch.level();
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    temperature[cell] = settings.temperature(level.expandPoint<D>(level.cellCentre<D>(cell)));
+    const Vec3 middle = level.expandPoint<D>(level.cellCentre<D>(cell));
+    temperature[cell] = settings.temperature(middle);
+    if (!std::isfinite(temperature[cell]))
+      throw InputError({{settings.where, "Heat/temperature",
+                         fmt::format("it is {:g} K at ({:g}, {:g}, {:g}), and must be finite everywhere",
+                                     temperature[cell], middle[0], middle[1], middle[2])}});
   });
 }
 
@@ -82,12 +87,13 @@ namespace {
 const input::Schema<Settings>& schema() {
   static const input::Schema<Settings> schema =
       input::Schema<Settings>("Heat", "Heat conduction.")
+          .location(&Settings::where)
           .value("thermal_conductivity", &Settings::conductivity, 1, "W/(m K)", "k", input::positive())
           .value("density", &Settings::density, 1, "kg/m^3", "rho", input::positive())
           .value("specific_heat", &Settings::specificHeat, 1, "J/(kg K)", "c", input::positive())
           .value("cfl", &Settings::cfl, 0.9, "1", "part of the greatest stable time step", input::positive(),
                  input::atMost(1))
-          .required("temperature", &Settings::temperature, "K", "T at the start");
+          .required("temperature", &Settings::temperature, "K", "T at the start", input::WithoutTime());
   return schema;
 }
 

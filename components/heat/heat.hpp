@@ -14,6 +14,7 @@ inline constexpr ReductionLabel<Sum> totalEnergy{"TotalEnergy", "J", "heat in al
 
 /// The `Heat` section.
 struct Settings {
+  Location where;                     ///< in the scene
   double conductivity = 1;            ///< k, W/(m K)
   double density = 1;                 ///< rho, kg/m³
   double specificHeat = 1;            ///< c, J/(kg K)
@@ -42,7 +43,7 @@ class Heat : public Component {
   Settings settings_;
 };
 
-/// T at the middle of each cell, from the scene's formula.
+/// T at the middle of each cell, from the scene's formula. Throws InputError where that is not finite.
 template <int D>
 void initialize(const Patch& patch, const Settings& settings, CellView<double> temperature);
 

@@ -170,13 +170,16 @@ const Schema<ObjectSection>& objectSchema() {
                   },
                   input::geometryNames(), "the body's shape; several are united", input::describeGeometry)
           .required("res", &ObjectSection::res, "1", "particles per cell along x, y, z", input::between(1, 32))
-          .value("velocity", &ObjectSection::velocity, input::VectorExpression(), "m/s", "velocity at the start")
+          .value("velocity", &ObjectSection::velocity, input::VectorExpression(), "m/s", "velocity at the start",
+                 input::WithoutTime())
           .optional("temperature", &ObjectSection::temperature, "K",
-                    "temperature at the start, in place of <pressure>: p = (gamma - 1) rho c_v T", input::positive())
+                    "temperature at the start, in place of <pressure>: p = (gamma - 1) rho c_v T", input::positive(),
+                    input::WithoutTime())
           .optional("density", &ObjectSection::density, "kg/m^3", "density at the start, if not that of the material",
-                    input::positive())
+                    input::positive(), input::WithoutTime())
           .ours()
-          .optional("pressure", &ObjectSection::pressure, "Pa", "pressure at the start", input::positive())
+          .optional("pressure", &ObjectSection::pressure, "Pa", "pressure at the start", input::positive(),
+                    input::WithoutTime())
           .ours()
           .choice("placement", &ObjectSection::placement,
                   {{"midpoint", Placement::midpoint}, {"jittered", Placement::jittered}, {"random", Placement::random}},

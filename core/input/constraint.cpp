@@ -57,4 +57,8 @@ std::string violation(const std::string& found, const Constraint& constraint, co
   return fmt::format("found '{}', expected a value {}{}", found, constraint.allowed, hasUnit ? " " + unit : "");
 }
 
+std::string violation(const std::string& found, const WithoutTime&, const std::string&) {
+  return fmt::format("found '{}', expected a formula without t: it holds at the start only", found);
+}
+
 }  // namespace tushar::input

@@ -24,6 +24,11 @@ Constraint between(double least, double most);
 inline Constraint positive() { return greaterThan(0); }
 inline Constraint nonNegative() { return atLeast(0); }
 
+/// What a formula for the start of a run must satisfy: to give the same at any time.
+struct WithoutTime {
+  std::string allowed = "without t";
+};
+
 /// Vectors and lists satisfy a constraint if all components do; formulas that are not constant always do.
 bool satisfies(double value, const Constraint& constraint);
 bool satisfies(const Vec3& value, const Constraint& constraint);
@@ -32,8 +37,11 @@ bool satisfies(const std::vector<double>& value, const Constraint& constraint);
 bool satisfies(const std::vector<int>& value, const Constraint& constraint);
 bool satisfies(const Expression& value, const Constraint& constraint);
 bool satisfies(const VectorExpression& value, const Constraint& constraint);
+inline bool satisfies(const Expression& value, const WithoutTime&) { return !value.dependsOnTime(); }
+inline bool satisfies(const VectorExpression& value, const WithoutTime&) { return !value.dependsOnTime(); }
 
 /// `found '-1', expected a value greater than 0 m`; the unit "1" is not said.
 std::string violation(const std::string& found, const Constraint& constraint, const std::string& unit);
+std::string violation(const std::string& found, const WithoutTime& constraint, const std::string& unit);
 
 }  // namespace tushar::input

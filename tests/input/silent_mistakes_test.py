@@ -73,6 +73,25 @@ class SilentMistakes(unittest.TestCase):
         self.assert_edited_is_refused("ups/euler/sod.ups", "</DataAnalysis>", again + "</DataAnalysis>",
                                       "the errors of 'density, cell' are measured by a module above already")
 
+    def test_starts_that_are_not_finite(self):
+        self.assert_refused(run("ups/heat/sine.ups", "Heat/temperature=1/(x-0.0078125)", outputs=True),
+                            "ups/heat/sine.ups:41:4: Heat/temperature: it is inf K at (0.0078125, 0.5, 0.5), and must be "
+                            "finite everywhere")
+        body = "Euler/geom_object[1]/"
+        for change in ("velocity=[sqrt(x-.2),0,0]", "density=1/(x-.005)", "pressure=1/(x-.005)"):
+            self.assert_refused(run("ups/euler/sod.ups", body + change, outputs=True),
+                                "ups/euler/sod.ups:51:6: Euler/geom_object: density ", "at (0.005, 0.5, 0.5); the density",
+                                "and all finite")
+
+    def test_starts_that_depend_on_time(self):
+        gas = "MaterialProperties/MPM/material/geom_object[1]/"
+        for scene, change in (("heat/sine", "Heat/temperature=sin(pi*x)+t"), ("mpm/sod", gas + "density=1+t"),
+                              ("mpm/sod", gas + "velocity=[t,0,0]"), ("mpm/sod", gas + "pressure=1+t"),
+                              ("euler/sod", "Euler/geom_object[2]/velocity=[0,0,t]")):
+            path, formula = change.split("=")
+            self.assert_refused(run(f"ups/{scene}.ups", change, outputs=True),
+                                f"found '{formula}', expected a formula without t: it holds at the start only")
+
 
 if __name__ == "__main__":
     unittest.main()

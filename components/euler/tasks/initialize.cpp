@@ -15,12 +15,15 @@ const GasObject& objectAt(const Settings& settings, const Vec3& point) {
                                  point[0], point[1], point[2])}});
 }
 
-void checkState(const Gas& gas, const GasObject& object, const Vec3& point, double density, double pressure) {
-  if (density > 0 && pressure + gas.pInfinity > 0) return;
-  throw InputError({{object.where, "Euler/geom_object",
-                     fmt::format("density {:g} kg/m^3 and pressure {:g} Pa at ({:g}, {:g}, {:g}); the density and the "
-                                 "pressure + p_infinity must be positive",
-                                 density, pressure, point[0], point[1], point[2])}});
+void checkState(const Gas& gas, const GasObject& object, const Vec3& point, double density, double pressure,
+                const Vec3& velocity) {
+  const bool finite = std::isfinite(density) && std::isfinite(pressure) && velocity.allFinite();
+  if (finite && density > 0 && pressure + gas.pInfinity > 0) return;
+  throw InputError(
+      {{object.where, "Euler/geom_object",
+        fmt::format("density {:g} kg/m^3, pressure {:g} Pa and velocity ({:g}, {:g}, {:g}) m/s at ({:g}, "
+                    "{:g}, {:g}); the density and the pressure + p_infinity must be positive, and all finite",
+                    density, pressure, velocity[0], velocity[1], velocity[2], point[0], point[1], point[2])}});
 }
 
 }  // namespace
@@ -33,8 +36,9 @@ void initialize(const Patch& patch, const Settings& settings, CellView<double> d
     const Vec3 point = level.expandPoint<D>(level.cellCentre<D>(cell));
     const GasObject& object = objectAt(settings, point);
     const double rho = object.density(point), p = object.pressure(point);
-    checkState(settings.gas, object, point, rho, p);
-    const Vec<D> v = level.reduce<D>(object.velocity(point));
+    const Vec3 wide = object.velocity(point);
+    checkState(settings.gas, object, point, rho, p, wide);
+    const Vec<D> v = level.reduce<D>(wide);
     density[cell] = rho;
     momentum[cell] = rho * v;
     totalEnergy[cell] = settings.gas.internalEnergy(p) + 0.5 * rho * v.squaredNorm();
