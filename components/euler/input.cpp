@@ -114,7 +114,7 @@ simulation::ComponentKind kind() {
   kind.name = "euler";
   kind.sentence = "finite-volume gas dynamics: Godunov's method and MUSCL-Hancock";
   kind.sections = {"Euler"};
-  kind.boundaryLabels = {"Symmetric", "Density", "Velocity", "Pressure"};
+  kind.boundaryLabels = {{"Symmetric"}, {"Density"}, {"Velocity", true}, {"Pressure"}};
   kind.describe = [](std::ostream& out) { schema().describe(out); };
   kind.read = [](const Element& root, Diagnostics& diagnostics) -> simulation::MakeComponent {
     const std::size_t before = diagnostics.size();

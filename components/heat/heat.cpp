@@ -104,7 +104,7 @@ simulation::ComponentKind kind() {
   kind.name = "heat";
   kind.sentence = "explicit heat conduction; the smallest complete component";
   kind.sections = {"Heat"};
-  kind.boundaryLabels = {"Temperature", "Symmetric"};
+  kind.boundaryLabels = {{"Temperature"}, {"Symmetric"}};
   kind.describe = [](std::ostream& out) { schema().describe(out); };
   kind.read = [](const input::Element& root, input::Diagnostics& diagnostics) {
     const Settings settings = simulation::readSection(root, schema(), diagnostics);

@@ -313,7 +313,7 @@ simulation::ComponentKind kind() {
   kind.name = "mpm";
   kind.sentence = "the Material Point Method: gas dynamics of Tran, Kim & Berzins";
   kind.sections = {"MPM", "MaterialProperties"};
-  kind.boundaryLabels = {"Symmetric"};
+  kind.boundaryLabels = {{"Symmetric"}};
   kind.describe = [](std::ostream& out) {
     mpmSchema().describe(out);
     propertiesSchema().describe(out);

@@ -15,12 +15,18 @@ namespace tushar::simulation {
 /// Builds a component on a grid, from what was read of the scene before.
 using MakeComponent = std::function<std::unique_ptr<Component>(const grid::Level&)>;
 
+/// A variable that a component has boundary conditions for.
+struct BoundaryLabel {
+  std::string name;
+  bool isVector = false;  ///< whether its value is one
+};
+
 /// A component that sus knows: one line of the table in components/components.cpp.
 struct ComponentKind {
   std::string name;                    ///< the `type` of SimulationComponent
   std::string sentence;                ///< what it is
   std::vector<std::string> sections;   ///< tags below the root that it reads
-  std::vector<std::string> boundaryLabels;  ///< labels of boundary conditions that it understands
+  std::vector<BoundaryLabel> boundaryLabels;  ///< labels of boundary conditions that it understands
   /// Reads its sections from the root of the scene; every problem goes to the diagnostics.
   std::function<MakeComponent(const input::Element& root, input::Diagnostics&)> read;
   std::function<void(std::ostream&)> describe;  ///< its manual

@@ -163,7 +163,7 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
     problem.archive = readArchive(*archive, diagnostics);
   grid::Domain domain;
   if (const auto grid = section(root, "Grid", true, diagnostics))
-    domain = readGrid(*grid, kind ? kind->boundaryLabels : std::vector<std::string>{}, diagnostics);
+    domain = readGrid(*grid, kind ? kind->boundaryLabels : std::vector<BoundaryLabel>{}, diagnostics);
   MakeComponent makeComponent;
   if (kind) makeComponent = kind->read(root, diagnostics);
   const std::vector<ReadModule> modules = readModules(root, catalogue, diagnostics);

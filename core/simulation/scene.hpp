@@ -22,7 +22,7 @@ TimeSettings readTime(const input::Element& section, input::Diagnostics& diagnos
 /// The `DataArchiver` section.
 ArchiveSettings readArchive(const input::Element& section, input::Diagnostics& diagnostics);
 /// The `Grid` section; `boundaryLabels` are those that the component understands.
-grid::Domain readGrid(const input::Element& section, const std::vector<std::string>& boundaryLabels,
+grid::Domain readGrid(const input::Element& section, const std::vector<BoundaryLabel>& boundaryLabels,
                       input::Diagnostics& diagnostics);
 
 void describeTime(std::ostream& out);

@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
+
 #include "core/input/schema.hpp"
 #include "core/simulation/scene.hpp"
 
@@ -13,6 +16,8 @@ namespace {
 
 /// More cells than this cannot be numbered by an int.
 constexpr double mostCells = 2147483647.0;
+
+const std::vector<std::string> conditionKinds{"symmetry", "Dirichlet", "Neumann"};
 
 struct GridBox {
   std::string label;
@@ -97,8 +102,7 @@ const Schema<ConditionSection>& conditionSchema() {
           .requiredAttribute("var", &ConditionSection::var, "1", "symmetry, Dirichlet or Neumann")
           .optional("value", &ConditionSection::value, "SI unit of the variable", "a number or a vector")
           .check([](const ConditionSection& condition, const Element& element, Diagnostics& diagnostics) {
-            const std::vector<std::string> kinds{"symmetry", "Dirichlet", "Neumann"};
-            if (const std::string problem = input::choiceProblem(condition.var, kinds); !problem.empty())
+            if (const std::string problem = input::choiceProblem(condition.var, conditionKinds); !problem.empty())
               diagnostics.error(element, "var: " + problem);
             else if (condition.var != "symmetry" && !condition.value)
               diagnostics.error(element, "a " + condition.var + " condition needs a <value>");
@@ -127,28 +131,61 @@ const Schema<GridSection>& gridSchema() {
   return schema;
 }
 
-Vec3 conditionValue(const ConditionSection& condition, const Element& element, Diagnostics& diagnostics) {
+Vec3 conditionValue(const ConditionSection& condition, bool isVector, const Element& element,
+                    Diagnostics& diagnostics) {
   if (!condition.value) return Vec3::Zero();
-  if (const auto vector = input::parse<Vec3>(*condition.value)) return *vector;
+  const auto vector = input::parse<Vec3>(*condition.value);
   const auto number = input::parse<double>(*condition.value);
-  if (!number) diagnostics.error(element, "value: " + number.problem);
-  return {number ? *number : 0.0, 0, 0};
+  const std::string& problem = isVector ? vector.problem : number.problem;
+  if (!problem.empty()) diagnostics.error(element, "value: " + problem);
+  return isVector ? vector.value.value_or(Vec3::Zero()) : Vec3(number.value.value_or(0), 0, 0);
 }
 
-void readFaces(const Element& section, const FacesSection& faces, const std::vector<std::string>& labels,
+/// Why a condition contradicts itself or, on a plane of symmetry, the plane; or nothing.
+std::string contradiction(const grid::BoundaryCondition& condition, bool hasValue, bool onPlane) {
+  const bool symmetry = condition.kind == "symmetry";
+  if (symmetry != (condition.variable == "Symmetric"))
+    return fmt::format("found label '{}' with var '{}'; 'Symmetric' goes with 'symmetry', and with nothing else",
+                       condition.variable, condition.kind);
+  if (symmetry && hasValue) return "a plane of symmetry takes no <value>";
+  if (!symmetry && onPlane && (condition.kind == "Dirichlet" || condition.value != Vec3::Zero()))
+    return "this face is a plane of symmetry: beside it only a Neumann condition of 0 is right";
+  return {};
+}
+
+void readConditions(const std::vector<ConditionSection>& given, const std::vector<Element>& tags,
+                    const std::vector<BoundaryLabel>& labels, std::vector<grid::BoundaryCondition>& conditions,
+                    Diagnostics& diagnostics) {
+  const bool onPlane = std::any_of(given.begin(), given.end(), [](const auto& one) { return one.var == "symmetry"; });
+  std::map<std::string, Location> seen;
+  for (std::size_t k = 0; k < given.size() && k < tags.size(); ++k) {
+    const BoundaryLabel* label = findKind(labels, given[k].label);
+    if (!label && !labels.empty())
+      diagnostics.error(tags[k], "label: " + input::choiceProblem(given[k].label, namesOf(labels)));
+    if (!label || !input::choiceProblem(given[k].var, conditionKinds).empty()) continue;
+    conditions.push_back({label->name, given[k].var, conditionValue(given[k], label->isVector, tags[k], diagnostics)});
+    if (const std::string problem = contradiction(conditions.back(), given[k].value.has_value(), onPlane);
+        !problem.empty())
+      diagnostics.error(tags[k], problem);
+    if (const auto [first, isNew] = seen.emplace(label->name, tags[k].where()); !isNew)
+      diagnostics.error(tags[k], fmt::format("{} has a condition on this face already, at {}; keep one", label->name,
+                                             first->second.text()));
+  }
+}
+
+void readFaces(const Element& section, const FacesSection& faces, const std::vector<BoundaryLabel>& labels,
                grid::Domain& domain, Diagnostics& diagnostics) {
   const auto group = section.child("BoundaryConditions");
   if (!group) return;
   const std::vector<Element> elements = group->children("Face");
+  std::map<std::string, Location> seen;
   for (std::size_t f = 0; f < faces.faces.size() && f < elements.size(); ++f) {
-    const std::vector<Element> tags = elements[f].children("BCType");
-    for (std::size_t k = 0; k < faces.faces[f].conditions.size() && k < tags.size(); ++k) {
-      const ConditionSection& condition = faces.faces[f].conditions[k];
-      const std::string problem = labels.empty() ? "" : input::choiceProblem(condition.label, labels);
-      if (!problem.empty()) diagnostics.error(tags[k], "label: " + problem);
-      domain.boundaries.faces[static_cast<std::size_t>(faces.faces[f].face)].push_back(
-          {condition.label, condition.var, conditionValue(condition, tags[k], diagnostics)});
-    }
+    readConditions(faces.faces[f].conditions, elements[f].children("BCType"), labels,
+                   domain.boundaries.faces[static_cast<std::size_t>(faces.faces[f].face)], diagnostics);
+    const std::string side = elements[f].attribute("side").value_or("");
+    if (const auto [first, isNew] = seen.emplace(side, elements[f].where()); !isNew)
+      diagnostics.error(elements[f],
+                        fmt::format("side {} is given twice, the first time at {}", side, first->second.text()));
   }
 }
 
@@ -197,7 +234,7 @@ void checkPeriodic(const Element& section, const grid::Domain& domain, Diagnosti
 
 }  // namespace
 
-grid::Domain readGrid(const Element& section, const std::vector<std::string>& boundaryLabels,
+grid::Domain readGrid(const Element& section, const std::vector<BoundaryLabel>& boundaryLabels,
                       Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.size();
   const GridSection read = gridSchema().read(section, diagnostics);

@@ -92,6 +92,25 @@ class SilentMistakes(unittest.TestCase):
             self.assert_refused(run(f"ups/{scene}.ups", change, outputs=True),
                                 f"found '{formula}', expected a formula without t: it holds at the start only")
 
+    def test_boundary_conditions_that_contradict_each_other(self):
+        def refused(before, after, *sentences, scene="ups/heat/sine.ups"):
+            self.assert_edited_is_refused(scene, before, after, *sentences)
+        cold = '<BCType id="all" label="Temperature" var="Dirichlet"><value>0</value></BCType>'
+        plane = '<Face side="y-"><BCType id="all" label="Symmetric" var="symmetry"/>'
+        refused(cold, cold + cold.replace("Dirichlet", "Neumann"),
+                "SCENE:17:102: Grid/BoundaryConditions/Face/BCType: Temperature has a condition on this face already, at "
+                "SCENE:17:24; keep one")
+        refused(plane, plane.replace('symmetry"/>', 'Dirichlet"><value>3</value></BCType>'),
+                "found label 'Symmetric' with var 'Dirichlet'; 'Symmetric' goes with 'symmetry', and with nothing else")
+        refused(plane, plane.replace("Symmetric", "Temperature"), "found label 'Temperature' with var 'symmetry'")
+        refused(plane, plane.replace("/>", "><value>3</value></BCType>"), "a plane of symmetry takes no <value>")
+        refused(plane, plane + cold, "this face is a plane of symmetry: beside it only a Neumann condition of 0 is right")
+        refused(cold, cold.replace("0<", "[1,2,3]<"), "value: found '[1,2,3]', expected a number")
+        refused("[2.576693,0,0]", "2.576693", "value: found '2.576693', expected three numbers, as [1,2,3]",
+                scene="ups/euler/shock_bubble.ups")
+        refused('side="x-"', 'side="x+"', "SCENE:18:8: Grid/BoundaryConditions/Face: side x+ is given twice, the first time "
+                "at SCENE:17:8")
+
 
 if __name__ == "__main__":
     unittest.main()
