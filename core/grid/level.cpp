@@ -72,6 +72,23 @@ int Level::cellAlong(int kernelAxis, double x) const {
   return cell;
 }
 
+Box Level::cellsNear(const Vec3& lower, const Vec3& upper) const {
+  Box near = cells_;
+  for (int d = 0; d < dimension(); ++d) {
+    near.lower[d] = std::max(0, cellAlong(d, lower[axis(d)]) - 1);
+    near.upper[d] = std::min(cells_.upper[d], cellAlong(d, upper[axis(d)]) + 2);
+  }
+  return near;
+}
+
+std::string Level::axesLeftOut() const {
+  std::string names;
+  for (int axis = 0; axis < 3; ++axis)
+    if (std::find(axes_.begin(), axes_.end(), axis) == axes_.end())
+      names += (names.empty() ? "" : ", ") + std::string(1, "xyz"[axis]);
+  return names;
+}
+
 std::size_t Level::blockAlong(int kernelAxis, int cell) const {
   const auto& cuts = cuts_[static_cast<std::size_t>(kernelAxis)];
   return static_cast<std::size_t>(std::upper_bound(cuts.begin(), cuts.end() - 1, cell) - cuts.begin() - 1);

@@ -82,6 +82,10 @@ class Level {
     return cell;
   }
 
+  /// The cells of the grid near a box in space [m]: at least all that it reaches.
+  Box cellsNear(const Vec3& lower, const Vec3& upper) const;
+  /// The axes that are left out: `y, z`, or nothing.
+  std::string axesLeftOut() const;
   /// The patch that holds a cell of the grid.
   const Patch& patchOf(const Index3& cell) const;
   /// The patches that hold cells of a box, by id.

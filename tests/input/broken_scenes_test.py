@@ -114,8 +114,8 @@ TEXTS = {
     "no method": (SOD[:SOD.index("    <gas_dynamics>")] + SOD[SOD.index("    </gas_dynamics>") + 20:], ":",
                   "gives neither <gas_dynamics> and <conserving_gas_dynamics>"),
     "no particle on the grid": (SOD.replace("<min>[0,0,0]</min><max>[0.5,1,1]</max>", FAR)
-                                .replace("<min>[0.5,0,0]</min><max>[1,1,1]</max>", FAR.replace("5,", "7,").replace("6,", "8,")), ":",
-                                "there are no particles: no geom_object has a point on the grid"),
+                                .replace("<min>[0.5,0,0]</min><max>[1,1,1]</max>", FAR.replace("5,", "7,").replace("6,", "8,")), ":63:10",
+                                "geom_object: it has no particle: none of the points where particles start"),
     "unknown shape": (SOD.replace('<box label="left">', '<bax label="left">').replace("</min><max>[0.5,1,1]</max></box>",
                       "</min><max>[0.5,1,1]</max></bax>"), ":", "(did you mean 'box'?)"),
 }

@@ -111,6 +111,15 @@ class SilentMistakes(unittest.TestCase):
         refused('side="x-"', 'side="x+"', "SCENE:18:8: Grid/BoundaryConditions/Face: side x+ is given twice, the first time "
                 "at SCENE:17:8")
 
+    def test_bodies_without_a_particle_or_a_cell(self):
+        right = "<min>[0.5,0,0]</min><max>[1,1,1]"
+        sentence = "SCENE:69:10: geom_object: it has no particle: none of the points where particles start"
+        for box in ("<min>[5,0,0]</min><max>[6,1,1]", "<min>[.501,0,0]</min><max>[.504,1,1]", "<min>[.5,0,0]</min><max>[1,.4,1]"):
+            self.assert_edited_is_refused("ups/mpm/sod.ups", right, box, sentence)
+            self.assert_edited_is_refused("ups/mpm/sod_conserving.ups", right, box, "geom_object: it has no particle")
+        self.assert_edited_is_refused("ups/euler/sod.ups", right, "<min>[.506,0,0]</min><max>[.509,1,1]",
+                                      "Euler/geom_object: its shape contains the middle of no cell of the grid")
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -15,6 +15,22 @@ const GasObject& objectAt(const Settings& settings, const Vec3& point) {
                                  point[0], point[1], point[2])}});
 }
 
+/// Throws InputError for objects that contain the middle of no cell on the whole grid.
+template <int D>
+void checkObjects(const Level& level, const Settings& settings) {
+  std::vector<InputProblem> problems;
+  for (const GasObject& object : settings.objects) {
+    const input::Box3 bounds = object.shape->bounds();
+    bool found = false;
+    forEach<D>(level.cellsNear(bounds.min, bounds.max), [&](const Index<D>& cell) {
+      found = found || object.shape->contains(level.expandPoint<D>(level.cellCentre<D>(cell)));
+    });
+    if (!found)
+      problems.push_back({object.where, "Euler/geom_object", "its shape contains the middle of no cell of the grid"});
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+}
+
 void checkState(const Gas& gas, const GasObject& object, const Vec3& point, double density, double pressure,
                 const Vec3& velocity) {
   const bool finite = std::isfinite(density) && std::isfinite(pressure) && velocity.allFinite();
@@ -32,6 +48,7 @@ template <int D>
 void initialize(const Patch& patch, const Settings& settings, CellView<double> density, CellView<Vec<D>> momentum,
                 CellView<double> totalEnergy) {
   const Level& level = patch.level();
+  if (patch.id() == 0) checkObjects<D>(level, settings);
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     const Vec3 point = level.expandPoint<D>(level.cellCentre<D>(cell));
     const GasObject& object = objectAt(settings, point);

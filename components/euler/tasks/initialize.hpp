@@ -6,7 +6,8 @@
 namespace tushar::euler {
 
 /// The state of the last object that contains the middle of each cell, there.
-/// Throws InputError where no object does, or where its density or p + p_inf is not positive, or its state not finite.
+/// Throws InputError for objects that contain none, where no object does, and where density or p + p_inf is not
+/// positive or the state not finite.
 template <int D>
 void initialize(const Patch& patch, const Settings& settings, CellView<double> density, CellView<Vec<D>> momentum,
                 CellView<double> totalEnergy);
