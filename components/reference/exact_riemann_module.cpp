@@ -76,6 +76,15 @@ double periodAlong(const Vec3& normal, const grid::Level& level) {
   return period;
 }
 
+/// Throws std::invalid_argument for a diaphragm that the grid has no part of.
+void checkDiaphragm(double position, const Vec3& normal, const grid::Domain& domain) {
+  const Vec3 lower = normal.cwiseProduct(domain.lower), upper = normal.cwiseProduct(domain.upper);
+  const double first = lower.cwiseMin(upper).sum(), last = lower.cwiseMax(upper).sum();
+  if (position < first || position > last)
+    throw std::invalid_argument(
+        fmt::format("diaphragm: {:g} m along the normal is outside of the grid, from {:g} to {:g} m", position, first, last));
+}
+
 ReferencePointer tubeOn(const grid::Level& level, const RiemannSection& read) {
   const double length = read.normal.norm();
   const Vec3 normal = read.normal / length, axes = axesOf(level);
@@ -89,6 +98,7 @@ ReferencePointer tubeOn(const grid::Level& level, const RiemannSection& read) {
   problem.gamma = read.gamma;
   problem.diaphragm = read.diaphragm / length;
   TubePlacement placement{normal, {}, periodAlong(normal, level)};
+  if (placement.period == 0) checkDiaphragm(problem.diaphragm, normal, level.domain());
   if (read.mirror) placement.mirror = *read.mirror / length;
   if (normal.maxCoeff(&problem.axis) == 1 && !read.mirror && placement.period == 0)
     return std::make_shared<ExactRiemann>(problem);
@@ -101,7 +111,7 @@ AnalysisKind exactRiemannKind() {
   AnalysisKind kind{"exactRiemann", "errors against the exact solution of a shock tube", {}, {}};
   kind.describe = [](std::ostream& out) { riemannSchema().describe(out); };
   kind.read = [](const Element& module, Diagnostics& diagnostics) {
-    return readModuleOfGrid(riemannSchema(), module, diagnostics,
+    return readModule(riemannSchema(), module, diagnostics,
                             [](const RiemannSection& read, const grid::Level& level) { return tubeOn(level, read); });
   };
   return kind;

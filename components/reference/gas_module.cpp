@@ -1,5 +1,7 @@
 #include "components/reference/gas_module.hpp"
 
+#include <fmt/format.h>
+
 #include "components/reference/gas_solution.hpp"
 
 namespace tushar::reference {
@@ -14,7 +16,7 @@ class GasError : public simulation::Analysis {
   GasError(ReferencePointer exact, const GasSolution& solution) : exact_(std::move(exact)), solution_(&solution) {}
 
   void schedule(TaskList& tasks) const override { solution_->scheduleMeasureError(tasks, *exact_, clock_); }
-  void setTime(double time) override { clock_.time = time; }
+  void setTime(double, double sinceStart) override { clock_.time = sinceStart; }
   std::vector<MeasuredError> errors() const override;
   std::vector<output::Array> exactProfile(const Level& level) const override;
 
@@ -65,16 +67,19 @@ std::vector<output::Array> GasError::exactProfile(const Level& level) const {
 
 }  // namespace
 
-simulation::MakeAnalysis measureAgainst(std::function<ReferencePointer(const Level&)> build,
-                                        const std::optional<Region>& within, const input::Element& module) {
+simulation::MakeAnalysis measureAgainst(std::function<ReferencePointer(const Level&)> build, const GasTags& tags,
+                                        const input::Element& module) {
   const auto problem = [where = module.where(), path = module.path()](const std::string& sentence) {
     return InputError({InputProblem{where, path, sentence}});
   };
-  return [=](const Component& component, const Level& level) -> std::unique_ptr<simulation::Analysis> {
+  return [build, problem, gamma = tags.gamma, within = tags.within](
+             const Component& component, const Level& level) -> std::unique_ptr<simulation::Analysis> {
     const auto* solution = dynamic_cast<const GasSolution*>(&component);
     if (!solution) throw problem("measures a gas, but this component does not solve for one; take the module out");
     try {
       ReferencePointer exact = build(level);
+      if (std::abs(gamma - solution->gamma()) > 1e-6 * gamma)
+        throw problem(fmt::format("gamma: found {}, but the gas of the scene has {}", gamma, solution->gamma()));
       if (within) exact = std::make_shared<Within>(exact, *within);
       return std::make_unique<GasError>(std::move(exact), *solution);
     } catch (const std::invalid_argument& error) {

@@ -7,7 +7,8 @@
 
 namespace tushar::reference {
 
-/// The time at which errors are measured, s; set before the tasks run.
+/// The time at which errors are measured, s since the start of the run: then exact solutions are at t = 0. Set before
+/// the tasks run.
 struct Clock {
   double time = 0;
 };
@@ -41,6 +42,8 @@ enum class MeasuredPlace { particle, cell, node };
 class GasSolution {
  public:
   virtual ~GasSolution() = default;
+  /// Ratio of specific heats of the gas.
+  virtual double gamma() const = 0;
   /// The places whose error labels scheduleMeasureError's tasks compute.
   virtual std::vector<MeasuredPlace> measuredPlaces() const {
     return {MeasuredPlace::particle, MeasuredPlace::cell, MeasuredPlace::node};

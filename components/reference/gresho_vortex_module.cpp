@@ -39,7 +39,7 @@ AnalysisKind greshoKind() {
   AnalysisKind kind{"gresho", "errors against the vortex of Gresho", {}, {}};
   kind.describe = [](std::ostream& out) { greshoSchema().describe(out); };
   kind.read = [](const Element& module, Diagnostics& diagnostics) {
-    return readModuleOfGrid(greshoSchema(), module, diagnostics,
+    return readModule(greshoSchema(), module, diagnostics,
                             [](const GreshoSection& read, const grid::Level& level) {
                               GreshoProblem problem;
                               problem.density = read.density;

@@ -37,7 +37,7 @@ AnalysisKind isentropicVortexKind() {
   AnalysisKind kind{"isentropicVortex", "errors against a smooth vortex in a uniform flow", {}, {}};
   kind.describe = [](std::ostream& out) { vortexSchema().describe(out); };
   kind.read = [](const Element& module, Diagnostics& diagnostics) {
-    return readModuleOfGrid(vortexSchema(), module, diagnostics,
+    return readModule(vortexSchema(), module, diagnostics,
                             [](const VortexSection& read, const grid::Level& level) {
                               IsentropicVortexProblem problem;
                               problem.density = read.density;

@@ -41,7 +41,7 @@ AnalysisKind nohKind() {
   AnalysisKind kind{"noh", "errors against Noh's problem: cold gas that falls into a point", {}, {}};
   kind.describe = [](std::ostream& out) { nohSchema().describe(out); };
   kind.read = [](const Element& module, Diagnostics& diagnostics) {
-    return readModuleOfGrid(nohSchema(), module, diagnostics, [](const NohSection& read, const grid::Level& level) {
+    return readModule(nohSchema(), module, diagnostics, [](const NohSection& read, const grid::Level& level) {
       return std::make_shared<Noh>(
           NohProblem{read.density, read.speed, read.pressure, read.gamma, read.centre, axesOf(level)});
     });

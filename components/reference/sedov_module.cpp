@@ -46,7 +46,7 @@ AnalysisKind sedovKind() {
   AnalysisKind kind{"sedov", "errors against the self-similar blast wave of Sedov", {}, {}};
   kind.describe = [](std::ostream& out) { sedovSchema().describe(out); };
   kind.read = [](const Element& module, Diagnostics& diagnostics) {
-    return readModuleOfGrid(sedovSchema(), module, diagnostics, [](const SedovSection& read, const grid::Level& level) {
+    return readModule(sedovSchema(), module, diagnostics, [](const SedovSection& read, const grid::Level& level) {
       return std::make_shared<Sedov>(
           SedovProblem{read.density, read.pressure, read.energy, read.gamma, read.centre, axesOf(level)});
     });

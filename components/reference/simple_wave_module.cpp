@@ -41,7 +41,8 @@ AnalysisKind simpleWaveKind() {
   AnalysisKind kind{"simpleWave", "errors against a right-running simple wave", {}, {}};
   kind.describe = [](std::ostream& out) { waveSchema().describe(out); };
   kind.read = [](const Element& module, Diagnostics& diagnostics) {
-    return readModule(waveSchema(), module, diagnostics, [](const WaveSection& read) {
+    return readModule(waveSchema(), module, diagnostics, [](const WaveSection& read, const grid::Level& level) {
+      if (axesOf(level)[0] == 0) throw std::invalid_argument("the wave runs along x, but this grid has no x");
       SimpleWaveProblem problem;
       problem.velocity = [velocity = read.velocity](double x) { return velocity(Vec3(x, 0, 0)); };
       problem.density = read.density;

@@ -22,8 +22,8 @@ class Analysis {
   virtual ~Analysis() = default;
   /// Adds diagnostic tasks. They see the state as old.
   virtual void schedule(tasks::TaskList& tasks) const = 0;
-  /// The state is now that of `time` [s]. Called before the tasks run.
-  virtual void setTime(double time) = 0;
+  /// The state is now that of `time` [s], `sinceStart` [s] after that of the start. Called before the tasks run.
+  virtual void setTime(double time, double sinceStart) = 0;
   /// What the tasks measure; they are run at the end of the run.
   virtual std::vector<MeasuredError> errors() const { return {}; }
   /// A table of exact values to draw beside the result, one column an array, `x` first; empty where there is none.

@@ -116,7 +116,7 @@ class ExactSolution : public Analysis {
     else
       add(tasks, *node_);
   }
-  void setTime(double time) override { time_ = time; }
+  void setTime(double time, double) override { time_ = time; }
   std::vector<MeasuredError> errors() const override {
     return {{settings_.label.substr(2), cell_ ? "cell" : "node", &error_, {"L1", "L2", "max"}}};
   }

@@ -132,7 +132,7 @@ bool Simulation::hasEnded() const { return time_.done() || isInterrupted() || ou
 bool Simulation::outOfWallTime() const { return since(started_at_) > problem_.time.maxWallTime; }
 
 void Simulation::diagnose(tasks::TaskGraph& graph) {
-  for (const auto& analysis : problem_.analyses) analysis->setTime(time_.time());
+  for (const auto& analysis : problem_.analyses) analysis->setTime(time_.time(), time_.time() - problem_.time.initTime);
   scheduler_.run(graph, {time_.step(), time_.time()});
 }
 

@@ -120,6 +120,22 @@ class SilentMistakes(unittest.TestCase):
         self.assert_edited_is_refused("ups/euler/sod.ups", right, "<min>[.506,0,0]</min><max>[.509,1,1]",
                                       "Euler/geom_object: its shape contains the middle of no cell of the grid")
 
+    def test_references_of_another_problem(self):
+        riemann = "DataAnalysis/Module/"
+        for scene in ("euler/sod", "mpm/sod", "mpm/sod_conserving"):
+            self.assert_refused(run(f"ups/{scene}.ups", riemann + "gamma=1.9", outputs=True),
+                                "DataAnalysis/Module: gamma: found 1.9, but the gas of the scene has 1.4")
+        self.assert_refused(run("ups/euler/sod.ups", riemann + "normal=[0,1,0]", outputs=True), "this grid has no y")
+        self.assert_refused(run("ups/euler/sod.ups", riemann + "diaphragm=5", outputs=True),
+                            "diaphragm: 5 m along the normal is outside of the grid, from 0 to 1 m")
+        self.assert_refused(run("ups/euler/smooth_wave.ups", "Grid/Level/Box/resolution=[1,50,1]", outputs=True),
+                            "the wave runs along x, but this grid has no x")
+
+    def test_a_reference_starts_with_the_run(self):
+        usual = run("ups/euler/sod.ups")
+        later = run("ups/euler/sod.ups", "Time/initTime=.1", "Time/maxTime=.3")
+        self.assertAlmostEqual(later.report["errors"]["density"]["cell"]["L1"], usual.report["errors"]["density"]["cell"]["L1"], 12)
+
 
 if __name__ == "__main__":
     unittest.main()

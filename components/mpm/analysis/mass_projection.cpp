@@ -65,7 +65,7 @@ class MassProjection : public simulation::Analysis {
                       requiresOld(p::density, reach), computes(g::massProjectionError),
                       computes(g::massProjectionBound), computes(massProjectionError), computes(massProjectionRatio));
   }
-  void setTime(double) override {}
+  void setTime(double, double) override {}
   std::vector<simulation::MeasuredError> errors() const override {
     return {{"mass_projection", "node", &massProjectionError, {"max"}},
             {"mass_projection_over_bound", "node", &massProjectionRatio, {"max"}}};
