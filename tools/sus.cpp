@@ -35,14 +35,30 @@ std::chrono::steady_clock::time_point processStart() {
 }
 
 /// Uintah's words begin with one dash: -validate becomes --validate. Single letters stay.
-std::vector<std::string> withTwoDashes(int count, char** words) {
-  std::vector<std::string> result;
-  for (int k = count - 1; k > 0; --k) {
-    std::string word = words[k];
-    const bool oneDash = word.size() > 2 && word[0] == '-' && word[1] != '-' && std::isalpha(word[1]);
-    result.push_back(oneDash ? "-" + word : word);
+std::string withTwoDashes(const std::string& word) {
+  const bool oneDash = word.size() > 2 && word[0] == '-' && word[1] != '-' && std::isalpha(word[1]);
+  return oneDash ? "-" + word : word;
+}
+
+std::vector<std::string> optionNames(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+/// Says which words of the command line mean nothing: the options, as they were written, or else a second scene.
+void reportUnknown(const CLI::App& app, const std::vector<std::string>& words, const std::string& scene) {
+  const std::vector<std::string> unknown = app.remaining(), names = optionNames(app);
+  bool options = false;
+  for (const std::string& word : words) {
+    const std::string full = withTwoDashes(word);
+    if (full[0] != '-' || std::find(unknown.begin(), unknown.end(), full) == unknown.end()) continue;
+    fmt::print(stderr, "sus: unknown option '{}'{}; sus -h lists the options\n", word, didYouMean(full, names));
+    options = true;
   }
-  return result;
+  if (!options)
+    fmt::print(stderr, "sus: runs one scene at a time: found '{}' after '{}'\n", unknown.front(), scene);
 }
 
 void declare(CLI::App& app, Arguments& arguments) {
@@ -66,13 +82,6 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.add_flag("--list", arguments.list, "list components, analysis modules and shapes");
   app.add_option("--describe", arguments.describe, "the manual of a component, a module, or 'scene'");
   app.add_flag("-V,--version", arguments.version, "version");
-}
-
-std::vector<std::string> optionNames(const CLI::App& app) {
-  std::vector<std::string> names;
-  for (const CLI::Option* option : app.get_options())
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  return names;
 }
 
 void printList(const simulation::Catalogue& known) {
@@ -124,6 +133,13 @@ simulation::Problem readProblem(const Arguments& arguments, const simulation::Ca
   return problem;
 }
 
+/// `100 cells and 450 particles at the start`.
+std::string sizeOf(simulation::Simulation& run, long particles) {
+  const std::size_t cells = run.warehouse().level().cells().size();
+  return fmt::format("{} cell{}", cells, cells == 1 ? "" : "s") +
+         (particles > 0 ? fmt::format(" and {} particles at the start", particles) : "");
+}
+
 ExitCode runScene(const Arguments& arguments, const simulation::Catalogue& known,
                   std::chrono::steady_clock::time_point startedAt) {
   if (launchedRanks() > 1)
@@ -136,7 +152,7 @@ ExitCode runScene(const Arguments& arguments, const simulation::Catalogue& known
     writeFile(arguments.graph, dot.str());
   }
   if (arguments.schedule) run.phases().printSchedule(std::cout);
-  if (arguments.check) fmt::print("{}: fine, {} particles at the start\n", arguments.scene, run.tryStart());
+  if (arguments.check) fmt::print("{}: fine, {}\n", arguments.scene, sizeOf(run, run.tryStart()));
   if (arguments.check || arguments.schedule || !arguments.graph.empty()) return ExitCode::success;
   if (!arguments.run.jsonPath.empty()) checkWritable(arguments.run.jsonPath);
   catchInterrupts();
@@ -178,16 +194,19 @@ ExitCode dispatch(const Arguments& arguments, std::chrono::steady_clock::time_po
 
 int main(int count, char** words) {
   const auto startedAt = processStart();
+  const std::vector<std::string> given(words + 1, words + count);
   Arguments arguments;
   CLI::App app("sus: runs a scene (.ups) with the component that it names", "sus");
   declare(app, arguments);
   try {
-    app.parse(withTwoDashes(count, words));
-    return static_cast<int>(dispatch(arguments, startedAt));
+    std::vector<std::string> backwards;
+    for (auto word = given.rbegin(); word != given.rend(); ++word) backwards.push_back(withTwoDashes(*word));
+    app.parse(backwards);
+    const ExitCode code = dispatch(arguments, startedAt);
+    if (std::fflush(stdout) != 0 || !std::cout.flush()) throw FileError("standard output cannot be written");
+    return static_cast<int>(code);
   } catch (const CLI::ExtrasError&) {
-    for (const std::string& word : app.remaining())
-      fmt::print(stderr, "sus: unknown option '{}'{}; sus -h lists the options\n", word,
-                 didYouMean(word, optionNames(app)));
+    reportUnknown(app, given, arguments.scene);
     return static_cast<int>(ExitCode::badCommandLine);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::badCommandLine);

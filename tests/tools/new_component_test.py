@@ -81,10 +81,24 @@ class NewComponent(unittest.TestCase):
         self.assertIn("[  PASSED  ]", passed.stdout)
 
     def test_refuses_a_name_that_is_taken_or_is_none(self):
-        for name, sentence in (("heat", "components/heat exists already"), ("9lives", "is no name for a folder")):
+        before = sorted(self.copy.rglob("*"))
+        for name, sentence in (("heat", "components/heat exists already"), ("9lives", "is no name for a folder"),
+                               ("class", "is no name for a folder"), ("grid", "tests/grid exists already"),
+                               ("simulation", "tests/simulation exists already"), ("std", "use the name std already"),
+                               ("patch", "use the name Patch already"), ("settings", "use the name Settings already")):
             done = subprocess.run([self.copy / "tools/new_component", name], capture_output=True, text=True)
             self.assertNotEqual(done.returncode, 0)
             self.assertIn(sentence, done.stderr)
+        self.assertEqual(sorted(self.copy.rglob("*")), before)
+
+    def test_registers_in_alphabetical_order(self):
+        text = (self.copy / "components/components.cpp").read_text()
+        made = subprocess.run([self.copy / "tools/new_component", "advection"], capture_output=True, text=True)
+        self.assertEqual(made.returncode, 0, made.stderr)
+        with_advection = (self.copy / "components/components.cpp").read_text()
+        self.assertIn('#include "components/advection/advection.hpp"\n#include "components/euler/input.hpp"\n', with_advection)
+        self.assertIn("          advection::kind(),\n          euler::kind(),\n", with_advection)
+        self.assertEqual([line for line in with_advection.splitlines() if "advection" not in line], text.splitlines())
 
 
 if __name__ == "__main__":

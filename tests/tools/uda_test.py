@@ -12,9 +12,11 @@ from tushar.interpreter import ensure
 
 ensure("h5py", "matplotlib")
 
+import h5py
 import numpy as np
 
 import fake_uda
+from tushar.figure import Figure
 from tushar.uda import Uda, UdaError
 
 
@@ -122,6 +124,25 @@ class Command(WithArchives):
                      "KineticEnergy", "[J]", "100 cells in 1-D"):
             self.assertIn(part, out)
 
+    def test_says_which_files_are_missing(self):
+        for name, others in (("t00000.h5", "100 cells in 1-D, 3 outputs:"), ("t00200.h5", "3 outputs:")):
+            with tempfile.TemporaryDirectory() as folder:
+                sod = fake_uda.make_sod(folder)
+                files = sorted(file for file in os.listdir(sod) if file.endswith(".h5"))
+                os.remove(os.path.join(sod, files[0] if name == "t00000.h5" else files[-1]))
+                code, out, err = run("uda", sod)
+                self.assertEqual((code, err), (0, ""))
+                self.assertEqual(out.count("its file is missing"), 1)
+                self.assertIn("\n" + others, out)
+
+    def test_says_that_a_start_holds_nothing_of_a_step(self):
+        with tempfile.TemporaryDirectory() as folder:
+            plate = fake_uda.make_heat(folder)
+            with h5py.File(os.path.join(plate, "t00000.h5"), "r+") as file:
+                del file["nodes/g.mass"]
+            self.assertIn("output 0 holds no 'g.mass'; a step computes it, and this is the start",
+                          run("uda", plate, "g.mass", "--index", "0")[2])
+
     def test_prints_positions_and_values(self):
         code, out, err = run("uda", self.sod, "p.density", "p.pressure", "--time", "0.1")
         rows = out.splitlines()
@@ -196,6 +217,13 @@ class Plot(WithArchives):
         svg, err = self.plot(self.part, out="part.svg")
         self.assertIn('no pressure: the scene does not save it; add <save label="p.pressure"/>', err)
         self.assertNotIn(b"pressure", svg)
+
+    def test_keeps_a_node_field_within_the_grid(self):
+        uda = Uda(self.plate)
+        grid = uda.grid()
+        panel = Figure(uda, variables=["g.mass"]).figure.axes[0]
+        self.assertEqual((panel.get_xlim(), panel.get_ylim()),
+                         ((0, grid.spacing[0] * grid.cells[0]), (0, grid.spacing[1] * grid.cells[1])))
 
     def test_says_which_time_it_took(self):
         self.assertIn("the output nearest to t = 0.19 s is that at 0.2 s", self.plot(self.sod, "--time", "0.19")[1])

@@ -46,25 +46,37 @@ install_missing() {
   rm -f "$log"
 }
 
+# run_ninja FOLDER LOG [TARGET...]: says that it builds once there is something to build, not before.
+run_ninja() {
+  local folder=$1 log=$2 said= line
+  shift 2
+  ninja -C "$folder" "$@" 2>&1 | while IFS= read -r line; do
+    printf '%s\n' "$line" >>"$log"
+    case $line in *Building* | *Linking*)
+      [ -n "$said" ] || say "building ${folder#"$root"/}"
+      said=yes ;;
+    esac
+  done
+}
+
 # build PRESET [TARGET...]: configures where that has not been done, then builds.
 build() {
   local preset=$1 log
   shift
   log=$(mktemp)
   if [ ! -f "$root/build/$preset/build.ninja" ]; then
-    say "configuring build/$preset"
+    say "configuring and building build/$preset, which takes some minutes the first time"
     if ! (cd "$root" && cmake --preset "$preset") >"$log" 2>&1; then
       cat "$log" >&2
       exit 1
     fi
   fi
-  if ! ninja -C "$root/build/$preset" -n "$@" 2>/dev/null | grep -q 'no work to do'; then
-    say "building build/$preset (the first time takes some minutes)"
-    if ! ninja -C "$root/build/$preset" "$@" >"$log" 2>&1; then
-      cat "$log" >&2
-      say "the build failed"
-      exit 1
-    fi
+  if [ ! -w "$root/build/$preset" ] && [ -x "$root/build/$preset/sus" ]; then
+    say "build/$preset is not yours to write: sus is taken as it is there"
+  elif ! run_ninja "$root/build/$preset" "$log" "$@"; then
+    cat "$log" >&2
+    say "the build failed"
+    exit 1
   fi
   rm -f "$log"
 }

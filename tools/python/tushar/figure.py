@@ -159,6 +159,8 @@ class Figure:
         pad = self.grid.spacing / 2 if variable.centring == "node" else np.zeros(3)
         box = (lower[across] - pad[across], upper[across] + pad[across], lower[up] - pad[up], upper[up] + pad[up])
         drawn = panel.imshow(values, origin="lower", extent=box, cmap="viridis", interpolation="nearest", aspect="equal")
+        panel.set_xlim(self._range(across))
+        panel.set_ylim(self._range(up))
         self._finish_map(panel, drawn, variable, name)
 
     def _cloud(self, panel, variable, name):

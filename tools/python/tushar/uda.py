@@ -115,6 +115,10 @@ class Uda:
             title = ""
         return title or os.path.basename(self.folder)
 
+    def has_file(self, index):
+        """Whether the file of an output is there."""
+        return os.path.exists(self._files[index])
+
     def index_at(self, time):
         """The output nearest to a time [s]."""
         if not self.times:
@@ -166,7 +170,8 @@ class Uda:
             if len(names) > 1:
                 raise UdaError(f"'{label}' belongs to several materials; name one: {', '.join(names)}")
             if not names or label not in group.get(names[0], {}):
-                raise UdaError(f"output {index} holds no '{label}'")
+                why = "; a step computes it, and this is the start" if file.attrs["step"] == 0 else ""
+                raise UdaError(f"output {index} holds no '{label}'{why}")
             return group[names[0]][label][()]
 
     def globals(self, name):
