@@ -23,7 +23,8 @@ Constraint atMost(double limit) {
 }
 
 Constraint between(double least, double most) {
-  return {[=](double value) { return least <= value && value <= most; }, fmt::format("from {} to {}", least, most)};
+  return {[=](double value) { return least <= value && value <= most; },
+          least == most ? fmt::format("of {} only", most) : fmt::format("from {} to {}", least, most)};
 }
 
 bool satisfies(double value, const Constraint& constraint) { return constraint.holds(value); }

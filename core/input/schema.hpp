@@ -76,6 +76,16 @@ class Schema : public SchemaBase {
     return put(std::move(entry));
   }
 
+  /// A tag that says yes by standing there; with a text, that is true or false.
+  Schema& flag(std::string name, bool S::*member, std::string sentence) {
+    SchemaEntry entry = valueEntry<bool>(member, name, "1", sentence);
+    entry.type = "empty, true or false";
+    entry.assign = [read = entry.assign](void* object, const std::string& text) {
+      return read(object, text.empty() ? "true" : text);
+    };
+    return put(withDefault(std::move(entry), member, false));
+  }
+
   /// The tag's own text, which must be given.
   template <class T, class... C>
   Schema& text(T S::*member, std::string unit, std::string sentence, const C&... constraints) {

@@ -139,7 +139,7 @@ void describeEntry(const SchemaEntry& entry, std::ostream& out, int indent) {
 std::string choiceProblem(const std::string& text, const std::vector<std::string>& words) {
   if (contains(words, text)) return {};
   return fmt::format("found {}, expected {}{}", text.empty() ? "nothing" : "'" + text + "'", alternatives(words),
-                     didYouMean(text, words));
+                     words.size() == 1 ? "" : didYouMean(text, words));
 }
 
 std::vector<std::string> SchemaBase::tagNames() const {

@@ -81,9 +81,16 @@ XmlFile::XmlFile(std::string_view text, std::string name, Diagnostics& diagnosti
 }
 
 void XmlFile::parse(Diagnostics& diagnostics) {
+  const std::optional<BadNesting> bad = findBadNesting(text_);
+  if (bad && bad->tooDeep)
+    return diagnostics.error(locate(bad->where), {},
+                             fmt::format("more than {} tags stand in each other here", mostNested));
   const unsigned options = pugi::parse_default | pugi::parse_comments;
   const pugi::xml_parse_result result = document_.load_buffer(text_.data(), text_.size(), options, pugi::encoding_utf8);
-  if (!result) {
+  if (!result && bad && result.status == pugi::status_end_element_mismatch) {
+    diagnostics.error(locate(bad->where), {}, sentence(*bad));
+    document_.reset();
+  } else if (!result) {
     diagnostics.error(locate(result.offset), {}, fmt::format("this is not well-formed XML: {}", result.description()));
     document_.reset();
   }
@@ -92,6 +99,15 @@ void XmlFile::parse(Diagnostics& diagnostics) {
     diagnostics.error(locate(next), {},
                       fmt::format("a second outermost tag <{}> after <{}>", next.name(), root().name()));
   }
+}
+
+std::string XmlFile::sentence(const BadNesting& bad) const {
+  const std::string found = bad.closed.empty() ? "the end of the file" : "</" + bad.closed + ">";
+  if (bad.open.empty()) return fmt::format("found {}, but no tag is open here", found);
+  const std::string open = fmt::format("<{}> of {}", bad.open, locate(bad.whereOpened).text());
+  if (bad.wasOpened || bad.closed.empty())
+    return fmt::format("found {} while {} is still open; is its </{}> missing?", found, open, bad.open);
+  return fmt::format("found {}, which nothing opened; the tag that is open here is {}", found, open);
 }
 
 Location XmlFile::locate(std::ptrdiff_t offset) const {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/input/diagnostics.hpp"
+#include "core/input/nesting.hpp"
 
 namespace tushar::input {
 
@@ -28,6 +29,7 @@ class XmlFile {
  private:
   Location locate(std::ptrdiff_t offset) const;
   void parse(Diagnostics& diagnostics);
+  std::string sentence(const BadNesting& bad) const;
 
   std::string name_;
   std::string text_;

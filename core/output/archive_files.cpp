@@ -25,13 +25,17 @@ namespace {
 
 std::error_code lastError() { return {errno ? errno : EIO, std::generic_category()}; }
 
+/// A folder with a greater number was made by someone else.
+constexpr int greatestNumber = 999'999'999;
+
 /// The number of `sod.uda.007` among the folders of `sod.uda`.
 std::optional<int> numberOf(const fs::path& entry, const std::string& base) {
   const std::string name = entry.filename().string();
   if (name.size() <= base.size() + 1 || !name.starts_with(base + ".")) return {};
   int number = 0;
   const auto [end, error] = std::from_chars(name.data() + base.size() + 1, name.data() + name.size(), number);
-  if (error != std::errc() || end != name.data() + name.size() || number < 0) return {};
+  if (error != std::errc() || end != name.data() + name.size() || number < 0 || number > greatestNumber)
+    return {};
   return number;
 }
 

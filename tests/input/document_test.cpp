@@ -91,7 +91,26 @@ TEST(Document, SaysWhyAFileCannotBeRead) {
 
 TEST(Document, SaysWhereXmlIsMalformed) {
   EXPECT_EQ(problemsOf("<Uintah_specification>\n  <Time></Tme>\n</Uintah_specification>"),
-            Lines{"s.ups:2:11: this is not well-formed XML: Start-end tags mismatch"});
+            Lines{"s.ups:2:11: found </Tme>, which nothing opened; the tag that is open here is <Time> of s.ups:2:4"});
+  EXPECT_EQ(problemsOf("<Uintah_specification>\n  <Time <Grid/>\n</Uintah_specification>"),
+            Lines{"s.ups:2:9: this is not well-formed XML: Error parsing element attribute"});
+}
+
+TEST(Document, NamesTheTagThatIsNotClosed) {
+  EXPECT_EQ(problemsOf("<Uintah_specification>\n <Time>\n <!-- <a> --> <b c='</b>'/>\n</Uintah_specification>"),
+            Lines{"s.ups:4:3: found </Uintah_specification> while <Time> of s.ups:2:3 is still open; is its </Time> missing?"});
+  EXPECT_EQ(problemsOf("<Uintah_specification>\n <Time>\n"),
+            Lines{"s.ups:3:1: found the end of the file while <Time> of s.ups:2:3 is still open; is its </Time> missing?"});
+  EXPECT_EQ(problemsOf("<Uintah_specification/></Time>"),
+            Lines{"s.ups:1:26: found </Time>, but no tag is open here"});
+}
+
+TEST(Document, RefusesTagsThatAreNestedTooDeep) {
+  std::string text = "<Uintah_specification>";
+  for (int k = 0; k < 200000; ++k) text += "<a>";
+  for (int k = 0; k < 200000; ++k) text += "</a>";
+
+  EXPECT_EQ(problemsOf(text + "</Uintah_specification>"), Lines{"s.ups:1:321: more than 100 tags stand in each other here"});
 }
 
 TEST(Document, SaysThatTheRootIsAnother) {

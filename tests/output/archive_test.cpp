@@ -68,6 +68,7 @@ TEST(Archive, TakesTheNextNumberAboveAllThatExist) {
   fs::create_directory(here / "sod.uda.007");
   fs::create_directory(here / "sod.uda.old");
   fs::remove_all(here / "sod.uda.000");
+  fs::create_directory(here / "sod.uda.2147483647");
   EXPECT_EQ(Archive(here / "sod.uda", "").folder(), here / "sod.uda.008");
 }
 

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace tushar::input {
+
+/// Tags may stand in each other this deep.
+inline constexpr std::size_t mostNested = 100;
+
+/// The first place of an XML text where its tags do not stand in each other as they must.
+struct BadNesting {
+  std::ptrdiff_t where;            ///< byte of the text
+  std::string closed;              ///< name of the tag that is closed there; empty at the end of the text
+  std::string open;                ///< name of the innermost tag that is open there; empty where none is
+  std::ptrdiff_t whereOpened = 0;  ///< byte of its name
+  bool wasOpened = false;          ///< whether the tag that is closed is open further out
+  bool tooDeep = false;            ///< one tag too many in each other, and nothing else
+};
+
+/// Looks at tags alone: comments, CDATA, declarations and whatever stands between tags are passed over.
+std::optional<BadNesting> findBadNesting(std::string_view text);
+
+}  // namespace tushar::input
