@@ -129,7 +129,9 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   Names read = requiredOfState(stable.kept);
   for (const Pruned* pruned : {&step, &output, &end}) read = united(read, requiredOfState(pruned->kept));
   read.emplace(data::recomputeTimeStep.name);
-  const Pruned bare = prune(lists.timeAdvance.tasks(), read, true);
+  Names always = united(requiredOfState(stable.kept), requiredOfState(begin.kept));
+  always.emplace(data::recomputeTimeStep.name);
+  const Pruned bare = prune(lists.timeAdvance.tasks(), always, true);
   Pruned advance = prune(lists.timeAdvance.tasks(), united(read, savedState), true);
   Pruned init = prune(lists.initialize.tasks(), advance.needed, false);
 

@@ -30,7 +30,8 @@ class Phases {
 
   tasks::TaskGraph initialize, stableTimeStep, timeAdvance, startTotals, everyStep, everyOutput, report;
 
-  /// Names of the variables that a step needs of the one before, sorted: the state of a run.
+  /// Names of the variables that a step and the totals need of the step before, sorted: the state of a run, whatever
+  /// is saved and measured besides.
   const std::vector<std::string>& state() const { return state_; }
   /// Names of the variables that outlive a step, sorted: the state, and what is saved besides.
   const std::vector<std::string>& lasting() const { return lasting_; }

@@ -124,6 +124,20 @@ std::vector<std::unique_ptr<Analysis>> makeModules(const std::vector<ReadModule>
   return analyses;
 }
 
+/// Refuses intervals that the times of a run could not tell apart.
+void checkIntervals(const TimeSettings& time, const ArchiveSettings& archive, const Element& section,
+                    Diagnostics& diagnostics) {
+  const double least = timeResolution * std::max(std::abs(time.initTime), std::abs(time.maxTime));
+  const auto check = [&](double interval, const Element& element, const std::string& what) {
+    if (interval > 0 && interval <= least)
+      diagnostics.error(element, fmt::format("{}found {:g} s, expected more than {:g} s: times up to maxTime cannot tell "
+                                             "less apart", what, interval, least));
+  };
+  if (const auto tag = section.child("outputInterval")) check(archive.outputInterval, *tag, "");
+  if (archive.checkpoint && archive.checkpoint->interval)
+    check(*archive.checkpoint->interval, *section.child("checkpoint"), "attribute 'interval': ");
+}
+
 /// Names what is wrong with the saved labels, even where the rest of the scene is wrong, too: the labels of a component
 /// and of its modules do not depend on the grid. Says nothing where a module cannot be had: its labels are not known.
 void checkSaves(const MakeComponent& make, const std::vector<ReadModule>& modules,
@@ -159,8 +173,10 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   if (const auto meta = section(root, "Meta", false, diagnostics))
     problem.title = metaSchema().read(*meta, diagnostics).title;
   if (const auto time = section(root, "Time", true, diagnostics)) problem.time = readTime(*time, diagnostics);
-  if (const auto archive = section(root, "DataArchiver", false, diagnostics))
+  if (const auto archive = section(root, "DataArchiver", false, diagnostics)) {
     problem.archive = readArchive(*archive, diagnostics);
+    checkIntervals(problem.time, problem.archive, *archive, diagnostics);
+  }
   grid::Domain domain;
   if (const auto grid = section(root, "Grid", true, diagnostics))
     domain = readGrid(*grid, kind ? kind->boundaryLabels : std::vector<BoundaryLabel>{}, diagnostics);

@@ -102,12 +102,6 @@ const Schema<CheckpointSettings>& checkpointSchema() {
   return schema;
 }
 
-/// Whether a tag of the archiver that stands without a value is given; `<tag>false</tag>` says no.
-bool isOn(const Element& archiver, const char* tag) {
-  const auto element = archiver.child(tag);
-  return element && element->text() != "false";
-}
-
 const Schema<ArchiveSettings>& archiveSchema() {
   static const Schema<ArchiveSettings> schema =
       Schema<ArchiveSettings>("DataArchiver", "What is saved, where and how often.")
@@ -116,12 +110,8 @@ const Schema<ArchiveSettings>& archiveSchema() {
                  input::nonNegative())
           .value("outputTimestepInterval", &ArchiveSettings::outputTimestepInterval, 0, "1",
                  "steps between outputs", input::nonNegative())
-          .custom("outputInitTimestep",
-                  [](ArchiveSettings& archive, const Element& element, Diagnostics&) {
-                    archive.outputInitTimestep = isOn(element, "outputInitTimestep");
-                    archive.outputLastTimestep = isOn(element, "outputLastTimestep");
-                  },
-                  {"outputInitTimestep", "outputLastTimestep"}, "also save the state at the start, or at the end")
+          .flag("outputInitTimestep", &ArchiveSettings::outputInitTimestep, "also save the state at the start")
+          .flag("outputLastTimestep", &ArchiveSettings::outputLastTimestep, "also save the state at the end")
           .value("outputDoubleAsFloat", &ArchiveSettings::doubleAsFloat, false, "1", "save with 7 digits")
           .value("compression", &ArchiveSettings::compression, 0, "1", "level of gzip, 0 for none",
                  input::between(0, 9))
@@ -132,9 +122,10 @@ const Schema<ArchiveSettings>& archiveSchema() {
             if (archive.outputInterval > 0 && archive.outputTimestepInterval > 0)
               diagnostics.error(element, "gives both outputInterval and outputTimestepInterval; keep one");
             refuseSavedTwice(archive.saves, diagnostics);
-            if (archive.filebase.find('/') != std::string::npos)
-              diagnostics.error(element, "filebase '" + archive.filebase +
-                                             "' contains '/'; name a folder within the one where sus is started");
+            if (archive.filebase.find('/') != std::string::npos || archive.filebase == "." || archive.filebase == "..")
+              diagnostics.error(*element.child("filebase"),
+                                "found '" + archive.filebase +
+                                    "', expected the name of a folder within the one where sus is started");
           });
   return schema;
 }

@@ -83,13 +83,15 @@ void TimeControl::advance() {
 
 double Milestones::next() const {
   if (interval_ <= 0) return std::numeric_limits<double>::infinity();
-  return start_ + static_cast<double>(passed_ + 1) * interval_;
+  return start_ + (passed_ + 1) * interval_;
 }
 
-bool Milestones::isReached(double time) const { return time >= next() - 1e-12 * std::abs(next()); }
+bool Milestones::isReached(double time) const { return time >= next() - timeResolution * std::abs(next()); }
 
 void Milestones::pass(double time) {
-  while (isReached(time)) ++passed_;
+  if (!isReached(time)) return;
+  passed_ = std::max(passed_ + 1, std::floor((time - start_) / interval_));
+  if (isReached(time)) ++passed_;
 }
 
 }  // namespace tushar::simulation

@@ -73,6 +73,9 @@ class TimeControl {
   std::map<data::Reason, int> limits_;
 };
 
+/// Times that differ by less than this, relative to their size, count as the same.
+inline constexpr double timeResolution = 1e-12;
+
 /// The times start + k interval, k = 1, 2, …, that a run passes one after the other.
 class Milestones {
  public:
@@ -87,7 +90,7 @@ class Milestones {
 
  private:
   double start_, interval_;
-  long passed_ = 0;
+  double passed_ = 0;  ///< how many: a whole number
 };
 
 }  // namespace tushar::simulation

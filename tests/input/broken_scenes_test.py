@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """Broken scenes: each gets its sentence, a documented exit code, and nothing is written."""
 import pathlib
+import subprocess
 import sys
 import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from sus import ROOT, run
+from sus import ROOT, SUS, run
 
 SOD = (ROOT / "ups/mpm/sod.ups").read_text()
 BOX = "Grid/Level/Box/"
@@ -24,15 +25,14 @@ OVERRIDES = {
                         "SimulationComponent, Time, DataArchiver, Grid, DataAnalysis, MPM, MaterialProperties"),
     "unknown constitutive model": (MATERIAL + "constitutive_model/@type=ideal_gaz",
                                    MATERIAL + "constitutive_model: attribute 'type': found 'ideal_gaz', expected "
-                                   "'ideal_gas' (did you mean 'ideal_gas'?)"),
+                                   "'ideal_gas'\n"),
     "unknown module": ("DataAnalysis/Module/@name=exactRieman", "DataAnalysis/Module: name: found 'exactRieman', expected "
                        "'massProjection', 'exactRiemann', 'simpleWave', 'isentropicVortex', 'gresho', 'noh', "
                        "'sedov' or 'exactSolution' (did you mean 'exactRiemann'?)"),
     "unknown choice": (GAS + "volume_model=tracket", GAS + "volume_model: found 'tracket', expected 'cell_share' or "
                        "'tracked' (did you mean 'tracked'?)"),
     "unknown boundary label": ("Grid/BoundaryConditions/Face[1]/BCType/@label=Symetric",
-                               "Grid/BoundaryConditions/Face/BCType: label: found 'Symetric', expected 'Symmetric' (did you "
-                               "mean 'Symmetric'?)"),
+                               "Grid/BoundaryConditions/Face/BCType: label: found 'Symetric', expected 'Symmetric'\n"),
     "unknown boundary kind": ("Grid/BoundaryConditions/Face[1]/BCType/@var=symetry",
                               "Grid/BoundaryConditions/Face/BCType: var: found 'symetry', expected 'symmetry', 'Dirichlet' "
                               "or 'Neumann' (did you mean 'symmetry'?)"),
@@ -70,7 +70,13 @@ OVERRIDES = {
     "overlapping boxes": (LEFT + "box/max=[0.6,1,1]", "geom_object: overlaps the geom_object at"),
     "both output intervals": ("DataArchiver/outputTimestepInterval=5", "DataArchiver: gives both outputInterval and "
                               "outputTimestepInterval; keep one"),
-    "folder in filebase": ("DataArchiver/filebase=a/b.uda", "DataArchiver: filebase 'a/b.uda' contains '/'"),
+    "folder in filebase": ("DataArchiver/filebase=a/b.uda", "DataArchiver/filebase: found 'a/b.uda', expected the name of a "
+                           "folder"),
+    "folder itself as filebase": ("DataArchiver/filebase=..", "DataArchiver/filebase: found '..', expected the name of a folder"),
+    "outputs too near to each other": ("DataArchiver/outputInterval=1e-13", "DataArchiver/outputInterval: found 1e-13 s, expected "
+                                       "more than 2e-13 s"),
+    "flag that is neither": ("DataArchiver/outputInitTimestep=maybe", "DataArchiver/outputInitTimestep: found 'maybe', expected "
+                             "true or false"),
     "unknown placement": (LEFT + "placement=jitterd", "MaterialProperties/MPM/material/geom_object/placement: found 'jitterd', "
                           "expected 'midpoint', 'jittered' or 'random' (did you mean 'jittered'?)"),
     "unknown saved label": ("DataArchiver/save[1]/@label=p.densty", "DataArchiver/save: no task of this component computes "
@@ -85,8 +91,9 @@ OVERRIDES = {
                                     "'timestepinterval' of <checkpoint> (did you mean 'timestepInterval'?)"),
     "redistribution that cannot be": (GAS + "redistribute/min_particles=20", GAS + "redistribute: min_particles is greater than "
                                       "max_particles"),
-    "ambiguous override": (MATERIAL + "geom_object/cfl=1", "--set"),
-    "override without a value": ("Time/maxTime", "--set"),
+    "ambiguous override": (MATERIAL + "geom_object/cfl=1", f"--set {MATERIAL}geom_object/cfl=1: 2 tags <geom_object> match in <material>; "
+                           "say which one, as geom_object[1] or geom_object["),
+    "override without a value": ("Time/maxTime", "--set Time/maxTime: expected PATH=VALUE, such as Time/maxTime=0.2"),
 }
 
 FAR = "<min>[5,0,0]</min><max>[6,1,1]</max>"
@@ -94,7 +101,7 @@ FAR = "<min>[5,0,0]</min><max>[6,1,1]</max>"
 # name: (scene, position, sentence)
 TEXTS = {
     "empty file": ("", "", "is empty"),
-    "unclosed tag": ("<Uintah_specification>\n  <Time>\n", ":", "this is not well-formed XML"),
+    "unclosed tag": ("<Uintah_specification>\n  <Time>\n", ":3:1", "found the end of the file while <Time> of "),
     "wrong root": ("<Uintah_spec>\n</Uintah_spec>\n", ":1:2", "Uintah_specification"),
     "tag given twice": (SOD.replace("<Time>", "<Time>\n    <maxTime>1</maxTime>"), ":15:6", "Time/maxTime: tag <maxTime> is given twice, on line 14 and on line 15; one is allowed"),
     "missing section": (SOD[:SOD.index("  <Grid>")] + SOD[SOD.index("  </Grid>") + 10:], ":10:2", "the section <Grid> is missing"),
@@ -102,22 +109,22 @@ TEXTS = {
     "missing attribute": (SOD.replace('side="x-"', ""), ":19:8", "missing attribute 'side' of <Face>"),
     "unknown attribute": (SOD.replace('side="x-"', 'side="x-" sied="x"'), ":19:8", "unknown attribute 'sied' of <Face> (did you mean 'side'?)"),
     "text among tags": (SOD.replace("<Time>", "<Time> soon "), ":13:4", "text 'soon' in <Time>, where only tags are allowed"),
-    "two checkpoint intervals": (SOD.replace("<filebase>", '<checkpoint interval="1" timestepInterval="2"/><filebase>'), ":",
+    "two checkpoint intervals": (SOD.replace("<filebase>", '<checkpoint interval="1" timestepInterval="2"/><filebase>'), ":36:6",
                                  "gives more than one of interval, timestepInterval, walltimeInterval and "
                                  "walltimeIntervalHours; give one"),
-    "start without wall time": (SOD.replace("<filebase>", '<checkpoint interval="1" walltimeStart="2"/><filebase>'), ":",
+    "start without wall time": (SOD.replace("<filebase>", '<checkpoint interval="1" walltimeStart="2"/><filebase>'), ":36:6",
                                 "DataArchiver/checkpoint: gives walltimeStart without walltimeInterval"),
-    "second checkpoint": (SOD.replace("<filebase>", '<checkpoint interval="1"/><checkpoint interval="2"/><filebase>'), ":",
+    "second checkpoint": (SOD.replace("<filebase>", '<checkpoint interval="1"/><checkpoint interval="2"/><filebase>'), ":36:32",
                           "tag <checkpoint> is given twice"),
     "second Box": (SOD.replace("</Level>", "<Box><lower>[1,0,0]</lower><upper>[2,1,1]</upper><resolution>[9,1,1]</resolution>"
-                               "</Box></Level>"), ":", "a Level has one Box here; this is a second one"),
-    "no method": (SOD[:SOD.index("    <gas_dynamics>")] + SOD[SOD.index("    </gas_dynamics>") + 20:], ":",
+                               "</Box></Level>"), ":33:6", "a Level has one Box here; this is a second one"),
+    "no method": (SOD[:SOD.index("    <gas_dynamics>")] + SOD[SOD.index("    </gas_dynamics>") + 20:], ":49:4",
                   "gives neither <gas_dynamics> and <conserving_gas_dynamics>"),
     "no particle on the grid": (SOD.replace("<min>[0,0,0]</min><max>[0.5,1,1]</max>", FAR)
                                 .replace("<min>[0.5,0,0]</min><max>[1,1,1]</max>", FAR.replace("5,", "7,").replace("6,", "8,")), ":63:10",
                                 "geom_object: it has no particle: none of the points where particles start"),
     "unknown shape": (SOD.replace('<box label="left">', '<bax label="left">').replace("</min><max>[0.5,1,1]</max></box>",
-                      "</min><max>[0.5,1,1]</max></bax>"), ":", "(did you mean 'box'?)"),
+                      "</min><max>[0.5,1,1]</max></bax>"), ":64:12", "(did you mean 'box'?)"),
 }
 
 
@@ -189,6 +196,19 @@ class BrokenScenes(unittest.TestCase):
         result = run("ups/mpm/sod.ups", options=("--quiet", "--jsn", "x"))
         self.assertEqual(result.code, 2)
         self.assertIn("sus: unknown option '--jsn' (did you mean '--json'?)", result.err)
+        self.assertEqual(run("ups/mpm/sod.ups", options=("-nthreads", "4")).err,
+                         "sus: unknown option '-nthreads'; sus -h lists the options\n")
+        self.assertEqual(run("ups/mpm/sod.ups", options=("ups/heat/sine.ups",)).err,
+                         "sus: runs one scene at a time: found 'ups/heat/sine.ups' after 'ups/mpm/sod.ups'\n")
+
+    def test_says_what_it_has_checked(self):
+        for scene, size in (("ups/mpm/sod.ups", "100 cells and 450 particles at the start"), ("ups/heat/sine.ups", "64 cells")):
+            self.assertEqual(run(scene, options=("--check",)).out, f"{scene}: fine, {size}\n")
+
+    def test_a_screen_that_takes_nothing(self):
+        with open("/dev/full", "w") as full:
+            done = subprocess.run([SUS, "--list"], stdout=full, stderr=subprocess.PIPE, text=True)
+        self.assertEqual((done.returncode, done.stderr), (1, "sus: standard output cannot be written\n"))
 
 
 if __name__ == "__main__":

@@ -136,6 +136,14 @@ class SilentMistakes(unittest.TestCase):
         later = run("ups/euler/sod.ups", "Time/initTime=.1", "Time/maxTime=.3")
         self.assertAlmostEqual(later.report["errors"]["density"]["cell"]["L1"], usual.report["errors"]["density"]["cell"]["L1"], 12)
 
+    def test_flags(self):
+        self.assert_edited_is_refused("ups/mpm/sod.ups", "<outputInitTimestep/>", "<outputInitTimestep/><outputInitTimestep/>",
+                                      "tag <outputInitTimestep> is given twice")
+        for text, outputs in (("", 1), ("true", 1), ("false", 0)):
+            result = run("ups/heat/sine.ups", "DataArchiver/outputInterval=0", "DataArchiver/outputLastTimestep=false",
+                         "DataArchiver/outputInitTimestep=" + text, "Time/max_Timesteps=1", outputs=True)
+            self.assertEqual(len([file for file in result.files if file.endswith(".h5")]), outputs, text + result.err)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -61,6 +61,22 @@ TEST(Milestones, ArePassedOneAfterTheOther) {
   EXPECT_EQ(outputs.next(), 0.25);
 }
 
+TEST(Milestones, ArePassedAtOnceHoweverManyThereAre) {
+  Milestones outputs(0, 1e-9);
+  outputs.pass(1);
+  EXPECT_NEAR(outputs.next(), 1 + 1e-9, 2e-12);
+
+  Milestones tiny(0, 1e-30);
+  tiny.pass(1);
+  EXPECT_TRUE(tiny.isReached(1.1));
+}
+
+TEST(Milestones, ArePassedByATimeThatRoundingKeepsBelow) {
+  Milestones outputs(-0.15, 0.05);
+  outputs.pass(-0.1 - 1e-16);
+  EXPECT_NEAR(outputs.next(), -0.05, 1e-15);
+}
+
 TEST(Milestones, OfNoIntervalAreNeverReached) {
   Milestones none(0, 0);
   none.pass(1e300);

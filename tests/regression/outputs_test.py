@@ -1,0 +1,47 @@
+#!/usr/bin/env python3
+"""What a scene saves and measures, and when, leads its run no other way."""
+import pathlib
+import re
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from sus import ROOT, run
+
+CLAMPED = "Time/clamp_time_to_output=true"
+
+
+class Outputs(unittest.TestCase):
+    def run_without(self, scene, tags, *sets):
+        """The report of a scene less what matches `tags`."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "scene.ups")
+            path.write_text(re.sub(tags, "", (ROOT / scene).read_text(), flags=re.S))
+            result = run(path, *sets, outputs=True)
+            self.assertEqual(result.code, 0, result.err)
+            return result.report
+
+    def test_a_state_is_the_same_whatever_is_measured_and_saved(self):
+        for scene in ("ups/mpm/sod_conserving.ups", "ups/mpm/sod.ups", "ups/euler/sod.ups", "ups/heat/sine.ups"):
+            short = "Time/max_Timesteps=20"
+            whole = run(scene, short).report
+            bare = self.run_without(scene, "<DataAnalysis>.*</DataAnalysis>|<save [^>]*>", short)
+            self.assertEqual(bare["fingerprint"], whole["fingerprint"], scene)
+            self.assertNotEqual(whole["fingerprint"], run(scene, "Time/max_Timesteps=19").report["fingerprint"])
+
+    def test_steps_end_at_outputs_though_nothing_is_saved(self):
+        report = self.run_without("ups/heat/sine.ups", "<save [^>]*>", CLAMPED)
+        self.assertEqual((report["ended"], report["time"]), ("maxTime", 0.1))
+
+    def test_outputs_before_time_zero(self):
+        report = run("ups/euler/sod.ups", CLAMPED, "Time/initTime=-0.15", "Time/maxTime=0.05", outputs=True).report
+        self.assertEqual((report["ended"], report["time"]), ("maxTime", 0.05))
+
+    def test_outputs_that_are_much_nearer_than_time_steps(self):
+        result = run("ups/heat/sine.ups", "DataArchiver/outputInterval=1e-12", "Time/max_Timesteps=3", outputs=True)
+        self.assertEqual(len([name for name in result.files if name.endswith(".h5")]), 4)
+
+
+if __name__ == "__main__":
+    unittest.main()
