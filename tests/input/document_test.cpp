@@ -93,7 +93,7 @@ TEST(Document, SaysWhereXmlIsMalformed) {
   EXPECT_EQ(problemsOf("<Uintah_specification>\n  <Time></Tme>\n</Uintah_specification>"),
             Lines{"s.ups:2:11: found </Tme>, which nothing opened; the tag that is open here is <Time> of s.ups:2:4"});
   EXPECT_EQ(problemsOf("<Uintah_specification>\n  <Time <Grid/>\n</Uintah_specification>"),
-            Lines{"s.ups:2:9: this is not well-formed XML: Error parsing element attribute"});
+            Lines{"s.ups:2:9: this is not well-formed XML: Error parsing start element tag"});
 }
 
 TEST(Document, NamesTheTagThatIsNotClosed) {
