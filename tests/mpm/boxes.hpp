@@ -9,6 +9,15 @@
 
 namespace tushar::mpm {
 
+/// The footprint of one box, in every lane.
+template <int D>
+Footprint<D> footprintOf(const Level& level, const Vec<D>& centre, const Vec<D>& edges) {
+  Batch<D> batch;
+  batch.add(0, level.cellOf<D>(centre));
+  batch.fillUp();
+  return Footprint<D>(level, batch, centre.template cast<Lanes>(), edges.template cast<Lanes>());
+}
+
 /// A grid with free sides.
 inline grid::Domain freeDomain(const Index3& resolution) {
   grid::Domain domain = test::domain(resolution);

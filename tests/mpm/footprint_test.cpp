@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/levels.hpp"
+#include "tests/mpm/boxes.hpp"
 
 namespace tushar::mpm {
 
@@ -16,13 +16,31 @@ grid::Domain line(int cells) {
   return domain;
 }
 
-double sumOf(const auto& values) {
-  double sum = 0;
-  for (const double value : values) sum += value;
-  return sum;
+using Interval = Span<2, 4>;
+
+Interval intervalAt(const Level& level, double centre, double length) {
+  return Interval(level, 0, level.cellAlong(0, centre), centre, length);
 }
 
-using Interval = Span<4>;
+Lanes at(const Lanes& values, int lane, double value) {
+  return Lanes::of([&](int other) { return other == lane ? value : values[other]; });
+}
+
+void addParts(const Level& level, const Batch<2>& batch, const LanesVec<2>& centre, const LanesVec<2>& edges,
+              GridFields<2, 1>& fields) {
+  const Footprint<2> footprint(level, batch, centre, edges);
+  GridFields<2, 1>::Brought brought;
+  footprint.forEachPart(
+      [&](const Index<2>& k, const Lanes& part) { brought[0][Footprint<2>::number(k)] = batch.only(part); });
+  fields.add(footprint, batch.count, 0, brought);
+}
+
+/// Sum of the first `count` values.
+double sumOf(const auto& values, int count) {
+  double sum = 0;
+  for (int k = 0; k < count; ++k) sum += values[static_cast<std::size_t>(k)][0];
+  return sum;
+}
 
 }  // namespace
 
@@ -30,11 +48,11 @@ TEST(Span, PartsAndWeightsSumToOneWhereverAndHoweverLong) {
   const Level level(line(30));
   for (double centre = -0.95; centre < 2; centre += 0.0173)
     for (double length = 0.003; length < 0.29; length += 0.0217) {
-      const Interval span(level, 0, level.cellAlong(0, centre), centre, length);
-      EXPECT_NEAR(sumOf(span.part), 1, 1e-13) << centre << ' ' << length;
-      EXPECT_NEAR(sumOf(span.weight), 1, 1e-13) << centre << ' ' << length;
-      EXPECT_NEAR(sumOf(span.atLower), 1, 1e-13) << centre << ' ' << length;
-      EXPECT_NEAR(sumOf(span.atUpper), 1, 1e-13) << centre << ' ' << length;
+      const Interval span = intervalAt(level, centre, length);
+      EXPECT_NEAR(sumOf(span.part, span.cells), 1, 1e-13) << centre << ' ' << length;
+      EXPECT_NEAR(sumOf(span.weight, span.nodes()), 1, 1e-13) << centre << ' ' << length;
+      EXPECT_NEAR(sumOf(span.atLower, span.nodes()), 1, 1e-13) << centre << ' ' << length;
+      EXPECT_NEAR(sumOf(span.atUpper, span.nodes()), 1, 1e-13) << centre << ' ' << length;
     }
 }
 
@@ -42,87 +60,135 @@ TEST(Span, ReproducesPositionsOnAverageAndAtItsEnds) {
   const Level level(line(30));
   for (double centre = -0.8; centre < 1.8; centre += 0.0131)
     for (const double length : {0.01, 0.1, 0.17, 0.28}) {
-      const Interval span(level, 0, level.cellAlong(0, centre), centre, length);
-      double mean = 0, lower = 0, upper = 0, square = 0;
-      for (std::size_t k = 0; k < span.weight.size(); ++k) {
+      const Interval span = intervalAt(level, centre, length);
+      Lanes mean = 0, lower = 0, upper = 0, square = 0;
+      for (std::size_t k = 0; k < static_cast<std::size_t>(span.nodes()); ++k) {
         mean += span.weight[k] * span.arm[k];
         lower += span.atLower[k] * span.arm[k];
         upper += span.atUpper[k] * span.arm[k];
         square += span.weight[k] * span.arm[k] * span.arm[k];
       }
-      EXPECT_NEAR(mean, 0, 1e-14);
-      EXPECT_NEAR(lower, -0.5 * length, 1e-14);
-      EXPECT_NEAR(upper, 0.5 * length, 1e-14);
-      EXPECT_NEAR(span.inertia, square, 1e-16);
+      EXPECT_NEAR(mean[0], 0, 1e-14);
+      EXPECT_NEAR(lower[0], -0.5 * length, 1e-14);
+      EXPECT_NEAR(upper[0], 0.5 * length, 1e-14);
+      EXPECT_NEAR(span.inertia[0], square[0], 1e-16);
     }
 }
 
 TEST(Span, TouchesOneCellWhereItFillsThatCell) {
   const Level level(line(30));
-  const Interval span(level, 0, 11, level.cellCentre<1>({{11}})[0], level.spacing(0));
+  const Interval span = intervalAt(level, level.cellCentre<1>({{11}})[0], level.spacing(0));
 
-  EXPECT_EQ(span.first, 11);
+  EXPECT_EQ(span.first[0], 11);
   EXPECT_EQ(span.cells, 1);
-  EXPECT_NEAR(span.weight[0], 0.5, 1e-15);
-  EXPECT_NEAR(span.inertia, 0.25 * level.spacing(0) * level.spacing(0), 1e-16);
+  EXPECT_NEAR(span.weight[0][0], 0.5, 1e-15);
+  EXPECT_NEAR(span.inertia[0], 0.25 * level.spacing(0) * level.spacing(0), 1e-16);
 }
 
 TEST(Span, IsCutOffAtTheEndsOfTheGrid) {
   const Level level(line(30));
-  const Interval span(level, 0, 29, 1.98, 0.1);
+  const Interval span = intervalAt(level, 1.98, 0.1);
 
-  EXPECT_DOUBLE_EQ(span.upper, 2.0);
-  EXPECT_NEAR(span.lower, 1.93, 1e-15);
-  EXPECT_NEAR(sumOf(span.part), 1, 1e-13);
+  EXPECT_DOUBLE_EQ(span.upper[0], 2.0);
+  EXPECT_NEAR(span.lower[0], 1.93, 1e-15);
+  EXPECT_NEAR(sumOf(span.part, span.cells), 1, 1e-13);
 }
 
 TEST(Span, GoesOnBeyondAPeriodicEnd) {
   grid::Domain ring = line(30);
   ring.periodic[0] = 1;
   const Level level(ring);
-  const Interval span(level, 0, 29, 1.98, 0.1);
+  const Interval span = intervalAt(level, 1.98, 0.1);
 
-  EXPECT_EQ(span.first, 29);
+  EXPECT_EQ(span.first[0], 29);
   EXPECT_EQ(span.cells, 2);
-  EXPECT_NEAR(span.part[1], 0.3, 1e-12);
+  EXPECT_NEAR(span.part[1][0], 0.3, 1e-12);
+}
+
+TEST(Span, KeepsAllOfAnIntervalThatIsTooLong) {
+  const Level level(line(30));
+  const Interval span = intervalAt(level, 0.51, 0.7);
+
+  EXPECT_EQ(span.first[0], 13);
+  EXPECT_EQ(span.cells, 4);
+  EXPECT_NEAR(sumOf(span.part, 4), 1, 1e-13);
+  EXPECT_NEAR(sumOf(span.weight, 5), 1, 1e-13);
+}
+
+TEST(Span, HasNothingInCellsThatOnlyOthersReach) {
+  const Level level(line(30));
+  Lanes length = 0.02;
+  length = Lanes::of([&](int lane) { return lane == 1 ? 0.25 : length[lane]; });
+  const Interval span(level, 0, 15, 0.55, length);
+
+  EXPECT_EQ(span.cells, 3);
+  EXPECT_EQ(span.first[0], 15);
+  EXPECT_EQ(span.first[1], 14);
+  EXPECT_NEAR(span.part[0][0], 1, 1e-13);
+  EXPECT_EQ(span.part[1][0], 0);
+  EXPECT_EQ(span.weight[2][0], 0);
+  EXPECT_NEAR(span.part[1][1], 0.4, 1e-13);
 }
 
 TEST(Footprint, IsTheProductOfItsSpans) {
   const Level level(test::domain({{8, 6, 4}}));
-  const Vec<3> centre(0.4, 0.31, 0.19), edges(0.15, 0.12, 0.09);
-  const Footprint<3> footprint(level, level.cellOf<3>(centre), centre, edges);
-  double parts = 0, weights = 0;
-  footprint.forEachCell(level.cells(), [&](const Index<3>&, double part) { parts += part; });
-  footprint.forEachNode(level.nodes(), {}, [&](const Index<3>&, double w, const Vec<3>&) { weights += w; });
+  const Footprint<3> footprint = footprintOf<3>(level, Vec<3>(0.4, 0.31, 0.19), Vec<3>(0.15, 0.12, 0.09));
+  Lanes parts = 0, weights = 0;
+  Footprint<3>::Field<2> still;
+  still.fill(LanesVec<3>::Zero());
+  footprint.forEachPart([&](const Index<3>&, const Lanes& part) { parts += part; });
+  footprint.forEachWeight(still, [&](const Index<3>&, const Lanes& w, const LanesVec<3>&) { weights += w; });
 
-  EXPECT_NEAR(parts, 1, 1e-14);
-  EXPECT_NEAR(weights, 1, 1e-14);
+  EXPECT_NEAR(parts[0], 1, 1e-14);
+  EXPECT_NEAR(weights[0], 1, 1e-14);
 }
 
 TEST(Footprint, EvaluatesMultilinearFieldsAtTheNodes) {
   const Level level(test::domain({{8, 6, 1}}));
-  const Vec<2> centre(0.4, 0.31), edges(0.15, 0.12);
-  const Footprint<2> footprint(level, level.cellOf<2>(centre), centre, edges);
-  const Footprint<2>::Field<1> field{Vec<2>(1, 2), Vec<2>(3, -1), Vec<2>(0.5, 4), Vec<2>(-2, 7)};
-  footprint.forEachNode(level.nodes(), field, [&](const Index<2>& node, double, const Vec<2>& value) {
-    const double x = level.nodePosition(0, node[0]) - centre[0], y = level.nodePosition(1, node[1]) - centre[1];
-    EXPECT_NEAR((value - (field[0] + x * field[1] + y * field[2] + x * y * field[3])).norm(), 0, 1e-14);
+  const Vec<2> centre(0.4, 0.31), mean(1, 2), alongX(3, -1), alongY(0.5, 4), mixed(-2, 7);
+  const Footprint<2> footprint = footprintOf<2>(level, centre, Vec<2>(0.15, 0.12));
+  const Footprint<2>::Field<1> field{LanesVec<2>(mean.cast<Lanes>()), alongX.cast<Lanes>(), alongY.cast<Lanes>(),
+                                     mixed.cast<Lanes>()};
+  footprint.forEachWeight(field, [&](const Index<2>& k, const Lanes&, const LanesVec<2>& value) {
+    const double x = level.nodePosition(0, footprint.along[0].first[0] + k[0]) - centre[0];
+    const double y = level.nodePosition(1, footprint.along[1].first[0] + k[1]) - centre[1];
+    const Vec<2> there = mean + x * alongX + y * alongY + x * y * mixed;
+    for (int d = 0; d < 2; ++d) EXPECT_NEAR(value[d][0], there[d], 1e-14);
   });
 }
 
-TEST(Footprint, VisitsTheSameWithinABoxAsWithout) {
+TEST(GridFields, GetTheSameFromParticlesSideBySideAsFromOneAfterTheOther) {
   const Level level(test::domain({{8, 6, 1}}));
-  const Vec<2> centre(0.4, 0.31), edges(0.15, 0.12);
-  const Footprint<2> footprint(level, level.cellOf<2>(centre), centre, edges);
-  const Box some{{{3, 0, 0}}, {{4, 3, 1}}};
-  std::vector<double> clipped, chosen;
-  footprint.forEachCell(some, [&](const Index<2>&, double part) { clipped.push_back(part); });
-  footprint.forEachCell(level.cells(), [&](const Index<2>& cell, double part) {
-    if (some.contains(cell)) chosen.push_back(part);
-  });
-
-  EXPECT_EQ(clipped, chosen);
-  EXPECT_FALSE(clipped.empty());
+  std::mt19937 generator(3);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  GridFields<2, 1> together(level.cells()), apart(level.cells());
+  for (int row = 1; row < 5; ++row) {
+    Batch<2> all;
+    LanesVec<2> centre, edges;
+    for (int lane = 0; lane < Lanes::count; ++lane) {
+      const Index<2> cell{{lane, row}};
+      all.add(lane, cell);
+      for (int d = 0; d < 2; ++d) {
+        centre[d] =
+            at(centre[d], lane, level.nodePosition(d, cell[d]) + (0.6 + 0.1 * uniform(generator)) * level.spacing(d));
+        edges[d] = at(edges[d], lane, level.spacing(d));
+      }
+    }
+    addParts(level, all, centre, edges, together);
+    for (int lane = 0; lane < Lanes::count; ++lane) {
+      Batch<2> one;
+      one.add(lane, {{lane, row}});
+      one.fillUp();
+      LanesVec<2> x, size;
+      for (int d = 0; d < 2; ++d) {
+        x[d] = centre[d][lane];
+        size[d] = edges[d][lane];
+      }
+      addParts(level, one, x, size, apart);
+    }
+  }
+  forEach<2>(level.cells(), [&](const Index<2>& cell) { EXPECT_EQ(together.at(0, cell), apart.at(0, cell)); });
+  EXPECT_GT(together.at(0, {{1, 3}}), 0);
 }
 
 }  // namespace tushar::mpm

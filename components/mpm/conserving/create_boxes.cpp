@@ -48,7 +48,9 @@ Contents<D> integrate(const Level& level, const Gas& gas, const GasObject& objec
     sum.mass += v * rho;
     sum.momentum += v * rho * u;
     sum.energy += v * rho * (gas.internalEnergy(rho, p) + 0.5 * u.squaredNorm());
-    for (int a = 1; a < (1 << D); ++a) sum.moments.col(a - 1) += v * rho * productOver(a, offset) * u;
+    const auto products = productsOver(offset);
+    for (std::size_t a = 1; a < products.size(); ++a)
+      sum.moments.col(static_cast<int>(a) - 1) += v * rho * products[a] * u;
   });
   return sum;
 }
@@ -77,8 +79,9 @@ void createBoxes(const Patch& patch, const Gas& gas, ParticleMaker& maker, std::
     const Contents<D> held = integrate<D>(level, gas, object, x[k], box);
     mass[k] = held.mass;
     velocity[k] = held.momentum / held.mass;
-    for (int a = 1; a < (1 << D); ++a)
-      modes[k].col(a - 1) = held.moments.col(a - 1) / (held.mass * productOver(a, inertia));
+    const auto products = productsOver(inertia);
+    for (std::size_t a = 1; a < products.size(); ++a)
+      modes[k].col(static_cast<int>(a) - 1) = held.moments.col(static_cast<int>(a) - 1) / (held.mass * products[a]);
     affineEnergy[k] = modalEnergy<D>(modes[k], inertia);
     internalEnergy[k] = held.energy / held.mass - 0.5 * velocity[k].squaredNorm() - affineEnergy[k];
   }

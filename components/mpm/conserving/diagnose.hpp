@@ -1,7 +1,7 @@
 #pragma once
 
-#include "components/mpm/conserving/footprint.hpp"
 #include "components/mpm/conserving/labels.hpp"
+#include "components/mpm/conserving/grid_fields.hpp"
 #include "components/mpm/materials/gas.hpp"
 #include "components/reference/gas_solution.hpp"
 
@@ -53,24 +53,26 @@ void computeCellVelocity(const Patch& patch, const Gas&, ParticleView<const Vec<
                          ParticleView<const Modes<D>> modes, CellView<const double> cellMass,
                          CellView<Vec<D>> cellVelocity) {
   const Level& level = patch.level();
-  cellVelocity.fill(Vec<D>::Zero());
-  forEach<D>(x.cells(), [&](const Index<D>& cell) {
-    for (const int p : x.in(cell)) {
-      const Footprint<D> footprint(level, cell, x[p], edges[p]);
-      footprint.forEachCell(patch.cells(), [&](const Index<D>& c, double part) {
-        Vec<D> u = velocity[p];
-        for (int d = 0; d < D; ++d) {
-          const auto& span = footprint.along[static_cast<std::size_t>(d)];
-          const double lower = std::max(span.lower, level.nodePosition(d, c[d]));
-          const double upper = std::min(span.upper, level.nodePosition(d, c[d] + 1));
-          u += (0.5 * (lower + upper) - x[p][d]) * modes[p].col(gradientColumn(d));
-        }
-        cellVelocity[c] += part * mass[p] * u;
-      });
-    }
+  GridFields<D, D> momentum(x.cells());
+  forEachBatch<D>(x.cells(), x, [&](const Batch<D>& batch) {
+    const LanesVec<D> centre = load(x, batch), v = load(velocity, batch);
+    const LanesModes<D> u = load(modes, batch);
+    const Footprint<D> footprint(level, batch, centre, load(edges, batch));
+    const Lanes m = batch.only(load(mass, batch));
+    typename GridFields<D, D>::Brought brought;
+    footprint.forEachPart([&](const Index<D>& k, const Lanes& part) {
+      LanesVec<D> there = v;
+      for (std::size_t d = 0; d < D; ++d) {
+        const int axis = static_cast<int>(d);
+        there += (footprint.along[d].middle(k[axis]) - centre[axis]) * u.col(gradientColumn(axis));
+      }
+      for (std::size_t d = 0; d < D; ++d) brought[d][Footprint<D>::number(k)] = part * m * there[static_cast<int>(d)];
+    });
+    momentum.add(footprint, batch.count, 0, brought);
   });
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    if (cellMass[cell] > 0) cellVelocity[cell] /= cellMass[cell];
+    const double m = cellMass[cell], inverse = m > 0 ? 1 / m : 0;
+    for (std::size_t d = 0; d < D; ++d) cellVelocity[cell][static_cast<int>(d)] = inverse * momentum.at(d, cell);
   });
 }
 

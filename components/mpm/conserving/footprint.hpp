@@ -3,156 +3,182 @@
 #include <algorithm>
 #include <array>
 
+#include "components/mpm/conserving/batch.hpp"
 #include "components/mpm/conserving/modes.hpp"
 
 namespace tushar::mpm {
 
-/// What an interval of a line of cells touches.
+/// What intervals of a line of cells touch, one interval per lane.
 ///
 /// Weights are means of the linear shape functions over the interval, w_i = 1/L integral S_i dx; parts are the shares
-/// of the interval that lie in each cell. Ends nearer to a node than 1e-12 h count as on it.
-template <int Most>
+/// of the interval that lie in each cell. Ends nearer to a node than 1e-12 h count as on it. Nodes and cells that an
+/// interval does not reach have weight and part 0; what reaches further than `Overhang` counts to the outermost cell.
+template <int Overhang, int Most>
 struct Span {
-  int first = 0;  ///< cell, and node below it
-  int cells = 0;  ///< that the interval overlaps, at most `Most`
-  std::array<double, Most> part{};           ///< by cell; they sum to 1
-  std::array<double, Most + 1> weight{};     ///< by node; they sum to 1
-  std::array<double, Most + 1> arm{};        ///< of nodes from the centre, m
-  std::array<double, Most + 1> atLower{}, atUpper{};  ///< shares of nodes in the value at the ends
-  double inertia = 0;                        ///< sum of weight times arm², m²
-  double lower = 0, upper = 0;               ///< ends, m
-  double lowerWithin = 0, upperWithin = 0;            ///< coordinates of the ends in their cells, 0 to 1
+  LaneIntegers first;                            ///< cell, and node below it
+  int cells = 1;                                 ///< that any of the intervals overlaps
+  std::array<Lanes, Most> part;                  ///< by cell; they sum to 1
+  std::array<Lanes, Most + 1> weight;            ///< by node; they sum to 1
+  std::array<Lanes, Most + 1> arm;               ///< of nodes from the centre, m
+  std::array<Lanes, Most + 1> atLower, atUpper;  ///< shares of nodes in the value at the ends
+  Lanes inertia = 0;                             ///< sum of weight times arm², m²
+  Lanes lower, upper;                            ///< ends, m
 
   /// Along kernel axis `d`; `cell` is that of the centre. What reaches beyond the grid is cut off.
-  Span(const Level& level, int d, int cell, double centre, double length) {
-    const double h = level.spacing(d), inverse = level.inverseSpacing(d), origin = level.nodePosition(d, cell);
-    double from = snap((centre - origin) * inverse - 0.5 * length * inverse);
-    double to = snap((centre - origin) * inverse + 0.5 * length * inverse);
+  Span(const Level& level, int d, const Lanes& cell, const Lanes& centre, const Lanes& length) {
+    const double h = level.spacing(d), inverse = level.inverseSpacing(d);
+    const Lanes origin = level.nodePosition(d, 0) + h * cell, middle = inverse * (centre - origin);
+    Lanes from = snap(middle - 0.5 * inverse * length), to = snap(middle + 0.5 * inverse * length);
     if (!level.isPeriodic(d)) {
-      from = std::max(from, static_cast<double>(-cell));
-      to = std::min(to, static_cast<double>(level.cells().upper[d] - cell));
+      from = max(from, -cell);
+      to = min(to, static_cast<double>(level.cells().upper[d]) - cell);
     }
-    const int below = static_cast<int>(std::floor(from));
-    cells = std::clamp(static_cast<int>(std::ceil(to)) - below, 1, Most);
-    first = cell + below;
+    const Lanes below = clamp(floor(from), -Overhang, 0);
+    first = truncate(cell + below);
     lower = origin + from * h;
     upper = origin + to * h;
-    lowerWithin = from - below;
-    upperWithin = to - (below + cells - 1);
-    distribute(1 / (to - from));
-    atLower[0] = 1 - lowerWithin;
-    atLower[1] = lowerWithin;
-    atUpper[index(cells - 1)] = 1 - upperWithin;
-    atUpper[index(cells)] = upperWithin;
-    const double offset = origin + below * h - 0.5 * (lower + upper);
+    distribute(from - below, to - below);
+    const Lanes offset = origin + below * h - 0.5 * (lower + upper);
     for (int k = 0; k <= cells; ++k) {
-      arm[index(k)] = offset + k * h;
-      inertia += weight[index(k)] * arm[index(k)] * arm[index(k)];
+      const auto at = static_cast<std::size_t>(k);
+      arm[at] = offset + k * h;
+      inertia += weight[at] * arm[at] * arm[at];
     }
   }
 
   int nodes() const { return cells + 1; }
-  double length() const { return upper - lower; }
+  Lanes length() const { return upper - lower; }
+  /// Ends and middle of the part in the k-th cell, m.
+  Lanes lowerOf(int k) const { return max(lower, centre() + arm[static_cast<std::size_t>(k)]); }
+  Lanes upperOf(int k) const { return min(upper, centre() + arm[static_cast<std::size_t>(k) + 1]); }
+  Lanes middle(int k) const { return 0.5 * (lowerOf(k) + upperOf(k)); }
+
  private:
-  static constexpr std::size_t index(int k) { return static_cast<std::size_t>(k); }
-  static double snap(double x) {
-    const double whole = std::nearbyint(x);
-    return std::abs(x - whole) < 1e-12 ? whole : x;
+  Lanes centre() const { return 0.5 * (lower + upper); }
+  static Lanes snap(const Lanes& x) {
+    const Lanes whole = nearbyint(x);
+    return select(abs(x - whole) < 1e-12, whole, x);
   }
-  void distribute(double scale) {
-    double from = lowerWithin;
+  /// Shares out the interval from `start` to `end`, in cells from the lower end of the first one.
+  void distribute(const Lanes& start, const Lanes& end) {
+    const double furthest = greatest(end);
+    while (cells < Most && furthest > cells) ++cells;
+    const Lanes scale = 1 / (end - start);
+    Lanes from = start, carried = 0, reached = 1;
     for (int k = 0; k < cells; ++k) {
-      const double to = k == cells - 1 ? upperWithin : 1.0;
-      const double share = (to - from) * scale, above = share * 0.5 * (from + to);
-      part[index(k)] = share;
-      weight[index(k)] += share - above;
-      weight[index(k + 1)] += above;
+      const auto at = static_cast<std::size_t>(k);
+      const Lanes rest = max(end - k, 0), to = k == Most - 1 ? rest : min(rest, 1);
+      const Lanes share = (to - from) * scale, above = 0.5 * share * (from + to);
+      part[at] = share;
+      weight[at] = carried + (share - above);
+      atLower[at] = k == 0 ? 1 - start : k == 1 ? start : 0;
+      atUpper[at] = reached - to;
+      carried = above;
+      reached = to;
       from = 0;
     }
+    const auto last = static_cast<std::size_t>(cells);
+    weight[last] = carried;
+    atLower[last] = cells == 1 ? start : 0;
+    atUpper[last] = reached;
   }
 };
 
-/// What a particle that fills a box touches: the product of its spans.
+/// What particles that fill boxes touch, one per lane: the product of their spans.
 template <int D>
 struct Footprint {
   /// How many cells away from that of its centre a particle may reach: boxes of less than 2 h, on a line of 3 h.
   static constexpr int overhang = D == 1 ? 2 : 1;
   /// Cells beyond a patch whose particles may touch its nodes.
   static constexpr int reach = overhang + 1;
-  static constexpr int most = 2 * overhang;
+  /// Cells along an axis that a box may overlap.
+  static constexpr int most = 2 * overhang + (D > 1);
   /// Cells along an axis that no particle may be longer than.
   static constexpr double longest = D == 1 ? 3 : 2;
 
-  std::array<Span<most + (D > 1)>, D> along;
+  std::array<Span<overhang, most>, D> along;
 
-  Footprint(const Level& level, const Index<D>& cell, const Vec<D>& centre, const Vec<D>& edges)
-      : Footprint(level, cell, centre, edges, std::make_index_sequence<D>()) {}
+  Footprint(const Level& level, const Batch<D>& batch, const LanesVec<D>& centre, const LanesVec<D>& edges)
+      : Footprint(level, batch, centre, edges, std::make_index_sequence<D>()) {}
 
-  Vec<D> inertia() const {
-    Vec<D> all;
+  LanesVec<D> inertia() const {
+    LanesVec<D> all;
     for (int d = 0; d < D; ++d) all[d] = along[static_cast<std::size_t>(d)].inertia;
     return all;
   }
 
-  /// Calls `visit(cell, part)` for each cell of `box` that the particle overlaps.
-  template <class Visit>
-  void forEachCell(const Box& box, Visit&& visit) const {
-    Index<D> cell;
-    cells<D - 1>(box, cell, 1.0, visit);
+  /// The first cell of each, and the node below it.
+  std::array<LaneIntegers, D> first() const {
+    std::array<LaneIntegers, D> all;
+    for (std::size_t d = 0; d < D; ++d) all[d] = along[d].first;
+    return all;
   }
 
+  /// Calls `visit(k, part)` for each place of the footprint that a cell may have.
+  template <class Visit>
+  void forEachPart(Visit&& visit) const {
+    Index<D> k;
+    parts<D - 1>(k, Lanes(1), visit);
+  }
   /// Coefficients of a multilinear field about the centre, sum of f_a phi_a; `Axis` is the last one it depends on.
   template <int Axis>
-  using Field = std::array<Vec<D>, (1 << (Axis + 1))>;
+  using Field = std::array<LanesVec<D>, (1 << (Axis + 1))>;
 
-  /// Calls `visit(node, w, f)` for each node of `box` that the particle touches, with the weight and the field there.
+  /// Calls `visit(k, w, f)` for each place of the footprint that a node may have, with the weights and the fields
+  /// there.
   template <class Visit>
-  void forEachNode(const Box& box, const Field<D - 1>& field, Visit&& visit) const {
-    Index<D> node;
-    nodes<D - 1>(box, node, 1.0, field, visit);
+  void forEachWeight(const Field<D - 1>& field, Visit&& visit) const {
+    Index<D> k;
+    weights<D - 1>(k, Lanes(1), field, visit);
   }
-
   /// The field on a plane across its last axis, `arm` from the centre.
   template <int Axis>
-  static Field<Axis - 1> slice(const Field<Axis>& field, double arm) {
+  static Field<Axis - 1> slice(const Field<Axis>& field, const Lanes& arm) {
     constexpr std::size_t half = std::size_t{1} << Axis;
     Field<Axis - 1> result;
     for (std::size_t a = 0; a < half; ++a) result[a] = field[a] + arm * field[a + half];
     return result;
   }
 
+  /// Places that nodes or cells may have in a footprint, numbered with the first axis fastest.
+  static constexpr int stride(int axis) { return axis == 0 ? 1 : (most + 1) * stride(axis - 1); }
+  static constexpr std::size_t places = D == 1   ? most + 1
+                                        : D == 2 ? (most + 1) * (most + 1)
+                                                 : (most + 1) * (most + 1) * (most + 1);
+  static constexpr std::size_t number(const Index<D>& k) {
+    int number = 0;
+    for (int d = 0; d < D; ++d) number += k[d] * stride(d);
+    return static_cast<std::size_t>(number);
+  }
+
  private:
   template <std::size_t... Axis>
-  Footprint(const Level& level, const Index<D>& cell, const Vec<D>& centre, const Vec<D>& edges,
+  Footprint(const Level& level, const Batch<D>& batch, const LanesVec<D>& centre, const LanesVec<D>& edges,
             std::index_sequence<Axis...>)
-      : along{{{level, static_cast<int>(Axis), cell[Axis], centre[Axis], edges[Axis]}...}} {}
+      : along{{{level, static_cast<int>(Axis), widen(batch.cell[Axis]), centre[Axis], edges[Axis]}...}} {}
 
   template <int Axis, class Visit>
-  void cells(const Box& box, Index<D>& cell, double part, Visit& visit) const {
+  void parts(Index<D>& k, const Lanes& part, Visit& visit) const {
     const auto& span = along[Axis];
-    const int end = std::min(span.cells, box.upper[Axis] - span.first);
-    for (int k = std::max(0, box.lower[Axis] - span.first); k < end; ++k) {
-      cell[Axis] = span.first + k;
-      const double share = part * span.part[static_cast<std::size_t>(k)];
+    for (k[Axis] = 0; k[Axis] < span.cells; ++k[Axis]) {
+      const Lanes share = part * span.part[static_cast<std::size_t>(k[Axis])];
       if constexpr (Axis == 0)
-        visit(cell, share);
+        visit(k, share);
       else
-        cells<Axis - 1>(box, cell, share, visit);
+        parts<Axis - 1>(k, share, visit);
     }
   }
 
   template <int Axis, class Visit>
-  void nodes(const Box& box, Index<D>& node, double weight, const Field<Axis>& field, Visit& visit) const {
+  void weights(Index<D>& k, const Lanes& weight, const Field<Axis>& field, Visit& visit) const {
     const auto& span = along[Axis];
-    const int end = std::min(span.nodes(), box.upper[Axis] - span.first);
-    for (int k = std::max(0, box.lower[Axis] - span.first); k < end; ++k) {
-      const auto at = static_cast<std::size_t>(k);
-      node[Axis] = span.first + k;
-      const double w = weight * span.weight[at];
+    for (k[Axis] = 0; k[Axis] < span.nodes(); ++k[Axis]) {
+      const auto at = static_cast<std::size_t>(k[Axis]);
+      const Lanes w = weight * span.weight[at];
       if constexpr (Axis == 0)
-        visit(node, w, Vec<D>(field[0] + span.arm[at] * field[1]));
+        visit(k, w, LanesVec<D>(field[0] + span.arm[at] * field[1]));
       else
-        nodes<Axis - 1>(box, node, w, slice<Axis>(field, span.arm[at]), visit);
+        weights<Axis - 1>(k, w, slice<Axis>(field, span.arm[at]), visit);
     }
   }
 };

@@ -17,21 +17,27 @@ using Tensor = Eigen::Matrix<double, D, D, Eigen::DontAlign>;
 /// The column of the derivative along an axis.
 constexpr int gradientColumn(int axis) { return (1 << axis) - 1; }
 
-/// Product of one value per axis over the axes of `a`.
+/// Products of one value per axis over the axes of each a, the first of none.
 template <class Values>
-double productOver(int a, const Values& values) {
-  double product = 1;
-  for (int d = 0; (a >> d) != 0; ++d)
-    if ((a >> d) & 1) product *= values[d];
-  return product;
+auto productsOver(const Values& values) {
+  constexpr std::size_t dimension = Values::SizeAtCompileTime;
+  std::array<typename Values::Scalar, std::size_t{1} << dimension> products;
+  products[0] = 1;
+  for (std::size_t d = 0; d < dimension; ++d)
+    for (std::size_t a = 0; a < std::size_t{1} << d; ++a)
+      products[a + (std::size_t{1} << d)] = products[a] * values[static_cast<int>(d)];
+  return products;
 }
 
 /// Kinetic energy per mass of the motion about the mean, K = 1/2 sum of I_a |u_a|², I_a the product of `inertia`
 /// over the axes of a: mean squares of x_d - centre_d [m²] over whatever the modes are orthogonal on.
-template <int D>
-double modalEnergy(const Modes<D>& modes, const Vec<D>& inertia) {
-  double energy = 0;
-  for (int a = 1; a < (1 << D); ++a) energy += 0.5 * productOver(a, inertia) * modes.col(a - 1).squaredNorm();
+template <int D, class Real>
+Real modalEnergy(const Eigen::Matrix<Real, D, (1 << D) - 1, Eigen::DontAlign>& modes,
+                 const Eigen::Matrix<Real, D, 1, Eigen::DontAlign>& inertia) {
+  const auto products = productsOver(inertia);
+  Real energy = 0;
+  for (std::size_t a = 1; a < products.size(); ++a)
+    energy += 0.5 * products[a] * modes.col(static_cast<int>(a) - 1).squaredNorm();
   return energy;
 }
 

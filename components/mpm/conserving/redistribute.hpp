@@ -1,7 +1,7 @@
 #pragma once
 
-#include "components/mpm/conserving/footprint.hpp"
 #include "components/mpm/conserving/labels.hpp"
+#include "components/mpm/conserving/grid_fields.hpp"
 #include "components/mpm/conserving/scheme.hpp"
 #include "components/mpm/materials/gas.hpp"
 
@@ -47,13 +47,13 @@ struct NewBoxes {
 };
 
 /// Halves particles longer than `longestInCells` cells along an axis: children at a quarter of the length to both sides
-/// of the centre with velocities v -+ L B_d / 4, whose kinetic energy comes from K_A, then from e. A child may lie in the
-/// next cell: each patch makes the children that lie in its own cells, of its own particles and of its ghosts.
+/// of the centre with velocities v -+ L B_d / 4, whose kinetic energy comes from K_A, then from e. A child may lie in
+/// the next cell: each patch makes the children that lie in its own cells, of its own particles and of its ghosts.
 template <int D>
 void splitLong(const Patch& patch, double longestInCells, const Boxes<D>& boxes, NewBoxes<D> fresh);
 
-/// Replaces the particles by one that fills each cell. Mass, momentum and energy are those of the parts of particles that
-/// lie in the cell; a part has its share of the particle's mass and energy by van Leer's limited slopes of the
+/// Replaces the particles by one that fills each cell. Mass, momentum and energy are those of the parts of particles
+/// that lie in the cell; a part has its share of the particle's mass and energy by van Leer's limited slopes of the
 /// cells' (`mass`, `energy`), and the particle's velocity there. The velocity gradient of a new particle is the
 /// regression over its parts, its mixed modes their mean, and the kinetic energy it cannot hold becomes heat.
 template <int D>
@@ -92,7 +92,8 @@ void redistributeOrRemap(const Patch& patch, const Gas&, ParticleMaker& maker, d
     splitLong<D>(patch, longestInCells, boxes, fresh);
 }
 
-/// Counts the steps since the last remap: 0 where one is due in this step, after `every` steps or once a cell is overfull.
+/// Counts the steps since the last remap: 0 where one is due in this step, after `every` steps or once a cell is
+/// overfull.
 inline void countSteps(const Patch&, const Remap& remap, double age, double fill, Maximum& count) {
   count.add(age + 1 >= remap.every || fill > 1 + remap.overfilled ? 0.0 : age + 1);
 }
@@ -106,12 +107,20 @@ void gatherInCells(const Patch& patch, const Gas&, ParticleView<const Vec<D>> x,
   cellMass.fill(0);
   cellEnergy.fill(0);
   if (count != 0) return;
-  forEach<D>(x.cells(), [&](const Index<D>& cell) {
-    for (const int p : x.in(cell))
-      Footprint<D>(patch.level(), cell, x[p], edges[p]).forEachCell(cellMass.box(), [&](const Index<D>& c, double part) {
-        cellMass[c] += part * mass[p];
-        cellEnergy[c] += part * mass[p] * internalEnergy[p];
-      });
+  GridFields<D, 2> sums(x.cells());
+  forEachBatch<D>(x.cells(), x, [&](const Batch<D>& batch) {
+    const Footprint<D> footprint(patch.level(), batch, load(x, batch), load(edges, batch));
+    const Lanes m = batch.only(load(mass, batch)), energy = m * load(internalEnergy, batch);
+    typename GridFields<D, 2>::Brought parts;
+    footprint.forEachPart([&](const Index<D>& k, const Lanes& part) {
+      parts[0][Footprint<D>::number(k)] = part * m;
+      parts[1][Footprint<D>::number(k)] = part * energy;
+    });
+    sums.add(footprint, batch.count, 0, parts);
+  });
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    cellMass[cell] = sums.at(0, cell);
+    cellEnergy[cell] = sums.at(1, cell);
   });
 }
 

@@ -4,160 +4,209 @@ namespace tushar::mpm::conserving {
 
 namespace {
 
-/// Sums over the parts of particles in a cell; offsets are from the middle of the cell.
+template <int D>
+using LanesTensor = Eigen::Matrix<Lanes, D, D, Eigen::DontAlign>;
+
+/// Sums over the parts of particles in each cell; offsets dx are from the middle of the cell.
 template <int D>
 struct CellSums {
-  double mass = 0, internal = 0, kinetic = 0;
-  Vec<D> momentum = Vec<D>::Zero();
-  Vec<D> offset = Vec<D>::Zero();      ///< m dx
-  Vec<D> square = Vec<D>::Zero();      ///< m (dx² + l²/12), l the length of the part
-  Tensor<D> moment = Tensor<D>::Zero();  ///< column d: m (u dx_d + B_d l_d²/12)
-  Modes<D> modes = Modes<D>::Zero();   ///< m u_a
+  static constexpr std::size_t mass = 0, internal = 1, kinetic = 2;
+  static constexpr std::size_t momentum = 3;
+  static constexpr std::size_t offset = momentum + D;   ///< m dx
+  static constexpr std::size_t square = offset + D;     ///< m (dx² + l²/12), l the length of the part
+  static constexpr std::size_t moment = square + D;     ///< D by axis: m (u dx_d + B_d l_d²/12)
+  static constexpr std::size_t modes = moment + D * D;  ///< D by axes of a mixed mode: m u_a
+  static constexpr std::size_t count = modes + D * ((1 << D) - 1 - D);
+
+  using Fields = GridFields<D, count>;
 };
 
-/// Van Leer's limited slope along an axis over the value itself, 1/m; 0 at the rim of the grid.
+/// Whether a mode is one of several axes.
+constexpr bool isMixed(std::size_t a) { return (a & (a - 1)) != 0; }
+
+/// The cells' mass and internal energy.
 template <int D>
-double relativeSlope(const Level& level, CellView<const double> values, const Index<D>& cell, int d) {
-  const Index<D> below = cell - Index<D>::unit(d), above = cell + Index<D>::unit(d);
-  if (!values.box().contains(below) || !values.box().contains(above) || !(values[cell] > 0)) return 0;
-  const double rise = values[above] - values[cell], fall = values[cell] - values[below];
-  return rise * fall > 0 ? 2 * rise * fall * level.inverseSpacing(d) / ((rise + fall) * values[cell]) : 0.0;
+using Contents = GridFields<D, 2>;
+
+/// Van Leer's limited slopes of a cell variable over the value itself, 1/m; 0 at the rim of the grid. Such that boxes
+/// of these edges keep at least a fifth of the mean everywhere.
+template <int D>
+LanesVec<D> relativeSlopes(const Level& level, const Contents<D>& contents, std::size_t field, const Batch<D>& batch,
+                           const LanesVec<D>& edges) {
+  const typename Contents<D>::Near near(contents, batch.cell, batch.count);
+  const Lanes value = contents.read(field, near, {});
+  LanesVec<D> slopes;
+  for (int d = 0; d < D; ++d) {
+    const Lanes rise = contents.read(field, near, Index<D>::unit(d)) - value;
+    const Lanes fall = value - contents.read(field, near, Index<D>{} - Index<D>::unit(d));
+    const Lanes slope = 2 * level.inverseSpacing(d) * rise * fall / ((rise + fall) * value);
+    slopes[d] = select(rise * fall > 0, slope, 0);
+    if (level.isPeriodic(d)) continue;
+    const Lanes cell = widen(batch.cell[static_cast<std::size_t>(d)]);
+    slopes[d] = select(cell > 0, select(cell < level.cells().upper[d] - 1, slopes[d], 0), 0);
+  }
+  Lanes swing = 0;
+  for (int d = 0; d < D; ++d) swing += 0.5 * abs(slopes[d]) * edges[d];
+  return select(swing > 0.8, 0.8 / swing, 1) * slopes;
 }
 
-/// Relative slopes of a cell variable, such that a box of these edges keeps at least a fifth of the mean everywhere.
-template <int D>
-Vec<D> relativeSlopes(const Level& level, CellView<const double> values, const Index<D>& cell, const Vec<D>& edges) {
-  Vec<D> slopes;
-  for (int d = 0; d < D; ++d) slopes[d] = relativeSlope<D>(level, values, cell, d);
-  const double swing = 0.5 * slopes.cwiseAbs().dot(edges);
-  return swing > 0.8 ? Vec<D>(0.8 / swing * slopes) : slopes;
-}
-
-/// The part of a particle in a cell.
+/// The parts of particles in a cell each.
 template <int D>
 struct Part {
-  Index<D> cell;
-  Vec<D> x, edges;       ///< centre and edge lengths
-  double mass, internal;  ///< shares of the particle's, then kg and J
+  Index<D> k;            ///< which cell of the footprints
+  LanesVec<D> x, edges;  ///< centre and edge lengths
+  Lanes mass, internal;  ///< shares of the particle's
 };
 
+/// Boxes cut at the faces of cells.
 template <int D>
 class Parts {
  public:
-  /// Cuts a box at the faces of cells.
-  Parts(const Level& level, const Footprint<D>& footprint, const Vec<D>& centre, const Vec<D>& density,
-        const Vec<D>& energy) {
-    const Box everywhere{Index3::filled(std::numeric_limits<int>::min() / 2),
-                         Index3::filled(std::numeric_limits<int>::max() / 2)};
-    footprint.forEachCell(everywhere, [&](const Index<D>& cell, double share) {
-      Part<D>& part = parts_[static_cast<std::size_t>(count_++)];
-      part.cell = cell;
+  /// Relative slopes of density and internal energy say how unlike the parts are.
+  Parts(const Footprint<D>& footprint, const LanesVec<D>& centre, const LanesVec<D>& density,
+        const LanesVec<D>& energy) {
+    Lanes mass = 0, internal = 0;
+    footprint.forEachPart([&](const Index<D>& k, const Lanes& share) {
+      Part<D>& part = parts_[count_++];
+      part.k = k;
       for (int d = 0; d < D; ++d) {
         const auto& span = footprint.along[static_cast<std::size_t>(d)];
-        const double lower = std::max(span.lower, level.nodePosition(d, cell[d]));
-        const double upper = std::min(span.upper, level.nodePosition(d, cell[d] + 1));
-        part.x[d] = 0.5 * (lower + upper);
-        part.edges[d] = upper - lower;
+        part.x[d] = span.middle(k[d]);
+        part.edges[d] = span.upperOf(k[d]) - span.lowerOf(k[d]);
       }
       part.mass = share * (1 + density.dot(part.x - centre));
       part.internal = share * (1 + energy.dot(part.x - centre));
+      mass += part.mass;
+      internal += part.internal;
     });
+    for (Part<D>& part : *this) {
+      part.mass /= mass;
+      part.internal /= internal;
+    }
   }
   Part<D>* begin() { return parts_.data(); }
   Part<D>* end() { return parts_.data() + count_; }
 
-  /// Makes the shares of mass and internal energy sum to what the particle has.
-  void scaleTo(double mass, double internal) {
-    double sumOfMass = 0, sumOfInternal = 0;
-    for (const Part<D>& part : *this) {
-      sumOfMass += part.mass;
-      sumOfInternal += part.internal;
-    }
-    for (Part<D>& part : *this) {
-      part.mass *= mass / sumOfMass;
-      part.internal *= internal / sumOfInternal;
-    }
-  }
-  const Part<D>* begin() const { return parts_.data(); }
-  const Part<D>* end() const { return parts_.data() + count_; }
-
  private:
-  static constexpr int perAxis = Footprint<D>::most + (D > 1);
-  std::array<Part<D>, D == 1 ? perAxis : D == 2 ? perAxis * perAxis : perAxis * perAxis * perAxis> parts_;
-  int count_ = 0;
+  std::array<Part<D>, Footprint<D>::places> parts_;
+  std::size_t count_ = 0;
 };
 
-/// Sends the parts of a particle to their cells.
-template <int D, class Send>
-void cut(const Level& level, const Index<D>& cell, const Boxes<D>& boxes, int p, CellView<const double> mass,
-         CellView<const double> energy, Send&& send) {
-  const Vec<D> centre = boxes.x[p];
-  const Footprint<D> footprint(level, cell, centre, boxes.edges[p]);
-  Parts<D> parts(level, footprint, centre, relativeSlopes<D>(level, mass, cell, boxes.edges[p]),
-                 relativeSlopes<D>(level, energy, cell, boxes.edges[p]));
-  const double m = boxes.mass[p], e = boxes.internalEnergy[p];
-  parts.scaleTo(m, m * e);
-  Vec<D> centroid = Vec<D>::Zero();
-  for (const Part<D>& part : parts) centroid += part.mass / m * part.x;
-  Tensor<D> gradient;
-  for (int d = 0; d < D; ++d) gradient.col(d) = boxes.modes[p].col(gradientColumn(d));
-  double kinetic = 0;
-  for (const Part<D>& part : parts) kinetic += 0.5 * part.mass / m * (gradient * (part.x - centroid)).squaredNorm();
-  const double most = boxes.affineEnergy[p] + 0.5 * e;
-  if (kinetic > most) {
-    gradient *= std::sqrt(most / kinetic);
-    kinetic = most;
+/// What a part brings to its cell.
+template <int D>
+void bring(typename CellSums<D>::Fields::Brought& brought, const Part<D>& part, const LanesVec<D>& dx,
+           const LanesVec<D>& u, const LanesTensor<D>& gradient, const LanesModes<D>& modes, const Lanes& surplus) {
+  using Sums = CellSums<D>;
+  const std::size_t place = Footprint<D>::number(part.k);
+  const auto put = [&](std::size_t field, const LanesVec<D>& values) {
+    for (std::size_t d = 0; d < D; ++d) brought[field + d][place] = part.mass * values[static_cast<int>(d)];
+  };
+  const LanesVec<D> spread = part.edges.cwiseAbs2() / 12;
+  brought[Sums::mass][place] = part.mass;
+  brought[Sums::internal][place] = part.internal;
+  brought[Sums::kinetic][place] = part.mass * (0.5 * u.squaredNorm() + surplus);
+  put(Sums::momentum, u);
+  put(Sums::offset, dx);
+  put(Sums::square, dx.cwiseAbs2() + spread);
+  for (int d = 0; d < D; ++d)
+    put(Sums::moment + static_cast<std::size_t>(d) * D, u * dx[d] + gradient.col(d) * spread[d]);
+  std::size_t field = Sums::modes;
+  for (std::size_t a = 1; a < std::size_t{1} << D; ++a) {
+    if (!isMixed(a)) continue;
+    put(field, modes.col(static_cast<int>(a) - 1));
+    field += D;
   }
-  const double surplus = boxes.affineEnergy[p] - kinetic;
+}
+
+/// Sends the parts of a batch of particles to their cells.
+template <int D>
+void cut(const Level& level, const Batch<D>& batch, const Boxes<D>& boxes, const Contents<D>& contents,
+         typename CellSums<D>::Fields& sums) {
+  const LanesVec<D> centre = load(boxes.x, batch), edges = load(boxes.edges, batch), v = load(boxes.velocity, batch);
+  const LanesModes<D> modes = load(boxes.modes, batch);
+  const Lanes m = batch.only(load(boxes.mass, batch)), e = load(boxes.internalEnergy, batch),
+              affine = load(boxes.affineEnergy, batch);
+  const Footprint<D> footprint(level, batch, centre, edges);
+  Parts<D> parts(footprint, centre, relativeSlopes<D>(level, contents, 0, batch, edges),
+                 relativeSlopes<D>(level, contents, 1, batch, edges));
+  LanesVec<D> centroid = LanesVec<D>::Zero();
+  for (const Part<D>& part : parts) centroid += part.mass * part.x;
+  LanesTensor<D> gradient;
+  for (int d = 0; d < D; ++d) gradient.col(d) = modes.col(gradientColumn(d));
+  Lanes kinetic = 0;
+  for (const Part<D>& part : parts) kinetic += 0.5 * part.mass * (gradient * (part.x - centroid)).squaredNorm();
+  const Lanes most = affine + 0.5 * e;
+  gradient *= select(kinetic > most, sqrt(most / kinetic), 1);
+  const Lanes surplus = affine - min(kinetic, most), warm = m * e * (1 + min(surplus, 0) / e);
+  typename CellSums<D>::Fields::Brought brought;
   for (Part<D>& part : parts) {
-    part.internal *= 1 + std::min(surplus, 0.0) / e;
-    send(part, Vec<D>(boxes.velocity[p] + gradient * (part.x - centroid)), gradient, boxes.modes[p],
-         std::max(surplus, 0.0));
+    LanesVec<D> middle;
+    for (int d = 0; d < D; ++d) {
+      const double h = level.spacing(d);
+      const Lanes cell = widen(footprint.along[static_cast<std::size_t>(d)].first + part.k[d]);
+      middle[d] = level.nodePosition(d, 0) + h * cell + 0.5 * h;
+    }
+    const LanesVec<D> u = v + gradient * (part.x - centroid);
+    part.mass *= m;
+    part.internal *= warm;
+    bring<D>(brought, part, part.x - middle, u, gradient, modes, max(surplus, 0));
   }
+  sums.add(footprint, batch.count, 0, brought);
 }
 
+/// Particles that fill the cells of a row side by side.
 template <int D>
-void addTo(CellSums<D>& sums, const Vec<D>& middle, const Part<D>& part, const Vec<D>& u, const Tensor<D>& gradient,
-           const Modes<D>& modes, double surplus) {
-  const double m = part.mass;
-  const Vec<D> dx = part.x - middle;
-  sums.mass += m;
-  sums.internal += part.internal;
-  sums.kinetic += m * (0.5 * u.squaredNorm() + surplus);
-  sums.momentum += m * u;
-  sums.offset += m * dx;
-  sums.modes += m * modes;
-  for (int d = 0; d < D; ++d) {
-    const double spread = part.edges[d] * part.edges[d] / 12;
-    sums.square[d] += m * (dx[d] * dx[d] + spread);
-    sums.moment.col(d) += m * (u * dx[d] + gradient.col(d) * spread);
+struct Filling {
+  Lanes mass, internalEnergy, affineEnergy;
+  LanesVec<D> velocity;
+  LanesModes<D> modes;
+
+  Filling(const Level& level, const typename CellSums<D>::Fields& sums, const Index<D>& cell) {
+    using Sums = CellSums<D>;
+    const auto vectorOf = [&](std::size_t field) {
+      LanesVec<D> values;
+      for (std::size_t d = 0; d < D; ++d) values[static_cast<int>(d)] = sums.readRow(field + d, cell);
+      return values;
+    };
+    mass = sums.readRow(Sums::mass, cell);
+    const Lanes inverse = 1 / mass;
+    velocity = inverse * vectorOf(Sums::momentum);
+    const LanesVec<D> offset = inverse * vectorOf(Sums::offset), square = inverse * vectorOf(Sums::square);
+    LanesVec<D> inertia;
+    for (int d = 0; d < D; ++d) {
+      inertia[d] = 0.25 * level.spacing(d) * level.spacing(d);
+      const LanesVec<D> moment = inverse * vectorOf(Sums::moment + static_cast<std::size_t>(d) * D);
+      modes.col(gradientColumn(d)) = (moment - offset[d] * velocity) / (square[d] - offset[d] * offset[d]);
+    }
+    std::size_t field = Sums::modes;
+    for (std::size_t a = 1; a < std::size_t{1} << D; ++a) {
+      if (!isMixed(a)) continue;
+      modes.col(static_cast<int>(a) - 1) = inverse * vectorOf(field);
+      field += D;
+    }
+    const Lanes within = max(0, inverse * sums.readRow(Sums::kinetic, cell) - 0.5 * velocity.squaredNorm());
+    affineEnergy = min(within, modalEnergy<D>(modes, inertia));
+    internalEnergy = inverse * sums.readRow(Sums::internal, cell) + (within - affineEnergy);
   }
-}
+};
 
 template <int D>
-void makeParticle(const Level& level, const Index<D>& cell, const Vec<D>& middle, const CellSums<D>& sums,
-                  NewBoxes<D>& fresh) {
-  Vec<D> edges, inertia;
-  const double inverse = 1 / sums.mass;
-  const Vec<D> v = inverse * sums.momentum;
-  Modes<D> modes = inverse * sums.modes;
+void addParticle(const Level& level, const Index<D>& cell, const Filling<D>& filling, int lane, NewBoxes<D>& fresh) {
+  Vec<D> edges, v;
+  Modes<D> modes;
   for (int d = 0; d < D; ++d) {
-    const double offset = inverse * sums.offset[d];
     edges[d] = level.spacing(d);
-    inertia[d] = 0.25 * edges[d] * edges[d];
-    modes.col(gradientColumn(d)) =
-        (inverse * sums.moment.col(d) - offset * v) / (inverse * sums.square[d] - offset * offset);
+    v[d] = filling.velocity[d][lane];
+    for (int a = 0; a < modes.cols(); ++a) modes(d, a) = filling.modes(d, a)[lane];
   }
-  const double within = std::max(0.0, inverse * sums.kinetic - 0.5 * v.squaredNorm());
-  const double affine = std::min(within, modalEnergy<D>(modes, inertia));
   fresh.maker.add(cell, level.cellNumber(cell) << 16);
-  fresh.x.push_back(middle);
+  fresh.x.push_back(level.cellCentre<D>(cell));
   fresh.edges.push_back(edges);
-  fresh.mass.push_back(sums.mass);
+  fresh.mass.push_back(filling.mass[lane]);
   fresh.velocity.push_back(v);
   fresh.modes.push_back(modes);
-  fresh.internalEnergy.push_back(inverse * sums.internal + (within - affine));
-  fresh.affineEnergy.push_back(affine);
+  fresh.internalEnergy.push_back(filling.internalEnergy[lane]);
+  fresh.affineEnergy.push_back(filling.affineEnergy[lane]);
 }
 
 }  // namespace
@@ -166,23 +215,17 @@ template <int D>
 void remap(const Patch& patch, const Boxes<D>& boxes, CellView<const double> mass, CellView<const double> energy,
            NewBoxes<D> fresh) {
   const Level& level = patch.level();
-  std::vector<CellSums<D>> sums(patch.cells().size());
-  const auto place = [&](const Index<D>& cell) {
-    Index3 wide;
-    for (int d = 0; d < D; ++d) wide[d] = cell[d];
-    return patch.cells().offset(wide);
-  };
-  forEach<D>(boxes.x.cells(), [&](const Index<D>& cell) {
-    for (const int p : boxes.x.in(cell))
-      cut<D>(level, cell, boxes, p, mass, energy,
-             [&](const Part<D>& part, const Vec<D>& u, const Tensor<D>& gradient, const Modes<D>& modes, double surplus) {
-               if (patch.cells().contains(part.cell))
-                 addTo(sums[place(part.cell)], level.cellCentre<D>(part.cell), part, u, gradient, modes, surplus);
-             });
-  });
-  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    const CellSums<D>& all = sums[place(cell)];
-    if (all.mass > 0) makeParticle<D>(level, cell, level.cellCentre<D>(cell), all, fresh);
+  Contents<D> contents(boxes.x.cells());
+  contents.copy(0, mass);
+  contents.copy(1, energy);
+  typename CellSums<D>::Fields sums(boxes.x.cells());
+  forEachBatch<D>(boxes.x.cells(), boxes.x,
+                  [&](const Batch<D>& batch) { cut<D>(level, batch, boxes, contents, sums); });
+  forEach<D>(patch.cells(), [&](Index<D> cell) {
+    if ((cell[0] - patch.cells().lower[0]) % Lanes::count != 0) return;
+    const Filling<D> filling(level, sums, cell);
+    for (int lane = 0; lane < Lanes::count && cell[0] < patch.cells().upper[0]; ++lane, ++cell[0])
+      if (filling.mass[lane] > 0) addParticle<D>(level, cell, filling, lane, fresh);
   });
 }
 
