@@ -104,6 +104,25 @@ TEST(Remap, LeavesAnEmptyCellEmpty) {
   EXPECT_EQ(made.x.size(), 8U);
 }
 
+TEST(Remap, LetsGasReachNoFartherIntoAnEmptyCell) {
+  BoxCloud<1> cloud(Index3{{9, 1, 1}});
+  const double h = cloud.level.spacing(0);
+  for (int cell = 0; cell < 9; ++cell) {
+    const auto p = static_cast<std::size_t>(cell);
+    cloud.edges[p][0] = h;
+    cloud.x[p] = cloud.level.cellCentre<1>(Index<1>{{cell}}) + Vec<1>(0.3 * h);
+    cloud.mass[p] = 1;
+    if (cell > 4) cloud.set.at(Index<1>{{cell}}) = {9, 9};
+  }
+  Made<1> made;
+  remapAll(cloud, made);
+
+  ASSERT_EQ(made.x.size(), 6U);
+  EXPECT_NEAR(made.x.back()[0] + 0.5 * made.edges.back()[0], cloud.level.nodePosition(0, 5) + 0.3 * h, 1e-2 * h);
+  EXPECT_NEAR(made.x.back()[0] - 0.5 * made.edges.back()[0], cloud.level.nodePosition(0, 5), 1e-13);
+  for (std::size_t p = 1; p < 5; ++p) EXPECT_NEAR(made.edges[p][0], h, 1e-13);
+}
+
 TEST(SplitLong, HalvesAlongEachLongAxisAndKeepsAll) {
   BoxCloud<2> cloud(Index3{{7, 6, 1}});
   cloud.edges[20] = Vec<2>(1.9 * cloud.level.spacing(0), 1.6 * cloud.level.spacing(1));

@@ -52,10 +52,11 @@ struct NewBoxes {
 template <int D>
 void splitLong(const Patch& patch, double longestInCells, const Boxes<D>& boxes, NewBoxes<D> fresh);
 
-/// Replaces the particles by one that fills each cell. Mass, momentum and energy are those of the parts of particles
-/// that lie in the cell; a part has its share of the particle's mass and energy by van Leer's limited slopes of the
-/// cells' (`mass`, `energy`), and the particle's velocity there. The velocity gradient of a new particle is the
-/// regression over its parts, its mixed modes their mean, and the kinetic energy it cannot hold becomes heat.
+/// Replaces the particles by one that fills each cell; next to an empty cell only as far as the gas does. Mass, momentum
+/// and energy are those of the parts of particles that lie in the cell; a part has its share of the particle's mass and
+/// energy by van Leer's limited slopes of the cells' (`mass`, `energy`), and the particle's velocity there. The velocity
+/// gradient of a new particle is the regression over its parts, its mixed modes their mean, and the kinetic energy it
+/// cannot hold becomes heat.
 template <int D>
 void remap(const Patch& patch, const Boxes<D>& boxes, CellView<const double> mass, CellView<const double> energy,
            NewBoxes<D> fresh);

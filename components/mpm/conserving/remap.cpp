@@ -154,14 +154,16 @@ void cut(const Level& level, const Batch<D>& batch, const Boxes<D>& boxes, const
   sums.add(footprint, batch.count, 0, brought);
 }
 
-/// Particles that fill the cells of a row side by side.
+/// What lies in the cells of a row side by side.
 template <int D>
-struct Filling {
-  Lanes mass, internalEnergy, affineEnergy;
+struct Contained {
+  Lanes mass, internalEnergy;
+  Lanes within;         ///< kinetic energy per mass about the mean velocity, J/kg
+  LanesVec<D> offset;   ///< of the centre of mass from the middle of the cell, m
   LanesVec<D> velocity;
   LanesModes<D> modes;
 
-  Filling(const Level& level, const typename CellSums<D>::Fields& sums, const Index<D>& cell) {
+  Contained(const typename CellSums<D>::Fields& sums, const Index<D>& cell) {
     using Sums = CellSums<D>;
     const auto vectorOf = [&](std::size_t field) {
       LanesVec<D> values;
@@ -171,10 +173,9 @@ struct Filling {
     mass = sums.readRow(Sums::mass, cell);
     const Lanes inverse = 1 / mass;
     velocity = inverse * vectorOf(Sums::momentum);
-    const LanesVec<D> offset = inverse * vectorOf(Sums::offset), square = inverse * vectorOf(Sums::square);
-    LanesVec<D> inertia;
+    offset = inverse * vectorOf(Sums::offset);
+    const LanesVec<D> square = inverse * vectorOf(Sums::square);
     for (int d = 0; d < D; ++d) {
-      inertia[d] = 0.25 * level.spacing(d) * level.spacing(d);
       const LanesVec<D> moment = inverse * vectorOf(Sums::moment + static_cast<std::size_t>(d) * D);
       modes.col(gradientColumn(d)) = (moment - offset[d] * velocity) / (square[d] - offset[d] * offset[d]);
     }
@@ -184,29 +185,58 @@ struct Filling {
       modes.col(static_cast<int>(a) - 1) = inverse * vectorOf(field);
       field += D;
     }
-    const Lanes within = max(0, inverse * sums.readRow(Sums::kinetic, cell) - 0.5 * velocity.squaredNorm());
-    affineEnergy = min(within, modalEnergy<D>(modes, inertia));
-    internalEnergy = inverse * sums.readRow(Sums::internal, cell) + (within - affineEnergy);
+    within = max(0, inverse * sums.readRow(Sums::kinetic, cell) - 0.5 * velocity.squaredNorm());
+    internalEnergy = inverse * sums.readRow(Sums::internal, cell);
+  }
+};
+
+/// The box of a new particle: its cell, but where the next cell is empty only as far as the gas reaches, so that gas
+/// does not spread into a vacuum by a cell with every remap. No thinner than a tenth of the cell.
+template <int D>
+struct NewBox {
+  Vec<D> centre, edges;
+  Vec<D> inertia;  ///< on the grid, m²
+
+  /// `offset` is that of the centre of mass from the middle of the cell.
+  NewBox(const Level& level, CellView<const double> mass, const Index<D>& cell, const Vec<D>& offset) {
+    for (int d = 0; d < D; ++d) {
+      const double h = level.spacing(d);
+      const bool below = isEmpty(mass, cell - Index<D>::unit(d)), above = isEmpty(mass, cell + Index<D>::unit(d));
+      double lower = 0, upper = h;
+      if (above && !below) upper = std::clamp(h + 2 * offset[d], 0.1 * h, h);
+      if (below && !above) lower = std::clamp(2 * offset[d], 0.0, 0.9 * h);
+      centre[d] = level.nodePosition(d, cell[d]) + 0.5 * (lower + upper);
+      edges[d] = upper - lower;
+      inertia[d] = 0.5 * (lower + upper) * (h - 0.5 * (lower + upper));
+    }
+  }
+
+ private:
+  static bool isEmpty(CellView<const double> mass, const Index<D>& cell) {
+    return mass.box().contains(cell) && !(mass[cell] > 0);
   }
 };
 
 template <int D>
-void addParticle(const Level& level, const Index<D>& cell, const Filling<D>& filling, int lane, NewBoxes<D>& fresh) {
-  Vec<D> edges, v;
+void addParticle(const Level& level, CellView<const double> mass, const Index<D>& cell, const Contained<D>& contained,
+                 int lane, NewBoxes<D>& fresh) {
+  Vec<D> v, offset;
   Modes<D> modes;
   for (int d = 0; d < D; ++d) {
-    edges[d] = level.spacing(d);
-    v[d] = filling.velocity[d][lane];
-    for (int a = 0; a < modes.cols(); ++a) modes(d, a) = filling.modes(d, a)[lane];
+    v[d] = contained.velocity[d][lane];
+    offset[d] = contained.offset[d][lane];
+    for (int a = 0; a < modes.cols(); ++a) modes(d, a) = contained.modes(d, a)[lane];
   }
+  const NewBox<D> box(level, mass, cell, offset);
+  const double within = contained.within[lane], affine = std::min(within, modalEnergy<D>(modes, box.inertia));
   fresh.maker.add(cell, level.cellNumber(cell) << 16);
-  fresh.x.push_back(level.cellCentre<D>(cell));
-  fresh.edges.push_back(edges);
-  fresh.mass.push_back(filling.mass[lane]);
+  fresh.x.push_back(box.centre);
+  fresh.edges.push_back(box.edges);
+  fresh.mass.push_back(contained.mass[lane]);
   fresh.velocity.push_back(v);
   fresh.modes.push_back(modes);
-  fresh.internalEnergy.push_back(filling.internalEnergy[lane]);
-  fresh.affineEnergy.push_back(filling.affineEnergy[lane]);
+  fresh.internalEnergy.push_back(contained.internalEnergy[lane] + (within - affine));
+  fresh.affineEnergy.push_back(affine);
 }
 
 }  // namespace
@@ -223,9 +253,9 @@ void remap(const Patch& patch, const Boxes<D>& boxes, CellView<const double> mas
                   [&](const Batch<D>& batch) { cut<D>(level, batch, boxes, contents, sums); });
   forEach<D>(patch.cells(), [&](Index<D> cell) {
     if ((cell[0] - patch.cells().lower[0]) % Lanes::count != 0) return;
-    const Filling<D> filling(level, sums, cell);
+    const Contained<D> contained(sums, cell);
     for (int lane = 0; lane < Lanes::count && cell[0] < patch.cells().upper[0]; ++lane, ++cell[0])
-      if (filling.mass[lane] > 0) addParticle<D>(level, cell, filling, lane, fresh);
+      if (contained.mass[lane] > 0) addParticle<D>(level, mass, cell, contained, lane, fresh);
   });
 }
 
