@@ -10,20 +10,19 @@ template <int D>
 inline constexpr ParticleLabel<Vec<D>> x{"p.x", "m", "position"};
 template <int D>
 inline constexpr ParticleLabel<Vec<D>> velocity{"p.velocity", "m/s", "velocity"};
-inline constexpr ParticleLabel<double> mass{"p.mass", "kg", "mass", Bound::positive};
+inline constexpr ParticleLabel<double> mass{"p.mass", "kg", "mass"};
 inline constexpr ParticleLabel<double> volume{"p.volume", "m^3", "volume, mass over density"};
 inline constexpr ParticleLabel<double> density{"p.density", "kg/m^3", "mass density", Bound::positive};
 inline constexpr ParticleLabel<double> internalEnergy{"p.internalEnergy", "J/kg", "internal energy per mass",
                                                       Bound::nonNegative};
-inline constexpr ParticleLabel<double> pressure{"p.pressure", "Pa", "pressure, artificial viscosity included",
-                                                Bound::finite};
+inline constexpr ParticleLabel<double> pressure{"p.pressure", "Pa", "pressure, artificial viscosity included"};
 inline constexpr ParticleLabel<double> velocityDivergence{"p.velocityDivergence", "1/s",
                                                           "divergence of the velocity in the cell of the last step"};
 }  // namespace p
 
 /// Node variables.
 namespace g {
-inline constexpr NodeLabel<double> mass{"g.mass", "kg", "mass gathered from particles", Bound::nonNegative};
+inline constexpr NodeLabel<double> mass{"g.mass", "kg", "mass gathered from particles"};
 template <int D>
 inline constexpr NodeLabel<Vec<D>> velocity{"g.velocity", "m/s", "velocity before the step"};
 template <int D>

@@ -2,29 +2,39 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <cstdint>
-#include <limits>
 
 namespace tushar::data {
 
 namespace {
 
-constexpr std::uint64_t infinity = std::bit_cast<std::uint64_t>(std::numeric_limits<double>::infinity());
-constexpr std::uint64_t allButSign = ~std::uint64_t{0} >> 1;
+/// What is looked at of many numbers at once.
+struct Look {
+  double least;  ///< of those that are numbers, or 1
+  double zero;   ///< the sum of 0 times each: not a number where one is not finite
+};
 
-/// The greatest `key` of the bits of the numbers; lanes that do not wait for one another, for vector instructions.
-template <class Key>
-std::uint64_t greatest(const double* values, std::size_t count, Key key) {
+/// Lanes that do not wait for one another, for vector instructions.
+Look lookAt(const double* values, std::size_t count) {
   constexpr std::size_t width = 32;
-  std::array<std::uint64_t, width> lanes{};
+  std::array<double, width> least, zero{};
+  least.fill(1);
   std::size_t k = 0;
   for (; k + width <= count; k += width)
-    for (std::size_t lane = 0; lane < width; ++lane)
-      lanes[lane] = std::max(lanes[lane], key(std::bit_cast<std::uint64_t>(values[k + lane])));
-  for (; k < count; ++k) lanes[0] = std::max(lanes[0], key(std::bit_cast<std::uint64_t>(values[k])));
-  return *std::max_element(lanes.begin(), lanes.end());
+    for (std::size_t lane = 0; lane < width; ++lane) {
+      const double x = values[k + lane];
+      least[lane] = x < least[lane] ? x : least[lane];
+      zero[lane] += 0 * x;
+    }
+  for (; k < count; ++k) {
+    least[0] = std::min(least[0], values[k]);
+    zero[0] += 0 * values[k];
+  }
+  for (std::size_t lane = 1; lane < width; ++lane) {
+    least[0] = std::min(least[0], least[lane]);
+    zero[0] += zero[lane];
+  }
+  return {least[0], zero[0]};
 }
 
 }  // namespace
@@ -34,17 +44,10 @@ bool holds(Bound bound, double value) {
   return std::isfinite(value) && (bound != Bound::positive || value > 0) && (bound != Bound::nonNegative || value >= 0);
 }
 
-// As integers, the bits of numbers from 0 up are in the order of the numbers; not a number comes above infinity, and
-// what has a sign above that. One less, 0 comes above all.
 bool holds(Bound bound, const double* values, std::size_t count) {
-  switch (bound) {
-    case Bound::none: return true;
-    case Bound::finite: return greatest(values, count, [](std::uint64_t b) { return b & allButSign; }) < infinity;
-    case Bound::positive: return greatest(values, count, [](std::uint64_t b) { return b - 1; }) < infinity - 1;
-    default: break;
-  }
-  if (greatest(values, count, [](std::uint64_t b) { return b; }) < infinity) return true;
-  return std::all_of(values, values + count, [&](double x) { return holds(bound, x); });  // perhaps it is only a -0
+  if (bound == Bound::none) return true;
+  const Look look = lookAt(values, count);
+  return look.zero == 0 && (bound != Bound::positive || look.least > 0) && (bound != Bound::nonNegative || look.least >= 0);
 }
 
 std::string_view textOf(Bound bound) {
