@@ -24,6 +24,7 @@ simulation::Catalogue catalogue() {
           reference::greshoKind(),
           reference::nohKind(),
           reference::sedovKind(),
+          reference::tabulatedKind(),
           simulation::exactSolutionKind(),
       },
   };

@@ -28,7 +28,7 @@ OVERRIDES = {
                                    "'ideal_gas'\n"),
     "unknown module": ("DataAnalysis/Module/@name=exactRieman", "DataAnalysis/Module: name: found 'exactRieman', expected "
                        "'massProjection', 'exactRiemann', 'simpleWave', 'isentropicVortex', 'gresho', 'noh', "
-                       "'sedov' or 'exactSolution' (did you mean 'exactRiemann'?)"),
+                       "'sedov', 'tabulated' or 'exactSolution' (did you mean 'exactRiemann'?)"),
     "unknown choice": (GAS + "volume_model=tracket", GAS + "volume_model: found 'tracket', expected 'cell_share' or "
                        "'tracked' (did you mean 'tracked'?)"),
     "unknown boundary label": ("Grid/BoundaryConditions/Face[1]/BCType/@label=Symetric",
