@@ -21,8 +21,8 @@ std::string findField(const output::Hdf5Input& file, const std::string& label) {
   for (const std::string& group : file.names("cells"))
     if (const std::string path = fmt::format("cells/{}/{}", group, label); file.has(path)) found.push_back(path);
   if (found.size() == 1) return found[0];
-  throw FileError(fmt::format("'{}' holds {} of one gas", file.path().string(),
-                              found.empty() ? "no " + label : "more than the " + label));
+  throw FileError(fmt::format("'{}' holds {}", file.path().string(),
+                              found.empty() ? "no " + label : "the " + label + " of several materials"));
 }
 
 std::vector<double> readField(const output::Hdf5Input& file, const std::string& label, std::size_t numbers) {
@@ -84,7 +84,7 @@ std::vector<Tabulated::Share> Tabulated::between(int axis, double x) const {
   return {{cell, 1 - (place - cell)}, {cell + 1, place - cell}};
 }
 
-/// Parts of the length that lies in the table; those below 1e-9 of a cell are round-off.
+/// Parts of the length that lies in the table.
 std::vector<Tabulated::Share> Tabulated::overlaps(int axis, double lower, double upper) const {
   if (table_.cells[axis] == 1) return {{0, 1.0}};
   const double from = std::max(0.0, (lower - table_.lower[axis]) / spacing_[axis]);
@@ -92,7 +92,7 @@ std::vector<Tabulated::Share> Tabulated::overlaps(int axis, double lower, double
   if (upper == lower) return between(axis, lower);
   std::vector<Share> shares;
   for (int cell = static_cast<int>(from); cell < to; ++cell)
-    if (const double part = std::min(to, cell + 1.0) - std::max(from, static_cast<double>(cell)); part > 1e-9)
+    if (const double part = std::min(to, cell + 1.0) - std::max(from, static_cast<double>(cell)); part > 0)
       shares.push_back({cell, part / (to - from)});
   if (shares.empty()) throw std::invalid_argument("No mean over a box beyond the table.");
   return shares;
