@@ -157,7 +157,7 @@ simulation::ComponentKind kind() {
   kind.name = "burgers";
   kind.sentence = "Burgers' equation by finite volumes";
   kind.sections = {"Burgers"};
-  kind.boundaryLabels = {"Velocity", "Symmetric"};
+  kind.boundaryLabels = {{"Velocity"}, {"Symmetric"}};
   kind.describe = [](std::ostream& out) { schema().describe(out); };
   kind.read = [](const input::Element& root, input::Diagnostics& diagnostics) {
     const Settings settings = simulation::readSection(root, schema(), diagnostics);

@@ -32,7 +32,7 @@ class WaveError : public simulation::Analysis {
   void schedule(TaskList& tasks) const override {
     tasks.perPatch("burgersWave::measure", measure, with(&exact_), requiresOld(c::u), computes(waveError));
   }
-  void setTime(double time) override { exact_.time = time; }
+  void setTime(double, double sinceStart) override { exact_.time = sinceStart; }
   std::vector<MeasuredError> errors() const override { return {{"u", "cell", &waveError, {"L1", "L2", "max"}}}; }
   std::string whyUnmeasured() const override {
     return exact_.wave.holdsAt(exact_.time) ? "" : fmt::format("'burgersWave' has no solution at t = {:g} s", exact_.time);

@@ -1,4 +1,3 @@
-#include <filesystem>
 #include <stdexcept>
 
 #include "components/reference/gas_module.hpp"
@@ -40,10 +39,9 @@ AnalysisKind tabulatedKind() {
   AnalysisKind kind{"tabulated", "errors against the cells of another run", {}, {}};
   kind.describe = [](std::ostream& out) { tableSchema().describe(out); };
   kind.read = [](const Element& module, Diagnostics& diagnostics) {
-    const auto folder = std::filesystem::path(module.where().file).parent_path();
-    return readModule(tableSchema(), module, diagnostics, [&](const TableSection& read) {
+    return readModule(tableSchema(), module, diagnostics, [](const TableSection& read, const grid::Level&) {
       try {
-        return std::make_shared<Tabulated>(readGasTable(folder / read.file, read.gamma));
+        return std::make_shared<Tabulated>(readGasTable(read.file, read.gamma));
       } catch (const FileError& error) {
         throw std::invalid_argument(error.what());
       }

@@ -93,7 +93,7 @@ class Coarsen(unittest.TestCase):
     def test_a_table_that_is_not_there_is_a_bad_scene(self):
         result = run(SCENE, "DataAnalysis/Module/file=none.h5")
         self.assertEqual(result.code, 3)
-        self.assertIn("DataAnalysis/Module: cannot read the file 'ups/euler/none.h5'", result.err)
+        self.assertIn("DataAnalysis/Module: cannot read the file 'none.h5'", result.err)
 
 
 if __name__ == "__main__":
