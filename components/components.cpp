@@ -1,5 +1,7 @@
 #include "components/components.hpp"
 
+#include "components/burgers/burgers.hpp"
+#include "components/burgers/burgers_wave.hpp"
 #include "components/euler/input.hpp"
 #include "components/heat/heat.hpp"
 #include "components/mpm/analysis/mass_projection.hpp"
@@ -12,11 +14,13 @@ namespace tushar {
 simulation::Catalogue catalogue() {
   return {
       {
+          burgers::kind(),
           euler::kind(),
           heat::kind(),
           mpm::kind(),
       },
       {
+          burgers::waveKind(),
           mpm::massProjectionKind(),
           reference::exactRiemannKind(),
           reference::simpleWaveKind(),
@@ -24,6 +28,7 @@ simulation::Catalogue catalogue() {
           reference::greshoKind(),
           reference::nohKind(),
           reference::sedovKind(),
+          reference::tabulatedKind(),
           simulation::exactSolutionKind(),
       },
   };

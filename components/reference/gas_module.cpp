@@ -13,14 +13,20 @@ namespace {
 /// Measures a component's gas against an exact solution, whatever that is.
 class GasError : public simulation::Analysis {
  public:
-  GasError(ReferencePointer exact, const GasSolution& solution) : exact_(std::move(exact)), solution_(&solution) {}
+  GasError(std::string module, ReferencePointer exact, const GasSolution& solution)
+      : module_(std::move(module)), exact_(std::move(exact)), solution_(&solution) {}
 
   void schedule(TaskList& tasks) const override { solution_->scheduleMeasureError(tasks, *exact_, clock_); }
   void setTime(double, double sinceStart) override { clock_.time = sinceStart; }
   std::vector<MeasuredError> errors() const override;
+  std::string whyUnmeasured() const override {
+    if (exact_->holdsAt(clock_.time)) return {};
+    return fmt::format("'{}' has no solution at t = {:g} s", module_, clock_.time);
+  }
   std::vector<output::Array> exactProfile(const Level& level) const override;
 
  private:
+  std::string module_;
   ReferencePointer exact_;
   const GasSolution* solution_;
   Clock clock_;
@@ -72,7 +78,7 @@ simulation::MakeAnalysis measureAgainst(std::function<ReferencePointer(const Lev
   const auto problem = [where = module.where(), path = module.path()](const std::string& sentence) {
     return InputError({InputProblem{where, path, sentence}});
   };
-  return [build, problem, gamma = tags.gamma, within = tags.within](
+  return [build, problem, name = tags.name, gamma = tags.gamma, within = tags.within](
              const Component& component, const Level& level) -> std::unique_ptr<simulation::Analysis> {
     const auto* solution = dynamic_cast<const GasSolution*>(&component);
     if (!solution) throw problem("measures a gas, but this component does not solve for one; take the module out");
@@ -81,7 +87,7 @@ simulation::MakeAnalysis measureAgainst(std::function<ReferencePointer(const Lev
       if (std::abs(gamma - solution->gamma()) > 1e-6 * gamma)
         throw problem(fmt::format("gamma: found {}, but the gas of the scene has {}", gamma, solution->gamma()));
       if (within) exact = std::make_shared<Within>(exact, *within);
-      return std::make_unique<GasError>(std::move(exact), *solution);
+      return std::make_unique<GasError>(name, std::move(exact), *solution);
     } catch (const std::invalid_argument& error) {
       throw problem(error.what());
     }

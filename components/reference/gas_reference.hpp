@@ -26,8 +26,8 @@ class GasReference {
   /// Whether it has values at time `t` (s).
   virtual bool holdsAt(double t) const { return t >= 0; }
 
-  /// Whether errors are to be measured at `x` (m).
-  virtual bool covers(const Vec3&) const { return true; }
+  /// Whether errors are to be measured at `x` (m) at time `t` (s).
+  virtual bool covers(const Vec3&, double t) const { return holdsAt(t); }
 
   /// Mean of each field over the box [lower, upper] (m) at time `t` (s); an axis with no extent is a point.
   /// Each is a plain volume mean, velocity and internal energy too: neither is weighted with mass.

@@ -16,5 +16,7 @@ simulation::AnalysisKind greshoKind();
 simulation::AnalysisKind nohKind();
 /// `sedov`: errors against a self-similar blast wave.
 simulation::AnalysisKind sedovKind();
+/// `tabulated`: errors against the cells of another run.
+simulation::AnalysisKind tabulatedKind();
 
 }  // namespace tushar::reference

@@ -18,8 +18,9 @@ class Within : public GasReference {
 
   GasState at(const Vec3& x, double t) const override { return gas_->at(x, t); }
   bool holdsAt(double t) const override { return gas_->holdsAt(t); }
-  bool covers(const Vec3& x) const override {
-    return (x.array() >= region_.lower.array()).all() && (x.array() <= region_.upper.array()).all() && gas_->covers(x);
+  bool covers(const Vec3& x, double t) const override {
+    return (x.array() >= region_.lower.array()).all() && (x.array() <= region_.upper.array()).all() &&
+           gas_->covers(x, t);
   }
   GasState average(const Vec3& lower, const Vec3& upper, double t) const override {
     return gas_->average(lower, upper, t);

@@ -43,6 +43,11 @@ class TreeBuilder {
   std::vector<std::string> including_;
 };
 
+/// The path of a file that a tag of the scene `scene` names.
+std::string resolved(const std::string& path, const std::string& scene) {
+  return (std::filesystem::absolute(scene).parent_path() / path).lexically_normal().string();
+}
+
 std::unique_ptr<Node> TreeBuilder::makeTag(const XmlFile& file, const pugi::xml_node& xml) {
   auto node = std::make_unique<Node>();
   node->name = xml.name();
@@ -50,6 +55,7 @@ std::unique_ptr<Node> TreeBuilder::makeTag(const XmlFile& file, const pugi::xml_
   addAttributes(xml, *node);
   addChildren(file, xml, *node);
   node->text = trimmed(node->text);
+  if (node->name == "file" && !node->text.empty()) node->text = resolved(node->text, file.name());
   return node;
 }
 

@@ -26,6 +26,8 @@ class Analysis {
   virtual void setTime(double time, double sinceStart) = 0;
   /// What the tasks measure; they are run at the end of the run.
   virtual std::vector<MeasuredError> errors() const { return {}; }
+  /// Why errors mean nothing at the time that is set, in a sentence; empty where they do.
+  virtual std::string whyUnmeasured() const { return {}; }
   /// A table of exact values to draw beside the result, one column an array, `x` first; empty where there is none.
   virtual std::vector<output::Array> exactProfile(const grid::Level&) const { return {}; }
 };

@@ -53,8 +53,10 @@ std::string limitLine(const Report& report) {
 }
 
 std::string errorTable(const Report& report) {
-  if (report.errors.empty()) return "";
-  std::string text = fmt::format("\n  {:<24} {:>12} {:>12} {:>12}   unit\n", "error of", "L1", "L2", "max");
+  std::string text;
+  for (const std::string& why : report.unmeasured) text += fmt::format("\n  no errors: {}\n", why);
+  if (report.errors.empty()) return text;
+  text += fmt::format("\n  {:<24} {:>12} {:>12} {:>12}   unit\n", "error of", "L1", "L2", "max");
   for (const ErrorNorms& error : report.errors) {
     const auto norm = [&](const char* name) {
       const auto found = error.norms.find(name);
@@ -110,6 +112,7 @@ std::string toJson(const Report& report) {
   json["particle_steps_per_second"] = report.wallLoop > 0 ? report.particleSteps / report.wallLoop : 0;
   json["wall"] = wallOf(report);
   json["errors"] = errorsOf(report);
+  json["unmeasured"] = report.unmeasured;
   json["drift"] = driftOf(report);
   json["tasks"] = tasksOf(report);
   json["archive"] = report.archive;

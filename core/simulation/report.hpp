@@ -47,6 +47,7 @@ struct Report {
   std::vector<TaskTime> tasks;
   double exchange = 0;  ///< s of the loop spent filling ghosts
   std::vector<ErrorNorms> errors;
+  std::vector<std::string> unmeasured;  ///< why errors are left out, a sentence for each module that has none
   std::vector<Drift> drifts;
   std::vector<std::string> kept;
   std::vector<tasks::LeftOut> leftOut;

@@ -290,7 +290,11 @@ void Simulation::reportDrift(Report& report) {
 }
 
 void Simulation::reportErrors(Report& report) {
-  for (const auto& analysis : problem_.analyses)
+  for (const auto& analysis : problem_.analyses) {
+    if (std::string why = analysis->whyUnmeasured(); !why.empty()) {
+      report.unmeasured.push_back(std::move(why));
+      continue;
+    }
     for (const MeasuredError& error : analysis->errors()) {
       const std::vector<double> values = reduction(error.label->name);
       if (values.empty()) continue;
@@ -299,6 +303,7 @@ void Simulation::reportErrors(Report& report) {
         norms.norms[norm] = values.size() == 1 ? values[0] : values[norm == "L1" ? 0 : norm == "L2" ? 1 : 2];
       report.errors.push_back(norms);
     }
+  }
 }
 
 }  // namespace tushar::simulation

@@ -18,7 +18,7 @@ LEFT = MATERIAL + "geom_object[1]/"
 # name: (override, sentence after the location)
 OVERRIDES = {
     "unknown component": ("SimulationComponent/@type=mpn",
-                          "SimulationComponent: type: found 'mpn', expected 'euler', 'heat' or 'mpm' (did you mean 'mpm'?)"),
+                          "SimulationComponent: type: found 'mpn', expected 'burgers', 'euler', 'heat' or 'mpm' (did you mean 'mpm'?)"),
     "unknown tag": (BOX + "resolutoin=[3,1,1]", BOX + "resolutoin: unknown tag <resolutoin> in <Box> (did you mean "
                     "'resolution'?); allowed here: lower, upper, resolution, patches, extraCells"),
     "unknown section": ("Gird/x=1", "Gird: unknown section <Gird> (did you mean 'Grid'?); allowed here: Meta, "
@@ -27,8 +27,8 @@ OVERRIDES = {
                                    MATERIAL + "constitutive_model: attribute 'type': found 'ideal_gaz', expected "
                                    "'ideal_gas'\n"),
     "unknown module": ("DataAnalysis/Module/@name=exactRieman", "DataAnalysis/Module: name: found 'exactRieman', expected "
-                       "'massProjection', 'exactRiemann', 'simpleWave', 'isentropicVortex', 'gresho', 'noh', "
-                       "'sedov' or 'exactSolution' (did you mean 'exactRiemann'?)"),
+                       "'burgersWave', 'massProjection', 'exactRiemann', 'simpleWave', 'isentropicVortex', 'gresho', 'noh', "
+                       "'sedov', 'tabulated' or 'exactSolution' (did you mean 'exactRiemann'?)"),
     "unknown choice": (GAS + "volume_model=tracket", GAS + "volume_model: found 'tracket', expected 'cell_share' or "
                        "'tracked' (did you mean 'tracked'?)"),
     "unknown boundary label": ("Grid/BoundaryConditions/Face[1]/BCType/@label=Symetric",

@@ -185,6 +185,17 @@ TEST_F(Include, InsertsTheWholeFileWithoutASection) {
   EXPECT_EQ(document.root().child("Grid")->children().at(0).name(), "A");
 }
 
+TEST(Document, MakesThePathOfAFileAbsolute) {
+  Diagnostics diagnostics;
+  Document document = Document::parse("<Uintah_specification><a><file> ../t.h5 </file></a></Uintah_specification>",
+                                      "some/folder/s.ups", diagnostics);
+  const std::string expected = (std::filesystem::current_path() / "some/t.h5").string();
+  EXPECT_EQ(document.root().child("a")->child("file")->text(), expected);
+  EXPECT_NE(document.text().find("<file>" + expected + "</file>"), std::string::npos);
+  document.set("a/file=other.h5", diagnostics);
+  EXPECT_EQ(document.root().child("a")->child("file")->text(), "other.h5");
+}
+
 TEST_F(Include, InsertsTheSectionItself) {
   Diagnostics diagnostics;
   const Document document = load("<include href='other.xml' section='A/B'/>", diagnostics);

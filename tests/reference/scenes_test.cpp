@@ -169,4 +169,10 @@ TEST(DiagonalTubeScene, RefusesWhatTheGridCannotHold) {
             "m from the first.");
 }
 
+TEST(DiagonalTubeScene, LeavesErrorsOutOnceItsWavesHaveMet) {
+  const auto report = run("ups/euler/sod_diagonal.ups", {cells(20, 20), "Time/maxTime=0.25"});
+  EXPECT_TRUE(report.errors.empty());
+  EXPECT_EQ(report.unmeasured, std::vector<std::string>{"'exactRiemann' has no solution at t = 0.25 s"});
+}
+
 }  // namespace tushar::reference

@@ -16,7 +16,8 @@ SPACE = ("Grid/Level/Box/resolution=[20,4,3]", "Grid/Level/Box/upper=[1,.2,.15]"
 
 def scenes(dimensions):
     """The scenes of particles and of heat with so many axes of more than one cell."""
-    for scene in sorted((ROOT / "ups/mpm").glob("*.ups")) + sorted((ROOT / "ups/heat").glob("*.ups")):
+    for scene in sorted((ROOT / "ups/mpm").glob("*.ups")) + sorted((ROOT / "ups/heat").glob("*.ups")) + \
+            sorted((ROOT / "ups/burgers").glob("*.ups")):
         cells = re.search(r"<resolution>\s*\[(.*?)\]", scene.read_text()).group(1).split(",")
         if sum(int(count) > 1 for count in cells) == dimensions:
             yield scene
@@ -46,7 +47,7 @@ class Layouts(unittest.TestCase):
 
     def test_finite_volumes_in_one_and_two_dimensions(self):
         self.assert_same("ups/euler/sod.ups", [f"[{n},1,1]" for n in (1, 2, 3, 7, 64)])
-        for scene in ("lax_liu_3", "sedov", "shock_bubble", "vortex", "gresho", "noh", "sod_diagonal"):
+        for scene in ("lax_liu_3", "sedov", "shock_bubble", "vortex", "gresho", "noh", "sod_diagonal", "kelvin_helmholtz"):
             self.assert_same(f"ups/euler/{scene}.ups", ["[1,1,1]", "[3,2,1]", "[7,5,1]"], "Time/max_Timesteps=12")
 
     def test_particles_that_keep_their_mass(self):

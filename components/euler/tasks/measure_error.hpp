@@ -14,7 +14,7 @@ void measureCellError(const Patch& patch, const Gas& gas, const reference::GasRe
                       CellView<const double> totalEnergy, Norm& rho, Norm& u, Norm& pressure, Norm& energy) {
   const Level& level = patch.level();
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    if (!exact->covers(level.expandPoint<D>(level.cellCentre<D>(cell)))) return;
+    if (!exact->covers(level.expandPoint<D>(level.cellCentre<D>(cell)), clock->time)) return;
     Vec<D> lower, upper;
     for (int d = 0; d < D; ++d) {
       lower[d] = level.nodePosition(d, cell[d]);

@@ -90,7 +90,7 @@ void measureCellError(const Patch& patch, const Gas& gas, const reference::GasRe
   const Level& level = patch.level();
   const double volume = level.cellVolume();
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    if (!exact->covers(level.expandPoint<D>(level.cellCentre<D>(cell)))) return;
+    if (!exact->covers(level.expandPoint<D>(level.cellCentre<D>(cell)), clock->time)) return;
     const double m = mass[cell], ie = internalEnergy[cell];
     Vec<D> lower, upper;
     for (int d = 0; d < D; ++d) {

@@ -17,7 +17,7 @@ void measureParticleError(const Patch& patch, const Gas& gas, const reference::G
   const Level& level = patch.level();
   for (int p = 0; p < density.owned(); ++p) {
     const Vec3 place = level.expandPoint<D>(x[p]);
-    if (!exact->covers(place)) continue;
+    if (!exact->covers(place, clock->time)) continue;
     const reference::GasState state = exact->at(place, clock->time);
     rho.add(density[p] - state.density);
     u.add((level.expandDirection<D>(velocity[p]) - state.velocity).norm());
@@ -34,7 +34,7 @@ void measureCellError(const Patch& patch, const Gas& gas, const reference::GasRe
                       Norm& u, Norm& pressure, Norm& energy) {
   const Level& level = patch.level();
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    if (!exact->covers(level.expandPoint<D>(level.cellCentre<D>(cell)))) return;
+    if (!exact->covers(level.expandPoint<D>(level.cellCentre<D>(cell)), clock->time)) return;
     reference::GasState mean{0, Vec3::Zero(), 0, 0};
     for (const int p : density.in(cell)) {
       mean.density += density[p];
@@ -71,7 +71,7 @@ void measureNodeError(const Patch& patch, const Gas&, const reference::GasRefere
       if (!level.isPeriodic(d) && (node[d] == 0 || node[d] == level.cells().upper[d])) volume *= 0.5;
     }
     const Vec3 place = level.expandPoint<D>(at);
-    if (exact->covers(place)) error.add(mass[node] / volume - exact->at(place, clock->time).density);
+    if (exact->covers(place, clock->time)) error.add(mass[node] / volume - exact->at(place, clock->time).density);
   });
 }
 

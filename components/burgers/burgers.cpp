@@ -1,0 +1,173 @@
+#include "components/burgers/burgers.hpp"
+
+#include "components/euler/limiters.hpp"
+#include "core/input/schema.hpp"
+#include "core/simulation/by_dimension.hpp"
+
+namespace tushar::burgers {
+
+namespace {
+
+constexpr int kReach = 2;  ///< cells to each side that a cell's fluxes depend on
+
+double noSlope(double, double) { return 0; }
+
+/// u in a cell of which all but coordinate `d` are in the grid; beyond an end of it, what comes in or goes out there.
+template <int D>
+double valueAt(const Patch& patch, CellView<const double> u, Index<D> cell, int d) {
+  if (patch.cellsWithin(kReach).contains(cell)) return u[cell];
+  const int side = cell[d] < 0 ? 0 : 1;
+  if (const auto* condition = patch.level().boundary(d, side, "Velocity")) return condition->value[0];
+  cell[d] = std::clamp(cell[d], 0, patch.level().cells().upper[d] - 1);
+  return u[cell];
+}
+
+/// Flux between the second and the third of four cells in a row.
+double faceFlux(const std::array<double, 4>& u, Slope slope, double viscosityOverSpacing) {
+  const double left = u[1] + 0.5 * slope(u[1] - u[0], u[2] - u[1]);
+  const double right = u[2] - 0.5 * slope(u[2] - u[1], u[3] - u[2]);
+  return godunovFlux(left, right) - viscosityOverSpacing * (u[2] - u[1]);
+}
+
+/// L(u) in a cell.
+template <int D>
+double rateOfChange(const Patch& patch, const Settings& settings, Slope slope, CellView<const double> u,
+                    const Index<D>& cell) {
+  double rate = 0;
+  for (int d = 0; d < D; ++d) {
+    const double perSpacing = patch.level().inverseSpacing(d);
+    std::array<double, 5> row;
+    for (int k = -kReach; k <= kReach; ++k) {
+      Index<D> at = cell;
+      at[d] += k;
+      row[static_cast<std::size_t>(k + kReach)] = valueAt<D>(patch, u, at, d);
+    }
+    const double in = faceFlux({row[0], row[1], row[2], row[3]}, slope, settings.viscosity * perSpacing);
+    const double out = faceFlux({row[1], row[2], row[3], row[4]}, slope, settings.viscosity * perSpacing);
+    rate -= (out - in) * perSpacing;
+  }
+  return rate;
+}
+
+}  // namespace
+
+Slope slopeOf(int limiter) {
+  return std::array<Slope, 4>{noSlope, euler::Minmod::slope, euler::VanLeer::slope,
+                              euler::Mc::slope}[static_cast<std::size_t>(limiter)];
+}
+
+double godunovFlux(double left, double right) {
+  const double rightGoing = std::max(left, 0.0), leftGoing = std::min(right, 0.0);
+  return 0.5 * std::max(rightGoing * rightGoing, leftGoing * leftGoing);
+}
+
+template <int D>
+void Burgers<D>::scheduleInitialize(TaskList& tasks) const {
+  tasks.perPatch("burgers::initialize", initialize<D>, with(settings_), computes(c::u));
+}
+
+template <int D>
+void Burgers<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
+  tasks.perPatch("burgers::computeStableTimeStep", computeStableTimeStep<D>, with(settings_), requiresOld(c::u),
+                 computes(delT));
+}
+
+template <int D>
+void Burgers<D>::scheduleTimeAdvance(TaskList& tasks) const {
+  tasks.perPatch("burgers::predict", predict<D>, with(settings_), requiresOld(c::u, kReach), requiresOld(delT),
+                 computes(c::predicted));
+  tasks.perPatch("burgers::correct", correct<D>, with(settings_), requiresOld(c::u), requiresNew(c::predicted, kReach),
+                 requiresOld(delT), computes(c::u));
+}
+
+template <int D>
+void Burgers<D>::scheduleDiagnostics(TaskList& tasks) const {
+  tasks.perPatch("burgers::sumTotals", sumTotals<D>, requiresOld(c::u), computes(totalMomentum), computes(totalEnergy));
+}
+
+template <int D>
+void initialize(const Patch& patch, const Settings& settings, CellView<double> u) {
+  const Level& level = patch.level();
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    const Vec3 middle = level.expandPoint<D>(level.cellCentre<D>(cell));
+    u[cell] = settings.velocity(middle);
+    if (!std::isfinite(u[cell]))
+      throw NumericalError(fmt::format("c.u is {} at ({:g}, {:g}, {:g})", u[cell], middle[0], middle[1], middle[2]),
+                           "another formula for <velocity>");
+  });
+}
+
+template <int D>
+void computeStableTimeStep(const Patch& patch, const Settings& settings, CellView<const double> u, Minimum& dt) {
+  double across = 0, spread = 0;
+  for (int d = 0; d < D; ++d) {
+    const double perSpacing = patch.level().inverseSpacing(d);
+    across += perSpacing;
+    spread += 2 * settings.viscosity * perSpacing * perSpacing;
+  }
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) { dt.add(settings.cfl / (std::abs(u[cell]) * across + spread)); });
+}
+
+template <int D>
+void predict(const Patch& patch, const Settings& settings, CellView<const double> u, double dt,
+             CellView<double> predicted) {
+  const Slope slope = slopeOf(settings.limiter);
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    predicted[cell] = u[cell] + dt * rateOfChange<D>(patch, settings, slope, u, cell);
+  });
+}
+
+template <int D>
+void correct(const Patch& patch, const Settings& settings, CellView<const double> u, CellView<const double> predicted,
+             double dt, CellView<double> newU) {
+  const Slope slope = slopeOf(settings.limiter);
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    newU[cell] =
+        0.5 * (u[cell] + predicted[cell] + dt * rateOfChange<D>(patch, settings, slope, predicted, cell));
+  });
+}
+
+template <int D>
+void sumTotals(const Patch& patch, CellView<const double> u, Sum& momentum, Sum& energy) {
+  const double volume = patch.level().cellVolume();
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    momentum.add(volume * u[cell]);
+    energy.add(volume * 0.5 * u[cell] * u[cell]);
+  });
+}
+
+namespace {
+
+const input::Schema<Settings>& schema() {
+  static const input::Schema<Settings> schema =
+      input::Schema<Settings>("Burgers", "Burgers' equation.")
+          .value("viscosity", &Settings::viscosity, 0, "m^2/s", "nu", input::nonNegative())
+          .choice("limiter", &Settings::limiter, {{"first_order", 0}, {"minmod", 1}, {"van_leer", 2}, {"mc", 3}}, 2,
+                  "of the slopes within cells; first_order has none")
+          .value("cfl", &Settings::cfl, 0.5, "1", "dt times the greatest sum of |u| / h + 2 nu / h^2 over the axes",
+                 input::positive(), input::atMost(1))
+          .required("velocity", &Settings::velocity, "m/s", "u at the start");
+  return schema;
+}
+
+}  // namespace
+
+simulation::ComponentKind kind() {
+  simulation::ComponentKind kind;
+  kind.name = "burgers";
+  kind.sentence = "Burgers' equation by finite volumes";
+  kind.sections = {"Burgers"};
+  kind.boundaryLabels = {{"Velocity"}, {"Symmetric"}};
+  kind.describe = [](std::ostream& out) { schema().describe(out); };
+  kind.read = [](const input::Element& root, input::Diagnostics& diagnostics) {
+    const Settings settings = simulation::readSection(root, schema(), diagnostics);
+    return [settings](const Level& level) { return simulation::makeByDimension<Burgers>(level, settings); };
+  };
+  return kind;
+}
+
+template class Burgers<1>;
+template class Burgers<2>;
+template class Burgers<3>;
+
+}  // namespace tushar::burgers

@@ -1,0 +1,80 @@
+#pragma once
+
+#include "core/core.hpp"
+#include "core/input/expression.hpp"
+#include "core/simulation/catalogue.hpp"
+
+namespace tushar::burgers {
+
+namespace c {
+inline constexpr CellLabel<double> u{"c.u", "m/s", "mean of u over the cell"};
+inline constexpr CellLabel<double> predicted{"c.predictedU", "m/s", "u after a step of Euler's method"};
+}  // namespace c
+inline constexpr ReductionLabel<Sum> totalMomentum{"TotalMomentum", "m^4/s", "integral of u"};
+inline constexpr ReductionLabel<Sum> totalEnergy{"TotalEnergy", "m^5/s^2", "integral of u^2 / 2"};
+
+/// Slope of a cell from the differences to its two neighbours.
+using Slope = double (*)(double, double);
+
+/// The `Burgers` section.
+struct Settings {
+  double viscosity = 0;       ///< nu, m²/s
+  double cfl = 0.5;           ///< part of 1 / (sum_d |u| / h_d + 2 nu / h_d²)
+  int limiter = 2;            ///< an index of slopeOf
+  input::Expression velocity{0.0};  ///< u at the start, m/s
+};
+
+/// Slopes by number: 0 none, first order; 1 minmod; 2 van Leer; 3 monotonised central.
+Slope slopeOf(int limiter);
+
+/// Burgers' equation, du/dt + sum_d d(u²/2)/dx_d = nu div grad u, by finite volumes in D dimensions.
+///
+/// Godunov's flux of states at faces that limited slopes give, centred differences for the viscosity, and Heun's method
+/// in time: of second order where u is smooth. At a face with `Velocity` Dirichlet the value [m/s] comes in; through
+/// any other u goes out as it is. Sources: S. K. Godunov, Mat. Sb. 47 (1959) 271; B. van Leer, J. Comput. Phys. 32
+/// (1979) 101; S. Gottlieb & C.-W. Shu, Math. Comp. 67 (1998) 73.
+template <int D>
+class Burgers : public Component {
+ public:
+  explicit Burgers(Settings settings) : settings_(std::move(settings)) {}
+
+  void scheduleInitialize(TaskList& tasks) const override;
+  void scheduleComputeStableTimeStep(TaskList& tasks) const override;
+  void scheduleTimeAdvance(TaskList& tasks) const override;
+  void scheduleDiagnostics(TaskList& tasks) const override;
+
+  const Settings& settings() const { return settings_; }
+
+ private:
+  Settings settings_;
+};
+
+/// u at the middle of each cell, from the scene's formula.
+template <int D>
+void initialize(const Patch& patch, const Settings& settings, CellView<double> u);
+
+/// dt = cfl / max(sum_d |u| / h_d + 2 nu / h_d²).
+template <int D>
+void computeStableTimeStep(const Patch& patch, const Settings& settings, CellView<const double> u, Minimum& dt);
+
+/// The flux u²/2 between two states: the greatest between them if left > right, else the least.
+double godunovFlux(double left, double right);
+
+/// u* = u + dt L(u), L minus the sum of the fluxes out of a cell over its volume.
+template <int D>
+void predict(const Patch& patch, const Settings& settings, CellView<const double> u, double dt,
+             CellView<double> predicted);
+
+/// u' = (u + u* + dt L(u*)) / 2.
+template <int D>
+void correct(const Patch& patch, const Settings& settings, CellView<const double> u, CellView<const double> predicted,
+             double dt, CellView<double> newU);
+
+/// Integrals of u and u²/2 over the patch's cells.
+template <int D>
+void sumTotals(const Patch& patch, CellView<const double> u, Sum& momentum, Sum& energy);
+
+/// What sus knows of this component.
+simulation::ComponentKind kind();
+
+}  // namespace tushar::burgers

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "core/simulation/catalogue.hpp"
+
+namespace tushar::burgers {
+
+/// A profile that Burgers' equation carries along.
+struct BurgersProblem {
+  std::function<double(double)> velocity;  ///< u at t = 0, m/s, over x in m; bounded
+  double viscosity = 0;                    ///< nu, m²/s
+  double lower = 0, upper = 1;             ///< where the profile begins and ends, m
+  bool periodic = false;                   ///< it repeats beyond; else it stays there as it is at its ends
+};
+
+/// The exact solution of Burgers' equation in one dimension, shocks included.
+///
+/// With U the integral of the profile, u = dPhi/dx of
+///   Phi = min over y of U(y) + (x-y)²/2t                                                       nu = 0
+///   Phi = -2 nu ln of (4 pi nu t)^(-1/2) integral exp(-(U(y) + (x-y)²/2t) / 2 nu) dy           nu > 0
+/// so that a mean of u is a difference of Phi. U is tabulated at 8193 places, between them it is integrated by
+/// Gauss-Legendre; the integral is a sum over these places. Exact to about 1e-12 where the profile is smooth; a jump
+/// of the profile is placed to within 1/8192 of its extent, and where it stands at one of these places u is good to 1e-6.
+/// Sources: E. Hopf, Comm. Pure Appl. Math. 3 (1950) 201; J. D. Cole, Quart. Appl. Math. 9 (1951) 225; P. D. Lax, Comm.
+/// Pure Appl. Math. 10 (1957) 537.
+class BurgersWave {
+ public:
+  /// Throws std::invalid_argument where nu < 0, upper <= lower or the profile is not finite.
+  explicit BurgersWave(BurgersProblem problem);
+
+  /// u at `x` (m) and time `t` (s). On a shock: one of its sides. Throws std::domain_error where holdsAt is false.
+  double at(double x, double t) const;
+  /// Mean of u over [lower, upper], m. Throws as at() does.
+  double average(double lower, double upper, double t) const;
+  /// Not before t = 0, nor so early that viscosity has spread less than the table can tell, (2 nu t)^(1/2) < 2 steps.
+  bool holdsAt(double t) const;
+
+ private:
+  /// A place y and the value of U(y) + (x-y)²/2t there.
+  struct Least {
+    double place, value;
+  };
+  void checkTime(double t) const;
+  double profile(double y) const;
+  double place(long node) const { return problem_.lower + static_cast<double>(node) * step_; }
+  double integralAt(long node) const;
+  double integral(double y) const;
+  Least least(double x, double t) const;
+  Least leastOfNodes(double x, double t, long first, long last) const;
+  double potential(double x, double t) const;
+  template <class F>
+  double sum(double x, double t, double least, const F& f) const;
+  long nodeBelow(double y) const;
+
+  BurgersProblem problem_;
+  double step_ = 0;                ///< m
+  double least_ = 0, greatest_ = 0;  ///< u of the profile, m/s
+  std::vector<double> integrals_;  ///< U at the places of the table, m²/s
+};
+
+/// `burgersWave`: errors of the component burgers, in one dimension, against the exact solution of the scene.
+simulation::AnalysisKind waveKind();
+
+}  // namespace tushar::burgers

@@ -1,0 +1,114 @@
+#include "components/burgers/burgers.hpp"
+#include "components/burgers/burgers_wave.hpp"
+#include "core/input/schema.hpp"
+
+namespace tushar::burgers {
+
+using simulation::MeasuredError;
+
+namespace {
+
+inline constexpr ReductionLabel<Norm> waveError{"CellError.u", "m/s", "error of the mean u of cells"};
+
+/// What the task is told before it runs.
+struct Exact {
+  BurgersWave wave;
+  double time = 0;
+};
+
+void measure(const Patch& patch, const Exact* exact, CellView<const double> u, Norm& error) {
+  if (!exact->wave.holdsAt(exact->time)) return;
+  const Level& level = patch.level();
+  forEach<1>(patch.cells(), [&](const Index<1>& cell) {
+    error.add(u[cell] -
+              exact->wave.average(level.nodePosition(0, cell[0]), level.nodePosition(0, cell[0] + 1), exact->time));
+  });
+}
+
+class WaveError : public simulation::Analysis {
+ public:
+  explicit WaveError(BurgersWave wave) : exact_{std::move(wave)} {}
+
+  void schedule(TaskList& tasks) const override {
+    tasks.perPatch("burgersWave::measure", measure, with(&exact_), requiresOld(c::u), computes(waveError));
+  }
+  void setTime(double, double sinceStart) override { exact_.time = sinceStart; }
+  std::vector<MeasuredError> errors() const override { return {{"u", "cell", &waveError, {"L1", "L2", "max"}}}; }
+  std::string whyUnmeasured() const override {
+    return exact_.wave.holdsAt(exact_.time) ? "" : fmt::format("'burgersWave' has no solution at t = {:g} s", exact_.time);
+  }
+  std::vector<output::Array> exactProfile(const Level& level) const override;
+
+ private:
+  Exact exact_;
+};
+
+std::vector<output::Array> WaveError::exactProfile(const Level& level) const {
+  if (!exact_.wave.holdsAt(exact_.time)) return {};
+  constexpr int points = 1000;
+  const double first = level.nodePosition(0, 0), last = level.nodePosition(0, level.cells().upper[0]);
+  std::vector<double> x, u;
+  for (int k = 0; k <= points; ++k) {
+    x.push_back(first + (last - first) * k / points);
+    u.push_back(exact_.wave.at(x.back(), exact_.time));
+  }
+  return {{"x", "m", "position", 1, x}, {"u", "m/s", "exact u", 1, u}};
+}
+
+/// The wave of a scene; throws std::invalid_argument where an end of the grid does not go on as the profile ends.
+BurgersWave waveOf(const Burgers<1>& burgers, const Level& level) {
+  BurgersProblem problem;
+  problem.velocity = [velocity = burgers.settings().velocity, &level](double x) {
+    Vec<1> at;
+    at[0] = x;
+    return velocity(level.expandPoint<1>(at));
+  };
+  problem.viscosity = burgers.settings().viscosity;
+  problem.lower = level.nodePosition(0, 0);
+  problem.upper = level.nodePosition(0, level.cells().upper[0]);
+  problem.periodic = level.isPeriodic(0);
+  for (const int side : {0, 1})
+    if (const auto* condition = level.boundary(0, side, "Velocity"))
+      if (const double end = problem.velocity(side == 0 ? problem.lower : problem.upper);
+          std::abs(condition->value[0] - end) > 1e-9 * std::max(1.0, std::abs(end)))
+        throw std::invalid_argument(fmt::format(
+            "{:g} m/s comes in at an end of the grid where u is {:g} m/s at the start; there is no exact solution",
+            condition->value[0], end));
+  return BurgersWave(std::move(problem));
+}
+
+struct Settings {
+  std::string name;
+};
+const input::Schema<Settings>& schema() {
+  static const input::Schema<Settings> schema =
+      input::Schema<Settings>("Module",
+                              "Errors of the component burgers against the exact solution that follows from <Burgers>, in "
+                              "one dimension.")
+          .requiredAttribute("name", &Settings::name, "1", "burgersWave");
+  return schema;
+}
+
+}  // namespace
+
+simulation::AnalysisKind waveKind() {
+  simulation::AnalysisKind kind{"burgersWave", "errors against the exact solution of Burgers' equation", {}, {}};
+  kind.describe = [](std::ostream& out) { schema().describe(out); };
+  kind.read = [](const input::Element& module, input::Diagnostics& diagnostics) -> simulation::MakeAnalysis {
+    schema().read(module, diagnostics);
+    return [where = module.where(), path = module.path()](const Component& component,
+                                                          const Level& level) -> std::unique_ptr<simulation::Analysis> {
+      const auto problem = [&](const std::string& sentence) { return InputError({{where, path, sentence}}); };
+      const auto* burgers = dynamic_cast<const Burgers<1>*>(&component);
+      if (!burgers) throw problem("measures the component burgers in one dimension; take the module out");
+      try {
+        return std::make_unique<WaveError>(waveOf(*burgers, level));
+      } catch (const std::invalid_argument& error) {
+        throw problem(error.what());
+      }
+    };
+  };
+  return kind;
+}
+
+}  // namespace tushar::burgers
