@@ -55,6 +55,16 @@ void Level::makePatches() {
   });
 }
 
+Box Level::nodes() const {
+  Box nodes = nodesOfCells();
+  for (int d = 0; d < dimension(); ++d) {
+    if (isPeriodic(d)) continue;
+    nodes.lower[d] -= domain_.nodesBeyond;
+    nodes.upper[d] += domain_.nodesBeyond;
+  }
+  return nodes;
+}
+
 double Level::minSpacing() const {
   double least = spacing(0);
   for (int d = 1; d < dimension(); ++d) least = std::min(least, spacing(d));

@@ -20,6 +20,7 @@ struct Domain {
   Index3 resolution{{1, 1, 1}};  ///< cells along x, y, z
   Index3 patches{{1, 1, 1}};     ///< along x, y, z
   Index3 periodic{};             ///< 1 along axes where the grid repeats without end
+  int nodesBeyond = 0;           ///< layers of nodes outside every side that is not periodic: wide shape functions reach there
   BoundaryConditions boundaries;
 };
 
@@ -44,7 +45,10 @@ class Level {
 
   /// Every cell of the grid; lower is always 0.
   const Box& cells() const { return cells_; }
-  Box nodes() const { return cells_.nodes(dimension()); }
+  /// Every node, those beyond the sides of the grid among them.
+  Box nodes() const;
+  /// The nodes of the cells of the grid.
+  Box nodesOfCells() const { return cells_.nodes(dimension()); }
   /// The part of a box of cells that lies on the grid or, along periodic axes, on its images.
   Box clipCells(const Box& cells) const { return clip(cells, cells_); }
   Box clipNodes(const Box& nodes) const { return clip(nodes, this->nodes()); }

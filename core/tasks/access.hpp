@@ -60,6 +60,18 @@ struct PlainArgument {
   const T& bind(const TaskContext&) const { return value; }
 };
 
+/// What an argument becomes for a task that sees all materials: for labels a view of each material.
+template <data::Centring C, class T, AccessKind Kind>
+auto bindAll(const FieldAccess<data::FieldLabel<C, T>, Kind>& access, const TaskContext& context) {
+  std::vector<std::decay_t<decltype(access.bind(context))>> views;
+  for (const TaskContext& one : context.ofMaterials()) views.push_back(access.bind(one));
+  return views;
+}
+template <class Argument>
+decltype(auto) bindAll(const Argument& argument, const TaskContext& context) {
+  return argument.bind(context);
+}
+
 /// Reads the state at the start of the step: a view of const T over the patch and `ghost` cells or nodes beyond it.
 template <data::Centring C, class T>
 FieldAccess<data::FieldLabel<C, T>, AccessKind::requiresOld> requiresOld(const data::FieldLabel<C, T>& label,

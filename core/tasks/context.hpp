@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "core/data/reduction.hpp"
@@ -28,6 +29,9 @@ class TaskContext {
   const grid::Patch& patch() const { return *patch_; }
   int material() const { return material_; }
   ParticleMaker& maker() const { return *maker_; }
+  /// For a task that sees all materials: the same patch for each of them.
+  std::span<const TaskContext> ofMaterials() const { return of_materials_; }
+  void setMaterials(std::span<const TaskContext> contexts) { of_materials_ = contexts; }
 
   template <class T>
   data::ParticleView<T> particles(int access, const data::Label& label) const {
@@ -62,6 +66,7 @@ class TaskContext {
   int material_;
   const std::vector<BoundAccess>* accesses_;
   ParticleMaker* maker_;
+  std::span<const TaskContext> of_materials_;
 };
 
 }  // namespace tushar::tasks

@@ -96,6 +96,10 @@ void Scheduler::exchange(CompiledTask& task) {
 }
 
 void Scheduler::runWork(CompiledTask& task, const StepInfo& at) {
+  if (task.task.acrossMaterials) {
+    for (const grid::Patch& patch : warehouse_->level().patches()) runAcrossMaterials(task, patch, at);
+    return;
+  }
   const int first = firstMaterial(task);
   for (int m = first; m < first + static_cast<int>(task.materials.size()); ++m) {
     const MaterialBinding& binding = task.materials[static_cast<std::size_t>(m - first)];
@@ -129,6 +133,17 @@ void Scheduler::refuseBroken(const CompiledTask& task, const MaterialBinding& bi
   if (const auto broken = firstBroken(*warehouse_, binding.bounded))
     throw NumericalError(fmt::format("{} ({})", broken->sentence, placeOf(task, broken->patch, material, at)), "",
                          broken->label);
+}
+
+void Scheduler::runAcrossMaterials(CompiledTask& task, const grid::Patch& patch, const StepInfo& at) {
+  std::vector<TaskContext> contexts;
+  for (std::size_t m = 0; m < task.materials.size(); ++m) {
+    allocateOutputs(task.materials[m], patch, static_cast<int>(m));
+    contexts.emplace_back(*warehouse_, patch, static_cast<int>(m), task.materials[m].accesses);
+  }
+  TaskContext all = contexts.front();
+  all.setMaterials(contexts);
+  located(task, patch.id(), -1, at, [&] { task.task.body(all); });
 }
 
 void Scheduler::runPlaced(CompiledTask& task, const grid::Patch& patch, int material, const StepInfo& at) {
