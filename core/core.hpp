@@ -40,6 +40,7 @@ using tasks::modifies;
 using tasks::ParticleMaker;
 using tasks::requiresNew;
 using tasks::requiresOld;
+using tasks::startTime;
 using tasks::TaskList;
 using tasks::with;
 

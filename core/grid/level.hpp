@@ -59,6 +59,8 @@ class Level {
   double spacing(int kernelAxis) const { return spacing_[static_cast<std::size_t>(kernelAxis)]; }
   /// One over the cell width, 1/m: a division saved wherever kernels go from metres to cells.
   double inverseSpacing(int kernelAxis) const { return inverse_spacing_[static_cast<std::size_t>(kernelAxis)]; }
+  /// Cell width along an axis of the scene, m; 0 where the grid has no extent.
+  double cellWidth(int axis) const { return (domain_.upper[axis] - domain_.lower[axis]) / domain_.resolution[axis]; }
   /// The least cell width, m.
   double minSpacing() const;
   /// Volume of a cell, m³; an axis without extent counts as 1 m.

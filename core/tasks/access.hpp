@@ -109,6 +109,12 @@ template <class T>
 FieldAccess<data::ParticleLabel<T>, AccessKind::creates> creates(const data::ParticleLabel<T>& label) {
   return {&label};
 }
+/// The time at the start of the step, s: a double.
+struct TimeArgument {
+  void declare(std::vector<Access>&) {}
+  double bind(const TaskContext& context) const { return context.time(); }
+};
+inline TimeArgument startTime() { return {}; }
 /// Hands `value` to the body as it is.
 template <class T>
 PlainArgument<T> with(T value) {

@@ -23,10 +23,12 @@ struct BoundAccess {
 class TaskContext {
  public:
   TaskContext(data::Warehouse& warehouse, const grid::Patch& patch, int material,
-              const std::vector<BoundAccess>& accesses, ParticleMaker* maker = nullptr)
-      : warehouse_(&warehouse), patch_(&patch), material_(material), accesses_(&accesses), maker_(maker) {}
+              const std::vector<BoundAccess>& accesses, double time = 0, ParticleMaker* maker = nullptr)
+      : warehouse_(&warehouse), patch_(&patch), material_(material), accesses_(&accesses), time_(time), maker_(maker) {}
 
   const grid::Patch& patch() const { return *patch_; }
+  /// Time at the start of the step, s.
+  double time() const { return time_; }
   int material() const { return material_; }
   ParticleMaker& maker() const { return *maker_; }
   /// For a task that sees all materials: the same patch for each of them.
@@ -65,6 +67,7 @@ class TaskContext {
   const grid::Patch* patch_;
   int material_;
   const std::vector<BoundAccess>* accesses_;
+  double time_;
   ParticleMaker* maker_;
   std::span<const TaskContext> of_materials_;
 };

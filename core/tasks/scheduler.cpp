@@ -139,7 +139,7 @@ void Scheduler::runAcrossMaterials(CompiledTask& task, const grid::Patch& patch,
   std::vector<TaskContext> contexts;
   for (std::size_t m = 0; m < task.materials.size(); ++m) {
     allocateOutputs(task.materials[m], patch, static_cast<int>(m));
-    contexts.emplace_back(*warehouse_, patch, static_cast<int>(m), task.materials[m].accesses);
+    contexts.emplace_back(*warehouse_, patch, static_cast<int>(m), task.materials[m].accesses, at.time);
   }
   TaskContext all = contexts.front();
   all.setMaterials(contexts);
@@ -151,12 +151,12 @@ void Scheduler::runPlaced(CompiledTask& task, const grid::Patch& patch, int mate
   located(task, patch.id(), material, at, [&] {
     if (task.task.kind == TaskKind::newParticles) {
       ParticleMaker maker(binding.accesses.size());
-      task.task.body(TaskContext(*warehouse_, patch, material, binding.accesses, &maker));
+      task.task.body(TaskContext(*warehouse_, patch, material, binding.accesses, at.time, &maker));
       maker.install(*warehouse_, patch, material, binding.accesses);
       return;
     }
     allocateOutputs(binding, patch, material);
-    task.task.body(TaskContext(*warehouse_, patch, material, binding.accesses));
+    task.task.body(TaskContext(*warehouse_, patch, material, binding.accesses, at.time));
   });
 }
 

@@ -9,8 +9,8 @@
 
 namespace tushar::mpm::solid {
 
-/// A second-order tensor. Always three by three: a solid in one or two dimensions is in plane strain.
-using Matrix3 = Eigen::Matrix<double, 3, 3, Eigen::DontAlign>;
+/// A second-order tensor in x, y, z, row by row. Always three by three: a solid in one or two dimensions is in plane strain.
+using Matrix3 = Eigen::Matrix<double, 3, 3, Eigen::DontAlign | Eigen::RowMajor>;
 
 /// What a constitutive model is told about one material point in one step.
 struct Deformation {

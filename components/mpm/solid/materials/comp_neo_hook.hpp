@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/LU>
+
 #include <cmath>
 
 #include "components/mpm/solid/constitutive_model.hpp"
@@ -38,6 +40,9 @@ struct CompNeoHook {
   double waveSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
     const double density = initialDensity / d.deformationGradient.determinant();
     return std::sqrt((bulkModulus + 4.0 / 3.0 * shearModulus) / density);
+  }
+  double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
+    return std::sqrt(bulkModulus * d.deformationGradient.determinant() / initialDensity);
   }
   double strainEnergyDensity(const Deformation& d, const Matrix3&, const Matrix3&, const State&) const {
     const Matrix3& f = d.deformationGradient;

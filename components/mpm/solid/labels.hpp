@@ -1,0 +1,45 @@
+#pragma once
+
+#include "components/mpm/labels.hpp"
+#include "components/mpm/solid/constitutive_model.hpp"
+
+namespace tushar::mpm::solid {
+
+/// Particle variables, those of the gas method among them.
+namespace p {
+using namespace mpm::p;
+inline constexpr ParticleLabel<Matrix3> stress{"p.stress", "Pa", "Cauchy stress"};
+inline constexpr ParticleLabel<Matrix3> deformationMeasure{"p.deformationMeasure", "1", "deformation gradient"};
+inline constexpr ParticleLabel<Matrix3> velocityGradient{"p.velGrad", "1/s", "velocity gradient of the last step"};
+template <int D>
+inline constexpr ParticleLabel<Vec<D>> displacement{"p.displacement", "m", "displacement since the start"};
+template <int D>
+inline constexpr ParticleLabel<Vec<D>> size{"p.size", "1", "extent at the start, in cells"};
+inline constexpr ParticleLabel<double> temperature{"p.temperature", "K", "temperature"};
+inline constexpr ParticleLabel<double> color{"p.color", "1", "number that the scene gives to a body"};
+inline constexpr ParticleLabel<double> viscosity{"p.q", "Pa", "artificial viscosity"};
+inline constexpr ParticleLabel<double> strainEnergy{"p.strainEnergy", "J",
+                                                    "strain energy of an elastic particle, or what the step added to it"};
+}  // namespace p
+
+/// Node variables.
+namespace g {
+using namespace mpm::g;
+inline constexpr NodeLabel<double> volume{"g.volume", "m^3", "volume gathered from particles"};
+inline constexpr NodeLabel<Matrix3> stress{"g.stressFS", "Pa", "Cauchy stress, mean over the volume of the particles around"};
+}  // namespace g
+
+/// Cell variables.
+namespace c {
+inline constexpr CellLabel<double> stableTimeStep{"c.stableTimeStep", "s",
+                                                  "time in which the fastest wave of a particle in the cell crosses it"};
+}  // namespace c
+
+/// Totals over all particles.
+namespace total {
+using namespace mpm::total;
+inline constexpr ReductionLabel<Sum> strainEnergy{
+    "StrainEnergy", "J", "strain energy of elastic materials and, of others, what the last step added, as in Uintah"};
+}  // namespace total
+
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+
+#include "core/core.hpp"
+
+namespace tushar::mpm::solid {
+
+/// Pressure against compression, q = rho (A1 c |D| h + A2 D^2 h^2) where D = tr L < 0; von Neumann & Richtmyer, with the
+/// linear term of Landshoff.
+struct ArtificialViscosity {
+  double linear = 0.2;     ///< A1
+  double quadratic = 2.0;  ///< A2
+};
+
+/// The `MPM` section: how the method runs.
+struct Method {
+  Vec3 gravity = Vec3::Zero();                                ///< m/s^2
+  double damping = 0;                                         ///< artificial_damping_coeff, 1/s
+  std::optional<ArtificialViscosity> viscosity;
+  double minimumMassForAcceleration = 1e-199;                 ///< kg
+  double minimumParticleMass = 3e-15;                         ///< kg
+  double maximumParticleVelocity = 3e105;                     ///< m/s
+  int minimumSubcyclesForF = 1;
+};
+
+}  // namespace tushar::mpm::solid
