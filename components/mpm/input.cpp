@@ -328,7 +328,7 @@ simulation::ComponentKind kind() {
   simulation::ComponentKind kind;
   kind.name = "mpm";
   kind.sentence = "the Material Point Method: solids, and gas dynamics of Tran, Kim & Berzins";
-  kind.sections = {"MPM", "MaterialProperties", "PhysicalConstants"};
+  kind.sections = {"MPM", "MaterialProperties", "PhysicalConstants", "PhysicalBC"};
   kind.boundaryLabels = {"Symmetric", "Velocity", "Temperature"};
   kind.describe = [](std::ostream& out) {
     solid::describe(out);

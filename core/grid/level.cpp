@@ -139,9 +139,9 @@ std::vector<Index3> Level::imagesOverlapping(const Box& cells) const {
   return shifts;
 }
 
-const BoundaryCondition* Level::boundary(int kernelAxis, int side, const std::string& variable) const {
+const BoundaryCondition* Level::boundary(int kernelAxis, int side, const std::string& variable, int material) const {
   for (const BoundaryCondition& condition : domain_.boundaries.face(axis(kernelAxis), side))
-    if (condition.variable == variable) return &condition;
+    if (condition.variable == variable && (condition.material < 0 || condition.material == material)) return &condition;
   return nullptr;
 }
 

@@ -126,13 +126,15 @@ class Level {
     return full;
   }
 
-  /// The condition for a variable on a face of the grid (`side` 0: lower, 1: upper), if the scene gives one.
-  const BoundaryCondition* boundary(int kernelAxis, int side, const std::string& variable) const;
+  /// The condition for a variable of a material on a face of the grid (`side` 0: lower, 1: upper), if the scene gives one.
+  const BoundaryCondition* boundary(int kernelAxis, int side, const std::string& variable, int material = 0) const;
   bool isPeriodic(int kernelAxis) const { return domain_.periodic[axis(kernelAxis)] != 0; }
   bool isPeriodic() const { return is_periodic_; }
   /// How far apart the images of a point are along a kernel axis, m.
   double period(int kernelAxis) const { return nodePosition(kernelAxis, cells_.upper[kernelAxis]) - nodePosition(kernelAxis, 0); }
-  bool isSymmetry(int kernelAxis, int side) const { return boundary(kernelAxis, side, "Symmetric") != nullptr; }
+  bool isSymmetry(int kernelAxis, int side, int material = 0) const {
+    return boundary(kernelAxis, side, "Symmetric", material) != nullptr;
+  }
 
  private:
   void chooseAxes();

@@ -92,7 +92,7 @@ const Schema<LevelSection>& levelSchema() {
 const Schema<ConditionSection>& conditionSchema() {
   static const Schema<ConditionSection> schema =
       Schema<ConditionSection>("BCType", "What a variable does at a face.")
-          .attributeValue("id", &ConditionSection::id, "all", "1", "material that it holds for; all is what there is")
+          .attributeValue("id", &ConditionSection::id, "all", "1", "number of the material that it holds for, or all")
           .requiredAttribute("label", &ConditionSection::label, "1", "the variable")
           .requiredAttribute("var", &ConditionSection::var, "1", "symmetry, Dirichlet or Neumann")
           .optional("value", &ConditionSection::value, "SI unit of the variable", "a number or a vector")
@@ -102,8 +102,8 @@ const Schema<ConditionSection>& conditionSchema() {
               diagnostics.error(element, "var: " + problem);
             else if (condition.var != "symmetry" && !condition.value)
               diagnostics.error(element, "a " + condition.var + " condition needs a <value>");
-            if (condition.id != "all" && condition.id != "0")
-              diagnostics.error(element, "id: found '" + condition.id + "', expected 'all'");
+            if (const auto number = input::parse<int>(condition.id); condition.id != "all" && !(number && *number >= 0))
+              diagnostics.error(element, "id: found '" + condition.id + "', expected 'all' or the number of a material");
           });
   return schema;
 }
@@ -147,7 +147,8 @@ void readFaces(const Element& section, const FacesSection& faces, const std::vec
       const std::string problem = labels.empty() ? "" : input::choiceProblem(condition.label, labels);
       if (!problem.empty()) diagnostics.error(tags[k], "label: " + problem);
       domain.boundaries.faces[static_cast<std::size_t>(faces.faces[f].face)].push_back(
-          {condition.label, condition.var, conditionValue(condition, tags[k], diagnostics)});
+          {condition.label, condition.var, conditionValue(condition, tags[k], diagnostics),
+           input::parse<int>(condition.id).value.value_or(-1)});
     }
   }
 }

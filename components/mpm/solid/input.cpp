@@ -1,5 +1,8 @@
 #include "components/mpm/solid/input.hpp"
 
+#include <algorithm>
+
+#include "components/mpm/solid/loads/load_input.hpp"
 #include "components/mpm/solid/material_input.hpp"
 #include "components/mpm/solid/solid_mpm.hpp"
 #include "core/simulation/by_dimension.hpp"
@@ -22,7 +25,9 @@ const input::Choices<Interpolator> interpolators{{"linear", Interpolator::linear
 struct MpmSection {
   int integrator = 0;
   Interpolator interpolator = Interpolator::linear;
-  bool artificialViscosity = false, withColor = false;
+  bool artificialViscosity = false, withColor = false, axisymmetric = false, useLoadCurves = false;
+  bool conductsHeat = true;
+  std::string manufactured;
   double linearViscosity = 0, quadraticViscosity = 0, damping = 0;
   double minimumParticleMass = 0, minimumMassForAcceleration = 0, maximumParticleVelocity = 0;
   int minimumSubcycles = 1;
@@ -75,8 +80,23 @@ const Schema<MpmSection>& mpmSchema() {
                "a particle that becomes faster is slowed down to 9/10 of it", input::positive())
         .value("minimum_subcycles_for_F", &MpmSection::minimumSubcycles, 1, "1",
                "least number of parts in which a step changes the deformation gradient", input::atLeast(1))
+        .value("axisymmetric", &MpmSection::axisymmetric, false, "1",
+               "x is the radius and y the axis; mass, energy and forces are per radian")
+        .value("use_load_curves", &MpmSection::useLoadCurves, false, "1", "the loads of <PhysicalBC> act")
+        .value("DoExplicitHeatConduction", &MpmSection::conductsHeat, true, "1", "heat is conducted")
+        .choice("RunMMSProblem", &MpmSection::manufactured,
+                {{"none", ""},
+                 {"AxisAligned", "AxisAligned"},
+                 {"ExpandingRing", "ExpandingRing"},
+                 {"GeneralizedVortex", "GeneralizedVortex"}},
+                "", "start as a manufactured solution, under its body force")
         .value("withColor", &MpmSection::withColor, false, "1",
                "accepted for Uintah's sake: p.color is there where it is saved");
+    mpm.check([](const MpmSection& read, const Element& element, Diagnostics& diagnostics) {
+      const bool hasAxisymmetric = read.interpolator == Interpolator::linear || read.interpolator == Interpolator::gimp;
+      if (read.axisymmetric && !hasAxisymmetric)
+        diagnostics.error(element, "axisymmetric: only with the interpolators linear and gimp");
+    });
     for (const auto& [tag, instead] : lacking) refuseSwitch(mpm, tag, instead);
     return mpm;
   }();
@@ -94,19 +114,34 @@ const Schema<PhysicalConstants>& constantsSchema() {
   return schema;
 }
 
-std::unique_ptr<Component> makeComponent(const Level& level, Interpolator interpolator, const Method& method,
-                                         const std::vector<Material>& materials, const std::vector<Contact>& contacts) {
+std::unique_ptr<Component> makeComponent(const Level& level, Interpolator interpolator, Problem problem) {
+  countParticles(level, problem.materials, problem.start.loads);
   const auto make = [&]<template <int> class Shape>() -> std::unique_ptr<Component> {
-    if (level.dimension() == 1) return std::make_unique<SolidMpm<Shape<1>>>(method, materials, contacts);
-    if (level.dimension() == 2) return std::make_unique<SolidMpm<Shape<2>>>(method, materials, contacts);
-    return std::make_unique<SolidMpm<Shape<3>>>(method, materials, contacts);
+    if (level.dimension() == 1) return std::make_unique<SolidMpm<Shape<1>>>(problem);
+    if (level.dimension() == 2) return std::make_unique<SolidMpm<Shape<2>>>(problem);
+    return std::make_unique<SolidMpm<Shape<3>>>(problem);
   };
+  const auto makeAxisymmetric = [&]<template <int> class Shape>() -> std::unique_ptr<Component> {
+    if (level.dimension() == 1) return std::make_unique<SolidMpm<Shape<1>>>(problem);
+    return std::make_unique<SolidMpm<Shape<2>>>(problem);
+  };
+  if (problem.start.axisymmetric)
+    return interpolator == Interpolator::linear ? makeAxisymmetric.template operator()<AxisymmetricLinearShape>()
+                                                : makeAxisymmetric.template operator()<AxisymmetricGimpShape>();
   switch (interpolator) {
     case Interpolator::linear: return make.template operator()<LinearShape>();
     case Interpolator::gimp: return make.template operator()<GimpShape>();
     case Interpolator::quadratic: return make.template operator()<QuadraticShape>();
     default: return make.template operator()<CubicShape>();
   }
+}
+
+/// Whether the scene saves a variable.
+bool isSaved(const Element& root, const std::string& label) {
+  const auto archiver = root.child("DataArchiver");
+  if (!archiver) return false;
+  const auto saves = archiver->children("save");
+  return std::any_of(saves.begin(), saves.end(), [&](const Element& save) { return save.attribute("label") == label; });
 }
 
 Method settle(const MpmSection& read, const PhysicalConstants& constants) {
@@ -118,6 +153,7 @@ Method settle(const MpmSection& read, const PhysicalConstants& constants) {
   method.minimumParticleMass = read.minimumParticleMass;
   method.maximumParticleVelocity = read.maximumParticleVelocity;
   method.minimumSubcyclesForF = read.minimumSubcycles;
+  method.conductsHeat = read.conductsHeat;
   return method;
 }
 
@@ -130,13 +166,24 @@ simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostic
   const Method method = settle(read, constants ? constantsSchema().read(*constants, diagnostics) : PhysicalConstants{});
   const MaterialProperties properties = simulation::readSection(root, propertiesSchema(), diagnostics);
   if (diagnostics.size() > before) return {};
-  std::vector<Material> materials = properties.mpm.materials;
-  for (std::size_t m = 0; m < materials.size(); ++m)
-    if (materials[m].name.empty()) materials[m].name = "material" + std::to_string(m);
-  for (Material& material : materials)
+  Problem problem{method, properties.mpm.materials, properties.mpm.contacts, {}};
+  problem.method.strainEnergy = isSaved(root, "StrainEnergy") || isSaved(root, "p.strainEnergy");
+  problem.method.thermalContact = properties.mpm.thermalContact;
+  problem.start = {read.axisymmetric, read.useLoadCurves ? readLoads(root, diagnostics) : std::vector<PressureLoad>{},
+                   makeManufactured(read.manufactured)};
+  for (std::size_t m = 0; m < problem.materials.size(); ++m) {
+    Material& material = problem.materials[m];
+    material.index = static_cast<int>(m);
+    if (material.name.empty()) material.name = "material" + std::to_string(m);
     for (Body& body : material.bodies) body.density = material.density;
-  return [interpolator = read.interpolator, method, materials, contacts = properties.mpm.contacts](const Level& level) {
-    return makeComponent(level, interpolator, method, materials, contacts);
+    if (problem.start.solution && material.model->name() != "cnh_mms")
+      diagnostics.error(root.child("MPM")->child("RunMMSProblem").value(),
+                        "is made for the constitutive model cnh_mms, but '" + material.name + "' is " +
+                            std::string(material.model->name()));
+  }
+  if (diagnostics.size() > before) return {};
+  return [interpolator = read.interpolator, problem](const Level& level) {
+    return makeComponent(level, interpolator, problem);
   };
 }
 
@@ -150,6 +197,7 @@ void describe(std::ostream& out) {
   mpmSchema().describe(out);
   constantsSchema().describe(out);
   propertiesSchema().describe(out);
+  describeLoads(out);
 }
 
 }  // namespace tushar::mpm::solid

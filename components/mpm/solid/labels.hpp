@@ -20,6 +20,10 @@ inline constexpr ParticleLabel<double> color{"p.color", "1", "number that the sc
 inline constexpr ParticleLabel<double> viscosity{"p.q", "Pa", "artificial viscosity"};
 inline constexpr ParticleLabel<double> strainEnergy{"p.strainEnergy", "J",
                                                     "strain energy of an elastic particle, or what the step added to it"};
+template <int D>
+inline constexpr ParticleLabel<Vec<D>> externalForce{"p.externalforce", "N", "force of loads"};
+inline constexpr ParticleLabel<int> loadCurves{"p.loadCurveID", "1",
+                                               "number of the load on it, or 0; further ones times 256, 65536"};
 }  // namespace p
 
 /// Node variables.
@@ -27,6 +31,14 @@ namespace g {
 using namespace mpm::g;
 inline constexpr NodeLabel<double> volume{"g.volume", "m^3", "volume gathered from particles"};
 inline constexpr NodeLabel<Matrix3> stress{"g.stressFS", "Pa", "Cauchy stress, mean over the volume of the particles around"};
+template <int D>
+inline constexpr NodeLabel<Vec<D>> externalForce{"g.externalforce", "N", "force of loads"};
+inline constexpr NodeLabel<double> temperatureNoBC{"g.temperatureNoBC", "K", "temperature gathered from particles"};
+inline constexpr NodeLabel<double> temperature{"g.temperature", "K", "the same, as the sides of the grid have it"};
+inline constexpr NodeLabel<double> heatRate{"g.heatRate", "W", "heat that flows to the node by conduction"};
+inline constexpr NodeLabel<double> contactTemperatureRate{"g.contactTemperatureRate", "K/s",
+                                                          "what contact with other materials changes"};
+inline constexpr NodeLabel<double> temperatureRate{"g.temperatureRate", "K/s", "change of the temperature"};
 }  // namespace g
 
 /// Cell variables.

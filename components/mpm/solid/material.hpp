@@ -21,6 +21,7 @@ struct Body {
 /// A material: how it answers to being deformed, and the bodies made of it.
 struct Material {
   std::string name;
+  int index = 0;       ///< its number in the scene
   double density = 0;  ///< at the start, kg/m^3
   std::shared_ptr<const Model> model;
   double specificHeat = 0;         ///< J/(kg K)

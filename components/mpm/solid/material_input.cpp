@@ -105,7 +105,11 @@ const Schema<MaterialProperties>& propertiesSchema() {
                   },
                   {"contact"}, "how materials act on each other; several are applied one after the other",
                   describeContacts)
-          .ignored("thermal_contact", "heat passes between materials where they touch")
+          .custom("thermal_contact",
+                  [](MaterialProperties::List& read, const Element& element, Diagnostics&) {
+                    read.thermalContact = element.child("thermal_contact").has_value();
+                  },
+                  {"thermal_contact"}, "materials that share nodes share a temperature there")
           .check(nameMaterials);
   static const Schema<MaterialProperties> schema =
       Schema<MaterialProperties>("MaterialProperties", "What there is.")

@@ -11,6 +11,7 @@ struct MaterialProperties {
   struct List {
     std::vector<Material> materials;
     std::vector<Contact> contacts;
+    bool thermalContact = false;
   } mpm;
 };
 

@@ -22,6 +22,9 @@ struct Method {
   double minimumParticleMass = 3e-15;                         ///< kg
   double maximumParticleVelocity = 3e105;                     ///< m/s
   int minimumSubcyclesForF = 1;
+  bool strainEnergy = false;       ///< someone wants to know it
+  bool conductsHeat = true;
+  bool thermalContact = false;     ///< materials that share nodes share a temperature
 };
 
 }  // namespace tushar::mpm::solid

@@ -15,7 +15,7 @@ struct StressPoints {
   const Matrix3* oldDeformationGradient = nullptr;
   const Matrix3* deformationGradient = nullptr;
   const Matrix3* velocityGradient = nullptr;  ///< 1/s
-  const double* temperature = nullptr;        ///< K
+  const double* temperature = nullptr;        ///< K; null where no model asks
   const Matrix3* oldStress = nullptr;         ///< Pa
   Matrix3* stress = nullptr;                  ///< Pa
   double* state = nullptr;                    ///< of stateSize() numbers a particle: before and after
@@ -34,6 +34,7 @@ class Model {
   virtual int stateSize() const = 0;
   virtual std::vector<StateVariable> stateVariables() const = 0;
   virtual void initialize(double* state) const = 0;
+  virtual bool usesTemperature() const = 0;
   virtual void updateStress(double initialDensity, const StressPoints& points) const = 0;
 };
 
@@ -53,10 +54,17 @@ class ModelOf : public Model {
   }
   void initialize(double* state) const override { store(model_.initialState(), state); }
 
+  bool usesTemperature() const override {
+    if constexpr (requires { M::usesTemperature; })
+      return M::usesTemperature;
+    else
+      return true;
+  }
+
   void updateStress(double initialDensity, const StressPoints& points) const override {
     for (int k = 0; k < points.count; ++k) {
       const Deformation d{points.deformationGradient[k], points.oldDeformationGradient[k], points.velocityGradient[k],
-                          points.timeStep, points.temperature[k]};
+                          points.timeStep, points.temperature ? points.temperature[k] : 0.0};
       double* const numbers = points.state + k * points.stateStride;
       const Matrix3 before = points.oldStress[k];
       State state = load(numbers);

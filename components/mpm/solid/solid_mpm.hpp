@@ -1,12 +1,20 @@
 #pragma once
 
 #include "components/mpm/solid/contact/contact.hpp"
-#include "components/mpm/solid/material.hpp"
 #include "components/mpm/solid/method.hpp"
 #include "components/mpm/solid/shapes/tensor_shape.hpp"
+#include "components/mpm/solid/tasks/create_particles.hpp"
 #include "core/core.hpp"
 
 namespace tushar::mpm::solid {
+
+/// Everything that a scene says about its solids.
+struct Problem {
+  Method method;
+  std::vector<Material> materials;
+  std::vector<Contact> contacts;
+  Start start;
+};
 
 /// The Material Point Method for solids: Sulsky, Chen & Schreyer, Comput. Methods Appl. Mech. Engrg. 118 (1994) 179, step
 /// by step as Uintah takes it, stress last.
@@ -15,11 +23,9 @@ namespace tushar::mpm::solid {
 template <class Shape>
 class SolidMpm : public Component {
  public:
-  SolidMpm(Method method, std::vector<Material> materials, std::vector<Contact> contacts)
-      : method_(method), materials_(std::move(materials)), contacts_(std::move(contacts)) {}
+  explicit SolidMpm(Problem problem) : problem_(std::move(problem)) {}
 
-  const Method& method() const { return method_; }
-  const std::vector<Material>& materials() const { return materials_; }
+  const Problem& problem() const { return problem_; }
 
   void scheduleInitialize(TaskList& tasks) const override;
   void scheduleComputeStableTimeStep(TaskList& tasks) const override;
@@ -32,12 +38,16 @@ class SolidMpm : public Component {
   void scheduleInterpolateParticlesToGrid(TaskList& tasks) const;
   void scheduleComputeInternalForce(TaskList& tasks) const;
   void scheduleIntegrateAcceleration(TaskList& tasks) const;
+  void scheduleApplyExternalLoads(TaskList& tasks) const;
   void scheduleUpdateParticles(TaskList& tasks) const;
+  void scheduleHeat(TaskList& tasks) const;
   void scheduleComputeStressTensor(TaskList& tasks) const;
 
-  Method method_;
-  std::vector<Material> materials_;
-  std::vector<Contact> contacts_;
+  bool isViscous() const { return problem_.method.viscosity.has_value(); }
+  bool isLoaded() const { return !problem_.start.loads.empty() || problem_.start.solution; }
+  bool isThermal() const;
+
+  Problem problem_;
 };
 
 }  // namespace tushar::mpm::solid

@@ -5,5 +5,7 @@ namespace tushar::mpm::solid {
 template class SolidMpm<GimpShape<1>>;
 template class SolidMpm<GimpShape<2>>;
 template class SolidMpm<GimpShape<3>>;
+template class SolidMpm<AxisymmetricGimpShape<1>>;
+template class SolidMpm<AxisymmetricGimpShape<2>>;
 
 }  // namespace tushar::mpm::solid

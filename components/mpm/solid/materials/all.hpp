@@ -2,6 +2,7 @@
 
 #include <tuple>
 
+#include "components/mpm/solid/materials/cnh_mms.hpp"
 #include "components/mpm/solid/materials/comp_mooney_rivlin.hpp"
 #include "components/mpm/solid/materials/comp_neo_hook.hpp"
 #include "components/mpm/solid/materials/hypo_elastic.hpp"
@@ -10,7 +11,8 @@
 namespace tushar::mpm::solid {
 
 /// Every constitutive model that a scene can pick: THE table, one line each.
-using AllModels = std::tuple<CompMooneyRivlin,  //
+using AllModels = std::tuple<CnhMms,            //
+                             CompMooneyRivlin,  //
                              CompNeoHook,       //
                              HypoElastic,       //
                              Rigid>;

@@ -15,6 +15,7 @@ namespace tushar::mpm::solid {
 struct CompMooneyRivlin {
   struct State {};
   static constexpr std::string_view name = "comp_mooney_rivlin";
+  static constexpr bool usesTemperature = false;
   static constexpr bool strainEnergyIsRate = false;
 
   double c1 = 0, c2 = 0;     ///< Pa

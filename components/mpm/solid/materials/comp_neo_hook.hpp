@@ -13,6 +13,7 @@ namespace tushar::mpm::solid {
 struct CompNeoHook {
   struct State {};
   static constexpr std::string_view name = "comp_neo_hook";
+  static constexpr bool usesTemperature = false;
   static constexpr bool strainEnergyIsRate = false;
 
   double bulkModulus = 0;   ///< K, Pa

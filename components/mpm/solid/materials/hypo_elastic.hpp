@@ -13,6 +13,7 @@ namespace tushar::mpm::solid {
 struct HypoElastic {
   struct State {};
   static constexpr std::string_view name = "hypo_elastic";
+  static constexpr bool usesTemperature = false;
   static constexpr bool strainEnergyIsRate = true;
 
   double bulkModulus = 0;   ///< K, Pa

@@ -10,6 +10,7 @@ namespace tushar::mpm::solid {
 struct Rigid {
   struct State {};
   static constexpr std::string_view name = "rigid";
+  static constexpr bool usesTemperature = false;
   static constexpr bool strainEnergyIsRate = false;
 
   double bulkModulus = 0;   ///< Pa, in scenes only

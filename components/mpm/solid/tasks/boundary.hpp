@@ -7,10 +7,10 @@ namespace tushar::mpm::solid {
 /// Nothing moves through a symmetry plane: the normal component is 0 there, and the nodes beyond it mirror those
 /// inside.
 template <int D>
-void setSymmetry(const Patch& patch, NodeView<Vec<D>> field) {
+void setSymmetry(const Patch& patch, int material, NodeView<Vec<D>> field) {
   for (int d = 0; d < D; ++d)
     for (const int side : {0, 1}) {
-      if (!patch.isAtBoundary(d, side) || !patch.level().isSymmetry(d, side)) continue;
+      if (!patch.isAtBoundary(d, side) || !patch.level().isSymmetry(d, side, material)) continue;
       const int face = side == 0 ? patch.cells().lower[d] : patch.cells().upper[d];
       forEach<D>(patch.faceNodes(d, side), [&](const Index<D>& node) { field[node][d] = 0; });
       forEach<D>(patch.nodesBeyond(d, side), [&](const Index<D>& node) {
@@ -25,10 +25,10 @@ void setSymmetry(const Patch& patch, NodeView<Vec<D>> field) {
 
 /// A field has a given value on a face, and on the nodes beyond it.
 template <int D>
-void setVelocity(const Patch& patch, NodeView<Vec<D>> field) {
+void setVelocity(const Patch& patch, int material, NodeView<Vec<D>> field) {
   for (int d = 0; d < D; ++d)
     for (const int side : {0, 1}) {
-      const grid::BoundaryCondition* condition = patch.level().boundary(d, side, "Velocity");
+      const grid::BoundaryCondition* condition = patch.level().boundary(d, side, "Velocity", material);
       if (!condition || condition->kind != "Dirichlet" || !patch.isAtBoundary(d, side)) continue;
       const Vec<D> value = patch.level().reduce<D>(condition->value);
       for (const Box& nodes : {patch.faceNodes(d, side), patch.nodesBeyond(d, side)})

@@ -15,23 +15,28 @@ Eigen::Matrix<double, D, D> reduced(const Level& level, const Matrix3& tensor) {
   return part;
 }
 
-/// F_i = - sum_p V_p (sigma_p - q_p I) grad S_i
-template <class Shape, int D = Shape::dimension>
-void computeInternalForce(const Patch& patch, const Material&, ParticleView<const Vec<D>> x, SizeView<Shape> size,
+/// F_i = - sum_p V_p (sigma_p - q_p I) grad S_i; where axisymmetric, the hoop stress pulls inwards with S_i / r.
+template <class Shape, bool Viscous, int D = Shape::dimension>
+void computeInternalForce(const Patch& patch, const Material& material, ParticleView<const Vec<D>> x, SizeView<Shape> size,
                           DeformationView<Shape> deformation, ParticleView<const double> volume,
-                          ParticleView<const Matrix3> stress, ParticleView<const double> viscosity,
+                          ParticleView<const Matrix3> stress, Optional<Viscous, ParticleView<const double>> viscosity,
                           NodeView<Vec<D>> force) {
   force.fill(Vec<D>::Zero());
   const Box& box = force.box();
   forEachStencil<Shape>(patch, x.cells(), x, size, deformation, [&](int p, const auto& stencil) {
     Eigen::Matrix<double, D, D> push = reduced<D>(patch.level(), stress[p]);
-    push.diagonal().array() -= viscosity[p];
+    double q = 0;
+    if constexpr (Viscous) q = viscosity[p];
+    push.diagonal().array() -= q;
     push *= -volume[p];
-    stencil.forEachNode([&](const Index<D>& node, double, const Vec<D>& gradient) {
-      if (box.contains(node)) force[node] += push * gradient;
+    const double hoopPush = -volume[p] * (stress[p](2, 2) - q);
+    stencil.forEachNode([&](const Index<D>& node, double, const Vec<D>& gradient, auto... hoop) {
+      if (!box.contains(node)) return;
+      force[node] += push * gradient;
+      ((force[node][0] += hoopPush * hoop), ...);
     });
   });
-  setSymmetry<D>(patch, force);
+  setSymmetry<D>(patch, material.index, force);
 }
 
 }  // namespace tushar::mpm::solid

@@ -18,7 +18,7 @@ inline Matrix3 deformed(const Matrix3& f, const Matrix3& velocityGradient, doubl
   return result;
 }
 
-/// L_p = sum_i v*_i grad S_i,   F_p = (I + L_p dt) F_p,   V_p = V_p J / J_old
+/// L_p = sum_i v*_i grad S_i (and L_theta = sum_i v*_r S_i / r where axisymmetric),   F_p = (I + L_p dt) F_p,   V_p = V_p J / J_old
 template <class Shape, int D = Shape::dimension>
 void computeParticleGradients(const Patch& patch, const Material&, const Method& method, ParticleView<const Vec<D>> x,
                               SizeView<Shape> size, ParticleView<const Matrix3> deformation,
@@ -34,10 +34,11 @@ void computeParticleGradients(const Patch& patch, const Material&, const Method&
   }();
   forEachStencil<Shape>(patch, patch.cells(), x, size, shapeDeformation, [&](int p, const auto& stencil) {
     Eigen::Matrix<double, D, D> l = Eigen::Matrix<double, D, D>::Zero();
-    stencil.forEachNode([&](const Index<D>& node, double, const Vec<D>& gradient) {
-      l += velocityStar[node] * gradient.transpose();
-    });
     Matrix3 wide = Matrix3::Zero();
+    stencil.forEachNode([&](const Index<D>& node, double, const Vec<D>& gradient, auto... hoop) {
+      l += velocityStar[node] * gradient.transpose();
+      ((wide(2, 2) += velocityStar[node][0] * hoop), ...);
+    });
     for (int i = 0; i < D; ++i)
       for (int j = 0; j < D; ++j) wide(level.axis(i), level.axis(j)) = l(i, j);
     velocityGradient[p] = wide;

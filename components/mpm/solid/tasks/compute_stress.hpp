@@ -34,13 +34,21 @@ inline double meanWidth(const Level& level) {
 /// What the stress of each particle is made from, and what comes of it.
 template <int D>
 struct StressViews {
-  ParticleView<const double> mass, volume, temperature;
+  ParticleView<const double> mass, volume;
   ParticleView<const Vec<D>> velocity;
   ParticleView<const Matrix3> oldDeformation, deformation, velocityGradient, oldStress;
   ParticleView<Matrix3> stress;
-  ParticleView<double> viscosity;
-  double* strainEnergy;  ///< null where nobody asks
+  // Null where nobody asks:
+  const double* temperature;
+  double *viscosity, *strainEnergy;
 };
+
+/// The values of an optional view.
+template <class T>
+T* valuesOf(const ParticleView<T>& view) {
+  return view.owned() > 0 ? &view[0] : nullptr;
+}
+inline double* valuesOf(const Nothing&) { return nullptr; }
 
 /// Updates the stress of consecutive particles of a cell and returns their least crossing time.
 template <int D>
@@ -53,11 +61,11 @@ double updateStress(const Level& level, const Material& material, const Method& 
   points.oldDeformationGradient = &v.oldDeformation[first];
   points.deformationGradient = &v.deformation[first];
   points.velocityGradient = &v.velocityGradient[first];
-  points.temperature = &v.temperature[first];
+  points.temperature = v.temperature ? v.temperature + first : nullptr;
   points.oldStress = &v.oldStress[first];
   points.stress = &v.stress[first];
   points.waveSpeed = waveSpeed.data();
-  points.bulkSpeed = method.viscosity ? bulkSpeed.data() : nullptr;
+  points.bulkSpeed = v.viscosity ? bulkSpeed.data() : nullptr;
   points.strainEnergyDensity = v.strainEnergy ? energyDensity.data() : nullptr;
   material.model->updateStress(material.density, points);
   double least = std::numeric_limits<double>::infinity();
@@ -65,10 +73,9 @@ double updateStress(const Level& level, const Material& material, const Method& 
     const int p = first + k;
     const auto at = static_cast<std::size_t>(k);
     least = std::min(least, crossingTime<D>(level, waveSpeed[at], v.velocity[p]));
-    const double compression = -v.velocityGradient[p].trace();
-    v.viscosity[p] = 0;
-    if (method.viscosity && compression > 0) {
-      const double jump = compression * meanWidth(level), density = v.mass[p] / v.volume[p];
+    if (v.viscosity) {
+      const double jump = std::max(-v.velocityGradient[p].trace(), 0.0) * meanWidth(level);
+      const double density = v.mass[p] / v.volume[p];
       v.viscosity[p] = density * jump * (method.viscosity->linear * bulkSpeed[at] + method.viscosity->quadratic * jump);
     }
     if (v.strainEnergy) v.strainEnergy[p] = energyDensity[at] * v.mass[p] / material.density;
@@ -76,18 +83,19 @@ double updateStress(const Level& level, const Material& material, const Method& 
   return least;
 }
 
-/// Stress, artificial viscosity and strain energy of every particle, and how long a step its cell may take.
-template <int D>
+/// Stress of every particle, artificial viscosity and strain energy where a scene asks, and how long a step its cell may
+/// take.
+template <int D, bool Thermal, bool Viscous, bool Energetic>
 void computeStressTensor(const Patch& patch, const Material& material, const Method& method,
                          ParticleView<const double> mass, ParticleView<const double> volume,
-                         ParticleView<const double> temperature, ParticleView<const Vec<D>> velocity,
-                         ParticleView<const Matrix3> oldDeformation, ParticleView<const Matrix3> deformation,
-                         ParticleView<const Matrix3> velocityGradient, ParticleView<const Matrix3> oldStress, double dt,
-                         ParticleView<Matrix3> stress, ParticleView<double> viscosity,
-                         ParticleView<double> strainEnergy, CellView<double> stableTimeStep) {
-  const StressViews<D> views{mass,        volume,           temperature, velocity,         oldDeformation,
-                             deformation, velocityGradient, oldStress,   stress,           viscosity,
-                             mass.owned() > 0 ? &strainEnergy[0] : nullptr};
+                         ParticleView<const Vec<D>> velocity, ParticleView<const Matrix3> oldDeformation,
+                         ParticleView<const Matrix3> deformation, ParticleView<const Matrix3> velocityGradient,
+                         ParticleView<const Matrix3> oldStress, double dt,
+                         Optional<Thermal, ParticleView<const double>> temperature, ParticleView<Matrix3> stress,
+                         Optional<Viscous, ParticleView<double>> viscosity,
+                         Optional<Energetic, ParticleView<double>> strainEnergy, CellView<double> stableTimeStep) {
+  const StressViews<D> views{mass,      volume, velocity,              oldDeformation,      deformation, velocityGradient,
+                             oldStress, stress, valuesOf(temperature), valuesOf(viscosity), valuesOf(strainEnergy)};
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     const data::ParticleRange range = mass.in(cell);
     double least = std::numeric_limits<double>::infinity();

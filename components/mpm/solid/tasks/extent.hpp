@@ -8,6 +8,10 @@ namespace tushar::mpm::solid {
 /// Stands for an argument that a task has no use for.
 struct Nothing {};
 
+/// A view where a scene needs it, or nothing.
+template <bool On, class View>
+using Optional = std::conditional_t<On, View, Nothing>;
+
 /// p.size, where the shape functions depend on it.
 template <class Shape>
 using SizeView = std::conditional_t<Shape::hasSize, ParticleView<const Vec<Shape::dimension>>, Nothing>;

@@ -16,7 +16,7 @@ void interpolateToParticlesAndUpdate(const Patch& patch, const Material&, const 
   const double fastest = method.maximumParticleVelocity;
   forEachStencil<Shape>(patch, patch.cells(), x, size, deformation, [&](int p, const auto& stencil) {
     Vec<D> a = Vec<D>::Zero(), v = Vec<D>::Zero();
-    stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>&) {
+    stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>&, auto...) {
       a += s * acceleration[node];
       v += s * velocityStar[node];
     });
