@@ -42,6 +42,7 @@ using tasks::requiresNew;
 using tasks::requiresOld;
 using tasks::startTime;
 using tasks::TaskList;
+using tasks::when;
 using tasks::with;
 
 }  // namespace tushar

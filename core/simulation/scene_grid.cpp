@@ -185,7 +185,7 @@ void checkSize(const grid::Domain& domain, const Element& element, Diagnostics& 
                                            mostCells));
 }
 
-/// A side of a periodic axis takes no conditions.
+/// A side of a periodic axis takes no conditions; Uintah overlooks them.
 void checkPeriodic(const Element& section, const grid::Domain& domain, Diagnostics& diagnostics) {
   const auto group = section.child("BoundaryConditions");
   if (!group) return;
@@ -193,7 +193,7 @@ void checkPeriodic(const Element& section, const grid::Domain& domain, Diagnosti
   for (const Element& face : group->children("Face"))
     for (int k = 0; k < 6; ++k)
       if (domain.periodic[k / 2] != 0 && face.attribute("side") == sides[k])
-        diagnostics.error(face, fmt::format("{} is periodic, so this side can have no condition", "xyz"[k / 2]));
+        diagnostics.note(face, fmt::format("does nothing: {} is periodic, so this side can have no condition", "xyz"[k / 2]));
 }
 
 }  // namespace

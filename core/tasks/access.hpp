@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <utility>
 
 #include "core/tasks/context.hpp"
@@ -109,6 +110,25 @@ template <class T>
 FieldAccess<data::ParticleLabel<T>, AccessKind::creates> creates(const data::ParticleLabel<T>& label) {
   return {&label};
 }
+/// An access that only some scenes need; see `when`.
+template <class Access>
+struct OptionalAccess {
+  bool on;
+  Access access;
+
+  void declare(std::vector<tasks::Access>& accesses) {
+    if (on) access.declare(accesses);
+  }
+  auto bind(const TaskContext& context) const {
+    return on ? std::optional(access.bind(context)) : std::nullopt;
+  }
+};
+/// An access that is only declared where `on`: the body gets a std::optional view.
+template <class Access>
+OptionalAccess<Access> when(bool on, Access access) {
+  return {on, access};
+}
+
 /// The time at the start of the step, s: a double.
 struct TimeArgument {
   void declare(std::vector<Access>&) {}

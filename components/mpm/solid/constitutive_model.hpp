@@ -36,6 +36,9 @@ struct StateVariable {
 ///   order of memory; N = sizeof(State) / sizeof(double).
 /// - `updateStress`: Cauchy stress at the end of the step, Pa, from that at its begin; brings the State to the end.
 /// - `waveSpeed`: of the fastest elastic wave, m/s, from the density at the start of the run, kg/m^3.
+/// - optional `static constexpr bool dependsOnDeformationOnly = true`: updateStress looks at F alone; then the stress of
+///   a particle need not be kept. Such a model may have `Matrix3 kirchhoffStress(const Matrix3& f) const`, J sigma, and
+///   `double waveSpeed(double initialDensity, const Deformation&) const`, where these are cheaper.
 /// - optional `static constexpr bool usesTemperature = false`: updateStress never looks at the temperature.
 /// - optional `bulkSpeed`, with the arguments of waveSpeed: sqrt(K / density) for the artificial viscosity, m/s.
 /// - `strainEnergyDensity`: J per m^3 of the volume at the start of the run; a hyperelastic model returns W(F), any

@@ -114,8 +114,25 @@ const Schema<PhysicalConstants>& constantsSchema() {
   return schema;
 }
 
+/// One size for the particles of all bodies, where they agree.
+void settleSizes(Problem& problem) {
+  const Index3 first = problem.materials.front().bodies.front().particlesPerCell;
+  for (int axis = 0; axis < 3; ++axis) problem.method.commonSize[axis] = 1.0 / first[axis];
+  problem.method.keepsSizes = problem.start.solution != nullptr;
+  for (const Material& material : problem.materials)
+    for (const Body& body : material.bodies)
+      problem.method.keepsSizes = problem.method.keepsSizes || !(body.particlesPerCell == first);
+}
+
 std::unique_ptr<Component> makeComponent(const Level& level, Interpolator interpolator, Problem problem) {
   countParticles(level, problem.materials, problem.start.loads);
+  settleSizes(problem);
+  double widths = 0, axes = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    widths += level.cellWidth(axis);
+    axes += level.cellWidth(axis) > 0;
+  }
+  problem.method.meanWidth = widths / axes;
   const auto make = [&]<template <int> class Shape>() -> std::unique_ptr<Component> {
     if (level.dimension() == 1) return std::make_unique<SolidMpm<Shape<1>>>(problem);
     if (level.dimension() == 2) return std::make_unique<SolidMpm<Shape<2>>>(problem);
@@ -168,6 +185,7 @@ simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostic
   if (diagnostics.size() > before) return {};
   Problem problem{method, properties.mpm.materials, properties.mpm.contacts, {}};
   problem.method.strainEnergy = isSaved(root, "StrainEnergy") || isSaved(root, "p.strainEnergy");
+  problem.method.velocityGradient = isSaved(root, "p.velGrad");
   problem.method.thermalContact = properties.mpm.thermalContact;
   problem.start = {read.axisymmetric, read.useLoadCurves ? readLoads(root, diagnostics) : std::vector<PressureLoad>{},
                    makeManufactured(read.manufactured)};
@@ -175,7 +193,6 @@ simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostic
     Material& material = problem.materials[m];
     material.index = static_cast<int>(m);
     if (material.name.empty()) material.name = "material" + std::to_string(m);
-    for (Body& body : material.bodies) body.density = material.density;
     if (problem.start.solution && material.model->name() != "cnh_mms")
       diagnostics.error(root.child("MPM")->child("RunMMSProblem").value(),
                         "is made for the constitutive model cnh_mms, but '" + material.name + "' is " +

@@ -2,6 +2,7 @@
 
 #include "components/mpm/labels.hpp"
 #include "components/mpm/solid/constitutive_model.hpp"
+#include "components/mpm/solid/kernels/node_record.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -33,6 +34,8 @@ inline constexpr NodeLabel<double> volume{"g.volume", "m^3", "volume gathered fr
 inline constexpr NodeLabel<Matrix3> stress{"g.stressFS", "Pa", "Cauchy stress, mean over the volume of the particles around"};
 template <int D>
 inline constexpr NodeLabel<Vec<D>> externalForce{"g.externalforce", "N", "force of loads"};
+inline constexpr NodeLabel<Octet> record{"g.record", "SI units", "velocity, mass, force and volume of a step in progress"};
+inline constexpr NodeLabel<double> heatCapacity{"g.heatCapacity", "J/K", "heat capacity gathered from particles"};
 inline constexpr NodeLabel<double> temperatureNoBC{"g.temperatureNoBC", "K", "temperature gathered from particles"};
 inline constexpr NodeLabel<double> temperature{"g.temperature", "K", "the same, as the sides of the grid have it"};
 inline constexpr NodeLabel<double> heatRate{"g.heatRate", "W", "heat that flows to the node by conduction"};
@@ -50,6 +53,8 @@ inline constexpr CellLabel<double> stableTimeStep{"c.stableTimeStep", "s",
 /// Totals over all particles.
 namespace total {
 using namespace mpm::total;
+inline constexpr ReductionLabel<VectorSum> rigidReactionForce{
+    "RigidReactionForce", "N", "force on all bodies that a contact of type rigid or specified moves"};
 inline constexpr ReductionLabel<Sum> strainEnergy{
     "StrainEnergy", "J", "strain energy of elastic materials and, of others, what the last step added, as in Uintah"};
 }  // namespace total

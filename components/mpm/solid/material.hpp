@@ -12,7 +12,6 @@ struct Body {
   Location where;  ///< in the scene
   std::shared_ptr<const input::GeometryPiece> shape;
   Index3 particlesPerCell{{1, 1, 1}};  ///< along x, y, z
-  input::Expression density;           ///< kg/m^3
   input::VectorExpression velocity;    ///< m/s
   input::Expression temperature;       ///< K
   double color = 0;

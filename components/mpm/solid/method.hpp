@@ -22,7 +22,11 @@ struct Method {
   double minimumParticleMass = 3e-15;                         ///< kg
   double maximumParticleVelocity = 3e105;                     ///< m/s
   int minimumSubcyclesForF = 1;
+  Vec3 commonSize = Vec3::Ones();  ///< of all particles at the start, in cells; unless each keeps its own
+  bool keepsSizes = false;         ///< each particle keeps its size
+  double meanWidth = 0;            ///< of a cell over x, y, z, m: the length of the artificial viscosity
   bool strainEnergy = false;       ///< someone wants to know it
+  bool velocityGradient = false;   ///< someone wants to know it
   bool conductsHeat = true;
   bool thermalContact = false;     ///< materials that share nodes share a temperature
 };

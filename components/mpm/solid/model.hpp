@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/LU>
+
 #include <cstring>
 #include <memory>
 #include <vector>
@@ -16,13 +18,13 @@ struct StressPoints {
   const Matrix3* deformationGradient = nullptr;
   const Matrix3* velocityGradient = nullptr;  ///< 1/s
   const double* temperature = nullptr;        ///< K; null where no model asks
-  const Matrix3* oldStress = nullptr;         ///< Pa
-  Matrix3* stress = nullptr;                  ///< Pa
-  double* state = nullptr;                    ///< of stateSize() numbers a particle: before and after
-  int stateStride = 0;                        ///< numbers from one particle to the next
-  double* waveSpeed = nullptr;                ///< m/s
-  double* bulkSpeed = nullptr;                ///< m/s; null where nobody asks
-  double* strainEnergyDensity = nullptr;      ///< J/m^3 of the volume at the start; null where nobody asks
+  const Matrix3* oldStress = nullptr;         ///< Pa; null where the stress is not kept
+  Matrix3* stress = nullptr;                  ///< Pa; null where nobody asks
+  double* state = nullptr;                    ///< of stateStride numbers a particle: before and after
+  int stateStride = 0;
+  double* waveSpeed = nullptr;            ///< m/s
+  double* bulkSpeed = nullptr;            ///< m/s; null where nobody asks
+  double* strainEnergyDensity = nullptr;  ///< J/m^3 of the volume at the start; null where nobody asks
 };
 
 /// A constitutive model behind one virtual call per group of particles.
@@ -35,7 +37,12 @@ class Model {
   virtual std::vector<StateVariable> stateVariables() const = 0;
   virtual void initialize(double* state) const = 0;
   virtual bool usesTemperature() const = 0;
+  /// Whether the stress is a function of F alone: nothing but F needs to be kept then.
+  virtual bool dependsOnDeformationOnly() const = 0;
+
   virtual void updateStress(double initialDensity, const StressPoints& points) const = 0;
+  /// J sigma of `count` deformation gradients, Pa; only where the stress depends on F alone.
+  virtual void kirchhoffStress(const Matrix3* deformationGradient, int count, Matrix3* stress) const = 0;
 };
 
 template <ConstitutiveModel M>
@@ -53,35 +60,62 @@ class ModelOf : public Model {
       return {};
   }
   void initialize(double* state) const override { store(model_.initialState(), state); }
-
   bool usesTemperature() const override {
     if constexpr (requires { M::usesTemperature; })
       return M::usesTemperature;
     else
       return true;
   }
+  bool dependsOnDeformationOnly() const override { return fromDeformation; }
 
   void updateStress(double initialDensity, const StressPoints& points) const override {
     for (int k = 0; k < points.count; ++k) {
       const Deformation d{points.deformationGradient[k], points.oldDeformationGradient[k], points.velocityGradient[k],
                           points.timeStep, points.temperature ? points.temperature[k] : 0.0};
+      if constexpr (fromDeformation && requires { model_.waveSpeed(initialDensity, d); }) {
+        if (!points.stress) {
+          finish(initialDensity, points, k, d, Matrix3::Zero(), Matrix3::Zero(), State{},
+                 model_.waveSpeed(initialDensity, d));
+          continue;
+        }
+      }
       double* const numbers = points.state + k * points.stateStride;
-      const Matrix3 before = points.oldStress[k];
+      const Matrix3 before = points.oldStress ? points.oldStress[k] : Matrix3(Matrix3::Zero());
       State state = load(numbers);
       const Matrix3 after = model_.updateStress(d, before, state);
-      points.stress[k] = after;
+      if (points.stress) points.stress[k] = after;
       store(state, numbers);
-      points.waveSpeed[k] = model_.waveSpeed(initialDensity, d, after, state);
-      if (points.bulkSpeed) points.bulkSpeed[k] = bulkSpeed(initialDensity, d, after, state, points.waveSpeed[k]);
-      if (points.strainEnergyDensity)
-        points.strainEnergyDensity[k] = model_.strainEnergyDensity(d, before, after, state);
+      finish(initialDensity, points, k, d, before, after, state, model_.waveSpeed(initialDensity, d, after, state));
+    }
+  }
+
+  void kirchhoffStress(const Matrix3* f, int count, Matrix3* stress) const override {
+    if constexpr (requires { model_.kirchhoffStress(*f); }) {
+      for (int k = 0; k < count; ++k) stress[k] = model_.kirchhoffStress(f[k]);
+    } else if constexpr (fromDeformation) {
+      const Matrix3 zero = Matrix3::Zero();
+      State none{};
+      for (int k = 0; k < count; ++k)
+        stress[k] = f[k].determinant() * model_.updateStress({f[k], f[k], zero, 0.0, 0.0}, zero, none);
     }
   }
 
  private:
   using State = typename M::State;
   static constexpr bool hasState = !std::is_empty_v<State>;
+  static constexpr bool fromDeformation = [] {
+    if constexpr (requires { M::dependsOnDeformationOnly; })
+      return M::dependsOnDeformationOnly;
+    else
+      return false;
+  }();
 
+  void finish(double initialDensity, const StressPoints& points, int k, const Deformation& d, const Matrix3& before,
+              const Matrix3& after, const State& state, double waveSpeed) const {
+    points.waveSpeed[k] = waveSpeed;
+    if (points.bulkSpeed) points.bulkSpeed[k] = bulkSpeed(initialDensity, d, after, state, waveSpeed);
+    if (points.strainEnergyDensity) points.strainEnergyDensity[k] = model_.strainEnergyDensity(d, before, after, state);
+  }
   /// Speed for the artificial viscosity: of the model where it gives one, else that of its fastest wave.
   double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3& stress, const State& state,
                    double waveSpeed) const {

@@ -23,7 +23,7 @@ struct Problem {
 template <class Shape>
 class SolidMpm : public Component {
  public:
-  explicit SolidMpm(Problem problem) : problem_(std::move(problem)) {}
+  explicit SolidMpm(Problem problem);
 
   const Problem& problem() const { return problem_; }
 
@@ -36,18 +36,20 @@ class SolidMpm : public Component {
   static constexpr int D = Shape::dimension;
 
   void scheduleInterpolateParticlesToGrid(TaskList& tasks) const;
-  void scheduleComputeInternalForce(TaskList& tasks) const;
   void scheduleIntegrateAcceleration(TaskList& tasks) const;
   void scheduleApplyExternalLoads(TaskList& tasks) const;
   void scheduleUpdateParticles(TaskList& tasks) const;
   void scheduleHeat(TaskList& tasks) const;
-  void scheduleComputeStressTensor(TaskList& tasks) const;
 
   bool isViscous() const { return problem_.method.viscosity.has_value(); }
   bool isLoaded() const { return !problem_.start.loads.empty() || problem_.start.solution; }
-  bool isThermal() const;
+  bool keepsSizes() const { return Shape::hasSize && problem_.method.keepsSizes; }
 
   Problem problem_;
+  bool keeps_stress_ = false;  ///< some material's stress is not a function of F alone
+  bool is_thermal_ = false;    ///< some material's stress depends on the temperature
+  int state_size_ = 0;         ///< most numbers that a particle keeps for its model
+  ParticleLabel<double> state_{"p.modelState", "SI units", "internal variables of the constitutive model"};
 };
 
 }  // namespace tushar::mpm::solid

@@ -21,43 +21,48 @@ std::optional<Vec3> Contact::prescribedVelocity(double time) const {
 }
 
 template <int D>
-void moveAsOne(const Patch&, const Contact& contact, const NodeMasses& mass, const NodeVelocities<D>& velocity) {
-  forEach<D>(mass.front().box(), [&](const Index<D>& node) {
+void moveAsOne(const Patch&, const Contact& contact, const Records& records) {
+  forEach<D>(records.front().box(), [&](const Index<D>& node) {
     Vec<D> momentum = Vec<D>::Zero();
     double total = 0;
-    for (std::size_t m = 0; m < mass.size(); ++m) {
+    for (std::size_t m = 0; m < records.size(); ++m) {
       if (!contact.concerns(static_cast<int>(m))) continue;
-      momentum += mass[m][node] * velocity[m][node];
-      total += mass[m][node];
+      const Octet& record = records[m][node];
+      momentum += record[lane::mass] * lanes<D>(record, lane::velocity);
+      total += record[lane::mass];
     }
     if (total == 0) return;
-    for (std::size_t m = 0; m < mass.size(); ++m)
-      if (contact.concerns(static_cast<int>(m))) velocity[m][node] = momentum / total;
+    for (std::size_t m = 0; m < records.size(); ++m)
+      if (contact.concerns(static_cast<int>(m))) setLanes<D>(records[m][node], lane::velocity, momentum / total);
   });
 }
 
 template <int D>
-void followMaster(const Patch& patch, const Contact& contact, double time, const NodeMasses& mass,
-                  const NodeVelocities<D>& velocity) {
+void followMaster(const Patch& patch, const Contact& contact, double time, double dt, const Records& records,
+                  VectorSum& reaction) {
   const auto master = static_cast<std::size_t>(contact.master);
   const auto prescribed = contact.prescribedVelocity(time);
-  forEach<D>(mass.front().box(), [&](const Index<D>& node) {
-    if (mass[master][node] == 0) return;
-    if (prescribed) velocity[master][node] = patch.level().reduce<D>(*prescribed);
-    for (std::size_t m = 0; m < mass.size(); ++m) {
-      if (m == master || !contact.concerns(static_cast<int>(m))) continue;
+  forEach<D>(records.front().box(), [&](const Index<D>& node) {
+    if (records[master][node][lane::mass] == 0) return;
+    for (std::size_t n = 0; n < records.size(); ++n) {
+      const std::size_t m = n == 0 ? master : n <= master ? n - 1 : n;  // the master first
+      if (m == master ? !prescribed : !contact.concerns(static_cast<int>(m))) continue;
+      const Vec<D> before = lanes<D>(records[m][node], lane::velocity);
+      Vec<D> after = prescribed ? patch.level().reduce<D>(*prescribed) : lanes<D>(records[master][node], lane::velocity);
       for (int d = 0; d < D; ++d)
-        if (contact.direction[static_cast<std::size_t>(patch.level().axis(d))])
-          velocity[m][node][d] = velocity[master][node][d];
+        if (m != master && !contact.direction[static_cast<std::size_t>(patch.level().axis(d))]) after[d] = before[d];
+      setLanes<D>(records[m][node], lane::velocity, after);
+      if (isOwned<D>(patch, node))
+        reaction.add(patch.level().expandDirection<D>(records[m][node][lane::mass] / dt * (after - before)));
     }
   });
 }
 
-template void moveAsOne<1>(const Patch&, const Contact&, const NodeMasses&, const NodeVelocities<1>&);
-template void moveAsOne<2>(const Patch&, const Contact&, const NodeMasses&, const NodeVelocities<2>&);
-template void moveAsOne<3>(const Patch&, const Contact&, const NodeMasses&, const NodeVelocities<3>&);
-template void followMaster<1>(const Patch&, const Contact&, double, const NodeMasses&, const NodeVelocities<1>&);
-template void followMaster<2>(const Patch&, const Contact&, double, const NodeMasses&, const NodeVelocities<2>&);
-template void followMaster<3>(const Patch&, const Contact&, double, const NodeMasses&, const NodeVelocities<3>&);
+template void moveAsOne<1>(const Patch&, const Contact&, const Records&);
+template void moveAsOne<2>(const Patch&, const Contact&, const Records&);
+template void moveAsOne<3>(const Patch&, const Contact&, const Records&);
+template void followMaster<1>(const Patch&, const Contact&, double, double, const Records&, VectorSum&);
+template void followMaster<2>(const Patch&, const Contact&, double, double, const Records&, VectorSum&);
+template void followMaster<3>(const Patch&, const Contact&, double, double, const Records&, VectorSum&);
 
 }  // namespace tushar::mpm::solid

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "components/mpm/solid/kernels/node_record.hpp"
 #include "core/core.hpp"
 
 namespace tushar::mpm::solid {
@@ -29,15 +30,24 @@ struct Contact {
   std::optional<Vec3> prescribedVelocity(double time) const;
 };
 
-/// The velocities of all materials at a node, after one contact.
-template <int D>
-using NodeVelocities = std::vector<NodeView<Vec<D>>>;
-using NodeMasses = std::vector<NodeView<const double>>;
+/// The records of all materials (see NodeRecord), whose lanes 0 to 2 are the velocity.
+using Records = std::vector<NodeView<Octet>>;
 
+/// All materials that take part get the velocity of their centre of mass.
 template <int D>
-void moveAsOne(const Patch& patch, const Contact& contact, const NodeMasses& mass, const NodeVelocities<D>& velocity);
+void moveAsOne(const Patch& patch, const Contact& contact, const Records& records);
+/// Where the master is, the others get its velocity along the contact's directions. Adds what that takes to `reaction`,
+/// the force (N) on all of them.
 template <int D>
-void followMaster(const Patch& patch, const Contact& contact, double time, const NodeMasses& mass,
-                  const NodeVelocities<D>& velocity);
+void followMaster(const Patch& patch, const Contact& contact, double time, double dt, const Records& records,
+                  VectorSum& reaction);
+
+/// Whether a node belongs to a patch and to no other: sums over nodes count it once.
+template <int D>
+bool isOwned(const Patch& patch, const Index<D>& node) {
+  for (int d = 0; d < D; ++d)
+    if (node[d] >= patch.cells().upper[d] && !patch.isAtBoundary(d, 1)) return false;
+  return true;
+}
 
 }  // namespace tushar::mpm::solid

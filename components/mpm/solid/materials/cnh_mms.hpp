@@ -15,6 +15,7 @@ struct CnhMms {
   static constexpr std::string_view name = "cnh_mms";
   static constexpr bool strainEnergyIsRate = false;
   static constexpr bool usesTemperature = false;
+  static constexpr bool dependsOnDeformationOnly = true;
 
   double bulkModulus = 0;   ///< K, Pa
   double shearModulus = 0;  ///< G, Pa

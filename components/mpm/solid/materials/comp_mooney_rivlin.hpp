@@ -16,6 +16,7 @@ struct CompMooneyRivlin {
   struct State {};
   static constexpr std::string_view name = "comp_mooney_rivlin";
   static constexpr bool usesTemperature = false;
+  static constexpr bool dependsOnDeformationOnly = true;
   static constexpr bool strainEnergyIsRate = false;
 
   double c1 = 0, c2 = 0;     ///< Pa

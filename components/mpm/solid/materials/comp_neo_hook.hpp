@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "components/mpm/solid/constitutive_model.hpp"
+#include "components/mpm/solid/kernels/cube_root.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -14,6 +15,7 @@ struct CompNeoHook {
   struct State {};
   static constexpr std::string_view name = "comp_neo_hook";
   static constexpr bool usesTemperature = false;
+  static constexpr bool dependsOnDeformationOnly = true;
   static constexpr bool strainEnergyIsRate = false;
 
   double bulkModulus = 0;   ///< K, Pa
@@ -28,26 +30,31 @@ struct CompNeoHook {
   }
   State initialState() const { return {}; }
 
-  /// sigma = K/2 (J - 1/J) I + G/J dev(J^(-2/3) F Fᵀ)
-  Matrix3 updateStress(const Deformation& d, const Matrix3&, State&) const {
-    const Matrix3& f = d.deformationGradient;
-    const double j = f.determinant(), scale = 1 / std::cbrt(j * j);
-    Matrix3 b = scale * (f * f.transpose());
-    b.diagonal().array() -= b.trace() / 3;
-    b *= shearModulus / j;
-    b.diagonal().array() += bulkModulus / 2 * (j - 1 / j);
+  /// J sigma = K/2 (J² - 1) I + G dev(J^(-2/3) F Fᵀ)
+  Matrix3 kirchhoffStress(const Matrix3& f) const {
+    const double j = f.determinant();
+    Matrix3 b = f * f.transpose();
+    const double pressure = bulkModulus / 2 * (j * j - 1), third = b.trace() / 3;
+    b.diagonal().array() -= third;
+    b *= shearModulus * inverseCubeRootSquared(j);
+    b.diagonal().array() += pressure;
     return b;
   }
+  Matrix3 updateStress(const Deformation& d, const Matrix3&, State&) const {
+    return kirchhoffStress(d.deformationGradient) / d.deformationGradient.determinant();
+  }
+  double waveSpeed(double initialDensity, const Deformation& d) const {
+    return std::sqrt((bulkModulus + 4.0 / 3.0 * shearModulus) * d.deformationGradient.determinant() / initialDensity);
+  }
   double waveSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
-    const double density = initialDensity / d.deformationGradient.determinant();
-    return std::sqrt((bulkModulus + 4.0 / 3.0 * shearModulus) / density);
+    return waveSpeed(initialDensity, d);
   }
   double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
     return std::sqrt(bulkModulus * d.deformationGradient.determinant() / initialDensity);
   }
   double strainEnergyDensity(const Deformation& d, const Matrix3&, const Matrix3&, const State&) const {
     const Matrix3& f = d.deformationGradient;
-    const double j = f.determinant(), trace = f.squaredNorm() / std::cbrt(j * j);
+    const double j = f.determinant(), trace = f.squaredNorm() * inverseCubeRootSquared(j);
     return bulkModulus / 2 * (0.5 * (j * j - 1) - std::log(j)) + shearModulus / 2 * (trace - 3);
   }
 };

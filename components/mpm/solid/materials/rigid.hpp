@@ -11,6 +11,7 @@ struct Rigid {
   struct State {};
   static constexpr std::string_view name = "rigid";
   static constexpr bool usesTemperature = false;
+  static constexpr bool dependsOnDeformationOnly = true;
   static constexpr bool strainEnergyIsRate = false;
 
   double bulkModulus = 0;   ///< Pa, in scenes only

@@ -9,8 +9,8 @@ namespace tushar::mpm::solid {
 /// What a shape function asks of a particle besides its position.
 template <int D>
 struct Extent {
-  Vec<D> size = Vec<D>::Ones();  ///< at the start, in cells
-  Matrix3 deformation;           ///< F; undefined where `Shape::deforms` is false
+  Vec<D> size = Vec<D>::Ones();          ///< at the start, in cells
+  const Matrix3* deformation = nullptr;  ///< F; null where `Shape::deforms` is false
 };
 
 /// Shape functions of D dimensions that are products of those along each axis. Where `Axisymmetric`, the first axis is
@@ -22,60 +22,56 @@ struct TensorShape {
   static constexpr int ghostNodes = Axis::ghostNodes;
   /// Cells beyond a patch whose particles touch its nodes.
   static constexpr int reach = 1 + Axis::ghostNodes;
+  /// Nodes beyond a patch that particles in its own cells and in those within reach touch.
+  static constexpr int storedNodes = Axis::ghostNodes + reach;
   static constexpr bool hasSize = Axis::hasSize;
   static constexpr bool deforms = false;
   static constexpr bool axisymmetric = Axisymmetric;
 
   /// S_i and its gradient (1/m) at every node i that a particle touches; where axisymmetric, S_i / r (1/m), too.
-  class Stencil {
-   public:
-    Stencil(const Level& level, const Index<D>& cell, const Vec<D>& x, const Extent<D>& extent) {
-      const Vec<D> xi = CellFrame<D>(level, cell).coordinates(x);
-      for (int d = 0; d < D; ++d) {
+  struct Stencil {
+    static constexpr int dimension = D;
+    static constexpr int nodes = Axis::nodes;  ///< along each axis
+    static constexpr bool axisymmetric = Axisymmetric;
+
+    Index<D> first;
+    std::array<std::array<double, Axis::nodes>, D> s, ds;  ///< values and slopes along each axis
+    std::array<double, Axis::nodes> hoop;
+
+    Stencil(const Level& level, const Index<D>& cell, const Vec<D>& x, const Extent<D>& extent)
+        : Stencil(CellFrame<D>(level, cell), cell, x, extent) {}
+    Stencil(const CellFrame<D>& frame, const Index<D>& cell, const Vec<D>& x, const Extent<D>& extent) {
+      const Vec<D> xi = frame.coordinates(x);
+      for (int d = Axisymmetric ? 1 : 0; d < D; ++d) {
         const auto k = static_cast<std::size_t>(d);
-        if constexpr (Axisymmetric) {
-          if (d == 0) {
-            const double inverse = level.inverseSpacing(0);
-            first_[0] = cell[0] + RadialAxis<Axis>::fill(x[0] * inverse, level.nodePosition(0, cell[0]) * inverse,
-                                                         extent.size[0], s_[0], ds_[0], hoop_);
-            for (double& h : hoop_) h *= inverse;
-            for (double& slope : ds_[0]) slope *= inverse;
-            continue;
-          }
-        }
-        first_[d] = cell[d] + Axis::fill(xi[d], extent.size[d], s_[k], ds_[k]);
-        for (double& slope : ds_[k]) slope *= level.inverseSpacing(d);
+        first[d] = cell[d] + Axis::fill(xi[d], extent.size[d], s[k], ds[k]);
+        for (double& slope : ds[k]) slope *= frame.inverseSpacing[d];
+      }
+      if constexpr (Axisymmetric) {
+        const double inverse = frame.inverseSpacing[0];
+        first[0] = cell[0] + RadialAxis<Axis>::fill(x[0] * inverse, frame.origin[0] * inverse, extent.size[0], s[0], ds[0],
+                                                       hoop);
+        for (double& h : hoop) h *= inverse;
+        for (double& slope : ds[0]) slope *= inverse;
       }
     }
 
-    /// Calls `visit(node, S, gradient)`, where axisymmetric `visit(node, S, gradient, S / r)`, in the same order of
-    /// nodes for every particle.
+    /// Calls `visit(node, S, gradient)` in the same order of nodes for every particle.
     template <class Visit>
     void forEachNode(Visit&& visit) const {
       Box offsets{{}, Index3::filled(1)};
       for (int d = 0; d < D; ++d) offsets.upper[d] = Axis::nodes;
       forEach<D>(offsets, [&](const Index<D>& k) {
-        double s = 1;
+        double value = 1;
         Vec<D> gradient = Vec<D>::Ones();
         for (int d = 0; d < D; ++d) {
           const auto axis = static_cast<std::size_t>(d), node = static_cast<std::size_t>(k[d]);
-          s *= s_[axis][node];
-          for (int e = 0; e < D; ++e) gradient[e] *= (e == d ? ds_ : s_)[axis][node];
+          value *= s[axis][node];
+          for (int e = 0; e < D; ++e) gradient[e] *= (e == d ? ds : s)[axis][node];
         }
-        if constexpr (Axisymmetric) {
-          double hoop = hoop_[static_cast<std::size_t>(k[0])];
-          for (int d = 1; d < D; ++d) hoop *= s_[static_cast<std::size_t>(d)][static_cast<std::size_t>(k[d])];
-          visit(first_ + k, s, gradient, hoop);
-        } else {
-          visit(first_ + k, s, gradient);
-        }
+        visit(first + k, value, gradient);
       });
     }
-
-   private:
-    Index<D> first_;
-    std::array<std::array<double, Axis::nodes>, D> s_, ds_;
-    std::array<double, Axis::nodes> hoop_;
   };
 };
 

@@ -31,17 +31,4 @@ void applyManufacturedForce(const Patch& patch, const Material& material, const 
   }
 }
 
-/// F_i = sum_p S_i F_p
-template <class Shape, int D = Shape::dimension>
-void interpolateExternalForceToGrid(const Patch& patch, const Material&, ParticleView<const Vec<D>> x,
-                                    SizeView<Shape> size, DeformationView<Shape> deformation,
-                                    ParticleView<const Vec<D>> externalForce, NodeView<Vec<D>> force) {
-  force.fill(Vec<D>::Zero());
-  forEachStencil<Shape>(patch, x.cells(), x, size, deformation, [&](int p, const auto& stencil) {
-    stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>&, auto...) {
-      if (force.box().contains(node)) force[node] += s * externalForce[p];
-    });
-  });
-}
-
 }  // namespace tushar::mpm::solid

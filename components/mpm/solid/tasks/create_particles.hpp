@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/LU>
+
 #include "components/mpm/solid/labels.hpp"
 #include "components/mpm/solid/loads/load.hpp"
 #include "components/mpm/solid/loads/manufactured.hpp"
@@ -33,8 +35,8 @@ inline int loadsOn(const Start& start, const Material& material, const Body& bod
 template <int D>
 struct NewParticles {
   std::vector<Vec<D>>&x, &velocity, &displacement, &size;
-  std::vector<double>&mass, &volume, &temperature, &color, &viscosity, &strainEnergy;
-  std::vector<Matrix3>&deformation, &stress;
+  std::vector<double>&mass, &temperature, &color, &viscosity, &strainEnergy;
+  std::vector<Matrix3>& deformation;
   std::vector<int>& loads;
 
   void add(const Level& level, const Start& start, const Material& material, const Body& body, const Vec<D>& at,
@@ -44,13 +46,12 @@ struct NewParticles {
     velocity.push_back(level.reduce<D>(body.velocity(point)));
     displacement.push_back(Vec<D>::Zero());
     size.push_back(extent);
-    volume.push_back(level.cellVolume() * extent.prod());
-    if (start.axisymmetric) volume.back() *= point[0] / (level.cellWidth(2) > 0 ? level.cellWidth(2) : 1.0);
-    mass.push_back(body.density(point) * volume.back());
+    double volume = level.cellVolume() * extent.prod();
+    if (start.axisymmetric) volume *= point[0] / (level.cellWidth(2) > 0 ? level.cellWidth(2) : 1.0);
+    mass.push_back(material.density * volume);
     temperature.push_back(body.temperature(point));
     color.push_back(body.color);
     deformation.push_back(Matrix3::Identity());
-    stress.push_back(Matrix3::Zero());
     viscosity.push_back(0);
     strainEnergy.push_back(0);
     loads.push_back(loadsOn(start, material, body, point, particleSpacing(level, body)));
@@ -61,21 +62,12 @@ struct NewParticles {
   /// Moves the last particle to where the manufactured solution has it at time 0.
   void deform(const Level& level, const Manufactured& solution, const Material& material, const Vec3& point) {
     const Elastic elastic = elasticOf(material);
-    const Matrix3 f = solution.deformationGradient(elastic, point, 0), zero = Matrix3::Zero();
+    const Matrix3 f = solution.deformationGradient(elastic, point, 0);
     displacement.back() = level.reduce<D>(solution.displacement(elastic, point, 0));
     x.back() += displacement.back();
     velocity.back() = level.reduce<D>(solution.velocity(elastic, point, 0));
     deformation.back() = f;
-    volume.back() *= f.determinant();
     for (int d = 0; d < D; ++d) size.back()[d] *= f(level.axis(d), level.axis(d));
-    double waveSpeed;
-    StressPoints here;
-    here.count = 1;
-    here.oldDeformationGradient = here.deformationGradient = &f;
-    here.velocityGradient = here.oldStress = &zero;
-    here.stress = &stress.back();
-    here.waveSpeed = &waveSpeed;
-    material.model->updateStress(material.density, here);
   }
 };
 
@@ -86,13 +78,12 @@ struct NewParticles {
 template <int D>
 void actuallyInitialize(const Patch& patch, const Material& material, ParticleMaker& maker, const Start& start,
                         std::vector<Vec<D>>& x, std::vector<Vec<D>>& velocity, std::vector<Vec<D>>& displacement,
-                        std::vector<Vec<D>>& size, std::vector<double>& mass, std::vector<double>& volume,
-                        std::vector<double>& temperature, std::vector<double>& color,
-                        std::vector<Matrix3>& deformation, std::vector<Matrix3>& stress,
-                        std::vector<double>& viscosity, std::vector<double>& strainEnergy, std::vector<int>& loads) {
+                        std::vector<Vec<D>>& size, std::vector<double>& mass, std::vector<double>& temperature,
+                        std::vector<double>& color, std::vector<Matrix3>& deformation, std::vector<double>& viscosity,
+                        std::vector<double>& strainEnergy, std::vector<int>& loads) {
   const Level& level = patch.level();
-  NewParticles<D> particles{x,     velocity,  displacement, size,        mass,   volume, temperature,
-                            color, viscosity, strainEnergy, deformation, stress, loads};
+  NewParticles<D> particles{x,           velocity, displacement, size, mass, temperature, color, viscosity, strainEnergy,
+                            deformation, loads};
   // A displaced particle may start in another cell than the one that made it, and so on another patch.
   const double farthest = start.solution ? start.solution->farthestAtStart() : 0.0;
   const int around = static_cast<int>(std::ceil(farthest / level.minSpacing()));
@@ -122,6 +113,17 @@ void actuallyInitialize(const Patch& patch, const Material& material, ParticleMa
       });
     }
   });
+}
+
+/// What particles of materials whose stress depends on more than F keep besides.
+inline void initializeStress(const Patch&, const Material& material, int stateSize, ParticleView<const double> mass,
+                             ParticleView<const Matrix3> deformation, ParticleView<double> volume,
+                             ParticleView<Matrix3> stress, std::optional<ParticleView<double>> state) {
+  for (int p = 0; p < mass.owned(); ++p) {
+    volume[p] = mass[p] / material.density * deformation[p].determinant();
+    stress[p] = Matrix3::Zero();
+    if (state) material.model->initialize(&(*state)[0] + p * stateSize);
+  }
 }
 
 }  // namespace tushar::mpm::solid

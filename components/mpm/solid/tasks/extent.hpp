@@ -1,39 +1,65 @@
 #pragma once
 
+#include <optional>
+
 #include "components/mpm/solid/labels.hpp"
 #include "components/mpm/solid/shapes/tensor_shape.hpp"
 
 namespace tushar::mpm::solid {
 
-/// Stands for an argument that a task has no use for.
-struct Nothing {};
-
-/// A view where a scene needs it, or nothing.
-template <bool On, class View>
-using Optional = std::conditional_t<On, View, Nothing>;
-
-/// p.size, where the shape functions depend on it.
-template <class Shape>
-using SizeView = std::conditional_t<Shape::hasSize, ParticleView<const Vec<Shape::dimension>>, Nothing>;
-/// p.deformationMeasure, where the shape functions follow the deformation.
-template <class Shape>
-using DeformationView = std::conditional_t<Shape::deforms, ParticleView<const Matrix3>, Nothing>;
-
-template <class Shape, int D = Shape::dimension>
-Extent<D> extentOf(int p, const SizeView<Shape>& size, const DeformationView<Shape>& deformation) {
-  Extent<D> extent;
-  if constexpr (Shape::hasSize) extent.size = size[p];
-  if constexpr (Shape::deforms) extent.deformation = deformation[p];
-  return extent;
+/// The axis of the scene behind a kernel axis; in three dimensions the same.
+template <int D>
+int sceneAxis(const Level& level, int kernelAxis) {
+  if constexpr (D == 3)
+    return kernelAxis;
+  else
+    return level.axis(kernelAxis);
 }
+
+/// A view that only some scenes have.
+template <class T>
+using OptionalView = std::optional<ParticleView<T>>;
+
+/// The values of a view, or null where there are none.
+template <class T>
+T* valuesOf(const ParticleView<T>& view) {
+  return view.set().total() > 0 ? &view[0] : nullptr;
+}
+template <class T>
+T* valuesOf(const OptionalView<T>& view) {
+  return view ? valuesOf(*view) : nullptr;
+}
+
+/// What shape functions ask of the particles of a material: their extent, one for all or each its own, and F.
+template <class Shape>
+class Extents {
+ public:
+  static constexpr int D = Shape::dimension;
+
+  Extents(const Level& level, const Vec3& common, const OptionalView<const Vec<D>>& each,
+          const OptionalView<const Matrix3>& deformation)
+      : common_(level.reduce<D>(common)), each_(valuesOf(each)), deformation_(valuesOf(deformation)) {}
+
+  Extent<D> operator[](int p) const {
+    Extent<D> extent;
+    if constexpr (Shape::hasSize) extent.size = each_ ? each_[p] : common_;
+    if constexpr (Shape::deforms) extent.deformation = deformation_ + p;
+    return extent;
+  }
+
+ private:
+  Vec<D> common_;
+  const Vec<D>* each_;
+  const Matrix3* deformation_;
+};
 
 /// Calls `visit(p, stencil)` for each particle of `cells`, cell by cell and by id.
 template <class Shape, class Visit, int D = Shape::dimension>
-void forEachStencil(const Patch& patch, const Box& cells, ParticleView<const Vec<D>> x, const SizeView<Shape>& size,
-                    const DeformationView<Shape>& deformation, Visit&& visit) {
+void forEachStencil(const Patch& patch, const Box& cells, ParticleView<const Vec<D>> x, const Extents<Shape>& extents,
+                    Visit&& visit) {
   forEach<D>(cells, [&](const Index<D>& cell) {
-    for (const int p : x.in(cell))
-      visit(p, typename Shape::Stencil(patch.level(), cell, x[p], extentOf<Shape>(p, size, deformation)));
+    const CellFrame<D> frame(patch.level(), cell);
+    for (const int p : x.in(cell)) visit(p, typename Shape::Stencil(frame, cell, x[p], extents[p]));
   });
 }
 

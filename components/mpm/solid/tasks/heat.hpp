@@ -21,23 +21,41 @@ void setTemperature(const Patch& patch, int material, NodeView<double> field) {
     }
 }
 
-/// T_i = sum_p S_i m_p T_p / m_i
+/// Where the particles of a material are, and what its shape functions ask of them.
+template <class Shape>
+struct Places {
+  const Patch& patch;
+  ParticleView<const Vec<Shape::dimension>> x;
+  Extents<Shape> extents;
+
+  /// Calls `visit(p, stencil)` for each particle of `cells`.
+  template <class Visit>
+  void forEachStencil(const Box& cells, Visit&& visit) const {
+    solid::forEachStencil<Shape>(patch, cells, x, extents, visit);
+  }
+};
+
+/// C_i = sum_p S_i m_p c_v,   T_i = sum_p S_i m_p c_v T_p / C_i; 0 where there is no mass.
 template <class Shape, int D = Shape::dimension>
-void interpolateTemperatureToGrid(const Patch& patch, const Material& material, ParticleView<const Vec<D>> x,
-                                  SizeView<Shape> size, DeformationView<Shape> deformation,
-                                  ParticleView<const double> particleMass, ParticleView<const double> particleTemperature,
-                                  NodeView<const double> mass, NodeView<double> temperatureNoBC,
-                                  NodeView<double> temperature) {
+void interpolateTemperatureToGrid(const Patch& patch, const Material& material, const Vec3& commonSize,
+                                  ParticleView<const Vec<D>> x, OptionalView<const Vec<D>> size,
+                                  ParticleView<const Matrix3> deformation, ParticleView<const double> mass,
+                                  ParticleView<const double> particleTemperature, NodeView<double> capacity,
+                                  NodeView<double> temperatureNoBC, NodeView<double> temperature) {
+  capacity.fill(0.0);
   temperatureNoBC.fill(0.0);
-  const Box& box = mass.box();
-  forEachStencil<Shape>(patch, x.cells(), x, size, deformation, [&](int p, const auto& stencil) {
-    const double product = particleMass[p] * particleTemperature[p];
-    stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>&, auto...) {
-      if (box.contains(node)) temperatureNoBC[node] += s * product;
+  const Box& box = capacity.box();
+  const Places<Shape> places{patch, x, Extents<Shape>(patch.level(), commonSize, size, deformation)};
+  places.forEachStencil(x.cells(), [&](int p, const auto& stencil) {
+    const double heat = mass[p] * material.specificHeat;
+    stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>&) {
+      if (!box.contains(node)) return;
+      capacity[node] += s * heat;
+      temperatureNoBC[node] += s * heat * particleTemperature[p];
     });
   });
   forEach<D>(box, [&](const Index<D>& node) {
-    if (mass[node] > 0) temperatureNoBC[node] /= mass[node];
+    if (capacity[node] > 0) temperatureNoBC[node] /= capacity[node];
     temperature[node] = temperatureNoBC[node];
   });
   setTemperature<D>(patch, material.index, temperature);
@@ -45,20 +63,21 @@ void interpolateTemperatureToGrid(const Patch& patch, const Material& material, 
 
 /// Q_i = - sum_p V_p k grad S_i . grad T_p
 template <class Shape, int D = Shape::dimension>
-void computeInternalHeatRate(const Patch& patch, const Material& material, ParticleView<const Vec<D>> x,
-                             SizeView<Shape> size, DeformationView<Shape> deformation,
-                             ParticleView<const double> volume, NodeView<const double> temperature,
-                             NodeView<double> heatRate) {
+void computeInternalHeatRate(const Patch& patch, const Material& material, const Vec3& commonSize,
+                             ParticleView<const Vec<D>> x, OptionalView<const Vec<D>> size,
+                             ParticleView<const Matrix3> deformation, ParticleView<const double> mass,
+                             NodeView<const double> temperature, NodeView<double> heatRate) {
   heatRate.fill(0.0);
   const Box& box = heatRate.box();
   if (material.thermalConductivity == 0) return;
-  forEachStencil<Shape>(patch, x.cells(), x, size, deformation, [&](int p, const auto& stencil) {
+  const Places<Shape> places{patch, x, Extents<Shape>(patch.level(), commonSize, size, deformation)};
+  places.forEachStencil(x.cells(), [&](int p, const auto& stencil) {
     Vec<D> slope = Vec<D>::Zero();
-    stencil.forEachNode([&](const Index<D>& node, double, const Vec<D>& gradient, auto...) {
-      slope += temperature[node] * gradient;
-    });
-    slope *= -material.thermalConductivity * volume[p];
-    stencil.forEachNode([&](const Index<D>& node, double, const Vec<D>& gradient, auto...) {
+    stencil.forEachNode(
+        [&](const Index<D>& node, double, const Vec<D>& gradient) { slope += temperature[node] * gradient; });
+    const double volume = mass[p] / material.density * deformation[p].determinant();
+    slope *= -material.thermalConductivity * volume;
+    stencil.forEachNode([&](const Index<D>& node, double, const Vec<D>& gradient) {
       if (box.contains(node)) heatRate[node] += gradient.dot(slope);
     });
   });
@@ -66,47 +85,46 @@ void computeInternalHeatRate(const Patch& patch, const Material& material, Parti
 
 /// Materials that share a node take one temperature there, the mean over their heat capacities.
 template <int D>
-void computeHeatExchange(const Patch&, const std::vector<Material>& materials,
-                         const std::vector<NodeView<const double>>& mass,
+void computeHeatExchange(const Patch&, const std::vector<Material>&,
+                         const std::vector<NodeView<const double>>& capacity,
                          const std::vector<NodeView<const double>>& temperature, double dt,
                          const std::vector<NodeView<double>>& rate) {
-  forEach<D>(mass.front().box(), [&](const Index<D>& node) {
-    double heat = 0, capacity = 0;
-    for (std::size_t m = 0; m < mass.size(); ++m) {
-      const double share = mass[m][node] * materials[m].specificHeat;
-      heat += share * temperature[m][node];
-      capacity += share;
+  forEach<D>(capacity.front().box(), [&](const Index<D>& node) {
+    double heat = 0, total = 0;
+    for (std::size_t m = 0; m < capacity.size(); ++m) {
+      heat += capacity[m][node] * temperature[m][node];
+      total += capacity[m][node];
     }
-    for (std::size_t m = 0; m < mass.size(); ++m)
-      rate[m][node] = capacity > 0 ? (heat / capacity - temperature[m][node]) / dt : 0.0;
+    for (std::size_t m = 0; m < capacity.size(); ++m)
+      rate[m][node] = total > 0 ? (heat / total - temperature[m][node]) / dt : 0.0;
   });
 }
 
-/// T*_i = T_i + (Q_i / (m_i c_v) + contact) dt on the sides of the grid as given there, and the rate that comes of it.
-template <int D, bool Touching>
-void integrateTemperatureRate(const Patch& patch, const Material& material, NodeView<const double> mass,
+/// T*_i = T_i + (Q_i / C_i + contact) dt on the sides of the grid as given there, and the rate that comes of it.
+template <int D>
+void integrateTemperatureRate(const Patch& patch, const Material& material, NodeView<const double> capacity,
                               NodeView<const double> temperatureNoBC, NodeView<const double> temperature,
-                              NodeView<const double> heatRate,
-                              Optional<Touching, NodeView<const double>> contactRate, double dt,
-                              NodeView<double> rate) {
-  forEach<D>(mass.box(), [&](const Index<D>& node) {
-    const double capacity = mass[node] * material.specificHeat;
-    double change = capacity > 0 ? heatRate[node] / capacity : 0.0;
-    if constexpr (Touching) change += contactRate[node];
+                              NodeView<const double> heatRate, std::optional<NodeView<const double>> contactRate,
+                              double dt, NodeView<double> rate) {
+  forEach<D>(capacity.box(), [&](const Index<D>& node) {
+    double change = capacity[node] > 0 ? heatRate[node] / capacity[node] : 0.0;
+    if (contactRate) change += (*contactRate)[node];
     rate[node] = temperature[node] + change * dt;
   });
   setTemperature<D>(patch, material.index, rate);
-  forEach<D>(mass.box(), [&](const Index<D>& node) { rate[node] = (rate[node] - temperatureNoBC[node]) / dt; });
+  forEach<D>(capacity.box(), [&](const Index<D>& node) { rate[node] = (rate[node] - temperatureNoBC[node]) / dt; });
 }
 
 /// T_p += dt sum_i S_i dT_i/dt
 template <class Shape, int D = Shape::dimension>
-void updateTemperature(const Patch& patch, const Material&, ParticleView<const Vec<D>> x, SizeView<Shape> size,
-                       DeformationView<Shape> deformation, ParticleView<const double> temperature,
-                       NodeView<const double> rate, double dt, ParticleView<double> newTemperature) {
-  forEachStencil<Shape>(patch, patch.cells(), x, size, deformation, [&](int p, const auto& stencil) {
+void updateTemperature(const Patch& patch, const Material&, const Vec3& commonSize, ParticleView<const Vec<D>> x,
+                       OptionalView<const Vec<D>> size, ParticleView<const Matrix3> deformation,
+                       ParticleView<const double> temperature, NodeView<const double> rate, double dt,
+                       ParticleView<double> newTemperature) {
+  const Places<Shape> places{patch, x, Extents<Shape>(patch.level(), commonSize, size, deformation)};
+  places.forEachStencil(patch.cells(), [&](int p, const auto& stencil) {
     double change = 0;
-    stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>&, auto...) { change += s * rate[node]; });
+    stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>&) { change += s * rate[node]; });
     newTemperature[p] = temperature[p] + dt * change;
   });
 }

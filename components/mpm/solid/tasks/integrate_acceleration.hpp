@@ -7,32 +7,30 @@
 
 namespace tushar::mpm::solid {
 
-/// v*_i = v_i + (F_i / m_i - damping v_i + gravity) dt
-template <int D, bool Loaded>
+/// v*_i = v_i + (f_i / m_i - damping v_i + gravity) dt; afterwards the record holds v* and v.
+template <class Shape, int D = Shape::dimension>
 void computeAndIntegrateAcceleration(const Patch& patch, const Material&, const Method& method,
-                                     NodeView<const double> mass, NodeView<const Vec<D>> internalForce,
-                                     Optional<Loaded, NodeView<const Vec<D>>> externalForce,
-                                     NodeView<const Vec<D>> velocity, double dt, NodeView<Vec<D>> velocityStar) {
+                                     ParticleView<const Vec<D>> x, double dt, NodeView<Octet> record) {
   const Vec<D> gravity = patch.level().reduce<D>(method.gravity);
-  forEach<D>(mass.box(), [&](const Index<D>& node) {
-    Vec<D> a = gravity;
-    if (mass[node] > method.minimumMassForAcceleration) {
-      Vec<D> force = internalForce[node];
-      if constexpr (Loaded) force += externalForce[node];
-      a += force / mass[node] - method.damping * velocity[node];
+  const TouchedRows<D> rows(x, x.cells(), Shape::ghostNodes, record.box());
+  rows.forEachRow([&](const Index3& first, int end) {
+    Octet* node = record.values() + record.stored().offset(first);
+    for (int k = first[0]; k < end; ++k, ++node) {
+      const double mass = (*node)[lane::mass];
+      const Vec<D> v = lanes<D>(*node, lane::velocity);
+      Vec<D> a = gravity;
+      if (mass > method.minimumMassForAcceleration) a += lanes<D>(*node, lane::force) / mass - method.damping * v;
+      setLanes<D>(*node, lane::velocity, v + a * dt);
+      setLanes<D>(*node, lane::before, v);
     }
-    velocityStar[node] = velocity[node] + a * dt;
   });
 }
 
-/// v*_i on the sides of the grid, and what the velocity changed by: a_i = (v*_i - v_i) / dt.
+/// v*_i on the sides of the grid.
 template <int D>
-void setGridBoundaryConditions(const Patch& patch, const Material& material, NodeView<const Vec<D>> velocity, double dt,
-                               NodeView<Vec<D>> velocityStar, NodeView<Vec<D>> acceleration) {
-  setVelocity<D>(patch, material.index, velocityStar);
-  setSymmetry<D>(patch, material.index, velocityStar);
-  forEach<D>(velocity.box(),
-             [&](const Index<D>& node) { acceleration[node] = (velocityStar[node] - velocity[node]) / dt; });
+void setGridBoundaryConditions(const Patch& patch, const Material& material, NodeView<Octet> record) {
+  setVelocity<D>(patch, material.index, record);
+  setSymmetry<D>(patch, material.index, record);
 }
 
 }  // namespace tushar::mpm::solid
