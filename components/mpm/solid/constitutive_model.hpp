@@ -40,6 +40,7 @@ struct StateVariable {
 ///   a particle need not be kept. Such a model may have `Matrix3 kirchhoffStress(const Matrix3& f) const`, J sigma, and
 ///   `double waveSpeed(double initialDensity, const Deformation&) const`, where these are cheaper.
 /// - optional `static constexpr bool usesTemperature = false`: updateStress never looks at the temperature.
+/// - optional `double initialWaveSpeed(double initialDensity) const`: at the start, where it is not waveSpeed of F = I.
 /// - optional `bulkSpeed`, with the arguments of waveSpeed: sqrt(K / density) for the artificial viscosity, m/s.
 /// - `strainEnergyDensity`: J per m^3 of the volume at the start of the run; a hyperelastic model returns W(F), any
 ///   other what the step adds to it (`strainEnergyIsRate` true).

@@ -97,6 +97,7 @@ const Schema<MpmSection>& mpmSchema() {
       if (read.axisymmetric && !hasAxisymmetric)
         diagnostics.error(element, "axisymmetric: only with the interpolators linear and gimp");
     });
+    mpm.ignored("boundary_traction_faces", "BndyForce_… and BndyContactArea_… of every face can be saved without it");
     for (const auto& [tag, instead] : lacking) refuseSwitch(mpm, tag, instead);
     return mpm;
   }();
@@ -133,6 +134,8 @@ std::unique_ptr<Component> makeComponent(const Level& level, Interpolator interp
     axes += level.cellWidth(axis) > 0;
   }
   problem.method.meanWidth = widths / axes;
+  problem.method.isThin = {true, true, true};
+  for (int d = 0; d < level.dimension(); ++d) problem.method.isThin[static_cast<std::size_t>(level.axis(d))] = false;
   const auto make = [&]<template <int> class Shape>() -> std::unique_ptr<Component> {
     if (level.dimension() == 1) return std::make_unique<SolidMpm<Shape<1>>>(problem);
     if (level.dimension() == 2) return std::make_unique<SolidMpm<Shape<2>>>(problem);

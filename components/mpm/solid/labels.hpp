@@ -57,6 +57,23 @@ inline constexpr ReductionLabel<VectorSum> rigidReactionForce{
     "RigidReactionForce", "N", "force on all bodies that a contact of type rigid or specified moves"};
 inline constexpr ReductionLabel<Sum> strainEnergy{
     "StrainEnergy", "J", "strain energy of elastic materials and, of others, what the last step added, as in Uintah"};
+/// The faces of the grid in the order x-, x+, y-, y+, z-, z+.
+inline constexpr std::array<ReductionLabel<VectorSum>, 6> boundaryForce{{
+    {"BndyForce_xminus", "N", "force of the body on the face x-"},
+    {"BndyForce_xplus", "N", "force of the body on the face x+"},
+    {"BndyForce_yminus", "N", "force of the body on the face y-"},
+    {"BndyForce_yplus", "N", "force of the body on the face y+"},
+    {"BndyForce_zminus", "N", "force of the body on the face z-"},
+    {"BndyForce_zplus", "N", "force of the body on the face z+"},
+}};
+inline constexpr std::array<ReductionLabel<Sum>, 6> contactArea{{
+    {"BndyContactArea_xminus", "m^2", "area of the body on the face x-"},
+    {"BndyContactArea_xplus", "m^2", "area of the body on the face x+"},
+    {"BndyContactArea_yminus", "m^2", "area of the body on the face y-"},
+    {"BndyContactArea_yplus", "m^2", "area of the body on the face y+"},
+    {"BndyContactArea_zminus", "m^2", "area of the body on the face z-"},
+    {"BndyContactArea_zplus", "m^2", "area of the body on the face z+"},
+}};
 }  // namespace total
 
 }  // namespace tushar::mpm::solid

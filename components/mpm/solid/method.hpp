@@ -23,6 +23,7 @@ struct Method {
   double maximumParticleVelocity = 3e105;                     ///< m/s
   int minimumSubcyclesForF = 1;
   Vec3 commonSize = Vec3::Ones();  ///< of all particles at the start, in cells; unless each keeps its own
+  std::array<bool, 3> isThin{};    ///< axes x, y, z that the grid leaves out
   bool keepsSizes = false;         ///< each particle keeps its size
   double meanWidth = 0;            ///< of a cell over x, y, z, m: the length of the artificial viscosity
   bool strainEnergy = false;       ///< someone wants to know it

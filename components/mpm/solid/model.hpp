@@ -40,6 +40,8 @@ class Model {
   /// Whether the stress is a function of F alone: nothing but F needs to be kept then.
   virtual bool dependsOnDeformationOnly() const = 0;
 
+  /// Of the fastest wave at the start, m/s.
+  virtual double initialWaveSpeed(double initialDensity, double temperature) const = 0;
   virtual void updateStress(double initialDensity, const StressPoints& points) const = 0;
   /// J sigma of `count` deformation gradients, Pa; only where the stress depends on F alone.
   virtual void kirchhoffStress(const Matrix3* deformationGradient, int count, Matrix3* stress) const = 0;
@@ -86,6 +88,17 @@ class ModelOf : public Model {
       if (points.stress) points.stress[k] = after;
       store(state, numbers);
       finish(initialDensity, points, k, d, before, after, state, model_.waveSpeed(initialDensity, d, after, state));
+    }
+  }
+
+  double initialWaveSpeed(double initialDensity, double temperature) const override {
+    if constexpr (requires { model_.initialWaveSpeed(initialDensity); }) {
+      return model_.initialWaveSpeed(initialDensity);
+    } else {
+      const Deformation d{Matrix3::Identity(), Matrix3::Identity(), Matrix3::Zero(), 0, temperature};
+      State state = model_.initialState();
+      const Matrix3 stress = model_.updateStress(d, Matrix3::Zero(), state);
+      return model_.waveSpeed(initialDensity, d, stress, state);
     }
   }
 

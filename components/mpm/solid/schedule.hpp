@@ -2,6 +2,7 @@
 
 #include "components/mpm/solid/solid_mpm.hpp"
 #include "components/mpm/solid/tasks/apply_external_loads.hpp"
+#include "components/mpm/solid/tasks/boundary_force.hpp"
 #include "components/mpm/solid/tasks/diagnose.hpp"
 #include "components/mpm/solid/tasks/exchange_momentum.hpp"
 #include "components/mpm/solid/tasks/heat.hpp"
@@ -31,8 +32,9 @@ template <class Shape>
 void SolidMpm<Shape>::scheduleInitialize(TaskList& tasks) const {
   tasks.newParticles("mpm::actuallyInitialize", actuallyInitialize<D>, problem_.materials, with(problem_.start),
                      creates(p::x<D>), creates(p::velocity<D>), creates(p::displacement<D>), creates(p::size<D>),
-                     creates(p::mass), creates(p::temperature), creates(p::color), creates(p::deformationMeasure),
-                     creates(p::viscosity), creates(p::strainEnergy), creates(p::loadCurves));
+                     creates(p::externalForce<D>), creates(p::mass), creates(p::temperature), creates(p::color),
+                     creates(p::viscosity), creates(p::strainEnergy), creates(p::deformationMeasure),
+                     creates(p::velocityGradient), creates(p::loadCurves));
   tasks.perMaterial("mpm::computeInitialTimeStep", computeInitialTimeStep<D>, problem_.materials,
                     requiresNew(p::velocity<D>), requiresNew(p::temperature), computes(c::stableTimeStep));
   if (keeps_stress_)
@@ -171,10 +173,25 @@ void SolidMpm<Shape>::scheduleDiagnostics(TaskList& tasks) const {
                       computes(g::velocity<D>), computes(g::internalForce<D>), computes(g::acceleration<D>),
                       computes(g::stress));
   };
-  if (keeps_stress_)
+  const auto measure = [&](const auto& volume, const auto& stress) {
+    for (int face = 0; face < 6; ++face) {
+      const auto k = static_cast<std::size_t>(face);
+      if (problem_.method.isThin[k / 2])
+        tasks.perMaterial("mpm::measureThinBoundary", measureThinBoundary, problem_.materials, with(face), volume,
+                          stress, computes(total::boundaryForce[k]), computes(total::contactArea[k]));
+      else
+        tasks.perMaterial("mpm::measureBoundary", measureBoundary<D>, problem_.materials, with(face),
+                          requiresNew(g::internalForce<D>), requiresNew(g::volume), computes(total::boundaryForce[k]),
+                          computes(total::contactArea[k]));
+    }
+  };
+  if (keeps_stress_) {
     show(requiresOld(p::volume, Shape::reach), requiresOld(p::stress, Shape::reach));
-  else
+    measure(requiresOld(p::volume), requiresOld(p::stress));
+  } else {
     show(requiresNew(p::volume, Shape::reach), requiresNew(p::stress, Shape::reach));
+    measure(requiresNew(p::volume), requiresNew(p::stress));
+  }
 }
 
 }  // namespace tushar::mpm::solid

@@ -40,6 +40,10 @@ struct CompMooneyRivlin {
     stress.diagonal().array() += i.third * slope;
     return stress * (2 / i.j);
   }
+  /// At the start Uintah takes the wave of the linear material: 2 mu (1 - nu) / (1 - 2 nu), mu = 2 (C1 + C2).
+  double initialWaveSpeed(double initialDensity) const {
+    return std::sqrt(4 * (c1 + c2) * (1 - poissonRatio) / ((1 - 2 * poissonRatio) * initialDensity));
+  }
   /// The bound that Uintah takes.
   double waveSpeed(double initialDensity, const Deformation& d, const Matrix3& stress, const State&) const {
     const Invariants i(d.deformationGradient);

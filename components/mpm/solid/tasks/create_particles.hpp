@@ -34,9 +34,9 @@ inline int loadsOn(const Start& start, const Material& material, const Body& bod
 /// The columns of the particles that are made.
 template <int D>
 struct NewParticles {
-  std::vector<Vec<D>>&x, &velocity, &displacement, &size;
+  std::vector<Vec<D>>&x, &velocity, &displacement, &size, &externalForce;
   std::vector<double>&mass, &temperature, &color, &viscosity, &strainEnergy;
-  std::vector<Matrix3>& deformation;
+  std::vector<Matrix3>&deformation, &velocityGradient;
   std::vector<int>& loads;
 
   void add(const Level& level, const Start& start, const Material& material, const Body& body, const Vec<D>& at,
@@ -45,6 +45,8 @@ struct NewParticles {
     x.push_back(at);
     velocity.push_back(level.reduce<D>(body.velocity(point)));
     displacement.push_back(Vec<D>::Zero());
+    externalForce.push_back(Vec<D>::Zero());
+    velocityGradient.push_back(Matrix3::Zero());
     size.push_back(extent);
     double volume = level.cellVolume() * extent.prod();
     if (start.axisymmetric) volume *= point[0] / (level.cellWidth(2) > 0 ? level.cellWidth(2) : 1.0);
@@ -78,12 +80,13 @@ struct NewParticles {
 template <int D>
 void actuallyInitialize(const Patch& patch, const Material& material, ParticleMaker& maker, const Start& start,
                         std::vector<Vec<D>>& x, std::vector<Vec<D>>& velocity, std::vector<Vec<D>>& displacement,
-                        std::vector<Vec<D>>& size, std::vector<double>& mass, std::vector<double>& temperature,
-                        std::vector<double>& color, std::vector<Matrix3>& deformation, std::vector<double>& viscosity,
-                        std::vector<double>& strainEnergy, std::vector<int>& loads) {
+                        std::vector<Vec<D>>& size, std::vector<Vec<D>>& externalForce, std::vector<double>& mass,
+                        std::vector<double>& temperature, std::vector<double>& color, std::vector<double>& viscosity,
+                        std::vector<double>& strainEnergy, std::vector<Matrix3>& deformation,
+                        std::vector<Matrix3>& velocityGradient, std::vector<int>& loads) {
   const Level& level = patch.level();
-  NewParticles<D> particles{x,           velocity, displacement, size, mass, temperature, color, viscosity, strainEnergy,
-                            deformation, loads};
+  NewParticles<D> particles{x,         velocity,     displacement, size,             externalForce, mass, temperature, color,
+                            viscosity, strainEnergy, deformation,  velocityGradient, loads};
   // A displaced particle may start in another cell than the one that made it, and so on another patch.
   const double farthest = start.solution ? start.solution->farthestAtStart() : 0.0;
   const int around = static_cast<int>(std::ceil(farthest / level.minSpacing()));

@@ -19,20 +19,10 @@ double crossingTime(const Level& level, double c, const Vec<D>& v) {
 template <int D>
 void computeInitialTimeStep(const Patch& patch, const Material& material, ParticleView<const Vec<D>> velocity,
                             ParticleView<const double> temperature, CellView<double> stableTimeStep) {
-  const Matrix3 identity = Matrix3::Identity(), zero = Matrix3::Zero();
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     double least = std::numeric_limits<double>::infinity();
     for (const int p : velocity.in(cell)) {
-      Matrix3 stress;
-      double waveSpeed = 0;
-      StressPoints point;
-      point.count = 1;
-      point.oldDeformationGradient = point.deformationGradient = &identity;
-      point.velocityGradient = point.oldStress = &zero;
-      point.temperature = &temperature[p];
-      point.stress = &stress;
-      point.waveSpeed = &waveSpeed;
-      material.model->updateStress(material.density, point);
+      const double waveSpeed = material.model->initialWaveSpeed(material.density, temperature[p]);
       least = std::min(least, crossingTime<D>(patch.level(), waveSpeed, velocity[p]));
     }
     stableTimeStep[cell] = least;
