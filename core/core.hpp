@@ -40,7 +40,9 @@ using tasks::modifies;
 using tasks::ParticleMaker;
 using tasks::requiresNew;
 using tasks::requiresOld;
+using tasks::startTime;
 using tasks::TaskList;
+using tasks::when;
 using tasks::with;
 
 }  // namespace tushar

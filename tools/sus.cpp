@@ -145,6 +145,8 @@ ExitCode runScene(const Arguments& arguments, const simulation::Catalogue& known
   if (launchedRanks() > 1)
     throw std::runtime_error(fmt::format("started on {} ranks, but runs on one so far; start it without mpirun", launchedRanks()));
   simulation::Problem problem = readProblem(arguments, known);
+  if (!arguments.run.quiet)
+    for (const InputProblem& note : problem.notes) fmt::print(stderr, "note: {}\n", note.text());
   simulation::Simulation run(std::move(problem), arguments.run, startedAt);
   if (!arguments.graph.empty()) {
     std::ostringstream dot;

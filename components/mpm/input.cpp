@@ -4,6 +4,7 @@
 
 #include "components/mpm/conserving/conserving_mpm.hpp"
 #include "components/mpm/mpm.hpp"
+#include "components/mpm/solid/input.hpp"
 #include "core/input/geometry.hpp"
 #include "core/simulation/by_dimension.hpp"
 
@@ -300,6 +301,24 @@ void checkSeeds(const Redistribution& how, int dimension) {
                                  how.targetParticles, seeds, along, dimension, how.maxParticles)}});
 }
 
+bool isGas(const Element& root) {
+  const auto mpm = root.child("MPM");
+  return mpm && (mpm->child("gas_dynamics") || mpm->child("conserving_gas_dynamics"));
+}
+
+/// What only scenes of solids may say.
+void refuseSolidsOnly(const Element& root, Diagnostics& diagnostics) {
+  if (const auto constants = root.child("PhysicalConstants"))
+    diagnostics.error(*constants, "a gas knows no <PhysicalConstants>: nothing acts on it but its pressure");
+  const auto grid = root.child("Grid");
+  const auto conditions = grid ? grid->child("BoundaryConditions") : std::nullopt;
+  if (!conditions) return;
+  for (const Element& face : conditions->children("Face"))
+    for (const Element& condition : face.children("BCType"))
+      if (const auto label = condition.attribute("label"); label && (*label == "Velocity" || *label == "Temperature"))
+        diagnostics.error(condition, "label: found '" + *label + "', expected 'Symmetric': a gas takes no other");
+}
+
 std::unique_ptr<Component> makeComponent(const Level& level, const MpmSection& method, const std::vector<Gas>& gases) {
   if (method.gas && method.gas->redistribute) checkSeeds(*method.gas->redistribute, level.dimension());
   if (method.gas) return simulation::makeByDimension<Mpm>(level, *method.gas, gases);
@@ -311,14 +330,19 @@ std::unique_ptr<Component> makeComponent(const Level& level, const MpmSection& m
 simulation::ComponentKind kind() {
   simulation::ComponentKind kind;
   kind.name = "mpm";
-  kind.sentence = "the Material Point Method: gas dynamics of Tran, Kim & Berzins";
-  kind.sections = {"MPM", "MaterialProperties"};
-  kind.boundaryLabels = {{"Symmetric"}};
+  kind.sentence = "the Material Point Method: solids, and gas dynamics of Tran, Kim & Berzins";
+  kind.sections = {"MPM", "MaterialProperties", "PhysicalConstants", "PhysicalBC"};
+  kind.boundaryLabels = {{"Symmetric"}, {"Velocity", true}, {"Temperature"}};
   kind.describe = [](std::ostream& out) {
+    solid::describe(out);
+    out << "Where <MPM> has <gas_dynamics> or <conserving_gas_dynamics>, instead:\n";
     mpmSchema().describe(out);
     propertiesSchema().describe(out);
   };
+  kind.nodesBeyond = [](const Element& root) { return isGas(root) ? 0 : solid::nodesBeyond(root); };
   kind.read = [](const Element& root, Diagnostics& diagnostics) -> simulation::MakeComponent {
+    if (!isGas(root)) return solid::readScene(root, diagnostics);
+    refuseSolidsOnly(root, diagnostics);
     const std::size_t before = diagnostics.size();
     const MpmSection method = simulation::readSection(root, mpmSchema(), diagnostics);
     const MaterialProperties properties = simulation::readSection(root, propertiesSchema(), diagnostics);

@@ -50,9 +50,9 @@ struct Stored<int> {
   static constexpr int components = 1;
   static constexpr bool isVector = false;
 };
-/// Vectors along the kernel axes; wider matrices are stored column by column.
-template <int Rows, int Columns>
-struct Stored<Eigen::Matrix<double, Rows, Columns, Eigen::DontAlign>> {
+/// Vectors along the kernel axes; wider matrices are stored as they are in memory: tensors row by row.
+template <int Rows, int Columns, int Options>
+struct Stored<Eigen::Matrix<double, Rows, Columns, Options>> {
   static constexpr Number number = Number::real;
   static constexpr int components = Rows * Columns;
   static constexpr bool isVector = Columns == 1;

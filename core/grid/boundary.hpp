@@ -13,6 +13,7 @@ struct BoundaryCondition {
   std::string variable;  ///< the `label` attribute: Symmetric, Velocity, Temperature, …
   std::string kind;      ///< the `var` attribute: symmetry, Dirichlet, Neumann
   Vec3 value = Vec3::Zero();  ///< a scalar stands in the first component; the unit is the variable's
+  int material = -1;          ///< the number of the one that it holds for; -1: all
 };
 
 /// The conditions of the six faces x-, x+, y-, y+, z-, z+ in this order. A face with none is free.

@@ -55,6 +55,16 @@ void Level::makePatches() {
   });
 }
 
+Box Level::nodes() const {
+  Box nodes = nodesOfCells();
+  for (int d = 0; d < dimension(); ++d) {
+    if (isPeriodic(d)) continue;
+    nodes.lower[d] -= domain_.nodesBeyond;
+    nodes.upper[d] += domain_.nodesBeyond;
+  }
+  return nodes;
+}
+
 double Level::minSpacing() const {
   double least = spacing(0);
   for (int d = 1; d < dimension(); ++d) least = std::min(least, spacing(d));
@@ -146,9 +156,9 @@ std::vector<Index3> Level::imagesOverlapping(const Box& cells) const {
   return shifts;
 }
 
-const BoundaryCondition* Level::boundary(int kernelAxis, int side, const std::string& variable) const {
+const BoundaryCondition* Level::boundary(int kernelAxis, int side, const std::string& variable, int material) const {
   for (const BoundaryCondition& condition : domain_.boundaries.face(axis(kernelAxis), side))
-    if (condition.variable == variable) return &condition;
+    if (condition.variable == variable && (condition.material < 0 || condition.material == material)) return &condition;
   return nullptr;
 }
 

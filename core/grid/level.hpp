@@ -20,6 +20,7 @@ struct Domain {
   Index3 resolution{{1, 1, 1}};  ///< cells along x, y, z
   Index3 patches{{1, 1, 1}};     ///< along x, y, z
   Index3 periodic{};             ///< 1 along axes where the grid repeats without end
+  int nodesBeyond = 0;           ///< layers of nodes outside every side that is not periodic: wide shape functions reach there
   BoundaryConditions boundaries;
 };
 
@@ -44,7 +45,10 @@ class Level {
 
   /// Every cell of the grid; lower is always 0.
   const Box& cells() const { return cells_; }
-  Box nodes() const { return cells_.nodes(dimension()); }
+  /// Every node, those beyond the sides of the grid among them.
+  Box nodes() const;
+  /// The nodes of the cells of the grid.
+  Box nodesOfCells() const { return cells_.nodes(dimension()); }
   /// The part of a box of cells that lies on the grid or, along periodic axes, on its images.
   Box clipCells(const Box& cells) const { return clip(cells, cells_); }
   Box clipNodes(const Box& nodes) const { return clip(nodes, this->nodes()); }
@@ -55,6 +59,8 @@ class Level {
   double spacing(int kernelAxis) const { return spacing_[static_cast<std::size_t>(kernelAxis)]; }
   /// One over the cell width, 1/m: a division saved wherever kernels go from metres to cells.
   double inverseSpacing(int kernelAxis) const { return inverse_spacing_[static_cast<std::size_t>(kernelAxis)]; }
+  /// Cell width along an axis of the scene, m; 0 where the grid has no extent.
+  double cellWidth(int axis) const { return (domain_.upper[axis] - domain_.lower[axis]) / domain_.resolution[axis]; }
   /// The least cell width, m.
   double minSpacing() const;
   /// Volume of a cell, m³; an axis without extent counts as 1 m.
@@ -124,13 +130,15 @@ class Level {
     return full;
   }
 
-  /// The condition for a variable on a face of the grid (`side` 0: lower, 1: upper), if the scene gives one.
-  const BoundaryCondition* boundary(int kernelAxis, int side, const std::string& variable) const;
+  /// The condition for a variable of a material on a face of the grid (`side` 0: lower, 1: upper), if the scene gives one.
+  const BoundaryCondition* boundary(int kernelAxis, int side, const std::string& variable, int material = 0) const;
   bool isPeriodic(int kernelAxis) const { return domain_.periodic[axis(kernelAxis)] != 0; }
   bool isPeriodic() const { return is_periodic_; }
   /// How far apart the images of a point are along a kernel axis, m.
   double period(int kernelAxis) const { return nodePosition(kernelAxis, cells_.upper[kernelAxis]) - nodePosition(kernelAxis, 0); }
-  bool isSymmetry(int kernelAxis, int side) const { return boundary(kernelAxis, side, "Symmetric") != nullptr; }
+  bool isSymmetry(int kernelAxis, int side, int material = 0) const {
+    return boundary(kernelAxis, side, "Symmetric", material) != nullptr;
+  }
 
  private:
   void chooseAxes();

@@ -14,6 +14,10 @@ void Diagnostics::error(const Element& element, std::string sentence) {
   error(element.where(), element.path(), std::move(sentence));
 }
 
+void Diagnostics::note(const Element& element, std::string sentence) {
+  notes_.push_back({element.where(), element.path(), std::move(sentence)});
+}
+
 std::vector<InputProblem> Diagnostics::sorted() const {
   std::map<std::string, std::size_t> order;
   for (const InputProblem& problem : problems_) order.emplace(problem.where.file, order.size());

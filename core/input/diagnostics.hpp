@@ -16,6 +16,10 @@ class Diagnostics {
   /// A problem of a tag or of its value.
   void error(const Element& element, std::string sentence);
 
+  /// Something that is accepted but does nothing: the user should know.
+  void note(const Element& element, std::string sentence);
+  const std::vector<InputProblem>& notes() const { return notes_; }
+
   bool any() const { return !problems_.empty(); }
   std::size_t size() const { return problems_.size(); }
   /// Grouped by file in the order in which files were first complained of, then by line and column.
@@ -24,7 +28,7 @@ class Diagnostics {
   void throwIfAny() const;
 
  private:
-  std::vector<InputProblem> problems_;
+  std::vector<InputProblem> problems_, notes_;
 };
 
 }  // namespace tushar::input

@@ -30,6 +30,8 @@ struct ComponentKind {
   /// Reads its sections from the root of the scene; every problem goes to the diagnostics.
   std::function<MakeComponent(const input::Element& root, input::Diagnostics&)> read;
   std::function<void(std::ostream&)> describe;  ///< its manual
+  /// Layers of nodes that the scene needs beyond the sides of the grid; none where it is empty.
+  std::function<int(const input::Element& root)> nodesBeyond;
 };
 
 /// Builds a module for a component; throws InputError if the two do not go together.

@@ -47,7 +47,7 @@ void gatherGrid(data::Warehouse& warehouse, Generation generation, int number, o
   const Label& label = *warehouse.table()[number].label;
   const grid::Level& level = warehouse.level();
   const bool nodes = label.centring == Centring::node;
-  grid::forEach<3>(nodes ? level.nodes() : level.cells(), [&](const Index3& at) {
+  grid::forEach<3>(nodes ? level.nodesOfCells() : level.cells(), [&](const Index3& at) {
     Index3 cell = at;
     for (int d = 0; d < 3; ++d) cell[d] = std::min(cell[d], level.cells().upper[d] - 1);
     const Variable& variable = warehouse.variable(generation, number, level.patchOf(cell).id());

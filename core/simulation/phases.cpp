@@ -117,6 +117,8 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
     for (const MeasuredError& error : analysis->errors()) reported.emplace(error.label->name);
   for (const SaveRequest& save : saved_fields_)
     (stepped.contains(save.label) ? savedState : derived).insert(save.label);
+  for (const std::string& global : saved_globals_)
+    if (!diagnosed.contains(global)) savedState.insert(global);
 
   const Names decided = producedBy(lists.stableTimeStep.tasks());
   Names wanted = requiredOfState(lists.timeAdvance.tasks());

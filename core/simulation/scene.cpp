@@ -18,6 +18,9 @@ namespace {
 const std::vector<std::string> sharedSections{"Meta", "SimulationComponent", "Time", "DataArchiver", "Grid",
                                               "DataAnalysis"};
 
+/// Sections of Uintah's that tune what works by itself here.
+const std::vector<std::string> idleSections{"LoadBalancer", "Scheduler", "ParallelOptions", "Debug"};
+
 struct Meta {
   std::string title;
 };
@@ -66,7 +69,9 @@ void refuseUnknownSections(const Element& root, const ComponentKind* kind, const
   for (const ComponentKind& other : catalogue.components)
     if (!kind || kind == &other) known.insert(known.end(), other.sections.begin(), other.sections.end());
   for (const Element& child : root.children())
-    if (std::find(known.begin(), known.end(), child.name()) == known.end())
+    if (std::find(idleSections.begin(), idleSections.end(), child.name()) != idleSections.end())
+      diagnostics.note(child, "does nothing here: patches and tasks are placed without it");
+    else if (std::find(known.begin(), known.end(), child.name()) == known.end())
       diagnostics.error(child, fmt::format("unknown section <{}>{}; allowed here: {}", child.name(),
                                            didYouMean(child.name(), known), fmt::join(known, ", ")));
 }
@@ -180,6 +185,7 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   grid::Domain domain;
   if (const auto grid = section(root, "Grid", true, diagnostics))
     domain = readGrid(*grid, kind ? kind->boundaryLabels : std::vector<BoundaryLabel>{}, diagnostics);
+  if (kind && kind->nodesBeyond) domain.nodesBeyond = kind->nodesBeyond(root);
   MakeComponent makeComponent;
   if (kind) makeComponent = kind->read(root, diagnostics);
   const std::vector<ReadModule> modules = readModules(root, catalogue, diagnostics);
@@ -191,6 +197,7 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   problem.level = std::make_unique<grid::Level>(domain);
   problem.component = makeComponent(*problem.level);
   problem.analyses = makeModules(modules, *problem.component, *problem.level);
+  problem.notes = diagnostics.notes();
   return problem;
 }
 

@@ -97,7 +97,7 @@ const Schema<LevelSection>& levelSchema() {
 const Schema<ConditionSection>& conditionSchema() {
   static const Schema<ConditionSection> schema =
       Schema<ConditionSection>("BCType", "What a variable does at a face.")
-          .attributeValue("id", &ConditionSection::id, "all", "1", "material that it holds for; all is what there is")
+          .attributeValue("id", &ConditionSection::id, "all", "1", "number of the material that it holds for, or all")
           .requiredAttribute("label", &ConditionSection::label, "1", "the variable")
           .requiredAttribute("var", &ConditionSection::var, "1", "symmetry, Dirichlet or Neumann")
           .optional("value", &ConditionSection::value, "SI unit of the variable", "a number or a vector")
@@ -106,8 +106,8 @@ const Schema<ConditionSection>& conditionSchema() {
               diagnostics.error(element, "var: " + problem);
             else if (condition.var != "symmetry" && !condition.value)
               diagnostics.error(element, "a " + condition.var + " condition needs a <value>");
-            if (condition.id != "all" && condition.id != "0")
-              diagnostics.error(element, "id: found '" + condition.id + "', expected 'all'");
+            if (const auto number = input::parse<int>(condition.id); condition.id != "all" && !(number && *number >= 0))
+              diagnostics.error(element, "id: found '" + condition.id + "', expected 'all' or the number of a material");
           });
   return schema;
 }
@@ -163,11 +163,12 @@ void readConditions(const std::vector<ConditionSection>& given, const std::vecto
     if (!label && !labels.empty())
       diagnostics.error(tags[k], "label: " + input::choiceProblem(given[k].label, namesOf(labels)));
     if (!label || !input::choiceProblem(given[k].var, conditionKinds).empty()) continue;
-    conditions.push_back({label->name, given[k].var, conditionValue(given[k], label->isVector, tags[k], diagnostics)});
+    conditions.push_back({label->name, given[k].var, conditionValue(given[k], label->isVector, tags[k], diagnostics),
+                          input::parse<int>(given[k].id).value.value_or(-1)});
     if (const std::string problem = contradiction(conditions.back(), given[k].value.has_value(), onPlane);
         !problem.empty())
       diagnostics.error(tags[k], problem);
-    if (const auto [first, isNew] = seen.emplace(label->name, tags[k].where()); !isNew)
+    if (const auto [first, isNew] = seen.emplace(label->name + given[k].id, tags[k].where()); !isNew)
       diagnostics.error(tags[k], fmt::format("{} has a condition on this face already, at {}; keep one", label->name,
                                              first->second.text()));
   }
@@ -221,7 +222,7 @@ void checkSize(const grid::Domain& domain, const Element& element, Diagnostics& 
                                            mostCells));
 }
 
-/// A side of a periodic axis takes no conditions.
+/// A side of a periodic axis takes no conditions; Uintah overlooks them.
 void checkPeriodic(const Element& section, const grid::Domain& domain, Diagnostics& diagnostics) {
   const auto group = section.child("BoundaryConditions");
   if (!group) return;
@@ -229,7 +230,7 @@ void checkPeriodic(const Element& section, const grid::Domain& domain, Diagnosti
   for (const Element& face : group->children("Face"))
     for (int k = 0; k < 6; ++k)
       if (domain.periodic[k / 2] != 0 && face.attribute("side") == sides[k])
-        diagnostics.error(face, fmt::format("{} is periodic, so this side can have no condition", "xyz"[k / 2]));
+        diagnostics.note(face, fmt::format("does nothing: {} is periodic, so this side can have no condition", "xyz"[k / 2]));
 }
 
 }  // namespace

@@ -142,6 +142,7 @@ void Simulation::saveGlobals() {
   const auto started = Clock::now();
   for (const std::string& name : phases_.savedGlobals()) {
     const data::Label& label = *table_[table_.find(name, -1)].label;
+    if (reduction(name).empty()) continue;  // of a step: there has been none yet
     archive_->appendGlobal(
         {name, std::string(label.unit), std::string(label.description), time_.time(), reduction(name)});
   }

@@ -23,6 +23,7 @@ namespace tushar::simulation {
 struct Problem {
   std::string scenePath, title, componentName;
   std::string inputXml;  ///< the scene with its overrides, for the archive
+  std::vector<InputProblem> notes;  ///< what of the scene does nothing
   TimeSettings time;
   ArchiveSettings archive;
   std::unique_ptr<grid::Level> level;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <utility>
 
 #include "core/tasks/context.hpp"
@@ -60,6 +61,18 @@ struct PlainArgument {
   const T& bind(const TaskContext&) const { return value; }
 };
 
+/// What an argument becomes for a task that sees all materials: for labels a view of each material.
+template <data::Centring C, class T, AccessKind Kind>
+auto bindAll(const FieldAccess<data::FieldLabel<C, T>, Kind>& access, const TaskContext& context) {
+  std::vector<std::decay_t<decltype(access.bind(context))>> views;
+  for (const TaskContext& one : context.ofMaterials()) views.push_back(access.bind(one));
+  return views;
+}
+template <class Argument>
+decltype(auto) bindAll(const Argument& argument, const TaskContext& context) {
+  return argument.bind(context);
+}
+
 /// Reads the state at the start of the step: a view of const T over the patch and `ghost` cells or nodes beyond it.
 template <data::Centring C, class T>
 FieldAccess<data::FieldLabel<C, T>, AccessKind::requiresOld> requiresOld(const data::FieldLabel<C, T>& label,
@@ -97,6 +110,31 @@ template <class T>
 FieldAccess<data::ParticleLabel<T>, AccessKind::creates> creates(const data::ParticleLabel<T>& label) {
   return {&label};
 }
+/// An access that only some scenes need; see `when`.
+template <class Access>
+struct OptionalAccess {
+  bool on;
+  Access access;
+
+  void declare(std::vector<tasks::Access>& accesses) {
+    if (on) access.declare(accesses);
+  }
+  auto bind(const TaskContext& context) const {
+    return on ? std::optional(access.bind(context)) : std::nullopt;
+  }
+};
+/// An access that is only declared where `on`: the body gets a std::optional view.
+template <class Access>
+OptionalAccess<Access> when(bool on, Access access) {
+  return {on, access};
+}
+
+/// The time at the start of the step, s: a double.
+struct TimeArgument {
+  void declare(std::vector<Access>&) {}
+  double bind(const TaskContext& context) const { return context.time(); }
+};
+inline TimeArgument startTime() { return {}; }
 /// Hands `value` to the body as it is.
 template <class T>
 PlainArgument<T> with(T value) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "core/data/reduction.hpp"
@@ -22,12 +23,17 @@ struct BoundAccess {
 class TaskContext {
  public:
   TaskContext(data::Warehouse& warehouse, const grid::Patch& patch, int material,
-              const std::vector<BoundAccess>& accesses, ParticleMaker* maker = nullptr)
-      : warehouse_(&warehouse), patch_(&patch), material_(material), accesses_(&accesses), maker_(maker) {}
+              const std::vector<BoundAccess>& accesses, double time = 0, ParticleMaker* maker = nullptr)
+      : warehouse_(&warehouse), patch_(&patch), material_(material), accesses_(&accesses), time_(time), maker_(maker) {}
 
   const grid::Patch& patch() const { return *patch_; }
+  /// Time at the start of the step, s.
+  double time() const { return time_; }
   int material() const { return material_; }
   ParticleMaker& maker() const { return *maker_; }
+  /// For a task that sees all materials: the same patch for each of them.
+  std::span<const TaskContext> ofMaterials() const { return of_materials_; }
+  void setMaterials(std::span<const TaskContext> contexts) { of_materials_ = contexts; }
 
   template <class T>
   data::ParticleView<T> particles(int access, const data::Label& label) const {
@@ -61,7 +67,9 @@ class TaskContext {
   const grid::Patch* patch_;
   int material_;
   const std::vector<BoundAccess>* accesses_;
+  double time_;
   ParticleMaker* maker_;
+  std::span<const TaskContext> of_materials_;
 };
 
 }  // namespace tushar::tasks

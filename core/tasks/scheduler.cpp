@@ -96,6 +96,10 @@ void Scheduler::exchange(CompiledTask& task) {
 }
 
 void Scheduler::runWork(CompiledTask& task, const StepInfo& at) {
+  if (task.task.acrossMaterials) {
+    for (const grid::Patch& patch : warehouse_->level().patches()) runAcrossMaterials(task, patch, at);
+    return;
+  }
   const int first = firstMaterial(task);
   for (int m = first; m < first + static_cast<int>(task.materials.size()); ++m) {
     const MaterialBinding& binding = task.materials[static_cast<std::size_t>(m - first)];
@@ -131,17 +135,28 @@ void Scheduler::refuseBroken(const CompiledTask& task, const MaterialBinding& bi
                          broken->label);
 }
 
+void Scheduler::runAcrossMaterials(CompiledTask& task, const grid::Patch& patch, const StepInfo& at) {
+  std::vector<TaskContext> contexts;
+  for (std::size_t m = 0; m < task.materials.size(); ++m) {
+    allocateOutputs(task.materials[m], patch, static_cast<int>(m));
+    contexts.emplace_back(*warehouse_, patch, static_cast<int>(m), task.materials[m].accesses, at.time);
+  }
+  TaskContext all = contexts.front();
+  all.setMaterials(contexts);
+  located(task, patch.id(), -1, at, [&] { task.task.body(all); });
+}
+
 void Scheduler::runPlaced(CompiledTask& task, const grid::Patch& patch, int material, const StepInfo& at) {
   const MaterialBinding& binding = task.materials[static_cast<std::size_t>(material - firstMaterial(task))];
   located(task, patch.id(), material, at, [&] {
     if (task.task.kind == TaskKind::newParticles) {
       ParticleMaker maker(binding.accesses.size());
-      task.task.body(TaskContext(*warehouse_, patch, material, binding.accesses, &maker));
+      task.task.body(TaskContext(*warehouse_, patch, material, binding.accesses, at.time, &maker));
       maker.install(*warehouse_, patch, material, binding.accesses);
       return;
     }
     allocateOutputs(binding, patch, material);
-    task.task.body(TaskContext(*warehouse_, patch, material, binding.accesses));
+    task.task.body(TaskContext(*warehouse_, patch, material, binding.accesses, at.time));
   });
 }
 

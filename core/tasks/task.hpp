@@ -45,6 +45,7 @@ struct Task {
   std::vector<std::string> materials;  ///< names; empty for a task that belongs to no material
   std::vector<Access> accesses;
   std::function<void(const TaskContext&)> body;
+  bool acrossMaterials = false;  ///< the body sees all materials of a patch at once
 
   bool perMaterial() const { return !materials.empty(); }
 };

@@ -38,6 +38,19 @@ class TaskList {
          }});
   }
 
+  /// Runs `body(patch, materials, arguments...)` on each patch, once for all materials: an access to a label becomes a
+  /// std::vector of views, one for each material.
+  template <class Material, class Body, class... Arguments>
+  void acrossMaterials(std::string name, Body body, const std::vector<Material>& materials, Arguments... arguments) {
+    std::vector<Access> accesses = declare(arguments...);
+    add({std::move(name), TaskKind::work, names(materials), std::move(accesses),
+         [body, &materials, bound = std::make_tuple(arguments...)](const TaskContext& context) {
+           std::apply([&](const auto&... argument) { body(context.patch(), materials, bindAll(argument, context)...); },
+                      bound);
+         },
+         true});
+  }
+
   /// Runs `body(patch, material, maker, arguments...)`: the particles that the body makes replace those of the patch.
   /// Particle variables that are needed afterwards must be among what it `creates`; node and cell variables stay.
   template <class Material, class Body, class... Arguments>

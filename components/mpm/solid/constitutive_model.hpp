@@ -1,0 +1,61 @@
+#pragma once
+
+#include <concepts>
+#include <string_view>
+#include <type_traits>
+
+#include "core/base/vec.hpp"
+#include "core/input/schema.hpp"
+
+namespace tushar::mpm::solid {
+
+/// A second-order tensor in x, y, z, row by row. Always three by three: a solid in one or two dimensions is in plane strain.
+using Matrix3 = Eigen::Matrix<double, 3, 3, Eigen::DontAlign | Eigen::RowMajor>;
+
+/// What a constitutive model is told about one material point in one step.
+struct Deformation {
+  Matrix3 deformationGradient;     ///< F at the end of the step, 1
+  Matrix3 oldDeformationGradient;  ///< F at its begin, 1
+  Matrix3 velocityGradient;        ///< L = dv_i/dx_j in the step, 1/s
+  double timeStep;                 ///< s
+  double temperature;              ///< K
+};
+
+/// A variable of a model's State that a scene may save: one number (double) of it.
+struct StateVariable {
+  std::string_view label;  ///< as in Uintah: `p.plasticStrain`
+  std::string_view unit;
+  std::string_view description;
+};
+
+/// How a solid answers to being deformed: its constants, read by schema(), and the members below. A model is one file
+/// in materials/ and one line in materials/all.hpp.
+///
+/// - `State`: internal variables of one particle; a struct of doubles and Matrix3 only, empty where there are none.
+///   Where it is not empty, `static constexpr std::array<StateVariable, N> stateVariables` names its numbers in the
+///   order of memory; N = sizeof(State) / sizeof(double).
+/// - `updateStress`: Cauchy stress at the end of the step, Pa, from that at its begin; brings the State to the end.
+/// - `waveSpeed`: of the fastest elastic wave, m/s, from the density at the start of the run, kg/m^3.
+/// - optional `static constexpr bool dependsOnDeformationOnly = true`: updateStress looks at F alone; then the stress of
+///   a particle need not be kept. Such a model may have `Matrix3 kirchhoffStress(const Matrix3& f) const`, J sigma, and
+///   `double waveSpeed(double initialDensity, const Deformation&) const`, where these are cheaper.
+/// - optional `static constexpr bool usesTemperature = false`: updateStress never looks at the temperature.
+/// - optional `double initialWaveSpeed(double initialDensity) const`: at the start, where it is not waveSpeed of F = I.
+/// - optional `bulkSpeed`, with the arguments of waveSpeed: sqrt(K / density) for the artificial viscosity, m/s.
+/// - `strainEnergyDensity`: J per m^3 of the volume at the start of the run; a hyperelastic model returns W(F), any
+///   other what the step adds to it (`strainEnergyIsRate` true).
+template <class Model>
+concept ConstitutiveModel =
+    std::is_trivially_copyable_v<typename Model::State> && std::is_trivially_copyable_v<Model> &&
+    requires(const Model& model, const Deformation& deformation, const Matrix3& stress, typename Model::State& state,
+             const typename Model::State& constState, double density) {
+      { Model::name } -> std::convertible_to<std::string_view>;
+      { Model::strainEnergyIsRate } -> std::convertible_to<bool>;
+      { Model::schema() } -> std::same_as<const input::Schema<Model>&>;
+      { model.initialState() } -> std::same_as<typename Model::State>;
+      { model.updateStress(deformation, stress, state) } -> std::same_as<Matrix3>;
+      { model.waveSpeed(density, deformation, stress, constState) } -> std::same_as<double>;
+      { model.strainEnergyDensity(deformation, stress, stress, constState) } -> std::same_as<double>;
+    };
+
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "components/mpm/solid/contact/contact.hpp"
+#include "core/input/diagnostics.hpp"
+#include "core/input/element.hpp"
+
+namespace tushar::mpm::solid {
+
+/// The `contact` tags among the children of `parent`; those of type null are left out.
+std::vector<Contact> readContacts(const input::Element& parent, input::Diagnostics& diagnostics);
+
+/// The manual, indented by that many blanks.
+void describeContacts(std::ostream& out, int indent);
+
+}  // namespace tushar::mpm::solid

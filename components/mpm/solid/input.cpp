@@ -1,0 +1,223 @@
+#include "components/mpm/solid/input.hpp"
+
+#include <algorithm>
+
+#include "components/mpm/solid/loads/load_input.hpp"
+#include "components/mpm/solid/material_input.hpp"
+#include "components/mpm/solid/solid_mpm.hpp"
+#include "core/simulation/by_dimension.hpp"
+
+namespace tushar::mpm::solid {
+
+using input::Diagnostics;
+using input::Element;
+using input::Schema;
+
+namespace {
+
+enum class Interpolator { linear, gimp, quadratic, cubic };
+
+const input::Choices<Interpolator> interpolators{{"linear", Interpolator::linear},
+                                                 {"gimp", Interpolator::gimp},
+                                                 {"3rdorderBS", Interpolator::quadratic},
+                                                 {"4thorderBS", Interpolator::cubic}};
+
+struct MpmSection {
+  int integrator = 0;
+  Interpolator interpolator = Interpolator::linear;
+  bool artificialViscosity = false, withColor = false, axisymmetric = false, useLoadCurves = false;
+  bool conductsHeat = true;
+  std::string manufactured;
+  double linearViscosity = 0, quadraticViscosity = 0, damping = 0;
+  double minimumParticleMass = 0, minimumMassForAcceleration = 0, maximumParticleVelocity = 0;
+  int minimumSubcycles = 1;
+};
+
+/// Switches of Uintah's that are missing here, and what there is instead.
+const std::vector<std::pair<std::string, std::string>> lacking{
+    {"DoPressureStabilization", "use a wider <interpolator>, such as gimp or 3rdorderBS, against locking"},
+    {"UseGradientEnhancedVelocityProjection", "take it out: particles pass on their own velocity"},
+    {"UsePrescribedDeformation", "move the body by a <contact> of type specified"},
+    {"InsertParticles", "give every body its place at the start"},
+    {"refine_particles", "give the body more particles by <res>"},
+    {"use_cohesive_zones", "give the bodies a <contact>"},
+    {"do_scalar_diffusion", "heat conduction obeys the same equation"},
+    {"coupled_flow_analysis", "there is one phase"},
+    {"AMR", "there is one level: choose a finer <resolution>"},
+    {"DoCapDensity", "take it out: density is not capped"},
+    {"DoGranularMPM", "take it out"},
+};
+
+/// A switch of Uintah's that only stands at `false` here; `instead` says what there is.
+void refuseSwitch(Schema<MpmSection>& schema, const std::string& tag, const std::string& instead) {
+  schema.custom(tag,
+                [tag, instead](MpmSection&, const Element& element, Diagnostics& diagnostics) {
+                  const auto given = element.child(tag);
+                  if (given && given->text() != "false")
+                    diagnostics.error(*given, "is not available; " + instead);
+                },
+                {tag}, "only false: " + instead);
+}
+
+const Schema<MpmSection>& mpmSchema() {
+  static const Schema<MpmSection> schema = [] {
+    Schema<MpmSection> mpm("MPM", "The Material Point Method for solids.");
+    mpm.choice("time_integrator", &MpmSection::integrator, {{"explicit", 0}}, 0, "how time advances")
+        .choice("interpolator", &MpmSection::interpolator, interpolators, Interpolator::linear,
+                "shape functions: linear, generalised interpolation, quadratic or cubic B-splines")
+        .value("artificial_viscosity", &MpmSection::artificialViscosity, false, "1", "pressure against compression")
+        .value("artificial_viscosity_coeff1", &MpmSection::linearViscosity, 0.2, "1", "factor of c |D| h",
+               input::nonNegative())
+        .value("artificial_viscosity_coeff2", &MpmSection::quadraticViscosity, 2, "1", "factor of D^2 h^2",
+               input::nonNegative())
+        .value("artificial_damping_coeff", &MpmSection::damping, 0, "1/s", "acceleration against the velocity",
+               input::nonNegative())
+        .value("minimum_particle_mass", &MpmSection::minimumParticleMass, 3e-15, "kg",
+               "a particle lighter than that is taken out", input::nonNegative())
+        .value("minimum_mass_for_acc", &MpmSection::minimumMassForAcceleration, 1e-199, "kg",
+               "a node lighter than that is only accelerated by gravity", input::nonNegative())
+        .value("maximum_particle_velocity", &MpmSection::maximumParticleVelocity, 3e105, "m/s",
+               "a particle that becomes faster is slowed down to 9/10 of it", input::positive())
+        .value("minimum_subcycles_for_F", &MpmSection::minimumSubcycles, 1, "1",
+               "least number of parts in which a step changes the deformation gradient", input::atLeast(1))
+        .value("axisymmetric", &MpmSection::axisymmetric, false, "1",
+               "x is the radius and y the axis; mass, energy and forces are per radian")
+        .value("use_load_curves", &MpmSection::useLoadCurves, false, "1", "the loads of <PhysicalBC> act")
+        .value("DoExplicitHeatConduction", &MpmSection::conductsHeat, true, "1", "heat is conducted")
+        .choice("RunMMSProblem", &MpmSection::manufactured,
+                {{"none", ""},
+                 {"AxisAligned", "AxisAligned"},
+                 {"ExpandingRing", "ExpandingRing"},
+                 {"GeneralizedVortex", "GeneralizedVortex"}},
+                "", "start as a manufactured solution, under its body force")
+        .value("withColor", &MpmSection::withColor, false, "1",
+               "accepted for Uintah's sake: p.color is there where it is saved");
+    mpm.check([](const MpmSection& read, const Element& element, Diagnostics& diagnostics) {
+      const bool hasAxisymmetric = read.interpolator == Interpolator::linear || read.interpolator == Interpolator::gimp;
+      if (read.axisymmetric && !hasAxisymmetric)
+        diagnostics.error(element, "axisymmetric: only with the interpolators linear and gimp");
+    });
+    mpm.ignored("boundary_traction_faces", "BndyForce_… and BndyContactArea_… of every face can be saved without it");
+    for (const auto& [tag, instead] : lacking) refuseSwitch(mpm, tag, instead);
+    return mpm;
+  }();
+  return schema;
+}
+
+struct PhysicalConstants {
+  Vec3 gravity = Vec3::Zero();
+};
+const Schema<PhysicalConstants>& constantsSchema() {
+  static const Schema<PhysicalConstants> schema =
+      Schema<PhysicalConstants>("PhysicalConstants", "What acts everywhere.")
+          .value("gravity", &PhysicalConstants::gravity, Vec3::Zero(), "m/s^2", "acceleration of all that has mass")
+          .ignored("reference_pressure", "nothing here depends on it");
+  return schema;
+}
+
+/// One size for the particles of all bodies, where they agree.
+void settleSizes(Problem& problem) {
+  const Index3 first = problem.materials.front().bodies.front().particlesPerCell;
+  for (int axis = 0; axis < 3; ++axis) problem.method.commonSize[axis] = 1.0 / first[axis];
+  problem.method.keepsSizes = problem.start.solution != nullptr;
+  for (const Material& material : problem.materials)
+    for (const Body& body : material.bodies)
+      problem.method.keepsSizes = problem.method.keepsSizes || !(body.particlesPerCell == first);
+}
+
+std::unique_ptr<Component> makeComponent(const Level& level, Interpolator interpolator, Problem problem) {
+  countParticles(level, problem.materials, problem.start.loads);
+  settleSizes(problem);
+  double widths = 0, axes = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    widths += level.cellWidth(axis);
+    axes += level.cellWidth(axis) > 0;
+  }
+  problem.method.meanWidth = widths / axes;
+  problem.method.isThin = {true, true, true};
+  for (int d = 0; d < level.dimension(); ++d) problem.method.isThin[static_cast<std::size_t>(level.axis(d))] = false;
+  const auto make = [&]<template <int> class Shape>() -> std::unique_ptr<Component> {
+    if (level.dimension() == 1) return std::make_unique<SolidMpm<Shape<1>>>(problem);
+    if (level.dimension() == 2) return std::make_unique<SolidMpm<Shape<2>>>(problem);
+    return std::make_unique<SolidMpm<Shape<3>>>(problem);
+  };
+  const auto makeAxisymmetric = [&]<template <int> class Shape>() -> std::unique_ptr<Component> {
+    if (level.dimension() == 1) return std::make_unique<SolidMpm<Shape<1>>>(problem);
+    return std::make_unique<SolidMpm<Shape<2>>>(problem);
+  };
+  if (problem.start.axisymmetric)
+    return interpolator == Interpolator::linear ? makeAxisymmetric.template operator()<AxisymmetricLinearShape>()
+                                                : makeAxisymmetric.template operator()<AxisymmetricGimpShape>();
+  switch (interpolator) {
+    case Interpolator::linear: return make.template operator()<LinearShape>();
+    case Interpolator::gimp: return make.template operator()<GimpShape>();
+    case Interpolator::quadratic: return make.template operator()<QuadraticShape>();
+    default: return make.template operator()<CubicShape>();
+  }
+}
+
+/// Whether the scene saves a variable.
+bool isSaved(const Element& root, const std::string& label) {
+  const auto archiver = root.child("DataArchiver");
+  if (!archiver) return false;
+  const auto saves = archiver->children("save");
+  return std::any_of(saves.begin(), saves.end(), [&](const Element& save) { return save.attribute("label") == label; });
+}
+
+Method settle(const MpmSection& read, const PhysicalConstants& constants) {
+  Method method;
+  method.gravity = constants.gravity;
+  method.damping = read.damping;
+  if (read.artificialViscosity) method.viscosity = {read.linearViscosity, read.quadraticViscosity};
+  method.minimumMassForAcceleration = read.minimumMassForAcceleration;
+  method.minimumParticleMass = read.minimumParticleMass;
+  method.maximumParticleVelocity = read.maximumParticleVelocity;
+  method.minimumSubcyclesForF = read.minimumSubcycles;
+  method.conductsHeat = read.conductsHeat;
+  return method;
+}
+
+}  // namespace
+
+simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostics) {
+  const std::size_t before = diagnostics.size();
+  const MpmSection read = simulation::readSection(root, mpmSchema(), diagnostics);
+  const auto constants = root.child("PhysicalConstants");
+  const Method method = settle(read, constants ? constantsSchema().read(*constants, diagnostics) : PhysicalConstants{});
+  const MaterialProperties properties = simulation::readSection(root, propertiesSchema(), diagnostics);
+  if (diagnostics.size() > before) return {};
+  Problem problem{method, properties.mpm.materials, properties.mpm.contacts, {}};
+  problem.method.strainEnergy = isSaved(root, "StrainEnergy") || isSaved(root, "p.strainEnergy");
+  problem.method.velocityGradient = isSaved(root, "p.velGrad");
+  problem.method.thermalContact = properties.mpm.thermalContact;
+  problem.start = {read.axisymmetric, read.useLoadCurves ? readLoads(root, diagnostics) : std::vector<PressureLoad>{},
+                   makeManufactured(read.manufactured)};
+  for (std::size_t m = 0; m < problem.materials.size(); ++m) {
+    Material& material = problem.materials[m];
+    material.index = static_cast<int>(m);
+    if (material.name.empty()) material.name = "material" + std::to_string(m);
+    if (problem.start.solution && material.model->name() != "cnh_mms")
+      diagnostics.error(root.child("MPM")->child("RunMMSProblem").value(),
+                        "is made for the constitutive model cnh_mms, but '" + material.name + "' is " +
+                            std::string(material.model->name()));
+  }
+  if (diagnostics.size() > before) return {};
+  return [interpolator = read.interpolator, problem](const Level& level) {
+    return makeComponent(level, interpolator, problem);
+  };
+}
+
+int nodesBeyond(const Element& root) {
+  const auto mpm = root.child("MPM");
+  const auto interpolator = mpm ? mpm->child("interpolator") : std::nullopt;
+  return interpolator && interpolator->text() != "linear" ? 1 : 0;
+}
+
+void describe(std::ostream& out) {
+  mpmSchema().describe(out);
+  constantsSchema().describe(out);
+  propertiesSchema().describe(out);
+  describeLoads(out);
+}
+
+}  // namespace tushar::mpm::solid

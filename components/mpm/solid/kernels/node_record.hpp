@@ -1,0 +1,115 @@
+#pragma once
+
+#include "components/mpm/solid/kernels/transfer.hpp"
+
+namespace tushar::data {
+template <>
+struct Stored<mpm::solid::Octet> {
+  static constexpr Number number = Number::real;
+  static constexpr int components = 8;
+  static constexpr bool isVector = false;
+};
+}  // namespace tushar::data
+
+namespace tushar::mpm::solid {
+
+/// What a node keeps in a step: three components along the kernel axes, a number, three components, a number.
+///
+/// | lanes | from particles | before contact | at the end of the step |
+/// |---|---|---|---|
+/// | 0-2 | momentum | velocity v | velocity v* |
+/// | 3 | mass | mass | mass |
+/// | 4-6 | force | force | velocity v |
+/// | 7 | volume | volume | volume |
+namespace lane {
+inline constexpr int velocity = 0, mass = 3, force = 4, before = 4, volume = 7;
+}
+
+template <int D>
+Vec<D> lanes(const Octet& record, int first) {
+  Vec<D> v;
+  for (int d = 0; d < D; ++d) v[d] = record[first + d];
+  return v;
+}
+template <int D>
+void setLanes(Octet& record, int first, const Vec<D>& v) {
+  for (int d = 0; d < D; ++d) record[first + d] = v[d];
+}
+
+/// The rows of nodes along the first axis that particles touch: others are neither cleared nor looked at.
+template <int D>
+class TouchedRows {
+ public:
+  /// Of particles in cells `around`, each of which touches the nodes of its cell and `ghost` beyond, within `nodes`.
+  template <class View>
+  TouchedRows(const View& particles, const Box& around, int ghost, const Box& nodes) : nodes_(nodes) {
+    rows_ = nodes;
+    rows_.upper[0] = rows_.lower[0] + 1;
+    touched_.resize(rows_.size(), {nodes.upper[0], nodes.lower[0]});
+    Box cellRows = around;
+    cellRows.upper[0] = cellRows.lower[0] + 1;
+    forEach<3>(cellRows, [&](const Index3& first) {
+      const auto [low, high] = occupied(particles.set().row(first), around.extent(0));
+      if (low < high) touch(first, around.lower[0] + low - ghost, around.lower[0] + high + 1 + ghost, ghost);
+    });
+  }
+
+  /// Calls `visit(first, end)`: the first node of a row, and the coordinate behind its last along the first axis.
+  template <class Visit>
+  void forEachRow(Visit&& visit) const {
+    std::size_t k = 0;
+    forEach<3>(rows_, [&](const Index3& row) {
+      const auto [low, high] = touched_[k++];
+      if (low < high) visit(Index3{{low, row[1], row[2]}}, high);
+    });
+  }
+
+ private:
+  /// The range of cells of a row that hold particles.
+  static std::pair<int, int> occupied(const data::ParticleRange* row, int count) {
+    int low = 0, high = count;
+    while (low < high && row[low].empty()) ++low;
+    while (high > low && row[high - 1].empty()) --high;
+    return {low, high};
+  }
+  void touch(const Index3& cellRow, int low, int high, int ghost) {
+    Box around{cellRow, cellRow + Index3::filled(1)};
+    for (int d = 1; d < D; ++d) {
+      around.lower[d] -= ghost;
+      around.upper[d] += 1 + ghost;
+    }
+    around.lower[0] = rows_.lower[0];
+    around.upper[0] = rows_.upper[0];
+    forEach<3>(around.intersect(rows_), [&](const Index3& row) {
+      auto& range = touched_[rows_.offset(row)];
+      range.first = std::max(std::min(range.first, low), nodes_.lower[0]);
+      range.second = std::min(std::max(range.second, high), nodes_.upper[0]);
+    });
+  }
+
+  Box nodes_, rows_;
+  std::vector<std::pair<int, int>> touched_;
+};
+
+/// The records that a stencil touches. Throws AccessError in the dev preset where some are not stored.
+template <class Record, class Stencil, int D = Stencil::dimension>
+NodeWindow<Record, D> windowOf(const NodeView<Record>& records, const Stencil& stencil) {
+  const Box& stored = records.stored();
+  if constexpr (data::checked) {
+    Index<D> last = stencil.first;
+    for (int d = 0; d < D; ++d) last[d] += Stencil::nodes - 1;
+    if (!stored.contains(stencil.first) || !stored.contains(last))
+      throw data::AccessError("a particle touches nodes beyond those that are stored");
+  }
+  NodeWindow<Record, D> window;
+  std::ptrdiff_t at = 0, stride = 1;
+  for (int d = 0; d < D; ++d) {
+    window.stride[static_cast<std::size_t>(d)] = stride;
+    at += (stencil.first[d] - stored.lower[d]) * stride;
+    stride *= stored.extent(d);
+  }
+  window.origin = records.values() + at;
+  return window;
+}
+
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,79 @@
+#pragma once
+
+#include "components/mpm/labels.hpp"
+#include "components/mpm/solid/constitutive_model.hpp"
+#include "components/mpm/solid/kernels/node_record.hpp"
+
+namespace tushar::mpm::solid {
+
+/// Particle variables, those of the gas method among them.
+namespace p {
+using namespace mpm::p;
+inline constexpr ParticleLabel<Matrix3> stress{"p.stress", "Pa", "Cauchy stress"};
+inline constexpr ParticleLabel<Matrix3> deformationMeasure{"p.deformationMeasure", "1", "deformation gradient"};
+inline constexpr ParticleLabel<Matrix3> velocityGradient{"p.velGrad", "1/s", "velocity gradient of the last step"};
+template <int D>
+inline constexpr ParticleLabel<Vec<D>> displacement{"p.displacement", "m", "displacement since the start"};
+template <int D>
+inline constexpr ParticleLabel<Vec<D>> size{"p.size", "1", "extent at the start, in cells"};
+inline constexpr ParticleLabel<double> temperature{"p.temperature", "K", "temperature"};
+inline constexpr ParticleLabel<double> color{"p.color", "1", "number that the scene gives to a body"};
+inline constexpr ParticleLabel<double> viscosity{"p.q", "Pa", "artificial viscosity"};
+inline constexpr ParticleLabel<double> strainEnergy{"p.strainEnergy", "J",
+                                                    "strain energy of an elastic particle, or what the step added to it"};
+template <int D>
+inline constexpr ParticleLabel<Vec<D>> externalForce{"p.externalforce", "N", "force of loads"};
+inline constexpr ParticleLabel<int> loadCurves{"p.loadCurveID", "1",
+                                               "number of the load on it, or 0; further ones times 256, 65536"};
+}  // namespace p
+
+/// Node variables.
+namespace g {
+using namespace mpm::g;
+inline constexpr NodeLabel<double> volume{"g.volume", "m^3", "volume gathered from particles"};
+inline constexpr NodeLabel<Matrix3> stress{"g.stressFS", "Pa", "Cauchy stress, mean over the volume of the particles around"};
+template <int D>
+inline constexpr NodeLabel<Vec<D>> externalForce{"g.externalforce", "N", "force of loads"};
+inline constexpr NodeLabel<Octet> record{"g.record", "SI units", "velocity, mass, force and volume of a step in progress"};
+inline constexpr NodeLabel<double> heatCapacity{"g.heatCapacity", "J/K", "heat capacity gathered from particles"};
+inline constexpr NodeLabel<double> temperatureNoBC{"g.temperatureNoBC", "K", "temperature gathered from particles"};
+inline constexpr NodeLabel<double> temperature{"g.temperature", "K", "the same, as the sides of the grid have it"};
+inline constexpr NodeLabel<double> heatRate{"g.heatRate", "W", "heat that flows to the node by conduction"};
+inline constexpr NodeLabel<double> contactTemperatureRate{"g.contactTemperatureRate", "K/s",
+                                                          "what contact with other materials changes"};
+inline constexpr NodeLabel<double> temperatureRate{"g.temperatureRate", "K/s", "change of the temperature"};
+}  // namespace g
+
+/// Cell variables.
+namespace c {
+inline constexpr CellLabel<double> stableTimeStep{"c.stableTimeStep", "s",
+                                                  "time in which the fastest wave of a particle in the cell crosses it"};
+}  // namespace c
+
+/// Totals over all particles.
+namespace total {
+using namespace mpm::total;
+inline constexpr ReductionLabel<VectorSum> rigidReactionForce{
+    "RigidReactionForce", "N", "force on all bodies that a contact of type rigid or specified moves"};
+inline constexpr ReductionLabel<Sum> strainEnergy{
+    "StrainEnergy", "J", "strain energy of elastic materials and, of others, what the last step added, as in Uintah"};
+/// The faces of the grid in the order x-, x+, y-, y+, z-, z+.
+inline constexpr std::array<ReductionLabel<VectorSum>, 6> boundaryForce{{
+    {"BndyForce_xminus", "N", "force of the body on the face x-"},
+    {"BndyForce_xplus", "N", "force of the body on the face x+"},
+    {"BndyForce_yminus", "N", "force of the body on the face y-"},
+    {"BndyForce_yplus", "N", "force of the body on the face y+"},
+    {"BndyForce_zminus", "N", "force of the body on the face z-"},
+    {"BndyForce_zplus", "N", "force of the body on the face z+"},
+}};
+inline constexpr std::array<ReductionLabel<Sum>, 6> contactArea{{
+    {"BndyContactArea_xminus", "m^2", "area of the body on the face x-"},
+    {"BndyContactArea_xplus", "m^2", "area of the body on the face x+"},
+    {"BndyContactArea_yminus", "m^2", "area of the body on the face y-"},
+    {"BndyContactArea_yplus", "m^2", "area of the body on the face y+"},
+    {"BndyContactArea_zminus", "m^2", "area of the body on the face z-"},
+    {"BndyContactArea_zplus", "m^2", "area of the body on the face z+"},
+}};
+}  // namespace total
+
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,148 @@
+#include "components/mpm/solid/loads/load.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace tushar::mpm::solid {
+
+namespace {
+
+template <class... F>
+struct Overloaded : F... {
+  using F::operator()...;
+};
+template <class... F>
+Overloaded(F...) -> Overloaded<F...>;
+
+int thinAxis(const input::Box& box) {
+  const Vec3 sides = box.max - box.min;
+  int axis = 0;
+  for (int d = 1; d < 3; ++d)
+    if (sides[d] < sides[axis]) axis = d;
+  return axis;
+}
+
+bool isEnd(const input::Cylinder& cylinder) { return cylinder.cylinderEnd || cylinder.axisymmetricEnd; }
+
+/// Height above the bottom and distance from the axis.
+struct CylinderPlace {
+  double height, radius;
+  Vec3 outwards;
+
+  CylinderPlace(const input::Cylinder& cylinder, const Vec3& point) {
+    const Vec3 axis = (cylinder.top - cylinder.bottom).normalized(), offset = point - cylinder.bottom;
+    height = offset.dot(axis);
+    outwards = offset - height * axis;
+    radius = outwards.norm();
+    if (radius > 0) outwards /= radius;
+  }
+};
+
+/// Calls `visit(point)` for every place of a particle of a body.
+template <int D, class Visit>
+void forEachParticle(const grid::Level& level, const Body& body, Visit&& visit) {
+  grid::Box places{{}, Index3::filled(1)};
+  for (int d = 0; d < D; ++d) places.upper[d] = body.particlesPerCell[level.axis(d)];
+  grid::forEach<D>(level.cells(), [&](const Index<D>& cell) {
+    grid::forEach<D>(places, [&](const Index<D>& k) {
+      Vec<D> at;
+      for (int d = 0; d < D; ++d)
+        at[d] = level.nodePosition(d, 0) + (cell[d] + (k[d] + 0.5) / places.upper[d]) * level.spacing(d);
+      const Vec3 point = level.expandPoint<D>(at);
+      if (body.shape->contains(point)) visit(point);
+    });
+  });
+}
+
+}  // namespace
+
+double LoadCurve::at(double time) const {
+  if (time <= points.front().first) return points.front().second;
+  if (time >= points.back().first) return points.back().second;
+  const auto next = std::lower_bound(points.begin(), points.end(), time,
+                                     [](const auto& point, double t) { return point.first < t; });
+  const auto& [t0, load] = *(next - 1);
+  return load + (time - t0) / (next->first - t0) * (next->second - load);
+}
+
+double areaOf(const Surface& surface) {
+  constexpr double pi = std::numbers::pi;
+  return std::visit(Overloaded{[](const input::Box& box) {
+                                 const Vec3 sides = box.max - box.min;
+                                 const int thin = thinAxis(box);
+                                 return sides[(thin + 1) % 3] * sides[(thin + 2) % 3];
+                               },
+                               [](const input::Cylinder& c) {
+                                 if (c.axisymmetricEnd) return 0.5 * c.radius * c.radius;
+                                 if (c.cylinderEnd) return pi * c.radius * c.radius;
+                                 const double side = 2 * pi * c.radius * (c.top - c.bottom).norm();
+                                 return c.axisymmetricSide ? side / (2 * pi) : side;
+                               },
+                               [](const input::Sphere& s) { return 4 * pi * s.radius * s.radius; }},
+                    surface);
+}
+
+bool isAlong(const Surface& surface, const Vec3& point, const Vec3& spacing) {
+  return std::visit(
+      Overloaded{[&](const input::Box& box) {
+                   Vec3 more = Vec3::Zero();
+                   more[thinAxis(box)] = spacing[thinAxis(box)];
+                   return ((point - box.min + more).array() >= 0).all() && ((box.max + more - point).array() > 0).all();
+                 },
+                 [&](const input::Cylinder& c) {
+                   const CylinderPlace place(c, point);
+                   const double near = 0.9 * spacing.minCoeff(), height = (c.top - c.bottom).norm();
+                   if (isEnd(c)) return place.height >= -near && place.height < height + near && place.radius <= c.radius;
+                   return place.height >= 0 && place.height < height && std::abs(place.radius - c.radius) <= near;
+                 },
+                 [&](const input::Sphere& s) {
+                   return std::abs((point - s.origin).norm() - s.radius) <= spacing.norm();
+                 }},
+      surface);
+}
+
+Vec3 normalAt(const Surface& surface, const Vec3& point) {
+  return std::visit(Overloaded{[](const input::Box& box) { return Vec3(Vec3::Unit(thinAxis(box))); },
+                               [&](const input::Cylinder& c) {
+                                 return isEnd(c) ? Vec3((c.top - c.bottom).normalized()) : CylinderPlace(c, point).outwards;
+                               },
+                               [&](const input::Sphere& s) { return Vec3((point - s.origin).normalized()); }},
+                    surface);
+}
+
+bool PressureLoad::acts(const Body& body, const Vec3& point, const Vec3& spacing) const {
+  if (!isAlong(surface, point, spacing)) return false;
+  for (int d = 0; d < 3; ++d)
+    for (const double side : {-1.0, 1.0})
+      if (!body.shape->contains(point + side * spacing[d] * Vec3::Unit(d))) return true;
+  return false;
+}
+
+Vec3 PressureLoad::force(const Vec3& point, double time) const {
+  return curve.at(time) * areaOf(surface) / particles * normalAt(surface, point);
+}
+
+Vec3 particleSpacing(const grid::Level& level, const Body& body) {
+  Vec3 spacing;
+  for (int axis = 0; axis < 3; ++axis) spacing[axis] = level.cellWidth(axis) / body.particlesPerCell[axis];
+  return spacing;
+}
+
+void countParticles(const grid::Level& level, const std::vector<Material>& materials, std::vector<PressureLoad>& loads) {
+  for (PressureLoad& load : loads) {
+    load.particles = 0;
+    for (std::size_t m = 0; m < materials.size(); ++m) {
+      if (load.material >= 0 && load.material != static_cast<int>(m)) continue;
+      for (const Body& body : materials[m].bodies) {
+        const Vec3 spacing = particleSpacing(level, body);
+        const auto count = [&](const Vec3& point) { load.particles += load.acts(body, point, spacing); };
+        if (level.dimension() == 1) forEachParticle<1>(level, body, count);
+        if (level.dimension() == 2) forEachParticle<2>(level, body, count);
+        if (level.dimension() == 3) forEachParticle<3>(level, body, count);
+      }
+    }
+  }
+}
+
+}  // namespace tushar::mpm::solid

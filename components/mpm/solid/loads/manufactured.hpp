@@ -1,0 +1,39 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/core.hpp"
+#include "components/mpm/solid/material.hpp"
+
+namespace tushar::mpm::solid {
+
+/// The constants of a linear or neo-Hookean elastic material.
+struct Elastic {
+  double lambda, shear;  ///< Lamé's constants, Pa
+  double young;          ///< Young's modulus, Pa
+  double density;        ///< at the start, kg/m^3
+};
+
+/// Those of a material whose model is cnh_mms.
+Elastic elasticOf(const Material& material);
+
+/// A motion that someone made up, and the body force under which a neo-Hookean solid moves like that: against it errors
+/// can be measured. Kamojjala, Brannon, Sadeghirad & Guilkey, Eng. Comput. 31 (2015) 193.
+class Manufactured {
+ public:
+  virtual ~Manufactured() = default;
+  /// The greatest displacement at the start, m.
+  virtual double farthestAtStart() const { return 0; }
+  /// Displacement [m] and velocity [m/s] of the point that started at X [m].
+  virtual Vec3 displacement(const Elastic& elastic, const Vec3& start, double time) const = 0;
+  virtual Vec3 velocity(const Elastic& elastic, const Vec3& start, double time) const = 0;
+  virtual Matrix3 deformationGradient(const Elastic& elastic, const Vec3& start, double time) const = 0;
+  /// Force per mass [m/s^2] in x, y, z.
+  virtual Vec3 bodyForce(const Elastic& elastic, const Vec3& start, double time) const = 0;
+};
+
+/// AxisAligned, ExpandingRing or GeneralizedVortex; null for any other word.
+std::shared_ptr<const Manufactured> makeManufactured(const std::string& name);
+
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "components/mpm/solid/model.hpp"
+#include "core/core.hpp"
+#include "core/input/expression.hpp"
+#include "core/input/geometry.hpp"
+
+namespace tushar::mpm::solid {
+
+/// A body at the start: its shape and its state, which may vary in space.
+struct Body {
+  Location where;  ///< in the scene
+  std::shared_ptr<const input::GeometryPiece> shape;
+  Index3 particlesPerCell{{1, 1, 1}};  ///< along x, y, z
+  input::VectorExpression velocity;    ///< m/s
+  input::Expression temperature;       ///< K
+  double color = 0;
+};
+
+/// A material: how it answers to being deformed, and the bodies made of it.
+struct Material {
+  std::string name;
+  int index = 0;       ///< its number in the scene
+  double density = 0;  ///< at the start, kg/m^3
+  std::shared_ptr<const Model> model;
+  double specificHeat = 0;         ///< J/(kg K)
+  double thermalConductivity = 0;  ///< W/(m K)
+  std::vector<Body> bodies;
+};
+
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,120 @@
+#include "components/mpm/solid/material_input.hpp"
+
+#include <fmt/format.h>
+
+#include <set>
+
+#include "components/mpm/solid/contact/contact_input.hpp"
+#include "components/mpm/solid/materials/all.hpp"
+
+namespace tushar::mpm::solid {
+
+using input::Diagnostics;
+using input::Element;
+using input::Schema;
+
+namespace {
+
+/// Calls `visit` with a model of each type.
+template <class Visit>
+void forEachModel(Visit&& visit) {
+  std::apply([&](const auto&... model) { (visit(model), ...); }, AllModels{});
+}
+
+/// A model's own tags, and the attribute that picks it.
+template <class M>
+const Schema<M>& modelSchema() {
+  static const Schema<M> schema =
+      Schema<M>(M::schema()).foreignAttribute("type", "picks the model: " + std::string(M::name));
+  return schema;
+}
+
+std::vector<std::string> modelNames() {
+  std::vector<std::string> names;
+  forEachModel([&]<class M>(const M&) { names.emplace_back(M::name); });
+  return names;
+}
+
+void readModel(Material& material, const Element& parent, Diagnostics& diagnostics) {
+  const auto tag = parent.child("constitutive_model");
+  if (!tag) return diagnostics.error(parent, "missing tag <constitutive_model> in <material>");
+  const std::string type = tag->attribute("type").value_or("");
+  if (const std::string problem = input::choiceProblem(type, modelNames()); !problem.empty())
+    return diagnostics.error(*tag, "attribute 'type': " + problem);
+  forEachModel([&]<class M>(const M&) {
+    if (type == M::name) material.model = std::make_shared<ModelOf<M>>(modelSchema<M>().read(*tag, diagnostics));
+  });
+}
+
+void describeModels(std::ostream& out, int indent) {
+  forEachModel([&]<class M>(const M&) {
+    out << std::string(static_cast<std::size_t>(indent), ' ') << "type=\"" << M::name << "\": " << M::schema().sentence()
+        << '\n';
+    M::schema().describeContents(out, indent + 2);
+  });
+}
+
+const Schema<Body>& bodySchema() {
+  static const Schema<Body> schema =
+      Schema<Body>("geom_object", "A body of material at the start.")
+          .custom("shape",
+                  [](Body& body, const Element& element, Diagnostics& diagnostics) {
+                    body.where = element.where();
+                    body.shape = input::readGeometry(element, diagnostics);
+                  },
+                  input::geometryNames(), "the body's shape; several are united", input::describeGeometry)
+          .required("res", &Body::particlesPerCell, "1", "particles per cell along x, y, z", input::between(1, 32))
+          .value("velocity", &Body::velocity, input::VectorExpression(), "m/s", "velocity at the start")
+          .value("temperature", &Body::temperature, input::Expression(293.0), "K", "temperature at the start",
+                 input::nonNegative())
+          .value("color", &Body::color, 0, "1", "a number that its particles keep, p.color");
+  return schema;
+}
+
+const Schema<Material>& materialSchema() {
+  static const Schema<Material> schema =
+      Schema<Material>("material", "A material and the bodies made of it.")
+          .attributeValue("name", &Material::name, "", "1", "its name; material0, material1, … where none is given")
+          .required("density", &Material::density, "kg/m^3", "density at the start", input::positive())
+          .custom("constitutive_model", readModel, {"constitutive_model"}, "how it answers to being deformed",
+                  describeModels)
+          .value("specific_heat", &Material::specificHeat, 0, "J/(kg K)", "c_v", input::nonNegative())
+          .value("thermal_conductivity", &Material::thermalConductivity, 0, "W/(m K)", "conductivity",
+                 input::nonNegative())
+          .list("geom_object", &Material::bodies, bodySchema(), "a body of material at the start", 1);
+  return schema;
+}
+
+void nameMaterials(const MaterialProperties::List& list, const Element& element, Diagnostics& diagnostics) {
+  std::set<std::string> names;
+  const auto tags = element.children("material");
+  for (std::size_t m = 0; m < list.materials.size(); ++m)
+    if (const std::string& name = list.materials[m].name; !name.empty() && !names.insert(name).second)
+      diagnostics.error(tags[m], fmt::format("a second material is called '{}'", name));
+}
+
+}  // namespace
+
+const Schema<MaterialProperties>& propertiesSchema() {
+  static const Schema<MaterialProperties::List> list =
+      Schema<MaterialProperties::List>("MPM", "The materials of the Material Point Method, and how they touch.")
+          .list("material", &MaterialProperties::List::materials, materialSchema(), "a material", 1)
+          .custom("contact",
+                  [](MaterialProperties::List& read, const Element& element, Diagnostics& diagnostics) {
+                    read.contacts = readContacts(element, diagnostics);
+                  },
+                  {"contact"}, "how materials act on each other; several are applied one after the other",
+                  describeContacts)
+          .custom("thermal_contact",
+                  [](MaterialProperties::List& read, const Element& element, Diagnostics&) {
+                    read.thermalContact = element.child("thermal_contact").has_value();
+                  },
+                  {"thermal_contact"}, "materials that share nodes share a temperature there")
+          .check(nameMaterials);
+  static const Schema<MaterialProperties> schema =
+      Schema<MaterialProperties>("MaterialProperties", "What there is.")
+          .requiredSection("MPM", &MaterialProperties::mpm, list);
+  return schema;
+}
+
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <tuple>
+
+#include "components/mpm/solid/materials/cnh_mms.hpp"
+#include "components/mpm/solid/materials/comp_mooney_rivlin.hpp"
+#include "components/mpm/solid/materials/comp_neo_hook.hpp"
+#include "components/mpm/solid/materials/hypo_elastic.hpp"
+#include "components/mpm/solid/materials/rigid.hpp"
+
+namespace tushar::mpm::solid {
+
+/// Every constitutive model that a scene can pick: THE table, one line each.
+using AllModels = std::tuple<CnhMms,            //
+                             CompMooneyRivlin,  //
+                             CompNeoHook,       //
+                             HypoElastic,       //
+                             Rigid>;
+
+}  // namespace tushar::mpm::solid

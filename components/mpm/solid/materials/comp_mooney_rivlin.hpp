@@ -1,0 +1,80 @@
+#pragma once
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+
+#include "components/mpm/solid/constitutive_model.hpp"
+
+namespace tushar::mpm::solid {
+
+/// Compressible Mooney-Rivlin rubber of Uintah's `comp_mooney_rivlin`, with the invariants I1, I2, I3 of B = F Fᵀ:
+/// W = C1 (I1 - 3) + C2 (I2 - 3) + C3 (1/I3² - 1) + C4 (I3 - 1)²,
+/// C3 = C1/2 + C2,   C4 = (C1 (5 nu - 2) + C2 (11 nu - 5)) / (2 - 4 nu).
+struct CompMooneyRivlin {
+  struct State {};
+  static constexpr std::string_view name = "comp_mooney_rivlin";
+  static constexpr bool usesTemperature = false;
+  static constexpr bool dependsOnDeformationOnly = true;
+  static constexpr bool strainEnergyIsRate = false;
+
+  double c1 = 0, c2 = 0;     ///< Pa
+  double poissonRatio = 0;  ///< nu, 1
+
+  static const input::Schema<CompMooneyRivlin>& schema() {
+    static const input::Schema<CompMooneyRivlin> schema =
+        input::Schema<CompMooneyRivlin>("comp_mooney_rivlin", "Compressible Mooney-Rivlin rubber.")
+            .required("he_constant_1", &CompMooneyRivlin::c1, "Pa", "C1", input::positive())
+            .required("he_constant_2", &CompMooneyRivlin::c2, "Pa", "C2", input::nonNegative())
+            .required("he_PR", &CompMooneyRivlin::poissonRatio, "1", "Poisson's ratio", input::between(-0.999, 0.4999));
+    return schema;
+  }
+  State initialState() const { return {}; }
+
+  /// sigma = 2/J ((C1 + I1 C2) B - C2 B² + I3 dW/dI3 I)
+  Matrix3 updateStress(const Deformation& d, const Matrix3&, State&) const {
+    const Invariants i(d.deformationGradient);
+    const double slope = -2 * c3() / (i.third * i.third * i.third) + 2 * c4() * (i.third - 1);
+    Matrix3 stress = (c1 + i.first * c2) * i.b - c2 * i.b * i.b;
+    stress.diagonal().array() += i.third * slope;
+    return stress * (2 / i.j);
+  }
+  /// At the start Uintah takes the wave of the linear material: 2 mu (1 - nu) / (1 - 2 nu), mu = 2 (C1 + C2).
+  double initialWaveSpeed(double initialDensity) const {
+    return std::sqrt(4 * (c1 + c2) * (1 - poissonRatio) / ((1 - 2 * poissonRatio) * initialDensity));
+  }
+  /// The bound that Uintah takes.
+  double waveSpeed(double initialDensity, const Deformation& d, const Matrix3& stress, const State&) const {
+    const Invariants i(d.deformationGradient);
+    const double least = stress.diagonal().minCoeff();
+    const double stiffness = 4 * (c1 + c2 * i.second) / i.j +
+                             8 * (2 * c3() / (i.third * i.third * i.third) + c4() * (2 * i.third - 1)) - least / i.j;
+    return std::sqrt(std::max(stiffness, 0.0) * i.j / initialDensity);
+  }
+  double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
+    return std::sqrt(4 * (c1 + c2 * Invariants(d.deformationGradient).second) / initialDensity);
+  }
+  double strainEnergyDensity(const Deformation& d, const Matrix3&, const Matrix3&, const State&) const {
+    const Invariants i(d.deformationGradient);
+    const double compression = i.third - 1;
+    return c1 * (i.first - 3) + c2 * (i.second - 3) + c3() * (1 / (i.third * i.third) - 1) +
+           c4() * compression * compression;
+  }
+
+ private:
+  struct Invariants {
+    Matrix3 b;
+    double j, first, second, third;
+
+    explicit Invariants(const Matrix3& f) : b(f * f.transpose()), j(f.determinant()), first(b.trace()) {
+      second = 0.5 * (first * first - b.squaredNorm());
+      third = j * j;
+    }
+  };
+  double c3() const { return 0.5 * c1 + c2; }
+  double c4() const { return 0.5 * (c1 * (5 * poissonRatio - 2) + c2 * (11 * poissonRatio - 5)) / (1 - 2 * poissonRatio); }
+};
+static_assert(ConstitutiveModel<CompMooneyRivlin>);
+
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <Eigen/LU>
+
+#include <cmath>
+
+#include "components/mpm/solid/constitutive_model.hpp"
+#include "components/mpm/solid/kernels/cube_root.hpp"
+
+namespace tushar::mpm::solid {
+
+/// Compressible neo-Hookean elasticity of Simo & Hughes, Computational Inelasticity (1998), section 9.2, with
+/// W = K/2 ((J² - 1)/2 - ln J) + G/2 (J^(-2/3) tr(F Fᵀ) - 3).
+struct CompNeoHook {
+  struct State {};
+  static constexpr std::string_view name = "comp_neo_hook";
+  static constexpr bool usesTemperature = false;
+  static constexpr bool dependsOnDeformationOnly = true;
+  static constexpr bool strainEnergyIsRate = false;
+
+  double bulkModulus = 0;   ///< K, Pa
+  double shearModulus = 0;  ///< G, Pa
+
+  static const input::Schema<CompNeoHook>& schema() {
+    static const input::Schema<CompNeoHook> schema =
+        input::Schema<CompNeoHook>("comp_neo_hook", "Compressible neo-Hookean elasticity.")
+            .required("bulk_modulus", &CompNeoHook::bulkModulus, "Pa", "K", input::positive())
+            .required("shear_modulus", &CompNeoHook::shearModulus, "Pa", "G", input::nonNegative());
+    return schema;
+  }
+  State initialState() const { return {}; }
+
+  /// J sigma = K/2 (J² - 1) I + G dev(J^(-2/3) F Fᵀ)
+  Matrix3 kirchhoffStress(const Matrix3& f) const {
+    const double j = f.determinant();
+    Matrix3 b = f * f.transpose();
+    const double pressure = bulkModulus / 2 * (j * j - 1), third = b.trace() / 3;
+    b.diagonal().array() -= third;
+    b *= shearModulus * inverseCubeRootSquared(j);
+    b.diagonal().array() += pressure;
+    return b;
+  }
+  Matrix3 updateStress(const Deformation& d, const Matrix3&, State&) const {
+    return kirchhoffStress(d.deformationGradient) / d.deformationGradient.determinant();
+  }
+  double waveSpeed(double initialDensity, const Deformation& d) const {
+    return std::sqrt((bulkModulus + 4.0 / 3.0 * shearModulus) * d.deformationGradient.determinant() / initialDensity);
+  }
+  double waveSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
+    return waveSpeed(initialDensity, d);
+  }
+  double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
+    return std::sqrt(bulkModulus * d.deformationGradient.determinant() / initialDensity);
+  }
+  double strainEnergyDensity(const Deformation& d, const Matrix3&, const Matrix3&, const State&) const {
+    const Matrix3& f = d.deformationGradient;
+    const double j = f.determinant(), trace = f.squaredNorm() * inverseCubeRootSquared(j);
+    return bulkModulus / 2 * (0.5 * (j * j - 1) - std::log(j)) + shearModulus / 2 * (trace - 3);
+  }
+};
+static_assert(ConstitutiveModel<CompNeoHook>);
+
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+
+#include "core/core.hpp"
+
+namespace tushar::mpm::solid {
+
+/// Pressure against compression, q = rho (A1 c |D| h + A2 D^2 h^2) where D = tr L < 0; von Neumann & Richtmyer, with the
+/// linear term of Landshoff.
+struct ArtificialViscosity {
+  double linear = 0.2;     ///< A1
+  double quadratic = 2.0;  ///< A2
+};
+
+/// The `MPM` section: how the method runs.
+struct Method {
+  Vec3 gravity = Vec3::Zero();                                ///< m/s^2
+  double damping = 0;                                         ///< artificial_damping_coeff, 1/s
+  std::optional<ArtificialViscosity> viscosity;
+  double minimumMassForAcceleration = 1e-199;                 ///< kg
+  double minimumParticleMass = 3e-15;                         ///< kg
+  double maximumParticleVelocity = 3e105;                     ///< m/s
+  int minimumSubcyclesForF = 1;
+  Vec3 commonSize = Vec3::Ones();  ///< of all particles at the start, in cells; unless each keeps its own
+  std::array<bool, 3> isThin{};    ///< axes x, y, z that the grid leaves out
+  bool keepsSizes = false;         ///< each particle keeps its size
+  double meanWidth = 0;            ///< of a cell over x, y, z, m: the length of the artificial viscosity
+  bool strainEnergy = false;       ///< someone wants to know it
+  bool velocityGradient = false;   ///< someone wants to know it
+  bool conductsHeat = true;
+  bool thermalContact = false;     ///< materials that share nodes share a temperature
+};
+
+}  // namespace tushar::mpm::solid

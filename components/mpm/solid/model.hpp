@@ -1,0 +1,152 @@
+#pragma once
+
+#include <Eigen/LU>
+
+#include <cstring>
+#include <memory>
+#include <vector>
+
+#include "components/mpm/solid/constitutive_model.hpp"
+
+namespace tushar::mpm::solid {
+
+/// Particles one after another in memory, whose stress is to be brought to the end of a step.
+struct StressPoints {
+  int count = 0;
+  double timeStep = 0;  ///< s
+  const Matrix3* oldDeformationGradient = nullptr;
+  const Matrix3* deformationGradient = nullptr;
+  const Matrix3* velocityGradient = nullptr;  ///< 1/s
+  const double* temperature = nullptr;        ///< K; null where no model asks
+  const Matrix3* oldStress = nullptr;         ///< Pa; null where the stress is not kept
+  Matrix3* stress = nullptr;                  ///< Pa; null where nobody asks
+  double* state = nullptr;                    ///< of stateStride numbers a particle: before and after
+  int stateStride = 0;
+  double* waveSpeed = nullptr;            ///< m/s
+  double* bulkSpeed = nullptr;            ///< m/s; null where nobody asks
+  double* strainEnergyDensity = nullptr;  ///< J/m^3 of the volume at the start; null where nobody asks
+};
+
+/// A constitutive model behind one virtual call per group of particles.
+class Model {
+ public:
+  virtual ~Model() = default;
+  virtual std::string_view name() const = 0;
+  /// Numbers that a particle keeps for the model.
+  virtual int stateSize() const = 0;
+  virtual std::vector<StateVariable> stateVariables() const = 0;
+  virtual void initialize(double* state) const = 0;
+  virtual bool usesTemperature() const = 0;
+  /// Whether the stress is a function of F alone: nothing but F needs to be kept then.
+  virtual bool dependsOnDeformationOnly() const = 0;
+
+  /// Of the fastest wave at the start, m/s.
+  virtual double initialWaveSpeed(double initialDensity, double temperature) const = 0;
+  virtual void updateStress(double initialDensity, const StressPoints& points) const = 0;
+  /// J sigma of `count` deformation gradients, Pa; only where the stress depends on F alone.
+  virtual void kirchhoffStress(const Matrix3* deformationGradient, int count, Matrix3* stress) const = 0;
+};
+
+template <ConstitutiveModel M>
+class ModelOf : public Model {
+ public:
+  explicit ModelOf(const M& model) : model_(model) {}
+
+  const M& model() const { return model_; }
+  std::string_view name() const override { return M::name; }
+  int stateSize() const override { return hasState ? int(sizeof(State) / sizeof(double)) : 0; }
+  std::vector<StateVariable> stateVariables() const override {
+    if constexpr (hasState)
+      return {M::stateVariables.begin(), M::stateVariables.end()};
+    else
+      return {};
+  }
+  void initialize(double* state) const override { store(model_.initialState(), state); }
+  bool usesTemperature() const override {
+    if constexpr (requires { M::usesTemperature; })
+      return M::usesTemperature;
+    else
+      return true;
+  }
+  bool dependsOnDeformationOnly() const override { return fromDeformation; }
+
+  void updateStress(double initialDensity, const StressPoints& points) const override {
+    for (int k = 0; k < points.count; ++k) {
+      const Deformation d{points.deformationGradient[k], points.oldDeformationGradient[k], points.velocityGradient[k],
+                          points.timeStep, points.temperature ? points.temperature[k] : 0.0};
+      if constexpr (fromDeformation && requires { model_.waveSpeed(initialDensity, d); }) {
+        if (!points.stress) {
+          finish(initialDensity, points, k, d, Matrix3::Zero(), Matrix3::Zero(), State{},
+                 model_.waveSpeed(initialDensity, d));
+          continue;
+        }
+      }
+      double* const numbers = points.state + k * points.stateStride;
+      const Matrix3 before = points.oldStress ? points.oldStress[k] : Matrix3(Matrix3::Zero());
+      State state = load(numbers);
+      const Matrix3 after = model_.updateStress(d, before, state);
+      if (points.stress) points.stress[k] = after;
+      store(state, numbers);
+      finish(initialDensity, points, k, d, before, after, state, model_.waveSpeed(initialDensity, d, after, state));
+    }
+  }
+
+  double initialWaveSpeed(double initialDensity, double temperature) const override {
+    if constexpr (requires { model_.initialWaveSpeed(initialDensity); }) {
+      return model_.initialWaveSpeed(initialDensity);
+    } else {
+      const Deformation d{Matrix3::Identity(), Matrix3::Identity(), Matrix3::Zero(), 0, temperature};
+      State state = model_.initialState();
+      const Matrix3 stress = model_.updateStress(d, Matrix3::Zero(), state);
+      return model_.waveSpeed(initialDensity, d, stress, state);
+    }
+  }
+
+  void kirchhoffStress(const Matrix3* f, int count, Matrix3* stress) const override {
+    if constexpr (requires { model_.kirchhoffStress(*f); }) {
+      for (int k = 0; k < count; ++k) stress[k] = model_.kirchhoffStress(f[k]);
+    } else if constexpr (fromDeformation) {
+      const Matrix3 zero = Matrix3::Zero();
+      State none{};
+      for (int k = 0; k < count; ++k)
+        stress[k] = f[k].determinant() * model_.updateStress({f[k], f[k], zero, 0.0, 0.0}, zero, none);
+    }
+  }
+
+ private:
+  using State = typename M::State;
+  static constexpr bool hasState = !std::is_empty_v<State>;
+  static constexpr bool fromDeformation = [] {
+    if constexpr (requires { M::dependsOnDeformationOnly; })
+      return M::dependsOnDeformationOnly;
+    else
+      return false;
+  }();
+
+  void finish(double initialDensity, const StressPoints& points, int k, const Deformation& d, const Matrix3& before,
+              const Matrix3& after, const State& state, double waveSpeed) const {
+    points.waveSpeed[k] = waveSpeed;
+    if (points.bulkSpeed) points.bulkSpeed[k] = bulkSpeed(initialDensity, d, after, state, waveSpeed);
+    if (points.strainEnergyDensity) points.strainEnergyDensity[k] = model_.strainEnergyDensity(d, before, after, state);
+  }
+  /// Speed for the artificial viscosity: of the model where it gives one, else that of its fastest wave.
+  double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3& stress, const State& state,
+                   double waveSpeed) const {
+    if constexpr (requires { model_.bulkSpeed(initialDensity, d, stress, state); })
+      return model_.bulkSpeed(initialDensity, d, stress, state);
+    else
+      return waveSpeed;
+  }
+  static State load(const double* numbers) {
+    State state{};
+    if constexpr (hasState) std::memcpy(&state, numbers, sizeof state);
+    return state;
+  }
+  static void store(const State& state, double* numbers) {
+    if constexpr (hasState) std::memcpy(numbers, &state, sizeof state);
+  }
+
+  M model_;
+};
+
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "components/mpm/solid/contact/contact.hpp"
+#include "components/mpm/solid/method.hpp"
+#include "components/mpm/solid/shapes/tensor_shape.hpp"
+#include "components/mpm/solid/tasks/create_particles.hpp"
+#include "core/core.hpp"
+
+namespace tushar::mpm::solid {
+
+/// Everything that a scene says about its solids.
+struct Problem {
+  Method method;
+  std::vector<Material> materials;
+  std::vector<Contact> contacts;
+  Start start;
+};
+
+/// The Material Point Method for solids: Sulsky, Chen & Schreyer, Comput. Methods Appl. Mech. Engrg. 118 (1994) 179, step
+/// by step as Uintah takes it, stress last.
+///
+/// solid_mpm.cpp is the schedule and reads as the method; the bodies of its tasks are in tasks/.
+template <class Shape>
+class SolidMpm : public Component {
+ public:
+  explicit SolidMpm(Problem problem);
+
+  const Problem& problem() const { return problem_; }
+
+  void scheduleInitialize(TaskList& tasks) const override;
+  void scheduleComputeStableTimeStep(TaskList& tasks) const override;
+  void scheduleTimeAdvance(TaskList& tasks) const override;
+  void scheduleDiagnostics(TaskList& tasks) const override;
+
+ private:
+  static constexpr int D = Shape::dimension;
+
+  void scheduleInterpolateParticlesToGrid(TaskList& tasks) const;
+  void scheduleIntegrateAcceleration(TaskList& tasks) const;
+  void scheduleApplyExternalLoads(TaskList& tasks) const;
+  void scheduleUpdateParticles(TaskList& tasks) const;
+  void scheduleHeat(TaskList& tasks) const;
+
+  bool isViscous() const { return problem_.method.viscosity.has_value(); }
+  bool isLoaded() const { return !problem_.start.loads.empty() || problem_.start.solution; }
+  bool keepsSizes() const { return Shape::hasSize && problem_.method.keepsSizes; }
+
+  Problem problem_;
+  bool keeps_stress_ = false;  ///< some material's stress is not a function of F alone
+  bool is_thermal_ = false;    ///< some material's stress depends on the temperature
+  int state_size_ = 0;         ///< most numbers that a particle keeps for its model
+  ParticleLabel<double> state_{"p.modelState", "SI units", "internal variables of the constitutive model"};
+};
+
+}  // namespace tushar::mpm::solid

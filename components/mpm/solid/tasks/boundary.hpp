@@ -1,0 +1,42 @@
+#pragma once
+
+#include "components/mpm/solid/kernels/node_record.hpp"
+
+namespace tushar::mpm::solid {
+
+/// Nothing moves through a symmetry plane, and no force acts across: both vectors of a record have no normal component
+/// there, and the nodes beyond it mirror those inside.
+template <int D>
+void setSymmetry(const Patch& patch, int material, NodeView<Octet> record) {
+  for (int d = 0; d < D; ++d)
+    for (const int side : {0, 1}) {
+      if (!patch.isAtBoundary(d, side) || !patch.level().isSymmetry(d, side, material)) continue;
+      const int face = side == 0 ? patch.cells().lower[d] : patch.cells().upper[d];
+      forEach<D>(patch.faceNodes(d, side), [&](const Index<D>& node) {
+        record[node][lane::velocity + d] = record[node][lane::force + d] = 0;
+      });
+      forEach<D>(patch.nodesBeyond(d, side), [&](const Index<D>& node) {
+        Index<D> image = node;
+        image[d] = 2 * face - node[d];
+        Octet value = record[image];
+        value[lane::velocity + d] = -value[lane::velocity + d];
+        value[lane::force + d] = -value[lane::force + d];
+        record[node] = value;
+      });
+    }
+}
+
+/// The velocity is given on a face, and on the nodes beyond it.
+template <int D>
+void setVelocity(const Patch& patch, int material, NodeView<Octet> record) {
+  for (int d = 0; d < D; ++d)
+    for (const int side : {0, 1}) {
+      const grid::BoundaryCondition* condition = patch.level().boundary(d, side, "Velocity", material);
+      if (!condition || condition->kind != "Dirichlet" || !patch.isAtBoundary(d, side)) continue;
+      const Vec<D> value = patch.level().reduce<D>(condition->value);
+      for (const Box& nodes : {patch.faceNodes(d, side), patch.nodesBeyond(d, side)})
+        forEach<D>(nodes, [&](const Index<D>& node) { setLanes<D>(record[node], lane::velocity, value); });
+    }
+}
+
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "components/mpm/solid/contact/contact.hpp"
+#include "components/mpm/solid/material.hpp"
+
+namespace tushar::mpm::solid {
+
+/// The force of a body on a side of the grid, - sum_i f_i over its nodes, and the area that the body covers there,
+/// 2 sum_i V_i / h, of what the grid shows (see showOnGrid); an axis that is left out has no such nodes.
+template <int D>
+void measureBoundary(const Patch& patch, const Material&, int face, NodeView<const Vec<D>> force,
+                     NodeView<const double> volume, VectorSum& total, Sum& area) {
+  for (int d = 0; d < D; ++d) {
+    const int side = face % 2;
+    if (patch.level().axis(d) != face / 2 || !patch.isAtBoundary(d, side)) continue;
+    forEach<D>(patch.faceNodes(d, side), [&](const Index<D>& node) {
+      if (!isOwned<D>(patch, node)) return;
+      total.add(-patch.level().expandDirection<D>(force[node]));
+      area.add(2 * volume[node] * patch.level().inverseSpacing(d));
+    });
+  }
+}
+
+/// The same on both sides of an axis that is left out: the stress of every particle acts across.
+inline void measureThinBoundary(const Patch& patch, const Material&, int face, ParticleView<const double> volume,
+                                ParticleView<const Matrix3> stress, VectorSum& total, Sum& area) {
+  const double width = patch.level().cellWidth(face / 2), sign = face % 2 == 0 ? -1.0 : 1.0;
+  if (width <= 0) return;
+  for (int p = 0; p < volume.owned(); ++p) {
+    total.add(sign * volume[p] / width * stress[p].col(face / 2));
+    area.add(volume[p] / width);
+  }
+}
+
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,132 @@
+#pragma once
+
+#include <Eigen/LU>
+
+#include "components/mpm/solid/labels.hpp"
+#include "components/mpm/solid/loads/load.hpp"
+#include "components/mpm/solid/loads/manufactured.hpp"
+#include "components/mpm/solid/material.hpp"
+#include "components/mpm/solid/method.hpp"
+
+namespace tushar::mpm::solid {
+
+/// What the particles of a scene start with besides their bodies.
+struct Start {
+  bool axisymmetric = false;
+  std::vector<PressureLoad> loads;
+  std::shared_ptr<const Manufactured> solution;  ///< null: there is none
+};
+
+/// The numbers of the loads on a particle, 1 for the first, packed as p.loadCurveID says.
+inline int loadsOn(const Start& start, const Material& material, const Body& body, const Vec3& point,
+                   const Vec3& spacing) {
+  int ids = 0, factor = 1;
+  for (std::size_t k = 0; k < start.loads.size() && factor <= 65536; ++k) {
+    const PressureLoad& load = start.loads[k];
+    if (load.material >= 0 && load.material != material.index) continue;
+    if (!load.acts(body, point, spacing)) continue;
+    ids += factor * static_cast<int>(k + 1);
+    factor *= 256;
+  }
+  return ids;
+}
+
+/// The columns of the particles that are made.
+template <int D>
+struct NewParticles {
+  std::vector<Vec<D>>&x, &velocity, &displacement, &size, &externalForce;
+  std::vector<double>&mass, &temperature, &color, &viscosity, &strainEnergy;
+  std::vector<Matrix3>&deformation, &velocityGradient;
+  std::vector<int>& loads;
+
+  void add(const Level& level, const Start& start, const Material& material, const Body& body, const Vec<D>& at,
+           const Vec<D>& extent) {
+    const Vec3 point = level.expandPoint<D>(at);
+    x.push_back(at);
+    velocity.push_back(level.reduce<D>(body.velocity(point)));
+    displacement.push_back(Vec<D>::Zero());
+    externalForce.push_back(Vec<D>::Zero());
+    velocityGradient.push_back(Matrix3::Zero());
+    size.push_back(extent);
+    double volume = level.cellVolume() * extent.prod();
+    if (start.axisymmetric) volume *= point[0] / (level.cellWidth(2) > 0 ? level.cellWidth(2) : 1.0);
+    mass.push_back(material.density * volume);
+    temperature.push_back(body.temperature(point));
+    color.push_back(body.color);
+    deformation.push_back(Matrix3::Identity());
+    viscosity.push_back(0);
+    strainEnergy.push_back(0);
+    loads.push_back(loadsOn(start, material, body, point, particleSpacing(level, body)));
+    if (start.solution) deform(level, *start.solution, material, point);
+  }
+
+ private:
+  /// Moves the last particle to where the manufactured solution has it at time 0.
+  void deform(const Level& level, const Manufactured& solution, const Material& material, const Vec3& point) {
+    const Elastic elastic = elasticOf(material);
+    const Matrix3 f = solution.deformationGradient(elastic, point, 0);
+    displacement.back() = level.reduce<D>(solution.displacement(elastic, point, 0));
+    x.back() += displacement.back();
+    velocity.back() = level.reduce<D>(solution.velocity(elastic, point, 0));
+    deformation.back() = f;
+    for (int d = 0; d < D; ++d) size.back()[d] *= f(level.axis(d), level.axis(d));
+  }
+};
+
+/// Fills each body with its particles, `particlesPerCell` along each axis in the middle of equal parts of a cell, where
+/// that point is inside the shape. Bodies may overlap, as in Uintah.
+///
+/// The id of a particle is its cell's number and its place in the cell, so that it does not depend on the patches.
+template <int D>
+void actuallyInitialize(const Patch& patch, const Material& material, ParticleMaker& maker, const Start& start,
+                        std::vector<Vec<D>>& x, std::vector<Vec<D>>& velocity, std::vector<Vec<D>>& displacement,
+                        std::vector<Vec<D>>& size, std::vector<Vec<D>>& externalForce, std::vector<double>& mass,
+                        std::vector<double>& temperature, std::vector<double>& color, std::vector<double>& viscosity,
+                        std::vector<double>& strainEnergy, std::vector<Matrix3>& deformation,
+                        std::vector<Matrix3>& velocityGradient, std::vector<int>& loads) {
+  const Level& level = patch.level();
+  NewParticles<D> particles{x,         velocity,     displacement, size,             externalForce, mass, temperature, color,
+                            viscosity, strainEnergy, deformation,  velocityGradient, loads};
+  // A displaced particle may start in another cell than the one that made it, and so on another patch.
+  const double farthest = start.solution ? start.solution->farthestAtStart() : 0.0;
+  const int around = static_cast<int>(std::ceil(farthest / level.minSpacing()));
+  forEach<D>(patch.cellsWithin(around), [&](const Index<D>& cell) {
+    ParticleId inCell = 0;
+    for (const Body& body : material.bodies) {
+      Box places{{}, Index3::filled(1)};
+      Vec<D> extent;
+      for (int d = 0; d < D; ++d) {
+        places.upper[d] = body.particlesPerCell[level.axis(d)];
+        extent[d] = 1.0 / places.upper[d];
+      }
+      forEach<D>(places, [&](const Index<D>& k) {
+        Vec<D> at;
+        for (int d = 0; d < D; ++d)
+          at[d] = level.nodePosition(d, 0) + (cell[d] + (k[d] + 0.5) * extent[d]) * level.spacing(d);
+        if (!body.shape->contains(level.expandPoint<D>(at))) return;
+        const ParticleId id = (level.cellNumber(cell) << 16) + inCell++;
+        Index<D> home = cell;
+        if (start.solution) {
+          const Vec3 point = level.expandPoint<D>(at);
+          home = level.cellOf<D>(at + level.reduce<D>(start.solution->displacement(elasticOf(material), point, 0)));
+        }
+        if (!patch.cells().contains(home)) return;
+        maker.add(home, id);
+        particles.add(level, start, material, body, at, extent);
+      });
+    }
+  });
+}
+
+/// What particles of materials whose stress depends on more than F keep besides.
+inline void initializeStress(const Patch&, const Material& material, int stateSize, ParticleView<const double> mass,
+                             ParticleView<const Matrix3> deformation, ParticleView<double> volume,
+                             ParticleView<Matrix3> stress, std::optional<ParticleView<double>> state) {
+  for (int p = 0; p < mass.owned(); ++p) {
+    volume[p] = mass[p] / material.density * deformation[p].determinant();
+    stress[p] = Matrix3::Zero();
+    if (state) material.model->initialize(&(*state)[0] + p * stateSize);
+  }
+}
+
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "components/mpm/solid/labels.hpp"
+#include "components/mpm/solid/material.hpp"
+
+namespace tushar::mpm::solid {
+
+/// The sum of a number of every particle.
+inline void sumParticles(const Patch&, const Material&, ParticleView<const double> values, Sum& total) {
+  WideSum sum(total);
+  for (int p = 0; p < values.owned(); ++p) sum.add(values[p]);
+}
+
+/// Mass of all particles times their velocity, or their position.
+template <int D>
+void sumMomentum(const Patch& patch, const Material&, ParticleView<const double> mass,
+                 ParticleView<const Vec<D>> velocity, VectorSum& total) {
+  for (int p = 0; p < mass.owned(); ++p) total.add(mass[p] * patch.level().expandDirection<D>(velocity[p]));
+}
+template <int D>
+void sumCenterOfMass(const Patch& patch, const Material&, ParticleView<const double> mass, ParticleView<const Vec<D>> x,
+                     VectorSum& total) {
+  for (int p = 0; p < mass.owned(); ++p) total.add(mass[p] * patch.level().expandPoint<D>(x[p]));
+}
+
+/// 1/2 m v^2 of all particles.
+template <int D>
+void sumKineticEnergy(const Patch&, const Material&, ParticleView<const double> mass,
+                      ParticleView<const Vec<D>> velocity, Sum& total) {
+  WideSum sum(total);
+  for (int p = 0; p < mass.owned(); ++p) sum.add(0.5 * mass[p] * velocity[p].squaredNorm());
+}
+
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,109 @@
+#pragma once
+
+#include <Eigen/LU>
+
+#include "components/mpm/solid/kernels/node_record.hpp"
+#include "components/mpm/solid/material.hpp"
+#include "components/mpm/solid/tasks/boundary.hpp"
+#include "components/mpm/solid/tasks/extent.hpp"
+
+namespace tushar::mpm::solid {
+
+/// Most particles that a constitutive model is given at once.
+inline constexpr int stressGroup = 64;
+
+/// What a particle brings to the nodes.
+template <class Shape>
+struct Sources {
+  static constexpr int D = Shape::dimension;
+
+  Extents<Shape> extents;
+  ParticleView<const Vec<D>> x, velocity;
+  const double *mass, *volume, *viscosity;  ///< volume and viscosity null where there is none
+  const Matrix3 *stress, *deformation;      ///< one of them
+  const Vec<D>* externalForce;              ///< or null
+};
+
+/// V (sigma - q I) of up to stressGroup particles from `first` on.
+template <class Shape>
+void forceMoments(const Material& material, const Sources<Shape>& from, int first, int count, Matrix3* moments) {
+  if (from.stress)
+    for (int k = 0; k < count; ++k) moments[k] = from.volume[first + k] * from.stress[first + k];
+  else {
+    material.model->kirchhoffStress(from.deformation + first, count, moments);
+    for (int k = 0; k < count; ++k) moments[k] *= from.mass[first + k] / material.density;
+  }
+  if (!from.viscosity) return;
+  for (int k = 0; k < count; ++k) {
+    const double volume = from.volume ? from.volume[first + k]
+                                      : from.mass[first + k] / material.density * from.deformation[first + k].determinant();
+    moments[k].diagonal().array() -= volume * from.viscosity[first + k];
+  }
+}
+
+/// Adds the particles of a cell to the nodes around: m v and m with S_i, -V sigma with its gradient.
+template <class Shape, int D = Shape::dimension>
+void scatterCell(const Level& level, const Material& material, const Sources<Shape>& from, const Index<D>& cell,
+                 int first, int count, const NodeView<Octet>& record) {
+  std::array<Matrix3, stressGroup> moments;
+  forceMoments(material, from, first, count, moments.data());
+  const CellFrame<D> frame(level, cell);
+  for (int k = 0; k < count; ++k) {
+    const int p = first + k;
+    const Matrix3& moment = moments[static_cast<std::size_t>(k)];
+    const typename Shape::Stencil stencil(frame, cell, from.x[p], from.extents[p]);
+    Octet value{}, hoop{};
+    std::array<Octet, D> slope{};
+    setLanes<D>(value, lane::velocity, from.mass[p] * from.velocity[p]);
+    value[lane::mass] = from.mass[p];
+    if (from.externalForce) setLanes<D>(value, lane::force, from.externalForce[p]);
+    if (from.volume) value[lane::volume] = from.volume[p];
+    for (int d = 0; d < D; ++d)
+      for (int i = 0; i < D; ++i)
+        slope[static_cast<std::size_t>(d)][lane::force + i] = -moment(sceneAxis<D>(level, i), sceneAxis<D>(level, d));
+    hoop[lane::force] = -moment(2, 2);
+    scatter(stencil, windowOf<Octet>(record, stencil), value, slope, hoop);
+  }
+}
+
+/// m_i = sum_p S_i m_p,   v_i = sum_p S_i m_p v_p / m_i,
+/// f_i = sum_p S_i f_p - V_p (sigma_p - q_p I) grad S_i; where axisymmetric, the hoop stress pulls inwards with S_i / r.
+/// Complete on all nodes of the patch that are touched; what is not touched is 0 where `clearsAll`, else undefined.
+template <class Shape, int D = Shape::dimension>
+void interpolateParticlesToGrid(const Patch& patch, const Material& material, const Vec3& commonSize, bool clearsAll,
+                                ParticleView<const Vec<D>> x, OptionalView<const Vec<D>> size,
+                                ParticleView<const double> mass, ParticleView<const Vec<D>> velocity,
+                                OptionalView<const Matrix3> deformation, OptionalView<const double> volume,
+                                OptionalView<const Matrix3> stress, OptionalView<const double> viscosity,
+                                OptionalView<const Vec<D>> externalForce, NodeView<Octet> record) {
+  const Level& level = patch.level();
+  const Sources<Shape> from{Extents<Shape>(level, commonSize, size, deformation),
+                            x,
+                            velocity,
+                            valuesOf(mass),
+                            valuesOf(volume),
+                            valuesOf(viscosity),
+                            valuesOf(stress),
+                            valuesOf(deformation),
+                            valuesOf(externalForce)};
+  const TouchedRows<D> rows(x, x.cells(), Shape::ghostNodes, record.stored());
+  if (clearsAll)
+    record.fill(Octet{});
+  else
+    rows.forEachRow([&](const Index3& first, int end) {
+      std::fill_n(record.values() + record.stored().offset(first), end - first[0], Octet{});
+    });
+  forEach<D>(x.cells(), [&](const Index<D>& cell) {
+    const data::ParticleRange range = x.in(cell);
+    for (int at = range.first; at < range.last; at += stressGroup)
+      scatterCell<Shape>(level, material, from, cell, at, std::min(stressGroup, range.last - at), record);
+  });
+  rows.forEachRow([&](const Index3& first, int end) {
+    Octet* node = record.values() + record.stored().offset(first);
+    for (int k = first[0]; k < end; ++k, ++node)
+      if ((*node)[lane::mass] > 0) setLanes<D>(*node, lane::velocity, lanes<D>(*node, lane::velocity) / (*node)[lane::mass]);
+  });
+  setSymmetry<D>(patch, material.index, record);
+}
+
+}  // namespace tushar::mpm::solid
