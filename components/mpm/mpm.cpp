@@ -131,6 +131,10 @@ void Mpm<D>::scheduleDiagnostics(TaskList& tasks) const {
                     computes(total::energy));
   tasks.perMaterial("mpm::sumCenterOfMass", sumCenterOfMass<D>, materials_, requiresOld(p::mass),
                     requiresOld(p::x<D>), computes(total::centerOfMass));
+  tasks.perMaterial("mpm::findLeast", findLeast, materials_, requiresOld(p::density), requiresOld(p::internalEnergy),
+                    computes(total::leastDensity), computes(total::leastEnergy));
+  tasks.perMaterial("mpm::sumEntropy", sumEntropy<D>, materials_, requiresOld(p::mass), requiresOld(p::density),
+                    requiresOld(p::internalEnergy), computes(total::entropy));
   tasks.perMaterial("mpm::computeVolume", computeVolume, materials_, requiresOld(p::mass), requiresOld(p::density),
                     computes(p::volume));
 }

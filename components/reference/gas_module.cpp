@@ -41,8 +41,8 @@ std::vector<MeasuredError> GasError::errors() const {
     errors.push_back({"energy", place, &labels.energy, norms});
   };
   for (const MeasuredPlace place : solution_->measuredPlaces()) {
-    if (place == MeasuredPlace::particle) add("particle", particleError, {"L1", "L2", "max"});
-    if (place == MeasuredPlace::cell) add("cell", cellError, {"L1", "L2"});
+    if (place == MeasuredPlace::particle) add("particle", particleError, {"L1", "L2", "max", "relative"});
+    if (place == MeasuredPlace::cell) add("cell", cellError, {"L1", "L2", "relative"});
     if (place == MeasuredPlace::node) errors.push_back({"density", "node", &nodeError, {"max"}});
   }
   return errors;

@@ -138,6 +138,10 @@ void ConservingMpm<D>::scheduleDiagnostics(TaskList& tasks) const {
   tasks.perMaterial("mpm::computeDensity", conserving::computeDensity<D>, materials_, requiresOld(p::mass),
                     requiresOld(p::edges<D>), requiresOld(p::internalEnergy), computes(p::density),
                     computes(p::pressure), computes(p::volume));
+  tasks.perMaterial("mpm::findLeast", findLeast, materials_, requiresNew(p::density), requiresOld(p::internalEnergy),
+                    computes(total::leastDensity), computes(total::leastEnergy));
+  tasks.perMaterial("mpm::sumEntropy", sumEntropy<D>, materials_, requiresOld(p::mass), requiresNew(p::density),
+                    requiresOld(p::internalEnergy), computes(total::entropy));
   tasks.perMaterial("mpm::computeCellDensity", conserving::computeCellDensity<D>, materials_, requiresOld(c::mass),
                     computes(c::density));
   tasks.perMaterial("mpm::computeCellVelocity", conserving::computeCellVelocity<D>, materials_,
