@@ -9,6 +9,7 @@
 #include "components/mpm/tasks/interpolate_particles_to_grid.hpp"
 #include "components/mpm/tasks/measure_error.hpp"
 #include "components/mpm/tasks/redistribute.hpp"
+#include "components/mpm/tasks/relax_energy.hpp"
 #include "components/mpm/tasks/update_particles.hpp"
 
 namespace tushar::mpm {
@@ -34,6 +35,7 @@ void Mpm<D>::scheduleTimeAdvance(TaskList& tasks) const {
   scheduleComputeInternalForce(tasks);
   scheduleComputeAndIntegrateAcceleration(tasks);
   scheduleUpdateParticles(tasks);
+  scheduleRelaxEnergy(tasks, materials_);
   tasks.relocate(p::x<D>, materials_);
   if (method_.redistribute) scheduleRedistribute(tasks);
   if (method_.densityFilter) scheduleFilterDensity(tasks);
