@@ -78,3 +78,9 @@ def _is_number(text):
         return True
     except ValueError:
         return False
+
+
+def resolve_files(root, folder):
+    """Makes the files that a scene in `folder` names findable from anywhere."""
+    for element in root.iter("file"):
+        element.text = str((folder / element.text.strip()).resolve())
