@@ -35,6 +35,10 @@ void Euler<D>::scheduleDiagnostics(TaskList& tasks) const {
   tasks.perPatch("euler::sumEnergy", sumEnergy<D>, requiresOld(c::totalEnergy), computes(total::energy));
   tasks.perPatch("euler::sumKineticEnergy", sumKineticEnergy<D>, requiresOld(c::density), requiresOld(c::momentum<D>),
                  computes(total::kineticEnergy));
+  tasks.perPatch("euler::findLeast", findLeast<D>, requiresOld(c::density), requiresOld(c::momentum<D>),
+                 requiresOld(c::totalEnergy), computes(total::leastDensity), computes(total::leastEnergy));
+  tasks.perPatch("euler::sumEntropy", sumEntropy<D>, with(settings_.gas), requiresOld(c::density),
+                 requiresOld(c::momentum<D>), requiresOld(c::totalEnergy), computes(total::entropy));
   tasks.perPatch("euler::computePressure", computePressure<D>, with(settings_.gas), requiresOld(c::density),
                  requiresOld(c::momentum<D>), requiresOld(c::totalEnergy), computes(c::pressure));
   tasks.perPatch("euler::computeVelocity", computeVelocity<D>, requiresOld(c::density), requiresOld(c::momentum<D>),

@@ -31,19 +31,51 @@ void initialize(const Patch& patch, const Settings& settings, CellView<double> t
   const Level& level = patch.level();
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     const Vec3 middle = level.expandPoint<D>(level.cellCentre<D>(cell));
+    const auto refuse = [&](const char* tag, double found, const char* unit, const char* wanted) {
+      throw InputError({{settings.where, tag, fmt::format("it is {:g} {} at ({:g}, {:g}, {:g}), and must be {} everywhere",
+                                                          found, unit, middle[0], middle[1], middle[2], wanted)}});
+    };
     temperature[cell] = settings.temperature(middle);
-    if (!std::isfinite(temperature[cell]))
-      throw InputError({{settings.where, "Heat/temperature",
-                         fmt::format("it is {:g} K at ({:g}, {:g}, {:g}), and must be finite everywhere",
-                                     temperature[cell], middle[0], middle[1], middle[2])}});
+    if (!std::isfinite(temperature[cell])) refuse("Heat/temperature", temperature[cell], "K", "finite");
+    const double k = settings.conductivity(middle);
+    if (!(k > 0 && std::isfinite(k))) refuse("Heat/thermal_conductivity", k, "W/(m K)", "finite and greater than 0");
   });
 }
 
+namespace {
+
+/// k in the middle of a cell of the grid or of its periodic images [W/(m K)].
+template <int D>
+double conductivityIn(const Level& level, const Settings& settings, Index<D> cell) {
+  for (int d = 0; d < D; ++d) {
+    const int cells = level.cells().upper[d];
+    if (level.isPeriodic(d)) cell[d] = (cell[d] % cells + cells) % cells;
+  }
+  return settings.conductivity(level.expandPoint<D>(level.cellCentre<D>(cell)));
+}
+
+/// k at a face of a cell [W/(m K)]; at the rim of the grid that of the cell.
+template <int D>
+double conductivityAt(const Patch& patch, const Settings& settings, const Index<D>& cell, int d, int side) {
+  const double own = conductivityIn<D>(patch.level(), settings, cell);
+  const Index<D> next = side == 0 ? cell - Index<D>::unit(d) : cell + Index<D>::unit(d);
+  if (settings.conductivity.isConstant() || !patch.cellsWithin(1).contains(next)) return own;
+  const double other = conductivityIn<D>(patch.level(), settings, next);
+  return 2 * own * other / (own + other);
+}
+
+}  // namespace
+
 template <int D>
 void computeStableTimeStep(const Patch& patch, const Settings& settings, Minimum& dt) {
-  double sum = 0;
-  for (int d = 0; d < D; ++d) sum += 1 / (patch.level().spacing(d) * patch.level().spacing(d));
-  dt.add(settings.cfl / (2 * settings.diffusivity() * sum), "conduction");
+  const Level& level = patch.level();
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    double sum = 0;
+    for (int d = 0; d < D; ++d)
+      for (const int side : {0, 1})
+        sum += conductivityAt<D>(patch, settings, cell, d, side) / (level.spacing(d) * level.spacing(d));
+    dt.add(settings.cfl * settings.capacity() / sum, "conduction");
+  });
 }
 
 namespace {
@@ -67,18 +99,19 @@ void conduct(const Patch& patch, const Settings& settings, CellView<const double
              CellView<double> newTemperature) {
   const Level& level = patch.level();
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    double curvature = 0;
+    double heating = 0;
     for (int d = 0; d < D; ++d)
-      curvature += (neighbour<D>(patch, temperature, cell, d, 0) - 2 * temperature[cell] +
-                    neighbour<D>(patch, temperature, cell, d, 1)) /
+      for (const int side : {0, 1})
+        heating += conductivityAt<D>(patch, settings, cell, d, side) *
+                   (neighbour<D>(patch, temperature, cell, d, side) - temperature[cell]) /
                    (level.spacing(d) * level.spacing(d));
-    newTemperature[cell] = temperature[cell] + dt * settings.diffusivity() * curvature;
+    newTemperature[cell] = temperature[cell] + dt / settings.capacity() * heating;
   });
 }
 
 template <int D>
 void sumEnergy(const Patch& patch, const Settings& settings, CellView<const double> temperature, Sum& energy) {
-  const double capacity = settings.density * settings.specificHeat * patch.level().cellVolume();
+  const double capacity = settings.capacity() * patch.level().cellVolume();
   forEach<D>(patch.cells(), [&](const Index<D>& cell) { energy.add(capacity * temperature[cell]); });
 }
 
@@ -88,7 +121,9 @@ const input::Schema<Settings>& schema() {
   static const input::Schema<Settings> schema =
       input::Schema<Settings>("Heat", "Heat conduction.")
           .location(&Settings::where)
-          .value("thermal_conductivity", &Settings::conductivity, 1, "W/(m K)", "k", input::positive())
+          .value("thermal_conductivity", &Settings::conductivity, input::Expression(1.0), "W/(m K)",
+                 "k", input::WithoutTime(),
+                 input::positive())
           .value("density", &Settings::density, 1, "kg/m^3", "rho", input::positive())
           .value("specific_heat", &Settings::specificHeat, 1, "J/(kg K)", "c", input::positive())
           .value("cfl", &Settings::cfl, 0.9, "1", "part of the greatest stable time step", input::positive(),

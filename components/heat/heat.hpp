@@ -15,13 +15,13 @@ inline constexpr ReductionLabel<Sum> totalEnergy{"TotalEnergy", "J", "heat in al
 /// The `Heat` section.
 struct Settings {
   Location where;                     ///< in the scene
-  double conductivity = 1;            ///< k, W/(m K)
+  input::Expression conductivity{1.0};  ///< k, W/(m K)
   double density = 1;                 ///< rho, kg/m³
   double specificHeat = 1;            ///< c, J/(kg K)
   double cfl = 0.9;                   ///< part of the greatest stable time step
   input::Expression temperature{0.0};  ///< at the start, K
 
-  double diffusivity() const { return conductivity / (density * specificHeat); }  ///< m²/s
+  double capacity() const { return density * specificHeat; }  ///< rho c, J/(m³ K)
 };
 
 /// Heat conduction, rho c dT/dt = k div grad T, explicit in time, centred in space, in D dimensions.
@@ -43,15 +43,18 @@ class Heat : public Component {
   Settings settings_;
 };
 
-/// T at the middle of each cell, from the scene's formula. Throws InputError where that is not finite.
+/// T at the middle of each cell, from the scene's formula. Throws InputError where that is not finite, or k not greater
+/// than 0.
 template <int D>
 void initialize(const Patch& patch, const Settings& settings, CellView<double> temperature);
 
-/// dt = cfl / (2 a sum_d 1/h_d²), a = k / (rho c): the limit of the explicit method (von Neumann).
+/// dt = cfl rho c / max(sum over the cell's faces of k / h_d²), for one k everywhere the limit of von Neumann: no cell
+/// overshoots its neighbours.
 template <int D>
 void computeStableTimeStep(const Patch& patch, const Settings& settings, Minimum& dt);
 
-/// T' = T + dt a sum_d (T_{i-1} - 2 T_i + T_{i+1}) / h_d².
+/// T' = T + dt sum_d (k_{i-1/2} (T_{i-1} - T_i) + k_{i+1/2} (T_{i+1} - T_i)) / (rho c h_d²); k at faces is the harmonic
+/// mean of both cells, so that the flux is right where k jumps (Patankar, Numerical Heat Transfer and Fluid Flow, 4.2).
 template <int D>
 void conduct(const Patch& patch, const Settings& settings, CellView<const double> temperature, double dt,
              CellView<double> newTemperature);

@@ -85,6 +85,7 @@ struct ConservingSection {
   double cfl = 0.5, advectiveCfl = 0.8;
   std::optional<double> longestParticle;
   std::optional<Viscosity> viscosity;
+  double heatConduction = 0;
   std::optional<Remap> remap;
 };
 const Schema<ConservingSection>& conservingSchema() {
@@ -113,6 +114,10 @@ const Schema<ConservingSection>& conservingSchema() {
           .ours()
           .section("artificial_viscosity", &ConservingSection::viscosity, viscosity)
           .ours()
+          .value("artificial_heat_conduction", &ConservingSection::heatConduction, 0, "1",
+                 "C_h: heat flows C_h rho h |dv/dx| de/dx h where cells are compressed (Noh 1987); 1 takes wall heating "
+                 "away", input::between(0, 1))
+          .ours()
           .section("remap", &ConservingSection::remap, remapSchema())
           .ours();
   return schema;
@@ -126,6 +131,7 @@ ConservingGasDynamics settle(const ConservingSection& read, int dimension) {
   method.advectiveCfl = read.advectiveCfl;
   method.longestParticle = read.longestParticle.value_or(apic && dimension == 1 ? 2.5 : 1.4);
   method.viscosity = read.viscosity.value_or(apic ? Viscosity{1, 0.5} : Viscosity{0.25, 0.25});
+  method.heatConduction = read.heatConduction;
   method.remap = read.remap;
   return method;
 }
@@ -212,10 +218,21 @@ const Schema<ModelSection>& modelSchema() {
   return schema;
 }
 
+const Schema<Relaxation>& relaxationSchema() {
+  static const Schema<Relaxation> schema =
+      Schema<Relaxation>("relaxation", "A source of heat, de/dt = -rate (e - internal_energy), integrated exactly.")
+          .required("rate", &Relaxation::rate, "1/s", "how fast", input::nonNegative())
+          .ours()
+          .required("internal_energy", &Relaxation::internalEnergy, "J/kg", "what the gas goes to", input::positive())
+          .ours();
+  return schema;
+}
+
 struct MaterialSection {
   std::string name;
   std::optional<double> density;
   ModelSection model;
+  std::optional<Relaxation> relaxation;
   std::vector<ObjectSection> objects;
   double thermalConductivity = 0, specificHeat = 0;
 };
@@ -225,6 +242,8 @@ const Schema<MaterialSection>& materialSchema() {
           .attributeValue("name", &MaterialSection::name, "gas", "1", "its name")
           .optional("density", &MaterialSection::density, "kg/m^3", "density at the start", input::positive())
           .requiredSection("constitutive_model", &MaterialSection::model, modelSchema())
+          .section("relaxation", &MaterialSection::relaxation, relaxationSchema())
+          .ours()
           .value("thermal_conductivity", &MaterialSection::thermalConductivity, 0, "W/(m K)",
                  "must be 0: the gas method conducts no heat", input::between(0, 0))
           .value("specific_heat", &MaterialSection::specificHeat, 0, "J/(kg K)",
@@ -272,6 +291,7 @@ Gas makeGas(const MaterialSection& material) {
   Gas gas;
   gas.name = material.name;
   gas.gamma = material.model.gamma;
+  gas.relaxation = material.relaxation;
   for (const ObjectSection& object : material.objects) {
     const input::Expression density = object.density ? *object.density : input::Expression(*material.density);
     gas.objects.push_back({object.where, object.shape, object.res, density, pressureOf(object, density, material.model),

@@ -46,6 +46,9 @@ inline constexpr ReductionLabel<VectorSum> momentum{"TotalMomentum", "kg m/s", "
 inline constexpr ReductionLabel<Sum> kineticEnergy{"KineticEnergy", "J", "kinetic energy of all particles"};
 inline constexpr ReductionLabel<Sum> internalEnergy{"InternalEnergy", "J", "internal energy of all particles"};
 inline constexpr ReductionLabel<Sum> energy{"TotalEnergy", "J", "kinetic and internal energy of all particles"};
+inline constexpr ReductionLabel<Minimum> leastDensity{"LeastDensity", "kg/m^3", "least density of any particle"};
+inline constexpr ReductionLabel<Minimum> leastEnergy{"LeastInternalEnergy", "J/kg", "least internal energy of any particle"};
+inline constexpr ReductionLabel<Sum> entropy{"TotalEntropy", "kg", "entropy of all particles over c_v, but for a constant"};
 inline constexpr ReductionLabel<VectorSum> centerOfMass{"CenterOfMassPosition", "kg m",
                                                                 "sum of mass times position, as in Uintah"};
 }  // namespace total

@@ -9,6 +9,7 @@
 #include "components/mpm/tasks/interpolate_particles_to_grid.hpp"
 #include "components/mpm/tasks/measure_error.hpp"
 #include "components/mpm/tasks/redistribute.hpp"
+#include "components/mpm/tasks/relax_energy.hpp"
 #include "components/mpm/tasks/update_particles.hpp"
 
 namespace tushar::mpm {
@@ -34,6 +35,7 @@ void Mpm<D>::scheduleTimeAdvance(TaskList& tasks) const {
   scheduleComputeInternalForce(tasks);
   scheduleComputeAndIntegrateAcceleration(tasks);
   scheduleUpdateParticles(tasks);
+  scheduleRelaxEnergy(tasks, materials_);
   tasks.relocate(p::x<D>, materials_);
   if (method_.redistribute) scheduleRedistribute(tasks);
   if (method_.densityFilter) scheduleFilterDensity(tasks);
@@ -131,6 +133,10 @@ void Mpm<D>::scheduleDiagnostics(TaskList& tasks) const {
                     computes(total::energy));
   tasks.perMaterial("mpm::sumCenterOfMass", sumCenterOfMass<D>, materials_, requiresOld(p::mass),
                     requiresOld(p::x<D>), computes(total::centerOfMass));
+  tasks.perMaterial("mpm::findLeast", findLeast, materials_, requiresOld(p::density), requiresOld(p::internalEnergy),
+                    computes(total::leastDensity), computes(total::leastEnergy));
+  tasks.perMaterial("mpm::sumEntropy", sumEntropy<D>, materials_, requiresOld(p::mass), requiresOld(p::density),
+                    requiresOld(p::internalEnergy), computes(total::entropy));
   tasks.perMaterial("mpm::computeVolume", computeVolume, materials_, requiresOld(p::mass), requiresOld(p::density),
                     computes(p::volume));
 }

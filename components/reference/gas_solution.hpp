@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "components/reference/gas_reference.hpp"
@@ -42,8 +43,8 @@ enum class MeasuredPlace { particle, cell, node };
 class GasSolution {
  public:
   virtual ~GasSolution() = default;
-  /// Ratio of specific heats of the gas.
-  virtual double gamma() const = 0;
+  /// Ratio of specific heats of the gas; none where no one number describes the flow.
+  virtual std::optional<double> gamma() const = 0;
   /// The places whose error labels scheduleMeasureError's tasks compute.
   virtual std::vector<MeasuredPlace> measuredPlaces() const {
     return {MeasuredPlace::particle, MeasuredPlace::cell, MeasuredPlace::node};

@@ -117,12 +117,14 @@ struct VectorSum {
   std::vector<double> values() const { return {x.total(), y.total(), z.total()}; }
 };
 
-/// Norms of an error, unweighted over whatever it is added for: L1 = mean |e|, L2 = sqrt(mean e²), max |e|.
+/// Norms of an error, unweighted over whatever it is added for: L1 = mean |e|, L2 = sqrt(mean e²), max |e|, and L1 over
+/// the mean magnitude of the exact values, where they are told.
 struct Norm {
-  Sum absolute, squared, count;
+  Sum absolute, squared, count, exact;
   double max = 0;
 
-  void add(double e) {
+  void add(double e, double magnitude = 0) {
+    exact.add(std::abs(magnitude));
     absolute.add(std::abs(e));
     squared.add(e * e);
     count.add(1);
@@ -132,11 +134,13 @@ struct Norm {
     absolute.merge(other.absolute);
     squared.merge(other.squared);
     count.merge(other.count);
+    exact.merge(other.exact);
     max = other.max > max || std::isnan(other.max) ? other.max : max;
   }
   double l1() const { return absolute.total() / count.total(); }
   double l2() const { return std::sqrt(squared.total() / count.total()); }
-  std::vector<double> values() const { return {l1(), l2(), max}; }
+  double relative() const { return absolute.total() / exact.total(); }
+  std::vector<double> values() const { return {l1(), l2(), max, relative()}; }
 };
 
 /// The time step; tasks of scheduleComputeStableTimeStep lower it, each with the name of its limit as the reason.

@@ -9,7 +9,7 @@
 namespace tushar::simulation {
 
 /// An error norm that an analysis module measures: `density` at the `particle`s, by the reduction `label` of type
-/// data::Norm, or data::Maximum for max alone. `norms` lists those that mean something, of L1, L2 and max.
+/// data::Norm, or data::Maximum for max alone. `norms` lists those that mean something, of L1, L2, max and relative.
 struct MeasuredError {
   std::string field, place;
   const data::Label* label;

@@ -12,7 +12,7 @@ namespace tushar::simulation {
 /// Norms of one error; NaN where a norm has no meaning.
 struct ErrorNorms {
   std::string field, place;
-  std::map<std::string, double> norms;  ///< L1, L2, max
+  std::map<std::string, double> norms;  ///< L1, L2, max, relative
   std::string unit;
 };
 

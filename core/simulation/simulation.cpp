@@ -301,7 +301,7 @@ void Simulation::reportErrors(Report& report) {
       if (values.empty()) continue;
       ErrorNorms norms{error.field, error.place, {}, std::string(error.label->unit)};
       for (const std::string& norm : error.norms)
-        norms.norms[norm] = values.size() == 1 ? values[0] : values[norm == "L1" ? 0 : norm == "L2" ? 1 : 2];
+        norms.norms[norm] = values.size() == 1 ? values[0] : values[norm == "L1" ? 0 : norm == "L2" ? 1 : norm == "max" ? 2 : 3];
       report.errors.push_back(norms);
     }
   }

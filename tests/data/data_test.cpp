@@ -53,11 +53,11 @@ TEST(Sum, IsTheSameInLanes) {
 
 TEST(Norm, HasMeanRootMeanSquareAndMaximum) {
   Norm norm, rest;
-  norm.add(3);
-  rest.add(-4);
+  norm.add(3, 10);
+  rest.add(-4, -4);
   norm.merge(rest);
 
-  EXPECT_EQ(norm.values(), (std::vector<double>{3.5, std::sqrt(12.5), 4}));
+  EXPECT_EQ(norm.values(), (std::vector<double>{3.5, std::sqrt(12.5), 4, 0.5}));
 }
 
 TEST(Norm, DoesNotHideANaN) {

@@ -50,6 +50,30 @@ double internalEnergyPerVolume(double density, const Vec<D>& momentum, double to
   return totalEnergy - 0.5 * momentum.squaredNorm() / density;
 }
 
+/// Least density [kg/m³] and internal energy [J/kg] of any cell.
+template <int D>
+void findLeast(const Patch& patch, CellView<const double> density, CellView<const Vec<D>> momentum,
+               CellView<const double> totalEnergy, Minimum& leastDensity, Minimum& leastEnergy) {
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    leastDensity.add(density[cell]);
+    leastEnergy.add(internalEnergyPerVolume<D>(density[cell], momentum[cell], totalEnergy[cell]) / density[cell]);
+  });
+}
+
+/// Sum of m (ln((p + p_inf) / ((gamma - 1) rho)) - (gamma - 1) ln rho) [kg]: entropy over c_v, but for a constant that
+/// the units decide.
+template <int D>
+void sumEntropy(const Patch& patch, const Gas& gas, CellView<const double> density, CellView<const Vec<D>> momentum,
+                CellView<const double> totalEnergy, Sum& entropy) {
+  WideSum sum(entropy);
+  const double volume = patch.level().cellVolume(), less = gas.gamma - 1;
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    const double rho = density[cell];
+    const double p = gas.pressure(internalEnergyPerVolume<D>(rho, momentum[cell], totalEnergy[cell]));
+    sum.add(volume * rho * (std::log((p + gas.pInfinity) / (less * rho)) - less * std::log(rho)));
+  });
+}
+
 template <int D>
 void computePressure(const Patch& patch, const Gas& gas, CellView<const double> density,
                      CellView<const Vec<D>> momentum, CellView<const double> totalEnergy, CellView<double> pressure) {

@@ -23,10 +23,10 @@ void measureCellError(const Patch& patch, const Gas& gas, const reference::GasRe
     const auto mean = exact->average(level.expandPoint<D>(lower), level.expandPoint<D>(upper), clock->time);
     const double internal = internalEnergyPerVolume<D>(density[cell], momentum[cell], totalEnergy[cell]);
     const Vec<D> velocity = momentum[cell] / density[cell];
-    rho.add(density[cell] - mean.density);
-    u.add((level.expandDirection<D>(velocity) - mean.velocity).norm());
-    pressure.add(gas.pressure(internal) - mean.pressure);
-    energy.add(internal / density[cell] - mean.energy);
+    rho.add(density[cell] - mean.density, mean.density);
+    u.add((level.expandDirection<D>(velocity) - mean.velocity).norm(), mean.velocity.norm());
+    pressure.add(gas.pressure(internal) - mean.pressure, mean.pressure);
+    energy.add(internal / density[cell] - mean.energy, mean.energy);
   });
 }
 

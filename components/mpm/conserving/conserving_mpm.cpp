@@ -3,11 +3,13 @@
 #include "components/mpm/conserving/cells.hpp"
 #include "components/mpm/conserving/create_boxes.hpp"
 #include "components/mpm/conserving/diagnose.hpp"
+#include "components/mpm/conserving/heat_conduction.hpp"
 #include "components/mpm/conserving/redistribute.hpp"
 #include "components/mpm/conserving/stable_time_step.hpp"
 #include "components/mpm/conserving/transfer.hpp"
 #include "components/mpm/tasks/diagnose.hpp"
 #include "components/mpm/tasks/measure_error.hpp"
+#include "components/mpm/tasks/relax_energy.hpp"
 
 namespace tushar::mpm {
 
@@ -41,6 +43,7 @@ void ConservingMpm<D>::scheduleTimeAdvance(TaskList& tasks) const {
     scheduleStep<Apic>(tasks);
   else
     scheduleStep<AffineFlip>(tasks);
+  scheduleRelaxEnergy(tasks, materials_);
   tasks.relocate(p::x<D>, materials_);
   scheduleRedistribute(tasks);
   scheduleGridState(tasks);
@@ -60,6 +63,10 @@ void ConservingMpm<D>::scheduleStep(TaskList& tasks) const {
   tasks.perMaterial("mpm::computeWork", conserving::computeWork<D>, materials_, requiresNew(c::stress<D>),
                     requiresOld(c::internalEnergy), requiresOld(g::velocity<D>), requiresNew(g::acceleration<D>),
                     requiresOld(delT), computes(c::work));
+  if (method_.heatConduction > 0)
+    tasks.perMaterial("mpm::conductHeat", conserving::conductHeat<D>, materials_, with(method_.heatConduction),
+                      requiresOld(c::mass, 1), requiresOld(c::internalEnergy, 1), requiresOld(c::velocityGradient<D>, 1),
+                      requiresOld(delT), modifies(c::work));
   tasks.perMaterial("mpm::updateParticles", conserving::updateParticles<D, Scheme>, materials_, requiresOld(p::x<D>),
                     requiresOld(p::edges<D>), requiresOld(p::velocity<D>), requiresOld(p::modes<D>),
                     requiresOld(p::internalEnergy), requiresOld(p::affineEnergy), requiresOld(g::velocity<D>, overhang),
@@ -138,6 +145,10 @@ void ConservingMpm<D>::scheduleDiagnostics(TaskList& tasks) const {
   tasks.perMaterial("mpm::computeDensity", conserving::computeDensity<D>, materials_, requiresOld(p::mass),
                     requiresOld(p::edges<D>), requiresOld(p::internalEnergy), computes(p::density),
                     computes(p::pressure), computes(p::volume));
+  tasks.perMaterial("mpm::findLeast", findLeast, materials_, requiresNew(p::density), requiresOld(p::internalEnergy),
+                    computes(total::leastDensity), computes(total::leastEnergy));
+  tasks.perMaterial("mpm::sumEntropy", sumEntropy<D>, materials_, requiresOld(p::mass), requiresNew(p::density),
+                    requiresOld(p::internalEnergy), computes(total::entropy));
   tasks.perMaterial("mpm::computeCellDensity", conserving::computeCellDensity<D>, materials_, requiresOld(c::mass),
                     computes(c::density));
   tasks.perMaterial("mpm::computeCellVelocity", conserving::computeCellVelocity<D>, materials_,

@@ -25,7 +25,7 @@ class ConservingMpm : public Component, public reference::GasSolution {
   void scheduleComputeStableTimeStep(TaskList& tasks) const override;
   void scheduleTimeAdvance(TaskList& tasks) const override;
   void scheduleDiagnostics(TaskList& tasks) const override;
-  double gamma() const override { return materials_.front().gamma; }
+  std::optional<double> gamma() const override { return materials_.front().effectiveGamma(); }
   void scheduleMeasureError(TaskList& tasks, const reference::GasReference& reference,
                             const reference::Clock& clock) const override;
 

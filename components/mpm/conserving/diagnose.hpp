@@ -98,10 +98,10 @@ void measureCellError(const Patch& patch, const Gas& gas, const reference::GasRe
       upper[d] = level.nodePosition(d, cell[d] + 1);
     }
     const auto state = exact->average(level.expandPoint<D>(lower), level.expandPoint<D>(upper), clock->time);
-    density.add(m / volume - state.density);
-    u.add((level.expandDirection<D>(velocity[cell]) - state.velocity).norm());
-    pressure.add((gas.gamma - 1) * ie / volume - state.pressure);
-    energy.add((m > 0 ? ie / m : 0) - state.energy);
+    density.add(m / volume - state.density, state.density);
+    u.add((level.expandDirection<D>(velocity[cell]) - state.velocity).norm(), state.velocity.norm());
+    pressure.add((gas.gamma - 1) * ie / volume - state.pressure, state.pressure);
+    energy.add((m > 0 ? ie / m : 0) - state.energy, state.energy);
   });
 }
 

@@ -23,6 +23,7 @@ struct ConservingGasDynamics {
   double advectiveCfl = 0.8;      ///< affineFlip: dt max |v_d| / h
   double longestParticle = 2.5;   ///< cells; longer ones are halved
   Viscosity viscosity{1.0, 0.5};
+  double heatConduction = 0;  ///< C_h of artificial heat conduction at shocks
   std::optional<Remap> remap;
 };
 

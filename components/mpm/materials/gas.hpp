@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,16 +30,25 @@ struct GasObject {
   int seed = 0;  ///< of the places that are drawn
 };
 
+/// A source of heat, de/dt = -rate (e - internalEnergy): radiation or a wall that keep a gas near one temperature.
+struct Relaxation {
+  double rate = 0;            ///< 1/s
+  double internalEnergy = 0;  ///< J/kg, what the gas goes to
+};
+
 /// An ideal gas: p = (gamma - 1) rho epsilon, (3) of Tran, Kim & Berzins.
 struct Gas {
   std::string name;
   double gamma = 1.4;  ///< ratio of specific heats
   std::vector<GasObject> objects;
+  std::optional<Relaxation> relaxation;
 
   /// Pressure [Pa] of density rho [kg/m³] and internal energy e [J/kg].
   double pressure(double rho, double e) const { return (gamma - 1) * rho * e; }
   /// Internal energy [J/kg] of density rho [kg/m³] and pressure p [Pa].
   double internalEnergy(double rho, double p) const { return p / ((gamma - 1) * rho); }
+  /// What the flow answers to; none where heat from outside decides, too.
+  std::optional<double> effectiveGamma() const { return relaxation ? std::nullopt : std::optional(gamma); }
   /// Square of the speed of sound [m²/s²].
   double soundSpeedSquared(double e) const { return gamma * (gamma - 1) * e; }
 };

@@ -55,6 +55,28 @@ void sumCenterOfMass(const Patch& patch, const Gas&, ParticleView<const double> 
   for (int p = 0; p < mass.owned(); ++p) centre.add(mass[p] * patch.level().expandPoint<D>(x[p]));
 }
 
+/// Least density [kg/m³] and internal energy [J/kg] of any particle.
+inline void findLeast(const Patch&, const Gas&, ParticleView<const double> density,
+                      ParticleView<const double> internalEnergy, Minimum& leastDensity, Minimum& leastEnergy) {
+  for (int p = 0; p < density.owned(); ++p) {
+    leastDensity.add(density[p]);
+    leastEnergy.add(internalEnergy[p]);
+  }
+}
+
+/// Sum of m (ln e - (gamma - 1) ln rho) [kg]: entropy over c_v, but for a constant that the units decide.
+template <int D>
+void sumEntropy(const Patch& patch, const Gas& gas, ParticleView<const double> mass, ParticleView<const double> density,
+                ParticleView<const double> internalEnergy, Sum& entropy) {
+  WideSum sum(entropy);
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    double s = 0;
+    for (const int p : mass.in(cell))
+      s += mass[p] * (std::log(internalEnergy[p]) - (gas.gamma - 1) * std::log(density[p]));
+    sum.add(s);
+  });
+}
+
 /// V_p = m_p / rho_p [m³].
 inline void computeVolume(const Patch&, const Gas&, ParticleView<const double> mass, ParticleView<const double> density,
                           ParticleView<double> volume) {

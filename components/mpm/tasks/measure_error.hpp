@@ -19,10 +19,10 @@ void measureParticleError(const Patch& patch, const Gas& gas, const reference::G
     const Vec3 place = level.expandPoint<D>(x[p]);
     if (!exact->covers(place, clock->time)) continue;
     const reference::GasState state = exact->at(place, clock->time);
-    rho.add(density[p] - state.density);
-    u.add((level.expandDirection<D>(velocity[p]) - state.velocity).norm());
-    pressure.add(gas.pressure(density[p], internalEnergyPerMass[p]) - state.pressure);
-    energy.add(internalEnergyPerMass[p] - state.energy);
+    rho.add(density[p] - state.density, state.density);
+    u.add((level.expandDirection<D>(velocity[p]) - state.velocity).norm(), state.velocity.norm());
+    pressure.add(gas.pressure(density[p], internalEnergyPerMass[p]) - state.pressure, state.pressure);
+    energy.add(internalEnergyPerMass[p] - state.energy, state.energy);
   }
 }
 
@@ -49,10 +49,10 @@ void measureCellError(const Patch& patch, const Gas& gas, const reference::GasRe
       upper[d] = level.nodePosition(d, cell[d] + 1);
     }
     const auto state = exact->average(level.expandPoint<D>(lower), level.expandPoint<D>(upper), clock->time);
-    rho.add(mean.density / count - state.density);
-    u.add((mean.velocity / count - state.velocity).norm());
-    pressure.add(mean.pressure / count - state.pressure);
-    energy.add(mean.energy / count - state.energy);
+    rho.add(mean.density / count - state.density, state.density);
+    u.add((mean.velocity / count - state.velocity).norm(), state.velocity.norm());
+    pressure.add(mean.pressure / count - state.pressure, state.pressure);
+    energy.add(mean.energy / count - state.energy, state.energy);
   });
 }
 

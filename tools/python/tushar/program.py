@@ -1,4 +1,5 @@
 """The simulator that the tools run: the release build of this repository."""
+import json
 import os
 import pathlib
 import subprocess
@@ -10,6 +11,22 @@ SUS = str(ROOT / "build/release/sus")
 def scene_path(scene):
     """A scene as the caller or, failing that, the root of the repository knows it."""
     return pathlib.Path(scene).resolve() if os.path.exists(scene) else ROOT / scene
+
+
+class SceneError(Exception):
+    """What sus says of a scene that it does not run."""
+
+
+def run_scene(sus, scene, sets, folder):
+    """Runs a scene with overrides, its files in `folder`: the report. `failure` is a sentence for one that died, else empty."""
+    path = pathlib.Path(folder, "report.json")
+    command = [str(sus), str(scene_path(scene)), "--quiet", "--json", str(path), "--output", str(folder)]
+    for override in sets:
+        command += ["--set", override]
+    done = subprocess.run(command, capture_output=True, text=True)
+    if done.returncode not in (0, 4):
+        raise SceneError(f"{scene}: {done.stderr.strip() or 'sus failed'}")
+    return json.loads(path.read_text()) if path.exists() else {"failure": done.stderr.strip()}
 
 
 def ensure_built(sus):

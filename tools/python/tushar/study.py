@@ -8,11 +8,10 @@ import math
 import pathlib
 import re
 import statistics
-import subprocess
 import tempfile
 import time
 
-from tushar.program import scene_path
+from tushar.program import SceneError, run_scene, scene_path
 from tushar.shorthand import SHORT
 
 
@@ -103,15 +102,12 @@ class Study:
     def _report(self, case):
         """The report of one run of a case; a run that dies gives the sentence that it died with."""
         with tempfile.TemporaryDirectory(prefix="run-", dir=self.folder) as folder:
-            path = pathlib.Path(folder, "report.json")
-            command = [str(self.sus), str(scene_path(case.method.scene)), "--quiet", "--json", str(path),
-                       "--output", folder]
-            for override in ["DataArchiver/outputInterval=0", *case.overrides()]:
-                command += ["--set", override]
-            done = subprocess.run(command, capture_output=True, text=True)
-            if done.returncode not in (0, 4):
-                raise StudyError(f"{case.method.scene}: {done.stderr.strip() or 'sus failed'}")
-            return {"died": done.stderr.strip()} if done.returncode == 4 else json.loads(path.read_text())
+            sets = ["DataArchiver/outputInterval=0", *case.overrides()]
+            try:
+                report = run_scene(self.sus, case.method.scene, sets, folder)
+            except SceneError as problem:
+                raise StudyError(str(problem)) from None
+            return {"died": report["failure"]} if report["failure"] else report
 
     def _save(self):
         path = self.folder / "study.json.tmp"
