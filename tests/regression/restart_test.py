@@ -63,6 +63,8 @@ class Restart(unittest.TestCase):
         """Cut between two remaps, where there are any: these come every 4 steps, the checkpoint is of step 6."""
         until = "Time/max_Timesteps=12"
         for scene in sorted(pathlib.Path("ups").glob("*/*.ups")):
+            if scene.parent.name == "stability":
+                continue  # some have one cell, and some die
             tube = ",1,1]</resolution>" in scene.read_text()
             before, after = ("[2,1,1]", "[7,1,1]") if tube else ("[2,3,1]", "[7,2,1]")
             self.assert_same(scene, cut=9, until=until, before=before, after=after)
