@@ -8,6 +8,7 @@
 #include "components/mpm/input.hpp"
 #include "components/reference/modules.hpp"
 #include "core/simulation/exact_solution.hpp"
+#include "core/simulation/particle_extract.hpp"
 
 namespace tushar {
 
@@ -30,6 +31,7 @@ simulation::Catalogue catalogue() {
           reference::sedovKind(),
           reference::tabulatedKind(),
           simulation::exactSolutionKind(),
+          simulation::particleExtractKind(),
       },
   };
 }

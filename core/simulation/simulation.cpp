@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/interrupt.hpp"
@@ -71,7 +72,7 @@ void Simulation::begin() {
 }
 
 void Simulation::openArchive() {
-  saves_ = !phases_.savedFields().empty() || !phases_.savedGlobals().empty();
+  saves_ = !phases_.savedFields().empty() || !phases_.savedGlobals().empty() || samples();
   const ArchiveSettings& settings = problem_.archive;
   const output::ArchiveOptions how{settings.doubleAsFloat, settings.compression, TUSHAR_VERSION};
   if (problem_.restart) return reopenArchive(how);
@@ -137,7 +138,7 @@ void Simulation::diagnose(tasks::TaskGraph& graph) {
 }
 
 void Simulation::saveGlobals() {
-  if (!archive_ || phases_.savedGlobals().empty()) return;
+  if (!archive_ || (phases_.savedGlobals().empty() && !samples())) return;
   diagnose(phases_.everyStep);
   const auto started = Clock::now();
   for (const std::string& name : phases_.savedGlobals()) {
@@ -146,7 +147,20 @@ void Simulation::saveGlobals() {
     archive_->appendGlobal(
         {name, std::string(label.unit), std::string(label.description), time_.time(), reduction(name)});
   }
+  for (const auto& analysis : problem_.analyses)
+    if (analysis->isSampleDue()) sample(*analysis);
   wall_output_ += since(started);
+}
+
+bool Simulation::samples() const {
+  return std::any_of(problem_.analyses.begin(), problem_.analyses.end(),
+                     [](const auto& analysis) { return !analysis->samples().empty(); });
+}
+
+void Simulation::sample(Analysis& analysis) {
+  output::Snapshot snapshot = positions();
+  for (const SaveRequest& request : analysis.samples()) addField(snapshot, request);
+  analysis.sample(snapshot, archive_->folder());
 }
 
 bool Simulation::outputDue() const {
@@ -170,7 +184,7 @@ void Simulation::save() {
                              time_.delT(), archive_->folder().string()));
 }
 
-output::Snapshot Simulation::snapshot() {
+output::Snapshot Simulation::positions() {
   output::Snapshot snapshot;
   snapshot.step = time_.step();
   snapshot.time = time_.time();
@@ -182,6 +196,11 @@ output::Snapshot Simulation::snapshot() {
     snapshot.particles.push_back({phases_.materials()[m], static_cast<int>(m), {}});
     snapshot.particles.back().arrays.push_back(gatherArray(warehouse_, Generation::old, number));
   }
+  return snapshot;
+}
+
+output::Snapshot Simulation::snapshot() {
+  output::Snapshot snapshot = positions();
   for (const SaveRequest& save : phases_.savedFields()) addField(snapshot, save);
   for (const auto& analysis : problem_.analyses)
     for (output::Array& column : analysis->exactProfile(*problem_.level)) snapshot.reference.push_back(std::move(column));

@@ -66,9 +66,14 @@ class Simulation {
   void diagnose(tasks::TaskGraph& graph);
   bool hasEnded() const;
   void saveGlobals();
+  /// Whether some analysis looks at particles while the run goes on.
+  bool samples() const;
+  void sample(Analysis& analysis);
   void save();
   void saveIfDue();
   bool outputDue() const;
+  /// The particles of every material, with p.x alone.
+  output::Snapshot positions();
   output::Snapshot snapshot();
   void addField(output::Snapshot& snapshot, const SaveRequest& save);
   void resume();
