@@ -35,6 +35,11 @@ inline constexpr NodeLabel<Matrix3> stress{"g.stressFS", "Pa", "Cauchy stress, m
 template <int D>
 inline constexpr NodeLabel<Vec<D>> externalForce{"g.externalforce", "N", "force of loads"};
 inline constexpr NodeLabel<Octet> record{"g.record", "SI units", "velocity, mass, force and volume of a step in progress"};
+template <int D>
+inline constexpr NodeLabel<Vec<D>> massGradient{"g.massGradient", "kg/m", "gradient of the mass, into the body"};
+template <int D>
+inline constexpr NodeLabel<Vec<D>> massPosition{"g.massPosition", "kg m", "mass of particles times their position"};
+inline constexpr NodeLabel<Matrix3> stressMoment{"g.stressMoment", "Pa m^3", "stress of particles times their volume"};
 inline constexpr NodeLabel<double> heatCapacity{"g.heatCapacity", "J/K", "heat capacity gathered from particles"};
 inline constexpr NodeLabel<double> temperatureNoBC{"g.temperatureNoBC", "K", "temperature gathered from particles"};
 inline constexpr NodeLabel<double> temperature{"g.temperature", "K", "the same, as the sides of the grid have it"};

@@ -5,6 +5,7 @@
 #include "components/mpm/solid/tasks/boundary_force.hpp"
 #include "components/mpm/solid/tasks/diagnose.hpp"
 #include "components/mpm/solid/tasks/exchange_momentum.hpp"
+#include "components/mpm/solid/tasks/friction.hpp"
 #include "components/mpm/solid/tasks/heat.hpp"
 #include "components/mpm/solid/tasks/integrate_acceleration.hpp"
 #include "components/mpm/solid/tasks/interpolate_particles_to_grid.hpp"
@@ -86,6 +87,22 @@ void SolidMpm<Shape>::scheduleInterpolateParticlesToGrid(TaskList& tasks) const 
   if (!problem_.contacts.empty())
     tasks.acrossMaterials("mpm::exMomInterpolated", exMomInterpolated<D>, problem_.materials, with(problem_.contacts),
                           modifies(g::record));
+  if (!hasFriction()) return;
+  tasks.perMaterial("mpm::computeSurface", computeSurface<Shape>, problem_.materials, with(problem_.method.commonSize),
+                    requiresOld(p::x<D>, reach), when(keepsSizes(), requiresOld(p::size<D>, reach)),
+                    requiresOld(p::mass, reach), requiresOld(p::deformationMeasure, reach),
+                    when(keeps_stress_, requiresOld(p::volume, reach)),
+                    when(keeps_stress_, requiresOld(p::stress, reach)), computes(g::massGradient<D>),
+                    computes(g::massPosition<D>), computes(g::stressMoment));
+  scheduleFriction(tasks, "mpm::frictionInterpolated");
+}
+
+/// Before and after the velocities are integrated.
+template <class Shape>
+void SolidMpm<Shape>::scheduleFriction(TaskList& tasks, const std::string& name) const {
+  tasks.acrossMaterials(name, applyFriction<D>, problem_.materials, with(problem_.contacts), requiresOld(delT),
+                        requiresNew(g::massGradient<D>), requiresNew(g::massPosition<D>), requiresNew(g::stressMoment),
+                        modifies(g::record));
 }
 
 template <class Shape>
@@ -95,6 +112,7 @@ void SolidMpm<Shape>::scheduleIntegrateAcceleration(TaskList& tasks) const {
   if (!problem_.contacts.empty())
     tasks.acrossMaterials("mpm::exMomIntegrated", exMomIntegrated<D>, problem_.materials, with(problem_.contacts),
                           startTime(), requiresOld(delT), modifies(g::record), computes(total::rigidReactionForce));
+  if (hasFriction()) scheduleFriction(tasks, "mpm::frictionIntegrated");
   tasks.perMaterial("mpm::setGridBoundaryConditions", setGridBoundaryConditions<D>, problem_.materials,
                     modifies(g::record));
 }

@@ -36,12 +36,17 @@ class SolidMpm : public Component {
   static constexpr int D = Shape::dimension;
 
   void scheduleInterpolateParticlesToGrid(TaskList& tasks) const;
+  void scheduleFriction(TaskList& tasks, const std::string& name) const;
   void scheduleIntegrateAcceleration(TaskList& tasks) const;
   void scheduleApplyExternalLoads(TaskList& tasks) const;
   void scheduleUpdateParticles(TaskList& tasks) const;
   void scheduleHeat(TaskList& tasks) const;
 
   bool isViscous() const { return problem_.method.viscosity.has_value(); }
+  bool hasFriction() const {
+    return std::any_of(problem_.contacts.begin(), problem_.contacts.end(),
+                       [](const Contact& contact) { return contact.type == Contact::Type::friction; });
+  }
   bool isLoaded() const { return !problem_.start.loads.empty() || problem_.start.solution; }
   bool keepsSizes() const { return Shape::hasSize && problem_.method.keepsSizes; }
 
