@@ -35,7 +35,16 @@ class SolidMpm : public Component {
  private:
   static constexpr int D = Shape::dimension;
 
-  void scheduleInterpolateParticlesToGrid(TaskList& tasks) const;
+  template <class Reads>
+  void scheduleMomentum(TaskList& tasks, Reads stressed) const;
+  template <class Reads>
+  void scheduleInterpolateParticlesToGrid(TaskList& tasks, Reads stressed) const;
+  template <class Reads>
+  void scheduleMoveParticles(TaskList& tasks, Reads shaped) const;
+  template <class Reads>
+  void scheduleVelocityUpdate(TaskList& tasks, Reads shaped) const;
+  template <class Reads>
+  void scheduleComputeStressTensor(TaskList& tasks, Reads moving) const;
   void scheduleFriction(TaskList& tasks, const std::string& name) const;
   void scheduleIntegrateAcceleration(TaskList& tasks) const;
   void scheduleApplyExternalLoads(TaskList& tasks) const;

@@ -39,8 +39,8 @@ void addAffineVelocity(const Patch& patch, const Material& material, const Metho
                                     level.spacing(d), x[p][d]);
     }
     stencil.forEachNode([&](const Index<D>& node, double, const Vec<D>& factors) {
-      if (!record.stored().template contains<D>(node)) return;
-      Octet& at = record.values()[record.stored().offset(node)];
+      if (!record.box().contains(node)) return;
+      Octet& at = record[node];
       if (at[lane::mass] <= 0) return;
       const Vec<D> change = moment[p].topLeftCorner<D, D>() * factors * (mass[p] / at[lane::mass]);
       setLanes<D>(at, lane::velocity, lanes<D>(at, lane::velocity) + change);

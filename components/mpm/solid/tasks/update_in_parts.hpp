@@ -11,7 +11,7 @@ namespace tushar::mpm::solid {
 template <class Shape, int D = Shape::dimension>
 void moveParticles(const Patch& patch, const Material& material, const Method& method, double dt,
                    NodeView<const Octet> record, ParticleView<const Vec<D>> x, OptionalView<const Vec<D>> size,
-                   ParticleView<const Vec<D>> velocity, ParticleView<const Matrix3> deformation,
+                   ParticleView<const Vec<D>> velocity, OptionalView<const Matrix3> deformation,
                    ParticleView<Vec<D>> newX, ParticleView<Vec<D>> newVelocity) {
   ParticleStates<Shape> states{Extents<Shape>(patch.level(), method.commonSize, size, deformation), x, velocity};
   states.newX = valuesOf(newX);
