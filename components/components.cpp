@@ -6,6 +6,7 @@
 #include "components/heat/heat.hpp"
 #include "components/mpm/analysis/mass_projection.hpp"
 #include "components/mpm/input.hpp"
+#include "components/mpm/solid/analysis/manufactured_error.hpp"
 #include "components/reference/modules.hpp"
 #include "core/simulation/exact_solution.hpp"
 #include "core/simulation/particle_extract.hpp"
@@ -23,6 +24,7 @@ simulation::Catalogue catalogue() {
       {
           burgers::waveKind(),
           mpm::massProjectionKind(),
+          mpm::solid::manufacturedErrorKind(),
           reference::exactRiemannKind(),
           reference::simpleWaveKind(),
           reference::isentropicVortexKind(),

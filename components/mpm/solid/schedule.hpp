@@ -26,7 +26,7 @@ inline constexpr auto old = [](const auto& label, int ghost) { return requiresOl
 inline constexpr auto fresh = [](const auto& label, int ghost) { return requiresNew(label, ghost); };
 
 template <class Shape>
-SolidMpm<Shape>::SolidMpm(Problem problem) : problem_(std::move(problem)) {
+SolidMpm<Shape>::SolidMpm(Problem problem) : Solids(std::move(problem)) {
   const auto any = [&](auto&& holds) {
     return std::any_of(problem_.materials.begin(), problem_.materials.end(), [&](const Material& m) { return holds(*m.model); });
   };

@@ -16,16 +16,24 @@ struct Problem {
   Start start;
 };
 
+/// Solids of any shape function.
+class Solids : public Component {
+ public:
+  explicit Solids(Problem problem) : problem_(std::move(problem)) {}
+  const Problem& problem() const { return problem_; }
+
+ protected:
+  Problem problem_;
+};
+
 /// The Material Point Method for solids: Sulsky, Chen & Schreyer, Comput. Methods Appl. Mech. Engrg. 118 (1994) 179, step
 /// by step as Uintah takes it, stress last.
 ///
 /// solid_mpm.cpp is the schedule and reads as the method; the bodies of its tasks are in tasks/.
 template <class Shape>
-class SolidMpm : public Component {
+class SolidMpm : public Solids {
  public:
   explicit SolidMpm(Problem problem);
-
-  const Problem& problem() const { return problem_; }
 
   void scheduleInitialize(TaskList& tasks) const override;
   void scheduleComputeStableTimeStep(TaskList& tasks) const override;
@@ -59,7 +67,6 @@ class SolidMpm : public Component {
   bool isLoaded() const { return !problem_.start.loads.empty() || problem_.start.solution; }
   bool keepsSizes() const { return Shape::hasSize && problem_.method.keepsSizes; }
 
-  Problem problem_;
   bool keeps_stress_ = false;  ///< some material's stress is not a function of F alone
   bool is_thermal_ = false;    ///< some material's stress depends on the temperature
   int state_size_ = 0;         ///< most numbers that a particle keeps for its model
