@@ -1,25 +1,14 @@
 #!/usr/bin/env python3
 """Solids against what Uintah of July 2026 computes for the same bodies, and the same bits on any patches."""
 import pathlib
-import subprocess
 import sys
-import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from sus import ROOT, SUS, run
+from solids import globals_of
+from sus import run
 
 DISCS = "ups/solid/two_discs.ups"
-
-
-def globals_of(scene, *names):
-    """Name -> the lines of its .dat file, as numbers."""
-    with tempfile.TemporaryDirectory() as folder:
-        subprocess.run([SUS, scene, "--quiet", "--output", folder, "--set", "DataArchiver/outputInterval=0"], cwd=ROOT,
-                       check=True)
-        archive = next(pathlib.Path(folder).glob("*.uda.*"))
-        return {name: [[float(word) for word in line.split()] for line in (archive / f"{name}.dat").read_text().splitlines()
-                       if not line.startswith("#")] for name in names}
 
 
 class Solids(unittest.TestCase):

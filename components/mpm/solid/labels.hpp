@@ -65,6 +65,8 @@ inline constexpr CellLabel<double> stableTimeStep{"c.stableTimeStep", "s",
 /// Totals over all particles.
 namespace total {
 using namespace mpm::total;
+inline constexpr ReductionLabel<VectorSum> angularMomentum{"AngularMomentum", "kg m^2/s",
+                                                           "of all particles about the origin of x, y, z"};
 inline constexpr ReductionLabel<VectorSum> rigidReactionForce{
     "RigidReactionForce", "N", "force on all bodies that a contact of type rigid or specified moves"};
 inline constexpr ReductionLabel<Sum> strainEnergy{

@@ -284,6 +284,9 @@ void SolidMpm<Shape>::scheduleDiagnostics(TaskList& tasks) const {
                     requiresOld(p::velocity<D>), computes(total::momentum));
   tasks.perMaterial("mpm::sumCenterOfMass", sumCenterOfMass<D>, problem_.materials, requiresOld(p::mass),
                     requiresOld(p::x<D>), computes(total::centerOfMass));
+  tasks.perMaterial("mpm::sumAngularMomentum", sumAngularMomentum<D>, problem_.materials, requiresOld(p::mass),
+                    requiresOld(p::x<D>), requiresOld(p::velocity<D>),
+                    when(problem_.method.affine, requiresOld(p::affineMoment)), computes(total::angularMomentum));
   if (!keeps_stress_) {
     tasks.perMaterial("mpm::computeVolume", computeVolume, problem_.materials, requiresOld(p::mass, Shape::reach),
                       requiresOld(p::deformationMeasure, Shape::reach), computes(p::volume));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -31,27 +32,20 @@ struct GimpAxis {
 
   static int fill(double xi, double size, std::array<double, nodes>& s, std::array<double, nodes>& ds) {
     const int first = xi < 0.5 ? -1 : 0;
-    for (int k = 0; k < nodes; ++k) at(xi - (first + k), 0.5 * size, s[std::size_t(k)], ds[std::size_t(k)]);
+    const double inverse = 1 / size, lower = xi - first - 0.5 * size, upper = lower + size;
+    for (std::size_t k = 0; k < nodes; ++k) {
+      const double a = within(lower - static_cast<double>(k)), b = within(upper - static_cast<double>(k));
+      s[k] = inverse * (integral(b) - integral(a));
+      ds[k] = inverse * (std::abs(a) - std::abs(b));
+    }
     return first;
   }
 
  private:
-  /// At the distance r from the node, for a particle that reaches l to either side.
-  static void at(double r, double l, double& s, double& ds) {
-    const double a = std::abs(r), sign = r < 0 ? -1.0 : 1.0, tail = 1 + l - a;
-    if (a < l) {
-      s = 1 - (r * r + l * l) / (2 * l);
-      ds = -r / l;
-    } else if (a < 1 - l) {
-      s = 1 - a;
-      ds = -sign;
-    } else if (tail > 0) {
-      s = tail * tail / (4 * l);
-      ds = -sign * tail / (2 * l);
-    } else {
-      s = ds = 0;
-    }
-  }
+  /// A distance from the node, brought to where the tent function is not 0: what follows has no branches.
+  static double within(double r) { return std::min(std::max(r, -1.0), 1.0); }
+  /// Of the tent function 1 - |r|, from the node on.
+  static double integral(double r) { return r - 0.5 * r * std::abs(r); }
 };
 
 /// Quadratic B-splines about the nodes; Steffen, Kirby & Berzins, Int. J. Numer. Meth. Engng 76 (2008) 922.
