@@ -9,7 +9,7 @@ namespace {
 /// All bodies that take part, seen from a node.
 template <int D>
 struct Gathering {
-  Vec<D> momentum = Vec<D>::Zero(), position = Vec<D>::Zero();
+  Vec<D> momentum = Vec<D>::Zero(), position = Vec<D>::Zero(), massGradient = Vec<D>::Zero();
   double mass = 0;
 };
 
@@ -22,6 +22,7 @@ Gathering<D> gatherBodies(const Contact& contact, const Records& records, const 
     const Octet& record = records[m][node];
     all.momentum += record[lane::mass] * lanes<D>(record, lane::velocity);
     all.position += surfaces.position[m][node];
+    all.massGradient += surfaces.massGradient[m][node];
     all.mass += record[lane::mass];
   }
   return all;
@@ -67,9 +68,11 @@ void rub(const Patch& patch, const Contact& contact, double dt, const Records& r
       // As in Uintah, what is left of a body after rounding does not count as one.
       if (!contact.concerns(static_cast<int>(m)) || mass < 1e-14 * all.mass || all.mass - mass < 1e-14 * all.mass) continue;
       const BodySurface<D> surface = surfaces.at(m, node);
-      const double steepness = surface.massGradient.norm();
+      // One normal for both sides: that of the body alone would catch on the corners of others.
+      const Vec<D> inwards = 2 * surface.massGradient - all.massGradient;
+      const double steepness = inwards.norm();
       if (steepness == 0 || separation<D>(all, surface.position, mass) > reach) continue;
-      const Vec<D> v = lanes<D>(record, lane::velocity), normal = -surface.massGradient / steepness;
+      const Vec<D> v = lanes<D>(record, lane::velocity), normal = -inwards / steepness;
       const Touch<D> touch{normal, v - all.momentum / all.mass, isPressed<D>(level, surface.stress, normal)};
       const Vec<D> change = frictionChange(touch, contact.friction);
       setLanes<D>(record, lane::velocity, v + limited<D>(level, change, dt, mass / (all.mass - mass)));
