@@ -1,5 +1,7 @@
 #pragma once
 
+#include "components/mpm/solid/material.hpp"
+#include "components/mpm/solid/method.hpp"
 #include "components/mpm/solid/tasks/boundary.hpp"
 #include "components/mpm/solid/tasks/extent.hpp"
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Geometry>
+
 #include "components/mpm/solid/labels.hpp"
 #include "components/mpm/solid/material.hpp"
 
