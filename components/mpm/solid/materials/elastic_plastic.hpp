@@ -98,6 +98,7 @@ struct ElasticPlastic {
   static void acceptWhatDoesNotMatter(input::Schema<ElasticPlastic>& tags) {
     tags.ignored("tolerance", "the return is exact to round-off")
         .ignored("coeff_thermal_expansion", "only Uintah's implicit method reads it")
+        .ignored("critical_stress", "Uintah does not read it either")
         .ignored("useModifiedEOS", "only Uintah's coupled fluid reads it")
         .ignored("do_melting", "above <melt_temp> there is no shear stress, as in Uintah");
     for (const char* tag : {"evolve_porosity", "initial_mean_porosity", "initial_std_porosity", "critical_porosity",
@@ -114,7 +115,8 @@ struct ElasticPlastic {
                 },
                 {"plastic_convergence_algo"}, "only radialReturn");
     refuseTypes(tags, "yield_condition", {"vonMises"}, "the yield surface");
-    refuseTypes(tags, "stability_check", {"none"}, "no particle fails by the loss of stability");
+    refuseTypes(tags, "stability_check", {"none", "drucker", "becker", "drucker_becker"},
+                "nothing comes of it: only none where there is an <erosion>");
     refuseTypes(tags, "shear_modulus_model", {"constant_shear"}, "the <shear_modulus> is constant");
     refuseTypes(tags, "melting_temp_model", {"constant_Tm"}, "the <melt_temp> of the material is constant");
     refuseTypes(tags, "deviatoric_stress_model", {"hypoElastic"}, "the stress deviator grows with 2 G dev D");
