@@ -6,11 +6,11 @@ import tempfile
 from sus import ROOT, SUS
 
 
-def globals_of(scene, *names, sets=()):
+def globals_of(scene, *names, sets=(), until=None):
     """Name -> the lines of its .dat file, as numbers: time, value or values."""
     with tempfile.TemporaryDirectory() as folder:
         command = [SUS, scene, "--quiet", "--output", folder, "--set", "DataArchiver/outputInterval=0"]
-        for override in sets:
+        for override in (*sets, *([f"Time/maxTime={until}"] if until else [])):
             command += ["--set", override]
         subprocess.run(command, cwd=ROOT, check=True)
         archive = next(pathlib.Path(folder).glob("*.uda.*"))

@@ -30,7 +30,7 @@ struct MpmSection {
   int integrator = 0;
   Interpolator interpolator = Interpolator::linear;
   bool artificialViscosity = false, withColor = false, axisymmetric = false, useLoadCurves = false;
-  bool conductsHeat = true, xpic = false, affine = false;
+  bool conductsHeat = true, xpic = false, affine = false, viscosityHeats = false;
   double picFraction = 0;
   StressUpdate stressUpdate = StressUpdate::last;
   std::string manufactured;
@@ -66,6 +66,8 @@ const Schema<MpmSection>& mpmSchema() {
                input::nonNegative())
         .value("artificial_viscosity_coeff2", &MpmSection::quadraticViscosity, 2, "1", "factor of D^2 h^2",
                input::nonNegative())
+        .value("artificial_viscosity_heating", &MpmSection::viscosityHeats, false, "1",
+               "the work of the artificial viscosity heats the material")
         .value("artificial_damping_coeff", &MpmSection::damping, 0, "1/s", "acceleration against the velocity",
                input::nonNegative())
         .value("minimum_particle_mass", &MpmSection::minimumParticleMass, 3e-15, "kg",
@@ -193,6 +195,7 @@ Method settle(const MpmSection& read, const PhysicalConstants& constants) {
   method.picFraction = read.affine ? 1 : read.picFraction;
   method.xpic = read.xpic;
   method.affine = read.affine;
+  method.viscosityHeats = read.viscosityHeats;
   return method;
 }
 

@@ -4,6 +4,7 @@
 #include "components/mpm/solid/tasks/affine.hpp"
 #include "components/mpm/solid/tasks/apply_external_loads.hpp"
 #include "components/mpm/solid/tasks/boundary_force.hpp"
+#include "components/mpm/solid/tasks/damage.hpp"
 #include "components/mpm/solid/tasks/diagnose.hpp"
 #include "components/mpm/solid/tasks/exchange_momentum.hpp"
 #include "components/mpm/solid/tasks/friction.hpp"
@@ -30,11 +31,15 @@ SolidMpm<Shape>::SolidMpm(Problem problem) : Solids(std::move(problem)) {
   const auto any = [&](auto&& holds) {
     return std::any_of(problem_.materials.begin(), problem_.materials.end(), [&](const Material& m) { return holds(*m.model); });
   };
-  keeps_stress_ = any([](const Model& model) { return !model.dependsOnDeformationOnly(); });
+  is_damageable_ = std::any_of(problem_.materials.begin(), problem_.materials.end(),
+                               [](const Material& material) { return material.isDamageable(); });
+  keeps_stress_ = is_damageable_ || any([](const Model& model) { return !model.dependsOnDeformationOnly(); });
   is_thermal_ = any([](const Model& model) { return model.usesTemperature(); });
+  heats_ = any([](const Model& model) { return model.heats(); }) || (isViscous() && problem_.method.viscosityHeats);
   for (const Material& material : problem_.materials) state_size_ = std::max(state_size_, material.model->stateSize());
   state_.components = state_size_;
   state_.bytes = static_cast<std::size_t>(state_size_) * sizeof(double);
+  state_views_ = stateViews(problem_.materials);
 }
 
 template <class Shape>
@@ -53,6 +58,10 @@ void SolidMpm<Shape>::scheduleInitialize(TaskList& tasks) const {
   if (problem_.method.affine)
     tasks.perMaterial("mpm::initializeAffineMoment", initializeAffineMoment, problem_.materials, requiresNew(p::mass),
                       computes(p::affineMoment));
+  if (is_damageable_)
+    tasks.perMaterial("mpm::initializeDamage", initializeDamage, problem_.materials, requiresNew(data::particleId),
+                      requiresNew(p::volume), computes(p::damage), computes(p::failureThreshold),
+                      computes(p::localized), computes(p::failureTime));
 }
 
 template <class Shape>
@@ -83,6 +92,7 @@ void SolidMpm<Shape>::scheduleTimeAdvance(TaskList& tasks) const {
       scheduleVelocityUpdate(tasks, fresh);
       break;
   }
+  scheduleHeating(tasks);
   tasks.perMaterial("mpm::addDisplacement", addDisplacement<D>, problem_.materials, requiresOld(p::x<D>),
                     requiresNew(p::x<D>), requiresOld(p::displacement<D>), computes(p::displacement<D>));
   tasks.relocate(p::x<D>, problem_.materials);
@@ -198,11 +208,13 @@ void SolidMpm<Shape>::scheduleUpdateParticles(TaskList& tasks) const {
       requiresOld(p::x<D>), when(keepsSizes(), requiresOld(p::size<D>)), requiresOld(p::velocity<D>),
       requiresOld(p::mass), requiresOld(p::deformationMeasure), when(is_thermal_, requiresOld(p::temperature)),
       when(keeps_stress_, requiresOld(p::volume)), when(keeps_stress_, requiresOld(p::stress)),
-      when(hasState, requiresOld(state_)), computes(p::x<D>), computes(p::velocity<D>), computes(p::deformationMeasure),
+      when(hasState, requiresOld(state_)), when(is_damageable_, requiresOld(p::localized)), computes(p::x<D>),
+      computes(p::velocity<D>), computes(p::deformationMeasure),
       when(keeps_stress_, computes(p::volume)), when(keeps_stress_, computes(p::stress)),
       when(hasState, computes(state_)), when(isViscous(), computes(p::viscosity)),
-      when(problem_.method.strainEnergy, computes(p::strainEnergy)),
+      when(problem_.method.strainEnergy, computes(p::strainEnergy)), when(heats_, computes(p::temperatureChange)),
       when(problem_.method.velocityGradient, computes(p::velocityGradient)), computes(c::stableTimeStep));
+  scheduleDamage(tasks);
 }
 
 /// x and v alone; `shaped` reads the F that shape functions follow.
@@ -267,10 +279,36 @@ void SolidMpm<Shape>::scheduleComputeStressTensor(TaskList& tasks, Reads moving)
       when(keepsSizes(), requiresOld(p::size<D>)), requiresOld(p::velocity<D>), requiresOld(p::mass),
       requiresOld(p::deformationMeasure), when(is_thermal_, requiresOld(p::temperature)),
       when(keeps_stress_, requiresOld(p::volume)), when(keeps_stress_, requiresOld(p::stress)),
-      when(hasState, requiresOld(state_)), computes(p::deformationMeasure), when(keeps_stress_, computes(p::volume)),
+      when(hasState, requiresOld(state_)), when(is_damageable_, requiresOld(p::localized)),
+      computes(p::deformationMeasure), when(keeps_stress_, computes(p::volume)),
       when(keeps_stress_, computes(p::stress)), when(hasState, computes(state_)),
       when(isViscous(), computes(p::viscosity)), when(problem_.method.strainEnergy, computes(p::strainEnergy)),
+      when(heats_, computes(p::temperatureChange)),
       when(problem_.method.velocityGradient, computes(p::velocityGradient)), computes(c::stableTimeStep));
+  scheduleDamage(tasks);
+}
+
+/// What the stress has left of a particle.
+template <class Shape>
+void SolidMpm<Shape>::scheduleDamage(TaskList& tasks) const {
+  if (is_damageable_)
+    tasks.perMaterial("mpm::computeDamage", computeDamage, problem_.materials, with(state_size_), startTime(),
+                      requiresOld(delT), requiresOld(p::temperature), requiresOld(p::damage),
+                      requiresOld(p::failureThreshold), requiresOld(p::localized), requiresOld(p::failureTime),
+                      requiresNew(p::deformationMeasure), requiresNew(p::volume), when(state_size_ > 0, requiresNew(state_)),
+                      modifies(p::stress), computes(p::damage), computes(p::failureThreshold), computes(p::localized),
+                      computes(p::failureTime));
+}
+
+/// The heat of a step's work, once conduction has had its share.
+template <class Shape>
+void SolidMpm<Shape>::scheduleHeating(TaskList& tasks) const {
+  if (heats_ && problem_.method.conductsHeat)
+    tasks.perMaterial("mpm::finalParticleUpdate", addWorkOfStep, problem_.materials, requiresNew(p::temperatureChange),
+                      modifies(p::temperature));
+  else if (heats_)
+    tasks.perMaterial("mpm::finalParticleUpdate", heatByWorkOfStep, problem_.materials,
+                      requiresNew(p::temperatureChange), requiresOld(p::temperature), computes(p::temperature));
 }
 
 template <class Shape>
@@ -287,6 +325,7 @@ void SolidMpm<Shape>::scheduleDiagnostics(TaskList& tasks) const {
   tasks.perMaterial("mpm::sumAngularMomentum", sumAngularMomentum<D>, problem_.materials, requiresOld(p::mass),
                     requiresOld(p::x<D>), requiresOld(p::velocity<D>),
                     when(problem_.method.affine, requiresOld(p::affineMoment)), computes(total::angularMomentum));
+  for (const auto& view : state_views_) view->schedule(tasks, problem_.materials, state_size_, state_);
   if (!keeps_stress_) {
     tasks.perMaterial("mpm::computeVolume", computeVolume, problem_.materials, requiresOld(p::mass, Shape::reach),
                       requiresOld(p::deformationMeasure, Shape::reach), computes(p::volume));

@@ -26,10 +26,11 @@ void computeStressTensor(const Patch& patch, const Material& material, const Met
                          ParticleView<const Vec<D>> velocity, ParticleView<const double> mass,
                          ParticleView<const Matrix3> oldDeformation, OptionalView<const double> temperature,
                          OptionalView<const double> oldVolume, OptionalView<const Matrix3> oldStress,
-                         OptionalView<const double> oldState, ParticleView<Matrix3> deformation,
-                         OptionalView<double> volume, OptionalView<Matrix3> stress, OptionalView<double> state,
-                         OptionalView<double> viscosity, OptionalView<double> strainEnergy,
-                         OptionalView<Matrix3> velocityGradient, CellView<double> stableTimeStep) {
+                         OptionalView<const double> oldState, OptionalView<const int> localized,
+                         ParticleView<Matrix3> deformation, OptionalView<double> volume, OptionalView<Matrix3> stress,
+                         OptionalView<double> state, OptionalView<double> viscosity, OptionalView<double> strainEnergy,
+                         OptionalView<double> temperatureChange, OptionalView<Matrix3> velocityGradient,
+                         CellView<double> stableTimeStep) {
   ParticleStates<Shape> states{Extents<Shape>(patch.level(), method.commonSize, size, oldDeformation), x, velocity};
   states.mass = valuesOf(mass);
   states.temperature = valuesOf(temperature);
@@ -39,12 +40,14 @@ void computeStressTensor(const Patch& patch, const Material& material, const Met
   states.volume = valuesOf(volume);
   states.viscosity = valuesOf(viscosity);
   states.strainEnergy = valuesOf(strainEnergy);
+  states.temperatureChange = valuesOf(temperatureChange);
   states.deformation = valuesOf(deformation);
   states.stress = valuesOf(stress);
   states.velocityGradient = valuesOf(velocityGradient);
   states.state = valuesOf(state);
   states.oldState = valuesOf(oldState);
   states.stateSize = stateSize;
+  states.localized = valuesOf(localized);
   updateParticles<Shape, Update::stress>(patch, material, method, dt, record, states, stableTimeStep);
 }
 
