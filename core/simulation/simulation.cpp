@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/interrupt.hpp"
@@ -17,7 +18,7 @@ Simulation::Simulation(Problem problem, const RunOptions& options, Clock::time_p
       started_at_(startedAt),
       phases_(*problem_.component, problem_.analyses),
       warehouse_(*problem_.level, table_),
-      scheduler_(warehouse_),
+      scheduler_(warehouse_, std::min(options.threads, warehouse_.patches())),
       time_(problem_.time),
       progress_(options.quiet, stdout),
       outputs_(problem_.time.initTime, problem_.archive.outputInterval) {
@@ -228,6 +229,7 @@ Report Simulation::makeReport() {
   report.build = TUSHAR_BUILD_TYPE;
   report.dimension = problem_.level->dimension();
   report.patches = warehouse_.patches();
+  report.threads = scheduler_.threads();
   report.spacing = problem_.level->minSpacing();
   report.cells = static_cast<long>(problem_.level->cells().size());
   report.particles = particleCount(warehouse_, static_cast<int>(phases_.materials().size()));
