@@ -57,7 +57,10 @@ ReductionSlot& Warehouse::slot(int number) {
 }
 
 void Warehouse::resetReduction(int number) {
-  if (auto& slot = reductions_[static_cast<std::size_t>(number)]) slot->reset();
+  if (auto& slot = reductions_[static_cast<std::size_t>(number)])
+    slot->reset();
+  else
+    restored_.erase(number);
 }
 
 std::vector<double> Warehouse::reductionValues(int number) const {

@@ -74,14 +74,9 @@ void Scheduler::forEachPatch(const Work& work) {
   threads_.forEach(static_cast<int>(patches.size()), [&](int k) { work(patches[static_cast<std::size_t>(k)]); });
 }
 
-void Scheduler::startReductions(const TaskGraph& graph) {
-  for (const CompiledTask& task : graph.tasks()) {
-    for (const int reduction : task.readReductions) warehouse_->slot(reduction);
-    for (const int reduction : task.reductions) {
-      warehouse_->slot(reduction).reset();
-      warehouse_->slot(reduction).divide(warehouse_->level().patches().size());
-    }
-  }
+void Scheduler::divideReductions(const CompiledTask& task) {
+  for (const int reduction : task.readReductions) warehouse_->slot(reduction);
+  for (const int reduction : task.reductions) warehouse_->slot(reduction).divide(warehouse_->level().patches().size());
 }
 
 void Scheduler::gatherReductions(const CompiledTask& task) {
@@ -90,7 +85,8 @@ void Scheduler::gatherReductions(const CompiledTask& task) {
 
 std::optional<data::Minimum> Scheduler::run(TaskGraph& graph, const StepInfo& at) {
   relocation_.start();
-  startReductions(graph);
+  for (const CompiledTask& task : graph.tasks())
+    for (const int reduction : task.reductions) warehouse_->resetReduction(reduction);
   auto started = Clock::now();
   for (CompiledTask& task : graph.tasks()) {
     if (!task.fills.empty()) {
@@ -126,6 +122,7 @@ std::optional<data::Minimum> Scheduler::runOrAsk(CompiledTask& task, const StepI
 }
 
 void Scheduler::runWork(CompiledTask& task, const StepInfo& at) {
+  divideReductions(task);
   if (task.task.acrossMaterials) {
     forEachPatch([&](const grid::Patch& patch) { runAcrossMaterials(task, patch, at); });
     return gatherReductions(task);

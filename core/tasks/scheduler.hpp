@@ -44,7 +44,7 @@ class Scheduler {
   void runWork(CompiledTask& task, const StepInfo& at);
   template <class Work>
   void forEachPatch(const Work& work);
-  void startReductions(const TaskGraph& graph);
+  void divideReductions(const CompiledTask& task);
   void gatherReductions(const CompiledTask& task);
   void runOnPatches(CompiledTask& task, int material, const StepInfo& at);
   void refuseBroken(const CompiledTask& task, const MaterialBinding& binding, int material, const StepInfo& at);
