@@ -44,11 +44,15 @@ double coefficientIn(const Level& level, const input::Expression& k, Index<D> ce
 }
 
 /// What a face of the grid adds to the balance of its cell: k A (value - phi) / (h/2) where the scene keeps the value,
-/// k A times the outward derivative where it gives that, else nothing.
+/// k A times the outward derivative where it gives that, else nothing. k is that of the face.
 template <int D>
-void addBoundary(const Level& level, const char* variable, double k, int d, int side, Balance<D>& balance) {
+void addBoundary(const Level& level, const input::Expression& coefficient, const char* variable, int d, int side,
+                 Balance<D>& balance) {
   const auto* condition = level.boundary(d, side, variable);
   if (!condition) return;
+  Vec<D> x = level.cellCentre<D>(balance.cells[0]);
+  x[d] = level.nodePosition(d, side == 0 ? 0 : level.cells().upper[d]);
+  const double k = coefficient(level.expandPoint<D>(x));
   const double area = level.cellVolume() / level.spacing(d), value = condition->value[0];
   if (condition->kind == "Dirichlet") {
     const double weight = 2 * k * area / level.spacing(d);
@@ -72,7 +76,7 @@ Balance<D> balanceOf(const Level& level, const input::Expression& k, const char*
     for (const int side : {0, 1}) {
       const Index<D> next = side == 0 ? cell - Index<D>::unit(d) : cell + Index<D>::unit(d);
       if (number(next) < 0) {
-        addBoundary<D>(level, variable, own, d, side, balance);
+        addBoundary<D>(level, k, variable, d, side, balance);
         continue;
       }
       const double other = coefficientIn<D>(level, k, next), mean = 2 * own * other / (own + other);

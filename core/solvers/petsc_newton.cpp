@@ -1,6 +1,7 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <limits>
 
 #include "core/solvers/petsc_objects.hpp"
 
@@ -32,7 +33,7 @@ PetscErrorCode guarded(Newton& newton, Work&& work) {
   }
 }
 
-PetscErrorCode evaluateResidual(SNES snes, Vec u, Vec r, void* context) {
+PetscErrorCode evaluateResidual(SNES, Vec u, Vec r, void* context) {
   Newton& newton = *static_cast<Newton*>(context);
   return guarded(newton, [&] {
     PetscInt count = 0;
@@ -43,9 +44,10 @@ PetscErrorCode evaluateResidual(SNES snes, Vec u, Vec r, void* context) {
     check(VecGetArray(r, &to));
     const auto size = static_cast<std::size_t>(count);
     const bool admissible = newton.problem.residual({from, size}, {to, size});
+    // The line search goes back from what is infinite.
+    if (!admissible) std::fill_n(to, count, std::numeric_limits<double>::infinity());
     check(VecRestoreArray(r, &to));
     check(VecRestoreArrayRead(u, &from));
-    if (!admissible) check(SNESSetFunctionDomainError(snes));
   });
 }
 

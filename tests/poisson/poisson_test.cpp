@@ -117,9 +117,9 @@ TEST(Poisson, IsOfSecondOrderInAPeriodicBoxWhereAConstantIsFree) {
 }
 
 TEST(Poisson, TakesTheSourceOfTheEndOfTheStep) {
-  // The step goes from t = 0.5 to 1; a parabola is exact but for h²/4 next to kept sides.
+  // The step goes from t = 0.5 to 1; a parabola is off by h²/4 everywhere, from the half cells at its kept sides.
   const Settings settings = settingsOf("2*t");
-  EXPECT_LT(solved<1>(keptAtOne<1>(8), settings, "1 + x*(x - 1)").error, 1.0 / (4 * 64));
+  EXPECT_NEAR(solved<1>(keptAtOne<1>(8), settings, "1 + x*(x - 1)").error, 1.0 / (4 * 64), 1e-9);
 }
 
 TEST(Poisson, NeedsHardlyMoreIterationsOnFinerGrids) {
@@ -138,12 +138,13 @@ TEST(Poisson, GivesTheSameBitsOnAnyPatches) {
   EXPECT_EQ(solved<2>(one, settings, "0").iterations, solved<2>(many, settings, "0").iterations);
 }
 
-TEST(Poisson, PassesAnExactParabolaOverAJumpOfTheCoefficient) {
+TEST(Poisson, KeepsTheFluxOverAJumpOfTheCoefficient) {
   // phi is piecewise linear: k phi' = 1 on both sides of the jump at .5.
   grid::Domain domain = box<1>(8);
   condition(domain, 0, 0, "Dirichlet", 0);
   condition(domain, 0, 1, "Dirichlet", 0.5 + 0.5e-6);
-  const Settings settings = settingsOf("0", "x < 0.5 ? 1 : 1e6");
+  Settings settings = settingsOf("0", "x < 0.5 ? 1 : 1e6");
+  settings.solver = {"preonly", "lu", 1e-10, 1, ""};  // leaves rounding times 1e6
   EXPECT_LT(solved<1>(domain, settings, "x < 0.5 ? x : 0.5 + (x - 0.5)*1e-6").error, 1e-10);
 }
 
