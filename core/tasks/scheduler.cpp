@@ -123,6 +123,7 @@ std::optional<data::Minimum> Scheduler::runOrAsk(CompiledTask& task, const StepI
 
 void Scheduler::runWork(CompiledTask& task, const StepInfo& at) {
   divideReductions(task);
+  if (task.task.perRank) return runOnRank(task, at);
   if (task.task.acrossMaterials) {
     forEachPatch([&](const grid::Patch& patch) { runAcrossMaterials(task, patch, at); });
     return gatherReductions(task);
@@ -161,6 +162,29 @@ void Scheduler::refuseBroken(const CompiledTask& task, const MaterialBinding& bi
   if (const auto broken = firstBroken(*warehouse_, binding.bounded))
     throw NumericalError(fmt::format("{} ({})", broken->sentence, placeOf(task, broken->patch, material, at)), "",
                          broken->label);
+}
+
+void Scheduler::runOnRank(CompiledTask& task, const StepInfo& at) {
+  const int first = firstMaterial(task);
+  std::vector<std::vector<TaskContext>> contexts;
+  for (const grid::Patch& patch : warehouse_->level().patches()) {
+    std::vector<TaskContext>& ofPatch = contexts.emplace_back();
+    for (std::size_t m = 0; m < task.materials.size(); ++m) {
+      allocateOutputs(task.materials[m], patch, static_cast<int>(m) + first);
+      ofPatch.emplace_back(*warehouse_, patch, static_cast<int>(m) + first, task.materials[m].accesses, at.time);
+    }
+  }
+  std::vector<TaskContext> patches;
+  for (const std::vector<TaskContext>& ofPatch : contexts) {
+    patches.push_back(ofPatch.front());
+    patches.back().setMaterials(ofPatch);
+  }
+  TaskContext rank = patches.front();
+  rank.setPatches(patches);
+  located(task, -1, -1, at, [&] { task.task.body(rank); });
+  gatherReductions(task);
+  if (askedBy(task)) return;
+  for (std::size_t m = 0; m < task.materials.size(); ++m) refuseBroken(task, task.materials[m], static_cast<int>(m) + first, at);
 }
 
 void Scheduler::runAcrossMaterials(CompiledTask& task, const grid::Patch& patch, const StepInfo& at) {

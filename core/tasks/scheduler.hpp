@@ -48,6 +48,7 @@ class Scheduler {
   void gatherReductions(const CompiledTask& task);
   void runOnPatches(CompiledTask& task, int material, const StepInfo& at);
   void refuseBroken(const CompiledTask& task, const MaterialBinding& binding, int material, const StepInfo& at);
+  void runOnRank(CompiledTask& task, const StepInfo& at);
   void runAcrossMaterials(CompiledTask& task, const grid::Patch& patch, const StepInfo& at);
   void runPlaced(CompiledTask& task, const grid::Patch& patch, int material, const StepInfo& at);
   void allocateOutputs(const MaterialBinding& binding, const grid::Patch& patch, int material);
