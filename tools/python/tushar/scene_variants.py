@@ -58,6 +58,8 @@ def finite_volumes(root):
     root.remove(root.find("MPM"))
     root.remove(root.find("MaterialProperties"))
     root.insert(place, euler)
+    for kept in root.iterfind("DataArchiver/save"):
+        kept.set("label", kept.get("label").replace("p.", "c.", 1))
 
 
 def _thin_gas(root, bodies):
