@@ -38,8 +38,8 @@ std::optional<std::string> unmeasurable(const std::vector<ErrorNorms>& errors) {
   for (const ErrorNorms& error : errors)
     for (const auto& [norm, value] : error.norms)
       if (!std::isfinite(value))
-        return fmt::format("the end of the run cannot be measured: {} of the error of {}, {}, became {} {}", norm,
-                           error.field, error.place, value, error.unit);
+        return fmt::format("the end of the run cannot be measured: {} of the error of {}, {}, is not finite", norm,
+                           error.field, error.place);
   return std::nullopt;
 }
 

@@ -53,15 +53,14 @@ TEST(ErrorNorms, OfNothingAreNone) {
 }
 
 TEST(ErrorNorms, ThatAreNotFiniteAreNamed) {
-  for (const auto& [value, text] : {std::pair{nan, "nan"}, {std::numeric_limits<double>::infinity(), "inf"}}) {
+  for (const double value : {nan, std::numeric_limits<double>::infinity()}) {
     Norm norm = normOf(1, 1);
     norm.add(value, 1);
 
     const auto sentence = unmeasurable({normsOf(error, normOf(1, 1).values()), normsOf(error, norm.values())});
 
     ASSERT_TRUE(sentence);
-    EXPECT_EQ(*sentence, std::string("the end of the run cannot be measured: L1 of the error of density, cell, became ") +
-                             text + " kg/m^3");
+    EXPECT_EQ(*sentence, "the end of the run cannot be measured: L1 of the error of density, cell, is not finite");
   }
 }
 
