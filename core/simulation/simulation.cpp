@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/interrupt.hpp"
+#include "core/simulation/error_norms.hpp"
 #include "core/simulation/gather.hpp"
 
 namespace tushar::simulation {
@@ -239,17 +240,17 @@ Report Simulation::makeReport() {
   for (const auto& [limit, steps] : time_.limits())
     report.limits.emplace_back(limit.text().empty() ? "unnamed" : limit.text(), steps);
   report.time = time_.time();
-  report.ended = whyEnded();
-  if (failure_) {
-    report.failure = failure_->what();
-    report.advice = failure_->advice();
-  }
   report.particleSteps = particle_steps_;
   report.wallStartup = wall_startup_;
   report.wallLoop = wall_loop_;
   reportTasks(report);
   reportDrift(report);
   reportErrors(report);
+  report.ended = whyEnded();
+  if (failure_) {
+    report.failure = failure_->what();
+    report.advice = failure_->advice();
+  }
   report.wallOutput = wall_output_;
   if (archive_) report.archive = archive_->folder().string();
   report.fingerprint = fingerprint(warehouse_, phases_.state(), static_cast<int>(phases_.materials().size()));
@@ -299,14 +300,12 @@ void Simulation::reportErrors(Report& report) {
       continue;
     }
     for (const MeasuredError& error : analysis->errors()) {
-      const std::vector<double> values = reduction(error.label->name);
-      if (values.empty()) continue;
-      ErrorNorms norms{error.field, error.place, {}, std::string(error.label->unit)};
-      for (const std::string& norm : error.norms)
-        norms.norms[norm] = values.size() == 1 ? values[0] : values[norm == "L1" ? 0 : norm == "L2" ? 1 : norm == "max" ? 2 : 3];
-      report.errors.push_back(norms);
+      ErrorNorms norms = normsOf(error, reduction(error.label->name));
+      if (!norms.norms.empty()) report.errors.push_back(std::move(norms));
     }
   }
+  if (failure_) return;
+  if (const auto sentence = unmeasurable(report.errors)) failure_ = advised(NumericalError(*sentence, ""));
 }
 
 }  // namespace tushar::simulation
