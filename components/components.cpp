@@ -7,6 +7,7 @@
 #include "components/mpm/analysis/mass_projection.hpp"
 #include "components/mpm/input.hpp"
 #include "components/mpm/solid/analysis/manufactured_error.hpp"
+#include "components/poisson/poisson.hpp"
 #include "components/reference/modules.hpp"
 #include "core/simulation/exact_solution.hpp"
 #include "core/simulation/particle_extract.hpp"
@@ -20,6 +21,7 @@ simulation::Catalogue catalogue() {
           euler::kind(),
           heat::kind(),
           mpm::kind(),
+          poisson::kind(),
       },
       {
           burgers::waveKind(),

@@ -12,6 +12,7 @@
 #include "core/base/error.hpp"
 #include "core/base/interrupt.hpp"
 #include "core/base/launcher.hpp"
+#include "core/base/threads.hpp"
 #include "core/input/geometry.hpp"
 #include "core/simulation/scene.hpp"
 
@@ -20,10 +21,11 @@ namespace {
 using namespace tushar;
 
 struct Arguments {
-  std::string scene, describe, graph;
+  std::string scene, describe, graph, petsc;
   std::vector<std::string> overrides;
   bool check = false, list = false, restart = false, schedule = false, version = false;
   std::optional<int> checkpoint;  ///< step of the one to restart from
+  std::optional<int> threads;
   simulation::RunOptions run;
 };
 
@@ -45,6 +47,15 @@ std::vector<std::string> optionNames(const CLI::App& app) {
   for (const CLI::Option* option : app.get_options())
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   return names;
+}
+
+/// The words as CLI11 takes them, the last first; what follows -petsc is PETSc's and stays as it is.
+std::vector<std::string> backwards(const std::vector<std::string>& given) {
+  std::vector<std::string> words;
+  for (const std::string& word : given)
+    words.push_back(!words.empty() && words.back() == "--petsc" ? word : withTwoDashes(word));
+  std::reverse(words.begin(), words.end());
+  return words;
 }
 
 /// Says which words of the command line mean nothing: the options, as they were written, or else a second scene.
@@ -73,8 +84,11 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.add_option("--set", arguments.overrides, "override a value of the scene: PATH=VALUE, e.g.\n"
                                                "Grid/Level/Box/resolution=[200,1,1]; may be repeated")
       ->allow_extra_args(false);
+  app.add_option("--nthreads", arguments.threads, "threads to run on; all cores that are free to use, if not given")
+      ->check(CLI::Range(1, 1024));
   app.add_option("--json", arguments.run.jsonPath, "write the report to a file, as JSON");
   app.add_option("--output", arguments.run.outputFolder, "put the .uda into this folder");
+  app.add_option("--petsc", arguments.petsc, "options for PETSc, in one word: -petsc \"-ksp_monitor -ksp_type gmres\"");
   app.add_flag("--quiet", arguments.run.quiet, "no progress, no report on the screen");
   app.add_flag("--check,--validate", arguments.check, "check the scene and make its start; run and write nothing");
   app.add_flag("--schedule", arguments.schedule, "print the tasks in order, what they read and write, what is left out");
@@ -147,7 +161,9 @@ ExitCode runScene(const Arguments& arguments, const simulation::Catalogue& known
   simulation::Problem problem = readProblem(arguments, known);
   if (!arguments.run.quiet)
     for (const InputProblem& note : problem.notes) fmt::print(stderr, "note: {}\n", note.text());
-  simulation::Simulation run(std::move(problem), arguments.run, startedAt);
+  simulation::RunOptions options = arguments.run;
+  options.threads = arguments.threads ? *arguments.threads : allowedThreads();
+  simulation::Simulation run(std::move(problem), options, startedAt);
   if (!arguments.graph.empty()) {
     std::ostringstream dot;
     run.phases().printDot(dot);
@@ -201,9 +217,8 @@ int main(int count, char** words) {
   CLI::App app("sus: runs a scene (.ups) with the component that it names", "sus");
   declare(app, arguments);
   try {
-    std::vector<std::string> backwards;
-    for (auto word = given.rbegin(); word != given.rend(); ++word) backwards.push_back(withTwoDashes(*word));
-    app.parse(backwards);
+    app.parse(backwards(given));
+    if (!arguments.petsc.empty()) setenv("PETSC_OPTIONS", arguments.petsc.c_str(), 1);
     const ExitCode code = dispatch(arguments, startedAt);
     if (std::fflush(stdout) != 0 || !std::cout.flush()) throw FileError("standard output cannot be written");
     return static_cast<int>(code);

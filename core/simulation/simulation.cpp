@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/interrupt.hpp"
+#include "core/simulation/error_norms.hpp"
 #include "core/simulation/gather.hpp"
 
 namespace tushar::simulation {
@@ -18,7 +19,7 @@ Simulation::Simulation(Problem problem, const RunOptions& options, Clock::time_p
       started_at_(startedAt),
       phases_(*problem_.component, problem_.analyses),
       warehouse_(*problem_.level, table_),
-      scheduler_(warehouse_),
+      scheduler_(warehouse_, std::min(options.threads, warehouse_.patches())),
       time_(problem_.time),
       progress_(options.quiet, stdout),
       outputs_(problem_.time.initTime, problem_.archive.outputInterval) {
@@ -247,6 +248,7 @@ Report Simulation::makeReport() {
   report.build = TUSHAR_BUILD_TYPE;
   report.dimension = problem_.level->dimension();
   report.patches = warehouse_.patches();
+  report.threads = scheduler_.threads();
   report.spacing = problem_.level->minSpacing();
   report.cells = static_cast<long>(problem_.level->cells().size());
   report.particles = particleCount(warehouse_, static_cast<int>(phases_.materials().size()));
@@ -256,17 +258,17 @@ Report Simulation::makeReport() {
   for (const auto& [limit, steps] : time_.limits())
     report.limits.emplace_back(limit.text().empty() ? "unnamed" : limit.text(), steps);
   report.time = time_.time();
-  report.ended = whyEnded();
-  if (failure_) {
-    report.failure = failure_->what();
-    report.advice = failure_->advice();
-  }
   report.particleSteps = particle_steps_;
   report.wallStartup = wall_startup_;
   report.wallLoop = wall_loop_;
   reportTasks(report);
   reportDrift(report);
   reportErrors(report);
+  report.ended = whyEnded();
+  if (failure_) {
+    report.failure = failure_->what();
+    report.advice = failure_->advice();
+  }
   report.wallOutput = wall_output_;
   if (archive_) report.archive = archive_->folder().string();
   report.fingerprint = fingerprint(warehouse_, phases_.state(), static_cast<int>(phases_.materials().size()));
@@ -316,14 +318,12 @@ void Simulation::reportErrors(Report& report) {
       continue;
     }
     for (const MeasuredError& error : analysis->errors()) {
-      const std::vector<double> values = reduction(error.label->name);
-      if (values.empty()) continue;
-      ErrorNorms norms{error.field, error.place, {}, std::string(error.label->unit)};
-      for (const std::string& norm : error.norms)
-        norms.norms[norm] = values.size() == 1 ? values[0] : values[norm == "L1" ? 0 : norm == "L2" ? 1 : norm == "max" ? 2 : 3];
-      report.errors.push_back(norms);
+      ErrorNorms norms = normsOf(error, reduction(error.label->name));
+      if (!norms.norms.empty()) report.errors.push_back(std::move(norms));
     }
   }
+  if (failure_) return;
+  if (const auto sentence = unmeasurable(report.errors)) failure_ = advised(NumericalError(*sentence, ""));
 }
 
 }  // namespace tushar::simulation

@@ -91,33 +91,50 @@ void shiftPositions(const grid::Level& level, const Index3& shift, double* x, in
   }
 }
 
-bool hasGhosts(const Warehouse& warehouse) { return warehouse.patches() > 1 || warehouse.level().isPeriodic(); }
+/// Gives the particle set of a patch its ghosts, and makes room for their values.
+void makeRoom(Warehouse& warehouse, const NumberedFill& fill, const Patch& patch) {
+  const auto [label, material] = warehouse.table()[fill.variable];
+  const ParticleSet& set = warehouse.particles(fill.set, material, patch.id());
+  if (!set.hasGhosts()) addGhosts(warehouse, fill.set, material, patch);
+  Variable& here = warehouse.variable(fill.generation, fill.variable, patch.id());
+  warehouse.allocateParticles(here, *label, set.total(), set.owned());
+}
+
+void fillParticles(Warehouse& warehouse, const NumberedFill& fill, const Patch& patch) {
+  const auto [label, material] = warehouse.table()[fill.variable];
+  const ParticleSet& set = warehouse.particles(fill.set, material, patch.id());
+  Variable& here = warehouse.variable(fill.generation, fill.variable, patch.id());
+  std::byte* to = here.values.data() + static_cast<std::size_t>(set.owned()) * label->bytes;
+  for (const data::GhostRun& run : set.ghostRuns()) {
+    const Variable& there = warehouse.variable(fill.generation, fill.variable, run.patch);
+    const std::size_t length = static_cast<std::size_t>(run.count) * label->bytes;
+    std::memcpy(to, there.values.data() + static_cast<std::size_t>(run.first) * label->bytes, length);
+    if (label->name == data::positionName && !(run.shift == Index3{}))
+      shiftPositions(warehouse.level(), run.shift, reinterpret_cast<double*>(to), run.count);
+    to += length;
+  }
+}
 
 }  // namespace
 
-void fillGridGhosts(Warehouse& warehouse, int variable, Generation generation) {
-  if (!hasGhosts(warehouse)) return;
-  for (const Patch& patch : warehouse.level().patches()) fillPatch(warehouse, variable, generation, patch);
-}
-
-void fillParticleGhosts(Warehouse& warehouse, int variable, Generation generation, Generation setGeneration) {
-  if (!hasGhosts(warehouse)) return;
-  const auto [label, material] = warehouse.table()[variable];
-  for (const Patch& patch : warehouse.level().patches()) {
-    ParticleSet& set = warehouse.particles(setGeneration, material, patch.id());
-    if (!set.hasGhosts()) addGhosts(warehouse, setGeneration, material, patch);
-    Variable& here = warehouse.variable(generation, variable, patch.id());
-    warehouse.allocateParticles(here, *label, set.total(), set.owned());
-    std::byte* to = here.values.data() + static_cast<std::size_t>(set.owned()) * label->bytes;
-    for (const data::GhostRun& run : set.ghostRuns()) {
-      const Variable& there = warehouse.variable(generation, variable, run.patch);
-      const std::size_t length = static_cast<std::size_t>(run.count) * label->bytes;
-      std::memcpy(to, there.values.data() + static_cast<std::size_t>(run.first) * label->bytes, length);
-      if (label->name == data::positionName && !(run.shift == Index3{}))
-        shiftPositions(warehouse.level(), run.shift, reinterpret_cast<double*>(to), run.count);
-      to += length;
-    }
-  }
+void fillGhosts(Warehouse& warehouse, const std::vector<NumberedFill>& fills, Threads& threads) {
+  if (warehouse.patches() == 1 && !warehouse.level().isPeriodic()) return;
+  const std::vector<Patch>& patches = warehouse.level().patches();
+  const auto forEachPatch = [&](const auto& work) {
+    threads.forEach(static_cast<int>(patches.size()), [&](int k) {
+      for (const NumberedFill& fill : fills) work(fill, patches[static_cast<std::size_t>(k)]);
+    });
+  };
+  // A patch reads of others only what they own, and that stands still once all have made room.
+  forEachPatch([&](const NumberedFill& fill, const Patch& patch) {
+    if (fill.particles) makeRoom(warehouse, fill, patch);
+  });
+  forEachPatch([&](const NumberedFill& fill, const Patch& patch) {
+    if (fill.particles)
+      fillParticles(warehouse, fill, patch);
+    else
+      fillPatch(warehouse, fill.variable, fill.generation, patch);
+  });
 }
 
 }  // namespace tushar::tasks

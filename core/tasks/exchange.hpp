@@ -1,14 +1,13 @@
 #pragma once
 
+#include "core/base/threads.hpp"
 #include "core/data/warehouse.hpp"
-#include "core/tasks/plan.hpp"
+#include "core/tasks/task_graph.hpp"
 
 namespace tushar::tasks {
 
-/// Fills the ghost nodes or cells of a variable on every patch from the patches that own them.
-void fillGridGhosts(data::Warehouse& warehouse, int variable, data::Generation generation);
-
-/// Fills the ghost particles of a variable on every patch; which these are is settled on first use of the set.
-void fillParticleGhosts(data::Warehouse& warehouse, int variable, data::Generation generation, data::Generation set);
+/// Copies to the ghosts of every patch what the patches that own them hold. Particle sets get the ghosts of their patch
+/// if they have none yet.
+void fillGhosts(data::Warehouse& warehouse, const std::vector<NumberedFill>& fills, Threads& threads);
 
 }  // namespace tushar::tasks

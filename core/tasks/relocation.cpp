@@ -75,67 +75,96 @@ bool mayLeave(const grid::Level& level, const Vec<D>& x, const Index<D>& cell) {
 
 }  // namespace
 
+template <class Work>
+void Relocation::forEachPatch(const Work& work) {
+  const std::vector<Patch>& patches = warehouse_->level().patches();
+  threads_->forEach(static_cast<int>(patches.size()), [&](int k) { work(patches[static_cast<std::size_t>(k)]); });
+}
+
 void Relocation::run(int material, int position, const std::vector<Carried>& carried) {
-  escape_.reset();
   moves_.resize(static_cast<std::size_t>(warehouse_->patches()));
   spare_.resize(moves_.size());
+  for (std::size_t patch = 0; patch < spare_.size(); ++patch) spare_[patch].pool = static_cast<int>(patch);
+  const int id = warehouse_->table().find(data::particleId.name, material);
   switch (warehouse_->level().dimension()) {
-    case 1: findMoves<1>(material, position); break;
-    case 2: findMoves<2>(material, position); break;
-    default: findMoves<3>(material, position);
+    case 1: findMoves<1>(material, position, id); break;
+    case 2: findMoves<2>(material, position, id); break;
+    default: findMoves<3>(material, position, id);
   }
-  for (const Patch& patch : warehouse_->level().patches()) rebuild(patch, material);
+  forEachPatch([&](const Patch& patch) { rebuild(patch, material, id); });
   for (const Carried& variable : carried) carry(variable);
 }
 
 template <int D>
-void Relocation::findMoves(int material, int position) {
+void Relocation::findMoves(int material, int position, int id) {
+  forEachPatch([&](const Patch& patch) {
+    const auto values = [&](Generation generation, int number) {
+      return warehouse_->variable(generation, number, patch.id()).values.data();
+    };
+    findMoves<D>(patch, warehouse_->particles(Generation::old, material, patch.id()),
+                 reinterpret_cast<Vec<D>*>(values(Generation::fresh, position)),
+                 reinterpret_cast<const ParticleId*>(values(Generation::old, id)));
+  });
+  gatherMoves<D>(position);
+}
+
+template <int D>
+void Relocation::findMoves(const Patch& patch, const ParticleSet& set, Vec<D>* x, const ParticleId* ids) {
   const grid::Level& level = warehouse_->level();
-  for (const Patch& patch : level.patches()) {
-    PatchMoves& moves = moves_[static_cast<std::size_t>(patch.id())];
-    moves.departed.clear();
-    moves.incoming.clear();
-    moves.firstIncoming.assign(patch.cells().size(), -1);
-  }
-  const int idNumber = warehouse_->table().find(data::particleId.name, material);
-  for (const Patch& patch : level.patches()) {
-    const ParticleSet& set = warehouse_->particles(Generation::old, material, patch.id());
-    auto* x = reinterpret_cast<Vec<D>*>(
-        warehouse_->variable(Generation::fresh, position, patch.id()).values.data());
-    const auto* ids = reinterpret_cast<const ParticleId*>(
-        warehouse_->variable(Generation::old, idNumber, patch.id()).values.data());
-    grid::forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-      Vec<D> lower, upper;
-      for (int d = 0; d < D; ++d) {
-        lower[d] = level.nodePosition(d, cell[d]);
-        upper[d] = level.nodePosition(d, cell[d] + 1);
-      }
-      for (const int p : set.in(cell))
-        if (!isInside<D>(x[p], lower, upper) && level.cellOf<D>(x[p]) != cell) move<D>(patch, cell, x[p], ids[p], p);
-    });
-  }
-  if (escape_) refuseEscape<D>(position);
+  PatchMoves& moves = moves_[static_cast<std::size_t>(patch.id())];
+  moves.departed.clear();
+  moves.outgoing.clear();
+  moves.incoming.clear();
+  moves.firstIncoming.assign(patch.cells().size(), -1);
+  moves.escape.reset();
+  moves.leaving = 0;
+  grid::forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    Vec<D> lower, upper;
+    for (int d = 0; d < D; ++d) {
+      lower[d] = level.nodePosition(d, cell[d]);
+      upper[d] = level.nodePosition(d, cell[d] + 1);
+    }
+    for (const int p : set.in(cell))
+      if (!isInside<D>(x[p], lower, upper) && level.cellOf<D>(x[p]) != cell) move<D>(patch, cell, x[p], ids[p], p);
+  });
 }
 
 template <int D>
 void Relocation::move(const Patch& from, const Index<D>& fromCell, Vec<D>& x, ParticleId id, int place) {
   const grid::Level& level = warehouse_->level();
-  moves_[static_cast<std::size_t>(from.id())].departed.push_back(place);
+  PatchMoves& moves = moves_[static_cast<std::size_t>(from.id())];
+  moves.departed.push_back(place);
   if (level.isPeriodic()) wrap<D>(level, x);
   const Index<D> cell = level.cellOf<D>(x);
   if (!level.cells().contains(cell)) {
-    ++leaving_;
+    ++moves.leaving;
     const Escape escape{level.cellNumber<D>(fromCell), id, from.id(), place};
-    if (!mayLeave<D>(level, x, cell) && (!escape_ || escape < *escape_)) escape_ = escape;
+    if (!mayLeave<D>(level, x, cell) && (!moves.escape || escape < *moves.escape)) moves.escape = escape;
     return;
   }
   const Index3 wide = widened(cell);
-  receive(from.cells().contains(wide) ? from : level.patchOf(wide), wide, {id, from.id(), place, -1});
+  const Incoming particle{id, from.id(), place, -1};
+  if (from.cells().contains(wide))
+    receive(from, wide, particle);
+  else
+    moves.outgoing.push_back({wide, particle});
 }
 
 template <int D>
-void Relocation::refuseEscape(int position) const {
-  const auto [cellNumber, id, patch, place] = *escape_;
+void Relocation::gatherMoves(int position) {
+  std::optional<Escape> first;
+  for (const PatchMoves& moves : moves_) {
+    leaving_ += moves.leaving;
+    if (moves.escape && (!first || *moves.escape < *first)) first = moves.escape;
+  }
+  if (first) refuseEscape<D>(position, *first);
+  for (const PatchMoves& moves : moves_)
+    for (const Outgoing& one : moves.outgoing) receive(warehouse_->level().patchOf(one.cell), one.cell, one.particle);
+}
+
+template <int D>
+void Relocation::refuseEscape(int position, const Escape& escape) const {
+  const auto [cellNumber, id, patch, place] = escape;
   if (const auto broken = firstBroken(*warehouse_, {position, Generation::old}, data::Bound::finite))
     throw NumericalError(fmt::format("{}; patch {}", broken->sentence, broken->patch), "", broken->label);
   const grid::Level& level = warehouse_->level();
@@ -168,13 +197,12 @@ void Relocation::receive(const Patch& patch, const Index3& cell, const Incoming&
   *link = added;
 }
 
-void Relocation::rebuild(const Patch& patch, int material) {
+void Relocation::rebuild(const Patch& patch, int material, int id) {
   PatchMoves& moves = moves_[static_cast<std::size_t>(patch.id())];
   const ParticleSet& before = warehouse_->particles(Generation::old, material, patch.id());
   ParticleSet& after = warehouse_->particles(Generation::fresh, material, patch.id());
-  const int idNumber = warehouse_->table().find(data::particleId.name, material);
-  const auto* ids = reinterpret_cast<const ParticleId*>(
-      warehouse_->variable(Generation::old, idNumber, patch.id()).values.data());
+  const auto* ids =
+      reinterpret_cast<const ParticleId*>(warehouse_->variable(Generation::old, id, patch.id()).values.data());
   after.reset(patch, warehouse_->table().reach(material));
   moves.foreign.clear();
   moves.pieces.clear();
@@ -257,30 +285,30 @@ void Relocation::mergeCell(int patch, PatchMoves& moves, const ParticleRange& be
 }
 
 void Relocation::carry(const Carried& carried) {
+  forEachPatch([&](const Patch& patch) { carry(carried, static_cast<std::size_t>(patch.id())); });
+  for (std::size_t patch = 0; patch < moves_.size(); ++patch)
+    std::swap(warehouse_->variable(Generation::fresh, carried.variable, static_cast<int>(patch)), spare_[patch]);
+}
+
+void Relocation::carry(const Carried& carried, std::size_t patch) {
   const data::Label& label = *warehouse_->table()[carried.variable].label;
-  for (std::size_t patch = 0; patch < moves_.size(); ++patch) {
-    const PatchMoves& moves = moves_[patch];
-    const Variable& from = warehouse_->variable(carried.from, carried.variable, static_cast<int>(patch));
-    warehouse_->allocateParticles(spare_[patch], label, moves.count);
-    std::byte* to = spare_[patch].values.data();
-    for (const Piece& piece : moves.pieces) {
-      std::byte* there = to + static_cast<std::size_t>(piece.to) * label.bytes;
-      if (piece.from >= 0)
-        std::memcpy(there, from.values.data() + static_cast<std::size_t>(piece.from) * label.bytes,
-                    static_cast<std::size_t>(piece.count) * label.bytes);
-      else if (from.held && from.values.data())
-        gather(from.values.data(), there, moves.source.data() + piece.to, piece.count, label.bytes);
-    }
-    for (const auto& [place, index] : moves.foreign) {
-      const Incoming& particle = moves.incoming[static_cast<std::size_t>(index)];
-      const Variable& there = warehouse_->variable(carried.from, carried.variable, particle.patch);
-      std::memcpy(to + static_cast<std::size_t>(place) * label.bytes,
-                  there.values.data() + static_cast<std::size_t>(particle.place) * label.bytes, label.bytes);
-    }
+  const PatchMoves& moves = moves_[patch];
+  const Variable& from = warehouse_->variable(carried.from, carried.variable, static_cast<int>(patch));
+  warehouse_->allocateParticles(spare_[patch], label, moves.count);
+  std::byte* to = spare_[patch].values.data();
+  for (const Piece& piece : moves.pieces) {
+    std::byte* there = to + static_cast<std::size_t>(piece.to) * label.bytes;
+    if (piece.from >= 0)
+      std::memcpy(there, from.values.data() + static_cast<std::size_t>(piece.from) * label.bytes,
+                  static_cast<std::size_t>(piece.count) * label.bytes);
+    else if (from.held && from.values.data())
+      gather(from.values.data(), there, moves.source.data() + piece.to, piece.count, label.bytes);
   }
-  for (std::size_t patch = 0; patch < moves_.size(); ++patch) {
-    Variable& to = warehouse_->variable(Generation::fresh, carried.variable, static_cast<int>(patch));
-    std::swap(to, spare_[patch]);
+  for (const auto& [place, index] : moves.foreign) {
+    const Incoming& particle = moves.incoming[static_cast<std::size_t>(index)];
+    const Variable& there = warehouse_->variable(carried.from, carried.variable, particle.patch);
+    std::memcpy(to + static_cast<std::size_t>(place) * label.bytes,
+                there.values.data() + static_cast<std::size_t>(particle.place) * label.bytes, label.bytes);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/threads.hpp"
 #include "core/data/warehouse.hpp"
 
 namespace tushar::tasks {
@@ -20,7 +21,7 @@ struct Carried {
 /// Keeps its working memory from step to step.
 class Relocation {
  public:
-  explicit Relocation(data::Warehouse& warehouse) : warehouse_(&warehouse) {}
+  Relocation(data::Warehouse& warehouse, Threads& threads) : warehouse_(&warehouse), threads_(&threads) {}
 
   /// Builds the new particle set of a material from the old one and the new values of `position`; afterwards every
   /// carried variable is new and follows the new set. Particles that left through a periodic face come in at the opposite
@@ -44,6 +45,11 @@ class Relocation {
     int patch, place;  ///< where it was
     int next;          ///< the incoming particle of the same cell with the next greater id, or -1
   };
+  /// A particle that goes to a cell of another patch.
+  struct Outgoing {
+    Index3 cell;
+    Incoming particle;
+  };
   /// A particle that went where none can be; of several the first by cell and id.
   struct Escape {
     std::uint64_t cell;
@@ -59,6 +65,7 @@ class Relocation {
   };
   struct PatchMoves {
     std::vector<int> departed;       ///< places of the patch's particles that leave their cell, ascending
+    std::vector<Outgoing> outgoing;  ///< of these, the ones that go to other patches
     std::vector<Incoming> incoming;  ///< particles that come into a cell of the patch
     std::vector<int> firstIncoming;  ///< by cell, or -1
     std::vector<Piece> pieces;
@@ -66,26 +73,36 @@ class Relocation {
     std::vector<int> source;
     int count = 0;                             ///< of the new set
     std::vector<std::pair<int, int>> foreign;  ///< new place and index in `incoming` of those from other patches
+    std::optional<Escape> escape;
+    long leaving = 0;  ///< through free faces of the grid
   };
 
+  template <class Work>
+  void forEachPatch(const Work& work);
   template <int D>
-  void findMoves(int material, int position);
+  void findMoves(int material, int position, int id);
+  template <int D>
+  void findMoves(const grid::Patch& patch, const data::ParticleSet& set, Vec<D>* x, const ParticleId* ids);
   template <int D>
   void move(const grid::Patch& from, const Index<D>& cell, Vec<D>& x, ParticleId id, int place);
   template <int D>
-  [[noreturn]] void refuseEscape(int position) const;
+  [[noreturn]] void refuseEscape(int position, const Escape& escape) const;
+  /// What left its patch, in this order: who escaped first, how many left the grid, who comes into which cell.
+  template <int D>
+  void gatherMoves(int position);
   void receive(const grid::Patch& patch, const Index3& cell, const Incoming& particle);
-  void rebuild(const grid::Patch& patch, int material);
+  void rebuild(const grid::Patch& patch, int material, int id);
   static void keepCell(PatchMoves& moves, const data::ParticleRange& before);
   static void mergeCell(int patch, PatchMoves& moves, const data::ParticleRange& before, int firstIncoming,
                         const ParticleId* ids, std::size_t& nextDeparted);
   static void gatherShortCopies(PatchMoves& moves);
   void carry(const Carried& variable);
+  void carry(const Carried& variable, std::size_t patch);
 
   data::Warehouse* warehouse_;
+  Threads* threads_;
   std::vector<PatchMoves> moves_;
   std::vector<data::Variable> spare_;
-  std::optional<Escape> escape_;
   long leaving_ = 0;  ///< in the step in progress
   long dropped_ = 0;
 };

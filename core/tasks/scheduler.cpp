@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
 #include <chrono>
+#include <mutex>
 
 #include "core/base/error.hpp"
 #include "core/tasks/exchange.hpp"
@@ -46,7 +48,40 @@ void located(const CompiledTask& task, int patch, int material, const StepInfo& 
   }
 }
 
+/// Keeps, of the values on all patches that cannot be, that of the first cell; of several of one cell that of the first
+/// patch.
+class FirstRefusal {
+ public:
+  void note(const NumericalError& error, int patch) {
+    const std::lock_guard<std::mutex> alone(mutex_);
+    if (error_ && std::pair(error_->cell(), patch_) < std::pair(error.cell(), patch)) return;
+    error_ = error;
+    patch_ = patch;
+  }
+  const std::optional<NumericalError>& error() const { return error_; }
+
+ private:
+  std::mutex mutex_;
+  std::optional<NumericalError> error_;
+  int patch_ = 0;
+};
+
 }  // namespace
+
+template <class Work>
+void Scheduler::forEachPatch(const Work& work) {
+  const std::vector<grid::Patch>& patches = warehouse_->level().patches();
+  threads_.forEach(static_cast<int>(patches.size()), [&](int k) { work(patches[static_cast<std::size_t>(k)]); });
+}
+
+void Scheduler::divideReductions(const CompiledTask& task) {
+  for (const int reduction : task.readReductions) warehouse_->slot(reduction);
+  for (const int reduction : task.reductions) warehouse_->slot(reduction).divide(warehouse_->level().patches().size());
+}
+
+void Scheduler::gatherReductions(const CompiledTask& task) {
+  for (const int reduction : task.reductions) warehouse_->slot(reduction).gather();
+}
 
 std::optional<data::Minimum> Scheduler::run(TaskGraph& graph, const StepInfo& at) {
   relocation_.start();
@@ -55,7 +90,7 @@ std::optional<data::Minimum> Scheduler::run(TaskGraph& graph, const StepInfo& at
   auto started = Clock::now();
   for (CompiledTask& task : graph.tasks()) {
     if (!task.fills.empty()) {
-      exchange(task);
+      fillGhosts(*warehouse_, task.fills, threads_);
       const auto exchanged = Clock::now();
       task.exchangeSeconds += seconds(exchanged - started);
       started = exchanged;
@@ -86,19 +121,12 @@ std::optional<data::Minimum> Scheduler::runOrAsk(CompiledTask& task, const StepI
   }
 }
 
-void Scheduler::exchange(CompiledTask& task) {
-  for (const NumberedFill& fill : task.fills) {
-    if (fill.particles)
-      fillParticleGhosts(*warehouse_, fill.variable, fill.generation, fill.set);
-    else
-      fillGridGhosts(*warehouse_, fill.variable, fill.generation);
-  }
-}
-
 void Scheduler::runWork(CompiledTask& task, const StepInfo& at) {
+  divideReductions(task);
+  if (task.task.perRank) return runOnRank(task, at);
   if (task.task.acrossMaterials) {
-    for (const grid::Patch& patch : warehouse_->level().patches()) runAcrossMaterials(task, patch, at);
-    return;
+    forEachPatch([&](const grid::Patch& patch) { runAcrossMaterials(task, patch, at); });
+    return gatherReductions(task);
   }
   const int first = firstMaterial(task);
   for (int m = first; m < first + static_cast<int>(task.materials.size()); ++m) {
@@ -112,19 +140,20 @@ void Scheduler::runWork(CompiledTask& task, const StepInfo& at) {
 
 void Scheduler::runOnPatches(CompiledTask& task, int material, const StepInfo& at) {
   const MaterialBinding& binding = task.materials[static_cast<std::size_t>(material - firstMaterial(task))];
-  std::optional<NumericalError> first;
-  bool kept = true;
-  for (const grid::Patch& patch : warehouse_->level().patches()) {
+  FirstRefusal first;
+  std::atomic<bool> kept = true;
+  forEachPatch([&](const grid::Patch& patch) {
     try {
       runPlaced(task, patch, material, at);
-      kept = kept && keepsBounds(*warehouse_, binding.bounded, patch);
+      if (!keepsBounds(*warehouse_, binding.bounded, patch)) kept = false;
     } catch (const NumericalError& error) {
-      if (!first || error.cell() < first->cell()) first = error;
+      first.note(error, patch.id());
     }
-  }
-  if (kept && !first) return;
+  });
+  gatherReductions(task);
+  if (kept && !first.error()) return;
   if (askedBy(task)) return;  // what was computed will not be used
-  if (first) throw NumericalError(*first);
+  if (first.error()) throw NumericalError(*first.error());
   refuseBroken(task, binding, material, at);
 }
 
@@ -133,6 +162,29 @@ void Scheduler::refuseBroken(const CompiledTask& task, const MaterialBinding& bi
   if (const auto broken = firstBroken(*warehouse_, binding.bounded))
     throw NumericalError(fmt::format("{} ({})", broken->sentence, placeOf(task, broken->patch, material, at)), "",
                          broken->label);
+}
+
+void Scheduler::runOnRank(CompiledTask& task, const StepInfo& at) {
+  const int first = firstMaterial(task);
+  std::vector<std::vector<TaskContext>> contexts;
+  for (const grid::Patch& patch : warehouse_->level().patches()) {
+    std::vector<TaskContext>& ofPatch = contexts.emplace_back();
+    for (std::size_t m = 0; m < task.materials.size(); ++m) {
+      allocateOutputs(task.materials[m], patch, static_cast<int>(m) + first);
+      ofPatch.emplace_back(*warehouse_, patch, static_cast<int>(m) + first, task.materials[m].accesses, at.time);
+    }
+  }
+  std::vector<TaskContext> patches;
+  for (const std::vector<TaskContext>& ofPatch : contexts) {
+    patches.push_back(ofPatch.front());
+    patches.back().setMaterials(ofPatch);
+  }
+  TaskContext rank = patches.front();
+  rank.setPatches(patches);
+  located(task, -1, -1, at, [&] { task.task.body(rank); });
+  gatherReductions(task);
+  if (askedBy(task)) return;
+  for (std::size_t m = 0; m < task.materials.size(); ++m) refuseBroken(task, task.materials[m], static_cast<int>(m) + first, at);
 }
 
 void Scheduler::runAcrossMaterials(CompiledTask& task, const grid::Patch& patch, const StepInfo& at) {

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "core/base/threads.hpp"
 #include "core/tasks/task_graph.hpp"
 
 namespace tushar::tasks {
@@ -16,13 +17,17 @@ struct StepInfo {
 };
 
 /// Runs compiled task graphs on the warehouse of this rank.
+///
+/// The patches of a task are worked through by all threads at once. No result depends on how many there are.
 class Scheduler {
  public:
-  explicit Scheduler(data::Warehouse& warehouse) : warehouse_(&warehouse), relocation_(warehouse) {}
+  explicit Scheduler(data::Warehouse& warehouse, int threads = 1)
+      : warehouse_(&warehouse), threads_(threads), relocation_(warehouse, threads_) {}
 
   /// Runs every task on every patch, and looks whether what it wrote keeps the bounds of its labels. The old generation
   /// is never touched. A body that throws and a broken bound end the run of the graph: a NumericalError comes out with
-  /// task, patch, material, step and time added; anything else as TaskError.
+  /// task, patch, material, step and time added; anything else as TaskError. A task is run on all patches in any case, and
+  /// of several errors the first comes out: that of the first cell, or patch.
   ///
   /// If a task asks by recomputeTimeStep for a smaller time step, the graph ends with that task and the factor and
   /// reason come back; running the graph once more repeats the step. Else nothing comes back: all is done.
@@ -31,20 +36,26 @@ class Scheduler {
   void commit(const TaskGraph& graph);
 
   Relocation& relocation() { return relocation_; }
+  int threads() const { return threads_.count(); }
 
  private:
-  void exchange(CompiledTask& task);
   std::optional<data::Minimum> askedBy(const CompiledTask& task);
   std::optional<data::Minimum> runOrAsk(CompiledTask& task, const StepInfo& at);
   void runWork(CompiledTask& task, const StepInfo& at);
+  template <class Work>
+  void forEachPatch(const Work& work);
+  void divideReductions(const CompiledTask& task);
+  void gatherReductions(const CompiledTask& task);
   void runOnPatches(CompiledTask& task, int material, const StepInfo& at);
   void refuseBroken(const CompiledTask& task, const MaterialBinding& binding, int material, const StepInfo& at);
+  void runOnRank(CompiledTask& task, const StepInfo& at);
   void runAcrossMaterials(CompiledTask& task, const grid::Patch& patch, const StepInfo& at);
   void runPlaced(CompiledTask& task, const grid::Patch& patch, int material, const StepInfo& at);
   void allocateOutputs(const MaterialBinding& binding, const grid::Patch& patch, int material);
   void free(const CompiledTask& task);
 
   data::Warehouse* warehouse_;
+  Threads threads_;
   Relocation relocation_;
 };
 

@@ -11,7 +11,8 @@ namespace tushar::test {
 /// A grid, a warehouse and a scheduler, to run small task lists on.
 class Runner {
  public:
-  explicit Runner(const grid::Domain& domain) : level(domain), warehouse(level, table), scheduler(warehouse) {}
+  explicit Runner(const grid::Domain& domain, int threads = 1)
+      : level(domain), warehouse(level, table), scheduler(warehouse, threads) {}
 
   /// Compiles a list; compile all before the first run.
   tasks::TaskGraph compile(const tasks::TaskList& list, const tasks::Names& wanted, bool repeated = false) {
