@@ -5,10 +5,18 @@
 
 namespace tushar {
 
-int launchedRanks() {
-  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "MV2_COMM_WORLD_SIZE"})
+namespace {
+
+int numberFrom(std::initializer_list<const char*> names, int otherwise) {
+  for (const char* name : names)
     if (const char* value = std::getenv(name)) return std::atoi(value);
-  return 1;
+  return otherwise;
 }
+
+}  // namespace
+
+int launchedRanks() { return numberFrom({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "MV2_COMM_WORLD_SIZE"}, 1); }
+
+int launchedRank() { return numberFrom({"OMPI_COMM_WORLD_RANK", "PMI_RANK", "MV2_COMM_WORLD_RANK"}, 0); }
 
 }  // namespace tushar

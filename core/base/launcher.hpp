@@ -6,4 +6,7 @@ namespace tushar {
 /// Read from the environment that launchers set, so that MPI is not needed to know.
 int launchedRanks();
 
+/// Which of these processes this is, from 0; 0 without a launcher.
+int launchedRank();
+
 }  // namespace tushar

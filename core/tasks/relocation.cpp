@@ -7,6 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "core/tasks/broken_value.hpp"
+#include "core/tasks/outcome.hpp"
 
 namespace tushar::tasks {
 
@@ -75,24 +76,52 @@ bool mayLeave(const grid::Level& level, const Vec<D>& x, const Index<D>& cell) {
 
 }  // namespace
 
-void Relocation::run(int material, int position, const std::vector<Carried>& carried) {
+bool Relocation::run(int material, int position, const std::vector<Carried>& carried, bool hasStopped) {
   escape_.reset();
-  moves_.resize(static_cast<std::size_t>(warehouse_->patches()));
+  emigration_.start(material);
+  moves_.resize(warehouse_->level().patches().size());
   spare_.resize(moves_.size());
-  switch (warehouse_->level().dimension()) {
-    case 1: findMoves<1>(material, position); break;
-    case 2: findMoves<2>(material, position); break;
-    default: findMoves<3>(material, position);
-  }
+  if (!hasStopped) switch (warehouse_->level().dimension()) {
+      case 1: findMoves<1>(material, position); break;
+      case 2: findMoves<2>(material, position); break;
+      default: findMoves<3>(material, position);
+    }
+  const Verdict verdict = agreed(hasStopped);
+  if (verdict.hasStopped) return false;
+  if (verdict.hasEscape) refuseEscape(position, verdict);
+  emigration_.run(carried, verdict.goFar);
+  const std::vector<Emigrant>& arrived = emigration_.arrived();
+  for (std::size_t k = 0; k < arrived.size(); ++k)
+    receive(warehouse_->level().patchOf(arrived[k].cell), arrived[k].cell, {arrived[k].id, -1, static_cast<int>(k), -1});
   for (const Patch& patch : warehouse_->level().patches()) rebuild(patch, material);
-  for (const Carried& variable : carried) carry(variable);
+  for (std::size_t k = 0; k < carried.size(); ++k) carry(carried[k], k);
+  return true;
+}
+
+Relocation::Verdict Relocation::agreed(bool hasStopped) const {
+  Verdict mine{hasStopped, escape_.has_value(), emigration_.goesFar(), escape_.value_or(Escape{}),
+               warehouse_->ranks().rank()};
+  warehouse_->ranks().merge(std::as_writable_bytes(std::span(&mine, 1)), [](const std::byte* from, std::byte* into) {
+    Verdict one, other;
+    std::memcpy(&one, into, sizeof(Verdict));
+    std::memcpy(&other, from, sizeof(Verdict));
+    one.hasStopped |= other.hasStopped;
+    one.goFar |= other.goFar;
+    if (other.hasEscape && (!one.hasEscape || other.escape < one.escape)) {
+      one.escape = other.escape;
+      one.rank = other.rank;
+    }
+    one.hasEscape |= other.hasEscape;
+    std::memcpy(into, &one, sizeof(Verdict));
+  });
+  return mine;
 }
 
 template <int D>
 void Relocation::findMoves(int material, int position) {
   const grid::Level& level = warehouse_->level();
   for (const Patch& patch : level.patches()) {
-    PatchMoves& moves = moves_[static_cast<std::size_t>(patch.id())];
+    PatchMoves& moves = movesOf(patch.id());
     moves.departed.clear();
     moves.incoming.clear();
     moves.firstIncoming.assign(patch.cells().size(), -1);
@@ -114,13 +143,12 @@ void Relocation::findMoves(int material, int position) {
         if (!isInside<D>(x[p], lower, upper) && level.cellOf<D>(x[p]) != cell) move<D>(patch, cell, x[p], ids[p], p);
     });
   }
-  if (escape_) refuseEscape<D>(position);
 }
 
 template <int D>
 void Relocation::move(const Patch& from, const Index<D>& fromCell, Vec<D>& x, ParticleId id, int place) {
   const grid::Level& level = warehouse_->level();
-  moves_[static_cast<std::size_t>(from.id())].departed.push_back(place);
+  movesOf(from.id()).departed.push_back(place);
   if (level.isPeriodic()) wrap<D>(level, x);
   const Index<D> cell = level.cellOf<D>(x);
   if (!level.cells().contains(cell)) {
@@ -130,17 +158,33 @@ void Relocation::move(const Patch& from, const Index<D>& fromCell, Vec<D>& x, Pa
     return;
   }
   const Index3 wide = widened(cell);
-  receive(from.cells().contains(wide) ? from : level.patchOf(wide), wide, {id, from.id(), place, -1});
+  const Patch to = from.cells().contains(wide) ? from : level.patchOf(wide);
+  if (level.isMine(to.id()))
+    receive(to, wide, {id, from.id(), place, -1});
+  else
+    emigration_.add(level.ownerOf(to.id()), {id, wide, from.id(), place});
+}
+
+void Relocation::refuseEscape(int position, const Verdict& verdict) const {
+  if (const auto broken = firstBroken(*warehouse_, {position, Generation::old}, data::Bound::finite))
+    throw NumericalError(fmt::format("{}; patch {}", broken->sentence, broken->patch), "", broken->label);
+  std::optional<NumericalError> mine;
+  if (verdict.rank == warehouse_->ranks().rank()) {
+    const int dimension = warehouse_->level().dimension();
+    const std::string what = dimension == 1   ? sentence<1>(position, verdict.escape)
+                             : dimension == 2 ? sentence<2>(position, verdict.escape)
+                                              : sentence<3>(position, verdict.escape);
+    mine.emplace(what, "", "p.x", verdict.escape.cell);
+  }
+  throw told(warehouse_->ranks(), mine, verdict.rank);
 }
 
 template <int D>
-void Relocation::refuseEscape(int position) const {
-  const auto [cellNumber, id, patch, place] = *escape_;
-  if (const auto broken = firstBroken(*warehouse_, {position, Generation::old}, data::Bound::finite))
-    throw NumericalError(fmt::format("{}; patch {}", broken->sentence, broken->patch), "", broken->label);
+std::string Relocation::sentence(int position, const Escape& escape) const {
   const grid::Level& level = warehouse_->level();
   const auto at = [&](Generation generation) {
-    return reinterpret_cast<const Vec<D>*>(warehouse_->variable(generation, position, patch).values.data())[place];
+    const Variable& x = warehouse_->variable(generation, position, escape.patch);
+    return reinterpret_cast<const Vec<D>*>(x.values.data())[escape.place];
   };
   const Vec<D> x = at(Generation::fresh);
   int through = 0, side = 0;
@@ -151,14 +195,12 @@ void Relocation::refuseEscape(int position) const {
         side = s;
       }
   const char axis = "xyz"[level.axis(through)];
-  throw NumericalError(fmt::format("particle {} passed through the symmetry plane {}{}, from {} = {:.6g} m to {:.6g} m; "
-                                   "patch {}",
-                                   id, axis, "-+"[side], axis, at(Generation::old)[through], x[through], patch),
-                       "", "p.x", cellNumber);
+  return fmt::format("particle {} passed through the symmetry plane {}{}, from {} = {:.6g} m to {:.6g} m; patch {}",
+                     escape.id, axis, "-+"[side], axis, at(Generation::old)[through], x[through], escape.patch);
 }
 
 void Relocation::receive(const Patch& patch, const Index3& cell, const Incoming& particle) {
-  PatchMoves& moves = moves_[static_cast<std::size_t>(patch.id())];
+  PatchMoves& moves = movesOf(patch.id());
   const int added = static_cast<int>(moves.incoming.size());
   moves.incoming.push_back(particle);
   int* link = &moves.firstIncoming[patch.cells().offset(cell)];
@@ -169,7 +211,7 @@ void Relocation::receive(const Patch& patch, const Index3& cell, const Incoming&
 }
 
 void Relocation::rebuild(const Patch& patch, int material) {
-  PatchMoves& moves = moves_[static_cast<std::size_t>(patch.id())];
+  PatchMoves& moves = movesOf(patch.id());
   const ParticleSet& before = warehouse_->particles(Generation::old, material, patch.id());
   ParticleSet& after = warehouse_->particles(Generation::fresh, material, patch.id());
   const int idNumber = warehouse_->table().find(data::particleId.name, material);
@@ -256,13 +298,14 @@ void Relocation::mergeCell(int patch, PatchMoves& moves, const ParticleRange& be
   moves.count = next;
 }
 
-void Relocation::carry(const Carried& carried) {
+void Relocation::carry(const Carried& carried, std::size_t place) {
   const data::Label& label = *warehouse_->table()[carried.variable].label;
-  for (std::size_t patch = 0; patch < moves_.size(); ++patch) {
-    const PatchMoves& moves = moves_[patch];
-    const Variable& from = warehouse_->variable(carried.from, carried.variable, static_cast<int>(patch));
-    warehouse_->allocateParticles(spare_[patch], label, moves.count);
-    std::byte* to = spare_[patch].values.data();
+  for (const Patch& patch : warehouse_->level().patches()) {
+    const PatchMoves& moves = movesOf(patch.id());
+    const Variable& from = warehouse_->variable(carried.from, carried.variable, patch.id());
+    Variable& spare = spare_[static_cast<std::size_t>(patch.id() - warehouse_->level().firstPatch())];
+    warehouse_->allocateParticles(spare, label, moves.count);
+    std::byte* to = spare.values.data();
     for (const Piece& piece : moves.pieces) {
       std::byte* there = to + static_cast<std::size_t>(piece.to) * label.bytes;
       if (piece.from >= 0)
@@ -271,16 +314,18 @@ void Relocation::carry(const Carried& carried) {
       else if (from.held && from.values.data())
         gather(from.values.data(), there, moves.source.data() + piece.to, piece.count, label.bytes);
     }
-    for (const auto& [place, index] : moves.foreign) {
+    for (const auto& [newPlace, index] : moves.foreign) {
       const Incoming& particle = moves.incoming[static_cast<std::size_t>(index)];
-      const Variable& there = warehouse_->variable(carried.from, carried.variable, particle.patch);
-      std::memcpy(to + static_cast<std::size_t>(place) * label.bytes,
-                  there.values.data() + static_cast<std::size_t>(particle.place) * label.bytes, label.bytes);
+      const std::byte* values =
+          particle.patch < 0 ? emigration_.values(place)
+                             : warehouse_->variable(carried.from, carried.variable, particle.patch).values.data();
+      std::memcpy(to + static_cast<std::size_t>(newPlace) * label.bytes,
+                  values + static_cast<std::size_t>(particle.place) * label.bytes, label.bytes);
     }
   }
-  for (std::size_t patch = 0; patch < moves_.size(); ++patch) {
-    Variable& to = warehouse_->variable(Generation::fresh, carried.variable, static_cast<int>(patch));
-    std::swap(to, spare_[patch]);
+  for (const Patch& patch : warehouse_->level().patches()) {
+    Variable& to = warehouse_->variable(Generation::fresh, carried.variable, patch.id());
+    std::swap(to, spare_[static_cast<std::size_t>(patch.id() - warehouse_->level().firstPatch())]);
   }
 }
 
