@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <concepts>
 #include <string_view>
 #include <type_traits>
@@ -12,6 +13,20 @@ namespace tushar::mpm::solid {
 /// A second-order tensor in x, y, z, row by row. Always three by three: a solid in one or two dimensions is in plane strain.
 using Matrix3 = Eigen::Matrix<double, 3, 3, Eigen::DontAlign | Eigen::RowMajor>;
 
+/// A second-order tensor as a State keeps it, row by row.
+using Tensor = std::array<double, 9>;
+inline Matrix3 matrixOf(const Tensor& tensor) { return Eigen::Map<const Matrix3>(tensor.data()); }
+inline Tensor tensorOf(const Matrix3& matrix) {
+  Tensor tensor;
+  Eigen::Map<Matrix3>(tensor.data()) = matrix;
+  return tensor;
+}
+inline constexpr Tensor identityTensor{1, 0, 0, 0, 1, 0, 0, 0, 1};
+
+/// The derivative of one second-order tensor by another, each as nine numbers row by row.
+using Matrix9 = Eigen::Matrix<double, 9, 9, Eigen::DontAlign | Eigen::RowMajor>;
+using Vector9 = Eigen::Matrix<double, 9, 1, Eigen::DontAlign>;
+
 /// What a constitutive model is told about one material point in one step.
 struct Deformation {
   Matrix3 deformationGradient;     ///< F at the end of the step, 1
@@ -21,19 +36,20 @@ struct Deformation {
   double temperature;              ///< K
 };
 
-/// A variable of a model's State that a scene may save: one number (double) of it.
+/// A variable of a model's State, which a scene may save by its label.
 struct StateVariable {
   std::string_view label;  ///< as in Uintah: `p.plasticStrain`
   std::string_view unit;
   std::string_view description;
+  int components = 1;  ///< 1, or 9 for a Tensor
 };
 
 /// How a solid answers to being deformed: its constants, read by schema(), and the members below. A model is one file
 /// in materials/ and one line in materials/all.hpp.
 ///
-/// - `State`: internal variables of one particle; a struct of doubles and Matrix3 only, empty where there are none.
-///   Where it is not empty, `static constexpr std::array<StateVariable, N> stateVariables` names its numbers in the
-///   order of memory; N = sizeof(State) / sizeof(double).
+/// - `State`: internal variables of one particle; a struct of doubles and Tensors only, empty where there are none.
+///   Where it is not empty, `static constexpr std::array<StateVariable, N> stateVariables` names them in their order.
+/// - optional `bool keepsState() const`: false where the constants make that needless; initialState() then stands in.
 /// - `updateStress`: Cauchy stress at the end of the step, Pa, from that at its begin; brings the State to the end.
 /// - `waveSpeed`: of the fastest elastic wave, m/s, from the density at the start of the run, kg/m^3.
 /// - optional `static constexpr bool dependsOnDeformationOnly = true`: updateStress looks at F alone; then the stress of
@@ -42,6 +58,9 @@ struct StateVariable {
 /// - optional `static constexpr bool usesTemperature = false`: updateStress never looks at the temperature.
 /// - optional `double initialWaveSpeed(double initialDensity) const`: at the start, where it is not waveSpeed of F = I.
 /// - optional `bulkSpeed`, with the arguments of waveSpeed: sqrt(K / density) for the artificial viscosity, m/s.
+/// - optional `Matrix9 nominalTangent(const Deformation&, const Matrix3& oldStress, const State& old) const`: dP/dF, Pa,
+///   at the end of a step whose F changes as a whole, L dt = F F_old^-1 - I; P = J sigma F^-T, row 3 i + J, column
+///   3 k + L; consistent with what updateStress makes of the state at the begin. For implicit time steps.
 /// - `strainEnergyDensity`: J per m^3 of the volume at the start of the run; a hyperelastic model returns W(F), any
 ///   other what the step adds to it (`strainEnergyIsRate` true).
 template <class Model>

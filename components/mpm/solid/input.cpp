@@ -4,6 +4,7 @@
 
 #include "components/mpm/solid/loads/load_input.hpp"
 #include "components/mpm/solid/material_input.hpp"
+#include "components/mpm/solid/refuse.hpp"
 #include "components/mpm/solid/solid_mpm.hpp"
 #include "core/simulation/by_dimension.hpp"
 
@@ -47,17 +48,6 @@ const std::vector<std::pair<std::string, std::string>> lacking{
     {"DoCapDensity", "take it out: density is not capped"},
     {"DoGranularMPM", "take it out"},
 };
-
-/// A switch of Uintah's that only stands at `false` here; `instead` says what there is.
-void refuseSwitch(Schema<MpmSection>& schema, const std::string& tag, const std::string& instead) {
-  schema.custom(tag,
-                [tag, instead](MpmSection&, const Element& element, Diagnostics& diagnostics) {
-                  const auto given = element.child(tag);
-                  if (given && given->text() != "false")
-                    diagnostics.error(*given, "is not available; " + instead);
-                },
-                {tag}, "only false: " + instead);
-}
 
 const Schema<MpmSection>& mpmSchema() {
   static const Schema<MpmSection> schema = [] {

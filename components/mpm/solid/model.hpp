@@ -43,6 +43,10 @@ class Model {
   /// Of the fastest wave at the start, m/s.
   virtual double initialWaveSpeed(double initialDensity, double temperature) const = 0;
   virtual void updateStress(double initialDensity, const StressPoints& points) const = 0;
+  /// Whether nominalTangent is there.
+  virtual bool hasTangent() const = 0;
+  /// dP/dF of each point, Pa, whose state is that at the begin; see ConstitutiveModel. Only where hasTangent().
+  virtual void nominalTangent(const StressPoints& points, Matrix9* tangent) const = 0;
   /// J sigma of `count` deformation gradients, Pa; only where the stress depends on F alone.
   virtual void kirchhoffStress(const Matrix3* deformationGradient, int count, Matrix3* stress) const = 0;
 };
@@ -54,14 +58,16 @@ class ModelOf : public Model {
 
   const M& model() const { return model_; }
   std::string_view name() const override { return M::name; }
-  int stateSize() const override { return hasState ? int(sizeof(State) / sizeof(double)) : 0; }
+  int stateSize() const override { return keepsState() ? int(sizeof(State) / sizeof(double)) : 0; }
   std::vector<StateVariable> stateVariables() const override {
-    if constexpr (hasState)
-      return {M::stateVariables.begin(), M::stateVariables.end()};
-    else
-      return {};
+    if constexpr (hasState) {
+      if (keepsState()) return {M::stateVariables.begin(), M::stateVariables.end()};
+    }
+    return {};
   }
-  void initialize(double* state) const override { store(model_.initialState(), state); }
+  void initialize(double* state) const override {
+    if (keepsState()) store(model_.initialState(), state);
+  }
   bool usesTemperature() const override {
     if constexpr (requires { M::usesTemperature; })
       return M::usesTemperature;
@@ -72,8 +78,7 @@ class ModelOf : public Model {
 
   void updateStress(double initialDensity, const StressPoints& points) const override {
     for (int k = 0; k < points.count; ++k) {
-      const Deformation d{points.deformationGradient[k], points.oldDeformationGradient[k], points.velocityGradient[k],
-                          points.timeStep, points.temperature ? points.temperature[k] : 0.0};
+      const Deformation d = deformation(points, k);
       if constexpr (fromDeformation && requires { model_.waveSpeed(initialDensity, d); }) {
         if (!points.stress) {
           finish(initialDensity, points, k, d, Matrix3::Zero(), Matrix3::Zero(), State{},
@@ -82,7 +87,7 @@ class ModelOf : public Model {
         }
       }
       double* const numbers = points.state + k * points.stateStride;
-      const Matrix3 before = points.oldStress ? points.oldStress[k] : Matrix3(Matrix3::Zero());
+      const Matrix3 before = oldStress(points, k);
       State state = load(numbers);
       const Matrix3 after = model_.updateStress(d, before, state);
       if (points.stress) points.stress[k] = after;
@@ -102,6 +107,14 @@ class ModelOf : public Model {
     }
   }
 
+  bool hasTangent() const override { return tangential; }
+  void nominalTangent(const StressPoints& points, Matrix9* tangent) const override {
+    if constexpr (tangential)
+      for (int k = 0; k < points.count; ++k)
+        tangent[k] = model_.nominalTangent(deformation(points, k), oldStress(points, k),
+                                           load(points.state + k * points.stateStride));
+  }
+
   void kirchhoffStress(const Matrix3* f, int count, Matrix3* stress) const override {
     if constexpr (requires { model_.kirchhoffStress(*f); }) {
       for (int k = 0; k < count; ++k) stress[k] = model_.kirchhoffStress(f[k]);
@@ -116,6 +129,8 @@ class ModelOf : public Model {
  private:
   using State = typename M::State;
   static constexpr bool hasState = !std::is_empty_v<State>;
+  static constexpr bool tangential =
+      requires(const M& m, const Deformation& d, const Matrix3& s, const State& state) { m.nominalTangent(d, s, state); };
   static constexpr bool fromDeformation = [] {
     if constexpr (requires { M::dependsOnDeformationOnly; })
       return M::dependsOnDeformationOnly;
@@ -137,13 +152,30 @@ class ModelOf : public Model {
     else
       return waveSpeed;
   }
-  static State load(const double* numbers) {
-    State state{};
-    if constexpr (hasState) std::memcpy(&state, numbers, sizeof state);
+  static Deformation deformation(const StressPoints& points, int k) {
+    return {points.deformationGradient[k], points.oldDeformationGradient[k], points.velocityGradient[k], points.timeStep,
+            points.temperature ? points.temperature[k] : 0.0};
+  }
+  static Matrix3 oldStress(const StressPoints& points, int k) {
+    return points.oldStress ? points.oldStress[k] : Matrix3(Matrix3::Zero());
+  }
+  bool keepsState() const {
+    if constexpr (requires { model_.keepsState(); })
+      return model_.keepsState();
+    else
+      return hasState;
+  }
+  State load(const double* numbers) const {
+    State state = model_.initialState();
+    if constexpr (hasState) {
+      if (keepsState()) std::memcpy(&state, numbers, sizeof state);
+    }
     return state;
   }
-  static void store(const State& state, double* numbers) {
-    if constexpr (hasState) std::memcpy(numbers, &state, sizeof state);
+  void store(const State& state, double* numbers) const {
+    if constexpr (hasState) {
+      if (keepsState()) std::memcpy(numbers, &state, sizeof state);
+    }
   }
 
   M model_;

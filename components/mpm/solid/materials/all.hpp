@@ -7,14 +7,17 @@
 #include "components/mpm/solid/materials/comp_neo_hook.hpp"
 #include "components/mpm/solid/materials/hypo_elastic.hpp"
 #include "components/mpm/solid/materials/rigid.hpp"
+#include "components/mpm/solid/materials/ucnh.hpp"
 
 namespace tushar::mpm::solid {
 
 /// Every constitutive model that a scene can pick: THE table, one line each.
-using AllModels = std::tuple<CnhMms,            //
-                             CompMooneyRivlin,  //
-                             CompNeoHook,       //
-                             HypoElastic,       //
-                             Rigid>;
+using AllModels = std::tuple<CnhMms,              //
+                             CompMooneyRivlin,    //
+                             CompNeoHook,         //
+                             CompNeoHookPlastic,  //
+                             HypoElastic,         //
+                             Rigid,               //
+                             Ucnh>;
 
 }  // namespace tushar::mpm::solid

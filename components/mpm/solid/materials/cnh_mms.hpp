@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "components/mpm/solid/constitutive_model.hpp"
+#include "components/mpm/solid/kernels/tangent.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -37,6 +38,18 @@ struct CnhMms {
     Matrix3 stress = shearModulus * (f * f.transpose());
     stress.diagonal().array() += lambda() * std::log(j) - shearModulus;
     return stress / j;
+  }
+  /// d tau = lambda tr h I + G (h B + B hᵀ) with B = F Fᵀ
+  Matrix9 nominalTangent(const Deformation& d, const Matrix3& oldStress, const State&) const {
+    const Matrix3& f = d.deformationGradient;
+    State none;
+    const Matrix3 b = f * f.transpose(), tau = f.determinant() * updateStress(d, oldStress, none);
+    return solid::nominalTangent(f, tau, [&](const Matrix3& h) {
+      const Matrix3 hb = h * b;
+      Matrix3 change = shearModulus * (hb + hb.transpose());
+      change.diagonal().array() += lambda() * h.trace();
+      return change;
+    });
   }
   double waveSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
     return std::sqrt((bulkModulus + 4.0 / 3.0 * shearModulus) * d.deformationGradient.determinant() / initialDensity);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "components/mpm/solid/constitutive_model.hpp"
+#include "components/mpm/solid/kernels/tangent.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -35,10 +36,23 @@ struct CompMooneyRivlin {
   /// sigma = 2/J ((C1 + I1 C2) B - C2 B² + I3 dW/dI3 I)
   Matrix3 updateStress(const Deformation& d, const Matrix3&, State&) const {
     const Invariants i(d.deformationGradient);
-    const double slope = -2 * c3() / (i.third * i.third * i.third) + 2 * c4() * (i.third - 1);
     Matrix3 stress = (c1 + i.first * c2) * i.b - c2 * i.b * i.b;
-    stress.diagonal().array() += i.third * slope;
+    stress.diagonal().array() += i.third * slope(i.third);
     return stress * (2 / i.j);
+  }
+  /// d tau = 2 (C2 dI1 B + (C1 + I1 C2) dB - C2 (dB B + B dB) + (dW/dI3 + I3 d²W/dI3²) dI3 I) with dB = h B + B hᵀ,
+  /// dI1 = tr dB, dI3 = 2 I3 tr h
+  Matrix9 nominalTangent(const Deformation& d, const Matrix3& oldStress, const State&) const {
+    const Invariants i(d.deformationGradient);
+    State none;
+    const double curvature = 6 * c3() / (i.third * i.third * i.third * i.third) + 2 * c4();
+    const Matrix3 tau = i.j * updateStress(d, oldStress, none);
+    return solid::nominalTangent(d.deformationGradient, tau, [&](const Matrix3& h) {
+      const Matrix3 hb = h * i.b, db = hb + hb.transpose(), bdb = i.b * db;
+      Matrix3 change = c2 * db.trace() * i.b + (c1 + i.first * c2) * db - c2 * (bdb + bdb.transpose());
+      change.diagonal().array() += (slope(i.third) + i.third * curvature) * 2 * i.third * h.trace();
+      return Matrix3(2 * change);
+    });
   }
   /// At the start Uintah takes the wave of the linear material: 2 mu (1 - nu) / (1 - 2 nu), mu = 2 (C1 + C2).
   double initialWaveSpeed(double initialDensity) const {
@@ -72,6 +86,8 @@ struct CompMooneyRivlin {
       third = j * j;
     }
   };
+  /// dW/dI3
+  double slope(double i3) const { return -2 * c3() / (i3 * i3 * i3) + 2 * c4() * (i3 - 1); }
   double c3() const { return 0.5 * c1 + c2; }
   double c4() const { return 0.5 * (c1 * (5 * poissonRatio - 2) + c2 * (11 * poissonRatio - 5)) / (1 - 2 * poissonRatio); }
 };

@@ -6,6 +6,7 @@
 
 #include "components/mpm/solid/constitutive_model.hpp"
 #include "components/mpm/solid/kernels/cube_root.hpp"
+#include "components/mpm/solid/kernels/tangent.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -42,6 +43,18 @@ struct CompNeoHook {
   }
   Matrix3 updateStress(const Deformation& d, const Matrix3&, State&) const {
     return kirchhoffStress(d.deformationGradient) / d.deformationGradient.determinant();
+  }
+  /// d tau = K J² tr h I + G dev(h b + b hᵀ - 2/3 tr h b) with b = J^(-2/3) F Fᵀ
+  Matrix9 nominalTangent(const Deformation& d, const Matrix3&, const State&) const {
+    const Matrix3& f = d.deformationGradient;
+    const double j = f.determinant();
+    const Matrix3 b = f * f.transpose() / std::cbrt(j * j);
+    return solid::nominalTangent(f, kirchhoffStress(f), [&](const Matrix3& h) {
+      const Matrix3 hb = h * b;
+      Matrix3 change = shearModulus * deviator(hb + hb.transpose() - 2.0 / 3.0 * h.trace() * b);
+      change.diagonal().array() += bulkModulus * j * j * h.trace();
+      return change;
+    });
   }
   double waveSpeed(double initialDensity, const Deformation& d) const {
     return std::sqrt((bulkModulus + 4.0 / 3.0 * shearModulus) * d.deformationGradient.determinant() / initialDensity);

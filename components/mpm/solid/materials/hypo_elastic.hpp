@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "components/mpm/solid/constitutive_model.hpp"
+#include "components/mpm/solid/kernels/tangent.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -29,10 +30,19 @@ struct HypoElastic {
   State initialState() const { return {}; }
 
   Matrix3 updateStress(const Deformation& d, const Matrix3& oldStress, State&) const {
-    const Matrix3 rate = rateOfDeformation(d);
-    Matrix3 increment = 2 * shearModulus * rate;
-    increment.diagonal().array() += (bulkModulus - 2.0 / 3.0 * shearModulus) * rate.trace();
-    return oldStress + increment * d.timeStep;
+    return oldStress + stressOf(rateOfDeformation(d)) * d.timeStep;
+  }
+  /// d tau = J (tr h sigma + 2 G dev e + K tr e I) with e = sym(h F F_old^-1)
+  Matrix9 nominalTangent(const Deformation& d, const Matrix3& oldStress, const State&) const {
+    const Matrix3& f = d.deformationGradient;
+    const Matrix3 step = f * d.oldDeformationGradient.inverse();
+    const Matrix3 strain = 0.5 * (step + step.transpose()) - Matrix3::Identity();
+    const Matrix3 stress = oldStress + stressOf(strain);
+    const double j = f.determinant();
+    return solid::nominalTangent(f, j * stress, [&](const Matrix3& h) {
+      const Matrix3 moved = h * step, change = 0.5 * (moved + moved.transpose());
+      return Matrix3(j * (h.trace() * stress + stressOf(change)));
+    });
   }
   double waveSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
     return std::sqrt((bulkModulus + 4.0 / 3.0 * shearModulus) * d.deformationGradient.determinant() / initialDensity);
@@ -47,6 +57,12 @@ struct HypoElastic {
   }
 
  private:
+  /// 2 G dev e + K tr e I
+  Matrix3 stressOf(const Matrix3& strain) const {
+    Matrix3 stress = 2 * shearModulus * strain;
+    stress.diagonal().array() += (bulkModulus - 2.0 / 3.0 * shearModulus) * strain.trace();
+    return stress;
+  }
   static Matrix3 rateOfDeformation(const Deformation& d) {
     return 0.5 * (d.velocityGradient + d.velocityGradient.transpose());
   }
