@@ -13,6 +13,7 @@
 #include "core/base/interrupt.hpp"
 #include "core/base/launcher.hpp"
 #include "core/base/mpi.hpp"
+#include "core/base/threads.hpp"
 #include "core/input/geometry.hpp"
 #include "core/simulation/scene.hpp"
 
@@ -25,6 +26,7 @@ struct Arguments {
   std::vector<std::string> overrides;
   bool check = false, list = false, restart = false, schedule = false, version = false;
   std::optional<int> checkpoint;  ///< step of the one to restart from
+  std::optional<int> threads;
   simulation::RunOptions run;
 };
 
@@ -74,6 +76,8 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.add_option("--set", arguments.overrides, "override a value of the scene: PATH=VALUE, e.g.\n"
                                                "Grid/Level/Box/resolution=[200,1,1]; may be repeated")
       ->allow_extra_args(false);
+  app.add_option("--nthreads", arguments.threads, "threads to run on; all cores that are free to use, if not given")
+      ->check(CLI::Range(1, 1024));
   app.add_option("--json", arguments.run.jsonPath, "write the report to a file, as JSON");
   app.add_option("--output", arguments.run.outputFolder, "put the .uda into this folder");
   app.add_flag("--quiet", arguments.run.quiet, "no progress, no report on the screen");
@@ -170,7 +174,9 @@ ExitCode runScene(const Arguments& arguments, const simulation::Catalogue& known
   simulation::Problem problem = readProblem(arguments, known, ranks);
   if (!arguments.run.quiet && ranks.isFirst())
     for (const InputProblem& note : problem.notes) fmt::print(stderr, "note: {}\n", note.text());
-  simulation::Simulation run(std::move(problem), arguments.run, startedAt, ranks);
+  simulation::RunOptions options = arguments.run;
+  options.threads = arguments.threads ? *arguments.threads : allowedThreads();
+  simulation::Simulation run(std::move(problem), options, startedAt, ranks);
   if (arguments.check || arguments.schedule || !arguments.graph.empty()) {
     inspect(arguments, run, ranks.isFirst());
     return ExitCode::success;

@@ -9,4 +9,10 @@ int launchedRanks();
 /// Which of these processes this is, from 0; 0 without a launcher.
 int launchedRank();
 
+/// How many of them are on this machine.
+int ranksOnThisMachine();
+
+/// Cores that the launcher gave to each; the most that an int can say where it did not say.
+int launchedCoresPerRank();
+
 }  // namespace tushar

@@ -43,6 +43,9 @@ void Warehouse::grow(int materials) {
   old_.resize(std::max(old_.size(), places));
   fresh_.resize(std::max(fresh_.size(), places));
   reductions_.resize(std::max(reductions_.size(), static_cast<std::size_t>(table_->size())));
+  for (std::deque<Variable>* variables : {&old_, &fresh_})
+    for (std::size_t k = 0; k < variables->size(); ++k) (*variables)[k].pool = static_cast<int>(k % level_->patches().size());
+  pools_.resize(level_->patches().size());
   const std::size_t sets = place(materials, level_->firstPatch());
   old_sets_.resize(std::max(old_sets_.size(), sets));
   fresh_sets_.resize(std::max(fresh_sets_.size(), sets));
@@ -90,20 +93,6 @@ void Warehouse::takeRestored(int number) {
   restored_.erase(restored);
 }
 
-void Warehouse::take(Variable& variable, std::size_t bytes, std::size_t keep) {
-  variable.held = true;
-  if (bytes <= variable.values.capacity()) return;
-  if (keep == 0) {
-    const auto fits = std::find_if(pool_.rbegin(), pool_.rend(), [&](const Buffer& b) { return b.capacity() >= bytes; });
-    if (fits != pool_.rend()) {
-      std::swap(variable.values, *fits);
-      return;
-    }
-  }
-  ++allocations_;
-  variable.values.reserve(bytes, keep);
-}
-
 namespace {
 void fillWithNaN(Buffer& buffer, const Label& label, std::size_t fromByte, std::size_t toByte) {
   if (!checked || label.number != Number::real) return;
@@ -115,7 +104,8 @@ void fillWithNaN(Buffer& buffer, const Label& label, std::size_t fromByte, std::
 
 void Warehouse::allocateGrid(Variable& variable, const Label& label, const grid::Box& stored) {
   const std::size_t bytes = stored.size() * label.bytes;
-  take(variable, bytes, 0);
+  variable.held = true;
+  pools_[static_cast<std::size_t>(variable.pool)].reserve(variable.values, bytes);
   variable.stored = stored;
   fillWithNaN(variable.values, label, 0, bytes);
 }
@@ -123,20 +113,20 @@ void Warehouse::allocateGrid(Variable& variable, const Label& label, const grid:
 void Warehouse::allocateParticles(Variable& variable, const Label& label, int count, int keep) {
   const std::size_t kept = static_cast<std::size_t>(keep) * label.bytes;
   const std::size_t bytes = static_cast<std::size_t>(count) * label.bytes;
-  take(variable, bytes, kept);
+  variable.held = true;
+  pools_[static_cast<std::size_t>(variable.pool)].reserve(variable.values, bytes, kept);
   fillWithNaN(variable.values, label, kept, bytes);
 }
 
 void Warehouse::free(Variable& variable) {
   variable.held = false;
-  if (variable.values.capacity() == 0) return;
-  const auto empty = std::find_if(pool_.begin(), pool_.end(), [](const Buffer& b) { return b.capacity() == 0; });
-  if (empty != pool_.end())
-    std::swap(*empty, variable.values);
-  else {
-    pool_.push_back(std::move(variable.values));
-    variable.values = Buffer();
-  }
+  pools_[static_cast<std::size_t>(variable.pool)].takeBack(variable.values);
+}
+
+std::size_t Warehouse::allocations() const {
+  std::size_t all = 0;
+  for (const BufferPool& pool : pools_) all += pool.allocations();
+  return all;
 }
 
 bool Warehouse::isHeld(Generation generation, int number) {

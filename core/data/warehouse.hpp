@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "core/data/buffer.hpp"
+#include "core/data/buffer_pool.hpp"
 #include "core/data/label.hpp"
 #include "core/data/particle_set.hpp"
 #include "core/grid/level.hpp"
@@ -55,6 +55,7 @@ struct Variable {
   Buffer values;
   grid::Box stored;   ///< of node and cell variables: the box in memory, ghosts included
   bool held = false;  ///< whether there are values
+  int pool = 0;       ///< where its memory comes from: there is one for each patch
 };
 
 /// What tasks read as `requiresOld`: the state at the start of the step. The rest is new.
@@ -62,7 +63,8 @@ enum class Generation { old, fresh };
 
 /// Holds the variables and particle sets of this rank, in two generations.
 ///
-/// Every address is stable once a variable has been named; `swap` exchanges contents, not addresses.
+/// Every address is stable once a variable has been named; `swap` exchanges contents, not addresses. Threads may allocate
+/// and free at once on different patches.
 class Warehouse {
  public:
   /// For one rank on its own.
@@ -73,6 +75,7 @@ class Warehouse {
 
   const grid::Level& level() const { return *level_; }
   const VariableTable& table() const { return *table_; }
+  int patches() const { return static_cast<int>(level_->patches().size()); }
   /// The ranks that share the grid.
   const mpi::Communicator& ranks() const { return *ranks_; }
 
@@ -88,8 +91,13 @@ class Warehouse {
   R& reduction(int number) {
     return static_cast<TypedReduction<R>&>(slot(number)).reducer;
   }
+  /// What a patch adds to a reduction.
+  template <class R>
+  R& partOfReduction(int number, int patch) {
+    return static_cast<TypedReduction<R>&>(slot(number)).part(static_cast<std::size_t>(patch - level_->firstPatch()));
+  }
   void resetReduction(int number);
-  /// A reduction whatever its type.
+  /// A reduction whatever its type; made on first use, which must not be by several threads at once.
   ReductionSlot& slot(int number);
   /// The values of a reduction; none if no task has computed it.
   std::vector<double> reductionValues(int number) const;
@@ -115,14 +123,13 @@ class Warehouse {
   void swapSets(int material);
 
   /// Allocations made so far; a test shows that variables nobody reads add none.
-  std::size_t allocations() const { return allocations_; }
+  std::size_t allocations() const;
 
  private:
   std::size_t place(int number, int patch) const {
     return static_cast<std::size_t>(number) * level_->patches().size() +
            static_cast<std::size_t>(patch - level_->firstPatch());
   }
-  void take(Variable& variable, std::size_t bytes, std::size_t keep);
   void takeRestored(int number);
 
   const grid::Level* level_;
@@ -132,8 +139,7 @@ class Warehouse {
   std::deque<ParticleSet> old_sets_, fresh_sets_;
   std::vector<std::unique_ptr<ReductionSlot>> reductions_;
   std::unordered_map<int, std::vector<std::byte>> restored_;  ///< reductions that no task has named yet
-  std::vector<Buffer> pool_;
-  std::size_t allocations_ = 0;
+  std::vector<BufferPool> pools_;  ///< by patch
 };
 
 }  // namespace tushar::data

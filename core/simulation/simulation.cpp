@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/interrupt.hpp"
@@ -22,7 +23,7 @@ Simulation::Simulation(Problem problem, const RunOptions& options, Clock::time_p
       started_at_(startedAt),
       phases_(*problem_.component, problem_.analyses),
       warehouse_(*problem_.level, table_, ranks),
-      scheduler_(warehouse_),
+      scheduler_(warehouse_, std::clamp(options.threads, 1, std::max(1, warehouse_.patches()))),
       time_(problem_.time),
       progress_(options.quiet || !ranks.isFirst(), stdout),
       outputs_(problem_.time.initTime, problem_.archive.outputInterval) {
@@ -259,6 +260,7 @@ Report Simulation::makeReport() {
   report.dimension = problem_.level->dimension();
   report.patches = problem_.level->patchCount();
   report.ranks = ranks_->size();
+  report.threads = scheduler_.threads();
   report.spacing = problem_.level->minSpacing();
   report.cells = static_cast<long>(problem_.level->cells().size());
   report.particles = particleCount(warehouse_, static_cast<int>(phases_.materials().size()));

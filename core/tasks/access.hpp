@@ -47,7 +47,7 @@ struct FieldAccess<data::ReductionLabel<R>, Kind> {
   }
   decltype(auto) bind(const TaskContext& context) const {
     if constexpr (Kind == AccessKind::computes)
-      return (context.reduction<R>(index));
+      return (context.partOfReduction<R>(index));
     else
       return context.reduction<R>(index).value;
   }

@@ -52,9 +52,15 @@ class TaskContext {
     return {reinterpret_cast<T*>(variable.values.data()), variable.stored, box, &label};
   }
 
+  /// What is known of a reduction.
   template <class R>
-  R& reduction(int access) const {
+  const R& reduction(int access) const {
     return warehouse_->reduction<R>((*accesses_)[static_cast<std::size_t>(access)].variable);
+  }
+  /// What the patch adds to it.
+  template <class R>
+  R& partOfReduction(int access) const {
+    return warehouse_->partOfReduction<R>((*accesses_)[static_cast<std::size_t>(access)].variable, patch_->id());
   }
 
   template <class T>

@@ -14,8 +14,7 @@ constexpr int neighbourhood = 2;
 
 }  // namespace
 
-void Emigration::start(int material) {
-  material_ = material;
+void Emigration::start() {
   for (auto& particles : leaving_) particles.second.clear();
   arrived_.clear();
 }

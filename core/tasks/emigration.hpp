@@ -29,8 +29,8 @@ class Emigration {
  public:
   explicit Emigration(data::Warehouse& warehouse) : warehouse_(&warehouse), outbox_(warehouse.ranks()) {}
 
-  /// A relocation of a material begins: nobody leaves yet.
-  void start(int material);
+  /// A relocation begins: nobody leaves yet.
+  void start();
   void add(int rank, const Emigrant& particle) { leaving_[rank].push_back(particle); }
   /// Whether a particle goes to a rank that is no neighbour.
   bool goesFar();
@@ -50,7 +50,6 @@ class Emigration {
 
   data::Warehouse* warehouse_;
   mpi::Outbox outbox_;
-  int material_ = 0;
   bool knows_neighbours_ = false;
   std::vector<int> neighbours_;
   std::map<int, std::vector<Emigrant>> leaving_;  ///< by rank

@@ -119,11 +119,10 @@ const GhostPlan& Exchange::planOf(const NumberedFill& fill) {
 
 bool Exchange::run(std::span<const NumberedFill> fills, bool hasStopped) {
   if (warehouse_->level().patchCount() == 1 && !warehouse_->level().isPeriodic()) return !hasStopped;
+  for (const NumberedFill& fill : fills) planOf(fill);
   noteUnsettled(fills);
   post(fills, hasStopped);
-  if (!hasStopped)
-    for (const NumberedFill& fill : fills)
-      if (!fill.particles) fillFromHere(fill);
+  if (!hasStopped) fillFromHere(fills);
   std::set<int> senders;
   for (const NumberedFill& fill : fills) senders.insert(planOf(fill).incoming.begin(), planOf(fill).incoming.end());
   Letters letters;
@@ -133,12 +132,32 @@ bool Exchange::run(std::span<const NumberedFill> fills, bool hasStopped) {
   }
   outbox_.wait();
   if (hasStopped) return false;
-  for (std::size_t k = 0; k < fills.size(); ++k) {
-    if (settles_[k])
-      for (const Patch& patch : warehouse_->level().patches()) settleGhosts(fills[k], patch, letters);
-    fills[k].particles ? fillParticles(fills[k], letters) : fillFromElsewhere(fills[k], letters);
-  }
+  for (std::size_t k = 0; k < fills.size() && !senders.empty(); ++k) fillFromElsewhere(fills[k], settles_[k], letters);
   return true;
+}
+
+template <class Work>
+void Exchange::forEach(std::span<const NumberedFill> fills, const Work& work) {
+  const std::vector<Patch>& patches = warehouse_->level().patches();
+  threads_->forEach(static_cast<int>(patches.size()), [&](int place) {
+    const auto at = static_cast<std::size_t>(place);
+    for (std::size_t k = 0; k < fills.size(); ++k) work(fills[k], settles_[k], patches[at], at);
+  });
+}
+
+/// A patch reads of others only what they own, and that stands still once all have made room.
+void Exchange::fillFromHere(std::span<const NumberedFill> fills) {
+  forEach(fills, [&](const NumberedFill& fill, bool settles, const Patch& patch, std::size_t place) {
+    if (!fill.particles || !planOf(fill).isClosed[place]) return;
+    if (settles) settleGhosts(fill, patch, nullptr);
+    makeRoom(fill, patch);
+  });
+  forEach(fills, [&](const NumberedFill& fill, bool, const Patch& patch, std::size_t place) {
+    if (fill.particles && planOf(fill).isClosed[place]) return fillParticles(fill, patch, nullptr);
+    if (fill.particles) return;
+    for (const GhostCopy& copy : planOf(fill).into[place])
+      if (copy.rank == warehouse_->ranks().rank()) copyGrid(fill, copy);
+  });
 }
 
 void Exchange::noteUnsettled(std::span<const NumberedFill> fills) {
@@ -172,33 +191,42 @@ void Exchange::post(std::span<const NumberedFill> fills, bool hasStopped) {
   }
 }
 
-void Exchange::fillFromHere(const NumberedFill& fill) {
+void Exchange::copyGrid(const NumberedFill& fill, const GhostCopy& copy) {
   const std::size_t bytes = warehouse_->table()[fill.variable].label->bytes;
-  for (const std::vector<GhostCopy>& copies : planOf(fill).into)
-    for (const GhostCopy& copy : copies) {
-      if (copy.rank != warehouse_->ranks().rank()) continue;
-      Variable& from = warehouse_->variable(fill.generation, fill.variable, copy.from);
-      Variable& to = warehouse_->variable(fill.generation, fill.variable, copy.to);
-      forEachRow(copy.box, bytes, [&](const Index3& first, std::size_t length) {
-        std::memcpy(at(to, first, bytes), at(from, first - copy.shift, bytes), length);
-      });
-    }
+  Variable& from = warehouse_->variable(fill.generation, fill.variable, copy.from);
+  Variable& to = warehouse_->variable(fill.generation, fill.variable, copy.to);
+  forEachRow(copy.box, bytes, [&](const Index3& first, std::size_t length) {
+    std::memcpy(at(to, first, bytes), at(from, first - copy.shift, bytes), length);
+  });
 }
 
-void Exchange::fillFromElsewhere(const NumberedFill& fill, Letters& letters) {
+void Exchange::fillFromElsewhere(const NumberedFill& fill, bool settles, Letters& letters) {
+  const GhostPlan& plan = planOf(fill);
+  const std::vector<Patch>& patches = warehouse_->level().patches();
   const std::size_t bytes = warehouse_->table()[fill.variable].label->bytes;
-  for (const std::vector<GhostCopy>& copies : planOf(fill).into)
-    for (const GhostCopy& copy : copies) {
+  for (std::size_t place = 0; place < patches.size(); ++place) {
+    if (plan.isClosed[place]) continue;
+    if (fill.particles && settles) settleGhosts(fill, patches[place], &letters);
+    if (fill.particles) makeRoom(fill, patches[place]);
+  }
+  for (std::size_t place = 0; place < patches.size(); ++place) {
+    if (plan.isClosed[place]) continue;
+    if (fill.particles) {
+      fillParticles(fill, patches[place], &letters);
+      continue;
+    }
+    for (const GhostCopy& copy : plan.into[place]) {
       if (copy.rank == warehouse_->ranks().rank()) continue;
       Variable& to = warehouse_->variable(fill.generation, fill.variable, copy.to);
       forEachRow(copy.box, bytes, [&](const Index3& first, std::size_t length) {
         std::memcpy(at(to, first, bytes), letters.next(copy.rank, length), length);
       });
     }
+  }
 }
 
 /// Appends the particles of the cells around the patch to its set.
-void Exchange::settleGhosts(const NumberedFill& fill, const Patch& patch, Letters& letters) {
+void Exchange::settleGhosts(const NumberedFill& fill, const Patch& patch, Letters* letters) {
   const int material = warehouse_->table()[fill.variable].material;
   ParticleSet& set = warehouse_->particles(fill.set, material, patch.id());
   const auto place = static_cast<std::size_t>(patch.id() - warehouse_->level().firstPatch());
@@ -213,7 +241,7 @@ void Exchange::settleGhosts(const NumberedFill& fill, const Patch& patch, Letter
     int there = 0;  // place in the message, among those of this copy
     grid::forEach<3>(copy.box, [&](const Index3& cell) {
       std::int32_t count = 0;
-      std::memcpy(&count, letters.next(copy.rank, sizeof(count)), sizeof(count));
+      std::memcpy(&count, letters->next(copy.rank, sizeof(count)), sizeof(count));
       set.addGhostCell(cell, copy.from, {there, there + count}, copy.shift);
       there += count;
     });
@@ -221,26 +249,31 @@ void Exchange::settleGhosts(const NumberedFill& fill, const Patch& patch, Letter
   set.markGhosts();
 }
 
-void Exchange::fillParticles(const NumberedFill& fill, Letters& letters) {
+void Exchange::makeRoom(const NumberedFill& fill, const Patch& patch) {
+  const auto [label, material] = warehouse_->table()[fill.variable];
+  const ParticleSet& set = warehouse_->particles(fill.set, material, patch.id());
+  Variable& here = warehouse_->variable(fill.generation, fill.variable, patch.id());
+  warehouse_->allocateParticles(here, *label, set.total(), set.owned());
+}
+
+void Exchange::fillParticles(const NumberedFill& fill, const Patch& patch, Letters* letters) {
   const auto [label, material] = warehouse_->table()[fill.variable];
   const grid::Level& level = warehouse_->level();
-  for (const Patch& patch : level.patches()) {
-    ParticleSet& set = warehouse_->particles(fill.set, material, patch.id());
-    Variable& here = warehouse_->variable(fill.generation, fill.variable, patch.id());
-    warehouse_->allocateParticles(here, *label, set.total(), set.owned());
-    std::byte* to = here.values.data() + static_cast<std::size_t>(set.owned()) * label->bytes;
-    for (const data::GhostRun& run : set.ghostRuns()) {
-      const std::size_t length = static_cast<std::size_t>(run.count) * label->bytes;
-      const std::byte* from =
-          level.isMine(run.patch)
-              ? warehouse_->variable(fill.generation, fill.variable, run.patch).values.data() +
-                    static_cast<std::size_t>(run.first) * label->bytes
-              : letters.next(level.ownerOf(run.patch), length);
-      std::memcpy(to, from, length);
-      if (label->name == data::positionName && !(run.shift == Index3{}))
-        shiftPositions(level, run.shift, reinterpret_cast<double*>(to), run.count);
-      to += length;
-    }
+  const ParticleSet& set = warehouse_->particles(fill.set, material, patch.id());
+  Variable& here = warehouse_->variable(fill.generation, fill.variable, patch.id());
+  std::byte* to = here.values.data() + static_cast<std::size_t>(set.owned()) * label->bytes;
+  for (const data::GhostRun& run : set.ghostRuns()) {
+    const std::size_t length = static_cast<std::size_t>(run.count) * label->bytes;
+    const std::byte* from = nullptr;
+    if (level.isMine(run.patch))
+      from = warehouse_->variable(fill.generation, fill.variable, run.patch).values.data() +
+             static_cast<std::size_t>(run.first) * label->bytes;
+    else
+      from = letters->next(level.ownerOf(run.patch), length);
+    std::memcpy(to, from, length);
+    if (label->name == data::positionName && !(run.shift == Index3{}))
+      shiftPositions(level, run.shift, reinterpret_cast<double*>(to), run.count);
+    to += length;
   }
 }
 

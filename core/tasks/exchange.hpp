@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/mpi.hpp"
+#include "core/base/threads.hpp"
 #include "core/data/warehouse.hpp"
 #include "core/tasks/ghost_plan.hpp"
 
@@ -24,7 +25,8 @@ struct NumberedFill {
 /// on their way, patches fill their ghosts from one another.
 class Exchange {
  public:
-  explicit Exchange(data::Warehouse& warehouse) : warehouse_(&warehouse), outbox_(warehouse.ranks()) {}
+  Exchange(data::Warehouse& warehouse, Threads& threads)
+      : warehouse_(&warehouse), threads_(&threads), outbox_(warehouse.ranks()) {}
 
   /// Fills the ghosts of node and cell variables, and of particle variables; which particles are ghosts is settled on
   /// first use of their set. All ranks run it for the same fills in the same order.
@@ -37,14 +39,21 @@ class Exchange {
   class Letters;
 
   void post(std::span<const NumberedFill> fills, bool hasStopped);
-  void fillFromHere(const NumberedFill& fill);
-  void fillFromElsewhere(const NumberedFill& fill, Letters& letters);
-  void settleGhosts(const NumberedFill& fill, const grid::Patch& patch, Letters& letters);
-  void fillParticles(const NumberedFill& fill, Letters& letters);
+  /// What patches of this rank have from one another.
+  void fillFromHere(std::span<const NumberedFill> fills);
+  void fillFromElsewhere(const NumberedFill& fill, bool settles, Letters& letters);
+  void copyGrid(const NumberedFill& fill, const GhostCopy& copy);
+  void settleGhosts(const NumberedFill& fill, const grid::Patch& patch, Letters* letters);
+  void makeRoom(const NumberedFill& fill, const grid::Patch& patch);
+  void fillParticles(const NumberedFill& fill, const grid::Patch& patch, Letters* letters);
   void noteUnsettled(std::span<const NumberedFill> fills);
+  /// Calls `work(fill, whether it settles ghosts, patch, its place)` on several threads at once.
+  template <class Work>
+  void forEach(std::span<const NumberedFill> fills, const Work& work);
   const GhostPlan& planOf(const NumberedFill& fill);
 
   data::Warehouse* warehouse_;
+  Threads* threads_;
   mpi::Outbox outbox_;
   std::map<std::pair<bool, int>, GhostPlan> plans_;  ///< by whether of nodes, and width
   std::vector<bool> settles_;                        ///< by fill: whether it settles which particles are ghosts

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
 #include <chrono>
+#include <mutex>
 
 #include "core/base/error.hpp"
 
@@ -34,6 +36,24 @@ void located(const CompiledTask& task, int patch, int material, const StepInfo& 
   }
 }
 
+/// Keeps, of the values on all patches that cannot be, that of the first cell; of several of one cell that of the first
+/// patch.
+class FirstRefusal {
+ public:
+  void note(const NumericalError& error, int patch) {
+    const std::lock_guard<std::mutex> alone(mutex_);
+    if (error_ && std::pair(error_->cell(), patch_) < std::pair(error.cell(), patch)) return;
+    error_ = error;
+    patch_ = patch;
+  }
+  const std::optional<NumericalError>& error() const { return error_; }
+
+ private:
+  std::mutex mutex_;
+  std::optional<NumericalError> error_;
+  int patch_ = 0;
+};
+
 }  // namespace
 
 std::string placeOf(const CompiledTask& task, int patch, int material, const StepInfo& at) {
@@ -46,13 +66,30 @@ std::string placeOf(const CompiledTask& task, int patch, int material, const Ste
   return text;
 }
 
+template <class Work>
+void Scheduler::forEachPatch(const Work& work) {
+  const std::vector<grid::Patch>& patches = warehouse_->level().patches();
+  threads_.forEach(static_cast<int>(patches.size()), [&](int k) { work(patches[static_cast<std::size_t>(k)]); });
+}
+
+void Scheduler::divideReductions(const CompiledTask& task) {
+  for (const int reduction : task.readReductions) warehouse_->slot(reduction);
+  for (const int reduction : task.reductions) warehouse_->slot(reduction).divide(warehouse_->level().patches().size());
+}
+
+void Scheduler::gatherReductions(const CompiledTask& task) {
+  for (const int reduction : task.reductions) warehouse_->slot(reduction).gather();
+}
+
 std::optional<data::Minimum> Scheduler::run(TaskGraph& graph, const StepInfo& at) {
   if (graph.tasks().empty()) return std::nullopt;
   start(graph);
   for (std::size_t t = 0; t < graph.tasks().size(); ++t) {
     runTask(graph.tasks()[t], static_cast<int>(t), at);
-    if (!hasStopped()) free(graph.tasks()[t]);
-    if (hasStopped() && warehouse_->ranks().isAlone()) break;
+    if (!hasStopped())
+      free(graph.tasks()[t]);
+    else if (warehouse_->ranks().isAlone())
+      break;
   }
   agree(graph);
   if (outcome_.isNone()) return std::nullopt;
@@ -94,9 +131,10 @@ std::optional<data::Minimum> Scheduler::askedBy(const CompiledTask& task) {
 
 /// A task that may ask runs for all materials, whatever happens: all that ask are heard.
 void Scheduler::runWork(CompiledTask& task, const StepInfo& at) {
+  divideReductions(task);
   const bool mayAsk = task.recomputeTimeStep >= 0;
-  const int first = firstMaterial(task);
-  const int end = task.task.acrossMaterials ? first + 1 : first + static_cast<int>(task.materials.size());
+  const int first = task.task.acrossMaterials ? -1 : firstMaterial(task);
+  const int end = first + (task.task.acrossMaterials ? 1 : static_cast<int>(task.materials.size()));
   for (int m = first; m < end && (mayAsk || !hasStopped()); ++m) runOnPatches(task, m, at);
   if (const auto factor = askedBy(task))
     outcome_.merge({running_, Outcome::Kind::asks, 0, 0, warehouse_->ranks().rank(), *factor, {}});
@@ -104,38 +142,34 @@ void Scheduler::runWork(CompiledTask& task, const StepInfo& at) {
 
 /// All ranks relocate together, or none.
 void Scheduler::relocate(const CompiledTask& task, const StepInfo& at) {
-  for (std::size_t m = 0; m < task.materials.size(); ++m) {
-    const MaterialBinding& binding = task.materials[m];
-    const int material = static_cast<int>(m);
+  for (int m = 0; m < static_cast<int>(task.materials.size()) && (m == 0 || !hasStopped()); ++m) {
+    const MaterialBinding& binding = task.of(m);
     try {
-      located(task, -1, material, at, [&] {
+      located(task, -1, m, at, [&] {
         const int position = binding.accesses.front().variable;
-        heard_stop_ = !relocation_.run(material, position, binding.carried, hasStopped()) || heard_stop_;
+        heard_stop_ = !relocation_.run(m, position, binding.carried, hasStopped()) || heard_stop_;
       });
     } catch (const NumericalError& error) {
-      note(task, material, error);
+      note(task, m, error);
     }
-    if (hasStopped()) return;
   }
 }
 
 void Scheduler::runOnPatches(CompiledTask& task, int material, const StepInfo& at) {
-  std::optional<NumericalError> first;
-  bool kept = true;
-  for (const grid::Patch& patch : warehouse_->level().patches()) {
+  FirstRefusal first;
+  std::atomic<bool> kept = true;
+  forEachPatch([&](const grid::Patch& patch) {
     try {
-      if (task.task.acrossMaterials) {
-        runAcrossMaterials(task, patch, at);
-        continue;
-      }
+      if (task.task.acrossMaterials) return runAcrossMaterials(task, patch, at);
       runPlaced(task, patch, material, at);
-      kept = kept && keepsBounds(*warehouse_, task.of(material).bounded, patch);
+      if (!keepsBounds(*warehouse_, task.of(material).bounded, patch)) kept = false;
     } catch (const NumericalError& error) {
-      if (!first || error.cell() < first->cell()) first = error;
+      first.note(error, patch.id());
     }
-  }
-  if (first)
-    note(task, material, *first);
+  });
+  gatherReductions(task);
+  if (first.error())
+    note(task, material, *first.error());
   else if (!kept)
     noteBroken(task, material);
 }

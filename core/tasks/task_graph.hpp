@@ -35,6 +35,7 @@ struct CompiledTask {
   Task task;
   std::vector<MaterialBinding> materials;  ///< one for a task that belongs to no material
   std::vector<NumberedFill> fills;
+  std::vector<int> reductions, readReductions;  ///< that it computes, and reads
   int recomputeTimeStep = -1;   ///< number of that reduction, for a task that may ask for the step to be repeated
   double seconds = 0;           ///< time spent in it so far
   double exchangeSeconds = 0;   ///< of that, time spent filling ghosts before it

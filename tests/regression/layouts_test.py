@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The same bits on any patches: every scene, every variant, in one, two and three dimensions."""
+"""The same bits on any patches and threads: every scene, every variant, in one, two and three dimensions."""
+import itertools
 import pathlib
 import re
 import sys
@@ -25,12 +26,13 @@ def scenes(dimensions):
 
 class Layouts(unittest.TestCase):
     def assert_same(self, scene, layouts, *sets):
-        """One fingerprint and one number of steps, whatever the patches."""
+        """One fingerprint and one number of steps, whatever the patches and threads: 1, 2 and 4 in turn."""
         prints = {}
-        for layout in layouts:
-            result = run(scene, *sets, f"Grid/Level/Box/patches={layout}")
+        for layout, threads in zip(layouts, itertools.cycle((1, 2, 4))):
+            options = ("--quiet", "-nthreads", str(threads))
+            result = run(scene, *sets, f"Grid/Level/Box/patches={layout}", options=options)
             self.assertEqual(result.code, 0, result.err)
-            prints.setdefault((result.report["fingerprint"], result.report["steps"]), []).append(layout)
+            prints.setdefault((result.report["fingerprint"], result.report["steps"]), []).append((layout, threads))
         self.assertEqual(len(prints), 1, f"{scene} {sets}: {prints}")
 
     def test_every_scene_in_one_dimension_on_1_2_3_7_and_64_patches(self):

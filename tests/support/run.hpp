@@ -13,8 +13,9 @@ namespace tushar::test {
 class Runner {
  public:
   /// On one of some ranks, or on one alone.
-  explicit Runner(const grid::Domain& domain, const mpi::Communicator& ranks = mpi::Communicator::alone())
-      : level(domain, {ranks.rank(), ranks.size()}), warehouse(level, table, ranks), scheduler(warehouse) {}
+  explicit Runner(const grid::Domain& domain, int threads = 1,
+                  const mpi::Communicator& ranks = mpi::Communicator::alone())
+      : level(domain, {ranks.rank(), ranks.size()}), warehouse(level, table, ranks), scheduler(warehouse, threads) {}
 
   /// Compiles a list; compile all before the first run.
   tasks::TaskGraph compile(const tasks::TaskList& list, const tasks::Names& wanted, bool repeated = false) {
