@@ -171,22 +171,21 @@ void askAndThrow(const Patch& patch, CellView<double> cells, Minimum& factor) {
 }  // namespace
 
 TEST(Ranks, FillGhostsFromOneAnother) {
-  for (int ranks = 1; ranks <= 4; ++ranks)
+  for (const int ranks : {2, 3, 4})
     onRanks(ranks, [](const mpi::Communicator& some) {
-      for (const Index3& patches : {Index3{{1, 1, 1}}, {{2, 1, 1}}, {{7, 1, 1}}, {{4, 3, 1}}, {{12, 10, 1}}})
-        for (const int width : {1, 3})
-          for (const bool periodic : {false, true})
-            EXPECT_EQ(differingGhosts(some, patches, width, periodic), 0)
-                << some.size() << " ranks, " << patches[0] << " x " << patches[1] << " patches, width " << width;
+      for (const Index3& patches : {Index3{{2, 1, 1}}, {{4, 3, 1}}, {{12, 10, 1}}})
+        for (const bool periodic : {false, true})
+          EXPECT_EQ(differingGhosts(some, patches, periodic ? 3 : 1, periodic), 0)
+              << some.size() << " ranks, " << patches[0] << " x " << patches[1] << " patches";
     });
 }
 
 TEST(Ranks, HandParticlesToOneAnother) {
-  for (int ranks = 1; ranks <= 4; ++ranks)
+  for (const int ranks : {2, 4})
     onRanks(ranks, [](const mpi::Communicator& some) {
-      for (const Index3& patches : {Index3{{2, 1, 1}}, {{4, 3, 1}}, {{12, 10, 1}}})
-        for (const double jump : {0.3, 1.7, 5.2})  // the last to ranks that are no neighbours
-          EXPECT_EQ(Swarm(some, patches, jump).after(6), std::pair(0.0, 240.0)) << some.size() << " ranks, jump " << jump;
+      for (const Index3& patches : {Index3{{2, 1, 1}}, {{12, 10, 1}}})
+        for (const double jump : {0.3, 5.2})  // the second to ranks that are no neighbours
+          EXPECT_EQ(Swarm(some, patches, jump).after(4), std::pair(0.0, 240.0)) << some.size() << " ranks, jump " << jump;
     });
 }
 
@@ -195,7 +194,7 @@ TEST(Ranks, TellTheSameOfAFaultOnAnyOfThem) {
     const std::string alone = failure(mpi::Communicator::alone(), false, harm);
     const std::string repeated = failure(mpi::Communicator::alone(), true, harm);
     EXPECT_NE(alone, "");
-    for (int ranks = 2; ranks <= 4; ++ranks)
+    for (const int ranks : {2, 4})
       onRanks(ranks, [&](const mpi::Communicator& some) {
         EXPECT_EQ(failure(some, false, harm), alone);
         EXPECT_EQ(failure(some, true, harm), repeated);

@@ -81,7 +81,7 @@ class Ranks(unittest.TestCase):
         fingerprint = self.uncut()["fingerprint"]
         chance = random.Random(5)
         kills = 0
-        while kills < 4:
+        while kills < 3:
             here = self.folder(3, on_disk=True)
             job = self.start(here, [SOD, "--output", here.path], (*EVERY, PATCHES))
             ranks = self.ranks_of(job)
@@ -115,7 +115,7 @@ class Ranks(unittest.TestCase):
 
     def test_a_mistake_in_the_scene_is_told_once(self):
         job = self.start(self.folder(3), [SOD], ("MPM/gas_dynamics/cfl=-1",))
-        self.assert_over(job, "cfl")
+        self.assert_over(job, "expected a value greater than 0")
         self.assertEqual(job.returncode, 3)
 
     def test_what_one_rank_cannot_do_ends_all_with_one_sentence(self):
@@ -125,14 +125,25 @@ class Ranks(unittest.TestCase):
             job = subprocess.Popen(line.split(), cwd=ROOT, stderr=subprocess.PIPE, text=True)
             self.assertIn("(rank 1 of 3)", self.assert_over(job, "gone.ups"))
 
-    def test_a_folder_that_cannot_be_written_and_a_full_disk_end_all(self):
-        nowhere = self.start(self.folder(3), [SOD, "--output", "/proc"], ())
-        self.assert_over(nowhere, "sus: ")
+    def test_a_folder_that_cannot_be_written_ends_all(self):
+        self.assert_over(self.start(self.folder(3), [SOD, "--output", "/proc"], ()), "sus: ")
+
+    def test_a_full_disk_ends_all_and_leaves_the_last_checkpoint_whole(self):
         here = self.folder(3)
-        command = " ".join(here.command([SOD, "--output", here.path], (*EVERY, "Time/max_Timesteps=60")))
-        full = subprocess.Popen(["bash", "-c", f"ulimit -f 8; trap '' XFSZ; exec {command}"], cwd=ROOT,
-                                stderr=subprocess.PIPE, text=True)
-        self.assert_over(full, "File too large")
+        small = here.path / "small"
+        small.mkdir()
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=700k", "none", small], capture_output=True).returncode:
+            self.skipTest("only root may make a small disk")
+        self.addCleanup(subprocess.run, ["umount", small], check=True)
+        job = self.start(here, [SOD, "--output", small], (*EVERY, "DataArchiver/outputTimestepInterval=1",
+                                                          "DataArchiver/outputInterval=0"))
+        self.assert_over(job, "No space left on device")
+        for output in small.glob("*.uda.000/t*.h5"):
+            output.unlink()
+        uda = next(small.glob("*.uda"))
+        done = subprocess.run([SUS, "-restart", uda, "--quiet", "--set", "Time/max_Timesteps=1"], cwd=ROOT,
+                              capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
 
     def test_a_value_that_cannot_be_is_told_as_on_one_rank(self):
         text = (ROOT / "ups/mpm/sod_redistribute.ups").read_text()
