@@ -12,6 +12,8 @@
 #include "core/base/error.hpp"
 #include "core/base/interrupt.hpp"
 #include "core/base/launcher.hpp"
+#include "core/base/mpi.hpp"
+#include "core/base/threads.hpp"
 #include "core/input/geometry.hpp"
 #include "core/simulation/scene.hpp"
 
@@ -20,10 +22,11 @@ namespace {
 using namespace tushar;
 
 struct Arguments {
-  std::string scene, describe, graph;
+  std::string scene, describe, graph, petsc;
   std::vector<std::string> overrides;
   bool check = false, list = false, restart = false, schedule = false, version = false;
   std::optional<int> checkpoint;  ///< step of the one to restart from
+  std::optional<int> threads;
   simulation::RunOptions run;
 };
 
@@ -45,6 +48,15 @@ std::vector<std::string> optionNames(const CLI::App& app) {
   for (const CLI::Option* option : app.get_options())
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   return names;
+}
+
+/// The words as CLI11 takes them, the last first; what follows -petsc is PETSc's and stays as it is.
+std::vector<std::string> backwards(const std::vector<std::string>& given) {
+  std::vector<std::string> words;
+  for (const std::string& word : given)
+    words.push_back(!words.empty() && words.back() == "--petsc" ? word : withTwoDashes(word));
+  std::reverse(words.begin(), words.end());
+  return words;
 }
 
 /// Says which words of the command line mean nothing: the options, as they were written, or else a second scene.
@@ -73,8 +85,11 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.add_option("--set", arguments.overrides, "override a value of the scene: PATH=VALUE, e.g.\n"
                                                "Grid/Level/Box/resolution=[200,1,1]; may be repeated")
       ->allow_extra_args(false);
+  app.add_option("--nthreads", arguments.threads, "threads to run on; all cores that are free to use, if not given")
+      ->check(CLI::Range(1, 1024));
   app.add_option("--json", arguments.run.jsonPath, "write the report to a file, as JSON");
   app.add_option("--output", arguments.run.outputFolder, "put the .uda into this folder");
+  app.add_option("--petsc", arguments.petsc, "options for PETSc, in one word: -petsc \"-ksp_monitor -ksp_type gmres\"");
   app.add_flag("--quiet", arguments.run.quiet, "no progress, no report on the screen");
   app.add_flag("--check,--validate", arguments.check, "check the scene and make its start; run and write nothing");
   app.add_flag("--schedule", arguments.schedule, "print the tasks in order, what they read and write, what is left out");
@@ -123,12 +138,23 @@ void checkWritable(const std::string& path) {
   if (!existed) std::filesystem::remove(path);
 }
 
-simulation::Problem readProblem(const Arguments& arguments, const simulation::Catalogue& known) {
-  if (!arguments.restart) return simulation::readScene(arguments.scene, arguments.overrides, known);
-  const simulation::Restart restart = simulation::findRestart(arguments.scene, arguments.checkpoint);
+/// Finds the checkpoint to go on from, and says what was found damaged on the way; the first rank does so for all.
+simulation::Restart findRestart(const Arguments& arguments, const mpi::Communicator& ranks) {
+  simulation::Restart restart;
+  ranks.onFirst([&] { restart = simulation::findRestart(arguments.scene, arguments.checkpoint); });
   for (const std::string& note : restart.notes) fmt::print(stderr, "sus: {}\n", note);
   if (!restart.notes.empty()) fmt::print(stderr, "sus: goes on from the checkpoint of step {}\n", restart.step);
-  simulation::Problem problem = simulation::readScene(restart.scene().string(), arguments.overrides, known);
+  restart.archive = ranks.broadcast(restart.archive.string());
+  restart.step = ranks.broadcast(restart.step);
+  return restart;
+}
+
+simulation::Problem readProblem(const Arguments& arguments, const simulation::Catalogue& known,
+                                const mpi::Communicator& ranks) {
+  const grid::Share share{ranks.rank(), ranks.size()};
+  if (!arguments.restart) return simulation::readScene(arguments.scene, arguments.overrides, known, share);
+  const simulation::Restart restart = findRestart(arguments, ranks);
+  simulation::Problem problem = simulation::readScene(restart.scene().string(), arguments.overrides, known, share);
   problem.restart = restart;
   return problem;
 }
@@ -140,33 +166,52 @@ std::string sizeOf(simulation::Simulation& run, long particles) {
          (particles > 0 ? fmt::format(" and {} particles at the start", particles) : "");
 }
 
-ExitCode runScene(const Arguments& arguments, const simulation::Catalogue& known,
-                  std::chrono::steady_clock::time_point startedAt) {
-  if (launchedRanks() > 1)
-    throw std::runtime_error(fmt::format("started on {} ranks, but runs on one so far; start it without mpirun", launchedRanks()));
-  simulation::Problem problem = readProblem(arguments, known);
-  if (!arguments.run.quiet)
-    for (const InputProblem& note : problem.notes) fmt::print(stderr, "note: {}\n", note.text());
-  simulation::Simulation run(std::move(problem), arguments.run, startedAt);
+/// What is said of a scene without running it.
+void inspect(const Arguments& arguments, simulation::Simulation& run, bool isFirst) {
+  const long particles = arguments.check ? run.tryStart() : 0;
+  if (!isFirst) return;
   if (!arguments.graph.empty()) {
     std::ostringstream dot;
     run.phases().printDot(dot);
     writeFile(arguments.graph, dot.str());
   }
   if (arguments.schedule) run.phases().printSchedule(std::cout);
-  if (arguments.check) fmt::print("{}: fine, {}\n", arguments.scene, sizeOf(run, run.tryStart()));
-  if (arguments.check || arguments.schedule || !arguments.graph.empty()) return ExitCode::success;
-  if (!arguments.run.jsonPath.empty()) checkWritable(arguments.run.jsonPath);
+  if (arguments.check) fmt::print("{}: fine, {}\n", arguments.scene, sizeOf(run, particles));
+}
+
+ExitCode runScene(const Arguments& arguments, const simulation::Catalogue& known,
+                  std::chrono::steady_clock::time_point startedAt, const mpi::Communicator& ranks) {
+  simulation::Problem problem = readProblem(arguments, known, ranks);
+  if (!arguments.run.quiet && ranks.isFirst())
+    for (const InputProblem& note : problem.notes) fmt::print(stderr, "note: {}\n", note.text());
+  simulation::RunOptions options = arguments.run;
+  options.threads = arguments.threads ? *arguments.threads : allowedThreads();
+  simulation::Simulation run(std::move(problem), options, startedAt, ranks);
+  if (arguments.check || arguments.schedule || !arguments.graph.empty()) {
+    inspect(arguments, run, ranks.isFirst());
+    return ExitCode::success;
+  }
+  const bool reports = !arguments.run.jsonPath.empty();
+  ranks.onFirst([&] { if (reports) checkWritable(arguments.run.jsonPath); });
   catchInterrupts();
   const simulation::Report report = run.run();
-  if (!arguments.run.jsonPath.empty()) writeFile(arguments.run.jsonPath, toJson(report));
+  if (reports) ranks.onFirst([&] { writeFile(arguments.run.jsonPath, toJson(report)); });
   if (!report.failure.empty()) throw NumericalError(report.failure, report.advice);
-  if (!arguments.run.quiet) fmt::print("{}", toText(report));
+  if (!arguments.run.quiet && ranks.isFirst()) fmt::print("{}", toText(report));
   return report.ended == "interrupted" ? ExitCode::interrupted : ExitCode::success;
 }
 
-ExitCode dispatch(const Arguments& arguments, std::chrono::steady_clock::time_point startedAt) {
+ExitCode refuse(const std::string& sentence) {
+  if (launchedRank() == 0) fmt::print(stderr, "sus: {}\n", sentence);
+  return ExitCode::badCommandLine;
+}
+
+/// `session` is opened where a scene is run.
+ExitCode dispatch(const Arguments& arguments, std::chrono::steady_clock::time_point startedAt,
+                  std::optional<mpi::Session>& session) {
   const simulation::Catalogue known = catalogue();
+  const bool only = arguments.version || arguments.list || !arguments.describe.empty() || arguments.scene.empty();
+  if (only && launchedRank() > 0) return ExitCode::success;  // the first says it
   if (arguments.version) {
     fmt::print("sus {} ({})\n", TUSHAR_VERSION, TUSHAR_BUILD_TYPE);
     return ExitCode::success;
@@ -181,15 +226,48 @@ ExitCode dispatch(const Arguments& arguments, std::chrono::steady_clock::time_po
                        "the options\n");
     return ExitCode::badCommandLine;
   }
-  if (!arguments.restart && std::filesystem::is_directory(arguments.scene + "/checkpoints")) {
-    fmt::print(stderr, "sus: {0} is the folder of a run; sus -restart {0} goes on with it\n", arguments.scene);
-    return ExitCode::badCommandLine;
+  if (!arguments.restart && std::filesystem::is_directory(arguments.scene + "/checkpoints"))
+    return refuse(fmt::format("{0} is the folder of a run; sus -restart {0} goes on with it", arguments.scene));
+  if (arguments.restart && !arguments.run.outputFolder.empty())
+    return refuse("--output has no meaning with --restart: a run goes on in its own folder");
+  session.emplace();
+  return runScene(arguments, known, startedAt, session->ranks());
+}
+
+/// A sentence for the user, and what the shell gets.
+struct Failure {
+  std::string text;
+  ExitCode code = ExitCode::failure;
+};
+
+/// What went wrong; no text where another rank has it.
+Failure failureOf(const std::exception_ptr& thrown) {
+  try {
+    std::rethrow_exception(thrown);
+  } catch (const InputError& error) {
+    return {fmt::format("{}\n", error.what()), ExitCode::badInput};
+  } catch (const NumericalError& error) {
+    return {fmt::format("sus: {}\n     try {}\n", error.what(), error.advice()), ExitCode::numerical};
+  } catch (const mpi::FailedElsewhere&) {
+    return {};
+  } catch (const std::bad_alloc&) {
+    return {"sus: not enough memory for this scene\n"};
+  } catch (const std::exception& error) {
+    return {fmt::format("sus: {}\n", error.what())};
   }
-  if (arguments.restart && !arguments.run.outputFolder.empty()) {
-    fmt::print(stderr, "sus: --output has no meaning with --restart: a run goes on in its own folder\n");
-    return ExitCode::badCommandLine;
+}
+
+/// Says once for all ranks what went wrong, and ends them.
+int endWith(const Failure& failure, std::optional<mpi::Session>& session) {
+  int code = static_cast<int>(failure.code);
+  const bool speaks = !session || session->speaks(!failure.text.empty(), code);
+  if (speaks) fmt::print(stderr, "{}", failure.text);
+  if (session && !session->isAgreed()) {
+    if (speaks) fmt::print(stderr, "     (rank {} of {})\n", session->ranks().rank(), session->ranks().size());
+    std::fflush(stderr);
+    session->abort(code);
   }
-  return runScene(arguments, known, startedAt);
+  return code;
 }
 
 }  // namespace
@@ -200,28 +278,20 @@ int main(int count, char** words) {
   Arguments arguments;
   CLI::App app("sus: runs a scene (.ups) with the component that it names", "sus");
   declare(app, arguments);
+  std::optional<mpi::Session> session;
   try {
-    std::vector<std::string> backwards;
-    for (auto word = given.rbegin(); word != given.rend(); ++word) backwards.push_back(withTwoDashes(*word));
-    app.parse(backwards);
-    const ExitCode code = dispatch(arguments, startedAt);
+    app.parse(backwards(given));
+    if (!arguments.petsc.empty()) setenv("PETSC_OPTIONS", arguments.petsc.c_str(), 1);
+    const ExitCode code = dispatch(arguments, startedAt, session);
     if (std::fflush(stdout) != 0 || !std::cout.flush()) throw FileError("standard output cannot be written");
     return static_cast<int>(code);
   } catch (const CLI::ExtrasError&) {
-    reportUnknown(app, given, arguments.scene);
+    if (launchedRank() == 0) reportUnknown(app, given, arguments.scene);
     return static_cast<int>(ExitCode::badCommandLine);
   } catch (const CLI::ParseError& error) {
+    if (launchedRank() > 0) return error.get_exit_code() == 0 ? 0 : static_cast<int>(ExitCode::badCommandLine);
     return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::badCommandLine);
-  } catch (const InputError& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return static_cast<int>(ExitCode::badInput);
-  } catch (const NumericalError& error) {
-    fmt::print(stderr, "sus: {}\n     try {}\n", error.what(), error.advice());
-    return static_cast<int>(ExitCode::numerical);
-  } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "sus: not enough memory for this scene\n");
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "sus: {}\n", error.what());
+  } catch (...) {
+    return endWith(failureOf(std::current_exception()), session);
   }
-  return static_cast<int>(ExitCode::failure);
 }

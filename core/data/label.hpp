@@ -6,6 +6,7 @@
 
 #include "core/base/vec.hpp"
 #include "core/data/bound.hpp"
+#include "core/data/reduction_slot.hpp"
 
 namespace tushar::data {
 
@@ -27,6 +28,7 @@ struct Label {
   std::size_t bytes;  ///< per particle, node or cell
   bool isVector;      ///< components follow the kernel axes
   Bound bound;        ///< looked at after every task that writes the variable; a broken one ends the run or the step
+  MakeReduction makeReduction = nullptr;  ///< of reductions
 };
 
 /// How a type is stored in a variable.
@@ -65,7 +67,7 @@ struct FieldLabel : Label {
   constexpr FieldLabel(std::string_view called, std::string_view inUnit, std::string_view meaning,
                        Bound bounded = Bound::none)
       : Label{called,    inUnit, meaning, C, Stored<T>::number, Stored<T>::components, sizeof(T), Stored<T>::isVector,
-              bounded} {
+              bounded, nullptr} {
     if (bounded != Bound::none && Stored<T>::number != Number::real)
       throw std::invalid_argument("only real numbers have bounds");
     if (!called.starts_with(prefix())) throw std::invalid_argument("a label starts with p., g. or c.");
@@ -89,7 +91,8 @@ template <class R>
 struct ReductionLabel : Label {
   using Reducer = R;
   constexpr ReductionLabel(std::string_view called, std::string_view inUnit, std::string_view meaning)
-      : Label{called, inUnit, meaning, Centring::reduction, Number::real, 1, sizeof(R), false, Bound::none} {}
+      : Label{called, inUnit, meaning, Centring::reduction, Number::real, 1, sizeof(R), false, Bound::none,
+              &data::makeReduction<R>} {}
 };
 
 /// The name of the label that says where particles are: ghosts beyond a periodic face have it moved there.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/base/mpi.hpp"
 #include "core/data/views.hpp"
 
 namespace tushar::data {
@@ -34,18 +35,36 @@ void VariableTable::widen(int number, int ghost) {
   reaches_[material] = std::max(reaches_[material], ghost);
 }
 
+Warehouse::Warehouse(const grid::Level& level, VariableTable& table)
+    : Warehouse(level, table, mpi::Communicator::alone()) {}
+
 void Warehouse::grow(int materials) {
-  const std::size_t places = place(table_->size(), 0);
+  const std::size_t places = place(table_->size(), level_->firstPatch());
   old_.resize(std::max(old_.size(), places));
   fresh_.resize(std::max(fresh_.size(), places));
   reductions_.resize(std::max(reductions_.size(), static_cast<std::size_t>(table_->size())));
-  const std::size_t sets = place(materials, 0);
+  for (std::deque<Variable>* variables : {&old_, &fresh_})
+    for (std::size_t k = 0; k < variables->size(); ++k) (*variables)[k].pool = static_cast<int>(k % level_->patches().size());
+  pools_.resize(level_->patches().size());
+  const std::size_t sets = place(materials, level_->firstPatch());
   old_sets_.resize(std::max(old_sets_.size(), sets));
   fresh_sets_.resize(std::max(fresh_sets_.size(), sets));
 }
 
+ReductionSlot& Warehouse::slot(int number) {
+  auto& slot = reductions_[static_cast<std::size_t>(number)];
+  if (!slot) {
+    slot = (*table_)[number].label->makeReduction();
+    takeRestored(number);
+  }
+  return *slot;
+}
+
 void Warehouse::resetReduction(int number) {
-  if (auto& slot = reductions_[static_cast<std::size_t>(number)]) slot->reset();
+  if (auto& slot = reductions_[static_cast<std::size_t>(number)])
+    slot->reset();
+  else
+    restored_.erase(number);
 }
 
 std::vector<double> Warehouse::reductionValues(int number) const {
@@ -74,20 +93,6 @@ void Warehouse::takeRestored(int number) {
   restored_.erase(restored);
 }
 
-void Warehouse::take(Variable& variable, std::size_t bytes, std::size_t keep) {
-  variable.held = true;
-  if (bytes <= variable.values.capacity()) return;
-  if (keep == 0) {
-    const auto fits = std::find_if(pool_.rbegin(), pool_.rend(), [&](const Buffer& b) { return b.capacity() >= bytes; });
-    if (fits != pool_.rend()) {
-      std::swap(variable.values, *fits);
-      return;
-    }
-  }
-  ++allocations_;
-  variable.values.reserve(bytes, keep);
-}
-
 namespace {
 void fillWithNaN(Buffer& buffer, const Label& label, std::size_t fromByte, std::size_t toByte) {
   if (!checked || label.number != Number::real) return;
@@ -99,7 +104,8 @@ void fillWithNaN(Buffer& buffer, const Label& label, std::size_t fromByte, std::
 
 void Warehouse::allocateGrid(Variable& variable, const Label& label, const grid::Box& stored) {
   const std::size_t bytes = stored.size() * label.bytes;
-  take(variable, bytes, 0);
+  variable.held = true;
+  pools_[static_cast<std::size_t>(variable.pool)].reserve(variable.values, bytes);
   variable.stored = stored;
   fillWithNaN(variable.values, label, 0, bytes);
 }
@@ -107,30 +113,35 @@ void Warehouse::allocateGrid(Variable& variable, const Label& label, const grid:
 void Warehouse::allocateParticles(Variable& variable, const Label& label, int count, int keep) {
   const std::size_t kept = static_cast<std::size_t>(keep) * label.bytes;
   const std::size_t bytes = static_cast<std::size_t>(count) * label.bytes;
-  take(variable, bytes, kept);
+  variable.held = true;
+  pools_[static_cast<std::size_t>(variable.pool)].reserve(variable.values, bytes, kept);
   fillWithNaN(variable.values, label, kept, bytes);
 }
 
 void Warehouse::free(Variable& variable) {
   variable.held = false;
-  if (variable.values.capacity() == 0) return;
-  const auto empty = std::find_if(pool_.begin(), pool_.end(), [](const Buffer& b) { return b.capacity() == 0; });
-  if (empty != pool_.end())
-    std::swap(*empty, variable.values);
-  else {
-    pool_.push_back(std::move(variable.values));
-    variable.values = Buffer();
-  }
+  pools_[static_cast<std::size_t>(variable.pool)].takeBack(variable.values);
+}
+
+std::size_t Warehouse::allocations() const {
+  std::size_t all = 0;
+  for (const BufferPool& pool : pools_) all += pool.allocations();
+  return all;
+}
+
+bool Warehouse::isHeld(Generation generation, int number) {
+  const auto& patches = level_->patches();
+  return ranks_->any(!patches.empty() && variable(generation, number, patches.front().id()).held);
 }
 
 void Warehouse::swap(int number) {
-  for (int patch = 0; patch < patches(); ++patch)
-    std::swap(old_[place(number, patch)], fresh_[place(number, patch)]);
+  for (const grid::Patch& patch : level_->patches())
+    std::swap(old_[place(number, patch.id())], fresh_[place(number, patch.id())]);
 }
 
 void Warehouse::swapSets(int material) {
-  for (int patch = 0; patch < patches(); ++patch)
-    std::swap(old_sets_[place(material, patch)], fresh_sets_[place(material, patch)]);
+  for (const grid::Patch& patch : level_->patches())
+    std::swap(old_sets_[place(material, patch.id())], fresh_sets_[place(material, patch.id())]);
 }
 
 }  // namespace tushar::data

@@ -4,14 +4,17 @@
 #include <memory>
 #include <span>
 #include <string>
-#include <type_traits>
 #include <unordered_map>
 #include <vector>
 
-#include "core/data/buffer.hpp"
+#include "core/data/buffer_pool.hpp"
 #include "core/data/label.hpp"
 #include "core/data/particle_set.hpp"
 #include "core/grid/level.hpp"
+
+namespace tushar::mpi {
+class Communicator;
+}
 
 namespace tushar::data {
 
@@ -52,42 +55,31 @@ struct Variable {
   Buffer values;
   grid::Box stored;   ///< of node and cell variables: the box in memory, ghosts included
   bool held = false;  ///< whether there are values
+  int pool = 0;       ///< where its memory comes from: there is one for each patch
 };
 
 /// What tasks read as `requiresOld`: the state at the start of the step. The rest is new.
 enum class Generation { old, fresh };
 
-/// A reduction of some type.
-class ReductionSlot {
- public:
-  virtual ~ReductionSlot() = default;
-  virtual void reset() = 0;
-  virtual std::vector<double> values() const = 0;
-  /// The reducer as it lies in memory.
-  virtual std::span<std::byte> bytes() = 0;
-};
-template <class R>
-class TypedReduction : public ReductionSlot {
-  static_assert(std::is_trivially_copyable_v<R>, "a checkpoint keeps a reducer as bytes");
-
- public:
-  R reducer;
-  void reset() override { reducer = R{}; }
-  std::vector<double> values() const override { return reducer.values(); }
-  std::span<std::byte> bytes() override { return std::as_writable_bytes(std::span(&reducer, 1)); }
-};
-
 /// Holds the variables and particle sets of this rank, in two generations.
 ///
-/// Every address is stable once a variable has been named; `swap` exchanges contents, not addresses.
+/// Every address is stable once a variable has been named; `swap` exchanges contents, not addresses. Threads may allocate
+/// and free at once on different patches.
 class Warehouse {
  public:
-  Warehouse(const grid::Level& level, VariableTable& table) : level_(&level), table_(&table) {}
+  /// For one rank on its own.
+  Warehouse(const grid::Level& level, VariableTable& table);
+  /// `ranks` share the grid as the level says, and outlive the warehouse.
+  Warehouse(const grid::Level& level, VariableTable& table, const mpi::Communicator& ranks)
+      : level_(&level), table_(&table), ranks_(&ranks) {}
 
   const grid::Level& level() const { return *level_; }
   const VariableTable& table() const { return *table_; }
   int patches() const { return static_cast<int>(level_->patches().size()); }
+  /// The ranks that share the grid.
+  const mpi::Communicator& ranks() const { return *ranks_; }
 
+  /// `patch` is the number of one of this rank's.
   Variable& variable(Generation generation, int number, int patch) {
     return (generation == Generation::old ? old_ : fresh_)[place(number, patch)];
   }
@@ -97,14 +89,16 @@ class Warehouse {
 
   template <class R>
   R& reduction(int number) {
-    auto& slot = reductions_[static_cast<std::size_t>(number)];
-    if (!slot) {
-      slot = std::make_unique<TypedReduction<R>>();
-      takeRestored(number);
-    }
-    return static_cast<TypedReduction<R>&>(*slot).reducer;
+    return static_cast<TypedReduction<R>&>(slot(number)).reducer;
+  }
+  /// What a patch adds to a reduction.
+  template <class R>
+  R& partOfReduction(int number, int patch) {
+    return static_cast<TypedReduction<R>&>(slot(number)).part(static_cast<std::size_t>(patch - level_->firstPatch()));
   }
   void resetReduction(int number);
+  /// A reduction whatever its type; made on first use, which must not be by several threads at once.
+  ReductionSlot& slot(int number);
   /// The values of a reduction; none if no task has computed it.
   std::vector<double> reductionValues(int number) const;
   /// The reducer as it lies in memory; nothing if no task has computed it.
@@ -121,28 +115,31 @@ class Warehouse {
   /// Gives the memory of a variable back, for the next one that is allocated.
   void free(Variable& variable);
 
+  /// Whether any rank has values of a variable; every rank asks.
+  bool isHeld(Generation generation, int number);
+
   /// What was computed becomes old: exchanges the two generations of a variable on every patch.
   void swap(int number);
   void swapSets(int material);
 
   /// Allocations made so far; a test shows that variables nobody reads add none.
-  std::size_t allocations() const { return allocations_; }
+  std::size_t allocations() const;
 
  private:
   std::size_t place(int number, int patch) const {
-    return static_cast<std::size_t>(number) * level_->patches().size() + static_cast<std::size_t>(patch);
+    return static_cast<std::size_t>(number) * level_->patches().size() +
+           static_cast<std::size_t>(patch - level_->firstPatch());
   }
-  void take(Variable& variable, std::size_t bytes, std::size_t keep);
   void takeRestored(int number);
 
   const grid::Level* level_;
   VariableTable* table_;
+  const mpi::Communicator* ranks_;
   std::deque<Variable> old_, fresh_;
   std::deque<ParticleSet> old_sets_, fresh_sets_;
   std::vector<std::unique_ptr<ReductionSlot>> reductions_;
   std::unordered_map<int, std::vector<std::byte>> restored_;  ///< reductions that no task has named yet
-  std::vector<Buffer> pool_;
-  std::size_t allocations_ = 0;
+  std::vector<BufferPool> pools_;  ///< by patch
 };
 
 }  // namespace tushar::data

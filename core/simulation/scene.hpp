@@ -12,7 +12,8 @@ namespace tushar::simulation {
 
 /// Reads a scene, applies the overrides of the command line (`PATH=VALUE`), checks everything, and builds the grid, the
 /// component and the analysis modules. Throws InputError with all problems of the scene at once. Writes nothing.
-Problem readScene(const std::string& path, const std::vector<std::string>& overrides, const Catalogue& catalogue);
+Problem readScene(const std::string& path, const std::vector<std::string>& overrides, const Catalogue& catalogue,
+                  grid::Share share = {});
 
 /// The manual of the sections that every component shares: Time, DataArchiver, Grid.
 void describeSharedSections(std::ostream& out);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/interrupt.hpp"
@@ -13,18 +14,26 @@ namespace tushar::simulation {
 using data::Generation;
 
 Simulation::Simulation(Problem problem, const RunOptions& options, Clock::time_point startedAt)
+    : Simulation(std::move(problem), options, startedAt, mpi::Communicator::alone()) {}
+
+Simulation::Simulation(Problem problem, const RunOptions& options, Clock::time_point startedAt,
+                       const mpi::Communicator& ranks)
     : problem_(std::move(problem)),
       options_(options),
+      ranks_(&ranks),
       started_at_(startedAt),
       phases_(*problem_.component, problem_.analyses),
-      warehouse_(*problem_.level, table_),
-      scheduler_(warehouse_),
+      warehouse_(*problem_.level, table_, ranks),
+      scheduler_(warehouse_, std::clamp(options.threads, 1, std::max(1, warehouse_.patches()))),
       time_(problem_.time),
-      progress_(options.quiet, stdout),
+      progress_(options.quiet || !ranks.isFirst(), stdout),
       outputs_(problem_.time.initTime, problem_.archive.outputInterval) {
   if (problem_.archive.checkpoint) checkpoints_.emplace(*problem_.archive.checkpoint, problem_.time.initTime);
   phases_.compile(problem_.analyses, problem_.archive.saves, *problem_.level, table_);
   warehouse_.grow(static_cast<int>(phases_.materials().size()));
+  if (const std::string task = phases_.globalSolve(); !task.empty() && !ranks.isAlone())
+    throw std::runtime_error(fmt::format("the task {} solves over the whole grid, and runs on one rank so far; start it "
+                                         "without mpirun", task));
 }
 
 long Simulation::tryStart() {
@@ -46,6 +55,7 @@ Report Simulation::run() {
     if (checkpoints_) checkpoint();
   }
   wall_startup_ = since(started_at_) - wall_output_;
+  agreeOnClock();
   const auto loopStarted = Clock::now();
   const double outputBefore = wall_output_;
   try {
@@ -55,7 +65,7 @@ Report Simulation::run() {
   }
   wall_loop_ = since(loopStarted) - (wall_output_ - outputBefore);
   if (failure_) saveLastGood();
-  if (saves_ && (problem_.archive.outputLastTimestep || isInterrupted())) save();
+  if (saves_ && (problem_.archive.outputLastTimestep || interrupted_)) save();
   progress_.finish();
   if (archive_) archive_->flush();
   checkpointAtEnd();
@@ -64,7 +74,7 @@ Report Simulation::run() {
 
 void Simulation::begin() {
   if (problem_.restart) {
-    lock_.emplace(problem_.restart->archive);
+    ranks_->onFirst([&] { lock_.emplace(problem_.restart->archive); });
     return resume();
   }
   initialize();
@@ -73,12 +83,17 @@ void Simulation::begin() {
 
 void Simulation::openArchive() {
   saves_ = !phases_.savedFields().empty() || !phases_.savedGlobals().empty();
+  if (!problem_.restart && !saves_ && !checkpoints_) return;
   const ArchiveSettings& settings = problem_.archive;
   const output::ArchiveOptions how{settings.doubleAsFloat, settings.compression, TUSHAR_VERSION};
-  if (problem_.restart) return reopenArchive(how);
-  if (!saves_ && !checkpoints_) return;
+  ranks_->onFirst([&] { problem_.restart ? reopenArchive(how) : makeArchive(how); });
+  folder_ = ranks_->broadcast(archive_ ? archive_->folder().string() : "");
+  last_output_ = ranks_->broadcast(archive_ ? archive_->lastStep() : -1);
+}
+
+void Simulation::makeArchive(const output::ArchiveOptions& how) {
   const std::filesystem::path folder = options_.outputFolder;
-  archive_ = std::make_unique<output::Archive>(folder / settings.filebase, problem_.inputXml, how);
+  archive_ = std::make_unique<output::Archive>(folder / problem_.archive.filebase, problem_.inputXml, how);
   lock_.emplace(archive_->folder());
 }
 
@@ -90,11 +105,11 @@ NumericalError Simulation::advised(const NumericalError& error) const {
 }
 
 void Simulation::saveLastGood() {
-  if (!archive_) return;
+  if (folder_.empty()) return;
   if (saves_) save();
   checkpoint();
   failure_ = NumericalError(fmt::format("{}; the last whole step, {} at t = {:.6g} s, is saved: sus -restart {}",
-                                        failure_->what(), time_.step(), time_.time(), archive_->folder().string()),
+                                        failure_->what(), time_.step(), time_.time(), folder_),
                             failure_->advice(), failure_->value());
 }
 
@@ -121,16 +136,32 @@ void Simulation::step() {
   while (const auto asked = tryStep()) dt.value = time_.repeat(*asked);
   scheduler_.commit(phases_.timeAdvance);
   time_.advance();
-  particle_steps_ += static_cast<double>(particleCount(warehouse_, static_cast<int>(phases_.materials().size())));
+  particle_steps_ += ownParticles();
   if (progress_.due()) progress_.live(time_.step(), time_.time(), time_.delT(), problem_.time.maxTime);
   saveGlobals();
   saveIfDue();
+  agreeOnClock();
   checkpointIfDue();
 }
 
-bool Simulation::hasEnded() const { return time_.done() || isInterrupted() || outOfWallTime(); }
+long Simulation::ownParticles() {
+  long count = 0;
+  for (int material = 0; material < static_cast<int>(phases_.materials().size()); ++material)
+    for (const grid::Patch& patch : problem_.level->patches())
+      count += warehouse_.particles(Generation::old, material, patch.id()).owned();
+  return count;
+}
 
-bool Simulation::outOfWallTime() const { return since(started_at_) > problem_.time.maxWallTime; }
+void Simulation::agreeOnClock() {
+  double seen[] = {since(started_at_), isInterrupted() ? 1.0 : 0.0};
+  ranks_->max(seen);
+  elapsed_ = seen[0];
+  interrupted_ = seen[1] > 0;
+}
+
+bool Simulation::hasEnded() const { return time_.done() || interrupted_ || outOfWallTime(); }
+
+bool Simulation::outOfWallTime() const { return elapsed_ > problem_.time.maxWallTime; }
 
 void Simulation::diagnose(tasks::TaskGraph& graph) {
   for (const auto& analysis : problem_.analyses) analysis->setTime(time_.time(), time_.time() - problem_.time.initTime);
@@ -138,8 +169,9 @@ void Simulation::diagnose(tasks::TaskGraph& graph) {
 }
 
 void Simulation::saveGlobals() {
-  if (!archive_ || phases_.savedGlobals().empty()) return;
+  if (folder_.empty() || phases_.savedGlobals().empty()) return;
   diagnose(phases_.everyStep);
+  if (!archive_) return;
   const auto started = Clock::now();
   for (const std::string& name : phases_.savedGlobals()) {
     const data::Label& label = *table_[table_.find(name, -1)].label;
@@ -162,13 +194,15 @@ void Simulation::saveIfDue() {
 }
 
 void Simulation::save() {
-  if (archive_->lastStep() == time_.step()) return;
+  if (last_output_ == time_.step()) return;
   const auto started = Clock::now();
   diagnose(phases_.everyOutput);
-  archive_->write(snapshot());
+  const output::Snapshot state = snapshot();
+  ranks_->onFirst([&] { archive_->write(state); });
+  last_output_ = time_.step();
   wall_output_ += since(started);
   progress_.line(fmt::format("step {:>6}  t = {:<12.6g} dt = {:<10.4g} saved in {}", time_.step(), time_.time(),
-                             time_.delT(), archive_->folder().string()));
+                             time_.delT(), folder_));
 }
 
 output::Snapshot Simulation::snapshot() {
@@ -195,7 +229,7 @@ void Simulation::addField(output::Snapshot& snapshot, const SaveRequest& save) {
     const std::string material = m < 0 ? "" : phases_.materials()[static_cast<std::size_t>(m)];
     if (number < 0 || save.label == data::positionName || (!save.material.empty() && save.material != material)) continue;
     const data::Label& label = *table_[number].label;
-    const bool derived = !warehouse_.variable(Generation::old, number, 0).held;
+    const bool derived = !warehouse_.isHeld(Generation::old, number);
     output::Array array = gatherArray(warehouse_, derived ? Generation::fresh : Generation::old, number);
     const bool empty = std::visit([](const auto& values) { return values.empty(); }, array.values);
     if (label.centring == data::Centring::particle)
@@ -215,7 +249,7 @@ Simulation::Totals Simulation::measureTotals(tasks::TaskGraph& graph) {
 
 std::string Simulation::whyEnded() const {
   if (failure_) return "failed";
-  if (isInterrupted()) return "interrupted";
+  if (interrupted_) return "interrupted";
   if (time_.time() >= problem_.time.maxTime) return "maxTime";
   return time_.done() ? "max_Timesteps" : "max_wall_time";
 }
@@ -228,17 +262,19 @@ Report Simulation::makeReport() {
   report.version = TUSHAR_VERSION;
   report.build = TUSHAR_BUILD_TYPE;
   report.dimension = problem_.level->dimension();
-  report.patches = warehouse_.patches();
+  report.patches = problem_.level->patchCount();
+  report.ranks = ranks_->size();
+  report.threads = scheduler_.threads();
   report.spacing = problem_.level->minSpacing();
   report.cells = static_cast<long>(problem_.level->cells().size());
   report.particles = particleCount(warehouse_, static_cast<int>(phases_.materials().size()));
-  report.dropped = scheduler_.relocation().dropped();
+  report.dropped = ranks_->sum(scheduler_.relocation().dropped());
   report.steps = time_.step();
   report.retries = time_.retries();
   for (const auto& [limit, steps] : time_.limits())
     report.limits.emplace_back(limit.text().empty() ? "unnamed" : limit.text(), steps);
   report.time = time_.time();
-  report.particleSteps = particle_steps_;
+  report.particleSteps = static_cast<double>(ranks_->sum(particle_steps_));
   report.wallStartup = wall_startup_;
   report.wallLoop = wall_loop_;
   reportTasks(report);
@@ -250,7 +286,7 @@ Report Simulation::makeReport() {
     report.advice = failure_->advice();
   }
   report.wallOutput = wall_output_;
-  if (archive_) report.archive = archive_->folder().string();
+  report.archive = folder_;
   report.fingerprint = fingerprint(warehouse_, phases_.state(), static_cast<int>(phases_.materials().size()));
   return report;
 }

@@ -7,6 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "core/tasks/broken_value.hpp"
+#include "core/tasks/outcome.hpp"
 
 namespace tushar::tasks {
 
@@ -75,72 +76,142 @@ bool mayLeave(const grid::Level& level, const Vec<D>& x, const Index<D>& cell) {
 
 }  // namespace
 
-void Relocation::run(int material, int position, const std::vector<Carried>& carried) {
-  escape_.reset();
+template <class Work>
+void Relocation::forEachPatch(const Work& work) {
+  const std::vector<Patch>& patches = warehouse_->level().patches();
+  threads_->forEach(static_cast<int>(patches.size()), [&](int k) { work(patches[static_cast<std::size_t>(k)]); });
+}
+
+bool Relocation::run(int material, int position, const std::vector<Carried>& carried, bool hasStopped) {
   moves_.resize(static_cast<std::size_t>(warehouse_->patches()));
   spare_.resize(moves_.size());
-  switch (warehouse_->level().dimension()) {
-    case 1: findMoves<1>(material, position); break;
-    case 2: findMoves<2>(material, position); break;
-    default: findMoves<3>(material, position);
-  }
-  for (const Patch& patch : warehouse_->level().patches()) rebuild(patch, material);
-  for (const Carried& variable : carried) carry(variable);
+  for (std::size_t patch = 0; patch < spare_.size(); ++patch) spare_[patch].pool = static_cast<int>(patch);
+  const int id = warehouse_->table().find(data::particleId.name, material);
+  if (!hasStopped) switch (warehouse_->level().dimension()) {
+      case 1: findMoves<1>(material, position, id); break;
+      case 2: findMoves<2>(material, position, id); break;
+      default: findMoves<3>(material, position, id);
+    }
+  const Verdict verdict = agreed(gatherMoves(hasStopped));
+  if (verdict.hasStopped) return false;
+  if (verdict.hasEscape) refuseEscape(position, verdict);
+  emigration_.run(carried, verdict.goFar);
+  receiveAll();
+  forEachPatch([&](const Patch& patch) { rebuild(patch, material, id); });
+  for (std::size_t place = 0; place < carried.size(); ++place) carry(carried[place], place);
+  return true;
+}
+
+void Relocation::Verdict::merge(const Verdict& other) {
+  hasStopped = hasStopped || other.hasStopped;
+  goFar = goFar || other.goFar;
+  if (!other.hasEscape || (hasEscape && escape < other.escape)) return;
+  hasEscape = true;
+  escape = other.escape;
+  rank = other.rank;
+}
+
+Relocation::Verdict Relocation::agreed(Verdict mine) const {
+  warehouse_->ranks().merge(std::as_writable_bytes(std::span(&mine, 1)), [](const std::byte* from, std::byte* into) {
+    Verdict one, other;
+    std::memcpy(&one, into, sizeof(Verdict));
+    std::memcpy(&other, from, sizeof(Verdict));
+    one.merge(other);
+    std::memcpy(into, &one, sizeof(Verdict));
+  });
+  return mine;
 }
 
 template <int D>
-void Relocation::findMoves(int material, int position) {
+void Relocation::findMoves(int material, int position, int id) {
+  forEachPatch([&](const Patch& patch) {
+    const auto values = [&](Generation generation, int number) {
+      return warehouse_->variable(generation, number, patch.id()).values.data();
+    };
+    findMoves<D>(patch, warehouse_->particles(Generation::old, material, patch.id()),
+                 reinterpret_cast<Vec<D>*>(values(Generation::fresh, position)),
+                 reinterpret_cast<const ParticleId*>(values(Generation::old, id)));
+  });
+}
+
+template <int D>
+void Relocation::findMoves(const Patch& patch, const ParticleSet& set, Vec<D>* x, const ParticleId* ids) {
   const grid::Level& level = warehouse_->level();
-  for (const Patch& patch : level.patches()) {
-    PatchMoves& moves = moves_[static_cast<std::size_t>(patch.id())];
-    moves.departed.clear();
-    moves.incoming.clear();
-    moves.firstIncoming.assign(patch.cells().size(), -1);
-  }
-  const int idNumber = warehouse_->table().find(data::particleId.name, material);
-  for (const Patch& patch : level.patches()) {
-    const ParticleSet& set = warehouse_->particles(Generation::old, material, patch.id());
-    auto* x = reinterpret_cast<Vec<D>*>(
-        warehouse_->variable(Generation::fresh, position, patch.id()).values.data());
-    const auto* ids = reinterpret_cast<const ParticleId*>(
-        warehouse_->variable(Generation::old, idNumber, patch.id()).values.data());
-    grid::forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-      Vec<D> lower, upper;
-      for (int d = 0; d < D; ++d) {
-        lower[d] = level.nodePosition(d, cell[d]);
-        upper[d] = level.nodePosition(d, cell[d] + 1);
-      }
-      for (const int p : set.in(cell))
-        if (!isInside<D>(x[p], lower, upper) && level.cellOf<D>(x[p]) != cell) move<D>(patch, cell, x[p], ids[p], p);
-    });
-  }
-  if (escape_) refuseEscape<D>(position);
+  PatchMoves& moves = movesOf(patch);
+  moves.departed.clear();
+  moves.outgoing.clear();
+  moves.incoming.clear();
+  moves.firstIncoming.assign(patch.cells().size(), -1);
+  moves.escape.reset();
+  moves.leaving = 0;
+  grid::forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    Vec<D> lower, upper;
+    for (int d = 0; d < D; ++d) {
+      lower[d] = level.nodePosition(d, cell[d]);
+      upper[d] = level.nodePosition(d, cell[d] + 1);
+    }
+    for (const int p : set.in(cell))
+      if (!isInside<D>(x[p], lower, upper) && level.cellOf<D>(x[p]) != cell) move<D>(patch, cell, x[p], ids[p], p);
+  });
 }
 
 template <int D>
 void Relocation::move(const Patch& from, const Index<D>& fromCell, Vec<D>& x, ParticleId id, int place) {
   const grid::Level& level = warehouse_->level();
-  moves_[static_cast<std::size_t>(from.id())].departed.push_back(place);
+  PatchMoves& moves = movesOf(from);
+  moves.departed.push_back(place);
   if (level.isPeriodic()) wrap<D>(level, x);
   const Index<D> cell = level.cellOf<D>(x);
   if (!level.cells().contains(cell)) {
-    ++leaving_;
+    ++moves.leaving;
     const Escape escape{level.cellNumber<D>(fromCell), id, from.id(), place};
-    if (!mayLeave<D>(level, x, cell) && (!escape_ || escape < *escape_)) escape_ = escape;
+    if (!mayLeave<D>(level, x, cell) && (!moves.escape || escape < *moves.escape)) moves.escape = escape;
     return;
   }
   const Index3 wide = widened(cell);
-  receive(from.cells().contains(wide) ? from : level.patchOf(wide), wide, {id, from.id(), place, -1});
+  const Incoming particle{id, from.id(), place, -1};
+  if (from.cells().contains(wide))
+    receive(from, wide, particle);
+  else
+    moves.outgoing.push_back({wide, particle});
+}
+
+Relocation::Verdict Relocation::gatherMoves(bool hasStopped) {
+  const grid::Level& level = warehouse_->level();
+  Verdict verdict{hasStopped, false, false, warehouse_->ranks().rank(), {}};
+  emigration_.start();
+  for (const PatchMoves& moves : moves_) {
+    if (hasStopped) break;
+    leaving_ += moves.leaving;
+    if (moves.escape) verdict.merge({false, true, false, verdict.rank, *moves.escape});
+    for (const Outgoing& one : moves.outgoing)
+      if (const int patch = level.patchOf(one.cell).id(); !level.isMine(patch))
+        emigration_.add(level.ownerOf(patch), {one.particle.id, one.cell, one.particle.patch, one.particle.place});
+  }
+  verdict.goFar = emigration_.goesFar();
+  return verdict;
+}
+
+void Relocation::refuseEscape(int position, const Verdict& verdict) const {
+  if (const auto broken = firstBroken(*warehouse_, {position, Generation::old}, data::Bound::finite))
+    throw NumericalError(fmt::format("{}; patch {}", broken->sentence, broken->patch), "", broken->label);
+  std::optional<NumericalError> mine;
+  if (verdict.rank == warehouse_->ranks().rank()) {
+    const int dimension = warehouse_->level().dimension();
+    const std::string what = dimension == 1   ? sentence<1>(position, verdict.escape)
+                             : dimension == 2 ? sentence<2>(position, verdict.escape)
+                                              : sentence<3>(position, verdict.escape);
+    mine.emplace(what, "", "p.x", verdict.escape.cell);
+  }
+  throw told(warehouse_->ranks(), mine, verdict.rank);
 }
 
 template <int D>
-void Relocation::refuseEscape(int position) const {
-  const auto [cellNumber, id, patch, place] = *escape_;
-  if (const auto broken = firstBroken(*warehouse_, {position, Generation::old}, data::Bound::finite))
-    throw NumericalError(fmt::format("{}; patch {}", broken->sentence, broken->patch), "", broken->label);
+std::string Relocation::sentence(int position, const Escape& escape) const {
   const grid::Level& level = warehouse_->level();
   const auto at = [&](Generation generation) {
-    return reinterpret_cast<const Vec<D>*>(warehouse_->variable(generation, position, patch).values.data())[place];
+    const Variable& x = warehouse_->variable(generation, position, escape.patch);
+    return reinterpret_cast<const Vec<D>*>(x.values.data())[escape.place];
   };
   const Vec<D> x = at(Generation::fresh);
   int through = 0, side = 0;
@@ -151,14 +222,22 @@ void Relocation::refuseEscape(int position) const {
         side = s;
       }
   const char axis = "xyz"[level.axis(through)];
-  throw NumericalError(fmt::format("particle {} passed through the symmetry plane {}{}, from {} = {:.6g} m to {:.6g} m; "
-                                   "patch {}",
-                                   id, axis, "-+"[side], axis, at(Generation::old)[through], x[through], patch),
-                       "", "p.x", cellNumber);
+  return fmt::format("particle {} passed through the symmetry plane {}{}, from {} = {:.6g} m to {:.6g} m; patch {}",
+                     escape.id, axis, "-+"[side], axis, at(Generation::old)[through], x[through], escape.patch);
+}
+
+void Relocation::receiveAll() {
+  const grid::Level& level = warehouse_->level();
+  for (const PatchMoves& moves : moves_)
+    for (const Outgoing& one : moves.outgoing)
+      if (const Patch to = level.patchOf(one.cell); level.isMine(to.id())) receive(to, one.cell, one.particle);
+  const std::vector<Emigrant>& arrived = emigration_.arrived();
+  for (std::size_t k = 0; k < arrived.size(); ++k)
+    receive(level.patchOf(arrived[k].cell), arrived[k].cell, {arrived[k].id, -1, static_cast<int>(k), -1});
 }
 
 void Relocation::receive(const Patch& patch, const Index3& cell, const Incoming& particle) {
-  PatchMoves& moves = moves_[static_cast<std::size_t>(patch.id())];
+  PatchMoves& moves = movesOf(patch);
   const int added = static_cast<int>(moves.incoming.size());
   moves.incoming.push_back(particle);
   int* link = &moves.firstIncoming[patch.cells().offset(cell)];
@@ -168,13 +247,12 @@ void Relocation::receive(const Patch& patch, const Index3& cell, const Incoming&
   *link = added;
 }
 
-void Relocation::rebuild(const Patch& patch, int material) {
-  PatchMoves& moves = moves_[static_cast<std::size_t>(patch.id())];
+void Relocation::rebuild(const Patch& patch, int material, int id) {
+  PatchMoves& moves = movesOf(patch);
   const ParticleSet& before = warehouse_->particles(Generation::old, material, patch.id());
   ParticleSet& after = warehouse_->particles(Generation::fresh, material, patch.id());
-  const int idNumber = warehouse_->table().find(data::particleId.name, material);
-  const auto* ids = reinterpret_cast<const ParticleId*>(
-      warehouse_->variable(Generation::old, idNumber, patch.id()).values.data());
+  const auto* ids =
+      reinterpret_cast<const ParticleId*>(warehouse_->variable(Generation::old, id, patch.id()).values.data());
   after.reset(patch, warehouse_->table().reach(material));
   moves.foreign.clear();
   moves.pieces.clear();
@@ -256,31 +334,35 @@ void Relocation::mergeCell(int patch, PatchMoves& moves, const ParticleRange& be
   moves.count = next;
 }
 
-void Relocation::carry(const Carried& carried) {
+void Relocation::carry(const Carried& carried, std::size_t place) {
+  forEachPatch([&](const Patch& patch) { carry(carried, place, patch); });
+  std::size_t k = 0;
+  for (const Patch& patch : warehouse_->level().patches())
+    std::swap(warehouse_->variable(Generation::fresh, carried.variable, patch.id()), spare_[k++]);
+}
+
+void Relocation::carry(const Carried& carried, std::size_t place, const Patch& patch) {
   const data::Label& label = *warehouse_->table()[carried.variable].label;
-  for (std::size_t patch = 0; patch < moves_.size(); ++patch) {
-    const PatchMoves& moves = moves_[patch];
-    const Variable& from = warehouse_->variable(carried.from, carried.variable, static_cast<int>(patch));
-    warehouse_->allocateParticles(spare_[patch], label, moves.count);
-    std::byte* to = spare_[patch].values.data();
-    for (const Piece& piece : moves.pieces) {
-      std::byte* there = to + static_cast<std::size_t>(piece.to) * label.bytes;
-      if (piece.from >= 0)
-        std::memcpy(there, from.values.data() + static_cast<std::size_t>(piece.from) * label.bytes,
-                    static_cast<std::size_t>(piece.count) * label.bytes);
-      else if (from.held && from.values.data())
-        gather(from.values.data(), there, moves.source.data() + piece.to, piece.count, label.bytes);
-    }
-    for (const auto& [place, index] : moves.foreign) {
-      const Incoming& particle = moves.incoming[static_cast<std::size_t>(index)];
-      const Variable& there = warehouse_->variable(carried.from, carried.variable, particle.patch);
-      std::memcpy(to + static_cast<std::size_t>(place) * label.bytes,
-                  there.values.data() + static_cast<std::size_t>(particle.place) * label.bytes, label.bytes);
-    }
+  const PatchMoves& moves = movesOf(patch);
+  const Variable& from = warehouse_->variable(carried.from, carried.variable, patch.id());
+  Variable& spare = spare_[static_cast<std::size_t>(patch.id() - warehouse_->level().firstPatch())];
+  warehouse_->allocateParticles(spare, label, moves.count);
+  std::byte* to = spare.values.data();
+  for (const Piece& piece : moves.pieces) {
+    std::byte* there = to + static_cast<std::size_t>(piece.to) * label.bytes;
+    if (piece.from >= 0)
+      std::memcpy(there, from.values.data() + static_cast<std::size_t>(piece.from) * label.bytes,
+                  static_cast<std::size_t>(piece.count) * label.bytes);
+    else if (from.held && from.values.data())
+      gather(from.values.data(), there, moves.source.data() + piece.to, piece.count, label.bytes);
   }
-  for (std::size_t patch = 0; patch < moves_.size(); ++patch) {
-    Variable& to = warehouse_->variable(Generation::fresh, carried.variable, static_cast<int>(patch));
-    std::swap(to, spare_[patch]);
+  for (const auto& [newPlace, index] : moves.foreign) {
+    const Incoming& particle = moves.incoming[static_cast<std::size_t>(index)];
+    const std::byte* values =
+        particle.patch < 0 ? emigration_.values(place)
+                           : warehouse_->variable(carried.from, carried.variable, particle.patch).values.data();
+    std::memcpy(to + static_cast<std::size_t>(newPlace) * label.bytes,
+                values + static_cast<std::size_t>(particle.place) * label.bytes, label.bytes);
   }
 }
 

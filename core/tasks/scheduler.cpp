@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
 #include <chrono>
+#include <mutex>
 
 #include "core/base/error.hpp"
-#include "core/tasks/exchange.hpp"
 
 namespace tushar::tasks {
 
@@ -17,17 +18,6 @@ namespace {
 double seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
 
 int firstMaterial(const CompiledTask& task) { return task.task.perMaterial() ? 0 : -1; }
-
-/// `patch` is -1 for a task that runs on all at once.
-std::string placeOf(const CompiledTask& task, int patch, int material, const StepInfo& at) {
-  std::string text = "task " + task.task.name;
-  if (patch >= 0) text += fmt::format(", patch {}", patch);
-  if (material >= 0) text += ", material " + task.task.materials[static_cast<std::size_t>(material)];
-  text += fmt::format(", step {}, time {:.6g} s", at.step, at.time);
-  if (at.delT > 0) text += fmt::format(", time step {:.6g} s", at.delT);
-  if (at.repeats > 0) text += fmt::format(" after {} repeats", at.repeats);
-  return text;
-}
 
 /// Runs `work`; what it throws comes out again with the place added.
 template <class Work>
@@ -46,28 +36,91 @@ void located(const CompiledTask& task, int patch, int material, const StepInfo& 
   }
 }
 
+/// Keeps, of the values on all patches that cannot be, that of the first cell; of several of one cell that of the first
+/// patch.
+class FirstRefusal {
+ public:
+  void note(const NumericalError& error, int patch) {
+    const std::lock_guard<std::mutex> alone(mutex_);
+    if (error_ && std::pair(error_->cell(), patch_) < std::pair(error.cell(), patch)) return;
+    error_ = error;
+    patch_ = patch;
+  }
+  const std::optional<NumericalError>& error() const { return error_; }
+
+ private:
+  std::mutex mutex_;
+  std::optional<NumericalError> error_;
+  int patch_ = 0;
+};
+
 }  // namespace
 
+std::string placeOf(const CompiledTask& task, int patch, int material, const StepInfo& at) {
+  std::string text = "task " + task.task.name;
+  if (patch >= 0) text += fmt::format(", patch {}", patch);
+  if (material >= 0) text += ", material " + task.task.materials[static_cast<std::size_t>(material)];
+  text += fmt::format(", step {}, time {:.6g} s", at.step, at.time);
+  if (at.delT > 0) text += fmt::format(", time step {:.6g} s", at.delT);
+  if (at.repeats > 0) text += fmt::format(" after {} repeats", at.repeats);
+  return text;
+}
+
+template <class Work>
+void Scheduler::forEachPatch(const Work& work) {
+  const std::vector<grid::Patch>& patches = warehouse_->level().patches();
+  threads_.forEach(static_cast<int>(patches.size()), [&](int k) { work(patches[static_cast<std::size_t>(k)]); });
+}
+
+void Scheduler::divideReductions(const CompiledTask& task) {
+  for (const int reduction : task.readReductions) warehouse_->slot(reduction);
+  for (const int reduction : task.reductions) warehouse_->slot(reduction).divide(warehouse_->level().patches().size());
+}
+
+void Scheduler::gatherReductions(const CompiledTask& task) {
+  for (const int reduction : task.reductions) warehouse_->slot(reduction).gather();
+}
+
 std::optional<data::Minimum> Scheduler::run(TaskGraph& graph, const StepInfo& at) {
-  relocation_.start();
-  for (const CompiledTask& task : graph.tasks())
-    for (const int reduction : task.reductions) warehouse_->resetReduction(reduction);
-  auto started = Clock::now();
-  for (CompiledTask& task : graph.tasks()) {
-    if (!task.fills.empty()) {
-      exchange(task);
-      const auto exchanged = Clock::now();
-      task.exchangeSeconds += seconds(exchanged - started);
-      started = exchanged;
-    }
-    const auto asked = runOrAsk(task, at);
-    free(task);
-    const auto done = Clock::now();
-    task.seconds += seconds(done - started);
-    started = done;
-    if (asked) return asked;
+  if (graph.tasks().empty()) return std::nullopt;
+  start(graph);
+  for (std::size_t t = 0; t < graph.tasks().size(); ++t) {
+    runTask(graph.tasks()[t], static_cast<int>(t), at);
+    if (!hasStopped())
+      free(graph.tasks()[t]);
+    else if (warehouse_->ranks().isAlone())
+      break;
   }
-  return std::nullopt;
+  agree(graph);
+  if (outcome_.isNone()) return std::nullopt;
+  if (outcome_.kind == Outcome::Kind::asks) return outcome_.factor;
+  if (at.mayRepeat) return data::Minimum{0.5, outcome_.value};
+  if (outcome_.kind == Outcome::Kind::throws) throw told(warehouse_->ranks(), error_, outcome_.rank);
+  throw whatBroke(graph, at);
+}
+
+void Scheduler::start(const TaskGraph& graph) {
+  outcome_ = {};
+  error_.reset();
+  heard_stop_ = false;
+  relocation_.start();
+  for (const int reduction : graph.reductions()) warehouse_->resetReduction(reduction);
+}
+
+void Scheduler::runTask(CompiledTask& task, int number, const StepInfo& at) {
+  running_ = number;
+  auto started = Clock::now();
+  if (!task.fills.empty()) {
+    heard_stop_ = !exchange_.run(task.fills, hasStopped()) || heard_stop_;
+    const auto exchanged = Clock::now();
+    task.exchangeSeconds += seconds(exchanged - started);
+    started = exchanged;
+  }
+  if (task.task.kind == TaskKind::relocate)
+    relocate(task, at);
+  else if (!hasStopped())
+    runWork(task, at);
+  task.seconds += seconds(Clock::now() - started);
 }
 
 std::optional<data::Minimum> Scheduler::askedBy(const CompiledTask& task) {
@@ -76,63 +129,77 @@ std::optional<data::Minimum> Scheduler::askedBy(const CompiledTask& task) {
   return factor.value < 1 ? std::optional(factor) : std::nullopt;
 }
 
-std::optional<data::Minimum> Scheduler::runOrAsk(CompiledTask& task, const StepInfo& at) {
-  try {
-    runWork(task, at);
-    return askedBy(task);
-  } catch (const NumericalError& error) {
-    if (!at.mayRepeat) throw;
-    return data::Minimum{0.5, data::Reason::of(error.value().empty() ? task.task.name : error.value())};
-  }
-}
-
-void Scheduler::exchange(CompiledTask& task) {
-  for (const NumberedFill& fill : task.fills) {
-    if (fill.particles)
-      fillParticleGhosts(*warehouse_, fill.variable, fill.generation, fill.set);
-    else
-      fillGridGhosts(*warehouse_, fill.variable, fill.generation);
-  }
-}
-
+/// A task that may ask runs for all materials, whatever happens: all that ask are heard.
 void Scheduler::runWork(CompiledTask& task, const StepInfo& at) {
-  if (task.task.acrossMaterials) {
-    for (const grid::Patch& patch : warehouse_->level().patches()) runAcrossMaterials(task, patch, at);
-    return;
-  }
-  const int first = firstMaterial(task);
-  for (int m = first; m < first + static_cast<int>(task.materials.size()); ++m) {
-    const MaterialBinding& binding = task.materials[static_cast<std::size_t>(m - first)];
-    if (task.task.kind == TaskKind::relocate)
-      located(task, -1, m, at, [&] { relocation_.run(m, binding.accesses.front().variable, binding.carried); });
-    else
-      runOnPatches(task, m, at);
+  divideReductions(task);
+  const bool mayAsk = task.recomputeTimeStep >= 0, isOnce = task.task.acrossMaterials || task.task.perRank;
+  const int first = isOnce ? -1 : firstMaterial(task);
+  const int end = first + (isOnce ? 1 : static_cast<int>(task.materials.size()));
+  for (int m = first; m < end && (mayAsk || !hasStopped()); ++m)
+    task.task.perRank ? runOnRank(task, at) : runOnPatches(task, m, at);
+  if (const auto factor = askedBy(task))
+    outcome_.merge({running_, Outcome::Kind::asks, 0, 0, warehouse_->ranks().rank(), *factor, {}});
+}
+
+/// All ranks relocate together, or none.
+void Scheduler::relocate(const CompiledTask& task, const StepInfo& at) {
+  for (int m = 0; m < static_cast<int>(task.materials.size()) && (m == 0 || !hasStopped()); ++m) {
+    const MaterialBinding& binding = task.of(m);
+    try {
+      located(task, -1, m, at, [&] {
+        const int position = binding.accesses.front().variable;
+        heard_stop_ = !relocation_.run(m, position, binding.carried, hasStopped()) || heard_stop_;
+      });
+    } catch (const NumericalError& error) {
+      note(task, m, error);
+    }
   }
 }
 
 void Scheduler::runOnPatches(CompiledTask& task, int material, const StepInfo& at) {
-  const MaterialBinding& binding = task.materials[static_cast<std::size_t>(material - firstMaterial(task))];
-  std::optional<NumericalError> first;
-  bool kept = true;
-  for (const grid::Patch& patch : warehouse_->level().patches()) {
+  FirstRefusal first;
+  std::atomic<bool> kept = true;
+  forEachPatch([&](const grid::Patch& patch) {
     try {
+      if (task.task.acrossMaterials) return runAcrossMaterials(task, patch, at);
       runPlaced(task, patch, material, at);
-      kept = kept && keepsBounds(*warehouse_, binding.bounded, patch);
+      if (!keepsBounds(*warehouse_, task.of(material).bounded, patch)) kept = false;
     } catch (const NumericalError& error) {
-      if (!first || error.cell() < first->cell()) first = error;
+      first.note(error, patch.id());
     }
-  }
-  if (kept && !first) return;
-  if (askedBy(task)) return;  // what was computed will not be used
-  if (first) throw NumericalError(*first);
-  refuseBroken(task, binding, material, at);
+  });
+  gatherReductions(task);
+  if (first.error())
+    note(task, material, *first.error());
+  else if (!kept)
+    noteBroken(task, material);
 }
 
-void Scheduler::refuseBroken(const CompiledTask& task, const MaterialBinding& binding, int material,
-                             const StepInfo& at) {
-  if (const auto broken = firstBroken(*warehouse_, binding.bounded))
-    throw NumericalError(fmt::format("{} ({})", broken->sentence, placeOf(task, broken->patch, material, at)), "",
-                         broken->label);
+void Scheduler::runOnRank(CompiledTask& task, const StepInfo& at) {
+  const int first = firstMaterial(task);
+  std::vector<std::vector<TaskContext>> contexts;
+  for (const grid::Patch& patch : warehouse_->level().patches()) {
+    std::vector<TaskContext>& ofPatch = contexts.emplace_back();
+    for (std::size_t m = 0; m < task.materials.size(); ++m) {
+      allocateOutputs(task.materials[m], patch, static_cast<int>(m) + first);
+      ofPatch.emplace_back(*warehouse_, patch, static_cast<int>(m) + first, task.materials[m].accesses, at.time);
+    }
+  }
+  std::vector<TaskContext> patches;
+  for (const std::vector<TaskContext>& ofPatch : contexts) {
+    patches.push_back(ofPatch.front());
+    patches.back().setMaterials(ofPatch);
+  }
+  TaskContext rank = patches.front();
+  rank.setPatches(patches);
+  try {
+    located(task, -1, -1, at, [&] { task.task.body(rank); });
+  } catch (const NumericalError& error) {
+    note(task, -1, error);
+  }
+  gatherReductions(task);
+  for (int m = first; m < first + static_cast<int>(task.materials.size()) && !hasStopped(); ++m)
+    if (firstThatBreaks(*warehouse_, task.of(m).bounded) < task.of(m).bounded.size()) noteBroken(task, m);
 }
 
 void Scheduler::runAcrossMaterials(CompiledTask& task, const grid::Patch& patch, const StepInfo& at) {
@@ -147,7 +214,7 @@ void Scheduler::runAcrossMaterials(CompiledTask& task, const grid::Patch& patch,
 }
 
 void Scheduler::runPlaced(CompiledTask& task, const grid::Patch& patch, int material, const StepInfo& at) {
-  const MaterialBinding& binding = task.materials[static_cast<std::size_t>(material - firstMaterial(task))];
+  const MaterialBinding& binding = task.of(material);
   located(task, patch.id(), material, at, [&] {
     if (task.task.kind == TaskKind::newParticles) {
       ParticleMaker maker(binding.accesses.size());

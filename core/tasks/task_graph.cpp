@@ -47,19 +47,23 @@ TaskGraph::TaskGraph(std::string name, Pruned pruned, const grid::Level& level, 
       for (int m = fill.perMaterial ? 0 : -1; m < (fill.perMaterial ? materials_ : 0); ++m)
         tasks_[t].fills.push_back({table.number(*fill.label, m), fill.generation, fill.set,
                                    fill.label->centring == Centring::particle});
+  for (const CompiledTask& task : tasks_) reductions_.insert(reductions_.end(), task.reductions.begin(), task.reductions.end());
+  std::sort(reductions_.begin(), reductions_.end());
+  reductions_.erase(std::unique(reductions_.begin(), reductions_.end()), reductions_.end());
   noteResults(table);
 }
 
 void TaskGraph::bind(std::size_t t, data::VariableTable& table) {
   const Task& task = pruned_.kept[t];
-  CompiledTask compiled{task, {}, {}, {}, -1};
+  CompiledTask compiled;
+  compiled.task = task;
   const int count = static_cast<int>(task.materials.size());
   materials_ = std::max(materials_, count);
   if (task.kind == TaskKind::newParticles) checkCreated(t);
   for (int m = task.perMaterial() ? 0 : -1; m < count; ++m) compiled.materials.push_back(bindMaterial(t, m, table));
   for (const Access& access : task.accesses)
-    if (access.label->centring == Centring::reduction && access.kind == AccessKind::computes)
-      compiled.reductions.push_back(table.number(*access.label, -1));
+    if (access.label->centring == Centring::reduction)
+      (access.writes() ? compiled.reductions : compiled.readReductions).push_back(table.number(*access.label, -1));
   for (const Access& access : task.accesses)
     if (access.writes() && access.label->name == data::recomputeTimeStep.name)
       compiled.recomputeTimeStep = table.number(*access.label, -1);

@@ -18,7 +18,7 @@ LEFT = MATERIAL + "geom_object[1]/"
 # name: (override, sentence after the location)
 OVERRIDES = {
     "unknown component": ("SimulationComponent/@type=mpn",
-                          "SimulationComponent: type: found 'mpn', expected 'burgers', 'euler', 'heat' or 'mpm' (did you mean 'mpm'?)"),
+                          "SimulationComponent: type: found 'mpn', expected 'burgers', 'euler', 'heat', 'mpm' or 'poisson' (did you mean 'mpm'?)"),
     "unknown tag": (BOX + "resolutoin=[3,1,1]", BOX + "resolutoin: unknown tag <resolutoin> in <Box> (did you mean "
                     "'resolution'?); allowed here: lower, upper, resolution, patches, extraCells"),
     "unknown section": ("Gird/x=1", "Gird: unknown section <Gird> (did you mean 'Grid'?); allowed here: Meta, "
@@ -197,8 +197,8 @@ class BrokenScenes(unittest.TestCase):
         result = run("ups/mpm/sod.ups", options=("--quiet", "--jsn", "x"))
         self.assertEqual(result.code, 2)
         self.assertIn("sus: unknown option '--jsn' (did you mean '--json'?)", result.err)
-        self.assertEqual(run("ups/mpm/sod.ups", options=("-nthreads", "4")).err,
-                         "sus: unknown option '-nthreads'; sus -h lists the options\n")
+        self.assertEqual(run("ups/mpm/sod.ups", options=("-emit_taskgraphs",)).err,
+                         "sus: unknown option '-emit_taskgraphs'; sus -h lists the options\n")
         self.assertEqual(run("ups/mpm/sod.ups", options=("ups/heat/sine.ups",)).err,
                          "sus: runs one scene at a time: found 'ups/heat/sine.ups' after 'ups/mpm/sod.ups'\n")
 

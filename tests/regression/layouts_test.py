@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The same bits on any patches: every scene, every variant, in one, two and three dimensions."""
+"""The same bits on any patches and threads: every scene, every variant, in one, two and three dimensions."""
+import itertools
 import pathlib
 import re
 import sys
@@ -17,7 +18,7 @@ SPACE = ("Grid/Level/Box/resolution=[20,4,3]", "Grid/Level/Box/upper=[1,.2,.15]"
 def scenes(dimensions):
     """The scenes of particles and of heat with so many axes of more than one cell."""
     for scene in sorted((ROOT / "ups/mpm").glob("*.ups")) + sorted((ROOT / "ups/heat").glob("*.ups")) + \
-            sorted((ROOT / "ups/burgers").glob("*.ups")):
+            sorted((ROOT / "ups/burgers").glob("*.ups")) + sorted((ROOT / "ups/poisson").glob("*.ups")):
         cells = re.search(r"<resolution>\s*\[(.*?)\]", scene.read_text()).group(1).split(",")
         if sum(int(count) > 1 for count in cells) == dimensions:
             yield scene
@@ -25,12 +26,13 @@ def scenes(dimensions):
 
 class Layouts(unittest.TestCase):
     def assert_same(self, scene, layouts, *sets):
-        """One fingerprint and one number of steps, whatever the patches."""
+        """One fingerprint and one number of steps, whatever the patches and threads: 1, 2 and 4 in turn."""
         prints = {}
-        for layout in layouts:
-            result = run(scene, *sets, f"Grid/Level/Box/patches={layout}")
+        for layout, threads in zip(layouts, itertools.cycle((1, 2, 4))):
+            options = ("--quiet", "-nthreads", str(threads))
+            result = run(scene, *sets, f"Grid/Level/Box/patches={layout}", options=options)
             self.assertEqual(result.code, 0, result.err)
-            prints.setdefault((result.report["fingerprint"], result.report["steps"]), []).append(layout)
+            prints.setdefault((result.report["fingerprint"], result.report["steps"]), []).append((layout, threads))
         self.assertEqual(len(prints), 1, f"{scene} {sets}: {prints}")
 
     def test_every_scene_in_one_dimension_on_1_2_3_7_and_64_patches(self):

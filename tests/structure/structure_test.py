@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The folders keep their order: what includes what, and who may see MPI, HDF5 and PETSc."""
+"""The folders keep their order: what includes what, and who may see MPI, HDF5, PETSc and TBB."""
 import pathlib
 import re
 import subprocess
@@ -11,7 +11,7 @@ ORDER = ["core/base", "core/input", "core/grid", "core/data", "core/tasks", "cor
          "core/simulation", "core", "components", "tools"]
 INCLUDE = re.compile(r'^\s*#include\s+[<"]([^>"]+)[>"]', re.MULTILINE)
 FOREIGN = {"mpi.h": r"core/base/mpi.*|core/tasks/exchange.*", "hdf5.h": r"core/output/archive.*",
-           "petsc": r"core/solvers/petsc.*"}
+           "petsc": r"core/solvers/petsc.*", "tbb/": r"core/base/threads.*"}
 
 
 def sources():
@@ -42,7 +42,7 @@ class Structure(unittest.TestCase):
         wrong = [path for path, text in sources() if path.startswith("core/") and '"components/' in text]
         self.assertEqual(wrong, [])
 
-    def test_only_their_own_files_include_mpi_hdf5_and_petsc(self):
+    def test_only_their_own_files_include_libraries_that_must_not_spread(self):
         wrong = [f"{path} includes {name}" for path, text in sources() for name in INCLUDE.findall(text)
                  for library, allowed in FOREIGN.items() if name.startswith(library) and not re.match(allowed, path)]
         self.assertEqual(wrong, [])

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/base/error.hpp"
 #include "tests/support/run.hpp"
 
@@ -45,8 +47,8 @@ void checkGhosts(const Patch&, CellView<const double> cells, NodeView<const doub
 }
 
 template <int D>
-double differingGhosts(const Index3& resolution, const Index3& patches, int width) {
-  test::Runner run(test::domain(resolution, patches));
+double differingGhosts(const Index3& resolution, const Index3& patches, int width, int threads = 1) {
+  test::Runner run(test::domain(resolution, patches), threads);
   TaskList list;
   list.perPatch("fillCells", fillCells<D>, computes(number));
   list.perPatch("fillNodes", fillNodes<D>, computes(nodeNumber));
@@ -69,6 +71,46 @@ TEST(Scheduler, FillsGhostCellsAndNodesFromTheirOwnersCornersIncluded) {
     EXPECT_EQ(differingGhosts<2>({{6, 5, 1}}, {{6, 5, 1}}, width), 0);
     EXPECT_EQ(differingGhosts<3>({{5, 4, 6}}, {{3, 2, 2}}, width), 0);
     EXPECT_EQ(differingGhosts<3>({{3, 3, 3}}, {{3, 3, 3}}, width), 0);
+    EXPECT_EQ(differingGhosts<2>({{9, 7, 1}}, {{3, 2, 1}}, width, 4), 0);
+  }
+}
+
+TEST(Scheduler, SumsToTheSameBitsOnAnyThreads) {
+  const auto total = [](int threads) {
+    test::Runner run(test::domain({{60, 1, 1}}, {{20, 1, 1}}), threads);
+    TaskList list;
+    list.perPatch("add", [](const Patch& patch, Sum& sum) {
+      for (int k = 0; k < 100; ++k) sum.add(std::exp(patch.id() * 1.7 + k) * (k % 2 ? -1 : 1));
+    }, computes(wrong));
+    TaskGraph graph = run.compile(list, {"wrong"});
+    run.step(graph);
+    const auto bytes = run.warehouse.reductionBytes(run.table.find("wrong", -1));
+    return std::vector<std::byte>(bytes.begin(), bytes.end());
+  };
+
+  const auto onOne = total(1);
+  for (int repeat = 0; repeat < 5; ++repeat) EXPECT_EQ(total(4), onOne);
+}
+
+TEST(Scheduler, TellsTheErrorOfTheFirstCellOrElsePatchOnAnyThreads) {
+  const auto failure = [](int threads, bool withCells) {
+    test::Runner run(test::domain({{60, 1, 1}}, {{20, 1, 1}}), threads);
+    TaskList list;
+    list.perPatch("fail", [withCells](const Patch& patch, CellView<double>) {
+      if (patch.id() >= 5) throw NumericalError("x", "", "x", withCells ? 100u - static_cast<unsigned>(patch.id()) : 0u);
+    }, computes(number));
+    TaskGraph graph = run.compile(list, {"c.number"});
+    try {
+      run.step(graph);
+    } catch (const NumericalError& error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+
+  for (const int threads : {1, 4}) {
+    EXPECT_EQ(failure(threads, false), "x (task fail, patch 5, step 7, time 0.5 s)");
+    EXPECT_EQ(failure(threads, true), "x (task fail, patch 19, step 7, time 0.5 s)");
   }
 }
 

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <memory>
+
+namespace tushar {
+
+/// Cores that this rank may use: those that it is bound to, or its share where several ranks of a launcher use the same
+/// machine; no more than SLURM_CPUS_PER_TASK, where that is set.
+int allowedThreads();
+
+/// A fixed number of threads, the caller's among them, that work through loops.
+class Threads {
+ public:
+  explicit Threads(int count = 1);
+  ~Threads();
+  Threads(const Threads&) = delete;
+  Threads& operator=(const Threads&) = delete;
+
+  int count() const { return count_; }
+
+  /// Calls `work(0)` to `work(times - 1)`, in any order and several at once, and returns when all are done. Of what they
+  /// throw, that of the least number comes out; the others are called nevertheless.
+  template <class Work>
+  void forEach(int times, const Work& work) {
+    run(times, {&work, [](const void* called, int k) { (*static_cast<const Work*>(called))(k); }});
+  }
+
+ private:
+  struct Loop {
+    const void* called;
+    void (*call)(const void* called, int k);
+  };
+  class Pool;
+  void run(int times, const Loop& loop);
+
+  int count_;
+  std::unique_ptr<Pool> pool_;  ///< none for one thread
+};
+
+}  // namespace tushar

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstddef>
+#include <cstring>
+#include <memory>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+namespace tushar::data {
+
+/// A reduction of some type: the reducer, and while a task runs a partial result of each patch.
+class ReductionSlot {
+ public:
+  virtual ~ReductionSlot() = default;
+  virtual void reset() = 0;
+  virtual std::vector<double> values() const = 0;
+  /// The reducer as it lies in memory.
+  virtual std::span<std::byte> bytes() = 0;
+  /// Adds a reducer to another, both as they lie in memory.
+  virtual void merge(const std::byte* from, std::byte* into) const = 0;
+  /// Makes as many empty partial results.
+  virtual void divide(std::size_t parts) = 0;
+  /// Adds the partial results to the reducer in their order, whoever computed them when, and empties them.
+  virtual void gather() = 0;
+};
+
+template <class R>
+class TypedReduction : public ReductionSlot {
+  static_assert(std::is_trivially_copyable_v<R>, "a checkpoint and a message keep a reducer as bytes");
+
+ public:
+  R reducer;
+  R& part(std::size_t k) { return parts_[k].reducer; }
+
+  void reset() override { reducer = R{}; }
+  std::vector<double> values() const override { return reducer.values(); }
+  std::span<std::byte> bytes() override { return std::as_writable_bytes(std::span(&reducer, 1)); }
+  void merge(const std::byte* from, std::byte* into) const override {
+    R one, other;
+    std::memcpy(&one, into, sizeof(R));
+    std::memcpy(&other, from, sizeof(R));
+    one.merge(other);
+    std::memcpy(into, &one, sizeof(R));
+  }
+  void divide(std::size_t parts) override { parts_.assign(parts, {}); }
+  void gather() override {
+    for (Part& part : parts_) {
+      reducer.merge(part.reducer);
+      part.reducer = R{};
+    }
+  }
+
+ private:
+  /// On a cache line of its own: threads write side by side.
+  struct alignas(64) Part {
+    R reducer;
+  };
+  std::vector<Part> parts_;
+};
+
+using MakeReduction = std::unique_ptr<ReductionSlot> (*)();
+
+template <class R>
+std::unique_ptr<ReductionSlot> makeReduction() {
+  return std::make_unique<TypedReduction<R>>();
+}
+
+}  // namespace tushar::data

@@ -1,0 +1,81 @@
+#include "core/base/threads.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <condition_variable>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace tushar {
+
+namespace {
+
+constexpr int counts[] = {1, 2, 3, 8};
+
+/// What comes out of a loop of which the numbers in `failing` throw their own names, and how many ran.
+std::pair<std::string, int> failureOf(Threads& threads, const std::vector<int>& failing, int times) {
+  std::atomic<int> calls = 0;
+  try {
+    threads.forEach(times, [&](int k) {
+      ++calls;
+      for (const int one : failing)
+        if (one == k) throw std::runtime_error(std::to_string(k));
+    });
+  } catch (const std::runtime_error& error) {
+    return {error.what(), calls};
+  }
+  return {"none", calls};
+}
+
+}  // namespace
+
+TEST(Threads, CallTheLoopOnceForEachNumber) {
+  for (const int count : counts) {
+    Threads threads(count);
+    for (const int times : {0, 1, 2, 7, 1000}) {
+      std::vector<std::atomic<int>> calls(static_cast<std::size_t>(times));
+      threads.forEach(times, [&](int k) { ++calls[static_cast<std::size_t>(k)]; });
+      for (const std::atomic<int>& called : calls) EXPECT_EQ(called, 1) << count << " threads, " << times << " times";
+    }
+  }
+}
+
+TEST(Threads, WorkAtTheSameTime) {
+  Threads threads(2);
+  std::mutex mutex;
+  std::condition_variable both;
+  int inside = 0;
+
+  // Each waits for the other: this only ends if both run at once.
+  threads.forEach(2, [&](int) {
+    std::unique_lock<std::mutex> lock(mutex);
+    ++inside;
+    both.notify_all();
+    both.wait(lock, [&] { return inside == 2; });
+  });
+
+  EXPECT_EQ(inside, 2);
+}
+
+TEST(Threads, ThrowTheFirstOfSeveralExceptionsOnceAllElseIsDone) {
+  for (const int count : counts) {
+    Threads threads(count);
+    EXPECT_EQ(failureOf(threads, {}, 64), (std::pair<std::string, int>("none", 64)));
+    EXPECT_EQ(failureOf(threads, {63}, 64), (std::pair<std::string, int>("63", 64)));
+    for (int repeat = 0; repeat < 20; ++repeat)
+      EXPECT_EQ(failureOf(threads, {50, 5, 17, 63}, 64), (std::pair<std::string, int>("5", 64)));
+  }
+}
+
+TEST(Threads, GoOnAfterAnException) {
+  Threads threads(2);
+  failureOf(threads, {0, 1}, 2);
+  EXPECT_EQ(failureOf(threads, {}, 100).second, 100);
+}
+
+TEST(Threads, AreAtLeastOneWhateverTheLauncherSays) { EXPECT_GE(allowedThreads(), 1); }
+
+}  // namespace tushar
