@@ -15,7 +15,7 @@ using input::Schema;
 
 namespace {
 
-enum class Kind { none, singleVelocity, rigid, specified, friction };
+enum class Kind { none, singleVelocity, rigid, specified };
 
 /// The tags of every kind of contact, as they are written.
 struct ContactSection {
@@ -26,7 +26,6 @@ struct ContactSection {
   double stopTime = 0;
   Vec3 velocityAfterStop = Vec3::Zero();
   std::string profileFile;
-  double friction = 0, separationFactor = 0;
 };
 
 const Schema<ContactSection>& contactSchema() {
@@ -36,11 +35,8 @@ const Schema<ContactSection>& contactSchema() {
                           {{"null", Kind::none},
                            {"single_velocity", Kind::singleVelocity},
                            {"rigid", Kind::rigid},
-                           {"specified", Kind::specified},
-                           {"friction", Kind::friction},
-                           {"friction_bard", Kind::friction}},
-                          "not at all; as one body; they follow a master, which is free or moves as told; or they part "
-                          "freely and slide with friction (two words for it)")
+                           {"specified", Kind::specified}},
+                          "not at all; as one body; or they follow a master, which is free or moves as told")
           .optional("materials", &ContactSection::materials, "1", "numbers of the materials that take part; else all")
           .value("direction", &ContactSection::direction, Index3{{0, 0, 1}}, "1",
                  "rigid, specified: 1 along x, y, z where the others follow the master", input::between(0, 1))
@@ -52,11 +48,6 @@ const Schema<ContactSection>& contactSchema() {
                  "rigid, specified: velocity after stop_time")
           .value("filename", &ContactSection::profileFile, "", "1",
                  "specified: a file with a line `time vx vy vz` for each of at least two times, ascending")
-          .value("mu", &ContactSection::friction, 0, "1", "friction: coefficient", input::nonNegative())
-          .value("separation_factor", &ContactSection::separationFactor, 9.9e99, "1",
-                 "friction: what lies farther apart than so many cells does not touch", input::positive())
-          .ignored("volume_constraint", "bodies touch wherever they share a node and approach or are pressed")
-          .ignored("OneOrTwoStep", "contact acts on both velocities of a step")
           .ignored("vel_fields", "an old word for materials")
           .ignored("do_contact_friction_heating", "rubbing makes no heat here");
   return schema;
@@ -82,11 +73,7 @@ std::vector<std::pair<double, Vec3>> readProfile(const Element& tag, const std::
 Contact settle(const ContactSection& read, const Element& tag, Diagnostics& diagnostics) {
   Contact contact;
   const bool follows = read.kind == Kind::rigid || read.kind == Kind::specified;
-  contact.type = follows                       ? Contact::Type::specified
-                 : read.kind == Kind::friction ? Contact::Type::friction
-                                               : Contact::Type::singleVelocity;
-  contact.friction = read.friction;
-  contact.separationFactor = read.separationFactor;
+  contact.type = follows ? Contact::Type::specified : Contact::Type::singleVelocity;
   contact.materials = read.materials.value_or(std::vector<int>{});
   contact.master = read.master;
   for (int axis = 0; axis < 3; ++axis) contact.direction[static_cast<std::size_t>(axis)] = read.direction[axis] != 0;
