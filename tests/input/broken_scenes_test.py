@@ -27,8 +27,9 @@ OVERRIDES = {
                                    MATERIAL + "constitutive_model: attribute 'type': found 'ideal_gaz', expected "
                                    "'ideal_gas'\n"),
     "unknown module": ("DataAnalysis/Module/@name=exactRieman", "DataAnalysis/Module: name: found 'exactRieman', expected "
-                       "'burgersWave', 'massProjection', 'exactRiemann', 'simpleWave', 'isentropicVortex', 'gresho', 'noh', "
-                       "'sedov', 'tabulated' or 'exactSolution' (did you mean 'exactRiemann'?)"),
+                       "'burgersWave', 'massProjection', 'manufacturedError', 'exactRiemann', 'simpleWave', 'isentropicVortex', "
+                       "'gresho', 'noh', 'sedov', 'tabulated', 'exactSolution' or 'particleExtract' (did you mean "
+                       "'exactRiemann'?)"),
     "unknown choice": (GAS + "volume_model=tracket", GAS + "volume_model: found 'tracket', expected 'cell_share' or "
                        "'tracked' (did you mean 'tracked'?)"),
     "unknown boundary label": ("Grid/BoundaryConditions/Face[1]/BCType/@label=Symetric",

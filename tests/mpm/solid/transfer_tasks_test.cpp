@@ -36,7 +36,7 @@ struct Cloud {
 
   static grid::Domain domain() {
     grid::Domain domain;
-    domain.upper = {1, 0.6, 0.4};
+    domain.upper = {1, D > 1 ? 0.6 : 0, D > 2 ? 0.4 : 0};
     domain.resolution = D == 1 ? Index3{{10, 0, 0}} : D == 2 ? Index3{{10, 8, 0}} : Index3{{9, 8, 7}};
     domain.nodesBeyond = 1;
     return domain;
