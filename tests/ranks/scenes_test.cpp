@@ -32,14 +32,18 @@ std::string resultOf(const std::string& scene, std::vector<std::string> sets, co
 /// The number of axes of a scene with several cells.
 int dimensionOf(const std::string& scene) { return readScene(scene, {}, catalogue()).level->dimension(); }
 
-/// Four layouts of a scene; along a line as many patches as it has cells, 64 at most.
+/// Four layouts of a scene, with no more patches along an axis than cells.
 std::vector<std::string> layoutsOf(const std::string& scene) {
   const Problem problem = readScene(scene, {}, catalogue());
-  switch (problem.level->dimension()) {
-    case 1: return {"[1,1,1]", "[2,1,1]", "[7,1,1]", fmt::format("[{},1,1]", std::min(64, problem.level->cells().upper[0]))};
-    case 2: return {"[1,1,1]", "[2,1,1]", "[1,7,1]", "[8,8,1]"};
-    default: return {"[1,1,1]", "[2,1,1]", "[1,7,1]", "[4,4,4]"};
-  }
+  const Index3 most = problem.level->domain().resolution;
+  const Index3 last[] = {{{64, 1, 1}}, {{8, 8, 1}}, {{4, 4, 4}}};
+  const int axes = problem.level->dimension();
+  std::vector<std::string> layouts;
+  for (const Index3& patches : {Index3{{1, 1, 1}}, Index3{{2, 1, 1}}, axes == 1 ? Index3{{7, 1, 1}} : Index3{{1, 7, 1}},
+                                last[axes - 1]})
+    layouts.push_back(fmt::format("[{},{},{}]", std::min(patches[0], most[0]), std::min(patches[1], most[1]),
+                                  std::min(patches[2], most[2])));
+  return layouts;
 }
 
 /// On 2, 3 and 4 ranks, each with another of the layouts from the `first` on, comes what one rank and one patch give.
