@@ -13,6 +13,7 @@
 #include "core/base/interrupt.hpp"
 #include "core/base/launcher.hpp"
 #include "core/base/threads.hpp"
+#include "core/base/trace.hpp"
 #include "core/input/geometry.hpp"
 #include "core/simulation/scene.hpp"
 
@@ -21,11 +22,11 @@ namespace {
 using namespace tushar;
 
 struct Arguments {
-  std::string scene, describe, graph;
+  std::string scene, describe, graph, trace;
   std::vector<std::string> overrides;
   bool check = false, list = false, restart = false, schedule = false, version = false;
   std::optional<int> checkpoint;  ///< step of the one to restart from
-  std::optional<int> threads;
+  grid::Workers workers{allowedThreads(), true};
   simulation::RunOptions run;
 };
 
@@ -75,8 +76,11 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.add_option("--set", arguments.overrides, "override a value of the scene: PATH=VALUE, e.g.\n"
                                                "Grid/Level/Box/resolution=[200,1,1]; may be repeated")
       ->allow_extra_args(false);
-  app.add_option("--nthreads", arguments.threads, "threads to run on; all cores that are free to use, if not given")
+  app.add_option_function<int>("--nthreads", [&](int count) { arguments.workers = {count}; },
+                               "threads to run on; without it as many as there are cores for and as pay")
       ->check(CLI::Range(1, 1024));
+  app.add_option("--trace", arguments.trace,
+                 "write what each thread did when to a file, for ui.perfetto.dev or chrome://tracing");
   app.add_option("--json", arguments.run.jsonPath, "write the report to a file, as JSON");
   app.add_option("--output", arguments.run.outputFolder, "put the .uda into this folder");
   app.add_flag("--quiet", arguments.run.quiet, "no progress, no report on the screen");
@@ -128,11 +132,11 @@ void checkWritable(const std::string& path) {
 }
 
 simulation::Problem readProblem(const Arguments& arguments, const simulation::Catalogue& known) {
-  if (!arguments.restart) return simulation::readScene(arguments.scene, arguments.overrides, known);
+  if (!arguments.restart) return simulation::readScene(arguments.scene, arguments.overrides, known, arguments.workers);
   const simulation::Restart restart = simulation::findRestart(arguments.scene, arguments.checkpoint);
   for (const std::string& note : restart.notes) fmt::print(stderr, "sus: {}\n", note);
   if (!restart.notes.empty()) fmt::print(stderr, "sus: goes on from the checkpoint of step {}\n", restart.step);
-  simulation::Problem problem = simulation::readScene(restart.scene().string(), arguments.overrides, known);
+  simulation::Problem problem = simulation::readScene(restart.scene().string(), arguments.overrides, known, arguments.workers);
   problem.restart = restart;
   return problem;
 }
@@ -151,9 +155,7 @@ ExitCode runScene(const Arguments& arguments, const simulation::Catalogue& known
   simulation::Problem problem = readProblem(arguments, known);
   if (!arguments.run.quiet)
     for (const InputProblem& note : problem.notes) fmt::print(stderr, "note: {}\n", note.text());
-  simulation::RunOptions options = arguments.run;
-  options.threads = arguments.threads ? *arguments.threads : allowedThreads();
-  simulation::Simulation run(std::move(problem), options, startedAt);
+  simulation::Simulation run(std::move(problem), arguments.run, startedAt);
   if (!arguments.graph.empty()) {
     std::ostringstream dot;
     run.phases().printDot(dot);
@@ -162,9 +164,12 @@ ExitCode runScene(const Arguments& arguments, const simulation::Catalogue& known
   if (arguments.schedule) run.phases().printSchedule(std::cout);
   if (arguments.check) fmt::print("{}: fine, {}\n", arguments.scene, sizeOf(run, run.tryStart()));
   if (arguments.check || arguments.schedule || !arguments.graph.empty()) return ExitCode::success;
-  if (!arguments.run.jsonPath.empty()) checkWritable(arguments.run.jsonPath);
+  for (const std::string& path : {arguments.run.jsonPath, arguments.trace})
+    if (!path.empty()) checkWritable(path);
   catchInterrupts();
+  if (!arguments.trace.empty()) trace::start();
   const simulation::Report report = run.run();
+  if (!arguments.trace.empty()) writeFile(arguments.trace, trace::fileOf(trace::events(0)));
   if (!arguments.run.jsonPath.empty()) writeFile(arguments.run.jsonPath, toJson(report));
   if (!report.failure.empty()) throw NumericalError(report.failure, report.advice);
   if (!arguments.run.quiet) fmt::print("{}", toText(report));

@@ -18,7 +18,7 @@ Simulation::Simulation(Problem problem, const RunOptions& options, Clock::time_p
       started_at_(startedAt),
       phases_(*problem_.component, problem_.analyses),
       warehouse_(*problem_.level, table_),
-      scheduler_(warehouse_, std::min(options.threads, warehouse_.patches())),
+      scheduler_(warehouse_, std::min(problem_.threads, warehouse_.patches())),
       time_(problem_.time),
       progress_(options.quiet, stdout),
       outputs_(problem_.time.initTime, problem_.archive.outputInterval) {
@@ -48,12 +48,15 @@ Report Simulation::run() {
   wall_startup_ = since(started_at_) - wall_output_;
   const auto loopStarted = Clock::now();
   const double outputBefore = wall_output_;
+  const Threads::Use useBefore = scheduler_.threads().use();
   try {
     while (!hasEnded()) step();
   } catch (const NumericalError& error) {
     failure_ = advised(error);
   }
-  wall_loop_ = since(loopStarted) - (wall_output_ - outputBefore);
+  const double output = wall_output_ - outputBefore;
+  wall_loop_ = since(loopStarted) - output;
+  time_use_ = TimeUse(useBefore, scheduler_.threads(), since(loopStarted), output);
   if (failure_) saveLastGood();
   if (saves_ && (problem_.archive.outputLastTimestep || isInterrupted())) save();
   progress_.finish();
@@ -163,8 +166,9 @@ void Simulation::saveIfDue() {
 
 void Simulation::save() {
   if (archive_->lastStep() == time_.step()) return;
-  const auto started = Clock::now();
   diagnose(phases_.everyOutput);
+  const auto started = Clock::now();
+  const trace::Span span(trace::Kind::output, "save");
   archive_->write(snapshot());
   wall_output_ += since(started);
   progress_.line(fmt::format("step {:>6}  t = {:<12.6g} dt = {:<10.4g} saved in {}", time_.step(), time_.time(),
@@ -229,7 +233,7 @@ Report Simulation::makeReport() {
   report.build = TUSHAR_BUILD_TYPE;
   report.dimension = problem_.level->dimension();
   report.patches = warehouse_.patches();
-  report.threads = scheduler_.threads();
+  report.threads = scheduler_.threads().count();
   report.spacing = problem_.level->minSpacing();
   report.cells = static_cast<long>(problem_.level->cells().size());
   report.particles = particleCount(warehouse_, static_cast<int>(phases_.materials().size()));
@@ -247,6 +251,7 @@ Report Simulation::makeReport() {
   report.particleSteps = particle_steps_;
   report.wallStartup = wall_startup_;
   report.wallLoop = wall_loop_;
+  report.use = time_use_;
   reportTasks(report);
   reportDrift(report);
   reportErrors(report);

@@ -27,6 +27,7 @@ struct Problem {
   TimeSettings time;
   ArchiveSettings archive;
   std::unique_ptr<grid::Level> level;
+  int threads = 1;
   std::unique_ptr<Component> component;
   std::vector<std::unique_ptr<Analysis>> analyses;
   std::optional<Restart> restart;  ///< where the run goes on; none where it starts
@@ -105,6 +106,7 @@ class Simulation {
   int last_checkpoint_ = -1;                      ///< step of the last that was written or read
   Totals totals_at_start_;
   std::optional<NumericalError> failure_;
+  TimeUse time_use_;
   double particle_steps_ = 0, wall_loop_ = 0, wall_output_ = 0, wall_startup_ = 0;
 };
 

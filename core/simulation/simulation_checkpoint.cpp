@@ -62,6 +62,7 @@ void Simulation::checkpointAtEnd() {
 void Simulation::checkpoint() {
   if (last_checkpoint_ == time_.step()) return;
   const auto started = Clock::now();
+  const trace::Span span(trace::Kind::output, "checkpoint");
   const output::ArchivePoint point = archive_->sync(time_.step(), time_.time());
   checkpointStore().write(time_.step(),
                           [&](const std::filesystem::path& folder) { writeCheckpoint(folder / stateFile, point); });

@@ -121,9 +121,12 @@ void fillGhosts(Warehouse& warehouse, const std::vector<NumberedFill>& fills, Th
   if (warehouse.patches() == 1 && !warehouse.level().isPeriodic()) return;
   const std::vector<Patch>& patches = warehouse.level().patches();
   const auto forEachPatch = [&](const auto& work) {
-    threads.forEach(static_cast<int>(patches.size()), [&](int k) {
-      for (const NumberedFill& fill : fills) work(fill, patches[static_cast<std::size_t>(k)]);
-    });
+    const auto workOn = [&](int k) {
+      const Patch& patch = patches[static_cast<std::size_t>(k)];
+      const trace::Span span(trace::Kind::message, "fill ghosts", patch.id());
+      for (const NumberedFill& fill : fills) work(fill, patch);
+    };
+    threads.forEach(static_cast<int>(patches.size()), workOn, trace::Kind::message);
   };
   // A patch reads of others only what they own, and that stands still once all have made room.
   forEachPatch([&](const NumberedFill& fill, const Patch& patch) {

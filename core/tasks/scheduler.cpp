@@ -69,9 +69,13 @@ class FirstRefusal {
 }  // namespace
 
 template <class Work>
-void Scheduler::forEachPatch(const Work& work) {
+void Scheduler::forEachPatch(const CompiledTask& task, const Work& work) {
   const std::vector<grid::Patch>& patches = warehouse_->level().patches();
-  threads_.forEach(static_cast<int>(patches.size()), [&](int k) { work(patches[static_cast<std::size_t>(k)]); });
+  threads_.forEach(static_cast<int>(patches.size()), [&](int k) {
+    const grid::Patch& patch = patches[static_cast<std::size_t>(k)];
+    const trace::Span span(trace::Kind::task, task.task.name, patch.id());
+    work(patch);
+  });
 }
 
 void Scheduler::divideReductions(const CompiledTask& task) {
@@ -124,7 +128,7 @@ std::optional<data::Minimum> Scheduler::runOrAsk(CompiledTask& task, const StepI
 void Scheduler::runWork(CompiledTask& task, const StepInfo& at) {
   divideReductions(task);
   if (task.task.acrossMaterials) {
-    forEachPatch([&](const grid::Patch& patch) { runAcrossMaterials(task, patch, at); });
+    forEachPatch(task, [&](const grid::Patch& patch) { runAcrossMaterials(task, patch, at); });
     return gatherReductions(task);
   }
   const int first = firstMaterial(task);
@@ -141,7 +145,7 @@ void Scheduler::runOnPatches(CompiledTask& task, int material, const StepInfo& a
   const MaterialBinding& binding = task.materials[static_cast<std::size_t>(material - firstMaterial(task))];
   FirstRefusal first;
   std::atomic<bool> kept = true;
-  forEachPatch([&](const grid::Patch& patch) {
+  forEachPatch(task, [&](const grid::Patch& patch) {
     try {
       runPlaced(task, patch, material, at);
       if (!keepsBounds(*warehouse_, binding.bounded, patch)) kept = false;

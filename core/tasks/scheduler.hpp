@@ -36,14 +36,14 @@ class Scheduler {
   void commit(const TaskGraph& graph);
 
   Relocation& relocation() { return relocation_; }
-  int threads() const { return threads_.count(); }
+  const Threads& threads() const { return threads_; }
 
  private:
   std::optional<data::Minimum> askedBy(const CompiledTask& task);
   std::optional<data::Minimum> runOrAsk(CompiledTask& task, const StepInfo& at);
   void runWork(CompiledTask& task, const StepInfo& at);
   template <class Work>
-  void forEachPatch(const Work& work);
+  void forEachPatch(const CompiledTask& task, const Work& work);
   void divideReductions(const CompiledTask& task);
   void gatherReductions(const CompiledTask& task);
   void runOnPatches(CompiledTask& task, int material, const StepInfo& at);
