@@ -4,8 +4,11 @@
 #include <muParser.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <unordered_map>
 #include <vector>
 
 #include "core/input/text.hpp"
@@ -13,9 +16,11 @@
 
 namespace tushar::input {
 
-/// A compiled formula and the variables that it reads.
-struct Expression::Program {
-  explicit Program(const std::string& text) {
+namespace {
+
+/// A compiled formula and the variables that it reads; of one thread.
+struct Compiled {
+  explicit Compiled(const std::string& text) {
     parser.DefineVar("x", &at[0]);
     parser.DefineVar("y", &at[1]);
     parser.DefineVar("z", &at[2]);
@@ -24,14 +29,18 @@ struct Expression::Program {
     parser.DefineConst("e", std::numbers::e);
     parser.SetExpr(text);
   }
-  Program(const Program&) = delete;
-  Program& operator=(const Program&) = delete;
+  Compiled(const Compiled&) = delete;
+  Compiled& operator=(const Compiled&) = delete;
 
   std::array<double, 4> at{};
   mu::Parser parser;
 };
 
-namespace {
+/// What this thread has compiled, by number of the program; it stays until the thread ends.
+std::unordered_map<std::uint64_t, Compiled>& compiledHere() {
+  thread_local std::unordered_map<std::uint64_t, Compiled> programs;
+  return programs;
+}
 
 std::string notAFormula(std::string_view text, const std::string& why) {
   return fmt::format("found '{}', expected a formula in x, y, z and t: {}", text, why);
@@ -52,9 +61,26 @@ bool looksLikeNumber(const std::string& text) { return text.find_first_not_of("+
 
 }  // namespace
 
+/// Each thread compiles the formula when it first evaluates it.
+struct Expression::Program {
+  explicit Program(std::string formula) : text(std::move(formula)) {
+    static std::atomic<std::uint64_t> made{0};
+    number = made++;
+  }
+
+  Compiled& compiled() const { return compiledHere().try_emplace(number, text).first->second; }
+
+  std::string text;
+  std::uint64_t number;
+};
+
 Expression::Expression(double value) : text_(toText(value)), value_(value) {}
 Expression::Expression(const Expression& other)
-    : text_(other.text_), value_(other.value_), constant_(other.constant_), dependsOnTime_(other.dependsOnTime_) {}
+    : text_(other.text_),
+      value_(other.value_),
+      constant_(other.constant_),
+      dependsOnTime_(other.dependsOnTime_),
+      program_(constant_ ? nullptr : std::make_unique<Program>(text_)) {}
 Expression::Expression(Expression&& other) noexcept = default;
 Expression::~Expression() = default;
 
@@ -80,10 +106,11 @@ Parsed<Expression> Expression::parse(std::string_view given) {
   if (assigns(out.text_)) return Parsed<Expression>::wrong(notAFormula(out.text_, "'=' would change a variable"));
   try {
     out.program_ = std::make_unique<Program>(out.text_);
+    mu::Parser& parser = out.program_->compiled().parser;
     int results = 0;
-    out.value_ = out.program_->parser.Eval(results)[0];
+    out.value_ = parser.Eval(results)[0];
     if (results != 1) return Parsed<Expression>::wrong(notAFormula(out.text_, "it has several values"));
-    const auto& used = out.program_->parser.GetUsedVar();
+    const auto& used = parser.GetUsedVar();
     out.constant_ = used.empty();
     out.dependsOnTime_ = used.count("t") > 0;
   } catch (const mu::ParserError& error) {
@@ -96,9 +123,9 @@ Parsed<Expression> Expression::parse(std::string_view given) {
 }
 
 double Expression::evaluate(const Vec3& x, double t) const {
-  if (!program_) program_ = std::make_unique<Program>(text_);
-  program_->at = {x[0], x[1], x[2], t};
-  return program_->parser.Eval();
+  Compiled& compiled = program_->compiled();
+  compiled.at = {x[0], x[1], x[2], t};
+  return compiled.parser.Eval();
 }
 
 VectorExpression::VectorExpression(const Vec3& value) : components_{value[0], value[1], value[2]} {}

@@ -14,7 +14,7 @@ namespace tushar::input {
 ///
 /// Knows the operators + - * / ^, comparisons, && ||, `condition ? a : b`, the constants pi and e, and the usual
 /// functions (sin, cos, exp, ln, sqrt, abs, min, max, …). A formula with none of x, y, z, t is evaluated once, when it
-/// is read. Copies are independent; one object must not be evaluated by two threads at a time.
+/// is read. Several threads may evaluate it at once.
 class Expression {
  public:
   /// The constant `value`.
@@ -42,7 +42,7 @@ class Expression {
   double value_ = 0;
   bool constant_ = true;
   bool dependsOnTime_ = false;
-  mutable std::unique_ptr<Program> program_;  // compiled at the first evaluation of each copy
+  std::unique_ptr<Program> program_;  ///< none of a constant
 };
 
 /// Three formulas, `[fx,fy,fz]`.

@@ -1,7 +1,9 @@
 #include "core/input/expression.hpp"
 
 #include <cmath>
+#include <vector>
 
+#include "core/base/threads.hpp"
 #include "tests/input/support.hpp"
 
 namespace tushar::input {
@@ -66,6 +68,19 @@ TEST(Expression, SaysWhyTextIsNoFormula) {
   EXPECT_EQ(Expression::parse("1/0").problem, "found '1/0', which is not a finite number");
   EXPECT_EQ(Expression::parse("nan").problem,
             "found 'nan', expected a formula in x, y, z and t: Unexpected token \"nan\" found at position 0.");
+}
+
+TEST(Expression, IsEvaluatedBySeveralThreadsAtOnce) {
+  const Expression formula = *Expression::parse("sin(x) + y*t");
+  Threads threads(4);
+  std::vector<double> found(10000);
+
+  threads.forEach(static_cast<int>(found.size()), [&](int k) {
+    found[static_cast<std::size_t>(k)] = formula({k * 0.1, 2, 0}, k);
+  });
+
+  for (int k = 0; k < static_cast<int>(found.size()); ++k)
+    ASSERT_EQ(found[static_cast<std::size_t>(k)], std::sin(k * 0.1) + 2.0 * k);
 }
 
 TEST(VectorExpression, SplitsAtTheOuterCommas) {

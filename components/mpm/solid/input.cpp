@@ -5,6 +5,7 @@
 #include "components/mpm/solid/loads/load_input.hpp"
 #include "components/mpm/solid/material_input.hpp"
 #include "components/mpm/solid/refuse.hpp"
+#include "components/mpm/solid/shapes/cpdi_shape.hpp"
 #include "components/mpm/solid/solid_mpm.hpp"
 #include "core/simulation/by_dimension.hpp"
 
@@ -16,10 +17,12 @@ using input::Schema;
 
 namespace {
 
-enum class Interpolator { linear, gimp, quadratic, cubic };
+enum class Interpolator { linear, gimp, cpdi, quadratic, cubic };
 
 const input::Choices<Interpolator> interpolators{{"linear", Interpolator::linear},
                                                  {"gimp", Interpolator::gimp},
+                                                 {"cpdi", Interpolator::cpdi},
+                                                 {"fast_cpdi", Interpolator::cpdi},
                                                  {"3rdorderBS", Interpolator::quadratic},
                                                  {"4thorderBS", Interpolator::cubic}};
 
@@ -54,7 +57,8 @@ const Schema<MpmSection>& mpmSchema() {
     Schema<MpmSection> mpm("MPM", "The Material Point Method for solids.");
     mpm.choice("time_integrator", &MpmSection::integrator, {{"explicit", 0}}, 0, "how time advances")
         .choice("interpolator", &MpmSection::interpolator, interpolators, Interpolator::linear,
-                "shape functions: linear, generalised interpolation, quadratic or cubic B-splines")
+                "shape functions: linear, generalised interpolation, convected particle domains (fast_cpdi is another "
+                "word for them), quadratic or cubic B-splines")
         .value("artificial_viscosity", &MpmSection::artificialViscosity, false, "1", "pressure against compression")
         .value("artificial_viscosity_coeff1", &MpmSection::linearViscosity, 0.2, "1", "factor of c |D| h",
                input::nonNegative())
@@ -118,6 +122,7 @@ void settleSizes(Problem& problem) {
 std::unique_ptr<Component> makeComponent(const Level& level, Interpolator interpolator, Problem problem) {
   countParticles(level, problem.materials, problem.start.loads);
   settleSizes(problem);
+  problem.start.domainsDeform = interpolator == Interpolator::cpdi;
   double widths = 0, axes = 0;
   for (int axis = 0; axis < 3; ++axis) {
     widths += level.cellWidth(axis);
@@ -141,6 +146,7 @@ std::unique_ptr<Component> makeComponent(const Level& level, Interpolator interp
   switch (interpolator) {
     case Interpolator::linear: return make.template operator()<LinearShape>();
     case Interpolator::gimp: return make.template operator()<GimpShape>();
+    case Interpolator::cpdi: return make.template operator()<CpdiShape>();
     case Interpolator::quadratic: return make.template operator()<QuadraticShape>();
     default: return make.template operator()<CubicShape>();
   }

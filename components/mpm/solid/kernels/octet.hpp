@@ -1,30 +1,44 @@
 #pragma once
 
-#if defined(__AVX512F__) || defined(__FMA__)
+#if defined(__FMA__)
 #include <immintrin.h>
 #endif
 
+#include "core/core.hpp"
+
 namespace tushar::mpm::solid {
 
-/// Eight numbers that are worked on at once: what a node keeps (see NodeRecord).
-using Octet = double __attribute__((vector_size(64)));
+/// Four numbers that are worked on at once: a register, or two where the processor's hold two numbers.
+using Quad = double __attribute__((vector_size(32)));
 
 /// factor * a + b, rounded once where the processor can.
-[[gnu::always_inline]] inline Octet multiplyAdd(double factor, const Octet& a, const Octet& b) {
-#if defined(__AVX512F__)
-  return (Octet)_mm512_fmadd_pd(_mm512_set1_pd(factor), (__m512d)a, (__m512d)b);
-#elif defined(__FMA__)
-  const __m256d f = _mm256_set1_pd(factor);
-  Octet result;
-  auto* to = reinterpret_cast<double*>(&result);
-  const auto* x = reinterpret_cast<const double*>(&a);
-  const auto* y = reinterpret_cast<const double*>(&b);
-  _mm256_store_pd(to, _mm256_fmadd_pd(f, _mm256_load_pd(x), _mm256_load_pd(y)));
-  _mm256_store_pd(to + 4, _mm256_fmadd_pd(f, _mm256_load_pd(x + 4), _mm256_load_pd(y + 4)));
-  return result;
+[[gnu::always_inline]] inline Quad multiplyAdd(double factor, const Quad& a, const Quad& b) {
+#if defined(__FMA__)
+  return (Quad)_mm256_fmadd_pd(_mm256_set1_pd(factor), (__m256d)a, (__m256d)b);
 #else
   return factor * a + b;
 #endif
+}
+
+/// Eight numbers: what a node keeps (see NodeRecord). The two halves are named so that the compiler keeps each in a
+/// register of its own, and so that a kernel which needs one of them works on that alone.
+struct alignas(64) Octet {
+  Quad low, high;
+
+  double operator[](int lane) const { return lane < 4 ? low[lane] : high[lane - 4]; }
+  /// Of an Octet in memory; one in registers is made by octetOf.
+  double& operator[](int lane) { return reinterpret_cast<double*>(this)[lane]; }
+};
+
+/// The components of a vector, zeros behind them, and a number.
+template <int D>
+[[gnu::always_inline]] inline Quad quadOf(const Vec<D>& v, double number) {
+  if constexpr (D == 1)
+    return Quad{v[0], 0, 0, number};
+  else if constexpr (D == 2)
+    return Quad{v[0], v[1], 0, number};
+  else
+    return Quad{v[0], v[1], v[2], number};
 }
 
 }  // namespace tushar::mpm::solid

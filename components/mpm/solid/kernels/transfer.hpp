@@ -43,29 +43,30 @@ template <class Stencil, int D, class Visit>
   }
 }
 
-/// record_i += S_i value + sum_d dS_i/dx_d slope_d (+ S_i / r hoop where axisymmetric), for the nodes i of a stencil.
+/// record_i += S_i value, and to its high half sum_d dS_i/dx_d slope_d (+ S_i / r hoop where axisymmetric), for the nodes
+/// i of a stencil.
 template <class Stencil, int D = Stencil::dimension>
 [[gnu::always_inline]] inline void scatter(const Stencil& stencil, const NodeWindow<Octet, D>& nodes, const Octet& value,
-                                           const std::array<Octet, Stencil::dimension>& slope,
-                                           const Octet& hoop = Octet{}) {
+                                           const std::array<Quad, Stencil::dimension>& slope, const Quad& hoop = Quad{}) {
   forEachRow<Stencil, D>(stencil, nodes.stride, [&](std::ptrdiff_t offset, const RowFactors<D>& f) {
-    Octet along = f.s * value;
-    for (std::size_t d = 1; d < D; ++d) along = multiplyAdd(f.slope[d], slope[d], along);
-    const Octet change = f.s * slope[0], round = f.s * hoop;
+    const Quad low = f.s * value.low, change = f.s * slope[0], round = f.s * hoop;
+    Quad high = f.s * value.high;
+    for (std::size_t d = 1; d < D; ++d) high = multiplyAdd(f.slope[d], slope[d], high);
     Octet* row = nodes.origin + offset;
     for (std::size_t i = 0; i < Stencil::nodes; ++i) {
-      row[i] = multiplyAdd(stencil.s[0][i], along, multiplyAdd(stencil.ds[0][i], change, row[i]));
-      if constexpr (Stencil::axisymmetric) row[i] = multiplyAdd(stencil.hoop[i], round, row[i]);
+      row[i].low = multiplyAdd(stencil.s[0][i], low, row[i].low);
+      row[i].high = multiplyAdd(stencil.s[0][i], high, multiplyAdd(stencil.ds[0][i], change, row[i].high));
+      if constexpr (Stencil::axisymmetric) row[i].high = multiplyAdd(stencil.hoop[i], round, row[i].high);
     }
   });
 }
 
-/// What a particle takes from the nodes: sum_i S_i record_i, its gradient, and sum_i S_i / r record_i.
+/// What a particle takes from the nodes: sum_i S_i record_i; of the low halves the gradient and sum_i S_i / r record_i, too.
 template <int D>
 struct Gathered {
   Octet value{};
-  std::array<Octet, D> gradient{};
-  Octet hoop{};
+  std::array<Quad, D> gradient{};
+  Quad hoop{};
 };
 
 template <class Stencil, int D = Stencil::dimension>
@@ -73,16 +74,19 @@ template <class Stencil, int D = Stencil::dimension>
   Gathered<D> sums;
   forEachRow<Stencil, D>(stencil, nodes.stride, [&](std::ptrdiff_t offset, const RowFactors<D>& f) {
     const Octet* row = nodes.origin + offset;
-    Octet along = stencil.s[0][0] * row[0], change = stencil.ds[0][0] * row[0], round{};
-    if constexpr (Stencil::axisymmetric) round = stencil.hoop[0] * row[0];
+    Quad low = stencil.s[0][0] * row[0].low, high = stencil.s[0][0] * row[0].high;
+    Quad change = stencil.ds[0][0] * row[0].low, round{};
+    if constexpr (Stencil::axisymmetric) round = stencil.hoop[0] * row[0].low;
     for (std::size_t i = 1; i < Stencil::nodes; ++i) {
-      along = multiplyAdd(stencil.s[0][i], row[i], along);
-      change = multiplyAdd(stencil.ds[0][i], row[i], change);
-      if constexpr (Stencil::axisymmetric) round = multiplyAdd(stencil.hoop[i], row[i], round);
+      low = multiplyAdd(stencil.s[0][i], row[i].low, low);
+      high = multiplyAdd(stencil.s[0][i], row[i].high, high);
+      change = multiplyAdd(stencil.ds[0][i], row[i].low, change);
+      if constexpr (Stencil::axisymmetric) round = multiplyAdd(stencil.hoop[i], row[i].low, round);
     }
-    sums.value = multiplyAdd(f.s, along, sums.value);
+    sums.value.low = multiplyAdd(f.s, low, sums.value.low);
+    sums.value.high = multiplyAdd(f.s, high, sums.value.high);
     sums.gradient[0] = multiplyAdd(f.s, change, sums.gradient[0]);
-    for (std::size_t d = 1; d < D; ++d) sums.gradient[d] = multiplyAdd(f.slope[d], along, sums.gradient[d]);
+    for (std::size_t d = 1; d < D; ++d) sums.gradient[d] = multiplyAdd(f.slope[d], low, sums.gradient[d]);
     if constexpr (Stencil::axisymmetric) sums.hoop = multiplyAdd(f.s, round, sums.hoop);
   });
   return sums;

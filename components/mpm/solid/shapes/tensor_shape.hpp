@@ -9,8 +9,9 @@ namespace tushar::mpm::solid {
 /// What a shape function asks of a particle besides its position.
 template <int D>
 struct Extent {
-  Vec<D> size = Vec<D>::Ones();          ///< at the start, in cells
-  const Matrix3* deformation = nullptr;  ///< F; null where `Shape::deforms` is false
+  Vec<D> size = Vec<D>::Ones();  ///< at the start, in cells
+  /// Where `Shape::deforms`: column j is half the edge that lay along axis j at the start, as F has it now, in cells.
+  Eigen::Matrix<double, D, D> halfEdges;
 };
 
 /// Shape functions of D dimensions that are products of those along each axis. Where `Axisymmetric`, the first axis is

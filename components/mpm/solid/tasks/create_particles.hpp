@@ -15,6 +15,7 @@ struct Start {
   bool axisymmetric = false;
   std::vector<PressureLoad> loads;
   std::shared_ptr<const Manufactured> solution;  ///< null: there is none
+  bool domainsDeform = false;                    ///< by F, so that p.size stays as it was before any deformation
 };
 
 /// The numbers of the loads on a particle, 1 for the first, packed as p.loadCurveID says.
@@ -57,18 +58,20 @@ struct NewParticles {
     viscosity.push_back(0);
     strainEnergy.push_back(0);
     loads.push_back(loadsOn(start, material, body, point, particleSpacing(level, body)));
-    if (start.solution) deform(level, *start.solution, material, point);
+    if (start.solution) deform(level, start, material, point);
   }
 
  private:
   /// Moves the last particle to where the manufactured solution has it at time 0.
-  void deform(const Level& level, const Manufactured& solution, const Material& material, const Vec3& point) {
+  void deform(const Level& level, const Start& start, const Material& material, const Vec3& point) {
+    const Manufactured& solution = *start.solution;
     const Elastic elastic = elasticOf(material);
     const Matrix3 f = solution.deformationGradient(elastic, point, 0);
     displacement.back() = level.reduce<D>(solution.displacement(elastic, point, 0));
     x.back() += displacement.back();
     velocity.back() = level.reduce<D>(solution.velocity(elastic, point, 0));
     deformation.back() = f;
+    if (start.domainsDeform) return;
     for (int d = 0; d < D; ++d) size.back()[d] *= f(level.axis(d), level.axis(d));
   }
 };

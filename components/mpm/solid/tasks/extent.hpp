@@ -38,16 +38,21 @@ class Extents {
 
   Extents(const Level& level, const Vec3& common, const OptionalView<const Vec<D>>& each,
           const OptionalView<const Matrix3>& deformation)
-      : common_(level.reduce<D>(common)), each_(valuesOf(each)), deformation_(valuesOf(deformation)) {}
+      : level_(level), common_(level.reduce<D>(common)), each_(valuesOf(each)), deformation_(valuesOf(deformation)) {}
 
   Extent<D> operator[](int p) const {
     Extent<D> extent;
     if constexpr (Shape::hasSize) extent.size = each_ ? each_[p] : common_;
-    if constexpr (Shape::deforms) extent.deformation = deformation_ + p;
+    if constexpr (Shape::deforms)
+      for (int i = 0; i < D; ++i)
+        for (int j = 0; j < D; ++j)
+          extent.halfEdges(i, j) = 0.5 * deformation_[p](sceneAxis<D>(level_, i), sceneAxis<D>(level_, j)) *
+                                   extent.size[j] * level_.spacing(j) * level_.inverseSpacing(i);
     return extent;
   }
 
  private:
+  const Level& level_;
   Vec<D> common_;
   const Vec<D>* each_;
   const Matrix3* deformation_;

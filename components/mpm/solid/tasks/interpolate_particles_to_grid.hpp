@@ -52,16 +52,16 @@ void scatterCell(const Level& level, const Material& material, const Sources<Sha
     const int p = first + k;
     const Matrix3& moment = moments[static_cast<std::size_t>(k)];
     const typename Shape::Stencil stencil(frame, cell, from.x[p], from.extents[p]);
-    Octet value{}, hoop{};
-    std::array<Octet, D> slope{};
-    setLanes<D>(value, lane::velocity, from.mass[p] * from.velocity[p]);
-    value[lane::mass] = from.mass[p];
-    if (from.externalForce) setLanes<D>(value, lane::force, from.externalForce[p]);
-    if (from.volume) value[lane::volume] = from.volume[p];
-    for (int d = 0; d < D; ++d)
-      for (int i = 0; i < D; ++i)
-        slope[static_cast<std::size_t>(d)][lane::force + i] = -moment(sceneAxis<D>(level, i), sceneAxis<D>(level, d));
-    hoop[lane::force] = -moment(2, 2);
+    const Vec<D> force = from.externalForce ? from.externalForce[p] : Vec<D>(Vec<D>::Zero());
+    const Octet value{quadOf<D>(from.mass[p] * from.velocity[p], from.mass[p]),
+                      quadOf<D>(force, from.volume ? from.volume[p] : 0.0)};
+    std::array<Quad, D> slope;
+    for (int d = 0; d < D; ++d) {
+      Vec<D> traction;
+      for (int i = 0; i < D; ++i) traction[i] = -moment(sceneAxis<D>(level, i), sceneAxis<D>(level, d));
+      slope[static_cast<std::size_t>(d)] = quadOf<D>(traction, 0);
+    }
+    const Quad hoop{-moment(2, 2), 0, 0, 0};
     scatter(stencil, windowOf<Octet>(record, stencil), value, slope, hoop);
   }
 }
