@@ -12,6 +12,7 @@
 #include "core/base/error.hpp"
 #include "core/base/interrupt.hpp"
 #include "core/base/launcher.hpp"
+#include "core/base/mpi.hpp"
 #include "core/base/threads.hpp"
 #include "core/base/trace.hpp"
 #include "core/input/geometry.hpp"
@@ -131,14 +132,37 @@ void checkWritable(const std::string& path) {
   if (!existed) std::filesystem::remove(path);
 }
 
-simulation::Problem readProblem(const Arguments& arguments, const simulation::Catalogue& known) {
-  if (!arguments.restart) return simulation::readScene(arguments.scene, arguments.overrides, known, arguments.workers);
-  const simulation::Restart restart = simulation::findRestart(arguments.scene, arguments.checkpoint);
+/// Finds the checkpoint to go on from, and says what was found damaged on the way; the first rank does so for all.
+simulation::Restart findRestart(const Arguments& arguments, const mpi::Communicator& ranks) {
+  simulation::Restart restart;
+  ranks.onFirst([&] { restart = simulation::findRestart(arguments.scene, arguments.checkpoint); });
   for (const std::string& note : restart.notes) fmt::print(stderr, "sus: {}\n", note);
   if (!restart.notes.empty()) fmt::print(stderr, "sus: goes on from the checkpoint of step {}\n", restart.step);
-  simulation::Problem problem = simulation::readScene(restart.scene().string(), arguments.overrides, known, arguments.workers);
+  restart.archive = ranks.broadcast(restart.archive.string());
+  restart.step = ranks.broadcast(restart.step);
+  return restart;
+}
+
+simulation::Problem readProblem(const Arguments& arguments, const simulation::Catalogue& known,
+                                const mpi::Communicator& ranks) {
+  const grid::Share share{ranks.rank(), ranks.size()};
+  const grid::Workers first = ranks.broadcast(arguments.workers);  // all ranks must choose the same patches
+  const grid::Workers workers{first.threads, first.mayBeFewer, ranks.size()};
+  if (!arguments.restart) return simulation::readScene(arguments.scene, arguments.overrides, known, workers, share);
+  const simulation::Restart restart = findRestart(arguments, ranks);
+  simulation::Problem problem = simulation::readScene(restart.scene().string(), arguments.overrides, known, workers, share);
   problem.restart = restart;
   return problem;
+}
+
+/// The first rank writes what all have recorded.
+void writeTrace(const std::string& path, const mpi::Communicator& ranks) {
+  const std::string mine = trace::events(ranks.rank());
+  std::string all;
+  const auto* bytes = reinterpret_cast<const std::byte*>(mine.data());
+  for (const mpi::Bytes& events : ranks.gatherOnAll({bytes, bytes + mine.size()}))
+    all += (all.empty() ? "" : ",\n") + std::string(reinterpret_cast<const char*>(events.data()), events.size());
+  ranks.onFirst([&] { writeFile(path, trace::fileOf(all)); });
 }
 
 /// `100 cells and 450 particles at the start`.
@@ -148,36 +172,55 @@ std::string sizeOf(simulation::Simulation& run, long particles) {
          (particles > 0 ? fmt::format(" and {} particles at the start", particles) : "");
 }
 
-ExitCode runScene(const Arguments& arguments, const simulation::Catalogue& known,
-                  std::chrono::steady_clock::time_point startedAt) {
-  if (launchedRanks() > 1)
-    throw std::runtime_error(fmt::format("started on {} ranks, but runs on one so far; start it without mpirun", launchedRanks()));
-  simulation::Problem problem = readProblem(arguments, known);
-  if (!arguments.run.quiet)
-    for (const InputProblem& note : problem.notes) fmt::print(stderr, "note: {}\n", note.text());
-  simulation::Simulation run(std::move(problem), arguments.run, startedAt);
+/// What is said of a scene without running it.
+void inspect(const Arguments& arguments, simulation::Simulation& run, bool isFirst) {
+  const long particles = arguments.check ? run.tryStart() : 0;
+  if (!isFirst) return;
   if (!arguments.graph.empty()) {
     std::ostringstream dot;
     run.phases().printDot(dot);
     writeFile(arguments.graph, dot.str());
   }
   if (arguments.schedule) run.phases().printSchedule(std::cout);
-  if (arguments.check) fmt::print("{}: fine, {}\n", arguments.scene, sizeOf(run, run.tryStart()));
-  if (arguments.check || arguments.schedule || !arguments.graph.empty()) return ExitCode::success;
-  for (const std::string& path : {arguments.run.jsonPath, arguments.trace})
-    if (!path.empty()) checkWritable(path);
+  if (arguments.check) fmt::print("{}: fine, {}\n", arguments.scene, sizeOf(run, particles));
+}
+
+ExitCode runScene(const Arguments& arguments, const simulation::Catalogue& known,
+                  std::chrono::steady_clock::time_point startedAt, const mpi::Communicator& ranks) {
+  simulation::Problem problem = readProblem(arguments, known, ranks);
+  if (!arguments.run.quiet && ranks.isFirst())
+    for (const InputProblem& note : problem.notes) fmt::print(stderr, "note: {}\n", note.text());
+  simulation::Simulation run(std::move(problem), arguments.run, startedAt, ranks);
+  if (arguments.check || arguments.schedule || !arguments.graph.empty()) {
+    inspect(arguments, run, ranks.isFirst());
+    return ExitCode::success;
+  }
+  const bool reports = !arguments.run.jsonPath.empty(), traces = !arguments.trace.empty();
+  ranks.onFirst([&] {
+    if (reports) checkWritable(arguments.run.jsonPath);
+    if (traces) checkWritable(arguments.trace);
+  });
   catchInterrupts();
-  if (!arguments.trace.empty()) trace::start();
+  if (traces) trace::start();
   const simulation::Report report = run.run();
-  if (!arguments.trace.empty()) writeFile(arguments.trace, trace::fileOf(trace::events(0)));
-  if (!arguments.run.jsonPath.empty()) writeFile(arguments.run.jsonPath, toJson(report));
+  if (traces) writeTrace(arguments.trace, ranks);
+  if (reports) ranks.onFirst([&] { writeFile(arguments.run.jsonPath, toJson(report)); });
   if (!report.failure.empty()) throw NumericalError(report.failure, report.advice);
-  if (!arguments.run.quiet) fmt::print("{}", toText(report));
+  if (!arguments.run.quiet && ranks.isFirst()) fmt::print("{}", toText(report));
   return report.ended == "interrupted" ? ExitCode::interrupted : ExitCode::success;
 }
 
-ExitCode dispatch(const Arguments& arguments, std::chrono::steady_clock::time_point startedAt) {
+ExitCode refuse(const std::string& sentence) {
+  if (launchedRank() == 0) fmt::print(stderr, "sus: {}\n", sentence);
+  return ExitCode::badCommandLine;
+}
+
+/// `session` is opened where a scene is run.
+ExitCode dispatch(const Arguments& arguments, std::chrono::steady_clock::time_point startedAt,
+                  std::optional<mpi::Session>& session) {
   const simulation::Catalogue known = catalogue();
+  const bool only = arguments.version || arguments.list || !arguments.describe.empty() || arguments.scene.empty();
+  if (only && launchedRank() > 0) return ExitCode::success;  // the first says it
   if (arguments.version) {
     fmt::print("sus {} ({})\n", TUSHAR_VERSION, TUSHAR_BUILD_TYPE);
     return ExitCode::success;
@@ -192,15 +235,48 @@ ExitCode dispatch(const Arguments& arguments, std::chrono::steady_clock::time_po
                        "the options\n");
     return ExitCode::badCommandLine;
   }
-  if (!arguments.restart && std::filesystem::is_directory(arguments.scene + "/checkpoints")) {
-    fmt::print(stderr, "sus: {0} is the folder of a run; sus -restart {0} goes on with it\n", arguments.scene);
-    return ExitCode::badCommandLine;
+  if (!arguments.restart && std::filesystem::is_directory(arguments.scene + "/checkpoints"))
+    return refuse(fmt::format("{0} is the folder of a run; sus -restart {0} goes on with it", arguments.scene));
+  if (arguments.restart && !arguments.run.outputFolder.empty())
+    return refuse("--output has no meaning with --restart: a run goes on in its own folder");
+  session.emplace();
+  return runScene(arguments, known, startedAt, session->ranks());
+}
+
+/// A sentence for the user, and what the shell gets.
+struct Failure {
+  std::string text;
+  ExitCode code = ExitCode::failure;
+};
+
+/// What went wrong; no text where another rank has it.
+Failure failureOf(const std::exception_ptr& thrown) {
+  try {
+    std::rethrow_exception(thrown);
+  } catch (const InputError& error) {
+    return {fmt::format("{}\n", error.what()), ExitCode::badInput};
+  } catch (const NumericalError& error) {
+    return {fmt::format("sus: {}\n     try {}\n", error.what(), error.advice()), ExitCode::numerical};
+  } catch (const mpi::FailedElsewhere&) {
+    return {};
+  } catch (const std::bad_alloc&) {
+    return {"sus: not enough memory for this scene\n"};
+  } catch (const std::exception& error) {
+    return {fmt::format("sus: {}\n", error.what())};
   }
-  if (arguments.restart && !arguments.run.outputFolder.empty()) {
-    fmt::print(stderr, "sus: --output has no meaning with --restart: a run goes on in its own folder\n");
-    return ExitCode::badCommandLine;
+}
+
+/// Says once for all ranks what went wrong, and ends them.
+int endWith(const Failure& failure, std::optional<mpi::Session>& session) {
+  int code = static_cast<int>(failure.code);
+  const bool speaks = !session || session->speaks(!failure.text.empty(), code);
+  if (speaks) fmt::print(stderr, "{}", failure.text);
+  if (session && !session->isAgreed()) {
+    if (speaks) fmt::print(stderr, "     (rank {} of {})\n", session->ranks().rank(), session->ranks().size());
+    std::fflush(stderr);
+    session->abort(code);
   }
-  return runScene(arguments, known, startedAt);
+  return code;
 }
 
 }  // namespace
@@ -211,28 +287,21 @@ int main(int count, char** words) {
   Arguments arguments;
   CLI::App app("sus: runs a scene (.ups) with the component that it names", "sus");
   declare(app, arguments);
+  std::optional<mpi::Session> session;
   try {
     std::vector<std::string> backwards;
     for (auto word = given.rbegin(); word != given.rend(); ++word) backwards.push_back(withTwoDashes(*word));
     app.parse(backwards);
-    const ExitCode code = dispatch(arguments, startedAt);
+    const ExitCode code = dispatch(arguments, startedAt, session);
     if (std::fflush(stdout) != 0 || !std::cout.flush()) throw FileError("standard output cannot be written");
     return static_cast<int>(code);
   } catch (const CLI::ExtrasError&) {
-    reportUnknown(app, given, arguments.scene);
+    if (launchedRank() == 0) reportUnknown(app, given, arguments.scene);
     return static_cast<int>(ExitCode::badCommandLine);
   } catch (const CLI::ParseError& error) {
+    if (launchedRank() > 0) return error.get_exit_code() == 0 ? 0 : static_cast<int>(ExitCode::badCommandLine);
     return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::badCommandLine);
-  } catch (const InputError& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return static_cast<int>(ExitCode::badInput);
-  } catch (const NumericalError& error) {
-    fmt::print(stderr, "sus: {}\n     try {}\n", error.what(), error.advice());
-    return static_cast<int>(ExitCode::numerical);
-  } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "sus: not enough memory for this scene\n");
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "sus: {}\n", error.what());
+  } catch (...) {
+    return endWith(failureOf(std::current_exception()), session);
   }
-  return static_cast<int>(ExitCode::failure);
 }

@@ -19,6 +19,8 @@ int numberFrom(std::initializer_list<const char*> names, int otherwise) {
 
 int launchedRanks() { return numberFrom({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "MV2_COMM_WORLD_SIZE"}, 1); }
 
+int launchedRank() { return numberFrom({"OMPI_COMM_WORLD_RANK", "PMI_RANK", "MV2_COMM_WORLD_RANK"}, 0); }
+
 int ranksOnThisMachine() {
   return std::max(1, numberFrom({"OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS", "MV2_COMM_WORLD_LOCAL_SIZE"}, 1));
 }

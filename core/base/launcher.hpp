@@ -6,6 +6,9 @@ namespace tushar {
 /// Read from the environment that launchers set, so that MPI is not needed to know.
 int launchedRanks();
 
+/// Which of these processes this is, from 0; 0 without a launcher.
+int launchedRank();
+
 /// How many of them are on this machine.
 int ranksOnThisMachine();
 

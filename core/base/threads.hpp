@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string_view>
 
 #include "core/base/trace.hpp"
 
@@ -25,6 +26,16 @@ class Threads {
   template <class Work>
   void forEach(int times, const Work& work, trace::Kind kind = trace::Kind::task) {
     run(times, {&work, [](const void* called, int k) { (*static_cast<const Work*>(called))(k); }}, kind);
+  }
+
+  /// Calls `work()` once, on this thread; in a trace it has this name, which must outlive it.
+  template <class Work>
+  void alone(const Work& work, trace::Kind kind, std::string_view name) {
+    const auto named = [&](int) {
+      const trace::Span span(kind, name);
+      work();
+    };
+    forEach(1, named, kind);
   }
 
   /// What the loops have taken so far, s.

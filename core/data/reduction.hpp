@@ -64,22 +64,36 @@ struct Maximum {
   std::vector<double> values() const { return {value}; }
 };
 
-/// A sum with the rounding error of each addition carried along (Knuth's two-sum), about 32 digits:
-/// its 16 leading digits do not depend on the order of the additions but in contrived cases.
+/// Makes `a` the rounded sum of both and `b` the rest of it, exactly (D. E. Knuth, The Art of Computer Programming 2,
+/// 4.2.2, theorem B).
+inline void addExactly(double& a, double& b) {
+  const double sum = a + b;
+  const double part = sum - a;
+  b = (a - (sum - part)) + (b - part);
+  a = sum;
+}
+
+/// A sum with the rounding error of each addition carried along, and the rounding error of that, about 48 digits: its 16
+/// leading digits do not depend on the order of the additions, not even where most of it cancels out.
 struct Sum {
-  double value = 0, error = 0;
+  double value = 0, error = 0, rest = 0;
 
   void add(double x) {
-    const double sum = value + x;
-    const double part = sum - value;
-    error += (value - (sum - part)) + (x - part);
-    value = sum;
+    addExactly(value, x);
+    addExactly(error, x);
+    rest += x;
   }
+  /// Afterwards each part is what the one before rounds off, so that equal sums are equal bits.
   void merge(const Sum& other) {
     add(other.value);
-    error += other.error;
+    double x = other.error;
+    addExactly(error, x);
+    rest += x + other.rest;
+    addExactly(error, rest);
+    addExactly(value, error);
+    addExactly(error, rest);
   }
-  double total() const { return value + error; }
+  double total() const { return value + (error + rest); }
   std::vector<double> values() const { return {total()}; }
 };
 

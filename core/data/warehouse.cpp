@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/base/mpi.hpp"
 #include "core/data/views.hpp"
 
 namespace tushar::data {
@@ -34,15 +35,18 @@ void VariableTable::widen(int number, int ghost) {
   reaches_[material] = std::max(reaches_[material], ghost);
 }
 
+Warehouse::Warehouse(const grid::Level& level, VariableTable& table)
+    : Warehouse(level, table, mpi::Communicator::alone()) {}
+
 void Warehouse::grow(int materials) {
-  const std::size_t places = place(table_->size(), 0);
+  const std::size_t places = place(table_->size(), level_->firstPatch());
   old_.resize(std::max(old_.size(), places));
   fresh_.resize(std::max(fresh_.size(), places));
   reductions_.resize(std::max(reductions_.size(), static_cast<std::size_t>(table_->size())));
   for (std::deque<Variable>* variables : {&old_, &fresh_})
     for (std::size_t k = 0; k < variables->size(); ++k) (*variables)[k].pool = static_cast<int>(k % level_->patches().size());
   pools_.resize(level_->patches().size());
-  const std::size_t sets = place(materials, 0);
+  const std::size_t sets = place(materials, level_->firstPatch());
   old_sets_.resize(std::max(old_sets_.size(), sets));
   fresh_sets_.resize(std::max(fresh_sets_.size(), sets));
 }
@@ -125,14 +129,19 @@ std::size_t Warehouse::allocations() const {
   return all;
 }
 
+bool Warehouse::isHeld(Generation generation, int number) {
+  const auto& patches = level_->patches();
+  return ranks_->any(!patches.empty() && variable(generation, number, patches.front().id()).held);
+}
+
 void Warehouse::swap(int number) {
-  for (int patch = 0; patch < patches(); ++patch)
-    std::swap(old_[place(number, patch)], fresh_[place(number, patch)]);
+  for (const grid::Patch& patch : level_->patches())
+    std::swap(old_[place(number, patch.id())], fresh_[place(number, patch.id())]);
 }
 
 void Warehouse::swapSets(int material) {
-  for (int patch = 0; patch < patches(); ++patch)
-    std::swap(old_sets_[place(material, patch)], fresh_sets_[place(material, patch)]);
+  for (const grid::Patch& patch : level_->patches())
+    std::swap(old_sets_[place(material, patch.id())], fresh_sets_[place(material, patch.id())]);
 }
 
 }  // namespace tushar::data

@@ -12,6 +12,10 @@
 #include "core/data/particle_set.hpp"
 #include "core/grid/level.hpp"
 
+namespace tushar::mpi {
+class Communicator;
+}
+
 namespace tushar::data {
 
 /// A label of one material; `material` is -1 for variables that belong to none.
@@ -63,12 +67,19 @@ enum class Generation { old, fresh };
 /// and free at once on different patches.
 class Warehouse {
  public:
-  Warehouse(const grid::Level& level, VariableTable& table) : level_(&level), table_(&table) {}
+  /// For one rank on its own.
+  Warehouse(const grid::Level& level, VariableTable& table);
+  /// `ranks` share the grid as the level says, and outlive the warehouse.
+  Warehouse(const grid::Level& level, VariableTable& table, const mpi::Communicator& ranks)
+      : level_(&level), table_(&table), ranks_(&ranks) {}
 
   const grid::Level& level() const { return *level_; }
   const VariableTable& table() const { return *table_; }
   int patches() const { return static_cast<int>(level_->patches().size()); }
+  /// The ranks that share the grid.
+  const mpi::Communicator& ranks() const { return *ranks_; }
 
+  /// `patch` is the number of one of this rank's.
   Variable& variable(Generation generation, int number, int patch) {
     return (generation == Generation::old ? old_ : fresh_)[place(number, patch)];
   }
@@ -83,7 +94,7 @@ class Warehouse {
   /// What a patch adds to a reduction.
   template <class R>
   R& partOfReduction(int number, int patch) {
-    return static_cast<TypedReduction<R>&>(slot(number)).part(static_cast<std::size_t>(patch));
+    return static_cast<TypedReduction<R>&>(slot(number)).part(static_cast<std::size_t>(patch - level_->firstPatch()));
   }
   void resetReduction(int number);
   /// A reduction whatever its type; made on first use, which must not be by several threads at once.
@@ -104,6 +115,9 @@ class Warehouse {
   /// Gives the memory of a variable back, for the next one that is allocated.
   void free(Variable& variable);
 
+  /// Whether any rank has values of a variable; every rank asks.
+  bool isHeld(Generation generation, int number);
+
   /// What was computed becomes old: exchanges the two generations of a variable on every patch.
   void swap(int number);
   void swapSets(int material);
@@ -113,12 +127,14 @@ class Warehouse {
 
  private:
   std::size_t place(int number, int patch) const {
-    return static_cast<std::size_t>(number) * level_->patches().size() + static_cast<std::size_t>(patch);
+    return static_cast<std::size_t>(number) * level_->patches().size() +
+           static_cast<std::size_t>(patch - level_->firstPatch());
   }
   void takeRestored(int number);
 
   const grid::Level* level_;
   VariableTable* table_;
+  const mpi::Communicator* ranks_;
   std::deque<Variable> old_, fresh_;
   std::deque<ParticleSet> old_sets_, fresh_sets_;
   std::vector<std::unique_ptr<ReductionSlot>> reductions_;

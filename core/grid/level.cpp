@@ -2,7 +2,7 @@
 
 namespace tushar::grid {
 
-Level::Level(const Domain& domain) : domain_(domain) {
+Level::Level(const Domain& domain, Share share) : domain_(domain), share_(share) {
   chooseAxes();
   makePatches();
 }
@@ -27,7 +27,7 @@ void Level::chooseAxes() {
 
 void Level::makePatches() {
   cells_.upper = Index3::filled(1);
-  for (auto& cuts : cuts_) cuts = {0, 1};
+  MortonCurve::Cuts cuts{{{0, 1}, {0, 1}, {0, 1}}};
   for (int d = 0; d < dimension(); ++d) {
     const auto k = static_cast<std::size_t>(d);
     const int cells = domain_.resolution[axis(d)];
@@ -37,22 +37,15 @@ void Level::makePatches() {
     spacing_[k] = extent > 0 ? extent / cells : 1.0;
     inverse_spacing_[k] = 1.0 / spacing_[k];
     cells_.upper[d] = cells;
-    cuts_[k].clear();
+    cuts[k].clear();
     for (int part = 0; part <= parts; ++part)
-      cuts_[k].push_back(static_cast<int>(static_cast<long>(cells) * part / parts));
+      cuts[k].push_back(static_cast<int>(static_cast<long>(cells) * part / parts));
   }
-  const Box blocks{{}, {{static_cast<int>(cuts_[0].size()) - 1, static_cast<int>(cuts_[1].size()) - 1,
-                         static_cast<int>(cuts_[2].size()) - 1}}};
-  patches_.reserve(blocks.size());
-  forEach<3>(blocks, [&](const Index3& block) {
-    Box cells;
-    for (int d = 0; d < 3; ++d) {
-      const auto& cuts = cuts_[static_cast<std::size_t>(d)];
-      cells.lower[d] = cuts[static_cast<std::size_t>(block[d])];
-      cells.upper[d] = cuts[static_cast<std::size_t>(block[d]) + 1];
-    }
-    patches_.emplace_back(*this, static_cast<int>(patches_.size()), cells);
-  });
+  curve_.emplace(std::move(cuts));
+  partition_.emplace(*curve_, share_.ranks);
+  first_patch_ = partition_->firstOf(share_.rank);
+  const int end = partition_->firstOf(share_.rank + 1);
+  for (int id = first_patch_; id < end; ++id) patches_.push_back(patch(id));
 }
 
 Box Level::nodes() const {
@@ -99,32 +92,23 @@ std::string Level::axesLeftOut() const {
   return names;
 }
 
-std::size_t Level::blockAlong(int kernelAxis, int cell) const {
-  const auto& cuts = cuts_[static_cast<std::size_t>(kernelAxis)];
-  return static_cast<std::size_t>(std::upper_bound(cuts.begin(), cuts.end() - 1, cell) - cuts.begin() - 1);
+Patch Level::patchOf(const Index3& cell) const {
+  Index3 block;
+  for (int d = 0; d < 3; ++d) block[d] = curve_->blockAlong(d, cell[d]);
+  return {*this, curve_->placeOf(block), curve_->cellsAt(block)};
 }
 
-const Patch& Level::patchOf(const Index3& cell) const {
-  std::size_t number = 0;
-  for (int d = 2; d >= 0; --d)
-    number = number * (cuts_[static_cast<std::size_t>(d)].size() - 1) + blockAlong(d, cell[d]);
-  return patches_[number];
-}
-
-std::vector<const Patch*> Level::patchesOverlapping(const Box& cells) const {
-  std::vector<const Patch*> found;
+std::vector<Patch> Level::patchesOverlapping(const Box& cells) const {
+  std::vector<Patch> found;
   const Box inside = cells.intersect(cells_);
   if (inside.empty()) return found;
   Box blocks;
   for (int d = 0; d < 3; ++d) {
-    blocks.lower[d] = static_cast<int>(blockAlong(d, inside.lower[d]));
-    blocks.upper[d] = static_cast<int>(blockAlong(d, inside.upper[d] - 1)) + 1;
+    blocks.lower[d] = curve_->blockAlong(d, inside.lower[d]);
+    blocks.upper[d] = curve_->blockAlong(d, inside.upper[d] - 1) + 1;
   }
   forEach<3>(blocks, [&](const Index3& block) {
-    std::size_t number = 0;
-    for (int d = 2; d >= 0; --d)
-      number = number * (cuts_[static_cast<std::size_t>(d)].size() - 1) + static_cast<std::size_t>(block[d]);
-    found.push_back(&patches_[number]);
+    found.emplace_back(*this, curve_->placeOf(block), curve_->cellsAt(block));
   });
   return found;
 }

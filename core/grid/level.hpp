@@ -9,6 +9,7 @@
 
 #include "core/grid/boundary.hpp"
 #include "core/grid/box.hpp"
+#include "core/grid/partition.hpp"
 #include "core/grid/patch.hpp"
 
 namespace tushar::grid {
@@ -24,7 +25,10 @@ struct Domain {
   BoundaryConditions boundaries;
 };
 
-/// The grid of a run: its geometry, its boundary conditions and its patches.
+/// The grid of a run: its geometry, its boundary conditions and its patches, as one of the ranks that share it sees them.
+///
+/// Patches are numbered along Morton's curve; a rank has consecutive ones. Only these are kept: any other is made when it
+/// is asked for, so that a grid of a million patches takes no more memory on a rank than its own.
 ///
 /// Kernels run in `dimension()` axes. An axis of the scene is left out when it has no extent, or has one cell
 /// between two symmetry planes or repeats one cell; the axes that remain keep their order.
@@ -35,7 +39,7 @@ struct Domain {
 class Level {
  public:
   /// Splits the domain into patches; along an axis with fewer cells than patches asked for, a patch per cell.
-  explicit Level(const Domain& domain);
+  explicit Level(const Domain& domain, Share share = {});
   Level(const Level&) = delete;
   Level& operator=(const Level&) = delete;
 
@@ -52,7 +56,19 @@ class Level {
   /// The part of a box of cells that lies on the grid or, along periodic axes, on its images.
   Box clipCells(const Box& cells) const { return clip(cells, cells_); }
   Box clipNodes(const Box& nodes) const { return clip(nodes, this->nodes()); }
+  /// The patches of this rank, by number.
   const std::vector<Patch>& patches() const { return patches_; }
+  /// Number of patches of all ranks.
+  int patchCount() const { return curve_->blocks(); }
+  /// Any patch of the grid.
+  Patch patch(int id) const { return {*this, id, curve_->cellsAt(curve_->blockAt(id))}; }
+  /// The number of the first patch of this rank.
+  int firstPatch() const { return first_patch_; }
+  /// Whether a patch is of this rank.
+  bool isMine(int patch) const { return patch >= first_patch_ && patch < first_patch_ + static_cast<int>(patches_.size()); }
+  /// The rank that has a patch.
+  int ownerOf(int patch) const { return isMine(patch) ? share_.rank : partition_->ownerOf(patch); }
+  const Share& share() const { return share_; }
   const Domain& domain() const { return domain_; }
 
   /// Cell width along a kernel axis, m.
@@ -93,9 +109,9 @@ class Level {
   /// The axes that are left out: `y, z`, or nothing.
   std::string axesLeftOut() const;
   /// The patch that holds a cell of the grid.
-  const Patch& patchOf(const Index3& cell) const;
-  /// The patches that hold cells of a box, by id.
-  std::vector<const Patch*> patchesOverlapping(const Box& cells) const;
+  Patch patchOf(const Index3& cell) const;
+  /// The patches that hold cells of a box, in the order of their cells.
+  std::vector<Patch> patchesOverlapping(const Box& cells) const;
   /// The periodic images of the grid that hold cells of a box, as shifts in cells: cell c + shift is an image of c.
   /// Zero among them where the box holds cells of the grid.
   std::vector<Index3> imagesOverlapping(const Box& cells) const;
@@ -143,7 +159,6 @@ class Level {
  private:
   void chooseAxes();
   Box clip(const Box& box, const Box& grid) const;
-  std::size_t blockAlong(int kernelAxis, int cell) const;
   void makePatches();
 
   Domain domain_;
@@ -152,7 +167,10 @@ class Level {
   double cellVolume_ = 1;
   bool is_periodic_ = false;
   Box cells_;
-  std::array<std::vector<int>, 3> cuts_;  ///< first cell of each patch along each kernel axis, then the end
+  Share share_;
+  std::optional<MortonCurve> curve_;
+  std::optional<Partition> partition_;
+  int first_patch_ = 0;
   std::vector<Patch> patches_;
 };
 

@@ -4,6 +4,11 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <cstring>
+#include <numeric>
+
+#include "core/simulation/collect.hpp"
+#include "core/simulation/particle_order.hpp"
 
 namespace tushar::simulation {
 
@@ -43,51 +48,84 @@ output::Array emptyArray(const Label& label) {
   return array;
 }
 
-void gatherGrid(data::Warehouse& warehouse, Generation generation, int number, output::Array& array) {
+std::vector<std::byte> valuesOnGrid(data::Warehouse& warehouse, Generation generation, int number) {
   const Label& label = *warehouse.table()[number].label;
   const grid::Level& level = warehouse.level();
   const bool nodes = label.centring == Centring::node;
-  grid::forEach<3>(nodes ? level.nodesOfCells() : level.cells(), [&](const Index3& at) {
-    Index3 cell = at;
-    for (int d = 0; d < 3; ++d) cell[d] = std::min(cell[d], level.cells().upper[d] - 1);
-    const Variable& variable = warehouse.variable(generation, number, level.patchOf(cell).id());
-    append(array, label, level, variable.values.data() + variable.stored.offset(at) * label.bytes);
-  });
+  const Box all = nodes ? level.nodesOfCells() : level.cells();
+  const std::size_t bytes = label.bytes;
+  std::vector<std::byte> values(warehouse.ranks().isFirst() ? all.size() * bytes : 0);
+  const auto ownOf = [&](const Patch& patch) { return nodes ? patch.nodes().intersect(all) : patch.cells(); };
+  const auto lengthOf = [&](const Box& box) { return static_cast<std::size_t>(box.extent(0)) * bytes; };
+  collect(
+      warehouse,
+      [&](const Patch& patch, mpi::Bytes& message) {
+        const Variable& from = warehouse.variable(generation, number, patch.id());
+        const Box own = ownOf(patch);
+        forEachRow(own, [&](const Index3& first) {
+          mpi::append(message, from.values.data() + from.stored.offset(first) * bytes, lengthOf(own));
+        });
+      },
+      [&](const Patch& patch, const std::byte* from) {
+        const Box own = ownOf(patch);
+        std::size_t read = 0;
+        forEachRow(own, [&](const Index3& first) {
+          std::memcpy(values.data() + all.offset(first) * bytes, from + read, lengthOf(own));
+          read += lengthOf(own);
+        });
+        return read;
+      });
+  return values;
 }
 
-void gatherParticles(data::Warehouse& warehouse, Generation generation, int number, output::Array& array) {
+/// The values of all particles, patch by patch, on the first rank.
+std::vector<std::byte> valuesOfParticles(data::Warehouse& warehouse, Generation generation, int number) {
   const auto [label, material] = warehouse.table()[number];
-  for (const ParticlePlace& particle : particlesById(warehouse, material)) {
-    const Variable& variable = warehouse.variable(generation, number, particle.patch);
-    append(array, *label, warehouse.level(),
-           variable.values.data() + static_cast<std::size_t>(particle.place) * label->bytes);
-  }
+  const std::size_t bytes = label->bytes;
+  std::vector<std::byte> values;
+  const int which = material;
+  collect(
+      warehouse,
+      [&](const Patch& patch, mpi::Bytes& message) {
+        const auto owned = static_cast<std::uint64_t>(warehouse.particles(Generation::old, which, patch.id()).owned());
+        mpi::append(message, &owned, sizeof(owned));
+        mpi::append(message, warehouse.variable(generation, number, patch.id()).values.data(), owned * bytes);
+      },
+      [&](const Patch&, const std::byte* from) {
+        std::uint64_t owned = 0;
+        std::memcpy(&owned, from, sizeof(owned));
+        mpi::append(values, from + sizeof(owned), owned * bytes);
+        return sizeof(owned) + owned * bytes;
+      });
+  return values;
+}
+
+/// Places of the particles of a material, as valuesOfParticles has them, by id.
+std::vector<std::size_t> placesById(data::Warehouse& warehouse, int material) {
+  const std::vector<std::byte> bytes =
+      valuesOfParticles(warehouse, Generation::old, warehouse.table().find(data::particleId.name, material));
+  const auto* ids = reinterpret_cast<const ParticleId*>(bytes.data());
+  std::vector<std::size_t> places(bytes.size() / sizeof(ParticleId));
+  std::iota(places.begin(), places.end(), std::size_t{0});
+  std::sort(places.begin(), places.end(), [&](std::size_t a, std::size_t b) { return ids[a] < ids[b]; });
+  return places;
 }
 
 }  // namespace
 
-std::vector<ParticlePlace> particlesById(data::Warehouse& warehouse, int material) {
-  std::vector<ParticlePlace> particles;
-  const int number = warehouse.table().find(data::particleId.name, material);
-  for (int patch = 0; patch < warehouse.patches(); ++patch) {
-    const auto* ids =
-        reinterpret_cast<const ParticleId*>(warehouse.variable(Generation::old, number, patch).values.data());
-    const int owned = warehouse.particles(Generation::old, material, patch).owned();
-    for (int p = 0; p < owned; ++p) particles.push_back({ids[p], patch, p});
-  }
-  std::sort(particles.begin(), particles.end(),
-            [](const ParticlePlace& a, const ParticlePlace& b) { return a.id < b.id; });
-  return particles;
-}
-
 output::Array gatherArray(data::Warehouse& warehouse, Generation generation, int number) {
-  const Label& label = *warehouse.table()[number].label;
-  output::Array array = emptyArray(label);
-  if (!warehouse.variable(generation, number, 0).held) return array;
-  if (label.centring == Centring::particle)
-    gatherParticles(warehouse, generation, number, array);
-  else
-    gatherGrid(warehouse, generation, number, array);
+  const auto [label, material] = warehouse.table()[number];
+  output::Array array = emptyArray(*label);
+  if (label->centring == Centring::reduction || !warehouse.isHeld(generation, number)) return array;
+  if (label->centring == Centring::particle) {
+    const std::vector<std::byte> values = valuesOfParticles(warehouse, generation, number);
+    for (const std::size_t place : placesById(warehouse, material))
+      append(array, *label, warehouse.level(), values.data() + place * label->bytes);
+    return array;
+  }
+  const std::vector<std::byte> values = valuesOnGrid(warehouse, generation, number);
+  for (std::size_t at = 0; at < values.size(); at += label->bytes)
+    append(array, *label, warehouse.level(), values.data() + at);
   return array;
 }
 
@@ -120,9 +158,9 @@ std::string fingerprint(data::Warehouse& warehouse, const std::vector<std::strin
 long particleCount(data::Warehouse& warehouse, int materials) {
   long count = 0;
   for (int material = 0; material < materials; ++material)
-    for (int patch = 0; patch < warehouse.patches(); ++patch)
-      count += warehouse.particles(Generation::old, material, patch).owned();
-  return count;
+    for (const Patch& patch : warehouse.level().patches())
+      count += warehouse.particles(Generation::old, material, patch.id()).owned();
+  return warehouse.ranks().sum(count);
 }
 
 }  // namespace tushar::simulation

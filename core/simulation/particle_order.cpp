@@ -1,5 +1,9 @@
 #include "core/simulation/particle_order.hpp"
 
+#include <cstring>
+
+#include "core/simulation/collect.hpp"
+
 namespace tushar::simulation {
 
 using data::Generation;
@@ -8,16 +12,28 @@ using grid::Patch;
 
 ParticleOrder::ParticleOrder(data::Warehouse& warehouse, int material) : warehouse_(&warehouse), material_(material) {
   const grid::Box& cells = warehouse.level().cells();
-  std::vector<std::int32_t> perCell(cells.size());
-  for (const Patch& patch : warehouse.level().patches()) {
-    const data::ParticleSet& set = warehouse.particles(Generation::old, material, patch.id());
-    forEachRow(patch.cells(), [&](const Index3& first) {
-      const ParticleRange* row = set.row(first);
-      std::int32_t* counts = &perCell[cells.offset(first)];
-      for (int k = 0; k < patch.cells().extent(0); ++k) counts[k] = row[k].size();
-    });
-  }
-  sum(perCell);
+  std::vector<std::int32_t> perCell(warehouse.ranks().isFirst() ? cells.size() : 0);
+  const auto lengthOf = [](const Patch& patch) {
+    return static_cast<std::size_t>(patch.cells().extent(0)) * sizeof(std::int32_t);
+  };
+  collect(
+      warehouse,
+      [&](const Patch& patch, mpi::Bytes& bytes) {
+        const data::ParticleSet& set = warehouse.particles(Generation::old, material, patch.id());
+        grid::forEach<3>(patch.cells(), [&](const Index3& cell) {
+          const std::int32_t count = set.in(cell).size();
+          mpi::append(bytes, &count, sizeof(count));
+        });
+      },
+      [&](const Patch& patch, const std::byte* from) {
+        std::size_t read = 0;
+        simulation::forEachRow(patch.cells(), [&](const Index3& first) {
+          std::memcpy(&perCell[cells.offset(first)], from + read, lengthOf(patch));
+          read += lengthOf(patch);
+        });
+        return read;
+      });
+  if (!perCell.empty()) sum(perCell);
 }
 
 ParticleOrder::ParticleOrder(data::Warehouse& warehouse, int material, const std::vector<std::int32_t>& perCell)
@@ -41,7 +57,7 @@ void ParticleOrder::install() {
     data::ParticleSet& set = warehouse_->particles(Generation::old, material_, patch.id());
     set.reset(patch, warehouse_->table().reach(material_));
     int next = 0;
-    forEachRow(patch.cells(), [&](const Index3& first) {
+    simulation::forEachRow(patch.cells(), [&](const Index3& first) {
       ParticleRange* row = set.row(first);
       const std::size_t* start = startOf(first);
       for (int k = 0; k < patch.cells().extent(0); ++k) {

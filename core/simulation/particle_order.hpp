@@ -19,7 +19,7 @@ void forEachRow(grid::Box box, Visit&& visit) {
 /// patch has them.
 class ParticleOrder {
  public:
-  /// Of the particles that the warehouse holds.
+  /// Of the particles that the warehouses of all ranks hold. The first rank has it; all ask.
   ParticleOrder(data::Warehouse& warehouse, int material);
   /// From the number of particles of each cell, the first axis fastest.
   ParticleOrder(data::Warehouse& warehouse, int material, const std::vector<std::int32_t>& perCell);
@@ -29,11 +29,21 @@ class ParticleOrder {
   std::vector<std::int32_t> perCell() const;
   /// Gives each patch its particles, without values.
   void install();
-  /// Calls `visit(place in the order, place on the patch, count)` for each row of cells of the patch.
+  /// Calls `visit(place in the order, count)` for each row of cells of any patch that has particles: there they stand in
+  /// the same order.
+  template <class Visit>
+  void forEachRow(const grid::Patch& patch, Visit&& visit) const {
+    simulation::forEachRow(patch.cells(), [&](const Index3& first) {
+      const std::size_t* start = startOf(first);
+      const std::size_t count = start[patch.cells().extent(0)] - start[0];
+      if (count > 0) visit(start[0], count);
+    });
+  }
+  /// Calls `visit(place in the order, place on the patch, count)` for each row of cells of a patch of this rank.
   template <class Visit>
   void forEachRun(const grid::Patch& patch, Visit&& visit) const {
     const data::ParticleSet& set = warehouse_->particles(data::Generation::old, material_, patch.id());
-    forEachRow(patch.cells(), [&](const Index3& first) {
+    simulation::forEachRow(patch.cells(), [&](const Index3& first) {
       const std::size_t* start = startOf(first);
       const std::size_t count = start[patch.cells().extent(0)] - start[0];
       if (count > 0) visit(start[0], static_cast<std::size_t>(set.row(first)->first), count);

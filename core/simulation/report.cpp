@@ -85,8 +85,8 @@ std::string useLine(const Report& report) {
   const TimeUse& use = report.use;
   const double all = use.task + use.message + use.output + use.wait;
   if (all <= 0) return "";
-  return fmt::format("  {} thread{}: {:.1f} % in tasks, {:.1f} % messages, {:.1f} % output, {:.1f} % waiting; load imbalance {:.3f}\n",
-                     report.threads, report.threads == 1 ? "" : "s", 100 * use.task / all, 100 * use.message / all,
+  return fmt::format("  {}{} thread{}: {:.1f} % in tasks, {:.1f} % messages, {:.1f} % output, {:.1f} % waiting; load imbalance {:.3f}\n",
+                     report.ranks > 1 ? fmt::format("{} ranks of ", report.ranks) : "", report.threads, report.threads == 1 ? "" : "s", 100 * use.task / all, 100 * use.message / all,
                      100 * use.output / all, 100 * use.wait / all, use.imbalance);
 }
 

@@ -164,7 +164,7 @@ void checkSaves(const MakeComponent& make, const std::vector<ReadModule>& module
 }  // namespace
 
 Problem readScene(const std::string& path, const std::vector<std::string>& overrides, const Catalogue& catalogue,
-                  const grid::Workers& workers) {
+                  const grid::Workers& workers, grid::Share share) {
   Diagnostics diagnostics;
   Document document = Document::load(path, diagnostics);
   diagnostics.throwIfAny();
@@ -195,7 +195,7 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   diagnostics.throwIfAny();
 
   problem.componentName = kind->name;
-  problem.level = std::make_unique<grid::Level>(domain);
+  problem.level = std::make_unique<grid::Level>(domain, share);
   problem.threads = workers.threadsFor(domain.resolution);
   problem.component = makeComponent(*problem.level);
   problem.analyses = makeModules(modules, *problem.component, *problem.level);

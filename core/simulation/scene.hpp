@@ -15,7 +15,7 @@ namespace tushar::simulation {
 /// component and the analysis modules. Where the scene gives no patches, the grid gets as many as `workers` need. Throws
 /// InputError with all problems of the scene at once. Writes nothing.
 Problem readScene(const std::string& path, const std::vector<std::string>& overrides, const Catalogue& catalogue,
-                  const grid::Workers& workers = {});
+                  const grid::Workers& workers = {}, grid::Share share = {});
 
 /// The manual of the sections that every component shares: Time, DataArchiver, Grid.
 void describeSharedSections(std::ostream& out);

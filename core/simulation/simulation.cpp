@@ -13,14 +13,19 @@ namespace tushar::simulation {
 using data::Generation;
 
 Simulation::Simulation(Problem problem, const RunOptions& options, Clock::time_point startedAt)
+    : Simulation(std::move(problem), options, startedAt, mpi::Communicator::alone()) {}
+
+Simulation::Simulation(Problem problem, const RunOptions& options, Clock::time_point startedAt,
+                       const mpi::Communicator& ranks)
     : problem_(std::move(problem)),
       options_(options),
+      ranks_(&ranks),
       started_at_(startedAt),
       phases_(*problem_.component, problem_.analyses),
-      warehouse_(*problem_.level, table_),
-      scheduler_(warehouse_, std::min(problem_.threads, warehouse_.patches())),
+      warehouse_(*problem_.level, table_, ranks),
+      scheduler_(warehouse_, std::clamp(problem_.threads, 1, std::max(1, warehouse_.patches()))),
       time_(problem_.time),
-      progress_(options.quiet, stdout),
+      progress_(options.quiet || !ranks.isFirst(), stdout),
       outputs_(problem_.time.initTime, problem_.archive.outputInterval) {
   if (problem_.archive.checkpoint) checkpoints_.emplace(*problem_.archive.checkpoint, problem_.time.initTime);
   phases_.compile(problem_.analyses, problem_.archive.saves, *problem_.level, table_);
@@ -46,6 +51,7 @@ Report Simulation::run() {
     if (checkpoints_) checkpoint();
   }
   wall_startup_ = since(started_at_) - wall_output_;
+  agreeOnClock();
   const auto loopStarted = Clock::now();
   const double outputBefore = wall_output_;
   const Threads::Use useBefore = scheduler_.threads().use();
@@ -56,9 +62,9 @@ Report Simulation::run() {
   }
   const double output = wall_output_ - outputBefore;
   wall_loop_ = since(loopStarted) - output;
-  time_use_ = TimeUse(useBefore, scheduler_.threads(), since(loopStarted), output);
+  time_use_ = TimeUse(useBefore, scheduler_.threads(), since(loopStarted), output, *ranks_);
   if (failure_) saveLastGood();
-  if (saves_ && (problem_.archive.outputLastTimestep || isInterrupted())) save();
+  if (saves_ && (problem_.archive.outputLastTimestep || interrupted_)) save();
   progress_.finish();
   if (archive_) archive_->flush();
   checkpointAtEnd();
@@ -67,7 +73,7 @@ Report Simulation::run() {
 
 void Simulation::begin() {
   if (problem_.restart) {
-    lock_.emplace(problem_.restart->archive);
+    ranks_->onFirst([&] { lock_.emplace(problem_.restart->archive); });
     return resume();
   }
   initialize();
@@ -76,12 +82,17 @@ void Simulation::begin() {
 
 void Simulation::openArchive() {
   saves_ = !phases_.savedFields().empty() || !phases_.savedGlobals().empty();
+  if (!problem_.restart && !saves_ && !checkpoints_) return;
   const ArchiveSettings& settings = problem_.archive;
   const output::ArchiveOptions how{settings.doubleAsFloat, settings.compression, TUSHAR_VERSION};
-  if (problem_.restart) return reopenArchive(how);
-  if (!saves_ && !checkpoints_) return;
+  ranks_->onFirst([&] { problem_.restart ? reopenArchive(how) : makeArchive(how); });
+  folder_ = ranks_->broadcast(archive_ ? archive_->folder().string() : "");
+  last_output_ = ranks_->broadcast(archive_ ? archive_->lastStep() : -1);
+}
+
+void Simulation::makeArchive(const output::ArchiveOptions& how) {
   const std::filesystem::path folder = options_.outputFolder;
-  archive_ = std::make_unique<output::Archive>(folder / settings.filebase, problem_.inputXml, how);
+  archive_ = std::make_unique<output::Archive>(folder / problem_.archive.filebase, problem_.inputXml, how);
   lock_.emplace(archive_->folder());
 }
 
@@ -93,11 +104,11 @@ NumericalError Simulation::advised(const NumericalError& error) const {
 }
 
 void Simulation::saveLastGood() {
-  if (!archive_) return;
+  if (folder_.empty()) return;
   if (saves_) save();
   checkpoint();
   failure_ = NumericalError(fmt::format("{}; the last whole step, {} at t = {:.6g} s, is saved: sus -restart {}",
-                                        failure_->what(), time_.step(), time_.time(), archive_->folder().string()),
+                                        failure_->what(), time_.step(), time_.time(), folder_),
                             failure_->advice(), failure_->value());
 }
 
@@ -124,16 +135,32 @@ void Simulation::step() {
   while (const auto asked = tryStep()) dt.value = time_.repeat(*asked);
   scheduler_.commit(phases_.timeAdvance);
   time_.advance();
-  particle_steps_ += static_cast<double>(particleCount(warehouse_, static_cast<int>(phases_.materials().size())));
+  particle_steps_ += ownParticles();
   if (progress_.due()) progress_.live(time_.step(), time_.time(), time_.delT(), problem_.time.maxTime);
   saveGlobals();
   saveIfDue();
+  agreeOnClock();
   checkpointIfDue();
 }
 
-bool Simulation::hasEnded() const { return time_.done() || isInterrupted() || outOfWallTime(); }
+long Simulation::ownParticles() {
+  long count = 0;
+  for (int material = 0; material < static_cast<int>(phases_.materials().size()); ++material)
+    for (const grid::Patch& patch : problem_.level->patches())
+      count += warehouse_.particles(Generation::old, material, patch.id()).owned();
+  return count;
+}
 
-bool Simulation::outOfWallTime() const { return since(started_at_) > problem_.time.maxWallTime; }
+void Simulation::agreeOnClock() {
+  double seen[] = {since(started_at_), isInterrupted() ? 1.0 : 0.0};
+  ranks_->max(seen);
+  elapsed_ = seen[0];
+  interrupted_ = seen[1] > 0;
+}
+
+bool Simulation::hasEnded() const { return time_.done() || interrupted_ || outOfWallTime(); }
+
+bool Simulation::outOfWallTime() const { return elapsed_ > problem_.time.maxWallTime; }
 
 void Simulation::diagnose(tasks::TaskGraph& graph) {
   for (const auto& analysis : problem_.analyses) analysis->setTime(time_.time(), time_.time() - problem_.time.initTime);
@@ -141,8 +168,9 @@ void Simulation::diagnose(tasks::TaskGraph& graph) {
 }
 
 void Simulation::saveGlobals() {
-  if (!archive_ || phases_.savedGlobals().empty()) return;
+  if (folder_.empty() || phases_.savedGlobals().empty()) return;
   diagnose(phases_.everyStep);
+  if (!archive_) return;
   const auto started = Clock::now();
   for (const std::string& name : phases_.savedGlobals()) {
     const data::Label& label = *table_[table_.find(name, -1)].label;
@@ -165,14 +193,16 @@ void Simulation::saveIfDue() {
 }
 
 void Simulation::save() {
-  if (archive_->lastStep() == time_.step()) return;
+  if (last_output_ == time_.step()) return;
   diagnose(phases_.everyOutput);
   const auto started = Clock::now();
   const trace::Span span(trace::Kind::output, "save");
-  archive_->write(snapshot());
+  const output::Snapshot state = snapshot();
+  ranks_->onFirst([&] { archive_->write(state); });
+  last_output_ = time_.step();
   wall_output_ += since(started);
   progress_.line(fmt::format("step {:>6}  t = {:<12.6g} dt = {:<10.4g} saved in {}", time_.step(), time_.time(),
-                             time_.delT(), archive_->folder().string()));
+                             time_.delT(), folder_));
 }
 
 output::Snapshot Simulation::snapshot() {
@@ -199,7 +229,7 @@ void Simulation::addField(output::Snapshot& snapshot, const SaveRequest& save) {
     const std::string material = m < 0 ? "" : phases_.materials()[static_cast<std::size_t>(m)];
     if (number < 0 || save.label == data::positionName || (!save.material.empty() && save.material != material)) continue;
     const data::Label& label = *table_[number].label;
-    const bool derived = !warehouse_.variable(Generation::old, number, 0).held;
+    const bool derived = !warehouse_.isHeld(Generation::old, number);
     output::Array array = gatherArray(warehouse_, derived ? Generation::fresh : Generation::old, number);
     const bool empty = std::visit([](const auto& values) { return values.empty(); }, array.values);
     if (label.centring == data::Centring::particle)
@@ -219,7 +249,7 @@ Simulation::Totals Simulation::measureTotals(tasks::TaskGraph& graph) {
 
 std::string Simulation::whyEnded() const {
   if (failure_) return "failed";
-  if (isInterrupted()) return "interrupted";
+  if (interrupted_) return "interrupted";
   if (time_.time() >= problem_.time.maxTime) return "maxTime";
   return time_.done() ? "max_Timesteps" : "max_wall_time";
 }
@@ -232,12 +262,13 @@ Report Simulation::makeReport() {
   report.version = TUSHAR_VERSION;
   report.build = TUSHAR_BUILD_TYPE;
   report.dimension = problem_.level->dimension();
-  report.patches = warehouse_.patches();
+  report.patches = problem_.level->patchCount();
+  report.ranks = ranks_->size();
   report.threads = scheduler_.threads().count();
   report.spacing = problem_.level->minSpacing();
   report.cells = static_cast<long>(problem_.level->cells().size());
   report.particles = particleCount(warehouse_, static_cast<int>(phases_.materials().size()));
-  report.dropped = scheduler_.relocation().dropped();
+  report.dropped = ranks_->sum(scheduler_.relocation().dropped());
   report.steps = time_.step();
   report.retries = time_.retries();
   for (const auto& [limit, steps] : time_.limits())
@@ -248,7 +279,7 @@ Report Simulation::makeReport() {
     report.failure = failure_->what();
     report.advice = failure_->advice();
   }
-  report.particleSteps = particle_steps_;
+  report.particleSteps = static_cast<double>(ranks_->sum(particle_steps_));
   report.wallStartup = wall_startup_;
   report.wallLoop = wall_loop_;
   report.use = time_use_;
@@ -256,7 +287,7 @@ Report Simulation::makeReport() {
   reportDrift(report);
   reportErrors(report);
   report.wallOutput = wall_output_;
-  if (archive_) report.archive = archive_->folder().string();
+  report.archive = folder_;
   report.fingerprint = fingerprint(warehouse_, phases_.state(), static_cast<int>(phases_.materials().size()));
   return report;
 }

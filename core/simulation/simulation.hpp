@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/mpi.hpp"
 #include "core/base/progress.hpp"
 #include "core/output/archive.hpp"
 #include "core/output/checkpoint_store.hpp"
@@ -33,11 +34,15 @@ struct Problem {
   std::optional<Restart> restart;  ///< where the run goes on; none where it starts
 };
 
-/// A run: it initialises or goes on from a checkpoint, steps through time, saves what is asked for, and reports.
+/// A run: it initialises or goes on from a checkpoint, steps through time, saves what is asked for, and reports. Where
+/// several ranks share it, the first writes and reports for all.
 class Simulation {
  public:
   /// Compiles the task graphs. `startedAt` is when the process started. Throws what Phases throws.
   Simulation(Problem problem, const RunOptions& options, std::chrono::steady_clock::time_point startedAt);
+  /// The same on one of the ranks that share the grid. Every rank makes one, and calls what it calls on it.
+  Simulation(Problem problem, const RunOptions& options, std::chrono::steady_clock::time_point startedAt,
+             const mpi::Communicator& ranks);
 
   const Phases& phases() const { return phases_; }
   data::Warehouse& warehouse() { return warehouse_; }
@@ -58,7 +63,10 @@ class Simulation {
   void begin();
   void initialize();
   void openArchive();
+  void makeArchive(const output::ArchiveOptions& how);
   void reopenArchive(const output::ArchiveOptions& how);
+  void agreeOnClock();
+  long ownParticles();
   NumericalError advised(const NumericalError& error) const;
   /// The old state is that of the last whole step: writes it and a checkpoint, where the scene saves anything.
   void saveLastGood();
@@ -79,7 +87,7 @@ class Simulation {
   void checkpointIfDue();
   void checkpointAtEnd();
   void checkpoint();
-  void writeCheckpoint(const std::filesystem::path& file, const output::ArchivePoint& point);
+  void writeCheckpoint(const std::filesystem::path& file, const output::ArchivePoint& point, long dropped);
   Totals measureTotals(tasks::TaskGraph& graph);
   std::string whyEnded() const;
   bool outOfWallTime() const;
@@ -91,6 +99,7 @@ class Simulation {
 
   Problem problem_;
   RunOptions options_;
+  const mpi::Communicator* ranks_;
   std::chrono::steady_clock::time_point started_at_;
   data::VariableTable table_;
   Phases phases_;
@@ -99,15 +108,20 @@ class Simulation {
   TimeControl time_;
   Progress progress_;
   std::optional<output::FolderLock> lock_;  ///< on the archive's folder
-  std::unique_ptr<output::Archive> archive_;
-  bool saves_ = false;  ///< whether the scene asks for outputs or globals
+  std::unique_ptr<output::Archive> archive_;  ///< of the first rank
+  std::string folder_;                        ///< of the archive; empty where there is none
+  int last_output_ = -1;                      ///< step of the last that was written
+  bool saves_ = false;                        ///< whether the scene asks for outputs or globals
   Milestones outputs_;
   std::optional<CheckpointControl> checkpoints_;  ///< none where the scene asks for none
   int last_checkpoint_ = -1;                      ///< step of the last that was written or read
   Totals totals_at_start_;
   std::optional<NumericalError> failure_;
   TimeUse time_use_;
-  double particle_steps_ = 0, wall_loop_ = 0, wall_output_ = 0, wall_startup_ = 0;
+  double elapsed_ = 0;        ///< s since the process started, as all ranks see it
+  bool interrupted_ = false;  ///< whether all ranks are to end the run
+  long particle_steps_ = 0;   ///< of this rank
+  double wall_loop_ = 0, wall_output_ = 0, wall_startup_ = 0;
 };
 
 }  // namespace tushar::simulation

@@ -46,38 +46,45 @@ output::CheckpointStore Simulation::checkpointStore() const {
 StateNames Simulation::stateNames() const { return {phases_.lasting(), phases_.materials()}; }
 
 void Simulation::checkpointIfDue() {
-  const double wall = since(started_at_);
-  if (checkpoints_ && !hasEnded() && checkpoints_->isDue(time_.step(), time_.time(), wall)) checkpoint();
+  if (checkpoints_ && !hasEnded() && checkpoints_->isDue(time_.step(), time_.time(), elapsed_)) checkpoint();
 }
 
 void Simulation::checkpointAtEnd() {
   const bool isCutShort = !time_.done();
-  if (!archive_ || !(checkpoints_ || isCutShort)) return;
+  if (folder_.empty() || !(checkpoints_ || isCutShort)) return;
   checkpoint();
   if (isCutShort)
     progress_.line(fmt::format("step {:>6}  t = {:<12.6g} sus -restart {} goes on from here", time_.step(), time_.time(),
-                               archive_->folder().string()));
+                               folder_));
 }
 
 void Simulation::checkpoint() {
   if (last_checkpoint_ == time_.step()) return;
   const auto started = Clock::now();
   const trace::Span span(trace::Kind::output, "checkpoint");
-  const output::ArchivePoint point = archive_->sync(time_.step(), time_.time());
-  checkpointStore().write(time_.step(),
-                          [&](const std::filesystem::path& folder) { writeCheckpoint(folder / stateFile, point); });
+  const long dropped = ranks_->sum(scheduler_.relocation().dropped());
+  if (archive_) {
+    const output::ArchivePoint point = archive_->sync(time_.step(), time_.time());
+    checkpointStore().write(time_.step(), [&](const std::filesystem::path& folder) {
+      writeCheckpoint(folder / stateFile, point, dropped);
+    });
+  } else {
+    writeState(nullptr, warehouse_, stateNames());
+  }
+  agreeOnClock();
   last_checkpoint_ = time_.step();
-  if (checkpoints_) checkpoints_->note(time_.time(), since(started_at_));
+  if (checkpoints_) checkpoints_->note(time_.time(), elapsed_);
   wall_output_ += since(started);
 }
 
-void Simulation::writeCheckpoint(const std::filesystem::path& path, const output::ArchivePoint& point) {
+void Simulation::writeCheckpoint(const std::filesystem::path& path, const output::ArchivePoint& point,
+                                 long dropped) {
   output::Hdf5File file(path, false, 0);
   file.attribute("/", "format", format);
   file.attribute("/", "step", time_.step());
   file.attribute("/", "time", time_.time());
   file.attribute("/", "delT", time_.delT());
-  file.attribute("/", "dropped", static_cast<std::uint64_t>(scheduler_.relocation().dropped()));
+  file.attribute("/", "dropped", static_cast<std::uint64_t>(dropped));
   file.attribute("/", "version", std::string(TUSHAR_VERSION));
   file.attribute("/", "component", problem_.componentName);
   writeGrid(file, gridInfo(*problem_.level));
@@ -88,7 +95,7 @@ void Simulation::writeCheckpoint(const std::filesystem::path& path, const output
     const auto& [name, label] = phases_.totals()[k];
     file.dataset("/totals/" + name, {name, "", label, 1, totals_at_start_[k]}, {totals_at_start_[k].size()});
   }
-  writeState(file, warehouse_, stateNames());
+  writeState(&file, warehouse_, stateNames());
   file.close();
 }
 
@@ -110,8 +117,9 @@ void Simulation::resume() {
   readState(file, warehouse_, stateNames(), phases_.state());
   time_.resume(file.integer("/", "step"), file.real("/", "time"), file.real("/", "delT"));
   outputs_.pass(time_.time());
-  if (checkpoints_) checkpoints_->note(time_.time(), since(started_at_));
-  scheduler_.relocation().setDropped(static_cast<long>(file.count("/", "dropped")));
+  agreeOnClock();
+  if (checkpoints_) checkpoints_->note(time_.time(), elapsed_);
+  if (ranks_->isFirst()) scheduler_.relocation().setDropped(static_cast<long>(file.count("/", "dropped")));
   for (const auto& total : phases_.totals())
     totals_at_start_.push_back(std::get<std::vector<double>>(file.dataset("/totals/" + total.first)));
   last_checkpoint_ = time_.step();

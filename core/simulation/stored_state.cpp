@@ -7,6 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "core/output/archive_files.hpp"
+#include "core/simulation/collect.hpp"
 #include "core/simulation/particle_order.hpp"
 
 namespace tushar::simulation {
@@ -106,9 +107,10 @@ class StateWalk {
   const StateNames& names_;
 };
 
+/// Every rank walks; the first has the file.
 class StateWriter : StateWalk {
  public:
-  StateWriter(output::Hdf5File& file, data::Warehouse& warehouse, const StateNames& names)
+  StateWriter(output::Hdf5File* file, data::Warehouse& warehouse, const StateNames& names)
       : StateWalk(warehouse, names), file_(file) {}
 
   void run() {
@@ -122,30 +124,42 @@ class StateWriter : StateWalk {
   }
 
  private:
-  bool isHeld(int number) const { return variable(number, level_.patches().front()).held; }
+  bool isHeld(int number) const { return warehouse_.isHeld(Generation::old, number); }
 
   void writeField(int number, const std::string& path) {
     const std::size_t bytes = label(number).bytes;
     const Box all = allOf(level_, label(number));
-    Array array = arrayOf(label(number), all.size(), std::move(scratch_));
+    Array array = arrayOf(label(number), file_ ? all.size() : 0, std::move(scratch_));
     std::byte* to = bytesOf(array.values);
-    for (const Patch& patch : level_.patches()) {
-      const Variable& from = variable(number, patch);
-      const Box own = ownOf(patch, label(number));
-      forEachRow(own, [&](const Index3& first) {
-        std::memcpy(to + all.offset(first) * bytes, from.values.data() + from.stored.offset(first) * bytes,
-                    static_cast<std::size_t>(own.extent(0)) * bytes);
-      });
-    }
+    const auto lengthOf = [&](const Box& box) { return static_cast<std::size_t>(box.extent(0)) * bytes; };
+    collect(
+        warehouse_,
+        [&](const Patch& patch, mpi::Bytes& message) {
+          const Variable& from = variable(number, patch);
+          const Box own = ownOf(patch, label(number));
+          forEachRow(own, [&](const Index3& first) {
+            mpi::append(message, from.values.data() + from.stored.offset(first) * bytes, lengthOf(own));
+          });
+        },
+        [&](const Patch& patch, const std::byte* from) {
+          const Box own = ownOf(patch, label(number));
+          std::size_t read = 0;
+          forEachRow(own, [&](const Index3& first) {
+            std::memcpy(to + all.offset(first) * bytes, from + read, lengthOf(own));
+            read += lengthOf(own);
+          });
+          return read;
+        });
     const auto extent = [&](int axis) { return static_cast<std::uint64_t>(all.extent(axis)); };
-    file_.dataset(path, array, {extent(2), extent(1), extent(0)});
+    if (file_) file_->dataset(path, array, {extent(2), extent(1), extent(0)});
     scratch_ = std::move(array.values);
   }
 
   void writeParticles(int material) {
     const ParticleOrder order(warehouse_, material);
-    file_.dataset(perCellPath(material), {"perCell", "1", "particles of each cell", 1, order.perCell()},
-                  {level_.cells().size()});
+    if (file_)
+      file_->dataset(perCellPath(material), {"perCell", "1", "particles of each cell", 1, order.perCell()},
+                     {level_.cells().size()});
     forEachVariable(Centring::particle, material, [&](int number, const std::string& path) {
       if (isHeld(number)) writeColumn(number, path, order);
     });
@@ -153,29 +167,38 @@ class StateWriter : StateWalk {
 
   void writeColumn(int number, const std::string& path, const ParticleOrder& order) {
     const std::size_t bytes = label(number).bytes;
-    Array array = arrayOf(label(number), order.count(), std::move(scratch_));
+    const int material = table_[number].material;
+    Array array = arrayOf(label(number), file_ ? order.count() : 0, std::move(scratch_));
     std::byte* to = bytesOf(array.values);
-    for (const Patch& patch : level_.patches()) {
-      const std::byte* from = variable(number, patch).values.data();
-      order.forEachRun(patch, [&](std::size_t stored, std::size_t held, std::size_t count) {
-        std::memcpy(to + stored * bytes, from + held * bytes, count * bytes);
-      });
-    }
-    file_.dataset(path, array, {order.count()});
+    collect(
+        warehouse_,
+        [&](const Patch& patch, mpi::Bytes& message) {
+          const int owned = warehouse_.particles(Generation::old, material, patch.id()).owned();
+          mpi::append(message, variable(number, patch).values.data(), static_cast<std::size_t>(owned) * bytes);
+        },
+        [&](const Patch& patch, const std::byte* from) {
+          std::size_t read = 0;
+          order.forEachRow(patch, [&](std::size_t place, std::size_t count) {
+            std::memcpy(to + place * bytes, from + read, count * bytes);
+            read += count * bytes;
+          });
+          return read;
+        });
+    if (file_) file_->dataset(path, array, {order.count()});
     scratch_ = std::move(array.values);
   }
 
   void writeReduction(int number, const std::string& path) {
     const std::span<const std::byte> bytes = warehouse_.reductionBytes(number);
-    if (bytes.empty()) return;
+    if (bytes.empty() || !file_) return;
     std::vector<std::uint64_t> words(wordsOf(bytes.size()));
     std::memcpy(words.data(), bytes.data(), bytes.size());
     Array array = arrayOf(label(number), 0);
     array.values = std::move(words);
-    file_.dataset(path, array, {array.entries()});
+    file_->dataset(path, array, {array.entries()});
   }
 
-  output::Hdf5File& file_;
+  output::Hdf5File* file_;
   Array::Values scratch_;  ///< memory that is used again: new memory costs as much as the copying
 };
 
@@ -276,7 +299,7 @@ class StateReader : StateWalk {
 
 }  // namespace
 
-void writeState(output::Hdf5File& file, data::Warehouse& warehouse, const StateNames& names) {
+void writeState(output::Hdf5File* file, data::Warehouse& warehouse, const StateNames& names) {
   StateWriter(file, warehouse, names).run();
 }
 

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
+
+#include "core/base/mpi.hpp"
 
 namespace tushar::tasks {
 
@@ -54,7 +57,36 @@ std::string textOf(const double* numbers, int count) {
   return count == 1 ? text : "(" + text + ")";
 }
 
-/// Looks through a variable for broken values, on all patches.
+/// Where a value stands among all: number of cell or node, and id.
+using Order = std::array<std::uint64_t, 2>;
+
+/// What a look at all values of a variable comes to.
+struct Found {
+  long seen = 0, broken = 0;
+  Order first{};  ///< of the first broken value
+  int patch = 0;
+  Index3 at;
+
+  void add(const Found& other) {
+    const bool isLater = other.broken == 0 || (broken > 0 && first < other.first);
+    const long all = seen + other.seen, bad = broken + other.broken;
+    if (!isLater) *this = other;
+    seen = all;
+    broken = bad;
+  }
+  /// Adds what all ranks have found.
+  void merge(const mpi::Communicator& ranks) {
+    ranks.merge(std::as_writable_bytes(std::span(this, 1)), [](const std::byte* from, std::byte* into) {
+      Found one, other;
+      std::memcpy(&one, into, sizeof(Found));
+      std::memcpy(&other, from, sizeof(Found));
+      one.add(other);
+      std::memcpy(into, &one, sizeof(Found));
+    });
+  }
+};
+
+/// Looks through a variable for broken values, on all patches of all ranks.
 class Search {
  public:
   Search(Warehouse& warehouse, const Bounded& written, Bound bound)
@@ -67,43 +99,43 @@ class Search {
 
   std::optional<BrokenValue> run() {
     for (const Patch& patch : level_.patches()) isParticle() ? lookAtParticles(patch) : lookAtGrid(patch);
-    if (broken_ == 0) return std::nullopt;
-    return BrokenValue{std::string(label_.name), patch_, isParticle() ? particleSentence() : gridSentence()};
+    found_.merge(warehouse_.ranks());
+    if (found_.broken == 0) return std::nullopt;
+    return BrokenValue{std::string(label_.name), found_.patch, isParticle() ? particleSentence() : gridSentence()};
   }
 
  private:
   bool isParticle() const { return label_.centring == Centring::particle; }
 
-  const double* numbers(Generation generation, int patch, std::size_t place) {
+  const double* numbers(Generation generation, int patch, std::size_t place) const {
     return numbersOf(warehouse_.variable(generation, written_.variable, patch)) +
            place * static_cast<std::size_t>(label_.components);
   }
-  const ParticleSet& set(Generation generation, int patch) {
+  const ParticleSet& set(Generation generation, int patch) const {
     return warehouse_.particles(generation, material_, patch);
   }
-  const ParticleId* ids(Generation generation, int patch) {
+  const ParticleId* ids(Generation generation, int patch) const {
     const int number = warehouse_.table().find(data::particleId.name, material_);
     return reinterpret_cast<const ParticleId*>(warehouse_.variable(generation, number, patch).values.data());
   }
-  std::size_t gridPlace(int patch, const Index3& at) {
+  std::size_t gridPlace(int patch, const Index3& at) const {
     return warehouse_.variable(Generation::fresh, written_.variable, patch).stored.offset(at);
   }
   /// The patch that a cell, or the node at its lower corner, belongs to.
-  const Patch& ownerOf(Index3 at) const {
+  Patch ownerOf(Index3 at) const {
     for (int d = 0; d < 3; ++d) at[d] = std::min(at[d], level_.cells().upper[d] - 1);
     return level_.patchOf(at);
   }
   Box gridBox() const { return label_.centring == Centring::node ? level_.nodes() : level_.cells(); }
 
   /// Counts a value, and remembers it if it is broken and comes before those seen so far.
-  void look(const double* values, const std::pair<std::uint64_t, ParticleId>& order, int patch, const Index3& at,
-            std::size_t place) {
-    ++seen_;
+  void look(const double* values, const Order& order, int patch, const Index3& at, std::size_t place) {
+    ++found_.seen;
     if (holds(bound_, values, static_cast<std::size_t>(label_.components))) return;
-    if (++broken_ > 1 && first_ < order) return;
-    first_ = order;
-    patch_ = patch;
-    at_ = at;
+    if (++found_.broken > 1 && found_.first < order) return;
+    found_.first = order;
+    found_.patch = patch;
+    found_.at = at;
     place_ = place;
   }
   void lookAtParticles(const Patch& patch) {
@@ -124,79 +156,98 @@ class Search {
     });
   }
 
-  std::string became(const double* before) {
-    std::string text =
-        fmt::format("{} became {} {}", label_.name,
-                    textOf(numbers(Generation::fresh, patch_, place_), label_.components), label_.unit);
-    if (before) text += fmt::format(" from {}", textOf(before, label_.components));
+  /// What the one rank says that knows; the others say nothing. Every rank asks.
+  std::string said(const std::string& mine) const {
+    if (warehouse_.ranks().isAlone()) return mine;
+    for (const std::string& text : warehouse_.ranks().gather(mine))
+      if (!text.empty()) return text;
+    return "";
+  }
+  bool isHere() const { return level_.isMine(found_.patch); }
+  bool wasHeld() const {
+    return !level_.patches().empty() &&
+           warehouse_.variable(Generation::old, written_.variable, level_.firstPatch()).held;
+  }
+
+  std::string became(const std::string& before) const {
+    const std::string now =
+        said(isHere() ? textOf(numbers(Generation::fresh, found_.patch, place_), label_.components) : "");
+    std::string text = fmt::format("{} became {} {}", label_.name, now, label_.unit);
+    if (!before.empty()) text += fmt::format(" from {}", before);
     return text + fmt::format(", but must be {}", data::textOf(bound_));
   }
   std::string howMany(const char* what) const {
-    return broken_ == 1 ? fmt::format("no other of {} {} is broken", seen_, what)
-                        : fmt::format("{} of {} {} are broken", broken_, seen_, what);
+    return found_.broken == 1 ? fmt::format("no other of {} {} is broken", found_.seen, what)
+                              : fmt::format("{} of {} {} are broken", found_.broken, found_.seen, what);
   }
 
-  /// The value that the particle had at the start of the step; none for one that is new.
-  const double* before(ParticleId id) {
-    if (!warehouse_.variable(Generation::old, written_.variable, 0).held) return nullptr;
+  /// The value that the particle had at the start of the step, where it was then; none for one that is new.
+  std::string particleBefore(ParticleId id) const {
+    if (!wasHeld()) return "";
     for (const Patch& patch : level_.patches())
       for (int p = 0; p < set(Generation::old, patch.id()).owned(); ++p)
         if (ids(Generation::old, patch.id())[p] == id)
-          return numbers(Generation::old, patch.id(), static_cast<std::size_t>(p));
-    return nullptr;
+          return textOf(numbers(Generation::old, patch.id(), static_cast<std::size_t>(p)), label_.components);
+    return "";
   }
-  std::string positionOfParticle() {
+  std::string positionOfParticle() const {
     const int number = warehouse_.table().find("p.x", material_);
-    if (number < 0 || !warehouse_.variable(written_.set, number, patch_).held) return "";
-    const double* x = numbersOf(warehouse_.variable(written_.set, number, patch_)) +
+    if (!isHere() || number < 0 || !warehouse_.variable(written_.set, number, found_.patch).held) return "";
+    const double* x = numbersOf(warehouse_.variable(written_.set, number, found_.patch)) +
                       place_ * static_cast<std::size_t>(level_.dimension());
     return fmt::format(" at x = {} m", textOf(x, level_.dimension()));
   }
   /// The values in a cell but that of the particle itself, at most four.
-  std::string valuesIn(const Index3& cell) {
+  std::string valuesIn(const Index3& cell) const {
     const int patch = level_.patchOf(cell).id();
+    if (!level_.isMine(patch)) return "";
     std::string text;
     int count = 0;
     for (const int p : set(written_.set, patch).in(cell)) {
       const auto place = static_cast<std::size_t>(p);
-      if (patch == patch_ && place == place_) continue;
+      if (patch == found_.patch && place == place_) continue;
       if (++count <= 4)
         text += (count > 1 ? ", " : "") + textOf(numbers(Generation::fresh, patch, place), label_.components);
     }
     if (count > 4) text += fmt::format(", ... ({} particles)", count);
     return count == 0 ? "none" : text;
   }
-  std::string particleSentence() {
-    std::string text = fmt::format("{}: particle {} in {}{}; around it: {} in its cell", became(before(first_.second)),
-                                   first_.second, nameOf(level_, at_), positionOfParticle(), valuesIn(at_));
+  std::string particleSentence() const {
+    const ParticleId id = found_.first[1];
+    std::string text = became(said(particleBefore(id)));
+    text += fmt::format(": particle {} in {}", id, nameOf(level_, found_.at)) + said(positionOfParticle());
+    text += fmt::format("; around it: {} in its cell", said(valuesIn(found_.at)));
     for (int d = 0; d < level_.dimension(); ++d)
       for (const int side : {-1, 1}) {
-        Index3 cell = at_;
+        Index3 cell = found_.at;
         cell[d] += side;
-        if (level_.cells().contains(cell)) text += fmt::format(", {} in {}", valuesIn(cell), nameOf(level_, cell));
+        if (level_.cells().contains(cell)) text += fmt::format(", {} in {}", said(valuesIn(cell)), nameOf(level_, cell));
       }
     return text + "; " + howMany("particles");
   }
 
-  std::string gridSentence() {
+  std::string gridBefore() const {
+    if (!isHere() || !wasHeld()) return "";
+    return textOf(numbers(Generation::old, found_.patch, place_), label_.components);
+  }
+  std::string valueAt(const Index3& at) const {
+    const int patch = ownerOf(at).id();
+    if (!level_.isMine(patch)) return "";
+    return textOf(numbers(Generation::fresh, patch, gridPlace(patch, at)), label_.components);
+  }
+  std::string gridSentence() const {
     const bool nodes = label_.centring == Centring::node;
     const char* what = nodes ? "node" : "cell";
-    const double* old = warehouse_.variable(Generation::old, written_.variable, patch_).held
-                            ? numbers(Generation::old, patch_, place_)
-                            : nullptr;
     std::array<double, 3> x{};
     for (int d = 0; d < level_.dimension(); ++d)
-      x[static_cast<std::size_t>(d)] = level_.nodePosition(d, at_[d]) + (nodes ? 0 : 0.5 * level_.spacing(d));
-    std::string text = fmt::format("{}: {} at x = {} m; around it:", became(old), nameOf(level_, at_, what),
-                                   textOf(x.data(), level_.dimension()));
+      x[static_cast<std::size_t>(d)] = level_.nodePosition(d, found_.at[d]) + (nodes ? 0 : 0.5 * level_.spacing(d));
+    std::string text = fmt::format("{}: {} at x = {} m; around it:", became(said(gridBefore())),
+                                   nameOf(level_, found_.at, what), textOf(x.data(), level_.dimension()));
     for (int d = 0; d < level_.dimension(); ++d)
       for (const int side : {-1, 1}) {
-        Index3 at = at_;
+        Index3 at = found_.at;
         at[d] += side;
-        if (!gridBox().contains(at)) continue;
-        const int patch = ownerOf(at).id();
-        text += fmt::format(" {} in {},", textOf(numbers(Generation::fresh, patch, gridPlace(patch, at)), label_.components),
-                            nameOf(level_, at, what));
+        if (gridBox().contains(at)) text += fmt::format(" {} in {},", said(valueAt(at)), nameOf(level_, at, what));
       }
     text.back() = ';';
     return text + " " + howMany(nodes ? "nodes" : "cells");
@@ -208,11 +259,8 @@ class Search {
   Bound bound_;
   const Label& label_;
   int material_;
-  long seen_ = 0, broken_ = 0;
-  std::pair<std::uint64_t, ParticleId> first_;  ///< number of cell or node, and id, of the first broken value
-  int patch_ = 0;
-  Index3 at_;
-  std::size_t place_ = 0;
+  Found found_;
+  std::size_t place_ = 0;  ///< in memory, on the rank that has it
 };
 
 }  // namespace
@@ -221,6 +269,14 @@ bool keepsBounds(Warehouse& warehouse, const std::vector<Bounded>& written, cons
   bool kept = true;
   for (const Bounded& variable : written) kept = kept && keepsBound(warehouse, variable, patch);
   return kept;
+}
+
+std::size_t firstThatBreaks(Warehouse& warehouse, const std::vector<Bounded>& written) {
+  const auto& patches = warehouse.level().patches();
+  const auto breaks = [&](const Bounded& variable) {
+    return std::any_of(patches.begin(), patches.end(), [&](const Patch& patch) { return !keepsBound(warehouse, variable, patch); });
+  };
+  return static_cast<std::size_t>(std::find_if(written.begin(), written.end(), breaks) - written.begin());
 }
 
 std::optional<BrokenValue> firstBroken(Warehouse& warehouse, const Bounded& written, Bound bound) {

@@ -17,6 +17,9 @@ struct Bounded {
 /// Whether all that a task has written on a patch keeps its bounds.
 bool keepsBounds(data::Warehouse& warehouse, const std::vector<Bounded>& written, const grid::Patch& patch);
 
+/// The place in `written` of the first variable that breaks its bound on some patch of this rank; one does.
+std::size_t firstThatBreaks(data::Warehouse& warehouse, const std::vector<Bounded>& written);
+
 /// A value that breaks its bound, in words.
 struct BrokenValue {
   std::string label;
@@ -25,7 +28,7 @@ struct BrokenValue {
 };
 
 /// Of what a task has written on all patches, the first value in the order of variables, cells and ids that breaks its
-/// bound: the same on any patches. None if all is well.
+/// bound: the same on any patches and ranks. None if all is well. Every rank asks.
 std::optional<BrokenValue> firstBroken(data::Warehouse& warehouse, const std::vector<Bounded>& written);
 
 /// The same for one variable and a bound that is not its label's.

@@ -1,85 +1,35 @@
 #include "core/tasks/exchange.hpp"
 
+#include <algorithm>
 #include <cstring>
+#include <set>
 
 namespace tushar::tasks {
 
 using data::Generation;
+using data::ParticleRange;
 using data::ParticleSet;
 using data::Variable;
 using data::Warehouse;
 using grid::Box;
 using grid::Patch;
+using mpi::Bytes;
 
 namespace {
 
-/// Copies to a box, row by row, the values of the box `shift` cells before it.
-void copyBox(const Variable& from, Variable& to, const Box& box, const Index3& shift, std::size_t bytes) {
-  if (box.empty()) return;
+constexpr int tag = 1;
+
+/// Calls `visit(first, length)` for each row of a box along the first axis.
+template <class Visit>
+void forEachRow(const Box& box, std::size_t bytes, Visit&& visit) {
   Box rows = box;
   rows.upper[0] = rows.lower[0] + 1;
   const std::size_t length = static_cast<std::size_t>(box.extent(0)) * bytes;
-  grid::forEach<3>(rows, [&](const Index3& at) {
-    std::memcpy(to.values.data() + to.stored.offset(at) * bytes, from.values.data() + from.stored.offset(at - shift) * bytes,
-                length);
-  });
+  if (!box.empty()) grid::forEach<3>(rows, [&](const Index3& first) { visit(first, length); });
 }
 
-/// The parts of `box` outside `hole`: below and above it, axis by axis.
-template <class Visit>
-void forEachPartOutside(Box box, const Box& hole, Visit&& visit) {
-  for (int d = 2; d >= 0; --d) {
-    Box below = box, above = box;
-    below.upper[d] = std::min(box.upper[d], hole.lower[d]);
-    above.lower[d] = std::max(box.lower[d], hole.upper[d]);
-    if (!below.empty()) visit(below);
-    if (!above.empty()) visit(above);
-    box.lower[d] = std::max(box.lower[d], hole.lower[d]);
-    box.upper[d] = std::min(box.upper[d], hole.upper[d]);
-  }
-}
-
-/// Calls `visit(patch, shift)` for each patch and each of its images that holds cells of a box.
-template <class Visit>
-void forEachSource(const grid::Level& level, const Box& cells, Visit&& visit) {
-  for (const Index3& shift : level.imagesOverlapping(cells))
-    for (const Patch* patch : level.patchesOverlapping(cells.shifted(Index3{} - shift))) visit(*patch, shift);
-}
-
-void fillPatch(Warehouse& warehouse, int number, Generation generation, const Patch& patch) {
-  const data::VariableName& name = warehouse.table()[number];
-  const bool nodes = name.label->centring == data::Centring::node;
-  const int width = warehouse.table().ghost(number);
-  Variable& here = warehouse.variable(generation, number, patch.id());
-  const Box own = nodes ? patch.nodes() : patch.cells();
-  // The last node of a periodic axis is the image of the first, with other rounding: a node of the grid is never taken
-  // from an image, whatever the patches.
-  const Box grid = nodes ? warehouse.level().nodes() : warehouse.level().cells();
-  forEachSource(warehouse.level(), patch.cellsWithin(width + (nodes ? 1 : 0)), [&](const Patch& other, const Index3& shift) {
-    if (&other == &patch && shift == Index3{}) return;
-    const Variable& there = warehouse.variable(generation, number, other.id());
-    const Box theirs = (nodes ? other.nodes() : other.cells()).shifted(shift).intersect(here.stored);
-    if (theirs.empty()) return;
-    forEachPartOutside(theirs, own, [&](const Box& part) {
-      if (shift == Index3{}) return copyBox(there, here, part, shift, name.label->bytes);
-      forEachPartOutside(part, grid, [&](const Box& beyond) { copyBox(there, here, beyond, shift, name.label->bytes); });
-    });
-  });
-}
-
-/// Appends the particles of the cells around the patch to its set.
-void addGhosts(Warehouse& warehouse, Generation generation, int material, const Patch& patch) {
-  ParticleSet& set = warehouse.particles(generation, material, patch.id());
-  const grid::Level& level = warehouse.level();
-  forEachPartOutside(set.cells(), set.ownedCells(), [&](const Box& part) {
-    forEachSource(level, part, [&](const Patch& other, const Index3& shift) {
-      const ParticleSet& theirs = warehouse.particles(generation, material, other.id());
-      grid::forEach<3>(part.intersect(other.cells().shifted(shift)), [&](const Index3& cell) {
-        set.addGhostCell(cell, other.id(), theirs.in(cell - shift), shift);
-      });
-    });
-  });
-  set.markGhosts();
+std::byte* at(Variable& variable, const Index3& place, std::size_t bytes) {
+  return variable.values.data() + variable.stored.offset(place) * bytes;
 }
 
 /// Moves positions to the image where they are ghosts.
@@ -91,53 +41,247 @@ void shiftPositions(const grid::Level& level, const Index3& shift, double* x, in
   }
 }
 
-/// Gives the particle set of a patch its ghosts, and makes room for their values.
-void makeRoom(Warehouse& warehouse, const NumberedFill& fill, const Patch& patch) {
-  const auto [label, material] = warehouse.table()[fill.variable];
-  const ParticleSet& set = warehouse.particles(fill.set, material, patch.id());
-  if (!set.hasGhosts()) addGhosts(warehouse, fill.set, material, patch);
-  Variable& here = warehouse.variable(fill.generation, fill.variable, patch.id());
-  warehouse.allocateParticles(here, *label, set.total(), set.owned());
-}
+/// Adds what a rank is to have for one fill to the message for it.
+class Packer {
+ public:
+  Packer(Warehouse& warehouse, const NumberedFill& fill, Bytes& message)
+      : warehouse_(warehouse), fill_(fill), name_(warehouse.table()[fill.variable]), message_(message) {}
 
-void fillParticles(Warehouse& warehouse, const NumberedFill& fill, const Patch& patch) {
-  const auto [label, material] = warehouse.table()[fill.variable];
-  const ParticleSet& set = warehouse.particles(fill.set, material, patch.id());
-  Variable& here = warehouse.variable(fill.generation, fill.variable, patch.id());
-  std::byte* to = here.values.data() + static_cast<std::size_t>(set.owned()) * label->bytes;
-  for (const data::GhostRun& run : set.ghostRuns()) {
-    const Variable& there = warehouse.variable(fill.generation, fill.variable, run.patch);
-    const std::size_t length = static_cast<std::size_t>(run.count) * label->bytes;
-    std::memcpy(to, there.values.data() + static_cast<std::size_t>(run.first) * label->bytes, length);
-    if (label->name == data::positionName && !(run.shift == Index3{}))
-      shiftPositions(warehouse.level(), run.shift, reinterpret_cast<double*>(to), run.count);
-    to += length;
+  void addGrid(const GhostCopy& copy) {
+    Variable& from = variable(copy.from);
+    forEachRow(copy.box.shifted(Index3{} - copy.shift), name_.label->bytes, [&](const Index3& first, std::size_t length) {
+      mpi::append(message_, at(from, first, name_.label->bytes), length);
+    });
   }
-}
+  /// How many particles each cell has.
+  void addCounts(const GhostCopy& copy) {
+    forEachCell(copy, [&](const ParticleRange& range) {
+      const std::int32_t count = range.size();
+      mpi::append(message_, &count, sizeof(count));
+    });
+  }
+  void addParticles(const GhostCopy& copy) {
+    Variable& from = variable(copy.from);
+    forEachCell(copy, [&](const ParticleRange& range) {
+      mpi::append(message_, from.values.data() + static_cast<std::size_t>(range.first) * name_.label->bytes,
+             static_cast<std::size_t>(range.size()) * name_.label->bytes);
+    });
+  }
+
+ private:
+  Variable& variable(int patch) { return warehouse_.variable(fill_.generation, fill_.variable, patch); }
+  template <class Visit>
+  void forEachCell(const GhostCopy& copy, Visit&& visit) {
+    const ParticleSet& set = warehouse_.particles(fill_.set, name_.material, copy.from);
+    grid::forEach<3>(copy.box.shifted(Index3{} - copy.shift), [&](const Index3& cell) {
+      visit(set.in(cell));
+    });
+  }
+
+  Warehouse& warehouse_;
+  const NumberedFill& fill_;
+  const data::VariableName name_;
+  Bytes& message_;
+};
 
 }  // namespace
 
-void fillGhosts(Warehouse& warehouse, const std::vector<NumberedFill>& fills, Threads& threads) {
-  if (warehouse.patches() == 1 && !warehouse.level().isPeriodic()) return;
-  const std::vector<Patch>& patches = warehouse.level().patches();
-  const auto forEachPatch = [&](const auto& work) {
-    const auto workOn = [&](int k) {
-      const Patch& patch = patches[static_cast<std::size_t>(k)];
-      const trace::Span span(trace::Kind::message, "fill ghosts", patch.id());
-      for (const NumberedFill& fill : fills) work(fill, patch);
-    };
-    threads.forEach(static_cast<int>(patches.size()), workOn, trace::Kind::message);
+/// The messages of the other ranks, read from front to back.
+class Exchange::Letters {
+ public:
+  void add(int from, Bytes bytes) { letters_[from] = {std::move(bytes), 0}; }
+  /// The next `length` bytes of the message from a rank.
+  const std::byte* next(int from, std::size_t length) {
+    Letter& letter = letters_.at(from);
+    const std::byte* here = letter.bytes.data() + letter.read;
+    letter.read += length;
+    return here;
+  }
+  /// Whether a rank says that it has stopped.
+  bool readStopped(int from) { return *next(from, 1) != std::byte{0}; }
+
+ private:
+  struct Letter {
+    Bytes bytes;
+    std::size_t read = 0;
   };
-  // A patch reads of others only what they own, and that stands still once all have made room.
-  forEachPatch([&](const NumberedFill& fill, const Patch& patch) {
-    if (fill.particles) makeRoom(warehouse, fill, patch);
+  std::map<int, Letter> letters_;
+};
+
+const GhostPlan& Exchange::planOf(const NumberedFill& fill) {
+  const auto [label, material] = warehouse_->table()[fill.variable];
+  const bool nodes = label->centring == data::Centring::node;
+  const int width = fill.particles ? warehouse_->table().reach(material) : warehouse_->table().ghost(fill.variable);
+  const auto [plan, isNew] = plans_.try_emplace({nodes, width});
+  if (isNew) plan->second = planGhosts(warehouse_->level(), nodes, width);
+  return plan->second;
+}
+
+bool Exchange::run(std::span<const NumberedFill> fills, bool hasStopped) {
+  if (warehouse_->level().patchCount() == 1 && !warehouse_->level().isPeriodic()) return !hasStopped;
+  for (const NumberedFill& fill : fills) planOf(fill);
+  noteUnsettled(fills);
+  threads_->alone([&] { post(fills, hasStopped); }, trace::Kind::message, "send");
+  if (!hasStopped) fillFromHere(fills);
+  std::set<int> senders;
+  for (const NumberedFill& fill : fills) senders.insert(planOf(fill).incoming.begin(), planOf(fill).incoming.end());
+  Letters letters;
+  for (const int rank : senders) {
+    const trace::Span span(trace::Kind::wait, "receive");
+    letters.add(rank, warehouse_->ranks().receive(rank, tag));
+    hasStopped = letters.readStopped(rank) || hasStopped;
+  }
+  outbox_.wait();
+  if (hasStopped) return false;
+  if (senders.empty()) return true;
+  const auto unpack = [&] {
+    for (std::size_t k = 0; k < fills.size(); ++k) fillFromElsewhere(fills[k], settles_[k], letters);
+  };
+  threads_->alone(unpack, trace::Kind::message, "unpack");
+  return true;
+}
+
+template <class Work>
+void Exchange::forEach(std::span<const NumberedFill> fills, const Work& work) {
+  const std::vector<Patch>& patches = warehouse_->level().patches();
+  const auto workOn = [&](int place) {
+    const auto at = static_cast<std::size_t>(place);
+    const trace::Span span(trace::Kind::message, "fill ghosts", patches[at].id());
+    for (std::size_t k = 0; k < fills.size(); ++k) work(fills[k], settles_[k], patches[at], at);
+  };
+  threads_->forEach(static_cast<int>(patches.size()), workOn, trace::Kind::message);
+}
+
+/// A patch reads of others only what they own, and that stands still once all have made room.
+void Exchange::fillFromHere(std::span<const NumberedFill> fills) {
+  forEach(fills, [&](const NumberedFill& fill, bool settles, const Patch& patch, std::size_t place) {
+    if (!fill.particles || !planOf(fill).isClosed[place]) return;
+    if (settles) settleGhosts(fill, patch, nullptr);
+    makeRoom(fill, patch);
   });
-  forEachPatch([&](const NumberedFill& fill, const Patch& patch) {
-    if (fill.particles)
-      fillParticles(warehouse, fill, patch);
+  forEach(fills, [&](const NumberedFill& fill, bool, const Patch& patch, std::size_t place) {
+    if (fill.particles && planOf(fill).isClosed[place]) return fillParticles(fill, patch, nullptr);
+    if (fill.particles) return;
+    for (const GhostCopy& copy : planOf(fill).into[place])
+      if (copy.rank == warehouse_->ranks().rank()) copyGrid(fill, copy);
+  });
+}
+
+void Exchange::noteUnsettled(std::span<const NumberedFill> fills) {
+  settles_.assign(fills.size(), false);
+  std::set<std::pair<Generation, int>> settled;
+  for (std::size_t k = 0; k < fills.size(); ++k) {
+    const int material = warehouse_->table()[fills[k].variable].material;
+    if (!fills[k].particles || warehouse_->level().patches().empty()) continue;
+    const int patch = warehouse_->level().firstPatch();
+    settles_[k] = !warehouse_->particles(fills[k].set, material, patch).hasGhosts() &&
+                  settled.emplace(fills[k].set, material).second;
+  }
+}
+
+void Exchange::post(std::span<const NumberedFill> fills, bool hasStopped) {
+  std::set<int> receivers;
+  for (const NumberedFill& fill : fills)
+    for (const auto& copies : planOf(fill).outgoing) receivers.insert(copies.first);
+  for (const int rank : receivers) {
+    Bytes message = outbox_.buffer();
+    message.push_back(std::byte{hasStopped});
+    for (std::size_t k = 0; k < fills.size() && !hasStopped; ++k) {
+      const auto copies = planOf(fills[k]).outgoing.find(rank);
+      if (copies == planOf(fills[k]).outgoing.end()) continue;
+      Packer packer(*warehouse_, fills[k], message);
+      if (settles_[k])
+        for (const GhostCopy& copy : copies->second) packer.addCounts(copy);
+      for (const GhostCopy& copy : copies->second) fills[k].particles ? packer.addParticles(copy) : packer.addGrid(copy);
+    }
+    outbox_.send(rank, tag, std::move(message));
+  }
+}
+
+void Exchange::copyGrid(const NumberedFill& fill, const GhostCopy& copy) {
+  const std::size_t bytes = warehouse_->table()[fill.variable].label->bytes;
+  Variable& from = warehouse_->variable(fill.generation, fill.variable, copy.from);
+  Variable& to = warehouse_->variable(fill.generation, fill.variable, copy.to);
+  forEachRow(copy.box, bytes, [&](const Index3& first, std::size_t length) {
+    std::memcpy(at(to, first, bytes), at(from, first - copy.shift, bytes), length);
+  });
+}
+
+void Exchange::fillFromElsewhere(const NumberedFill& fill, bool settles, Letters& letters) {
+  const GhostPlan& plan = planOf(fill);
+  const std::vector<Patch>& patches = warehouse_->level().patches();
+  const std::size_t bytes = warehouse_->table()[fill.variable].label->bytes;
+  for (std::size_t place = 0; place < patches.size(); ++place) {
+    if (plan.isClosed[place]) continue;
+    if (fill.particles && settles) settleGhosts(fill, patches[place], &letters);
+    if (fill.particles) makeRoom(fill, patches[place]);
+  }
+  for (std::size_t place = 0; place < patches.size(); ++place) {
+    if (plan.isClosed[place]) continue;
+    if (fill.particles) {
+      fillParticles(fill, patches[place], &letters);
+      continue;
+    }
+    for (const GhostCopy& copy : plan.into[place]) {
+      if (copy.rank == warehouse_->ranks().rank()) continue;
+      Variable& to = warehouse_->variable(fill.generation, fill.variable, copy.to);
+      forEachRow(copy.box, bytes, [&](const Index3& first, std::size_t length) {
+        std::memcpy(at(to, first, bytes), letters.next(copy.rank, length), length);
+      });
+    }
+  }
+}
+
+/// Appends the particles of the cells around the patch to its set.
+void Exchange::settleGhosts(const NumberedFill& fill, const Patch& patch, Letters* letters) {
+  const int material = warehouse_->table()[fill.variable].material;
+  ParticleSet& set = warehouse_->particles(fill.set, material, patch.id());
+  const auto place = static_cast<std::size_t>(patch.id() - warehouse_->level().firstPatch());
+  for (const GhostCopy& copy : planOf(fill).into[place]) {
+    if (copy.rank == warehouse_->ranks().rank()) {
+      const ParticleSet& theirs = warehouse_->particles(fill.set, material, copy.from);
+      grid::forEach<3>(copy.box, [&](const Index3& cell) {
+        set.addGhostCell(cell, copy.from, theirs.in(cell - copy.shift), copy.shift);
+      });
+      continue;
+    }
+    int there = 0;  // place in the message, among those of this copy
+    grid::forEach<3>(copy.box, [&](const Index3& cell) {
+      std::int32_t count = 0;
+      std::memcpy(&count, letters->next(copy.rank, sizeof(count)), sizeof(count));
+      set.addGhostCell(cell, copy.from, {there, there + count}, copy.shift);
+      there += count;
+    });
+  }
+  set.markGhosts();
+}
+
+void Exchange::makeRoom(const NumberedFill& fill, const Patch& patch) {
+  const auto [label, material] = warehouse_->table()[fill.variable];
+  const ParticleSet& set = warehouse_->particles(fill.set, material, patch.id());
+  Variable& here = warehouse_->variable(fill.generation, fill.variable, patch.id());
+  warehouse_->allocateParticles(here, *label, set.total(), set.owned());
+}
+
+void Exchange::fillParticles(const NumberedFill& fill, const Patch& patch, Letters* letters) {
+  const auto [label, material] = warehouse_->table()[fill.variable];
+  const grid::Level& level = warehouse_->level();
+  const ParticleSet& set = warehouse_->particles(fill.set, material, patch.id());
+  Variable& here = warehouse_->variable(fill.generation, fill.variable, patch.id());
+  std::byte* to = here.values.data() + static_cast<std::size_t>(set.owned()) * label->bytes;
+  for (const data::GhostRun& run : set.ghostRuns()) {
+    const std::size_t length = static_cast<std::size_t>(run.count) * label->bytes;
+    const std::byte* from = nullptr;
+    if (level.isMine(run.patch))
+      from = warehouse_->variable(fill.generation, fill.variable, run.patch).values.data() +
+             static_cast<std::size_t>(run.first) * label->bytes;
     else
-      fillPatch(warehouse, fill.variable, fill.generation, patch);
-  });
+      from = letters->next(level.ownerOf(run.patch), length);
+    std::memcpy(to, from, length);
+    if (label->name == data::positionName && !(run.shift == Index3{}))
+      shiftPositions(level, run.shift, reinterpret_cast<double*>(to), run.count);
+    to += length;
+  }
 }
 
 }  // namespace tushar::tasks

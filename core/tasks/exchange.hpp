@@ -1,13 +1,62 @@
 #pragma once
 
+#include <map>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/base/mpi.hpp"
 #include "core/base/threads.hpp"
 #include "core/data/warehouse.hpp"
-#include "core/tasks/task_graph.hpp"
+#include "core/tasks/ghost_plan.hpp"
 
 namespace tushar::tasks {
 
-/// Copies to the ghosts of every patch what the patches that own them hold. Particle sets get the ghosts of their patch
-/// if they have none yet.
-void fillGhosts(data::Warehouse& warehouse, const std::vector<NumberedFill>& fills, Threads& threads);
+/// A fill of ghosts, by number of variable.
+struct NumberedFill {
+  int variable;
+  data::Generation generation, set;
+  bool particles;
+};
+
+/// Fills the ghosts of every patch from the patches that own them, on this rank or another.
+///
+/// Before a task one message goes to each neighbouring rank, with all that it needs for that task; while messages are
+/// on their way, patches fill their ghosts from one another.
+class Exchange {
+ public:
+  Exchange(data::Warehouse& warehouse, Threads& threads)
+      : warehouse_(&warehouse), threads_(&threads), outbox_(warehouse.ranks()) {}
+
+  /// Fills the ghosts of node and cell variables, and of particle variables; which particles are ghosts is settled on
+  /// first use of their set. All ranks run it for the same fills in the same order.
+  ///
+  /// A rank on which a task failed says so in place of its values (`hasStopped`). False if a rank that this one hears of
+  /// has stopped: then nothing is filled, and this one is to stop, too, before it reads what is not there.
+  bool run(std::span<const NumberedFill> fills, bool hasStopped);
+
+ private:
+  class Letters;
+
+  void post(std::span<const NumberedFill> fills, bool hasStopped);
+  /// What patches of this rank have from one another.
+  void fillFromHere(std::span<const NumberedFill> fills);
+  void fillFromElsewhere(const NumberedFill& fill, bool settles, Letters& letters);
+  void copyGrid(const NumberedFill& fill, const GhostCopy& copy);
+  void settleGhosts(const NumberedFill& fill, const grid::Patch& patch, Letters* letters);
+  void makeRoom(const NumberedFill& fill, const grid::Patch& patch);
+  void fillParticles(const NumberedFill& fill, const grid::Patch& patch, Letters* letters);
+  void noteUnsettled(std::span<const NumberedFill> fills);
+  /// Calls `work(fill, whether it settles ghosts, patch, its place)` on several threads at once.
+  template <class Work>
+  void forEach(std::span<const NumberedFill> fills, const Work& work);
+  const GhostPlan& planOf(const NumberedFill& fill);
+
+  data::Warehouse* warehouse_;
+  Threads* threads_;
+  mpi::Outbox outbox_;
+  std::map<std::pair<bool, int>, GhostPlan> plans_;  ///< by whether of nodes, and width
+  std::vector<bool> settles_;                        ///< by fill: whether it settles which particles are ghosts
+};
 
 }  // namespace tushar::tasks

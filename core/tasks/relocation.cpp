@@ -7,6 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "core/tasks/broken_value.hpp"
+#include "core/tasks/outcome.hpp"
 
 namespace tushar::tasks {
 
@@ -85,18 +86,44 @@ void Relocation::forEachPatch(const Work& work) {
   });
 }
 
-void Relocation::run(int material, int position, const std::vector<Carried>& carried) {
+bool Relocation::run(int material, int position, const std::vector<Carried>& carried, bool hasStopped) {
   moves_.resize(static_cast<std::size_t>(warehouse_->patches()));
   spare_.resize(moves_.size());
   for (std::size_t patch = 0; patch < spare_.size(); ++patch) spare_[patch].pool = static_cast<int>(patch);
   const int id = warehouse_->table().find(data::particleId.name, material);
-  switch (warehouse_->level().dimension()) {
-    case 1: findMoves<1>(material, position, id); break;
-    case 2: findMoves<2>(material, position, id); break;
-    default: findMoves<3>(material, position, id);
-  }
+  if (!hasStopped) switch (warehouse_->level().dimension()) {
+      case 1: findMoves<1>(material, position, id); break;
+      case 2: findMoves<2>(material, position, id); break;
+      default: findMoves<3>(material, position, id);
+    }
+  const Verdict verdict = agreed(gatherMoves(hasStopped));
+  if (verdict.hasStopped) return false;
+  if (verdict.hasEscape) refuseEscape(position, verdict);
+  emigration_.run(carried, verdict.goFar);
+  receiveAll();
   forEachPatch([&](const Patch& patch) { rebuild(patch, material, id); });
-  for (const Carried& variable : carried) carry(variable);
+  for (std::size_t place = 0; place < carried.size(); ++place) carry(carried[place], place);
+  return true;
+}
+
+void Relocation::Verdict::merge(const Verdict& other) {
+  hasStopped = hasStopped || other.hasStopped;
+  goFar = goFar || other.goFar;
+  if (!other.hasEscape || (hasEscape && escape < other.escape)) return;
+  hasEscape = true;
+  escape = other.escape;
+  rank = other.rank;
+}
+
+Relocation::Verdict Relocation::agreed(Verdict mine) const {
+  warehouse_->ranks().merge(std::as_writable_bytes(std::span(&mine, 1)), [](const std::byte* from, std::byte* into) {
+    Verdict one, other;
+    std::memcpy(&one, into, sizeof(Verdict));
+    std::memcpy(&other, from, sizeof(Verdict));
+    one.merge(other);
+    std::memcpy(into, &one, sizeof(Verdict));
+  });
+  return mine;
 }
 
 template <int D>
@@ -109,13 +136,12 @@ void Relocation::findMoves(int material, int position, int id) {
                  reinterpret_cast<Vec<D>*>(values(Generation::fresh, position)),
                  reinterpret_cast<const ParticleId*>(values(Generation::old, id)));
   });
-  gatherMoves<D>(position);
 }
 
 template <int D>
 void Relocation::findMoves(const Patch& patch, const ParticleSet& set, Vec<D>* x, const ParticleId* ids) {
   const grid::Level& level = warehouse_->level();
-  PatchMoves& moves = moves_[static_cast<std::size_t>(patch.id())];
+  PatchMoves& moves = movesOf(patch);
   moves.departed.clear();
   moves.outgoing.clear();
   moves.incoming.clear();
@@ -136,7 +162,7 @@ void Relocation::findMoves(const Patch& patch, const ParticleSet& set, Vec<D>* x
 template <int D>
 void Relocation::move(const Patch& from, const Index<D>& fromCell, Vec<D>& x, ParticleId id, int place) {
   const grid::Level& level = warehouse_->level();
-  PatchMoves& moves = moves_[static_cast<std::size_t>(from.id())];
+  PatchMoves& moves = movesOf(from);
   moves.departed.push_back(place);
   if (level.isPeriodic()) wrap<D>(level, x);
   const Index<D> cell = level.cellOf<D>(x);
@@ -154,26 +180,42 @@ void Relocation::move(const Patch& from, const Index<D>& fromCell, Vec<D>& x, Pa
     moves.outgoing.push_back({wide, particle});
 }
 
-template <int D>
-void Relocation::gatherMoves(int position) {
-  std::optional<Escape> first;
+Relocation::Verdict Relocation::gatherMoves(bool hasStopped) {
+  const grid::Level& level = warehouse_->level();
+  Verdict verdict{hasStopped, false, false, warehouse_->ranks().rank(), {}};
+  emigration_.start();
   for (const PatchMoves& moves : moves_) {
+    if (hasStopped) break;
     leaving_ += moves.leaving;
-    if (moves.escape && (!first || *moves.escape < *first)) first = moves.escape;
+    if (moves.escape) verdict.merge({false, true, false, verdict.rank, *moves.escape});
+    for (const Outgoing& one : moves.outgoing)
+      if (const int patch = level.patchOf(one.cell).id(); !level.isMine(patch))
+        emigration_.add(level.ownerOf(patch), {one.particle.id, one.cell, one.particle.patch, one.particle.place});
   }
-  if (first) refuseEscape<D>(position, *first);
-  for (const PatchMoves& moves : moves_)
-    for (const Outgoing& one : moves.outgoing) receive(warehouse_->level().patchOf(one.cell), one.cell, one.particle);
+  verdict.goFar = emigration_.goesFar();
+  return verdict;
+}
+
+void Relocation::refuseEscape(int position, const Verdict& verdict) const {
+  if (const auto broken = firstBroken(*warehouse_, {position, Generation::old}, data::Bound::finite))
+    throw NumericalError(fmt::format("{}; patch {}", broken->sentence, broken->patch), "", broken->label);
+  std::optional<NumericalError> mine;
+  if (verdict.rank == warehouse_->ranks().rank()) {
+    const int dimension = warehouse_->level().dimension();
+    const std::string what = dimension == 1   ? sentence<1>(position, verdict.escape)
+                             : dimension == 2 ? sentence<2>(position, verdict.escape)
+                                              : sentence<3>(position, verdict.escape);
+    mine.emplace(what, "", "p.x", verdict.escape.cell);
+  }
+  throw told(warehouse_->ranks(), mine, verdict.rank);
 }
 
 template <int D>
-void Relocation::refuseEscape(int position, const Escape& escape) const {
-  const auto [cellNumber, id, patch, place] = escape;
-  if (const auto broken = firstBroken(*warehouse_, {position, Generation::old}, data::Bound::finite))
-    throw NumericalError(fmt::format("{}; patch {}", broken->sentence, broken->patch), "", broken->label);
+std::string Relocation::sentence(int position, const Escape& escape) const {
   const grid::Level& level = warehouse_->level();
   const auto at = [&](Generation generation) {
-    return reinterpret_cast<const Vec<D>*>(warehouse_->variable(generation, position, patch).values.data())[place];
+    const Variable& x = warehouse_->variable(generation, position, escape.patch);
+    return reinterpret_cast<const Vec<D>*>(x.values.data())[escape.place];
   };
   const Vec<D> x = at(Generation::fresh);
   int through = 0, side = 0;
@@ -184,14 +226,22 @@ void Relocation::refuseEscape(int position, const Escape& escape) const {
         side = s;
       }
   const char axis = "xyz"[level.axis(through)];
-  throw NumericalError(fmt::format("particle {} passed through the symmetry plane {}{}, from {} = {:.6g} m to {:.6g} m; "
-                                   "patch {}",
-                                   id, axis, "-+"[side], axis, at(Generation::old)[through], x[through], patch),
-                       "", "p.x", cellNumber);
+  return fmt::format("particle {} passed through the symmetry plane {}{}, from {} = {:.6g} m to {:.6g} m; patch {}",
+                     escape.id, axis, "-+"[side], axis, at(Generation::old)[through], x[through], escape.patch);
+}
+
+void Relocation::receiveAll() {
+  const grid::Level& level = warehouse_->level();
+  for (const PatchMoves& moves : moves_)
+    for (const Outgoing& one : moves.outgoing)
+      if (const Patch to = level.patchOf(one.cell); level.isMine(to.id())) receive(to, one.cell, one.particle);
+  const std::vector<Emigrant>& arrived = emigration_.arrived();
+  for (std::size_t k = 0; k < arrived.size(); ++k)
+    receive(level.patchOf(arrived[k].cell), arrived[k].cell, {arrived[k].id, -1, static_cast<int>(k), -1});
 }
 
 void Relocation::receive(const Patch& patch, const Index3& cell, const Incoming& particle) {
-  PatchMoves& moves = moves_[static_cast<std::size_t>(patch.id())];
+  PatchMoves& moves = movesOf(patch);
   const int added = static_cast<int>(moves.incoming.size());
   moves.incoming.push_back(particle);
   int* link = &moves.firstIncoming[patch.cells().offset(cell)];
@@ -202,7 +252,7 @@ void Relocation::receive(const Patch& patch, const Index3& cell, const Incoming&
 }
 
 void Relocation::rebuild(const Patch& patch, int material, int id) {
-  PatchMoves& moves = moves_[static_cast<std::size_t>(patch.id())];
+  PatchMoves& moves = movesOf(patch);
   const ParticleSet& before = warehouse_->particles(Generation::old, material, patch.id());
   ParticleSet& after = warehouse_->particles(Generation::fresh, material, patch.id());
   const auto* ids =
@@ -288,18 +338,20 @@ void Relocation::mergeCell(int patch, PatchMoves& moves, const ParticleRange& be
   moves.count = next;
 }
 
-void Relocation::carry(const Carried& carried) {
-  forEachPatch([&](const Patch& patch) { carry(carried, static_cast<std::size_t>(patch.id())); });
-  for (std::size_t patch = 0; patch < moves_.size(); ++patch)
-    std::swap(warehouse_->variable(Generation::fresh, carried.variable, static_cast<int>(patch)), spare_[patch]);
+void Relocation::carry(const Carried& carried, std::size_t place) {
+  forEachPatch([&](const Patch& patch) { carry(carried, place, patch); });
+  std::size_t k = 0;
+  for (const Patch& patch : warehouse_->level().patches())
+    std::swap(warehouse_->variable(Generation::fresh, carried.variable, patch.id()), spare_[k++]);
 }
 
-void Relocation::carry(const Carried& carried, std::size_t patch) {
+void Relocation::carry(const Carried& carried, std::size_t place, const Patch& patch) {
   const data::Label& label = *warehouse_->table()[carried.variable].label;
-  const PatchMoves& moves = moves_[patch];
-  const Variable& from = warehouse_->variable(carried.from, carried.variable, static_cast<int>(patch));
-  warehouse_->allocateParticles(spare_[patch], label, moves.count);
-  std::byte* to = spare_[patch].values.data();
+  const PatchMoves& moves = movesOf(patch);
+  const Variable& from = warehouse_->variable(carried.from, carried.variable, patch.id());
+  Variable& spare = spare_[static_cast<std::size_t>(patch.id() - warehouse_->level().firstPatch())];
+  warehouse_->allocateParticles(spare, label, moves.count);
+  std::byte* to = spare.values.data();
   for (const Piece& piece : moves.pieces) {
     std::byte* there = to + static_cast<std::size_t>(piece.to) * label.bytes;
     if (piece.from >= 0)
@@ -308,11 +360,13 @@ void Relocation::carry(const Carried& carried, std::size_t patch) {
     else if (from.held && from.values.data())
       gather(from.values.data(), there, moves.source.data() + piece.to, piece.count, label.bytes);
   }
-  for (const auto& [place, index] : moves.foreign) {
+  for (const auto& [newPlace, index] : moves.foreign) {
     const Incoming& particle = moves.incoming[static_cast<std::size_t>(index)];
-    const Variable& there = warehouse_->variable(carried.from, carried.variable, particle.patch);
-    std::memcpy(to + static_cast<std::size_t>(place) * label.bytes,
-                there.values.data() + static_cast<std::size_t>(particle.place) * label.bytes, label.bytes);
+    const std::byte* values =
+        particle.patch < 0 ? emigration_.values(place)
+                           : warehouse_->variable(carried.from, carried.variable, particle.patch).values.data();
+    std::memcpy(to + static_cast<std::size_t>(newPlace) * label.bytes,
+                values + static_cast<std::size_t>(particle.place) * label.bytes, label.bytes);
   }
 }
 

@@ -2,38 +2,37 @@
 
 #include <compare>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "core/base/threads.hpp"
 #include "core/data/warehouse.hpp"
+#include "core/tasks/emigration.hpp"
 
 namespace tushar::tasks {
-
-/// A particle variable that outlives a relocation, and where its values stand before.
-struct Carried {
-  int variable;
-  data::Generation from;
-};
 
 /// Brings particles to the cell and patch where they are now, in the order (cell, id), and their variables with them.
 ///
 /// Keeps its working memory from step to step.
 class Relocation {
  public:
-  Relocation(data::Warehouse& warehouse, Threads& threads) : warehouse_(&warehouse), threads_(&threads) {}
+  Relocation(data::Warehouse& warehouse, Threads& threads)
+      : warehouse_(&warehouse), threads_(&threads), emigration_(warehouse) {}
 
   /// Builds the new particle set of a material from the old one and the new values of `position`; afterwards every
   /// carried variable is new and follows the new set. Particles that left through a periodic face come in at the opposite
   /// one; those that left through a free face are dropped.
-  /// Throws NumericalError for a position that is not finite or lies behind a symmetry plane.
-  void run(int material, int position, const std::vector<Carried>& carried);
+  ///
+  /// All ranks run it together. False if one of them has stopped before: then nothing is done on any.
+  /// Throws NumericalError, on all ranks, for a position that is not finite or lies behind a symmetry plane.
+  bool run(int material, int position, const std::vector<Carried>& carried, bool hasStopped);
 
   /// A step begins, perhaps for the second time.
   void start() { leaving_ = 0; }
   /// The step counts.
   void commit() { dropped_ += std::exchange(leaving_, 0); }
-  /// Particles that have left the grid since the start.
+  /// Particles that have left the grid from this rank since the start.
   long dropped() const { return dropped_; }
   /// Goes on counting from what another run had dropped.
   void setDropped(long dropped) { dropped_ = dropped; }
@@ -42,7 +41,7 @@ class Relocation {
   /// A particle that comes into a cell, from this patch or another.
   struct Incoming {
     ParticleId id;
-    int patch, place;  ///< where it was
+    int patch, place;  ///< where it was; patch -1: on another rank, place among those that came from there
     int next;          ///< the incoming particle of the same cell with the next greater id, or -1
   };
   /// A particle that goes to a cell of another patch.
@@ -57,6 +56,14 @@ class Relocation {
     int patch, place;
 
     friend auto operator<=>(const Escape&, const Escape&) = default;
+  };
+  /// What all ranks must know before any goes on.
+  struct Verdict {
+    bool hasStopped, hasEscape, goFar;
+    int rank;  ///< of the escape
+    Escape escape;
+
+    void merge(const Verdict& other);
   };
   /// Consecutive places of the new set: a copy of consecutive places before from `from` on, or (-1) gathered by
   /// `source`.
@@ -85,22 +92,30 @@ class Relocation {
   void findMoves(const grid::Patch& patch, const data::ParticleSet& set, Vec<D>* x, const ParticleId* ids);
   template <int D>
   void move(const grid::Patch& from, const Index<D>& cell, Vec<D>& x, ParticleId id, int place);
+  PatchMoves& movesOf(const grid::Patch& patch) {
+    return moves_[static_cast<std::size_t>(patch.id() - warehouse_->level().firstPatch())];
+  }
+  /// Sorts out what left its patch: who escaped first, how many left the grid, who goes to another rank.
+  Verdict gatherMoves(bool hasStopped);
+  Verdict agreed(Verdict mine) const;
+  [[noreturn]] void refuseEscape(int position, const Verdict& verdict) const;
   template <int D>
-  [[noreturn]] void refuseEscape(int position, const Escape& escape) const;
-  /// What left its patch, in this order: who escaped first, how many left the grid, who comes into which cell.
-  template <int D>
-  void gatherMoves(int position);
+  std::string sentence(int position, const Escape& escape) const;
+  /// Hands out those who come into a cell of another patch.
+  void receiveAll();
   void receive(const grid::Patch& patch, const Index3& cell, const Incoming& particle);
   void rebuild(const grid::Patch& patch, int material, int id);
   static void keepCell(PatchMoves& moves, const data::ParticleRange& before);
   static void mergeCell(int patch, PatchMoves& moves, const data::ParticleRange& before, int firstIncoming,
                         const ParticleId* ids, std::size_t& nextDeparted);
   static void gatherShortCopies(PatchMoves& moves);
-  void carry(const Carried& variable);
-  void carry(const Carried& variable, std::size_t patch);
+  /// `place` is that of the variable among all that are carried.
+  void carry(const Carried& variable, std::size_t place);
+  void carry(const Carried& variable, std::size_t place, const grid::Patch& patch);
 
   data::Warehouse* warehouse_;
   Threads* threads_;
+  Emigration emigration_;
   std::vector<PatchMoves> moves_;
   std::vector<data::Variable> spare_;
   long leaving_ = 0;  ///< in the step in progress

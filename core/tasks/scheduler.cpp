@@ -7,7 +7,6 @@
 #include <mutex>
 
 #include "core/base/error.hpp"
-#include "core/tasks/exchange.hpp"
 
 namespace tushar::tasks {
 
@@ -19,17 +18,6 @@ namespace {
 double seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
 
 int firstMaterial(const CompiledTask& task) { return task.task.perMaterial() ? 0 : -1; }
-
-/// `patch` is -1 for a task that runs on all at once.
-std::string placeOf(const CompiledTask& task, int patch, int material, const StepInfo& at) {
-  std::string text = "task " + task.task.name;
-  if (patch >= 0) text += fmt::format(", patch {}", patch);
-  if (material >= 0) text += ", material " + task.task.materials[static_cast<std::size_t>(material)];
-  text += fmt::format(", step {}, time {:.6g} s", at.step, at.time);
-  if (at.delT > 0) text += fmt::format(", time step {:.6g} s", at.delT);
-  if (at.repeats > 0) text += fmt::format(" after {} repeats", at.repeats);
-  return text;
-}
 
 /// Runs `work`; what it throws comes out again with the place added.
 template <class Work>
@@ -68,6 +56,16 @@ class FirstRefusal {
 
 }  // namespace
 
+std::string placeOf(const CompiledTask& task, int patch, int material, const StepInfo& at) {
+  std::string text = "task " + task.task.name;
+  if (patch >= 0) text += fmt::format(", patch {}", patch);
+  if (material >= 0) text += ", material " + task.task.materials[static_cast<std::size_t>(material)];
+  text += fmt::format(", step {}, time {:.6g} s", at.step, at.time);
+  if (at.delT > 0) text += fmt::format(", time step {:.6g} s", at.delT);
+  if (at.repeats > 0) text += fmt::format(" after {} repeats", at.repeats);
+  return text;
+}
+
 template <class Work>
 void Scheduler::forEachPatch(const CompiledTask& task, const Work& work) {
   const std::vector<grid::Patch>& patches = warehouse_->level().patches();
@@ -88,25 +86,45 @@ void Scheduler::gatherReductions(const CompiledTask& task) {
 }
 
 std::optional<data::Minimum> Scheduler::run(TaskGraph& graph, const StepInfo& at) {
-  relocation_.start();
-  for (const CompiledTask& task : graph.tasks())
-    for (const int reduction : task.reductions) warehouse_->resetReduction(reduction);
-  auto started = Clock::now();
-  for (CompiledTask& task : graph.tasks()) {
-    if (!task.fills.empty()) {
-      fillGhosts(*warehouse_, task.fills, threads_);
-      const auto exchanged = Clock::now();
-      task.exchangeSeconds += seconds(exchanged - started);
-      started = exchanged;
-    }
-    const auto asked = runOrAsk(task, at);
-    free(task);
-    const auto done = Clock::now();
-    task.seconds += seconds(done - started);
-    started = done;
-    if (asked) return asked;
+  if (graph.tasks().empty()) return std::nullopt;
+  start(graph);
+  for (std::size_t t = 0; t < graph.tasks().size(); ++t) {
+    runTask(graph.tasks()[t], static_cast<int>(t), at);
+    if (!hasStopped())
+      free(graph.tasks()[t]);
+    else if (warehouse_->ranks().isAlone())
+      break;
   }
-  return std::nullopt;
+  agree(graph);
+  if (outcome_.isNone()) return std::nullopt;
+  if (outcome_.kind == Outcome::Kind::asks) return outcome_.factor;
+  if (at.mayRepeat) return data::Minimum{0.5, outcome_.value};
+  if (outcome_.kind == Outcome::Kind::throws) throw told(warehouse_->ranks(), error_, outcome_.rank);
+  throw whatBroke(graph, at);
+}
+
+void Scheduler::start(const TaskGraph& graph) {
+  outcome_ = {};
+  error_.reset();
+  heard_stop_ = false;
+  relocation_.start();
+  for (const int reduction : graph.reductions()) warehouse_->resetReduction(reduction);
+}
+
+void Scheduler::runTask(CompiledTask& task, int number, const StepInfo& at) {
+  running_ = number;
+  auto started = Clock::now();
+  if (!task.fills.empty()) {
+    heard_stop_ = !exchange_.run(task.fills, hasStopped()) || heard_stop_;
+    const auto exchanged = Clock::now();
+    task.exchangeSeconds += seconds(exchanged - started);
+    started = exchanged;
+  }
+  if (task.task.kind == TaskKind::relocate)
+    relocate(task, at);
+  else if (!hasStopped())
+    runWork(task, at);
+  task.seconds += seconds(Clock::now() - started);
 }
 
 std::optional<data::Minimum> Scheduler::askedBy(const CompiledTask& task) {
@@ -115,56 +133,49 @@ std::optional<data::Minimum> Scheduler::askedBy(const CompiledTask& task) {
   return factor.value < 1 ? std::optional(factor) : std::nullopt;
 }
 
-std::optional<data::Minimum> Scheduler::runOrAsk(CompiledTask& task, const StepInfo& at) {
-  try {
-    runWork(task, at);
-    return askedBy(task);
-  } catch (const NumericalError& error) {
-    if (!at.mayRepeat) throw;
-    return data::Minimum{0.5, data::Reason::of(error.value().empty() ? task.task.name : error.value())};
-  }
-}
-
+/// A task that may ask runs for all materials, whatever happens: all that ask are heard.
 void Scheduler::runWork(CompiledTask& task, const StepInfo& at) {
   divideReductions(task);
-  if (task.task.acrossMaterials) {
-    forEachPatch(task, [&](const grid::Patch& patch) { runAcrossMaterials(task, patch, at); });
-    return gatherReductions(task);
-  }
-  const int first = firstMaterial(task);
-  for (int m = first; m < first + static_cast<int>(task.materials.size()); ++m) {
-    const MaterialBinding& binding = task.materials[static_cast<std::size_t>(m - first)];
-    if (task.task.kind == TaskKind::relocate)
-      located(task, -1, m, at, [&] { relocation_.run(m, binding.accesses.front().variable, binding.carried); });
-    else
-      runOnPatches(task, m, at);
+  const bool mayAsk = task.recomputeTimeStep >= 0;
+  const int first = task.task.acrossMaterials ? -1 : firstMaterial(task);
+  const int end = first + (task.task.acrossMaterials ? 1 : static_cast<int>(task.materials.size()));
+  for (int m = first; m < end && (mayAsk || !hasStopped()); ++m) runOnPatches(task, m, at);
+  if (const auto factor = askedBy(task))
+    outcome_.merge({running_, Outcome::Kind::asks, 0, 0, warehouse_->ranks().rank(), *factor, {}});
+}
+
+/// All ranks relocate together, or none.
+void Scheduler::relocate(const CompiledTask& task, const StepInfo& at) {
+  for (int m = 0; m < static_cast<int>(task.materials.size()) && (m == 0 || !hasStopped()); ++m) {
+    const MaterialBinding& binding = task.of(m);
+    try {
+      located(task, -1, m, at, [&] {
+        const int position = binding.accesses.front().variable;
+        heard_stop_ = !relocation_.run(m, position, binding.carried, hasStopped()) || heard_stop_;
+      });
+    } catch (const NumericalError& error) {
+      note(task, m, error);
+    }
   }
 }
 
 void Scheduler::runOnPatches(CompiledTask& task, int material, const StepInfo& at) {
-  const MaterialBinding& binding = task.materials[static_cast<std::size_t>(material - firstMaterial(task))];
   FirstRefusal first;
   std::atomic<bool> kept = true;
   forEachPatch(task, [&](const grid::Patch& patch) {
     try {
+      if (task.task.acrossMaterials) return runAcrossMaterials(task, patch, at);
       runPlaced(task, patch, material, at);
-      if (!keepsBounds(*warehouse_, binding.bounded, patch)) kept = false;
+      if (!keepsBounds(*warehouse_, task.of(material).bounded, patch)) kept = false;
     } catch (const NumericalError& error) {
       first.note(error, patch.id());
     }
   });
   gatherReductions(task);
-  if (kept && !first.error()) return;
-  if (askedBy(task)) return;  // what was computed will not be used
-  if (first.error()) throw NumericalError(*first.error());
-  refuseBroken(task, binding, material, at);
-}
-
-void Scheduler::refuseBroken(const CompiledTask& task, const MaterialBinding& binding, int material,
-                             const StepInfo& at) {
-  if (const auto broken = firstBroken(*warehouse_, binding.bounded))
-    throw NumericalError(fmt::format("{} ({})", broken->sentence, placeOf(task, broken->patch, material, at)), "",
-                         broken->label);
+  if (first.error())
+    note(task, material, *first.error());
+  else if (!kept)
+    noteBroken(task, material);
 }
 
 void Scheduler::runAcrossMaterials(CompiledTask& task, const grid::Patch& patch, const StepInfo& at) {
@@ -179,7 +190,7 @@ void Scheduler::runAcrossMaterials(CompiledTask& task, const grid::Patch& patch,
 }
 
 void Scheduler::runPlaced(CompiledTask& task, const grid::Patch& patch, int material, const StepInfo& at) {
-  const MaterialBinding& binding = task.materials[static_cast<std::size_t>(material - firstMaterial(task))];
+  const MaterialBinding& binding = task.of(material);
   located(task, patch.id(), material, at, [&] {
     if (task.task.kind == TaskKind::newParticles) {
       ParticleMaker maker(binding.accesses.size());

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "core/base/threads.hpp"
+#include "core/tasks/outcome.hpp"
 #include "core/tasks/task_graph.hpp"
 
 namespace tushar::tasks {
@@ -16,18 +16,26 @@ struct StepInfo {
   bool mayRepeat = false;  ///< whether a NumericalError asks for the step to be repeated, instead of being thrown
 };
 
+/// Names where an error happened: task, patch (-1: on all at once), material (-1: none), step, time.
+std::string placeOf(const CompiledTask& task, int patch, int material, const StepInfo& at);
+
 /// Runs compiled task graphs on the warehouse of this rank.
 ///
 /// The patches of a task are worked through by all threads at once. No result depends on how many there are.
+///
+/// Ranks go through the same graph, each on its patches, and wait for one another only where one needs values of
+/// another: for ghosts, in a relocation, and once at the end of the graph, where reductions are merged and all agree on
+/// how it went. A rank on which a task fails runs no other, and neither does one that should read its values.
 class Scheduler {
  public:
   explicit Scheduler(data::Warehouse& warehouse, int threads = 1)
-      : warehouse_(&warehouse), threads_(threads), relocation_(warehouse, threads_) {}
+      : warehouse_(&warehouse), threads_(threads), exchange_(warehouse, threads_), relocation_(warehouse, threads_) {}
 
   /// Runs every task on every patch, and looks whether what it wrote keeps the bounds of its labels. The old generation
   /// is never touched. A body that throws and a broken bound end the run of the graph: a NumericalError comes out with
-  /// task, patch, material, step and time added; anything else as TaskError. A task is run on all patches in any case, and
-  /// of several errors the first comes out: that of the first cell, or patch.
+  /// task, patch, material, step and time added, the same on all ranks; anything else as TaskError on the rank where it
+  /// happened. A task is run on all patches in any case, and of several errors the first comes out: that of the first
+  /// cell, or patch.
   ///
   /// If a task asks by recomputeTimeStep for a smaller time step, the graph ends with that task and the factor and
   /// reason come back; running the graph once more repeats the step. Else nothing comes back: all is done.
@@ -39,23 +47,35 @@ class Scheduler {
   const Threads& threads() const { return threads_; }
 
  private:
-  std::optional<data::Minimum> askedBy(const CompiledTask& task);
-  std::optional<data::Minimum> runOrAsk(CompiledTask& task, const StepInfo& at);
+  bool hasStopped() const { return !outcome_.isNone() || heard_stop_; }
+  void start(const TaskGraph& graph);
+  void runTask(CompiledTask& task, int number, const StepInfo& at);
   void runWork(CompiledTask& task, const StepInfo& at);
+  void relocate(const CompiledTask& task, const StepInfo& at);
   template <class Work>
   void forEachPatch(const CompiledTask& task, const Work& work);
   void divideReductions(const CompiledTask& task);
   void gatherReductions(const CompiledTask& task);
   void runOnPatches(CompiledTask& task, int material, const StepInfo& at);
-  void refuseBroken(const CompiledTask& task, const MaterialBinding& binding, int material, const StepInfo& at);
   void runAcrossMaterials(CompiledTask& task, const grid::Patch& patch, const StepInfo& at);
   void runPlaced(CompiledTask& task, const grid::Patch& patch, int material, const StepInfo& at);
   void allocateOutputs(const MaterialBinding& binding, const grid::Patch& patch, int material);
   void free(const CompiledTask& task);
 
+  std::optional<data::Minimum> askedBy(const CompiledTask& task);
+  void note(const CompiledTask& task, int material, const NumericalError& error);
+  void noteBroken(const CompiledTask& task, int material);
+  void agree(const TaskGraph& graph);
+  NumericalError whatBroke(TaskGraph& graph, const StepInfo& at);
+
   data::Warehouse* warehouse_;
   Threads threads_;
+  Exchange exchange_;
   Relocation relocation_;
+  Outcome outcome_;                      ///< of the run of a graph
+  std::optional<NumericalError> error_;  ///< behind it, on the rank where a body threw it
+  bool heard_stop_ = false;              ///< a rank whose values this one needs has stopped
+  int running_ = 0;                      ///< place of the task in its graph
 };
 
 }  // namespace tushar::tasks

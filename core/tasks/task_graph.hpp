@@ -7,6 +7,7 @@
 #include "core/tasks/broken_value.hpp"
 #include "core/tasks/connect.hpp"
 #include "core/tasks/context.hpp"
+#include "core/tasks/exchange.hpp"
 #include "core/tasks/place.hpp"
 #include "core/tasks/plan.hpp"
 #include "core/tasks/prune.hpp"
@@ -29,23 +30,18 @@ struct MaterialBinding {
   std::vector<int> freed;        ///< variables whose memory is free afterwards
 };
 
-/// A fill of ghosts, by number of variable.
-struct NumberedFill {
-  int variable;
-  data::Generation generation, set;
-  bool particles;
-};
-
 /// A task that is kept, with everything settled that the time loop would otherwise have to look up.
 struct CompiledTask {
   Task task;
   std::vector<MaterialBinding> materials;  ///< one for a task that belongs to no material
   std::vector<NumberedFill> fills;
-  std::vector<int> reductions;  ///< to be reset before the list runs
-  std::vector<int> readReductions;
+  std::vector<int> reductions, readReductions;  ///< that it computes, and reads
   int recomputeTimeStep = -1;   ///< number of that reduction, for a task that may ask for the step to be repeated
   double seconds = 0;           ///< time spent in it so far
   double exchangeSeconds = 0;   ///< of that, time spent filling ghosts before it
+
+  /// What depends on a material (-1 for a task that belongs to none).
+  const MaterialBinding& of(int material) const { return materials[task.perMaterial() ? static_cast<std::size_t>(material) : 0]; }
 };
 
 /// A compiled task list.
@@ -66,6 +62,8 @@ class TaskGraph {
   const std::vector<Placement>& placements() const { return placements_; }
   /// Variables that are new at the end and become old with the swap.
   const std::vector<int>& results() const { return results_; }
+  /// Reductions that its tasks compute.
+  const std::vector<int>& reductions() const { return reductions_; }
   /// Materials whose particle set is new at the end.
   const std::vector<int>& changedSets() const { return changed_sets_; }
   /// Most materials of any task.
@@ -92,7 +90,7 @@ class TaskGraph {
   std::vector<data::Generation> sets_;
   std::vector<std::vector<std::string>> lifetimes_;
   std::vector<CompiledTask> tasks_;
-  std::vector<int> results_, changed_sets_;
+  std::vector<int> results_, changed_sets_, reductions_;
   int materials_ = 0;
 };
 

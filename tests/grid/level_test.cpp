@@ -54,7 +54,7 @@ TEST(Level, TilesTheGridWithPatches) {
     for (const Patch& patch : level.patches())
       forEach<3>(patch.cells(), [&](const Index3& cell) {
         ++owners[level.cells().offset(cell)];
-        EXPECT_EQ(&level.patchOf(cell), &patch);
+        EXPECT_EQ(level.patchOf(cell).id(), patch.id());
       });
     EXPECT_EQ(std::set<int>(owners.begin(), owners.end()), std::set<int>{1});
   }
@@ -64,7 +64,7 @@ TEST(Level, FindsThePatchesThatOverlapABox) {
   const Level level(domain({{16, 6, 1}}, {{4, 3, 1}}));
 
   std::set<int> found;
-  for (const Patch* patch : level.patchesOverlapping({{{3, 1, 0}}, {{5, 2, 1}}})) found.insert(patch->id());
+  for (const Patch& patch : level.patchesOverlapping({{{3, 1, 0}}, {{5, 2, 1}}})) found.insert(patch.id());
 
   EXPECT_EQ(found, (std::set<int>{0, 1}));
 }

@@ -77,7 +77,7 @@ class Weather : public test::Runner {
 std::string fileOf(Weather& weather) {
   const std::string path = test::temporaryFolder() + "state.h5";
   output::Hdf5File file(path, false, 0);
-  writeState(file, weather.warehouse, weather.names);
+  writeState(&file, weather.warehouse, weather.names);
   file.close();
   std::ostringstream text;
   text << std::ifstream(path).rdbuf();

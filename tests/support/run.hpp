@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "core/base/mpi.hpp"
 #include "core/tasks/scheduler.hpp"
 #include "core/tasks/task_list.hpp"
 #include "tests/support/levels.hpp"
@@ -11,8 +12,10 @@ namespace tushar::test {
 /// A grid, a warehouse and a scheduler, to run small task lists on.
 class Runner {
  public:
-  explicit Runner(const grid::Domain& domain, int threads = 1)
-      : level(domain), warehouse(level, table), scheduler(warehouse, threads) {}
+  /// On one of some ranks, or on one alone.
+  explicit Runner(const grid::Domain& domain, int threads = 1,
+                  const mpi::Communicator& ranks = mpi::Communicator::alone())
+      : level(domain, {ranks.rank(), ranks.size()}), warehouse(level, table, ranks), scheduler(warehouse, threads) {}
 
   /// Compiles a list; compile all before the first run.
   tasks::TaskGraph compile(const tasks::TaskList& list, const tasks::Names& wanted, bool repeated = false) {

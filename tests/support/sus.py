@@ -7,6 +7,13 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SUS = str(pathlib.Path(os.environ.get("SUS", ROOT / "build/dev/sus")).resolve())
+# Open MPI refuses root and more ranks than cores unless told otherwise.
+os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+
+
+def on_ranks(count):
+    """What to put before the program to start it on several ranks; nothing for one."""
+    return [] if count == 1 else ["mpirun", "--oversubscribe", "-n", str(count)]
 
 
 class Result:

@@ -5,7 +5,7 @@ import pathlib
 import subprocess
 import tempfile
 
-from sus import ROOT, SUS
+from sus import ROOT, SUS, on_ranks
 
 
 MEMORY = next((path for path in ("/dev/shm",) if os.access(path, os.W_OK)), None)
@@ -15,13 +15,14 @@ class Folder:
     """A temporary folder for the .uda of a scene; `folder.cleanup()` removes it. It is in memory, where waiting for the
     disk takes no time, unless it is wanted on the disk."""
 
-    def __init__(self, on_disk=False):
+    def __init__(self, on_disk=False, ranks=1):
+        self.ranks = ranks
         self.temporary = tempfile.TemporaryDirectory(dir=None if on_disk else MEMORY)
         self.path = pathlib.Path(self.temporary.name)
         self.cleanup = self.temporary.cleanup
 
     def command(self, words, sets):
-        command = [SUS, *map(str, words), "--quiet", "--json", str(self.path / "report.json")]
+        command = [*on_ranks(self.ranks), SUS, *map(str, words), "--quiet", "--json", str(self.path / "report.json")]
         for override in sets:
             command += ["--set", override]
         return command

@@ -1,0 +1,137 @@
+#pragma once
+
+#include <cstddef>
+#include <cstring>
+#include <functional>
+#include <list>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace tushar::mpi {
+
+using Bytes = std::vector<std::byte>;
+
+/// Adds `length` bytes to the end.
+inline void append(Bytes& bytes, const void* from, std::size_t length) {
+  const auto* first = static_cast<const std::byte*>(from);
+  bytes.insert(bytes.end(), first, first + length);
+}
+
+/// Another rank has failed, and has the sentence that says why.
+class FailedElsewhere : public std::runtime_error {
+ public:
+  FailedElsewhere() : std::runtime_error("another rank has failed") {}
+};
+
+/// The ranks that run a simulation together, seen from one of them.
+///
+/// All but send, receive and hasMessage are collective: every rank calls them, in the same order. With one rank they
+/// return at once, and MPI is not needed.
+class Communicator {
+ public:
+  struct Native;
+
+  /// One rank on its own.
+  Communicator() = default;
+  static const Communicator& alone();
+  /// See mpi_native.hpp.
+  explicit Communicator(std::shared_ptr<const Native> native);
+
+  int rank() const { return rank_; }
+  int size() const { return size_; }
+  bool isFirst() const { return rank_ == 0; }
+  bool isAlone() const { return size_ == 1; }
+
+  bool any(bool mine) const;
+  double max(double mine) const;
+  /// The greatest of each.
+  void max(std::span<double> mine) const;
+  long sum(long mine) const;
+  /// Every rank gets `merge(from, into)` over the values of all, in a tree that depends on their number alone, so that
+  /// all get the same bits.
+  void merge(std::span<std::byte> value, const std::function<void(const std::byte* from, std::byte* into)>& merge) const;
+  /// What rank `from` has, on every rank.
+  Bytes broadcast(Bytes bytes, int from = 0) const;
+  /// The same for a value without pointers.
+  template <class T>
+  T broadcast(T value, int from = 0) const {
+    Bytes bytes(sizeof(T));
+    std::memcpy(bytes.data(), &value, sizeof(T));
+    bytes = broadcast(std::move(bytes), from);
+    std::memcpy(&value, bytes.data(), sizeof(T));
+    return value;
+  }
+  std::string broadcast(const std::string& text, int from = 0) const;
+  /// What each rank says, by rank, on every rank. Slow: for errors.
+  std::vector<std::string> gather(const std::string& mine) const;
+  /// The first rank does something that the others do not see fail: throws what it throws there, and FailedElsewhere on
+  /// the others.
+  void onFirst(const std::function<void()>& action) const;
+
+  /// Waits for the next message of rank `from` with this tag.
+  Bytes receive(int from, int tag) const;
+
+  /// The ranks with the same colour among themselves.
+  Communicator split(int colour) const;
+  /// What MPI calls the ranks; null where there is one.
+  const Native* native() const { return native_.get(); }
+
+ private:
+  std::shared_ptr<const Native> native_;
+  int rank_ = 0, size_ = 1;
+};
+
+/// Messages on their way to other ranks; it keeps their bytes until they have gone.
+class Outbox {
+ public:
+  explicit Outbox(const Communicator& ranks);
+  Outbox(const Outbox&) = delete;
+  Outbox& operator=(const Outbox&) = delete;
+  /// Forgets what nobody has received.
+  ~Outbox();
+
+  /// Returns at once.
+  void send(int to, int tag, Bytes bytes);
+  /// Waits until all have gone; their memory is used for later ones.
+  void wait();
+  /// An empty buffer, with the memory of an earlier message where there is one.
+  Bytes buffer();
+  long messages() const { return messages_; }
+
+ private:
+  struct Sent;
+  const Communicator* ranks_;
+  std::list<Sent> sent_;
+  std::vector<Bytes> spare_;
+  long messages_ = 0;
+};
+
+/// MPI for the life of a program: initialised only if a launcher (mpirun, srun) started several processes.
+class Session {
+ public:
+  Session();
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  const Communicator& ranks() const { return ranks_; }
+
+  /// Called by a rank that cannot go on, for whatever reason; `isKnown` where it has a sentence of its own. Where the
+  /// others come here too, within some seconds, all may end in order, and the first that has a sentence is to say it:
+  /// true for that one, whose exit code all get. Where they do not, this rank is to say what it knows and to end them by
+  /// `abort`.
+  bool speaks(bool isKnown, int& exitCode);
+  /// Whether all ranks have come to `speaks`.
+  bool isAgreed() const { return is_agreed_; }
+  /// Ends all ranks at once.
+  [[noreturn]] void abort(int exitCode);
+
+ private:
+  Communicator ranks_, meeting_;
+  bool is_open_ = false, is_agreed_ = true;
+};
+
+}  // namespace tushar::mpi

@@ -1,0 +1,28 @@
+#pragma once
+
+// MPI itself, for those few files that hand it on to a library.
+
+#define OMPI_SKIP_MPICXX 1
+#include <mpi.h>
+
+#include "core/base/mpi.hpp"
+
+namespace tushar::mpi {
+
+struct Communicator::Native {
+  MPI_Comm ranks = MPI_COMM_NULL;
+
+  explicit Native(MPI_Comm all) : ranks(all) {}
+  Native(const Native&) = delete;
+  Native& operator=(const Native&) = delete;
+  ~Native() {
+    int finalized = 0;
+    MPI_Finalized(&finalized);
+    if (!finalized) MPI_Comm_free(&ranks);
+  }
+};
+
+/// The ranks as MPI knows them. MPI must have been initialised where there is one rank.
+inline MPI_Comm handleOf(const Communicator& ranks) { return ranks.native() ? ranks.native()->ranks : MPI_COMM_SELF; }
+
+}  // namespace tushar::mpi

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/grid/box.hpp"
+
+namespace tushar::grid {
+
+/// The blocks that cuts along each axis make, in Morton's order (G. M. Morton, A Computer Oriented Geodetic Data Base and
+/// a New Technique in File Sequencing, IBM 1966): neighbours on the curve are near in space, so consecutive blocks have
+/// few faces to others.
+///
+/// Any number of blocks along an axis. Nothing is kept for each block: a place is found by halving the grid, in as many
+/// steps as the number of blocks has bits.
+class MortonCurve {
+ public:
+  /// `cuts[d]`: the first cell of each block along axis d, then the end.
+  using Cuts = std::array<std::vector<int>, 3>;
+  explicit MortonCurve(Cuts cuts);
+
+  /// Number of blocks.
+  int blocks() const { return static_cast<int>(all_.size()); }
+  std::uint64_t cells() const { return cellsOf(all_); }
+  /// Place of a block on the curve, from 0.
+  int placeOf(const Index3& block) const;
+  Index3 blockAt(int place) const;
+  /// The cells of a block.
+  Box cellsAt(const Index3& block) const;
+  /// Cells of all blocks before a place.
+  std::uint64_t cellsBefore(int place) const;
+  /// The first place that has `cells` or more before it.
+  int placeAfter(std::uint64_t cells) const;
+  /// The block along an axis that holds a cell.
+  int blockAlong(int axis, int cell) const;
+
+ private:
+  std::uint64_t cellsOf(const Box& blocks) const;
+  /// Halves the grid down to one block: `isUpper(lower half, axis)` says which half to go on with. That block.
+  template <class IsUpper>
+  Index3 descend(IsUpper&& isUpper) const;
+
+  Cuts cuts_;
+  Box all_;       ///< of blocks
+  int bits_ = 0;  ///< of the greatest number of a block along an axis
+};
+
+}  // namespace tushar::grid

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "core/base/mpi.hpp"
+#include "core/data/warehouse.hpp"
+
+namespace tushar::tasks {
+
+/// A particle variable that outlives a relocation, and where its values stand before.
+struct Carried {
+  int variable;
+  data::Generation from;
+};
+
+/// A particle that goes to another rank.
+struct Emigrant {
+  ParticleId id;
+  Index3 cell;       ///< where it comes
+  int patch, place;  ///< where it was
+};
+
+/// Takes particles from rank to rank with all their values: one message to each neighbour.
+///
+/// A particle may go to any cell of the grid. Ranks expect messages from their neighbours only; where some particle goes
+/// farther, which all ranks agree on before, they expect one from every rank.
+class Emigration {
+ public:
+  explicit Emigration(data::Warehouse& warehouse) : warehouse_(&warehouse), outbox_(warehouse.ranks()) {}
+
+  /// A relocation begins: nobody leaves yet.
+  void start();
+  void add(int rank, const Emigrant& particle) { leaving_[rank].push_back(particle); }
+  /// Whether a particle goes to a rank that is no neighbour.
+  bool goesFar();
+
+  /// Sends those that leave and takes in those that come, with the values of all that is carried; together with all
+  /// ranks, or where `goFar` is false with the neighbours.
+  void run(const std::vector<Carried>& carried, bool goFar);
+  /// Those that have come.
+  const std::vector<Emigrant>& arrived() const { return arrived_; }
+  /// Their values of a carried variable, one after the other.
+  const std::byte* values(std::size_t carried) const { return values_[carried].data(); }
+
+ private:
+  const std::vector<int>& neighbours();
+  mpi::Bytes packed(const std::vector<Emigrant>& particles, const std::vector<Carried>& carried);
+  void unpack(const mpi::Bytes& message, const std::vector<Carried>& carried);
+
+  data::Warehouse* warehouse_;
+  mpi::Outbox outbox_;
+  bool knows_neighbours_ = false;
+  std::vector<int> neighbours_;
+  std::map<int, std::vector<Emigrant>> leaving_;  ///< by rank
+  std::vector<Emigrant> arrived_;
+  std::vector<mpi::Bytes> values_;  ///< by carried variable
+};
+
+}  // namespace tushar::tasks

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <map>
+#include <set>
+#include <vector>
+
+#include "core/grid/level.hpp"
+
+namespace tushar::tasks {
+
+/// Ghosts of a patch that one other patch has, or the patch itself at its periodic image.
+struct GhostCopy {
+  int from, to;   ///< patches
+  int rank;       ///< that has `from`
+  grid::Box box;  ///< cells or nodes around `to`
+  Index3 shift;   ///< in cells: what stands at `box` stands at `box` - shift on `from`
+};
+
+/// What moves between patches so that each has its ghosts, settled once for a layout. Every rank works out its part
+/// from the geometry: a receiver and a sender list the copies between them in the same order, without a message.
+struct GhostPlan {
+  std::vector<std::vector<GhostCopy>> into;        ///< by patch of this rank
+  std::vector<bool> isClosed;                      ///< by patch of this rank: whether it needs no other rank
+  std::map<int, std::vector<GhostCopy>> outgoing;  ///< by rank that they go to
+  std::set<int> incoming;                          ///< ranks that others come from
+};
+
+/// For cells (particles among them) or nodes within `width` of each patch. Each ghost comes from one patch.
+GhostPlan planGhosts(const grid::Level& level, bool nodes, int width);
+
+}  // namespace tushar::tasks

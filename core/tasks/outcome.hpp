@@ -1,0 +1,38 @@
+#pragma once
+
+#include <compare>
+#include <limits>
+#include <optional>
+
+#include "core/base/error.hpp"
+#include "core/base/mpi.hpp"
+#include "core/data/reduction.hpp"
+
+namespace tushar::tasks {
+
+/// Where a run of a graph ends before its last task: what the first task in its order came to, on whichever ranks. It
+/// goes into messages as it is.
+///
+/// A task that asks for a smaller time step comes before one that breaks a bound, since what it computed is not used.
+struct Outcome {
+  /// Of several faults of a task the least counts, so that patches and ranks do not matter: first those that bodies
+  /// throw, by cell, then broken bounds, by the place of the variable among those of the task.
+  enum class Kind { asks, throws, breaks };
+  static constexpr int none = std::numeric_limits<int>::max();
+
+  int task = none;  ///< place in the graph
+  Kind kind = Kind::asks;
+  int material = 0;
+  std::uint64_t place = 0;  ///< cell, or place of the variable
+  int rank = 0;
+  data::Minimum factor{};  ///< of one that asks
+  data::Reason value{};    ///< the value that cannot be, or the task
+
+  bool isNone() const { return task == none; }
+  void merge(const Outcome& other);
+};
+
+/// The error that one rank has, on all of them.
+NumericalError told(const mpi::Communicator& ranks, const std::optional<NumericalError>& mine, int from);
+
+}  // namespace tushar::tasks

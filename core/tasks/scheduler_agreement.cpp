@@ -1,0 +1,79 @@
+#include <fmt/format.h>
+
+#include "core/tasks/scheduler.hpp"
+
+// How the ranks agree on how a graph went.
+
+namespace tushar::tasks {
+
+namespace {
+
+/// Calls `visit(slot, place of its bytes)` for each reduction of a graph; the number of bytes.
+template <class Visit>
+std::size_t forEachReduction(data::Warehouse& warehouse, const TaskGraph& graph, Visit&& visit) {
+  std::size_t place = sizeof(Outcome);
+  for (const int number : graph.reductions()) {
+    data::ReductionSlot& slot = warehouse.slot(number);
+    visit(slot, place);
+    place += slot.bytes().size();
+  }
+  return place;
+}
+
+}  // namespace
+
+void Scheduler::note(const CompiledTask& task, int material, const NumericalError& error) {
+  const auto value = data::Reason::of(error.value().empty() ? task.task.name : error.value());
+  const Outcome before = outcome_;
+  outcome_.merge({running_, Outcome::Kind::throws, material, error.cell(), warehouse_->ranks().rank(), {}, value});
+  if (before.task != outcome_.task || before.kind != outcome_.kind || before.material != outcome_.material) error_ = error;
+}
+
+void Scheduler::noteBroken(const CompiledTask& task, int material) {
+  const auto& bounded = task.of(material).bounded;
+  const std::size_t place = firstThatBreaks(*warehouse_, bounded);
+  const auto value = data::Reason::of(warehouse_->table()[bounded[place].variable].label->name);
+  outcome_.merge({running_, Outcome::Kind::breaks, material, place, warehouse_->ranks().rank(), {}, value});
+}
+
+/// Merges the outcome and the reductions of all ranks, in one message to each.
+void Scheduler::agree(const TaskGraph& graph) {
+  if (warehouse_->ranks().isAlone()) return;
+  const trace::Span span(trace::Kind::wait, "agree on how it went");
+  mpi::Bytes mine(forEachReduction(*warehouse_, graph, [](auto&, std::size_t) {}));
+  std::memcpy(mine.data(), &outcome_, sizeof(Outcome));
+  forEachReduction(*warehouse_, graph, [&](data::ReductionSlot& slot, std::size_t place) {
+    std::memcpy(mine.data() + place, slot.bytes().data(), slot.bytes().size());
+  });
+  warehouse_->ranks().merge(mine, [&](const std::byte* from, std::byte* into) {
+    Outcome one, other;
+    std::memcpy(&one, into, sizeof(Outcome));
+    std::memcpy(&other, from, sizeof(Outcome));
+    one.merge(other);
+    std::memcpy(into, &one, sizeof(Outcome));
+    forEachReduction(*warehouse_, graph,
+                     [&](data::ReductionSlot& slot, std::size_t place) { slot.merge(from + place, into + place); });
+  });
+  std::memcpy(&outcome_, mine.data(), sizeof(Outcome));
+  forEachReduction(*warehouse_, graph, [&](data::ReductionSlot& slot, std::size_t place) {
+    std::memcpy(slot.bytes().data(), mine.data() + place, slot.bytes().size());
+  });
+}
+
+/// The sentence about a broken bound tells of values on all ranks, as they were after the task. Where other ranks have
+/// gone on since, the graph is run once more up to there.
+NumericalError Scheduler::whatBroke(TaskGraph& graph, const StepInfo& at) {
+  const Outcome outcome = outcome_;
+  if (!warehouse_->ranks().isAlone()) {
+    start(graph);
+    for (int t = 0; t <= outcome.task; ++t) {
+      if (t > 0) free(graph.tasks()[static_cast<std::size_t>(t - 1)]);
+      runTask(graph.tasks()[static_cast<std::size_t>(t)], t, at);
+    }
+  }
+  const CompiledTask& task = graph.tasks()[static_cast<std::size_t>(outcome.task)];
+  const auto broken = firstBroken(*warehouse_, task.of(outcome.material).bounded);
+  return {fmt::format("{} ({})", broken->sentence, placeOf(task, broken->patch, outcome.material, at)), "", broken->label};
+}
+
+}  // namespace tushar::tasks

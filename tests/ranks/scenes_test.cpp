@@ -1,0 +1,96 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "components/components.hpp"
+#include "core/simulation/scene.hpp"
+#include "tests/ranks/ranks.hpp"
+
+// The same bits on any ranks and patches.
+
+namespace tushar::simulation {
+
+namespace {
+
+using test::onRanks;
+namespace fs = std::filesystem;
+
+/// Number of steps and fingerprint of a scene on some ranks, told to all of them.
+std::string resultOf(const std::string& scene, std::vector<std::string> sets, const mpi::Communicator& ranks) {
+  sets.push_back("DataArchiver/outputInterval=0");
+  Problem problem = readScene(scene, sets, catalogue(), test::shareOf(ranks));
+  problem.archive.saves.clear();
+  problem.archive.checkpoint.reset();
+  RunOptions options;
+  options.quiet = true;
+  const Report report = Simulation(std::move(problem), options, std::chrono::steady_clock::now(), ranks).run();
+  return ranks.broadcast(std::to_string(report.steps) + " " + report.fingerprint + " " + std::to_string(report.particles));
+}
+
+std::string textOf(const std::string& scene) {
+  std::ifstream file(scene);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// The number of axes of a scene with several cells.
+int dimensionOf(const std::string& scene) {
+  const Problem problem = readScene(scene, {}, catalogue());
+  return problem.level->dimension();
+}
+
+/// On 2, 3 and 4 ranks, each with another of the layouts from the `first` on, comes what one rank and one patch give.
+void expectSame(const std::string& scene, const std::vector<std::string>& layouts, std::vector<std::string> sets,
+                std::size_t first = 0) {
+  SCOPED_TRACE(scene);
+  std::string expected;
+  const auto withLayout = [&](const std::string& layout) {
+    std::vector<std::string> all = sets;
+    all.push_back("Grid/Level/Box/patches=" + layout);
+    return all;
+  };
+  onRanks(1, [&](const mpi::Communicator& one) { expected = resultOf(scene, withLayout("[1,1,1]"), one); });
+  expected = test::allRanks().broadcast(expected);
+  for (int count = 2; count <= test::allRanks().size(); ++count)
+    onRanks(count, [&](const mpi::Communicator& ranks) {
+      const std::string& layout = layouts[(first + static_cast<std::size_t>(count)) % layouts.size()];
+      EXPECT_EQ(resultOf(scene, withLayout(layout), ranks), expected) << count << " ranks, patches " << layout;
+    });
+}
+
+/// Every explicit scene, but for those that are made to fail.
+std::vector<std::string> scenes() {
+  std::vector<std::string> found;
+  for (const auto& entry : fs::recursive_directory_iterator("ups"))
+    if (entry.path().extension() == ".ups" && entry.path().parent_path().filename() != "stability" &&
+        textOf(entry.path().string()).find("implicit") == std::string::npos)
+      found.push_back(entry.path().string());
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+const std::vector<std::string> layouts[] = {{"[1,1,1]", "[2,1,1]", "[7,1,1]", "[64,1,1]"},
+                                            {"[1,1,1]", "[2,1,1]", "[1,7,1]", "[8,8,1]"},
+                                            {"[1,1,1]", "[2,1,1]", "[1,7,1]", "[4,4,4]"}};
+const char* const steps[] = {"Time/max_Timesteps=6", "Time/max_Timesteps=5", "Time/max_Timesteps=2"};
+
+}  // namespace
+
+TEST(Ranks, GiveTheSameBitsOnEveryScene) {
+  std::size_t turn = 0;
+  for (const std::string& scene : scenes()) {
+    const auto axes = static_cast<std::size_t>(dimensionOf(scene) - 1);
+    expectSame(scene, layouts[axes], {steps[axes]}, turn++);
+  }
+}
+
+TEST(Ranks, GiveTheSameBitsWhereParticlesAreRedistributed) {
+  const std::string mode = "MPM/gas_dynamics/redistribute/mode=reseed", tracked = "MPM/gas_dynamics/volume_model=tracked";
+  expectSame("ups/mpm/sod_redistribute.ups", {"[7,1,1]", "[64,1,1]"}, {"Time/max_Timesteps=40"});
+  expectSame("ups/mpm/sod_redistribute.ups", {"[64,1,1]"}, {"Time/max_Timesteps=40", mode, tracked});
+}
+
+}  // namespace tushar::simulation

@@ -1,0 +1,212 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/base/error.hpp"
+#include "tests/ranks/ranks.hpp"
+
+// Ghosts, relocation, reductions and faults over several ranks.
+
+namespace tushar::tasks {
+
+namespace {
+
+using data::Bound;
+using data::CellLabel;
+using data::CellView;
+using data::Minimum;
+using data::NodeLabel;
+using data::NodeView;
+using data::ParticleLabel;
+using data::ParticleView;
+using data::Sum;
+using grid::forEach;
+using grid::Patch;
+using test::onRanks;
+
+constexpr CellLabel<double> number{"c.number", "1", "number of the cell", Bound::positive};
+constexpr NodeLabel<double> nodeNumber{"g.number", "1", "number of the node"};
+constexpr ParticleLabel<Vec<2>> x{"p.x", "m", "position"};
+constexpr ParticleLabel<double> mark{"p.mark", "1", "a value that belongs to the id"};
+constexpr data::ReductionLabel<Sum> wrong{"wrong", "1", "values that are not what they should be"};
+constexpr data::ReductionLabel<Sum> count{"count", "1", "particles"};
+
+struct Material {
+  std::string name;
+};
+const std::vector<Material> gas{{"gas"}};
+
+/// Of a cell or node, the same for all periodic images of a grid of 12 x 10 cells.
+double numberOf(const Index<2>& at, bool periodic) {
+  const auto wrapped = [&](int k, int cells) { return periodic ? (k % cells + cells) % cells : k; };
+  return 1 + wrapped(at[0], 12) + 1000 * wrapped(at[1], 10);
+}
+
+grid::Domain plane(const Index3& patches, bool periodic) {
+  grid::Domain domain = test::domain({{12, 10, 1}}, patches);
+  if (periodic) domain.boundaries = {};
+  for (int axis = 0; axis < 2; ++axis) domain.periodic[axis] = periodic ? 1 : 0;
+  for (const int side : {0, 1}) domain.boundaries.face(2, side) = {{"Symmetric", "symmetry", Vec3::Zero()}};
+  return domain;
+}
+
+double valueOf(test::Runner& run, const char* reduction) {
+  return run.warehouse.reductionValues(run.table.find(reduction, -1)).at(0);
+}
+
+/// Ghosts within `width` that differ from what their owners have, on all ranks.
+double differingGhosts(const mpi::Communicator& ranks, const Index3& patches, int width, bool periodic) {
+  test::Runner run(plane(patches, periodic), 1, ranks);
+  TaskList list;
+  list.perPatch("fill", [periodic](const Patch& patch, CellView<double> cells, NodeView<double> nodes) {
+    forEach<2>(patch.cells(), [&](const Index<2>& at) { cells[at] = numberOf(at, periodic); });
+    forEach<2>(patch.nodes(), [&](const Index<2>& at) { nodes[at] = numberOf(at, periodic); });
+  }, computes(number), computes(nodeNumber));
+  list.perPatch("check", [periodic](const Patch&, CellView<const double> cells, NodeView<const double> nodes, Sum& bad) {
+    forEach<2>(cells.box(), [&](const Index<2>& at) { bad.add(cells[at] != numberOf(at, periodic)); });
+    forEach<2>(nodes.box(), [&](const Index<2>& at) { bad.add(nodes[at] != numberOf(at, periodic)); });
+  }, requiresNew(number, width), requiresNew(nodeNumber, width), computes(wrong));
+  TaskGraph graph = run.compile(list, {"wrong"});
+  run.step(graph);
+  return valueOf(run, "wrong");
+}
+
+/// Two particles in each cell, which jump by some cells in each step, on a periodic grid.
+class Swarm {
+ public:
+  Swarm(const mpi::Communicator& ranks, const Index3& patches, double jump) : run(plane(patches, true), 1, ranks) {
+    TaskList start, advance;
+    start.newParticles("create", create, gas, creates(x), creates(mark));
+    advance.perMaterial("move", [jump](const Patch& patch, const Material&, ParticleView<const Vec<2>> from,
+                                       ParticleView<Vec<2>> to) {
+      for (int p = 0; p < from.owned(); ++p)
+        to[p] = from[p] + Vec<2>(jump * patch.level().spacing(0), std::sin(40 * from[p][0]) * jump * patch.level().spacing(1));
+    }, gas, requiresOld(x), computes(x));
+    advance.relocate(x, gas);
+    advance.perMaterial("inspect", inspect, gas, requiresNew(x, 1), requiresNew(data::particleId, 1),
+                        requiresNew(mark, 1), computes(wrong), computes(count));
+    begin = run.compile(start, {"p.x", "p.mark"});
+    step = run.compile(advance, {"p.x", "p.mark", "wrong", "count"}, true);
+    run.step(begin);
+  }
+  /// What is wrong after some steps, and how many particles there are.
+  std::pair<double, double> after(int steps) {
+    double all = 0;
+    for (int k = 0; k < steps; ++k) {
+      run.step(step);
+      all += valueOf(run, "wrong");
+    }
+    return {all, valueOf(run, "count")};
+  }
+
+ private:
+  static void create(const Patch& patch, const Material&, ParticleMaker& maker, std::vector<Vec<2>>& at,
+                     std::vector<double>& marks) {
+    forEach<2>(patch.cells(), [&](const Index<2>& cell) {
+      for (ParticleId k = 0; k < 2; ++k) {
+        const ParticleId id = 2 * patch.level().cellNumber(cell) + k;
+        maker.add(cell, id);
+        at.push_back(patch.level().cellCentre<2>(cell));
+        marks.push_back(0.5 + static_cast<double>(id));
+      }
+    });
+  }
+  /// Particles in a wrong cell, with another's mark or out of order; ghosts stand beyond the grid.
+  static void inspect(const Patch& patch, const Material&, ParticleView<const Vec<2>> at, ParticleView<const ParticleId> ids,
+                      ParticleView<const double> marks, Sum& bad, Sum& all) {
+    forEach<2>(at.cells(), [&](const Index<2>& cell) {
+      ParticleId before = 0;
+      for (const int p : at.in(cell)) {
+        for (int d = 0; d < 2; ++d)
+          bad.add(std::abs(at[p][d] - patch.level().cellCentre<2>(cell)[d]) > 0.5001 * patch.level().spacing(d));
+        bad.add(marks[p] != 0.5 + static_cast<double>(ids[p]) || (before > 0 && ids[p] <= before));
+        before = ids[p];
+      }
+    });
+    all.add(at.owned());
+  }
+
+  test::Runner run;
+  TaskGraph begin, step;
+};
+
+/// What comes of a run in which one task does something to one cell.
+template <class Harm>
+std::string failure(const mpi::Communicator& ranks, bool mayRepeat, const Harm& harm) {
+  test::Runner run(plane({{4, 3, 1}}, false), 1, ranks);
+  TaskList list;
+  list.perPatch("harm", [harm](const Patch& patch, CellView<double> cells, Minimum& factor) {
+    forEach<2>(patch.cells(), [&](const Index<2>& at) { cells[at] = numberOf(at, false); });
+    harm(patch, cells, factor);
+  }, computes(number), computes(data::recomputeTimeStep));
+  list.perPatch("neighbours", [](const Patch&, CellView<const double> cells, Sum& bad) {
+    forEach<2>(cells.box(), [&](const Index<2>& at) { bad.add(cells[at]); });
+  }, requiresNew(number, 1), computes(wrong));
+  TaskGraph graph = run.compile(list, {"wrong", "recomputeTimeStep"});
+  run.warehouse.grow(0);
+  StepInfo at;
+  at.mayRepeat = mayRepeat;
+  try {
+    const auto asked = run.scheduler.run(graph, at);
+    return asked ? std::string(asked->reason.text()) + " " + std::to_string(asked->value) : "";
+  } catch (const NumericalError& error) {
+    return error.what();
+  }
+}
+
+void breakTwo(const Patch& patch, CellView<double> cells, Minimum&) {
+  for (const Index<2>& bad : {Index<2>{{2, 6}}, Index<2>{{9, 2}}})
+    if (patch.cells().contains(bad)) cells[bad] = -1;
+}
+void throwTwo(const Patch& patch, CellView<double>, Minimum&) {
+  for (const Index<2>& bad : {Index<2>{{2, 6}}, Index<2>{{9, 2}}})
+    if (patch.cells().contains(bad))
+      throw NumericalError("cell " + std::to_string(patch.level().cellNumber(bad)), "", "value", patch.level().cellNumber(bad));
+}
+void askAndThrow(const Patch& patch, CellView<double> cells, Minimum& factor) {
+  if (patch.cells().contains(Index<2>{{11, 9}})) factor.add(0.4, "far");
+  throwTwo(patch, cells, factor);
+}
+
+}  // namespace
+
+TEST(Ranks, FillGhostsFromOneAnother) {
+  for (const int ranks : {2, 3, 4})
+    onRanks(ranks, [](const mpi::Communicator& some) {
+      for (const Index3& patches : {Index3{{2, 1, 1}}, {{4, 3, 1}}, {{12, 10, 1}}})
+        for (const bool periodic : {false, true})
+          EXPECT_EQ(differingGhosts(some, patches, periodic ? 3 : 1, periodic), 0)
+              << some.size() << " ranks, " << patches[0] << " x " << patches[1] << " patches";
+    });
+}
+
+TEST(Ranks, HandParticlesToOneAnother) {
+  for (const int ranks : {2, 4})
+    onRanks(ranks, [](const mpi::Communicator& some) {
+      for (const Index3& patches : {Index3{{2, 1, 1}}, {{12, 10, 1}}})
+        for (const double jump : {0.3, 5.2})  // the second to ranks that are no neighbours
+          EXPECT_EQ(Swarm(some, patches, jump).after(4), std::pair(0.0, 240.0)) << some.size() << " ranks, jump " << jump;
+    });
+}
+
+TEST(Ranks, TellTheSameOfAFaultOnAnyOfThem) {
+  for (const auto& harm : {breakTwo, throwTwo, askAndThrow}) {
+    const std::string alone = failure(mpi::Communicator::alone(), false, harm);
+    const std::string repeated = failure(mpi::Communicator::alone(), true, harm);
+    EXPECT_NE(alone, "");
+    for (const int ranks : {2, 4})
+      onRanks(ranks, [&](const mpi::Communicator& some) {
+        EXPECT_EQ(failure(some, false, harm), alone);
+        EXPECT_EQ(failure(some, true, harm), repeated);
+      });
+  }
+}
+
+TEST(Ranks, GoOnAfterAFault) {
+  onRanks(3, [](const mpi::Communicator& some) {
+    failure(some, true, throwTwo);
+    EXPECT_EQ(failure(some, false, [](const Patch&, CellView<double>, Minimum&) {}), "");
+  });
+}
+
+}  // namespace tushar::tasks
