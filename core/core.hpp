@@ -38,6 +38,7 @@ using tasks::computes;
 using tasks::creates;
 using tasks::modifies;
 using tasks::ParticleMaker;
+using tasks::RankPatches;
 using tasks::requiresNew;
 using tasks::requiresOld;
 using tasks::startTime;

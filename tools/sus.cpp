@@ -23,7 +23,7 @@ namespace {
 using namespace tushar;
 
 struct Arguments {
-  std::string scene, describe, graph, trace;
+  std::string scene, describe, graph, petsc, trace;
   std::vector<std::string> overrides;
   bool check = false, list = false, restart = false, schedule = false, version = false;
   std::optional<int> checkpoint;  ///< step of the one to restart from
@@ -49,6 +49,15 @@ std::vector<std::string> optionNames(const CLI::App& app) {
   for (const CLI::Option* option : app.get_options())
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   return names;
+}
+
+/// The words as CLI11 takes them, the last first; what follows -petsc is PETSc's and stays as it is.
+std::vector<std::string> backwards(const std::vector<std::string>& given) {
+  std::vector<std::string> words;
+  for (const std::string& word : given)
+    words.push_back(!words.empty() && words.back() == "--petsc" ? word : withTwoDashes(word));
+  std::reverse(words.begin(), words.end());
+  return words;
 }
 
 /// Says which words of the command line mean nothing: the options, as they were written, or else a second scene.
@@ -84,6 +93,7 @@ void declare(CLI::App& app, Arguments& arguments) {
                  "write what each thread did when to a file, for ui.perfetto.dev or chrome://tracing");
   app.add_option("--json", arguments.run.jsonPath, "write the report to a file, as JSON");
   app.add_option("--output", arguments.run.outputFolder, "put the .uda into this folder");
+  app.add_option("--petsc", arguments.petsc, "options for PETSc, in one word: -petsc \"-ksp_monitor -ksp_type gmres\"");
   app.add_flag("--quiet", arguments.run.quiet, "no progress, no report on the screen");
   app.add_flag("--check,--validate", arguments.check, "check the scene and make its start; run and write nothing");
   app.add_flag("--schedule", arguments.schedule, "print the tasks in order, what they read and write, what is left out");
@@ -289,9 +299,8 @@ int main(int count, char** words) {
   declare(app, arguments);
   std::optional<mpi::Session> session;
   try {
-    std::vector<std::string> backwards;
-    for (auto word = given.rbegin(); word != given.rend(); ++word) backwards.push_back(withTwoDashes(*word));
-    app.parse(backwards);
+    app.parse(backwards(given));
+    if (!arguments.petsc.empty()) setenv("PETSC_OPTIONS", arguments.petsc.c_str(), 1);
     const ExitCode code = dispatch(arguments, startedAt, session);
     if (std::fflush(stdout) != 0 || !std::cout.flush()) throw FileError("standard output cannot be written");
     return static_cast<int>(code);

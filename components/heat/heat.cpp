@@ -1,7 +1,9 @@
 #include "components/heat/heat.hpp"
 
+#include "components/heat/conduct_implicitly.hpp"
 #include "core/input/schema.hpp"
 #include "core/simulation/by_dimension.hpp"
+#include "core/solvers/input.hpp"
 
 namespace tushar::heat {
 
@@ -12,13 +14,20 @@ void Heat<D>::scheduleInitialize(TaskList& tasks) const {
 
 template <int D>
 void Heat<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
-  tasks.perPatch("heat::computeStableTimeStep", computeStableTimeStep<D>, with(settings_), computes(delT));
+  if (settings_.theta > 0)
+    tasks.perPatch("heat::allowAnyTimeStep", [](const Patch&, Minimum&) {}, computes(delT));
+  else
+    tasks.perPatch("heat::computeStableTimeStep", computeStableTimeStep<D>, with(settings_), computes(delT));
 }
 
 template <int D>
 void Heat<D>::scheduleTimeAdvance(TaskList& tasks) const {
-  tasks.perPatch("heat::conduct", conduct<D>, with(settings_), requiresOld(c::temperature, 1), requiresOld(delT),
-                 computes(c::temperature));
+  if (settings_.theta > 0)
+    tasks.perRank("heat::conductImplicitly", conductImplicitly<D>, with(settings_), requiresOld(delT),
+                  requiresOld(c::temperature, 1), computes(c::temperature), computes(iterations));
+  else
+    tasks.perPatch("heat::conduct", conduct<D>, with(settings_), requiresOld(c::temperature, 1), requiresOld(delT),
+                   computes(c::temperature));
 }
 
 template <int D>
@@ -128,6 +137,9 @@ const input::Schema<Settings>& schema() {
           .value("specific_heat", &Settings::specificHeat, 1, "J/(kg K)", "c", input::positive())
           .value("cfl", &Settings::cfl, 0.9, "1", "part of the greatest stable time step", input::positive(),
                  input::atMost(1))
+          .choice("time_integrator", &Settings::theta, {{"explicit", 0}, {"backward_euler", 1}, {"crank_nicolson", 0.5}}, 0,
+                  "how time advances; the steps of the implicit ones are those of <Time>")
+          .section("Solver", &Settings::solver, solvers::linearSchema(), "the linear solves of an implicit one")
           .required("temperature", &Settings::temperature, "K", "T at the start", input::WithoutTime());
   return schema;
 }
@@ -137,7 +149,7 @@ const input::Schema<Settings>& schema() {
 simulation::ComponentKind kind() {
   simulation::ComponentKind kind;
   kind.name = "heat";
-  kind.sentence = "explicit heat conduction; the smallest complete component";
+  kind.sentence = "heat conduction, explicit or implicit; the smallest complete component";
   kind.sections = {"Heat"};
   kind.boundaryLabels = {{"Temperature"}, {"Symmetric"}};
   kind.describe = [](std::ostream& out) { schema().describe(out); };

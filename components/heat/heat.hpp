@@ -4,6 +4,7 @@
 #include "core/input/diagnostics.hpp"
 #include "core/input/expression.hpp"
 #include "core/simulation/catalogue.hpp"
+#include "core/solvers/solver.hpp"
 
 namespace tushar::heat {
 
@@ -11,6 +12,7 @@ namespace c {
 inline constexpr CellLabel<double> temperature{"c.temperature", "K", "temperature", Bound::finite};
 }
 inline constexpr ReductionLabel<Sum> totalEnergy{"TotalEnergy", "J", "heat in all cells, from 0 K"};
+inline constexpr ReductionLabel<Maximum> iterations{"KrylovIterations", "1", "iterations of the linear solve"};
 
 /// The `Heat` section.
 struct Settings {
@@ -20,11 +22,13 @@ struct Settings {
   double specificHeat = 1;            ///< c, J/(kg K)
   double cfl = 0.9;                   ///< part of the greatest stable time step
   input::Expression temperature{0.0};  ///< at the start, K
+  double theta = 0;                    ///< part of the new temperature in the flux; 0: explicit in time
+  solvers::LinearSettings solver;      ///< where theta is not 0
 
   double capacity() const { return density * specificHeat; }  ///< rho c, J/(m³ K)
 };
 
-/// Heat conduction, rho c dT/dt = k div grad T, explicit in time, centred in space, in D dimensions.
+/// Heat conduction, rho c dT/dt = div(k grad T), explicit or implicit in time, centred in space, in D dimensions.
 ///
 /// At a face with `Temperature` Dirichlet the value [K] is kept, with Neumann the outward derivative [K/m]; any other
 /// face is insulated. The smallest complete component: copy it with tools/new_component.

@@ -109,7 +109,7 @@ const Schema<ConservingSection>& conservingSchema() {
                  input::between(0.01, 1))
           .ours()
           .optional("longest_particle", &ConservingSection::longestParticle, "1",
-                    "length in cells beyond which a particle is halved (2.5 in one dimension with apic, else 1.4); "
+                    "length in cells beyond which a particle is halved (2.36 in one dimension with apic, else 1.4); "
                     "halving costs accuracy", input::between(1, 2.9))
           .ours()
           .section("artificial_viscosity", &ConservingSection::viscosity, viscosity)
@@ -129,7 +129,7 @@ ConservingGasDynamics settle(const ConservingSection& read, int dimension) {
   method.transfer = read.transfer;
   method.cfl = read.cfl;
   method.advectiveCfl = read.advectiveCfl;
-  method.longestParticle = read.longestParticle.value_or(apic && dimension == 1 ? 2.5 : 1.4);
+  method.longestParticle = read.longestParticle.value_or(apic && dimension == 1 ? 2.36 : 1.4);
   method.viscosity = read.viscosity.value_or(apic ? Viscosity{1, 0.5} : Viscosity{0.25, 0.25});
   method.heatConduction = read.heatConduction;
   method.remap = read.remap;
@@ -176,7 +176,7 @@ const Schema<ObjectSection>& objectSchema() {
                     object.shape = input::readGeometry(element, diagnostics);
                   },
                   input::geometryNames(), "the body's shape; several are united", input::describeGeometry)
-          .required("res", &ObjectSection::res, "1", "particles per cell along x, y, z", input::between(1, 32))
+          .required("res", &ObjectSection::res, "1", "particles per cell along x, y, z", input::between(1, 64))
           .value("velocity", &ObjectSection::velocity, input::VectorExpression(), "m/s", "velocity at the start",
                  input::WithoutTime())
           .optional("temperature", &ObjectSection::temperature, "K",

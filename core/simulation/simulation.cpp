@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/interrupt.hpp"
+#include "core/simulation/error_norms.hpp"
 #include "core/simulation/gather.hpp"
 
 namespace tushar::simulation {
@@ -30,6 +31,9 @@ Simulation::Simulation(Problem problem, const RunOptions& options, Clock::time_p
   if (problem_.archive.checkpoint) checkpoints_.emplace(*problem_.archive.checkpoint, problem_.time.initTime);
   phases_.compile(problem_.analyses, problem_.archive.saves, *problem_.level, table_);
   warehouse_.grow(static_cast<int>(phases_.materials().size()));
+  if (const std::string task = phases_.globalSolve(); !task.empty() && !ranks.isAlone())
+    throw std::runtime_error(fmt::format("the task {} solves over the whole grid, and runs on one rank so far; start it "
+                                         "without mpirun", task));
 }
 
 long Simulation::tryStart() {
@@ -274,11 +278,6 @@ Report Simulation::makeReport() {
   for (const auto& [limit, steps] : time_.limits())
     report.limits.emplace_back(limit.text().empty() ? "unnamed" : limit.text(), steps);
   report.time = time_.time();
-  report.ended = whyEnded();
-  if (failure_) {
-    report.failure = failure_->what();
-    report.advice = failure_->advice();
-  }
   report.particleSteps = static_cast<double>(ranks_->sum(particle_steps_));
   report.wallStartup = wall_startup_;
   report.wallLoop = wall_loop_;
@@ -286,6 +285,11 @@ Report Simulation::makeReport() {
   reportTasks(report);
   reportDrift(report);
   reportErrors(report);
+  report.ended = whyEnded();
+  if (failure_) {
+    report.failure = failure_->what();
+    report.advice = failure_->advice();
+  }
   report.wallOutput = wall_output_;
   report.archive = folder_;
   report.fingerprint = fingerprint(warehouse_, phases_.state(), static_cast<int>(phases_.materials().size()));
@@ -335,14 +339,12 @@ void Simulation::reportErrors(Report& report) {
       continue;
     }
     for (const MeasuredError& error : analysis->errors()) {
-      const std::vector<double> values = reduction(error.label->name);
-      if (values.empty()) continue;
-      ErrorNorms norms{error.field, error.place, {}, std::string(error.label->unit)};
-      for (const std::string& norm : error.norms)
-        norms.norms[norm] = values.size() == 1 ? values[0] : values[norm == "L1" ? 0 : norm == "L2" ? 1 : norm == "max" ? 2 : 3];
-      report.errors.push_back(norms);
+      ErrorNorms norms = normsOf(error, reduction(error.label->name));
+      if (!norms.norms.empty()) report.errors.push_back(std::move(norms));
     }
   }
+  if (failure_) return;
+  if (const auto sentence = unmeasurable(report.errors)) failure_ = advised(NumericalError(*sentence, ""));
 }
 
 }  // namespace tushar::simulation

@@ -8,6 +8,9 @@
 
 namespace tushar::tasks {
 
+/// The patches of a rank, in the order of their ids.
+using RankPatches = std::vector<const grid::Patch*>;
+
 /// An access as an argument of a task: it says what is used, and becomes one parameter of the body.
 template <class Label, AccessKind Kind>
 struct FieldAccess;
@@ -71,6 +74,35 @@ auto bindAll(const FieldAccess<data::FieldLabel<C, T>, Kind>& access, const Task
 template <class Argument>
 decltype(auto) bindAll(const Argument& argument, const TaskContext& context) {
   return argument.bind(context);
+}
+
+/// What an argument becomes for a task that sees the whole rank: for labels a view of each patch, and of each material
+/// there if there are any: `views[patch][material]`.
+template <data::Centring C, class T, AccessKind Kind>
+auto bindRank(const FieldAccess<data::FieldLabel<C, T>, Kind>& access, const TaskContext& context) {
+  std::vector<std::decay_t<decltype(access.bind(context))>> views;
+  for (const TaskContext& patch : context.ofPatches()) views.push_back(access.bind(patch));
+  return views;
+}
+template <class Argument>
+decltype(auto) bindRank(const Argument& argument, const TaskContext& context) {
+  return argument.bind(context);
+}
+template <data::Centring C, class T, AccessKind Kind>
+auto bindRankAll(const FieldAccess<data::FieldLabel<C, T>, Kind>& access, const TaskContext& context) {
+  std::vector<decltype(bindAll(access, context))> views;
+  for (const TaskContext& patch : context.ofPatches()) views.push_back(bindAll(access, patch));
+  return views;
+}
+template <class Argument>
+decltype(auto) bindRankAll(const Argument& argument, const TaskContext& context) {
+  return argument.bind(context);
+}
+/// The patches of a task that sees the whole rank.
+inline RankPatches patchesOf(const TaskContext& context) {
+  RankPatches patches;
+  for (const TaskContext& patch : context.ofPatches()) patches.push_back(&patch.patch());
+  return patches;
 }
 
 /// Reads the state at the start of the step: a view of const T over the patch and `ghost` cells or nodes beyond it.

@@ -34,6 +34,9 @@ class TaskContext {
   /// For a task that sees all materials: the same patch for each of them.
   std::span<const TaskContext> ofMaterials() const { return of_materials_; }
   void setMaterials(std::span<const TaskContext> contexts) { of_materials_ = contexts; }
+  /// For a task that sees the whole rank: each of its patches, in the order of their ids.
+  std::span<const TaskContext> ofPatches() const { return of_patches_; }
+  void setPatches(std::span<const TaskContext> contexts) { of_patches_ = contexts; }
 
   template <class T>
   data::ParticleView<T> particles(int access, const data::Label& label) const {
@@ -75,7 +78,7 @@ class TaskContext {
   const std::vector<BoundAccess>* accesses_;
   double time_;
   ParticleMaker* maker_;
-  std::span<const TaskContext> of_materials_;
+  std::span<const TaskContext> of_materials_, of_patches_;
 };
 
 }  // namespace tushar::tasks

@@ -5,6 +5,10 @@ namespace tushar::tasks {
 std::vector<Placement> place(const std::vector<Task>& tasks, const grid::Level& level) {
   std::vector<Placement> placements;
   for (std::size_t t = 0; t < tasks.size(); ++t) {
+    if (tasks[t].perRank) {
+      placements.push_back({static_cast<int>(t), -1, -1});
+      continue;
+    }
     const int first = tasks[t].perMaterial() ? 0 : -1;
     const int last = tasks[t].perMaterial() ? static_cast<int>(tasks[t].materials.size()) : 0;
     for (int material = first; material < last; ++material)

@@ -136,10 +136,11 @@ std::optional<data::Minimum> Scheduler::askedBy(const CompiledTask& task) {
 /// A task that may ask runs for all materials, whatever happens: all that ask are heard.
 void Scheduler::runWork(CompiledTask& task, const StepInfo& at) {
   divideReductions(task);
-  const bool mayAsk = task.recomputeTimeStep >= 0;
-  const int first = task.task.acrossMaterials ? -1 : firstMaterial(task);
-  const int end = first + (task.task.acrossMaterials ? 1 : static_cast<int>(task.materials.size()));
-  for (int m = first; m < end && (mayAsk || !hasStopped()); ++m) runOnPatches(task, m, at);
+  const bool mayAsk = task.recomputeTimeStep >= 0, isOnce = task.task.acrossMaterials || task.task.perRank;
+  const int first = isOnce ? -1 : firstMaterial(task);
+  const int end = first + (isOnce ? 1 : static_cast<int>(task.materials.size()));
+  for (int m = first; m < end && (mayAsk || !hasStopped()); ++m)
+    task.task.perRank ? runOnRank(task, at) : runOnPatches(task, m, at);
   if (const auto factor = askedBy(task))
     outcome_.merge({running_, Outcome::Kind::asks, 0, 0, warehouse_->ranks().rank(), *factor, {}});
 }
@@ -176,6 +177,33 @@ void Scheduler::runOnPatches(CompiledTask& task, int material, const StepInfo& a
     note(task, material, *first.error());
   else if (!kept)
     noteBroken(task, material);
+}
+
+void Scheduler::runOnRank(CompiledTask& task, const StepInfo& at) {
+  const int first = firstMaterial(task);
+  std::vector<std::vector<TaskContext>> contexts;
+  for (const grid::Patch& patch : warehouse_->level().patches()) {
+    std::vector<TaskContext>& ofPatch = contexts.emplace_back();
+    for (std::size_t m = 0; m < task.materials.size(); ++m) {
+      allocateOutputs(task.materials[m], patch, static_cast<int>(m) + first);
+      ofPatch.emplace_back(*warehouse_, patch, static_cast<int>(m) + first, task.materials[m].accesses, at.time);
+    }
+  }
+  std::vector<TaskContext> patches;
+  for (const std::vector<TaskContext>& ofPatch : contexts) {
+    patches.push_back(ofPatch.front());
+    patches.back().setMaterials(ofPatch);
+  }
+  TaskContext rank = patches.front();
+  rank.setPatches(patches);
+  try {
+    located(task, -1, -1, at, [&] { task.task.body(rank); });
+  } catch (const NumericalError& error) {
+    note(task, -1, error);
+  }
+  gatherReductions(task);
+  for (int m = first; m < first + static_cast<int>(task.materials.size()) && !hasStopped(); ++m)
+    if (firstThatBreaks(*warehouse_, task.of(m).bounded) < task.of(m).bounded.size()) noteBroken(task, m);
 }
 
 void Scheduler::runAcrossMaterials(CompiledTask& task, const grid::Patch& patch, const StepInfo& at) {

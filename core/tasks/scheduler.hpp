@@ -57,6 +57,7 @@ class Scheduler {
   void divideReductions(const CompiledTask& task);
   void gatherReductions(const CompiledTask& task);
   void runOnPatches(CompiledTask& task, int material, const StepInfo& at);
+  void runOnRank(CompiledTask& task, const StepInfo& at);
   void runAcrossMaterials(CompiledTask& task, const grid::Patch& patch, const StepInfo& at);
   void runPlaced(CompiledTask& task, const grid::Patch& patch, int material, const StepInfo& at);
   void allocateOutputs(const MaterialBinding& binding, const grid::Patch& patch, int material);

@@ -46,6 +46,7 @@ struct Task {
   std::vector<Access> accesses;
   std::function<void(const TaskContext&)> body;
   bool acrossMaterials = false;  ///< the body sees all materials of a patch at once
+  bool perRank = false;          ///< the body sees all materials of all patches of the rank at once
 
   bool perMaterial() const { return !materials.empty(); }
 };

@@ -51,6 +51,34 @@ class TaskList {
          true});
   }
 
+  /// Runs `body(patches, arguments...)` once on a rank, for what takes all patches at once, such as a linear solve: an
+  /// access to a label becomes a std::vector of views, one for each patch.
+  template <class Body, class... Arguments>
+  void perRank(std::string name, Body body, Arguments... arguments) {
+    std::vector<Access> accesses = declare(arguments...);
+    addPerRank({std::move(name), TaskKind::work, {}, std::move(accesses),
+                [body, bound = std::make_tuple(arguments...)](const TaskContext& context) {
+                  std::apply([&](const auto&... argument) { body(patchesOf(context), bindRank(argument, context)...); },
+                             bound);
+                }});
+  }
+
+  /// The same for variables of materials, `body(patches, materials, arguments...)`: an access to a label becomes
+  /// `views[patch][material]`.
+  template <class Material, class Body, class... Arguments>
+  void perRankAcrossMaterials(std::string name, Body body, const std::vector<Material>& materials,
+                              Arguments... arguments) {
+    std::vector<Access> accesses = declare(arguments...);
+    addPerRank({std::move(name), TaskKind::work, names(materials), std::move(accesses),
+                [body, &materials, bound = std::make_tuple(arguments...)](const TaskContext& context) {
+                  std::apply(
+                      [&](const auto&... argument) {
+                        body(patchesOf(context), materials, bindRankAll(argument, context)...);
+                      },
+                      bound);
+                }});
+  }
+
   /// Runs `body(patch, material, maker, arguments...)`: the particles that the body makes replace those of the patch.
   /// Particle variables that are needed afterwards must be among what it `creates`; node and cell variables stay.
   template <class Material, class Body, class... Arguments>
@@ -78,6 +106,10 @@ class TaskList {
   void add(Task task) { tasks_.push_back(std::move(task)); }
 
  private:
+  void addPerRank(Task task) {
+    task.perRank = true;
+    add(std::move(task));
+  }
   template <class... Arguments>
   static std::vector<Access> declare(Arguments&... arguments) {
     std::vector<Access> accesses;

@@ -18,7 +18,7 @@ SPACE = ("Grid/Level/Box/resolution=[20,4,3]", "Grid/Level/Box/upper=[1,.2,.15]"
 def scenes(dimensions):
     """The scenes of particles and of heat with so many axes of more than one cell."""
     for scene in sorted((ROOT / "ups/mpm").glob("*.ups")) + sorted((ROOT / "ups/heat").glob("*.ups")) + \
-            sorted((ROOT / "ups/burgers").glob("*.ups")):
+            sorted((ROOT / "ups/burgers").glob("*.ups")) + sorted((ROOT / "ups/poisson").glob("*.ups")):
         cells = re.search(r"<resolution>\s*\[(.*?)\]", scene.read_text()).group(1).split(",")
         if sum(int(count) > 1 for count in cells) == dimensions:
             yield scene

@@ -8,16 +8,39 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from sus import ROOT, SUS, run
+from uda import Folder
 
 DISCS = "ups/solid/two_discs.ups"
+RIEMANN = "ups/solid/riemann.ups"
+SPALL = "ups/solid/spall.ups"
+TAYLOR = "ups/solid/taylor_bar.ups"
 
 
-def globals_of(scene, *names):
+def archive_of(scene, folder, *sets):
+    """Runs a scene; where its archive is."""
+    command = [SUS, scene, "--quiet", "--output", folder]
+    for override in sets:
+        command += ["--set", override]
+    subprocess.run(command, cwd=ROOT, check=True)
+    return next(pathlib.Path(folder).glob("*.uda.*"))
+
+
+def fields_of(scene, *names, until):
+    """Column -> its values in the last output."""
+    with tempfile.TemporaryDirectory() as folder:
+        archive = archive_of(scene, folder, f"Time/maxTime={until}", "DataArchiver/outputInterval=1",
+                             "DataArchiver/outputLastTimestep=true")
+        text = subprocess.run([ROOT / "tools/uda", archive, *names, "--csv", "-"], capture_output=True, text=True,
+                              check=True).stdout.splitlines()
+    rows = [[float(word) for word in line.split(",")] for line in text[1:]]
+    return dict(zip(text[0].split(","), zip(*rows)))
+
+
+def globals_of(scene, *names, until=None):
     """Name -> the lines of its .dat file, as numbers."""
     with tempfile.TemporaryDirectory() as folder:
-        subprocess.run([SUS, scene, "--quiet", "--output", folder, "--set", "DataArchiver/outputInterval=0"], cwd=ROOT,
-                       check=True)
-        archive = next(pathlib.Path(folder).glob("*.uda.*"))
+        archive = archive_of(scene, folder, "DataArchiver/outputInterval=0",
+                             *([f"Time/maxTime={until}"] if until else []))
         return {name: [[float(word) for word in line.split()] for line in (archive / f"{name}.dat").read_text().splitlines()
                        if not line.startswith("#")] for name in names}
 
@@ -32,6 +55,38 @@ class Solids(unittest.TestCase):
             self.assertAlmostEqual(nearest[1], expected, delta=1e-3, msg=f"{name} at {time}")
         self.assertAlmostEqual(values["TotalMass"][-1][1], 13, delta=1e-9)
         self.assertLess(max(abs(p) for p in values["TotalMomentum"][-1][1:]), 1e-6)
+
+    def test_a_shock_runs_through_an_ideal_gas_as_in_uintah(self):
+        values = globals_of(RIEMANN, "KineticEnergy", "TotalMomentum", "TotalMass", until=".0002535")
+        for name, expected in (("KineticEnergy", .0693037), ("TotalMomentum", .000574665), ("TotalMass", 1.618140244e-05)):
+            time, value = min(values[name], key=lambda line: abs(line[0] - .000253067))[:2]
+            self.assertAlmostEqual(time, .000253067, delta=1e-9)
+            self.assertAlmostEqual(value / expected, 1, delta=1e-5, msg=name)  # the digits that are given
+
+    def test_plates_spall_where_the_waves_of_their_free_faces_meet(self):
+        fields = fields_of(SPALL, "p.x", "p.displacement", "p.localizedMPM", until="1.6e-6")
+        failed = [x - u for x, u, localized in zip(fields["x [m]"], fields["p.displacement.x [m]"],
+                                                   fields["p.localizedMPM [1]"]) if localized == 1]
+        self.assertGreater(min(failed), .0030)  # 2 mm from the back is at 4 mm; 1 mm for the width of the waves
+        self.assertLess(max(failed), .0050)
+
+    def test_a_shock_has_the_pressure_of_its_relation(self):
+        fields = fields_of(SPALL, "p.x", "p.stress", until="0.6e-6")
+        between = [stress for x, stress in zip(fields["x [m]"], fields["p.stress.xx [Pa]"]) if .0012 < x < .004]
+        expected = 8930 * (3940 + 1.489 * 150) * 150
+        self.assertAlmostEqual(-sum(between) / len(between) / expected, 1, delta=.01)  # the strength is a fiftieth of it
+
+    def test_yielding_and_failing_bodies_give_the_same_bits_on_any_patches_and_after_a_restart(self):
+        for scene, layouts, steps in ((TAYLOR, ("[1,1,1]", "[3,4,1]"), 40), (SPALL, ("[1,1,1]", "[7,1,1]"), 190),
+                                      (RIEMANN, ("[1,1,1]", "[6,1,1]"), 30)):
+            steps = f"Time/max_Timesteps={steps}"
+            prints = {run(scene, f"Grid/Level/Box/patches={layout}", steps).report["fingerprint"] for layout in layouts}
+            folder = Folder()
+            self.addCleanup(folder.cleanup)
+            folder.run(scene, "DataArchiver/checkpoint/@timestepInterval=13", steps)
+            code, errors, report = folder.restart(steps, step=int(folder.checkpoints[0].name[1:]))
+            self.assertEqual((code, errors), (0, ""))
+            self.assertEqual(len(prints | {report["fingerprint"]}), 1, scene)
 
     def test_the_same_bits_on_any_patches(self):
         prints = {run(DISCS, f"Grid/Level/Box/patches={layout}", "Time/max_Timesteps=60").report["fingerprint"]

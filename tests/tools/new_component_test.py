@@ -76,7 +76,8 @@ class NewComponent(unittest.TestCase):
         tests = [self.compile(str(file.relative_to(self.copy)))
                  for file in sorted((self.copy / "tests/shallow_water").glob("*_test.cpp"))]
         program = self.link([*new, *tests], "-lgtest_main", "-lgtest")
-        passed = subprocess.run([program], cwd=self.copy, capture_output=True, text=True)
+        passed = subprocess.run([program], cwd=self.copy, capture_output=True, text=True,
+                                env=dict(os.environ, LD_LIBRARY_PATH=str(BUILD)))
         self.assertEqual(passed.returncode, 0, passed.stdout)
         self.assertIn("[  PASSED  ]", passed.stdout)
 

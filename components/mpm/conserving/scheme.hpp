@@ -21,7 +21,7 @@ struct ConservingGasDynamics {
   Transfer transfer = Transfer::apic;
   double cfl = 0.5;               ///< apic: dt max(|v| + c) / h; affineFlip: dt max(c) / h
   double advectiveCfl = 0.8;      ///< affineFlip: dt max |v_d| / h
-  double longestParticle = 2.5;   ///< cells; longer ones are halved
+  double longestParticle = 2.36;  ///< cells; longer ones are halved
   Viscosity viscosity{1.0, 0.5};
   double heatConduction = 0;  ///< C_h of artificial heat conduction at shocks
   std::optional<Remap> remap;

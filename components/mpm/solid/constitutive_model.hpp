@@ -27,6 +27,28 @@ inline constexpr Tensor identityTensor{1, 0, 0, 0, 1, 0, 0, 0, 1};
 using Matrix9 = Eigen::Matrix<double, 9, 9, Eigen::DontAlign | Eigen::RowMajor>;
 using Vector9 = Eigen::Matrix<double, 9, 1, Eigen::DontAlign>;
 
+/// The part of a tensor that has no trace.
+inline Matrix3 deviator(const Matrix3& a) {
+  Matrix3 result = a;
+  result.diagonal().array() -= a.trace() / 3;
+  return result;
+}
+
+/// Pressure against compression, q = rho (A1 c |D| h + A2 D^2 h^2) where D = tr L < 0; von Neumann & Richtmyer, with the
+/// linear term of Landshoff.
+struct ArtificialViscosity {
+  double linear = 0.2;     ///< A1
+  double quadratic = 2.0;  ///< A2
+};
+
+/// What a scene says of a material besides its constitutive model.
+struct MaterialConstants {
+  double density = 0;            ///< at the start, kg/m^3
+  double specificHeat = 0;       ///< J/(kg K)
+  double meltTemperature = 295;  ///< K
+  double roomTemperature = 294;  ///< K
+};
+
 /// What a constitutive model is told about one material point in one step.
 struct Deformation {
   Matrix3 deformationGradient;     ///< F at the end of the step, 1
@@ -56,6 +78,11 @@ struct StateVariable {
 ///   a particle need not be kept. Such a model may have `Matrix3 kirchhoffStress(const Matrix3& f) const`, J sigma, and
 ///   `double waveSpeed(double initialDensity, const Deformation&) const`, where these are cheaper.
 /// - optional `static constexpr bool usesTemperature = false`: updateStress never looks at the temperature.
+/// - optional `MaterialConstants material`: filled with those of the model's material.
+/// - optional `double temperatureChange(const Deformation&, const Matrix3& stress, const State&) const`: by the work of
+///   the step, K.
+/// - optional `void addHeat(State&, double heat) const`: told of the heat of the artificial viscosity, J/kg.
+/// - optional `static constexpr ArtificialViscosity ownViscosity`: takes the place of the scene's.
 /// - optional `double initialWaveSpeed(double initialDensity) const`: at the start, where it is not waveSpeed of F = I.
 /// - optional `bulkSpeed`, with the arguments of waveSpeed: sqrt(K / density) for the artificial viscosity, m/s.
 /// - optional `Matrix9 nominalTangent(const Deformation&, const Matrix3& oldStress, const State& old) const`: dP/dF, Pa,

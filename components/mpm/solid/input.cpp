@@ -30,7 +30,7 @@ struct MpmSection {
   int integrator = 0;
   Interpolator interpolator = Interpolator::linear;
   bool artificialViscosity = false, withColor = false, axisymmetric = false, useLoadCurves = false;
-  bool conductsHeat = true;
+  bool conductsHeat = true, viscosityHeats = false;
   std::string manufactured;
   double linearViscosity = 0, quadraticViscosity = 0, damping = 0;
   double minimumParticleMass = 0, minimumMassForAcceleration = 0, maximumParticleVelocity = 0;
@@ -64,6 +64,8 @@ const Schema<MpmSection>& mpmSchema() {
                input::nonNegative())
         .value("artificial_viscosity_coeff2", &MpmSection::quadraticViscosity, 2, "1", "factor of D^2 h^2",
                input::nonNegative())
+        .value("artificial_viscosity_heating", &MpmSection::viscosityHeats, false, "1",
+               "the work of the artificial viscosity heats the material")
         .value("artificial_damping_coeff", &MpmSection::damping, 0, "1/s", "acceleration against the velocity",
                input::nonNegative())
         .value("minimum_particle_mass", &MpmSection::minimumParticleMass, 3e-15, "kg",
@@ -170,6 +172,7 @@ Method settle(const MpmSection& read, const PhysicalConstants& constants) {
   method.maximumParticleVelocity = read.maximumParticleVelocity;
   method.minimumSubcyclesForF = read.minimumSubcycles;
   method.conductsHeat = read.conductsHeat;
+  method.viscosityHeats = read.viscosityHeats;
   return method;
 }
 

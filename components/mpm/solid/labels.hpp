@@ -17,6 +17,11 @@ inline constexpr ParticleLabel<Vec<D>> displacement{"p.displacement", "m", "disp
 template <int D>
 inline constexpr ParticleLabel<Vec<D>> size{"p.size", "1", "extent at the start, in cells"};
 inline constexpr ParticleLabel<double> temperature{"p.temperature", "K", "temperature"};
+inline constexpr ParticleLabel<double> temperatureChange{"p.temperatureChange", "K", "by the work of the step"};
+inline constexpr ParticleLabel<double> damage{"p.damage", "1", "damage, 0 where sound"};
+inline constexpr ParticleLabel<double> failureThreshold{"p.epsf", "Pa, 1 or Pa^(1/2)", "what it bears before it is damaged"};
+inline constexpr ParticleLabel<int> localized{"p.localizedMPM", "1", "1 once it has failed"};
+inline constexpr ParticleLabel<double> failureTime{"p.timeofloc", "s", "when it failed"};
 inline constexpr ParticleLabel<double> color{"p.color", "1", "number that the scene gives to a body"};
 inline constexpr ParticleLabel<double> viscosity{"p.q", "Pa", "artificial viscosity"};
 inline constexpr ParticleLabel<double> strainEnergy{"p.strainEnergy", "J",

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "components/mpm/solid/damage/damage.hpp"
+#include "components/mpm/solid/damage/erosion.hpp"
 #include "components/mpm/solid/model.hpp"
 #include "core/core.hpp"
 #include "core/input/expression.hpp"
@@ -24,8 +26,16 @@ struct Material {
   double density = 0;  ///< at the start, kg/m^3
   std::shared_ptr<const Model> model;
   double specificHeat = 0;         ///< J/(kg K)
+  double meltTemperature = 0;      ///< K
+  double roomTemperature = 0;      ///< K
   double thermalConductivity = 0;  ///< W/(m K)
+  Damage damage;
+  Erosion erosion;
   std::vector<Body> bodies;
+
+  MaterialConstants constants() const { return {density, specificHeat, meltTemperature, roomTemperature}; }
+  /// Whether particles may come to bear less than the constitutive model says.
+  bool isDamageable() const { return erosion.acts() || !std::holds_alternative<NoDamage>(damage); }
 };
 
 }  // namespace tushar::mpm::solid

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "components/mpm/solid/contact/contact_input.hpp"
+#include "components/mpm/solid/damage/damage_input.hpp"
 #include "components/mpm/solid/materials/all.hpp"
 
 namespace tushar::mpm::solid {
@@ -35,15 +36,54 @@ std::vector<std::string> modelNames() {
   return names;
 }
 
+/// Models of Uintah's that are missing here, and what there is instead.
+const std::vector<std::pair<std::string, std::string>> lackingModels{
+    {"cnh_damage", "UCNH with a <damage_model>"},
+    {"cnhp_damage", "comp_neo_hook_plastic with a <damage_model>"},
+    {"three_factor_mooney", "comp_mooney_rivlin"},
+    {"SVK", "comp_neo_hook"},
+    {"ArrudaBoyce8", "comp_mooney_rivlin"},
+    {"murnaghanMPM", "water, whose pressure obeys the same law"},
+    {"TH_water", "water"},
+    {"jwlpp_mpm", "ideal_gas for gases"},
+    {"program_burn", "ideal_gas for gases"},
+    {"p_alpha", "elastic_plastic_hp with a mie_gruneisen equation of state"},
+    {"rf_elastic_plastic", "elastic_plastic_hp"},
+    {"visco_plastic", "elastic_plastic_hp with johnson_cook flow"},
+    {"trans_iso_hyper", "comp_mooney_rivlin, without fibres"},
+    {"visco_trans_iso_hyper", "comp_mooney_rivlin, without fibres and viscosity"},
+    {"TransIsoHypoFrictional", "hypo_elastic, without fibres"},
+    {"hypo_elastic_fortran", "hypo_elastic"},
+    {"kayenta", "MohrCoulomb"},
+    {"Arenisca", "MohrCoulomb"},
+    {"Arenisca3", "MohrCoulomb"},
+    {"Arenisca4", "MohrCoulomb"},
+    {"ArenaSoil", "MohrCoulomb"},
+    {"camclay", "MohrCoulomb"},
+    {"nonlocal_drucker_prager", "MohrCoulomb"},
+    {"HypoplasticB", "MohrCoulomb"},
+    {"soil_foam", "MohrCoulomb"},
+};
+
+void refuseModel(const Element& tag, const std::string& type, Diagnostics& diagnostics) {
+  for (const auto& [name, instead] : lackingModels)
+    if (type == name)
+      return diagnostics.error(tag, fmt::format("the model '{}' of Uintah is not available; nearest is {}", name, instead));
+  diagnostics.error(tag, "attribute 'type': " + input::choiceProblem(type, modelNames()));
+}
+
 void readModel(Material& material, const Element& parent, Diagnostics& diagnostics) {
   const auto tag = parent.child("constitutive_model");
   if (!tag) return diagnostics.error(parent, "missing tag <constitutive_model> in <material>");
   const std::string type = tag->attribute("type").value_or("");
-  if (const std::string problem = input::choiceProblem(type, modelNames()); !problem.empty())
-    return diagnostics.error(*tag, "attribute 'type': " + problem);
   forEachModel([&]<class M>(const M&) {
-    if (type == M::name) material.model = std::make_shared<ModelOf<M>>(modelSchema<M>().read(*tag, diagnostics));
+    if (type != M::name) return;
+    M model = modelSchema<M>().read(*tag, diagnostics);
+    if constexpr (requires { model.material; })
+      model.material = material.constants();
+    material.model = std::make_shared<ModelOf<M>>(model);
   });
+  if (!material.model) refuseModel(*tag, type, diagnostics);
 }
 
 void describeModels(std::ostream& out, int indent) {
@@ -76,11 +116,16 @@ const Schema<Material>& materialSchema() {
       Schema<Material>("material", "A material and the bodies made of it.")
           .attributeValue("name", &Material::name, "", "1", "its name; material0, material1, … where none is given")
           .required("density", &Material::density, "kg/m^3", "density at the start", input::positive())
-          .custom("constitutive_model", readModel, {"constitutive_model"}, "how it answers to being deformed",
-                  describeModels)
           .value("specific_heat", &Material::specificHeat, 0, "J/(kg K)", "c_v", input::nonNegative())
           .value("thermal_conductivity", &Material::thermalConductivity, 0, "W/(m K)", "conductivity",
                  input::nonNegative())
+          .value("melt_temp", &Material::meltTemperature, 295, "K", "temperature at which it melts", input::positive())
+          .value("room_temp", &Material::roomTemperature, 294, "K", "temperature of the constants of damage",
+                 input::nonNegative())
+          .custom("constitutive_model", readModel, {"constitutive_model"}, "how it answers to being deformed",
+                  describeModels)
+          .custom("damage_model", readDamage, {"damage_model", "erosion"}, "how it fails, and what it bears then",
+                  describeDamage)
           .list("geom_object", &Material::bodies, bodySchema(), "a body of material at the start", 1);
   return schema;
 }

@@ -2,16 +2,10 @@
 
 #include <optional>
 
+#include "components/mpm/solid/constitutive_model.hpp"
 #include "core/core.hpp"
 
 namespace tushar::mpm::solid {
-
-/// Pressure against compression, q = rho (A1 c |D| h + A2 D^2 h^2) where D = tr L < 0; von Neumann & Richtmyer, with the
-/// linear term of Landshoff.
-struct ArtificialViscosity {
-  double linear = 0.2;     ///< A1
-  double quadratic = 2.0;  ///< A2
-};
 
 /// The `MPM` section: how the method runs.
 struct Method {
@@ -26,6 +20,7 @@ struct Method {
   std::array<bool, 3> isThin{};    ///< axes x, y, z that the grid leaves out
   bool keepsSizes = false;         ///< each particle keeps its size
   double meanWidth = 0;            ///< of a cell over x, y, z, m: the length of the artificial viscosity
+  bool viscosityHeats = false;     ///< artificial_viscosity_heating
   bool strainEnergy = false;       ///< someone wants to know it
   bool velocityGradient = false;   ///< someone wants to know it
   bool conductsHeat = true;

@@ -4,6 +4,7 @@
 
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "components/mpm/solid/constitutive_model.hpp"
@@ -24,6 +25,7 @@ struct StressPoints {
   int stateStride = 0;
   double* waveSpeed = nullptr;            ///< m/s
   double* bulkSpeed = nullptr;            ///< m/s; null where nobody asks
+  double* temperatureChange = nullptr;    ///< K; null where nobody asks
   double* strainEnergyDensity = nullptr;  ///< J/m^3 of the volume at the start; null where nobody asks
 };
 
@@ -40,6 +42,13 @@ class Model {
   /// Whether the stress is a function of F alone: nothing but F needs to be kept then.
   virtual bool dependsOnDeformationOnly() const = 0;
 
+  /// Whether the work of a step changes the temperature.
+  virtual bool heats() const = 0;
+  /// Tells the state of a particle of the heat of the artificial viscosity, J/kg.
+  virtual void addHeat(double* state, double heat) const = 0;
+  /// Coefficients that the model has instead of the scene's.
+  virtual std::optional<ArtificialViscosity> ownViscosity() const = 0;
+
   /// Of the fastest wave at the start, m/s.
   virtual double initialWaveSpeed(double initialDensity, double temperature) const = 0;
   virtual void updateStress(double initialDensity, const StressPoints& points) const = 0;
@@ -50,6 +59,16 @@ class Model {
   /// J sigma of `count` deformation gradients, Pa; only where the stress depends on F alone.
   virtual void kirchhoffStress(const Matrix3* deformationGradient, int count, Matrix3* stress) const = 0;
 };
+
+/// Where a state variable stands among the numbers of a particle; -1 if the model has none of that name.
+inline int offsetOf(const Model& model, std::string_view label) {
+  int offset = 0;
+  for (const StateVariable& variable : model.stateVariables()) {
+    if (variable.label == label) return offset;
+    offset += variable.components;
+  }
+  return -1;
+}
 
 template <ConstitutiveModel M>
 class ModelOf : public Model {
@@ -75,6 +94,20 @@ class ModelOf : public Model {
       return true;
   }
   bool dependsOnDeformationOnly() const override { return fromDeformation; }
+  bool heats() const override { return heating; }
+  void addHeat(double* numbers, double heat) const override {
+    if constexpr (requires(State& state) { model_.addHeat(state, heat); }) {
+      State state = load(numbers);
+      model_.addHeat(state, heat);
+      store(state, numbers);
+    }
+  }
+  std::optional<ArtificialViscosity> ownViscosity() const override {
+    if constexpr (requires { M::ownViscosity; })
+      return M::ownViscosity;
+    else
+      return std::nullopt;
+  }
 
   void updateStress(double initialDensity, const StressPoints& points) const override {
     for (int k = 0; k < points.count; ++k) {
@@ -131,6 +164,8 @@ class ModelOf : public Model {
   static constexpr bool hasState = !std::is_empty_v<State>;
   static constexpr bool tangential =
       requires(const M& m, const Deformation& d, const Matrix3& s, const State& state) { m.nominalTangent(d, s, state); };
+  static constexpr bool heating =
+      requires(const M& m, const Deformation& d, const Matrix3& s, const State& state) { m.temperatureChange(d, s, state); };
   static constexpr bool fromDeformation = [] {
     if constexpr (requires { M::dependsOnDeformationOnly; })
       return M::dependsOnDeformationOnly;
@@ -142,6 +177,10 @@ class ModelOf : public Model {
               const Matrix3& after, const State& state, double waveSpeed) const {
     points.waveSpeed[k] = waveSpeed;
     if (points.bulkSpeed) points.bulkSpeed[k] = bulkSpeed(initialDensity, d, after, state, waveSpeed);
+    if (points.temperatureChange) {
+      points.temperatureChange[k] = 0;
+      if constexpr (heating) points.temperatureChange[k] = model_.temperatureChange(d, after, state);
+    }
     if (points.strainEnergyDensity) points.strainEnergyDensity[k] = model_.strainEnergyDensity(d, before, after, state);
   }
   /// Speed for the artificial viscosity: of the model where it gives one, else that of its fastest wave.

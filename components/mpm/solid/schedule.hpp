@@ -3,6 +3,7 @@
 #include "components/mpm/solid/solid_mpm.hpp"
 #include "components/mpm/solid/tasks/apply_external_loads.hpp"
 #include "components/mpm/solid/tasks/boundary_force.hpp"
+#include "components/mpm/solid/tasks/damage.hpp"
 #include "components/mpm/solid/tasks/diagnose.hpp"
 #include "components/mpm/solid/tasks/exchange_momentum.hpp"
 #include "components/mpm/solid/tasks/heat.hpp"
@@ -21,11 +22,15 @@ SolidMpm<Shape>::SolidMpm(Problem problem) : problem_(std::move(problem)) {
   const auto any = [&](auto&& holds) {
     return std::any_of(problem_.materials.begin(), problem_.materials.end(), [&](const Material& m) { return holds(*m.model); });
   };
-  keeps_stress_ = any([](const Model& model) { return !model.dependsOnDeformationOnly(); });
+  is_damageable_ = std::any_of(problem_.materials.begin(), problem_.materials.end(),
+                               [](const Material& material) { return material.isDamageable(); });
+  keeps_stress_ = is_damageable_ || any([](const Model& model) { return !model.dependsOnDeformationOnly(); });
   is_thermal_ = any([](const Model& model) { return model.usesTemperature(); });
+  heats_ = any([](const Model& model) { return model.heats(); }) || (isViscous() && problem_.method.viscosityHeats);
   for (const Material& material : problem_.materials) state_size_ = std::max(state_size_, material.model->stateSize());
   state_.components = state_size_;
   state_.bytes = static_cast<std::size_t>(state_size_) * sizeof(double);
+  state_views_ = stateViews(problem_.materials);
 }
 
 template <class Shape>
@@ -41,6 +46,10 @@ void SolidMpm<Shape>::scheduleInitialize(TaskList& tasks) const {
     tasks.perMaterial("mpm::initializeStress", initializeStress, problem_.materials, with(state_size_),
                       requiresNew(p::mass), requiresNew(p::deformationMeasure), computes(p::volume), computes(p::stress),
                       when(state_size_ > 0, computes(state_)));
+  if (is_damageable_)
+    tasks.perMaterial("mpm::initializeDamage", initializeDamage, problem_.materials, requiresNew(data::particleId),
+                      requiresNew(p::volume), computes(p::damage), computes(p::failureThreshold),
+                      computes(p::localized), computes(p::failureTime));
 }
 
 template <class Shape>
@@ -139,11 +148,24 @@ void SolidMpm<Shape>::scheduleUpdateParticles(TaskList& tasks) const {
       requiresOld(p::x<D>), when(keepsSizes(), requiresOld(p::size<D>)), requiresOld(p::velocity<D>),
       requiresOld(p::mass), requiresOld(p::deformationMeasure), when(is_thermal_, requiresOld(p::temperature)),
       when(keeps_stress_, requiresOld(p::volume)), when(keeps_stress_, requiresOld(p::stress)),
-      when(hasState, requiresOld(state_)), computes(p::x<D>), computes(p::velocity<D>), computes(p::deformationMeasure),
+      when(hasState, requiresOld(state_)), when(is_damageable_, requiresOld(p::localized)), computes(p::x<D>), computes(p::velocity<D>), computes(p::deformationMeasure),
       when(keeps_stress_, computes(p::volume)), when(keeps_stress_, computes(p::stress)),
       when(hasState, computes(state_)), when(isViscous(), computes(p::viscosity)),
-      when(problem_.method.strainEnergy, computes(p::strainEnergy)),
+      when(problem_.method.strainEnergy, computes(p::strainEnergy)), when(heats_, computes(p::temperatureChange)),
       when(problem_.method.velocityGradient, computes(p::velocityGradient)), computes(c::stableTimeStep));
+  if (is_damageable_)
+    tasks.perMaterial("mpm::computeDamage", computeDamage, problem_.materials, with(state_size_), startTime(),
+                      requiresOld(delT), requiresOld(p::temperature), requiresOld(p::damage),
+                      requiresOld(p::failureThreshold), requiresOld(p::localized), requiresOld(p::failureTime),
+                      requiresNew(p::deformationMeasure), requiresNew(p::volume), when(hasState, requiresNew(state_)),
+                      modifies(p::stress), computes(p::damage), computes(p::failureThreshold), computes(p::localized),
+                      computes(p::failureTime));
+  if (heats_ && problem_.method.conductsHeat)
+    tasks.perMaterial("mpm::finalParticleUpdate", addWorkOfStep, problem_.materials, requiresNew(p::temperatureChange),
+                      modifies(p::temperature));
+  else if (heats_)
+    tasks.perMaterial("mpm::finalParticleUpdate", heatByWorkOfStep, problem_.materials,
+                      requiresNew(p::temperatureChange), requiresOld(p::temperature), computes(p::temperature));
   tasks.perMaterial("mpm::addDisplacement", addDisplacement<D>, problem_.materials, requiresOld(p::x<D>),
                     requiresNew(p::x<D>), requiresOld(p::displacement<D>), computes(p::displacement<D>));
 }
@@ -159,6 +181,7 @@ void SolidMpm<Shape>::scheduleDiagnostics(TaskList& tasks) const {
                     requiresOld(p::velocity<D>), computes(total::momentum));
   tasks.perMaterial("mpm::sumCenterOfMass", sumCenterOfMass<D>, problem_.materials, requiresOld(p::mass),
                     requiresOld(p::x<D>), computes(total::centerOfMass));
+  for (const auto& view : state_views_) view->schedule(tasks, problem_.materials, state_size_, state_);
   if (!keeps_stress_) {
     tasks.perMaterial("mpm::computeVolume", computeVolume, problem_.materials, requiresOld(p::mass, Shape::reach),
                       requiresOld(p::deformationMeasure, Shape::reach), computes(p::volume));

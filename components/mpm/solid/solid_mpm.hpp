@@ -4,6 +4,7 @@
 #include "components/mpm/solid/method.hpp"
 #include "components/mpm/solid/shapes/tensor_shape.hpp"
 #include "components/mpm/solid/tasks/create_particles.hpp"
+#include "components/mpm/solid/tasks/show_state.hpp"
 #include "core/core.hpp"
 
 namespace tushar::mpm::solid {
@@ -48,8 +49,11 @@ class SolidMpm : public Component {
   Problem problem_;
   bool keeps_stress_ = false;  ///< some material's stress is not a function of F alone
   bool is_thermal_ = false;    ///< some material's stress depends on the temperature
+  bool is_damageable_ = false; ///< particles of some material may fail
+  bool heats_ = false;         ///< the work of a step changes the temperature
   int state_size_ = 0;         ///< most numbers that a particle keeps for its model
   ParticleLabel<double> state_{"p.modelState", "SI units", "internal variables of the constitutive model"};
+  std::vector<std::shared_ptr<const StateView>> state_views_;
 };
 
 }  // namespace tushar::mpm::solid

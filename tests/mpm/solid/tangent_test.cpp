@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "components/mpm/solid/materials/all.hpp"
+#include "tests/mpm/solid/example_models.hpp"
 #include "tests/mpm/solid/material_point.hpp"
 
 namespace tushar::mpm::solid::testing {
@@ -15,56 +15,22 @@ void expectConsistentTangent(const MaterialPoint<M>& point, const Matrix3& f) {
   EXPECT_LT((tangent - expected).norm() / expected.norm(), 1e-7);
 }
 
-CompNeoHook compNeoHook() {
-  CompNeoHook model;
-  model.bulkModulus = 7;
-  model.shearModulus = 3;
-  return model;
-}
-CompMooneyRivlin compMooneyRivlin() {
-  CompMooneyRivlin model;
-  model.c1 = 3;
-  model.c2 = 1;
-  model.poissonRatio = 0.45;
-  return model;
-}
-CnhMms cnhMms() {
-  CnhMms model;
-  model.bulkModulus = 7;
-  model.shearModulus = 3;
-  return model;
-}
-HypoElastic hypoElastic() {
-  HypoElastic model;
-  model.bulkModulus = 7;
-  model.shearModulus = 3;
-  return model;
-}
-CompNeoHookPlastic plastic(double hardening) {
-  CompNeoHookPlastic model;
-  model.bulkModulus = 7;
-  model.shearModulus = 3;
-  model.yieldStress = 0.2;
-  model.hardeningModulus = hardening;
-  return model;
-}
-
 TEST(NominalTangent, IsTheDerivativeOfTheStressOfHyperelasticModels) {
   const Matrix3 f = generalDeformation(0.3);
-  expectConsistentTangent(MaterialPoint<CompNeoHook>{compNeoHook()}, f);
+  expectConsistentTangent(MaterialPoint<CompNeoHook>{withModuli<CompNeoHook>()}, f);
   expectConsistentTangent(MaterialPoint<CompMooneyRivlin>{compMooneyRivlin()}, f);
-  expectConsistentTangent(MaterialPoint<CnhMms>{cnhMms()}, f);
+  expectConsistentTangent(MaterialPoint<CnhMms>{withModuli<CnhMms>()}, f);
 }
 
 TEST(NominalTangent, OfHypoElasticCountsTheStressAtTheBeginOfTheStep) {
-  MaterialPoint<HypoElastic> point{hypoElastic()};
+  MaterialPoint<HypoElastic> point{withModuli<HypoElastic>()};
   point.advance(generalDeformation(0.1));
   expectConsistentTangent(point, generalDeformation(0.2));
 }
 
 TEST(NominalTangent, OfJ2FlowIsConsistentWithTheReturnBeforeAndAfterYield) {
   for (const double hardening : {0.0, 0.5}) {
-    MaterialPoint<CompNeoHookPlastic> point{plastic(hardening)};
+    MaterialPoint<CompNeoHookPlastic> point{compNeoHookPlastic(hardening)};
     const Matrix3 elastic = generalDeformation(0.01), plasticStep = generalDeformation(0.2);
     EXPECT_EQ(point.state(elastic).plasticStrain, 0);
     expectConsistentTangent(point, elastic);
@@ -75,18 +41,16 @@ TEST(NominalTangent, OfJ2FlowIsConsistentWithTheReturnBeforeAndAfterYield) {
 }
 
 TEST(NominalTangent, OfUcnhWithoutPlasticityIsThatOfNeoHookElasticity) {
-  MaterialPoint<Ucnh> point{{}};
-  point.model.bulkModulus = 7;
-  point.model.shearModulus = 3;
+  const MaterialPoint<Ucnh> point{withModuli<Ucnh>()};
   const Matrix3 f = generalDeformation(0.3);
   const Matrix9 tangent = point.model.nominalTangent(point.step(f), point.oldStress, point.oldState);
-  const MaterialPoint<CompNeoHook> elastic{compNeoHook()};
+  const MaterialPoint<CompNeoHook> elastic{withModuli<CompNeoHook>()};
   const Matrix9 expected = elastic.model.nominalTangent(elastic.step(f), elastic.oldStress, {});
   EXPECT_LT((tangent - expected).norm(), 1e-13 * expected.norm());
 }
 
 TEST(NominalTangent, IsReachedThroughTheModelInterface) {
-  const ModelOf<CompNeoHook> neoHook(compNeoHook());
+  const ModelOf<CompNeoHook> neoHook(withModuli<CompNeoHook>());
   const Matrix3 f = generalDeformation(0.3), identity = Matrix3::Identity(), zero = Matrix3::Zero();
   StressPoints points;
   points.count = 1;
@@ -98,7 +62,7 @@ TEST(NominalTangent, IsReachedThroughTheModelInterface) {
   neoHook.nominalTangent(points, &tangent);
   EXPECT_TRUE(neoHook.hasTangent());
   EXPECT_FALSE(ModelOf<Rigid>(Rigid{}).hasTangent());
-  EXPECT_EQ(tangent, compNeoHook().nominalTangent({f, identity, zero, 1, 0}, zero, {}));
+  EXPECT_EQ(tangent, withModuli<CompNeoHook>().nominalTangent({f, identity, zero, 1, 0}, zero, {}));
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ class Case:
     most: float | None = None  # of the error, for the default method at its default settings
     error: str = "density.cell.relative"  # path of the error in the report; '' for none
     keeps: tuple = BOTH  # what must not drift
-    entropy: bool = False  # whether it must not fall: nothing outside takes heat from the gas
+    entropy: bool = False  # whether it must not fall: shocks raise it, and nothing outside takes heat from the gas
     long: bool = False  # left out of the short gallery
     scene: str = ""  # if it is not of that name
     sets: tuple = ()
@@ -58,11 +58,12 @@ CASES = [
     Case("lax", .0085, entropy=True), Case("leblanc", .0082, entropy=True),
     Case("vacuum", .0047), Case("double_vacuum", .05),
     Case("pressure_1e5", .030, entropy=True), Case("pressure_1e10", .030, entropy=True),
-    Case("ratio_1e6", .0044, entropy=True), Case("density_1e6", .01, entropy=True),
+    Case("ratio_1e6", .0044), Case("density_1e6", .01),
     Case("gamma_1_01", .0072, entropy=True), Case("gamma_5_3", .0055, entropy=True), Case("gamma_7", .0018, entropy=True),
     Case("noh", .061, entropy=True), Case("noh_2d", entropy=True, long=True), Case("sedov", long=True),
-    Case("contact", 1e-13, error="velocity.particle.max"), Case("contact_slow"),
+    Case("blast_waves"), Case("shu_osher"), Case("box", .0068, entropy=True, long=True),
+    Case("contact", 1e-13, error="velocity.particle.max"), Case("contact_slow", 1e-4),
     Case("sod_moving", keeps=()), Case("on_faces", error=""), Case("one_cell", 1e-14),
     Case("many_steps", long=True), Case("random", only=("paper", "paper_tracked")),
     *(relaxation(rate) for rate in (1, 1e3, 1e6, 1e9)),
-    Case("heat_ratio", 1e-5, error="temperature.cell.L1", keeps=(), only=("heat",))]
+    Case("heat_ratio", 1e-5, error="temperature.cell.L1", keeps=(), only=("default",))]

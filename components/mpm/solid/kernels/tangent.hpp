@@ -31,11 +31,4 @@ Matrix9 nominalTangent(const Matrix3& f, const Matrix3& kirchhoffStress, Change&
   return tangent;
 }
 
-/// The part of a tensor that has no trace.
-inline Matrix3 deviator(const Matrix3& a) {
-  Matrix3 result = a;
-  result.diagonal().array() -= a.trace() / 3;
-  return result;
-}
-
 }  // namespace tushar::mpm::solid

@@ -129,4 +129,15 @@ void updateTemperature(const Patch& patch, const Material&, const Vec3& commonSi
   });
 }
 
+/// Adds what the work of the step does to the temperature, where heat is conducted, too.
+inline void addWorkOfStep(const Patch&, const Material&, ParticleView<const double> change,
+                          ParticleView<double> temperature) {
+  for (int p = 0; p < change.owned(); ++p) temperature[p] += change[p];
+}
+/// The same where nothing else changes the temperature.
+inline void heatByWorkOfStep(const Patch&, const Material&, ParticleView<const double> change,
+                             ParticleView<const double> oldTemperature, ParticleView<double> temperature) {
+  for (int p = 0; p < change.owned(); ++p) temperature[p] = oldTemperature[p] + change[p];
+}
+
 }  // namespace tushar::mpm::solid

@@ -12,10 +12,10 @@ void interpolateToParticlesAndUpdate(
     NodeView<const Octet> record, ParticleView<const Vec<D>> x, OptionalView<const Vec<D>> size,
     ParticleView<const Vec<D>> velocity, ParticleView<const double> mass, ParticleView<const Matrix3> oldDeformation,
     OptionalView<const double> temperature, OptionalView<const double> oldVolume, OptionalView<const Matrix3> oldStress,
-    OptionalView<const double> oldState, ParticleView<Vec<D>> newX, ParticleView<Vec<D>> newVelocity,
+    OptionalView<const double> oldState, OptionalView<const int> localized, ParticleView<Vec<D>> newX, ParticleView<Vec<D>> newVelocity,
     ParticleView<Matrix3> deformation, OptionalView<double> volume, OptionalView<Matrix3> stress,
     OptionalView<double> state, OptionalView<double> viscosity, OptionalView<double> strainEnergy,
-    OptionalView<Matrix3> velocityGradient, CellView<double> stableTimeStep) {
+    OptionalView<double> temperatureChange, OptionalView<Matrix3> velocityGradient, CellView<double> stableTimeStep) {
   const ParticleStates<Shape> states{
       Extents<Shape>(patch.level(), method.commonSize, size, oldDeformation),
       x,
@@ -30,12 +30,14 @@ void interpolateToParticlesAndUpdate(
       valuesOf(volume),
       valuesOf(viscosity),
       valuesOf(strainEnergy),
+      valuesOf(temperatureChange),
       valuesOf(deformation),
       valuesOf(stress),
       valuesOf(velocityGradient),
       valuesOf(state),
       valuesOf(oldState),
       stateSize,
+      valuesOf(localized),
   };
   updateParticles<Shape>(patch, material, method, dt, record, states, stableTimeStep);
 }

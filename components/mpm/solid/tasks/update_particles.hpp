@@ -32,18 +32,19 @@ struct ParticleStates {
   const double *mass, *temperature, *oldVolume;
   const Matrix3 *oldDeformation, *oldStress;
   ParticleView<Vec<D>> newX, newVelocity;
-  double *volume, *viscosity, *strainEnergy;
+  double *volume, *viscosity, *strainEnergy, *temperatureChange;
   Matrix3 *deformation, *stress, *velocityGradient;
   double* state;
   const double* oldState;
   int stateSize;
+  const int* localized;
 };
 
 /// x_p += dt sum_i S_i v*_i,   v_p += sum_i S_i (v*_i - v_i): the FLIP of Brackbill & Ruppel, J. Comput. Phys. 65 (1986)
 /// 314;   L_p = sum_i v*_i grad S_i (and L_theta = sum_i v*_r S_i / r where axisymmetric),   F_p = (I + L_p dt) F_p.
 template <class Shape, int D = Shape::dimension>
 void moveParticle(const Level& level, const Method& method, double dt, const Gathered<D>& sums,
-                  const ParticleStates<Shape>& s, int p, Matrix3& velocityGradient) {
+                  const Erosion& erosion, const ParticleStates<Shape>& s, int p, Matrix3& velocityGradient) {
   const Vec<D> after = lanes<D>(sums.value, lane::velocity), before = lanes<D>(sums.value, lane::before);
   s.newX[p] = s.x[p] + dt * after;
   s.newVelocity[p] = s.velocity[p] + (after - before);
@@ -59,8 +60,17 @@ void moveParticle(const Level& level, const Method& method, double dt, const Gat
       velocityGradient(sceneAxis<D>(level, i), sceneAxis<D>(level, j)) =
           sums.gradient[static_cast<std::size_t>(j)][lane::velocity + i];
   s.deformation[p] = deformed(s.oldDeformation[p], velocityGradient, dt, method.minimumSubcyclesForF);
+  if (s.localized && s.localized[p]) erosion.restrain(s.oldDeformation[p], s.deformation[p], velocityGradient);
   if (s.volume) s.volume[p] = s.oldVolume[p] * (s.deformation[p].determinant() / s.oldDeformation[p].determinant());
   if (s.velocityGradient) s.velocityGradient[p] = velocityGradient;
+}
+
+/// The artificial viscosity's work on a volume per mass that grows by so much, m^3/kg.
+template <class Shape>
+void heatByViscosity(const Material& material, double growth, const ParticleStates<Shape>& s, int p) {
+  const double heat = -s.viscosity[p] * growth;
+  if (s.temperatureChange && material.specificHeat > 0) s.temperatureChange[p] += heat / material.specificHeat;
+  if (s.state) material.model->addHeat(s.state + p * s.stateSize, heat);
 }
 
 /// Stress, artificial viscosity and strain energy of particles of a cell, where a scene keeps them. Returns the time in
@@ -85,8 +95,10 @@ double updateStress(const Level& level, const Material& material, const Method& 
   }
   points.waveSpeed = waveSpeed.data();
   points.bulkSpeed = s.viscosity ? bulkSpeed.data() : nullptr;
+  points.temperatureChange = s.temperatureChange ? s.temperatureChange + first : nullptr;
   points.strainEnergyDensity = s.strainEnergy ? energyDensity.data() : nullptr;
   material.model->updateStress(material.density, points);
+  const ArtificialViscosity own = material.model->ownViscosity().value_or(method.viscosity.value_or(ArtificialViscosity{}));
   double least = std::numeric_limits<double>::infinity();
   for (int k = 0; k < count; ++k) {
     const int p = first + k;
@@ -95,9 +107,11 @@ double updateStress(const Level& level, const Material& material, const Method& 
     if (s.viscosity) {
       const double jump = std::max(-velocityGradient[k].trace(), 0.0) * method.meanWidth;
       const double density = material.density / s.deformation[p].determinant();
-      s.viscosity[p] = density * jump * (method.viscosity->linear * bulkSpeed[at] + method.viscosity->quadratic * jump);
+      s.viscosity[p] = density * jump * (own.linear * bulkSpeed[at] + own.quadratic * jump);
+      if (method.viscosityHeats) heatByViscosity(material, velocityGradient[k].trace() * dt / density, s, p);
     }
-    if (s.strainEnergy) s.strainEnergy[p] = energyDensity[at] * s.mass[p] / material.density;
+    const bool bears = !s.localized || !s.localized[p];
+    if (s.strainEnergy) s.strainEnergy[p] = bears ? energyDensity[at] * s.mass[p] / material.density : 0.0;
   }
   return least;
 }
@@ -119,7 +133,7 @@ void updateParticles(const Patch& patch, const Material& material, const Method&
         const int p = first + k;
         const typename Shape::Stencil stencil(frame, cell, s.x[p], s.extents[p]);
         const Gathered<D> sums = gather(stencil, windowOf<const Octet>(record, stencil));
-        moveParticle<Shape>(level, method, dt, sums, s, p, velocityGradient[static_cast<std::size_t>(k)]);
+        moveParticle<Shape>(level, method, dt, sums, material.erosion, s, p, velocityGradient[static_cast<std::size_t>(k)]);
       }
       least = std::min(least, updateStress<Shape>(level, material, method, dt, s, velocityGradient.data(), first, count));
     }

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <Eigen/Eigenvalues>
+
+#include <string_view>
+#include <variant>
+
+#include "components/mpm/solid/constitutive_model.hpp"
+#include "core/core.hpp"
+
+namespace tushar::mpm::solid {
+
+/// What damage depends on, of one particle at the end of a step.
+struct DamageState {
+  const Matrix3& deformation;
+  double volume;             ///< m^3
+  double plasticStrainRate;  ///< 1/s
+  double temperature;        ///< K
+  double timeStep;           ///< s
+};
+
+/// What damage has done to a particle.
+struct Harm {
+  double damage;     ///< 0 where it is sound
+  double threshold;  ///< what it may still bear: a stress, a strain or the root of an energy
+  bool hasFailed;
+};
+
+/// No damage.
+struct NoDamage {
+  static constexpr std::string_view name = "none";
+  static const input::Schema<NoDamage>& schema();
+  Harm initial(double, ParticleId) const { return {0, 0, false}; }
+  void grow(const MaterialConstants&, const DamageState&, Matrix3&, Harm&) const {}
+};
+
+/// D = sum de_p / e_f, e_f = (D1 + D2 exp(D3 s*)) (1 + D4 ln e*) (1 + D5 T*), s* = mean stress over equivalent stress:
+/// Johnson & Cook, Eng. Fract. Mech. 21 (1985) 31. A particle fails at D = 1. As in Uintah |s*| <= 1.5, and the factor of
+/// the rate is (1 + e*)^D4 below 1/s.
+struct JohnsonCookDamage {
+  static constexpr std::string_view name = "johnson_cook";
+  double d1 = 0, d2 = 0, d3 = 0, d4 = 0, d5 = 0;
+  double initialDamage = 0;
+  double leastDamage = 1e-10;  ///< damage below that is none
+
+  static const input::Schema<JohnsonCookDamage>& schema();
+  Harm initial(double, ParticleId) const { return {initialDamage, 0, false}; }
+  /// e_f
+  double fractureStrain(const MaterialConstants& material, const DamageState& state, const Matrix3& stress) const;
+  void grow(const MaterialConstants& material, const DamageState& state, Matrix3& stress, Harm& harm) const;
+};
+
+/// Damage of brittle materials by the root of the energy of the greatest principal strain, r = E^(1/2) e_max, once it is
+/// above a threshold r_0: d = 0.999/D ((1 + D) / (1 + D exp(-C (r - r_0))) - 1) with C = r_0 h (1 + D) ln(1 + D) / (G_f D)
+/// for a particle of size h; the stress is (1 - d) of the sound one's. Leavy, Brannon & Strack, Int. J. Appl. Ceram.
+/// Technol. 7 (2010) 606; Uintah's `Brittle`.
+struct BrittleDamage {
+  static constexpr std::string_view name = "Brittle";
+  double threshold = 57;        ///< r_0, Pa^(1/2)
+  double fractureEnergy = 11.2; ///< G_f, J/m^2
+  double shape = 0.1;           ///< D, 1
+  double greatestStep = 0.1;    ///< of d in one step, 1
+  double young = 0;             ///< E, Pa
+
+  static const input::Schema<BrittleDamage>& schema();
+  Harm initial(double, ParticleId) const { return {0, threshold, false}; }
+  void grow(const MaterialConstants&, const DamageState& state, Matrix3& stress, Harm& harm) const;
+};
+
+/// A particle fails at once where its greatest principal stress or strain, or its stress by Mohr and Coulomb, is above a
+/// threshold, which may differ from particle to particle.
+struct ThresholdDamage {
+  enum class Criterion { principalStress, principalStrain, mohrCoulomb };
+  enum class Distribution { constant, gauss, weibull, uniform };
+  static constexpr std::string_view name = "Threshold";
+  Criterion criterion = Criterion::principalStress;
+  Distribution distribution = Distribution::constant;
+  double mean = 0, deviation = 0;
+  int seed = 0;
+  bool scalesWithVolume = false;
+  std::optional<double> referenceVolume;  ///< m^3
+  std::optional<double> exponent;
+  double frictionAngle = 0;   ///< degrees
+  double tensileCutoff = 0;   ///< share of the cohesion
+  bool localizes = true;
+
+  static const input::Schema<ThresholdDamage>& schema();
+  /// The threshold of a particle, drawn by its id, so that it does not depend on patches.
+  Harm initial(double volume, ParticleId id) const;
+  void grow(const MaterialConstants&, const DamageState& state, Matrix3& stress, Harm& harm) const;
+
+ private:
+  bool isBeyond(const DamageState& state, const Matrix3& stress, double threshold) const;
+};
+
+using Damage = std::variant<NoDamage, JohnsonCookDamage, BrittleDamage, ThresholdDamage>;
+
+/// Principal values, the least first.
+inline Vec3 principalValues(const Matrix3& tensor) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(tensor, Eigen::EigenvaluesOnly).eigenvalues();
+}
+/// The greatest principal value of Almansi's strain, (I - (F Fᵀ)^-1)/2.
+double greatestStrain(const Matrix3& deformation);
+
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,146 @@
+#include "components/mpm/solid/damage/damage_input.hpp"
+
+#include "components/mpm/solid/refuse.hpp"
+
+namespace tushar::mpm::solid {
+
+using input::Diagnostics;
+using input::Element;
+using input::Schema;
+
+const Schema<NoDamage>& NoDamage::schema() {
+  static const Schema<NoDamage> schema("damage_model", "No damage.");
+  return schema;
+}
+
+const Schema<JohnsonCookDamage>& JohnsonCookDamage::schema() {
+  using Self = JohnsonCookDamage;
+  static const Schema<Self> schema =
+      Schema<Self>("damage_model", "Johnson's and Cook's; a particle fails where p.damage is 1 (in Uintah nothing does).")
+          .required("D1", &Self::d1, "1", "fracture strain without stress")
+          .required("D2", &Self::d2, "1", "factor of exp(D3 s*)")
+          .required("D3", &Self::d3, "1", "factor of the triaxiality")
+          .required("D4", &Self::d4, "1", "factor of the logarithm of the rate")
+          .required("D5", &Self::d5, "1", "factor of the temperature")
+          .value("initial_mean_scalar_damage", &Self::initialDamage, 0, "1", "damage at the start", input::between(0, 1))
+          .value("critical_scalar_damage", &Self::leastDamage, 1e-10, "1", "smaller damage is none", input::nonNegative())
+          .ignored("initial_std_scalar_damage", "all particles start with the mean damage")
+          .check([](const Self&, const Element& element, Diagnostics& diagnostics) {
+            const auto given = element.child("initial_scalar_damage_distrib");
+            if (given && given->text() != "constant")
+              diagnostics.error(*given, input::choiceProblem(given->text(), {"constant"}));
+          })
+          .ignored("initial_scalar_damage_distrib", "only constant");
+  return schema;
+}
+
+const Schema<BrittleDamage>& BrittleDamage::schema() {
+  using Self = BrittleDamage;
+  static const Schema<Self> schema = [] {
+    Schema<Self> tags("damage_model", "Of brittle materials: the stress falls once a threshold is passed.");
+    tags.value("brittle_damage_initial_threshold", &Self::threshold, 57, "Pa^(1/2)", "r_0", input::positive())
+        .value("brittle_damage_fracture_energy", &Self::fractureEnergy, 11.2, "J/m^2", "G_f", input::positive())
+        .value("brittle_damage_constant_D", &Self::shape, 0.1, "1", "shape of the softening", input::positive())
+        .value("brittle_damage_max_damage_increment", &Self::greatestStep, 0.1, "1", "greatest growth in one step",
+               input::positive())
+        .ignored("brittle_damage_recoveryCoeff", "damage does not heal")
+        .ignored("brittle_damage_printDamage", "save p.damage");
+    refuseSwitch(tags, "brittle_damage_allowRecovery", "damage does not heal");
+    return tags;
+  }();
+  return schema;
+}
+
+const Schema<ThresholdDamage>& ThresholdDamage::schema() {
+  using Self = ThresholdDamage;
+  static const Schema<Self> schema =
+      Schema<Self>("damage_model", "A particle fails at once above a threshold.")
+          .requiredChoice("failure_criteria", &Self::criterion,
+                          {{"MaximumPrincipalStress", Criterion::principalStress},
+                           {"MaximumPrincipalStrain", Criterion::principalStrain},
+                           {"MohrCoulomb", Criterion::mohrCoulomb},
+                           {"MohrColoumb", Criterion::mohrCoulomb}},
+                          "what is compared with the threshold")
+          .required("failure_mean", &Self::mean, "Pa or 1", "mean of the threshold; the cohesion of MohrCoulomb",
+                    input::positive())
+          .choice("failure_distrib", &Self::distribution,
+                  {{"constant", Distribution::constant},
+                   {"gauss", Distribution::gauss},
+                   {"weibull", Distribution::weibull},
+                   {"uniform", Distribution::uniform}},
+                  Distribution::constant, "how the threshold differs from particle to particle")
+          .value("failure_std", &Self::deviation, 0, "Pa or 1", "standard deviation, half width, or Weibull's modulus",
+                 input::nonNegative())
+          .value("failure_seed", &Self::seed, 0, "1", "other numbers, other thresholds; not those of Uintah")
+          .choice("scaling", &Self::scalesWithVolume, {{"none", false}, {"kayenta", true}}, false,
+                  "small particles bear more: (reference_volume / volume)^(1/exponent)")
+          .optional("reference_volume", &Self::referenceVolume, "m^3", "where nothing is scaled", input::positive())
+          .optional("exponent", &Self::exponent, "1", "of the scaling; Weibull's modulus if left out", input::positive())
+          .value("friction_angle", &Self::frictionAngle, 0, "degrees", "of MohrCoulomb", input::between(0, 89))
+          .value("tensile_cutoff_fraction_of_cohesion", &Self::tensileCutoff, 0, "1", "of MohrCoulomb",
+                 input::nonNegative())
+          .value("LocalizeParticles", &Self::localizes, true, "1", "whether particles fail at all")
+          .check([](const Self& read, const Element& element, Diagnostics& diagnostics) {
+            if (read.distribution == Distribution::weibull && read.deviation <= 0)
+              diagnostics.error(element, "failure_distrib weibull needs <failure_std>, its modulus");
+            if (read.scalesWithVolume && !read.referenceVolume)
+              diagnostics.error(element, "scaling needs <reference_volume>");
+            if (read.scalesWithVolume && !read.exponent && read.distribution != Distribution::weibull)
+              diagnostics.error(element, "scaling needs <exponent>");
+          });
+  return schema;
+}
+
+namespace {
+
+const Schema<Erosion>& erosionSchema() {
+  using Algorithm = Erosion::Algorithm;
+  static const Schema<Erosion> schema =
+      Schema<Erosion>("erosion", "What becomes of particles that fail.")
+          .requiredChoiceAttribute("algorithm", &Erosion::algorithm,
+                                   {{"none", Algorithm::none},
+                                    {"AllowNoTension", Algorithm::allowNoTension},
+                                    {"ZeroStress", Algorithm::zeroStress},
+                                    {"AllowNoShear", Algorithm::allowNoShear},
+                                    {"PreserveStress", Algorithm::preserveStress}},
+                                   "bears pressure only, nothing, mean stress only, or is only marked")
+          .value("char_time", &Erosion::relaxationTime, 1e-99, "s", "time in which lost stress fades to 1/e",
+                 input::positive());
+  return schema;
+}
+
+/// What a damage model takes from the constitutive model.
+void connect(Material& material, const Element& parent, const Element& tag, Diagnostics& diagnostics) {
+  const bool needsRate = std::holds_alternative<JohnsonCookDamage>(material.damage);
+  if (needsRate && material.model && offsetOf(*material.model, "p.plasticStrainRate") < 0)
+    diagnostics.error(tag, "johnson_cook needs the plastic strain of a constitutive model elastic_plastic_hp, found " +
+                               std::string(material.model->name()));
+  BrittleDamage* brittle = std::get_if<BrittleDamage>(&material.damage);
+  if (!brittle) return;
+  const auto model = parent.child("constitutive_model");
+  const auto number = [&](const char* name) -> std::optional<double> {
+    const auto given = model ? model->child(name) : std::nullopt;
+    return given ? input::parse<double>(given->text()).value : std::nullopt;
+  };
+  const auto bulk = number("bulk_modulus"), shear = number("shear_modulus");
+  if (!bulk || !shear) return diagnostics.error(tag, "Brittle needs a constitutive model with bulk_modulus and shear_modulus");
+  brittle->young = 9 * *bulk * *shear / (3 * *bulk + *shear);
+}
+
+}  // namespace
+
+void readDamage(Material& material, const Element& parent, Diagnostics& diagnostics) {
+  if (const auto tag = parent.child("damage_model")) {
+    material.damage = TypedTag<Damage>::read(*tag, diagnostics);
+    connect(material, parent, *tag, diagnostics);
+  }
+  if (const auto tag = parent.child("erosion")) material.erosion = erosionSchema().read(*tag, diagnostics);
+}
+
+void describeDamage(std::ostream& out, int indent) {
+  TypedTag<Damage>::describe(out, indent);
+  out << std::string(static_cast<std::size_t>(indent), ' ') << "<erosion>: " << erosionSchema().sentence() << '\n';
+  erosionSchema().describeContents(out, indent + 2);
+}
+
+}  // namespace tushar::mpm::solid

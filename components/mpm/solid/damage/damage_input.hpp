@@ -1,0 +1,12 @@
+#pragma once
+
+#include "components/mpm/solid/material.hpp"
+#include "components/mpm/solid/variant_input.hpp"
+
+namespace tushar::mpm::solid {
+
+/// The tags `damage_model` and `erosion` of a material, whose model has been read.
+void readDamage(Material& material, const input::Element& parent, input::Diagnostics& diagnostics);
+void describeDamage(std::ostream& out, int indent);
+
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,109 @@
+#pragma once
+
+#include <cmath>
+#include <string_view>
+#include <variant>
+
+#include "core/input/schema.hpp"
+
+namespace tushar::mpm::solid {
+
+/// What the mean stress depends on.
+struct VolumeState {
+  double oldMeanStress;       ///< Pa, tension positive
+  double dilatation;          ///< tr D dt, 1
+  double volume;              ///< J at the end of the step, 1
+  double temperature;         ///< K
+  double initialTemperature;  ///< K
+  double energy;              ///< gained since the start, J/kg
+  double bulkModulus;         ///< Pa
+  double density;             ///< rho_0, kg/m^3
+  double specificHeat;        ///< J/(kg K)
+};
+
+/// p_new = p + K tr D dt, tension positive.
+struct HypoelasticVolume {
+  static constexpr std::string_view name = "default_hypo";
+
+  static const input::Schema<HypoelasticVolume>& schema() {
+    static const input::Schema<HypoelasticVolume> schema("equation_of_state", "The mean stress grows with K tr D.");
+    return schema;
+  }
+  double meanStress(const VolumeState& s) const { return s.oldMeanStress + s.bulkModulus * s.dilatation; }
+  /// Change of the temperature by the step's change of volume, K.
+  double heating(const VolumeState&) const { return 0; }
+};
+
+/// p = K/2 (J - 1/J), tension positive.
+struct HyperelasticVolume {
+  static constexpr std::string_view name = "default_hyper";
+
+  static const input::Schema<HyperelasticVolume>& schema() {
+    static const input::Schema<HyperelasticVolume> schema("equation_of_state", "The mean stress is K/2 (J - 1/J).");
+    return schema;
+  }
+  double meanStress(const VolumeState& s) const { return s.bulkModulus / 2 * (s.volume - 1 / s.volume); }
+  double heating(const VolumeState&) const { return 0; }
+};
+
+/// p = rho_0 C_0² eta (1 - Gamma_0 eta / 2) / (1 - S_alpha eta)² + Gamma_0 rho_0 c_v (T - T_0), eta = 1 - J: the shock
+/// velocity is U = C_0 + S_alpha u; Wilkins, Computer Simulation of Dynamic Phenomena (1999), chapter 3.
+struct MieGruneisen {
+  static constexpr std::string_view name = "mie_gruneisen";
+
+  double soundSpeed = 0;  ///< C_0, m/s
+  double gruneisen = 0;   ///< Gamma_0, 1
+  double slope = 0;       ///< S_alpha, 1
+
+  static const input::Schema<MieGruneisen>& schema() {
+    static const input::Schema<MieGruneisen> schema =
+        input::Schema<MieGruneisen>("equation_of_state", "Mie and Grüneisen's, with the heat by the temperature.")
+            .required("C_0", &MieGruneisen::soundSpeed, "m/s", "speed of a weak shock", input::positive())
+            .required("Gamma_0", &MieGruneisen::gruneisen, "1", "Grüneisen's constant", input::nonNegative())
+            .required("S_alpha", &MieGruneisen::slope, "1", "dU/du of a shock", input::nonNegative());
+    return schema;
+  }
+  double meanStress(const VolumeState& s) const {
+    const double eta = 1 - s.volume, spread = 1 - slope * eta;
+    const double cold = s.density * soundSpeed * soundSpeed * eta * (1 - 0.5 * gruneisen * eta) / (spread * spread);
+    return -(cold + gruneisen * s.density * s.specificHeat * (s.temperature - s.initialTemperature));
+  }
+  double heating(const VolumeState&) const { return 0; }
+};
+
+/// p = rho_0 C_0² eta (1 - Gamma_0 eta / 2) / (1 - S_alpha eta - S_2 eta² - S_3 eta³)² + Gamma_0 rho_0 e under pressure,
+/// rho_0 C_0² eta + Gamma_0 rho_0 e in tension, eta = 1 - J: Steinberg, UCRL-MA-106439 (1991). The temperature changes
+/// by dT = -T Gamma_0 J tr D dt.
+struct MieGruneisenEnergy {
+  static constexpr std::string_view name = "mie_gruneisen_energy";
+
+  double soundSpeed = 0;      ///< C_0, m/s
+  double gruneisen = 0;       ///< Gamma_0, 1
+  double s1 = 0, s2 = 0, s3 = 0;  ///< 1
+
+  static const input::Schema<MieGruneisenEnergy>& schema() {
+    using Self = MieGruneisenEnergy;
+    static const input::Schema<Self> schema =
+        input::Schema<Self>("equation_of_state", "Mie and Grüneisen's, with the energy that a particle gained.")
+            .required("C_0", &Self::soundSpeed, "m/s", "speed of a weak shock", input::positive())
+            .required("Gamma_0", &Self::gruneisen, "1", "Grüneisen's constant", input::nonNegative())
+            .required("S_alpha", &Self::s1, "1", "dU/du of a weak shock", input::nonNegative())
+            .value("S_2", &Self::s2, 0, "1", "next term of the shock velocity")
+            .value("S_3", &Self::s3, 0, "1", "last term of the shock velocity");
+    return schema;
+  }
+  double meanStress(const VolumeState& s) const {
+    const double eta = 1 - s.volume;
+    double pressure = s.density * soundSpeed * soundSpeed * eta;
+    if (eta >= 0) {
+      const double spread = 1 - eta * (s1 + eta * (s2 + eta * s3));
+      pressure *= (1 - 0.5 * gruneisen * eta) / (spread * spread);
+    }
+    return -(pressure + gruneisen * s.density * s.energy);
+  }
+  double heating(const VolumeState& s) const { return -s.temperature * gruneisen * s.volume * s.dilatation; }
+};
+
+using EquationOfState = std::variant<HypoelasticVolume, HyperelasticVolume, MieGruneisen, MieGruneisenEnergy>;
+
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "components/mpm/solid/labels.hpp"
+#include "components/mpm/solid/material.hpp"
+
+namespace tushar::mpm::solid {
+
+/// Particles start sound, each with its own threshold.
+inline void initializeDamage(const Patch&, const Material& material, ParticleView<const ParticleId> id,
+                             ParticleView<const double> volume, ParticleView<double> damage,
+                             ParticleView<double> threshold, ParticleView<int> localized,
+                             ParticleView<double> failureTime) {
+  for (int p = 0; p < damage.owned(); ++p) {
+    const Harm harm = std::visit([&](const auto& model) { return model.initial(volume[p], id[p]); }, material.damage);
+    damage[p] = harm.damage;
+    threshold[p] = harm.threshold;
+    localized[p] = 0;
+    failureTime[p] = -1e99;
+  }
+}
+
+/// Damage at the end of the step, and what damaged and failed particles bear of the stress. Uintah's computeBasicDamage
+/// and updateErosionParameter.
+inline void computeDamage(const Patch&, const Material& material, int stateSize, double time, double dt,
+                          ParticleView<const double> temperature, ParticleView<const double> oldDamage,
+                          ParticleView<const double> oldThreshold, ParticleView<const int> oldLocalized,
+                          ParticleView<const double> oldFailureTime, ParticleView<const Matrix3> deformation,
+                          ParticleView<const double> volume, std::optional<ParticleView<const double>> state,
+                          ParticleView<Matrix3> stress, ParticleView<double> damage, ParticleView<double> threshold,
+                          ParticleView<int> localized, ParticleView<double> failureTime) {
+  const int rate = offsetOf(*material.model, "p.plasticStrainRate");
+  const MaterialConstants constants = material.constants();
+  for (int p = 0; p < stress.owned(); ++p) {
+    const double plasticStrainRate = rate < 0 ? 0.0 : (&(*state)[0])[p * stateSize + rate];
+    const DamageState now{deformation[p], volume[p], plasticStrainRate, temperature[p], dt};
+    Harm harm{oldDamage[p], oldThreshold[p], oldLocalized[p] != 0};
+    std::visit([&](const auto& model) { model.grow(constants, now, stress[p], harm); }, material.damage);
+    const bool isMolten = rate >= 0 && temperature[p] > material.meltTemperature;
+    if (isMolten && material.erosion.acts()) harm.hasFailed = true;
+    damage[p] = harm.damage;
+    threshold[p] = harm.threshold;
+    localized[p] = harm.hasFailed ? 1 : 0;
+    failureTime[p] = harm.hasFailed && !oldLocalized[p] ? time : oldFailureTime[p];
+    if (harm.hasFailed) stress[p] = material.erosion.bearable(stress[p], time - failureTime[p]);
+  }
+}
+
+}  // namespace tushar::mpm::solid

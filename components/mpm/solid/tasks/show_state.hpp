@@ -1,0 +1,63 @@
+#pragma once
+
+#include <memory>
+#include <set>
+
+#include "components/mpm/solid/labels.hpp"
+#include "components/mpm/solid/material.hpp"
+
+namespace tushar::mpm::solid {
+
+/// Copies a state variable out of the numbers that each particle keeps for its model; 0 where the model has none.
+template <class T>
+void showState(const Patch&, const Material& material, std::string_view name, int stateSize,
+               ParticleView<const double> state, ParticleView<T> values) {
+  const int offset = offsetOf(*material.model, name);
+  const double* const numbers = values.owned() > 0 ? &state[0] : nullptr;
+  for (int p = 0; p < values.owned(); ++p) {
+    const double* const own = numbers + p * stateSize + offset;
+    if constexpr (std::is_same_v<T, double>)
+      values[p] = offset < 0 ? 0.0 : *own;
+    else
+      values[p] = offset < 0 ? T(T::Zero()) : T(Eigen::Map<const T>(own));
+  }
+}
+
+/// A state variable of constitutive models as a label of its own, computed only where someone saves it.
+class StateView {
+ public:
+  virtual ~StateView() = default;
+  virtual void schedule(TaskList& tasks, const std::vector<Material>& materials, int stateSize,
+                        const ParticleLabel<double>& state) const = 0;
+};
+
+template <class T>
+class StateViewOf : public StateView {
+ public:
+  explicit StateViewOf(const StateVariable& variable) : label_(variable.label, variable.unit, variable.description) {}
+  void schedule(TaskList& tasks, const std::vector<Material>& materials, int stateSize,
+                const ParticleLabel<double>& state) const override {
+    tasks.perMaterial("mpm::showState", showState<T>, materials, with(label_.name), with(stateSize), requiresOld(state),
+                      computes(label_));
+  }
+
+ private:
+  ParticleLabel<T> label_;
+};
+
+/// Every state variable of the materials, once.
+inline std::vector<std::shared_ptr<const StateView>> stateViews(const std::vector<Material>& materials) {
+  std::vector<std::shared_ptr<const StateView>> views;
+  std::set<std::string_view> known;
+  for (const Material& material : materials)
+    for (const StateVariable& variable : material.model->stateVariables()) {
+      if (!known.insert(variable.label).second) continue;
+      if (variable.components == 9)
+        views.push_back(std::make_shared<StateViewOf<Matrix3>>(variable));
+      else
+        views.push_back(std::make_shared<StateViewOf<double>>(variable));
+    }
+  return views;
+}
+
+}  // namespace tushar::mpm::solid

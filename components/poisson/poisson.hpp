@@ -1,0 +1,55 @@
+#pragma once
+
+#include "core/core.hpp"
+#include "core/input/expression.hpp"
+#include "core/simulation/catalogue.hpp"
+#include "core/solvers/solver.hpp"
+
+namespace tushar::poisson {
+
+namespace c {
+inline constexpr CellLabel<double> phi{"c.phi", "1", "solution", Bound::finite};
+}
+inline constexpr ReductionLabel<Maximum> iterations{"KrylovIterations", "1", "iterations of the linear solve"};
+inline constexpr ReductionLabel<Maximum> finalResidual{"KrylovResidual", "1", "residual at the end over that at the start"};
+
+/// The `Poisson` section.
+struct Settings {
+  Location where;                       ///< in the scene
+  input::Expression coefficient{1.0};   ///< k
+  input::Expression source{0.0};        ///< f
+  solvers::LinearSettings solver;
+};
+
+/// div(k grad phi) = f in D dimensions, by finite volumes, solved anew in every step for the f of its end.
+///
+/// At a face with `Phi` Dirichlet the value is kept, with Neumann the outward derivative; any other face lets no flux
+/// through. Where no face keeps a value, f has its mean taken away and phi has mean 0. The component to copy where a step
+/// needs a global solve.
+template <int D>
+class Poisson : public Component {
+ public:
+  explicit Poisson(Settings settings) : settings_(std::move(settings)) {}
+
+  void scheduleInitialize(TaskList& tasks) const override;
+  void scheduleComputeStableTimeStep(TaskList& tasks) const override;
+  void scheduleTimeAdvance(TaskList& tasks) const override;
+
+ private:
+  Settings settings_;
+};
+
+/// phi = 0: the guess of the first solve. Throws InputError where k is not greater than 0.
+template <int D>
+void initialize(const Patch& patch, const Settings& settings, CellView<double> phi);
+
+/// Solves for phi in the cells of all patches, from the old one. Throws NumericalError if the solver gives up.
+template <int D>
+void solve(const RankPatches& patches, const Settings& settings, double time, double dt,
+           const std::vector<CellView<const double>>& oldPhi, const std::vector<CellView<double>>& phi,
+           Maximum& iterationsTaken, Maximum& residualLeft);
+
+/// What sus knows of this component.
+simulation::ComponentKind kind();
+
+}  // namespace tushar::poisson

@@ -1,0 +1,68 @@
+#include <chrono>
+
+#include "core/solvers/petsc_objects.hpp"
+
+namespace tushar::solvers {
+
+namespace {
+
+/// Seconds that `work` takes.
+template <class Work>
+double timed(Work&& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// |b - A x| at the end, for where it is the greatest.
+int worstRow(Mat matrix, Vec b, Vec x) {
+  OwnedVec residual;
+  check(VecDuplicate(b, residual.address()));
+  check(MatMult(matrix, x, residual));
+  check(VecAYPX(residual, -1, b));
+  return worstOf(residual);
+}
+
+void note(Outcome& outcome, KSP krylov) {
+  KSPConvergedReason reason;
+  const char* word = nullptr;
+  PetscInt iterations = 0, count = 0;
+  const PetscReal* history = nullptr;
+  check(KSPGetConvergedReason(krylov, &reason));
+  check(KSPGetConvergedReasonString(krylov, &word));
+  check(KSPGetIterationNumber(krylov, &iterations));
+  check(KSPGetResidualHistory(krylov, &history, &count));
+  outcome.converged = reason > 0;
+  outcome.reason = word;
+  outcome.krylovIterations = static_cast<int>(iterations);
+  outcome.residuals.assign(history, history + count);
+}
+
+}  // namespace
+
+Outcome solveLinear(const Unknowns& unknowns, const LinearProblem& problem, const LinearSettings& settings,
+                    std::span<double> x) {
+  startPetsc(settings.petsc);
+  Outcome outcome;
+  PetscMatrix matrix(unknowns);
+  outcome.assembly = timed([&] { matrix.assemble(problem.assemble); });
+  std::vector<double> right(problem.rightHandSide.begin(), problem.rightHandSide.end());
+  const PetscVector b(unknowns, right), solution(unknowns, x);
+  MatNullSpace free = nullptr;
+  check(MatGetNullSpace(matrix, &free));
+  if (free) check(MatNullSpaceRemove(free, b));
+  OwnedKsp krylov;
+  check(KSPCreate(communicator(), krylov.address()));
+  check(KSPSetOperators(krylov, matrix, matrix));
+  check(KSPSetInitialGuessNonzero(krylov, settings.solver == "preonly" ? PETSC_FALSE : PETSC_TRUE));
+  check(KSPSetResidualHistory(krylov, nullptr, settings.maxIterations + 1, PETSC_TRUE));
+  configure(krylov, settings);
+  outcome.setup = timed([&] { check(KSPSetUp(krylov)); });
+  outcome.solve = timed([&] { check(KSPSolve(krylov, b, solution)); });
+  if (free) check(MatNullSpaceRemove(free, solution));
+  note(outcome, krylov);
+  if (!outcome.converged) outcome.worst = worstRow(matrix, b, solution);
+  return outcome;
+}
+
+}  // namespace tushar::solvers

@@ -1,0 +1,28 @@
+#include "core/solvers/petsc_objects.hpp"
+
+// What the library shows to the outside: one solver.
+
+namespace tushar::solvers {
+
+namespace {
+
+class PetscSolver : public Solver {
+ public:
+  Outcome solve(const Unknowns& unknowns, const LinearProblem& problem, const LinearSettings& settings,
+                std::span<double> x) const override {
+    return solveLinear(unknowns, problem, settings, x);
+  }
+  Outcome solve(const Unknowns& unknowns, NonlinearProblem& problem, const NewtonSettings& settings,
+                std::span<double> u) const override {
+    return solveNewton(unknowns, problem, settings, u);
+  }
+};
+
+}  // namespace
+
+}  // namespace tushar::solvers
+
+extern "C" [[gnu::visibility("default")]] const tushar::solvers::Solver* tusharSolver() {
+  static const tushar::solvers::PetscSolver solver;
+  return &solver;
+}

@@ -1,0 +1,149 @@
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <limits>
+
+#include "core/solvers/petsc_objects.hpp"
+
+namespace tushar::solvers {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// What PETSc's callbacks work with.
+struct Newton {
+  NonlinearProblem& problem;
+  const NewtonSettings& settings;
+  PetscMatrix& matrix;
+  OwnedVec lastU, lastResidual, change;
+  double greatestChange = 0, firstEnergy = 0, seconds = 0;
+  std::exception_ptr thrown;
+};
+
+/// Runs `work`; an exception waits until PETSc has returned.
+template <class Work>
+PetscErrorCode guarded(Newton& newton, Work&& work) {
+  try {
+    work();
+    return 0;
+  } catch (...) {
+    newton.thrown = std::current_exception();
+    return PETSC_ERR_USER;
+  }
+}
+
+PetscErrorCode evaluateResidual(SNES, Vec u, Vec r, void* context) {
+  Newton& newton = *static_cast<Newton*>(context);
+  return guarded(newton, [&] {
+    PetscInt count = 0;
+    const PetscScalar* from = nullptr;
+    PetscScalar* to = nullptr;
+    check(VecGetLocalSize(u, &count));
+    check(VecGetArrayRead(u, &from));
+    check(VecGetArray(r, &to));
+    const auto size = static_cast<std::size_t>(count);
+    const bool admissible = newton.problem.residual({from, size}, {to, size});
+    // The line search goes back from what is infinite.
+    if (!admissible) std::fill_n(to, count, std::numeric_limits<double>::infinity());
+    check(VecRestoreArray(r, &to));
+    check(VecRestoreArrayRead(u, &from));
+  });
+}
+
+PetscErrorCode evaluateTangent(SNES, Vec, Mat, Mat, void* context) {
+  Newton& newton = *static_cast<Newton*>(context);
+  return guarded(newton, [&] {
+    const auto start = Clock::now();
+    newton.matrix.assemble([&](Matrix& matrix) { newton.problem.tangent(matrix); });
+    newton.seconds += std::chrono::duration<double>(Clock::now() - start).count();
+  });
+}
+
+/// |du| <= displacement max |du| and |du . r| <= energy |du . r| of the first iteration; or no residual at all.
+PetscErrorCode hasConverged(SNES snes, PetscInt iteration, PetscReal, PetscReal, PetscReal norm,
+                            SNESConvergedReason* reason, void* context) {
+  Newton& newton = *static_cast<Newton*>(context);
+  return guarded(newton, [&] {
+    Vec u = nullptr, r = nullptr;
+    check(SNESGetSolution(snes, &u));
+    check(SNESGetFunction(snes, &r, nullptr, nullptr));
+    *reason = SNES_CONVERGED_ITERATING;
+    if (!std::isfinite(norm)) *reason = SNES_DIVERGED_FNORM_NAN;
+    if (norm == 0) *reason = SNES_CONVERGED_FNORM_ABS;
+    if (iteration > 0) {
+      PetscReal size = 0, energy = 0;
+      check(VecWAXPY(newton.change, -1, newton.lastU, u));
+      check(VecNorm(newton.change, NORM_2, &size));
+      check(VecDot(newton.change, newton.lastResidual, &energy));
+      newton.greatestChange = std::max(newton.greatestChange, size);
+      if (iteration == 1) newton.firstEnergy = std::abs(energy);
+      if (size <= newton.settings.displacement * newton.greatestChange &&
+          std::abs(energy) <= newton.settings.energy * newton.firstEnergy)
+        *reason = SNES_CONVERGED_SNORM_RELATIVE;
+    }
+    check(VecCopy(u, newton.lastU));
+    check(VecCopy(r, newton.lastResidual));
+  });
+}
+
+void configure(SNES snes, Newton& newton, Vec r) {
+  const NewtonSettings& settings = newton.settings;
+  check(SNESSetFunction(snes, r, evaluateResidual, &newton));
+  check(SNESSetJacobian(snes, newton.matrix, newton.matrix, evaluateTangent, &newton));
+  check(SNESSetConvergenceTest(snes, hasConverged, &newton, nullptr));
+  check(SNESSetTolerances(snes, 0, 0, 0, settings.maxIterations, -1));
+  check(SNESSetConvergenceHistory(snes, nullptr, nullptr, settings.maxIterations + 1, PETSC_TRUE));
+  SNESLineSearch search = nullptr;
+  check(SNESGetLineSearch(snes, &search));
+  check(SNESLineSearchSetType(search, SNESLINESEARCHBT));
+  KSP krylov = nullptr;
+  check(SNESGetKSP(snes, &krylov));
+  check(SNESSetFromOptions(snes));
+  configure(krylov, settings.linear);
+}
+
+void note(Outcome& outcome, SNES snes, Vec r) {
+  SNESConvergedReason reason;
+  const char* word = nullptr;
+  PetscInt newton = 0, krylov = 0, count = 0;
+  PetscReal* history = nullptr;
+  check(SNESGetConvergedReason(snes, &reason));
+  check(SNESGetConvergedReasonString(snes, &word));
+  check(SNESGetIterationNumber(snes, &newton));
+  check(SNESGetLinearSolveIterations(snes, &krylov));
+  check(SNESGetConvergenceHistory(snes, &history, nullptr, &count));
+  outcome.converged = reason > 0;
+  outcome.reason = word;
+  outcome.newtonIterations = static_cast<int>(newton);
+  outcome.krylovIterations = static_cast<int>(krylov);
+  outcome.residuals.assign(history, history + count);
+  if (!outcome.converged) outcome.worst = worstOf(r);
+}
+
+}  // namespace
+
+Outcome solveNewton(const Unknowns& unknowns, NonlinearProblem& problem, const NewtonSettings& settings,
+                    std::span<double> u) {
+  startPetsc(settings.linear.petsc);
+  PetscMatrix matrix(unknowns);
+  std::vector<double> values(u.size());
+  const PetscVector solution(unknowns, u), r(unknowns, values);
+  Newton newton{problem, settings, matrix, {}, {}, {}, 0, 0, 0, nullptr};
+  for (OwnedVec* work : {&newton.lastU, &newton.lastResidual, &newton.change})
+    check(VecDuplicate(solution, work->address()));
+  OwnedSnes snes;
+  check(SNESCreate(communicator(), snes.address()));
+  configure(snes, newton, r);
+  const auto start = Clock::now();
+  const PetscErrorCode code = SNESSolve(snes, nullptr, solution);
+  if (newton.thrown) std::rethrow_exception(newton.thrown);
+  check(code);
+  Outcome outcome;
+  outcome.assembly = newton.seconds;
+  outcome.solve = std::chrono::duration<double>(Clock::now() - start).count() - newton.seconds;
+  note(outcome, snes, r);
+  return outcome;
+}
+
+}  // namespace tushar::solvers

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <petscksp.h>
+#include <petscsnes.h>
+
+#include <span>
+#include <stdexcept>
+#include <string>
+
+#include "core/solvers/solver.hpp"
+
+namespace tushar::solvers {
+
+/// Throws std::runtime_error with PETSc's words where a call has failed.
+void check(PetscErrorCode code);
+
+/// Starts PETSc at the first call, and gives it options: those of the scene, then those of PETSC_OPTIONS, which win.
+void startPetsc(const std::string& options);
+
+/// The ranks that a system is spread over.
+inline MPI_Comm communicator() { return PETSC_COMM_SELF; }
+
+/// Owns a PETSc object.
+template <class T, PetscErrorCode (*destroy)(T*)>
+class Owned {
+ public:
+  Owned() = default;
+  Owned(const Owned&) = delete;
+  Owned& operator=(const Owned&) = delete;
+  ~Owned() { destroy(&object_); }
+
+  operator T() const { return object_; }
+  T* address() { return &object_; }
+
+ private:
+  T object_ = nullptr;
+};
+using OwnedVec = Owned<Vec, VecDestroy>;
+using OwnedMat = Owned<Mat, MatDestroy>;
+using OwnedKsp = Owned<KSP, KSPDestroy>;
+using OwnedSnes = Owned<SNES, SNESDestroy>;
+using OwnedNullSpace = Owned<MatNullSpace, MatNullSpaceDestroy>;
+
+/// A matrix of PETSc that is assembled block by block.
+class PetscMatrix : public Matrix {
+ public:
+  /// Empty, with room for the entries that the unknowns announce, and the null spaces that they have.
+  explicit PetscMatrix(const Unknowns& unknowns);
+
+  void add(std::span<const int> rows, std::span<const int> columns, std::span<const double> values) override;
+  /// Empties the matrix, lets `fill` add to it, and completes it.
+  template <class Fill>
+  void assemble(Fill&& fill) {
+    check(MatZeroEntries(matrix_));
+    fill(*this);
+    check(MatAssemblyBegin(matrix_, MAT_FINAL_ASSEMBLY));
+    check(MatAssemblyEnd(matrix_, MAT_FINAL_ASSEMBLY));
+  }
+  operator Mat() const { return matrix_; }
+
+ private:
+  void setNullSpaces(const Unknowns& unknowns);
+
+  OwnedMat matrix_;
+};
+
+/// A vector over numbers that somebody else holds.
+class PetscVector {
+ public:
+  PetscVector(const Unknowns& unknowns, std::span<double> values);
+  operator Vec() const { return vector_; }
+
+ private:
+  OwnedVec vector_;
+};
+
+/// Method, preconditioner and tolerances, then what the options say.
+void configure(KSP krylov, const LinearSettings& settings);
+
+/// Number of the unknown whose residual is the greatest.
+int worstOf(Vec residual);
+
+Outcome solveLinear(const Unknowns& unknowns, const LinearProblem& problem, const LinearSettings& settings,
+                    std::span<double> x);
+Outcome solveNewton(const Unknowns& unknowns, NonlinearProblem& problem, const NewtonSettings& settings,
+                    std::span<double> u);
+
+}  // namespace tushar::solvers

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace tushar::solvers {
+
+/// The unknowns of a system that a rank owns, in blocks: one block for each cell or node.
+struct Unknowns {
+  int block = 1;             ///< unknowns of a cell or node
+  int owned = 0;             ///< blocks of this rank; their numbers follow each other
+  std::vector<int> entries;  ///< of each owned block row: at most so many blocks are not zero
+  /// Where the blocks stand, `block` numbers each [m]: gives multigrid the rigid motions of a solid. Empty: none.
+  std::vector<double> coordinates;
+  bool constantIsFree = false;  ///< a constant added to the solution makes another one: that of mean 0 is taken
+};
+
+/// A matrix that is being assembled.
+class Matrix {
+ public:
+  virtual ~Matrix() = default;
+  /// Adds `values`, row by row, at block rows and block columns; those with a negative number are left out.
+  virtual void add(std::span<const int> rows, std::span<const int> columns, std::span<const double> values) = 0;
+};
+
+/// How linear systems are solved; the words are PETSc's.
+struct LinearSettings {
+  std::string solver = "cg", preconditioner = "gamg";
+  double tolerance = 1e-10;  ///< residual over right-hand side
+  int maxIterations = 1000;
+  std::string petsc;  ///< options in PETSc's own language
+};
+
+/// How a solve went.
+struct Outcome {
+  bool converged = false;
+  std::string reason;             ///< PETSc's word for why it ended
+  int newtonIterations = 0;       ///< 0 of a linear solve
+  int krylovIterations = 0;       ///< in all
+  std::vector<double> residuals;  ///< norm after each iteration, from the start on
+  int worst = -1;                 ///< number of the unknown with the greatest residual at the end
+  double assembly = 0, setup = 0, solve = 0;  ///< s: matrix, preconditioner, iterations
+};
+
+/// A x = b.
+struct LinearProblem {
+  std::function<void(Matrix&)> assemble;   ///< fills A; may fill b, too
+  std::span<const double> rightHandSide;  ///< b, looked at once A is there
+};
+
+/// r(u) = 0.
+class NonlinearProblem {
+ public:
+  virtual ~NonlinearProblem() = default;
+  /// r(u). False if there is no residual at such a u, so that a smaller step must be tried.
+  virtual bool residual(std::span<const double> u, std::span<double> r) = 0;
+  /// dr/du at the u of the last residual.
+  virtual void tangent(Matrix& matrix) = 0;
+};
+
+/// When Newton's iterations end, as in Uintah's implicit MPM.
+struct NewtonSettings {
+  LinearSettings linear{"gmres", "gamg", 1e-8, 1000, ""};
+  double displacement = 1e-10;  ///< last change of u over the greatest
+  double energy = 4e-10;        ///< last change of u times the residual before it, over the first
+  int maxIterations = 25;
+};
+
+/// Solves systems. There is one, in a library that is loaded when the first scene asks for it.
+class Solver {
+ public:
+  virtual ~Solver() = default;
+  /// From the guess in `x`, by any Krylov method. Throws std::runtime_error for options that PETSc refuses.
+  virtual Outcome solve(const Unknowns& unknowns, const LinearProblem& problem, const LinearSettings& settings,
+                        std::span<double> x) const = 0;
+  /// From the guess in `u`, by Newton's method with line search. Throws what the problem throws.
+  virtual Outcome solve(const Unknowns& unknowns, NonlinearProblem& problem, const NewtonSettings& settings,
+                        std::span<double> u) const = 0;
+};
+
+/// The solver; loads PETSc at the first call. Throws std::runtime_error where the library is missing.
+const Solver& solver();
+
+/// `what` did not converge: the history of the residuals and why it ended, in a sentence.
+std::string sentenceOf(const std::string& what, const Outcome& outcome);
+
+}  // namespace tushar::solvers

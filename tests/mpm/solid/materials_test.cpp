@@ -1,0 +1,284 @@
+#include <gtest/gtest.h>
+
+#include "tests/mpm/solid/example_models.hpp"
+#include "tests/mpm/solid/material_point.hpp"
+
+namespace tushar::mpm::solid::testing {
+namespace {
+
+constexpr double roundOff = 1e-12;  ///< some hundred operations, each exact to 1e-16
+
+double equivalent(const Matrix3& stress) { return std::sqrt(1.5) * deviator(stress).norm(); }
+
+/// The same step seen after a rotation `before` and, at its end, another: the stress must turn with the second.
+template <class M>
+void expectObjective(MaterialPoint<M> point, const Matrix3& f, void (*turnState)(typename M::State&, const Matrix3&)) {
+  const Matrix3 before = rotation(0.7), after = rotation(-1.9);
+  Matrix3 spin;
+  spin << 0, 3, -1, -3, 0, 2, 1, -2, 0;
+  Deformation d = point.step(f);
+  typename M::State state = point.oldState, turnedState = point.oldState;
+  const Matrix3 stress = point.model.updateStress(d, point.oldStress, state);
+  turnState(turnedState, before);
+  d.deformationGradient = after * f;
+  d.oldDeformationGradient = before * point.oldDeformation;
+  d.velocityGradient = before * d.velocityGradient * before.transpose() + spin;
+  const Matrix3 oldStress = before * point.oldStress * before.transpose();
+  const Matrix3 turned = point.model.updateStress(d, oldStress, turnedState);
+  EXPECT_LT((turned - after * stress * after.transpose()).norm(), 1e-10 * stress.norm());
+}
+template <class State>
+void keep(State&, const Matrix3&) {}
+
+template <class M>
+void expectStressFromEnergy(const M& model) {
+  const MaterialPoint<M> point{model};
+  const Matrix3 f = generalDeformation(0.3);
+  const auto energy = [&](const Matrix3& at) { return point.energy(at); };
+  const Eigen::Matrix<double, 1, 9> expected = derivative(energy, f);
+  const Matrix3 stress = point.nominalStress(f);
+  // Differences of fourth order with steps of 1e-3: see the tangents.
+  EXPECT_LT((Eigen::Map<const Eigen::Matrix<double, 1, 9>>(stress.data()) - expected).norm(), 1e-8 * stress.norm());
+}
+
+TEST(Hyperelasticity, StressIsTheDerivativeOfTheEnergy) {
+  expectStressFromEnergy(withModuli<CompNeoHook>());
+  expectStressFromEnergy(compMooneyRivlin());
+  expectStressFromEnergy(withModuli<Ucnh>());
+}
+
+TEST(Objectivity, StressTurnsWithTheBody) {
+  const Matrix3 f = generalDeformation(0.2);
+  expectObjective(MaterialPoint<CompNeoHook>{withModuli<CompNeoHook>()}, f, keep);
+  expectObjective(MaterialPoint<CompMooneyRivlin>{compMooneyRivlin()}, f, keep);
+  expectObjective(MaterialPoint<CnhMms>{withModuli<CnhMms>()}, f, keep);
+  expectObjective(MaterialPoint<Ucnh>{withModuli<Ucnh>()}, f, keep);
+}
+
+TEST(Objectivity, StressOfYieldingBodiesTurnsWithThem) {
+  MaterialPoint<CompNeoHookPlastic> neoHook{compNeoHookPlastic(0.5)};
+  MaterialPoint<ElasticPlasticHp> metal{elasticPlastic(IsotropicHardening{0.2, 0.5})};
+  MaterialPoint<MohrCoulomb> soil{mohrCoulomb(30, 10)};
+  for (const double strain : {0.1, 0.15}) {
+    neoHook.advance(generalDeformation(strain));
+    metal.advance(generalDeformation(strain));
+    soil.advance(generalDeformation(strain));
+  }
+  ASSERT_GT(neoHook.oldState.plasticStrain, 0);
+  ASSERT_GT(metal.oldState.plasticStrain, 0);
+  const Matrix3 f = generalDeformation(0.2);
+  expectObjective(neoHook, f, [](CompNeoHookPlastic::State& state, const Matrix3& q) {
+    state.bElBar = tensorOf(q * matrixOf(state.bElBar) * q.transpose());
+  });
+  expectObjective(metal, f, keep);
+  expectObjective(soil, f, keep);
+}
+
+TEST(CompNeoHookPlastic, ReturnsToTheYieldSurface) {
+  for (const double hardening : {0.0, 0.5}) {
+    MaterialPoint<CompNeoHookPlastic> point{compNeoHookPlastic(hardening)};
+    for (const double strain : {0.02, 0.1, 0.3}) {
+      const Matrix3 f = generalDeformation(strain);
+      point.advance(f);
+      const double radius = 0.2 + hardening * point.oldState.plasticStrain;
+      EXPECT_NEAR(f.determinant() * equivalent(point.oldStress), radius, roundOff);
+    }
+  }
+}
+
+TEST(ElasticPlastic, ReturnsToTheYieldSurfaceOfEachFlowModel) {
+  JohnsonCook soft = copper();
+  soft.a = 0.1;
+  soft.b = 0.3;
+  for (const FlowModel& flow : {FlowModel(IsotropicHardening{0.2, 0.5}), FlowModel(soft)}) {
+    MaterialPoint<ElasticPlasticHp> point{elasticPlastic(flow)};
+    for (const double strain : {0.05, 0.1, 0.3}) {
+      point.advance(generalDeformation(strain));
+      const FlowState state{point.oldState.plasticStrain, point.oldState.strainRate, point.temperature};
+      const double yieldStress = std::visit([&](const auto& model) { return model.flowStress(state); }, flow);
+      EXPECT_NEAR(equivalent(point.oldStress), yieldStress, roundOff);
+    }
+  }
+}
+
+TEST(ElasticPlastic, FollowsTheUniaxialStrainPathBeyondTheElasticLimit) {
+  const double yieldStress = 0.02;
+  MaterialPoint<ElasticPlasticHp> point{elasticPlastic(IsotropicHardening{yieldStress, 0})};
+  const double k = point.model.bulkModulus, g = point.model.shearModulus, elasticLimit = yieldStress / (2 * g);
+  double dilatation = 0;
+  for (int step = 1; step <= 100; ++step) {
+    Matrix3 f = Matrix3::Identity();
+    f(0, 0) = 1 - 1e-4 * step;
+    dilatation += f(0, 0) / point.oldDeformation(0, 0) - 1;
+    point.advance(f);
+    const double difference = point.oldStress(0, 0) - point.oldStress(1, 1);
+    EXPECT_NEAR(difference, -dilatation > elasticLimit ? -yieldStress : 2 * g * dilatation, roundOff);
+    EXPECT_NEAR(point.oldStress.trace() / 3, k * dilatation, roundOff);
+  }
+  EXPECT_GT(-dilatation, 2 * elasticLimit);
+}
+
+TEST(ElasticPlastic, HeatsByTheShareOfThePlasticWorkThatTaylorAndQuinneyFound) {
+  MaterialPoint<ElasticPlasticHp> point{elasticPlastic(IsotropicHardening{0.2, 0})};
+  Matrix3 f = Matrix3::Identity();
+  f(0, 1) = 0.3;
+  const ElasticPlasticHp::State state = point.state(f);
+  const double work = 0.2 * state.plasticStrain;
+  const double change = point.model.temperatureChange(point.step(f), point.stress(f), state);
+  EXPECT_NEAR(change, 0.9 * work / (2 * 0.5), roundOff);
+}
+
+TEST(ElasticPlastic, HasNoShearStressAboveItsMeltingTemperature) {
+  MaterialPoint<ElasticPlasticHp> point{elasticPlastic(IsotropicHardening{0.2, 0})};
+  point.temperature = 2001;
+  EXPECT_LT(equivalent(point.stress(generalDeformation(0.1))), roundOff);
+}
+
+TEST(JohnsonCook, GivesTheYieldStressOfCopper) {
+  // (90 + 292 0.3^0.31) MPa = 291.043 MPa; times 1 + 0.025 ln 1e4 = 1.230259; times 1 - 0.5^1.09 = 0.530239
+  const JohnsonCook flow = copper();
+  const double halfWay = 0.5 * (298 + 1356);
+  EXPECT_NEAR(flow.flowStress({0, 1, 298}), 90e6, 1);
+  EXPECT_NEAR(flow.flowStress({0.3, 1, 298}), 291.043e6, 1e3);
+  EXPECT_NEAR(flow.flowStress({0.3, 1e4, 298}), 291.043e6 * 1.230259, 1e3);
+  EXPECT_NEAR(flow.flowStress({0.3, 1e4, halfWay}), 291.043e6 * 1.230259 * 0.530239, 1e3);
+  EXPECT_EQ(flow.flowStress({0.3, 1e4, 1400}), 0);
+}
+
+TEST(JohnsonCook, HardensAsItsYieldStressGrows) {
+  const JohnsonCook flow = copper();
+  const double h = 1e-5, slope = (flow.flowStress({0.3 + h, 50, 400}) - flow.flowStress({0.3 - h, 50, 400})) / (2 * h);
+  EXPECT_NEAR(flow.hardening({0.3, 50, 400}), slope, 1e-8 * slope);
+}
+
+/// Momentum, mass and energy across a shock: p = rho_0 U u, eta = u/U, e = u²/2 with U = C_0 + S u.
+TEST(MieGruneisen, GivesTheShockRelation) {
+  MieGruneisenEnergy copper;
+  copper.soundSpeed = 3940;
+  copper.gruneisen = 2.02;
+  copper.s1 = 1.489;
+  for (const double u : {10.0, 300.0, 1500.0}) {
+    const double shock = copper.soundSpeed + copper.s1 * u, pressure = 8930 * shock * u;
+    VolumeState state{};
+    state.volume = 1 - u / shock;
+    state.energy = u * u / 2;
+    state.density = 8930;
+    EXPECT_NEAR(-copper.meanStress(state), pressure, roundOff * pressure);
+  }
+}
+
+TEST(MieGruneisen, ByTemperatureAgreesWithThatByEnergy) {
+  MieGruneisen byTemperature{3940, 2.02, 1.489};
+  MieGruneisenEnergy byEnergy{3940, 2.02, 1.489, 0, 0};
+  VolumeState state{};
+  state.volume = 0.8;
+  state.temperature = 500;
+  state.initialTemperature = 300;
+  state.specificHeat = 383;
+  state.energy = 383 * 200;
+  state.density = 8930;
+  EXPECT_NEAR(byTemperature.meanStress(state), byEnergy.meanStress(state), -roundOff * byEnergy.meanStress(state));
+}
+
+TEST(MohrCoulomb, ReturnsToFacesEdgesAndApex) {
+  for (const double friction : {0.0, 30.0})
+    for (const double dilation : {0.0, 30.0}) {
+      if (dilation > friction) continue;
+      const MohrCoulomb model = mohrCoulomb(friction, dilation);
+      const std::vector<Vec3> trials{{1, 0.3, -1}, {1, 0.95, -1}, {1, -0.95, -1}, {-3, -3.1, -12}, {-3, -11.9, -12},
+                                     {0.2, 0.1, -0.5}, {0.05, -0.2, -0.21}};
+      for (const Vec3& principal : trials) {
+        const Matrix3 q = rotation(0.8), trial = q * principal.asDiagonal() * q.transpose();
+        typename MohrCoulomb::State none;
+        const Deformation still{Matrix3::Identity(), Matrix3::Identity(), Matrix3::Zero(), 1, 300};
+        EXPECT_NEAR(model.excess(model.updateStress(still, trial, none)), 0, 1e-11);
+      }
+    }
+}
+
+TEST(MohrCoulomb, ReturnsToTheApexFromStrongTension) {
+  const MohrCoulomb model = mohrCoulomb(30, 10);
+  typename MohrCoulomb::State none;
+  const Deformation still{Matrix3::Identity(), Matrix3::Identity(), Matrix3::Zero(), 1, 300};
+  const Matrix3 stress = model.updateStress(still, 5 * Matrix3::Identity(), none);
+  EXPECT_LT((stress - 0.1 * std::sqrt(3.0) * Matrix3::Identity()).norm(), roundOff);
+}
+
+/// Under a lateral pressure s3 the axial pressure is at most s3 N + 2 c N^(1/2), N = (1 + sin phi) / (1 - sin phi).
+TEST(MohrCoulomb, FailsAtTheStrengthOfTheTriaxialTest) {
+  const MohrCoulomb model = mohrCoulomb(30, 0);
+  const double lateral = 0.4, axial = lateral * 3 + 2 * 0.1 * std::sqrt(3.0);
+  EXPECT_NEAR(model.excess(Vec3(-lateral, -axial, -lateral).asDiagonal().toDenseMatrix()), 0, roundOff);
+  EXPECT_LT(model.excess(Vec3(-lateral, -0.99 * axial, -lateral).asDiagonal().toDenseMatrix()), -1e-3);
+}
+
+TEST(MohrCoulomb, KeepsAStressThatIsPossible) {
+  const MohrCoulomb model = mohrCoulomb(30, 0);
+  typename MohrCoulomb::State none;
+  const Deformation still{Matrix3::Identity(), Matrix3::Identity(), Matrix3::Zero(), 1, 300};
+  const Matrix3 stress = Vec3(-1, -1.2, -1.1).asDiagonal().toDenseMatrix();
+  EXPECT_LT((model.updateStress(still, stress, none) - stress).norm(), roundOff);
+}
+
+TEST(IdealGas, ExpandsAlongItsAdiabat) {
+  IdealGas gas;
+  gas.ratio = 1.4;
+  gas.specificHeat = 717.5;
+  gas.material.density = 1.2;
+  const int steps = 10000;
+  double temperature = 300;
+  Matrix3 f = Matrix3::Identity();
+  for (int step = 1; step <= steps; ++step) {
+    Matrix3 next = f;
+    next(0, 0) = 1 + double(step) / steps;
+    temperature += gas.temperatureChange({next, f, Matrix3::Zero(), 1, temperature}, Matrix3::Zero(), {});
+    f = next;
+  }
+  // Steps of first order: 0.4 1.4 / 2 times the sum of the squares of the growths, 0.5/steps.
+  const double expected = 300 * std::pow(2.0, -0.4);
+  EXPECT_NEAR(temperature, expected, 0.28 * 0.6 / steps * expected);
+}
+
+TEST(IdealGas, HasNoStressAtItsReferencePressure) {
+  IdealGas gas;
+  gas.ratio = 1.4;
+  gas.specificHeat = 717.5;
+  gas.material.density = 1.2;
+  gas.referencePressure = 0.4 * 1.2 * 717.5 * 300;
+  const MaterialPoint<IdealGas> point{gas};
+  EXPECT_LT(point.stress(Matrix3::Identity()).norm(), roundOff * gas.referencePressure);
+}
+
+TEST(Water, HasThePressureOfItsDensityAndTheShearOfItsRate) {
+  Water water;
+  water.bulkModulus = 2;
+  water.exponent = 7;
+  water.viscosity = 0.3;
+  Matrix3 rate = Matrix3::Zero();
+  rate(0, 1) = 4;
+  Water::State none;
+  const Matrix3 f = std::cbrt(0.9) * Matrix3::Identity();
+  const Matrix3 stress = water.updateStress({f, f, rate, 1, 300}, Matrix3::Zero(), none);
+  EXPECT_NEAR(stress.trace() / 3, -2 * (std::pow(0.9, -7) - 1), roundOff);
+  EXPECT_NEAR(stress(0, 1), 0.3 * 4, roundOff);
+}
+
+/// c² = dp/drho of each equation of state.
+TEST(WaveSpeed, OfFluidsIsThatOfTheirPressure) {
+  Water water;
+  water.bulkModulus = 2;
+  water.exponent = 7;
+  const double density = 1.5, h = 1e-4;
+  const auto pressure = [&](double volume) {
+    Water::State none;
+    const Matrix3 f = std::cbrt(volume) * Matrix3::Identity();
+    return -water.updateStress({f, f, Matrix3::Zero(), 1, 300}, Matrix3::Zero(), none).trace() / 3;
+  };
+  const auto volumeAt = [&](double rho) { return density / rho; };
+  const double rho = density / 0.9, slope = (pressure(volumeAt(rho + h)) - pressure(volumeAt(rho - h))) / (2 * h);
+  const Matrix3 f = std::cbrt(0.9) * Matrix3::Identity();
+  EXPECT_NEAR(water.waveSpeed(density, {f, f, f, 1, 300}, f, {}), std::sqrt(slope), 1e-6);
+}
+
+}  // namespace
+}  // namespace tushar::mpm::solid::testing

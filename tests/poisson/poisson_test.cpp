@@ -1,0 +1,165 @@
+#include "components/poisson/poisson.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/run.hpp"
+
+namespace tushar::poisson {
+
+namespace {
+
+/// A domain of unit length along its first D axes, in two patches along each.
+template <int D>
+grid::Domain box(int cells) {
+  grid::Domain domain;
+  domain.upper = Vec3::Zero();
+  for (int d = 0; d < D; ++d) {
+    domain.upper[d] = 1;
+    domain.resolution[d] = cells;
+    domain.patches[d] = 2;
+  }
+  return domain;
+}
+
+void condition(grid::Domain& domain, int axis, int side, const char* kind, double value) {
+  domain.boundaries.face(axis, side).push_back({"Phi", kind, Vec3(value, 0, 0)});
+}
+
+Settings settingsOf(const std::string& source, const std::string& coefficient = "1") {
+  Settings settings;
+  settings.source = *input::Expression::parse(source);
+  settings.coefficient = *input::Expression::parse(coefficient);
+  return settings;
+}
+
+struct Solved {
+  double error;  ///< mean of |phi - exact|
+  double iterations;
+};
+
+template <int D>
+Solved solved(const grid::Domain& domain, const Settings& settings, const std::string& exact) {
+  test::Runner run(domain);
+  const Poisson<D> poisson(settings);
+  TaskList start, advance;
+  poisson.scheduleInitialize(start);
+  poisson.scheduleTimeAdvance(advance);
+  tasks::TaskGraph begin = run.compile(start, {"c.phi"});
+  tasks::TaskGraph step = run.compile(advance, {"c.phi", "KrylovIterations"}, true);
+  run.warehouse.grow(0);
+  run.warehouse.reduction<Minimum>(run.table.number(delT, -1)).value = 0.5;
+  run.step(begin);
+  run.step(step);
+  const input::Expression phi = *input::Expression::parse(exact);
+  Norm error;
+  for (const Patch& patch : run.level.patches()) {
+    const auto& held = run.warehouse.variable(data::Generation::old, run.table.find("c.phi", -1), patch.id());
+    const auto* values = reinterpret_cast<const double*>(held.values.data());
+    forEach<3>(patch.cells(), [&](const Index3& cell) {
+      Vec3 x = Vec3::Zero();
+      for (int d = 0; d < D; ++d) x[d] = run.level.nodePosition(d, cell[d]) + run.level.spacing(d) / 2;
+      error.add(values[held.stored.offset(cell)] - phi(x, 1.0));
+    });
+  }
+  return {error.l1(), run.warehouse.reductionValues(run.table.find("KrylovIterations", -1)).at(0)};
+}
+
+/// Order between `cells` and twice as many.
+template <int D, class Make>
+double order(int cells, const Make& make, const Settings& settings, const std::string& exact) {
+  const double coarse = solved<D>(make(cells), settings, exact).error;
+  return std::log2(coarse / solved<D>(make(2 * cells), settings, exact).error);
+}
+
+grid::Domain oneDimension(int cells) {
+  grid::Domain domain = box<1>(cells);
+  condition(domain, 0, 0, "Dirichlet", 2);
+  condition(domain, 0, 1, "Neumann", 1 - M_PI);
+  return domain;
+}
+template <int D>
+grid::Domain keptAtOne(int cells) {
+  grid::Domain domain = box<D>(cells);
+  for (int d = 0; d < D; ++d)
+    for (const int side : {0, 1}) condition(domain, d, side, "Dirichlet", 1);
+  return domain;
+}
+grid::Domain repeated(int cells) {
+  grid::Domain domain = box<2>(cells);
+  domain.periodic = {{1, 1, 0}};
+  return domain;
+}
+
+}  // namespace
+
+TEST(Poisson, IsOfSecondOrderInOneDimensionWithAValueAndASlopeGiven) {
+  // phi = 2 + x + sin(pi x), k = 1 + x
+  const Settings settings = settingsOf("1 + pi*cos(pi*x) - (1 + x)*pi^2*sin(pi*x)", "1 + x");
+  EXPECT_NEAR((order<1>(16, oneDimension, settings, "2 + x + sin(pi*x)")), 2, 0.1);
+}
+
+TEST(Poisson, IsOfSecondOrderInTwoDimensionsBetweenKeptSides) {
+  const Settings settings = settingsOf("-2*pi^2*sin(pi*x)*sin(pi*y)");
+  EXPECT_NEAR((order<2>(12, keptAtOne<2>, settings, "1 + sin(pi*x)*sin(pi*y)")), 2, 0.1);
+}
+
+TEST(Poisson, IsOfSecondOrderInThreeDimensionsBetweenKeptSides) {
+  const Settings settings = settingsOf("-3*pi^2*sin(pi*x)*sin(pi*y)*sin(pi*z)");
+  EXPECT_NEAR((order<3>(8, keptAtOne<3>, settings, "1 + sin(pi*x)*sin(pi*y)*sin(pi*z)")), 2, 0.1);
+}
+
+TEST(Poisson, IsOfSecondOrderInAPeriodicBoxWhereAConstantIsFree) {
+  // The mean of f, 1, cannot be balanced.
+  const Settings settings = settingsOf("1 - 8*pi^2*sin(2*pi*x)*cos(2*pi*y)");
+  EXPECT_NEAR((order<2>(12, repeated, settings, "sin(2*pi*x)*cos(2*pi*y)")), 2, 0.1);
+}
+
+TEST(Poisson, TakesTheSourceOfTheEndOfTheStep) {
+  // The step goes from t = 0.5 to 1; a parabola is off by h²/4 everywhere, from the half cells at its kept sides.
+  const Settings settings = settingsOf("2*t");
+  EXPECT_NEAR(solved<1>(keptAtOne<1>(8), settings, "1 + x*(x - 1)").error, 1.0 / (4 * 64), 1e-9);
+}
+
+TEST(Poisson, NeedsHardlyMoreIterationsOnFinerGrids) {
+  const Settings settings = settingsOf("1");
+  const double coarse = solved<3>(keptAtOne<3>(8), settings, "0").iterations;
+  const double fine = solved<3>(keptAtOne<3>(24), settings, "0").iterations;
+  EXPECT_GT(coarse, 1);
+  EXPECT_LT(fine, 1.5 * coarse);
+}
+
+TEST(Poisson, GivesTheSameBitsOnAnyPatches) {
+  const Settings settings = settingsOf("-2*pi^2*sin(pi*x)*sin(pi*y)");
+  grid::Domain one = keptAtOne<2>(12), many = one;
+  one.patches = {{1, 1, 1}};
+  many.patches = {{5, 3, 1}};
+  EXPECT_EQ(solved<2>(one, settings, "0").iterations, solved<2>(many, settings, "0").iterations);
+}
+
+TEST(Poisson, KeepsTheFluxOverAJumpOfTheCoefficient) {
+  // phi is piecewise linear: k phi' = 1 on both sides of the jump at .5.
+  grid::Domain domain = box<1>(8);
+  condition(domain, 0, 0, "Dirichlet", 0);
+  condition(domain, 0, 1, "Dirichlet", 0.5 + 0.5e-6);
+  Settings settings = settingsOf("0", "x < 0.5 ? 1 : 1e6");
+  settings.solver = {"preonly", "lu", 1e-10, 1, ""};  // leaves rounding times 1e6
+  EXPECT_LT(solved<1>(domain, settings, "x < 0.5 ? x : 0.5 + (x - 0.5)*1e-6").error, 1e-10);
+}
+
+TEST(Poisson, TellsThatTheSolverGaveUpAndWhatToTry) {
+  Settings settings = settingsOf("1");
+  settings.solver.maxIterations = 1;
+  settings.solver.preconditioner = "none";
+  try {
+    solved<2>(keptAtOne<2>(12), settings, "0");
+    FAIL();
+  } catch (const NumericalError& error) {
+    EXPECT_NE(std::string(error.what()).find("Poisson's equation did not converge (DIVERGED_ITS) in 1 iterations"),
+              std::string::npos);
+    EXPECT_NE(error.advice().find("<preconditioner>"), std::string::npos);
+  }
+}
+
+}  // namespace tushar::poisson

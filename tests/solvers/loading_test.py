@@ -1,0 +1,35 @@
+#!/usr/bin/env python3
+"""PETSc is loaded by scenes with a global solve, and by no other."""
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from sus import ROOT, SUS
+
+
+def libraries(scene, *options):
+    """What the dynamic linker loads in the course of a run, by its own record."""
+    with tempfile.TemporaryDirectory() as folder:
+        log = pathlib.Path(folder) / "linker"
+        environment = dict(os.environ, LD_DEBUG="files", LD_DEBUG_OUTPUT=str(log))
+        subprocess.run([SUS, ROOT / scene, "--quiet", "--output", folder, *options], env=environment, check=True)
+        return "".join(file.read_text() for file in pathlib.Path(folder).glob("linker.*"))
+
+
+class Loading(unittest.TestCase):
+    def test_a_scene_without_a_solve_loads_no_petsc(self):
+        for scene in ("ups/heat/sine.ups", "ups/mpm/sod.ups", "ups/euler/sod.ups"):
+            found = libraries(scene, "--set", "Time/max_Timesteps=2")
+            self.assertIn("libc.so", found)
+            self.assertFalse("libpetsc" in found, f"{scene} loads PETSc")
+
+    def test_a_scene_with_a_solve_does(self):
+        self.assertIn("libpetsc", libraries("ups/poisson/sine.ups"))
+
+
+if __name__ == "__main__":
+    unittest.main()

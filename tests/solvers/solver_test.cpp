@@ -1,0 +1,174 @@
+#include "core/solvers/solver.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace tushar::solvers {
+
+namespace {
+
+Unknowns row(int count) {
+  Unknowns unknowns;
+  unknowns.owned = count;
+  unknowns.entries.assign(static_cast<std::size_t>(count), 3);
+  return unknowns;
+}
+
+/// -x'' of a row of values, 0 beyond its ends; with `closed`, nothing flows out of them.
+void laplacian(Matrix& matrix, int count, bool closed) {
+  for (int k = 0; k < count; ++k) {
+    const bool first = k == 0, last = k == count - 1;
+    const std::vector<int> columns{k, first ? -1 : k - 1, last ? -1 : k + 1};
+    const double diagonal = closed && (first || last) ? 1 : 2;
+    matrix.add({columns.data(), 1}, columns, std::vector<double>{diagonal, -1, -1});
+  }
+}
+
+/// u_k² = 2 + k for each of three unknowns; u < 0 has no residual.
+class Roots : public NonlinearProblem {
+ public:
+  bool residual(std::span<const double> u, std::span<double> r) override {
+    u_.assign(u.begin(), u.end());
+    for (std::size_t k = 0; k < u.size(); ++k) r[k] = u[k] * u[k] - 2 - static_cast<double>(k);
+    return std::all_of(u.begin(), u.end(), [](double value) { return value >= 0; });
+  }
+  void tangent(Matrix& matrix) override {
+    for (int k = 0; k < 3; ++k)
+      matrix.add({&k, 1}, {&k, 1}, std::vector<double>{2 * u_[static_cast<std::size_t>(k)]});
+  }
+
+ private:
+  std::vector<double> u_;
+};
+
+/// ln u = 0; u <= 0 has no residual. Newton's step from u is -u ln u, which from 10 leads to -13.
+class Logarithm : public NonlinearProblem {
+ public:
+  bool residual(std::span<const double> u, std::span<double> r) override {
+    u_ = u[0];
+    r[0] = u_ > 0 ? std::log(u_) : 0;
+    return u_ > 0;
+  }
+  void tangent(Matrix& matrix) override {
+    const int zero = 0;
+    matrix.add({&zero, 1}, {&zero, 1}, std::vector<double>{1 / u_});
+  }
+
+ private:
+  double u_ = 0;
+};
+
+class Throwing : public Roots {
+  void tangent(Matrix&) override { throw std::out_of_range("the material has no tangent"); }
+};
+
+NewtonSettings directNewton() {
+  NewtonSettings settings;
+  settings.linear = {"preonly", "lu", 1e-10, 10, ""};
+  return settings;
+}
+
+}  // namespace
+
+TEST(Solver, SolvesALinearSystemByEveryMethod) {
+  for (const auto& [method, preconditioner] : {std::pair{"cg", "gamg"}, {"cg", "hypre"}, {"gmres", "ilu"},
+                                               {"bcgs", "jacobi"}, {"preonly", "lu"}}) {
+    const int count = 40;
+    std::vector<double> b(count, 1), x(count, 0);
+
+    const Outcome outcome = solver().solve(row(count), {[](Matrix& a) { laplacian(a, 40, false); }, b},
+                                           {method, preconditioner, 1e-12, 1000, ""}, x);
+
+    ASSERT_TRUE(outcome.converged) << method << ' ' << preconditioner << ' ' << outcome.reason;
+    // x_k = k (n + 1 - k) / 2; the condition number of about 700 multiplies the tolerance.
+    for (int k = 0; k < count; ++k) EXPECT_NEAR(x[std::size_t(k)], 0.5 * (k + 1) * (count - k), 1e-7) << method;
+  }
+}
+
+TEST(Solver, TakesTheSolutionOfMeanZeroWhereAConstantIsFree) {
+  const int count = 32;
+  Unknowns unknowns = row(count);
+  unknowns.constantIsFree = true;
+  std::vector<double> b(count), x(count, 5);
+  for (int k = 0; k < count; ++k) b[std::size_t(k)] = 1 + (k < count / 2 ? 1 : -1);  // 1 of it cannot be balanced
+
+  const Outcome outcome = solver().solve(unknowns, {[](Matrix& a) { laplacian(a, 32, true); }, b},
+                                         {"cg", "gamg", 1e-12, 100, ""}, x);
+
+  EXPECT_TRUE(outcome.converged);
+  double mean = 0;
+  for (const double value : x) mean += value / count;
+  EXPECT_NEAR(mean, 0, 1e-10);
+  EXPECT_NEAR(x.front() - x[1], 1, 1e-9);
+}
+
+TEST(Solver, TellsHowASolveFailed) {
+  std::vector<double> b(40, 1), x(40, 0);
+
+  const Outcome outcome = solver().solve(row(40), {[](Matrix& a) { laplacian(a, 40, false); }, b},
+                                         {"cg", "none", 1e-12, 3, ""}, x);
+
+  EXPECT_FALSE(outcome.converged);
+  EXPECT_EQ(outcome.residuals.size(), 4U);
+  EXPECT_TRUE(outcome.worst >= 0 && outcome.worst < 40);
+  const std::string sentence = sentenceOf("a row", outcome);
+  EXPECT_EQ(sentence.find("a row did not converge (DIVERGED_ITS) in 3 iterations; residuals 6.32, "), 0U) << sentence;
+}
+
+TEST(Solver, PassesOptionsThroughToPetsc) {
+  std::vector<double> b(40, 1), x(40, 0);
+
+  const Outcome outcome = solver().solve(row(40), {[](Matrix& a) { laplacian(a, 40, false); }, b},
+                                         {"cg", "none", 1e-12, 1000, "-ksp_max_it 2"}, x);
+  // Options stay for the whole program, so the next test gets its own.
+  solver().solve(row(1), {[](Matrix& a) { laplacian(a, 1, false); }, std::span(b).first(1)},
+                 {"cg", "none", 1e-12, 1000, "-ksp_max_it 1000"}, std::span(x).first(1));
+
+  EXPECT_EQ(outcome.krylovIterations, 2);
+}
+
+TEST(Newton, ConvergesQuadratically) {
+  std::vector<double> u{3, 3, 3};
+  Roots problem;
+
+  const Outcome outcome = solver().solve(row(3), problem, directNewton(), u);
+
+  ASSERT_TRUE(outcome.converged) << outcome.reason;
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(u[std::size_t(k)], std::sqrt(2.0 + k), 1e-14);
+  // r' = (du)² and du = r / 2u: each residual is at most r² / 4u² <= r² / 8 of the one before.
+  for (std::size_t k = 1; k < outcome.residuals.size(); ++k)
+    EXPECT_LE(outcome.residuals[k], outcome.residuals[k - 1] * outcome.residuals[k - 1] / 8 + 1e-14);
+}
+
+TEST(Newton, GoesBackWhereThereIsNoResidual) {
+  std::vector<double> u{10};
+  Logarithm problem;
+
+  const Outcome outcome = solver().solve(row(1), problem, directNewton(), u);
+
+  EXPECT_TRUE(outcome.converged) << outcome.reason;
+  EXPECT_NEAR(u[0], 1, 1e-12);
+}
+
+TEST(Newton, PassesOnWhatTheProblemThrows) {
+  std::vector<double> u{3, 3, 3};
+  Throwing problem;
+  EXPECT_THROW(solver().solve(row(3), problem, directNewton(), u), std::out_of_range);
+}
+
+TEST(Newton, TellsThatItGaveUp) {
+  std::vector<double> u{3000, 3, 3};
+  Roots problem;
+  NewtonSettings settings = directNewton();
+  settings.maxIterations = 2;
+
+  const Outcome outcome = solver().solve(row(3), problem, settings, u);
+
+  EXPECT_FALSE(outcome.converged);
+  EXPECT_EQ(outcome.newtonIterations, 2);
+  EXPECT_EQ(outcome.worst, 0);
+}
+
+}  // namespace tushar::solvers

@@ -1,0 +1,73 @@
+#!/usr/bin/env python3
+"""The short gallery: the default method keeps what it promises in every case; the paper's fails as it must, in a sentence."""
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from sus import ROOT, SUS
+
+sys.path.insert(0, str(ROOT / "tools/python"))
+from tushar import scene_variants
+from tushar.gallery import CASES, METHODS
+from tushar.stability import Gallery, is_stable, judge, scene_of
+
+FATAL = ("toro_2", "toro_4", "toro_5", "leblanc", "ratio_1e6")  # for the paper's method
+SENTENCE = re.compile(r"p\.(density|internalEnergy) became -\S+ \S+ from \S+, but must be (greater than|at least) 0: "
+                      r"particle \d+ in cell \(\d+\) at x = \S+ m; around it: .*; .* (is|are) broken \(task \S+, patch 0, "
+                      r"material gas, step (\d+), time \S+ s, time step \S+ s\)")
+
+
+def case_of(name):
+    return next(case for case in CASES if case.name == name)
+
+
+class ShortGallery(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.gallery = Gallery(folder.name, SUS)
+
+    def test_the_default_method_keeps_its_promises_in_every_case(self):
+        method = METHODS["default"]
+        for case in CASES:
+            if case.long or not method.runs(case):
+                continue
+            with self.subTest(case=case.name):
+                run = self.gallery.run(case, method)
+                self.assertEqual(judge(run, case, True), ["pass"], run)
+
+    def test_the_papers_method_fails_where_it_must_and_says_so(self):
+        for name in FATAL:
+            with self.subTest(case=name):
+                run = self.gallery.run(case_of(name), METHODS["paper"])
+                found = SENTENCE.match(run["failure"])
+                self.assertTrue(found, run["failure"])
+                self.assertEqual(int(found[3]), run["steps"] + 1)
+
+    def test_a_run_that_dies_puts_no_nan_into_a_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scene = pathlib.Path(folder, "dies.ups")
+            root = scene_of(case_of("leblanc"), METHODS["paper"])
+            scene_variants.save(root, "TotalMass", "TotalEnergy", "LeastDensity")
+            scene_variants.write(root, scene)
+            done = subprocess.run([SUS, scene, "--quiet", "--output", folder], capture_output=True, text=True)
+            self.assertEqual(done.returncode, 4, done.stderr)
+            files = list(pathlib.Path(folder).glob("*.uda.000/*.dat"))
+            self.assertEqual(len(files), 3)
+            for file in files:
+                self.assertNotRegex(file.read_text().lower(), "nan|inf", file.name)
+
+    def test_too_large_a_time_step_is_found(self):
+        case, method = case_of("sod"), METHODS["paper"]
+        first = self.gallery.run(case, method)
+        self.assertTrue(is_stable(self.gallery.run(case, method, 0.9), first))
+        self.assertFalse(is_stable(self.gallery.run(case, method, 16.0), first))
+
+
+if __name__ == "__main__":
+    unittest.main()
