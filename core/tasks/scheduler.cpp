@@ -140,7 +140,10 @@ void Scheduler::runWork(CompiledTask& task, const StepInfo& at) {
   const int first = isOnce ? -1 : firstMaterial(task);
   const int end = first + (isOnce ? 1 : static_cast<int>(task.materials.size()));
   for (int m = first; m < end && (mayAsk || !hasStopped()); ++m)
-    task.task.perRank ? runOnRank(task, at) : runOnPatches(task, m, at);
+    if (task.task.perRank)
+      threads_.alone([&] { runOnRank(task, at); }, trace::Kind::task, task.task.name);
+    else
+      runOnPatches(task, m, at);
   if (const auto factor = askedBy(task))
     outcome_.merge({running_, Outcome::Kind::asks, 0, 0, warehouse_->ranks().rank(), *factor, {}});
 }
