@@ -167,11 +167,8 @@ simulation::Problem readProblem(const Arguments& arguments, const simulation::Ca
 
 /// The first rank writes what all have recorded.
 void writeTrace(const std::string& path, const mpi::Communicator& ranks) {
-  const std::string mine = trace::events(ranks.rank());
   std::string all;
-  const auto* bytes = reinterpret_cast<const std::byte*>(mine.data());
-  for (const mpi::Bytes& events : ranks.gatherOnAll({bytes, bytes + mine.size()}))
-    all += (all.empty() ? "" : ",\n") + std::string(reinterpret_cast<const char*>(events.data()), events.size());
+  for (const std::string& events : ranks.gather(trace::events(ranks.rank()))) all += (all.empty() ? "" : ",\n") + events;
   ranks.onFirst([&] { writeFile(path, trace::fileOf(all)); });
 }
 
