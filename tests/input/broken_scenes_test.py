@@ -57,7 +57,7 @@ OVERRIDES = {
     "both spacing and resolution": ("Grid/Level/spacing=[.01,1,1]", "Grid/Level: gives both spacing and resolution; keep one"),
     "periodic": ("Grid/Level/periodic=[2,0,0]", "Grid/Level/periodic: found '[2,0,0]', expected a value from 0 to 1"),
     "no particles": (LEFT + "res=[0,1,1]", "MaterialProperties/MPM/material/geom_object/res: found '[0,1,1]', expected a value "
-                     "from 1 to 32"),
+                     "from 1 to 64"),
     "negative density": (LEFT + "density=-1", "MaterialProperties/MPM/material/geom_object/density: found '-1', expected a value "
                          "greater than 0 kg/m^3"),
     "gamma of 1": (MATERIAL + "constitutive_model/gamma=1", MATERIAL + "constitutive_model/gamma: found '1', expected a value "

@@ -47,7 +47,7 @@ class ShortGallery(unittest.TestCase):
                 run = self.gallery.run(case_of(name), METHODS["paper"])
                 found = SENTENCE.match(run["failure"])
                 self.assertTrue(found, run["failure"])
-                self.assertEqual(int(found[3]), run["steps"] + 1)
+                self.assertEqual(int(found[4]), run["steps"] + 1)
 
     def test_a_run_that_dies_puts_no_nan_into_a_file(self):
         with tempfile.TemporaryDirectory() as folder:

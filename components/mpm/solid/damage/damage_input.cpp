@@ -1,5 +1,7 @@
 #include "components/mpm/solid/damage/damage_input.hpp"
 
+#include <fmt/format.h>
+
 #include "components/mpm/solid/refuse.hpp"
 
 namespace tushar::mpm::solid {
@@ -127,6 +129,16 @@ void connect(Material& material, const Element& parent, const Element& tag, Diag
   brittle->young = 9 * *bulk * *shear / (3 * *bulk + *shear);
 }
 
+/// In Uintah a particle may fail by the loss of stability, if erosion follows.
+void refuseStabilityChecks(const Element& parent, const Element& erosion, Diagnostics& diagnostics) {
+  const auto model = parent.child("constitutive_model");
+  const auto check = model ? model->child("stability_check") : std::nullopt;
+  if (check && check->attribute("type") != "none")
+    diagnostics.error(*check, fmt::format("<erosion> on line {} would follow a loss of stability, which is not looked for; "
+                                          "give it the type none, and the particles a <damage_model>",
+                                          erosion.where().line));
+}
+
 }  // namespace
 
 void readDamage(Material& material, const Element& parent, Diagnostics& diagnostics) {
@@ -134,7 +146,10 @@ void readDamage(Material& material, const Element& parent, Diagnostics& diagnost
     material.damage = TypedTag<Damage>::read(*tag, diagnostics);
     connect(material, parent, *tag, diagnostics);
   }
-  if (const auto tag = parent.child("erosion")) material.erosion = erosionSchema().read(*tag, diagnostics);
+  if (const auto tag = parent.child("erosion")) {
+    material.erosion = erosionSchema().read(*tag, diagnostics);
+    if (material.erosion.acts()) refuseStabilityChecks(parent, *tag, diagnostics);
+  }
 }
 
 void describeDamage(std::ostream& out, int indent) {

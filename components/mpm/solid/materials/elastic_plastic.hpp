@@ -8,6 +8,7 @@
 #include "components/mpm/solid/kernels/polar.hpp"
 #include "components/mpm/solid/materials/plasticity/equation_of_state.hpp"
 #include "components/mpm/solid/materials/plasticity/flow.hpp"
+#include "components/mpm/solid/materials/plasticity/shear_and_melting.hpp"
 #include "components/mpm/solid/refuse.hpp"
 #include "components/mpm/solid/variant_input.hpp"
 
@@ -39,6 +40,8 @@ struct ElasticPlastic {
   double initialTemperature = 294; ///< T_0 of the equation of state, K
   FlowModel flow;
   EquationOfState equationOfState;
+  ShearModel shear;
+  MeltingModel melting;
 
   static const input::Schema<ElasticPlastic>& schema() {
     static const input::Schema<ElasticPlastic> schema = makeSchema();
@@ -49,8 +52,10 @@ struct ElasticPlastic {
   Matrix3 updateStress(const Deformation& d, const Matrix3& oldStress, State& state) const {
     const Corotated step(d, oldStress);
     state.strainRate = std::sqrt(2.0 / 3.0) * step.strain.norm() / d.timeStep;
-    Matrix3 stress = deviator(step.stress) + 2 * shearModulus * deviator(step.strain);
-    state.plasticStrainRate = yield(d, stress, state);
+    const Compression compression = compressionOf(d, oldStress);
+    const double modulus = shearModulusAt(compression);
+    Matrix3 stress = deviator(step.stress) + 2 * modulus * deviator(step.strain);
+    state.plasticStrainRate = yield(d, compression, modulus, stress, state);
     stress.diagonal().array() += meanStress(d, oldStress.trace() / 3, state.energy);
     stress = step.turned(stress);
     state.energy += stressWork(d, oldStress, stress) / material.density;
@@ -59,8 +64,9 @@ struct ElasticPlastic {
   double initialWaveSpeed(double initialDensity) const {
     return std::sqrt((bulkModulus + 4.0 / 3.0 * shearModulus) / initialDensity);
   }
-  double waveSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
-    return std::sqrt((bulkModulus + 4.0 / 3.0 * shearModulus) * d.deformationGradient.determinant() / initialDensity);
+  double waveSpeed(double initialDensity, const Deformation& d, const Matrix3& stress, const State&) const {
+    const double modulus = shearModulusAt(compressionOf(d, stress));
+    return std::sqrt((bulkModulus + 4.0 / 3.0 * modulus) * d.deformationGradient.determinant() / initialDensity);
   }
   double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
     return std::sqrt(bulkModulus * d.deformationGradient.determinant() / initialDensity);
@@ -91,6 +97,8 @@ struct ElasticPlastic {
                input::nonNegative());
     typedTag(tags, "flow_model", &Self::flow, "the yield stress", true);
     typedTag(tags, "equation_of_state", &Self::equationOfState, "the mean stress; default_hypo if left out", false);
+    typedTag(tags, "shear_modulus_model", &Self::shear, "the shear modulus; constant_shear if left out", false);
+    typedTag(tags, "melting_temp_model", &Self::melting, "where there is no shear stress; constant_Tm if left out", false);
     acceptWhatDoesNotMatter(tags);
     return tags;
   }
@@ -98,6 +106,7 @@ struct ElasticPlastic {
   static void acceptWhatDoesNotMatter(input::Schema<ElasticPlastic>& tags) {
     tags.ignored("tolerance", "the return is exact to round-off")
         .ignored("coeff_thermal_expansion", "only Uintah's implicit method reads it")
+        .ignored("critical_stress", "Uintah does not read it either")
         .ignored("useModifiedEOS", "only Uintah's coupled fluid reads it")
         .ignored("do_melting", "above <melt_temp> there is no shear stress, as in Uintah");
     for (const char* tag : {"evolve_porosity", "initial_mean_porosity", "initial_std_porosity", "critical_porosity",
@@ -114,22 +123,33 @@ struct ElasticPlastic {
                 },
                 {"plastic_convergence_algo"}, "only radialReturn");
     refuseTypes(tags, "yield_condition", {"vonMises"}, "the yield surface");
-    refuseTypes(tags, "stability_check", {"none"}, "no particle fails by the loss of stability");
-    refuseTypes(tags, "shear_modulus_model", {"constant_shear"}, "the <shear_modulus> is constant");
-    refuseTypes(tags, "melting_temp_model", {"constant_Tm"}, "the <melt_temp> of the material is constant");
+    refuseTypes(tags, "stability_check", {"none", "drucker", "becker", "drucker_becker"},
+                "nothing comes of it: only none where there is an <erosion>");
     refuseTypes(tags, "deviatoric_stress_model", {"hypoElastic"}, "the stress deviator grows with 2 G dev D");
   }
 
+  static Compression compressionOf(const Deformation& d, const Matrix3& stress) {
+    return {-stress.trace() / 3, 1 / d.deformationGradient.determinant(), d.temperature};
+  }
+  double shearModulusAt(const Compression& compression) const {
+    return std::visit([&](const auto& model) { return model.modulus(compression, shearModulus); }, shear);
+  }
+  bool isMolten(const Compression& compression) const {
+    const double melts = std::visit(
+        [&](const auto& model) { return model.temperature(compression, material.meltTemperature); }, melting);
+    return compression.temperature > melts;
+  }
+
   /// Takes what is beyond the yield surface from the trial stress deviator; returns the rate of the plastic strain, 1/s.
-  double yield(const Deformation& d, Matrix3& stress, State& state) const {
-    if (d.temperature > material.meltTemperature) {
+  double yield(const Deformation& d, const Compression& compression, double modulus, Matrix3& stress,
+               State& state) const {
+    if (isMolten(compression)) {
       stress.setZero();
       return 0;
     }
-    FlowState now{state.plasticStrain, state.strainRate, d.temperature};
+    FlowState now{state.plasticStrain, state.strainRate, d.temperature, modulus};
     const double size = stress.norm();
-    const double excess =
-        std::visit([&](const auto& model) { return radialReturn(model, size, shearModulus, now); }, flow);
+    const double excess = std::visit([&](const auto& model) { return radialReturn(model, size, now); }, flow);
     if (excess <= 0) return 0;
     stress *= 1 - excess / size;
     const double rate = (now.plasticStrain - state.plasticStrain) / d.timeStep;

@@ -60,7 +60,9 @@ struct MieGruneisen {
         input::Schema<MieGruneisen>("equation_of_state", "Mie and Grüneisen's, with the heat by the temperature.")
             .required("C_0", &MieGruneisen::soundSpeed, "m/s", "speed of a weak shock", input::positive())
             .required("Gamma_0", &MieGruneisen::gruneisen, "1", "Grüneisen's constant", input::nonNegative())
-            .required("S_alpha", &MieGruneisen::slope, "1", "dU/du of a shock", input::nonNegative());
+            .required("S_alpha", &MieGruneisen::slope, "1", "dU/du of a shock", input::nonNegative())
+            .ignored("S_2", "as in Uintah, only mie_gruneisen_energy has it")
+            .ignored("S_3", "as in Uintah, only mie_gruneisen_energy has it");
     return schema;
   }
   double meanStress(const VolumeState& s) const {

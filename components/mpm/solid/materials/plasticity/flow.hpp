@@ -14,6 +14,7 @@ struct FlowState {
   double plasticStrain;  ///< equivalent plastic strain, 1
   double strainRate;     ///< equivalent strain rate, 1/s
   double temperature;    ///< K
+  double shearModulus;   ///< Pa
 };
 
 /// sigma_y = sigma_Y + K e_p
@@ -79,14 +80,97 @@ struct JohnsonCook {
   }
 };
 
-using FlowModel = std::variant<IsotropicHardening, JohnsonCook>;
+/// sigma_y = min(sigma_0 (1 + beta (e_p + epsilon_p0))^n, Y_max) G/mu_0, whatever the rate: Steinberg, Cochran & Guinan, J.
+/// Appl. Phys. 51 (1980) 1498.
+struct SteinbergCochranGuinan {
+  static constexpr std::string_view name = "steinberg_cochran_guinan";
+
+  double shearModulus = 0;   ///< mu_0, Pa
+  double yieldStress = 0;    ///< sigma_0, Pa
+  double greatest = 0;       ///< Y_max, Pa
+  double beta = 0, n = 0;    ///< 1
+  double initialStrain = 0;  ///< epsilon_p0, 1
+
+  static const input::Schema<SteinbergCochranGuinan>& schema() {
+    using Self = SteinbergCochranGuinan;
+    static const input::Schema<Self> schema =
+        input::Schema<Self>("flow_model", "The yield stress of Steinberg, Cochran and Guinan, without thermal activation.")
+            .required("mu_0", &Self::shearModulus, "Pa", "shear modulus of the constants", input::positive())
+            .required("sigma_0", &Self::yieldStress, "Pa", "yield stress without hardening", input::positive())
+            .required("Y_max", &Self::greatest, "Pa", "yield stress that hardening never passes", input::positive())
+            .required("beta", &Self::beta, "1", "factor of the plastic strain", input::nonNegative())
+            .required("n", &Self::n, "1", "exponent of the hardening", input::nonNegative())
+            .value("epsilon_p0", &Self::initialStrain, 0, "1", "plastic strain at the start", input::nonNegative())
+            .ignored("A", "the <shear_modulus_model> has it")
+            .ignored("B", "the <shear_modulus_model> has it")
+            .ignored("T_m0", "the <melting_temp_model> has it")
+            .ignored("Gamma_0", "the <melting_temp_model> has it")
+            .ignored("a", "the <melting_temp_model> has it");
+    return schema;
+  }
+  double flowStress(const FlowState& state) const {
+    return std::min(hardened(state), greatest) * state.shearModulus / shearModulus;
+  }
+  double hardening(const FlowState& state) const {
+    if (hardened(state) >= greatest) return 0;
+    return beta * n * hardened(state) / base(state) * state.shearModulus / shearModulus;
+  }
+
+ private:
+  double base(const FlowState& state) const { return 1 + beta * (state.plasticStrain + initialStrain); }
+  double hardened(const FlowState& state) const { return yieldStress * std::pow(base(state), n); }
+};
+
+/// sigma_y = c_0 + B exp(-beta T) + B_0 e_p^(1/2) exp(-alpha T) + K e_p^n, alpha = alpha_0 - alpha_1 ln rate, beta
+/// likewise: Zerilli & Armstrong, J. Appl. Phys. 61 (1987) 1816. The rate is that of the whole strain, and at least 1e-8/s.
+struct ZerilliArmstrong {
+  static constexpr std::string_view name = "zerilli_armstrong";
+
+  double c0 = 0, b = 0, b0 = 0, k = 0;  ///< Pa
+  double n = 0;                         ///< 1
+  double alpha0 = 0, alpha1 = 0;        ///< 1/K
+  double beta0 = 0, beta1 = 0;          ///< 1/K
+
+  static const input::Schema<ZerilliArmstrong>& schema() {
+    using Self = ZerilliArmstrong;
+    static const input::Schema<Self> schema =
+        input::Schema<Self>("flow_model", "The yield stress of Zerilli and Armstrong.")
+            .required("c_0", &Self::c0, "Pa", "part that nothing changes", input::nonNegative())
+            .required("B", &Self::b, "Pa", "part without hardening", input::nonNegative())
+            .required("beta_0", &Self::beta0, "1/K", "its fall with the temperature", input::nonNegative())
+            .required("beta_1", &Self::beta1, "1/K", "and with the logarithm of the rate", input::nonNegative())
+            .required("B_0", &Self::b0, "Pa", "part that grows with the root of the plastic strain", input::nonNegative())
+            .required("alpha_0", &Self::alpha0, "1/K", "its fall with the temperature", input::nonNegative())
+            .required("alpha_1", &Self::alpha1, "1/K", "and with the logarithm of the rate", input::nonNegative())
+            .required("K", &Self::k, "Pa", "factor of e_p^n", input::nonNegative())
+            .required("n", &Self::n, "1", "exponent of the plastic strain", input::nonNegative());
+    return schema;
+  }
+  double flowStress(const FlowState& state) const {
+    const double ep = state.plasticStrain;
+    return c0 + b * fading(beta0, beta1, state) + b0 * std::sqrt(ep) * fading(alpha0, alpha1, state) + k * std::pow(ep, n);
+  }
+  double hardening(const FlowState& state) const {
+    const double ep = state.plasticStrain;
+    if (ep <= 0) return 0;
+    return 0.5 * b0 / std::sqrt(ep) * fading(alpha0, alpha1, state) + k * n * std::pow(ep, n - 1);
+  }
+
+ private:
+  static double fading(double byTemperature, double byRate, const FlowState& state) {
+    const double logarithm = std::log(std::max(state.strainRate, 1e-8));
+    return std::exp(-(byTemperature - byRate * logarithm) * state.temperature);
+  }
+};
+
+using FlowModel = std::variant<IsotropicHardening, JohnsonCook, SteinbergCochranGuinan, ZerilliArmstrong>;
 
 /// By how much the return shortens the trial stress s: the root q of |s| - q = (2/3)^(1/2) sigma_y(e_p + (2/3)^(1/2) q/(2 G)),
 /// Pa, by Newton's iteration between bounds; Simo & Hughes, Computational Inelasticity (1998), box 3.1. `state` goes to
 /// the end of the step.
 template <class Flow>
-double radialReturn(const Flow& flow, double trialSize, double shearModulus, FlowState& state) {
-  const double root = std::sqrt(2.0 / 3.0), perStress = root / (2 * shearModulus), start = state.plasticStrain;
+double radialReturn(const Flow& flow, double trialSize, FlowState& state) {
+  const double root = std::sqrt(2.0 / 3.0), perStress = root / (2 * state.shearModulus), start = state.plasticStrain;
   double low = 0, high = trialSize - root * flow.flowStress(state), q = high;
   if (high <= 0) return 0;
   for (int step = 0; step < 100; ++step) {
