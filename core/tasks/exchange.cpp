@@ -121,7 +121,8 @@ bool Exchange::run(std::span<const NumberedFill> fills, bool hasStopped) {
   if (warehouse_->level().patchCount() == 1 && !warehouse_->level().isPeriodic()) return !hasStopped;
   for (const NumberedFill& fill : fills) planOf(fill);
   noteUnsettled(fills);
-  threads_->alone([&] { post(fills, hasStopped); }, trace::Kind::message, "send");
+  if (!warehouse_->ranks().isAlone())
+    threads_->alone([&] { post(fills, hasStopped); }, trace::Kind::message, "send");
   if (!hasStopped) fillFromHere(fills);
   std::set<int> senders;
   for (const NumberedFill& fill : fills) senders.insert(planOf(fill).incoming.begin(), planOf(fill).incoming.end());
