@@ -24,7 +24,7 @@ Simulation::Simulation(Problem problem, const RunOptions& options, Clock::time_p
       started_at_(startedAt),
       phases_(*problem_.component, problem_.analyses),
       warehouse_(*problem_.level, table_, ranks),
-      scheduler_(warehouse_, std::clamp(options.threads, 1, std::max(1, warehouse_.patches()))),
+      scheduler_(warehouse_, std::clamp(problem_.threads, 1, std::max(1, warehouse_.patches()))),
       time_(problem_.time),
       progress_(options.quiet || !ranks.isFirst(), stdout),
       outputs_(problem_.time.initTime, problem_.archive.outputInterval) {
@@ -58,12 +58,15 @@ Report Simulation::run() {
   agreeOnClock();
   const auto loopStarted = Clock::now();
   const double outputBefore = wall_output_;
+  const Threads::Use useBefore = scheduler_.threads().use();
   try {
     while (!hasEnded()) step();
   } catch (const NumericalError& error) {
     failure_ = advised(error);
   }
-  wall_loop_ = since(loopStarted) - (wall_output_ - outputBefore);
+  const double output = wall_output_ - outputBefore;
+  wall_loop_ = since(loopStarted) - output;
+  time_use_ = TimeUse(useBefore, scheduler_.threads(), since(loopStarted), output, *ranks_);
   if (failure_) saveLastGood();
   if (saves_ && (problem_.archive.outputLastTimestep || interrupted_)) save();
   progress_.finish();
@@ -210,8 +213,9 @@ void Simulation::saveIfDue() {
 
 void Simulation::save() {
   if (last_output_ == time_.step()) return;
-  const auto started = Clock::now();
   diagnose(phases_.everyOutput);
+  const auto started = Clock::now();
+  const trace::Span span(trace::Kind::output, "save");
   const output::Snapshot state = snapshot();
   ranks_->onFirst([&] { archive_->write(state); });
   last_output_ = time_.step();
@@ -284,7 +288,7 @@ Report Simulation::makeReport() {
   report.dimension = problem_.level->dimension();
   report.patches = problem_.level->patchCount();
   report.ranks = ranks_->size();
-  report.threads = scheduler_.threads();
+  report.threads = scheduler_.threads().count();
   report.spacing = problem_.level->minSpacing();
   report.cells = static_cast<long>(problem_.level->cells().size());
   report.particles = particleCount(warehouse_, static_cast<int>(phases_.materials().size()));
@@ -297,6 +301,7 @@ Report Simulation::makeReport() {
   report.particleSteps = static_cast<double>(ranks_->sum(particle_steps_));
   report.wallStartup = wall_startup_;
   report.wallLoop = wall_loop_;
+  report.use = time_use_;
   reportTasks(report);
   reportDrift(report);
   reportErrors(report);

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 /// Number of steps and fingerprint of a scene on some ranks, told to all of them.
 std::string resultOf(const std::string& scene, std::vector<std::string> sets, const mpi::Communicator& ranks) {
   sets.push_back("DataArchiver/outputInterval=0");
-  Problem problem = readScene(scene, sets, catalogue(), test::shareOf(ranks));
+  Problem problem = readScene(scene, sets, catalogue(), {}, test::shareOf(ranks));
   problem.archive.saves.clear();
   problem.archive.checkpoint.reset();
   RunOptions options;
