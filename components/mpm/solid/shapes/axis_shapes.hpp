@@ -34,18 +34,23 @@ struct GimpAxis {
     const int first = xi < 0.5 ? -1 : 0;
     const double inverse = 1 / size, lower = xi - first - 0.5 * size, upper = lower + size;
     for (std::size_t k = 0; k < nodes; ++k) {
-      const double a = within(lower - static_cast<double>(k)), b = within(upper - static_cast<double>(k));
-      s[k] = inverse * (integral(b) - integral(a));
-      ds[k] = inverse * (std::abs(a) - std::abs(b));
+      const double a = lower - static_cast<double>(k), b = upper - static_cast<double>(k);
+      const double below = overlap(-b, -a), above = overlap(a, b);
+      s[k] = inverse * (integral(-b, -a) + integral(a, b));
+      ds[k] = inverse * (below - above);
     }
     return first;
   }
 
  private:
-  /// A distance from the node, brought to where the tent function is not 0: what follows has no branches.
-  static double within(double r) { return std::min(std::max(r, -1.0), 1.0); }
-  /// Of the tent function 1 - |r|, from the node on.
-  static double integral(double r) { return r - 0.5 * r * std::abs(r); }
+  // Nothing here has branches or takes large numbers from each other: where a particle barely touches a node, S and its
+  // slope are small, and the force over the mass that they make is only right if both are right to the last digits.
+
+  static double within(double r) { return std::min(std::max(r, 0.0), 1.0); }
+  /// How much of [a,b] lies within [0,1].
+  static double overlap(double a, double b) { return within(b) - within(a); }
+  /// Of the tent function 1 - r over that.
+  static double integral(double a, double b) { return overlap(a, b) * 0.5 * ((1 - within(a)) + (1 - within(b))); }
 };
 
 /// Quadratic B-splines about the nodes; Steffen, Kirby & Berzins, Int. J. Numer. Meth. Engng 76 (2008) 922.
