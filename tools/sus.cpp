@@ -15,6 +15,7 @@
 #include "core/base/mpi.hpp"
 #include "core/base/threads.hpp"
 #include "core/input/geometry.hpp"
+#include "core/simulation/dry_run.hpp"
 #include "core/simulation/scene.hpp"
 
 namespace {
@@ -26,7 +27,7 @@ struct Arguments {
   std::vector<std::string> overrides;
   bool check = false, list = false, restart = false, schedule = false, version = false;
   std::optional<int> checkpoint;  ///< step of the one to restart from
-  std::optional<int> threads;
+  std::optional<int> threads, dryRun;
   simulation::RunOptions run;
 };
 
@@ -92,6 +93,8 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.add_option("--petsc", arguments.petsc, "options for PETSc, in one word: -petsc \"-ksp_monitor -ksp_type gmres\"");
   app.add_flag("--quiet", arguments.run.quiet, "no progress, no report on the screen");
   app.add_flag("--check,--validate", arguments.check, "check the scene and make its start; run and write nothing");
+  app.add_option("--dry-run", arguments.dryRun, "compile what one of so many ranks would do, and say what that takes; run nothing")
+      ->check(CLI::Range(1, 10'000'000));
   app.add_flag("--schedule", arguments.schedule, "print the tasks in order, what they read and write, what is left out");
   app.add_option("--graph", arguments.graph, "write the tasks of a step to a file, for Graphviz (dot)");
   app.add_flag("--list", arguments.list, "list components, analysis modules and shapes");
@@ -230,6 +233,10 @@ ExitCode dispatch(const Arguments& arguments, std::chrono::steady_clock::time_po
     return refuse(fmt::format("{0} is the folder of a run; sus -restart {0} goes on with it", arguments.scene));
   if (arguments.restart && !arguments.run.outputFolder.empty())
     return refuse("--output has no meaning with --restart: a run goes on in its own folder");
+  if (arguments.dryRun) {
+    fmt::print("{}", toText(simulation::dryRun(arguments.scene, arguments.overrides, known, *arguments.dryRun)));
+    return ExitCode::success;
+  }
   session.emplace();
   return runScene(arguments, known, startedAt, session->ranks());
 }
