@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <ctime>
 #include <fstream>
 #include <map>
 #include <set>
@@ -14,7 +15,7 @@ namespace tushar::simulation {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+double processorSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 /// Memory of this process that is in use, MB.
 double residentMegabytes() {
@@ -38,22 +39,33 @@ class Messages {
     for (const tasks::CompiledTask& task : graph.tasks()) {
       std::set<int> receivers;
       for (const tasks::NumberedFill& fill : task.fills)
-        for (const auto& [rank, copies] : planOf(fill).outgoing) {
+        for (const auto& [rank, copies] : planOf(tasks::reachOf(table_, fill)).outgoing) {
           receivers.insert(rank);
-          for (const tasks::GhostCopy& copy : copies)
-            if (!fill.particles) result.bytes += static_cast<double>(copy.box.size() * table_[fill.variable].label->bytes);
+          if (!fill.particles) result.bytes += bytesOf(copies, table_[fill.variable].label->bytes);
         }
       result.messages += static_cast<int>(receivers.size());
       neighbours_.insert(receivers.begin(), receivers.end());
+      if (task.task.kind == tasks::TaskKind::relocate) addRelocations(static_cast<int>(task.materials.size()), result);
     }
+    ++result.agreements;
     result.neighbours = static_cast<int>(neighbours_.size());
   }
 
  private:
-  const tasks::GhostPlan& planOf(const tasks::NumberedFill& fill) {
-    const tasks::GhostReach reach = tasks::reachOf(table_, fill);
+  static double bytesOf(const std::vector<tasks::GhostCopy>& copies, std::size_t bytes) {
+    double all = 0;
+    for (const tasks::GhostCopy& copy : copies) all += static_cast<double>(copy.box.size() * bytes);
+    return all;
+  }
+  void addRelocations(int materials, DryRun& result) {
+    const auto& receivers = planOf({false, tasks::Emigration::neighbourhood}).incoming;
+    neighbours_.insert(receivers.begin(), receivers.end());
+    result.messages += materials * static_cast<int>(receivers.size());
+    result.agreements += materials;
+  }
+  const tasks::GhostPlan& planOf(const tasks::GhostReach& reach) {
     const auto [plan, isNew] = plans_.try_emplace(reach);
-    if (isNew) plan->second = planGhosts(level_, reach.nodes, reach.width);
+    if (isNew) plan->second = tasks::planGhosts(level_, reach.nodes, reach.width);
     return plan->second;
   }
 
@@ -65,24 +77,25 @@ class Messages {
 
 }  // namespace
 
-DryRun dryRun(const std::string& scene, const std::vector<std::string>& overrides, const Catalogue& catalogue, int ranks) {
-  const int rank = rankInTheMiddle(*readScene(scene, overrides, catalogue, {0, ranks}).level);
-  const double before = residentMegabytes();
-  const auto started = Clock::now();
-  const Problem problem = readScene(scene, overrides, catalogue, {rank, ranks});
+DryRun dryRun(const std::string& scene, const std::vector<std::string>& overrides, const Catalogue& catalogue,
+              const grid::Workers& workers) {
+  const int rank = rankInTheMiddle(*readScene(scene, overrides, catalogue, workers, {0, workers.ranks}).level);
+  const double memoryBefore = residentMegabytes(), timeBefore = processorSeconds();
+  const Problem problem = readScene(scene, overrides, catalogue, workers, {rank, workers.ranks});
   const grid::Level& level = *problem.level;
   data::VariableTable table;
   Phases phases(*problem.component, problem.analyses);
   phases.compile(problem.analyses, problem.archive.saves, level, table);
   DryRun result;
+  result.agreements = 1;  // on whether to stop
   Messages messages(level, table);
   for (const tasks::TaskGraph* graph : {&phases.stableTimeStep, &phases.timeAdvance}) {
     result.tasks += static_cast<int>(graph->tasks().size());
     result.placements += static_cast<int>(graph->placements().size());
     messages.add(*graph, result);
   }
-  result.seconds = std::chrono::duration<double>(Clock::now() - started).count();
-  result.megabytes = residentMegabytes() - before;
+  result.seconds = processorSeconds() - timeBefore;
+  result.megabytes = residentMegabytes() - memoryBefore;
   result.rank = level.share().rank;
   result.ranks = level.share().ranks;
   result.patches = static_cast<int>(level.patches().size());
@@ -93,10 +106,10 @@ DryRun dryRun(const std::string& scene, const std::vector<std::string>& override
 std::string toText(const DryRun& result) {
   return fmt::format(
       "rank {} of {}: {} of {} patches\n"
-      "  a step: {} tasks, run {} times; {} neighbours, {} messages of ghosts, {:.4g} kB (particles not counted)\n"
-      "  compiled in {:.3f} ms with {:.2f} MB\n",
-      result.rank, result.ranks, result.patches, result.patchesOfAll, result.tasks, result.placements, result.neighbours,
-      result.messages, 1e-3 * result.bytes, 1e3 * result.seconds, result.megabytes);
+      "  a step: {} tasks, run {} times; {} messages to {} neighbours, {:.4g} kB and particles; {} agreements of all ranks\n"
+      "  compiled in {:.2f} ms of processor time with {:.2f} MB\n",
+      result.rank, result.ranks, result.patches, result.patchesOfAll, result.tasks, result.placements, result.messages,
+      result.neighbours, 1e-3 * result.bytes, result.agreements, 1e3 * result.seconds, result.megabytes);
 }
 
 }  // namespace tushar::simulation

@@ -14,7 +14,7 @@ DryRun ofCube(const std::string& scene, int width) {
   return dryRun(scene,
                 {"Grid/Level/Box/resolution=[" + cells + "," + cells + "," + cells + "]",
                  "Grid/Level/Box/patches=[" + patches + "," + patches + "," + patches + "]"},
-                catalogue(), width * width * width / 8);
+                catalogue(), {1, false, width * width * width / 8, {}});
 }
 
 }  // namespace
@@ -34,8 +34,19 @@ TEST(DryRun, FindsThatARankHasAsMuchToDoAmongManyAsAmongFew) {
   }
 }
 
+TEST(DryRun, HasAtMostTwiceTheMessagesAmongAMillionPatchesThatDivideBadly) {
+  for (const char* scene : {"ups/euler/vortex_3d.ups", "ups/mpm/vortex_3d.ups"}) {
+    const DryRun even = ofCube(scene, 8), uneven = ofCube(scene, 100);
+
+    EXPECT_EQ(uneven.ranks, 125000);
+    EXPECT_EQ(uneven.patches, 8);
+    EXPECT_LE(uneven.messages, 2 * even.messages);
+    EXPECT_LE(uneven.bytes, 2 * even.bytes);
+  }
+}
+
 TEST(DryRun, HasNoMessagesOnOneRank) {
-  const DryRun alone = dryRun("ups/euler/sod.ups", {"Grid/Level/Box/patches=[7,1,1]"}, catalogue(), 1);
+  const DryRun alone = dryRun("ups/euler/sod.ups", {"Grid/Level/Box/patches=[7,1,1]"}, catalogue(), {});
 
   EXPECT_EQ(alone.patches, 7);
   EXPECT_EQ(alone.messages, 0);
