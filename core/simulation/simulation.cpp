@@ -13,6 +13,16 @@ namespace tushar::simulation {
 
 using data::Generation;
 
+namespace {
+
+TimeSettings timeOf(const Problem& problem) {
+  TimeSettings time = problem.time;
+  time.recomputeTimeStep = time.recomputeTimeStep || problem.component->mayRepeatStep();
+  return time;
+}
+
+}  // namespace
+
 Simulation::Simulation(Problem problem, const RunOptions& options, Clock::time_point startedAt)
     : Simulation(std::move(problem), options, startedAt, mpi::Communicator::alone()) {}
 
@@ -25,7 +35,7 @@ Simulation::Simulation(Problem problem, const RunOptions& options, Clock::time_p
       phases_(*problem_.component, problem_.analyses),
       warehouse_(*problem_.level, table_, ranks),
       scheduler_(warehouse_, std::clamp(options.threads, 1, std::max(1, warehouse_.patches()))),
-      time_(problem_.time),
+      time_(timeOf(problem_)),
       progress_(options.quiet || !ranks.isFirst(), stdout),
       outputs_(problem_.time.initTime, problem_.archive.outputInterval) {
   if (problem_.archive.checkpoint) checkpoints_.emplace(*problem_.archive.checkpoint, problem_.time.initTime);

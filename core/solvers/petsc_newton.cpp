@@ -60,7 +60,7 @@ PetscErrorCode evaluateTangent(SNES, Vec, Mat, Mat, void* context) {
   });
 }
 
-/// |du| <= displacement max |du| and |du . r| <= energy |du . r| of the first iteration; or no residual at all.
+/// |du| <= displacement max |du| and |du . r| <= energy |du . r| of the first iteration; or no residual to speak of.
 PetscErrorCode hasConverged(SNES snes, PetscInt iteration, PetscReal, PetscReal, PetscReal norm,
                             SNESConvergedReason* reason, void* context) {
   Newton& newton = *static_cast<Newton*>(context);
@@ -70,7 +70,7 @@ PetscErrorCode hasConverged(SNES snes, PetscInt iteration, PetscReal, PetscReal,
     check(SNESGetFunction(snes, &r, nullptr, nullptr));
     *reason = SNES_CONVERGED_ITERATING;
     if (!std::isfinite(norm)) *reason = SNES_DIVERGED_FNORM_NAN;
-    if (norm == 0) *reason = SNES_CONVERGED_FNORM_ABS;
+    if (norm <= (iteration > 0 ? newton.problem.negligible() : 0.0)) *reason = SNES_CONVERGED_FNORM_ABS;
     if (iteration > 0) {
       PetscReal size = 0, energy = 0;
       check(VecWAXPY(newton.change, -1, newton.lastU, u));

@@ -58,6 +58,8 @@ class NonlinearProblem {
   virtual bool residual(std::span<const double> u, std::span<double> r) = 0;
   /// dr/du at the u of the last residual.
   virtual void tangent(Matrix& matrix) = 0;
+  /// Norm of a residual that is nothing but rounding; asked for after the first tangent.
+  virtual double negligible() const { return 0; }
 };
 
 /// When Newton's iterations end, as in Uintah's implicit MPM.

@@ -100,9 +100,8 @@ const Schema<MpmSection>& mpmSchema() {
   return schema;
 }
 
-struct PhysicalConstants {
-  Vec3 gravity = Vec3::Zero();
-};
+}  // namespace
+
 const Schema<PhysicalConstants>& constantsSchema() {
   static const Schema<PhysicalConstants> schema =
       Schema<PhysicalConstants>("PhysicalConstants", "What acts everywhere.")
@@ -110,6 +109,8 @@ const Schema<PhysicalConstants>& constantsSchema() {
           .ignored("reference_pressure", "nothing here depends on it");
   return schema;
 }
+
+namespace {
 
 /// One size for the particles of all bodies, where they agree.
 void settleSizes(Problem& problem) {
@@ -121,10 +122,11 @@ void settleSizes(Problem& problem) {
       problem.method.keepsSizes = problem.method.keepsSizes || !(body.particlesPerCell == first);
 }
 
-std::unique_ptr<Component> makeComponent(const Level& level, Interpolator interpolator, Problem problem) {
+}  // namespace
+
+void settleParticles(const Level& level, Problem& problem) {
   countParticles(level, problem.materials, problem.start.loads);
   settleSizes(problem);
-  problem.start.domainsDeform = interpolator == Interpolator::cpdi;
   double widths = 0, axes = 0;
   for (int axis = 0; axis < 3; ++axis) {
     widths += level.cellWidth(axis);
@@ -133,6 +135,20 @@ std::unique_ptr<Component> makeComponent(const Level& level, Interpolator interp
   problem.method.meanWidth = widths / axes;
   problem.method.isThin = {true, true, true};
   for (int d = 0; d < level.dimension(); ++d) problem.method.isThin[static_cast<std::size_t>(level.axis(d))] = false;
+}
+
+void nameMaterials(std::vector<Material>& materials) {
+  for (std::size_t m = 0; m < materials.size(); ++m) {
+    materials[m].index = static_cast<int>(m);
+    if (materials[m].name.empty()) materials[m].name = "material" + std::to_string(m);
+  }
+}
+
+namespace {
+
+std::unique_ptr<Component> makeComponent(const Level& level, Interpolator interpolator, Problem problem) {
+  settleParticles(level, problem);
+  problem.start.domainsDeform = interpolator == Interpolator::cpdi;
   const auto make = [&]<template <int> class Shape>() -> std::unique_ptr<Component> {
     if (level.dimension() == 1) return std::make_unique<SolidMpm<Shape<1>>>(problem);
     if (level.dimension() == 2) return std::make_unique<SolidMpm<Shape<2>>>(problem);
@@ -191,10 +207,8 @@ simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostic
   problem.method.thermalContact = properties.mpm.thermalContact;
   problem.start = {read.axisymmetric, read.useLoadCurves ? readLoads(root, diagnostics) : std::vector<PressureLoad>{},
                    makeManufactured(read.manufactured)};
-  for (std::size_t m = 0; m < problem.materials.size(); ++m) {
-    Material& material = problem.materials[m];
-    material.index = static_cast<int>(m);
-    if (material.name.empty()) material.name = "material" + std::to_string(m);
+  nameMaterials(problem.materials);
+  for (const Material& material : problem.materials) {
     if (problem.start.solution && material.model->name() != "cnh_mms")
       diagnostics.error(root.child("MPM")->child("RunMMSProblem").value(),
                         "is made for the constitutive model cnh_mms, but '" + material.name + "' is " +
