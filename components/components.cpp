@@ -6,10 +6,12 @@
 #include "components/heat/heat.hpp"
 #include "components/mpm/analysis/mass_projection.hpp"
 #include "components/mpm/input.hpp"
+#include "components/mpm/solid/analysis/manufactured_error.hpp"
 #include "components/mpm/solid/implicit/input.hpp"
 #include "components/poisson/poisson.hpp"
 #include "components/reference/modules.hpp"
 #include "core/simulation/exact_solution.hpp"
+#include "core/simulation/particle_extract.hpp"
 
 namespace tushar {
 
@@ -26,6 +28,7 @@ simulation::Catalogue catalogue() {
       {
           burgers::waveKind(),
           mpm::massProjectionKind(),
+          mpm::solid::manufacturedErrorKind(),
           reference::exactRiemannKind(),
           reference::simpleWaveKind(),
           reference::isentropicVortexKind(),
@@ -34,6 +37,7 @@ simulation::Catalogue catalogue() {
           reference::sedovKind(),
           reference::tabulatedKind(),
           simulation::exactSolutionKind(),
+          simulation::particleExtractKind(),
       },
   };
 }

@@ -14,6 +14,7 @@
 #include "core/base/launcher.hpp"
 #include "core/base/mpi.hpp"
 #include "core/base/threads.hpp"
+#include "core/base/trace.hpp"
 #include "core/input/geometry.hpp"
 #include "core/simulation/scene.hpp"
 
@@ -22,11 +23,11 @@ namespace {
 using namespace tushar;
 
 struct Arguments {
-  std::string scene, describe, graph, petsc;
+  std::string scene, describe, graph, petsc, trace;
   std::vector<std::string> overrides;
   bool check = false, list = false, restart = false, schedule = false, version = false;
   std::optional<int> checkpoint;  ///< step of the one to restart from
-  std::optional<int> threads;
+  grid::Workers workers{allowedThreads(), true};
   simulation::RunOptions run;
 };
 
@@ -85,8 +86,11 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.add_option("--set", arguments.overrides, "override a value of the scene: PATH=VALUE, e.g.\n"
                                                "Grid/Level/Box/resolution=[200,1,1]; may be repeated")
       ->allow_extra_args(false);
-  app.add_option("--nthreads", arguments.threads, "threads to run on; all cores that are free to use, if not given")
+  app.add_option_function<int>("--nthreads", [&](int count) { arguments.workers = {count}; },
+                               "threads to run on; without it as many as there are cores for and as pay")
       ->check(CLI::Range(1, 1024));
+  app.add_option("--trace", arguments.trace,
+                 "write what each thread did when to a file, for ui.perfetto.dev or chrome://tracing");
   app.add_option("--json", arguments.run.jsonPath, "write the report to a file, as JSON");
   app.add_option("--output", arguments.run.outputFolder, "put the .uda into this folder");
   app.add_option("--petsc", arguments.petsc, "options for PETSc, in one word: -petsc \"-ksp_monitor -ksp_type gmres\"");
@@ -152,11 +156,20 @@ simulation::Restart findRestart(const Arguments& arguments, const mpi::Communica
 simulation::Problem readProblem(const Arguments& arguments, const simulation::Catalogue& known,
                                 const mpi::Communicator& ranks) {
   const grid::Share share{ranks.rank(), ranks.size()};
-  if (!arguments.restart) return simulation::readScene(arguments.scene, arguments.overrides, known, share);
+  const grid::Workers first = ranks.broadcast(arguments.workers);  // all ranks must choose the same patches
+  const grid::Workers workers{first.threads, first.mayBeFewer, ranks.size()};
+  if (!arguments.restart) return simulation::readScene(arguments.scene, arguments.overrides, known, workers, share);
   const simulation::Restart restart = findRestart(arguments, ranks);
-  simulation::Problem problem = simulation::readScene(restart.scene().string(), arguments.overrides, known, share);
+  simulation::Problem problem = simulation::readScene(restart.scene().string(), arguments.overrides, known, workers, share);
   problem.restart = restart;
   return problem;
+}
+
+/// The first rank writes what all have recorded.
+void writeTrace(const std::string& path, const mpi::Communicator& ranks) {
+  std::string all;
+  for (const std::string& events : ranks.gather(trace::events(ranks.rank()))) all += (all.empty() ? "" : ",\n") + events;
+  ranks.onFirst([&] { writeFile(path, trace::fileOf(all)); });
 }
 
 /// `100 cells and 450 particles at the start`.
@@ -184,17 +197,20 @@ ExitCode runScene(const Arguments& arguments, const simulation::Catalogue& known
   simulation::Problem problem = readProblem(arguments, known, ranks);
   if (!arguments.run.quiet && ranks.isFirst())
     for (const InputProblem& note : problem.notes) fmt::print(stderr, "note: {}\n", note.text());
-  simulation::RunOptions options = arguments.run;
-  options.threads = arguments.threads ? *arguments.threads : allowedThreads();
-  simulation::Simulation run(std::move(problem), options, startedAt, ranks);
+  simulation::Simulation run(std::move(problem), arguments.run, startedAt, ranks);
   if (arguments.check || arguments.schedule || !arguments.graph.empty()) {
     inspect(arguments, run, ranks.isFirst());
     return ExitCode::success;
   }
-  const bool reports = !arguments.run.jsonPath.empty();
-  ranks.onFirst([&] { if (reports) checkWritable(arguments.run.jsonPath); });
+  const bool reports = !arguments.run.jsonPath.empty(), traces = !arguments.trace.empty();
+  ranks.onFirst([&] {
+    if (reports) checkWritable(arguments.run.jsonPath);
+    if (traces) checkWritable(arguments.trace);
+  });
   catchInterrupts();
+  if (traces) trace::start();
   const simulation::Report report = run.run();
+  if (traces) writeTrace(arguments.trace, ranks);
   if (reports) ranks.onFirst([&] { writeFile(arguments.run.jsonPath, toJson(report)); });
   if (!report.failure.empty()) throw NumericalError(report.failure, report.advice);
   if (!arguments.run.quiet && ranks.isFirst()) fmt::print("{}", toText(report));

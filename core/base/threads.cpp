@@ -8,14 +8,21 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <exception>
 #include <mutex>
+#include <utility>
+#include <vector>
 
 #include "core/base/launcher.hpp"
 
 namespace tushar {
 
+using trace::Clock;
+
 namespace {
+
+double seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
 
 int boundCores() {
   cpu_set_t cores;
@@ -57,37 +64,71 @@ int allowedThreads() {
 class Threads::Pool {
  public:
   explicit Pool(int count)
-      : limit_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(count)), arena_(count) {}
+      : limit_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(count)),
+        arena_(count),
+        busy_(static_cast<std::size_t>(count)) {}
 
+  /// The time that all threads together have worked on the loop.
   template <class Work>
-  void run(int times, const Work& work) {
+  Clock::duration run(int times, const Work& work) {
+    started_.store(true, std::memory_order_release);
     arena_.execute([&] {
+      const auto from = Clock::now();
+      myBusy() = {from, {}};
       tbb::parallel_for(
-          tbb::blocked_range<int>(0, times),
-          [&](const tbb::blocked_range<int>& part) {
-            for (int k = part.begin(); k < part.end(); ++k) work(k);
-          },
-          partitioner_);
+          tbb::blocked_range<int>(0, times), [&](const tbb::blocked_range<int>& part) { runPart(part, work); }, partitioner_);
+      if (trace::isOn()) trace::record(trace::Kind::wait, "wait", -1, myBusy().until, Clock::now());
     });
+    finished_.load(std::memory_order_acquire);
+    Clock::duration all{};
+    for (Busy& busy : busy_) all += std::exchange(busy.time, {});
+    return all;
   }
 
  private:
+  /// What a thread has done in a loop.
+  struct alignas(64) Busy {
+    Clock::time_point until;
+    Clock::duration time{};
+  };
+  Busy& myBusy() { return busy_[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())]; }
+
+  template <class Work>
+  void runPart(const tbb::blocked_range<int>& part, const Work& work) {
+    started_.load(std::memory_order_acquire);
+    const auto from = Clock::now();
+    for (int k = part.begin(); k < part.end(); ++k) work(k);
+    Busy& busy = myBusy();
+    busy.until = Clock::now();
+    busy.time += busy.until - from;
+    finished_.fetch_add(1, std::memory_order_release);
+  }
+
   tbb::global_control limit_;
   tbb::task_arena arena_;
   tbb::affinity_partitioner partitioner_;  ///< a thread gets what it had in the loop before: it is in its cache
+  std::vector<Busy> busy_;
+  /// TBB orders what the caller and the workers do; these two order it once more, where the thread sanitizer sees it.
+  std::atomic<bool> started_ = false;
+  std::atomic<long> finished_ = 0;
 };
 
 Threads::Threads(int count) : count_(count), pool_(count > 1 ? std::make_unique<Pool>(count) : nullptr) {}
 
 Threads::~Threads() = default;
 
-void Threads::run(int times, const Loop& loop) {
+void Threads::run(int times, const Loop& loop, trace::Kind kind) {
   FirstFailure failure;
   const auto watched = [&](int k) { failure.watch(k, [&] { loop.call(loop.called, k); }); };
+  const auto from = Clock::now();
+  Clock::duration busy{};
   if (pool_ && times > 1)
-    pool_->run(times, watched);
+    busy = pool_->run(times, watched);
   else
     for (int k = 0; k < times; ++k) watched(k);
+  const Clock::duration wall = Clock::now() - from;
+  (kind == trace::Kind::message ? use_.message : use_.task) += seconds(pool_ && times > 1 ? busy : wall);
+  use_.loops += seconds(wall);
   failure.rethrow();
 }
 

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <memory>
+#include <string_view>
+
+#include "core/base/trace.hpp"
 
 namespace tushar {
 
@@ -21,9 +24,26 @@ class Threads {
   /// Calls `work(0)` to `work(times - 1)`, in any order and several at once, and returns when all are done. Of what they
   /// throw, that of the least number comes out; the others are called nevertheless.
   template <class Work>
-  void forEach(int times, const Work& work) {
-    run(times, {&work, [](const void* called, int k) { (*static_cast<const Work*>(called))(k); }});
+  void forEach(int times, const Work& work, trace::Kind kind = trace::Kind::task) {
+    run(times, {&work, [](const void* called, int k) { (*static_cast<const Work*>(called))(k); }}, kind);
   }
+
+  /// Calls `work()` once, on this thread; in a trace it has this name, which must outlive it.
+  template <class Work>
+  void alone(const Work& work, trace::Kind kind, std::string_view name) {
+    const auto named = [&](int) {
+      const trace::Span span(kind, name);
+      work();
+    };
+    forEach(1, named, kind);
+  }
+
+  /// What the loops have taken so far, s.
+  struct Use {
+    double task = 0, message = 0;  ///< of all threads together, by the kind of the loops
+    double loops = 0;              ///< from the start of each loop to its end
+  };
+  const Use& use() const { return use_; }
 
  private:
   struct Loop {
@@ -31,9 +51,10 @@ class Threads {
     void (*call)(const void* called, int k);
   };
   class Pool;
-  void run(int times, const Loop& loop);
+  void run(int times, const Loop& loop, trace::Kind kind);
 
   int count_;
+  Use use_;
   std::unique_ptr<Pool> pool_;  ///< none for one thread
 };
 

@@ -10,30 +10,32 @@ namespace {
 
 /// What is looked at of many numbers at once.
 struct Look {
-  double least;  ///< of those that are numbers, or 1
+  double least;  ///< of those that are numbers, or 1; looked for only where it is asked for
   double zero;   ///< the sum of 0 times each: not a number where one is not finite
 };
 
-/// Lanes that do not wait for one another, for vector instructions.
+/// Lanes that do not wait for one another, for vector instructions; halves are joined until one is left.
+template <bool SeeksLeast>
 Look lookAt(const double* values, std::size_t count) {
   constexpr std::size_t width = 32;
   std::array<double, width> least, zero{};
   least.fill(1);
+  const auto lower = [](double& a, double b) { a = b < a ? b : a; };
   std::size_t k = 0;
   for (; k + width <= count; k += width)
     for (std::size_t lane = 0; lane < width; ++lane) {
-      const double x = values[k + lane];
-      least[lane] = x < least[lane] ? x : least[lane];
-      zero[lane] += 0 * x;
+      if constexpr (SeeksLeast) lower(least[lane], values[k + lane]);
+      zero[lane] += 0 * values[k + lane];
     }
   for (; k < count; ++k) {
-    least[0] = std::min(least[0], values[k]);
+    if constexpr (SeeksLeast) lower(least[0], values[k]);
     zero[0] += 0 * values[k];
   }
-  for (std::size_t lane = 1; lane < width; ++lane) {
-    least[0] = std::min(least[0], least[lane]);
-    zero[0] += zero[lane];
-  }
+  for (std::size_t half = width / 2; half > 0; half /= 2)
+    for (std::size_t lane = 0; lane < half; ++lane) {
+      if constexpr (SeeksLeast) lower(least[lane], least[lane + half]);
+      zero[lane] += zero[lane + half];
+    }
   return {least[0], zero[0]};
 }
 
@@ -46,8 +48,9 @@ bool holds(Bound bound, double value) {
 
 bool holds(Bound bound, const double* values, std::size_t count) {
   if (bound == Bound::none) return true;
-  const Look look = lookAt(values, count);
-  return look.zero == 0 && (bound != Bound::positive || look.least > 0) && (bound != Bound::nonNegative || look.least >= 0);
+  if (bound == Bound::finite) return lookAt<false>(values, count).zero == 0;
+  const Look look = lookAt<true>(values, count);
+  return look.zero == 0 && (bound == Bound::positive ? look.least > 0 : look.least >= 0);
 }
 
 std::string_view textOf(Bound bound) {

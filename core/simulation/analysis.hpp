@@ -1,9 +1,11 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "core/output/snapshot.hpp"
+#include "core/simulation/settings.hpp"
 #include "core/tasks/task_list.hpp"
 
 namespace tushar::simulation {
@@ -28,6 +30,12 @@ class Analysis {
   virtual std::vector<MeasuredError> errors() const { return {}; }
   /// Why errors mean nothing at the time that is set, in a sentence; empty where they do.
   virtual std::string whyUnmeasured() const { return {}; }
+  /// Particle variables that sample() wants to see, and where the scene asks for them.
+  virtual std::vector<SaveRequest> samples() const { return {}; }
+  /// Whether sample() is to be called at the time that is set.
+  virtual bool isSampleDue() const { return false; }
+  /// Looks at what samples() asks for. Files of its own go to the folder of the archive.
+  virtual void sample(const output::Snapshot&, const std::filesystem::path&) {}
   /// A table of exact values to draw beside the result, one column an array, `x` first; empty where there is none.
   virtual std::vector<output::Array> exactProfile(const grid::Level&) const { return {}; }
 };

@@ -64,22 +64,31 @@ void Phases::noteMaterials() {
     if (task.materials.size() > materials_.size()) materials_ = task.materials;
 }
 
-std::vector<InputProblem> Phases::problemsOf(const std::vector<SaveRequest>& saves) const {
+std::vector<InputProblem> Phases::problemsOf(const std::vector<SaveRequest>& saves, const std::string& path) const {
   const Names known = saveable();
   std::vector<InputProblem> problems;
   for (const SaveRequest& save : saves) {
     if (!known.contains(save.label))
-      problems.push_back({save.where, "DataArchiver/save",
+      problems.push_back({save.where, path,
                           fmt::format("no task of this component computes '{}'{}; there are {}", save.label,
                                       didYouMean(save.label, {known.begin(), known.end()}),
                                       alternatives({known.begin(), known.end()}))});
     else if (!save.material.empty() &&
              std::find(materials_.begin(), materials_.end(), save.material) == materials_.end())
-      problems.push_back({save.whereOfMaterial, "DataArchiver/save",
+      problems.push_back({save.whereOfMaterial, path,
                           fmt::format("there is no material '{}'{}; there are {}", save.material,
                                       didYouMean(save.material, materials_), alternatives(materials_))});
   }
   return problems;
+}
+
+std::vector<SaveRequest> Phases::samplesOf(const std::vector<std::unique_ptr<Analysis>>& analyses) const {
+  std::vector<SaveRequest> samples;
+  for (const auto& analysis : analyses)
+    for (SaveRequest& sample : analysis->samples()) samples.push_back(std::move(sample));
+  if (std::vector<InputProblem> problems = problemsOf(samples, "DataAnalysis/Module"); !problems.empty())
+    throw InputError(std::move(problems));
+  return samples;
 }
 
 Names Phases::saveable() const {
@@ -104,6 +113,7 @@ void Phases::sortSaves(const std::vector<SaveRequest>& saves) {
 void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, const std::vector<SaveRequest>& saves,
                      const grid::Level& level, data::VariableTable& table) {
   if (std::vector<InputProblem> problems = problemsOf(saves); !problems.empty()) throw InputError(std::move(problems));
+  const std::vector<SaveRequest> samples = samplesOf(analyses);
   sortSaves(saves);
   const Lists& lists = lists_;
   const Names diagnosed = producedBy(lists.diagnostics.tasks());
@@ -117,6 +127,9 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
     for (const MeasuredError& error : analysis->errors()) reported.emplace(error.label->name);
   for (const SaveRequest& save : saved_fields_)
     (stepped.contains(save.label) ? savedState : derived).insert(save.label);
+  Names everyStepWants(saved_globals_.begin(), saved_globals_.end());
+  for (const SaveRequest& sample : samples)
+    (stepped.contains(sample.label) ? savedState : everyStepWants).insert(sample.label);
   for (const std::string& global : saved_globals_)
     if (!diagnosed.contains(global)) savedState.insert(global);
 
@@ -124,7 +137,7 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   Names wanted = requiredOfState(lists.timeAdvance.tasks());
   std::erase_if(wanted, [&](const std::string& name) { return !decided.contains(name); });
   Pruned stable = prune(lists.stableTimeStep.tasks(), united(wanted, {std::string(data::delT.name)}), false);
-  Pruned step = prune(lists.diagnostics.tasks(), {saved_globals_.begin(), saved_globals_.end()}, false);
+  Pruned step = prune(lists.diagnostics.tasks(), everyStepWants, false);
   Pruned output = prune(lists.diagnostics.tasks(), derived, false);
   Pruned begin = prune(lists.diagnostics.tasks(), totals, false);
   Pruned end = prune(lists.diagnostics.tasks(), reported, false);

@@ -22,7 +22,8 @@ class Phases {
   Phases(const Component& component, const std::vector<std::unique_ptr<Analysis>>& analyses);
 
   /// What is wrong with the labels and materials that a scene wants saved.
-  std::vector<InputProblem> problemsOf(const std::vector<SaveRequest>& saves) const;
+  std::vector<InputProblem> problemsOf(const std::vector<SaveRequest>& saves,
+                                       const std::string& path = "DataArchiver/save") const;
   /// Compiles the lists. Throws InputError for a saved label that no task computes, TaskError for lists that do not
   /// fit together.
   void compile(const std::vector<std::unique_ptr<Analysis>>& analyses, const std::vector<SaveRequest>& saves,
@@ -56,6 +57,8 @@ class Phases {
   void validateAll() const;
   void noteMaterials();
   tasks::Names saveable() const;
+  /// What analyses want to see of particles. Throws InputError for what nothing computes.
+  std::vector<SaveRequest> samplesOf(const std::vector<std::unique_ptr<Analysis>>& analyses) const;
   void sortSaves(const std::vector<SaveRequest>& saves);
 
   Lists lists_;

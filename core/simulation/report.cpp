@@ -23,7 +23,10 @@ Json wallOf(const Report& report) {
   Json tasks = Json::object();
   for (const TaskTime& task : report.tasks) tasks[task.name] = tasks.value(task.name, 0.0) + task.seconds;
   return {{"startup", report.wallStartup}, {"loop", report.wallLoop}, {"output", report.wallOutput},
-          {"exchange", report.exchange},   {"tasks", tasks}};
+          {"exchange", report.exchange},   {"tasks", tasks},
+          {"use", {{"task", report.use.task}, {"message", report.use.message}, {"output", report.use.output},
+                   {"wait", report.use.wait}}},
+          {"imbalance", report.use.imbalance}};
 }
 
 Json limitsOf(const Report& report) {
@@ -77,6 +80,16 @@ std::string driftTable(const Report& report) {
   return text;
 }
 
+/// What the threads did during the time loop and its outputs, in parts of their time.
+std::string useLine(const Report& report) {
+  const TimeUse& use = report.use;
+  const double all = use.task + use.message + use.output + use.wait;
+  if (all <= 0) return "";
+  return fmt::format("  {}{} thread{}: {:.1f} % in tasks, {:.1f} % messages, {:.1f} % output, {:.1f} % waiting; load imbalance {:.3f}\n",
+                     report.ranks > 1 ? fmt::format("{} ranks of ", report.ranks) : "", report.threads, report.threads == 1 ? "" : "s", 100 * use.task / all, 100 * use.message / all,
+                     100 * use.output / all, 100 * use.wait / all, use.imbalance);
+}
+
 std::string timeTable(const Report& report) {
   std::string text = fmt::format("\n  {:<36} {:>10}\n", "wall time", "ms");
   const auto row = [&](const std::string& name, double seconds) {
@@ -87,7 +100,7 @@ std::string timeTable(const Report& report) {
   for (const TaskTime& task : report.tasks) row("  " + task.name, task.seconds);
   if (report.patches > 1) row("  ghost exchange", report.exchange);
   row("output", report.wallOutput);
-  return text;
+  return text + useLine(report);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/simulation/time_use.hpp"
 #include "core/tasks/prune.hpp"
 
 namespace tushar::simulation {
@@ -44,6 +45,7 @@ struct Report {
   std::string failure, advice;  ///< of a run that failed: the value that cannot be, and what to try
   double particleSteps = 0;
   double wallStartup = 0, wallLoop = 0, wallOutput = 0;  ///< s
+  TimeUse use;
   std::vector<TaskTime> tasks;
   double exchange = 0;  ///< s of the loop spent filling ghosts
   std::vector<ErrorNorms> errors;

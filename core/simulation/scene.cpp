@@ -164,7 +164,7 @@ void checkSaves(const MakeComponent& make, const std::vector<ReadModule>& module
 }  // namespace
 
 Problem readScene(const std::string& path, const std::vector<std::string>& overrides, const Catalogue& catalogue,
-                  grid::Share share) {
+                  const grid::Workers& workers, grid::Share share) {
   Diagnostics diagnostics;
   Document document = Document::load(path, diagnostics);
   diagnostics.throwIfAny();
@@ -185,7 +185,7 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   }
   grid::Domain domain;
   if (const auto grid = section(root, "Grid", true, diagnostics))
-    domain = readGrid(*grid, kind ? kind->boundaryLabels : std::vector<BoundaryLabel>{}, diagnostics);
+    domain = readGrid(*grid, kind ? kind->boundaryLabels : std::vector<BoundaryLabel>{}, workers, diagnostics);
   if (kind && kind->nodesBeyond) domain.nodesBeyond = kind->nodesBeyond(root);
   MakeComponent makeComponent;
   if (kind) makeComponent = kind->read(root, diagnostics);
@@ -196,7 +196,9 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
 
   problem.componentName = kind->name;
   problem.level = std::make_unique<grid::Level>(domain, share);
+  problem.threads = workers.threadsFor(domain.resolution);
   problem.component = makeComponent(*problem.level);
+  if (problem.component->mayRepeatStep()) problem.time.recomputeTimeStep = true;
   problem.analyses = makeModules(modules, *problem.component, *problem.level);
   problem.notes = diagnostics.notes();
   return problem;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/grid/choose_patches.hpp"
 #include "core/input/document.hpp"
 #include "core/simulation/catalogue.hpp"
 #include "core/simulation/simulation.hpp"
@@ -11,9 +12,10 @@
 namespace tushar::simulation {
 
 /// Reads a scene, applies the overrides of the command line (`PATH=VALUE`), checks everything, and builds the grid, the
-/// component and the analysis modules. Throws InputError with all problems of the scene at once. Writes nothing.
+/// component and the analysis modules. Where the scene gives no patches, the grid gets as many as `workers` need. Throws
+/// InputError with all problems of the scene at once. Writes nothing.
 Problem readScene(const std::string& path, const std::vector<std::string>& overrides, const Catalogue& catalogue,
-                  grid::Share share = {});
+                  const grid::Workers& workers = {}, grid::Share share = {});
 
 /// The manual of the sections that every component shares: Time, DataArchiver, Grid.
 void describeSharedSections(std::ostream& out);
@@ -24,7 +26,7 @@ TimeSettings readTime(const input::Element& section, input::Diagnostics& diagnos
 ArchiveSettings readArchive(const input::Element& section, input::Diagnostics& diagnostics);
 /// The `Grid` section; `boundaryLabels` are those that the component understands.
 grid::Domain readGrid(const input::Element& section, const std::vector<BoundaryLabel>& boundaryLabels,
-                      input::Diagnostics& diagnostics);
+                      const grid::Workers& workers, input::Diagnostics& diagnostics);
 
 void describeTime(std::ostream& out);
 void describeArchive(std::ostream& out);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "core/grid/choose_patches.hpp"
 #include "core/input/schema.hpp"
 #include "core/simulation/scene.hpp"
 
@@ -23,7 +24,8 @@ struct GridBox {
   std::string label;
   Vec3 lower = Vec3::Zero(), upper = Vec3::Ones();
   std::optional<Index3> resolution;
-  Index3 patches{{1, 1, 1}};
+  std::optional<Index3> patches;
+  std::optional<int> autoPatch;
   Index3 extraCells{};
 };
 
@@ -60,11 +62,16 @@ const Schema<GridBox>& boxSchema() {
           .required("upper", &GridBox::upper, "m", "its upper corner")
           .optional("resolution", &GridBox::resolution, "1", "cells along x, y, z (or give <spacing> of the Level)",
                     input::atLeast(1))
-          .value("patches", &GridBox::patches, Index3{{1, 1, 1}}, "1", "patches along x, y, z", input::atLeast(1))
+          .optional("patches", &GridBox::patches, "1",
+                    "patches along x, y, z; where neither this nor autoPatch is given, as many as the threads and ranks need",
+                    input::atLeast(1))
+          .optional("autoPatch", &GridBox::autoPatch, "1", "about how many patches to make, in place of patches",
+                    input::atLeast(1))
           .value("extraCells", &GridBox::extraCells, Index3{}, "1",
                  "accepted for Uintah's sake: what a shape function needs around the grid follows from it",
                  input::nonNegative())
           .check([](const GridBox& box, const Element& element, Diagnostics& diagnostics) {
+            if (box.patches && box.autoPatch) diagnostics.error(element, "gives both patches and autoPatch; keep one");
             for (int axis = 0; axis < 3; ++axis)
               if (box.upper[axis] < box.lower[axis])
                 diagnostics.error(element, fmt::format("upper is below lower along {}: {:g} < {:g} m", "xyz"[axis],
@@ -236,7 +243,7 @@ void checkPeriodic(const Element& section, const grid::Domain& domain, Diagnosti
 }  // namespace
 
 grid::Domain readGrid(const Element& section, const std::vector<BoundaryLabel>& boundaryLabels,
-                      Diagnostics& diagnostics) {
+                      const grid::Workers& workers, Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.size();
   const GridSection read = gridSchema().read(section, diagnostics);
   grid::Domain domain;
@@ -247,10 +254,13 @@ grid::Domain readGrid(const Element& section, const std::vector<BoundaryLabel>& 
   domain.lower = box.lower;
   domain.upper = box.upper;
   domain.resolution = resolutionOf(box, read.level, element, diagnostics);
-  domain.patches = box.patches;
+  if (box.patches) domain.patches = *box.patches;
   domain.periodic = read.level.periodic;
   checkPeriodic(section, domain, diagnostics);
   checkSize(domain, element, diagnostics);
+  if (!box.patches && diagnostics.size() == before)
+    domain.patches =
+        grid::choosePatches(domain.resolution, box.autoPatch.value_or(workers.patchesFor(domain.resolution)));
   return domain;
 }
 

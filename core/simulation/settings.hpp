@@ -45,7 +45,6 @@ struct RunOptions {
   std::string jsonPath;       ///< where the report goes; empty: nowhere
   std::string outputFolder;   ///< instead of the current folder
   bool quiet = false;         ///< no progress
-  int threads = 1;            ///< the most that are used; never more than there are patches
 };
 
 }  // namespace tushar::simulation

@@ -13,16 +13,6 @@ namespace tushar::simulation {
 
 using data::Generation;
 
-namespace {
-
-TimeSettings timeOf(const Problem& problem) {
-  TimeSettings time = problem.time;
-  time.recomputeTimeStep = time.recomputeTimeStep || problem.component->mayRepeatStep();
-  return time;
-}
-
-}  // namespace
-
 Simulation::Simulation(Problem problem, const RunOptions& options, Clock::time_point startedAt)
     : Simulation(std::move(problem), options, startedAt, mpi::Communicator::alone()) {}
 
@@ -34,8 +24,8 @@ Simulation::Simulation(Problem problem, const RunOptions& options, Clock::time_p
       started_at_(startedAt),
       phases_(*problem_.component, problem_.analyses),
       warehouse_(*problem_.level, table_, ranks),
-      scheduler_(warehouse_, std::clamp(options.threads, 1, std::max(1, warehouse_.patches()))),
-      time_(timeOf(problem_)),
+      scheduler_(warehouse_, std::clamp(problem_.threads, 1, std::max(1, warehouse_.patches()))),
+      time_(problem_.time),
       progress_(options.quiet || !ranks.isFirst(), stdout),
       outputs_(problem_.time.initTime, problem_.archive.outputInterval) {
   if (problem_.archive.checkpoint) checkpoints_.emplace(*problem_.archive.checkpoint, problem_.time.initTime);
@@ -68,12 +58,15 @@ Report Simulation::run() {
   agreeOnClock();
   const auto loopStarted = Clock::now();
   const double outputBefore = wall_output_;
+  const Threads::Use useBefore = scheduler_.threads().use();
   try {
     while (!hasEnded()) step();
   } catch (const NumericalError& error) {
     failure_ = advised(error);
   }
-  wall_loop_ = since(loopStarted) - (wall_output_ - outputBefore);
+  const double output = wall_output_ - outputBefore;
+  wall_loop_ = since(loopStarted) - output;
+  time_use_ = TimeUse(useBefore, scheduler_.threads(), since(loopStarted), output, *ranks_);
   if (failure_) saveLastGood();
   if (saves_ && (problem_.archive.outputLastTimestep || interrupted_)) save();
   progress_.finish();
@@ -92,7 +85,7 @@ void Simulation::begin() {
 }
 
 void Simulation::openArchive() {
-  saves_ = !phases_.savedFields().empty() || !phases_.savedGlobals().empty();
+  saves_ = !phases_.savedFields().empty() || !phases_.savedGlobals().empty() || samples();
   if (!problem_.restart && !saves_ && !checkpoints_) return;
   const ArchiveSettings& settings = problem_.archive;
   const output::ArchiveOptions how{settings.doubleAsFloat, settings.compression, TUSHAR_VERSION};
@@ -179,8 +172,10 @@ void Simulation::diagnose(tasks::TaskGraph& graph) {
 }
 
 void Simulation::saveGlobals() {
-  if (folder_.empty() || phases_.savedGlobals().empty()) return;
+  if (folder_.empty() || (phases_.savedGlobals().empty() && !samples())) return;
   diagnose(phases_.everyStep);
+  for (const auto& analysis : problem_.analyses)
+    if (analysis->isSampleDue()) sample(*analysis);
   if (!archive_) return;
   const auto started = Clock::now();
   for (const std::string& name : phases_.savedGlobals()) {
@@ -189,6 +184,19 @@ void Simulation::saveGlobals() {
     archive_->appendGlobal(
         {name, std::string(label.unit), std::string(label.description), time_.time(), reduction(name)});
   }
+  wall_output_ += since(started);
+}
+
+bool Simulation::samples() const {
+  return std::any_of(problem_.analyses.begin(), problem_.analyses.end(),
+                     [](const auto& analysis) { return !analysis->samples().empty(); });
+}
+
+void Simulation::sample(Analysis& analysis) {
+  const auto started = Clock::now();
+  output::Snapshot snapshot = positions();
+  for (const SaveRequest& request : analysis.samples()) addField(snapshot, request);
+  ranks_->onFirst([&] { analysis.sample(snapshot, folder_); });
   wall_output_ += since(started);
 }
 
@@ -205,8 +213,9 @@ void Simulation::saveIfDue() {
 
 void Simulation::save() {
   if (last_output_ == time_.step()) return;
-  const auto started = Clock::now();
   diagnose(phases_.everyOutput);
+  const auto started = Clock::now();
+  const trace::Span span(trace::Kind::output, "save");
   const output::Snapshot state = snapshot();
   ranks_->onFirst([&] { archive_->write(state); });
   last_output_ = time_.step();
@@ -215,7 +224,7 @@ void Simulation::save() {
                              time_.delT(), folder_));
 }
 
-output::Snapshot Simulation::snapshot() {
+output::Snapshot Simulation::positions() {
   output::Snapshot snapshot;
   snapshot.step = time_.step();
   snapshot.time = time_.time();
@@ -227,6 +236,11 @@ output::Snapshot Simulation::snapshot() {
     snapshot.particles.push_back({phases_.materials()[m], static_cast<int>(m), {}});
     snapshot.particles.back().arrays.push_back(gatherArray(warehouse_, Generation::old, number));
   }
+  return snapshot;
+}
+
+output::Snapshot Simulation::snapshot() {
+  output::Snapshot snapshot = positions();
   for (const SaveRequest& save : phases_.savedFields()) addField(snapshot, save);
   for (const auto& analysis : problem_.analyses)
     for (output::Array& column : analysis->exactProfile(*problem_.level)) snapshot.reference.push_back(std::move(column));
@@ -274,7 +288,7 @@ Report Simulation::makeReport() {
   report.dimension = problem_.level->dimension();
   report.patches = problem_.level->patchCount();
   report.ranks = ranks_->size();
-  report.threads = scheduler_.threads();
+  report.threads = scheduler_.threads().count();
   report.spacing = problem_.level->minSpacing();
   report.cells = static_cast<long>(problem_.level->cells().size());
   report.particles = particleCount(warehouse_, static_cast<int>(phases_.materials().size()));
@@ -287,6 +301,7 @@ Report Simulation::makeReport() {
   report.particleSteps = static_cast<double>(ranks_->sum(particle_steps_));
   report.wallStartup = wall_startup_;
   report.wallLoop = wall_loop_;
+  report.use = time_use_;
   reportTasks(report);
   reportDrift(report);
   reportErrors(report);

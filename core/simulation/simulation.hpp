@@ -28,6 +28,7 @@ struct Problem {
   TimeSettings time;
   ArchiveSettings archive;
   std::unique_ptr<grid::Level> level;
+  int threads = 1;
   std::unique_ptr<Component> component;
   std::vector<std::unique_ptr<Analysis>> analyses;
   std::optional<Restart> restart;  ///< where the run goes on; none where it starts
@@ -74,9 +75,14 @@ class Simulation {
   void diagnose(tasks::TaskGraph& graph);
   bool hasEnded() const;
   void saveGlobals();
+  /// Whether some analysis looks at particles while the run goes on.
+  bool samples() const;
+  void sample(Analysis& analysis);
   void save();
   void saveIfDue();
   bool outputDue() const;
+  /// The particles of every material, with p.x alone.
+  output::Snapshot positions();
   output::Snapshot snapshot();
   void addField(output::Snapshot& snapshot, const SaveRequest& save);
   void resume();
@@ -116,6 +122,7 @@ class Simulation {
   int last_checkpoint_ = -1;                      ///< step of the last that was written or read
   Totals totals_at_start_;
   std::optional<NumericalError> failure_;
+  TimeUse time_use_;
   double elapsed_ = 0;        ///< s since the process started, as all ranks see it
   bool interrupted_ = false;  ///< whether all ranks are to end the run
   long particle_steps_ = 0;   ///< of this rank

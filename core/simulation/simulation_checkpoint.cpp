@@ -61,6 +61,7 @@ void Simulation::checkpointAtEnd() {
 void Simulation::checkpoint() {
   if (last_checkpoint_ == time_.step()) return;
   const auto started = Clock::now();
+  const trace::Span span(trace::Kind::output, "checkpoint");
   const long dropped = ranks_->sum(scheduler_.relocation().dropped());
   if (archive_) {
     const output::ArchivePoint point = archive_->sync(time_.step(), time_.time());

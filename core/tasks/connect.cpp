@@ -45,8 +45,9 @@ class Connector {
   }
   void link(int before, int after, const std::string& label) {
     const Dependency dependency{before, after, label};
-    for (const Dependency& known : dependencies_)
-      if (known == dependency) return;
+    // Tasks come in order, so those of the same task are the last ones.
+    for (auto known = dependencies_.rbegin(); known != dependencies_.rend() && known->after == after; ++known)
+      if (*known == dependency) return;
     dependencies_.push_back(dependency);
   }
 

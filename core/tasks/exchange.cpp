@@ -121,28 +121,36 @@ bool Exchange::run(std::span<const NumberedFill> fills, bool hasStopped) {
   if (warehouse_->level().patchCount() == 1 && !warehouse_->level().isPeriodic()) return !hasStopped;
   for (const NumberedFill& fill : fills) planOf(fill);
   noteUnsettled(fills);
-  post(fills, hasStopped);
+  if (!warehouse_->ranks().isAlone())
+    threads_->alone([&] { post(fills, hasStopped); }, trace::Kind::message, "send");
   if (!hasStopped) fillFromHere(fills);
   std::set<int> senders;
   for (const NumberedFill& fill : fills) senders.insert(planOf(fill).incoming.begin(), planOf(fill).incoming.end());
   Letters letters;
   for (const int rank : senders) {
+    const trace::Span span(trace::Kind::wait, "receive");
     letters.add(rank, warehouse_->ranks().receive(rank, tag));
     hasStopped = letters.readStopped(rank) || hasStopped;
   }
   outbox_.wait();
   if (hasStopped) return false;
-  for (std::size_t k = 0; k < fills.size() && !senders.empty(); ++k) fillFromElsewhere(fills[k], settles_[k], letters);
+  if (senders.empty()) return true;
+  const auto unpack = [&] {
+    for (std::size_t k = 0; k < fills.size(); ++k) fillFromElsewhere(fills[k], settles_[k], letters);
+  };
+  threads_->alone(unpack, trace::Kind::message, "unpack");
   return true;
 }
 
 template <class Work>
 void Exchange::forEach(std::span<const NumberedFill> fills, const Work& work) {
   const std::vector<Patch>& patches = warehouse_->level().patches();
-  threads_->forEach(static_cast<int>(patches.size()), [&](int place) {
+  const auto workOn = [&](int place) {
     const auto at = static_cast<std::size_t>(place);
+    const trace::Span span(trace::Kind::message, "fill ghosts", patches[at].id());
     for (std::size_t k = 0; k < fills.size(); ++k) work(fills[k], settles_[k], patches[at], at);
-  });
+  };
+  threads_->forEach(static_cast<int>(patches.size()), workOn, trace::Kind::message);
 }
 
 /// A patch reads of others only what they own, and that stands still once all have made room.

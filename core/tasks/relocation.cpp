@@ -79,7 +79,11 @@ bool mayLeave(const grid::Level& level, const Vec<D>& x, const Index<D>& cell) {
 template <class Work>
 void Relocation::forEachPatch(const Work& work) {
   const std::vector<Patch>& patches = warehouse_->level().patches();
-  threads_->forEach(static_cast<int>(patches.size()), [&](int k) { work(patches[static_cast<std::size_t>(k)]); });
+  threads_->forEach(static_cast<int>(patches.size()), [&](int k) {
+    const Patch& patch = patches[static_cast<std::size_t>(k)];
+    const trace::Span span(trace::Kind::task, "relocate", patch.id());
+    work(patch);
+  });
 }
 
 bool Relocation::run(int material, int position, const std::vector<Carried>& carried, bool hasStopped) {

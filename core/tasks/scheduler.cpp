@@ -67,9 +67,13 @@ std::string placeOf(const CompiledTask& task, int patch, int material, const Ste
 }
 
 template <class Work>
-void Scheduler::forEachPatch(const Work& work) {
+void Scheduler::forEachPatch(const CompiledTask& task, const Work& work) {
   const std::vector<grid::Patch>& patches = warehouse_->level().patches();
-  threads_.forEach(static_cast<int>(patches.size()), [&](int k) { work(patches[static_cast<std::size_t>(k)]); });
+  threads_.forEach(static_cast<int>(patches.size()), [&](int k) {
+    const grid::Patch& patch = patches[static_cast<std::size_t>(k)];
+    const trace::Span span(trace::Kind::task, task.task.name, patch.id());
+    work(patch);
+  });
 }
 
 void Scheduler::divideReductions(const CompiledTask& task) {
@@ -136,7 +140,10 @@ void Scheduler::runWork(CompiledTask& task, const StepInfo& at) {
   const int first = isOnce ? -1 : firstMaterial(task);
   const int end = first + (isOnce ? 1 : static_cast<int>(task.materials.size()));
   for (int m = first; m < end && (mayAsk || !hasStopped()); ++m)
-    task.task.perRank ? runOnRank(task, at) : runOnPatches(task, m, at);
+    if (task.task.perRank)
+      threads_.alone([&] { runOnRank(task, at); }, trace::Kind::task, task.task.name);
+    else
+      runOnPatches(task, m, at);
   if (const auto factor = askedBy(task))
     outcome_.merge({running_, Outcome::Kind::asks, 0, 0, warehouse_->ranks().rank(), *factor, {}});
 }
@@ -159,7 +166,7 @@ void Scheduler::relocate(const CompiledTask& task, const StepInfo& at) {
 void Scheduler::runOnPatches(CompiledTask& task, int material, const StepInfo& at) {
   FirstRefusal first;
   std::atomic<bool> kept = true;
-  forEachPatch([&](const grid::Patch& patch) {
+  forEachPatch(task, [&](const grid::Patch& patch) {
     try {
       if (task.task.acrossMaterials) return runAcrossMaterials(task, patch, at);
       runPlaced(task, patch, material, at);

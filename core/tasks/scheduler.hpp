@@ -44,7 +44,7 @@ class Scheduler {
   void commit(const TaskGraph& graph);
 
   Relocation& relocation() { return relocation_; }
-  int threads() const { return threads_.count(); }
+  const Threads& threads() const { return threads_; }
 
  private:
   bool hasStopped() const { return !outcome_.isNone() || heard_stop_; }
@@ -53,7 +53,7 @@ class Scheduler {
   void runWork(CompiledTask& task, const StepInfo& at);
   void relocate(const CompiledTask& task, const StepInfo& at);
   template <class Work>
-  void forEachPatch(const Work& work);
+  void forEachPatch(const CompiledTask& task, const Work& work);
   void divideReductions(const CompiledTask& task);
   void gatherReductions(const CompiledTask& task);
   void runOnPatches(CompiledTask& task, int material, const StepInfo& at);

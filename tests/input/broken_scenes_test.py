@@ -20,15 +20,16 @@ OVERRIDES = {
     "unknown component": ("SimulationComponent/@type=mpn",
                           "SimulationComponent: type: found 'mpn', expected 'burgers', 'euler', 'heat', 'mpm' or 'poisson' (did you mean 'mpm'?)"),
     "unknown tag": (BOX + "resolutoin=[3,1,1]", BOX + "resolutoin: unknown tag <resolutoin> in <Box> (did you mean "
-                    "'resolution'?); allowed here: lower, upper, resolution, patches, extraCells"),
+                    "'resolution'?); allowed here: lower, upper, resolution, patches, autoPatch, extraCells"),
     "unknown section": ("Gird/x=1", "Gird: unknown section <Gird> (did you mean 'Grid'?); allowed here: Meta, "
                         "SimulationComponent, Time, DataArchiver, Grid, DataAnalysis, MPM, MaterialProperties"),
     "unknown constitutive model": (MATERIAL + "constitutive_model/@type=ideal_gaz",
                                    MATERIAL + "constitutive_model: attribute 'type': found 'ideal_gaz', expected "
                                    "'ideal_gas'\n"),
     "unknown module": ("DataAnalysis/Module/@name=exactRieman", "DataAnalysis/Module: name: found 'exactRieman', expected "
-                       "'burgersWave', 'massProjection', 'exactRiemann', 'simpleWave', 'isentropicVortex', 'gresho', 'noh', "
-                       "'sedov', 'tabulated' or 'exactSolution' (did you mean 'exactRiemann'?)"),
+                       "'burgersWave', 'massProjection', 'manufacturedError', 'exactRiemann', 'simpleWave', 'isentropicVortex', "
+                       "'gresho', 'noh', 'sedov', 'tabulated', 'exactSolution' or 'particleExtract' (did you mean "
+                       "'exactRiemann'?)"),
     "unknown choice": (GAS + "volume_model=tracket", GAS + "volume_model: found 'tracket', expected 'cell_share' or "
                        "'tracked' (did you mean 'tracked'?)"),
     "unknown boundary label": ("Grid/BoundaryConditions/Face[1]/BCType/@label=Symetric",
@@ -53,6 +54,7 @@ OVERRIDES = {
     "inverted box": (BOX + "upper=[-1,1,1]", "Grid/Level/Box: upper is below lower along x: -1 < 0 m"),
     "no extent": (BOX + "upper=[0,1,1]", "Grid/Level/Box: there are 100 cells along x, where the box has no extent"),
     "more patches than cells": (BOX + "patches=[101,1,1]", "Grid/Level/Box: there are 101 patches along x, but only 100 cell(s)"),
+    "both patches and autoPatch": (BOX + "autoPatch=4", "Grid/Level/Box: gives both patches and autoPatch; keep one"),
     "both spacing and resolution": ("Grid/Level/spacing=[.01,1,1]", "Grid/Level: gives both spacing and resolution; keep one"),
     "periodic": ("Grid/Level/periodic=[2,0,0]", "Grid/Level/periodic: found '[2,0,0]', expected a value from 0 to 1"),
     "no particles": (LEFT + "res=[0,1,1]", "MaterialProperties/MPM/material/geom_object/res: found '[0,1,1]', expected a value "

@@ -7,6 +7,7 @@ import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from solids import globals_of
 from sus import ROOT, SUS, run
 from uda import Folder
 
@@ -34,15 +35,6 @@ def fields_of(scene, *names, until):
                               check=True).stdout.splitlines()
     rows = [[float(word) for word in line.split(",")] for line in text[1:]]
     return dict(zip(text[0].split(","), zip(*rows)))
-
-
-def globals_of(scene, *names, until=None):
-    """Name -> the lines of its .dat file, as numbers."""
-    with tempfile.TemporaryDirectory() as folder:
-        archive = archive_of(scene, folder, "DataArchiver/outputInterval=0",
-                             *([f"Time/maxTime={until}"] if until else []))
-        return {name: [[float(word) for word in line.split()] for line in (archive / f"{name}.dat").read_text().splitlines()
-                       if not line.startswith("#")] for name in names}
 
 
 class Solids(unittest.TestCase):

@@ -30,7 +30,9 @@ struct MpmSection {
   int integrator = 0;
   Interpolator interpolator = Interpolator::linear;
   bool artificialViscosity = false, withColor = false, axisymmetric = false, useLoadCurves = false;
-  bool conductsHeat = true, viscosityHeats = false;
+  bool conductsHeat = true, xpic = false, affine = false, viscosityHeats = false;
+  double picFraction = 0;
+  StressUpdate stressUpdate = StressUpdate::last;
   std::string manufactured;
   double linearViscosity = 0, quadraticViscosity = 0, damping = 0;
   double minimumParticleMass = 0, minimumMassForAcceleration = 0, maximumParticleVelocity = 0;
@@ -76,6 +78,19 @@ const Schema<MpmSection>& mpmSchema() {
                "a particle that becomes faster is slowed down to 9/10 of it", input::positive())
         .value("minimum_subcycles_for_F", &MpmSection::minimumSubcycles, 1, "1",
                "least number of parts in which a step changes the deformation gradient", input::atLeast(1))
+        .choice("stress_update", &MpmSection::stressUpdate,
+                {{"usl", StressUpdate::last}, {"musl", StressUpdate::modifiedLast}, {"usf", StressUpdate::first}},
+                StressUpdate::last,
+                "stresses follow the grid's velocity at the end of the step, the particles' new velocity on the grid, or "
+                "the grid's velocity at the start")
+        .ours()
+        .value("XPIC2", &MpmSection::xpic, false, "1", "velocities by extended PIC of order 2")
+        .value("pic_fraction", &MpmSection::picFraction, 0, "1",
+               "share of the grid's own velocity in what particles get; the rest is FLIP", input::between(0, 1))
+        .ours()
+        .value("apic", &MpmSection::affine, false, "1",
+               "affine particle-in-cell: particles take the grid's velocity and a moment of it that keeps rotation")
+        .ours()
         .value("axisymmetric", &MpmSection::axisymmetric, false, "1",
                "x is the radius and y the axis; mass, energy and forces are per radian")
         .value("use_load_curves", &MpmSection::useLoadCurves, false, "1", "the loads of <PhysicalBC> act")
@@ -92,6 +107,10 @@ const Schema<MpmSection>& mpmSchema() {
       const bool hasAxisymmetric = read.interpolator == Interpolator::linear || read.interpolator == Interpolator::gimp;
       if (read.axisymmetric && !hasAxisymmetric)
         diagnostics.error(element, "axisymmetric: only with the interpolators linear and gimp");
+      if (read.affine && (read.axisymmetric || read.interpolator == Interpolator::cpdi))
+        diagnostics.error(element, "apic: neither with axisymmetric nor with the interpolator cpdi; use XPIC2");
+      if (read.affine + read.xpic + (read.picFraction > 0) > 1)
+        diagnostics.error(element, "apic, XPIC2 and pic_fraction are three ways to take the velocity: pick one");
     });
     mpm.ignored("boundary_traction_faces", "BndyForce_… and BndyContactArea_… of every face can be saved without it");
     for (const auto& [tag, instead] : lacking) refuseSwitch(mpm, tag, instead);
@@ -188,6 +207,10 @@ Method settle(const MpmSection& read, const PhysicalConstants& constants) {
   method.maximumParticleVelocity = read.maximumParticleVelocity;
   method.minimumSubcyclesForF = read.minimumSubcycles;
   method.conductsHeat = read.conductsHeat;
+  method.stressUpdate = read.stressUpdate;
+  method.picFraction = read.affine ? 1 : read.picFraction;
+  method.xpic = read.xpic;
+  method.affine = read.affine;
   method.viscosityHeats = read.viscosityHeats;
   return method;
 }

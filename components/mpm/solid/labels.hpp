@@ -27,6 +27,10 @@ inline constexpr ParticleLabel<double> viscosity{"p.q", "Pa", "artificial viscos
 inline constexpr ParticleLabel<double> strainEnergy{"p.strainEnergy", "J",
                                                     "strain energy of an elastic particle, or what the step added to it"};
 template <int D>
+inline constexpr ParticleLabel<Vec<D>> smoothVelocity{"p.velocitySSPlus", "m/s", "velocity at the start of a step, by the grid"};
+inline constexpr ParticleLabel<Matrix3> affineMoment{"p.affineMoment", "m^2/s",
+                                                     "velocity times distance, mean over the nodes around (APIC)"};
+template <int D>
 inline constexpr ParticleLabel<Vec<D>> externalForce{"p.externalforce", "N", "force of loads"};
 inline constexpr ParticleLabel<int> loadCurves{"p.loadCurveID", "1",
                                                "number of the load on it, or 0; further ones times 256, 65536"};
@@ -40,6 +44,14 @@ inline constexpr NodeLabel<Matrix3> stress{"g.stressFS", "Pa", "Cauchy stress, m
 template <int D>
 inline constexpr NodeLabel<Vec<D>> externalForce{"g.externalforce", "N", "force of loads"};
 inline constexpr NodeLabel<Octet> record{"g.record", "SI units", "velocity, mass, force and volume of a step in progress"};
+inline constexpr NodeLabel<Octet> stressRecord{"g.stressRecord", "SI units",
+                                               "velocity and mass that stresses follow, where it is not that of a step"};
+inline constexpr NodeLabel<Octet> smoothRecord{"g.smoothRecord", "SI units", "velocity of p.velocitySSPlus, and mass"};
+template <int D>
+inline constexpr NodeLabel<Vec<D>> massGradient{"g.massGradient", "kg/m", "gradient of the mass, into the body"};
+template <int D>
+inline constexpr NodeLabel<Vec<D>> massPosition{"g.massPosition", "kg m", "mass of particles times their position"};
+inline constexpr NodeLabel<Matrix3> stressMoment{"g.stressMoment", "Pa m^3", "stress of particles times their volume"};
 inline constexpr NodeLabel<double> heatCapacity{"g.heatCapacity", "J/K", "heat capacity gathered from particles"};
 inline constexpr NodeLabel<double> temperatureNoBC{"g.temperatureNoBC", "K", "temperature gathered from particles"};
 inline constexpr NodeLabel<double> temperature{"g.temperature", "K", "the same, as the sides of the grid have it"};
@@ -58,6 +70,8 @@ inline constexpr CellLabel<double> stableTimeStep{"c.stableTimeStep", "s",
 /// Totals over all particles.
 namespace total {
 using namespace mpm::total;
+inline constexpr ReductionLabel<VectorSum> angularMomentum{"AngularMomentum", "kg m^2/s",
+                                                           "of all particles about the origin of x, y, z"};
 inline constexpr ReductionLabel<VectorSum> rigidReactionForce{
     "RigidReactionForce", "N", "force on all bodies that a contact of type rigid or specified moves"};
 inline constexpr ReductionLabel<Sum> strainEnergy{

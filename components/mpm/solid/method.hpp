@@ -7,8 +7,19 @@
 
 namespace tushar::mpm::solid {
 
+/// When in a step the stress follows the grid's velocity; Bardenhagen, J. Comput. Phys. 180 (2002) 383.
+enum class StressUpdate {
+  last,          ///< v* at the end of the step, as in Uintah
+  modifiedLast,  ///< the particles' new velocity, which goes to the grid once more
+  first,         ///< v at its start
+};
+
 /// The `MPM` section: how the method runs.
 struct Method {
+  StressUpdate stressUpdate = StressUpdate::last;
+  double picFraction = 0;  ///< of the velocity that particles take from the grid, the rest being FLIP's
+  bool xpic = false;       ///< velocities by XPIC of order 2
+  bool affine = false;     ///< velocities go to the grid by APIC
   Vec3 gravity = Vec3::Zero();                                ///< m/s^2
   double damping = 0;                                         ///< artificial_damping_coeff, 1/s
   std::optional<ArtificialViscosity> viscosity;

@@ -17,16 +17,24 @@ struct Problem {
   Start start;
 };
 
+/// Solids of any shape function.
+class Solids : public Component {
+ public:
+  explicit Solids(Problem problem) : problem_(std::move(problem)) {}
+  const Problem& problem() const { return problem_; }
+
+ protected:
+  Problem problem_;
+};
+
 /// The Material Point Method for solids: Sulsky, Chen & Schreyer, Comput. Methods Appl. Mech. Engrg. 118 (1994) 179, step
 /// by step as Uintah takes it, stress last.
 ///
 /// solid_mpm.cpp is the schedule and reads as the method; the bodies of its tasks are in tasks/.
 template <class Shape>
-class SolidMpm : public Component {
+class SolidMpm : public Solids {
  public:
   explicit SolidMpm(Problem problem);
-
-  const Problem& problem() const { return problem_; }
 
   void scheduleInitialize(TaskList& tasks) const override;
   void scheduleComputeStableTimeStep(TaskList& tasks) const override;
@@ -36,17 +44,32 @@ class SolidMpm : public Component {
  private:
   static constexpr int D = Shape::dimension;
 
-  void scheduleInterpolateParticlesToGrid(TaskList& tasks) const;
+  template <class Reads>
+  void scheduleMomentum(TaskList& tasks, Reads stressed) const;
+  template <class Reads>
+  void scheduleInterpolateParticlesToGrid(TaskList& tasks, Reads stressed) const;
+  template <class Reads>
+  void scheduleMoveParticles(TaskList& tasks, Reads shaped) const;
+  template <class Reads>
+  void scheduleVelocityUpdate(TaskList& tasks, Reads shaped) const;
+  template <class Reads>
+  void scheduleComputeStressTensor(TaskList& tasks, Reads moving) const;
+  void scheduleFriction(TaskList& tasks, const std::string& name) const;
   void scheduleIntegrateAcceleration(TaskList& tasks) const;
   void scheduleApplyExternalLoads(TaskList& tasks) const;
   void scheduleUpdateParticles(TaskList& tasks) const;
   void scheduleHeat(TaskList& tasks) const;
+  void scheduleDamage(TaskList& tasks) const;
+  void scheduleHeating(TaskList& tasks) const;
 
   bool isViscous() const { return problem_.method.viscosity.has_value(); }
+  bool hasFriction() const {
+    return std::any_of(problem_.contacts.begin(), problem_.contacts.end(),
+                       [](const Contact& contact) { return contact.type == Contact::Type::friction; });
+  }
   bool isLoaded() const { return !problem_.start.loads.empty() || problem_.start.solution; }
   bool keepsSizes() const { return Shape::hasSize && problem_.method.keepsSizes; }
 
-  Problem problem_;
   bool keeps_stress_ = false;  ///< some material's stress is not a function of F alone
   bool is_thermal_ = false;    ///< some material's stress depends on the temperature
   bool is_damageable_ = false; ///< particles of some material may fail

@@ -41,6 +41,16 @@ def both(name):
             *limited(f"ups/euler/{name}.ups", "minmod", "van_leer", "mc")]
 
 
+def shapes(scene):
+    """A line for each shape function of solids, and for the transfers with GIMP."""
+    by_shape = {"linear": "linear", "gimp": "GIMP", "cpdi": "CPDI", "3rdorderBS": "quadratic B-splines",
+                "4thorderBS": "cubic B-splines"}
+    lines = [Method(name, scene, (f"MPM/interpolator={word}",)) for word, name in by_shape.items()]
+    transfers = {"GIMP, XPIC2": "MPM/XPIC2=true", "GIMP, APIC": "MPM/apic=true", "GIMP, MUSL": "MPM/stress_update=musl",
+                 "GIMP, USF": "MPM/stress_update=usf"}
+    return lines + [Method(name, scene, (setting,)) for name, setting in transfers.items()]
+
+
 # name -> (methods, what is varied, the error)
 READY = {
     "sod": (SOD, {"resolution": ["100", "200", "400", "800"]}, "density.cell.L1"),
@@ -49,6 +59,12 @@ READY = {
     "vortex_3d": (both("vortex_3d"), {"resolution": ["16", "32", "64"]}, "density.cell.L1"),
     "gresho": (both("gresho"), {"resolution": ["40", "80", "160"]}, "velocity.cell.L1"),
     "noh": (both("noh"), {"resolution": ["50", "100", "200"]}, "density.cell.L1"),
+    "solid_vortex": (shapes("ups/solid/generalized_vortex.ups"), {"resolution": ["24", "48", "96", "192"]},
+                     "displacement.particle.L1"),
+    "solid_ring": (shapes("ups/solid/expanding_ring.ups"), {"resolution": ["16", "32", "64", "128"]},
+                   "displacement.particle.L1"),
+    "solid_cube": (shapes("ups/solid/axis_aligned.ups"), {"resolution": ["4", "8", "16", "32"]},
+                   "displacement.particle.L1"),
     "heat": ([Method("explicit", "ups/heat/sine.ups")], {"resolution": ["16", "32", "64", "128"]},
              "temperature.cell.L1"),
 }

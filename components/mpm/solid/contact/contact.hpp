@@ -15,6 +15,7 @@ struct Contact {
   enum class Type {
     singleVelocity,  ///< they move as one: no slip, no separation
     specified,       ///< they follow a master, whose velocity may be given over time
+    friction,        ///< they part freely and slide with Coulomb's friction
   };
 
   Type type = Type::singleVelocity;
@@ -24,6 +25,9 @@ struct Contact {
   double stopTime = std::numeric_limits<double>::max();  ///< s
   Vec3 velocityAfterStop = Vec3::Zero();              ///< m/s
   std::vector<std::pair<double, Vec3>> profile;       ///< time (s) and the master's velocity (m/s); empty: it is free
+
+  double friction = 0;                                ///< coefficient mu
+  double separationFactor = 0;                        ///< of friction: farther apart than so many cells they do not touch
 
   bool concerns(int material) const;
   /// The master's velocity at a time, where it is given.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Geometry>
+
 #include "components/mpm/solid/labels.hpp"
 #include "components/mpm/solid/material.hpp"
 
@@ -21,6 +23,25 @@ template <int D>
 void sumCenterOfMass(const Patch& patch, const Material&, ParticleView<const double> mass, ParticleView<const Vec<D>> x,
                      VectorSum& total) {
   for (int p = 0; p < mass.owned(); ++p) total.add(mass[p] * patch.level().expandPoint<D>(x[p]));
+}
+
+/// sum_p m_p x_p x v_p about the origin of x, y, z, and of APIC's B_p: sum_p m_p (B_kj - B_jk) (Jiang & al. 2015).
+template <int D>
+void sumAngularMomentum(const Patch& patch, const Material&, ParticleView<const double> mass, ParticleView<const Vec<D>> x,
+                        ParticleView<const Vec<D>> velocity, const std::optional<ParticleView<const Matrix3>>& affine,
+                        VectorSum& total) {
+  const Level& level = patch.level();
+  for (int p = 0; p < mass.owned(); ++p) {
+    Vec3 spin = level.expandPoint<D>(x[p]).cross(level.expandDirection<D>(velocity[p]));
+    if (affine)
+      for (int i = 0; i < D; ++i) {
+        Vec<D> unit = Vec<D>::Zero();
+        unit[i] = 1;
+        const Vec<D> moment = (*affine)[p].template topLeftCorner<D, D>().col(i);
+        spin += level.expandDirection<D>(unit).cross(level.expandDirection<D>(moment));
+      }
+    total.add(mass[p] * spin);
+  }
 }
 
 /// 1/2 m v^2 of all particles.

@@ -20,13 +20,17 @@ struct Sources {
   Extents<Shape> extents;
   ParticleView<const Vec<D>> x, velocity;
   const double *mass, *volume, *viscosity;  ///< volume and viscosity null where there is none
-  const Matrix3 *stress, *deformation;      ///< one of them
+  const Matrix3 *stress, *deformation;      ///< one of them; where both are null, there is no force
   const Vec<D>* externalForce;              ///< or null
 };
 
 /// V (sigma - q I) of up to stressGroup particles from `first` on.
 template <class Shape>
 void forceMoments(const Material& material, const Sources<Shape>& from, int first, int count, Matrix3* moments) {
+  if (!from.stress && !from.deformation) {
+    std::fill_n(moments, count, Matrix3(Matrix3::Zero()));
+    return;
+  }
   if (from.stress)
     for (int k = 0; k < count; ++k) moments[k] = from.volume[first + k] * from.stress[first + k];
   else {
@@ -66,6 +70,32 @@ void scatterCell(const Level& level, const Material& material, const Sources<Sha
   }
 }
 
+/// What particles bring to the nodes of a patch: complete on all that are touched; what is not touched is 0 where
+/// `clearsAll`, else undefined.
+template <class Shape, int D = Shape::dimension>
+void scatterParticles(const Patch& patch, const Material& material, bool clearsAll, const Sources<Shape>& from,
+                      NodeView<Octet> record) {
+  const ParticleView<const Vec<D>> x = from.x;
+  const TouchedRows<D> rows(x, x.cells(), Shape::ghostNodes, record.stored());
+  if (clearsAll)
+    record.fill(Octet{});
+  else
+    rows.forEachRow([&](const Index3& first, int end) {
+      std::fill_n(record.values() + record.stored().offset(first), end - first[0], Octet{});
+    });
+  forEach<D>(x.cells(), [&](const Index<D>& cell) {
+    const data::ParticleRange range = x.in(cell);
+    for (int at = range.first; at < range.last; at += stressGroup)
+      scatterCell<Shape>(patch.level(), material, from, cell, at, std::min(stressGroup, range.last - at), record);
+  });
+  rows.forEachRow([&](const Index3& first, int end) {
+    Octet* node = record.values() + record.stored().offset(first);
+    for (int k = first[0]; k < end; ++k, ++node)
+      if ((*node)[lane::mass] > 0) setLanes<D>(*node, lane::velocity, lanes<D>(*node, lane::velocity) / (*node)[lane::mass]);
+  });
+  setSymmetry<D>(patch, material.index, record);
+}
+
 /// m_i = sum_p S_i m_p,   v_i = sum_p S_i m_p v_p / m_i,
 /// f_i = sum_p S_i f_p - V_p (sigma_p - q_p I) grad S_i; where axisymmetric, the hoop stress pulls inwards with S_i / r.
 /// Complete on all nodes of the patch that are touched; what is not touched is 0 where `clearsAll`, else undefined.
@@ -86,24 +116,7 @@ void interpolateParticlesToGrid(const Patch& patch, const Material& material, co
                             valuesOf(stress),
                             valuesOf(deformation),
                             valuesOf(externalForce)};
-  const TouchedRows<D> rows(x, x.cells(), Shape::ghostNodes, record.stored());
-  if (clearsAll)
-    record.fill(Octet{});
-  else
-    rows.forEachRow([&](const Index3& first, int end) {
-      std::fill_n(record.values() + record.stored().offset(first), end - first[0], Octet{});
-    });
-  forEach<D>(x.cells(), [&](const Index<D>& cell) {
-    const data::ParticleRange range = x.in(cell);
-    for (int at = range.first; at < range.last; at += stressGroup)
-      scatterCell<Shape>(level, material, from, cell, at, std::min(stressGroup, range.last - at), record);
-  });
-  rows.forEachRow([&](const Index3& first, int end) {
-    Octet* node = record.values() + record.stored().offset(first);
-    for (int k = first[0]; k < end; ++k, ++node)
-      if ((*node)[lane::mass] > 0) setLanes<D>(*node, lane::velocity, lanes<D>(*node, lane::velocity) / (*node)[lane::mass]);
-  });
-  setSymmetry<D>(patch, material.index, record);
+  scatterParticles<Shape>(patch, material, clearsAll, from, record);
 }
 
 }  // namespace tushar::mpm::solid

@@ -29,22 +29,21 @@ struct ParticleStates {
 
   Extents<Shape> extents;
   ParticleView<const Vec<D>> x, velocity;
-  const double *mass, *temperature, *oldVolume;
-  const Matrix3 *oldDeformation, *oldStress;
-  ParticleView<Vec<D>> newX, newVelocity;
-  double *volume, *viscosity, *strainEnergy, *temperatureChange;
-  Matrix3 *deformation, *stress, *velocityGradient;
-  double* state;
-  const double* oldState;
-  int stateSize;
-  const int* localized;
+  const double *mass = nullptr, *temperature = nullptr, *oldVolume = nullptr;
+  const Matrix3 *oldDeformation = nullptr, *oldStress = nullptr;
+  Vec<D> *newX = nullptr, *newVelocity = nullptr;
+  double *volume = nullptr, *viscosity = nullptr, *strainEnergy = nullptr, *temperatureChange = nullptr;
+  Matrix3 *deformation = nullptr, *stress = nullptr, *velocityGradient = nullptr;
+  double* state = nullptr;
+  const double* oldState = nullptr;
+  int stateSize = 0;
+  const int* localized = nullptr;
 };
 
 /// x_p += dt sum_i S_i v*_i,   v_p += sum_i S_i (v*_i - v_i): the FLIP of Brackbill & Ruppel, J. Comput. Phys. 65 (1986)
-/// 314;   L_p = sum_i v*_i grad S_i (and L_theta = sum_i v*_r S_i / r where axisymmetric),   F_p = (I + L_p dt) F_p.
+/// 314.
 template <class Shape, int D = Shape::dimension>
-void moveParticle(const Level& level, const Method& method, double dt, const Gathered<D>& sums,
-                  const Erosion& erosion, const ParticleStates<Shape>& s, int p, Matrix3& velocityGradient) {
+void moveParticle(const Method& method, double dt, const Gathered<D>& sums, const ParticleStates<Shape>& s, int p) {
   const Vec<D> after = lanes<D>(sums.value, lane::velocity), before = lanes<D>(sums.value, lane::before);
   s.newX[p] = s.x[p] + dt * after;
   s.newVelocity[p] = s.velocity[p] + (after - before);
@@ -53,6 +52,12 @@ void moveParticle(const Level& level, const Method& method, double dt, const Gat
     if (speed > method.maximumParticleVelocity && speed >= s.velocity[p].norm())
       s.newVelocity[p] *= 0.9 * method.maximumParticleVelocity / speed;
   }
+}
+
+/// L_p = sum_i v*_i grad S_i (and L_theta = sum_i v*_r S_i / r where axisymmetric),   F_p = (I + L_p dt) F_p.
+template <class Shape, int D = Shape::dimension>
+void deformParticle(const Level& level, const Method& method, double dt, const Gathered<D>& sums,
+                    const Erosion& erosion, const ParticleStates<Shape>& s, int p, Matrix3& velocityGradient) {
   velocityGradient.setZero();
   if constexpr (Shape::axisymmetric) velocityGradient(2, 2) = sums.hoop[lane::velocity];
   for (int i = 0; i < D; ++i)
@@ -116,11 +121,18 @@ double updateStress(const Level& level, const Material& material, const Method& 
   return least;
 }
 
-/// Positions, velocities, deformation gradients and stresses at the end of the step, and how long a step each cell may
-/// take then. Only the patch's own particles.
-template <class Shape, int D = Shape::dimension>
+/// What updateParticles does.
+enum class Update {
+  motion,  ///< positions and velocities
+  stress,  ///< deformation gradients, stresses, and how long a step each cell may take
+  all
+};
+
+/// Brings the patch's own particles to the end of the step.
+template <class Shape, Update what = Update::all, int D = Shape::dimension>
 void updateParticles(const Patch& patch, const Material& material, const Method& method, double dt,
-                     NodeView<const Octet> record, const ParticleStates<Shape>& s, CellView<double> stableTimeStep) {
+                     NodeView<const Octet> record, const ParticleStates<Shape>& s,
+                     const std::optional<CellView<double>>& stableTimeStep) {
   const Level& level = patch.level();
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     double least = std::numeric_limits<double>::infinity();
@@ -133,11 +145,15 @@ void updateParticles(const Patch& patch, const Material& material, const Method&
         const int p = first + k;
         const typename Shape::Stencil stencil(frame, cell, s.x[p], s.extents[p]);
         const Gathered<D> sums = gather(stencil, windowOf<const Octet>(record, stencil));
-        moveParticle<Shape>(level, method, dt, sums, material.erosion, s, p, velocityGradient[static_cast<std::size_t>(k)]);
+        if constexpr (what != Update::stress) moveParticle<Shape>(method, dt, sums, s, p);
+        if constexpr (what != Update::motion)
+          deformParticle<Shape>(level, method, dt, sums, material.erosion, s, p,
+                                velocityGradient[static_cast<std::size_t>(k)]);
       }
-      least = std::min(least, updateStress<Shape>(level, material, method, dt, s, velocityGradient.data(), first, count));
+      if constexpr (what != Update::motion)
+        least = std::min(least, updateStress<Shape>(level, material, method, dt, s, velocityGradient.data(), first, count));
     }
-    stableTimeStep[cell] = least;
+    if constexpr (what != Update::motion) (*stableTimeStep)[cell] = least;
   });
 }
 

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <string_view>
+
+namespace tushar::trace {
+
+using Clock = std::chrono::steady_clock;
+
+/// What a thread does with its time.
+enum class Kind { task, message, output, wait };
+
+std::string_view nameOf(Kind kind);
+
+/// From now on spans are recorded; before, one costs a look at a flag.
+void start();
+bool isOn();
+
+/// Notes what the calling thread did from `from` to `to`. `name` must outlive the trace; `patch` is -1 where there is none.
+void record(Kind kind, std::string_view name, int patch, Clock::time_point from, Clock::time_point to);
+
+/// Records its own life. Spans of a thread are nested.
+class Span {
+ public:
+  Span(Kind kind, std::string_view name, int patch = -1) : name_(name), kind_(kind), patch_(patch), on_(isOn()) {
+    if (on_) from_ = Clock::now();
+  }
+  ~Span() {
+    if (on_) record(kind_, name_, patch_, from_, Clock::now());
+  }
+  Span(const Span&) = delete;
+  Span& operator=(const Span&) = delete;
+
+ private:
+  std::string_view name_;
+  Kind kind_;
+  int patch_;
+  bool on_;
+  Clock::time_point from_;
+};
+
+/// What all threads of this rank recorded, as the events of Chrome's trace format (ph X: name, category, start and length
+/// in microseconds; pid is the rank, tid the thread), one after another with commas in between. Time between two spans in
+/// which a thread but the first had nothing to do is a wait. Not while threads record.
+std::string events(int rank);
+
+/// A file in that format from the events of all ranks.
+std::string fileOf(const std::string& events);
+
+}  // namespace tushar::trace

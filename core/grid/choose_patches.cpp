@@ -1,0 +1,54 @@
+#include "core/grid/choose_patches.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace tushar::grid {
+
+namespace {
+
+constexpr int cellsPerThread = 8192;   ///< fewer are not worth a thread
+constexpr int patchesPerWorker = 4;    ///< so that one with less work can take over from another
+
+double countOf(const Index3& cells) { return static_cast<double>(cells[0]) * cells[1] * cells[2]; }
+
+/// Cells of the largest patch and the ghosts of one layer at its cuts, times the number of patches.
+double costOf(const Index3& cells, const Index3& patches) {
+  double cost = 1;
+  for (int d = 0; d < 3; ++d) {
+    const int largest = (cells[d] + patches[d] - 1) / patches[d];
+    cost *= static_cast<double>(patches[d]) * (largest + std::min(2, patches[d] - 1));
+  }
+  return cost;
+}
+
+}  // namespace
+
+int Workers::threadsFor(const Index3& cells) const {
+  if (!mayBeFewer) return threads;
+  return std::max(1, static_cast<int>(std::min<double>(countOf(cells) / ranks / cellsPerThread, threads)));
+}
+
+int Workers::patchesFor(const Index3& cells) const {
+  const double workers = static_cast<double>(ranks) * threadsFor(cells);
+  return workers > 1 ? static_cast<int>(std::min(patchesPerWorker * workers, countOf(cells))) : 1;
+}
+
+Index3 choosePatches(const Index3& cells, int count) {
+  const int wanted = std::max(1, static_cast<int>(std::min<double>(count, countOf(cells))));
+  const int most = wanted + wanted / 4;
+  Index3 best = cells;
+  double least = std::numeric_limits<double>::infinity();
+  for (int x = 1; x <= std::min(cells[0], most); ++x)
+    for (int y = 1; y <= std::min(cells[1], most / x); ++y) {
+      const int z = (wanted + x * y - 1) / (x * y);
+      if (z > cells[2] || x * y * z > most) continue;
+      if (const double cost = costOf(cells, {{x, y, z}}); cost < least) {
+        least = cost;
+        best = {{x, y, z}};
+      }
+    }
+  return best;
+}
+
+}  // namespace tushar::grid

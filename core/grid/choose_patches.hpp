@@ -1,0 +1,24 @@
+#pragma once
+
+#include "core/base/vec.hpp"
+
+namespace tushar::grid {
+
+/// Who works on a grid.
+struct Workers {
+  int threads = 1;        ///< of each rank
+  bool mayBeFewer = false;  ///< whether only as many threads are wanted as are worth having
+  int ranks = 1;
+
+  /// The threads of each rank for a grid of `cells` along x, y, z: one with little to do costs more than it gains.
+  int threadsFor(const Index3& cells) const;
+  /// How many patches they need to share the work evenly: one where there is one worker.
+  int patchesFor(const Index3& cells) const;
+};
+
+/// How to divide a grid of `cells` along x, y, z into about `count` patches: of all ways to make `count` to 1.25 `count`
+/// of them, that with the least cells and ghost cells of all patches together, each as large as the largest. No more
+/// patches along an axis than cells. Along x, where memory is contiguous, it is cut last.
+Index3 choosePatches(const Index3& cells, int count);
+
+}  // namespace tushar::grid

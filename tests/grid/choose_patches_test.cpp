@@ -1,0 +1,47 @@
+#include "core/grid/choose_patches.hpp"
+
+#include <gtest/gtest.h>
+
+namespace tushar::grid {
+
+namespace {
+int countOf(const Index3& patches) { return patches[0] * patches[1] * patches[2]; }
+}  // namespace
+
+TEST(ChoosePatches, MakesAsManyAsAreWantedOrAQuarterMore) {
+  for (const Index3& cells : {Index3{{1000, 1, 1}}, Index3{{300, 200, 1}}, Index3{{64, 50, 40}}})
+    for (int count = 1; count <= 200; ++count) {
+      const int made = countOf(choosePatches(cells, count));
+      EXPECT_GE(made, count);
+      EXPECT_LE(made, count + count / 4);
+    }
+}
+
+TEST(ChoosePatches, MakesThemAsCubicAsTheGridAllowsAndCutsTheFirstAxisLast) {
+  EXPECT_EQ(choosePatches({{64, 64, 64}}, 8), (Index3{{2, 2, 2}}));
+  EXPECT_EQ(choosePatches({{64, 64, 64}}, 2), (Index3{{1, 1, 2}}));
+  EXPECT_EQ(choosePatches({{100, 100, 1}}, 16), (Index3{{4, 4, 1}}));
+  EXPECT_EQ(choosePatches({{1600, 100, 1}}, 16), (Index3{{16, 1, 1}}));
+}
+
+TEST(ChoosePatches, MakesNoMoreAlongAnAxisThanThereAreCells) {
+  EXPECT_EQ(choosePatches({{5, 1, 1}}, 100), (Index3{{5, 1, 1}}));
+  EXPECT_EQ(choosePatches({{3, 2, 1}}, 6), (Index3{{3, 2, 1}}));
+}
+
+TEST(Workers, AreFewerWhereThereIsLittleToDoUnlessTheirNumberIsGiven) {
+  const Workers few{4, true}, given{4, false};
+
+  EXPECT_EQ(few.threadsFor({{100, 1, 1}}), 1);
+  EXPECT_EQ(few.threadsFor({{1000, 1000, 1}}), 4);
+  EXPECT_EQ(given.threadsFor({{100, 1, 1}}), 4);
+}
+
+TEST(Workers, GetSeveralPatchesEachAndOneWorkerGetsOne) {
+  EXPECT_EQ(Workers{}.patchesFor({{1000, 1000, 1}}), 1);
+  EXPECT_GT((Workers{4, false}.patchesFor({{1000, 1000, 1}})), 4);
+  EXPECT_GT((Workers{1, false, 3}.patchesFor({{1000, 1000, 1}})), 3);
+  EXPECT_EQ((Workers{4, false}.patchesFor({{2, 1, 1}})), 2);
+}
+
+}  // namespace tushar::grid
