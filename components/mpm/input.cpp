@@ -4,6 +4,7 @@
 
 #include "components/mpm/conserving/conserving_mpm.hpp"
 #include "components/mpm/mpm.hpp"
+#include "components/mpm/solid/implicit/input.hpp"
 #include "components/mpm/solid/input.hpp"
 #include "core/input/geometry.hpp"
 #include "core/simulation/by_dimension.hpp"
@@ -361,6 +362,7 @@ simulation::ComponentKind kind() {
   };
   kind.nodesBeyond = [](const Element& root) { return isGas(root) ? 0 : solid::nodesBeyond(root); };
   kind.read = [](const Element& root, Diagnostics& diagnostics) -> simulation::MakeComponent {
+    if (!isGas(root) && solid::isImplicit(root)) return solid::readImplicitScene(root, diagnostics);
     if (!isGas(root)) return solid::readScene(root, diagnostics);
     refuseSolidsOnly(root, diagnostics);
     const std::size_t before = diagnostics.size();

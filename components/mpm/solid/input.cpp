@@ -41,7 +41,8 @@ struct MpmSection {
 
 /// Switches of Uintah's that are missing here, and what there is instead.
 const std::vector<std::pair<std::string, std::string>> lacking{
-    {"DoPressureStabilization", "use a wider <interpolator>, such as gimp or 3rdorderBS, against locking"},
+    {"DoPressureStabilization",
+     "use <time_integrator> implicit, or a wider <interpolator>, such as gimp or 3rdorderBS, against locking"},
     {"UseGradientEnhancedVelocityProjection", "take it out: particles pass on their own velocity"},
     {"UsePrescribedDeformation", "move the body by a <contact> of type specified"},
     {"InsertParticles", "give every body its place at the start"},
@@ -57,7 +58,8 @@ const std::vector<std::pair<std::string, std::string>> lacking{
 const Schema<MpmSection>& mpmSchema() {
   static const Schema<MpmSection> schema = [] {
     Schema<MpmSection> mpm("MPM", "The Material Point Method for solids.");
-    mpm.choice("time_integrator", &MpmSection::integrator, {{"explicit", 0}}, 0, "how time advances")
+    mpm.choice("time_integrator", &MpmSection::integrator, {{"explicit", 0}}, 0,
+               "how time advances; implicit is another method, sus --describe impm")
         .choice("interpolator", &MpmSection::interpolator, interpolators, Interpolator::linear,
                 "shape functions: linear, generalised interpolation, convected particle domains (fast_cpdi is another "
                 "word for them), quadratic or cubic B-splines")

@@ -22,6 +22,7 @@ class ImplicitMpm : public Component {
   static constexpr int D = Shape::dimension;
 
   void scheduleVelocity(TaskList& tasks) const;
+  void scheduleHeat(TaskList& tasks) const;
 
   Problem problem_;
   ImplicitMethod how_;

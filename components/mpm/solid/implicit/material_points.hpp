@@ -12,11 +12,21 @@ namespace tushar::mpm::solid {
 
 /// A node that a particle touches: S_i, its gradient (1/m) and S_i / r (1/m) where axisymmetric.
 template <int D>
-struct Touch {
+struct NodeTouch {
   int node = -1;  ///< number in the system; -1: none
   double s = 0, hoop = 0;
   Vec<D> gradient, sign;  ///< the sign with which the node moves the particle along each axis
 };
+
+/// S_i / r of a node, 1/m; 0 where nothing is axisymmetric.
+template <class Stencil, int D = Stencil::dimension>
+double hoopOf(const Stencil& stencil, const Index<D>& node) {
+  if constexpr (!Stencil::axisymmetric) return 0;
+  double value = stencil.hoop[static_cast<std::size_t>(node[0] - stencil.first[0])];
+  for (int d = 1; d < D; ++d)
+    value *= stencil.s[static_cast<std::size_t>(d)][static_cast<std::size_t>(node[d] - stencil.first[d])];
+  return value;
+}
 
 /// The particles of a material on a patch, one after another in memory, and what they keep through Newton's iterations.
 struct PointGroup {
@@ -39,12 +49,18 @@ struct PointRun {
 /// Brings deformation gradients and stresses to the end of a step.
 class PointStates {
  public:
-  PointStates(std::size_t count, int stateSize, double dt)
-      : deformation(count), stress(count), gradient(count), state_size_(stateSize), dt_(dt) {}
+  PointStates(std::size_t count, int stateSize, double dt, bool sharesVolume)
+      : deformation(count), stress(count), gradient(count), stretch(count, 1.0), state_size_(stateSize), dt_(dt),
+        shares_volume_(sharesVolume), told_(count) {}
 
   std::vector<Matrix3> deformation, stress;  ///< F, 1; Cauchy stress, Pa
   std::vector<Matrix3> gradient;             ///< of the displacement in the step, by the position at its begin, 1
+  std::vector<double> stretch;               ///< what the model is told of is stretch F, 1
 
+  /// Whether the points of a run are told of their common change of volume: of models that look at F alone.
+  bool sharesVolume(const PointRun& run) const {
+    return shares_volume_ && run.group->material->model->dependsOnDeformationOnly();
+  }
   /// F = (I + gradient) F_old of a run. False where a point would be turned inside out or crushed to a tenth.
   bool deform(const PointRun& run) {
     for (int k = run.from; k < run.from + run.count; ++k) {
@@ -53,6 +69,7 @@ class PointStates {
       if (!(step.determinant() > 0.1)) return false;
       deformation[at] = step * run.group->oldDeformation[k];
     }
+    shareVolume(run);
     return true;
   }
   void updateStress(const PointRun& run) {
@@ -78,6 +95,22 @@ class PointStates {
   }
 
  private:
+  /// F-bar: det(stretch F) is the volume of all points of the run over that at the start of the simulation, so that each
+  /// cell answers to compression as one (de Souza Neto et al., Int. J. Solids Structures 33 (1996) 3277).
+  void shareVolume(const PointRun& run) {
+    double start = 0, now = 0;
+    const bool shares = sharesVolume(run);
+    for (int k = run.from; k < run.from + run.count && shares; ++k) {
+      const double volume = run.group->mass[k] / run.group->material->density;
+      start += volume;
+      now += volume * deformation[run.group->first + static_cast<std::size_t>(k)].determinant();
+    }
+    for (int k = run.from; k < run.from + run.count; ++k) {
+      const std::size_t at = run.group->first + static_cast<std::size_t>(k);
+      if (shares) stretch[at] = std::cbrt(now / start / deformation[at].determinant());
+      told_[at] = stretch[at] * deformation[at];
+    }
+  }
   /// Calls `work(k, points)` for up to stressGroup points at once, k the first; their state is that at the begin.
   template <class Work>
   void forEachChunk(const PointRun& run, Work&& work) {
@@ -91,7 +124,7 @@ class PointStates {
       points.count = std::min(stressGroup, run.from + run.count - from);
       points.timeStep = dt_;
       points.oldDeformationGradient = group.oldDeformation + from;
-      points.deformationGradient = &deformation[at];
+      points.deformationGradient = &told_[at];
       for (int k = 0; k < points.count; ++k)
         rate[static_cast<std::size_t>(k)] = gradient[at + static_cast<std::size_t>(k)] / dt_;
       points.velocityGradient = rate.data();
@@ -108,6 +141,8 @@ class PointStates {
 
   int state_size_;
   double dt_;
+  bool shares_volume_;
+  std::vector<Matrix3> told_;
 };
 
 }  // namespace tushar::mpm::solid

@@ -1,14 +1,17 @@
 #pragma once
 
 #include "components/mpm/solid/solid_mpm.hpp"
-#include "core/solvers/solver.hpp"
+#include "core/solvers/report.hpp"
 
 namespace tushar::mpm::solid {
 
 /// How an implicit step is taken; names and defaults are Uintah's.
 struct ImplicitMethod {
   bool dynamic = true;  ///< Newmark's method; else inertia is left out and each step ends at rest
+  bool sharesVolume = false;  ///< F-bar: the particles of a cell are compressed as one, against locking
   solvers::NewtonSettings newton;
+  bool conductsHeat = false;
+  solvers::LinearSettings heat;  ///< where heat is conducted
   int iterationsToDecrease = 12;  ///< a step that took more makes the next one shorter
   int iterationsToIncrease = 4;   ///< a step that took no more makes the next one longer
   double decreaseFactor = 0.6;

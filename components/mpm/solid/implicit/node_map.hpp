@@ -1,13 +1,19 @@
 #pragma once
 
+#include <algorithm>
+#include <numeric>
 #include <vector>
 
 #include "core/core.hpp"
+#include "core/solvers/solver.hpp"
 
 namespace tushar::mpm::solid {
 
 /// Where nodes of a grid stand in a system of equations: only those that particles touch are in it. A node beyond a
 /// symmetry plane moves as the mirror image of the one inside; one on a periodic face is that on the other side.
+///
+/// On several ranks a node is of the rank that has the cell above it. A rank knows its own nodes, which it numbers first,
+/// and those of others that its particles touch or that its patches reach.
 template <int D>
 class NodeMap {
  public:
@@ -17,9 +23,11 @@ class NodeMap {
     Vec<D> sign = Vec<D>::Ones();
   };
 
-  explicit NodeMap(const Level& level) : level_(&level), box_(level.nodes()), numbers_(box_.size(), -1) {}
+  explicit NodeMap(const Level& level, const mpi::Communicator& ranks = mpi::Communicator::alone())
+      : level_(&level), ranks_(&ranks), box_(level.nodes()), known_(box_.size(), 0), numbers_(box_.size(), -1) {}
 
   const Level& level() const { return *level_; }
+  const mpi::Communicator& ranks() const { return *ranks_; }
   Image imageOf(Index<D> node) const {
     Image image{node};
     for (int d = 0; d < D; ++d) {
@@ -34,32 +42,47 @@ class NodeMap {
     }
     return image;
   }
-  void touch(const Index<D>& node) { numbers_[place(node)] = 0; }
-  /// Numbers all touched nodes in lexicographic order.
-  void number() {
-    for (std::size_t k = 0; k < numbers_.size(); ++k)
-      if (numbers_[k] >= 0) numbers_[k] = count_++;
-    nodes_.reserve(static_cast<std::size_t>(count_));
-    forEach<D>(box_, [&](const Index<D>& node) {
-      if ((*this)(node) >= 0) nodes_.push_back(node);
-    });
+  void touch(const Index<D>& node) { known_[place(node)] = isTouched | isNear; }
+  /// Numbers all nodes that any rank has touched; those within `reach` of the patches are known here.
+  void number(const RankPatches& patches, int reach) {
+    for (const Patch* patch : patches)
+      forEach<D>(patch->nodesWithin(reach), [&](const Index<D>& node) {
+        const Index<D> inside = imageOf(node).node;
+        if (box_.contains(inside)) known_[place(inside)] |= isNear;
+      });
+    shareTouched();
+    numberOwners();
   }
 
-  int size() const { return count_; }
-  /// The number of a node, -1 for one that is not in the system.
+  /// Nodes that are known here.
+  int size() const { return static_cast<int>(nodes_.size()); }
+  int owned() const { return owned_; }
+  /// The number of a node, -1 for one that is not known.
   int operator()(const Index<D>& node) const { return box_.contains(node) ? numbers_[place(node)] : -1; }
   const Index<D>& node(int number) const { return nodes_[static_cast<std::size_t>(number)]; }
-  /// For each node: how many nodes of the system are at most `width` away from it along every axis.
+  /// Unknowns of `block` numbers for each node.
+  solvers::Unknowns unknowns(int block) const {
+    solvers::Unknowns unknowns;
+    unknowns.ranks = ranks_;
+    unknowns.block = block;
+    unknowns.owned = owned_;
+    unknowns.ghosts = ghosts_;
+    return unknowns;
+  }
+  /// For each owned node: how many nodes of the system are at most `width` away from it along every axis.
   std::vector<int> neighbours(int width) const {
     std::vector<int> counts;
-    for (const Index<D>& node : nodes_) {
+    for (int k = 0; k < owned_; ++k) {
       Box around{{}, Index3::filled(1)};
       for (int d = 0; d < D; ++d) {
-        around.lower[d] = node[d] - width;
-        around.upper[d] = node[d] + width + 1;
+        around.lower[d] = node(k)[d] - width;
+        around.upper[d] = node(k)[d] + width + 1;
       }
       int count = 0;
-      forEach<D>(around, [&](const Index<D>& other) { count += (*this)(imageOf(other).node) >= 0; });
+      forEach<D>(around, [&](const Index<D>& other) {
+        const Index<D> inside = imageOf(other).node;
+        count += box_.contains(inside) && (known_[place(inside)] & isTouched) != 0;
+      });
       counts.push_back(count);
     }
     return counts;
@@ -72,6 +95,8 @@ class NodeMap {
   }
 
  private:
+  static constexpr unsigned char isTouched = 1, isNear = 2;
+
   static void reflect(Image& image, int d, int at) {
     image.node[d] = at;
     image.sign[d] = -1;
@@ -81,12 +106,53 @@ class NodeMap {
     for (int d = 0; d < D; ++d) wide[d] = node[d];
     return box_.offset(wide);
   }
+  /// Every rank learns what any has touched.
+  void shareTouched() {
+    std::vector<unsigned char> touched(known_);
+    ranks_->merge(std::as_writable_bytes(std::span(touched)), [&](const std::byte* from, std::byte* into) {
+      for (std::size_t k = 0; k < known_.size(); ++k) into[k] |= from[k];
+    });
+    for (std::size_t k = 0; k < known_.size(); ++k) known_[k] = (known_[k] & isNear) | (touched[k] & isTouched);
+  }
+  int ownerOf(const Index<D>& node) const {
+    if (ranks_->isAlone()) return level_->share().rank;
+    Index3 cell{};
+    for (int d = 0; d < D; ++d) cell[d] = std::clamp(node[d], 0, level_->cells().extent(d) - 1);
+    return level_->ownerOf(level_->patchOf(cell).id());
+  }
+  /// Lexicographic on each rank: its own nodes, then the ghosts.
+  void numberOwners() {
+    const int mine = level_->share().rank;
+    std::vector<int> counts(static_cast<std::size_t>(level_->share().ranks) + 1, 0), ownerOfGhost;
+    std::vector<Index<D>> ghosts;
+    forEach<D>(box_, [&](const Index<D>& node) {
+      if ((known_[place(node)] & isTouched) == 0) return;
+      const int owner = ownerOf(node), among = counts[static_cast<std::size_t>(owner) + 1]++;
+      if (owner == mine) {
+        numbers_[place(node)] = among;
+        nodes_.push_back(node);
+      } else if ((known_[place(node)] & isNear) != 0) {
+        ghosts.push_back(node);
+        ghosts_.push_back(among);
+        ownerOfGhost.push_back(owner);
+      }
+    });
+    owned_ = static_cast<int>(nodes_.size());
+    std::partial_sum(counts.begin(), counts.end(), counts.begin());
+    for (std::size_t k = 0; k < ghosts.size(); ++k) {
+      numbers_[place(ghosts[k])] = owned_ + static_cast<int>(k);
+      ghosts_[k] += counts[static_cast<std::size_t>(ownerOfGhost[k])];
+      nodes_.push_back(ghosts[k]);
+    }
+  }
 
   const Level* level_;
+  const mpi::Communicator* ranks_;
   Box box_;
-  std::vector<int> numbers_;
+  std::vector<unsigned char> known_;
+  std::vector<int> numbers_, ghosts_;
   std::vector<Index<D>> nodes_;
-  int count_ = 0;
+  int owned_ = 0;
 };
 
 }  // namespace tushar::mpm::solid

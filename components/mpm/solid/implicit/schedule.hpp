@@ -1,10 +1,13 @@
 #pragma once
 
+#include "components/mpm/solid/implicit/conduct_heat.hpp"
 #include "components/mpm/solid/implicit/implicit_mpm.hpp"
 #include "components/mpm/solid/implicit/system_assembly.hpp"
+#include "components/mpm/solid/implicit/system_stiffness.hpp"
 #include "components/mpm/solid/implicit/update.hpp"
 #include "components/mpm/solid/tasks/apply_external_loads.hpp"
 #include "components/mpm/solid/tasks/diagnose.hpp"
+#include "components/mpm/solid/tasks/heat.hpp"
 #include "components/mpm/solid/tasks/update_particles.hpp"
 
 // The schedule of ImplicitMpm: included by the files that instantiate it, one for each kind of shape function.
@@ -47,18 +50,20 @@ void ImplicitMpm<Shape>::scheduleTimeAdvance(TaskList& tasks) const {
                     startTime(), requiresOld(delT), requiresOld(p::x<D>), requiresOld(p::loadCurves),
                     computes(p::externalForce<D>));
   tasks.perRankAcrossMaterials(
-      "impm::solve", solveStep<Shape>, problem_.materials, with(setup), startTime(), requiresOld(delT),
+      "impm::solve", solveStep<Shape>, problem_.materials, togetherOnRanks(), with(setup), startTime(), requiresOld(delT),
       requiresOld(p::x<D>), requiresOld(p::size<D>), requiresOld(p::mass), requiresOld(p::velocity<D>),
       requiresOld(p::acceleration<D>), requiresNew(p::externalForce<D>), requiresOld(p::temperature),
       requiresOld(p::deformationMeasure), requiresOld(p::stress), requiresOld(state_), computes(g::increment<D>),
       computes(g::newAcceleration<D>), computes(total::newtonIterations), computes(total::krylovIterations),
-      computes(total::nextTimeStep));
+      computes(total::nextTimeStep), computes(solvers::assemblyTime), computes(solvers::preconditionerTime),
+      computes(solvers::solveTime));
   tasks.perMaterial("impm::moveAndStress", moveAndStress<Shape>, problem_.materials, with(setup), requiresOld(delT),
                     requiresNew(g::increment<D>, Shape::ghostNodes), requiresOld(p::x<D>), requiresOld(p::size<D>),
                     requiresOld(p::mass), requiresOld(p::temperature), requiresOld(p::deformationMeasure),
                     requiresOld(p::stress), requiresOld(state_), computes(p::x<D>), computes(p::deformationMeasure),
                     computes(p::stress), computes(state_), computes(p::volume), computes(p::strainEnergy));
   scheduleVelocity(tasks);
+  if (how_.conductsHeat) scheduleHeat(tasks);
   tasks.perMaterial("mpm::addDisplacement", addDisplacement<D>, problem_.materials, requiresOld(p::x<D>),
                     requiresNew(p::x<D>), requiresOld(p::displacement<D>), computes(p::displacement<D>));
   tasks.relocate(p::x<D>, problem_.materials);
@@ -75,6 +80,19 @@ void ImplicitMpm<Shape>::scheduleVelocity(TaskList& tasks) const {
   else
     tasks.perMaterial("impm::meanVelocity", meanVelocity<D>, problem_.materials, requiresOld(delT), requiresOld(p::x<D>),
                       requiresNew(p::x<D>), computes(p::velocity<D>), computes(p::acceleration<D>));
+}
+
+template <class Shape>
+void ImplicitMpm<Shape>::scheduleHeat(TaskList& tasks) const {
+  const ImplicitSetup setup{&problem_, how_, state_size_};
+  tasks.perRankAcrossMaterials("impm::conductHeat", conductHeat<Shape>, problem_.materials, togetherOnRanks(), with(setup),
+                               requiresOld(delT), requiresOld(p::x<D>), requiresOld(p::size<D>), requiresOld(p::mass),
+                               requiresOld(p::temperature), requiresOld(p::deformationMeasure),
+                               computes(g::temperatureRate));
+  tasks.perMaterial("mpm::updateTemperature", updateTemperature<Shape>, problem_.materials,
+                    with(problem_.method.commonSize), requiresOld(p::x<D>), when(true, requiresOld(p::size<D>)),
+                    requiresOld(p::deformationMeasure), requiresOld(p::temperature),
+                    requiresNew(g::temperatureRate, Shape::ghostNodes), requiresOld(delT), computes(p::temperature));
 }
 
 template <class Shape>

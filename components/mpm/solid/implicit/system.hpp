@@ -30,8 +30,9 @@ class ImplicitSystem : public solvers::NonlinearProblem {
  public:
   static constexpr int D = Shape::dimension;
 
-  ImplicitSystem(const Level& level, const Method& method, bool dynamic, double dt, int stateSize,
-                 std::vector<PointSources<Shape>> sources);
+  /// `patches` are those of this rank; all `ranks` make the system together.
+  ImplicitSystem(const RankPatches& patches, const mpi::Communicator& ranks, const Method& method,
+                 const ImplicitMethod& how, double dt, int stateSize, std::vector<PointSources<Shape>> sources);
 
   const NodeMap<D>& nodes() const { return map_; }
   solvers::Unknowns unknowns() const;
@@ -43,9 +44,7 @@ class ImplicitSystem : public solvers::NonlinearProblem {
   bool residual(std::span<const double> u, std::span<double> r) override;
   void tangent(solvers::Matrix& matrix) override;
   /// What a strain of 1e-14 comes to at every node.
-  double negligible() const override {
-    return 1e-14 * stiffest_ * map_.level().minSpacing() * std::sqrt(static_cast<double>(node_.size()));
-  }
+  double negligible() const override { return negligible_; }
 
   /// Of a node, from its displacement in the step, m/s^2; 0 where inertia is left out.
   Vec<D> acceleration(int node, std::span<const double> u) const;
@@ -63,29 +62,41 @@ class ImplicitSystem : public solvers::NonlinearProblem {
     for (int d = 0; d < D; ++d) count *= Shape::Stencil::nodes;
     return count;
   }();
-  using Strain = Eigen::Matrix<double, 9, touches_ * D>;
-  using Local = Eigen::Matrix<double, touches_ * D, touches_ * D, Eigen::RowMajor>;
+  // All of touches_ * D rows or columns; sizes that the compiler does not unroll.
+  using Strain = Eigen::Matrix<double, 9, Eigen::Dynamic, Eigen::ColMajor, 9, touches_ * D>;
+  using Local = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, touches_ * D, touches_ * D>;
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, touches_ * D, 1>;
 
-  /// What the particles bring to a node of the system.
+  /// What the particles bring to a node of the system, in the order of the numbers in which it is summed.
   struct Node {
-    double mass = 0;                                                            ///< kg
+    double mass = 0, volume = 0;  ///< kg, m^3 at the start of the simulation
     Vec<D> velocity = Vec<D>::Zero(), acceleration = Vec<D>::Zero(), force = Vec<D>::Zero();  ///< mass times, at first
+    double support = 0;           ///< N/m, of a weak spring to where the node would go by itself
   };
+  static constexpr int brought_ = 2 + 3 * D;
 
   void findRuns();
-  void findNodes();
+  void findNodes(const RankPatches& patches);
   void gatherNodes();
-  const Touch<D>* touchesOf(std::size_t point) const { return &touch_[point * touches_]; }
+  void shareNodes(const std::vector<double>& sums);
+  void measureStiffness();
+  void supportNodes();
+  const NodeTouch<D>* touchesOf(std::size_t point) const { return &touch_[point * touches_]; }
   Matrix3 displacementGradient(std::size_t point, std::span<const double> u) const;
   void addInternalForce(const PointRun& run, std::span<double> r) const;
   Strain strainOf(std::size_t point) const;
   Local stiffnessOf(const PointGroup& group, int k, const Matrix9& tangent) const;
-  void addStiffness(const PointGroup& group, int k, const Matrix9& tangent, solvers::Matrix& matrix);
+  void addStiffness(const PointGroup& group, int k, Local stiffness, solvers::Matrix& matrix) const;
+  void addRunStiffness(const PointRun& run, solvers::Matrix& matrix);
+  std::array<int, touches_> numbersOf(std::size_t point) const;
+  Rows volumeRow(std::size_t point) const;
+  Rows volumeForce(const PointGroup& group, int k, const Matrix9& tangent) const;
+  void addSharedStiffness(const PointRun& run, const std::vector<Rows>& forces, solvers::Matrix& matrix) const;
   void addDiagonals(solvers::Matrix& matrix) const;
   bool isPrescribed(int node, int d) const { return prescribed_[static_cast<std::size_t>(D * node + d)] != 0; }
 
   Method method_;
-  bool dynamic_;
+  ImplicitMethod how_;
   double dt_;
   NodeMap<D> map_;
   std::vector<PointSources<Shape>> sources_;
@@ -95,12 +106,13 @@ class ImplicitSystem : public solvers::NonlinearProblem {
     int from, count;
   };
   std::vector<Run> runs_;  ///< cell by cell, in the order of every sum, which does not depend on the patches
-  std::vector<Touch<D>> touch_;
+  std::vector<NodeTouch<D>> touch_;
   PointStates states_;
   std::vector<Node> node_;
   std::vector<char> prescribed_;
   std::vector<double> prescribed_value_;
-  double stiffest_ = 0;  ///< greatest number on the diagonal of a particle's stiffness, N/m
+  double stiffest_ = 0;  ///< of all particles at the start of the simulation: rho c^2 V / h^2, N/m
+  double negligible_ = 0;
 };
 
 }  // namespace tushar::mpm::solid

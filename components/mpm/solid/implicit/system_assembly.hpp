@@ -16,24 +16,27 @@ std::size_t countPoints(const std::vector<PointSources<Shape>>& sources) {
 }
 
 template <class Shape>
-ImplicitSystem<Shape>::ImplicitSystem(const Level& level, const Method& method, bool dynamic, double dt, int stateSize,
+ImplicitSystem<Shape>::ImplicitSystem(const RankPatches& patches, const mpi::Communicator& ranks, const Method& method,
+                                      const ImplicitMethod& how, double dt, int stateSize,
                                       std::vector<PointSources<Shape>> sources)
     : method_(method),
-      dynamic_(dynamic),
+      how_(how),
       dt_(dt),
-      map_(level),
+      map_(patches.front()->level(), ranks),
       sources_(std::move(sources)),
       touch_(countPoints(sources_) * touches_),
-      states_(countPoints(sources_), stateSize, dt) {
-  findNodes();
+      states_(countPoints(sources_), stateSize, dt, how.sharesVolume) {
+  findNodes(patches);
   findRuns();
   gatherNodes();
+  measureStiffness();
+  supportNodes();
   prescribed_.assign(node_.size() * D, 0);
   prescribed_value_.assign(node_.size() * D, 0);
 }
 
 template <class Shape>
-void ImplicitSystem<Shape>::findNodes() {
+void ImplicitSystem<Shape>::findNodes(const RankPatches& patches) {
   std::vector<Index<D>> images(touch_.size());
   std::size_t first = 0;
   for (PointSources<Shape>& from : sources_) {
@@ -42,18 +45,16 @@ void ImplicitSystem<Shape>::findNodes() {
       std::size_t at = (first + static_cast<std::size_t>(p)) * touches_;
       stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>& gradient) {
         const auto image = map_.imageOf(node);
-        Touch<D>& touch = touch_[at];
-        touch = {0, s, 0, gradient, image.sign};
-        if constexpr (Shape::axisymmetric)
-          touch.hoop = s / stencil.s[0][std::size_t(node[0] - stencil.first[0])] * stencil.hoop[std::size_t(node[0] - stencil.first[0])];
-        if (s == 0 && gradient.squaredNorm() == 0) touch.node = -1;
+        NodeTouch<D>& touch = touch_[at];
+        touch = {0, s, hoopOf(stencil, node), gradient, image.sign};
+        if (s == 0 && touch.hoop == 0 && gradient.squaredNorm() == 0) touch.node = -1;
         if (touch.node >= 0) map_.touch(image.node);
         images[at++] = image.node;
       });
     });
     first += static_cast<std::size_t>(from.group.count);
   }
-  map_.number();
+  map_.number(patches, Shape::ghostNodes + 1);
   for (std::size_t k = 0; k < touch_.size(); ++k)
     if (touch_[k].node >= 0) touch_[k].node = map_(images[k]);
 }
@@ -75,37 +76,68 @@ void ImplicitSystem<Shape>::findRuns() {
 
 template <class Shape>
 void ImplicitSystem<Shape>::gatherNodes() {
-  node_.resize(static_cast<std::size_t>(map_.size()));
+  std::vector<double> sums(static_cast<std::size_t>(brought_ * map_.size()), 0.0);
   forEachRun([&](const PointSources<Shape>& from, const PointRun& run) {
     for (int p = run.from; p < run.from + run.count; ++p) {
-      const Touch<D>* touch = touchesOf(from.group.first + static_cast<std::size_t>(p));
+      const NodeTouch<D>* touch = touchesOf(from.group.first + static_cast<std::size_t>(p));
       for (int k = 0; k < touches_; ++k) {
         if (touch[k].node < 0) continue;
-        Node& node = node_[static_cast<std::size_t>(touch[k].node)];
+        Eigen::Map<Eigen::Matrix<double, brought_, 1>> sum(sums.data() + brought_ * touch[k].node);
         const double mass = touch[k].s * from.group.mass[p];
-        node.mass += mass;
-        node.velocity += mass * touch[k].sign.cwiseProduct(from.velocity[p]);
-        node.acceleration += mass * touch[k].sign.cwiseProduct(from.acceleration[p]);
-        node.force += touch[k].s * touch[k].sign.cwiseProduct(from.externalForce[p]);
+        sum[0] += mass;
+        sum[1] += mass / from.group.material->density;
+        sum.template segment<D>(2) += mass * touch[k].sign.cwiseProduct(from.velocity[p]);
+        sum.template segment<D>(2 + D) += mass * touch[k].sign.cwiseProduct(from.acceleration[p]);
+        sum.template segment<D>(2 + 2 * D) += touch[k].s * touch[k].sign.cwiseProduct(from.externalForce[p]);
       }
     }
   });
+  solvers::addUp(map_.unknowns(brought_), sums);
+  shareNodes(sums);
+}
+
+template <class Shape>
+void ImplicitSystem<Shape>::shareNodes(const std::vector<double>& sums) {
   const Vec<D> gravity = map_.level().template reduce<D>(method_.gravity);
-  for (Node& node : node_) {
-    node.force += node.mass * gravity;
+  for (int k = 0; k < map_.size(); ++k) {
+    const Eigen::Map<const Eigen::Matrix<double, brought_, 1>> sum(sums.data() + brought_ * k);
+    Node& node = node_.emplace_back();
+    node.mass = sum[0];
+    node.volume = sum[1];
+    node.force = sum.template segment<D>(2 + 2 * D) + node.mass * gravity;
     if (node.mass <= 0) continue;
-    node.velocity /= node.mass;
-    node.acceleration /= node.mass;
+    node.velocity = sum.template segment<D>(2) / node.mass;
+    node.acceleration = sum.template segment<D>(2 + D) / node.mass;
   }
 }
 
 template <class Shape>
+void ImplicitSystem<Shape>::measureStiffness() {
+  for (const PointSources<Shape>& from : sources_) {
+    const Material& material = *from.group.material;
+    for (int p = 0; p < from.group.count; ++p) {
+      const double c = material.model->initialWaveSpeed(material.density, from.group.temperature[p]);
+      stiffest_ = std::max(stiffest_, from.group.mass[p] * c * c);
+    }
+  }
+  const double h = map_.level().minSpacing();
+  stiffest_ = map_.ranks().max(stiffest_) / (h * h);
+  negligible_ = 1e-14 * stiffest_ * h * std::sqrt(static_cast<double>(map_.ranks().sum(map_.owned())));
+}
+
+/// A node with a millionth of a cell's matter around it may have no stiffness to speak of along some axis.
+template <class Shape>
+void ImplicitSystem<Shape>::supportNodes() {
+  for (Node& node : node_)
+    if (node.volume < 1e-6 * map_.level().cellVolume()) node.support = 1e-10 * stiffest_;
+}
+
+template <class Shape>
 solvers::Unknowns ImplicitSystem<Shape>::unknowns() const {
-  solvers::Unknowns unknowns;
-  unknowns.block = D;
-  unknowns.owned = map_.size();
-  unknowns.entries = map_.neighbours(Shape::Stencil::nodes - 1);
-  for (int k = 0; k < map_.size(); ++k)
+  solvers::Unknowns unknowns = map_.unknowns(D);
+  constexpr int width = Shape::Stencil::nodes - 1;  // of one particle; those of a cell reach one further where it is wide
+  unknowns.entries = map_.neighbours(width > 1 && how_.sharesVolume ? width + 1 : width);
+  for (int k = 0; k < map_.owned(); ++k)
     for (int d = 0; d < D; ++d) unknowns.coordinates.push_back(map_.position(k)[d]);
   return unknowns;
 }
@@ -127,7 +159,7 @@ std::vector<double> ImplicitSystem<Shape>::guess() const {
 
 template <class Shape>
 auto ImplicitSystem<Shape>::acceleration(int node, std::span<const double> u) const -> Vec<D> {
-  if (!dynamic_) return Vec<D>::Zero();
+  if (!how_.dynamic) return Vec<D>::Zero();
   const Node& n = node_[static_cast<std::size_t>(node)];
   return 4 / dt_ * (displacement(node, u) / dt_ - n.velocity) - n.acceleration;
 }
@@ -135,7 +167,7 @@ auto ImplicitSystem<Shape>::acceleration(int node, std::span<const double> u) co
 template <class Shape>
 Matrix3 ImplicitSystem<Shape>::displacementGradient(std::size_t point, std::span<const double> u) const {
   const Level& level = map_.level();
-  const Touch<D>* touch = touchesOf(point);
+  const NodeTouch<D>* touch = touchesOf(point);
   Matrix3 gradient = Matrix3::Zero();
   for (int k = 0; k < touches_; ++k) {
     if (touch[k].node < 0) continue;
@@ -149,9 +181,11 @@ Matrix3 ImplicitSystem<Shape>::displacementGradient(std::size_t point, std::span
 
 template <class Shape>
 bool ImplicitSystem<Shape>::residual(std::span<const double> u, std::span<double> r) {
-  for (int k = 0; k < map_.size(); ++k) {
+  std::fill(r.begin(), r.end(), 0.0);
+  for (int k = 0; k < map_.owned(); ++k) {
     const Node& node = node_[static_cast<std::size_t>(k)];
-    Eigen::Map<Vec<D>>(r.data() + D * k) = node.mass * acceleration(k, u) - node.force;
+    Eigen::Map<Vec<D>>(r.data() + D * k) = node.mass * acceleration(k, u) - node.force +
+                                           node.support * (displacement(k, u) - dt_ * node.velocity);
   }
   bool admissible = true;
   forEachRun([&](const PointSources<Shape>&, const PointRun& run) {
@@ -178,7 +212,7 @@ void ImplicitSystem<Shape>::addInternalForce(const PointRun& run, std::span<doub
     const Matrix3 step = Matrix3::Identity() + states_.gradient[at];
     const double volume = group.mass[p] / group.material->density * states_.deformation[at].determinant();
     const Matrix3 stress = volume * states_.stress[at] * step.inverse().transpose();
-    const Touch<D>* touch = touchesOf(at);
+    const NodeTouch<D>* touch = touchesOf(at);
     for (int k = 0; k < touches_; ++k) {
       if (touch[k].node < 0) continue;
       Vec<D> force;
@@ -189,72 +223,6 @@ void ImplicitSystem<Shape>::addInternalForce(const PointRun& run, std::span<doub
       Eigen::Map<Vec<D>>(r.data() + D * touch[k].node) += touch[k].sign.cwiseProduct(force);
     }
   }
-}
-
-/// The nine numbers of the displacement gradient for a unit displacement of each node that a point touches.
-template <class Shape>
-auto ImplicitSystem<Shape>::strainOf(std::size_t point) const -> Strain {
-  const Level& level = map_.level();
-  const Touch<D>* touch = touchesOf(point);
-  Strain strain = Strain::Zero();
-  for (int k = 0; k < touches_; ++k) {
-    if (touch[k].node < 0) continue;
-    for (int i = 0; i < D; ++i)
-      for (int j = 0; j < D; ++j)
-        strain(3 * sceneAxis<D>(level, i) + sceneAxis<D>(level, j), D * k + i) = touch[k].sign[i] * touch[k].gradient[j];
-    strain(8, D * k) += touch[k].sign[0] * touch[k].hoop;
-  }
-  return strain;
-}
-
-/// V0 Bᵀ a B, where B is strainOf and a_ijkl = sum_JL dP_iJ/dF_kL F_old_jJ F_old_lL.
-template <class Shape>
-auto ImplicitSystem<Shape>::stiffnessOf(const PointGroup& group, int k, const Matrix9& tangent) const -> Local {
-  const Matrix3& f = group.oldDeformation[k];
-  Matrix9 half, whole;
-  for (int c = 0; c < 3; ++c) half.middleCols<3>(3 * c) = tangent.middleCols<3>(3 * c) * f.transpose();
-  for (int c = 0; c < 3; ++c) whole.middleRows<3>(3 * c) = f * half.middleRows<3>(3 * c);
-  const Strain strain = strainOf(group.first + static_cast<std::size_t>(k));
-  return group.mass[k] / group.material->density * (strain.transpose() * (whole * strain));
-}
-
-template <class Shape>
-void ImplicitSystem<Shape>::addStiffness(const PointGroup& group, int k, const Matrix9& tangent,
-                                         solvers::Matrix& matrix) {
-  Local stiffness = stiffnessOf(group, k, tangent);
-  stiffest_ = std::max(stiffest_, stiffness.diagonal().maxCoeff());
-  const Touch<D>* touch = touchesOf(group.first + static_cast<std::size_t>(k));
-  std::array<int, touches_> numbers;
-  for (int n = 0; n < touches_; ++n) {
-    numbers[static_cast<std::size_t>(n)] = touch[n].node;
-    for (int d = 0; d < D && touch[n].node >= 0; ++d) {
-      if (!isPrescribed(touch[n].node, d)) continue;
-      stiffness.row(D * n + d).setZero();
-      stiffness.col(D * n + d).setZero();
-    }
-  }
-  matrix.add(numbers, numbers, {stiffness.data(), static_cast<std::size_t>(stiffness.size())});
-}
-
-/// Inertia, and the rows of what is prescribed, as stiff as the rest.
-template <class Shape>
-void ImplicitSystem<Shape>::addDiagonals(solvers::Matrix& matrix) const {
-  for (int k = 0; k < map_.size(); ++k) {
-    Eigen::Matrix<double, D, D> block;  // diagonal: the order of rows and columns does not matter
-    block.setZero();
-    const double inertia = dynamic_ ? 4 * node_[static_cast<std::size_t>(k)].mass / (dt_ * dt_) : 0.0;
-    for (int d = 0; d < D; ++d) block(d, d) = isPrescribed(k, d) ? stiffest_ : inertia;
-    matrix.add({&k, 1}, {&k, 1}, {block.data(), D * D});
-  }
-}
-
-template <class Shape>
-void ImplicitSystem<Shape>::tangent(solvers::Matrix& matrix) {
-  stiffest_ = 0;
-  forEachRun([&](const PointSources<Shape>& from, const PointRun& run) {
-    states_.forEachTangent(run, [&](int k, const Matrix9& one) { addStiffness(from.group, k, one, matrix); });
-  });
-  addDiagonals(matrix);
 }
 
 }  // namespace tushar::mpm::solid

@@ -14,10 +14,7 @@ std::pair<Vec<D>, Matrix3> interpolated(const Level& level, const Stencil& stenc
     value += s * f;
     for (int i = 0; i < D; ++i)
       for (int j = 0; j < D; ++j) gradient(sceneAxis<D>(level, i), sceneAxis<D>(level, j)) += f[i] * slope[j];
-    if constexpr (Stencil::axisymmetric) {
-      const auto k = static_cast<std::size_t>(node[0] - stencil.first[0]);
-      gradient(2, 2) += f[0] * s / stencil.s[0][k] * stencil.hoop[k];
-    }
+    gradient(2, 2) += f[0] * hoopOf(stencil, node);
   });
   return {value, gradient};
 }
@@ -33,7 +30,7 @@ void moveAndStress(const Patch& patch, const Material& material, const ImplicitS
                    ParticleView<double> strainEnergy) {
   const int count = x.owned();
   if (count == 0) return;
-  PointStates states(static_cast<std::size_t>(count), setup.stateSize, dt);
+  PointStates states(static_cast<std::size_t>(count), setup.stateSize, dt, setup.how.sharesVolume);
   const Extents<Shape> extents(patch.level(), setup.problem->method.commonSize, size, std::nullopt);
   forEachStencil<Shape>(patch, patch.cells(), x, extents, [&](int p, const auto& stencil) {
     const auto [moved, gradient] = interpolated(patch.level(), stencil, increment);
@@ -42,9 +39,12 @@ void moveAndStress(const Patch& patch, const Material& material, const ImplicitS
   });
   const PointGroup group{&material,       count, 0, valuesOf(mass), valuesOf(temperature), valuesOf(oldDeformation),
                          valuesOf(oldStress), valuesOf(oldState), valuesOf(state), valuesOf(strainEnergy)};
-  const PointRun all{&group, 0, count};
-  states.deform(all);
-  states.updateStress(all);
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    const data::ParticleRange range = x.in(cell);
+    const PointRun run{&group, range.first, range.size()};
+    states.deform(run);
+    states.updateStress(run);
+  });
   for (int p = 0; p < count; ++p) {
     deformation[p] = states.deformation[static_cast<std::size_t>(p)];
     stress[p] = states.stress[static_cast<std::size_t>(p)];
