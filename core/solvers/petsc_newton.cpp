@@ -61,7 +61,7 @@ PetscErrorCode hasConverged(SNES snes, PetscInt iteration, PetscReal, PetscReal,
     check(SNESGetFunction(snes, &r, nullptr, nullptr));
     *reason = SNES_CONVERGED_ITERATING;
     if (!std::isfinite(norm)) *reason = SNES_DIVERGED_FNORM_NAN;
-    if (norm <= (iteration > 0 ? newton.problem.negligible() : 0.0)) *reason = SNES_CONVERGED_FNORM_ABS;
+    if (norm <= newton.problem.negligible()) *reason = SNES_CONVERGED_FNORM_ABS;
     if (iteration > 0) {
       PetscReal size = 0, energy = 0;
       check(VecWAXPY(newton.change, -1, newton.lastU, u));

@@ -64,7 +64,7 @@ class NonlinearProblem {
   virtual bool residual(std::span<const double> u, std::span<double> r) = 0;
   /// dr/du at the u of the last residual.
   virtual void tangent(Matrix& matrix) = 0;
-  /// Norm of a residual that is nothing but rounding, the same on all ranks; asked for after the first tangent.
+  /// Norm of a residual that is nothing but rounding, the same on all ranks.
   virtual double negligible() const { return 0; }
 };
 
