@@ -12,6 +12,11 @@ constexpr int tag = 2;
 
 }  // namespace
 
+void Emigration::forgetLayout() {
+  knows_neighbours_ = false;
+  leaving_.clear();
+}
+
 void Emigration::start() {
   for (auto& particles : leaving_) particles.second.clear();
   arrived_.clear();

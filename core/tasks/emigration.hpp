@@ -32,6 +32,8 @@ class Emigration {
 
   explicit Emigration(data::Warehouse& warehouse) : warehouse_(&warehouse), outbox_(warehouse.ranks()) {}
 
+  /// This rank has other patches from now on, and other neighbours.
+  void forgetLayout();
   /// A relocation begins: nobody leaves yet.
   void start();
   void add(int rank, const Emigrant& particle) { leaving_[rank].push_back(particle); }

@@ -73,7 +73,7 @@ std::vector<Particle> run(const std::string& scene) {
   EXPECT_EQ(run.run().failure, "");
   data::Warehouse& warehouse = run.warehouse();
   const auto values = [&](const char* label) {
-    const auto array = simulation::gatherArray(warehouse, data::Generation::old, warehouse.table().find(label, 0));
+    const auto array = simulation::Gather(warehouse).array(data::Generation::old, warehouse.table().find(label, 0));
     return std::get<std::vector<double>>(array.values);
   };
   const auto x = values("p.x"), velocity = values("p.velocity"), energy = values("p.internalEnergy");
