@@ -51,6 +51,15 @@ void Warehouse::grow(int materials) {
   fresh_sets_.resize(std::max(fresh_sets_.size(), sets));
 }
 
+void Warehouse::startAnew(int materials) {
+  old_.clear();
+  fresh_.clear();
+  old_sets_.clear();
+  fresh_sets_.clear();
+  pools_.clear();
+  grow(materials);
+}
+
 ReductionSlot& Warehouse::slot(int number) {
   auto& slot = reductions_[static_cast<std::size_t>(number)];
   if (!slot) {

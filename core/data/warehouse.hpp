@@ -108,6 +108,8 @@ class Warehouse {
 
   /// Makes room for all variables named so far, and for the particle sets of `materials` materials.
   void grow(int materials);
+  /// Forgets what stands on patches, for those that the level gives this rank now; reductions stay.
+  void startAnew(int materials);
   /// Room for a node or cell variable over `stored`; NaN-filled in the dev preset.
   void allocateGrid(Variable& variable, const Label& label, const grid::Box& stored);
   /// Room for `count` particles; the first `keep` stay, the rest is NaN-filled in the dev preset.

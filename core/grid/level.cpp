@@ -4,6 +4,19 @@ namespace tushar::grid {
 
 Level::Level(const Domain& domain, Share share) : domain_(domain), share_(share) {
   chooseAxes();
+  cutIntoPatches();
+  partition_.emplace(*curve_, share_.ranks);
+  makePatches();
+}
+
+Firsts Level::firsts() const {
+  Firsts firsts;
+  for (int rank = 0; rank <= share_.ranks; ++rank) firsts.push_back(partition_->firstOf(rank));
+  return firsts;
+}
+
+void Level::share(Firsts firsts) {
+  partition_.emplace(*curve_, std::move(firsts));
   makePatches();
 }
 
@@ -27,7 +40,7 @@ void Level::chooseAxes() {
   for (int d = 0; d < dimension(); ++d) is_periodic_ = is_periodic_ || isPeriodic(d);
 }
 
-void Level::makePatches() {
+void Level::cutIntoPatches() {
   cells_.upper = Index3::filled(1);
   MortonCurve::Cuts cuts{{{0, 1}, {0, 1}, {0, 1}}};
   for (int d = 0; d < dimension(); ++d) {
@@ -44,7 +57,10 @@ void Level::makePatches() {
       cuts[k].push_back(static_cast<int>(static_cast<long>(cells) * part / parts));
   }
   curve_.emplace(std::move(cuts));
-  partition_.emplace(*curve_, share_.ranks);
+}
+
+void Level::makePatches() {
+  patches_.clear();
   first_patch_ = partition_->firstOf(share_.rank);
   const int end = partition_->firstOf(share_.rank + 1);
   for (int id = first_patch_; id < end; ++id) patches_.push_back(patch(id));

@@ -69,6 +69,10 @@ class Level {
   /// The rank that has a patch.
   int ownerOf(int patch) const { return isMine(patch) ? share_.rank : partition_->ownerOf(patch); }
   const Share& share() const { return share_; }
+  /// Which patches each rank has.
+  Firsts firsts() const;
+  /// Gives the patches to the ranks anew. What stands on them is the caller's to move: see tasks::migrate.
+  void share(Firsts firsts);
   const Domain& domain() const { return domain_; }
 
   /// Cell width along a kernel axis, m.
@@ -159,6 +163,7 @@ class Level {
  private:
   void chooseAxes();
   Box clip(const Box& box, const Box& grid) const;
+  void cutIntoPatches();
   void makePatches();
 
   Domain domain_;

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <vector>
+#include <utility>
 
+#include "core/grid/balance.hpp"
 #include "core/grid/morton_curve.hpp"
 
 namespace tushar::grid {
@@ -16,6 +17,9 @@ class Partition {
  public:
   /// Shares of as many cells as whole patches allow. Nothing is kept for each rank. The first rank has a patch always.
   Partition(const MortonCurve& curve, int ranks) : curve_(&curve), ranks_(ranks) {}
+  /// Shares as they are given, which are kept.
+  Partition(const MortonCurve& curve, Firsts firsts)
+      : curve_(&curve), ranks_(static_cast<int>(firsts.size()) - 1), firsts_(std::move(firsts)) {}
 
   /// The place of the first patch of a rank, which is that of the next where it has none.
   int firstOf(int rank) const;
@@ -24,6 +28,7 @@ class Partition {
  private:
   const MortonCurve* curve_;
   int ranks_;
+  Firsts firsts_;  ///< empty: by cells
 };
 
 }  // namespace tushar::grid

@@ -21,25 +21,6 @@ using grid::Patch;
 
 namespace {
 
-/// Appends one entry of a variable to the array, vectors widened to x, y, z.
-void append(output::Array& array, const Label& label, const grid::Level& level, const std::byte* entry) {
-  if (auto* ids = std::get_if<std::vector<std::uint64_t>>(&array.values)) {
-    ids->push_back(*reinterpret_cast<const std::uint64_t*>(entry));
-  } else if (auto* integers = std::get_if<std::vector<std::int32_t>>(&array.values)) {
-    integers->push_back(*reinterpret_cast<const std::int32_t*>(entry));
-  } else {
-    auto& reals = std::get<std::vector<double>>(array.values);
-    const auto* numbers = reinterpret_cast<const double*>(entry);
-    if (!label.isVector) {
-      reals.insert(reals.end(), numbers, numbers + label.components);
-      return;
-    }
-    Vec3 wide = label.name == data::positionName ? level.expandPoint<1>(Vec<1>::Zero()) : Vec3::Zero();
-    for (int d = 0; d < label.components; ++d) wide[level.axis(d)] = numbers[d];
-    reals.insert(reals.end(), wide.data(), wide.data() + 3);
-  }
-}
-
 output::Array emptyArray(const Label& label) {
   output::Array array{std::string(label.name), std::string(label.unit), std::string(label.description),
                       label.isVector ? 3 : label.components, {}};
@@ -48,84 +29,146 @@ output::Array emptyArray(const Label& label) {
   return array;
 }
 
-std::vector<std::byte> valuesOnGrid(data::Warehouse& warehouse, Generation generation, int number) {
-  const Label& label = *warehouse.table()[number].label;
-  const grid::Level& level = warehouse.level();
+/// The places 0, 1, … in ascending order of their keys, which are all different: by digits of 11 bits, the lowest first.
+std::vector<std::size_t> sortedPlaces(std::vector<std::uint64_t> keys) {
+  constexpr int bits = 11;
+  constexpr std::size_t digits = std::size_t{1} << bits;
+  std::vector<std::size_t> places(keys.size()), otherPlaces(keys.size());
+  std::vector<std::uint64_t> otherKeys(keys.size());
+  std::iota(places.begin(), places.end(), std::size_t{0});
+  const std::uint64_t greatest = keys.empty() ? 0 : *std::max_element(keys.begin(), keys.end());
+  for (int shift = 0; shift < 64 && greatest >> shift > 0; shift += bits) {
+    std::vector<std::size_t> next(digits + 1);
+    const auto digitOf = [&](std::uint64_t key) { return key >> shift & (digits - 1); };
+    for (const std::uint64_t key : keys) ++next[digitOf(key) + 1];
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    for (std::size_t k = 0; k < keys.size(); ++k) {
+      const std::size_t to = next[digitOf(keys[k])]++;
+      otherKeys[to] = keys[k];
+      otherPlaces[to] = places[k];
+    }
+    keys.swap(otherKeys);
+    places.swap(otherPlaces);
+  }
+  return places;
+}
+
+/// Where entries of a variable go in an array, vectors widened to x, y, z.
+class Filler {
+ public:
+  Filler(output::Array& array, const Label& label, const grid::Level& level, std::size_t entries)
+      : bytes_(label.bytes),
+        stride_(label.bytes / static_cast<std::size_t>(label.components) * static_cast<std::size_t>(array.components)) {
+    std::visit([&](auto& values) { resize(values, entries * static_cast<std::size_t>(array.components)); }, array.values);
+    if (!label.isVector || label.components == array.components) return;
+    for (int d = 0; d < label.components; ++d) axes_.push_back(static_cast<std::size_t>(level.axis(d)));
+    if (label.name != data::positionName) return;
+    const Vec3 middle = level.expandPoint<1>(Vec<1>::Zero());
+    for (std::size_t k = 0; k < 3 * entries; ++k) reinterpret_cast<double*>(to_)[k] = middle[static_cast<int>(k % 3)];
+  }
+
+  /// Takes entry `at` of the array.
+  void fill(std::size_t at, const std::byte* entry) {
+    std::byte* to = to_ + at * stride_;
+    if (axes_.empty()) return static_cast<void>(std::memcpy(to, entry, bytes_));
+    for (std::size_t d = 0; d < axes_.size(); ++d)
+      std::memcpy(to + axes_[d] * sizeof(double), entry + d * sizeof(double), sizeof(double));
+  }
+
+ private:
+  template <class Values>
+  void resize(Values& values, std::size_t count) {
+    values.resize(count);
+    to_ = reinterpret_cast<std::byte*>(values.data());
+  }
+
+  std::byte* to_ = nullptr;
+  std::size_t bytes_, stride_;     ///< of an entry of the variable and of the array
+  std::vector<std::size_t> axes_;  ///< of the numbers of an entry; empty where it stays as it is
+};
+
+}  // namespace
+
+const std::vector<std::size_t>& Gather::positionsById(int material) {
+  const auto [entry, isNew] = positions_.try_emplace(material);
+  if (!isNew) return entry->second;
+  const int number = warehouse_->table().find(data::particleId.name, material);
+  std::vector<std::uint64_t> ids;
+  collectParticles(Generation::old, number, [&](std::size_t first, const std::byte* values, std::size_t count) {
+    ids.resize(first + count);
+    std::memcpy(ids.data() + first, values, count * sizeof(std::uint64_t));
+  });
+  const std::vector<std::size_t> places = sortedPlaces(std::move(ids));
+  entry->second.resize(places.size());
+  for (std::size_t k = 0; k < places.size(); ++k) entry->second[places[k]] = k;
+  return entry->second;
+}
+
+template <class Take>
+void Gather::collectParticles(Generation generation, int number, Take&& take) {
+  const auto [label, material] = warehouse_->table()[number];
+  const std::size_t bytes = label->bytes;
+  const int which = material;
+  std::size_t first = 0;
+  collect(
+      *warehouse_,
+      [&](const Patch& patch, mpi::Bytes& message) {
+        const auto owned = static_cast<std::uint64_t>(warehouse_->particles(Generation::old, which, patch.id()).owned());
+        mpi::append(message, &owned, sizeof(owned));
+        mpi::append(message, warehouse_->variable(generation, number, patch.id()).values.data(), owned * bytes);
+      },
+      [&](const Patch&, const std::byte* from) {
+        std::uint64_t owned = 0;
+        std::memcpy(&owned, from, sizeof(owned));
+        take(first, from + sizeof(owned), static_cast<std::size_t>(owned));
+        first += owned;
+        return sizeof(owned) + owned * bytes;
+      });
+}
+
+void Gather::fillParticles(Generation generation, int number, output::Array& array) {
+  const auto [label, material] = warehouse_->table()[number];
+  const std::size_t bytes = label->bytes;
+  const std::vector<std::size_t>& positions = positionsById(material);
+  Filler filler(array, *label, warehouse_->level(), positions.size());
+  collectParticles(generation, number, [&](std::size_t first, const std::byte* values, std::size_t count) {
+    for (std::size_t k = 0; k < count; ++k) filler.fill(positions[first + k], values + k * bytes);
+  });
+}
+
+void Gather::fillGrid(Generation generation, int number, output::Array& array) {
+  const Label& label = *warehouse_->table()[number].label;
+  const grid::Level& level = warehouse_->level();
   const bool nodes = label.centring == Centring::node;
   const Box all = nodes ? level.nodesOfCells() : level.cells();
   const std::size_t bytes = label.bytes;
-  std::vector<std::byte> values(warehouse.ranks().isFirst() ? all.size() * bytes : 0);
+  Filler filler(array, label, level, warehouse_->ranks().isFirst() ? all.size() : 0);
   const auto ownOf = [&](const Patch& patch) { return nodes ? patch.nodes().intersect(all) : patch.cells(); };
-  const auto lengthOf = [&](const Box& box) { return static_cast<std::size_t>(box.extent(0)) * bytes; };
+  const auto lengthOf = [](const Box& box) { return static_cast<std::size_t>(box.extent(0)); };
   collect(
-      warehouse,
+      *warehouse_,
       [&](const Patch& patch, mpi::Bytes& message) {
-        const Variable& from = warehouse.variable(generation, number, patch.id());
+        const Variable& from = warehouse_->variable(generation, number, patch.id());
         const Box own = ownOf(patch);
         forEachRow(own, [&](const Index3& first) {
-          mpi::append(message, from.values.data() + from.stored.offset(first) * bytes, lengthOf(own));
+          mpi::append(message, from.values.data() + from.stored.offset(first) * bytes, lengthOf(own) * bytes);
         });
       },
       [&](const Patch& patch, const std::byte* from) {
         const Box own = ownOf(patch);
         std::size_t read = 0;
         forEachRow(own, [&](const Index3& first) {
-          std::memcpy(values.data() + all.offset(first) * bytes, from + read, lengthOf(own));
-          read += lengthOf(own);
+          for (std::size_t k = 0; k < lengthOf(own); ++k) filler.fill(all.offset(first) + k, from + (read++) * bytes);
         });
-        return read;
+        return read * bytes;
       });
-  return values;
 }
 
-/// The values of all particles, patch by patch, on the first rank.
-std::vector<std::byte> valuesOfParticles(data::Warehouse& warehouse, Generation generation, int number) {
-  const auto [label, material] = warehouse.table()[number];
-  const std::size_t bytes = label->bytes;
-  std::vector<std::byte> values;
-  const int which = material;
-  collect(
-      warehouse,
-      [&](const Patch& patch, mpi::Bytes& message) {
-        const auto owned = static_cast<std::uint64_t>(warehouse.particles(Generation::old, which, patch.id()).owned());
-        mpi::append(message, &owned, sizeof(owned));
-        mpi::append(message, warehouse.variable(generation, number, patch.id()).values.data(), owned * bytes);
-      },
-      [&](const Patch&, const std::byte* from) {
-        std::uint64_t owned = 0;
-        std::memcpy(&owned, from, sizeof(owned));
-        mpi::append(values, from + sizeof(owned), owned * bytes);
-        return sizeof(owned) + owned * bytes;
-      });
-  return values;
-}
-
-/// Places of the particles of a material, as valuesOfParticles has them, by id.
-std::vector<std::size_t> placesById(data::Warehouse& warehouse, int material) {
-  const std::vector<std::byte> bytes =
-      valuesOfParticles(warehouse, Generation::old, warehouse.table().find(data::particleId.name, material));
-  const auto* ids = reinterpret_cast<const ParticleId*>(bytes.data());
-  std::vector<std::size_t> places(bytes.size() / sizeof(ParticleId));
-  std::iota(places.begin(), places.end(), std::size_t{0});
-  std::sort(places.begin(), places.end(), [&](std::size_t a, std::size_t b) { return ids[a] < ids[b]; });
-  return places;
-}
-
-}  // namespace
-
-output::Array gatherArray(data::Warehouse& warehouse, Generation generation, int number) {
-  const auto [label, material] = warehouse.table()[number];
-  output::Array array = emptyArray(*label);
-  if (label->centring == Centring::reduction || !warehouse.isHeld(generation, number)) return array;
-  if (label->centring == Centring::particle) {
-    const std::vector<std::byte> values = valuesOfParticles(warehouse, generation, number);
-    for (const std::size_t place : placesById(warehouse, material))
-      append(array, *label, warehouse.level(), values.data() + place * label->bytes);
-    return array;
-  }
-  const std::vector<std::byte> values = valuesOnGrid(warehouse, generation, number);
-  for (std::size_t at = 0; at < values.size(); at += label->bytes)
-    append(array, *label, warehouse.level(), values.data() + at);
+output::Array Gather::array(Generation generation, int number) {
+  const Label& label = *warehouse_->table()[number].label;
+  output::Array array = emptyArray(label);
+  if (label.centring == Centring::reduction || !warehouse_->isHeld(generation, number)) return array;
+  label.centring == Centring::particle ? fillParticles(generation, number, array) : fillGrid(generation, number, array);
   return array;
 }
 
@@ -144,11 +187,12 @@ output::GridInfo gridInfo(const grid::Level& level) {
 
 std::string fingerprint(data::Warehouse& warehouse, const std::vector<std::string>& labels, int materials) {
   XXH64_hash_t hash = 0;
+  Gather gather(warehouse);
   for (const std::string& label : labels)
     for (int material = -1; material < materials; ++material) {
       const int number = warehouse.table().find(label, material);
       if (number < 0) continue;
-      const output::Array array = gatherArray(warehouse, Generation::old, number);
+      const output::Array array = gather.array(Generation::old, number);
       std::visit([&](const auto& values) { hash = XXH64(values.data(), values.size() * sizeof(values[0]), hash); },
                  array.values);
     }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -8,10 +10,27 @@
 
 namespace tushar::simulation {
 
-/// The values of a variable of a generation over the whole grid, in an order that no layout changes: particles by id,
-/// nodes and cells with x fastest. Vectors come out in x, y, z. Empty if the variable is not held, and on every rank but
-/// the first; all ranks ask.
-output::Array gatherArray(data::Warehouse& warehouse, data::Generation generation, int variable);
+/// Gathers variables over the whole grid on the first rank, in an order that no layout changes: particles by id, nodes and
+/// cells with x fastest. Vectors come out in x, y, z. All ranks ask for the same, while the state is as it is.
+class Gather {
+ public:
+  explicit Gather(data::Warehouse& warehouse) : warehouse_(&warehouse) {}
+
+  /// The values of a variable of a generation; none if it is not held, and on every rank but the first.
+  output::Array array(data::Generation generation, int variable);
+
+ private:
+  /// By patch and place, the position of each particle of a material among all by id.
+  const std::vector<std::size_t>& positionsById(int material);
+  /// Calls `take(how many came before, values, count)` for each patch.
+  template <class Take>
+  void collectParticles(data::Generation generation, int number, Take&& take);
+  void fillParticles(data::Generation generation, int number, output::Array& array);
+  void fillGrid(data::Generation generation, int number, output::Array& array);
+
+  data::Warehouse* warehouse_;
+  std::map<int, std::vector<std::size_t>> positions_;  ///< by material
+};
 
 /// The geometry of the grid as the archive keeps it.
 output::GridInfo gridInfo(const grid::Level& level);

@@ -26,7 +26,9 @@ Json wallOf(const Report& report) {
           {"exchange", report.exchange},   {"tasks", tasks},
           {"use", {{"task", report.use.task}, {"message", report.use.message}, {"output", report.use.output},
                    {"wait", report.use.wait}}},
-          {"imbalance", report.use.imbalance}};
+          {"imbalance", report.use.imbalance},
+          {"rebalanced", {{"times", report.rebalancing.times}, {"step", report.rebalancing.step},
+                          {"before", report.rebalancing.before}, {"after", report.rebalancing.after}}}};
 }
 
 Json limitsOf(const Report& report) {
@@ -90,6 +92,13 @@ std::string useLine(const Report& report) {
                      100 * use.output / all, 100 * use.wait / all, use.imbalance);
 }
 
+std::string rebalancingLine(const Report& report) {
+  const Rebalancing& change = report.rebalancing;
+  if (change.times == 0) return "";
+  return fmt::format("  patches changed ranks {} time{}, last after step {}: the busiest rank had {:.2f} times its share, then {:.2f}\n",
+                     change.times, change.times == 1 ? "" : "s", change.step, change.before, change.after);
+}
+
 std::string timeTable(const Report& report) {
   std::string text = fmt::format("\n  {:<36} {:>10}\n", "wall time", "ms");
   const auto row = [&](const std::string& name, double seconds) {
@@ -100,7 +109,7 @@ std::string timeTable(const Report& report) {
   for (const TaskTime& task : report.tasks) row("  " + task.name, task.seconds);
   if (report.patches > 1) row("  ghost exchange", report.exchange);
   row("output", report.wallOutput);
-  return text + useLine(report);
+  return text + useLine(report) + rebalancingLine(report);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/simulation/balance.hpp"
 #include "core/simulation/time_use.hpp"
 #include "core/tasks/prune.hpp"
 
@@ -46,6 +47,7 @@ struct Report {
   double particleSteps = 0;
   double wallStartup = 0, wallLoop = 0, wallOutput = 0;  ///< s
   TimeUse use;
+  Rebalancing rebalancing;
   std::vector<TaskTime> tasks;
   double exchange = 0;  ///< s of the loop spent filling ghosts
   std::vector<ErrorNorms> errors;

@@ -26,6 +26,7 @@ Simulation::Simulation(Problem problem, const RunOptions& options, Clock::time_p
       warehouse_(*problem_.level, table_, ranks),
       scheduler_(warehouse_, std::clamp(problem_.threads, 1, std::max(1, warehouse_.patches()))),
       time_(problem_.time),
+      balance_(ranks.size()),
       progress_(options.quiet || !ranks.isFirst(), stdout),
       outputs_(problem_.time.initTime, problem_.archive.outputInterval) {
   if (problem_.archive.checkpoint) checkpoints_.emplace(*problem_.archive.checkpoint, problem_.time.initTime);
@@ -78,9 +79,11 @@ Report Simulation::run() {
 void Simulation::begin() {
   if (problem_.restart) {
     ranks_->onFirst([&] { lock_.emplace(problem_.restart->archive); });
-    return resume();
+    resume();
+    return balanceAtStart();
   }
   initialize();
+  balanceAtStart();
   totals_at_start_ = measureTotals(phases_.startTotals);
 }
 
@@ -141,6 +144,7 @@ void Simulation::step() {
   time_.advance();
   particle_steps_ += ownParticles();
   if (progress_.due()) progress_.live(time_.step(), time_.time(), time_.delT(), problem_.time.maxTime);
+  balanceIfDue();
   saveGlobals();
   saveIfDue();
   agreeOnClock();
@@ -194,8 +198,9 @@ bool Simulation::samples() const {
 
 void Simulation::sample(Analysis& analysis) {
   const auto started = Clock::now();
-  output::Snapshot snapshot = positions();
-  for (const SaveRequest& request : analysis.samples()) addField(snapshot, request);
+  Gather gather(warehouse_);
+  output::Snapshot snapshot = positions(gather);
+  for (const SaveRequest& request : analysis.samples()) addField(snapshot, request, gather);
   ranks_->onFirst([&] { analysis.sample(snapshot, folder_); });
   wall_output_ += since(started);
 }
@@ -224,7 +229,7 @@ void Simulation::save() {
                              time_.delT(), folder_));
 }
 
-output::Snapshot Simulation::positions() {
+output::Snapshot Simulation::positions(Gather& gather) {
   output::Snapshot snapshot;
   snapshot.step = time_.step();
   snapshot.time = time_.time();
@@ -234,27 +239,28 @@ output::Snapshot Simulation::positions() {
     const int number = table_.find(data::positionName, static_cast<int>(m));
     if (number < 0) continue;
     snapshot.particles.push_back({phases_.materials()[m], static_cast<int>(m), {}});
-    snapshot.particles.back().arrays.push_back(gatherArray(warehouse_, Generation::old, number));
+    snapshot.particles.back().arrays.push_back(gather.array(Generation::old, number));
   }
   return snapshot;
 }
 
 output::Snapshot Simulation::snapshot() {
-  output::Snapshot snapshot = positions();
-  for (const SaveRequest& save : phases_.savedFields()) addField(snapshot, save);
+  Gather gather(warehouse_);
+  output::Snapshot snapshot = positions(gather);
+  for (const SaveRequest& save : phases_.savedFields()) addField(snapshot, save, gather);
   for (const auto& analysis : problem_.analyses)
     for (output::Array& column : analysis->exactProfile(*problem_.level)) snapshot.reference.push_back(std::move(column));
   return snapshot;
 }
 
-void Simulation::addField(output::Snapshot& snapshot, const SaveRequest& save) {
+void Simulation::addField(output::Snapshot& snapshot, const SaveRequest& save, Gather& gather) {
   for (int m = -1; m < static_cast<int>(phases_.materials().size()); ++m) {
     const int number = table_.find(save.label, m);
     const std::string material = m < 0 ? "" : phases_.materials()[static_cast<std::size_t>(m)];
     if (number < 0 || save.label == data::positionName || (!save.material.empty() && save.material != material)) continue;
     const data::Label& label = *table_[number].label;
     const bool derived = !warehouse_.isHeld(Generation::old, number);
-    output::Array array = gatherArray(warehouse_, derived ? Generation::fresh : Generation::old, number);
+    output::Array array = gather.array(derived ? Generation::fresh : Generation::old, number);
     const bool empty = std::visit([](const auto& values) { return values.empty(); }, array.values);
     if (label.centring == data::Centring::particle)
       snapshot.particles[static_cast<std::size_t>(m)].arrays.push_back(std::move(array));
@@ -295,6 +301,7 @@ Report Simulation::makeReport() {
   report.dropped = ranks_->sum(scheduler_.relocation().dropped());
   report.steps = time_.step();
   report.retries = time_.retries();
+  report.rebalancing = balance_.report();
   for (const auto& [limit, steps] : time_.limits())
     report.limits.emplace_back(limit.text().empty() ? "unnamed" : limit.text(), steps);
   report.time = time_.time();

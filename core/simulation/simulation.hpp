@@ -12,11 +12,14 @@
 #include "core/output/archive.hpp"
 #include "core/output/checkpoint_store.hpp"
 #include "core/output/folder_lock.hpp"
+#include "core/simulation/balance.hpp"
 #include "core/simulation/checkpoint_control.hpp"
+#include "core/simulation/gather.hpp"
 #include "core/simulation/phases.hpp"
 #include "core/simulation/report.hpp"
 #include "core/simulation/restart.hpp"
 #include "core/simulation/stored_state.hpp"
+#include "core/tasks/migration.hpp"
 
 namespace tushar::simulation {
 
@@ -73,6 +76,10 @@ class Simulation {
   void step();
   /// Runs diagnostics on the state as it is now.
   void diagnose(tasks::TaskGraph& graph);
+  void balanceAtStart();
+  void balanceIfDue();
+  void balance(const std::vector<double>& costs);
+  tasks::Luggage luggage() const;
   bool hasEnded() const;
   void saveGlobals();
   /// Whether some analysis looks at particles while the run goes on.
@@ -82,9 +89,9 @@ class Simulation {
   void saveIfDue();
   bool outputDue() const;
   /// The particles of every material, with p.x alone.
-  output::Snapshot positions();
+  output::Snapshot positions(Gather& gather);
   output::Snapshot snapshot();
-  void addField(output::Snapshot& snapshot, const SaveRequest& save);
+  void addField(output::Snapshot& snapshot, const SaveRequest& save, Gather& gather);
   void resume();
   void checkScene(const output::Hdf5Input& file) const;
   output::CheckpointStore checkpointStore() const;
@@ -111,6 +118,7 @@ class Simulation {
   data::Warehouse warehouse_;
   tasks::Scheduler scheduler_;
   TimeControl time_;
+  Balance balance_;
   Progress progress_;
   std::optional<output::FolderLock> lock_;  ///< on the archive's folder
   std::unique_ptr<output::Archive> archive_;  ///< of the first rank

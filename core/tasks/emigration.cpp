@@ -9,10 +9,13 @@ namespace tushar::tasks {
 namespace {
 
 constexpr int tag = 2;
-/// Ranks with patches as near as this, in cells, are neighbours: few particles go farther in a step.
-constexpr int neighbourhood = 2;
 
 }  // namespace
+
+void Emigration::forgetLayout() {
+  knows_neighbours_ = false;
+  leaving_.clear();
+}
 
 void Emigration::start() {
   for (auto& particles : leaving_) particles.second.clear();

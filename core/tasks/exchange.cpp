@@ -108,59 +108,73 @@ class Exchange::Letters {
   std::map<int, Letter> letters_;
 };
 
+GhostReach reachOf(const data::VariableTable& table, const NumberedFill& fill) {
+  const auto [label, material] = table[fill.variable];
+  return {label->centring == data::Centring::node, fill.particles ? table.reach(material) : table.ghost(fill.variable)};
+}
+
 const GhostPlan& Exchange::planOf(const NumberedFill& fill) {
-  const auto [label, material] = warehouse_->table()[fill.variable];
-  const bool nodes = label->centring == data::Centring::node;
-  const int width = fill.particles ? warehouse_->table().reach(material) : warehouse_->table().ghost(fill.variable);
-  const auto [plan, isNew] = plans_.try_emplace({nodes, width});
-  if (isNew) plan->second = planGhosts(warehouse_->level(), nodes, width);
+  const GhostReach reach = reachOf(warehouse_->table(), fill);
+  const auto [plan, isNew] = plans_.try_emplace(reach);
+  if (isNew) plan->second = planGhosts(warehouse_->level(), reach.nodes, reach.width);
   return plan->second;
 }
 
-bool Exchange::run(std::span<const NumberedFill> fills, bool hasStopped) {
-  if (warehouse_->level().patchCount() == 1 && !warehouse_->level().isPeriodic()) return !hasStopped;
-  for (const NumberedFill& fill : fills) planOf(fill);
-  noteUnsettled(fills);
-  if (!warehouse_->ranks().isAlone())
-    threads_->alone([&] { post(fills, hasStopped); }, trace::Kind::message, "send");
-  if (!hasStopped) fillFromHere(fills);
-  std::set<int> senders;
-  for (const NumberedFill& fill : fills) senders.insert(planOf(fill).incoming.begin(), planOf(fill).incoming.end());
+void Exchange::begin(std::span<const NumberedFill> fills, bool hasStopped) {
+  has_stopped_ = hasStopped;
+  fills_ = fills;
+  senders_.clear();
+  if (warehouse_->level().patchCount() == 1 && !warehouse_->level().isPeriodic()) return;
+  for (const NumberedFill& fill : fills) {
+    const std::set<int>& incoming = planOf(fill).incoming;
+    senders_.insert(incoming.begin(), incoming.end());
+  }
+  noteUnsettled();
+  if (!warehouse_->ranks().isAlone()) threads_->alone([&] { post(); }, trace::Kind::message, "send");
+  if (!hasStopped) fillFromHere();
+}
+
+bool Exchange::finish() {
   Letters letters;
-  for (const int rank : senders) {
+  for (const int rank : senders_) {
     const trace::Span span(trace::Kind::wait, "receive");
     letters.add(rank, warehouse_->ranks().receive(rank, tag));
-    hasStopped = letters.readStopped(rank) || hasStopped;
+    has_stopped_ = letters.readStopped(rank) || has_stopped_;
   }
   outbox_.wait();
-  if (hasStopped) return false;
-  if (senders.empty()) return true;
+  const bool hasLetters = !senders_.empty();
+  senders_.clear();
+  if (has_stopped_ || !hasLetters) return !has_stopped_;
   const auto unpack = [&] {
-    for (std::size_t k = 0; k < fills.size(); ++k) fillFromElsewhere(fills[k], settles_[k], letters);
+    for (std::size_t k = 0; k < fills_.size(); ++k) fillFromElsewhere(fills_[k], settles_[k], letters);
   };
   threads_->alone(unpack, trace::Kind::message, "unpack");
   return true;
 }
 
+bool Exchange::isReady(std::size_t place) {
+  return std::all_of(fills_.begin(), fills_.end(), [&](const NumberedFill& fill) { return planOf(fill).isClosed[place]; });
+}
+
 template <class Work>
-void Exchange::forEach(std::span<const NumberedFill> fills, const Work& work) {
+void Exchange::forEach(const Work& work) {
   const std::vector<Patch>& patches = warehouse_->level().patches();
   const auto workOn = [&](int place) {
     const auto at = static_cast<std::size_t>(place);
     const trace::Span span(trace::Kind::message, "fill ghosts", patches[at].id());
-    for (std::size_t k = 0; k < fills.size(); ++k) work(fills[k], settles_[k], patches[at], at);
+    for (std::size_t k = 0; k < fills_.size(); ++k) work(fills_[k], settles_[k], patches[at], at);
   };
   threads_->forEach(static_cast<int>(patches.size()), workOn, trace::Kind::message);
 }
 
 /// A patch reads of others only what they own, and that stands still once all have made room.
-void Exchange::fillFromHere(std::span<const NumberedFill> fills) {
-  forEach(fills, [&](const NumberedFill& fill, bool settles, const Patch& patch, std::size_t place) {
+void Exchange::fillFromHere() {
+  forEach([&](const NumberedFill& fill, bool settles, const Patch& patch, std::size_t place) {
     if (!fill.particles || !planOf(fill).isClosed[place]) return;
     if (settles) settleGhosts(fill, patch, nullptr);
     makeRoom(fill, patch);
   });
-  forEach(fills, [&](const NumberedFill& fill, bool, const Patch& patch, std::size_t place) {
+  forEach([&](const NumberedFill& fill, bool, const Patch& patch, std::size_t place) {
     if (fill.particles && planOf(fill).isClosed[place]) return fillParticles(fill, patch, nullptr);
     if (fill.particles) return;
     for (const GhostCopy& copy : planOf(fill).into[place])
@@ -168,32 +182,32 @@ void Exchange::fillFromHere(std::span<const NumberedFill> fills) {
   });
 }
 
-void Exchange::noteUnsettled(std::span<const NumberedFill> fills) {
-  settles_.assign(fills.size(), false);
+void Exchange::noteUnsettled() {
+  settles_.assign(fills_.size(), false);
   std::set<std::pair<Generation, int>> settled;
-  for (std::size_t k = 0; k < fills.size(); ++k) {
-    const int material = warehouse_->table()[fills[k].variable].material;
-    if (!fills[k].particles || warehouse_->level().patches().empty()) continue;
+  for (std::size_t k = 0; k < fills_.size(); ++k) {
+    const int material = warehouse_->table()[fills_[k].variable].material;
+    if (!fills_[k].particles || warehouse_->level().patches().empty()) continue;
     const int patch = warehouse_->level().firstPatch();
-    settles_[k] = !warehouse_->particles(fills[k].set, material, patch).hasGhosts() &&
-                  settled.emplace(fills[k].set, material).second;
+    settles_[k] = !warehouse_->particles(fills_[k].set, material, patch).hasGhosts() &&
+                  settled.emplace(fills_[k].set, material).second;
   }
 }
 
-void Exchange::post(std::span<const NumberedFill> fills, bool hasStopped) {
+void Exchange::post() {
   std::set<int> receivers;
-  for (const NumberedFill& fill : fills)
+  for (const NumberedFill& fill : fills_)
     for (const auto& copies : planOf(fill).outgoing) receivers.insert(copies.first);
   for (const int rank : receivers) {
     Bytes message = outbox_.buffer();
-    message.push_back(std::byte{hasStopped});
-    for (std::size_t k = 0; k < fills.size() && !hasStopped; ++k) {
-      const auto copies = planOf(fills[k]).outgoing.find(rank);
-      if (copies == planOf(fills[k]).outgoing.end()) continue;
-      Packer packer(*warehouse_, fills[k], message);
+    message.push_back(std::byte{has_stopped_});
+    for (std::size_t k = 0; k < fills_.size() && !has_stopped_; ++k) {
+      const auto copies = planOf(fills_[k]).outgoing.find(rank);
+      if (copies == planOf(fills_[k]).outgoing.end()) continue;
+      Packer packer(*warehouse_, fills_[k], message);
       if (settles_[k])
         for (const GhostCopy& copy : copies->second) packer.addCounts(copy);
-      for (const GhostCopy& copy : copies->second) fills[k].particles ? packer.addParticles(copy) : packer.addGrid(copy);
+      for (const GhostCopy& copy : copies->second) fills_[k].particles ? packer.addParticles(copy) : packer.addGrid(copy);
     }
     outbox_.send(rank, tag, std::move(message));
   }

@@ -1,8 +1,9 @@
 #pragma once
 
+#include <compare>
 #include <map>
+#include <set>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "core/base/mpi.hpp"
@@ -19,10 +20,19 @@ struct NumberedFill {
   bool particles;
 };
 
+/// Which ghosts a fill needs, whatever the variable.
+struct GhostReach {
+  bool nodes;
+  int width;
+
+  friend auto operator<=>(const GhostReach&, const GhostReach&) = default;
+};
+GhostReach reachOf(const data::VariableTable& table, const NumberedFill& fill);
+
 /// Fills the ghosts of every patch from the patches that own them, on this rank or another.
 ///
 /// Before a task one message goes to each neighbouring rank, with all that it needs for that task; while messages are
-/// on their way, patches fill their ghosts from one another.
+/// on their way, patches fill their ghosts from one another, and those that need nothing of other ranks may be worked on.
 class Exchange {
  public:
   Exchange(data::Warehouse& warehouse, Threads& threads)
@@ -33,30 +43,47 @@ class Exchange {
   ///
   /// A rank on which a task failed says so in place of its values (`hasStopped`). False if a rank that this one hears of
   /// has stopped: then nothing is filled, and this one is to stop, too, before it reads what is not there.
-  bool run(std::span<const NumberedFill> fills, bool hasStopped);
+  bool run(std::span<const NumberedFill> fills, bool hasStopped) {
+    begin(fills, hasStopped);
+    return finish();
+  }
+  /// The same in two parts: posts messages, and fills what needs none from other ranks.
+  void begin(std::span<const NumberedFill> fills, bool hasStopped);
+  /// Waits for the messages of others and fills the rest. False as `run`.
+  bool finish();
+  /// Between the two: whether there are messages to wait for.
+  bool isUnderWay() const { return !senders_.empty(); }
+  /// Between the two: whether the patch at this place of the rank's has all its ghosts.
+  bool isReady(std::size_t place);
+  /// This rank has other patches from now on.
+  void forgetLayout() { plans_.clear(); }
 
  private:
   class Letters;
 
-  void post(std::span<const NumberedFill> fills, bool hasStopped);
+  void post();
   /// What patches of this rank have from one another.
-  void fillFromHere(std::span<const NumberedFill> fills);
+  void fillFromHere();
   void fillFromElsewhere(const NumberedFill& fill, bool settles, Letters& letters);
   void copyGrid(const NumberedFill& fill, const GhostCopy& copy);
   void settleGhosts(const NumberedFill& fill, const grid::Patch& patch, Letters* letters);
   void makeRoom(const NumberedFill& fill, const grid::Patch& patch);
   void fillParticles(const NumberedFill& fill, const grid::Patch& patch, Letters* letters);
-  void noteUnsettled(std::span<const NumberedFill> fills);
+  void noteUnsettled();
   /// Calls `work(fill, whether it settles ghosts, patch, its place)` on several threads at once.
   template <class Work>
-  void forEach(std::span<const NumberedFill> fills, const Work& work);
+  void forEach(const Work& work);
   const GhostPlan& planOf(const NumberedFill& fill);
 
   data::Warehouse* warehouse_;
   Threads* threads_;
   mpi::Outbox outbox_;
-  std::map<std::pair<bool, int>, GhostPlan> plans_;  ///< by whether of nodes, and width
-  std::vector<bool> settles_;                        ///< by fill: whether it settles which particles are ghosts
+  std::map<GhostReach, GhostPlan> plans_;
+  // Of the exchange under way:
+  std::span<const NumberedFill> fills_;
+  bool has_stopped_ = false;
+  std::set<int> senders_;      ///< ranks whose messages are awaited
+  std::vector<bool> settles_;  ///< by fill: whether it settles which particles are ghosts
 };
 
 }  // namespace tushar::tasks

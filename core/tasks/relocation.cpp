@@ -76,6 +76,12 @@ bool mayLeave(const grid::Level& level, const Vec<D>& x, const Index<D>& cell) {
 
 }  // namespace
 
+void Relocation::forgetLayout() {
+  moves_.clear();
+  spare_.clear();
+  emigration_.forgetLayout();
+}
+
 template <class Work>
 void Relocation::forEachPatch(const Work& work) {
   const std::vector<Patch>& patches = warehouse_->level().patches();

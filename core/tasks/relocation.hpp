@@ -28,6 +28,9 @@ class Relocation {
   /// Throws NumericalError, on all ranks, for a position that is not finite or lies behind a symmetry plane.
   bool run(int material, int position, const std::vector<Carried>& carried, bool hasStopped);
 
+  /// This rank has other patches from now on.
+  void forgetLayout();
+
   /// A step begins, perhaps for the second time.
   void start() { leaving_ = 0; }
   /// The step counts.

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <mutex>
+#include <utility>
 
 #include "core/base/error.hpp"
 
@@ -67,13 +68,50 @@ std::string placeOf(const CompiledTask& task, int patch, int material, const Ste
 }
 
 template <class Work>
-void Scheduler::forEachPatch(const CompiledTask& task, const Work& work) {
-  const std::vector<grid::Patch>& patches = warehouse_->level().patches();
-  threads_.forEach(static_cast<int>(patches.size()), [&](int k) {
-    const grid::Patch& patch = patches[static_cast<std::size_t>(k)];
-    const trace::Span span(trace::Kind::task, task.task.name, patch.id());
-    work(patch);
-  });
+void Scheduler::workOn(std::size_t place, const CompiledTask& task, const Work& work) {
+  const grid::Patch& patch = warehouse_->level().patches()[place];
+  const trace::Span span(trace::Kind::task, task.task.name, patch.id());
+  if (warehouse_->ranks().isAlone()) return work(patch);
+  const auto started = Clock::now();
+  work(patch);
+  costs_[place] += seconds(Clock::now() - started);
+}
+
+/// Those that have their ghosts first; the others when the messages are there.
+template <class Work>
+void Scheduler::forEachPatch(CompiledTask& task, const Work& work) {
+  const int patches = warehouse_->patches();
+  if (!exchange_.isUnderWay())
+    return threads_.forEach(patches, [&](int k) { workOn(static_cast<std::size_t>(k), task, work); });
+  std::vector<std::size_t> early, late;
+  for (std::size_t place = 0; place < static_cast<std::size_t>(patches); ++place)
+    (exchange_.isReady(place) ? early : late).push_back(place);
+  const auto workOnAll = [&](const std::vector<std::size_t>& places) {
+    threads_.forEach(static_cast<int>(places.size()), [&](int k) { workOn(places[static_cast<std::size_t>(k)], task, work); });
+  };
+  workOnAll(early);
+  if (finishExchange(task)) workOnAll(late);
+}
+
+/// False if a rank that this one hears of has stopped.
+bool Scheduler::finishExchange(CompiledTask& task) {
+  const auto started = Clock::now();
+  heard_stop_ = !exchange_.finish() || heard_stop_;
+  const double taken = seconds(Clock::now() - started);
+  task.exchangeSeconds += taken;
+  task.seconds -= taken;
+  return !heard_stop_;
+}
+
+std::vector<double> Scheduler::takeCosts() {
+  costs_.resize(warehouse_->level().patches().size());
+  return std::exchange(costs_, std::vector<double>(costs_.size()));
+}
+
+void Scheduler::forgetLayout() {
+  exchange_.forgetLayout();
+  relocation_.forgetLayout();
+  costs_.clear();
 }
 
 void Scheduler::divideReductions(const CompiledTask& task) {
@@ -107,6 +145,7 @@ void Scheduler::start(const TaskGraph& graph) {
   outcome_ = {};
   error_.reset();
   heard_stop_ = false;
+  costs_.resize(warehouse_->level().patches().size());
   relocation_.start();
   for (const int reduction : graph.reductions()) warehouse_->resetReduction(reduction);
 }
@@ -115,7 +154,8 @@ void Scheduler::runTask(CompiledTask& task, int number, const StepInfo& at) {
   running_ = number;
   auto started = Clock::now();
   if (!task.fills.empty()) {
-    heard_stop_ = !exchange_.run(task.fills, hasStopped()) || heard_stop_;
+    exchange_.begin(task.fills, hasStopped());
+    if (!task.mayStartEarly || hasStopped()) heard_stop_ = !exchange_.finish() || heard_stop_;
     const auto exchanged = Clock::now();
     task.exchangeSeconds += seconds(exchanged - started);
     started = exchanged;
@@ -133,13 +173,13 @@ std::optional<data::Minimum> Scheduler::askedBy(const CompiledTask& task) {
   return factor.value < 1 ? std::optional(factor) : std::nullopt;
 }
 
-/// A task that may ask runs for all materials, whatever happens: all that ask are heard.
+/// A task that may ask runs for all materials, whatever happens on this rank: all that ask are heard.
 void Scheduler::runWork(CompiledTask& task, const StepInfo& at) {
   divideReductions(task);
   const bool mayAsk = task.recomputeTimeStep >= 0, isOnce = task.task.acrossMaterials || task.task.perRank;
   const int first = isOnce ? -1 : firstMaterial(task);
   const int end = first + (isOnce ? 1 : static_cast<int>(task.materials.size()));
-  for (int m = first; m < end && (mayAsk || !hasStopped()); ++m)
+  for (int m = first; m < end && !heard_stop_ && (mayAsk || !hasStopped()); ++m)
     if (task.task.perRank)
       threads_.alone([&] { runOnRank(task, at); }, trace::Kind::task, task.task.name);
     else

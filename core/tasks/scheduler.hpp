@@ -43,6 +43,11 @@ class Scheduler {
   /// Makes the results of a graph the old state.
   void commit(const TaskGraph& graph);
 
+  /// What each patch of this rank has cost since this was asked last, s; nothing is measured on a rank alone.
+  std::vector<double> takeCosts();
+  /// This rank has other patches from now on.
+  void forgetLayout();
+
   Relocation& relocation() { return relocation_; }
   const Threads& threads() const { return threads_; }
 
@@ -53,7 +58,10 @@ class Scheduler {
   void runWork(CompiledTask& task, const StepInfo& at);
   void relocate(const CompiledTask& task, const StepInfo& at);
   template <class Work>
-  void forEachPatch(const CompiledTask& task, const Work& work);
+  void forEachPatch(CompiledTask& task, const Work& work);
+  template <class Work>
+  void workOn(std::size_t place, const CompiledTask& task, const Work& work);
+  bool finishExchange(CompiledTask& task);
   void divideReductions(const CompiledTask& task);
   void gatherReductions(const CompiledTask& task);
   void runOnPatches(CompiledTask& task, int material, const StepInfo& at);
@@ -75,6 +83,7 @@ class Scheduler {
   Relocation relocation_;
   Outcome outcome_;                      ///< of the run of a graph
   std::optional<NumericalError> error_;  ///< behind it, on the rank where a body threw it
+  std::vector<double> costs_;            ///< by patch, s
   bool heard_stop_ = false;              ///< a rank whose values this one needs has stopped
   int running_ = 0;                      ///< place of the task in its graph
 };

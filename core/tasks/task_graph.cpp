@@ -27,6 +27,18 @@ std::map<std::string, std::pair<const data::Label*, int>, std::less<>> labelsOf(
   return labels;
 }
 
+/// Whether a patch may be worked on before others have their ghosts: the task leaves alone what they are filled from.
+bool mayStartEarly(const CompiledTask& task, const data::VariableTable& table) {
+  const auto isFilled = [&](const Access& access) {
+    return std::any_of(task.fills.begin(), task.fills.end(), [&](const NumberedFill& fill) {
+      return table[fill.variable].label->name == access.label->name;
+    });
+  };
+  const std::vector<Access>& accesses = task.task.accesses;
+  return task.task.kind == TaskKind::work && !task.task.acrossMaterials && !task.task.perRank &&
+         std::none_of(accesses.begin(), accesses.end(), [&](const Access& one) { return one.writes() && isFilled(one); });
+}
+
 int materialOf(const Access& access, int material) {
   return access.label->centring == Centring::reduction ? -1 : material;
 }
@@ -50,6 +62,7 @@ TaskGraph::TaskGraph(std::string name, Pruned pruned, const grid::Level& level, 
   for (const CompiledTask& task : tasks_) reductions_.insert(reductions_.end(), task.reductions.begin(), task.reductions.end());
   std::sort(reductions_.begin(), reductions_.end());
   reductions_.erase(std::unique(reductions_.begin(), reductions_.end()), reductions_.end());
+  for (CompiledTask& task : tasks_) task.mayStartEarly = mayStartEarly(task, table);
   noteResults(table);
 }
 

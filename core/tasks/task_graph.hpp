@@ -36,6 +36,7 @@ struct CompiledTask {
   std::vector<MaterialBinding> materials;  ///< one for a task that belongs to no material
   std::vector<NumberedFill> fills;
   std::vector<int> reductions, readReductions;  ///< that it computes, and reads
+  bool mayStartEarly = false;   ///< whether patches that have their ghosts may be worked on while others wait for theirs
   int recomputeTimeStep = -1;   ///< number of that reduction, for a task that may ask for the step to be repeated
   double seconds = 0;           ///< time spent in it so far
   double exchangeSeconds = 0;   ///< of that, time spent filling ghosts before it

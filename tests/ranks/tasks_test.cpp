@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
+#include "core/tasks/migration.hpp"
 #include "tests/ranks/ranks.hpp"
 
 // Ghosts, relocation, reductions and faults over several ranks.
@@ -89,10 +90,13 @@ class Swarm {
     step = run.compile(advance, {"p.x", "p.mark", "wrong", "count"}, true);
     run.step(begin);
   }
+  /// Patches change ranks before each step from now on: all to one, or to each another number of them.
+  void keepMoving() { moves = true; }
   /// What is wrong after some steps, and how many particles there are.
   std::pair<double, double> after(int steps) {
     double all = 0;
     for (int k = 0; k < steps; ++k) {
+      if (moves) move(k);
       run.step(step);
       all += valueOf(run, "wrong");
     }
@@ -100,6 +104,15 @@ class Swarm {
   }
 
  private:
+  void move(int turn) {
+    const int ranks = run.level.share().ranks, patches = run.level.patchCount();
+    grid::Firsts firsts{0};
+    for (int rank = 1; rank < ranks; ++rank) firsts.push_back(turn % 2 == 0 ? patches : patches * rank * rank / (ranks * ranks));
+    firsts.push_back(patches);
+    const Luggage luggage{1, {run.table.find("p.x", 0), run.table.find("p.mark", 0), run.table.find(data::particleId.name, 0)}};
+    migrate(run.level, run.warehouse, luggage, firsts);
+    run.scheduler.forgetLayout();
+  }
   static void create(const Patch& patch, const Material&, ParticleMaker& maker, std::vector<Vec<2>>& at,
                      std::vector<double>& marks) {
     forEach<2>(patch.cells(), [&](const Index<2>& cell) {
@@ -128,6 +141,7 @@ class Swarm {
 
   test::Runner run;
   TaskGraph begin, step;
+  bool moves = false;
 };
 
 /// What comes of a run in which one task does something to one cell.
@@ -186,6 +200,17 @@ TEST(Ranks, HandParticlesToOneAnother) {
       for (const Index3& patches : {Index3{{2, 1, 1}}, {{12, 10, 1}}})
         for (const double jump : {0.3, 5.2})  // the second to ranks that are no neighbours
           EXPECT_EQ(Swarm(some, patches, jump).after(4), std::pair(0.0, 240.0)) << some.size() << " ranks, jump " << jump;
+    });
+}
+
+TEST(Ranks, MayGivePatchesToOneAnotherBetweenSteps) {
+  for (const int ranks : {2, 4})
+    onRanks(ranks, [](const mpi::Communicator& some) {
+      for (const Index3& patches : {Index3{{2, 1, 1}}, {{12, 10, 1}}}) {
+        Swarm swarm(some, patches, 0.3);
+        swarm.keepMoving();
+        EXPECT_EQ(swarm.after(5), std::pair(0.0, 240.0)) << some.size() << " ranks";
+      }
     });
 }
 

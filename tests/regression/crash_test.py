@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
-"""A run that is killed at any instant, or whose checkpoints are damaged, goes on from the last whole one."""
+"""A run that was cut, or whose checkpoints are damaged, goes on from the last whole one."""
 import pathlib
-import random
 import shutil
 import subprocess
 import sys
@@ -13,7 +12,6 @@ from sus import ROOT
 from uda import Folder
 
 SOD = "ups/mpm/sod.ups"
-LAYOUTS = ("[1,1,1]", "[3,1,1]", "[7,1,1]")
 
 
 def every(steps, cycle=2):
@@ -22,7 +20,7 @@ def every(steps, cycle=2):
 
 class Crash(unittest.TestCase):
     def setUp(self):
-        self.here = Folder(on_disk="killed" in self._testMethodName)
+        self.here = Folder()
         self.addCleanup(self.here.cleanup)
 
     def uncut(self):
@@ -31,52 +29,6 @@ class Crash(unittest.TestCase):
         code, errors, report = with_none.run(SOD)
         self.assertEqual((code, errors), (0, ""))
         return report["fingerprint"], with_none
-
-    def killed_after(self, here, seconds, words, sets):
-        """Whether the run came to its end before it was killed."""
-        run = subprocess.Popen(here.command(words, sets), cwd=ROOT, stderr=subprocess.PIPE, text=True)
-        try:
-            errors = run.communicate(timeout=seconds)[1]
-        except subprocess.TimeoutExpired:
-            run.kill()
-            errors = run.communicate()[1]
-        self.assertEqual(errors, "")
-        self.assertIn(run.returncode, (0, -9))
-        return run.returncode == 0
-
-    def kill_until_done(self, here, chance, whole):
-        """Kills a run at random instants, and goes on from what is left of it, until it is done; the number of kills.
-        `whole` is the time of a run that is let alone."""
-        sets = every(10, cycle=chance.choice((1, 2)))
-        kills = 0
-        while True:
-            seconds = chance.uniform(0, (0.5 + 0.1 * kills) * whole)
-            if list(here.path.glob("*.uda/checkpoints/t?????")):
-                layout = f"Grid/Level/Box/patches={chance.choice(LAYOUTS)}"
-                done = self.killed_after(here, seconds, ["-restart", here.uda], [layout])
-            else:
-                for path in here.path.glob("*.uda*"):
-                    path.unlink() if path.is_symlink() else shutil.rmtree(path)
-                done = self.killed_after(here, seconds, [SOD, "--output", here.path], sets)
-            if done:
-                return kills
-            kills += 1
-
-    def test_a_run_that_is_killed_over_and_over_ends_with_the_bits_of_the_uncut_one(self):
-        fingerprint, other = self.uncut()
-        started = time.monotonic()
-        self.here.run(SOD, *every(10))
-        whole = time.monotonic() - started
-        chance = random.Random(20)
-        kills = 0
-        while kills < 10:
-            here = Folder(on_disk=True)
-            self.addCleanup(here.cleanup)
-            kills += self.kill_until_done(here, chance, whole)
-            code, errors, report = here.restart()
-            self.assertEqual((code, errors, report["fingerprint"]), (0, "", fingerprint))
-            for name in ("index.xml", "sod.xdmf", "KineticEnergy.dat"):
-                self.assertEqual((here.uda / name).read_text(), (other.uda / name).read_text())
 
     def files(self):
         return {path: path.read_bytes() for path in self.here.uda.rglob("*") if path.is_file()}

@@ -2,7 +2,6 @@
 """Runs under mpirun: the same bits, the same files, restarts on other ranks, and what a fault on one rank leaves."""
 import os
 import pathlib
-import random
 import re
 import signal
 import subprocess
@@ -12,7 +11,7 @@ import time
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from sus import ROOT, SUS, on_ranks
+from sus import FAULTY_SUS, ROOT, SUS, on_ranks
 from uda import Folder
 
 SOD = "ups/mpm/sod.ups"
@@ -75,26 +74,6 @@ class Ranks(unittest.TestCase):
             code, errors, report = here.restart("Time/max_Timesteps=1000", "Grid/Level/Box/patches=[3,1,1]")
             self.assertEqual((code, errors, report["fingerprint"]), (0, "", fingerprint))
 
-    def test_a_rank_that_is_killed_at_any_instant_ends_the_job_and_the_run_goes_on(self):
-        fingerprint = self.uncut()["fingerprint"]
-        chance = random.Random(5)
-        kills = 0
-        while kills < 3:
-            here = self.folder(3, on_disk=True)
-            job = self.start(here, [SOD, "--output", here.path], (*EVERY, PATCHES))
-            ranks = self.ranks_of(job)
-            while not list(here.path.glob("*.uda/checkpoints/LATEST")) and job.poll() is None:
-                time.sleep(0.01)
-            time.sleep(chance.uniform(0, 0.3))
-            if job.poll() is None:
-                os.kill(chance.choice(ranks), signal.SIGKILL)
-                self.assertNotEqual(job.wait(timeout=PATIENCE), 0)
-            job.communicate()
-            kills += 1
-            here.ranks = chance.choice((1, 2, 3))
-            code, _, report = here.restart("Grid/Level/Box/patches=[4,1,1]")
-            self.assertEqual((code, report["fingerprint"]), (0, fingerprint))
-
     def test_sigterm_leaves_a_checkpoint(self):
         here = self.folder(3)
         job = self.start(here, [SOD, "--output", here.path], FINE)
@@ -121,6 +100,22 @@ class Ranks(unittest.TestCase):
             job = subprocess.Popen(line.split(), cwd=ROOT, stderr=subprocess.PIPE, text=True)
             self.assertIn("(rank 1 of 3)", self.assert_over(job, "gone.ups"))
 
+    def test_a_throw_in_a_task_of_one_rank_ends_all_with_one_sentence(self):
+        here = self.folder(3)
+        command = here.command(["ups/heat/sine.ups", "-layout", "6x1x1", "--output", here.path], EVERY)
+        job = subprocess.Popen([FAULTY_SUS if word == SUS else word for word in command], cwd=ROOT,
+                               stderr=subprocess.PIPE, text=True)
+        errors = self.assert_over(job, "sus: made to fail (task faulty::fail, patch 3, step ")
+        self.assertEqual(errors.count("(rank 1 of 3)"), 1)
+        code, errors, report = here.restart()
+        self.assertEqual((code, errors, report["ended"]), (0, "", "maxTime"))
+
+    def test_what_a_task_of_one_rank_finds_wrong_with_the_scene_ends_all_with_one_sentence(self):
+        job = self.start(self.folder(3), ["ups/heat/sine.ups", "-layout", "3x1x1"],
+                         ("Heat/temperature=x>0.4 && x<0.6 ? 0/0 : 1",))
+        self.assert_over(job, "must be finite everywhere")
+        self.assertEqual(job.returncode, 3)
+
     def test_a_folder_that_cannot_be_written_ends_all(self):
         self.assert_over(self.start(self.folder(3), [SOD, "--output", "/proc"], ()), "sus: ")
 
@@ -141,15 +136,29 @@ class Ranks(unittest.TestCase):
                               capture_output=True, text=True)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
 
-    def test_a_value_that_cannot_be_is_told_as_on_one_rank(self):
+    def bare(self, here):
+        """Sod's tube by the paper's method with one particle per cell, which empties a cell."""
         text = (ROOT / "ups/mpm/sod_redistribute.ups").read_text()
         start, end = text.index("      <redistribute>"), text.index("</redistribute>") + len("</redistribute>")
+        scene = here.path / "bare.ups"
+        scene.write_text(text[:start] + text[end:])
+        return scene
+
+    def test_a_step_is_repeated_on_all_ranks_to_the_same_bits(self):
+        found = set()
+        for ranks in (1, 2, 3):
+            here = self.folder(ranks)
+            code, errors, report = here.run(self.bare(here), PATCHES, "Time/recompute_timestep=true")
+            self.assertEqual((code, errors), (0, ""))
+            self.assertGreater(report["retries"], 0)
+            found.add((report["fingerprint"], report["steps"], report["retries"]))
+        self.assertEqual(len(found), 1, found)
+
+    def test_a_value_that_cannot_be_is_told_as_on_one_rank(self):
         said = []
         for ranks in (1, 3):
             here = self.folder(ranks)
-            scene = here.path / "bare.ups"
-            scene.write_text(text[:start] + text[end:])
-            code, errors, _ = here.run(scene, PATCHES)
+            code, errors, _ = here.run(self.bare(here), PATCHES)
             self.assertEqual(code, 4)
             sentence = [line for line in errors.splitlines() if line.startswith("sus:")]
             said.append([re.sub("saved: .*", "", line) for line in sentence])
@@ -160,6 +169,14 @@ class Ranks(unittest.TestCase):
             alone = subprocess.run([SUS, *words], cwd=ROOT, capture_output=True, text=True)
             several = subprocess.run([*on_ranks(3), SUS, *words], cwd=ROOT, capture_output=True, text=True)
             self.assertEqual((several.returncode, several.stdout), (0, alone.stdout), words)
+
+    def test_patches_change_ranks_where_particles_are_few_on_some_and_no_bit_changes(self):
+        scene, end = "ups/solid/two_discs.ups", "Time/max_Timesteps=20"
+        alone, several = (self.folder(ranks).finish([scene, "-layout", "5x5x1"], [end])[2] for ranks in (1, 3))
+        self.assertEqual(several["fingerprint"], alone["fingerprint"])
+        changes = several["wall"]["rebalanced"]
+        self.assertGreaterEqual(changes["times"], 1)
+        self.assertLess(changes["after"], changes["before"])
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "components/mpm/conserving/labels.hpp"
-#include "components/mpm/conserving/grid_fields.hpp"
+#include "components/mpm/conserving/grid_sums.hpp"
 #include "components/mpm/materials/gas.hpp"
 #include "components/reference/gas_solution.hpp"
 
@@ -53,13 +53,13 @@ void computeCellVelocity(const Patch& patch, const Gas&, ParticleView<const Vec<
                          ParticleView<const Modes<D>> modes, CellView<const double> cellMass,
                          CellView<Vec<D>> cellVelocity) {
   const Level& level = patch.level();
-  GridFields<D, D> momentum(x.cells());
+  GridSums<D, D, 0> momentum(x.cells());
   forEachBatch<D>(x.cells(), x, [&](const Batch<D>& batch) {
     const LanesVec<D> centre = load(x, batch), v = load(velocity, batch);
     const LanesModes<D> u = load(modes, batch);
     const Footprint<D> footprint(level, batch, centre, load(edges, batch));
     const Lanes m = batch.only(load(mass, batch));
-    typename GridFields<D, D>::Brought brought;
+    typename GridSums<D, D, 0>::Brought brought;
     footprint.forEachPart([&](const Index<D>& k, const Lanes& part) {
       LanesVec<D> there = v;
       for (std::size_t d = 0; d < D; ++d) {
@@ -68,8 +68,9 @@ void computeCellVelocity(const Patch& patch, const Gas&, ParticleView<const Vec<
       }
       for (std::size_t d = 0; d < D; ++d) brought[d][Footprint<D>::number(k)] = part * m * there[static_cast<int>(d)];
     });
-    momentum.add(footprint, batch.count, 0, brought);
+    momentum.add(footprint, batch.count, brought);
   });
+  momentum.finish();
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     const double m = cellMass[cell], inverse = m > 0 ? 1 / m : 0;
     for (std::size_t d = 0; d < D; ++d) cellVelocity[cell][static_cast<int>(d)] = inverse * momentum.at(d, cell);

@@ -1,0 +1,51 @@
+#include "core/grid/balance.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace tushar::grid {
+
+namespace {
+
+/// Gives each rank as much as stays below `most`; the last rank gets what is left.
+Firsts filledUpTo(double most, const std::vector<double>& costs, int ranks) {
+  Firsts firsts{0};
+  double share = 0;
+  for (std::size_t patch = 0; patch < costs.size(); ++patch) {
+    if (patch > 0 && share + costs[patch] > most && static_cast<int>(firsts.size()) < ranks) {
+      firsts.push_back(static_cast<int>(patch));
+      share = 0;
+    }
+    share += costs[patch];
+  }
+  firsts.resize(static_cast<std::size_t>(ranks) + 1, static_cast<int>(costs.size()));
+  return firsts;
+}
+
+}  // namespace
+
+double greatestShare(const std::vector<double>& costs, const Firsts& firsts) {
+  double greatest = 0;
+  for (std::size_t rank = 0; rank + 1 < firsts.size(); ++rank)
+    greatest = std::max(greatest, std::accumulate(costs.begin() + firsts[rank], costs.begin() + firsts[rank + 1], 0.0));
+  return greatest;
+}
+
+Firsts evenShares(const std::vector<double>& costs, int ranks) {
+  constexpr int halvings = 40;
+  double most = std::accumulate(costs.begin(), costs.end(), 0.0), least = most / ranks;
+  Firsts best = filledUpTo(most, costs, ranks);
+  for (int k = 0; k < halvings && least < most; ++k) {
+    const double middle = 0.5 * (least + most);
+    Firsts tried = filledUpTo(middle, costs, ranks);
+    if (greatestShare(costs, tried) > middle) {
+      least = middle;
+      continue;
+    }
+    most = middle;
+    best = std::move(tried);
+  }
+  return best;
+}
+
+}  // namespace tushar::grid

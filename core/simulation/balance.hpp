@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/grid/balance.hpp"
+
+namespace tushar::simulation {
+
+/// What the report says of patches that have changed ranks.
+struct Rebalancing {
+  int times = 0;
+  int step = 0;                   ///< after which they did so last
+  double before = 1, after = 1;   ///< costs of the rank that has most over the mean, then
+};
+
+/// Decides when patches change ranks.
+///
+/// At the start by cells and particles. Later by what tasks have taken on each patch, looked at after 8, 16, 32 and then
+/// every 64 steps: where over the steps that have been measured other shares would have saved more time than the last
+/// change took.
+class Balance {
+ public:
+  explicit Balance(int ranks) : ranks_(ranks) {}
+
+  /// What a patch costs at the start, in cells.
+  static double costOf(std::size_t cells, int particles) { return static_cast<double>(cells) + particleCost * particles; }
+
+  /// A step is done: whether to look at the costs.
+  bool isDue() { return ranks_ > 1 && ++steps_ >= next_; }
+  /// Other shares, if those of now are to be left: the rank that has most gets a tenth less, and over `costs` (of each
+  /// patch of the grid) that saves more than the change takes.
+  std::optional<grid::Firsts> better(const std::vector<double>& costs, const grid::Firsts& now, int step);
+  /// The change took so long [s] on the slowest rank.
+  void noteChange(double seconds) { change_ = seconds; }
+
+  const Rebalancing& report() const { return report_; }
+
+ private:
+  static constexpr double particleCost = 1;  ///< of a particle, in cells
+  static constexpr int soonest = 8, latest = 64;
+
+  int ranks_;
+  int steps_ = 0, next_ = soonest;
+  double change_ = 0;
+  Rebalancing report_;
+};
+
+}  // namespace tushar::simulation
