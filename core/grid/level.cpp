@@ -1,5 +1,7 @@
 #include "core/grid/level.hpp"
 
+#include <algorithm>
+
 namespace tushar::grid {
 
 Level::Level(const Domain& domain, Share share) : domain_(domain), share_(share) {

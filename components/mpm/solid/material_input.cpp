@@ -126,21 +126,20 @@ void acceptUintahsTags(Schema<Material>& tags) {
 
 const Schema<Material>& materialSchema() {
   static const Schema<Material> schema = [] {
-    Schema<Material> material =
-        Schema<Material>("material", "A material and the bodies made of it.")
-            .attributeValue("name", &Material::name, "", "1", "its name; material0, material1, … where none is given")
-            .required("density", &Material::density, "kg/m^3", "density at the start", input::positive())
-            .value("specific_heat", &Material::specificHeat, 0, "J/(kg K)", "c_v", input::nonNegative())
-            .value("thermal_conductivity", &Material::thermalConductivity, 0, "W/(m K)", "conductivity",
-                   input::nonNegative())
-            .value("melt_temp", &Material::meltTemperature, 295, "K", "temperature at which it melts", input::positive())
-            .value("room_temp", &Material::roomTemperature, 294, "K", "temperature of the constants of damage",
-                   input::nonNegative())
-            .custom("constitutive_model", readModel, {"constitutive_model"}, "how it answers to being deformed",
-                    describeModels)
-            .custom("damage_model", readDamage, {"damage_model", "erosion"}, "how it fails, and what it bears then",
-                    describeDamage)
-            .list("geom_object", &Material::bodies, bodySchema(), "a body of material at the start", 1);
+    Schema<Material> material("material", "A material and the bodies made of it.");
+    material.attributeValue("name", &Material::name, "", "1", "its name; material0, material1, … where none is given")
+        .required("density", &Material::density, "kg/m^3", "density at the start", input::positive())
+        .value("specific_heat", &Material::specificHeat, 0, "J/(kg K)", "c_v", input::nonNegative())
+        .value("thermal_conductivity", &Material::thermalConductivity, 0, "W/(m K)", "conductivity",
+               input::nonNegative())
+        .value("melt_temp", &Material::meltTemperature, 295, "K", "temperature at which it melts", input::positive())
+        .value("room_temp", &Material::roomTemperature, 294, "K", "temperature of the constants of damage",
+               input::nonNegative())
+        .custom("constitutive_model", readModel, {"constitutive_model"}, "how it answers to being deformed",
+                describeModels)
+        .custom("damage_model", readDamage, {"damage_model", "erosion"}, "how it fails, and what it bears then",
+                describeDamage)
+        .list("geom_object", &Material::bodies, bodySchema(), "a body of material at the start", 1);
     acceptUintahsTags(material);
     return material;
   }();
