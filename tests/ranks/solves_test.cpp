@@ -85,11 +85,11 @@ TEST(Solves, GiveTheSameTemperatureOnAnyRanks) {
 }
 
 TEST(Solves, GiveTheSameDisplacementOfASolidOnAnyRanks) {
-  expectSame("ups/solid/cantilever.ups", "p.displacement", 2, {patches});
+  expectSame("ups/solid/implicit_cantilever.ups", "p.displacement", 2, {patches});
 }
 
 TEST(Solves, GiveTheSameDisplacementWithGimpAndInertia) {
-  expectSame("ups/solid/cantilever.ups", "p.displacement", 2,
+  expectSame("ups/solid/implicit_cantilever.ups", "p.displacement", 2,
              {patches, "MPM/interpolator=gimp", "MPM/dynamic=true", "MPM/DoPressureStabilization=true"});
 }
 

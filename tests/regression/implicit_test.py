@@ -10,7 +10,7 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from sus import ROOT, SUS, run
 
-BEAM = "ups/solid/cantilever.ups"
+BEAM = "ups/solid/implicit_cantilever.ups"
 COARSE = ("MPM/interpolator=gimp", "Grid/Level/Box/upper=[1.2,0.8,0.05]", "Grid/Level/Box/resolution=[12,8,1]")
 
 

@@ -4,7 +4,6 @@
 
 #include <random>
 
-#include "components/mpm/solid/contact/friction.hpp"
 #include "components/mpm/solid/shapes/cpdi_shape.hpp"
 #include "components/mpm/solid/tasks/affine.hpp"
 #include "components/mpm/solid/tasks/interpolate_momentum.hpp"
@@ -221,25 +220,6 @@ TYPED_TEST(Affine, KeepsAngularMomentumToTheGridAndBack) {
   updateAffineMoment<TypeParam>(c.patch(), c.material, c.method, c.nodes(), c.read(c.x), {}, c.write(b));
   EXPECT_LT((onGrid - before).norm(), roundOff * 10) << "sums of order 10";
   EXPECT_LT((spin(v, b) - before).norm(), roundOff * 10);
-}
-
-TEST(Friction, LeavesBodiesThatPartAlone) {
-  EXPECT_EQ(frictionChange<2>({{0, 1}, {1, -1}, false}, 0.5).norm(), 0);
-}
-
-TEST(Friction, StopsWhatIsSlowerThanItHolds) {
-  const Vec<2> change = frictionChange<2>({{0, 1}, {0.2, 1}, false}, 0.5);
-  EXPECT_LT((change + Vec<2>(0.2, 1)).norm(), roundOff) << "mu |v_n| = .5 is more than the slip of .2";
-}
-
-TEST(Friction, SlowsFasterSlipByMuTimesTheApproach) {
-  const Vec<2> change = frictionChange<2>({{0, 1}, {2, 1}, false}, 0.5);
-  EXPECT_LT((change - Vec<2>(-0.5, -1)).norm(), roundOff);
-}
-
-TEST(Friction, HoldsPressedBodiesTogether) {
-  const Vec<2> change = frictionChange<2>({{0, 1}, {0, -1}, true}, 0.5);
-  EXPECT_LT((change - Vec<2>(0, 1)).norm(), roundOff);
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/LU>
+
 #include "components/mpm/solid/labels.hpp"
 #include "components/mpm/solid/material.hpp"
 
@@ -15,14 +17,16 @@ double crossingTime(const Level& level, double c, const Vec<D>& v) {
   return time;
 }
 
-/// Of the state at the start, whose particles are not deformed.
+/// Of the state at the start, with the speed of a wave where the density is that of F.
 template <int D>
 void computeInitialTimeStep(const Patch& patch, const Material& material, ParticleView<const Vec<D>> velocity,
-                            ParticleView<const double> temperature, CellView<double> stableTimeStep) {
+                            ParticleView<const double> temperature, ParticleView<const Matrix3> deformation,
+                            CellView<double> stableTimeStep) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     double least = std::numeric_limits<double>::infinity();
     for (const int p : velocity.in(cell)) {
-      const double waveSpeed = material.model->initialWaveSpeed(material.density, temperature[p]);
+      const double density = material.density / deformation[p].determinant();
+      const double waveSpeed = material.model->initialWaveSpeed(density, temperature[p]);
       least = std::min(least, crossingTime<D>(patch.level(), waveSpeed, velocity[p]));
     }
     stableTimeStep[cell] = least;
