@@ -37,9 +37,13 @@ void gatherWords(const std::byte* from, std::byte* to, const int* source, int co
 
 /// to[k] = from[source[k]] for `count` elements of `bytes` bytes.
 void gather(const std::byte* from, std::byte* to, const int* source, int count, std::size_t bytes) {
-  if (bytes == 8) return gatherWords<1>(from, to, source, count);
-  if (bytes == 16) return gatherWords<2>(from, to, source, count);
-  if (bytes == 24) return gatherWords<3>(from, to, source, count);
+  switch (bytes) {  // numbers, vectors, tensors: no call for each of them
+    case 8: return gatherWords<1>(from, to, source, count);
+    case 16: return gatherWords<2>(from, to, source, count);
+    case 24: return gatherWords<3>(from, to, source, count);
+    case 72: return gatherWords<9>(from, to, source, count);
+    default: break;
+  }
   for (int k = 0; k < count; ++k)
     std::memcpy(to + static_cast<std::size_t>(k) * bytes, from + static_cast<std::size_t>(source[k]) * bytes, bytes);
 }
@@ -149,12 +153,14 @@ void Relocation::findMoves(const Patch& patch, const ParticleSet& set, Vec<D>* x
   moves.escape.reset();
   moves.leaving = 0;
   grid::forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    const ParticleRange range = set.in(cell);
+    if (range.empty()) return;
     Vec<D> lower, upper;
     for (int d = 0; d < D; ++d) {
       lower[d] = level.nodePosition(d, cell[d]);
       upper[d] = level.nodePosition(d, cell[d] + 1);
     }
-    for (const int p : set.in(cell))
+    for (const int p : range)
       if (!isInside<D>(x[p], lower, upper) && level.cellOf<D>(x[p]) != cell) move<D>(patch, cell, x[p], ids[p], p);
   });
 }

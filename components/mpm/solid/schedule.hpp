@@ -164,8 +164,8 @@ void SolidMpm<Shape>::scheduleIntegrateAcceleration(TaskList& tasks) const {
     tasks.acrossMaterials("mpm::exMomIntegrated", exMomIntegrated<D>, problem_.materials, with(problem_.contacts),
                           startTime(), requiresOld(delT), modifies(g::record), computes(total::rigidReactionForce));
   if (hasFriction()) scheduleFriction(tasks, "mpm::frictionIntegrated");
-  tasks.perMaterial("mpm::setGridBoundaryConditions", setGridBoundaryConditions<D>, problem_.materials,
-                    modifies(g::record));
+  tasks.perMaterial("mpm::setGridBoundaryConditions", setGridBoundaryConditions<Shape>, problem_.materials,
+                    requiresOld(p::x<D>, Shape::reach), modifies(g::record));
 }
 
 /// Only run where someone reads or saves the temperature.
@@ -271,8 +271,8 @@ void SolidMpm<Shape>::scheduleComputeStressTensor(TaskList& tasks, Reads moving)
   if (!problem_.contacts.empty())
     tasks.acrossMaterials("mpm::exMomOfStresses", exMomInterpolated<D>, problem_.materials, with(problem_.contacts),
                           modifies(g::stressRecord));
-  tasks.perMaterial("mpm::setGridBoundaryConditionsOfStresses", setGridBoundaryConditions<D>, problem_.materials,
-                    modifies(g::stressRecord));
+  tasks.perMaterial("mpm::setGridBoundaryConditionsOfStresses", setGridBoundaryConditions<Shape>, problem_.materials,
+                    requiresOld(p::x<D>, reach), modifies(g::stressRecord));
   tasks.perMaterial(
       "mpm::computeStressTensor", computeStressTensor<Shape>, problem_.materials, with(problem_.method),
       with(state_size_), requiresOld(delT), requiresNew(g::stressRecord, Shape::storedNodes), requiresOld(p::x<D>),

@@ -64,6 +64,21 @@ class TouchedRows {
     });
   }
 
+  /// The same for what lies within a box.
+  template <class Visit>
+  void forEachRow(const Box& within, Visit&& visit) const {
+    Box rows = within.intersect(nodes_);
+    const int lower = rows.lower[0], upper = rows.upper[0];
+    if (lower >= upper) return;
+    rows.lower[0] = rows_.lower[0];
+    rows.upper[0] = rows_.upper[0];
+    forEach<3>(rows, [&](const Index3& row) {
+      const auto [low, high] = touched_[rows_.offset(row)];
+      if (const int first = std::max(low, lower), end = std::min(high, upper); first < end)
+        visit(Index3{{first, row[1], row[2]}}, end);
+    });
+  }
+
  private:
   /// The range of cells of a row that hold particles.
   static std::pair<int, int> occupied(const data::ParticleRange* row, int count) {

@@ -35,7 +35,8 @@ void forceMoments(const Material& material, const Sources<Shape>& from, int firs
     for (int k = 0; k < count; ++k) moments[k] = from.volume[first + k] * from.stress[first + k];
   else {
     material.model->kirchhoffStress(from.deformation + first, count, moments);
-    for (int k = 0; k < count; ++k) moments[k] *= from.mass[first + k] / material.density;
+    const double inverseDensity = 1 / material.density;
+    for (int k = 0; k < count; ++k) moments[k] *= from.mass[first + k] * inverseDensity;
   }
   if (!from.viscosity) return;
   for (int k = 0; k < count; ++k) {
