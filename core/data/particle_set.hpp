@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "core/base/vec.hpp"
@@ -57,6 +59,18 @@ class ParticleSet {
   template <int D>
   ParticleRange& at(const Index<D>& cell) {
     return ranges_[offset(cell)];
+  }
+
+  /// Calls `visit(cell, particles)` for the cells of a box that hold particles, in lexicographic order.
+  template <int D, class Visit>
+  void forEachOccupied(const grid::Box& box, Visit&& visit) const {
+    grid::Box rows = box;
+    rows.upper[0] = std::min(rows.upper[0], rows.lower[0] + 1);
+    grid::forEach<D>(rows, [&](Index<D> cell) {
+      const ParticleRange* range = &ranges_[offset(cell)];
+      for (; cell[0] < box.upper[0]; ++cell[0], ++range)
+        if (!range->empty()) visit(std::as_const(cell), *range);
+    });
   }
 
   /// The ranges of consecutive cells along the first axis, from `cell` on.

@@ -152,9 +152,7 @@ void Relocation::findMoves(const Patch& patch, const ParticleSet& set, Vec<D>* x
   moves.firstIncoming.assign(patch.cells().size(), -1);
   moves.escape.reset();
   moves.leaving = 0;
-  grid::forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    const ParticleRange range = set.in(cell);
-    if (range.empty()) return;
+  set.forEachOccupied<D>(patch.cells(), [&](const Index<D>& cell, const ParticleRange& range) {
     Vec<D> lower, upper;
     for (int d = 0; d < D; ++d) {
       lower[d] = level.nodePosition(d, cell[d]);

@@ -84,8 +84,7 @@ void scatterParticles(const Patch& patch, const Material& material, bool clearsA
     rows.forEachRow([&](const Index3& first, int end) {
       std::fill_n(record.values() + record.stored().offset(first), end - first[0], Octet{});
     });
-  forEach<D>(x.cells(), [&](const Index<D>& cell) {
-    const data::ParticleRange range = x.in(cell);
+  x.template forEachOccupied<D>(x.cells(), [&](const Index<D>& cell, const data::ParticleRange& range) {
     for (int at = range.first; at < range.last; at += stressGroup)
       scatterCell<Shape>(patch.level(), material, from, cell, at, std::min(stressGroup, range.last - at), record);
   });

@@ -51,7 +51,7 @@ struct ParticleStates {
 /// x_p += dt sum_i S_i v*_i,   v_p += sum_i S_i (v*_i - v_i): the FLIP of Brackbill & Ruppel, J. Comput. Phys. 65 (1986)
 /// 314.
 template <class Shape, int D = Shape::dimension>
-void moveParticle(const Method& method, double dt, const Gathered<D>& sums, const ParticleStates<Shape>& s, int p) {
+[[gnu::always_inline]] inline void moveParticle(const Method& method, double dt, const Gathered<D>& sums, const ParticleStates<Shape>& s, int p) {
   const Vec<D> after = lanes<D>(sums.value, lane::velocity), before = lanes<D>(sums.value, lane::before);
   s.newX[p] = s.x[p] + dt * after;
   s.newVelocity[p] = s.velocity[p] + (after - before);
@@ -64,7 +64,7 @@ void moveParticle(const Method& method, double dt, const Gathered<D>& sums, cons
 
 /// L_p = sum_i v*_i grad S_i (and L_theta = sum_i v*_r S_i / r where axisymmetric),   F_p = (I + L_p dt) F_p.
 template <class Shape, int D = Shape::dimension>
-void deformParticle(const Level& level, const Method& method, double dt, const Gathered<D>& sums,
+[[gnu::always_inline]] inline void deformParticle(const Level& level, const Method& method, double dt, const Gathered<D>& sums,
                     const Erosion& erosion, const ParticleStates<Shape>& s, int p, Matrix3& velocityGradient) {
   if constexpr (D < 3) velocityGradient.setZero();
   if constexpr (Shape::axisymmetric) velocityGradient(2, 2) = sums.hoop[lane::velocity];
@@ -149,12 +149,8 @@ void updateParticles(const Patch& patch, const Material& material, const Method&
   const Level& level = patch.level();
   const CrossingRate<D> none(level);
   std::array<Matrix3, stressGroup> velocityGradient;
-  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    const data::ParticleRange range = s.x.in(cell);
-    if (range.empty()) {
-      if constexpr (what != Update::motion) (*stableTimeStep)[cell] = none.time();
-      return;
-    }
+  if constexpr (what != Update::motion) stableTimeStep->fill(none.time());
+  s.x.template forEachOccupied<D>(patch.cells(), [&](const Index<D>& cell, const data::ParticleRange& range) {
     CrossingRate<D> rate = none;
     const CellFrame<D> frame(level, cell);
     for (int first = range.first; first < range.last; first += stressGroup) {
