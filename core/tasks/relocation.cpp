@@ -150,6 +150,7 @@ void Relocation::findMoves(const Patch& patch, const ParticleSet& set, Vec<D>* x
   moves.outgoing.clear();
   moves.incoming.clear();
   moves.firstIncoming.assign(patch.cells().size(), -1);
+  moves.isEntered.assign(patch.cells().rows(), false);
   moves.escape.reset();
   moves.leaving = 0;
   set.forEachOccupied<D>(patch.cells(), [&](const Index<D>& cell, const ParticleRange& range) {
@@ -253,6 +254,7 @@ void Relocation::receive(const Patch& patch, const Index3& cell, const Incoming&
     link = &moves.incoming[static_cast<std::size_t>(*link)].next;
   moves.incoming.back().next = *link;
   *link = added;
+  moves.isEntered[patch.cells().rowOf(cell)] = true;
 }
 
 void Relocation::rebuild(const Patch& patch, int material, int id) {
@@ -270,10 +272,16 @@ void Relocation::rebuild(const Patch& patch, int material, int id) {
   const int* firstIncoming = moves.firstIncoming.data();
   grid::Box rows = patch.cells();
   rows.upper[0] = rows.lower[0] + 1;
+  const int rowLength = patch.cells().extent(0);
   grid::forEach<3>(rows, [&](const Index3& cell) {
     const ParticleRange* from = before.row(cell);
     ParticleRange* to = after.row(cell);
-    for (int k = 0; k < patch.cells().extent(0); ++k, ++from, ++to, ++firstIncoming) {
+    if (!moves.isEntered[patch.cells().rowOf(cell)] && before.occupied(cell, patch.cells().upper[0]).empty()) {
+      std::fill_n(to, rowLength, ParticleRange{moves.count, moves.count});
+      firstIncoming += rowLength;
+      return;
+    }
+    for (int k = 0; k < rowLength; ++k, ++from, ++to, ++firstIncoming) {
       const int first = moves.count;
       const bool stays = nextDeparted == moves.departed.size() || moves.departed[nextDeparted] >= from->last;
       if (stays && *firstIncoming < 0)

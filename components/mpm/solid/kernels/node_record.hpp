@@ -49,8 +49,8 @@ class TouchedRows {
     Box cellRows = around;
     cellRows.upper[0] = cellRows.lower[0] + 1;
     forEach<3>(cellRows, [&](const Index3& first) {
-      const auto [low, high] = occupied(particles.set().row(first), around.extent(0));
-      if (low < high) touch(first, around.lower[0] + low - ghost, around.lower[0] + high + 1 + ghost, ghost);
+      const auto span = particles.set().occupied(first, around.upper[0]);
+      if (!span.empty()) touch(first, span.first - ghost, span.last + 1 + ghost, ghost);
     });
   }
 
@@ -80,13 +80,6 @@ class TouchedRows {
   }
 
  private:
-  /// The range of cells of a row that hold particles.
-  static std::pair<int, int> occupied(const data::ParticleRange* row, int count) {
-    int low = 0, high = count;
-    while (low < high && row[low].empty()) ++low;
-    while (high > low && row[high - 1].empty()) --high;
-    return {low, high};
-  }
   void touch(const Index3& cellRow, int low, int high, int ghost) {
     Box around{cellRow, cellRow + Index3::filled(1)};
     for (int d = 1; d < D; ++d) {
