@@ -353,8 +353,10 @@ void Relocation::mergeCell(int patch, PatchMoves& moves, const ParticleRange& be
 void Relocation::carry(const Carried& carried, std::size_t place) {
   forEachPatch([&](const Patch& patch) { carry(carried, place, patch); });
   std::size_t k = 0;
-  for (const Patch& patch : warehouse_->level().patches())
-    std::swap(warehouse_->variable(Generation::fresh, carried.variable, patch.id()), spare_[k++]);
+  for (const Patch& patch : warehouse_->level().patches()) {
+    std::swap(warehouse_->variable(Generation::fresh, carried.variable, patch.id()), spare_[k]);
+    warehouse_->free(spare_[k++]);
+  }
 }
 
 void Relocation::carry(const Carried& carried, std::size_t place, const Patch& patch) {

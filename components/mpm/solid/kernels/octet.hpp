@@ -10,6 +10,7 @@ namespace tushar::mpm::solid {
 
 /// Four numbers that are worked on at once: a register, or two where the processor's hold two numbers.
 using Quad = double __attribute__((vector_size(32)));
+using QuadOfIntegers = int __attribute__((vector_size(16)));
 
 /// factor * a + b, rounded once where the processor can.
 [[gnu::always_inline]] inline Quad multiplyAdd(double factor, const Quad& a, const Quad& b) {
@@ -31,10 +32,6 @@ using Quad = double __attribute__((vector_size(32)));
 
 /// The same number four times.
 [[gnu::always_inline]] inline Quad quadOf(double number) { return Quad{number, number, number, number}; }
-
-/// The greater or the lesser of each pair, of the second where they are equal.
-[[gnu::always_inline]] inline Quad greater(const Quad& a, const Quad& b) { return a > b ? a : b; }
-[[gnu::always_inline]] inline Quad lesser(const Quad& a, const Quad& b) { return a < b ? a : b; }
 
 /// Lane `Which` four times.
 template <int Which>

@@ -26,7 +26,7 @@ struct LinearAxis {
 };
 
 /// Generalised interpolation: the mean of the linear function over the particle's extent, which stays as at the start;
-/// Bardenhagen & Kober, CMES 5 (2004) 477, with the piecewise form of uniform GIMP.
+/// Bardenhagen & Kober, CMES 5 (2004) 477, with the piecewise form of uniform GIMP. A particle is no wider than a cell.
 struct GimpAxis {
   static constexpr int nodes = 3;
   static constexpr int ghostNodes = 1;
@@ -36,26 +36,24 @@ struct GimpAxis {
   [[gnu::always_inline]] static Real fill(const Real& xi, const Real& size, std::array<Real, nodes>& s,
                                           std::array<Real, nodes>& ds) {
     const Real zero{}, first = xi < 0.5 ? zero - 1 : zero;
-    const Real inverse = 1 / size, lower = xi - first - 0.5 * size, upper = lower + size;
-    for (std::size_t k = 0; k < nodes; ++k) {
-      const Real a = lower - static_cast<double>(k), b = upper - static_cast<double>(k);
-      const Real fromBelow = within(-b), toBelow = within(-a), fromAbove = within(a), toAbove = within(b);
-      const Real below = toBelow - fromBelow, above = toAbove - fromAbove;
-      s[k] = inverse * 0.5 * (below * ((1 - fromBelow) + (1 - toBelow)) + above * ((1 - fromAbove) + (1 - toAbove)));
-      ds[k] = inverse * (below - above);
-    }
+    const Real inverse = 1 / size, begin = xi - (first + 1) - 0.5 * size, end = begin + size;  // from the middle node on
+    const Real fromBelow = positive(-end), toBelow = positive(-begin), fromAbove = positive(begin), toAbove = positive(end);
+    const Real below = inverse * (toBelow - fromBelow), above = inverse * (toAbove - fromAbove);
+    const Real meanBelow = 0.5 * (fromBelow + toBelow), meanAbove = 0.5 * (fromAbove + toAbove);
+    s = {below * meanBelow, below * (1 - meanBelow) + above * (1 - meanAbove), above * meanAbove};
+    ds = {-below, below - above, above};
     return first;
   }
 
  private:
-  // The means are over what lies within [0,1] on either side of the node, of the tent function 1 - r. Nothing here has
-  // branches or takes large numbers from each other: where a particle barely touches a node, S and its slope are small,
-  // and the force over the mass that they make is only right if both are right to the last digits.
+  // The particle lies within the cells on either side of its middle node, so much of it below and so much above, and the
+  // mean of a straight line is its value in the middle. Nothing here has branches or takes large numbers from each other:
+  // where a particle barely touches a node, S and its slope are small, and the force over the mass that they make is only
+  // right if both are right to the last digits.
 
   template <class Real>
-  [[gnu::always_inline]] static Real within(const Real& r) {
-    const Real zero{}, one = zero + 1, positive = r > zero ? r : zero;
-    return positive < one ? positive : one;
+  [[gnu::always_inline]] static Real positive(const Real& r) {
+    return r > 0.0 ? r : Real{};
   }
 };
 

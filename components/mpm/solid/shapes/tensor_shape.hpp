@@ -47,7 +47,8 @@ struct TensorShape {
       const Quad inverse = quadOf<D>(frame.inverseSpacing), xi = quadOf<D>(frame.coordinates(x));
       const Quad node = Axis::fill(xi, quadOf<D>(extent.size), s, ds);
       for (Quad& slope : ds) slope *= inverse;
-      for (int d = 0; d < D; ++d) first[d] = cell[d] + static_cast<int>(node[d]);
+      const auto whole = __builtin_convertvector(node, QuadOfIntegers);
+      for (int d = 0; d < D; ++d) first[d] = cell[d] + whole[d];
       if constexpr (Axisymmetric) fillRadially(frame, cell, x, extent);
     }
 
