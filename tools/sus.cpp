@@ -16,6 +16,7 @@
 #include "core/base/threads.hpp"
 #include "core/base/trace.hpp"
 #include "core/input/geometry.hpp"
+#include "core/simulation/dry_run.hpp"
 #include "core/simulation/scene.hpp"
 
 namespace {
@@ -27,7 +28,8 @@ struct Arguments {
   std::vector<std::string> overrides;
   bool check = false, list = false, restart = false, schedule = false, version = false;
   std::optional<int> checkpoint;  ///< step of the one to restart from
-  grid::Workers workers{allowedThreads(), true};
+  std::optional<int> dryRun;
+  grid::Workers workers{allowedThreads(), true, 1, {}};
   simulation::RunOptions run;
 };
 
@@ -74,6 +76,18 @@ void reportUnknown(const CLI::App& app, const std::vector<std::string>& words, c
     fmt::print(stderr, "sus: runs one scene at a time: found '{}' after '{}'\n", unknown.front(), scene);
 }
 
+void setThreads(int count, grid::Workers& workers) {
+  workers.threads = count;
+  workers.mayBeFewer = false;
+}
+
+void setLayout(const std::string& text, grid::Workers& workers) {
+  workers.layout = grid::parseLayout(text);
+  if (!workers.layout)
+    throw CLI::ValidationError(fmt::format(
+        "--layout: found '{}', expected AxBxC, the patches along x, y and z, such as 4x2x1", text));
+}
+
 void declare(CLI::App& app, Arguments& arguments) {
   app.footer(
       "Exit codes: 0 done, 1 failure (files, memory, a defect of sus), 2 bad command line, 3 bad scene,\n"
@@ -86,7 +100,9 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.add_option("--set", arguments.overrides, "override a value of the scene: PATH=VALUE, e.g.\n"
                                                "Grid/Level/Box/resolution=[200,1,1]; may be repeated")
       ->allow_extra_args(false);
-  app.add_option_function<int>("--nthreads", [&](int count) { arguments.workers = {count}; },
+  app.add_option_function<std::string>("--layout", [&](const std::string& text) { setLayout(text, arguments.workers); },
+                                       "patches along x, y, z, in place of those of the scene: AxBxC, such as 4x2x1");
+  app.add_option_function<int>("--nthreads", [&](int count) { setThreads(count, arguments.workers); },
                                "threads to run on; without it as many as there are cores for and as pay")
       ->check(CLI::Range(1, 1024));
   app.add_option("--trace", arguments.trace,
@@ -96,6 +112,9 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.add_option("--petsc", arguments.petsc, "options for PETSc, in one word: -petsc \"-ksp_monitor -ksp_type gmres\"");
   app.add_flag("--quiet", arguments.run.quiet, "no progress, no report on the screen");
   app.add_flag("--check,--validate", arguments.check, "check the scene and make its start; run and write nothing");
+  app.add_option("--dry-run", arguments.dryRun,
+                 "compile what one of so many ranks would do, and say what that takes; run nothing")
+      ->check(CLI::Range(1, 10'000'000));
   app.add_flag("--schedule", arguments.schedule, "print the tasks in order, what they read and write, what is left out");
   app.add_option("--graph", arguments.graph, "write the tasks of a step to a file, for Graphviz (dot)");
   app.add_flag("--list", arguments.list, "list components, analysis modules and shapes");
@@ -157,7 +176,7 @@ simulation::Problem readProblem(const Arguments& arguments, const simulation::Ca
                                 const mpi::Communicator& ranks) {
   const grid::Share share{ranks.rank(), ranks.size()};
   const grid::Workers first = ranks.broadcast(arguments.workers);  // all ranks must choose the same patches
-  const grid::Workers workers{first.threads, first.mayBeFewer, ranks.size()};
+  const grid::Workers workers{first.threads, first.mayBeFewer, ranks.size(), first.layout};
   if (!arguments.restart) return simulation::readScene(arguments.scene, arguments.overrides, known, workers, share);
   const simulation::Restart restart = findRestart(arguments, ranks);
   simulation::Problem problem = simulation::readScene(restart.scene().string(), arguments.overrides, known, workers, share);
@@ -246,6 +265,12 @@ ExitCode dispatch(const Arguments& arguments, std::chrono::steady_clock::time_po
     return refuse(fmt::format("{0} is the folder of a run; sus -restart {0} goes on with it", arguments.scene));
   if (arguments.restart && !arguments.run.outputFolder.empty())
     return refuse("--output has no meaning with --restart: a run goes on in its own folder");
+  if (arguments.dryRun) {
+    const grid::Workers workers{arguments.workers.threads, true, *arguments.dryRun, arguments.workers.layout};
+    if (launchedRank() == 0)
+      fmt::print("{}", toText(simulation::dryRun(arguments.scene, arguments.overrides, known, workers)));
+    return ExitCode::success;
+  }
   session.emplace();
   return runScene(arguments, known, startedAt, session->ranks());
 }

@@ -1,6 +1,7 @@
 #include "core/grid/choose_patches.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <limits>
 
 namespace tushar::grid {
@@ -49,6 +50,18 @@ Index3 choosePatches(const Index3& cells, int count) {
       }
     }
   return best;
+}
+
+std::optional<Index3> parseLayout(std::string_view text) {
+  Index3 layout;
+  const char *from = text.data(), *const end = from + text.size();
+  for (int d = 0; d < 3; ++d) {
+    if (d > 0 && (from == end || *from++ != 'x')) return std::nullopt;
+    const auto [after, error] = std::from_chars(from, end, layout[d]);
+    if (error != std::errc() || layout[d] < 1) return std::nullopt;
+    from = after;
+  }
+  return from == end ? std::optional(layout) : std::nullopt;
 }
 
 }  // namespace tushar::grid

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+#include <string_view>
+
 #include "core/base/vec.hpp"
 
 namespace tushar::grid {
@@ -9,6 +12,7 @@ struct Workers {
   int threads = 1;        ///< of each rank
   bool mayBeFewer = false;  ///< whether only as many threads are wanted as are worth having
   int ranks = 1;
+  std::optional<Index3> layout;  ///< patches along x, y, z that they want, whatever the scene says
 
   /// The threads of each rank for a grid of `cells` along x, y, z: one with little to do costs more than it gains.
   int threadsFor(const Index3& cells) const;
@@ -20,5 +24,8 @@ struct Workers {
 /// of them, that with the least cells and ghost cells of all patches together, each as large as the largest. No more
 /// patches along an axis than cells. Along x, where memory is contiguous, it is cut last.
 Index3 choosePatches(const Index3& cells, int count);
+
+/// The patches along x, y, z that `4x2x1` stands for; none for what is not three whole numbers from 1 on.
+std::optional<Index3> parseLayout(std::string_view text);
 
 }  // namespace tushar::grid

@@ -211,7 +211,8 @@ Index3 resolutionOf(const GridBox& box, const LevelSection& level, const Element
   return resolution;
 }
 
-void checkSize(const grid::Domain& domain, const Element& element, Diagnostics& diagnostics) {
+/// `asker` says where the patches come from, if not from the scene.
+void checkSize(const grid::Domain& domain, const Element& element, const std::string& asker, Diagnostics& diagnostics) {
   double cells = 1;
   for (int axis = 0; axis < 3; ++axis) {
     cells *= domain.resolution[axis];
@@ -219,8 +220,8 @@ void checkSize(const grid::Domain& domain, const Element& element, Diagnostics& 
       diagnostics.error(element, fmt::format("there are {} cells along {}, where the box has no extent",
                                              domain.resolution[axis], "xyz"[axis]));
     if (domain.patches[axis] > domain.resolution[axis])
-      diagnostics.error(element, fmt::format("there are {} patches along {}, but only {} cell(s)", domain.patches[axis],
-                                             "xyz"[axis], domain.resolution[axis]));
+      diagnostics.error(element, fmt::format("there are {} patches along {}{}, but only {} cell(s)", domain.patches[axis],
+                                             "xyz"[axis], asker, domain.resolution[axis]));
   }
   if (domain.upper == domain.lower) diagnostics.error(element, "the box has no extent along any axis");
   if (cells > mostCells)
@@ -255,10 +256,11 @@ grid::Domain readGrid(const Element& section, const std::vector<BoundaryLabel>& 
   domain.upper = box.upper;
   domain.resolution = resolutionOf(box, read.level, element, diagnostics);
   if (box.patches) domain.patches = *box.patches;
+  if (workers.layout) domain.patches = *workers.layout;
   domain.periodic = read.level.periodic;
   checkPeriodic(section, domain, diagnostics);
-  checkSize(domain, element, diagnostics);
-  if (!box.patches && diagnostics.size() == before)
+  checkSize(domain, element, workers.layout ? " in -layout" : "", diagnostics);
+  if (!box.patches && !workers.layout && diagnostics.size() == before)
     domain.patches =
         grid::choosePatches(domain.resolution, box.autoPatch.value_or(workers.patchesFor(domain.resolution)));
   return domain;

@@ -9,8 +9,6 @@ namespace tushar::tasks {
 namespace {
 
 constexpr int tag = 2;
-/// Ranks with patches as near as this, in cells, are neighbours: few particles go farther in a step.
-constexpr int neighbourhood = 2;
 
 }  // namespace
 

@@ -27,6 +27,9 @@ struct Emigrant {
 /// farther, which all ranks agree on before, they expect one from every rank.
 class Emigration {
  public:
+  /// Ranks with patches as near as this, in cells, are neighbours: few particles go farther in a step.
+  static constexpr int neighbourhood = 2;
+
   explicit Emigration(data::Warehouse& warehouse) : warehouse_(&warehouse), outbox_(warehouse.ranks()) {}
 
   /// A relocation begins: nobody leaves yet.

@@ -108,12 +108,15 @@ class Exchange::Letters {
   std::map<int, Letter> letters_;
 };
 
+GhostReach reachOf(const data::VariableTable& table, const NumberedFill& fill) {
+  const auto [label, material] = table[fill.variable];
+  return {label->centring == data::Centring::node, fill.particles ? table.reach(material) : table.ghost(fill.variable)};
+}
+
 const GhostPlan& Exchange::planOf(const NumberedFill& fill) {
-  const auto [label, material] = warehouse_->table()[fill.variable];
-  const bool nodes = label->centring == data::Centring::node;
-  const int width = fill.particles ? warehouse_->table().reach(material) : warehouse_->table().ghost(fill.variable);
-  const auto [plan, isNew] = plans_.try_emplace({nodes, width});
-  if (isNew) plan->second = planGhosts(warehouse_->level(), nodes, width);
+  const GhostReach reach = reachOf(warehouse_->table(), fill);
+  const auto [plan, isNew] = plans_.try_emplace(reach);
+  if (isNew) plan->second = planGhosts(warehouse_->level(), reach.nodes, reach.width);
   return plan->second;
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 
+#include <compare>
 #include <map>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "core/base/mpi.hpp"
@@ -18,6 +18,15 @@ struct NumberedFill {
   data::Generation generation, set;
   bool particles;
 };
+
+/// Which ghosts a fill needs, whatever the variable.
+struct GhostReach {
+  bool nodes;
+  int width;
+
+  friend auto operator<=>(const GhostReach&, const GhostReach&) = default;
+};
+GhostReach reachOf(const data::VariableTable& table, const NumberedFill& fill);
 
 /// Fills the ghosts of every patch from the patches that own them, on this rank or another.
 ///
@@ -55,8 +64,8 @@ class Exchange {
   data::Warehouse* warehouse_;
   Threads* threads_;
   mpi::Outbox outbox_;
-  std::map<std::pair<bool, int>, GhostPlan> plans_;  ///< by whether of nodes, and width
-  std::vector<bool> settles_;                        ///< by fill: whether it settles which particles are ghosts
+  std::map<GhostReach, GhostPlan> plans_;
+  std::vector<bool> settles_;  ///< by fill: whether it settles which particles are ghosts
 };
 
 }  // namespace tushar::tasks

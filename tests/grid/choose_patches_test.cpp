@@ -29,8 +29,14 @@ TEST(ChoosePatches, MakesNoMoreAlongAnAxisThanThereAreCells) {
   EXPECT_EQ(choosePatches({{3, 2, 1}}, 6), (Index3{{3, 2, 1}}));
 }
 
+TEST(ParseLayout, TakesThreeWholeNumbersFromOneOnAndNothingElse) {
+  EXPECT_EQ(parseLayout("4x2x1"), (Index3{{4, 2, 1}}));
+  for (const char* nonsense : {"", "4", "4x2", "4x2x", "4x2x0", "4x-2x1", "4x2x1x1", "4 x2x1", "axbxc", "4x2x1.5", "4x2x99999999999"})
+    EXPECT_EQ(parseLayout(nonsense), std::nullopt) << nonsense;
+}
+
 TEST(Workers, AreFewerWhereThereIsLittleToDoUnlessTheirNumberIsGiven) {
-  const Workers few{4, true}, given{4, false};
+  const Workers few{4, true, 1, {}}, given{4, false, 1, {}};
 
   EXPECT_EQ(few.threadsFor({{100, 1, 1}}), 1);
   EXPECT_EQ(few.threadsFor({{1000, 1000, 1}}), 4);
@@ -39,9 +45,9 @@ TEST(Workers, AreFewerWhereThereIsLittleToDoUnlessTheirNumberIsGiven) {
 
 TEST(Workers, GetSeveralPatchesEachAndOneWorkerGetsOne) {
   EXPECT_EQ(Workers{}.patchesFor({{1000, 1000, 1}}), 1);
-  EXPECT_GT((Workers{4, false}.patchesFor({{1000, 1000, 1}})), 4);
-  EXPECT_GT((Workers{1, false, 3}.patchesFor({{1000, 1000, 1}})), 3);
-  EXPECT_EQ((Workers{4, false}.patchesFor({{2, 1, 1}})), 2);
+  EXPECT_GT((Workers{4, false, 1, {}}.patchesFor({{1000, 1000, 1}})), 4);
+  EXPECT_GT((Workers{1, false, 3, {}}.patchesFor({{1000, 1000, 1}})), 3);
+  EXPECT_EQ((Workers{4, false, 1, {}}.patchesFor({{2, 1, 1}})), 2);
 }
 
 }  // namespace tushar::grid
