@@ -138,7 +138,7 @@ simulation::MakeComponent readImplicitScene(const Element& root, Diagnostics& di
   problem.materials = properties.mpm.materials;
   problem.contacts = properties.mpm.contacts;
   problem.start.axisymmetric = read.axisymmetric;
-  if (read.useLoadCurves) problem.start.loads = readLoads(root, diagnostics);
+  problem.start.loads = readLoads(root, read.useLoadCurves, diagnostics);
   nameMaterials(problem.materials);
   refuseWithoutTangent(problem, root, diagnostics);
   refuseExplicitOnly(problem, root, diagnostics);

@@ -47,8 +47,8 @@ template <class Shape>
 void ImplicitMpm<Shape>::scheduleTimeAdvance(TaskList& tasks) const {
   const ImplicitSetup setup{&problem_, how_, state_size_};
   tasks.perMaterial("mpm::applyExternalLoads", applyLoadsAtEnd<D>, problem_.materials, with(problem_.start.loads),
-                    startTime(), requiresOld(delT), requiresOld(p::x<D>), requiresOld(p::loadCurves),
-                    computes(p::externalForce<D>));
+                    startTime(), requiresOld(delT), requiresOld(p::x<D>), requiresOld(p::mass),
+                    requiresOld(p::loadCurves), computes(p::externalForce<D>));
   tasks.perRankAcrossMaterials(
       "impm::solve", solveStep<Shape>, problem_.materials, togetherOnRanks(), with(setup), startTime(), requiresOld(delT),
       requiresOld(p::x<D>), requiresOld(p::size<D>), requiresOld(p::mass), requiresOld(p::velocity<D>),

@@ -80,12 +80,12 @@ void startAtRest(const Patch&, const Material&, ParticleView<const double> mass,
   for (int p = 0; p < mass.owned(); ++p) acceleration[p] = Vec<D>::Zero();
 }
 
-/// The force of pressures on each particle at the end of the step.
+/// The force of loads on each particle at the end of the step.
 template <int D>
-void applyLoadsAtEnd(const Patch& patch, const Material& material, const std::vector<PressureLoad>& loads, double time,
-                     double dt, ParticleView<const Vec<D>> x, ParticleView<const int> loadCurves,
+void applyLoadsAtEnd(const Patch& patch, const Material& material, const Loads& loads, double time, double dt,
+                     ParticleView<const Vec<D>> x, ParticleView<const double> mass, ParticleView<const int> loadCurves,
                      ParticleView<Vec<D>> externalForce) {
-  applyExternalLoads<D>(patch, material, loads, time + dt, x, loadCurves, externalForce);
+  applyExternalLoads<D>(patch, material, loads, time + dt, x, mass, loadCurves, externalForce);
 }
 
 }  // namespace tushar::mpm::solid
