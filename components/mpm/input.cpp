@@ -204,18 +204,30 @@ const Schema<ObjectSection>& objectSchema() {
   return schema;
 }
 
+enum class GasType { ideal, stiffened };
 struct ModelSection {
-  int type = 0;
-  double gamma = 1.4;
+  Location where;
+  GasType type = GasType::ideal;
+  double gamma = 1.4, pInfinity = 0;
   double specificHeat = 717.5;
 };
 const Schema<ModelSection>& modelSchema() {
   static const Schema<ModelSection> schema =
       Schema<ModelSection>("constitutive_model", "How the material answers to being deformed.")
-          .requiredChoiceAttribute("type", &ModelSection::type, {{"ideal_gas", 0}}, "p = (gamma - 1) rho epsilon")
+          .location(&ModelSection::where)
+          .requiredChoiceAttribute("type", &ModelSection::type,
+                                   {{"ideal_gas", GasType::ideal}, {"stiffened_gas", GasType::stiffened}},
+                                   "p = (gamma - 1) rho e, or (gamma - 1) rho e - gamma p_infinity")
           .value("gamma", &ModelSection::gamma, 1.4, "1", "ratio of specific heats", input::greaterThan(1))
           .value("specific_heat", &ModelSection::specificHeat, 717.5, "J/(kg K)",
-                 "c_v, for bodies that give a temperature", input::positive());
+                 "c_v, for bodies that give a temperature", input::positive())
+          .value("p_infinity", &ModelSection::pInfinity, 0, "Pa", "stiffness: 0 for air, about 6e8 for water",
+                 input::nonNegative())
+          .ours()
+          .check([](const ModelSection& model, const Element& element, Diagnostics& diagnostics) {
+            if (model.type == GasType::ideal && model.pInfinity > 0)
+              diagnostics.error(element, "an ideal_gas has no p_infinity; use type=\"stiffened_gas\"");
+          });
   return schema;
 }
 
@@ -280,11 +292,11 @@ const Schema<MaterialProperties>& propertiesSchema() {
   return schema;
 }
 
-/// The pressure of a body, from its temperature where it gives that.
+/// The pressure of a body, from its temperature where it gives that: (gamma - 1) rho c_v T - p_inf.
 input::Expression pressureOf(const ObjectSection& object, const input::Expression& density, const ModelSection& model) {
   if (object.pressure) return *object.pressure;
-  const std::string text = fmt::format("({})*({})*({})", (model.gamma - 1) * model.specificHeat, density.text(),
-                                       object.temperature->text());
+  const std::string text = fmt::format("({})*({})*({})-({})", (model.gamma - 1) * model.specificHeat, density.text(),
+                                       object.temperature->text(), model.pInfinity);
   return *input::Expression::parse(text);
 }
 
@@ -292,6 +304,8 @@ Gas makeGas(const MaterialSection& material) {
   Gas gas;
   gas.name = material.name;
   gas.gamma = material.model.gamma;
+  gas.pInfinity = material.model.pInfinity;
+  gas.where = material.model.where;
   gas.relaxation = material.relaxation;
   for (const ObjectSection& object : material.objects) {
     const input::Expression density = object.density ? *object.density : input::Expression(*material.density);
@@ -341,6 +355,7 @@ void refuseSolidsOnly(const Element& root, Diagnostics& diagnostics) {
 }
 
 std::unique_ptr<Component> makeComponent(const Level& level, const MpmSection& method, const std::vector<Gas>& gases) {
+  refuseStiffness(level, gases.front(), method.conserving.has_value());
   if (method.gas && method.gas->redistribute) checkSeeds(*method.gas->redistribute, level.dimension());
   if (method.gas) return simulation::makeByDimension<Mpm>(level, *method.gas, gases);
   return simulation::makeByDimension<ConservingMpm>(level, settle(*method.conserving, level.dimension()), gases);

@@ -25,7 +25,9 @@ OVERRIDES = {
                         "SimulationComponent, Time, DataArchiver, Grid, DataAnalysis, MPM, MaterialProperties"),
     "unknown constitutive model": (MATERIAL + "constitutive_model/@type=ideal_gaz",
                                    MATERIAL + "constitutive_model: attribute 'type': found 'ideal_gaz', expected "
-                                   "'ideal_gas'\n"),
+                                   "'ideal_gas' or 'stiffened_gas' (did you mean 'ideal_gas'?)"),
+    "ideal gas with p_infinity": (MATERIAL + "constitutive_model/p_infinity=6e8", "MaterialProperties/MPM/material/"
+                                  "constitutive_model: an ideal_gas has no p_infinity; use type=\"stiffened_gas\""),
     "unknown module": ("DataAnalysis/Module/@name=exactRieman", "DataAnalysis/Module: name: found 'exactRieman', expected "
                        "'burgersWave', 'massProjection', 'manufacturedError', 'exactRiemann', 'simpleWave', 'isentropicVortex', "
                        "'gresho', 'noh', 'sedov', 'tabulated', 'exactSolution' or 'particleExtract' (did you mean "
@@ -163,6 +165,16 @@ class BrokenScenes(unittest.TestCase):
         result = run("ups/mpm/sod_conserving.ups", LEFT + "placement=random", outputs=True)
         self.assert_refused(result, "geom_object: placement: the particles of <conserving_gas_dynamics> are boxes that fill "
                                     "the gas; use midpoint, or <gas_dynamics>")
+
+    def test_stiffened_gases_that_nothing_holds(self):
+        stiff = MATERIAL + "constitutive_model/@type=stiffened_gas", MATERIAL + "constitutive_model/p_infinity=6e8"
+        for scene, sentence in (
+                ("ups/mpm/sod.ups", "type: <gas_dynamics> takes an ideal_gas alone; use <conserving_gas_dynamics>"),
+                ("ups/stability/sod_moving.ups", "type: a stiffened_gas needs a grid whose sides are symmetry planes or periodic"),
+                ("ups/stability/vacuum.ups", "constitutive_model: a stiffened_gas must fill the grid, and "),
+                ("ups/stability/sod.ups", "DataAnalysis/Module: p_infinity: found 0 Pa, but the gas of the scene has 6e+08 Pa")):
+            with self.subTest(scene):
+                self.assert_refused(run(scene, *stiff, outputs=True), sentence)
 
     def test_a_mass_projection_that_cannot_be_measured(self):
         for sets, sentence in (((BOX + "resolution=[20,2,1]",), "works in one dimension, as its theorem does, and this grid has 2"),

@@ -55,6 +55,19 @@ Contents<D> integrate(const Level& level, const Gas& gas, const GasObject& objec
   return sum;
 }
 
+/// Throws InputError where a stiffened gas leaves a cell of the patch empty: there would be nothing to hold it.
+template <int D>
+void refuseGaps(const Patch& patch, const Gas& gas, const std::vector<Vec<D>>& edges) {
+  const double area = crossSection<D>(patch.level());
+  const double all = static_cast<double>(patch.cells().size()) * patch.level().cellVolume() / area;
+  double filled = 0;
+  for (const Vec<D>& box : edges) filled += box.prod();
+  if (gas.pInfinity > 0 && !(filled > (1 - 1e-9) * all))
+    throw InputError({{gas.where, "constitutive_model",
+                       fmt::format("a stiffened_gas must fill the grid, and {:.3g} % of it is empty",
+                                   100 - 100 * filled / all)}});
+}
+
 }  // namespace
 
 template <int D>
@@ -85,6 +98,7 @@ void createBoxes(const Patch& patch, const Gas& gas, ParticleMaker& maker, std::
     affineEnergy[k] = modalEnergy<D>(modes[k], inertia);
     internalEnergy[k] = held.energy / held.mass - 0.5 * velocity[k].squaredNorm() - affineEnergy[k];
   }
+  refuseGaps<D>(patch, gas, edges);
 }
 
 template void createBoxes<1>(const Patch&, const Gas&, ParticleMaker&, std::vector<Vec<1>>&, std::vector<Vec<1>>&,
