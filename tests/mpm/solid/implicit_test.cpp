@@ -301,7 +301,7 @@ TEST(ImplicitSystem, BringsABarIntoEquilibriumWithItsLoad) {
   ASSERT_TRUE(solvers::solver().solve(system.unknowns(), system, direct(), u).converged);
 
   const double f = 1 + system.displacement(1, u)[0];
-  const Matrix3 kirchhoff = rubber().kirchhoffStress(Vec3(f, 1, 1).asDiagonal());
+  const Matrix3 kirchhoff = rubber().kirchhoffStress(Matrix3(Vec3(f, 1, 1).asDiagonal()));
   // The particle at 3/4 hands 3/4 of its load to the node that is free.
   EXPECT_NEAR(kirchhoff(0, 0) / f, 0.75 * load, 1e-6 * load);
 }
