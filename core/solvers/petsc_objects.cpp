@@ -85,7 +85,9 @@ void PetscMatrix::setNullSpaces(const Unknowns& unknowns) {
     check(MatNullSpaceCreate(ranks_, PETSC_TRUE, 0, nullptr, constant.address()));
     check(MatSetNullSpace(matrix_, constant));
   }
-  if (unknowns.coordinates.empty() || unknowns.block == 1) return;
+  int given = unknowns.coordinates.empty() ? 0 : 1;  // on a rank that owns nothing there are none
+  MPI_Allreduce(MPI_IN_PLACE, &given, 1, MPI_INT, MPI_MAX, ranks_);
+  if (given == 0 || unknowns.block == 1) return;
   OwnedVec places;
   check(MatCreateVecs(matrix_, places.address(), nullptr));
   check(VecSetBlockSize(places, unknowns.block));
