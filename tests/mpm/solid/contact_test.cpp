@@ -68,7 +68,7 @@ struct TwoBodies {
     std::vector<NodeView<const Vec<2>>> gradients, positions;
     std::vector<NodeView<const Matrix3>> stresses;
     std::vector<NodeView<const double>> volumes;
-    for (const std::size_t m : {0, 1}) {
+    for (const std::size_t m : {std::size_t{0}, std::size_t{1}}) {
       views.emplace_back(records[m].data(), nodes);
       gradients.emplace_back(massGradient[m].data(), nodes);
       positions.emplace_back(position[m].data(), nodes);

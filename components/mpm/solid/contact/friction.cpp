@@ -15,6 +15,7 @@ constexpr double leastShare = 1e-14;
 template <int D>
 struct Gathering {
   Vec<D> momentum = Vec<D>::Zero(), position = Vec<D>::Zero();
+  Matrix3 stress = Matrix3::Zero();
   double mass = 0, volume = 0;
   Vec<D> normal = Vec<D>::Zero();  ///< out of the body whose mass changes most; 0 where none does
   std::size_t steepest = 0;        ///< that body
@@ -30,6 +31,7 @@ Gathering<D> gatherBodies(const Contact& contact, const Records& records, const 
     all.momentum += record[lane::mass] * lanes<D>(record, lane::velocity);
     all.position += surfaces.position[m][node];
     all.mass += record[lane::mass];
+    all.stress += surfaces.stress[m][node];
     all.volume += surfaces.volume[m][node];
     if (surfaces.massGradient[m][node].squaredNorm() <= all.normal.squaredNorm()) continue;
     all.normal = surfaces.massGradient[m][node];
@@ -39,7 +41,7 @@ Gathering<D> gatherBodies(const Contact& contact, const Records& records, const 
   return all;
 }
 
-/// Whether the surface's stress pushes along its normal.
+/// Whether the stress pushes along a normal.
 template <int D>
 bool isPressed(const Level& level, const Matrix3& stress, const Vec<D>& normal) {
   double traction = 0;
@@ -84,13 +86,13 @@ void rub(const Patch& patch, const Contact& contact, double dt, const Records& r
   forEach<D>(records.front().box(), [&](const Index<D>& node) {
     const Gathering<D> all = gatherBodies<D>(contact, records, surfaces, node);
     if (all.mass == 0 || all.normal.isZero() || all.volume <= leastVolume) return;
+    const bool pressed = !contact.onlyOnApproach && isPressed<D>(level, all.stress, all.normal);
     for (std::size_t m = 0; m < records.size(); ++m) {
       Octet& record = records[m][node];
       const double mass = record[lane::mass], others = all.mass - mass;
       if (!contact.concerns(static_cast<int>(m)) || mass < leastShare * all.mass || others < leastShare * all.mass) continue;
       if (separation<D>(all, surfaces.position[m][node], mass) >= reach) continue;
       const Vec<D> v = lanes<D>(record, lane::velocity), normal = m == all.steepest ? all.normal : Vec<D>(-all.normal);
-      const bool pressed = !contact.onlyOnApproach && isPressed<D>(level, surfaces.stress[m][node], normal);
       const Rubbing<D> rubbed = rubbing<D>({normal, v - all.momentum / all.mass, pressed}, contact.friction);
       const double share = strainLimit<D>(level, rubbed.change, dt, mass / others);
       setLanes<D>(record, lane::velocity, v + share * rubbed.change);
