@@ -325,6 +325,14 @@ void refusePlacements(const MaterialProperties& properties, Diagnostics& diagnos
                           "midpoint, or <gas_dynamics>");
 }
 
+/// The paper's method knows the ideal gas alone.
+void refuseStiffness(const MaterialProperties& properties, Diagnostics& diagnostics) {
+  for (const MaterialSection& material : properties.mpm.materials)
+    if (material.model.type == GasType::stiffened)
+      diagnostics.error(material.model.where, "MaterialProperties/MPM/material/constitutive_model",
+                        "type: <gas_dynamics> takes an ideal_gas alone; use <conserving_gas_dynamics>");
+}
+
 /// Cells that are seeded anew with more than max_particles would be seeded anew in every step.
 void checkSeeds(const Redistribution& how, int dimension) {
   const int along = how.seededAlongAxis(dimension);
@@ -355,7 +363,6 @@ void refuseSolidsOnly(const Element& root, Diagnostics& diagnostics) {
 }
 
 std::unique_ptr<Component> makeComponent(const Level& level, const MpmSection& method, const std::vector<Gas>& gases) {
-  refuseStiffness(level, gases.front(), method.conserving.has_value());
   if (method.gas && method.gas->redistribute) checkSeeds(*method.gas->redistribute, level.dimension());
   if (method.gas) return simulation::makeByDimension<Mpm>(level, *method.gas, gases);
   return simulation::makeByDimension<ConservingMpm>(level, settle(*method.conserving, level.dimension()), gases);
@@ -383,7 +390,7 @@ simulation::ComponentKind kind() {
     const std::size_t before = diagnostics.size();
     const MpmSection method = simulation::readSection(root, mpmSchema(), diagnostics);
     const MaterialProperties properties = simulation::readSection(root, propertiesSchema(), diagnostics);
-    if (method.conserving) refusePlacements(properties, diagnostics);
+    method.conserving ? refusePlacements(properties, diagnostics) : refuseStiffness(properties, diagnostics);
     if (diagnostics.size() > before) return {};
     std::vector<Gas> gases;
     for (const MaterialSection& material : properties.mpm.materials) gases.push_back(makeGas(material));

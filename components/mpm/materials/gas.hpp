@@ -62,8 +62,4 @@ struct Gas {
   double soundSpeedSquared(double epsilon) const { return gamma * (gamma - 1) * epsilon; }
 };
 
-/// Throws InputError for a stiffened gas by a method that does not conserve, and on a grid with a free side: the gas
-/// presses on all sides with p + p_inf, and beyond a free one there would be nothing to press back.
-void refuseStiffness(const Level& level, const Gas& gas, bool isConserving);
-
 }  // namespace tushar::mpm

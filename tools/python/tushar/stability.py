@@ -34,8 +34,15 @@ class Gallery:
         (self.folder / "scenes").mkdir(parents=True, exist_ok=True)
         self.program = hashlib.sha1(self.sus.read_bytes()).hexdigest()
         self.file = self.folder / "runs.json"
-        known = json.loads(self.file.read_text()) if self.file.exists() else {}
-        self.runs = known.get("runs", {}) if known.get("program") == self.program else {}
+        self.runs = self._known_runs()
+
+    def _known_runs(self):
+        """What was run before; nothing where the file is damaged."""
+        try:
+            known = json.loads(self.file.read_text())
+            return known["runs"] if known["program"] == self.program else {}
+        except (OSError, ValueError, KeyError, TypeError):
+            return {}
 
     def scene(self, case, method):
         """The scene of a case for a method, written where it can be run again by hand."""
