@@ -4,6 +4,7 @@
 
 #include "components/mpm/conserving/conserving_mpm.hpp"
 #include "components/mpm/mpm.hpp"
+#include "components/mpm/solid/implicit/input.hpp"
 #include "components/mpm/solid/input.hpp"
 #include "core/input/geometry.hpp"
 #include "core/simulation/by_dimension.hpp"
@@ -374,7 +375,7 @@ simulation::ComponentKind kind() {
   kind.name = "mpm";
   kind.sentence = "the Material Point Method: solids, and gas dynamics of Tran, Kim & Berzins";
   kind.sections = {"MPM", "MaterialProperties", "PhysicalConstants", "PhysicalBC"};
-  kind.boundaryLabels = {{"Symmetric"}, {"Velocity", true}, {"Temperature"}};
+  kind.boundaryLabels = {{"Symmetric"}, {"Velocity", true}, {"Temperature", false, true}};
   kind.describe = [](std::ostream& out) {
     solid::describe(out);
     out << "Where <MPM> has <gas_dynamics> or <conserving_gas_dynamics>, instead:\n";
@@ -383,6 +384,7 @@ simulation::ComponentKind kind() {
   };
   kind.nodesBeyond = [](const Element& root) { return isGas(root) ? 0 : solid::nodesBeyond(root); };
   kind.read = [](const Element& root, Diagnostics& diagnostics) -> simulation::MakeComponent {
+    if (!isGas(root) && solid::isImplicit(root)) return solid::readImplicitScene(root, diagnostics);
     if (!isGas(root)) return solid::readScene(root, diagnostics);
     refuseSolidsOnly(root, diagnostics);
     const std::size_t before = diagnostics.size();

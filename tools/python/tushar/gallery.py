@@ -21,6 +21,7 @@ class Case:
     scene: str = ""  # if it is not of that name
     sets: tuple = ()
     only: tuple = ()  # the methods that can run it, if not all
+    fails: str = ""  # what it says in the end, for one that cannot be run
 
     def path(self):
         return FOLDER / f"{self.scene or self.name}.ups"
@@ -67,4 +68,7 @@ CASES = [
     Case("sod_moving", keeps=()), Case("on_faces", error=""), Case("one_cell", 1e-14),
     Case("many_steps", long=True), Case("random", only=("paper", "paper_tracked")),
     *(relaxation(rate) for rate in (1, 1e3, 1e6, 1e9)),
+    *(Case(name, error="", keeps=(), only=("default",))
+      for name in ("stiff_steel", "stiff_incompressible", "stiff_contrast", "nearly_empty")),
+    Case("softening", error="", keeps=(), only=("default",), fails="Newton's method did not converge"),
     Case("heat_ratio", 1e-5, error="temperature.cell.L1", keeps=(), only=("default",))]

@@ -47,7 +47,7 @@ class Gallery:
     def scene(self, case, method):
         """The scene of a case for a method, written where it can be run again by hand."""
         root = scene_of(case, method)
-        if root.find("SimulationComponent").get("type") != "heat":
+        if root.find("SimulationComponent").get("type") not in ("heat", "impm"):
             scene_variants.save(root, *GLOBALS)
         path = self.folder / "scenes" / f"{case.name}-{method.name}.ups"
         scene_variants.write(root, path)
@@ -123,6 +123,8 @@ def is_stable(run, first):
 
 def judge(run, case, isOurs):
     """`pass`, or what a run breaks. The error counts for the default method alone: others have promised nothing."""
+    if case.fails:
+        return ["pass"] if case.fails in run["failure"] else ["did not fail as it must"]
     if run["failure"]:
         return ["died"]
     broken = [] if run["ended"] == "maxTime" else [run["ended"]]
