@@ -46,6 +46,8 @@ class NodalHeat {
     const int k = nodes_(nodes_.imageOf(node).node);
     return k < 0 ? 0.0 : after_[static_cast<std::size_t>(k)] - before_[static_cast<std::size_t>(k)];
   }
+  /// T' of a node, K.
+  double temperature(const Index<D>& node) const { return after_[static_cast<std::size_t>(nodes_(nodes_.imageOf(node).node))]; }
   const NodeMap<D>& nodes() const { return nodes_; }
 
  private:

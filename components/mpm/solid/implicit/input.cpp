@@ -91,6 +91,17 @@ const Schema<Section>& sectionSchema() {
   return schema;
 }
 
+/// A material that says is_rigid is the master of the contacts that have one.
+void settleMasters(const Element& root, std::vector<Contact>& contacts) {
+  const std::vector<Element> materials = root.child("MaterialProperties")->child("MPM")->children("material");
+  for (std::size_t m = 0; m < materials.size(); ++m) {
+    const auto rigid = materials[m].child("is_rigid");
+    if (!rigid || rigid->text() != "true") continue;
+    for (Contact& contact : contacts)
+      if (contact.type == Contact::Type::specified) contact.master = static_cast<int>(m);
+  }
+}
+
 /// Implicit steps need the tangent of every material that is deformed.
 void refuseWithoutTangent(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
   for (const Material& material : problem.materials)
@@ -137,6 +148,7 @@ simulation::MakeComponent readImplicitScene(const Element& root, Diagnostics& di
   if (diagnostics.size() > before) return {};
   problem.materials = properties.mpm.materials;
   problem.contacts = properties.mpm.contacts;
+  settleMasters(root, problem.contacts);
   problem.start.axisymmetric = read.axisymmetric;
   problem.start.loads = readLoads(root, read.useLoadCurves, diagnostics);
   nameMaterials(problem.materials);

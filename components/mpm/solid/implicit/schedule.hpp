@@ -8,6 +8,7 @@
 #include "components/mpm/solid/tasks/apply_external_loads.hpp"
 #include "components/mpm/solid/tasks/diagnose.hpp"
 #include "components/mpm/solid/tasks/heat.hpp"
+#include "components/mpm/solid/tasks/show_grid.hpp"
 #include "components/mpm/solid/tasks/update_particles.hpp"
 
 // The schedule of ImplicitMpm: included by the files that instantiate it, one for each kind of shape function.
@@ -106,6 +107,13 @@ void ImplicitMpm<Shape>::scheduleDiagnostics(TaskList& tasks) const {
                     requiresOld(p::velocity<D>), computes(total::momentum));
   tasks.perMaterial("mpm::sumCenterOfMass", sumCenterOfMass<D>, problem_.materials, requiresOld(p::mass),
                     requiresOld(p::x<D>), computes(total::centerOfMass));
+  tasks.perMaterial("mpm::showOnGrid", showOnGrid<Shape>, problem_.materials, with(problem_.method.commonSize),
+                    requiresOld(p::x<D>, Shape::reach), when(true, requiresOld(p::size<D>, Shape::reach)),
+                    requiresOld(p::deformationMeasure, Shape::reach), requiresOld(p::mass, Shape::reach),
+                    requiresOld(p::velocity<D>, Shape::reach), requiresOld(p::volume, Shape::reach),
+                    requiresOld(p::stress, Shape::reach), computes(g::mass), computes(g::volume),
+                    computes(g::velocity<D>), computes(g::internalForce<D>), computes(g::acceleration<D>),
+                    computes(g::stress));
 }
 
 }  // namespace tushar::mpm::solid
