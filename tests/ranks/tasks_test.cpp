@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/error.hpp"
@@ -192,6 +193,30 @@ TEST(Ranks, FillGhostsFromOneAnother) {
           EXPECT_EQ(differingGhosts(some, patches, periodic ? 3 : 1, periodic), 0)
               << some.size() << " ranks, " << patches[0] << " x " << patches[1] << " patches";
     });
+}
+
+TEST(Ranks, WorkOnPatchesThatNeedNoMessageBeforeThoseThatWaitForOne) {
+  onRanks(2, [](const mpi::Communicator& some) {
+    test::Runner run(plane({{12, 10, 1}}, false), 1, some);
+    std::vector<int> order;
+    TaskList list;
+    list.perPatch("fill", [](const Patch& patch, CellView<double> cells) {
+      forEach<2>(patch.cells(), [&](const Index<2>& at) { cells[at] = 1; });
+    }, computes(number));
+    list.perPatch("read", [&order](const Patch& patch, CellView<const double>, Sum&) { order.push_back(patch.id()); },
+                  requiresNew(number, 1), computes(wrong));
+    TaskGraph graph = run.compile(list, {"wrong"});
+    run.step(graph);
+
+    const auto needsNoMessage = [&](int id) {
+      const std::vector<Patch> near = run.level.patchesOverlapping(run.level.patch(id).cellsWithin(1));
+      return std::all_of(near.begin(), near.end(), [&](const Patch& patch) { return run.level.isMine(patch.id()); });
+    };
+    EXPECT_EQ(order.size(), run.level.patches().size());
+    EXPECT_TRUE(std::is_partitioned(order.begin(), order.end(), needsNoMessage));
+    EXPECT_TRUE(std::any_of(order.begin(), order.end(), needsNoMessage));
+    EXPECT_FALSE(std::is_sorted(order.begin(), order.end()));
+  });
 }
 
 TEST(Ranks, HandParticlesToOneAnother) {

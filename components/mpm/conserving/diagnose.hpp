@@ -33,7 +33,7 @@ double crossSection(const Level& level) {
   return area;
 }
 
-/// V = the product of the edges and the cross-section of the grid, rho = m / V, p = (gamma - 1) rho e.
+/// V = the product of the edges and the cross-section of the grid, rho = m / V, p of the gas.
 template <int D>
 void computeDensity(const Patch& patch, const Gas& gas, ParticleView<const double> mass,
                     ParticleView<const Vec<D>> edges, ParticleView<const double> internalEnergy,
@@ -83,7 +83,8 @@ void computeCellDensity(const Patch& patch, const Gas&, CellView<const double> m
   forEach<D>(patch.cells(), [&](const Index<D>& cell) { density[cell] = mass[cell] / patch.level().cellVolume(); });
 }
 
-/// Errors of M_c / V_c, momentum over mass, (gamma - 1) IE_c / V_c and IE_c / M_c against exact cell means.
+/// Errors of M_c / V_c, momentum over mass, and pressure and internal energy of M_c / V_c and IE_c / M_c, against exact
+/// cell means.
 template <int D>
 void measureCellError(const Patch& patch, const Gas& gas, const reference::GasReference* exact,
                       const reference::Clock* clock, CellView<const double> mass, CellView<const Vec<D>> velocity,
@@ -101,8 +102,8 @@ void measureCellError(const Patch& patch, const Gas& gas, const reference::GasRe
     const auto state = exact->average(level.expandPoint<D>(lower), level.expandPoint<D>(upper), clock->time);
     density.add(m / volume - state.density, state.density);
     u.add((level.expandDirection<D>(velocity[cell]) - state.velocity).norm(), state.velocity.norm());
-    pressure.add((gas.gamma - 1) * ie / volume - state.pressure, state.pressure);
-    energy.add((m > 0 ? ie / m : 0) - state.energy, state.energy);
+    pressure.add((gas.gamma - 1) * ie / volume - gas.pInfinity - state.pressure, state.pressure);
+    energy.add((m > 0 ? gas.fullEnergy(m / volume, ie / m) : 0) - state.energy, state.energy);
   });
 }
 

@@ -41,7 +41,8 @@ struct MpmSection {
 
 /// Switches of Uintah's that are missing here, and what there is instead.
 const std::vector<std::pair<std::string, std::string>> lacking{
-    {"DoPressureStabilization", "use a wider <interpolator>, such as gimp or 3rdorderBS, against locking"},
+    {"DoPressureStabilization",
+     "use <time_integrator> implicit, or a wider <interpolator>, such as gimp or 3rdorderBS, against locking"},
     {"UseGradientEnhancedVelocityProjection", "take it out: particles pass on their own velocity"},
     {"UsePrescribedDeformation", "move the body by a <contact> of type specified"},
     {"InsertParticles", "give every body its place at the start"},
@@ -96,7 +97,8 @@ const std::vector<std::pair<std::string, std::string>> meaningless{
 const Schema<MpmSection>& mpmSchema() {
   static const Schema<MpmSection> schema = [] {
     Schema<MpmSection> mpm("MPM", "The Material Point Method for solids.");
-    mpm.choice("time_integrator", &MpmSection::integrator, {{"explicit", 0}}, 0, "how time advances")
+    mpm.choice("time_integrator", &MpmSection::integrator, {{"explicit", 0}}, 0,
+               "how time advances; implicit is another method, sus --describe impm")
         .choice("interpolator", &MpmSection::interpolator, interpolators, Interpolator::linear,
                 "shape functions: linear, generalised interpolation, convected particle domains (fast_cpdi is another "
                 "word for them), quadratic or cubic B-splines")
@@ -163,9 +165,8 @@ const Schema<MpmSection>& mpmSchema() {
   return schema;
 }
 
-struct PhysicalConstants {
-  Vec3 gravity = Vec3::Zero();
-};
+}  // namespace
+
 const Schema<PhysicalConstants>& constantsSchema() {
   static const Schema<PhysicalConstants> schema =
       Schema<PhysicalConstants>("PhysicalConstants", "What acts everywhere.")
@@ -173,6 +174,8 @@ const Schema<PhysicalConstants>& constantsSchema() {
           .ignored("reference_pressure", "nothing here depends on it");
   return schema;
 }
+
+namespace {
 
 /// One size for the particles of all bodies, where they agree.
 void settleSizes(Problem& problem) {
@@ -184,10 +187,11 @@ void settleSizes(Problem& problem) {
       problem.method.keepsSizes = problem.method.keepsSizes || !(body.particlesPerCell == first);
 }
 
-std::unique_ptr<Component> makeComponent(const Level& level, Interpolator interpolator, Problem problem) {
+}  // namespace
+
+void settleParticles(const Level& level, Problem& problem) {
   countParticles(level, problem.materials, problem.start.loads.surfaces);
   settleSizes(problem);
-  problem.start.domainsDeform = interpolator == Interpolator::cpdi;
   double widths = 0, axes = 0;
   for (int axis = 0; axis < 3; ++axis) {
     widths += level.cellWidth(axis);
@@ -196,6 +200,20 @@ std::unique_ptr<Component> makeComponent(const Level& level, Interpolator interp
   problem.method.meanWidth = widths / axes;
   problem.method.isThin = {true, true, true};
   for (int d = 0; d < level.dimension(); ++d) problem.method.isThin[static_cast<std::size_t>(level.axis(d))] = false;
+}
+
+void nameMaterials(std::vector<Material>& materials) {
+  for (std::size_t m = 0; m < materials.size(); ++m) {
+    materials[m].index = static_cast<int>(m);
+    if (materials[m].name.empty()) materials[m].name = "material" + std::to_string(m);
+  }
+}
+
+namespace {
+
+std::unique_ptr<Component> makeComponent(const Level& level, Interpolator interpolator, Problem problem) {
+  settleParticles(level, problem);
+  problem.start.domainsDeform = interpolator == Interpolator::cpdi;
   const auto make = [&]<template <int> class Shape>() -> std::unique_ptr<Component> {
     if (level.dimension() == 1) return std::make_unique<SolidMpm<Shape<1>>>(problem);
     if (level.dimension() == 2) return std::make_unique<SolidMpm<Shape<2>>>(problem);
@@ -261,10 +279,8 @@ simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostic
   problem.method.thermalContact = properties.mpm.thermalContact;
   problem.start = {read.axisymmetric, readLoads(root, read.useLoadCurves, diagnostics),
                    makeManufactured(read.manufactured)};
-  for (std::size_t m = 0; m < problem.materials.size(); ++m) {
-    Material& material = problem.materials[m];
-    material.index = static_cast<int>(m);
-    if (material.name.empty()) material.name = "material" + std::to_string(m);
+  nameMaterials(problem.materials);
+  for (const Material& material : problem.materials) {
     if (problem.start.solution && material.model->name() != "cnh_mms")
       diagnostics.error(root.child("MPM")->child("RunMMSProblem").value(),
                         "is made for the constitutive model cnh_mms, but '" + material.name + "' is " +

@@ -182,8 +182,8 @@ void SolidMpm<Shape>::scheduleIntegrateAcceleration(TaskList& tasks) const {
     scheduleHeatingFriction(tasks);
   else if (hasFriction())
     scheduleFriction(tasks, "mpm::frictionIntegrated", Moment::end, g::record);
-  tasks.perMaterial("mpm::setGridBoundaryConditions", setGridBoundaryConditions<D>, problem_.materials,
-                    modifies(g::record));
+  tasks.perMaterial("mpm::setGridBoundaryConditions", setGridBoundaryConditions<Shape>, problem_.materials,
+                    requiresOld(p::x<D>, Shape::reach), modifies(g::record));
 }
 
 /// Only run where someone reads or saves the temperature.
@@ -295,8 +295,8 @@ void SolidMpm<Shape>::scheduleComputeStressTensor(TaskList& tasks, Reads moving)
     tasks.acrossMaterials("mpm::exMomOfStresses", exMomOfStresses<D>, problem_.materials, with(problem_.contacts),
                           startTime(), modifies(g::stressRecord));
   if (hasFriction()) scheduleFriction(tasks, "mpm::frictionOfStresses", Moment::end, g::stressRecord);
-  tasks.perMaterial("mpm::setGridBoundaryConditionsOfStresses", setGridBoundaryConditions<D>, problem_.materials,
-                    modifies(g::stressRecord));
+  tasks.perMaterial("mpm::setGridBoundaryConditionsOfStresses", setGridBoundaryConditions<Shape>, problem_.materials,
+                    requiresOld(p::x<D>, reach), modifies(g::stressRecord));
   tasks.perMaterial(
       "mpm::computeStressTensor", computeStressTensor<Shape>, problem_.materials, with(problem_.method),
       with(state_size_), requiresOld(delT), requiresNew(g::stressRecord, Shape::storedNodes), requiresOld(p::x<D>),

@@ -170,6 +170,35 @@ TYPED_TEST(Transfer, GivesAUniformVelocityBackAsItWas) {
   }
 }
 
+TEST(DeformationGradient, IsMultipliedByThatOfTheStep) {
+  Matrix3 f, gradient;
+  f << 1.1, 0.2, -0.1, 0.3, 0.9, 0.05, -0.2, 0.1, 1.2;
+  gradient << 3, -1, 2, 0.5, 4, -2, 1, 1.5, -3;
+  const double dt = 0.01;
+  for (const int n : {1, 4}) {
+    Matrix3 expected = f, result;
+    for (int k = 0; k < n; ++k) expected = (Matrix3::Identity() + gradient * (dt / n)) * expected;
+    deform(f, gradient, dt, n, result);
+    EXPECT_LT((result - expected).norm(), 1e-15 * n);
+  }
+}
+
+TEST(TouchedRows, ClipToABox) {
+  const Cloud<GimpShape<2>> cloud;
+  const TouchedRows<2> rows(cloud.read(cloud.x), cloud.level.cells(), GimpShape<2>::ghostNodes, cloud.level.nodes());
+  const Box box{{{3, 2, 0}}, {{6, 5, 1}}};
+  std::vector<Index3> inBox, clipped;
+  rows.forEachRow([&](const Index3& first, int end) {
+    for (Index3 node = first; node[0] < end; ++node[0])
+      if (box.contains(node)) inBox.push_back(node);
+  });
+  rows.forEachRow(box, [&](const Index3& first, int end) {
+    for (Index3 node = first; node[0] < end; ++node[0]) clipped.push_back(node);
+  });
+  EXPECT_FALSE(clipped.empty());
+  EXPECT_EQ(clipped, inBox);
+}
+
 TEST(Blend, TakesTheGridsVelocityByItsShare) {
   Cloud<GimpShape<2>> cloud;
   cloud.toGrid(false);

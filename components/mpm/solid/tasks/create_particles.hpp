@@ -74,7 +74,8 @@ struct NewParticles {
     velocity.back() = level.reduce<D>(solution.velocity(elastic, point, 0));
     deformation.back() = f;
     if (start.domainsDeform) return;
-    for (int d = 0; d < D; ++d) size.back()[d] *= f(level.axis(d), level.axis(d));
+    for (int d = 0; d < D; ++d)  // gimp's are no wider than a cell
+      size.back()[d] = std::min(size.back()[d] * f(level.axis(d), level.axis(d)), 1.0);
   }
 };
 
