@@ -321,8 +321,7 @@ void refusePlacements(const MaterialProperties& properties, Diagnostics& diagnos
     for (const ObjectSection& object : material.objects)
       if (object.placement != Placement::midpoint)
         diagnostics.error(object.where, "MaterialProperties/MPM/material/geom_object",
-                          "placement: the particles of <conserving_gas_dynamics> are boxes that fill the gas; use "
-                          "midpoint, or <gas_dynamics>");
+                          "placement: the boxes of <conserving_gas_dynamics> fill the gas; use midpoint, or <gas_dynamics>");
 }
 
 /// The paper's method knows the ideal gas alone.
@@ -384,8 +383,7 @@ simulation::ComponentKind kind() {
   };
   kind.nodesBeyond = [](const Element& root) { return isGas(root) ? 0 : solid::nodesBeyond(root); };
   kind.read = [](const Element& root, Diagnostics& diagnostics) -> simulation::MakeComponent {
-    if (!isGas(root) && solid::isImplicit(root)) return solid::readImplicitScene(root, diagnostics);
-    if (!isGas(root)) return solid::readScene(root, diagnostics);
+    if (!isGas(root)) return (solid::isImplicit(root) ? solid::readImplicitScene : solid::readScene)(root, diagnostics);
     refuseSolidsOnly(root, diagnostics);
     const std::size_t before = diagnostics.size();
     const MpmSection method = simulation::readSection(root, mpmSchema(), diagnostics);

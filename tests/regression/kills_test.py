@@ -19,7 +19,7 @@ from uda import Folder
 KILLS = int(os.environ.get("KILLS", 6))
 SOD = "ups/mpm/sod.ups"
 LAYOUTS = ("1x1x1", "3x1x1", "4x1x1", "7x1x1")
-PATIENCE = 200  # seconds after which a job hangs, even on a machine with much else to do
+PATIENCE = 1200  # seconds after which a job hangs, even on a machine with much else to do
 
 
 def children(pid):

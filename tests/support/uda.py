@@ -8,6 +8,7 @@ import tempfile
 from sus import ROOT, SUS, on_ranks
 
 
+PATIENCE = 1200  # seconds after which a run hangs, even on a machine with much else to do
 MEMORY = next((path for path in ("/dev/shm",) if os.access(path, os.W_OK)), None)
 
 
@@ -30,7 +31,7 @@ class Folder:
     def finish(self, words, sets):
         """Exit code, errors and (of a run that ended well) the report."""
         (self.path / "report.json").unlink(missing_ok=True)
-        done = subprocess.run(self.command(words, sets), cwd=ROOT, capture_output=True, text=True, timeout=300)
+        done = subprocess.run(self.command(words, sets), cwd=ROOT, capture_output=True, text=True, timeout=PATIENCE)
         report = self.path / "report.json"
         return done.returncode, done.stderr, json.loads(report.read_text()) if report.exists() else None
 

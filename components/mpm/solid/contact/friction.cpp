@@ -15,7 +15,6 @@ constexpr double leastShare = 1e-14;
 template <int D>
 struct Gathering {
   Vec<D> momentum = Vec<D>::Zero(), position = Vec<D>::Zero();
-  Matrix3 stress = Matrix3::Zero();
   double mass = 0, volume = 0;
   Vec<D> normal = Vec<D>::Zero();  ///< out of the body whose mass changes most; 0 where none does
   std::size_t steepest = 0;        ///< that body
@@ -31,7 +30,6 @@ Gathering<D> gatherBodies(const Contact& contact, const Records& records, const 
     all.momentum += record[lane::mass] * lanes<D>(record, lane::velocity);
     all.position += surfaces.position[m][node];
     all.mass += record[lane::mass];
-    all.stress += surfaces.stress[m][node];
     all.volume += surfaces.volume[m][node];
     if (surfaces.massGradient[m][node].squaredNorm() <= all.normal.squaredNorm()) continue;
     all.normal = surfaces.massGradient[m][node];
@@ -41,13 +39,30 @@ Gathering<D> gatherBodies(const Contact& contact, const Records& records, const 
   return all;
 }
 
-/// Whether the stress pushes along a normal.
+/// Whether a body takes part in a contact at a node, with more of its mass than rounding leaves.
+template <int D>
+bool isThere(const Contact& contact, const Records& records, double totalMass, std::size_t m, const Index<D>& node) {
+  return contact.concerns(static_cast<int>(m)) && records[m][node][lane::mass] >= leastShare * totalMass;
+}
+
+/// Whether a stress pushes along a normal.
 template <int D>
 bool isPressed(const Level& level, const Matrix3& stress, const Vec<D>& normal) {
   double traction = 0;
   for (int i = 0; i < D; ++i)
     for (int j = 0; j < D; ++j) traction += normal[i] * stress(sceneAxis<D>(level, i), sceneAxis<D>(level, j)) * normal[j];
   return traction < -leastTraction;
+}
+
+/// Whether the stresses of all bodies at a node push along its normal.
+template <int D>
+bool arePressed(const Level& level, const Contact& contact, const Records& records, const Surfaces<D>& surfaces,
+                const Gathering<D>& all, const Index<D>& node) {
+  if (contact.onlyOnApproach) return false;
+  for (std::size_t m = 0; m < records.size(); ++m)
+    if (isThere<D>(contact, records, all.mass, m, node) && !isPressed<D>(level, surfaces.stress[m][node], all.normal))
+      return false;
+  return true;
 }
 
 /// How far the others' mass lies from the body's at a node, m.
@@ -86,11 +101,11 @@ void rub(const Patch& patch, const Contact& contact, double dt, const Records& r
   forEach<D>(records.front().box(), [&](const Index<D>& node) {
     const Gathering<D> all = gatherBodies<D>(contact, records, surfaces, node);
     if (all.mass == 0 || all.normal.isZero() || all.volume <= leastVolume) return;
-    const bool pressed = !contact.onlyOnApproach && isPressed<D>(level, all.stress, all.normal);
+    const bool pressed = arePressed<D>(level, contact, records, surfaces, all, node);
     for (std::size_t m = 0; m < records.size(); ++m) {
       Octet& record = records[m][node];
       const double mass = record[lane::mass], others = all.mass - mass;
-      if (!contact.concerns(static_cast<int>(m)) || mass < leastShare * all.mass || others < leastShare * all.mass) continue;
+      if (!isThere<D>(contact, records, all.mass, m, node) || others < leastShare * all.mass) continue;
       if (separation<D>(all, surfaces.position[m][node], mass) >= reach) continue;
       const Vec<D> v = lanes<D>(record, lane::velocity), normal = m == all.steepest ? all.normal : Vec<D>(-all.normal);
       const Rubbing<D> rubbed = rubbing<D>({normal, v - all.momentum / all.mass, pressed}, contact.friction);

@@ -35,9 +35,9 @@ struct Surfaces {
 };
 
 /// Applies `rubbing` to all materials that take part, where their volumes and distance are as the contact asks. All have
-/// the normal of the one whose mass changes most across the node, or its opposite: that of each would catch on corners. It
-/// is the sum of their stresses that presses them, so that what one of two loses the other has; Uintah asks each alone. A
-/// change that would strain a cell by more than a half is cut down to that. Adds the heat (J) to `heat`, if there is any.
+/// the normal of the one whose mass changes most across the node, or its opposite: that of each would catch on corners. They
+/// are pressed where the stresses of all are, so that what one of two loses the other has; Uintah asks each alone. A change
+/// that would strain a cell by more than a half is cut down to that. Adds the heat (J) to `heat`, if there is any.
 template <int D>
 void rub(const Patch& patch, const Contact& contact, double dt, const Records& records, const Surfaces<D>& surfaces,
          const std::vector<NodeView<double>>& heat);
