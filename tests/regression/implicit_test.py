@@ -68,6 +68,11 @@ class Implicit(unittest.TestCase):
         self.assertAlmostEqual(at_rest[-1][1] / (sum(loaded) / len(loaded)), 1, delta=.005)
         self.assertLess(len(at_rest), len(swinging) / 1000)
 
+    def test_patches_change_no_bit(self):
+        prints = {run(BEAM, "Time/max_Timesteps=2", f"Grid/Level/Box/patches={patches}").report["fingerprint"]
+                  for patches in ("[1,1,1]", "[2,1,1]", "[5,3,1]")}
+        self.assertEqual(len(prints), 1)
+
     def test_a_failed_solve_tells_history_place_and_what_to_try(self):
         result = run(BEAM, "MPM/iters_before_timestep_restart=1", "Time/delt_min=0.9")
         self.assertEqual(result.code, 4)
