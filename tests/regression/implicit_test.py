@@ -26,6 +26,17 @@ def last_of(scene, names, sets):
                 for name in names]
 
 
+def energies_of(scene, sets):
+    """Time and strain energy of each step."""
+    with tempfile.TemporaryDirectory() as folder:
+        command = [SUS, scene, "--quiet", "--output", folder]
+        for override in sets:
+            command += ["--set", override]
+        subprocess.run(command, cwd=ROOT, check=True)
+        lines = next(pathlib.Path(folder).glob("*.uda.*/StrainEnergy.dat")).read_text().splitlines()
+    return [tuple(map(float, line.split())) for line in lines if line[0] != "#"]
+
+
 def explicit(text):
     """The same scene by explicit steps with a damping that brings it to rest."""
     text = re.sub(r"<dynamic>.*</Solver>", "<artificial_damping_coeff>6</artificial_damping_coeff>", text, flags=re.DOTALL)
@@ -47,6 +58,20 @@ class Implicit(unittest.TestCase):
         sunk = [mass * middle - values[0][1] for values in (at_rest, implicit)]
         self.assertAlmostEqual(sunk[1] / sunk[0], 1, delta=.005)
         self.assertAlmostEqual(implicit[1][0] / at_rest[1][0], 1, delta=.01)  # goes as the square of the above
+
+    def test_a_cylinder_under_pressure_rests_where_explicit_steps_swing_around(self):
+        scene, coarse = "ups/solid/thick_cylinder.ups", ("Grid/Level/Box/resolution=[30,1,1]",)
+        swinging = energies_of(scene, coarse)
+        loaded = [energy for time, energy in swinging if time > .031]  # the load grows until .03 s
+        at_rest = energies_of(scene, (*coarse, "MPM/time_integrator=implicit", "MPM/dynamic=false", "Time/delt_init=0.01",
+                                      "Time/delt_max=0.01", "Time/timestep_multiplier=1"))
+        self.assertAlmostEqual(at_rest[-1][1] / (sum(loaded) / len(loaded)), 1, delta=.005)
+        self.assertLess(len(at_rest), len(swinging) / 1000)
+
+    def test_patches_change_no_bit(self):
+        prints = {run(BEAM, "Time/max_Timesteps=2", f"Grid/Level/Box/patches={patches}").report["fingerprint"]
+                  for patches in ("[1,1,1]", "[2,1,1]", "[5,3,1]")}
+        self.assertEqual(len(prints), 1)
 
     def test_a_failed_solve_tells_history_place_and_what_to_try(self):
         result = run(BEAM, "MPM/iters_before_timestep_restart=1", "Time/delt_min=0.9")
