@@ -7,6 +7,7 @@
 #include "components/mpm/analysis/mass_projection.hpp"
 #include "components/mpm/input.hpp"
 #include "components/mpm/solid/analysis/manufactured_error.hpp"
+#include "components/mpm/solid/implicit/input.hpp"
 #include "components/poisson/poisson.hpp"
 #include "components/reference/modules.hpp"
 #include "core/simulation/exact_solution.hpp"
@@ -21,6 +22,7 @@ simulation::Catalogue catalogue() {
           euler::kind(),
           heat::kind(),
           mpm::kind(),
+          mpm::solid::implicitKind(),
           poisson::kind(),
       },
       {

@@ -43,6 +43,7 @@ using tasks::requiresNew;
 using tasks::requiresOld;
 using tasks::startTime;
 using tasks::TaskList;
+using tasks::togetherOnRanks;
 using tasks::when;
 using tasks::with;
 

@@ -10,9 +10,10 @@ namespace tushar::heat {
 /// Crank & Nicolson, Proc. Camb. Phil. Soc. 43 (1947) 50, of second order. Both are stable for any dt.
 /// Throws NumericalError if the solver gives up.
 template <int D>
-void conductImplicitly(const RankPatches& patches, const Settings& settings, double dt,
+void conductImplicitly(const RankPatches& patches, const mpi::Communicator& ranks, const Settings& settings, double dt,
                        const std::vector<CellView<const double>>& temperature,
-                       const std::vector<CellView<double>>& newTemperature, Maximum& iterationsTaken) {
+                       const std::vector<CellView<double>>& newTemperature, Maximum& iterationsTaken, Maximum& assembly,
+                       Maximum& setup, Maximum& solution) {
   const Level& level = patches.front()->level();
   const solvers::CellNumbering number(level);
   const double theta = settings.theta, capacity = settings.capacity() * level.cellVolume() / dt;
@@ -31,14 +32,16 @@ void conductImplicitly(const RankPatches& patches, const Settings& settings, dou
   };
   poisson::forEachCell<D>(patches, [&](std::size_t p, const Index<D>& cell) { x[place(cell)] = temperature[p][cell]; });
   const solvers::Outcome outcome =
-      solvers::solver().solve(poisson::cellUnknowns<D>(number), {assemble, right}, settings.solver, x);
+      solvers::solver().solve(poisson::cellUnknowns<D>(number, ranks), {assemble, right}, settings.solver, x);
   if (!outcome.converged)
-    throw NumericalError(solvers::sentenceOf("the conduction of heat", outcome),
+    throw NumericalError(solvers::sentenceOf("the conduction of heat", outcome) +
+                             solvers::worstPlace(ranks, poisson::placeOf<D>(patches, number, outcome.worst), "in the cell"),
                          "another <preconditioner>, a larger <tolerance> or more <maxiterations> in <Heat>/<Solver>, or a "
                          "smaller <delt_max>",
                          "c.temperature");
   poisson::forEachCell<D>(patches, [&](std::size_t p, const Index<D>& cell) { newTemperature[p][cell] = x[place(cell)]; });
   iterationsTaken.add(outcome.krylovIterations);
+  solvers::addTimes(outcome, assembly, setup, solution);
 }
 
 }  // namespace tushar::heat

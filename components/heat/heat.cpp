@@ -23,8 +23,9 @@ void Heat<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
 template <int D>
 void Heat<D>::scheduleTimeAdvance(TaskList& tasks) const {
   if (settings_.theta > 0)
-    tasks.perRank("heat::conductImplicitly", conductImplicitly<D>, with(settings_), requiresOld(delT),
-                  requiresOld(c::temperature, 1), computes(c::temperature), computes(iterations));
+    tasks.perRank("heat::conductImplicitly", conductImplicitly<D>, togetherOnRanks(), with(settings_), requiresOld(delT),
+                  requiresOld(c::temperature, 1), computes(c::temperature), computes(iterations),
+                  computes(solvers::assemblyTime), computes(solvers::preconditionerTime), computes(solvers::solveTime));
   else
     tasks.perPatch("heat::conduct", conduct<D>, with(settings_), requiresOld(c::temperature, 1), requiresOld(delT),
                    computes(c::temperature));

@@ -4,7 +4,7 @@
 #include "core/input/diagnostics.hpp"
 #include "core/input/expression.hpp"
 #include "core/simulation/catalogue.hpp"
-#include "core/solvers/solver.hpp"
+#include "core/solvers/report.hpp"
 
 namespace tushar::heat {
 

@@ -4,6 +4,7 @@
 
 #include "components/mpm/conserving/conserving_mpm.hpp"
 #include "components/mpm/mpm.hpp"
+#include "components/mpm/solid/implicit/input.hpp"
 #include "components/mpm/solid/input.hpp"
 #include "core/input/geometry.hpp"
 #include "core/simulation/by_dimension.hpp"
@@ -203,18 +204,30 @@ const Schema<ObjectSection>& objectSchema() {
   return schema;
 }
 
+enum class GasType { ideal, stiffened };
 struct ModelSection {
-  int type = 0;
-  double gamma = 1.4;
+  Location where;
+  GasType type = GasType::ideal;
+  double gamma = 1.4, pInfinity = 0;
   double specificHeat = 717.5;
 };
 const Schema<ModelSection>& modelSchema() {
   static const Schema<ModelSection> schema =
       Schema<ModelSection>("constitutive_model", "How the material answers to being deformed.")
-          .requiredChoiceAttribute("type", &ModelSection::type, {{"ideal_gas", 0}}, "p = (gamma - 1) rho epsilon")
+          .location(&ModelSection::where)
+          .requiredChoiceAttribute("type", &ModelSection::type,
+                                   {{"ideal_gas", GasType::ideal}, {"stiffened_gas", GasType::stiffened}},
+                                   "p = (gamma - 1) rho e, or (gamma - 1) rho e - gamma p_infinity")
           .value("gamma", &ModelSection::gamma, 1.4, "1", "ratio of specific heats", input::greaterThan(1))
           .value("specific_heat", &ModelSection::specificHeat, 717.5, "J/(kg K)",
-                 "c_v, for bodies that give a temperature", input::positive());
+                 "c_v, for bodies that give a temperature", input::positive())
+          .value("p_infinity", &ModelSection::pInfinity, 0, "Pa", "stiffness: 0 for air, about 6e8 for water",
+                 input::nonNegative())
+          .ours()
+          .check([](const ModelSection& model, const Element& element, Diagnostics& diagnostics) {
+            if (model.type == GasType::ideal && model.pInfinity > 0)
+              diagnostics.error(element, "an ideal_gas has no p_infinity; use type=\"stiffened_gas\"");
+          });
   return schema;
 }
 
@@ -279,11 +292,11 @@ const Schema<MaterialProperties>& propertiesSchema() {
   return schema;
 }
 
-/// The pressure of a body, from its temperature where it gives that.
+/// The pressure of a body, from its temperature where it gives that: (gamma - 1) rho c_v T - p_inf.
 input::Expression pressureOf(const ObjectSection& object, const input::Expression& density, const ModelSection& model) {
   if (object.pressure) return *object.pressure;
-  const std::string text = fmt::format("({})*({})*({})", (model.gamma - 1) * model.specificHeat, density.text(),
-                                       object.temperature->text());
+  const std::string text = fmt::format("({})*({})*({})-({})", (model.gamma - 1) * model.specificHeat, density.text(),
+                                       object.temperature->text(), model.pInfinity);
   return *input::Expression::parse(text);
 }
 
@@ -291,6 +304,8 @@ Gas makeGas(const MaterialSection& material) {
   Gas gas;
   gas.name = material.name;
   gas.gamma = material.model.gamma;
+  gas.pInfinity = material.model.pInfinity;
+  gas.where = material.model.where;
   gas.relaxation = material.relaxation;
   for (const ObjectSection& object : material.objects) {
     const input::Expression density = object.density ? *object.density : input::Expression(*material.density);
@@ -306,8 +321,15 @@ void refusePlacements(const MaterialProperties& properties, Diagnostics& diagnos
     for (const ObjectSection& object : material.objects)
       if (object.placement != Placement::midpoint)
         diagnostics.error(object.where, "MaterialProperties/MPM/material/geom_object",
-                          "placement: the particles of <conserving_gas_dynamics> are boxes that fill the gas; use "
-                          "midpoint, or <gas_dynamics>");
+                          "placement: the boxes of <conserving_gas_dynamics> fill the gas; use midpoint, or <gas_dynamics>");
+}
+
+/// The paper's method knows the ideal gas alone.
+void refuseStiffness(const MaterialProperties& properties, Diagnostics& diagnostics) {
+  for (const MaterialSection& material : properties.mpm.materials)
+    if (material.model.type == GasType::stiffened)
+      diagnostics.error(material.model.where, "MaterialProperties/MPM/material/constitutive_model",
+                        "type: <gas_dynamics> takes an ideal_gas alone; use <conserving_gas_dynamics>");
 }
 
 /// Cells that are seeded anew with more than max_particles would be seeded anew in every step.
@@ -352,7 +374,7 @@ simulation::ComponentKind kind() {
   kind.name = "mpm";
   kind.sentence = "the Material Point Method: solids, and gas dynamics of Tran, Kim & Berzins";
   kind.sections = {"MPM", "MaterialProperties", "PhysicalConstants", "PhysicalBC"};
-  kind.boundaryLabels = {{"Symmetric"}, {"Velocity", true}, {"Temperature"}};
+  kind.boundaryLabels = {{"Symmetric"}, {"Velocity", true}, {"Temperature", false, true}};
   kind.describe = [](std::ostream& out) {
     solid::describe(out);
     out << "Where <MPM> has <gas_dynamics> or <conserving_gas_dynamics>, instead:\n";
@@ -361,12 +383,12 @@ simulation::ComponentKind kind() {
   };
   kind.nodesBeyond = [](const Element& root) { return isGas(root) ? 0 : solid::nodesBeyond(root); };
   kind.read = [](const Element& root, Diagnostics& diagnostics) -> simulation::MakeComponent {
-    if (!isGas(root)) return solid::readScene(root, diagnostics);
+    if (!isGas(root)) return (solid::isImplicit(root) ? solid::readImplicitScene : solid::readScene)(root, diagnostics);
     refuseSolidsOnly(root, diagnostics);
     const std::size_t before = diagnostics.size();
     const MpmSection method = simulation::readSection(root, mpmSchema(), diagnostics);
     const MaterialProperties properties = simulation::readSection(root, propertiesSchema(), diagnostics);
-    if (method.conserving) refusePlacements(properties, diagnostics);
+    method.conserving ? refusePlacements(properties, diagnostics) : refuseStiffness(properties, diagnostics);
     if (diagnostics.size() > before) return {};
     std::vector<Gas> gases;
     for (const MaterialSection& material : properties.mpm.materials) gases.push_back(makeGas(material));

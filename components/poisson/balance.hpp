@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "core/core.hpp"
@@ -68,14 +69,13 @@ void addBoundary(const Level& level, const input::Expression& coefficient, const
 /// `variable` names phi in the boundary conditions of the scene.
 template <int D>
 Balance<D> balanceOf(const Level& level, const input::Expression& k, const char* variable, const Index<D>& cell) {
-  const solvers::CellNumbering number(level);
   const double own = coefficientIn<D>(level, k, cell);
   Balance<D> balance;
   balance.cells[0] = cell;
   for (int d = 0; d < D; ++d)
     for (const int side : {0, 1}) {
       const Index<D> next = side == 0 ? cell - Index<D>::unit(d) : cell + Index<D>::unit(d);
-      if (number(next) < 0) {
+      if (!level.isPeriodic(d) && !level.cells().contains(next)) {
         addBoundary<D>(level, k, variable, d, side, balance);
         continue;
       }
@@ -97,11 +97,24 @@ void forEachCell(const RankPatches& patches, Visit&& visit) {
 
 /// The unknowns of a system with a row for each cell.
 template <int D>
-solvers::Unknowns cellUnknowns(const solvers::CellNumbering& number) {
+solvers::Unknowns cellUnknowns(const solvers::CellNumbering& number, const mpi::Communicator& ranks) {
   solvers::Unknowns unknowns;
+  unknowns.ranks = &ranks;
   unknowns.owned = number.owned();
+  unknowns.ghosts = number.ghosts();
   unknowns.entries.assign(static_cast<std::size_t>(number.owned()), Balance<D>::most);
   return unknowns;
+}
+
+/// The middle of the cell with a number, m; none for one of another rank.
+template <int D>
+std::optional<Vec3> placeOf(const RankPatches& patches, const solvers::CellNumbering& number, int wanted) {
+  std::optional<Vec3> place;
+  forEachCell<D>(patches, [&](std::size_t p, const Index<D>& cell) {
+    const Level& level = patches[p]->level();
+    if (wanted >= 0 && number(cell) == wanted) place = level.expandPoint<D>(level.cellCentre<D>(cell));
+  });
+  return place;
 }
 
 }  // namespace tushar::poisson

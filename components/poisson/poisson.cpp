@@ -20,8 +20,9 @@ void Poisson<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
 
 template <int D>
 void Poisson<D>::scheduleTimeAdvance(TaskList& tasks) const {
-  tasks.perRank("poisson::solve", solve<D>, with(settings_), startTime(), requiresOld(delT), requiresOld(c::phi),
-                computes(c::phi), computes(iterations), computes(finalResidual));
+  tasks.perRank("poisson::solve", solve<D>, togetherOnRanks(), with(settings_), startTime(), requiresOld(delT),
+                requiresOld(c::phi), computes(c::phi), computes(iterations), computes(finalResidual),
+                computes(assemblyTime), computes(preconditionerTime), computes(solveTime));
 }
 
 template <int D>
@@ -51,12 +52,12 @@ bool keepsValueSomewhere(const Level& level) {
 }  // namespace
 
 template <int D>
-void solve(const RankPatches& patches, const Settings& settings, double time, double dt,
+void solve(const RankPatches& patches, const mpi::Communicator& ranks, const Settings& settings, double time, double dt,
            const std::vector<CellView<const double>>& oldPhi, const std::vector<CellView<double>>& phi,
-           Maximum& iterationsTaken, Maximum& residualLeft) {
+           Maximum& iterationsTaken, Maximum& residualLeft, Maximum& assembly, Maximum& setup, Maximum& solution) {
   const Level& level = patches.front()->level();
   const solvers::CellNumbering number(level);
-  solvers::Unknowns unknowns = cellUnknowns<D>(number);
+  solvers::Unknowns unknowns = cellUnknowns<D>(number, ranks);
   unknowns.constantIsFree = !keepsValueSomewhere(level);
   std::vector<double> right(unknowns.entries.size()), x(right.size());
   const auto place = [&](const Index<D>& cell) { return static_cast<std::size_t>(number(cell)); };
@@ -74,11 +75,13 @@ void solve(const RankPatches& patches, const Settings& settings, double time, do
   forEachCell<D>(patches, [&](std::size_t p, const Index<D>& cell) { x[place(cell)] = oldPhi[p][cell]; });
   const solvers::Outcome outcome = solvers::solver().solve(unknowns, {assemble, right}, settings.solver, x);
   if (!outcome.converged)
-    throw NumericalError(solvers::sentenceOf("Poisson's equation", outcome),
+    throw NumericalError(solvers::sentenceOf("Poisson's equation", outcome) +
+                             solvers::worstPlace(ranks, poisson::placeOf<D>(patches, number, outcome.worst), "in the cell"),
                          "another <preconditioner>, a larger <tolerance> or more <maxiterations> in <Poisson>/<Solver>",
                          "c.phi");
   forEachCell<D>(patches, [&](std::size_t p, const Index<D>& cell) { phi[p][cell] = x[place(cell)]; });
   iterationsTaken.add(outcome.krylovIterations);
+  solvers::addTimes(outcome, assembly, setup, solution);
   if (!outcome.residuals.empty() && outcome.residuals.front() > 0)
     residualLeft.add(outcome.residuals.back() / outcome.residuals.front());
 }

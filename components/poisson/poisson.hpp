@@ -3,7 +3,7 @@
 #include "core/core.hpp"
 #include "core/input/expression.hpp"
 #include "core/simulation/catalogue.hpp"
-#include "core/solvers/solver.hpp"
+#include "core/solvers/report.hpp"
 
 namespace tushar::poisson {
 
@@ -12,6 +12,9 @@ inline constexpr CellLabel<double> phi{"c.phi", "1", "solution", Bound::finite};
 }
 inline constexpr ReductionLabel<Maximum> iterations{"KrylovIterations", "1", "iterations of the linear solve"};
 inline constexpr ReductionLabel<Maximum> finalResidual{"KrylovResidual", "1", "residual at the end over that at the start"};
+using solvers::assemblyTime;
+using solvers::preconditionerTime;
+using solvers::solveTime;
 
 /// The `Poisson` section.
 struct Settings {
@@ -45,9 +48,9 @@ void initialize(const Patch& patch, const Settings& settings, CellView<double> p
 
 /// Solves for phi in the cells of all patches, from the old one. Throws NumericalError if the solver gives up.
 template <int D>
-void solve(const RankPatches& patches, const Settings& settings, double time, double dt,
+void solve(const RankPatches& patches, const mpi::Communicator& ranks, const Settings& settings, double time, double dt,
            const std::vector<CellView<const double>>& oldPhi, const std::vector<CellView<double>>& phi,
-           Maximum& iterationsTaken, Maximum& residualLeft);
+           Maximum& iterationsTaken, Maximum& residualLeft, Maximum& assembly, Maximum& setup, Maximum& solution);
 
 /// What sus knows of this component.
 simulation::ComponentKind kind();

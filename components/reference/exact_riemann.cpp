@@ -11,6 +11,12 @@ namespace tushar::reference {
 
 namespace {
 
+/// A stiffened gas as the ideal gas with the same waves.
+RiemannState stiffened(RiemannState state, double pInfinity) {
+  state.pressure += pInfinity;
+  return state;
+}
+
 void checkTime(double t) {
   if (!(t >= 0)) throw std::invalid_argument(fmt::format("A Riemann problem begins at t = 0 and has no t = {}.", t));
 }
@@ -18,7 +24,9 @@ void checkTime(double t) {
 }  // namespace
 
 ExactRiemann::ExactRiemann(const RiemannProblem& problem)
-    : problem_(problem), solution_(solveRiemann(problem.left, problem.right, problem.gamma)) {
+    : problem_(problem),
+      solution_(solveRiemann(stiffened(problem.left, problem.pInfinity), stiffened(problem.right, problem.pInfinity),
+                             problem.gamma)) {
   if (problem.axis < 0 || problem.axis > 2) {
     throw std::invalid_argument(fmt::format("The axis of a Riemann problem is 0, 1 or 2, not {}.", problem.axis));
   }
@@ -35,8 +43,9 @@ GasState ExactRiemann::at(const Vec3& x, double t) const {
   const RiemannState state = solution_.sample(xi);
   GasState gas;
   gas.density = state.density;
-  gas.pressure = state.pressure;
-  gas.energy = state.density > 0 ? state.pressure / ((problem_.gamma - 1) * state.density) : 0;
+  gas.pressure = state.pressure - problem_.pInfinity;
+  const double heat = state.pressure / (problem_.gamma - 1) + problem_.pInfinity;
+  gas.energy = state.density > 0 ? heat / state.density : 0;
   gas.velocity = xi < solution_.starVelocity ? problem_.leftTransverse : problem_.rightTransverse;
   gas.velocity[problem_.axis] = state.velocity;
   return gas;

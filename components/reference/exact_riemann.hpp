@@ -12,6 +12,7 @@ struct RiemannProblem {
   RiemannState left;       ///< below the diaphragm
   RiemannState right;      ///< above it
   double gamma = 1.4;      ///< ratio of specific heats
+  double pInfinity = 0;    ///< of a stiffened gas, Pa
   double diaphragm = 0.5;  ///< its position along `axis`, m
   int axis = 0;            ///< 0, 1 or 2: the normal of the plane
   /// Velocities along the other axes, m/s: carried along with each gas, so that they jump at the contact alone.
@@ -22,6 +23,8 @@ struct RiemannProblem {
 /// The exact solution of a Riemann problem in space and time: shock tubes, Noh's plane wall, gas into vacuum.
 ///
 /// In vacuum density, pressure and energy are 0 and the velocity is that of the nearer front.
+/// A stiffened gas has the waves of an ideal gas of pressure p + p_inf, and the internal energy (p + gamma p_inf) /
+/// ((gamma - 1) rho).
 /// Source: E. F. Toro, Riemann Solvers and Numerical Methods for Fluid Dynamics, 3rd ed., chapter 4.
 class ExactRiemann : public GasReference {
  public:
@@ -32,6 +35,7 @@ class ExactRiemann : public GasReference {
   GasState average(const Vec3& lower, const Vec3& upper, double t) const override;
   std::vector<double> breaks(int axis, double t) const override;
 
+  /// That of the ideal gas with the same waves: its pressures are p + p_inf.
   const RiemannSolution& solution() const { return solution_; }
 
  private:

@@ -39,7 +39,10 @@ const Schema<RiemannSection>& riemannSchema() {
   static const Schema<RiemannSection> schema = [] {
     Schema<RiemannSection> declared("Module", "Errors against the exact solution of a shock tube (Toro, ch. 4).");
     declareGasTags(declared, "exactRiemann");
-    declared.requiredSection("left", &RiemannSection::left, stateSchema(), "the gas below the diaphragm")
+    declared.value("p_infinity", memberOf<RiemannSection>(&GasTags::pInfinity), 0, "Pa", "stiffness of the gas",
+                   input::nonNegative())
+        .ours()
+        .requiredSection("left", &RiemannSection::left, stateSchema(), "the gas below the diaphragm")
         .ours()
         .requiredSection("right", &RiemannSection::right, stateSchema(), "the gas above it")
         .ours()
@@ -96,6 +99,7 @@ ReferencePointer tubeOn(const grid::Level& level, const RiemannSection& read) {
   problem.left = {read.left.density, read.left.velocity, read.left.pressure};
   problem.right = {read.right.density, read.right.velocity, read.right.pressure};
   problem.gamma = read.gamma;
+  problem.pInfinity = read.pInfinity;
   problem.diaphragm = read.diaphragm / length;
   TubePlacement placement{normal, {}, periodAlong(normal, level)};
   if (placement.period == 0) checkDiaphragm(problem.diaphragm, normal, level.domain());

@@ -78,7 +78,7 @@ simulation::MakeAnalysis measureAgainst(std::function<ReferencePointer(const Lev
   const auto problem = [where = module.where(), path = module.path()](const std::string& sentence) {
     return InputError({InputProblem{where, path, sentence}});
   };
-  return [build, problem, name = tags.name, gamma = tags.gamma, within = tags.within](
+  return [build, problem, name = tags.name, gamma = tags.gamma, pInfinity = tags.pInfinity, within = tags.within](
              const Component& component, const Level& level) -> std::unique_ptr<simulation::Analysis> {
     const auto* solution = dynamic_cast<const GasSolution*>(&component);
     if (!solution) throw problem("measures a gas, but this component does not solve for one; take the module out");
@@ -87,6 +87,9 @@ simulation::MakeAnalysis measureAgainst(std::function<ReferencePointer(const Lev
       const std::optional<double> solved = solution->gamma();
       if (solved && std::abs(gamma - *solved) > 1e-6 * gamma)
         throw problem(fmt::format("gamma: found {}, but the gas of the scene has {}", gamma, *solved));
+      if (std::abs(pInfinity - solution->pInfinity()) > 1e-6 * solution->pInfinity())
+        throw problem(fmt::format("p_infinity: found {:g} Pa, but the gas of the scene has {:g} Pa", pInfinity,
+                                  solution->pInfinity()));
       if (within) exact = std::make_shared<Within>(exact, *within);
       return std::make_unique<GasError>(name, std::move(exact), *solution);
     } catch (const std::invalid_argument& error) {

@@ -45,6 +45,8 @@ class GasSolution {
   virtual ~GasSolution() = default;
   /// Ratio of specific heats of the gas; none where no one number describes the flow.
   virtual std::optional<double> gamma() const = 0;
+  /// p_inf of a stiffened gas, Pa; 0 of an ideal one.
+  virtual double pInfinity() const { return 0; }
   /// The places whose error labels scheduleMeasureError's tasks compute.
   virtual std::vector<MeasuredPlace> measuredPlaces() const {
     return {MeasuredPlace::particle, MeasuredPlace::cell, MeasuredPlace::node};

@@ -14,6 +14,7 @@ namespace tushar::reference {
 struct GasTags {
   std::string name;
   double gamma = 1.4;
+  double pInfinity = 0;  ///< Pa; of a stiffened gas
   std::optional<Region> within;
 };
 

@@ -1,20 +1,36 @@
 #include "core/data/buffer_pool.hpp"
 
-#include <algorithm>
+#include <utility>
 
 namespace tushar::data {
 
 void BufferPool::reserve(Buffer& buffer, std::size_t bytes, std::size_t keep) {
+  constexpr std::size_t tooSmallToMatter = std::size_t{1} << 16;
   if (bytes <= buffer.capacity()) return;
-  const auto fits = std::find_if(free_.rbegin(), free_.rend(), [&](const Buffer& b) { return b.capacity() >= bytes; });
-  if (keep > 0 || fits == free_.rend()) {
+  const auto best = smallest(bytes, 2 * bytes + tooSmallToMatter);
+  if (keep > 0 || best == free_.end()) {
     ++allocations_;
+    if (const auto outgrown = smallest(bytes - bytes / 4, bytes); outgrown != free_.end()) take(outgrown);
     return buffer.reserve(bytes, keep);
   }
-  std::swap(buffer, *fits);
-  if (fits->capacity() > 0) return;
-  std::swap(*fits, free_.back());
+  Buffer found = take(best);
+  takeBack(buffer);
+  buffer = std::move(found);
+}
+
+std::vector<Buffer>::iterator BufferPool::smallest(std::size_t least, std::size_t below) {
+  auto best = free_.end();
+  for (auto it = free_.begin(); it != free_.end(); ++it)
+    if (it->capacity() >= least && it->capacity() < below && (best == free_.end() || it->capacity() < best->capacity()))
+      best = it;
+  return best;
+}
+
+Buffer BufferPool::take(std::vector<Buffer>::iterator which) {
+  Buffer taken = std::move(*which);
+  if (which != free_.end() - 1) *which = std::move(free_.back());
   free_.pop_back();
+  return taken;
 }
 
 void BufferPool::takeBack(Buffer& buffer) {

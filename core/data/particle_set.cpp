@@ -9,15 +9,31 @@ void ParticleSet::reset(const grid::Patch& patch, int reach) {
   cells_ = patch.cellsWithin(reach);
   stride_ = {{1, cells_.extent(0), cells_.extent(0) * cells_.extent(1)}};
   ranges_.assign(cells_.size(), {});
+  spans_.assign(cells_.rows(), {cells_.upper[0], cells_.lower[0]});
   owned_ = total_ = 0;
   ghost_runs_.clear();
   has_ghosts_ = false;
+}
+
+void ParticleSet::setOwned(int count) {
+  owned_ = total_ = count;
+  grid::Box rows = owned_cells_;
+  rows.upper[0] = std::min(rows.upper[0], rows.lower[0] + 1);
+  grid::forEach<3>(rows, [&](const Index3& cell) {
+    const ParticleRange* range = row(cell);
+    int first = 0, last = owned_cells_.extent(0);
+    while (first < last && range[first].empty()) ++first;
+    while (last > first && range[last - 1].empty()) --last;
+    if (first < last) spans_[rowOf(cell)] = {cell[0] + first, cell[0] + last};
+  });
 }
 
 void ParticleSet::addGhostCell(const Index3& cell, int patch, const ParticleRange& there, const Index3& shift) {
   at(cell) = {total_, total_ + there.size()};
   total_ += there.size();
   if (there.empty()) return;
+  Span& span = spans_[rowOf(cell)];
+  span = {std::min(span.first, cell[0]), std::max(span.last, cell[0] + 1)};
   GhostRun* last = ghost_runs_.empty() ? nullptr : &ghost_runs_.back();
   if (last && last->patch == patch && last->shift == shift && last->first + last->count == there.first)
     last->count += there.size();

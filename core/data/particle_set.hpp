@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "core/base/vec.hpp"
@@ -59,11 +61,40 @@ class ParticleSet {
     return ranges_[offset(cell)];
   }
 
+  /// Calls `visit(cell, particles)` for the cells of a box that hold particles, in lexicographic order.
+  template <int D, class Visit>
+  void forEachOccupied(const grid::Box& box, Visit&& visit) const {
+    grid::Box rows = box;
+    rows.upper[0] = std::min(rows.upper[0], rows.lower[0] + 1);
+    grid::forEach<D>(rows, [&](Index<D> cell) {
+      const Span span = occupied(cell, box.upper[0]);
+      cell[0] = span.first;
+      const ParticleRange* range = &ranges_[offset(cell)];
+      for (; cell[0] < span.last; ++cell[0], ++range)
+        if (!range->empty()) visit(std::as_const(cell), *range);
+    });
+  }
+
+  /// Coordinates of cells along the first axis, from `first` up to but not with `last`.
+  struct Span {
+    int first, last;
+
+    bool empty() const { return first >= last; }
+  };
+  /// The cells of the row from `cell` to `end` outside of which none holds particles.
+  template <int D>
+  Span occupied(const Index<D>& cell, int end) const {
+    const Span span = spans_[rowOf(cell)];
+    const int first = std::max(span.first, cell[0]);
+    return {first, std::max(std::min(span.last, end), first)};
+  }
+
   /// The ranges of consecutive cells along the first axis, from `cell` on.
   ParticleRange* row(const Index3& cell) { return &ranges_[offset(cell)]; }
   const ParticleRange* row(const Index3& cell) const { return &ranges_[offset(cell)]; }
 
-  void setOwned(int count) { owned_ = total_ = count; }
+  /// All cells of the patch have their particles now, `count` together.
+  void setOwned(int count);
 
   /// Adds the particles of a ghost cell behind those that are there: those of cell - shift on `patch`.
   void addGhostCell(const Index3& cell, int patch, const ParticleRange& there, const Index3& shift = {});
@@ -85,10 +116,18 @@ class ParticleSet {
     if constexpr (D > 2) at += std::ptrdiff_t{cell[2] - cells_.lower[2]} * stride_[2];
     return static_cast<std::size_t>(at);
   }
+  template <int D>
+  std::size_t rowOf(const Index<D>& cell) const {
+    std::ptrdiff_t row = 0;
+    if constexpr (D > 1) row += cell[1] - cells_.lower[1];
+    if constexpr (D > 2) row += std::ptrdiff_t{cell[2] - cells_.lower[2]} * cells_.extent(1);
+    return static_cast<std::size_t>(row);
+  }
 
   grid::Box owned_cells_, cells_;
   Index3 stride_{};
   std::vector<ParticleRange> ranges_;
+  std::vector<Span> spans_;  ///< of each row along the first axis: outside of it no cell holds particles
   std::vector<GhostRun> ghost_runs_;
   int owned_ = 0, total_ = 0;
   bool has_ghosts_ = false;

@@ -47,6 +47,13 @@ class ParticleView {
       if (!cells_.contains(cell)) refuse(label_, widened(cell), cells_);
     return set_->in(cell);
   }
+  /// Calls `visit(cell, particles)` for the cells of a box that hold particles, in lexicographic order.
+  template <int D, class Visit>
+  void forEachOccupied(const grid::Box& box, Visit&& visit) const {
+    if constexpr (checked)
+      if (!(box.intersect(cells_) == box)) refuse(label_, box.lower, cells_);
+    set_->forEachOccupied<D>(box, std::forward<Visit>(visit));
+  }
   /// Number of particles that the patch owns: places 0 to owned() - 1.
   int owned() const { return set_->owned(); }
   const ParticleSet& set() const { return *set_; }

@@ -38,6 +38,13 @@ struct Box {
     return x + static_cast<std::size_t>(extent(0)) * (y + static_cast<std::size_t>(extent(1)) * z);
   }
 
+  /// Rows along the first axis: how many, and the place of that of an index among them.
+  constexpr std::size_t rows() const { return static_cast<std::size_t>(extent(1)) * static_cast<std::size_t>(extent(2)); }
+  constexpr std::size_t rowOf(const Index3& at) const {
+    return static_cast<std::size_t>(at[1] - lower[1]) +
+           static_cast<std::size_t>(extent(1)) * static_cast<std::size_t>(at[2] - lower[2]);
+  }
+
   constexpr Box intersect(const Box& other) const {
     Box both;
     for (int d = 0; d < 3; ++d) {

@@ -1,5 +1,7 @@
 #include "core/grid/level.hpp"
 
+#include <algorithm>
+
 namespace tushar::grid {
 
 Level::Level(const Domain& domain, Share share) : domain_(domain), share_(share) {
@@ -22,9 +24,11 @@ void Level::share(Firsts firsts) {
 
 void Level::chooseAxes() {
   const auto isPlane = [&](int axis, int side) {
-    for (const BoundaryCondition& condition : domain_.boundaries.face(axis, side))
-      if (condition.kind == "symmetry") return true;
-    return false;
+    const auto& conditions = domain_.boundaries.face(axis, side);
+    const auto has = [&](const char* kind) {
+      return std::any_of(conditions.begin(), conditions.end(), [&](const BoundaryCondition& c) { return c.kind == kind; });
+    };
+    return has("symmetry") && !has("Dirichlet");
   };
   for (int axis = 0; axis < 3; ++axis) {
     const double extent = domain_.upper[axis] - domain_.lower[axis];

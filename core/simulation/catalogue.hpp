@@ -19,6 +19,7 @@ using MakeComponent = std::function<std::unique_ptr<Component>(const grid::Level
 struct BoundaryLabel {
   std::string name;
   bool isVector = false;  ///< whether its value is one
+  bool isEven = false;    ///< may be given on a plane of symmetry, whose images have the same
 };
 
 /// A component that sus knows: one line of the table in components/components.cpp.

@@ -22,6 +22,8 @@ class Component {
   virtual void scheduleTimeAdvance(tasks::TaskList& tasks) const = 0;
   /// What a user can try when a value breaks its bound: continues `try `.
   virtual std::string advice() const { return "a smaller time step (timestep_multiplier in <Time>)"; }
+  /// Whether a value that cannot be has the step repeated with half the time step, even where the scene does not ask.
+  virtual bool mayRepeatStep() const { return false; }
   /// What can be said about a state, from the old state: totals, derived fields. Only what someone asks for is run.
   virtual void scheduleDiagnostics(tasks::TaskList&) const {}
 };

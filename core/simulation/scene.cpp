@@ -198,6 +198,7 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   problem.level = std::make_unique<grid::Level>(domain, share);
   problem.threads = workers.threadsFor(domain.resolution);
   problem.component = makeComponent(*problem.level);
+  if (problem.component->mayRepeatStep()) problem.time.recomputeTimeStep = true;
   problem.analyses = makeModules(modules, *problem.component, *problem.level);
   problem.notes = diagnostics.notes();
   return problem;

@@ -172,7 +172,8 @@ void readConditions(const std::vector<ConditionSection>& given, const std::vecto
     if (!label || !input::choiceProblem(given[k].var, conditionKinds).empty()) continue;
     conditions.push_back({label->name, given[k].var, conditionValue(given[k], label->isVector, tags[k], diagnostics),
                           input::parse<int>(given[k].id).value.value_or(-1)});
-    if (const std::string problem = contradiction(conditions.back(), given[k].value.has_value(), onPlane);
+    const bool onOddPlane = onPlane && !(label->isEven && given[k].var == "Dirichlet");
+    if (const std::string problem = contradiction(conditions.back(), given[k].value.has_value(), onOddPlane);
         !problem.empty())
       diagnostics.error(tags[k], problem);
     if (const auto [first, isNew] = seen.emplace(label->name + given[k].id, tags[k].where()); !isNew)

@@ -32,9 +32,6 @@ Simulation::Simulation(Problem problem, const RunOptions& options, Clock::time_p
   if (problem_.archive.checkpoint) checkpoints_.emplace(*problem_.archive.checkpoint, problem_.time.initTime);
   phases_.compile(problem_.analyses, problem_.archive.saves, *problem_.level, table_);
   warehouse_.grow(static_cast<int>(phases_.materials().size()));
-  if (const std::string task = phases_.globalSolve(); !task.empty() && !ranks.isAlone())
-    throw std::runtime_error(fmt::format("the task {} solves over the whole grid, and runs on one rank so far; start it "
-                                         "without mpirun", task));
 }
 
 long Simulation::tryStart() {

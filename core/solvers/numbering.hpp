@@ -1,16 +1,24 @@
 #pragma once
 
+#include <unordered_map>
+#include <vector>
+
 #include "core/grid/level.hpp"
 
 namespace tushar::solvers {
 
-/// Gives each cell of a grid its number in a global system: in lexicographic order, so that the patches do not matter.
+/// Gives each cell that a rank deals with its number in a global system, as Unknowns wants it: its own cells, then those of
+/// other ranks that share a face with them. On one rank the order is lexicographic, so that the patches do not matter.
 class CellNumbering {
  public:
-  explicit CellNumbering(const grid::Level& level) : level_(&level) {}
+  explicit CellNumbering(const grid::Level& level) : level_(&level) {
+    if (level.share().ranks > 1) numberOwnPatches();
+  }
 
-  int owned() const { return static_cast<int>(level_->cells().size()); }
-  /// Of a cell of the grid or, along periodic axes, of an image of one; -1 beyond the grid.
+  int owned() const { return level_->share().ranks > 1 ? owned_ : static_cast<int>(level_->cells().size()); }
+  /// The cells of other ranks: their numbers among those of all ranks.
+  const std::vector<int>& ghosts() const { return ghosts_; }
+  /// Of a cell of the grid or, along periodic axes, of an image of one; -1 beyond the grid and far from the rank's patches.
   template <int D>
   int operator()(Index<D> cell) const {
     for (int d = 0; d < D; ++d) {
@@ -18,11 +26,21 @@ class CellNumbering {
       if (level_->isPeriodic(d)) cell[d] = (cell[d] % count + count) % count;
       if (cell[d] < 0 || cell[d] >= count) return -1;
     }
-    return static_cast<int>(level_->cellNumber<D>(cell));
+    const std::uint64_t place = level_->cellNumber<D>(cell);
+    if (level_->share().ranks == 1) return static_cast<int>(place);
+    const auto found = numbers_.find(place);
+    return found == numbers_.end() ? -1 : found->second;
   }
 
  private:
+  /// Patch by patch, so that every rank knows the numbers of all.
+  void numberOwnPatches();
+  void numberGhosts(const grid::Patch& patch, const std::vector<int>& firstOf);
+
   const grid::Level* level_;
+  int owned_ = 0;
+  std::vector<int> ghosts_;
+  std::unordered_map<std::uint64_t, int> numbers_;
 };
 
 }  // namespace tushar::solvers

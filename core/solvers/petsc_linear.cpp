@@ -52,7 +52,7 @@ Outcome solveLinear(const Unknowns& unknowns, const LinearProblem& problem, cons
   check(MatGetNullSpace(matrix, &free));
   if (free) check(MatNullSpaceRemove(free, b));
   OwnedKsp krylov;
-  check(KSPCreate(communicator(), krylov.address()));
+  check(KSPCreate(mpi::handleOf(*unknowns.ranks), krylov.address()));
   check(KSPSetOperators(krylov, matrix, matrix));
   check(KSPSetInitialGuessNonzero(krylov, settings.solver == "preonly" ? PETSC_FALSE : PETSC_TRUE));
   check(KSPSetResidualHistory(krylov, nullptr, settings.maxIterations + 1, PETSC_TRUE));

@@ -16,6 +16,10 @@ class PetscSolver : public Solver {
                 std::span<double> u) const override {
     return solveNewton(unknowns, problem, settings, u);
   }
+  void addUp(const Unknowns& unknowns, std::span<double> values) const override {
+    startPetsc("");
+    GhostedVector(unknowns).addUp(values);
+  }
 };
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include <chrono>
 #include <cmath>
-#include <exception>
 #include <limits>
 
 #include "core/solvers/petsc_objects.hpp"
@@ -11,66 +10,58 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+double seconds(Clock::duration time) { return std::chrono::duration<double>(time).count(); }
+
 /// What PETSc's callbacks work with.
 struct Newton {
   NonlinearProblem& problem;
   const NewtonSettings& settings;
   PetscMatrix& matrix;
+  GhostedVector &u, &r;
   OwnedVec lastU, lastResidual, change;
-  double greatestChange = 0, firstEnergy = 0, seconds = 0;
+  double greatestChange = 0, firstEnergy = 0, assembly = 0, setup = 0;
   std::exception_ptr thrown;
 };
 
-/// Runs `work`; an exception waits until PETSc has returned.
-template <class Work>
-PetscErrorCode guarded(Newton& newton, Work&& work) {
-  try {
-    work();
-    return 0;
-  } catch (...) {
-    newton.thrown = std::current_exception();
-    return PETSC_ERR_USER;
-  }
-}
-
 PetscErrorCode evaluateResidual(SNES, Vec u, Vec r, void* context) {
   Newton& newton = *static_cast<Newton*>(context);
-  return guarded(newton, [&] {
-    PetscInt count = 0;
-    const PetscScalar* from = nullptr;
-    PetscScalar* to = nullptr;
-    check(VecGetLocalSize(u, &count));
-    check(VecGetArrayRead(u, &from));
-    check(VecGetArray(r, &to));
-    const auto size = static_cast<std::size_t>(count);
-    const bool admissible = newton.problem.residual({from, size}, {to, size});
+  return guarded(newton.thrown, [&] {
+    newton.u.take(u);
+    const std::span<double> residual = newton.r.values();
     // The line search goes back from what is infinite.
-    if (!admissible) std::fill_n(to, count, std::numeric_limits<double>::infinity());
-    check(VecRestoreArray(r, &to));
-    check(VecRestoreArrayRead(u, &from));
+    if (!newton.problem.residual(newton.u.values(), residual))
+      std::fill(residual.begin(), residual.end(), std::numeric_limits<double>::infinity());
+    newton.r.addUp(r);
   });
 }
 
-PetscErrorCode evaluateTangent(SNES, Vec, Mat, Mat, void* context) {
+/// The preconditioner is made at once, to know what it takes.
+PetscErrorCode evaluateTangent(SNES snes, Vec, Mat, Mat, void* context) {
   Newton& newton = *static_cast<Newton*>(context);
-  return guarded(newton, [&] {
+  return guarded(newton.thrown, [&] {
     const auto start = Clock::now();
     newton.matrix.assemble([&](Matrix& matrix) { newton.problem.tangent(matrix); });
-    newton.seconds += std::chrono::duration<double>(Clock::now() - start).count();
+    const auto assembled = Clock::now();
+    KSP krylov = nullptr;
+    check(SNESGetKSP(snes, &krylov));
+    check(KSPSetOperators(krylov, newton.matrix, newton.matrix));
+    check(KSPSetUp(krylov));
+    newton.assembly += seconds(assembled - start);
+    newton.setup += seconds(Clock::now() - assembled);
   });
 }
 
-/// |du| <= displacement max |du| and |du . r| <= energy |du . r| of the first iteration; or no residual at all.
+/// |du| <= displacement max |du| and |du . r| <= energy |du . r| of the first iteration; or no residual to speak of.
 PetscErrorCode hasConverged(SNES snes, PetscInt iteration, PetscReal, PetscReal, PetscReal norm,
                             SNESConvergedReason* reason, void* context) {
   Newton& newton = *static_cast<Newton*>(context);
-  return guarded(newton, [&] {
+  return guarded(newton.thrown, [&] {
     Vec u = nullptr, r = nullptr;
     check(SNESGetSolution(snes, &u));
     check(SNESGetFunction(snes, &r, nullptr, nullptr));
     *reason = SNES_CONVERGED_ITERATING;
     if (!std::isfinite(norm)) *reason = SNES_DIVERGED_FNORM_NAN;
-    if (norm == 0) *reason = SNES_CONVERGED_FNORM_ABS;
+    if (norm <= newton.problem.negligible()) *reason = SNES_CONVERGED_FNORM_ABS;
     if (iteration > 0) {
       PetscReal size = 0, energy = 0;
       check(VecWAXPY(newton.change, -1, newton.lastU, u));
@@ -96,7 +87,8 @@ void configure(SNES snes, Newton& newton, Vec r) {
   check(SNESSetConvergenceHistory(snes, nullptr, nullptr, settings.maxIterations + 1, PETSC_TRUE));
   SNESLineSearch search = nullptr;
   check(SNESGetLineSearch(snes, &search));
-  check(SNESLineSearchSetType(search, SNESLINESEARCHBT));
+  check(SNESLineSearchSetType(search, SNESLINESEARCHSHELL));
+  check(SNESLineSearchShellSetUserFunc(search, searchAlongStep, &newton.thrown));
   KSP krylov = nullptr;
   check(SNESGetKSP(snes, &krylov));
   check(SNESSetFromOptions(snes));
@@ -127,21 +119,26 @@ Outcome solveNewton(const Unknowns& unknowns, NonlinearProblem& problem, const N
                     std::span<double> u) {
   startPetsc(settings.linear.petsc);
   PetscMatrix matrix(unknowns);
-  std::vector<double> values(u.size());
-  const PetscVector solution(unknowns, u), r(unknowns, values);
-  Newton newton{problem, settings, matrix, {}, {}, {}, 0, 0, 0, nullptr};
+  GhostedVector seen(unknowns), added(unknowns);
+  const auto owned = static_cast<std::size_t>(unknowns.block * unknowns.owned);
+  std::vector<double> values(owned);
+  const PetscVector solution(unknowns, u.first(owned)), r(unknowns, values);
+  Newton newton{problem, settings, matrix, seen, added, {}, {}, {}, 0, 0, 0, 0, nullptr};
   for (OwnedVec* work : {&newton.lastU, &newton.lastResidual, &newton.change})
     check(VecDuplicate(solution, work->address()));
   OwnedSnes snes;
-  check(SNESCreate(communicator(), snes.address()));
+  check(SNESCreate(mpi::handleOf(*unknowns.ranks), snes.address()));
   configure(snes, newton, r);
   const auto start = Clock::now();
   const PetscErrorCode code = SNESSolve(snes, nullptr, solution);
   if (newton.thrown) std::rethrow_exception(newton.thrown);
   check(code);
+  seen.take(solution);
+  std::copy(seen.values().begin(), seen.values().end(), u.begin());
   Outcome outcome;
-  outcome.assembly = newton.seconds;
-  outcome.solve = std::chrono::duration<double>(Clock::now() - start).count() - newton.seconds;
+  outcome.assembly = newton.assembly;
+  outcome.setup = newton.setup;
+  outcome.solve = seconds(Clock::now() - start) - newton.assembly - newton.setup;
   note(outcome, snes, r);
   return outcome;
 }

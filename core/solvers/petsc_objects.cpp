@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdlib>
+#include <limits>
+#include <numeric>
 
 namespace tushar::solvers {
 
@@ -53,23 +56,38 @@ void startPetsc(const std::string& options) {
   if (const char* given = std::getenv("PETSC_OPTIONS")) check(PetscOptionsInsertString(nullptr, given));
 }
 
-PetscMatrix::PetscMatrix(const Unknowns& unknowns) {
+PetscMatrix::PetscMatrix(const Unknowns& unknowns) : ranks_(mpi::handleOf(*unknowns.ranks)) {
   const PetscInt block = unknowns.block, rows = block * unknowns.owned;
-  check(MatCreate(communicator(), matrix_.address()));
+  check(MatCreate(ranks_, matrix_.address()));
   check(MatSetSizes(matrix_, rows, rows, PETSC_DETERMINE, PETSC_DETERMINE));
   check(MatSetBlockSize(matrix_, block));
   check(MatSetType(matrix_, MATAIJ));
-  check(MatXAIJSetPreallocation(matrix_, block, unknowns.entries.data(), nullptr, nullptr, nullptr));
+  check(MatXAIJSetPreallocation(matrix_, block, unknowns.entries.data(), unknowns.entries.data(), nullptr, nullptr));
+  numberBlocks(unknowns);
   setNullSpaces(unknowns);
+}
+
+void PetscMatrix::numberBlocks(const Unknowns& unknowns) {
+  PetscInt first = 0;
+  check(MatGetOwnershipRange(matrix_, &first, nullptr));
+  std::vector<PetscInt> numbers(static_cast<std::size_t>(unknowns.owned));
+  std::iota(numbers.begin(), numbers.end(), first / unknowns.block);
+  numbers.insert(numbers.end(), unknowns.ghosts.begin(), unknowns.ghosts.end());
+  OwnedNumbering numbering;
+  check(ISLocalToGlobalMappingCreate(ranks_, unknowns.block, static_cast<PetscInt>(numbers.size()), numbers.data(),
+                                     PETSC_COPY_VALUES, numbering.address()));
+  check(MatSetLocalToGlobalMapping(matrix_, numbering, numbering));
 }
 
 void PetscMatrix::setNullSpaces(const Unknowns& unknowns) {
   if (unknowns.constantIsFree) {
     OwnedNullSpace constant;
-    check(MatNullSpaceCreate(communicator(), PETSC_TRUE, 0, nullptr, constant.address()));
+    check(MatNullSpaceCreate(ranks_, PETSC_TRUE, 0, nullptr, constant.address()));
     check(MatSetNullSpace(matrix_, constant));
   }
-  if (unknowns.coordinates.empty() || unknowns.block == 1) return;
+  int given = unknowns.coordinates.empty() ? 0 : 1;  // on a rank that owns nothing there are none
+  MPI_Allreduce(MPI_IN_PLACE, &given, 1, MPI_INT, MPI_MAX, ranks_);
+  if (given == 0 || unknowns.block == 1) return;
   OwnedVec places;
   check(MatCreateVecs(matrix_, places.address(), nullptr));
   check(VecSetBlockSize(places, unknowns.block));
@@ -83,13 +101,41 @@ void PetscMatrix::setNullSpaces(const Unknowns& unknowns) {
 }
 
 void PetscMatrix::add(std::span<const int> rows, std::span<const int> columns, std::span<const double> values) {
-  check(MatSetValuesBlocked(matrix_, static_cast<PetscInt>(rows.size()), rows.data(),
-                            static_cast<PetscInt>(columns.size()), columns.data(), values.data(), ADD_VALUES));
+  check(MatSetValuesBlockedLocal(matrix_, static_cast<PetscInt>(rows.size()), rows.data(),
+                                 static_cast<PetscInt>(columns.size()), columns.data(), values.data(), ADD_VALUES));
 }
 
 PetscVector::PetscVector(const Unknowns& unknowns, std::span<double> values) {
-  check(VecCreateMPIWithArray(communicator(), unknowns.block, unknowns.block * unknowns.owned, PETSC_DETERMINE,
+  check(VecCreateMPIWithArray(mpi::handleOf(*unknowns.ranks), unknowns.block, unknowns.block * unknowns.owned, PETSC_DETERMINE,
                               values.data(), vector_.address()));
+}
+
+GhostedVector::GhostedVector(const Unknowns& unknowns)
+    : values_(static_cast<std::size_t>(unknowns.block) * (static_cast<std::size_t>(unknowns.owned) + unknowns.ghosts.size())) {
+  check(VecCreateGhostBlockWithArray(mpi::handleOf(*unknowns.ranks), unknowns.block, unknowns.block * unknowns.owned,
+                                     PETSC_DETERMINE, static_cast<PetscInt>(unknowns.ghosts.size()),
+                                     unknowns.ghosts.data(), values_.data(), vector_.address()));
+}
+
+void GhostedVector::take(Vec all) {
+  check(VecCopy(all, vector_));
+  check(VecGhostUpdateBegin(vector_, INSERT_VALUES, SCATTER_FORWARD));
+  check(VecGhostUpdateEnd(vector_, INSERT_VALUES, SCATTER_FORWARD));
+}
+
+void GhostedVector::addUp(Vec all) {
+  check(VecGhostUpdateBegin(vector_, ADD_VALUES, SCATTER_REVERSE));
+  check(VecGhostUpdateEnd(vector_, ADD_VALUES, SCATTER_REVERSE));
+  check(VecCopy(vector_, all));
+}
+
+void GhostedVector::addUp(std::span<double> values) {
+  std::copy(values.begin(), values.end(), values_.begin());
+  check(VecGhostUpdateBegin(vector_, ADD_VALUES, SCATTER_REVERSE));
+  check(VecGhostUpdateEnd(vector_, ADD_VALUES, SCATTER_REVERSE));
+  check(VecGhostUpdateBegin(vector_, INSERT_VALUES, SCATTER_FORWARD));
+  check(VecGhostUpdateEnd(vector_, INSERT_VALUES, SCATTER_FORWARD));
+  std::copy(values_.begin(), values_.end(), values.begin());
 }
 
 void configure(KSP krylov, const LinearSettings& settings) {
@@ -104,15 +150,27 @@ void configure(KSP krylov, const LinearSettings& settings) {
 }
 
 int worstOf(Vec residual) {
+  struct {
+    double size;
+    int rank;
+  } mine{-1, 0}, greatest{};
   PetscInt count = 0;
   const PetscScalar* values = nullptr;
   check(VecGetLocalSize(residual, &count));
   check(VecGetArrayRead(residual, &values));
   int worst = -1;
-  for (PetscInt k = 0; k < count; ++k)
-    if (worst < 0 || !(std::abs(values[k]) <= std::abs(values[worst]))) worst = static_cast<int>(k);
+  for (PetscInt k = 0; k < count; ++k) {
+    const double size = std::isnan(values[k]) ? std::numeric_limits<double>::infinity() : std::abs(values[k]);
+    if (size <= mine.size) continue;
+    mine.size = size;
+    worst = static_cast<int>(k);
+  }
   check(VecRestoreArrayRead(residual, &values));
-  return worst;
+  MPI_Comm ranks = MPI_COMM_NULL;
+  check(PetscObjectGetComm(reinterpret_cast<PetscObject>(residual), &ranks));
+  MPI_Comm_rank(ranks, &mine.rank);
+  MPI_Allreduce(&mine, &greatest, 1, MPI_DOUBLE_INT, MPI_MAXLOC, ranks);
+  return greatest.rank == mine.rank ? worst : -1;
 }
 
 }  // namespace tushar::solvers

@@ -3,10 +3,12 @@
 #include <petscksp.h>
 #include <petscsnes.h>
 
+#include <exception>
 #include <span>
 #include <stdexcept>
 #include <string>
 
+#include "core/base/mpi_native.hpp"
 #include "core/solvers/solver.hpp"
 
 namespace tushar::solvers {
@@ -16,9 +18,6 @@ void check(PetscErrorCode code);
 
 /// Starts PETSc at the first call, and gives it options: those of the scene, then those of PETSC_OPTIONS, which win.
 void startPetsc(const std::string& options);
-
-/// The ranks that a system is spread over.
-inline MPI_Comm communicator() { return PETSC_COMM_SELF; }
 
 /// Owns a PETSc object.
 template <class T, PetscErrorCode (*destroy)(T*)>
@@ -39,6 +38,7 @@ using OwnedVec = Owned<Vec, VecDestroy>;
 using OwnedMat = Owned<Mat, MatDestroy>;
 using OwnedKsp = Owned<KSP, KSPDestroy>;
 using OwnedSnes = Owned<SNES, SNESDestroy>;
+using OwnedNumbering = Owned<ISLocalToGlobalMapping, ISLocalToGlobalMappingDestroy>;
 using OwnedNullSpace = Owned<MatNullSpace, MatNullSpaceDestroy>;
 
 /// A matrix of PETSc that is assembled block by block.
@@ -59,12 +59,14 @@ class PetscMatrix : public Matrix {
   operator Mat() const { return matrix_; }
 
  private:
+  void numberBlocks(const Unknowns& unknowns);
   void setNullSpaces(const Unknowns& unknowns);
 
+  MPI_Comm ranks_;
   OwnedMat matrix_;
 };
 
-/// A vector over numbers that somebody else holds.
+/// A vector over numbers that somebody else holds: those of the owned unknowns.
 class PetscVector {
  public:
   PetscVector(const Unknowns& unknowns, std::span<double> values);
@@ -74,10 +76,43 @@ class PetscVector {
   OwnedVec vector_;
 };
 
+/// The numbers that a rank sees of a vector over all ranks: its own, then the ghosts.
+class GhostedVector {
+ public:
+  explicit GhostedVector(const Unknowns& unknowns);
+  std::span<double> values() { return values_; }
+  /// The values of `all`, on this rank and of the ghosts.
+  void take(Vec all);
+  /// Sums to `all` what every rank has for its own and for its ghosts.
+  void addUp(Vec all);
+  /// The same for numbers in place.
+  void addUp(std::span<double> values);
+
+ private:
+  std::vector<double> values_;
+  OwnedVec vector_;
+};
+
 /// Method, preconditioner and tolerances, then what the options say.
 void configure(KSP krylov, const LinearSettings& settings);
 
-/// Number of the unknown whose residual is the greatest.
+/// Runs `work`, called by PETSc; an exception waits until PETSc has returned.
+template <class Work>
+PetscErrorCode guarded(std::exception_ptr& thrown, Work&& work) {
+  try {
+    work();
+    return 0;
+  } catch (...) {
+    thrown = std::current_exception();
+    return PETSC_ERR_USER;
+  }
+}
+
+/// The line search of Newton's method, by the energy (Crisfield, Non-linear Finite Element Analysis, 9.2); `context` is a
+/// std::exception_ptr.
+PetscErrorCode searchAlongStep(SNESLineSearch search, void* context);
+
+/// Number of the unknown whose residual is the greatest; -1 where another rank has it.
 int worstOf(Vec residual);
 
 Outcome solveLinear(const Unknowns& unknowns, const LinearProblem& problem, const LinearSettings& settings,

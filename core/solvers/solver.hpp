@@ -5,14 +5,19 @@
 #include <string>
 #include <vector>
 
+#include "core/base/mpi.hpp"
+
 namespace tushar::solvers {
 
-/// The unknowns of a system that a rank owns, in blocks: one block for each cell or node.
+/// The unknowns of a system that a rank deals with, in blocks: one block for each cell or node. A rank numbers the blocks
+/// that it owns from 0 on, and goes on with those of other ranks that it needs.
 struct Unknowns {
+  const mpi::Communicator* ranks = &mpi::Communicator::alone();  ///< those that solve together
   int block = 1;             ///< unknowns of a cell or node
-  int owned = 0;             ///< blocks of this rank; their numbers follow each other
+  int owned = 0;             ///< blocks of this rank
+  std::vector<int> ghosts;   ///< blocks of other ranks: where they stand among the blocks of all, rank after rank
   std::vector<int> entries;  ///< of each owned block row: at most so many blocks are not zero
-  /// Where the blocks stand, `block` numbers each [m]: gives multigrid the rigid motions of a solid. Empty: none.
+  /// Where the owned blocks stand, `block` numbers each [m]: gives multigrid the rigid motions of a solid. Empty: none.
   std::vector<double> coordinates;
   bool constantIsFree = false;  ///< a constant added to the solution makes another one: that of mean 0 is taken
 };
@@ -40,24 +45,27 @@ struct Outcome {
   int newtonIterations = 0;       ///< 0 of a linear solve
   int krylovIterations = 0;       ///< in all
   std::vector<double> residuals;  ///< norm after each iteration, from the start on
-  int worst = -1;                 ///< number of the unknown with the greatest residual at the end
+  int worst = -1;  ///< number of the unknown with the greatest residual at the end; -1: of another rank
   double assembly = 0, setup = 0, solve = 0;  ///< s: matrix, preconditioner, iterations
 };
 
 /// A x = b.
 struct LinearProblem {
-  std::function<void(Matrix&)> assemble;   ///< fills A; may fill b, too
-  std::span<const double> rightHandSide;  ///< b, looked at once A is there
+  std::function<void(Matrix&)> assemble;  ///< fills A; may fill b, too
+  std::span<const double> rightHandSide;  ///< b of the owned unknowns, looked at once A is there
 };
 
 /// r(u) = 0.
 class NonlinearProblem {
  public:
   virtual ~NonlinearProblem() = default;
-  /// r(u). False if there is no residual at such a u, so that a smaller step must be tried.
+  /// r(u), where the ghosts in r are what the rank adds to the rows of others. False if there is no residual at such a u,
+  /// so that a smaller step must be tried.
   virtual bool residual(std::span<const double> u, std::span<double> r) = 0;
   /// dr/du at the u of the last residual.
   virtual void tangent(Matrix& matrix) = 0;
+  /// Norm of a residual that is nothing but rounding, the same on all ranks.
+  virtual double negligible() const { return 0; }
 };
 
 /// When Newton's iterations end, as in Uintah's implicit MPM.
@@ -72,13 +80,18 @@ struct NewtonSettings {
 class Solver {
  public:
   virtual ~Solver() = default;
-  /// From the guess in `x`, by any Krylov method. Throws std::runtime_error for options that PETSc refuses.
+  /// From the guess in `x`, the owned unknowns, by any Krylov method. Throws std::runtime_error for options that PETSc refuses.
   virtual Outcome solve(const Unknowns& unknowns, const LinearProblem& problem, const LinearSettings& settings,
                         std::span<double> x) const = 0;
-  /// From the guess in `u`, by Newton's method with line search. Throws what the problem throws.
+  /// From the guess in `u`, owned unknowns and ghosts, by Newton's method with line search. Throws what the problem throws.
   virtual Outcome solve(const Unknowns& unknowns, NonlinearProblem& problem, const NewtonSettings& settings,
                         std::span<double> u) const = 0;
+  /// See the function of that name.
+  virtual void addUp(const Unknowns& unknowns, std::span<double> values) const = 0;
 };
+
+/// Every rank gets, for the blocks that it owns and for its ghosts, the sum of what all ranks have for them.
+void addUp(const Unknowns& unknowns, std::span<double> values);
 
 /// The solver; loads PETSc at the first call. Throws std::runtime_error where the library is missing.
 const Solver& solver();

@@ -98,6 +98,13 @@ template <class Argument>
 decltype(auto) bindRankAll(const Argument& argument, const TaskContext& context) {
   return argument.bind(context);
 }
+/// Hands a task that sees the whole rank the ranks that run it together: all that have patches.
+struct RanksArgument {
+  void declare(std::vector<Access>&) {}
+  const mpi::Communicator& bind(const TaskContext& context) const { return context.ranks(); }
+};
+inline RanksArgument togetherOnRanks() { return {}; }
+
 /// The patches of a task that sees the whole rank.
 inline RankPatches patchesOf(const TaskContext& context) {
   RankPatches patches;

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/mpi.hpp"
 #include "core/data/reduction.hpp"
 #include "core/data/views.hpp"
 #include "core/data/warehouse.hpp"
@@ -37,6 +38,9 @@ class TaskContext {
   /// For a task that sees the whole rank: each of its patches, in the order of their ids.
   std::span<const TaskContext> ofPatches() const { return of_patches_; }
   void setPatches(std::span<const TaskContext> contexts) { of_patches_ = contexts; }
+  /// The ranks that run such a task together.
+  const mpi::Communicator& ranks() const { return *ranks_; }
+  void setRanks(const mpi::Communicator& ranks) { ranks_ = &ranks; }
 
   template <class T>
   data::ParticleView<T> particles(int access, const data::Label& label) const {
@@ -79,6 +83,7 @@ class TaskContext {
   double time_;
   ParticleMaker* maker_;
   std::span<const TaskContext> of_materials_, of_patches_;
+  const mpi::Communicator* ranks_ = &mpi::Communicator::alone();
 };
 
 }  // namespace tushar::tasks

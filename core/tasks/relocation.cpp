@@ -37,9 +37,13 @@ void gatherWords(const std::byte* from, std::byte* to, const int* source, int co
 
 /// to[k] = from[source[k]] for `count` elements of `bytes` bytes.
 void gather(const std::byte* from, std::byte* to, const int* source, int count, std::size_t bytes) {
-  if (bytes == 8) return gatherWords<1>(from, to, source, count);
-  if (bytes == 16) return gatherWords<2>(from, to, source, count);
-  if (bytes == 24) return gatherWords<3>(from, to, source, count);
+  switch (bytes) {  // numbers, vectors, tensors: no call for each of them
+    case 8: return gatherWords<1>(from, to, source, count);
+    case 16: return gatherWords<2>(from, to, source, count);
+    case 24: return gatherWords<3>(from, to, source, count);
+    case 72: return gatherWords<9>(from, to, source, count);
+    default: break;
+  }
   for (int k = 0; k < count; ++k)
     std::memcpy(to + static_cast<std::size_t>(k) * bytes, from + static_cast<std::size_t>(source[k]) * bytes, bytes);
 }
@@ -152,15 +156,16 @@ void Relocation::findMoves(const Patch& patch, const ParticleSet& set, Vec<D>* x
   moves.outgoing.clear();
   moves.incoming.clear();
   moves.firstIncoming.assign(patch.cells().size(), -1);
+  moves.isEntered.assign(patch.cells().rows(), false);
   moves.escape.reset();
   moves.leaving = 0;
-  grid::forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+  set.forEachOccupied<D>(patch.cells(), [&](const Index<D>& cell, const ParticleRange& range) {
     Vec<D> lower, upper;
     for (int d = 0; d < D; ++d) {
       lower[d] = level.nodePosition(d, cell[d]);
       upper[d] = level.nodePosition(d, cell[d] + 1);
     }
-    for (const int p : set.in(cell))
+    for (const int p : range)
       if (!isInside<D>(x[p], lower, upper) && level.cellOf<D>(x[p]) != cell) move<D>(patch, cell, x[p], ids[p], p);
   });
 }
@@ -255,6 +260,7 @@ void Relocation::receive(const Patch& patch, const Index3& cell, const Incoming&
     link = &moves.incoming[static_cast<std::size_t>(*link)].next;
   moves.incoming.back().next = *link;
   *link = added;
+  moves.isEntered[patch.cells().rowOf(cell)] = true;
 }
 
 void Relocation::rebuild(const Patch& patch, int material, int id) {
@@ -272,10 +278,16 @@ void Relocation::rebuild(const Patch& patch, int material, int id) {
   const int* firstIncoming = moves.firstIncoming.data();
   grid::Box rows = patch.cells();
   rows.upper[0] = rows.lower[0] + 1;
+  const int rowLength = patch.cells().extent(0);
   grid::forEach<3>(rows, [&](const Index3& cell) {
     const ParticleRange* from = before.row(cell);
     ParticleRange* to = after.row(cell);
-    for (int k = 0; k < patch.cells().extent(0); ++k, ++from, ++to, ++firstIncoming) {
+    if (!moves.isEntered[patch.cells().rowOf(cell)] && before.occupied(cell, patch.cells().upper[0]).empty()) {
+      std::fill_n(to, rowLength, ParticleRange{moves.count, moves.count});
+      firstIncoming += rowLength;
+      return;
+    }
+    for (int k = 0; k < rowLength; ++k, ++from, ++to, ++firstIncoming) {
       const int first = moves.count;
       const bool stays = nextDeparted == moves.departed.size() || moves.departed[nextDeparted] >= from->last;
       if (stays && *firstIncoming < 0)
@@ -347,8 +359,10 @@ void Relocation::mergeCell(int patch, PatchMoves& moves, const ParticleRange& be
 void Relocation::carry(const Carried& carried, std::size_t place) {
   forEachPatch([&](const Patch& patch) { carry(carried, place, patch); });
   std::size_t k = 0;
-  for (const Patch& patch : warehouse_->level().patches())
-    std::swap(warehouse_->variable(Generation::fresh, carried.variable, patch.id()), spare_[k++]);
+  for (const Patch& patch : warehouse_->level().patches()) {
+    std::swap(warehouse_->variable(Generation::fresh, carried.variable, patch.id()), spare_[k]);
+    warehouse_->free(spare_[k++]);
+  }
 }
 
 void Relocation::carry(const Carried& carried, std::size_t place, const Patch& patch) {

@@ -78,6 +78,7 @@ class Relocation {
     std::vector<Outgoing> outgoing;  ///< of these, the ones that go to other patches
     std::vector<Incoming> incoming;  ///< particles that come into a cell of the patch
     std::vector<int> firstIncoming;  ///< by cell, or -1
+    std::vector<char> isEntered;     ///< by row of cells along the first axis: whether particles come in
     std::vector<Piece> pieces;
     /// For each gathered particle of the new set its place before (0 if it comes from another patch).
     std::vector<int> source;

@@ -112,6 +112,7 @@ void Scheduler::forgetLayout() {
   exchange_.forgetLayout();
   relocation_.forgetLayout();
   costs_.clear();
+  with_patches_.reset();
 }
 
 void Scheduler::divideReductions(const CompiledTask& task) {
@@ -162,7 +163,7 @@ void Scheduler::runTask(CompiledTask& task, int number, const StepInfo& at) {
   }
   if (task.task.kind == TaskKind::relocate)
     relocate(task, at);
-  else if (!hasStopped())
+  else if (task.task.perRank ? mayRunTogether() : !hasStopped())
     runWork(task, at);
   task.seconds += seconds(Clock::now() - started);
 }
@@ -171,6 +172,21 @@ std::optional<data::Minimum> Scheduler::askedBy(const CompiledTask& task) {
   if (task.recomputeTimeStep < 0) return std::nullopt;
   const auto& factor = warehouse_->reduction<data::Minimum>(task.recomputeTimeStep);
   return factor.value < 1 ? std::optional(factor) : std::nullopt;
+}
+
+/// No rank begins what all do together where one has stopped, or has no patches.
+bool Scheduler::mayRunTogether() {
+  heard_stop_ = warehouse_->ranks().any(hasStopped());
+  ranksWithPatches();
+  return !heard_stop_ && !warehouse_->level().patches().empty();
+}
+
+const mpi::Communicator& Scheduler::ranksWithPatches() {
+  if (!with_patches_) {
+    with_patches_ = warehouse_->ranks().split(warehouse_->level().patches().empty() ? 0 : 1);
+    if (with_patches_->isAlone()) with_patches_ = mpi::Communicator();
+  }
+  return *with_patches_;
 }
 
 /// A task that may ask runs for all materials, whatever happens on this rank: all that ask are heard.
@@ -239,6 +255,7 @@ void Scheduler::runOnRank(CompiledTask& task, const StepInfo& at) {
   }
   TaskContext rank = patches.front();
   rank.setPatches(patches);
+  rank.setRanks(ranksWithPatches());
   try {
     located(task, -1, -1, at, [&] { task.task.body(rank); });
   } catch (const NumericalError& error) {

@@ -25,7 +25,8 @@ std::string placeOf(const CompiledTask& task, int patch, int material, const Ste
 ///
 /// Ranks go through the same graph, each on its patches, and wait for one another only where one needs values of
 /// another: for ghosts, in a relocation, and once at the end of the graph, where reductions are merged and all agree on
-/// how it went. A rank on which a task fails runs no other, and neither does one that should read its values.
+/// how it went. A rank on which a task fails runs no other, and neither does one that should read its values. A task for
+/// all patches at once is run by all ranks that have patches, or by none.
 class Scheduler {
  public:
   explicit Scheduler(data::Warehouse& warehouse, int threads = 1)
@@ -53,6 +54,8 @@ class Scheduler {
 
  private:
   bool hasStopped() const { return !outcome_.isNone() || heard_stop_; }
+  bool mayRunTogether();
+  const mpi::Communicator& ranksWithPatches();
   void start(const TaskGraph& graph);
   void runTask(CompiledTask& task, int number, const StepInfo& at);
   void runWork(CompiledTask& task, const StepInfo& at);
@@ -86,6 +89,7 @@ class Scheduler {
   std::vector<double> costs_;            ///< by patch, s
   bool heard_stop_ = false;              ///< a rank whose values this one needs has stopped
   int running_ = 0;                      ///< place of the task in its graph
+  std::optional<mpi::Communicator> with_patches_;
 };
 
 }  // namespace tushar::tasks

@@ -4,8 +4,10 @@
 #include <random>
 
 #include "core/data/buffer.hpp"
+#include "core/data/buffer_pool.hpp"
 #include "core/data/reduction.hpp"
 #include "core/data/views.hpp"
+#include "core/grid/level.hpp"
 
 namespace tushar::data {
 
@@ -77,6 +79,64 @@ TEST(Buffer, KeepsWhatItIsToldToKeepWhenItGrows) {
 
   EXPECT_EQ(buffer.data()[7], std::byte{42});
   EXPECT_EQ(reinterpret_cast<std::uintptr_t>(buffer.data()) % 64, 0u);
+}
+
+TEST(BufferPool, GivesEachSizeItsOwnAgain) {
+  constexpr std::size_t large = 8'000'000, small = 1'000'000;
+  BufferPool pool;
+  Buffer first, second;
+  pool.reserve(first, large);
+  pool.reserve(second, small);
+  for (int step = 0; step < 3; ++step) {
+    pool.takeBack(first);
+    pool.takeBack(second);
+    pool.reserve(second, small);
+    pool.reserve(first, large);
+  }
+  EXPECT_EQ(pool.allocations(), 2u);
+  EXPECT_LT(second.capacity(), 2 * small);
+}
+
+TEST(BufferPool, GivesUpWhatWasOutgrownALittle) {
+  BufferPool pool;
+  Buffer buffer;
+  pool.reserve(buffer, 1'000'000);
+  const std::size_t before = buffer.capacity();
+  pool.takeBack(buffer);
+  pool.reserve(buffer, before + 1);
+  Buffer other;
+  pool.reserve(other, before);
+  EXPECT_EQ(pool.allocations(), 3u) << "the first buffer is gone, so the third request makes another";
+}
+
+/// A set on a grid of 5 x 4 x 3 cells, some without particles.
+ParticleSet someCells(const grid::Level& level) {
+  ParticleSet set;
+  set.reset(level.patches().front(), 0);
+  int count = 0;
+  grid::forEach<3>(level.cells(), [&](const Index3& cell) {
+    const int first = count;
+    if (cell[1] != 2 && (cell[0] + cell[2]) % 3 == 1) count += 2;
+    set.at(cell) = {first, count};
+  });
+  set.setOwned(count);
+  return set;
+}
+
+TEST(ParticleSet, VisitsTheCellsOfABoxThatHoldParticlesInOrder) {
+  grid::Domain domain;
+  domain.resolution = {{5, 4, 3}};
+  domain.upper = {5, 4, 3};
+  const grid::Level level(domain);
+  const ParticleSet set = someCells(level);
+  for (const grid::Box& box : {level.cells(), grid::Box{{{1, 0, 1}}, {{4, 3, 3}}}, grid::Box{{{2, 1, 0}}, {{2, 3, 2}}}}) {
+    std::vector<std::pair<Index3, int>> expected, visited;
+    grid::forEach<3>(box, [&](const Index3& cell) {
+      if (!set.in(cell).empty()) expected.emplace_back(cell, set.in(cell).first);
+    });
+    set.forEachOccupied<3>(box, [&](const Index3& cell, const ParticleRange& range) { visited.emplace_back(cell, range.first); });
+    EXPECT_EQ(visited, expected);
+  }
 }
 
 TEST(View, RefusesWhatIsOutsideNamingTheLabel) {

@@ -18,14 +18,16 @@ LEFT = MATERIAL + "geom_object[1]/"
 # name: (override, sentence after the location)
 OVERRIDES = {
     "unknown component": ("SimulationComponent/@type=mpn",
-                          "SimulationComponent: type: found 'mpn', expected 'burgers', 'euler', 'heat', 'mpm' or 'poisson' (did you mean 'mpm'?)"),
+                          "SimulationComponent: type: found 'mpn', expected 'burgers', 'euler', 'heat', 'mpm', 'impm' or 'poisson' (did you mean 'mpm'?)"),
     "unknown tag": (BOX + "resolutoin=[3,1,1]", BOX + "resolutoin: unknown tag <resolutoin> in <Box> (did you mean "
                     "'resolution'?); allowed here: lower, upper, resolution, patches, autoPatch, extraCells"),
     "unknown section": ("Gird/x=1", "Gird: unknown section <Gird> (did you mean 'Grid'?); allowed here: Meta, "
                         "SimulationComponent, Time, DataArchiver, Grid, DataAnalysis, MPM, MaterialProperties"),
     "unknown constitutive model": (MATERIAL + "constitutive_model/@type=ideal_gaz",
                                    MATERIAL + "constitutive_model: attribute 'type': found 'ideal_gaz', expected "
-                                   "'ideal_gas'\n"),
+                                   "'ideal_gas' or 'stiffened_gas' (did you mean 'ideal_gas'?)"),
+    "ideal gas with p_infinity": (MATERIAL + "constitutive_model/p_infinity=6e8", "MaterialProperties/MPM/material/"
+                                  "constitutive_model: an ideal_gas has no p_infinity; use type=\"stiffened_gas\""),
     "unknown module": ("DataAnalysis/Module/@name=exactRieman", "DataAnalysis/Module: name: found 'exactRieman', expected "
                        "'burgersWave', 'massProjection', 'manufacturedError', 'exactRiemann', 'simpleWave', 'isentropicVortex', "
                        "'gresho', 'noh', 'sedov', 'tabulated', 'exactSolution' or 'particleExtract' (did you mean "
@@ -161,8 +163,18 @@ class BrokenScenes(unittest.TestCase):
 
     def test_boxes_that_cannot_stand_anywhere(self):
         result = run("ups/mpm/sod_conserving.ups", LEFT + "placement=random", outputs=True)
-        self.assert_refused(result, "geom_object: placement: the particles of <conserving_gas_dynamics> are boxes that fill "
-                                    "the gas; use midpoint, or <gas_dynamics>")
+        self.assert_refused(result, "geom_object: placement: the boxes of <conserving_gas_dynamics> fill the gas; use midpoint")
+
+    def test_stiffened_gases_that_nothing_holds(self):
+        stiff = MATERIAL + "constitutive_model/@type=stiffened_gas", MATERIAL + "constitutive_model/p_infinity=6e8"
+        measured = ("DataAnalysis/Module/p_infinity=6e8",)
+        for scene, sets, sentence in (
+                ("mpm/sod", (), "type: <gas_dynamics> takes an ideal_gas alone; use <conserving_gas_dynamics>"),
+                ("stability/sod_moving", measured, "type: a stiffened_gas needs a grid whose sides are symmetry planes or periodic"),
+                ("stability/sod", (*measured, LEFT + "box/max=[0.4,1,1]"), "type: a stiffened_gas must fill the grid, and "),
+                ("stability/sod", (), "Module: p_infinity: found 0 Pa, but the gas of the scene has 6e+08 Pa")):
+            with self.subTest(scene):
+                self.assert_refused(run(f"ups/{scene}.ups", *stiff, *sets, outputs=True), sentence)
 
     def test_a_mass_projection_that_cannot_be_measured(self):
         for sets, sentence in (((BOX + "resolution=[20,2,1]",), "works in one dimension, as its theorem does, and this grid has 2"),

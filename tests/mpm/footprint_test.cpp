@@ -16,10 +16,10 @@ grid::Domain line(int cells) {
   return domain;
 }
 
-using Interval = Span<2, 4>;
+using Interval = Span<2>;
 
 Interval intervalAt(const Level& level, double centre, double length) {
-  return Interval(level, 0, level.cellAlong(0, centre), centre, length);
+  return Interval(level, 0, LaneIntegers{} + level.cellAlong(0, centre), centre, length);
 }
 
 Lanes at(const Lanes& values, int lane, double value) {
@@ -110,23 +110,43 @@ TEST(Span, KeepsAllOfAnIntervalThatIsTooLong) {
   const Interval span = intervalAt(level, 0.51, 0.7);
 
   EXPECT_EQ(span.first[0], 13);
-  EXPECT_EQ(span.cells, 4);
-  EXPECT_NEAR(sumOf(span.part, 4), 1, 1e-13);
-  EXPECT_NEAR(sumOf(span.weight, 5), 1, 1e-13);
+  EXPECT_EQ(span.cells, 5);
+  EXPECT_NEAR(sumOf(span.part, 5), 1, 1e-13);
+  EXPECT_NEAR(sumOf(span.weight, 6), 1, 1e-13);
+}
+
+TEST(Span, OfTheMirrorImageHasTheMirroredBits) {
+  grid::Domain mirrored = line(30);
+  mirrored.lower[0] = -2;
+  mirrored.upper[0] = 1;
+  const Level level(line(30)), there(mirrored);
+  for (double centre = -0.987; centre < 2; centre += 0.0131)
+    for (const double length : {0.03, 0.1, 0.17, 0.28}) {
+      const Interval span = intervalAt(level, centre, length), image = intervalAt(there, -centre, length);
+      ASSERT_EQ(image.cells, span.cells);
+      for (std::size_t k = 0, last = static_cast<std::size_t>(span.cells); k <= last; ++k) {
+        EXPECT_EQ(span.weight[k][0], image.weight[last - k][0]);
+        EXPECT_EQ(span.arm[k][0], -image.arm[last - k][0]);
+        EXPECT_EQ(span.atLower[k][0], image.atUpper[last - k][0]);
+        EXPECT_EQ(k < last ? span.part[k][0] : 0, k < last ? image.part[last - 1 - k][0] : 0);
+      }
+      EXPECT_EQ(span.inertia[0], image.inertia[0]);
+    }
 }
 
 TEST(Span, HasNothingInCellsThatOnlyOthersReach) {
   const Level level(line(30));
   Lanes length = 0.02;
   length = Lanes::of([&](int lane) { return lane == 1 ? 0.25 : length[lane]; });
-  const Interval span(level, 0, 15, 0.55, length);
+  const Interval span(level, 0, LaneIntegers{} + 15, 0.55, length);
 
   EXPECT_EQ(span.cells, 3);
-  EXPECT_EQ(span.first[0], 15);
-  EXPECT_EQ(span.first[1], 14);
-  EXPECT_NEAR(span.part[0][0], 1, 1e-13);
-  EXPECT_EQ(span.part[1][0], 0);
-  EXPECT_EQ(span.weight[2][0], 0);
+  EXPECT_EQ(span.first[0], 14);
+  EXPECT_EQ(span.part[0][0], 0);
+  EXPECT_NEAR(span.part[1][0], 1, 1e-13);
+  EXPECT_EQ(span.part[2][0], 0);
+  EXPECT_EQ(span.weight[0][0], 0);
+  EXPECT_EQ(span.weight[3][0], 0);
   EXPECT_NEAR(span.part[1][1], 0.4, 1e-13);
 }
 

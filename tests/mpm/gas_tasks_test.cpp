@@ -104,10 +104,10 @@ template <int D>
 void expectLinearReproduction(const Index3& resolution) {
   const Cloud<D> cloud(resolution);
   forEach<D>(cloud.level.cells(), [&](const Index<D>& cell) {
-    const CellFrame<D> frame(cloud.level, cell);
+    const CellMiddle<D> middle(cloud.level, cell);
     for (const int p : cloud.set.in(cell)) {
       const Vec<D>& at = cloud.x[static_cast<std::size_t>(p)];
-      const auto s = Linear<D>::weights(frame.coordinates(at));
+      const auto s = middle.weights(at);
       double sum = 0;
       Vec<D> mean = Vec<D>::Zero(), gradients = Vec<D>::Zero();
       for (int k = 0; k < Linear<D>::nodes; ++k) {

@@ -86,6 +86,9 @@ std::vector<Particle> run(const std::string& scene) {
 /// Sod's tube, moving.
 constexpr Half dense{1, 0.75, 1}, thin{0.125, -0.25, 0.1};
 
+/// Two gases that meet, so that cells hold up to six particles.
+constexpr Half hard{1, 3, 1}, soft{1, -2, 0.01};
+
 /// The greatest difference of two runs, the second in other units: relative to the box, the speed of sound and its square.
 double difference(const std::vector<Particle>& one, const std::vector<Particle>& other, const Units& units) {
   EXPECT_EQ(one.size(), other.size());
@@ -117,17 +120,18 @@ TEST(Invariance, UnitsOf1e12OfAnyKindChangeRoundOffAlone) {
         EXPECT_LE(differenceIn(units, method), 1e-12) << method << ' ' << units.length << ' ' << units.time << ' ' << units.mass;
 }
 
-TEST(Invariance, AMirroredTubeIsTheMirrorImageToRoundOff) {
+TEST(Invariance, AMirroredTubeIsTheMirrorImageToTheBit) {
   const auto mirrored = [](const Half& gas) { return Half{gas.density, -gas.velocity, gas.pressure}; };
-  for (const std::string& method : methods) {
-    const auto ours = run(tube(dense, thin, {}, method));
-    auto theirs = run(tube(mirrored(thin), mirrored(dense), {}, method));
-    std::reverse(theirs.begin(), theirs.end());
-    for (Particle& particle : theirs) particle = {-particle.x, -particle.velocity, particle.energy};
+  for (const std::string& method : methods)
+    for (const auto& [left, right] : {std::pair(dense, thin), std::pair(hard, soft)}) {
+      if (method == papers && left.velocity == hard.velocity) continue;  // it dies of these
+      const auto ours = run(tube(left, right, {}, method));
+      auto theirs = run(tube(mirrored(right), mirrored(left), {}, method));
+      std::reverse(theirs.begin(), theirs.end());
+      for (Particle& particle : theirs) particle = {-particle.x, -particle.velocity, particle.energy};
 
-    // Sums run from left to right, so that those of three terms and more round another way: 2e-16 a step, some 100 steps.
-    EXPECT_LE(difference(ours, theirs, {}), 1e-13) << method;
-  }
+      EXPECT_EQ(difference(ours, theirs, {}), 0) << method;
+    }
 }
 
 }  // namespace tushar::mpm

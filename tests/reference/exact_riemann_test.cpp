@@ -40,6 +40,31 @@ TEST(ExactRiemann, StartsAsTwoUniformStates) {
   EXPECT_DOUBLE_EQ(sod.average(Vec3(0.4, 0, 0), Vec3(0.6, 0, 0), 0).density, 0.5625);
 }
 
+TEST(ExactRiemann, OfAStiffenedGasKeepsMassMomentumAndEnergyAcrossItsShock) {
+  RiemannProblem water = tube({1000, 0, 1e10}, {1000, 0, 1e5}, 0.5);
+  water.gamma = 4.4;
+  water.pInfinity = 6e8;
+  const ExactRiemann exact(water);
+  const double t = 1e-5, speed = exact.solution().rightWave.head;
+  const GasState ahead = exact.at(Vec3(0.5 + 1.01 * speed * t, 0, 0), t);
+  const GasState behind = exact.at(Vec3(0.5 + 0.99 * speed * t, 0, 0), t);
+  const auto massFlux = [&](const GasState& gas) { return gas.density * (gas.velocity[0] - speed); };
+  const auto momentumFlux = [&](const GasState& gas) {
+    return gas.pressure + massFlux(gas) * (gas.velocity[0] - speed);
+  };
+  const auto totalEnthalpy = [&](const GasState& gas) {
+    return gas.energy + gas.pressure / gas.density + 0.5 * std::pow(gas.velocity[0] - speed, 2);
+  };
+
+  EXPECT_GT(behind.pressure, 1e9);
+  EXPECT_DOUBLE_EQ(ahead.pressure, 1e5);
+  EXPECT_DOUBLE_EQ(ahead.energy, (1e5 + 4.4 * 6e8) / (3.4 * 1000));
+  // Rankine & Hugoniot; the solver is exact to 1e-14, and differences of such fluxes lose two digits.
+  EXPECT_NEAR(massFlux(behind) / massFlux(ahead), 1, 1e-12);
+  EXPECT_NEAR(momentumFlux(behind) / momentumFlux(ahead), 1, 1e-12);
+  EXPECT_NEAR(totalEnthalpy(behind) / totalEnthalpy(ahead), 1, 1e-12);
+}
+
 TEST(ExactRiemann, IsSelfSimilar) {
   const ExactRiemann sod(sodTube());
   for (const double xi : {-1.5, -1.0, 0.0, 0.5, 1.2, 1.9}) {

@@ -1,14 +1,12 @@
 #!/usr/bin/env python3
 """Solids against what Uintah of July 2026 computes for the same bodies, and the same bits on any patches."""
 import pathlib
-import subprocess
 import sys
-import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from solids import globals_of
-from sus import ROOT, SUS, run
+from solids import globals_of, last_state
+from sus import run
 from uda import Folder
 
 DISCS = "ups/solid/two_discs.ups"
@@ -17,24 +15,10 @@ SPALL = "ups/solid/spall.ups"
 TAYLOR = "ups/solid/taylor_bar.ups"
 
 
-def archive_of(scene, folder, *sets):
-    """Runs a scene; where its archive is."""
-    command = [SUS, scene, "--quiet", "--output", folder]
-    for override in sets:
-        command += ["--set", override]
-    subprocess.run(command, cwd=ROOT, check=True)
-    return next(pathlib.Path(folder).glob("*.uda.*"))
-
-
 def fields_of(scene, *names, until):
-    """Column -> its values in the last output."""
-    with tempfile.TemporaryDirectory() as folder:
-        archive = archive_of(scene, folder, f"Time/maxTime={until}", "DataArchiver/outputInterval=1",
-                             "DataArchiver/outputLastTimestep=true")
-        text = subprocess.run([ROOT / "tools/uda", archive, *names, "--csv", "-"], capture_output=True, text=True,
-                              check=True).stdout.splitlines()
-    rows = [[float(word) for word in line.split(",")] for line in text[1:]]
-    return dict(zip(text[0].split(","), zip(*rows)))
+    """Column -> its values at a time."""
+    return last_state(scene, *names, sets=(f"Time/maxTime={until}", "DataArchiver/outputInterval=1",
+                                           "DataArchiver/outputLastTimestep=true"))
 
 
 class Solids(unittest.TestCase):

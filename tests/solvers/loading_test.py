@@ -8,7 +8,7 @@ import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from sus import ROOT, SUS
+from sus import ROOT, SUS, run
 
 
 def libraries(scene, *options):
@@ -29,6 +29,17 @@ class Loading(unittest.TestCase):
 
     def test_a_scene_with_a_solve_does(self):
         self.assertIn("libpetsc", libraries("ups/poisson/sine.ups"))
+
+    def test_options_on_the_command_line_reach_petsc(self):
+        result = run("ups/poisson/sine.ups", options=("--quiet", "-petsc", "-ksp_max_it 1"))
+        self.assertEqual(result.code, 4)
+        self.assertRegex(result.err, r"Poisson's equation did not converge \(DIVERGED_ITS\) in 1 iterations; residuals "
+                                     r"\S+, \S+; the greatest residual is in the cell at \(")
+
+    def test_the_options_of_the_scene_give_way_to_those_of_the_command_line(self):
+        result = run("ups/poisson/sine.ups", "Poisson/Solver/petsc=-ksp_max_it 1",
+                     options=("--quiet", "-petsc", "-ksp_max_it 1000"))
+        self.assertEqual(result.code, 0, result.err)
 
 
 if __name__ == "__main__":

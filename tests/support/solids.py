@@ -18,6 +18,31 @@ def globals_of(scene, *names, sets=(), until=None):
                        if not line.startswith("#")] for name in names}
 
 
+def archive_of(scene, folder, *sets):
+    """Runs a scene; where its archive is."""
+    command = [SUS, scene, "--quiet", "--output", folder]
+    for override in sets:
+        command += ["--set", override]
+    subprocess.run(command, cwd=ROOT, check=True)
+    return next(pathlib.Path(folder).glob("*.uda.*"))
+
+
+def columns(archive, *names, material=None, time=None):
+    """Column -> its values in the output nearest to a time, or in the last."""
+    command = [ROOT / "tools/uda", archive, *names, "--csv", "-"]
+    command += ["--material", material] if material else []
+    command += ["--time", str(time)] if time else []
+    text = subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()
+    rows = [[float(word) for word in line.split(",")] for line in text[1:]]
+    return dict(zip(text[0].split(","), zip(*rows)))
+
+
+def last_state(scene, *names, material=None, sets=()):
+    """Column -> its values where a scene ends."""
+    with tempfile.TemporaryDirectory() as folder:
+        return columns(archive_of(scene, folder, *sets), *names, material=material)
+
+
 def relative_drift(lines):
     """The greatest change of a vector over a run, over its length at the start."""
     start = lines[0][1:]

@@ -58,6 +58,13 @@ class Study(unittest.TestCase):
     def test_varies_the_resolution_of_a_scene_in_another_folder(self):
         self.assertEqual([row["h"] for row in self.rows("--vary", "resolution=16,32")], [1 / 16, 1 / 32])
 
+    def test_a_row_has_the_value_that_was_varied_even_where_the_report_has_one_of_that_name(self):
+        done = self.study(str(ROOT / "ups/mpm/sod_conserving.ups"), "--vary", "particles=2,3", "--out", "out")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        rows = json.loads((self.here / "out/study.json").read_text())["rows"]
+        self.assertEqual([(row["particles"], row["particle_count"]) for row in rows], [("2", 200), ("3", 300)])
+        self.assertIn("| sod_conserving | 3 | 0.01 |", (self.here / "out/study.md").read_text())
+
     def test_refuses_to_repeat_nothing(self):
         done = self.study("my.ups", "--repeat", "0")
         self.assertEqual(done.returncode, 2)

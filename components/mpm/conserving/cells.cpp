@@ -24,14 +24,15 @@ Compression compressionOf(const Level& level, CellView<const Tensor<D>> gradient
   result.nearby = -result.difference;
   for (int d = 0; d < D; ++d) {
     const double own = h * gradient[cell](d, d);
-    result.smooth += own;
+    double explained = 0;
     for (const int side : {-1, 1}) {
       Index<D> next = cell;
       next[d] += side;
       if (!gradient.box().contains(next)) next = cell;
-      result.smooth -= 0.5 * harmonicMean(own, h * gradient[next](d, d));
+      explained += harmonicMean(own, h * gradient[next](d, d));
       result.nearby = std::max(result.nearby, -h * gradient[next].trace());
     }
+    result.smooth += own - 0.5 * explained;
   }
   return result;
 }

@@ -3,7 +3,7 @@
 #include "components/mpm/conserving/labels.hpp"
 #include "components/mpm/conserving/scheme.hpp"
 #include "components/mpm/materials/gas.hpp"
-#include "components/mpm/shapes/linear.hpp"
+#include "components/mpm/shapes/mirrored.hpp"
 #include "components/mpm/tasks/symmetry.hpp"
 
 namespace tushar::mpm::conserving {
@@ -14,12 +14,12 @@ void computeVelocityGradient(const Patch& patch, const Gas&, NodeView<const Vec<
                              CellView<Tensor<D>> gradient) {
   const Level& level = patch.level();
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    Tensor<D> sum = Tensor<D>::Zero();
-    for (int k = 0; k < Linear<D>::nodes; ++k) {
+    gradient[cell] = sumOverCorners<D>([&](int k) {
       const Vec<D> v = velocity[Linear<D>::node(cell, k)];
-      for (int d = 0; d < D; ++d) sum.col(d) += Linear<D>::centreGradient(level, k, d) * v;
-    }
-    gradient[cell] = sum;
+      Tensor<D> share;
+      for (int d = 0; d < D; ++d) share.col(d) = Linear<D>::centreGradient(level, k, d) * v;
+      return share;
+    });
   });
 }
 
@@ -66,14 +66,11 @@ void computeAcceleration(const Patch& patch, const Gas&, CellView<const Tensor<D
                          NodeView<Vec<D>> acceleration) {
   const Level& level = patch.level();
   forEach<D>(patch.nodes(), [&](const Index<D>& node) {
-    Vec<D> force = Vec<D>::Zero();
-    for (int k = 0; k < Linear<D>::nodes; ++k) {
+    const Vec<D> force = sumOverCorners<D>([&](int k) -> Vec<D> {
       const Index<D> cell = node - (Linear<D>::node(node, k) - node);
-      if (!stress.box().contains(cell)) continue;
-      Vec<D> gradient;
-      for (int d = 0; d < D; ++d) gradient[d] = Linear<D>::centreGradient(level, k, d);
-      force += stress[cell] * gradient;
-    }
+      if (!stress.box().contains(cell)) return Vec<D>::Zero();
+      return stress[cell] * centreGradient<D>(level, k);
+    });
     if (mass[node] > 0)
       acceleration[node] = level.cellVolume() / mass[node] * force;
     else
@@ -102,14 +99,11 @@ void computeWork(const Patch& patch, const Gas&, CellView<const Tensor<D>> stres
                  NodeView<const Vec<D>> acceleration, double dt, CellView<double> work) {
   const Level& level = patch.level();
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    double power = 0;
     const Tensor<D> t = stress[cell];
-    for (int k = 0; k < Linear<D>::nodes; ++k) {
+    const double power = sumOverCorners<D>([&](int k) -> double {
       const Index<D> node = Linear<D>::node(cell, k);
-      Vec<D> gradient;
-      for (int d = 0; d < D; ++d) gradient[d] = Linear<D>::centreGradient(level, k, d);
-      power += (velocity[node] + 0.5 * dt * acceleration[node]).dot(t * gradient);
-    }
+      return (velocity[node] + 0.5 * dt * acceleration[node]).dot(t * centreGradient<D>(level, k));
+    });
     const double energy = internalEnergy[cell];
     work[cell] = energy > 0 ? -dt * level.cellVolume() * power / energy : 0.0;
   });

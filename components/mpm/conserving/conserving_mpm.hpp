@@ -26,6 +26,7 @@ class ConservingMpm : public Component, public reference::GasSolution {
   void scheduleTimeAdvance(TaskList& tasks) const override;
   void scheduleDiagnostics(TaskList& tasks) const override;
   std::optional<double> gamma() const override { return materials_.front().effectiveGamma(); }
+  double pInfinity() const override { return materials_.front().pInfinity; }
   void scheduleMeasureError(TaskList& tasks, const reference::GasReference& reference,
                             const reference::Clock& clock) const override;
 

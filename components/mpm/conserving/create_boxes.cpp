@@ -55,6 +55,27 @@ Contents<D> integrate(const Level& level, const Gas& gas, const GasObject& objec
   return sum;
 }
 
+/// A stiffened gas presses on all around it with p + p_inf. Throws InputError where nothing would press back: on a grid
+/// with a free side, and where `boxes` leave a part of the patch empty.
+template <int D>
+void refuseLooseness(const Patch& patch, const Gas& gas, const std::vector<Vec<D>>& boxes) {
+  if (gas.pInfinity == 0) return;
+  const Level& level = patch.level();
+  const auto fail = [&](const std::string& why) {
+    throw InputError({{gas.where, "MaterialProperties/MPM/material/constitutive_model", why}});
+  };
+  for (int d = 0; d < D; ++d)
+    for (const int side : {0, 1})
+      if (!level.isPeriodic(d) && !level.isSymmetry(d, side))
+        fail("type: a stiffened_gas needs a grid whose sides are symmetry planes or periodic");
+  double all = static_cast<double>(patch.cells().size()), filled = 0;
+  for (int d = 0; d < D; ++d) all *= level.spacing(d);
+  for (const Vec<D>& box : boxes) filled += box.prod();
+  if (!(filled > (1 - 1e-9) * all))
+    fail(fmt::format("type: a stiffened_gas must fill the grid, and {:.3g} % of patch {} is empty",
+                     100 - 100 * filled / all, patch.id()));
+}
+
 }  // namespace
 
 template <int D>
@@ -85,6 +106,7 @@ void createBoxes(const Patch& patch, const Gas& gas, ParticleMaker& maker, std::
     affineEnergy[k] = modalEnergy<D>(modes[k], inertia);
     internalEnergy[k] = held.energy / held.mass - 0.5 * velocity[k].squaredNorm() - affineEnergy[k];
   }
+  refuseLooseness<D>(patch, gas, edges);
 }
 
 template void createBoxes<1>(const Patch&, const Gas&, ParticleMaker&, std::vector<Vec<1>>&, std::vector<Vec<1>>&,

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "components/mpm/conserving/labels.hpp"
-#include "components/mpm/conserving/grid_fields.hpp"
+#include "components/mpm/conserving/grid_sums.hpp"
 #include "components/mpm/materials/gas.hpp"
 #include "components/reference/gas_solution.hpp"
 
@@ -33,7 +33,7 @@ double crossSection(const Level& level) {
   return area;
 }
 
-/// V = the product of the edges and the cross-section of the grid, rho = m / V, p = (gamma - 1) rho e.
+/// V = the product of the edges and the cross-section of the grid, rho = m / V, p of the gas.
 template <int D>
 void computeDensity(const Patch& patch, const Gas& gas, ParticleView<const double> mass,
                     ParticleView<const Vec<D>> edges, ParticleView<const double> internalEnergy,
@@ -53,13 +53,13 @@ void computeCellVelocity(const Patch& patch, const Gas&, ParticleView<const Vec<
                          ParticleView<const Modes<D>> modes, CellView<const double> cellMass,
                          CellView<Vec<D>> cellVelocity) {
   const Level& level = patch.level();
-  GridFields<D, D> momentum(x.cells());
+  GridSums<D, D, 0> momentum(x.cells());
   forEachBatch<D>(x.cells(), x, [&](const Batch<D>& batch) {
     const LanesVec<D> centre = load(x, batch), v = load(velocity, batch);
     const LanesModes<D> u = load(modes, batch);
     const Footprint<D> footprint(level, batch, centre, load(edges, batch));
     const Lanes m = batch.only(load(mass, batch));
-    typename GridFields<D, D>::Brought brought;
+    typename GridSums<D, D, 0>::Brought brought;
     footprint.forEachPart([&](const Index<D>& k, const Lanes& part) {
       LanesVec<D> there = v;
       for (std::size_t d = 0; d < D; ++d) {
@@ -68,8 +68,9 @@ void computeCellVelocity(const Patch& patch, const Gas&, ParticleView<const Vec<
       }
       for (std::size_t d = 0; d < D; ++d) brought[d][Footprint<D>::number(k)] = part * m * there[static_cast<int>(d)];
     });
-    momentum.add(footprint, batch.count, 0, brought);
+    momentum.add(footprint, batch.count, brought);
   });
+  momentum.finish();
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     const double m = cellMass[cell], inverse = m > 0 ? 1 / m : 0;
     for (std::size_t d = 0; d < D; ++d) cellVelocity[cell][static_cast<int>(d)] = inverse * momentum.at(d, cell);
@@ -82,7 +83,8 @@ void computeCellDensity(const Patch& patch, const Gas&, CellView<const double> m
   forEach<D>(patch.cells(), [&](const Index<D>& cell) { density[cell] = mass[cell] / patch.level().cellVolume(); });
 }
 
-/// Errors of M_c / V_c, momentum over mass, (gamma - 1) IE_c / V_c and IE_c / M_c against exact cell means.
+/// Errors of M_c / V_c, momentum over mass, and pressure and internal energy of M_c / V_c and IE_c / M_c, against exact
+/// cell means.
 template <int D>
 void measureCellError(const Patch& patch, const Gas& gas, const reference::GasReference* exact,
                       const reference::Clock* clock, CellView<const double> mass, CellView<const Vec<D>> velocity,
@@ -100,8 +102,8 @@ void measureCellError(const Patch& patch, const Gas& gas, const reference::GasRe
     const auto state = exact->average(level.expandPoint<D>(lower), level.expandPoint<D>(upper), clock->time);
     density.add(m / volume - state.density, state.density);
     u.add((level.expandDirection<D>(velocity[cell]) - state.velocity).norm(), state.velocity.norm());
-    pressure.add((gas.gamma - 1) * ie / volume - state.pressure, state.pressure);
-    energy.add((m > 0 ? ie / m : 0) - state.energy, state.energy);
+    pressure.add((gas.gamma - 1) * ie / volume - gas.pInfinity - state.pressure, state.pressure);
+    energy.add((m > 0 ? gas.fullEnergy(m / volume, ie / m) : 0) - state.energy, state.energy);
   });
 }
 

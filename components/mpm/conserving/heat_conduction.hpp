@@ -16,15 +16,18 @@ void conductHeat(const Patch& patch, const Gas&, double coefficient, CellView<co
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     if (!(internalEnergy[cell] > 0)) return;
     double power = 0;
-    for (int d = 0; d < D; ++d)
+    for (int d = 0; d < D; ++d) {
+      double along = 0;
       for (const int side : {-1, 1}) {
         Index<D> next = cell;
         next[d] += side;
         if (!mass.box().contains(next) || !(mass[next] > 0)) continue;
         const double compression = std::max({0.0, -gradient[cell](d, d), -gradient[next](d, d)});
-        power += coefficient * std::min(mass[cell], mass[next]) * compression *
+        along += coefficient * std::min(mass[cell], mass[next]) * compression *
                  (internalEnergy[next] / mass[next] - internalEnergy[cell] / mass[cell]);
       }
+      power += along;
+    }
     work[cell] += dt * power / internalEnergy[cell];
   });
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "components/mpm/conserving/labels.hpp"
-#include "components/mpm/conserving/grid_fields.hpp"
+#include "components/mpm/conserving/grid_sums.hpp"
 #include "components/mpm/conserving/scheme.hpp"
 #include "components/mpm/materials/gas.hpp"
 
@@ -108,17 +108,18 @@ void gatherInCells(const Patch& patch, const Gas&, ParticleView<const Vec<D>> x,
   cellMass.fill(0);
   cellEnergy.fill(0);
   if (count != 0) return;
-  GridFields<D, 2> sums(x.cells());
+  GridSums<D, 2, 0> sums(x.cells());
   forEachBatch<D>(x.cells(), x, [&](const Batch<D>& batch) {
     const Footprint<D> footprint(patch.level(), batch, load(x, batch), load(edges, batch));
     const Lanes m = batch.only(load(mass, batch)), energy = m * load(internalEnergy, batch);
-    typename GridFields<D, 2>::Brought parts;
+    typename GridSums<D, 2, 0>::Brought parts;
     footprint.forEachPart([&](const Index<D>& k, const Lanes& part) {
       parts[0][Footprint<D>::number(k)] = part * m;
       parts[1][Footprint<D>::number(k)] = part * energy;
     });
-    sums.add(footprint, batch.count, 0, parts);
+    sums.add(footprint, batch.count, parts);
   });
+  sums.finish();
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     cellMass[cell] = sums.at(0, cell);
     cellEnergy[cell] = sums.at(1, cell);

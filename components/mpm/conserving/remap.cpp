@@ -18,7 +18,7 @@ struct CellSums {
   static constexpr std::size_t modes = moment + D * D;  ///< D by axes of a mixed mode: m u_a
   static constexpr std::size_t count = modes + D * ((1 << D) - 1 - D);
 
-  using Fields = GridFields<D, count>;
+  using Fields = GridSums<D, count, 0>;
 };
 
 /// Whether a mode is one of several axes.
@@ -39,7 +39,7 @@ LanesVec<D> relativeSlopes(const Level& level, const Contents<D>& contents, std:
   for (int d = 0; d < D; ++d) {
     const Lanes rise = contents.read(field, near, Index<D>::unit(d)) - value;
     const Lanes fall = value - contents.read(field, near, Index<D>{} - Index<D>::unit(d));
-    const Lanes slope = 2 * level.inverseSpacing(d) * rise * fall / ((rise + fall) * value);
+    const Lanes slope = 2 * level.inverseSpacing(d) * (rise * fall) / ((rise + fall) * value);
     slopes[d] = select(rise * fall > 0, slope, 0);
     if (level.isPeriodic(d)) continue;
     const Lanes cell = widen(batch.cell[static_cast<std::size_t>(d)]);
@@ -53,7 +53,6 @@ LanesVec<D> relativeSlopes(const Level& level, const Contents<D>& contents, std:
 /// The parts of particles in a cell each.
 template <int D>
 struct Part {
-  Index<D> k;            ///< which cell of the footprints
   LanesVec<D> x, edges;  ///< centre and edge lengths
   Lanes mass, internal;  ///< shares of the particle's
 };
@@ -65,10 +64,8 @@ class Parts {
   /// Relative slopes of density and internal energy say how unlike the parts are.
   Parts(const Footprint<D>& footprint, const LanesVec<D>& centre, const LanesVec<D>& density,
         const LanesVec<D>& energy) {
-    Lanes mass = 0, internal = 0;
     footprint.forEachPart([&](const Index<D>& k, const Lanes& share) {
-      Part<D>& part = parts_[count_++];
-      part.k = k;
+      Part<D>& part = at(k);
       for (int d = 0; d < D; ++d) {
         const auto& span = footprint.along[static_cast<std::size_t>(d)];
         part.x[d] = span.middle(k[d]);
@@ -76,28 +73,32 @@ class Parts {
       }
       part.mass = share * (1 + density.dot(part.x - centre));
       part.internal = share * (1 + energy.dot(part.x - centre));
-      mass += part.mass;
-      internal += part.internal;
     });
-    for (Part<D>& part : *this) {
-      part.mass /= mass;
-      part.internal /= internal;
-    }
+    const Lanes mass = sum(footprint, [](const Part<D>& part) { return part.mass; });
+    const Lanes internal = sum(footprint, [](const Part<D>& part) { return part.internal; });
+    footprint.forEachPart([&](const Index<D>& k, const Lanes&) {
+      at(k).mass /= mass;
+      at(k).internal /= internal;
+    });
   }
-  Part<D>* begin() { return parts_.data(); }
-  Part<D>* end() { return parts_.data() + count_; }
+  /// The part in a cell of the footprint.
+  Part<D>& at(const Index<D>& k) { return parts_[Footprint<D>::number(k)]; }
+  /// Sum of a value of each part.
+  template <class Value>
+  Lanes sum(const Footprint<D>& footprint, Value&& value) {
+    return footprint.sumOverParts([&](const Index<D>& k, const Lanes&) { return value(at(k)); });
+  }
 
  private:
   std::array<Part<D>, Footprint<D>::places> parts_;
-  std::size_t count_ = 0;
 };
 
 /// What a part brings to its cell.
 template <int D>
-void bring(typename CellSums<D>::Fields::Brought& brought, const Part<D>& part, const LanesVec<D>& dx,
-           const LanesVec<D>& u, const LanesTensor<D>& gradient, const LanesModes<D>& modes, const Lanes& surplus) {
+void bring(typename CellSums<D>::Fields::Brought& brought, std::size_t place, const Part<D>& part,
+           const LanesVec<D>& dx, const LanesVec<D>& u,
+           const LanesTensor<D>& gradient, const LanesModes<D>& modes, const Lanes& surplus) {
   using Sums = CellSums<D>;
-  const std::size_t place = Footprint<D>::number(part.k);
   const auto put = [&](std::size_t field, const LanesVec<D>& values) {
     for (std::size_t d = 0; d < D; ++d) brought[field + d][place] = part.mass * values[static_cast<int>(d)];
   };
@@ -129,29 +130,31 @@ void cut(const Level& level, const Batch<D>& batch, const Boxes<D>& boxes, const
   const Footprint<D> footprint(level, batch, centre, edges);
   Parts<D> parts(footprint, centre, relativeSlopes<D>(level, contents, 0, batch, edges),
                  relativeSlopes<D>(level, contents, 1, batch, edges));
-  LanesVec<D> centroid = LanesVec<D>::Zero();
-  for (const Part<D>& part : parts) centroid += part.mass * part.x;
+  LanesVec<D> centroid;
+  for (int d = 0; d < D; ++d)
+    centroid[d] = parts.sum(footprint, [&](const Part<D>& part) { return part.mass * part.x[d]; });
   LanesTensor<D> gradient;
   for (int d = 0; d < D; ++d) gradient.col(d) = modes.col(gradientColumn(d));
-  Lanes kinetic = 0;
-  for (const Part<D>& part : parts) kinetic += 0.5 * part.mass * (gradient * (part.x - centroid)).squaredNorm();
+  const Lanes kinetic = parts.sum(footprint, [&](const Part<D>& part) -> Lanes {
+    return 0.5 * part.mass * (gradient * (part.x - centroid)).squaredNorm();
+  });
   const Lanes most = affine + 0.5 * e;
   gradient *= select(kinetic > most, sqrt(most / kinetic), 1);
   const Lanes surplus = affine - min(kinetic, most), warm = m * e * (1 + min(surplus, 0) / e);
   typename CellSums<D>::Fields::Brought brought;
-  for (Part<D>& part : parts) {
+  footprint.forEachPart([&](const Index<D>& k, const Lanes&) {
+    Part<D>& part = parts.at(k);
     LanesVec<D> middle;
     for (int d = 0; d < D; ++d) {
-      const double h = level.spacing(d);
-      const Lanes cell = widen(footprint.along[static_cast<std::size_t>(d)].first + part.k[d]);
-      middle[d] = level.nodePosition(d, 0) + h * cell + 0.5 * h;
+      const Lanes cell = widen(footprint.along[static_cast<std::size_t>(d)].first + k[d]);
+      middle[d] = middleOf(level, d) + level.spacing(d) * fromMiddle(level, d, cell);
     }
     const LanesVec<D> u = v + gradient * (part.x - centroid);
     part.mass *= m;
     part.internal *= warm;
-    bring<D>(brought, part, part.x - middle, u, gradient, modes, max(surplus, 0));
-  }
-  sums.add(footprint, batch.count, 0, brought);
+    bring<D>(brought, Footprint<D>::number(k), part, part.x - middle, u, gradient, modes, max(surplus, 0));
+  });
+  sums.add(footprint, batch.count, brought);
 }
 
 /// What lies in the cells of a row side by side.
@@ -202,12 +205,13 @@ struct NewBox {
     for (int d = 0; d < D; ++d) {
       const double h = level.spacing(d);
       const bool below = isEmpty(mass, cell - Index<D>::unit(d)), above = isEmpty(mass, cell + Index<D>::unit(d));
-      double lower = 0, upper = h;
-      if (above && !below) upper = std::clamp(h + 2 * offset[d], 0.1 * h, h);
-      if (below && !above) lower = std::clamp(2 * offset[d], 0.0, 0.9 * h);
-      centre[d] = level.nodePosition(d, cell[d]) + 0.5 * (lower + upper);
+      double lower = -0.5 * h, upper = 0.5 * h;
+      if (above && !below) upper = std::clamp(0.5 * h + 2 * offset[d], -0.4 * h, 0.5 * h);
+      if (below && !above) lower = std::clamp(2 * offset[d] - 0.5 * h, -0.5 * h, 0.4 * h);
+      const double middle = 0.5 * (lower + upper);
+      centre[d] = positionInCell(level, d, cell[d], 0) + middle;
       edges[d] = upper - lower;
-      inertia[d] = 0.5 * (lower + upper) * (h - 0.5 * (lower + upper));
+      inertia[d] = 0.25 * h * h - middle * middle;
     }
   }
 
@@ -251,6 +255,7 @@ void remap(const Patch& patch, const Boxes<D>& boxes, CellView<const double> mas
   typename CellSums<D>::Fields sums(boxes.x.cells());
   forEachBatch<D>(boxes.x.cells(), boxes.x,
                   [&](const Batch<D>& batch) { cut<D>(level, batch, boxes, contents, sums); });
+  sums.finish();
   forEach<D>(patch.cells(), [&](Index<D> cell) {
     if ((cell[0] - patch.cells().lower[0]) % Lanes::count != 0) return;
     const Contained<D> contained(sums, cell);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "components/mpm/conserving/footprint.hpp"
-#include "components/mpm/conserving/grid_fields.hpp"
+#include "components/mpm/conserving/grid_sums.hpp"
 #include "components/mpm/conserving/labels.hpp"
 #include "components/mpm/conserving/scheme.hpp"
 #include "components/mpm/materials/gas.hpp"
@@ -21,28 +21,32 @@ typename Footprint<D>::template Field<D - 1> fieldOf(const LanesVec<D>& velocity
 /// Mass and momentum at nodes; mass, internal energy and volume in cells: sums over the boxes that overlap them.
 template <int D>
 struct Gathering {
-  GridFields<D, 1 + D> nodes;
-  GridFields<D, 3> cells;
+  GridSums<D, 1 + D, 1> nodes;
+  GridSums<D, 3, 0> cells;
 
   explicit Gathering(const Box& around) : nodes(around), cells(around) {}
 
   void add(const Batch<D>& batch, const Footprint<D>& footprint, const Lanes& mass, const Lanes& energy,
            const Lanes& volume, const typename Footprint<D>::template Field<D - 1>& velocity) {
-    typename GridFields<D, 3>::Brought parts;
+    typename GridSums<D, 3, 0>::Brought parts;
     footprint.forEachPart([&](const Index<D>& k, const Lanes& part) {
       const std::size_t place = Footprint<D>::number(k);
       parts[0][place] = part * mass;
       parts[1][place] = part * energy;
       parts[2][place] = part * volume;
     });
-    cells.add(footprint, batch.count, 0, parts);
-    typename GridFields<D, 1 + D>::Brought brought;
+    cells.add(footprint, batch.count, parts);
+    typename GridSums<D, 1 + D, 1>::Brought brought;
     footprint.forEachWeight(velocity, [&](const Index<D>& k, const Lanes& w, const LanesVec<D>& u) {
       const std::size_t place = Footprint<D>::number(k);
       brought[0][place] = w * mass;
       for (std::size_t d = 0; d < D; ++d) brought[d + 1][place] = brought[0][place] * u[static_cast<int>(d)];
     });
-    nodes.add(footprint, batch.count, 1, brought);
+    nodes.add(footprint, batch.count, brought);
+  }
+  void finish() {
+    nodes.finish();
+    cells.finish();
   }
 };
 
@@ -63,6 +67,7 @@ void gatherOnGrid(const Patch& patch, ParticleView<const Vec<D>> x, ParticleView
     sums.add(batch, footprint, m, m * load(internalEnergy, batch), batch.only(size.prod()),
              fieldOf<D>(load(velocity, batch), load(modes, batch)));
   });
+  sums.finish();
   forEach<D>(cellMass.box(), [&](const Index<D>& cell) {
     cellMass[cell] = sums.cells.at(0, cell);
     cellInternalEnergy[cell] = sums.cells.at(1, cell);
@@ -119,6 +124,17 @@ struct Gathered {
     moments.fill(LanesVec<D>::Zero());
     lower.fill(LanesVec<D>::Zero());
     upper.fill(LanesVec<D>::Zero());
+  }
+  Gathered& operator+=(const Gathered& other) {
+    for (std::size_t a = 0; a < moments.size(); ++a) moments[a] += other.moments[a];
+    for (std::size_t d = 0; d < lower.size(); ++d) {
+      lower[d] += other.lower[d];
+      upper[d] += other.upper[d];
+    }
+    moving += other.moving;
+    slipEnergy += other.slipEnergy;
+    square += other.square;
+    return *this;
   }
 };
 
@@ -203,10 +219,10 @@ template <int D, class Scheme, int Axis>
 [[gnu::always_inline]] inline Gathered<D, Axis> gatherFromNodes(
     const Footprint<D>& footprint, Index<D>& at, const Reader<D>& read,
     const typename Footprint<D>::template Field<Axis>& field) {
-  Gathered<D, Axis> sum;
   const auto& span = footprint.along[Axis];
-  for (at[Axis] = 0; at[Axis] < span.nodes(); ++at[Axis]) {
-    const auto k = static_cast<std::size_t>(at[Axis]);
+  return span.template sumOverNodes<Gathered<D, Axis>>([&](int node, Gathered<D, Axis>& sum) {
+    at[Axis] = node;
+    const auto k = static_cast<std::size_t>(node);
     if constexpr (Axis == 0)
       addNode<D, Scheme>(footprint, at, read, field[0] + span.arm[k] * field[1], sum);
     else
@@ -214,16 +230,13 @@ template <int D, class Scheme, int Axis>
                         gatherFromNodes<D, Scheme, Axis - 1>(footprint, at, read,
                                                              Footprint<D>::template slice<Axis>(field, span.arm[k])),
                         sum);
-  }
-  return sum;
+  });
 }
 
 /// Sum of o_c f_c.
 template <int D>
 Lanes workOn(const Footprint<D>& footprint, const Reader<D>& read) {
-  Lanes done = 0;
-  footprint.forEachPart([&](const Index<D>& k, const Lanes& part) { done += part * read(Motion<D>::work, k); });
-  return done;
+  return footprint.sumOverParts([&](const Index<D>& k, const Lanes& part) { return part * read(Motion<D>::work, k); });
 }
 
 /// Asks for a smaller time step where a box would shrink to less than .4 of its length or become longer than `most`.

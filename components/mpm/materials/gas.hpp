@@ -36,21 +36,30 @@ struct Relaxation {
   double internalEnergy = 0;  ///< J/kg, what the gas goes to
 };
 
-/// An ideal gas: p = (gamma - 1) rho epsilon, (3) of Tran, Kim & Berzins.
+/// A stiffened gas: p = (gamma - 1) rho epsilon - p_inf; with p_inf = 0 an ideal gas, (3) of Tran, Kim & Berzins.
+///
+/// epsilon, what particles carry as p.internalEnergy, is e - p_inf / rho: the part of the internal energy e that waves
+/// exchange. Of epsilon and P = p + p_inf all laws are those of an ideal gas, and totals of energy differ by p_inf times
+/// the volume alone, which is that of the grid: a stiffened gas fills it.
+/// Source: F. H. Harlow & A. A. Amsden, Fluid Dynamics, LANL report LA-4700 (1971).
 struct Gas {
   std::string name;
-  double gamma = 1.4;  ///< ratio of specific heats
+  double gamma = 1.4;    ///< ratio of specific heats
+  double pInfinity = 0;  ///< Pa
+  Location where;        ///< of the constitutive model, in the scene
   std::vector<GasObject> objects;
   std::optional<Relaxation> relaxation;
 
-  /// Pressure [Pa] of density rho [kg/m³] and internal energy e [J/kg].
-  double pressure(double rho, double e) const { return (gamma - 1) * rho * e; }
-  /// Internal energy [J/kg] of density rho [kg/m³] and pressure p [Pa].
-  double internalEnergy(double rho, double p) const { return p / ((gamma - 1) * rho); }
+  /// p [Pa] of density rho [kg/m³] and epsilon [J/kg].
+  double pressure(double rho, double epsilon) const { return (gamma - 1) * rho * epsilon - pInfinity; }
+  /// epsilon [J/kg] of density rho [kg/m³] and p [Pa].
+  double internalEnergy(double rho, double p) const { return (p + pInfinity) / ((gamma - 1) * rho); }
+  /// e [J/kg] of density rho [kg/m³] and epsilon [J/kg].
+  double fullEnergy(double rho, double epsilon) const { return epsilon + pInfinity / rho; }
   /// What the flow answers to; none where heat from outside decides, too.
   std::optional<double> effectiveGamma() const { return relaxation ? std::nullopt : std::optional(gamma); }
   /// Square of the speed of sound [m²/s²].
-  double soundSpeedSquared(double e) const { return gamma * (gamma - 1) * e; }
+  double soundSpeedSquared(double epsilon) const { return gamma * (gamma - 1) * epsilon; }
 };
 
 }  // namespace tushar::mpm

@@ -10,8 +10,11 @@
 
 namespace tushar::mpm::solid {
 
-/// A second-order tensor in x, y, z, row by row. Always three by three: a solid in one or two dimensions is in plane strain.
-using Matrix3 = Eigen::Matrix<double, 3, 3, Eigen::DontAlign | Eigen::RowMajor>;
+/// A second-order tensor in x, y, z, row by row, of numbers or of Lanes, several tensors at once. Always three by three: a
+/// solid in one or two dimensions is in plane strain.
+template <class Real>
+using TensorOf = Eigen::Matrix<Real, 3, 3, Eigen::DontAlign | Eigen::RowMajor>;
+using Matrix3 = TensorOf<double>;
 
 /// A second-order tensor as a State keeps it, row by row.
 using Tensor = std::array<double, 9>;
@@ -75,8 +78,9 @@ struct StateVariable {
 /// - `updateStress`: Cauchy stress at the end of the step, Pa, from that at its begin; brings the State to the end.
 /// - `waveSpeed`: of the fastest elastic wave, m/s, from the density at the start of the run, kg/m^3.
 /// - optional `static constexpr bool dependsOnDeformationOnly = true`: updateStress looks at F alone; then the stress of
-///   a particle need not be kept. Such a model may have `Matrix3 kirchhoffStress(const Matrix3& f) const`, J sigma, and
-///   `double waveSpeed(double initialDensity, const Deformation&) const`, where these are cheaper.
+///   a particle need not be kept. Such a model may have `TensorOf<Real> kirchhoffStress(const TensorOf<Real>& f) const`,
+///   J sigma, and `Real waveSpeed(double initialDensity, const TensorOf<Real>& f) const`, templates for a Real that is a
+///   number or Lanes: several particles are then worked on at once.
 /// - optional `static constexpr bool usesTemperature = false`: updateStress never looks at the temperature.
 /// - optional `MaterialConstants material`: filled with those of the model's material.
 /// - optional `double temperatureChange(const Deformation&, const Matrix3& stress, const State&) const`: by the work of

@@ -30,7 +30,7 @@ struct MpmSection {
   int integrator = 0;
   Interpolator interpolator = Interpolator::linear;
   bool artificialViscosity = false, withColor = false, axisymmetric = false, useLoadCurves = false;
-  bool conductsHeat = true, xpic = false, affine = false, viscosityHeats = false;
+  bool conductsHeat = true, xpic = false, affine = false, viscosityHeats = false, contactHeats = false;
   double picFraction = 0;
   StressUpdate stressUpdate = StressUpdate::last;
   std::string manufactured;
@@ -41,7 +41,8 @@ struct MpmSection {
 
 /// Switches of Uintah's that are missing here, and what there is instead.
 const std::vector<std::pair<std::string, std::string>> lacking{
-    {"DoPressureStabilization", "use a wider <interpolator>, such as gimp or 3rdorderBS, against locking"},
+    {"DoPressureStabilization",
+     "use <time_integrator> implicit, or a wider <interpolator>, such as gimp or 3rdorderBS, against locking"},
     {"UseGradientEnhancedVelocityProjection", "take it out: particles pass on their own velocity"},
     {"UsePrescribedDeformation", "move the body by a <contact> of type specified"},
     {"InsertParticles", "give every body its place at the start"},
@@ -52,12 +53,52 @@ const std::vector<std::pair<std::string, std::string>> lacking{
     {"AMR", "there is one level: choose a finer <resolution>"},
     {"DoCapDensity", "take it out: density is not capped"},
     {"DoGranularMPM", "take it out"},
+    {"DoDefGradAveraging", "use a wider <interpolator>, such as gimp or 3rdorderBS, against locking"},
+    {"keepPressBCNormalToSurface", "a pressure keeps the direction of its surface at the start"},
+    {"use_CBDI_boundary_condition", "a pressure is shared among the particles at its surface"},
+    {"use_volume_integral", "take it out: particles stand for their volume"},
+};
+
+/// Tags of Uintah's that change nothing here, and why.
+const std::vector<std::pair<std::string, std::string>> meaningless{
+    {"boundary_traction_faces", "BndyForce_… and BndyContactArea_… of every face can be saved without it"},
+    {"CanAddMPMMaterial", "all materials are there from the start"},
+    {"restartOnLargeNodalVelocity", "a run that fails says where and why"},
+    {"DeleteGeometryObjects", "shapes are not kept"},
+    {"computeNodalHeatFlux", "nothing depends on it"},
+    {"interpolateParticleTempToGridEveryStep", "temperatures always come from the particles"},
+    {"testForNegTemps_mpm", "nothing depends on it"},
+    {"PrescribedDeformationFile", "belongs to UsePrescribedDeformation"},
+    {"exactDeformation", "belongs to UsePrescribedDeformation"},
+    {"InsertParticlesFile", "belongs to InsertParticles"},
+    {"water_damping_coef", "belongs to coupled_flow_analysis"},
+    {"solid_damping_coef", "belongs to coupled_flow_analysis"},
+    {"PorePressureFilter", "belongs to coupled_flow_analysis"},
+    {"do_auto_cycle_bc", "belongs to do_scalar_diffusion"},
+    {"auto_cycle_use_minmax", "belongs to do_scalar_diffusion"},
+    {"auto_cycle_max", "belongs to do_scalar_diffusion"},
+    {"auto_cycle_min", "belongs to do_scalar_diffusion"},
+    {"with_gauss_solver", "belongs to the implicit method"},
+    {"dynamic", "belongs to the implicit method"},
+    {"solver", "belongs to the implicit method"},
+    {"convergence_criteria_disp", "belongs to the implicit method"},
+    {"convergence_criteria_energy", "belongs to the implicit method"},
+    {"num_iters_to_decrease_delT", "belongs to the implicit method"},
+    {"num_iters_to_increase_delT", "belongs to the implicit method"},
+    {"iters_before_timestep_restart", "belongs to the implicit method"},
+    {"DoImplicitHeatConduction", "belongs to the implicit method"},
+    {"DoTransientImplicitHeatConduction", "belongs to the implicit method"},
+    {"DoMechanics", "belongs to the implicit method"},
+    {"delT_decrease_factor", "belongs to the implicit method"},
+    {"delT_increase_factor", "belongs to the implicit method"},
+    {"temperature_solve", "belongs to the implicit method"},
 };
 
 const Schema<MpmSection>& mpmSchema() {
   static const Schema<MpmSection> schema = [] {
     Schema<MpmSection> mpm("MPM", "The Material Point Method for solids.");
-    mpm.choice("time_integrator", &MpmSection::integrator, {{"explicit", 0}}, 0, "how time advances")
+    mpm.choice("time_integrator", &MpmSection::integrator, {{"explicit", 0}}, 0,
+               "how time advances; implicit is another method, sus --describe impm")
         .choice("interpolator", &MpmSection::interpolator, interpolators, Interpolator::linear,
                 "shape functions: linear, generalised interpolation, convected particle domains (fast_cpdi is another "
                 "word for them), quadratic or cubic B-splines")
@@ -95,6 +136,8 @@ const Schema<MpmSection>& mpmSchema() {
                "x is the radius and y the axis; mass, energy and forces are per radian")
         .value("use_load_curves", &MpmSection::useLoadCurves, false, "1", "the loads of <PhysicalBC> act")
         .value("DoExplicitHeatConduction", &MpmSection::conductsHeat, true, "1", "heat is conducted")
+        .value("do_contact_friction_heating", &MpmSection::contactHeats, false, "1",
+               "friction between materials heats them, where heat is conducted")
         .choice("RunMMSProblem", &MpmSection::manufactured,
                 {{"none", ""},
                  {"AxisAligned", "AxisAligned"},
@@ -112,16 +155,18 @@ const Schema<MpmSection>& mpmSchema() {
       if (read.affine + read.xpic + (read.picFraction > 0) > 1)
         diagnostics.error(element, "apic, XPIC2 and pic_fraction are three ways to take the velocity: pick one");
     });
-    mpm.ignored("boundary_traction_faces", "BndyForce_… and BndyContactArea_… of every face can be saved without it");
+    for (const auto& [tag, why] : meaningless) mpm.ignored(tag, why);
     for (const auto& [tag, instead] : lacking) refuseSwitch(mpm, tag, instead);
+    requireSwitch(mpm, "computeColinearNormals", "both sides of a contact have one normal");
+    requireSwitch(mpm, "do_grid_reset", "the grid is where it was at the start of each step");
+    refuseTag(mpm, "cpdi_lcrit", "domains of cpdi keep the size that the deformation gives them");
     return mpm;
   }();
   return schema;
 }
 
-struct PhysicalConstants {
-  Vec3 gravity = Vec3::Zero();
-};
+}  // namespace
+
 const Schema<PhysicalConstants>& constantsSchema() {
   static const Schema<PhysicalConstants> schema =
       Schema<PhysicalConstants>("PhysicalConstants", "What acts everywhere.")
@@ -129,6 +174,8 @@ const Schema<PhysicalConstants>& constantsSchema() {
           .ignored("reference_pressure", "nothing here depends on it");
   return schema;
 }
+
+namespace {
 
 /// One size for the particles of all bodies, where they agree.
 void settleSizes(Problem& problem) {
@@ -140,10 +187,11 @@ void settleSizes(Problem& problem) {
       problem.method.keepsSizes = problem.method.keepsSizes || !(body.particlesPerCell == first);
 }
 
-std::unique_ptr<Component> makeComponent(const Level& level, Interpolator interpolator, Problem problem) {
-  countParticles(level, problem.materials, problem.start.loads);
+}  // namespace
+
+void settleParticles(const Level& level, Problem& problem) {
+  countParticles(level, problem.materials, problem.start.loads.surfaces);
   settleSizes(problem);
-  problem.start.domainsDeform = interpolator == Interpolator::cpdi;
   double widths = 0, axes = 0;
   for (int axis = 0; axis < 3; ++axis) {
     widths += level.cellWidth(axis);
@@ -152,6 +200,20 @@ std::unique_ptr<Component> makeComponent(const Level& level, Interpolator interp
   problem.method.meanWidth = widths / axes;
   problem.method.isThin = {true, true, true};
   for (int d = 0; d < level.dimension(); ++d) problem.method.isThin[static_cast<std::size_t>(level.axis(d))] = false;
+}
+
+void nameMaterials(std::vector<Material>& materials) {
+  for (std::size_t m = 0; m < materials.size(); ++m) {
+    materials[m].index = static_cast<int>(m);
+    if (materials[m].name.empty()) materials[m].name = "material" + std::to_string(m);
+  }
+}
+
+namespace {
+
+std::unique_ptr<Component> makeComponent(const Level& level, Interpolator interpolator, Problem problem) {
+  settleParticles(level, problem);
+  problem.start.domainsDeform = interpolator == Interpolator::cpdi;
   const auto make = [&]<template <int> class Shape>() -> std::unique_ptr<Component> {
     if (level.dimension() == 1) return std::make_unique<SolidMpm<Shape<1>>>(problem);
     if (level.dimension() == 2) return std::make_unique<SolidMpm<Shape<2>>>(problem);
@@ -196,6 +258,7 @@ Method settle(const MpmSection& read, const PhysicalConstants& constants) {
   method.xpic = read.xpic;
   method.affine = read.affine;
   method.viscosityHeats = read.viscosityHeats;
+  method.contactHeats = read.contactHeats;
   return method;
 }
 
@@ -210,21 +273,23 @@ simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostic
   if (diagnostics.size() > before) return {};
   Problem problem{method, properties.mpm.materials, properties.mpm.contacts, {}};
   problem.method.strainEnergy = isSaved(root, "StrainEnergy") || isSaved(root, "p.strainEnergy");
+  if (read.xpic)
+    for (Contact& contact : problem.contacts) contact.actsTwice = true;
   problem.method.velocityGradient = isSaved(root, "p.velGrad");
   problem.method.thermalContact = properties.mpm.thermalContact;
-  problem.start = {read.axisymmetric, read.useLoadCurves ? readLoads(root, diagnostics) : std::vector<PressureLoad>{},
+  problem.start = {read.axisymmetric, readLoads(root, read.useLoadCurves, diagnostics),
                    makeManufactured(read.manufactured)};
-  for (std::size_t m = 0; m < problem.materials.size(); ++m) {
-    Material& material = problem.materials[m];
-    material.index = static_cast<int>(m);
-    if (material.name.empty()) material.name = "material" + std::to_string(m);
+  nameMaterials(problem.materials);
+  for (const Material& material : problem.materials) {
     if (problem.start.solution && material.model->name() != "cnh_mms")
       diagnostics.error(root.child("MPM")->child("RunMMSProblem").value(),
                         "is made for the constitutive model cnh_mms, but '" + material.name + "' is " +
                             std::string(material.model->name()));
   }
   if (diagnostics.size() > before) return {};
-  return [interpolator = read.interpolator, problem](const Level& level) {
+  return [interpolator = read.interpolator, problem, where = root.child("MPM")->where()](const Level& level) {
+    if (problem.start.axisymmetric && level.dimension() == 3)
+      throw InputError({{where, "MPM/axisymmetric", "x is the radius and y the axis: give z one cell between symmetry planes"}});
     return makeComponent(level, interpolator, problem);
   };
 }

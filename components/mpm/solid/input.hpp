@@ -1,8 +1,22 @@
 #pragma once
 
+#include "components/mpm/solid/solid_mpm.hpp"
+#include "core/input/schema.hpp"
 #include "core/simulation/catalogue.hpp"
 
 namespace tushar::mpm::solid {
+
+/// The `PhysicalConstants` section.
+struct PhysicalConstants {
+  Vec3 gravity = Vec3::Zero();  ///< m/s^2
+};
+const input::Schema<PhysicalConstants>& constantsSchema();
+
+/// Gives every material its number, and a name where the scene gives none.
+void nameMaterials(std::vector<Material>& materials);
+
+/// What depends on the grid: how many particles share each load, their size, the width of cells.
+void settleParticles(const Level& level, Problem& problem);
 
 /// Reads a scene of solids; every problem goes to the diagnostics.
 simulation::MakeComponent readScene(const input::Element& root, input::Diagnostics& diagnostics);

@@ -32,6 +32,7 @@ inline constexpr ParticleLabel<Matrix3> affineMoment{"p.affineMoment", "m^2/s",
                                                      "velocity times distance, mean over the nodes around (APIC)"};
 template <int D>
 inline constexpr ParticleLabel<Vec<D>> externalForce{"p.externalforce", "N", "force of loads"};
+inline constexpr ParticleLabel<double> heatFlux{"p.externalHeatFlux", "W", "heat that loads bring"};
 inline constexpr ParticleLabel<int> loadCurves{"p.loadCurveID", "1",
                                                "number of the load on it, or 0; further ones times 256, 65536"};
 }  // namespace p
@@ -48,10 +49,13 @@ inline constexpr NodeLabel<Octet> stressRecord{"g.stressRecord", "SI units",
                                                "velocity and mass that stresses follow, where it is not that of a step"};
 inline constexpr NodeLabel<Octet> smoothRecord{"g.smoothRecord", "SI units", "velocity of p.velocitySSPlus, and mass"};
 template <int D>
-inline constexpr NodeLabel<Vec<D>> massGradient{"g.massGradient", "kg/m", "gradient of the mass, into the body"};
+inline constexpr NodeLabel<Vec<D>> massGradient{"g.massGradient", "kg/m", "gradient of the mass, out of the body"};
 template <int D>
 inline constexpr NodeLabel<Vec<D>> massPosition{"g.massPosition", "kg m", "mass of particles times their position"};
-inline constexpr NodeLabel<Matrix3> stressMoment{"g.stressMoment", "Pa m^3", "stress of particles times their volume"};
+inline constexpr NodeLabel<Matrix3> surfaceStress{"g.surfaceStress", "Pa", "stress of particles, gathered"};
+inline constexpr NodeLabel<double> surfaceVolume{"g.surfaceVolume", "m^3",
+                                                 "volume of particles, with what mirrors it beyond symmetry planes"};
+inline constexpr NodeLabel<double> frictionHeat{"g.frictionHeat", "J", "heat that rubbing makes in a step"};
 inline constexpr NodeLabel<double> heatCapacity{"g.heatCapacity", "J/K", "heat capacity gathered from particles"};
 inline constexpr NodeLabel<double> temperatureNoBC{"g.temperatureNoBC", "K", "temperature gathered from particles"};
 inline constexpr NodeLabel<double> temperature{"g.temperature", "K", "the same, as the sides of the grid have it"};
@@ -72,8 +76,9 @@ namespace total {
 using namespace mpm::total;
 inline constexpr ReductionLabel<VectorSum> angularMomentum{"AngularMomentum", "kg m^2/s",
                                                            "of all particles about the origin of x, y, z"};
+inline constexpr ReductionLabel<Sum> thermalEnergy{"ThermalEnergy", "J", "mass times specific heat times temperature"};
 inline constexpr ReductionLabel<VectorSum> rigidReactionForce{
-    "RigidReactionForce", "N", "force on all bodies that a contact of type rigid or specified moves"};
+    "RigidReactionForce", "N", "force that a contact of type rigid or specified holds the others with, against their stresses"};
 inline constexpr ReductionLabel<Sum> strainEnergy{
     "StrainEnergy", "J", "strain energy of elastic materials and, of others, what the last step added, as in Uintah"};
 /// The faces of the grid in the order x-, x+, y-, y+, z-, z+.

@@ -7,6 +7,7 @@
 #include "components/mpm/solid/contact/contact_input.hpp"
 #include "components/mpm/solid/damage/damage_input.hpp"
 #include "components/mpm/solid/materials/all.hpp"
+#include "components/mpm/solid/refuse.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -111,22 +112,37 @@ const Schema<Body>& bodySchema() {
   return schema;
 }
 
+/// Tags of Uintah's in a material that change nothing here, and those that are missing.
+void acceptUintahsTags(Schema<Material>& tags) {
+  for (const char* tag : {"is_rigid", "is_force_transmitting_material", "possible_alpha_material"})
+    tags.ignored(tag, "a <contact> of type rigid or specified makes a body its master");
+  for (const char* tag : {"water_density", "porosity", "permeability", "initial_pore_pressure"})
+    tags.ignored(tag, "belongs to coupled_flow_analysis");
+  tags.ignored("C_p", "the <specific_heat> is taken").ignored("do_conc_reduction", "belongs to do_scalar_diffusion");
+  refuseSwitch(tags, "linear_thermal_expansion_coef", "temperature does not make bodies longer");
+  requireSwitch(tags, "is_active", "every material is there from the start");
+  refuseSwitch(tags, "activation_time", "every material is there from the start");
+}
+
 const Schema<Material>& materialSchema() {
-  static const Schema<Material> schema =
-      Schema<Material>("material", "A material and the bodies made of it.")
-          .attributeValue("name", &Material::name, "", "1", "its name; material0, material1, … where none is given")
-          .required("density", &Material::density, "kg/m^3", "density at the start", input::positive())
-          .value("specific_heat", &Material::specificHeat, 0, "J/(kg K)", "c_v", input::nonNegative())
-          .value("thermal_conductivity", &Material::thermalConductivity, 0, "W/(m K)", "conductivity",
-                 input::nonNegative())
-          .value("melt_temp", &Material::meltTemperature, 295, "K", "temperature at which it melts", input::positive())
-          .value("room_temp", &Material::roomTemperature, 294, "K", "temperature of the constants of damage",
-                 input::nonNegative())
-          .custom("constitutive_model", readModel, {"constitutive_model"}, "how it answers to being deformed",
-                  describeModels)
-          .custom("damage_model", readDamage, {"damage_model", "erosion"}, "how it fails, and what it bears then",
-                  describeDamage)
-          .list("geom_object", &Material::bodies, bodySchema(), "a body of material at the start", 1);
+  static const Schema<Material> schema = [] {
+    Schema<Material> material("material", "A material and the bodies made of it.");
+    material.attributeValue("name", &Material::name, "", "1", "its name; material0, material1, … where none is given")
+        .required("density", &Material::density, "kg/m^3", "density at the start", input::positive())
+        .value("specific_heat", &Material::specificHeat, 0, "J/(kg K)", "c_v", input::nonNegative())
+        .value("thermal_conductivity", &Material::thermalConductivity, 0, "W/(m K)", "conductivity",
+               input::nonNegative())
+        .value("melt_temp", &Material::meltTemperature, 295, "K", "temperature at which it melts", input::positive())
+        .value("room_temp", &Material::roomTemperature, 294, "K", "temperature of the constants of damage",
+               input::nonNegative())
+        .custom("constitutive_model", readModel, {"constitutive_model"}, "how it answers to being deformed",
+                describeModels)
+        .custom("damage_model", readDamage, {"damage_model", "erosion"}, "how it fails, and what it bears then",
+                describeDamage)
+        .list("geom_object", &Material::bodies, bodySchema(), "a body of material at the start", 1);
+    acceptUintahsTags(material);
+    return material;
+  }();
   return schema;
 }
 
@@ -136,6 +152,18 @@ void nameMaterials(const MaterialProperties::List& list, const Element& element,
   for (std::size_t m = 0; m < list.materials.size(); ++m)
     if (const std::string& name = list.materials[m].name; !name.empty() && !names.insert(name).second)
       diagnostics.error(tags[m], fmt::format("a second material is called '{}'", name));
+}
+
+/// Contacts name materials that there are; numbers too many in <materials> mean nothing, as in Uintah.
+void checkContacts(const MaterialProperties::List& list, const Element& element, Diagnostics& diagnostics) {
+  const int count = static_cast<int>(list.materials.size());
+  for (const Element& tag : element.children("contact"))
+    for (const char* name : {"master_material", "ExcludeMaterial"}) {
+      const auto given = tag.child(name);
+      const int number = given ? input::parse<int>(given->text()).value.value_or(0) : 0;
+      if (number < 0 || number >= count)
+        diagnostics.error(*given, fmt::format("there is no material {}: they are counted from 0 to {}", number, count - 1));
+    }
 }
 
 }  // namespace
@@ -155,7 +183,8 @@ const Schema<MaterialProperties>& propertiesSchema() {
                     read.thermalContact = element.child("thermal_contact").has_value();
                   },
                   {"thermal_contact"}, "materials that share nodes share a temperature there")
-          .check(nameMaterials);
+          .check(nameMaterials)
+          .check(checkContacts);
   static const Schema<MaterialProperties> schema =
       Schema<MaterialProperties>("MaterialProperties", "What there is.")
           .requiredSection("MPM", &MaterialProperties::mpm, list);

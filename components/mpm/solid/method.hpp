@@ -35,6 +35,7 @@ struct Method {
   bool strainEnergy = false;       ///< someone wants to know it
   bool velocityGradient = false;   ///< someone wants to know it
   bool conductsHeat = true;
+  bool contactHeats = false;       ///< do_contact_friction_heating
   bool thermalContact = false;     ///< materials that share nodes share a temperature
 };
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "components/mpm/solid/constitutive_model.hpp"
+#include "components/mpm/solid/kernels/tensor.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -27,6 +28,8 @@ struct StressPoints {
   double* bulkSpeed = nullptr;            ///< m/s; null where nobody asks
   double* temperatureChange = nullptr;    ///< K; null where nobody asks
   double* strainEnergyDensity = nullptr;  ///< J/m^3 of the volume at the start; null where nobody asks
+
+  bool asksForWaveSpeedOnly() const { return !stress && !bulkSpeed && !temperatureChange && !strainEnergyDensity; }
 };
 
 /// A constitutive model behind one virtual call per group of particles.
@@ -110,15 +113,10 @@ class ModelOf : public Model {
   }
 
   void updateStress(double initialDensity, const StressPoints& points) const override {
+    if constexpr (severalAtOnce)
+      if (points.asksForWaveSpeedOnly()) return findWaveSpeeds(initialDensity, points);
     for (int k = 0; k < points.count; ++k) {
       const Deformation d = deformation(points, k);
-      if constexpr (fromDeformation && requires { model_.waveSpeed(initialDensity, d); }) {
-        if (!points.stress) {
-          finish(initialDensity, points, k, d, Matrix3::Zero(), Matrix3::Zero(), State{},
-                 model_.waveSpeed(initialDensity, d));
-          continue;
-        }
-      }
       double* const numbers = points.state + k * points.stateStride;
       const Matrix3 before = oldStress(points, k);
       State state = load(numbers);
@@ -149,8 +147,9 @@ class ModelOf : public Model {
   }
 
   void kirchhoffStress(const Matrix3* f, int count, Matrix3* stress) const override {
-    if constexpr (requires { model_.kirchhoffStress(*f); }) {
-      for (int k = 0; k < count; ++k) stress[k] = model_.kirchhoffStress(f[k]);
+    if constexpr (severalAtOnce) {
+      for (int k = 0; k < count; k += Lanes::count)
+        storeLanes(model_.kirchhoffStress(lanesOf(f + k, count - k)), stress + k, count - k);
     } else if constexpr (fromDeformation) {
       const Matrix3 zero = Matrix3::Zero();
       State none{};
@@ -173,6 +172,18 @@ class ModelOf : public Model {
       return false;
   }();
 
+  static constexpr bool severalAtOnce = requires(const M& m, const TensorOf<Lanes>& f) {
+    m.kirchhoffStress(f);
+    m.waveSpeed(1.0, f);
+  };
+
+  void findWaveSpeeds(double initialDensity, const StressPoints& points) const {
+    for (int k = 0; k < points.count; k += Lanes::count) {
+      const int count = points.count - k;
+      const Lanes speed = model_.waveSpeed(initialDensity, lanesOf(points.deformationGradient + k, count));
+      for (int lane = 0; lane < std::min(count, Lanes::count); ++lane) points.waveSpeed[k + lane] = speed[lane];
+    }
+  }
   void finish(double initialDensity, const StressPoints& points, int k, const Deformation& d, const Matrix3& before,
               const Matrix3& after, const State& state, double waveSpeed) const {
     points.waveSpeed[k] = waveSpeed;

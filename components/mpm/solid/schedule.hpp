@@ -50,7 +50,8 @@ void SolidMpm<Shape>::scheduleInitialize(TaskList& tasks) const {
                      creates(p::viscosity), creates(p::strainEnergy), creates(p::deformationMeasure),
                      creates(p::velocityGradient), creates(p::loadCurves));
   tasks.perMaterial("mpm::computeInitialTimeStep", computeInitialTimeStep<D>, problem_.materials,
-                    requiresNew(p::velocity<D>), requiresNew(p::temperature), computes(c::stableTimeStep));
+                    requiresNew(p::velocity<D>), requiresNew(p::temperature), requiresNew(p::deformationMeasure),
+                    computes(c::stableTimeStep));
   if (keeps_stress_)
     tasks.perMaterial("mpm::initializeStress", initializeStress, problem_.materials, with(state_size_),
                       requiresNew(p::mass), requiresNew(p::deformationMeasure), computes(p::volume), computes(p::stress),
@@ -73,6 +74,7 @@ void SolidMpm<Shape>::scheduleComputeStableTimeStep(TaskList& tasks) const {
 template <class Shape>
 void SolidMpm<Shape>::scheduleTimeAdvance(TaskList& tasks) const {
   if (isLoaded()) scheduleApplyExternalLoads(tasks);
+  if (hasFriction()) scheduleComputeSurface(tasks);
   switch (problem_.method.stressUpdate) {
     case StressUpdate::last:
       scheduleMomentum(tasks, old);
@@ -106,7 +108,8 @@ void SolidMpm<Shape>::scheduleApplyExternalLoads(TaskList& tasks) const {
                       requiresOld(p::displacement<D>), requiresOld(p::mass), computes(p::externalForce<D>));
   else
     tasks.perMaterial("mpm::applyExternalLoads", applyExternalLoads<D>, problem_.materials, with(problem_.start.loads),
-                      startTime(), requiresOld(p::x<D>), requiresOld(p::loadCurves), computes(p::externalForce<D>));
+                      startTime(), requiresOld(p::x<D>), requiresOld(p::mass), requiresOld(p::loadCurves),
+                      computes(p::externalForce<D>));
 }
 
 template <class Shape>
@@ -137,23 +140,34 @@ void SolidMpm<Shape>::scheduleInterpolateParticlesToGrid(TaskList& tasks, Reads 
                         requiresOld(p::mass, reach), requiresOld(p::affineMoment, reach), modifies(g::record));
   if (!problem_.contacts.empty())
     tasks.acrossMaterials("mpm::exMomInterpolated", exMomInterpolated<D>, problem_.materials, with(problem_.contacts),
-                          modifies(g::record));
-  if (!hasFriction()) return;
+                          startTime(), modifies(g::record));
+  if (hasFriction()) scheduleFriction(tasks, "mpm::frictionInterpolated", Moment::start, g::record);
+}
+
+template <class Shape>
+void SolidMpm<Shape>::scheduleComputeSurface(TaskList& tasks) const {
+  const int reach = Shape::reach;
   tasks.perMaterial("mpm::computeSurface", computeSurface<Shape>, problem_.materials, with(problem_.method.commonSize),
                     requiresOld(p::x<D>, reach), when(keepsSizes(), requiresOld(p::size<D>, reach)),
                     requiresOld(p::mass, reach), requiresOld(p::deformationMeasure, reach),
-                    when(keeps_stress_, requiresOld(p::volume, reach)),
                     when(keeps_stress_, requiresOld(p::stress, reach)), computes(g::massGradient<D>),
-                    computes(g::massPosition<D>), computes(g::stressMoment));
-  scheduleFriction(tasks, "mpm::frictionInterpolated");
+                    computes(g::massPosition<D>), computes(g::surfaceStress), computes(g::surfaceVolume));
 }
 
-/// Before and after the velocities are integrated.
 template <class Shape>
-void SolidMpm<Shape>::scheduleFriction(TaskList& tasks, const std::string& name) const {
-  tasks.acrossMaterials(name, applyFriction<D>, problem_.materials, with(problem_.contacts), requiresOld(delT),
-                        requiresNew(g::massGradient<D>), requiresNew(g::massPosition<D>), requiresNew(g::stressMoment),
-                        modifies(g::record));
+void SolidMpm<Shape>::scheduleFriction(TaskList& tasks, const std::string& name, Moment moment,
+                                       const NodeLabel<Octet>& record) const {
+  tasks.acrossMaterials(name, applyFriction<D>, problem_.materials, with(problem_.contacts), with(moment),
+                        requiresOld(delT), requiresNew(g::massGradient<D>), requiresNew(g::massPosition<D>),
+                        requiresNew(g::surfaceStress), requiresNew(g::surfaceVolume), modifies(record));
+}
+/// At the end of the step.
+template <class Shape>
+void SolidMpm<Shape>::scheduleHeatingFriction(TaskList& tasks) const {
+  tasks.acrossMaterials("mpm::frictionIntegrated", applyHeatingFriction<D>, problem_.materials, with(problem_.contacts),
+                        requiresOld(delT), requiresNew(g::massGradient<D>), requiresNew(g::massPosition<D>),
+                        requiresNew(g::surfaceStress), requiresNew(g::surfaceVolume), modifies(g::record),
+                        computes(g::frictionHeat));
 }
 
 template <class Shape>
@@ -162,10 +176,14 @@ void SolidMpm<Shape>::scheduleIntegrateAcceleration(TaskList& tasks) const {
                     with(problem_.method), requiresOld(p::x<D>, Shape::reach), requiresOld(delT), modifies(g::record));
   if (!problem_.contacts.empty())
     tasks.acrossMaterials("mpm::exMomIntegrated", exMomIntegrated<D>, problem_.materials, with(problem_.contacts),
-                          startTime(), requiresOld(delT), modifies(g::record), computes(total::rigidReactionForce));
-  if (hasFriction()) scheduleFriction(tasks, "mpm::frictionIntegrated");
-  tasks.perMaterial("mpm::setGridBoundaryConditions", setGridBoundaryConditions<D>, problem_.materials,
-                    modifies(g::record));
+                          with(Acceleration{problem_.method.gravity, problem_.method.damping}), startTime(),
+                          requiresOld(delT), modifies(g::record), computes(total::rigidReactionForce));
+  if (rubbingHeats())
+    scheduleHeatingFriction(tasks);
+  else if (hasFriction())
+    scheduleFriction(tasks, "mpm::frictionIntegrated", Moment::end, g::record);
+  tasks.perMaterial("mpm::setGridBoundaryConditions", setGridBoundaryConditions<Shape>, problem_.materials,
+                    requiresOld(p::x<D>, Shape::reach), modifies(g::record));
 }
 
 /// Only run where someone reads or saves the temperature.
@@ -179,18 +197,23 @@ void SolidMpm<Shape>::scheduleHeat(TaskList& tasks) const {
                     when(keepsSizes(), requiresOld(p::size<D>, reach)), requiresOld(p::deformationMeasure, reach),
                     requiresOld(p::mass, reach), requiresOld(p::temperature, reach), computes(g::heatCapacity),
                     computes(g::temperatureNoBC), computes(g::temperature));
+  const bool heated = problem_.start.loads.hasHeat();
+  if (heated)
+    tasks.perMaterial("mpm::applyHeatFlux", applyHeatFlux, problem_.materials, with(problem_.start.loads), startTime(),
+                      requiresOld(p::loadCurves), computes(p::heatFlux));
   tasks.perMaterial("mpm::computeInternalHeatRate", computeInternalHeatRate<Shape>, problem_.materials,
                     with(problem_.method.commonSize), requiresOld(p::x<D>, reach),
                     when(keepsSizes(), requiresOld(p::size<D>, reach)), requiresOld(p::deformationMeasure, reach),
-                    requiresOld(p::mass, reach), requiresNew(g::temperature, reach + Shape::ghostNodes),
-                    computes(g::heatRate));
+                    requiresOld(p::mass, reach), when(heated, requiresNew(p::heatFlux, reach)),
+                    requiresNew(g::temperature, reach + Shape::ghostNodes), computes(g::heatRate));
   if (touching)
     tasks.acrossMaterials("mpm::computeHeatExchange", computeHeatExchange<D>, problem_.materials,
                           requiresNew(g::heatCapacity), requiresNew(g::temperature), requiresOld(delT),
                           computes(g::contactTemperatureRate));
   tasks.perMaterial("mpm::integrateTemperatureRate", integrateTemperatureRate<D>, problem_.materials,
                     requiresNew(g::heatCapacity), requiresNew(g::temperatureNoBC), requiresNew(g::temperature),
-                    requiresNew(g::heatRate), when(touching, requiresNew(g::contactTemperatureRate)), requiresOld(delT),
+                    requiresNew(g::heatRate), when(touching, requiresNew(g::contactTemperatureRate)),
+                    when(rubbingHeats(), requiresNew(g::frictionHeat)), requiresOld(delT),
                     computes(g::temperatureRate));
   tasks.perMaterial("mpm::updateTemperature", updateTemperature<Shape>, problem_.materials,
                     with(problem_.method.commonSize), requiresOld(p::x<D>), when(keepsSizes(), requiresOld(p::size<D>)),
@@ -269,10 +292,11 @@ void SolidMpm<Shape>::scheduleComputeStressTensor(TaskList& tasks, Reads moving)
                     when(Shape::deforms, requiresOld(p::deformationMeasure, reach)), moving(p::velocity<D>, reach),
                     computes(g::stressRecord));
   if (!problem_.contacts.empty())
-    tasks.acrossMaterials("mpm::exMomOfStresses", exMomInterpolated<D>, problem_.materials, with(problem_.contacts),
-                          modifies(g::stressRecord));
-  tasks.perMaterial("mpm::setGridBoundaryConditionsOfStresses", setGridBoundaryConditions<D>, problem_.materials,
-                    modifies(g::stressRecord));
+    tasks.acrossMaterials("mpm::exMomOfStresses", exMomOfStresses<D>, problem_.materials, with(problem_.contacts),
+                          startTime(), modifies(g::stressRecord));
+  if (hasFriction()) scheduleFriction(tasks, "mpm::frictionOfStresses", Moment::end, g::stressRecord);
+  tasks.perMaterial("mpm::setGridBoundaryConditionsOfStresses", setGridBoundaryConditions<Shape>, problem_.materials,
+                    requiresOld(p::x<D>, reach), modifies(g::stressRecord));
   tasks.perMaterial(
       "mpm::computeStressTensor", computeStressTensor<Shape>, problem_.materials, with(problem_.method),
       with(state_size_), requiresOld(delT), requiresNew(g::stressRecord, Shape::storedNodes), requiresOld(p::x<D>),
@@ -316,6 +340,8 @@ void SolidMpm<Shape>::scheduleDiagnostics(TaskList& tasks) const {
   tasks.perMaterial("mpm::sumMass", sumParticles, problem_.materials, requiresOld(p::mass), computes(total::mass));
   tasks.perMaterial("mpm::sumStrainEnergy", sumParticles, problem_.materials, requiresOld(p::strainEnergy),
                     computes(total::strainEnergy));
+  tasks.perMaterial("mpm::sumThermalEnergy", sumThermalEnergy, problem_.materials, requiresOld(p::mass),
+                    requiresOld(p::temperature), computes(total::thermalEnergy));
   tasks.perMaterial("mpm::sumKineticEnergy", sumKineticEnergy<D>, problem_.materials, requiresOld(p::mass),
                     requiresOld(p::velocity<D>), computes(total::kineticEnergy));
   tasks.perMaterial("mpm::sumMomentum", sumMomentum<D>, problem_.materials, requiresOld(p::mass),

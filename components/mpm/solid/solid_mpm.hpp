@@ -54,7 +54,9 @@ class SolidMpm : public Solids {
   void scheduleVelocityUpdate(TaskList& tasks, Reads shaped) const;
   template <class Reads>
   void scheduleComputeStressTensor(TaskList& tasks, Reads moving) const;
-  void scheduleFriction(TaskList& tasks, const std::string& name) const;
+  void scheduleComputeSurface(TaskList& tasks) const;
+  void scheduleFriction(TaskList& tasks, const std::string& name, Moment moment, const NodeLabel<Octet>& record) const;
+  void scheduleHeatingFriction(TaskList& tasks) const;
   void scheduleIntegrateAcceleration(TaskList& tasks) const;
   void scheduleApplyExternalLoads(TaskList& tasks) const;
   void scheduleUpdateParticles(TaskList& tasks) const;
@@ -67,7 +69,10 @@ class SolidMpm : public Solids {
     return std::any_of(problem_.contacts.begin(), problem_.contacts.end(),
                        [](const Contact& contact) { return contact.type == Contact::Type::friction; });
   }
-  bool isLoaded() const { return !problem_.start.loads.empty() || problem_.start.solution; }
+  bool rubbingHeats() const {
+    return hasFriction() && problem_.method.contactHeats && problem_.method.conductsHeat;
+  }
+  bool isLoaded() const { return problem_.start.loads.hasForces() || problem_.start.solution; }
   bool keepsSizes() const { return Shape::hasSize && problem_.method.keepsSizes; }
 
   bool keeps_stress_ = false;  ///< some material's stress is not a function of F alone

@@ -2,7 +2,7 @@
 
 #include "components/mpm/labels.hpp"
 #include "components/mpm/materials/gas.hpp"
-#include "components/mpm/shapes/linear.hpp"
+#include "components/mpm/shapes/mirrored.hpp"
 
 namespace tushar::mpm {
 
@@ -27,10 +27,9 @@ void computeInternalForce(const Patch& patch, const Gas&, ParticleView<const dou
   const Level& level = patch.level();
   force.fill(Vec<D>::Zero());
   forEach<D>(pressure.cells(), [&](const Index<D>& cell) {
-    double sum = 0;
-    for (const int p : pressure.in(cell)) sum += pressure[p];
     const int count = pressure.in(cell).size();
     if (count == 0) return;
+    const auto sum = sumFromBothEnds<double>(pressure.in(cell), [&](int p, double& part) { part += pressure[p]; });
     const double impulse = sum / count * level.cellVolume();
     addPressureForce<Shape>(level, cell, impulse, force);
   });
@@ -44,11 +43,10 @@ void computeInternalForceOfVolumes(const Patch& patch, const Gas&, ParticleView<
   const Level& level = patch.level();
   force.fill(Vec<D>::Zero());
   forEach<D>(pressure.cells(), [&](const Index<D>& cell) {
-    double sum = 0, volume = 0;
-    for (const int p : pressure.in(cell)) {
-      sum += pressure[p] * mass[p] / density[p];
-      volume += mass[p] / density[p];
-    }
+    const auto particles = pressure.in(cell);
+    const auto volume = sumFromBothEnds<double>(particles, [&](int p, double& part) { part += mass[p] / density[p]; });
+    const auto sum = sumFromBothEnds<double>(
+        particles, [&](int p, double& part) { part += pressure[p] * mass[p] / density[p]; });
     if (volume > 0) addPressureForce<Shape>(level, cell, sum / volume * level.cellVolume(), force);
   });
 }

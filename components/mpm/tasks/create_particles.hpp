@@ -2,6 +2,7 @@
 
 #include "components/mpm/labels.hpp"
 #include "components/mpm/materials/gas.hpp"
+#include "components/mpm/shapes/mirrored.hpp"
 
 namespace tushar::mpm {
 
@@ -19,12 +20,12 @@ void refuseImpossible(const GasObject& object, const Vec3& point, double density
 /// `place` counts the particles that a cell might hold.
 double drawn(int seed, std::uint64_t cellNumber, int place, int axis);
 
-/// Where the particle of part k of `parts` along an axis stands in its cell: 0 is the lower face, 1 the upper.
+/// Where the particle of part k of `parts` along an axis stands in its cell: -1/2 is the lower face, 1/2 the upper.
 /// `draw()` gives a number in (0, 1).
 template <class Draw>
 double placeInCell(Placement placement, int k, int parts, const Draw& draw) {
-  if (placement == Placement::random) return draw();
-  return (k + (placement == Placement::jittered ? draw() : 0.5)) / parts;
+  if (placement == Placement::random) return draw() - 0.5;
+  return (k - 0.5 * (parts - 1) + (placement == Placement::jittered ? draw() - 0.5 : 0.0)) / parts;
 }
 
 /// Calls `visit(x)` for each place [m] where a particle of the object would start in a cell; `place` counts them.
@@ -35,9 +36,9 @@ void forEachPlace(const Level& level, const GasObject& object, const Index<D>& c
   forEach<D>(places, [&](const Index<D>& k) {
     Vec<D> at;
     for (int d = 0; d < D; ++d) {
-      const double within = placeInCell(object.placement, k[d], places.upper[d],
+      const double offset = placeInCell(object.placement, k[d], places.upper[d],
                                         [&] { return drawn(object.seed, level.cellNumber(cell), place, d); });
-      at[d] = level.nodePosition(d, 0) + (cell[d] + within) * level.spacing(d);
+      at[d] = positionInCell(level, d, cell[d], offset);
     }
     ++place;
     visit(at);

@@ -2,6 +2,7 @@
 
 #include "components/mpm/labels.hpp"
 #include "components/mpm/materials/gas.hpp"
+#include "components/mpm/shapes/mirrored.hpp"
 
 namespace tushar::mpm {
 
@@ -9,8 +10,7 @@ namespace tushar::mpm {
 template <int D>
 void averageDensity(const Patch& patch, const Gas&, ParticleView<const double> density, CellView<double> mean) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    double sum = 0;
-    for (const int p : density.in(cell)) sum += density[p];
+    const auto sum = sumFromBothEnds<double>(density.in(cell), [&](int p, double& part) { part += density[p]; });
     mean[cell] = sum / std::max(density.in(cell).size(), 1);
   });
 }
@@ -29,7 +29,7 @@ void filterDensity(const Patch& patch, const Gas&, CellView<const double> mean, 
       if (!mean.box().contains(below) || !mean.box().contains(above)) continue;
       const double left = mean[below], here = mean[cell], right = mean[above];
       if (left == 0 || here == 0 || right == 0 || !((left - here) * (right - here) > 0)) continue;
-      const double along = left - 2 * here + right;
+      const double along = (left + right) - 2 * here;
       excess += along;
       size += std::abs(along);
       sharpest = std::max(sharpest, std::abs(along));

@@ -2,9 +2,25 @@
 
 #include "components/mpm/labels.hpp"
 #include "components/mpm/materials/gas.hpp"
-#include "components/mpm/shapes/linear.hpp"
+#include "components/mpm/shapes/mirrored.hpp"
 
 namespace tushar::mpm {
+
+/// What particles of a cell bring to its nodes: mass [kg] and momentum [kg m/s].
+template <class Shape>
+struct NodeShares {
+  std::array<double, Shape::nodes> mass{};
+  std::array<Vec<Shape::dimension>, Shape::nodes> momentum;
+
+  NodeShares() { momentum.fill(Vec<Shape::dimension>::Zero()); }
+  NodeShares& operator+=(const NodeShares& other) {
+    for (std::size_t k = 0; k < mass.size(); ++k) {
+      mass[k] += other.mass[k];
+      momentum[k] += other.momentum[k];
+    }
+    return *this;
+  }
+};
 
 /// m_i = sum_p S_i(x_p) m_p,   v_i = sum_p S_i(x_p) m_p v_p / m_i      (6)-(8) of Tran, Kim & Berzins.
 ///
@@ -17,23 +33,20 @@ void interpolateParticlesToGrid(const Patch& patch, const Gas&, ParticleView<con
   mass.fill(0.0);
   velocity.fill(Vec<D>::Zero());
   forEach<D>(x.cells(), [&](const Index<D>& cell) {
-    const CellFrame<D> frame(patch.level(), cell);
-    std::array<double, Shape::nodes> m{};
-    std::array<Vec<D>, Shape::nodes> momentum;
-    momentum.fill(Vec<D>::Zero());
-    for (const int p : x.in(cell)) {
-      const auto s = Shape::weights(frame.coordinates(x[p]));
+    const CellMiddle<D> middle(patch.level(), cell);
+    const auto brought = sumFromBothEnds<NodeShares<Shape>>(x.in(cell), [&](int p, NodeShares<Shape>& sum) {
+      const auto s = middle.weights(x[p]);
       for (std::size_t k = 0; k < s.size(); ++k) {
         const double share = s[k] * particleMass[p];
-        m[k] += share;
-        momentum[k] += share * particleVelocity[p];
+        sum.mass[k] += share;
+        sum.momentum[k] += share * particleVelocity[p];
       }
-    }
+    });
     for (int k = 0; k < Shape::nodes; ++k) {
       const Index<D> node = Shape::node(cell, k);
       if (!mass.box().contains(node)) continue;
-      mass[node] += m[static_cast<std::size_t>(k)];
-      velocity[node] += momentum[static_cast<std::size_t>(k)];
+      mass[node] += brought.mass[static_cast<std::size_t>(k)];
+      velocity[node] += brought.momentum[static_cast<std::size_t>(k)];
     }
   });
   forEach<D>(mass.box(), [&](const Index<D>& node) {
@@ -47,10 +60,10 @@ void interpolateMassToGrid(const Patch& patch, const Gas&, ParticleView<const Ve
                            ParticleView<const double> particleMass, NodeView<double> mass) {
   mass.fill(0.0);
   forEach<D>(x.cells(), [&](const Index<D>& cell) {
-    const CellFrame<D> frame(patch.level(), cell);
+    const CellMiddle<D> middle(patch.level(), cell);
     std::array<double, Shape::nodes> m{};
     for (const int p : x.in(cell)) {
-      const auto s = Shape::weights(frame.coordinates(x[p]));
+      const auto s = middle.weights(x[p]);
       for (std::size_t k = 0; k < s.size(); ++k) m[k] += s[k] * particleMass[p];
     }
     for (int k = 0; k < Shape::nodes; ++k)

@@ -6,8 +6,7 @@
 
 namespace tushar::mpm {
 
-/// Errors of density, velocity, pressure ((gamma - 1) rho eps, without artificial viscosity) and internal energy
-/// against the exact values at the particles.
+/// Errors of density, velocity, pressure (without artificial viscosity) and internal energy against the exact values at the particles.
 template <int D>
 void measureParticleError(const Patch& patch, const Gas& gas, const reference::GasReference* exact,
                           const reference::Clock* clock, ParticleView<const Vec<D>> x,
@@ -22,7 +21,7 @@ void measureParticleError(const Patch& patch, const Gas& gas, const reference::G
     rho.add(density[p] - state.density, state.density);
     u.add((level.expandDirection<D>(velocity[p]) - state.velocity).norm(), state.velocity.norm());
     pressure.add(gas.pressure(density[p], internalEnergyPerMass[p]) - state.pressure, state.pressure);
-    energy.add(internalEnergyPerMass[p] - state.energy, state.energy);
+    energy.add(gas.fullEnergy(density[p], internalEnergyPerMass[p]) - state.energy, state.energy);
   }
 }
 

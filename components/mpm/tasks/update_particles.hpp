@@ -2,7 +2,7 @@
 
 #include "components/mpm/labels.hpp"
 #include "components/mpm/materials/gas.hpp"
-#include "components/mpm/shapes/linear.hpp"
+#include "components/mpm/shapes/mirrored.hpp"
 
 namespace tushar::mpm {
 
@@ -42,11 +42,11 @@ void updateParticles(const Patch& patch, const Gas&, ParticleView<const Vec<D>> 
   forEach<D>(x.cells(), [&](const Index<D>& cell) {
     const data::ParticleRange particles = x.in(cell);
     if (particles.empty()) return;
-    const CellFrame<D> frame(patch.level(), cell);
+    const CellMiddle<D> middle(patch.level(), cell);
     const CellNodes<Shape> a(acceleration, cell), v(velocityStar, cell);
     const double d = v.divergence(patch.level());
     for (const int p : particles) {
-      const auto s = Shape::weights(frame.coordinates(x[p]));
+      const auto s = middle.weights(x[p]);
       newVelocity[p] = velocity[p] + dt * a.at(s);
       newX[p] = x[p] + dt * v.at(s);
       divergence[p] = d;
@@ -74,15 +74,14 @@ void updateParticlesConserving(const Patch& patch, const Gas&, ParticleView<cons
   const Level& level = patch.level();
   forEach<D>(x.cells(), [&](const Index<D>& cell) {
     const data::ParticleRange particles = x.in(cell);
-    double volume = 0;
-    for (const int p : particles) volume += mass[p] / density[p];
     if (particles.empty()) return;
-    const CellFrame<D> frame(level, cell);
+    const auto volume = sumFromBothEnds<double>(particles, [&](int p, double& part) { part += mass[p] / density[p]; });
+    const CellMiddle<D> middle(level, cell);
     const CellNodes<Shape> a(acceleration, cell), v(velocityStar, cell);
     const double d = v.divergence(level), halfway = d - 0.5 * dt * a.divergence(level);
     const double workShare = halfway * dt * level.cellVolume() / volume;
     for (const int p : particles) {
-      const auto s = Shape::weights(frame.coordinates(x[p]));
+      const auto s = middle.weights(x[p]);
       const Vec<D> ap = a.at(s);
       double squares = 0;
       for (std::size_t k = 0; k < s.size(); ++k) squares += s[k] * a.values[k].squaredNorm();

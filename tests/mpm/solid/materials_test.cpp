@@ -47,6 +47,20 @@ TEST(Hyperelasticity, StressIsTheDerivativeOfTheEnergy) {
   expectStressFromEnergy(withModuli<Ucnh>());
 }
 
+TEST(Model, WorksOnSeveralParticlesAsOnEachAlone) {
+  const ModelOf<CompNeoHook> model({8e5, 4e5});
+  std::vector<Matrix3> f, together(9), alone(9);
+  for (int k = 0; k < 9; ++k) f.push_back(generalDeformation(0.05 * k));
+  for (int count = 1; count <= 9; ++count) {
+    model.kirchhoffStress(f.data(), count, together.data());
+    for (int k = 0; k < count; ++k) {
+      model.kirchhoffStress(&f[static_cast<std::size_t>(k)], 1, &alone[static_cast<std::size_t>(k)]);
+      EXPECT_EQ(together[static_cast<std::size_t>(k)], alone[static_cast<std::size_t>(k)]) << k << " of " << count;
+    }
+  }
+  EXPECT_LT((alone[8] - model.model().kirchhoffStress(f[8])).norm(), 1e-14 * alone[8].norm());
+}
+
 TEST(Objectivity, StressTurnsWithTheBody) {
   const Matrix3 f = generalDeformation(0.2);
   expectObjective(MaterialPoint<CompNeoHook>{withModuli<CompNeoHook>()}, f, keep);

@@ -233,8 +233,7 @@ TEST(GimpAxis, KeepsValueAndSlopeInProportionWhereAParticleBarelyTouchesANode) {
   for (double touch = 0.25; touch > 1e-14; touch *= 0.25) {
     std::array<double, 3> s, ds;
     const double xi = 0.25 - touch;  // of size 1/2: its upper end is `touch` short of the middle of the cell
-    const int first = GimpAxis::fill(xi, 0.5, s, ds);
-    ASSERT_EQ(first, -1);
+    ASSERT_EQ(GimpAxis::fill(xi, 0.5, s, ds), -1.0);
     const double overlap = 1 - (xi - 0.25 + 1);  // what of the particle lies within a cell of the node below the cell
     if (overlap <= 0) continue;
     EXPECT_NEAR(s[0] / ds[0] / (-overlap / 2), 1, 1e-14) << "S = t^2 / (2 size), dS = -t / size; touch " << touch;

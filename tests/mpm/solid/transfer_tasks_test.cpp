@@ -4,7 +4,6 @@
 
 #include <random>
 
-#include "components/mpm/solid/contact/friction.hpp"
 #include "components/mpm/solid/shapes/cpdi_shape.hpp"
 #include "components/mpm/solid/tasks/affine.hpp"
 #include "components/mpm/solid/tasks/interpolate_momentum.hpp"
@@ -171,6 +170,35 @@ TYPED_TEST(Transfer, GivesAUniformVelocityBackAsItWas) {
   }
 }
 
+TEST(DeformationGradient, IsMultipliedByThatOfTheStep) {
+  Matrix3 f, gradient;
+  f << 1.1, 0.2, -0.1, 0.3, 0.9, 0.05, -0.2, 0.1, 1.2;
+  gradient << 3, -1, 2, 0.5, 4, -2, 1, 1.5, -3;
+  const double dt = 0.01;
+  for (const int n : {1, 4}) {
+    Matrix3 expected = f, result;
+    for (int k = 0; k < n; ++k) expected = (Matrix3::Identity() + gradient * (dt / n)) * expected;
+    deform(f, gradient, dt, n, result);
+    EXPECT_LT((result - expected).norm(), 1e-15 * n);
+  }
+}
+
+TEST(TouchedRows, ClipToABox) {
+  const Cloud<GimpShape<2>> cloud;
+  const TouchedRows<2> rows(cloud.read(cloud.x), cloud.level.cells(), GimpShape<2>::ghostNodes, cloud.level.nodes());
+  const Box box{{{3, 2, 0}}, {{6, 5, 1}}};
+  std::vector<Index3> inBox, clipped;
+  rows.forEachRow([&](const Index3& first, int end) {
+    for (Index3 node = first; node[0] < end; ++node[0])
+      if (box.contains(node)) inBox.push_back(node);
+  });
+  rows.forEachRow(box, [&](const Index3& first, int end) {
+    for (Index3 node = first; node[0] < end; ++node[0]) clipped.push_back(node);
+  });
+  EXPECT_FALSE(clipped.empty());
+  EXPECT_EQ(clipped, inBox);
+}
+
 TEST(Blend, TakesTheGridsVelocityByItsShare) {
   Cloud<GimpShape<2>> cloud;
   cloud.toGrid(false);
@@ -221,25 +249,6 @@ TYPED_TEST(Affine, KeepsAngularMomentumToTheGridAndBack) {
   updateAffineMoment<TypeParam>(c.patch(), c.material, c.method, c.nodes(), c.read(c.x), {}, c.write(b));
   EXPECT_LT((onGrid - before).norm(), roundOff * 10) << "sums of order 10";
   EXPECT_LT((spin(v, b) - before).norm(), roundOff * 10);
-}
-
-TEST(Friction, LeavesBodiesThatPartAlone) {
-  EXPECT_EQ(frictionChange<2>({{0, 1}, {1, -1}, false}, 0.5).norm(), 0);
-}
-
-TEST(Friction, StopsWhatIsSlowerThanItHolds) {
-  const Vec<2> change = frictionChange<2>({{0, 1}, {0.2, 1}, false}, 0.5);
-  EXPECT_LT((change + Vec<2>(0.2, 1)).norm(), roundOff) << "mu |v_n| = .5 is more than the slip of .2";
-}
-
-TEST(Friction, SlowsFasterSlipByMuTimesTheApproach) {
-  const Vec<2> change = frictionChange<2>({{0, 1}, {2, 1}, false}, 0.5);
-  EXPECT_LT((change - Vec<2>(-0.5, -1)).norm(), roundOff);
-}
-
-TEST(Friction, HoldsPressedBodiesTogether) {
-  const Vec<2> change = frictionChange<2>({{0, 1}, {0, -1}, true}, 0.5);
-  EXPECT_LT((change - Vec<2>(0, 1)).norm(), roundOff);
 }
 
 }  // namespace

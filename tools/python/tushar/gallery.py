@@ -21,6 +21,7 @@ class Case:
     scene: str = ""  # if it is not of that name
     sets: tuple = ()
     only: tuple = ()  # the methods that can run it, if not all
+    fails: str = ""  # what it says in the end, for one that cannot be run
 
     def path(self):
         return FOLDER / f"{self.scene or self.name}.ups"
@@ -60,10 +61,14 @@ CASES = [
     Case("pressure_1e5", .030, entropy=True), Case("pressure_1e10", .030, entropy=True),
     Case("ratio_1e6", .0044), Case("density_1e6", .01),
     Case("gamma_1_01", .0072, entropy=True), Case("gamma_5_3", .0055, entropy=True), Case("gamma_7", .0018, entropy=True),
+    Case("water_shock", .0045, entropy=True, only=("default", "affine_flip", "volumes")),
     Case("noh", .061, entropy=True), Case("noh_2d", entropy=True, long=True), Case("sedov", long=True),
     Case("blast_waves"), Case("shu_osher"), Case("box", .0068, error="density.cell.L1", entropy=True, long=True),
     Case("contact", 1e-13, error="velocity.particle.max"), Case("contact_slow", 1e-4),
     Case("sod_moving", keeps=()), Case("on_faces", error=""), Case("one_cell", 1e-14),
     Case("many_steps", long=True), Case("random", only=("paper", "paper_tracked")),
     *(relaxation(rate) for rate in (1, 1e3, 1e6, 1e9)),
+    *(Case(name, error="", keeps=(), only=("default",))
+      for name in ("stiff_steel", "stiff_incompressible", "stiff_contrast", "nearly_empty")),
+    Case("softening", error="", keeps=(), only=("default",), fails="Newton's method did not converge"),
     Case("heat_ratio", 1e-5, error="temperature.cell.L1", keeps=(), only=("default",))]

@@ -26,6 +26,8 @@ def run_scene(sus, scene, sets, folder):
     done = subprocess.run(command, capture_output=True, text=True)
     if done.returncode not in (0, 4):
         raise SceneError(f"{scene}: {done.stderr.strip() or 'sus failed'}")
+    if done.returncode == 0 and not path.exists():
+        raise SceneError(f"{sus} wrote no report: is it sus?")
     return json.loads(path.read_text()) if path.exists() else {"failure": done.stderr.strip()}
 
 

@@ -65,6 +65,10 @@ READY = {
                    "displacement.particle.L1"),
     "solid_cube": (shapes("ups/solid/axis_aligned.ups"), {"resolution": ["4", "8", "16", "32"]},
                    "displacement.particle.L1"),
+    "heat_implicit": ([Method("backward Euler", "ups/heat/sine.ups", ("Heat/time_integrator=backward_euler",)),
+                       Method("Crank-Nicolson", "ups/heat/sine.ups", ("Heat/time_integrator=crank_nicolson",)),
+                       Method("explicit", "ups/heat/sine.ups")],
+                      {"dt": ["1e-1", "1e-2", "1e-3", "1e-4", "1e-5"]}, "temperature.cell.L1"),
     "heat": ([Method("explicit", "ups/heat/sine.ups")], {"resolution": ["16", "32", "64", "128"]},
              "temperature.cell.L1"),
 }

@@ -49,7 +49,10 @@ def finite_volumes(root):
     model = root.find("MaterialProperties/MPM/material/constitutive_model")
     bodies = root.findall("MaterialProperties/MPM/material/geom_object")
     euler = xml.Element("Euler")
-    xml.SubElement(xml.SubElement(euler, "gas", type=model.get("type")), "gamma").text = model.find("gamma").text
+    gas = xml.SubElement(euler, "gas", type=model.get("type"))
+    for tag in ("gamma", "p_infinity"):
+        if model.find(tag) is not None:
+            xml.SubElement(gas, tag).text = model.find(tag).text
     euler.append(_thin_gas(root, bodies))
     for body in bodies:
         body = copy.deepcopy(body)

@@ -1,4 +1,4 @@
-"""Short names for what studies vary, whatever the scene's component: resolution, particles, cfl."""
+"""Short names for what studies vary, whatever the scene's component: resolution, particles, cfl, dt."""
 import xml.etree.ElementTree as xml
 
 from tushar.program import scene_path
@@ -35,4 +35,9 @@ def cfl(scene, value):
     return [f"{path}/cfl={value}" for path in sections or CFL[:1]]
 
 
-SHORT = {"resolution": resolution, "particles": particles, "cfl": cfl}
+def dt(scene, value):
+    """Steps of so many seconds, of a method that takes any."""
+    return [f"Time/delt_init={value}", f"Time/delt_max={value}"]
+
+
+SHORT = {"resolution": resolution, "particles": particles, "cfl": cfl, "dt": dt}

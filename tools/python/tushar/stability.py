@@ -34,13 +34,20 @@ class Gallery:
         (self.folder / "scenes").mkdir(parents=True, exist_ok=True)
         self.program = hashlib.sha1(self.sus.read_bytes()).hexdigest()
         self.file = self.folder / "runs.json"
-        known = json.loads(self.file.read_text()) if self.file.exists() else {}
-        self.runs = known.get("runs", {}) if known.get("program") == self.program else {}
+        self.runs = self._known_runs()
+
+    def _known_runs(self):
+        """What was run before; nothing where the file is damaged."""
+        try:
+            known = json.loads(self.file.read_text())
+            return known["runs"] if known["program"] == self.program else {}
+        except (OSError, ValueError, KeyError, TypeError):
+            return {}
 
     def scene(self, case, method):
         """The scene of a case for a method, written where it can be run again by hand."""
         root = scene_of(case, method)
-        if root.find("SimulationComponent").get("type") != "heat":
+        if root.find("SimulationComponent").get("type") not in ("heat", "impm"):
             scene_variants.save(root, *GLOBALS)
         path = self.folder / "scenes" / f"{case.name}-{method.name}.ups"
         scene_variants.write(root, path)
@@ -116,6 +123,8 @@ def is_stable(run, first):
 
 def judge(run, case, isOurs):
     """`pass`, or what a run breaks. The error counts for the default method alone: others have promised nothing."""
+    if case.fails:
+        return ["pass"] if case.fails in run["failure"] else ["did not fail as it must"]
     if run["failure"]:
         return ["died"]
     broken = [] if run["ended"] == "maxTime" else [run["ended"]]

@@ -122,21 +122,20 @@ class Study:
             reports = self.runs.get(case.key())
             if not reports:
                 continue
-            row = {"method": case.method.name, "scene": case.method.scene, **dict(case.varied),
-                   "varied": dict(case.varied)}
+            row = {"method": case.method.name, "scene": case.method.scene, "varied": dict(case.varied)}
             if "died" in reports[0]:
-                rows.append({**row, "died": reports[0]["died"]})
+                rows.append({**row, **row["varied"], "died": reports[0]["died"]})
                 continue
             first = reports[0]
             row |= {"h": first["layout"]["h"], "error": value_at(first["errors"], self.error),
                     "seconds": statistics.median(report["wall"]["loop"] for report in reports),
-                    "steps": first["steps"], "particles": first["particles"], "cells": first["layout"]["cells"],
+                    "steps": first["steps"], "particle_count": first["particles"], "cells": first["layout"]["cells"],
                     "mass_drift": first["drift"].get("mass"), "energy_drift": first["drift"].get("energy"),
                     "fingerprint": first["fingerprint"],
                     "tasks": time_by_task(reports)}
             before = rows[-1] if rows and rows[-1]["method"] == row["method"] and "h" in rows[-1] else None
             row["order"] = order(before, row)
-            rows.append(row)
+            rows.append(row | row["varied"])
         return rows
 
 
@@ -175,14 +174,16 @@ def write_csv(rows, path):
 
 
 def write_markdown(rows, error, command, path):
-    lines = [f"`{command}`", "", f"| method | h | error ({error}) | order | time loop [ms] | steps | mass drift |",
-             "|---|---|---|---|---|---|---|"]
+    names = list(dict.fromkeys(name for row in rows for name in row["varied"]))
+    heads = ["method", *names, "h", f"error ({error})", "order", "time loop [ms]", "steps", "mass drift"]
+    lines = [f"`{command}`", "", f"| {' | '.join(heads)} |", "|" + "---|" * len(heads)]
     for row in rows:
+        what = " | ".join([row["method"], *(row["varied"].get(name, "") for name in names)])
         if "died" in row:
-            lines.append(f"| {row['method']} | | died | | | | |")
+            lines.append(f"| {what} | | died | | | | |")
             continue
         rank = "" if row["order"] is None else f"{row['order']:.2f}"
         drift = "" if row["mass_drift"] is None else f"{row['mass_drift']:.1e}"
-        lines.append(f"| {row['method']} | {row['h']:g} | {row['error']:.4g} | {rank} | {1e3 * row['seconds']:.3g} "
+        lines.append(f"| {what} | {row['h']:g} | {row['error']:.4g} | {rank} | {1e3 * row['seconds']:.3g} "
                      f"| {row['steps']} | {drift} |")
     pathlib.Path(path).write_text("\n".join(lines) + "\n")

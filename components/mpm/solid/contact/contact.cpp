@@ -37,23 +37,46 @@ void moveAsOne(const Patch&, const Contact& contact, const Records& records) {
   });
 }
 
+namespace {
+
+/// Whether a contact acts at a node: its master is there, and nobody who excludes it.
 template <int D>
-void followMaster(const Patch& patch, const Contact& contact, double time, double dt, const Records& records,
-                  VectorSum& reaction) {
+bool isAt(const Contact& contact, const Records& records, const Index<D>& node) {
+  if (records[static_cast<std::size_t>(contact.master)][node][lane::mass] == 0) return false;
+  return contact.excluded < 0 || records[static_cast<std::size_t>(contact.excluded)][node][lane::mass] == 0;
+}
+
+}  // namespace
+
+template <int D>
+void followMaster(const Patch& patch, const Contact& contact, double time, const Records& records) {
   const auto master = static_cast<std::size_t>(contact.master);
   const auto prescribed = contact.prescribedVelocity(time);
   forEach<D>(records.front().box(), [&](const Index<D>& node) {
-    if (records[master][node][lane::mass] == 0) return;
-    for (std::size_t n = 0; n < records.size(); ++n) {
-      const std::size_t m = n == 0 ? master : n <= master ? n - 1 : n;  // the master first
-      if (m == master ? !prescribed : !contact.concerns(static_cast<int>(m))) continue;
-      const Vec<D> before = lanes<D>(records[m][node], lane::velocity);
-      Vec<D> after = prescribed ? patch.level().reduce<D>(*prescribed) : lanes<D>(records[master][node], lane::velocity);
+    if (!isAt<D>(contact, records, node)) return;
+    if (prescribed) setLanes<D>(records[master][node], lane::velocity, patch.level().reduce<D>(*prescribed));
+    const Vec<D> velocity = lanes<D>(records[master][node], lane::velocity);
+    for (std::size_t m = 0; m < records.size(); ++m) {
+      if (m == master || !contact.concerns(static_cast<int>(m))) continue;
       for (int d = 0; d < D; ++d)
-        if (m != master && !contact.direction[static_cast<std::size_t>(patch.level().axis(d))]) after[d] = before[d];
-      setLanes<D>(records[m][node], lane::velocity, after);
-      if (isOwned<D>(patch, node))
-        reaction.add(patch.level().expandDirection<D>(records[m][node][lane::mass] / dt * (after - before)));
+        if (contact.direction[static_cast<std::size_t>(patch.level().axis(d))])
+          records[m][node][lane::velocity + d] = velocity[d];
+    }
+  });
+}
+
+template <int D>
+void sumReaction(const Patch& patch, const Contact& contact, const Acceleration& acceleration, double dt,
+                 const Records& records, VectorSum& reaction) {
+  const Vec<D> gravity = patch.level().reduce<D>(acceleration.gravity);
+  forEach<D>(records.front().box(), [&](const Index<D>& node) {
+    if (!isOwned<D>(patch, node) || !isAt<D>(contact, records, node)) return;
+    for (std::size_t m = 0; m < records.size(); ++m) {
+      const Octet& record = records[m][node];
+      if (static_cast<int>(m) == contact.master || !contact.concerns(static_cast<int>(m)) || record[lane::mass] == 0) continue;
+      const Vec<D> before = lanes<D>(record, lane::before), after = lanes<D>(record, lane::velocity);
+      const Vec<D> forced = (after - before) / dt - gravity + acceleration.damping * before;
+      reaction.add(patch.level().expandDirection<D>(-record[lane::mass] * forced));
     }
   });
 }
@@ -61,8 +84,14 @@ void followMaster(const Patch& patch, const Contact& contact, double time, doubl
 template void moveAsOne<1>(const Patch&, const Contact&, const Records&);
 template void moveAsOne<2>(const Patch&, const Contact&, const Records&);
 template void moveAsOne<3>(const Patch&, const Contact&, const Records&);
-template void followMaster<1>(const Patch&, const Contact&, double, double, const Records&, VectorSum&);
-template void followMaster<2>(const Patch&, const Contact&, double, double, const Records&, VectorSum&);
-template void followMaster<3>(const Patch&, const Contact&, double, double, const Records&, VectorSum&);
+template void followMaster<1>(const Patch&, const Contact&, double, const Records&);
+template void followMaster<2>(const Patch&, const Contact&, double, const Records&);
+template void followMaster<3>(const Patch&, const Contact&, double, const Records&);
+template void sumReaction<1>(const Patch&, const Contact&, const Acceleration&, double, const Records&,
+                             VectorSum&);
+template void sumReaction<2>(const Patch&, const Contact&, const Acceleration&, double, const Records&,
+                             VectorSum&);
+template void sumReaction<3>(const Patch&, const Contact&, const Acceleration&, double, const Records&,
+                             VectorSum&);
 
 }  // namespace tushar::mpm::solid

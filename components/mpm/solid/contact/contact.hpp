@@ -26,12 +26,23 @@ struct Contact {
   Vec3 velocityAfterStop = Vec3::Zero();              ///< m/s
   std::vector<std::pair<double, Vec3>> profile;       ///< time (s) and the master's velocity (m/s); empty: it is free
 
-  double friction = 0;                                ///< coefficient mu
-  double separationFactor = 0;                        ///< of friction: farther apart than so many cells they do not touch
+  bool actsTwice = true;  ///< friction, specified: on the velocities that came from the particles, too
+  int excluded = -1;      ///< specified: where this material is, nothing follows
+
+  double friction = 0;          ///< coefficient mu
+  bool onlyOnApproach = false;  ///< friction: what the stress presses together may part
+  double separationFactor = 0;  ///< friction: farther apart than so many cells they do not touch
+  double volumeConstraint = 0;  ///< friction: the share of the volume around a node that must be filled for a contact
 
   bool concerns(int material) const;
   /// The master's velocity at a time, where it is given.
   std::optional<Vec3> prescribedVelocity(double time) const;
+};
+
+/// Which velocity of a step the records hold.
+enum class Moment {
+  start,  ///< what came from the particles
+  end,    ///< v* after the forces
 };
 
 /// The records of all materials (see NodeRecord), whose lanes 0 to 2 are the velocity.
@@ -40,11 +51,20 @@ using Records = std::vector<NodeView<Octet>>;
 /// All materials that take part get the velocity of their centre of mass.
 template <int D>
 void moveAsOne(const Patch& patch, const Contact& contact, const Records& records);
-/// Where the master is, the others get its velocity along the contact's directions. Adds what that takes to `reaction`,
-/// the force (N) on all of them.
+/// Where the master is, the others get its velocity along the contact's directions.
 template <int D>
-void followMaster(const Patch& patch, const Contact& contact, double time, double dt, const Records& records,
-                  VectorSum& reaction);
+void followMaster(const Patch& patch, const Contact& contact, double time, const Records& records);
+
+/// What has changed the velocities of a step besides the forces of stresses and loads.
+struct Acceleration {
+  Vec3 gravity = Vec3::Zero();  ///< m/s^2
+  double damping = 0;           ///< 1/s
+};
+/// Where the master is, adds to `reaction` the force (N) that holds the others against their stresses and loads, as Uintah
+/// counts it: - sum m ((v* - v) / dt - g + damping v). The records hold v* and v before the contact.
+template <int D>
+void sumReaction(const Patch& patch, const Contact& contact, const Acceleration& acceleration, double dt,
+                 const Records& records, VectorSum& reaction);
 
 /// Whether a node belongs to a patch and to no other: sums over nodes count it once.
 template <int D>

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "components/mpm/solid/refuse.hpp"
 #include "core/input/schema.hpp"
 
 namespace tushar::mpm::solid {
@@ -15,7 +16,25 @@ using input::Schema;
 
 namespace {
 
-enum class Kind { none, singleVelocity, rigid, specified };
+enum class Kind { none, singleVelocity, rigid, specified, friction, approach };
+
+const input::Choices<Kind> kinds{{"null", Kind::none},
+                                 {"single_velocity", Kind::singleVelocity},
+                                 {"rigid", Kind::rigid},
+                                 {"specified", Kind::specified},
+                                 {"specified_velocity", Kind::specified},
+                                 {"friction", Kind::friction},
+                                 {"friction_bard", Kind::friction},
+                                 {"approach", Kind::approach}};
+const Lacking lackingKinds{{"friction_LR", "friction_bard"},
+                           {"friction_LRVar", "friction_bard"},
+                           {"specified_friction", "specified, where nothing slips"},
+                           {"penalty", "friction_bard"},
+                           {"nodal_svf", "single_velocity"},
+                           {"fluid", "single_velocity"}};
+
+/// Whether bodies slide and part.
+bool slides(Kind kind) { return kind == Kind::friction || kind == Kind::approach; }
 
 /// The tags of every kind of contact, as they are written.
 struct ContactSection {
@@ -26,30 +45,61 @@ struct ContactSection {
   double stopTime = 0;
   Vec3 velocityAfterStop = Vec3::Zero();
   std::string profileFile;
+  std::optional<double> friction;
+  double separationFactor = 0, volumeConstraint = 0;
+  std::optional<int> steps, excluded;
 };
 
+void checkContact(const ContactSection& read, const Element& element, Diagnostics& diagnostics) {
+  if (slides(read.kind) && !read.friction)
+    diagnostics.error(element, "missing tag <mu> in <contact>: friction needs its coefficient");
+  if (!slides(read.kind) && read.volumeConstraint > 0)
+    diagnostics.error(element.child("volume_constraint").value(),
+                      "acts in contacts of type friction, friction_bard and approach only");
+}
+
 const Schema<ContactSection>& contactSchema() {
-  static const Schema<ContactSection> schema =
-      Schema<ContactSection>("contact", "How materials act on each other where they share nodes.")
-          .requiredChoice("type", &ContactSection::kind,
-                          {{"null", Kind::none},
-                           {"single_velocity", Kind::singleVelocity},
-                           {"rigid", Kind::rigid},
-                           {"specified", Kind::specified}},
-                          "not at all; as one body; or they follow a master, which is free or moves as told")
-          .optional("materials", &ContactSection::materials, "1", "numbers of the materials that take part; else all")
-          .value("direction", &ContactSection::direction, Index3{{0, 0, 1}}, "1",
-                 "rigid, specified: 1 along x, y, z where the others follow the master", input::between(0, 1))
-          .value("master_material", &ContactSection::master, 0, "1", "rigid, specified: number of the master",
-                 input::nonNegative())
-          .value("stop_time", &ContactSection::stopTime, std::numeric_limits<double>::max(), "s",
-                 "rigid, specified: from then on all move with velocity_after_stop")
-          .value("velocity_after_stop", &ContactSection::velocityAfterStop, Vec3::Zero(), "m/s",
-                 "rigid, specified: velocity after stop_time")
-          .value("filename", &ContactSection::profileFile, "", "1",
-                 "specified: a file with a line `time vx vy vz` for each of at least two times, ascending")
-          .ignored("vel_fields", "an old word for materials")
-          .ignored("do_contact_friction_heating", "rubbing makes no heat here");
+  static const Schema<ContactSection> schema = [] {
+    Schema<ContactSection> contact("contact", "How materials act on each other where they share nodes.");
+    requiredChoiceOrRefusal(
+        contact, "type", &ContactSection::kind, kinds, lackingKinds,
+        "not at all; as one body; they follow a master, which is free or moves as told (two words for it); they part "
+        "freely and slide with friction (two words for it); the same, but only while they approach each other");
+    contact.optional("materials", &ContactSection::materials, "1", "numbers of the materials that take part; else all")
+        .value("direction", &ContactSection::direction, Index3{{0, 0, 1}}, "1",
+               "rigid, specified: 1 along x, y, z where the others follow the master", input::between(0, 1))
+        .value("master_material", &ContactSection::master, 0, "1", "rigid, specified: number of the master",
+               input::nonNegative())
+        .value("stop_time", &ContactSection::stopTime, std::numeric_limits<double>::max(), "s",
+               "rigid, specified: from then on all move with velocity_after_stop")
+        .value("velocity_after_stop", &ContactSection::velocityAfterStop, Vec3::Zero(), "m/s",
+               "rigid, specified: velocity after stop_time")
+        .value("filename", &ContactSection::profileFile, "", "1",
+               "specified: a file with a line `time vx vy vz` for each of at least two times, ascending")
+        .optional("mu", &ContactSection::friction, "1", "friction, approach: coefficient; needed there",
+                  input::nonNegative())
+        .value("separation_factor", &ContactSection::separationFactor, 9.9e99, "1",
+               "friction, approach: what lies farther apart than so many cells does not touch", input::positive())
+        .value("volume_constraint", &ContactSection::volumeConstraint, 0, "1",
+               "friction, approach: share of the volume around a node that bodies must fill to touch there",
+               input::nonNegative())
+        .optional("OneOrTwoStep", &ContactSection::steps, "1",
+                  "1: acts on the velocities at the end of a step only; 2: on those at its start, too. Left out: 1 with "
+                  "rigid and specified, else 2; with XPIC2 always 2",
+                  input::between(1, 2))
+        .optional("ExcludeMaterial", &ContactSection::excluded, "1",
+                  "rigid, specified: nothing follows the master where this material is", input::nonNegative())
+        .ignored("vel_fields", "an old word for materials")
+        .ignored("rigid_material", "an old word for master_material")
+        .check(checkContact);
+    refuseSwitch(contact, "normal_only", "friction_bard with mu 0 lets bodies slip");
+    refuseSwitch(contact, "include_rotation", "the master moves without turning");
+    refuseTag(contact, "condition", "give the times of a profile by <filename>");
+    refuseTag(contact, "conditionValue", "give the times of a profile by <filename>");
+    refuseTag(contact, "conditionAction", "give the times of a profile by <filename>");
+    refuseTag(contact, "variable_friction", "there is one <mu> for a contact");
+    return contact;
+  }();
   return schema;
 }
 
@@ -73,7 +123,15 @@ std::vector<std::pair<double, Vec3>> readProfile(const Element& tag, const std::
 Contact settle(const ContactSection& read, const Element& tag, Diagnostics& diagnostics) {
   Contact contact;
   const bool follows = read.kind == Kind::rigid || read.kind == Kind::specified;
-  contact.type = follows ? Contact::Type::specified : Contact::Type::singleVelocity;
+  contact.type = follows             ? Contact::Type::specified
+                 : slides(read.kind) ? Contact::Type::friction
+                                     : Contact::Type::singleVelocity;
+  contact.actsTwice = read.steps.value_or(follows ? 1 : 2) == 2;
+  contact.excluded = read.excluded.value_or(-1);
+  contact.friction = read.friction.value_or(0);
+  contact.onlyOnApproach = read.kind == Kind::approach;
+  contact.separationFactor = read.separationFactor;
+  contact.volumeConstraint = read.volumeConstraint;
   contact.materials = read.materials.value_or(std::vector<int>{});
   contact.master = read.master;
   for (int axis = 0; axis < 3; ++axis) contact.direction[static_cast<std::size_t>(axis)] = read.direction[axis] != 0;

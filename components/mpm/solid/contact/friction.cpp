@@ -6,11 +6,18 @@ namespace tushar::mpm::solid {
 
 namespace {
 
+/// Below it a traction is round-off, Pa.
+constexpr double leastTraction = 1e-12;
+/// Below it a share of the mass at a node is what rounding has left of a body.
+constexpr double leastShare = 1e-14;
+
 /// All bodies that take part, seen from a node.
 template <int D>
 struct Gathering {
-  Vec<D> momentum = Vec<D>::Zero(), position = Vec<D>::Zero(), massGradient = Vec<D>::Zero();
-  double mass = 0;
+  Vec<D> momentum = Vec<D>::Zero(), position = Vec<D>::Zero();
+  double mass = 0, volume = 0;
+  Vec<D> normal = Vec<D>::Zero();  ///< out of the body whose mass changes most; 0 where none does
+  std::size_t steepest = 0;        ///< that body
 };
 
 template <int D>
@@ -22,66 +29,101 @@ Gathering<D> gatherBodies(const Contact& contact, const Records& records, const 
     const Octet& record = records[m][node];
     all.momentum += record[lane::mass] * lanes<D>(record, lane::velocity);
     all.position += surfaces.position[m][node];
-    all.massGradient += surfaces.massGradient[m][node];
     all.mass += record[lane::mass];
+    all.volume += surfaces.volume[m][node];
+    if (surfaces.massGradient[m][node].squaredNorm() <= all.normal.squaredNorm()) continue;
+    all.normal = surfaces.massGradient[m][node];
+    all.steepest = m;
   }
+  if (all.normal.squaredNorm() > 0) all.normal.normalize();
   return all;
 }
 
-/// Whether the surface's stress pushes along its normal.
+/// Whether a body takes part in a contact at a node, with more of its mass than rounding leaves.
+template <int D>
+bool isThere(const Contact& contact, const Records& records, double totalMass, std::size_t m, const Index<D>& node) {
+  return contact.concerns(static_cast<int>(m)) && records[m][node][lane::mass] >= leastShare * totalMass;
+}
+
+/// Whether a stress pushes along a normal.
 template <int D>
 bool isPressed(const Level& level, const Matrix3& stress, const Vec<D>& normal) {
   double traction = 0;
   for (int i = 0; i < D; ++i)
     for (int j = 0; j < D; ++j) traction += normal[i] * stress(sceneAxis<D>(level, i), sceneAxis<D>(level, j)) * normal[j];
-  return traction < 0;
+  return traction < -leastTraction;
+}
+
+/// Whether the stresses of all bodies at a node push along its normal.
+template <int D>
+bool arePressed(const Level& level, const Contact& contact, const Records& records, const Surfaces<D>& surfaces,
+                const Gathering<D>& all, const Index<D>& node) {
+  if (contact.onlyOnApproach) return false;
+  for (std::size_t m = 0; m < records.size(); ++m)
+    if (isThere<D>(contact, records, all.mass, m, node) && !isPressed<D>(level, surfaces.stress[m][node], all.normal))
+      return false;
+  return true;
 }
 
 /// How far the others' mass lies from the body's at a node, m.
 template <int D>
 double separation(const Gathering<D>& all, const Vec<D>& position, double mass) {
-  const double others = all.mass - mass;
-  return ((all.position - position) / others - position / mass).norm();
+  return ((all.position - position) / (all.mass - mass) - position / mass).norm();
 }
 
-/// The greatest strain that a change of velocity makes in a step, over all bodies at the node, brought down to 1/2.
+/// What brings the greatest strain that a change of velocity makes in a step, over all bodies at the node, down to 1/2.
 template <int D>
-Vec<D> limited(const Level& level, const Vec<D>& change, double dt, double massRatio) {
+double strainLimit(const Level& level, const Vec<D>& change, double dt, double massRatio) {
   double strain = 0;
   for (int d = 0; d < D; ++d) strain = std::max(strain, std::abs(change[d]) * dt * level.inverseSpacing(d));
   strain *= std::max(1.0, massRatio);
-  return strain > 0.5 ? Vec<D>(change * (0.5 / strain)) : change;
+  return strain > 0.5 ? 0.5 / strain : 1.0;
 }
 
 }  // namespace
 
 template <int D>
-void rub(const Patch& patch, const Contact& contact, double dt, const Records& records, const Surfaces<D>& surfaces) {
+Rubbing<D> rubbing(const Touch<D>& touch, double mu) {
+  const double approach = touch.velocity.dot(touch.normal);
+  if (!touch.isPressed && approach <= 0) return {};
+  const Vec<D> slip = touch.velocity - approach * touch.normal;
+  const double speed = slip.norm();
+  const double share = speed > 0 ? std::min(mu * std::abs(approach) / speed, 1.0) : 0.0;
+  return {-approach * touch.normal - share * slip, share * (1 - share) * speed * speed};
+}
+
+template <int D>
+void rub(const Patch& patch, const Contact& contact, double dt, const Records& records, const Surfaces<D>& surfaces,
+         const std::vector<NodeView<double>>& heat) {
   const Level& level = patch.level();
   const double reach = contact.separationFactor * std::cbrt(level.cellVolume());
+  const double leastVolume = contact.volumeConstraint * level.cellVolume();
   forEach<D>(records.front().box(), [&](const Index<D>& node) {
     const Gathering<D> all = gatherBodies<D>(contact, records, surfaces, node);
-    if (all.mass == 0) return;
+    if (all.mass == 0 || all.normal.isZero() || all.volume <= leastVolume) return;
+    const bool pressed = arePressed<D>(level, contact, records, surfaces, all, node);
     for (std::size_t m = 0; m < records.size(); ++m) {
       Octet& record = records[m][node];
-      const double mass = record[lane::mass];
-      // As in Uintah, what is left of a body after rounding does not count as one.
-      if (!contact.concerns(static_cast<int>(m)) || mass < 1e-14 * all.mass || all.mass - mass < 1e-14 * all.mass) continue;
-      const BodySurface<D> surface = surfaces.at(m, node);
-      // One normal for both sides: that of the body alone would catch on the corners of others.
-      const Vec<D> inwards = 2 * surface.massGradient - all.massGradient;
-      const double steepness = inwards.norm();
-      if (steepness == 0 || separation<D>(all, surface.position, mass) > reach) continue;
-      const Vec<D> v = lanes<D>(record, lane::velocity), normal = -inwards / steepness;
-      const Touch<D> touch{normal, v - all.momentum / all.mass, isPressed<D>(level, surface.stress, normal)};
-      const Vec<D> change = frictionChange(touch, contact.friction);
-      setLanes<D>(record, lane::velocity, v + limited<D>(level, change, dt, mass / (all.mass - mass)));
+      const double mass = record[lane::mass], others = all.mass - mass;
+      if (!isThere<D>(contact, records, all.mass, m, node) || others < leastShare * all.mass) continue;
+      if (separation<D>(all, surfaces.position[m][node], mass) >= reach) continue;
+      const Vec<D> v = lanes<D>(record, lane::velocity), normal = m == all.steepest ? all.normal : Vec<D>(-all.normal);
+      const Rubbing<D> rubbed = rubbing<D>({normal, v - all.momentum / all.mass, pressed}, contact.friction);
+      const double share = strainLimit<D>(level, rubbed.change, dt, mass / others);
+      setLanes<D>(record, lane::velocity, v + share * rubbed.change);
+      if (!heat.empty()) heat[m][node] += share * mass * rubbed.heat;
     }
   });
 }
 
-template void rub<1>(const Patch&, const Contact&, double, const Records&, const Surfaces<1>&);
-template void rub<2>(const Patch&, const Contact&, double, const Records&, const Surfaces<2>&);
-template void rub<3>(const Patch&, const Contact&, double, const Records&, const Surfaces<3>&);
+template Rubbing<1> rubbing<1>(const Touch<1>&, double);
+template Rubbing<2> rubbing<2>(const Touch<2>&, double);
+template Rubbing<3> rubbing<3>(const Touch<3>&, double);
+template void rub<1>(const Patch&, const Contact&, double, const Records&, const Surfaces<1>&,
+                     const std::vector<NodeView<double>>&);
+template void rub<2>(const Patch&, const Contact&, double, const Records&, const Surfaces<2>&,
+                     const std::vector<NodeView<double>>&);
+template void rub<3>(const Patch&, const Contact&, double, const Records&, const Surfaces<3>&,
+                     const std::vector<NodeView<double>>&);
 
 }  // namespace tushar::mpm::solid

@@ -5,49 +5,41 @@
 
 namespace tushar::mpm::solid {
 
-/// What a body's surface looks like from a node.
-template <int D>
-struct BodySurface {
-  Vec<D> massGradient;  ///< sum_p m_p grad S_i: points into the body, kg/m
-  Vec<D> position;      ///< sum_p S_i m_p x_p, kg m
-  Matrix3 stress;       ///< sum_p S_i V_p sigma_p, Pa m^3
-};
-
 /// A node at which a body touches others.
 template <int D>
 struct Touch {
-  Vec<D> normal;      ///< out of the body
-  Vec<D> velocity;    ///< of the body less that of the centre of mass of all, m/s
-  bool isPressed;     ///< the stress presses on the surface
+  Vec<D> normal;    ///< out of the body
+  Vec<D> velocity;  ///< of the body less that of the centre of mass of all, m/s
+  bool isPressed;   ///< the stress presses on the surface
 };
 
-/// The change of a body's velocity at a node, m/s, where it is pressed against others or approaches them: it does not
-/// pass through, and slides by what friction with the coefficient mu leaves; Bardenhagen, Guilkey, Roessig, Brackbill,
-/// Witzel & Foster, CMES 2 (2001) 509.
+/// What a contact does to a body at a node.
 template <int D>
-Vec<D> frictionChange(const Touch<D>& touch, double mu) {
-  const double approach = touch.velocity.dot(touch.normal);
-  if (!touch.isPressed && approach <= 0) return Vec<D>::Zero();
-  const Vec<D> slip = touch.velocity - approach * touch.normal;
-  const double speed = slip.norm();
-  const double share = speed > 0 ? std::min(mu * std::abs(approach) / speed, 1.0) : 0.0;
-  return -approach * touch.normal - share * slip;
-}
+struct Rubbing {
+  Vec<D> change = Vec<D>::Zero();  ///< of the velocity, m/s
+  double heat = 0;                 ///< kinetic energy that friction takes, J/kg
+};
 
-/// The surfaces of all materials, by material.
+/// Of a body that is pressed against others or approaches them: it does not pass through, and slides by what friction
+/// with the coefficient mu leaves; Bardenhagen, Guilkey, Roessig, Brackbill, Witzel & Foster, CMES 2 (2001) 509, eq. 13.
+template <int D>
+Rubbing<D> rubbing(const Touch<D>& touch, double mu);
+
+/// What the surfaces of bodies look like from the nodes, by material.
 template <int D>
 struct Surfaces {
-  const std::vector<NodeView<const Vec<D>>>&massGradient, &position;
-  const std::vector<NodeView<const Matrix3>>& stress;
-
-  BodySurface<D> at(std::size_t material, const Index<D>& node) const {
-    return {massGradient[material][node], position[material][node], stress[material][node]};
-  }
+  const std::vector<NodeView<const Vec<D>>>& massGradient;  ///< sum_p m_p grad S_i: out of the body, kg/m
+  const std::vector<NodeView<const Vec<D>>>& position;      ///< sum_p S_i m_p x_p, kg m
+  const std::vector<NodeView<const Matrix3>>& stress;       ///< sum_p S_i sigma_p, Pa
+  const std::vector<NodeView<const double>>& volume;        ///< sum_p S_i V_p, and its image's beyond symmetry planes, m^3
 };
 
-/// Applies frictionChange to all materials that take part. A change that would strain a cell by more than a half is cut
-/// down to that.
+/// Applies `rubbing` to all materials that take part, where their volumes and distance are as the contact asks. All have
+/// the normal of the one whose mass changes most across the node, or its opposite: that of each would catch on corners. They
+/// are pressed where the stresses of all are, so that what one of two loses the other has; Uintah asks each alone. A change
+/// that would strain a cell by more than a half is cut down to that. Adds the heat (J) to `heat`, if there is any.
 template <int D>
-void rub(const Patch& patch, const Contact& contact, double dt, const Records& records, const Surfaces<D>& surfaces);
+void rub(const Patch& patch, const Contact& contact, double dt, const Records& records, const Surfaces<D>& surfaces,
+         const std::vector<NodeView<double>>& heat);
 
 }  // namespace tushar::mpm::solid

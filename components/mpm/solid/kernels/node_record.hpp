@@ -49,8 +49,8 @@ class TouchedRows {
     Box cellRows = around;
     cellRows.upper[0] = cellRows.lower[0] + 1;
     forEach<3>(cellRows, [&](const Index3& first) {
-      const auto [low, high] = occupied(particles.set().row(first), around.extent(0));
-      if (low < high) touch(first, around.lower[0] + low - ghost, around.lower[0] + high + 1 + ghost, ghost);
+      const auto span = particles.set().occupied(first, around.upper[0]);
+      if (!span.empty()) touch(first, span.first - ghost, span.last + 1 + ghost, ghost);
     });
   }
 
@@ -64,14 +64,22 @@ class TouchedRows {
     });
   }
 
- private:
-  /// The range of cells of a row that hold particles.
-  static std::pair<int, int> occupied(const data::ParticleRange* row, int count) {
-    int low = 0, high = count;
-    while (low < high && row[low].empty()) ++low;
-    while (high > low && row[high - 1].empty()) --high;
-    return {low, high};
+  /// The same for what lies within a box.
+  template <class Visit>
+  void forEachRow(const Box& within, Visit&& visit) const {
+    Box rows = within.intersect(nodes_);
+    const int lower = rows.lower[0], upper = rows.upper[0];
+    if (lower >= upper) return;
+    rows.lower[0] = rows_.lower[0];
+    rows.upper[0] = rows_.upper[0];
+    forEach<3>(rows, [&](const Index3& row) {
+      const auto [low, high] = touched_[rows_.offset(row)];
+      if (const int first = std::max(low, lower), end = std::min(high, upper); first < end)
+        visit(Index3{{first, row[1], row[2]}}, end);
+    });
   }
+
+ private:
   void touch(const Index3& cellRow, int low, int high, int ghost) {
     Box around{cellRow, cellRow + Index3::filled(1)};
     for (int d = 1; d < D; ++d) {

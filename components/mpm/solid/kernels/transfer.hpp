@@ -15,12 +15,8 @@ struct NodeWindow {
   std::array<std::ptrdiff_t, D> stride{};  ///< records from one node to the next along each axis
 };
 
-/// The factors of a row of nodes along the first axis: of S, and of its slopes along the other axes.
-template <int D>
-struct RowFactors {
-  double s = 1;
-  std::array<double, D> slope{};  ///< [0] is unused
-};
+/// The factors of a row of nodes along the first axis, in the lanes: of S, and of its slopes along the second and third.
+using RowFactors = Quad;
 
 /// Calls `visit(offset, factors)` for each row of nodes that a particle touches.
 template <class Stencil, int D, class Visit>
@@ -29,17 +25,20 @@ template <class Stencil, int D, class Visit>
                                               Visit&& visit) {
   constexpr int n = Stencil::nodes;
   if constexpr (D == 1) {
-    visit(std::ptrdiff_t{0}, RowFactors<1>{});
-  } else if constexpr (D == 2) {
-    for (std::size_t j = 0; j < n; ++j)
-      visit(static_cast<std::ptrdiff_t>(j) * stride[1], RowFactors<2>{stencil.s[1][j], {0, stencil.ds[1][j]}});
+    visit(std::ptrdiff_t{0}, quadOf(1.0));
   } else {
-    for (std::size_t k = 0; k < n; ++k)
-      for (std::size_t j = 0; j < n; ++j) {
-        const double s = stencil.s[1][j] * stencil.s[2][k];
-        visit(static_cast<std::ptrdiff_t>(j) * stride[1] + static_cast<std::ptrdiff_t>(k) * stride[2],
-              RowFactors<3>{s, {0, stencil.ds[1][j] * stencil.s[2][k], stencil.s[1][j] * stencil.ds[2][k]}});
+    std::array<Quad, n> second;
+    for (std::size_t j = 0; j < n; ++j)
+      second[j] = __builtin_shufflevector(stencil.s[j], stencil.ds[j], 1, 5, 1, 1);
+    if constexpr (D == 2) {
+      for (std::size_t j = 0; j < n; ++j) visit(static_cast<std::ptrdiff_t>(j) * stride[1], second[j]);
+    } else {
+      for (std::size_t k = 0; k < n; ++k) {
+        const Quad third = __builtin_shufflevector(stencil.s[k], stencil.ds[k], 2, 2, 6, 2);
+        for (std::size_t j = 0; j < n; ++j)
+          visit(static_cast<std::ptrdiff_t>(j) * stride[1] + static_cast<std::ptrdiff_t>(k) * stride[2], second[j] * third);
       }
+    }
   }
 }
 
@@ -48,14 +47,20 @@ template <class Stencil, int D, class Visit>
 template <class Stencil, int D = Stencil::dimension>
 [[gnu::always_inline]] inline void scatter(const Stencil& stencil, const NodeWindow<Octet, D>& nodes, const Octet& value,
                                            const std::array<Quad, Stencil::dimension>& slope, const Quad& hoop = Quad{}) {
-  forEachRow<Stencil, D>(stencil, nodes.stride, [&](std::ptrdiff_t offset, const RowFactors<D>& f) {
-    const Quad low = f.s * value.low, change = f.s * slope[0], round = f.s * hoop;
-    Quad high = f.s * value.high;
-    for (std::size_t d = 1; d < D; ++d) high = multiplyAdd(f.slope[d], slope[d], high);
+  std::array<Quad, Stencil::nodes> s, ds;
+  for (std::size_t i = 0; i < Stencil::nodes; ++i) {
+    s[i] = spread<0>(stencil.s[i]);
+    ds[i] = spread<0>(stencil.ds[i]);
+  }
+  forEachRow<Stencil, D>(stencil, nodes.stride, [&](std::ptrdiff_t offset, const RowFactors& f) {
+    const Quad share = spread<0>(f), low = share * value.low, change = share * slope[0], round = share * hoop;
+    Quad high = share * value.high;
+    if constexpr (D > 1) high = multiplyAdd(spread<1>(f), slope[1], high);
+    if constexpr (D > 2) high = multiplyAdd(spread<2>(f), slope[2], high);
     Octet* row = nodes.origin + offset;
     for (std::size_t i = 0; i < Stencil::nodes; ++i) {
-      row[i].low = multiplyAdd(stencil.s[0][i], low, row[i].low);
-      row[i].high = multiplyAdd(stencil.s[0][i], high, multiplyAdd(stencil.ds[0][i], change, row[i].high));
+      row[i].low = multiplyAdd(s[i], low, row[i].low);
+      row[i].high = multiplyAdd(s[i], high, multiplyAdd(ds[i], change, row[i].high));
       if constexpr (Stencil::axisymmetric) row[i].high = multiplyAdd(stencil.hoop[i], round, row[i].high);
     }
   });
@@ -72,22 +77,28 @@ struct Gathered {
 template <class Stencil, int D = Stencil::dimension>
 [[gnu::always_inline]] inline Gathered<D> gather(const Stencil& stencil, const NodeWindow<const Octet, D>& nodes) {
   Gathered<D> sums;
-  forEachRow<Stencil, D>(stencil, nodes.stride, [&](std::ptrdiff_t offset, const RowFactors<D>& f) {
+  std::array<Quad, Stencil::nodes> s, ds;
+  for (std::size_t i = 0; i < Stencil::nodes; ++i) {
+    s[i] = spread<0>(stencil.s[i]);
+    ds[i] = spread<0>(stencil.ds[i]);
+  }
+  forEachRow<Stencil, D>(stencil, nodes.stride, [&](std::ptrdiff_t offset, const RowFactors& f) {
     const Octet* row = nodes.origin + offset;
-    Quad low = stencil.s[0][0] * row[0].low, high = stencil.s[0][0] * row[0].high;
-    Quad change = stencil.ds[0][0] * row[0].low, round{};
+    Quad low = s[0] * row[0].low, high = s[0] * row[0].high, change = ds[0] * row[0].low, round{};
     if constexpr (Stencil::axisymmetric) round = stencil.hoop[0] * row[0].low;
     for (std::size_t i = 1; i < Stencil::nodes; ++i) {
-      low = multiplyAdd(stencil.s[0][i], row[i].low, low);
-      high = multiplyAdd(stencil.s[0][i], row[i].high, high);
-      change = multiplyAdd(stencil.ds[0][i], row[i].low, change);
+      low = multiplyAdd(s[i], row[i].low, low);
+      high = multiplyAdd(s[i], row[i].high, high);
+      change = multiplyAdd(ds[i], row[i].low, change);
       if constexpr (Stencil::axisymmetric) round = multiplyAdd(stencil.hoop[i], row[i].low, round);
     }
-    sums.value.low = multiplyAdd(f.s, low, sums.value.low);
-    sums.value.high = multiplyAdd(f.s, high, sums.value.high);
-    sums.gradient[0] = multiplyAdd(f.s, change, sums.gradient[0]);
-    for (std::size_t d = 1; d < D; ++d) sums.gradient[d] = multiplyAdd(f.slope[d], low, sums.gradient[d]);
-    if constexpr (Stencil::axisymmetric) sums.hoop = multiplyAdd(f.s, round, sums.hoop);
+    const Quad share = spread<0>(f);
+    sums.value.low = multiplyAdd(share, low, sums.value.low);
+    sums.value.high = multiplyAdd(share, high, sums.value.high);
+    sums.gradient[0] = multiplyAdd(share, change, sums.gradient[0]);
+    if constexpr (D > 1) sums.gradient[1] = multiplyAdd(spread<1>(f), low, sums.gradient[1]);
+    if constexpr (D > 2) sums.gradient[2] = multiplyAdd(spread<2>(f), low, sums.gradient[2]);
+    if constexpr (Stencil::axisymmetric) sums.hoop = multiplyAdd(share, round, sums.hoop);
   });
   return sums;
 }

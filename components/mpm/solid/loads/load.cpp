@@ -111,7 +111,7 @@ Vec3 normalAt(const Surface& surface, const Vec3& point) {
                     surface);
 }
 
-bool PressureLoad::acts(const Body& body, const Vec3& point, const Vec3& spacing) const {
+bool SurfaceLoad::acts(const Body& body, const Vec3& point, const Vec3& spacing) const {
   if (!isAlong(surface, point, spacing)) return false;
   for (int d = 0; d < 3; ++d)
     for (const double side : {-1.0, 1.0})
@@ -119,9 +119,20 @@ bool PressureLoad::acts(const Body& body, const Vec3& point, const Vec3& spacing
   return false;
 }
 
-Vec3 PressureLoad::force(const Vec3& point, double time) const {
-  return curve.at(time) * areaOf(surface) / particles * normalAt(surface, point);
+double SurfaceLoad::share(double time) const { return curve.at(time) * areaOf(surface) / particles; }
+
+Vec3 SurfaceLoad::force(const Vec3& point, double time) const { return share(time) * normalAt(surface, point); }
+
+namespace {
+
+bool hasKind(const std::vector<SurfaceLoad>& loads, SurfaceLoad::Kind kind) {
+  return std::any_of(loads.begin(), loads.end(), [kind](const SurfaceLoad& load) { return load.kind == kind; });
 }
+
+}  // namespace
+
+bool Loads::hasForces() const { return !bodies.empty() || hasKind(surfaces, SurfaceLoad::Kind::pressure); }
+bool Loads::hasHeat() const { return hasKind(surfaces, SurfaceLoad::Kind::heatFlux); }
 
 Vec3 particleSpacing(const grid::Level& level, const Body& body) {
   Vec3 spacing;
@@ -129,8 +140,8 @@ Vec3 particleSpacing(const grid::Level& level, const Body& body) {
   return spacing;
 }
 
-void countParticles(const grid::Level& level, const std::vector<Material>& materials, std::vector<PressureLoad>& loads) {
-  for (PressureLoad& load : loads) {
+void countParticles(const grid::Level& level, const std::vector<Material>& materials, std::vector<SurfaceLoad>& loads) {
+  for (SurfaceLoad& load : loads) {
     load.particles = 0;
     for (std::size_t m = 0; m < materials.size(); ++m) {
       if (load.material >= 0 && load.material != static_cast<int>(m)) continue;

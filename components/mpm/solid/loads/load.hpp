@@ -28,22 +28,47 @@ bool isAlong(const Surface& surface, const Vec3& point, const Vec3& spacing);
 /// The direction in which a positive load pushes: the thin axis of a box, outwards, or along a cylinder to its top.
 Vec3 normalAt(const Surface& surface, const Vec3& point);
 
-/// A `PhysicalBC/MPM/pressure`: the force pressure times area is shared evenly among the particles at the surface.
-struct PressureLoad {
+/// A `PhysicalBC/MPM/pressure` or `heat_flux`: what acts on the area is shared evenly among the particles at the surface.
+struct SurfaceLoad {
+  enum class Kind { pressure, heatFlux };
+
+  Kind kind = Kind::pressure;
   Surface surface;
-  LoadCurve curve;         ///< Pa
+  LoadCurve curve;         ///< Pa, or W/m^2
   int material = -1;       ///< -1: all
   double particles = 0;    ///< how many there are at the surface, set by countParticles
 
   /// Whether a particle of a body is loaded: it is along the surface and some neighbour's place is not in the body.
   bool acts(const Body& body, const Vec3& point, const Vec3& spacing) const;
+  /// Of a pressure, N.
   Vec3 force(const Vec3& point, double time) const;
+  /// What one particle gets, N or W.
+  double share(double time) const;
+};
+
+/// A `PhysicalBC/MPM/force`: a force per mass on the particles that start in a box, or next to it.
+struct BodyLoad {
+  Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();  ///< m
+  Vec3 forceDensity = Vec3::Zero();                 ///< N/kg
+
+  bool acts(const Vec3& point, const Vec3& spacing) const {
+    return ((point - lower + spacing).array() >= 0).all() && ((upper + spacing - point).array() >= 0).all();
+  }
+};
+
+/// The loads of a scene, numbered from 1: those on surfaces, then those on bodies.
+struct Loads {
+  std::vector<SurfaceLoad> surfaces;
+  std::vector<BodyLoad> bodies;
+
+  bool hasForces() const;
+  bool hasHeat() const;
 };
 
 /// The distance between the particles of a body along x, y, z, m.
 Vec3 particleSpacing(const grid::Level& level, const Body& body);
 
 /// Counts the particles at the surface of each load.
-void countParticles(const grid::Level& level, const std::vector<Material>& materials, std::vector<PressureLoad>& loads);
+void countParticles(const grid::Level& level, const std::vector<Material>& materials, std::vector<SurfaceLoad>& loads);
 
 }  // namespace tushar::mpm::solid

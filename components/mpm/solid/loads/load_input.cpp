@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "components/mpm/solid/refuse.hpp"
 #include "core/input/schema.hpp"
 
 namespace tushar::mpm::solid {
@@ -20,12 +21,13 @@ struct CurveSection {
   std::optional<int> material;
   std::vector<TimePoint> points;
 };
-struct PressureSection {
+struct SurfaceSection {
   std::optional<Surface> surface;
   CurveSection curve;
 };
 struct LoadsSection {
-  std::vector<PressureSection> pressures;
+  std::vector<SurfaceSection> pressures, heatFluxes;
+  std::vector<BodyLoad> forces;
 };
 struct PhysicalBC {
   LoadsSection mpm;
@@ -40,21 +42,21 @@ const Schema<input::Box>& boxSchema() {
   return schema;
 }
 
-void readSurface(PressureSection& pressure, const Element& parent, Diagnostics& diagnostics) {
+void readSurface(SurfaceSection& load, const Element& parent, Diagnostics& diagnostics) {
   const auto object = parent.child("geom_object");
   const auto shapes = object ? object->children() : std::vector<Element>{};
   if (shapes.size() != 1) return diagnostics.error(parent, "needs one <geom_object> with one shape: where it acts");
   if (shapes[0].name() == "box" && shapes[0].child("min")) {
-    pressure.surface = boxSchema().read(shapes[0], diagnostics);
+    load.surface = boxSchema().read(shapes[0], diagnostics);
     return;
   }
   const input::PiecePtr piece = input::readShape(shapes[0], diagnostics);
   if (!piece) return;
-  if (const auto* cylinder = dynamic_cast<const input::Cylinder*>(piece.get())) pressure.surface = *cylinder;
-  if (const auto* sphere = dynamic_cast<const input::Sphere*>(piece.get())) pressure.surface = *sphere;
-  if (const auto* box = dynamic_cast<const input::Box*>(piece.get())) pressure.surface = *box;
-  if (!pressure.surface)
-    diagnostics.error(shapes[0], fmt::format("a pressure acts on a box, cylinder or sphere, not on a <{}>", shapes[0].name()));
+  if (const auto* cylinder = dynamic_cast<const input::Cylinder*>(piece.get())) load.surface = *cylinder;
+  if (const auto* sphere = dynamic_cast<const input::Sphere*>(piece.get())) load.surface = *sphere;
+  if (const auto* box = dynamic_cast<const input::Box*>(piece.get())) load.surface = *box;
+  if (!load.surface)
+    diagnostics.error(shapes[0], fmt::format("a load acts on a box, cylinder or sphere, not on a <{}>", shapes[0].name()));
 }
 
 const Schema<CurveSection>& curveSchema() {
@@ -76,20 +78,38 @@ const Schema<CurveSection>& curveSchema() {
   return schema;
 }
 
+Schema<SurfaceSection> surfaceSchema(const std::string& name, const std::string& sentence) {
+  return Schema<SurfaceSection>(name, sentence)
+      .custom("geom_object", readSurface, {"geom_object"},
+              "a thin box, a cylinder or a sphere: particles along it and at the surface of their body are loaded")
+      .requiredSection("load_curve", &SurfaceSection::curve, curveSchema())
+      .ignored("outward_normal", "the sign of the load says where to")
+      .ignored("res", "particles are counted");
+}
+
 const Schema<PhysicalBC>& loadsSchema() {
-  static const Schema<PressureSection> pressure =
-      Schema<PressureSection>("pressure", "Force per area, shared evenly among the particles at a surface of a body.")
-          .custom("geom_object", readSurface, {"geom_object"},
-                  "a thin box, a cylinder or a sphere: particles along it and at the surface of their body are loaded")
-          .requiredSection("load_curve", &PressureSection::curve, curveSchema())
-          .ignored("outward_normal", "the sign of the load says where to")
-          .ignored("res", "particles are counted");
-  static const Schema<LoadsSection> mpm =
-      Schema<LoadsSection>("MPM", "Loads on particles.")
-          .list("pressure", &LoadsSection::pressures, pressure, "force per area on a surface")
-          .check([](const LoadsSection& loads, const Element& element, Diagnostics& diagnostics) {
-            if (loads.pressures.size() > 127) diagnostics.error(element, "there can be 127 pressures");
-          });
+  static const Schema<SurfaceSection> pressure =
+      surfaceSchema("pressure", "Force per area, shared evenly among the particles at a surface of a body.");
+  static const Schema<SurfaceSection> heatFlux =
+      surfaceSchema("heat_flux", "Heat per area and time, shared evenly among the particles at a surface of a body.");
+  static const Schema<BodyLoad> force =
+      Schema<BodyLoad>("force", "A force on the particles that start in a box, or a particle's spacing beyond it.")
+          .required("lower", &BodyLoad::lower, "m", "lower corner of the box")
+          .required("upper", &BodyLoad::upper, "m", "upper corner of the box")
+          .required("force_density", &BodyLoad::forceDensity, "N/kg", "force per mass");
+  static const Schema<LoadsSection> mpm = [] {
+    Schema<LoadsSection> loads("MPM", "Loads on particles.");
+    loads.list("pressure", &LoadsSection::pressures, pressure, "force per area on a surface")
+        .list("heat_flux", &LoadsSection::heatFluxes, heatFlux, "heat per area and time through a surface, inwards")
+        .list("force", &LoadsSection::forces, force, "force per mass, at all times")
+        .check([](const LoadsSection& read, const Element& element, Diagnostics& diagnostics) {
+          if (read.pressures.size() + read.heatFluxes.size() + read.forces.size() > 127)
+            diagnostics.error(element, "there can be 127 loads");
+        });
+    for (const char* tag : {"torque", "pressure_pts"}) refuseTag(loads, tag, "there are pressure, force and heat_flux");
+    for (const char* tag : {"arches_heat_flux", "scalar_flux"}) refuseTag(loads, tag, "there is heat_flux");
+    return loads;
+  }();
   static const Schema<PhysicalBC> schema =
       Schema<PhysicalBC>("PhysicalBC", "Loads.").requiredSection("MPM", &PhysicalBC::mpm, mpm);
   return schema;
@@ -97,18 +117,22 @@ const Schema<PhysicalBC>& loadsSchema() {
 
 }  // namespace
 
-std::vector<PressureLoad> readLoads(const Element& root, Diagnostics& diagnostics) {
-  std::vector<PressureLoad> loads;
+Loads readLoads(const Element& root, bool usesCurves, Diagnostics& diagnostics) {
+  Loads loads;
   const auto section = root.child("PhysicalBC");
   if (!section) return loads;
-  for (const PressureSection& read : loadsSchema().read(*section, diagnostics).mpm.pressures) {
-    if (!read.surface) continue;
-    PressureLoad load;
-    load.surface = *read.surface;
-    for (const TimePoint& point : read.curve.points) load.curve.points.emplace_back(point.time, point.load);
-    load.material = read.curve.material.value_or(-1);
-    loads.push_back(load);
-  }
+  const LoadsSection read = loadsSchema().read(*section, diagnostics).mpm;
+  loads.bodies = read.forces;
+  const auto add = [&](const std::vector<SurfaceSection>& sections, SurfaceLoad::Kind kind) {
+    for (const SurfaceSection& one : sections) {
+      if (!one.surface || !usesCurves) continue;
+      SurfaceLoad load{kind, *one.surface, {}, one.curve.material.value_or(-1)};
+      for (const TimePoint& point : one.curve.points) load.curve.points.emplace_back(point.time, point.load);
+      loads.surfaces.push_back(load);
+    }
+  };
+  add(read.pressures, SurfaceLoad::Kind::pressure);
+  add(read.heatFluxes, SurfaceLoad::Kind::heatFlux);
   return loads;
 }
 

@@ -4,8 +4,8 @@
 
 namespace tushar::mpm::solid {
 
-/// The loads of the `PhysicalBC` section, if the scene has one.
-std::vector<PressureLoad> readLoads(const input::Element& root, input::Diagnostics& diagnostics);
+/// The loads of the `PhysicalBC` section, if the scene has one; those with a load curve only where `usesCurves`.
+Loads readLoads(const input::Element& root, bool usesCurves, input::Diagnostics& diagnostics);
 
 /// The manual.
 void describeLoads(std::ostream& out);

@@ -7,6 +7,7 @@
 #include "components/mpm/solid/constitutive_model.hpp"
 #include "components/mpm/solid/kernels/cube_root.hpp"
 #include "components/mpm/solid/kernels/tangent.hpp"
+#include "components/mpm/solid/kernels/tensor.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -32,13 +33,14 @@ struct CompNeoHook {
   State initialState() const { return {}; }
 
   /// J sigma = K/2 (J² - 1) I + G dev(J^(-2/3) F Fᵀ)
-  Matrix3 kirchhoffStress(const Matrix3& f) const {
-    const double j = f.determinant();
-    Matrix3 b = f * f.transpose();
-    const double pressure = bulkModulus / 2 * (j * j - 1), third = b.trace() / 3;
-    b.diagonal().array() -= third;
-    b *= shearModulus * inverseCubeRootSquared(j);
-    b.diagonal().array() += pressure;
+  template <class Real>
+  TensorOf<Real> kirchhoffStress(const TensorOf<Real>& f) const {
+    const Real j = solid::determinant(f);
+    const Real pressure = bulkModulus / 2 * (j * j - 1), scale = shearModulus * inverseCubeRootSquared(j);
+    TensorOf<Real> b = leftCauchyGreen(f);
+    const Real third = (b(0, 0) + b(1, 1) + b(2, 2)) / 3.0;
+    for (int i = 0; i < 3; ++i)
+      for (int k = 0; k < 3; ++k) b(i, k) = i == k ? scale * (b(i, i) - third) + pressure : scale * b(i, k);
     return b;
   }
   Matrix3 updateStress(const Deformation& d, const Matrix3&, State&) const {
@@ -56,11 +58,13 @@ struct CompNeoHook {
       return change;
     });
   }
-  double waveSpeed(double initialDensity, const Deformation& d) const {
-    return std::sqrt((bulkModulus + 4.0 / 3.0 * shearModulus) * d.deformationGradient.determinant() / initialDensity);
+  template <class Real>
+  Real waveSpeed(double initialDensity, const TensorOf<Real>& f) const {
+    using std::sqrt;
+    return sqrt((bulkModulus + 4.0 / 3.0 * shearModulus) / initialDensity * solid::determinant(f));
   }
   double waveSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
-    return waveSpeed(initialDensity, d);
+    return waveSpeed(initialDensity, d.deformationGradient);
   }
   double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
     return std::sqrt(bulkModulus * d.deformationGradient.determinant() / initialDensity);

@@ -108,6 +108,7 @@ struct ElasticPlastic {
         .ignored("coeff_thermal_expansion", "only Uintah's implicit method reads it")
         .ignored("critical_stress", "Uintah does not read it either")
         .ignored("useModifiedEOS", "only Uintah's coupled fluid reads it")
+        .ignored("evolve_damage", "a <damage_model> does it where there is one")
         .ignored("do_melting", "above <melt_temp> there is no shear stress, as in Uintah");
     for (const char* tag : {"evolve_porosity", "initial_mean_porosity", "initial_std_porosity", "critical_porosity",
                             "frac_nucleation", "meanstrain_nucleation", "stddevstrain_nucleation",

@@ -44,6 +44,10 @@ struct MohrCoulomb {
       for (const char* tag : {"Usetransition", "Usemodul", "Use_softening", "Use_linear", "Use_regular", "UseWaterRetention",
                               "UseRemould", "Use_friction", "Use_pressure_dependence", "Usetransition1", "Use_dilation"})
         refuseSwitch(tags, tag, "strength and stiffness are those of <c>, <Phi>, <G> and <K> throughout");
+      for (const char* tag : {"A1", "B1", "W", "beta_rate", "strain_ref", "m_modul", "nuy", "St", "strain_95", "a", "y_ref",
+                              "y", "n", "tFE", "tShear", "n_nonlocalMC", "l_nonlocal", "PhiB", "suction", "SpecVol",
+                              "WR_Param1", "WR_Param2", "WR_Param3", "WR_Param4"})
+        tags.ignored(tag, "belongs to what only stands at false");
       return tags;
     }();
     return schema;

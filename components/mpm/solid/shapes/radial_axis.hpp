@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "components/mpm/solid/shapes/axis_shapes.hpp"
 
 namespace tushar::mpm::solid {
@@ -14,9 +16,9 @@ template <>
 struct RadialAxis<LinearAxis> {
   static int fill(double r, double lowerNode, double, std::array<double, 2>& s, std::array<double, 2>& ds,
                   std::array<double, 2>& hoop) {
-    const int first = LinearAxis::fill(r - lowerNode, 1, s, ds);
+    LinearAxis::fill(r - lowerNode, 1.0, s, ds);
     for (std::size_t k = 0; k < 2; ++k) hoop[k] = s[k] / r;
-    return first;
+    return 0;
   }
 };
 

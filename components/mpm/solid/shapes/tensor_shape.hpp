@@ -2,6 +2,7 @@
 
 #include "components/mpm/shapes/linear.hpp"
 #include "components/mpm/solid/constitutive_model.hpp"
+#include "components/mpm/solid/kernels/octet.hpp"
 #include "components/mpm/solid/shapes/radial_axis.hpp"
 
 namespace tushar::mpm::solid {
@@ -36,25 +37,19 @@ struct TensorShape {
     static constexpr bool axisymmetric = Axisymmetric;
 
     Index<D> first;
-    std::array<std::array<double, Axis::nodes>, D> s, ds;  ///< values and slopes along each axis
+    std::array<Quad, Axis::nodes> s, ds;  ///< for each node along an axis, value and slope of every axis
     std::array<double, Axis::nodes> hoop;
 
     Stencil(const Level& level, const Index<D>& cell, const Vec<D>& x, const Extent<D>& extent)
         : Stencil(CellFrame<D>(level, cell), cell, x, extent) {}
-    Stencil(const CellFrame<D>& frame, const Index<D>& cell, const Vec<D>& x, const Extent<D>& extent) {
-      const Vec<D> xi = frame.coordinates(x);
-      for (int d = Axisymmetric ? 1 : 0; d < D; ++d) {
-        const auto k = static_cast<std::size_t>(d);
-        first[d] = cell[d] + Axis::fill(xi[d], extent.size[d], s[k], ds[k]);
-        for (double& slope : ds[k]) slope *= frame.inverseSpacing[d];
-      }
-      if constexpr (Axisymmetric) {
-        const double inverse = frame.inverseSpacing[0];
-        first[0] = cell[0] + RadialAxis<Axis>::fill(x[0] * inverse, frame.origin[0] * inverse, extent.size[0], s[0], ds[0],
-                                                       hoop);
-        for (double& h : hoop) h *= inverse;
-        for (double& slope : ds[0]) slope *= inverse;
-      }
+    [[gnu::always_inline]] Stencil(const CellFrame<D>& frame, const Index<D>& cell, const Vec<D>& x,
+                                   const Extent<D>& extent) {
+      const Quad inverse = quadOf<D>(frame.inverseSpacing), xi = quadOf<D>(frame.coordinates(x));
+      const Quad node = Axis::fill(xi, quadOf<D>(extent.size), s, ds);
+      for (Quad& slope : ds) slope *= inverse;
+      const auto whole = __builtin_convertvector(node, QuadOfIntegers);
+      for (int d = 0; d < D; ++d) first[d] = cell[d] + whole[d];
+      if constexpr (Axisymmetric) fillRadially(frame, cell, x, extent);
     }
 
     /// Calls `visit(node, S, gradient)` in the same order of nodes for every particle.
@@ -66,12 +61,26 @@ struct TensorShape {
         double value = 1;
         Vec<D> gradient = Vec<D>::Ones();
         for (int d = 0; d < D; ++d) {
-          const auto axis = static_cast<std::size_t>(d), node = static_cast<std::size_t>(k[d]);
-          value *= s[axis][node];
-          for (int e = 0; e < D; ++e) gradient[e] *= (e == d ? ds : s)[axis][node];
+          const auto node = static_cast<std::size_t>(k[d]);
+          value *= s[node][d];
+          for (int e = 0; e < D; ++e) gradient[e] *= (e == d ? ds : s)[node][d];
         }
         visit(first + k, value, gradient);
       });
+    }
+
+   private:
+    /// Along the first axis, where that is the radius.
+    void fillRadially(const CellFrame<D>& frame, const Index<D>& cell, const Vec<D>& x, const Extent<D>& extent) {
+      const double inverse = frame.inverseSpacing[0];
+      std::array<double, Axis::nodes> value, slope;
+      first[0] = cell[0] + RadialAxis<Axis>::fill(x[0] * inverse, frame.origin[0] * inverse, extent.size[0], value, slope,
+                                                     hoop);
+      for (std::size_t k = 0; k < Axis::nodes; ++k) {
+        s[k][0] = value[k];
+        ds[k][0] = slope[k] * inverse;
+        hoop[k] *= inverse;
+      }
     }
   };
 };

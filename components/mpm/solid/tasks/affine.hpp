@@ -11,20 +11,19 @@ namespace tushar::mpm::solid {
 // velocities that are linear in space go to the grid and back as they are, and angular momentum is kept; Jiang, Schroeder,
 // Selle, Teran & Stomakhin, ACM Trans. Graph. 34 (2015) 51. Velocities are those of PIC.
 
-/// S_i D^(-1) (x_i - x_p) along an axis, 1/m, with D = sum_i S_i (x_i - x_p)^2; where D vanishes, dS_i/dx, its limit for
-/// the tent function.
+/// S_i D^(-1) (x_i - x_p) along an axis, 1/m, with D = sum_i S_i (x_i - x_p)^2; where D vanishes, the factors stay
+/// dS_i/dx, its limit for the tent function.
 template <std::size_t N>
-std::array<double, N> affineFactors(const std::array<double, N>& s, const std::array<double, N>& ds, double firstNode,
-                                    double spacing, double x) {
-  std::array<double, N> factors = ds, away;
+void setAffineFactors(const std::array<Quad, N>& s, int axis, double firstNode, double spacing, double x,
+                      std::array<Quad, N>& factors) {
+  std::array<double, N> away;
   double spread = 0;
   for (std::size_t k = 0; k < N; ++k) {
     away[k] = firstNode + static_cast<double>(k) * spacing - x;
-    spread += s[k] * away[k] * away[k];
+    spread += s[k][axis] * away[k] * away[k];
   }
   if (spread > 1e-12 * spacing * spacing)
-    for (std::size_t k = 0; k < N; ++k) factors[k] = s[k] * away[k] / spread;
-  return factors;
+    for (std::size_t k = 0; k < N; ++k) factors[k][axis] = s[k][axis] * away[k] / spread;
 }
 
 /// v_i += sum_p S_i m_p B_p D_p^(-1) (x_i - x_p) / m_i
@@ -35,11 +34,8 @@ void addAffineVelocity(const Patch& patch, const Material& material, const Metho
   const Level& level = patch.level();
   const Extents<Shape> extents(level, method.commonSize, size, {});
   forEachStencil<Shape>(patch, x.cells(), x, extents, [&](int p, auto stencil) {
-    for (int d = 0; d < D; ++d) {
-      const auto k = static_cast<std::size_t>(d);
-      stencil.ds[k] = affineFactors(stencil.s[k], stencil.ds[k], level.nodePosition(d, stencil.first[d]),
-                                    level.spacing(d), x[p][d]);
-    }
+    for (int d = 0; d < D; ++d)
+      setAffineFactors(stencil.s, d, level.nodePosition(d, stencil.first[d]), level.spacing(d), x[p][d], stencil.ds);
     stencil.forEachNode([&](const Index<D>& node, double, const Vec<D>& factors) {
       if (!record.box().contains(node)) return;
       Octet& at = record[node];

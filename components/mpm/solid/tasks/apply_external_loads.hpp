@@ -6,16 +6,47 @@
 
 namespace tushar::mpm::solid {
 
-/// The force of pressures on each particle at the start of the step.
+/// Calls `onSurface(load)` or `onBody(load)` for each load of a particle, whose numbers are packed as p.loadCurveID says.
+template <class OnSurface, class OnBody>
+void forEachLoad(const Loads& loads, int packed, OnSurface&& onSurface, OnBody&& onBody) {
+  for (int ids = packed; ids > 0; ids /= 256) {
+    const auto k = static_cast<std::size_t>(ids % 256 - 1);
+    if (k < loads.surfaces.size())
+      onSurface(loads.surfaces[k]);
+    else
+      onBody(loads.bodies[k - loads.surfaces.size()]);
+  }
+}
+
+/// The force of loads on each particle at the start of the step.
 template <int D>
-void applyExternalLoads(const Patch& patch, const Material&, const std::vector<PressureLoad>& loads, double time,
-                        ParticleView<const Vec<D>> x, ParticleView<const int> loadCurves,
+void applyExternalLoads(const Patch& patch, const Material&, const Loads& loads, double time,
+                        ParticleView<const Vec<D>> x, ParticleView<const double> mass, ParticleView<const int> loadCurves,
                         ParticleView<Vec<D>> externalForce) {
+  const Level& level = patch.level();
   for (int p = 0; p < x.owned(); ++p) {
     externalForce[p] = Vec<D>::Zero();
-    const Vec3 point = patch.level().expandPoint<D>(x[p]);
-    for (int ids = loadCurves[p]; ids > 0; ids /= 256)
-      externalForce[p] += patch.level().reduce<D>(loads[static_cast<std::size_t>(ids % 256 - 1)].force(point, time));
+    forEachLoad(
+        loads, loadCurves[p],
+        [&](const SurfaceLoad& load) {
+          if (load.kind == SurfaceLoad::Kind::pressure)
+            externalForce[p] += level.reduce<D>(load.force(level.expandPoint<D>(x[p]), time));
+        },
+        [&](const BodyLoad& load) { externalForce[p] += mass[p] * level.reduce<D>(load.forceDensity); });
+  }
+}
+
+/// The heat that loads bring to each particle at the start of the step, W.
+inline void applyHeatFlux(const Patch&, const Material&, const Loads& loads, double time, ParticleView<const int> loadCurves,
+                          ParticleView<double> heatFlux) {
+  for (int p = 0; p < loadCurves.owned(); ++p) {
+    heatFlux[p] = 0;
+    forEachLoad(
+        loads, loadCurves[p],
+        [&](const SurfaceLoad& load) {
+          if (load.kind == SurfaceLoad::Kind::heatFlux) heatFlux[p] += load.share(time);
+        },
+        [](const BodyLoad&) {});
   }
 }
 

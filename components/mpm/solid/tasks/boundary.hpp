@@ -26,16 +26,19 @@ void setSymmetry(const Patch& patch, int material, NodeView<Octet> record) {
     }
 }
 
-/// The velocity is given on a face, and on the nodes beyond it.
+/// The velocity is given on a face, and on the nodes beyond it, as far as particles touch them.
 template <int D>
-void setVelocity(const Patch& patch, int material, NodeView<Octet> record) {
+void setVelocity(const Patch& patch, int material, const TouchedRows<D>& rows, NodeView<Octet> record) {
   for (int d = 0; d < D; ++d)
     for (const int side : {0, 1}) {
       const grid::BoundaryCondition* condition = patch.level().boundary(d, side, "Velocity", material);
       if (!condition || condition->kind != "Dirichlet" || !patch.isAtBoundary(d, side)) continue;
       const Vec<D> value = patch.level().reduce<D>(condition->value);
       for (const Box& nodes : {patch.faceNodes(d, side), patch.nodesBeyond(d, side)})
-        forEach<D>(nodes, [&](const Index<D>& node) { setLanes<D>(record[node], lane::velocity, value); });
+        rows.forEachRow(nodes, [&](const Index3& first, int end) {
+          Octet* node = record.values() + record.stored().offset(first);
+          for (int k = first[0]; k < end; ++k, ++node) setLanes<D>(*node, lane::velocity, value);
+        });
     }
 }
 

@@ -13,7 +13,7 @@ namespace tushar::mpm::solid {
 /// What the particles of a scene start with besides their bodies.
 struct Start {
   bool axisymmetric = false;
-  std::vector<PressureLoad> loads;
+  Loads loads;
   std::shared_ptr<const Manufactured> solution;  ///< null: there is none
   bool domainsDeform = false;                    ///< by F, so that p.size stays as it was before any deformation
 };
@@ -21,14 +21,16 @@ struct Start {
 /// The numbers of the loads on a particle, 1 for the first, packed as p.loadCurveID says.
 inline int loadsOn(const Start& start, const Material& material, const Body& body, const Vec3& point,
                    const Vec3& spacing) {
-  int ids = 0, factor = 1;
-  for (std::size_t k = 0; k < start.loads.size() && factor <= 65536; ++k) {
-    const PressureLoad& load = start.loads[k];
-    if (load.material >= 0 && load.material != material.index) continue;
-    if (!load.acts(body, point, spacing)) continue;
-    ids += factor * static_cast<int>(k + 1);
+  int ids = 0, factor = 1, number = 0;
+  const auto addIf = [&](bool acts) {
+    ++number;
+    if (!acts || factor > 65536) return;
+    ids += factor * number;
     factor *= 256;
-  }
+  };
+  for (const SurfaceLoad& load : start.loads.surfaces)
+    addIf((load.material < 0 || load.material == material.index) && load.acts(body, point, spacing));
+  for (const BodyLoad& load : start.loads.bodies) addIf(load.acts(point, spacing));
   return ids;
 }
 
@@ -72,7 +74,8 @@ struct NewParticles {
     velocity.back() = level.reduce<D>(solution.velocity(elastic, point, 0));
     deformation.back() = f;
     if (start.domainsDeform) return;
-    for (int d = 0; d < D; ++d) size.back()[d] *= f(level.axis(d), level.axis(d));
+    for (int d = 0; d < D; ++d)  // gimp's are no wider than a cell
+      size.back()[d] = std::min(size.back()[d] * f(level.axis(d), level.axis(d)), 1.0);
   }
 };
 

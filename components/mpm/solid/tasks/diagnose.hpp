@@ -13,6 +13,13 @@ inline void sumParticles(const Patch&, const Material&, ParticleView<const doubl
   for (int p = 0; p < values.owned(); ++p) sum.add(values[p]);
 }
 
+/// sum_p m_p c_v T_p
+inline void sumThermalEnergy(const Patch&, const Material& material, ParticleView<const double> mass,
+                             ParticleView<const double> temperature, Sum& total) {
+  WideSum sum(total);
+  for (int p = 0; p < mass.owned(); ++p) sum.add(mass[p] * material.specificHeat * temperature[p]);
+}
+
 /// Mass of all particles times their velocity, or their position.
 template <int D>
 void sumMomentum(const Patch& patch, const Material&, ParticleView<const double> mass,

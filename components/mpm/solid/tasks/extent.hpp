@@ -62,9 +62,9 @@ class Extents {
 template <class Shape, class Visit, int D = Shape::dimension>
 void forEachStencil(const Patch& patch, const Box& cells, ParticleView<const Vec<D>> x, const Extents<Shape>& extents,
                     Visit&& visit) {
-  forEach<D>(cells, [&](const Index<D>& cell) {
+  x.template forEachOccupied<D>(cells, [&](const Index<D>& cell, const data::ParticleRange& range) {
     const CellFrame<D> frame(patch.level(), cell);
-    for (const int p : x.in(cell)) visit(p, typename Shape::Stencil(frame, cell, x[p], extents[p]));
+    for (const int p : range) visit(p, typename Shape::Stencil(frame, cell, x[p], extents[p]));
   });
 }
 

@@ -61,15 +61,16 @@ void interpolateTemperatureToGrid(const Patch& patch, const Material& material, 
   setTemperature<D>(patch, material.index, temperature);
 }
 
-/// Q_i = - sum_p V_p k grad S_i . grad T_p
+/// Q_i = sum_p S_i H_p - V_p k grad S_i . grad T_p with the heat H_p of loads, if there are any
 template <class Shape, int D = Shape::dimension>
 void computeInternalHeatRate(const Patch& patch, const Material& material, const Vec3& commonSize,
                              ParticleView<const Vec<D>> x, OptionalView<const Vec<D>> size,
                              ParticleView<const Matrix3> deformation, ParticleView<const double> mass,
-                             NodeView<const double> temperature, NodeView<double> heatRate) {
+                             OptionalView<const double> heatFlux, NodeView<const double> temperature,
+                             NodeView<double> heatRate) {
   heatRate.fill(0.0);
   const Box& box = heatRate.box();
-  if (material.thermalConductivity == 0) return;
+  if (material.thermalConductivity == 0 && !heatFlux) return;
   const Places<Shape> places{patch, x, Extents<Shape>(patch.level(), commonSize, size, deformation)};
   places.forEachStencil(x.cells(), [&](int p, const auto& stencil) {
     Vec<D> slope = Vec<D>::Zero();
@@ -77,8 +78,8 @@ void computeInternalHeatRate(const Patch& patch, const Material& material, const
         [&](const Index<D>& node, double, const Vec<D>& gradient) { slope += temperature[node] * gradient; });
     const double volume = mass[p] / material.density * deformation[p].determinant();
     slope *= -material.thermalConductivity * volume;
-    stencil.forEachNode([&](const Index<D>& node, double, const Vec<D>& gradient) {
-      if (box.contains(node)) heatRate[node] += gradient.dot(slope);
+    stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>& gradient) {
+      if (box.contains(node)) heatRate[node] += gradient.dot(slope) + (heatFlux ? s * (*heatFlux)[p] : 0.0);
     });
   });
 }
@@ -100,15 +101,16 @@ void computeHeatExchange(const Patch&, const std::vector<Material>&,
   });
 }
 
-/// T*_i = T_i + (Q_i / C_i + contact) dt on the sides of the grid as given there, and the rate that comes of it.
+/// T*_i = T_i + (Q_i / C_i + contact) dt + H_i / C_i with the heat H_i of rubbing, on the sides of the grid as given there, and the rate that comes of it.
 template <int D>
 void integrateTemperatureRate(const Patch& patch, const Material& material, NodeView<const double> capacity,
                               NodeView<const double> temperatureNoBC, NodeView<const double> temperature,
                               NodeView<const double> heatRate, std::optional<NodeView<const double>> contactRate,
-                              double dt, NodeView<double> rate) {
+                              std::optional<NodeView<const double>> frictionHeat, double dt, NodeView<double> rate) {
   forEach<D>(capacity.box(), [&](const Index<D>& node) {
     double change = capacity[node] > 0 ? heatRate[node] / capacity[node] : 0.0;
     if (contactRate) change += (*contactRate)[node];
+    if (frictionHeat && capacity[node] > 0) change += (*frictionHeat)[node] / (capacity[node] * dt);
     rate[node] = temperature[node] + change * dt;
   });
   setTemperature<D>(patch, material.index, rate);

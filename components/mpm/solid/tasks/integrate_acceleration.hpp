@@ -26,10 +26,11 @@ void computeAndIntegrateAcceleration(const Patch& patch, const Material&, const 
   });
 }
 
-/// v*_i on the sides of the grid.
-template <int D>
-void setGridBoundaryConditions(const Patch& patch, const Material& material, NodeView<Octet> record) {
-  setVelocity<D>(patch, material.index, record);
+/// v*_i on the sides of the grid, where particles touch them.
+template <class Shape, int D = Shape::dimension>
+void setGridBoundaryConditions(const Patch& patch, const Material& material, ParticleView<const Vec<D>> x,
+                               NodeView<Octet> record) {
+  setVelocity<D>(patch, material.index, TouchedRows<D>(x, x.cells(), Shape::ghostNodes, record.stored()), record);
   setSymmetry<D>(patch, material.index, record);
 }
 

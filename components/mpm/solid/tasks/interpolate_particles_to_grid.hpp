@@ -35,7 +35,8 @@ void forceMoments(const Material& material, const Sources<Shape>& from, int firs
     for (int k = 0; k < count; ++k) moments[k] = from.volume[first + k] * from.stress[first + k];
   else {
     material.model->kirchhoffStress(from.deformation + first, count, moments);
-    for (int k = 0; k < count; ++k) moments[k] *= from.mass[first + k] / material.density;
+    const double inverseDensity = 1 / material.density;
+    for (int k = 0; k < count; ++k) moments[k] *= from.mass[first + k] * inverseDensity;
   }
   if (!from.viscosity) return;
   for (int k = 0; k < count; ++k) {
@@ -83,8 +84,7 @@ void scatterParticles(const Patch& patch, const Material& material, bool clearsA
     rows.forEachRow([&](const Index3& first, int end) {
       std::fill_n(record.values() + record.stored().offset(first), end - first[0], Octet{});
     });
-  forEach<D>(x.cells(), [&](const Index<D>& cell) {
-    const data::ParticleRange range = x.in(cell);
+  x.template forEachOccupied<D>(x.cells(), [&](const Index<D>& cell, const data::ParticleRange& range) {
     for (int at = range.first; at < range.last; at += stressGroup)
       scatterCell<Shape>(patch.level(), material, from, cell, at, std::min(stressGroup, range.last - at), record);
   });

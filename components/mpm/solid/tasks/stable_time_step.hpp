@@ -1,31 +1,47 @@
 #pragma once
 
+#include <Eigen/LU>
+
 #include "components/mpm/solid/labels.hpp"
 #include "components/mpm/solid/material.hpp"
 
 namespace tushar::mpm::solid {
 
-/// Time in which a wave of speed c in a material that moves with v crosses a cell, s; the least over x, y, z.
+/// How many cells a wave crosses in a second: the most of all that it is told of.
 template <int D>
-double crossingTime(const Level& level, double c, const Vec<D>& v) {
-  double time = std::numeric_limits<double>::infinity();
-  for (int axis = 0; axis < 3; ++axis)
-    if (const double h = level.cellWidth(axis); h > 0) time = std::min(time, h / c);
-  for (int d = 0; d < D; ++d) time = std::min(time, level.spacing(d) / (c + std::abs(v[d])));
-  return time;
-}
+class CrossingRate {
+ public:
+  explicit CrossingRate(const Level& level) {
+    for (int axis = 0; axis < 3; ++axis)
+      if (const double h = level.cellWidth(axis); h > 0) inverse_width_ = std::max(inverse_width_, 1 / h);
+    for (int d = 0; d < D; ++d) inverse_spacing_[d] = level.inverseSpacing(d);
+  }
 
-/// Of the state at the start, whose particles are not deformed.
+  /// Waves of speed c, m/s, in a material that moves with v.
+  void add(double c, const Vec<D>& v) {
+    rate_ = std::max(rate_, c * inverse_width_);
+    for (int d = 0; d < D; ++d) rate_ = std::max(rate_, (c + std::abs(v[d])) * inverse_spacing_[d]);
+  }
+  /// Time in which the fastest crosses a cell, s; infinite where there are none.
+  double time() const { return 1 / rate_; }
+
+ private:
+  double inverse_width_ = 0, rate_ = 0;
+  Vec<D> inverse_spacing_;
+};
+
+/// Of the state at the start, with the speed of a wave where the density is that of F.
 template <int D>
 void computeInitialTimeStep(const Patch& patch, const Material& material, ParticleView<const Vec<D>> velocity,
-                            ParticleView<const double> temperature, CellView<double> stableTimeStep) {
+                            ParticleView<const double> temperature, ParticleView<const Matrix3> deformation,
+                            CellView<double> stableTimeStep) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    double least = std::numeric_limits<double>::infinity();
+    CrossingRate<D> rate(patch.level());
     for (const int p : velocity.in(cell)) {
-      const double waveSpeed = material.model->initialWaveSpeed(material.density, temperature[p]);
-      least = std::min(least, crossingTime<D>(patch.level(), waveSpeed, velocity[p]));
+      const double density = material.density / deformation[p].determinant();
+      rate.add(material.model->initialWaveSpeed(density, temperature[p]), velocity[p]);
     }
-    stableTimeStep[cell] = least;
+    stableTimeStep[cell] = rate.time();
   });
 }
 

@@ -11,15 +11,23 @@
 
 namespace tushar::mpm::solid {
 
-/// F at the end of a step: (I + L dt/n)^n F in n steps, more than one where |L| dt is large.
-inline Matrix3 deformed(const Matrix3& f, const Matrix3& velocityGradient, double dt, int leastSubcycles) {
-  const double square = velocityGradient.squaredNorm() * dt * dt;
-  int n = leastSubcycles;
-  if (square >= 1) n = std::min(std::max(n, 2 * static_cast<int>(std::sqrt(std::min(square, 1e8)))), 10000);
-  const Matrix3 step = Matrix3::Identity() + velocityGradient * (dt / n);
-  Matrix3 result = step * f;
-  for (int k = 1; k < n; ++k) result = step * result;
-  return result;
+/// In how many steps F is brought to the end of a time step: more than `least` where |L| dt is large.
+inline int subcyclesForF(double squaredNorm, int least) {
+  if (squaredNorm < 1) return least;
+  return std::min(std::max(least, 2 * static_cast<int>(std::sqrt(std::min(squaredNorm, 1e8)))), 10000);
+}
+
+/// F at the end of a step: (I + L dt/n)^n F in n steps.
+inline void deform(const Matrix3& f, const Matrix3& velocityGradient, double dt, int n, Matrix3& result) {
+  Rows rows(f);
+  const double part = dt / n;
+  for (int k = 0; k < n; ++k) {
+    const Rows before = rows;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        rows.row[i] = multiplyAdd(part * velocityGradient(i, j), before.row[j], rows.row[i]);
+  }
+  rows.copyTo(result);
 }
 
 /// What particles are at the start of a step and at its end. Null where a scene has none.
@@ -43,7 +51,7 @@ struct ParticleStates {
 /// x_p += dt sum_i S_i v*_i,   v_p += sum_i S_i (v*_i - v_i): the FLIP of Brackbill & Ruppel, J. Comput. Phys. 65 (1986)
 /// 314.
 template <class Shape, int D = Shape::dimension>
-void moveParticle(const Method& method, double dt, const Gathered<D>& sums, const ParticleStates<Shape>& s, int p) {
+[[gnu::always_inline]] inline void moveParticle(const Method& method, double dt, const Gathered<D>& sums, const ParticleStates<Shape>& s, int p) {
   const Vec<D> after = lanes<D>(sums.value, lane::velocity), before = lanes<D>(sums.value, lane::before);
   s.newX[p] = s.x[p] + dt * after;
   s.newVelocity[p] = s.velocity[p] + (after - before);
@@ -56,15 +64,20 @@ void moveParticle(const Method& method, double dt, const Gathered<D>& sums, cons
 
 /// L_p = sum_i v*_i grad S_i (and L_theta = sum_i v*_r S_i / r where axisymmetric),   F_p = (I + L_p dt) F_p.
 template <class Shape, int D = Shape::dimension>
-void deformParticle(const Level& level, const Method& method, double dt, const Gathered<D>& sums,
+[[gnu::always_inline]] inline void deformParticle(const Level& level, const Method& method, double dt, const Gathered<D>& sums,
                     const Erosion& erosion, const ParticleStates<Shape>& s, int p, Matrix3& velocityGradient) {
-  velocityGradient.setZero();
+  if constexpr (D < 3) velocityGradient.setZero();
   if constexpr (Shape::axisymmetric) velocityGradient(2, 2) = sums.hoop[lane::velocity];
+  Quad squares = sums.hoop * sums.hoop;
+  for (const Quad& derivative : sums.gradient) squares = multiplyAdd(derivative, derivative, squares);
+  double square = squares[0];
+  for (int i = 1; i < D; ++i) square += squares[i];
   for (int i = 0; i < D; ++i)
     for (int j = 0; j < D; ++j)
       velocityGradient(sceneAxis<D>(level, i), sceneAxis<D>(level, j)) =
           sums.gradient[static_cast<std::size_t>(j)][lane::velocity + i];
-  s.deformation[p] = deformed(s.oldDeformation[p], velocityGradient, dt, method.minimumSubcyclesForF);
+  deform(s.oldDeformation[p], velocityGradient, dt, subcyclesForF(square * dt * dt, method.minimumSubcyclesForF),
+         s.deformation[p]);
   if (s.localized && s.localized[p]) erosion.restrain(s.oldDeformation[p], s.deformation[p], velocityGradient);
   if (s.volume) s.volume[p] = s.oldVolume[p] * (s.deformation[p].determinant() / s.oldDeformation[p].determinant());
   if (s.velocityGradient) s.velocityGradient[p] = velocityGradient;
@@ -78,11 +91,12 @@ void heatByViscosity(const Material& material, double growth, const ParticleStat
   if (s.state) material.model->addHeat(s.state + p * s.stateSize, heat);
 }
 
-/// Stress, artificial viscosity and strain energy of particles of a cell, where a scene keeps them. Returns the time in
-/// which the fastest wave of any of them crosses the cell, s.
+/// Stress, artificial viscosity and strain energy of particles of a cell, where a scene keeps them; tells `rate` of their
+/// waves.
 template <class Shape, int D = Shape::dimension>
-double updateStress(const Level& level, const Material& material, const Method& method, double dt,
-                    const ParticleStates<Shape>& s, const Matrix3* velocityGradient, int first, int count) {
+void updateStress(const Material& material, const Method& method, double dt,
+                  const ParticleStates<Shape>& s, const Matrix3* velocityGradient, int first, int count,
+                  CrossingRate<D>& rate) {
   std::array<double, stressGroup> waveSpeed, bulkSpeed, energyDensity;
   StressPoints points;
   points.count = count;
@@ -104,11 +118,11 @@ double updateStress(const Level& level, const Material& material, const Method& 
   points.strainEnergyDensity = s.strainEnergy ? energyDensity.data() : nullptr;
   material.model->updateStress(material.density, points);
   const ArtificialViscosity own = material.model->ownViscosity().value_or(method.viscosity.value_or(ArtificialViscosity{}));
-  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < count; ++k) rate.add(waveSpeed[static_cast<std::size_t>(k)], s.velocity[first + k]);
+  if (!s.viscosity && !s.strainEnergy) return;
   for (int k = 0; k < count; ++k) {
     const int p = first + k;
     const auto at = static_cast<std::size_t>(k);
-    least = std::min(least, crossingTime<D>(level, waveSpeed[at], s.velocity[p]));
     if (s.viscosity) {
       const double jump = std::max(-velocityGradient[k].trace(), 0.0) * method.meanWidth;
       const double density = material.density / s.deformation[p].determinant();
@@ -118,7 +132,6 @@ double updateStress(const Level& level, const Material& material, const Method& 
     const bool bears = !s.localized || !s.localized[p];
     if (s.strainEnergy) s.strainEnergy[p] = bears ? energyDensity[at] * s.mass[p] / material.density : 0.0;
   }
-  return least;
 }
 
 /// What updateParticles does.
@@ -134,11 +147,12 @@ void updateParticles(const Patch& patch, const Material& material, const Method&
                      NodeView<const Octet> record, const ParticleStates<Shape>& s,
                      const std::optional<CellView<double>>& stableTimeStep) {
   const Level& level = patch.level();
-  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    double least = std::numeric_limits<double>::infinity();
-    const data::ParticleRange range = s.x.in(cell);
+  const CrossingRate<D> none(level);
+  std::array<Matrix3, stressGroup> velocityGradient;
+  if constexpr (what != Update::motion) stableTimeStep->fill(none.time());
+  s.x.template forEachOccupied<D>(patch.cells(), [&](const Index<D>& cell, const data::ParticleRange& range) {
+    CrossingRate<D> rate = none;
     const CellFrame<D> frame(level, cell);
-    std::array<Matrix3, stressGroup> velocityGradient;
     for (int first = range.first; first < range.last; first += stressGroup) {
       const int count = std::min(stressGroup, range.last - first);
       for (int k = 0; k < count; ++k) {
@@ -151,9 +165,9 @@ void updateParticles(const Patch& patch, const Material& material, const Method&
                                 velocityGradient[static_cast<std::size_t>(k)]);
       }
       if constexpr (what != Update::motion)
-        least = std::min(least, updateStress<Shape>(level, material, method, dt, s, velocityGradient.data(), first, count));
+        updateStress<Shape>(material, method, dt, s, velocityGradient.data(), first, count, rate);
     }
-    if constexpr (what != Update::motion) (*stableTimeStep)[cell] = least;
+    if constexpr (what != Update::motion) (*stableTimeStep)[cell] = rate.time();
   });
 }
 

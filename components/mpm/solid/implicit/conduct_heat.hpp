@@ -1,0 +1,177 @@
+#pragma once
+
+#include "components/mpm/solid/implicit/rigid_body.hpp"
+
+namespace tushar::mpm::solid {
+
+/// Heat conduction of a step by backward Euler, for the temperature T' of all nodes:
+///
+///     (C_i + dt K_ij) T'_j = C_i T_i,  C_i = sum_p S_i m_p c_p,  K_ij = sum_p V_p k_p grad S_i . grad S_j,
+///
+/// where T_i is the mean of the particles over their heat capacities. Materials have one temperature at a node. A side of
+/// the grid keeps the temperature that the scene gives; no heat goes through any other.
+template <class Shape>
+class NodalHeat {
+ public:
+  static constexpr int D = Shape::dimension;
+
+  NodalHeat(const RankPatches& patches, const std::vector<Material>& materials, const mpi::Communicator& ranks,
+            const Vec3& commonSize, const SolidViews<D>& views)
+      : patches_(patches), materials_(materials), common_size_(commonSize), views_(views),
+        nodes_(patches.front()->level(), ranks) {
+    forEachPoint([&](const Point&, const auto& stencil) {
+      stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>& slope) {
+        if (s != 0 || slope.squaredNorm() > 0) nodes_.touch(nodes_.imageOf(node).node);
+      });
+    });
+    nodes_.number(patches, Shape::ghostNodes + 1);
+    gather();
+  }
+
+  solvers::Outcome solve(double dt, const solvers::LinearSettings& settings) {
+    solvers::Unknowns unknowns = nodes_.unknowns(1);
+    unknowns.entries = nodes_.neighbours(Shape::Stencil::nodes - 1);
+    after_ = before_;
+    std::vector<double> right(after_.size(), 0.0);
+    const auto assemble = [&](solvers::Matrix& matrix) { this->assemble(dt, matrix, right); };
+    const auto owned = static_cast<std::size_t>(nodes_.owned());
+    solvers::Outcome outcome = solvers::solver().solve(unknowns, {assemble, std::span(right).first(owned)}, settings,
+                                                       std::span(after_).first(owned));
+    std::fill(after_.begin() + nodes_.owned(), after_.end(), 0.0);
+    solvers::addUp(nodes_.unknowns(1), after_);
+    return outcome;
+  }
+  /// T' - T of a node, K; 0 where there is nothing.
+  double change(const Index<D>& node) const {
+    const int k = nodes_(nodes_.imageOf(node).node);
+    return k < 0 ? 0.0 : after_[static_cast<std::size_t>(k)] - before_[static_cast<std::size_t>(k)];
+  }
+  /// T' of a node, K.
+  double temperature(const Index<D>& node) const { return after_[static_cast<std::size_t>(nodes_(nodes_.imageOf(node).node))]; }
+  const NodeMap<D>& nodes() const { return nodes_; }
+
+ private:
+  static constexpr std::size_t touches_ = [] {
+    std::size_t count = 1;
+    for (int d = 0; d < D; ++d) count *= std::size_t(Shape::Stencil::nodes);
+    return count;
+  }();
+  struct Point {
+    const Material& material;
+    double mass, temperature, volume;  ///< kg, K, m^3
+  };
+
+  template <class Visit>
+  void forEachPoint(Visit&& visit) const {
+    for (std::size_t p = 0; p < patches_.size(); ++p)
+      for (std::size_t m = 0; m < materials_.size(); ++m) {
+        const Extents<Shape> extents(nodes_.level(), common_size_, views_.size[p][m], std::nullopt);
+        forEachStencil<Shape>(*patches_[p], patches_[p]->cells(), views_.x[p][m], extents, [&](int k, const auto& stencil) {
+          const double mass = views_.mass[p][m][k], volume = mass / materials_[m].density;
+          visit(Point{materials_[m], mass, views_.temperature[p][m][k], volume * views_.deformation[p][m][k].determinant()},
+                stencil);
+        });
+      }
+  }
+  void gather() {
+    std::vector<double> sums(static_cast<std::size_t>(2 * nodes_.size()), 0.0);
+    forEachPoint([&](const Point& point, const auto& stencil) {
+      stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>&) {
+        const int k = nodes_(nodes_.imageOf(node).node);
+        if (k < 0) return;
+        const double capacity = s * point.mass * point.material.specificHeat;
+        sums[static_cast<std::size_t>(2 * k)] += capacity;
+        sums[static_cast<std::size_t>(2 * k) + 1] += capacity * point.temperature;
+      });
+    });
+    solvers::addUp(nodes_.unknowns(2), sums);
+    for (std::size_t k = 0; k < sums.size(); k += 2) least_ = std::max(least_, sums[k]);
+    least_ = 1e-12 * nodes_.ranks().max(least_);
+    for (int k = 0; k < nodes_.size(); ++k) {
+      const double capacity = sums[static_cast<std::size_t>(2 * k)], heat = sums[static_cast<std::size_t>(2 * k) + 1];
+      capacity_.push_back(capacity);
+      before_.push_back(capacity > 0 ? heat / capacity : 0.0);
+      given_.push_back(givenAt(nodes_.node(k)));
+    }
+  }
+  /// What a side of the grid keeps at a node, K.
+  std::optional<double> givenAt(const Index<D>& node) const {
+    const Level& level = nodes_.level();
+    for (int d = 0; d < D; ++d)
+      for (const int side : {0, 1}) {
+        const int face = side == 0 ? 0 : level.cells().extent(d);
+        if (level.isPeriodic(d) || (side == 0 ? node[d] > face : node[d] < face)) continue;
+        const grid::BoundaryCondition* condition = level.boundary(d, side, "Temperature");
+        if (condition && condition->kind == "Dirichlet") return condition->value[0];
+      }
+    return std::nullopt;
+  }
+  void assemble(double dt, solvers::Matrix& matrix, std::vector<double>& right) const {
+    forEachPoint([&](const Point& point, const auto& stencil) {
+      std::array<int, touches_> numbers;
+      std::array<Vec<D>, touches_> slopes;
+      std::size_t n = 0;
+      stencil.forEachNode([&](const Index<D>& node, double, const Vec<D>& slope) {
+        const auto image = nodes_.imageOf(node);
+        numbers[n] = nodes_(image.node);
+        slopes[n++] = slope;
+      });
+      addPoint(dt * point.volume * point.material.thermalConductivity, numbers, slopes, matrix, right);
+    });
+    for (int k = 0; k < nodes_.owned(); ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      const double diagonal = std::max(capacity_[at], least_);
+      matrix.add({&k, 1}, {&k, 1}, {&diagonal, 1});
+      right[at] += diagonal * given_[at].value_or(before_[at]);
+    }
+    solvers::addUp(nodes_.unknowns(1), right);
+  }
+  /// Rows and columns of what is given are left out; what they do to others goes to the right-hand side.
+  void addPoint(double factor, const std::array<int, touches_>& numbers, const std::array<Vec<D>, touches_>& slopes,
+                solvers::Matrix& matrix, std::vector<double>& right) const {
+    std::array<double, touches_ * touches_> block{};
+    for (std::size_t i = 0; i < touches_; ++i)
+      for (std::size_t j = 0; j < touches_; ++j) {
+        if (numbers[i] < 0 || numbers[j] < 0 || given_[static_cast<std::size_t>(numbers[i])]) continue;
+        const double value = factor * slopes[i].dot(slopes[j]);
+        if (const auto& given = given_[static_cast<std::size_t>(numbers[j])])
+          right[static_cast<std::size_t>(numbers[i])] -= value * *given;
+        else
+          block[i * touches_ + j] = value;
+      }
+    matrix.add(numbers, numbers, block);
+  }
+
+  const RankPatches& patches_;
+  const std::vector<Material>& materials_;
+  Vec3 common_size_;
+  const SolidViews<D>& views_;
+  NodeMap<D> nodes_;
+  std::vector<double> capacity_, before_, after_;  ///< J/K, K, K
+  double least_ = 0;                               ///< J/K, of a node that particles touch by their slopes alone
+  std::vector<std::optional<double>> given_;       ///< K
+};
+
+/// The rate at which all nodes warm up in the step. Throws NumericalError if the solver gives up.
+template <class Shape, int D = Shape::dimension>
+void conductHeat(const RankPatches& patches, const std::vector<Material>& materials, const mpi::Communicator& ranks,
+                 const ImplicitSetup& setup, double dt, const ParticleViews<const Vec<D>>& x,
+                 const ParticleViews<const Vec<D>>& size, const ParticleViews<const double>& mass,
+                 const ParticleViews<const double>& temperature, const ParticleViews<const Matrix3>& deformation,
+                 const NodeViews<double>& rate) {
+  const SolidViews<D> views{x, size, x, x, x, mass, temperature, mass, deformation, deformation};
+  NodalHeat<Shape> heat(patches, materials, ranks, setup.problem->method.commonSize, views);
+  const solvers::Outcome outcome = heat.solve(dt, setup.how.heat);
+  if (!outcome.converged) {
+    std::optional<Vec3> worst;
+    if (outcome.worst >= 0) worst = patches.front()->level().template expandPoint<D>(heat.nodes().position(outcome.worst));
+    throw NumericalError(solvers::sentenceOf("the conduction of heat", outcome) +
+                             solvers::worstPlace(ranks, worst, "at the node"),
+                         "a smaller <delt_max>", "g.temperatureRate");
+  }
+  for (std::size_t p = 0; p < patches.size(); ++p)
+    for (std::size_t m = 0; m < materials.size(); ++m)
+      forEach<D>(patches[p]->nodes(), [&](const Index<D>& node) { rate[p][m][node] = heat.change(node) / dt; });
+}
+
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "components/mpm/solid/implicit/method.hpp"
+#include "core/core.hpp"
+
+namespace tushar::mpm::solid {
+
+/// The Material Point Method with implicit time steps, as Uintah's impm: Guilkey & Weiss, Int. J. Numer. Meth. Engng 57
+/// (2003) 1323. The displacement of the nodes in a step solves a non-linear system (see ImplicitSystem).
+template <class Shape>
+class ImplicitMpm : public Component {
+ public:
+  ImplicitMpm(Problem problem, ImplicitMethod how);
+
+  void scheduleInitialize(TaskList& tasks) const override;
+  void scheduleComputeStableTimeStep(TaskList& tasks) const override;
+  void scheduleTimeAdvance(TaskList& tasks) const override;
+  void scheduleDiagnostics(TaskList& tasks) const override;
+  bool mayRepeatStep() const override { return true; }
+
+ private:
+  static constexpr int D = Shape::dimension;
+
+  void scheduleVelocity(TaskList& tasks) const;
+  void scheduleHeat(TaskList& tasks) const;
+
+  Problem problem_;
+  ImplicitMethod how_;
+  int state_size_ = 1;  ///< most numbers that a particle keeps for its model, at least one
+  ParticleLabel<double> state_{"p.modelState", "SI units", "internal variables of the constitutive model"};
+};
+
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,192 @@
+#include "components/mpm/solid/implicit/input.hpp"
+
+#include "components/mpm/solid/implicit/implicit_mpm.hpp"
+#include "components/mpm/solid/input.hpp"
+#include "components/mpm/solid/loads/load_input.hpp"
+#include "components/mpm/solid/material_input.hpp"
+#include "core/simulation/by_dimension.hpp"
+#include "core/solvers/input.hpp"
+
+namespace tushar::mpm::solid {
+
+using input::Diagnostics;
+using input::Element;
+using input::Schema;
+
+namespace {
+
+/// The `MPM` section of impm.
+struct Section {
+  int integrator = 0, solver = 0, transient = 0;
+  bool gimp = false, useLoadCurves = false, withColor = false, axisymmetric = false;
+  bool dynamic = true, sharesVolume = false, heat = false;
+  double displacement = 1e-10, energy = 4e-10, decreaseFactor = 0.6, increaseFactor = 2;
+  int maxIterations = 25, decrease = 12, increase = 4;
+  std::optional<solvers::LinearSettings> linear;
+
+  ImplicitMethod method() const {
+    ImplicitMethod method;
+    method.dynamic = dynamic;
+    method.sharesVolume = sharesVolume;
+    method.conductsHeat = heat;
+    method.newton.displacement = displacement;
+    method.newton.energy = energy;
+    method.newton.maxIterations = maxIterations;
+    if (linear) method.newton.linear = *linear;
+    method.iterationsToDecrease = decrease;
+    method.iterationsToIncrease = increase;
+    method.decreaseFactor = decreaseFactor;
+    method.increaseFactor = increaseFactor;
+    return method;
+  }
+};
+
+void declareSteps(Schema<Section>& schema) {
+  schema
+      .value("convergence_criteria_disp", &Section::displacement, 1e-10, "1",
+             "Newton ends: last change of the displacement over the greatest", input::positive())
+      .value("convergence_criteria_energy", &Section::energy, 4e-10, "1",
+             "and: last change times the residual before it, over the first", input::positive())
+      .value("iters_before_timestep_restart", &Section::maxIterations, 25, "1",
+             "more of Newton's iterations: the step is repeated with half the time step", input::atLeast(1))
+      .value("num_iters_to_decrease_delT", &Section::decrease, 12, "1", "more of them make the next time step shorter",
+             input::atLeast(1))
+      .value("num_iters_to_increase_delT", &Section::increase, 4, "1", "at most so many make it longer",
+             input::nonNegative())
+      .value("delT_decrease_factor", &Section::decreaseFactor, 0.6, "1", "how much shorter", input::between(0.1, 1))
+      .value("delT_increase_factor", &Section::increaseFactor, 2, "1", "how much longer", input::atLeast(1));
+}
+
+const Schema<Section>& sectionSchema() {
+  static const Schema<Section> schema = [] {
+    Schema<Section> mpm("MPM", "The Material Point Method for solids, with implicit time steps.");
+    mpm.choice("time_integrator", &Section::integrator, {{"implicit", 0}}, 0, "how time advances")
+        .choice("interpolator", &Section::gimp, {{"linear", false}, {"gimp", true}}, false,
+                "shape functions: linear, or generalised interpolation")
+        .value("axisymmetric", &Section::axisymmetric, false, "1",
+               "x is the radius and y the axis; mass, energy and forces are per radian")
+        .value("dynamic", &Section::dynamic, true, "1",
+               "Newmark's method; false: no inertia, each step ends in equilibrium");
+    mpm.value("DoPressureStabilization", &Section::sharesVolume, false, "1",
+              "F-bar: the particles of a cell answer to compression as one, against locking where nothing is compressible");
+    declareSteps(mpm);
+    mpm.choice("solver", &Section::solver, {{"petsc", 0}}, 0, "what solves the linear systems")
+        .section("Solver", &Section::linear, solvers::linearSchema(),
+                 "how; left out: gmres with gamg, to a tolerance of 1e-8")
+        .ours()
+        .value("use_load_curves", &Section::useLoadCurves, false, "1", "the loads of <PhysicalBC> act")
+        .value("withColor", &Section::withColor, false, "1",
+               "accepted for Uintah's sake: p.color is there where it is saved")
+        .ignored("boundary_traction_faces", "save p.stress, or the loads of <PhysicalBC>")
+        .value("DoImplicitHeatConduction", &Section::heat, false, "1", "heat is conducted, by backward Euler")
+        .ignored("DoExplicitHeatConduction", "heat is conducted implicitly, where DoImplicitHeatConduction says so")
+        .choice("DoTransientImplicitHeatConduction", &Section::transient, {{"true", 0}}, 0, "heat takes time to spread")
+        .ignored("temperature_solve", "heat is conducted where DoImplicitHeatConduction says so")
+        .ignored("interpolateParticleTempToGridEveryStep", "it always is")
+        .ignored("do_grid_reset", "the grid is new in every step")
+        .ignored("minimum_particle_mass", "no particle is taken out")
+        .ignored("maximum_particle_velocity", "no particle is slowed down");
+    return mpm;
+  }();
+  return schema;
+}
+
+/// A material that says is_rigid is the master of the contacts that have one.
+void settleMasters(const Element& root, std::vector<Contact>& contacts) {
+  const std::vector<Element> materials = root.child("MaterialProperties")->child("MPM")->children("material");
+  for (std::size_t m = 0; m < materials.size(); ++m) {
+    const auto rigid = materials[m].child("is_rigid");
+    if (!rigid || rigid->text() != "true") continue;
+    for (Contact& contact : contacts)
+      if (contact.type == Contact::Type::specified) contact.master = static_cast<int>(m);
+  }
+}
+
+/// Implicit steps need the tangent of every material that is deformed.
+void refuseWithoutTangent(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
+  for (const Material& material : problem.materials)
+    if (!material.model->hasTangent() && material.model->name() != "rigid")
+      diagnostics.error(root.child("MaterialProperties").value(),
+                        "'" + material.name + "' is " + std::string(material.model->name()) +
+                            ", which has no tangent: implicit time steps need one; take comp_neo_hook, "
+                            "comp_mooney_rivlin, hypo_elastic or UCNH");
+}
+
+/// What a scene may ask for that only explicit time steps know.
+void refuseExplicitOnly(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
+  const Element where = root.child("MaterialProperties").value();
+  for (const Material& material : problem.materials)
+    if (material.isDamageable())
+      diagnostics.error(where, "'" + material.name + "' may be damaged or eroded: only with <time_integrator> explicit");
+  for (const Contact& contact : problem.contacts)
+    if (contact.type == Contact::Type::friction)
+      diagnostics.error(where, "contact: friction only with <time_integrator> explicit; here all materials move as one");
+}
+
+template <template <int> class Shape>
+std::unique_ptr<Component> makeAxisymmetric(const Level& level, const Problem& problem, const ImplicitMethod& method) {
+  if (level.dimension() == 1) return std::make_unique<ImplicitMpm<Shape<1>>>(problem, method);
+  return std::make_unique<ImplicitMpm<Shape<2>>>(problem, method);
+}
+
+template <template <int> class Shape>
+std::unique_ptr<Component> makeComponent(const Level& level, const Problem& problem, const ImplicitMethod& method) {
+  if (level.dimension() == 1) return std::make_unique<ImplicitMpm<Shape<1>>>(problem, method);
+  if (level.dimension() == 2) return std::make_unique<ImplicitMpm<Shape<2>>>(problem, method);
+  return std::make_unique<ImplicitMpm<Shape<3>>>(problem, method);
+}
+
+}  // namespace
+
+simulation::MakeComponent readImplicitScene(const Element& root, Diagnostics& diagnostics) {
+  const std::size_t before = diagnostics.size();
+  const Section read = simulation::readSection(root, sectionSchema(), diagnostics);
+  const auto constants = root.child("PhysicalConstants");
+  Problem problem;
+  if (constants) problem.method.gravity = constantsSchema().read(*constants, diagnostics).gravity;
+  const MaterialProperties properties = simulation::readSection(root, propertiesSchema(), diagnostics);
+  if (diagnostics.size() > before) return {};
+  problem.materials = properties.mpm.materials;
+  problem.contacts = properties.mpm.contacts;
+  settleMasters(root, problem.contacts);
+  problem.start.axisymmetric = read.axisymmetric;
+  problem.start.loads = readLoads(root, read.useLoadCurves, diagnostics);
+  nameMaterials(problem.materials);
+  refuseWithoutTangent(problem, root, diagnostics);
+  refuseExplicitOnly(problem, root, diagnostics);
+  if (diagnostics.size() > before) return {};
+  return [read, problem](const Level& level) {
+    Problem settled = problem;
+    settleParticles(level, settled);
+    if (read.axisymmetric)
+      return read.gimp ? makeAxisymmetric<AxisymmetricGimpShape>(level, settled, read.method())
+                       : makeAxisymmetric<AxisymmetricLinearShape>(level, settled, read.method());
+    return read.gimp ? makeComponent<GimpShape>(level, settled, read.method())
+                     : makeComponent<LinearShape>(level, settled, read.method());
+  };
+}
+
+bool isImplicit(const Element& root) {
+  const auto mpm = root.child("MPM");
+  const auto integrator = mpm ? mpm->child("time_integrator") : std::nullopt;
+  return integrator && integrator->text() == "implicit";
+}
+
+simulation::ComponentKind implicitKind() {
+  simulation::ComponentKind kind;
+  kind.name = "impm";
+  kind.sentence = "the Material Point Method for solids, with implicit time steps";
+  kind.sections = {"MPM", "MaterialProperties", "PhysicalConstants", "PhysicalBC"};
+  kind.boundaryLabels = {{"Symmetric"}, {"Velocity", true}, {"Temperature"}};
+  kind.describe = [](std::ostream& out) {
+    sectionSchema().describe(out);
+    constantsSchema().describe(out);
+    propertiesSchema().describe(out);
+    describeLoads(out);
+  };
+  kind.nodesBeyond = nodesBeyond;
+  kind.read = readImplicitScene;
+  return kind;
+}
+
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "components/mpm/solid/solid_mpm.hpp"
+#include "core/solvers/report.hpp"
+
+namespace tushar::mpm::solid {
+
+/// How an implicit step is taken; names and defaults are Uintah's.
+struct ImplicitMethod {
+  bool dynamic = true;  ///< Newmark's method; else inertia is left out and each step ends at rest
+  bool sharesVolume = false;  ///< F-bar: the particles of a cell are compressed as one, against locking
+  solvers::NewtonSettings newton;
+  bool conductsHeat = false;
+  solvers::LinearSettings heat;  ///< where heat is conducted
+  int iterationsToDecrease = 12;  ///< a step that took more makes the next one shorter
+  int iterationsToIncrease = 4;   ///< a step that took no more makes the next one longer
+  double decreaseFactor = 0.6;
+  double increaseFactor = 2;
+
+  /// What the next step may be after one of `dt` [s] that took so many iterations, s.
+  double nextTimeStep(double dt, int iterations) const {
+    if (iterations > iterationsToDecrease) return decreaseFactor * dt;
+    return iterations <= iterationsToIncrease ? increaseFactor * dt : dt;
+  }
+};
+
+namespace p {
+template <int D>
+inline constexpr ParticleLabel<Vec<D>> acceleration{"p.acceleration", "m/s^2", "acceleration at the end of the step"};
+}
+namespace g {
+template <int D>
+inline constexpr NodeLabel<Vec<D>> increment{"g.displacement", "m", "displacement in the step"};
+template <int D>
+inline constexpr NodeLabel<Vec<D>> newAcceleration{"g.newAcceleration", "m/s^2", "acceleration at the end of the step"};
+}  // namespace g
+namespace total {
+inline constexpr ReductionLabel<Maximum> newtonIterations{"NewtonIterations", "1", "of the last step"};
+inline constexpr ReductionLabel<Maximum> krylovIterations{"KrylovIterations", "1", "of all linear solves of the last step"};
+inline constexpr ReductionLabel<Minimum> nextTimeStep{"nextTimeStep", "s", "what Newton's iterations allow the next step"};
+}  // namespace total
+
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,119 @@
+#pragma once
+
+#include "components/mpm/solid/implicit/conduct_heat.hpp"
+#include "components/mpm/solid/implicit/implicit_mpm.hpp"
+#include "components/mpm/solid/implicit/system_assembly.hpp"
+#include "components/mpm/solid/implicit/system_stiffness.hpp"
+#include "components/mpm/solid/implicit/update.hpp"
+#include "components/mpm/solid/tasks/apply_external_loads.hpp"
+#include "components/mpm/solid/tasks/diagnose.hpp"
+#include "components/mpm/solid/tasks/heat.hpp"
+#include "components/mpm/solid/tasks/show_grid.hpp"
+#include "components/mpm/solid/tasks/update_particles.hpp"
+
+// The schedule of ImplicitMpm: included by the files that instantiate it, one for each kind of shape function.
+
+namespace tushar::mpm::solid {
+
+template <class Shape>
+ImplicitMpm<Shape>::ImplicitMpm(Problem problem, ImplicitMethod how) : problem_(std::move(problem)), how_(std::move(how)) {
+  for (const Material& material : problem_.materials) state_size_ = std::max(state_size_, material.model->stateSize());
+  state_.components = state_size_;
+  state_.bytes = static_cast<std::size_t>(state_size_) * sizeof(double);
+}
+
+template <class Shape>
+void ImplicitMpm<Shape>::scheduleInitialize(TaskList& tasks) const {
+  tasks.newParticles("mpm::actuallyInitialize", actuallyInitialize<D>, problem_.materials, with(problem_.start),
+                     creates(p::x<D>), creates(p::velocity<D>), creates(p::displacement<D>), creates(p::size<D>),
+                     creates(p::externalForce<D>), creates(p::mass), creates(p::temperature), creates(p::color),
+                     creates(p::viscosity), creates(p::strainEnergy), creates(p::deformationMeasure),
+                     creates(p::velocityGradient), creates(p::loadCurves));
+  tasks.perMaterial("mpm::initializeStress", initializeStress, problem_.materials, with(state_size_),
+                    requiresNew(p::mass), requiresNew(p::deformationMeasure), computes(p::volume), computes(p::stress),
+                    when(true, computes(state_)));
+  tasks.perMaterial("impm::startAtRest", startAtRest<D>, problem_.materials, requiresNew(p::mass),
+                    computes(p::acceleration<D>));
+  tasks.perPatch("impm::allowAnyTimeStep", [](const Patch&, Minimum&) {}, computes(total::nextTimeStep));
+}
+
+template <class Shape>
+void ImplicitMpm<Shape>::scheduleComputeStableTimeStep(TaskList& tasks) const {
+  tasks.perPatch("impm::limitTimeStep",
+                 [](const Patch&, double allowed, Minimum& dt) { dt.add(allowed, "Newton's iterations"); },
+                 requiresOld(total::nextTimeStep), computes(delT));
+}
+
+template <class Shape>
+void ImplicitMpm<Shape>::scheduleTimeAdvance(TaskList& tasks) const {
+  const ImplicitSetup setup{&problem_, how_, state_size_};
+  tasks.perMaterial("mpm::applyExternalLoads", applyLoadsAtEnd<D>, problem_.materials, with(problem_.start.loads),
+                    startTime(), requiresOld(delT), requiresOld(p::x<D>), requiresOld(p::mass),
+                    requiresOld(p::loadCurves), computes(p::externalForce<D>));
+  tasks.perRankAcrossMaterials(
+      "impm::solve", solveStep<Shape>, problem_.materials, togetherOnRanks(), with(setup), startTime(), requiresOld(delT),
+      requiresOld(p::x<D>), requiresOld(p::size<D>), requiresOld(p::mass), requiresOld(p::velocity<D>),
+      requiresOld(p::acceleration<D>), requiresNew(p::externalForce<D>), requiresOld(p::temperature),
+      requiresOld(p::deformationMeasure), requiresOld(p::stress), requiresOld(state_), computes(g::increment<D>),
+      computes(g::newAcceleration<D>), computes(total::newtonIterations), computes(total::krylovIterations),
+      computes(total::nextTimeStep), computes(solvers::assemblyTime), computes(solvers::preconditionerTime),
+      computes(solvers::solveTime));
+  tasks.perMaterial("impm::moveAndStress", moveAndStress<Shape>, problem_.materials, with(setup), requiresOld(delT),
+                    requiresNew(g::increment<D>, Shape::ghostNodes), requiresOld(p::x<D>), requiresOld(p::size<D>),
+                    requiresOld(p::mass), requiresOld(p::temperature), requiresOld(p::deformationMeasure),
+                    requiresOld(p::stress), requiresOld(state_), computes(p::x<D>), computes(p::deformationMeasure),
+                    computes(p::stress), computes(state_), computes(p::volume), computes(p::strainEnergy));
+  scheduleVelocity(tasks);
+  if (how_.conductsHeat) scheduleHeat(tasks);
+  tasks.perMaterial("mpm::addDisplacement", addDisplacement<D>, problem_.materials, requiresOld(p::x<D>),
+                    requiresNew(p::x<D>), requiresOld(p::displacement<D>), computes(p::displacement<D>));
+  tasks.relocate(p::x<D>, problem_.materials);
+}
+
+template <class Shape>
+void ImplicitMpm<Shape>::scheduleVelocity(TaskList& tasks) const {
+  const ImplicitSetup setup{&problem_, how_, state_size_};
+  if (how_.dynamic)
+    tasks.perMaterial("impm::advanceVelocity", advanceVelocity<Shape>, problem_.materials, with(setup), requiresOld(delT),
+                      requiresNew(g::newAcceleration<D>, Shape::ghostNodes), requiresOld(p::x<D>),
+                      requiresOld(p::size<D>), requiresOld(p::velocity<D>), requiresOld(p::acceleration<D>),
+                      computes(p::velocity<D>), computes(p::acceleration<D>));
+  else
+    tasks.perMaterial("impm::meanVelocity", meanVelocity<D>, problem_.materials, requiresOld(delT), requiresOld(p::x<D>),
+                      requiresNew(p::x<D>), computes(p::velocity<D>), computes(p::acceleration<D>));
+}
+
+template <class Shape>
+void ImplicitMpm<Shape>::scheduleHeat(TaskList& tasks) const {
+  const ImplicitSetup setup{&problem_, how_, state_size_};
+  tasks.perRankAcrossMaterials("impm::conductHeat", conductHeat<Shape>, problem_.materials, togetherOnRanks(), with(setup),
+                               requiresOld(delT), requiresOld(p::x<D>), requiresOld(p::size<D>), requiresOld(p::mass),
+                               requiresOld(p::temperature), requiresOld(p::deformationMeasure),
+                               computes(g::temperatureRate));
+  tasks.perMaterial("mpm::updateTemperature", updateTemperature<Shape>, problem_.materials,
+                    with(problem_.method.commonSize), requiresOld(p::x<D>), when(true, requiresOld(p::size<D>)),
+                    requiresOld(p::deformationMeasure), requiresOld(p::temperature),
+                    requiresNew(g::temperatureRate, Shape::ghostNodes), requiresOld(delT), computes(p::temperature));
+}
+
+template <class Shape>
+void ImplicitMpm<Shape>::scheduleDiagnostics(TaskList& tasks) const {
+  tasks.perMaterial("mpm::sumMass", sumParticles, problem_.materials, requiresOld(p::mass), computes(total::mass));
+  tasks.perMaterial("mpm::sumStrainEnergy", sumParticles, problem_.materials, requiresOld(p::strainEnergy),
+                    computes(total::strainEnergy));
+  tasks.perMaterial("mpm::sumKineticEnergy", sumKineticEnergy<D>, problem_.materials, requiresOld(p::mass),
+                    requiresOld(p::velocity<D>), computes(total::kineticEnergy));
+  tasks.perMaterial("mpm::sumMomentum", sumMomentum<D>, problem_.materials, requiresOld(p::mass),
+                    requiresOld(p::velocity<D>), computes(total::momentum));
+  tasks.perMaterial("mpm::sumCenterOfMass", sumCenterOfMass<D>, problem_.materials, requiresOld(p::mass),
+                    requiresOld(p::x<D>), computes(total::centerOfMass));
+  tasks.perMaterial("mpm::showOnGrid", showOnGrid<Shape>, problem_.materials, with(problem_.method.commonSize),
+                    requiresOld(p::x<D>, Shape::reach), when(true, requiresOld(p::size<D>, Shape::reach)),
+                    requiresOld(p::deformationMeasure, Shape::reach), requiresOld(p::mass, Shape::reach),
+                    requiresOld(p::velocity<D>, Shape::reach), requiresOld(p::volume, Shape::reach),
+                    requiresOld(p::stress, Shape::reach), computes(g::mass), computes(g::volume),
+                    computes(g::velocity<D>), computes(g::internalForce<D>), computes(g::acceleration<D>),
+                    computes(g::stress));
+}
+
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,228 @@
+#pragma once
+
+#include <algorithm>
+
+#include "components/mpm/solid/implicit/system.hpp"
+
+// The members of ImplicitSystem: included by the files that instantiate it.
+
+namespace tushar::mpm::solid {
+
+template <class Shape>
+std::size_t countPoints(const std::vector<PointSources<Shape>>& sources) {
+  std::size_t count = 0;
+  for (const PointSources<Shape>& from : sources) count += static_cast<std::size_t>(from.group.count);
+  return count;
+}
+
+template <class Shape>
+ImplicitSystem<Shape>::ImplicitSystem(const RankPatches& patches, const mpi::Communicator& ranks, const Method& method,
+                                      const ImplicitMethod& how, double dt, int stateSize,
+                                      std::vector<PointSources<Shape>> sources)
+    : method_(method),
+      how_(how),
+      dt_(dt),
+      map_(patches.front()->level(), ranks),
+      sources_(std::move(sources)),
+      touch_(countPoints(sources_) * touches_),
+      states_(countPoints(sources_), stateSize, dt, how.sharesVolume) {
+  findNodes(patches);
+  findRuns();
+  gatherNodes();
+  measureStiffness();
+  supportNodes();
+  prescribed_.assign(node_.size() * D, 0);
+  prescribed_value_.assign(node_.size() * D, 0);
+}
+
+template <class Shape>
+void ImplicitSystem<Shape>::findNodes(const RankPatches& patches) {
+  std::vector<Index<D>> images(touch_.size());
+  std::size_t first = 0;
+  for (PointSources<Shape>& from : sources_) {
+    from.group.first = first;
+    forEachStencil<Shape>(*from.patch, from.patch->cells(), from.x, from.extents, [&](int p, const auto& stencil) {
+      std::size_t at = (first + static_cast<std::size_t>(p)) * touches_;
+      stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>& gradient) {
+        const auto image = map_.imageOf(node);
+        NodeTouch<D>& touch = touch_[at];
+        touch = {0, s, hoopOf(stencil, node), gradient, image.sign};
+        if (s == 0 && touch.hoop == 0 && gradient.squaredNorm() == 0) touch.node = -1;
+        if (touch.node >= 0) map_.touch(image.node);
+        images[at++] = image.node;
+      });
+    });
+    first += static_cast<std::size_t>(from.group.count);
+  }
+  map_.number(patches, Shape::ghostNodes + 1);
+  for (std::size_t k = 0; k < touch_.size(); ++k)
+    if (touch_[k].node >= 0) touch_[k].node = map_(images[k]);
+}
+
+template <class Shape>
+void ImplicitSystem<Shape>::findRuns() {
+  for (std::size_t s = 0; s < sources_.size(); ++s) {
+    const PointSources<Shape>& from = sources_[s];
+    forEach<D>(from.patch->cells(), [&](const Index<D>& cell) {
+      const data::ParticleRange range = from.x.in(cell);
+      if (!range.empty()) runs_.push_back({map_.level().template cellNumber<D>(cell), s, range.first, range.size()});
+    });
+  }
+  std::stable_sort(runs_.begin(), runs_.end(), [&](const Run& a, const Run& b) {
+    return std::pair(a.cell, sources_[a.source].group.material->index) <
+           std::pair(b.cell, sources_[b.source].group.material->index);
+  });
+}
+
+template <class Shape>
+void ImplicitSystem<Shape>::gatherNodes() {
+  std::vector<double> sums(static_cast<std::size_t>(brought_ * map_.size()), 0.0);
+  forEachRun([&](const PointSources<Shape>& from, const PointRun& run) {
+    for (int p = run.from; p < run.from + run.count; ++p) {
+      const NodeTouch<D>* touch = touchesOf(from.group.first + static_cast<std::size_t>(p));
+      for (int k = 0; k < touches_; ++k) {
+        if (touch[k].node < 0) continue;
+        Eigen::Map<Eigen::Matrix<double, brought_, 1>> sum(sums.data() + brought_ * touch[k].node);
+        const double mass = touch[k].s * from.group.mass[p];
+        sum[0] += mass;
+        sum[1] += mass / from.group.material->density;
+        sum.template segment<D>(2) += mass * touch[k].sign.cwiseProduct(from.velocity[p]);
+        sum.template segment<D>(2 + D) += mass * touch[k].sign.cwiseProduct(from.acceleration[p]);
+        sum.template segment<D>(2 + 2 * D) += touch[k].s * touch[k].sign.cwiseProduct(from.externalForce[p]);
+      }
+    }
+  });
+  solvers::addUp(map_.unknowns(brought_), sums);
+  shareNodes(sums);
+}
+
+template <class Shape>
+void ImplicitSystem<Shape>::shareNodes(const std::vector<double>& sums) {
+  const Vec<D> gravity = map_.level().template reduce<D>(method_.gravity);
+  for (int k = 0; k < map_.size(); ++k) {
+    const Eigen::Map<const Eigen::Matrix<double, brought_, 1>> sum(sums.data() + brought_ * k);
+    Node& node = node_.emplace_back();
+    node.mass = sum[0];
+    node.volume = sum[1];
+    node.force = sum.template segment<D>(2 + 2 * D) + node.mass * gravity;
+    if (node.mass <= 0) continue;
+    node.velocity = sum.template segment<D>(2) / node.mass;
+    node.acceleration = sum.template segment<D>(2 + D) / node.mass;
+  }
+}
+
+template <class Shape>
+void ImplicitSystem<Shape>::measureStiffness() {
+  for (const PointSources<Shape>& from : sources_) {
+    const Material& material = *from.group.material;
+    for (int p = 0; p < from.group.count; ++p) {
+      const double c = material.model->initialWaveSpeed(material.density, from.group.temperature[p]);
+      stiffest_ = std::max(stiffest_, from.group.mass[p] * c * c);
+    }
+  }
+  const double h = map_.level().minSpacing();
+  stiffest_ = map_.ranks().max(stiffest_) / (h * h);
+  negligible_ = 1e-14 * stiffest_ * h * std::sqrt(static_cast<double>(map_.ranks().sum(map_.owned())));
+}
+
+/// A node with a millionth of a cell's matter around it may have no stiffness to speak of along some axis.
+template <class Shape>
+void ImplicitSystem<Shape>::supportNodes() {
+  for (Node& node : node_)
+    if (node.volume < 1e-6 * map_.level().cellVolume()) node.support = 1e-10 * stiffest_;
+}
+
+template <class Shape>
+solvers::Unknowns ImplicitSystem<Shape>::unknowns() const {
+  solvers::Unknowns unknowns = map_.unknowns(D);
+  constexpr int width = Shape::Stencil::nodes - 1;  // of one particle; those of a cell reach one further where it is wide
+  unknowns.entries = map_.neighbours(width > 1 && how_.sharesVolume ? width + 1 : width);
+  for (int k = 0; k < map_.owned(); ++k)
+    for (int d = 0; d < D; ++d) unknowns.coordinates.push_back(map_.position(k)[d]);
+  return unknowns;
+}
+
+template <class Shape>
+void ImplicitSystem<Shape>::prescribe(int node, int d, double value) {
+  prescribed_[static_cast<std::size_t>(D * node + d)] = 1;
+  prescribed_value_[static_cast<std::size_t>(D * node + d)] = value;
+}
+
+template <class Shape>
+std::vector<double> ImplicitSystem<Shape>::guess() const {
+  std::vector<double> u = prescribed_value_;
+  for (int k = 0; k < map_.size(); ++k)
+    for (int d = 0; d < D; ++d)
+      if (!isPrescribed(k, d)) u[static_cast<std::size_t>(D * k + d)] = dt_ * node_[static_cast<std::size_t>(k)].velocity[d];
+  return u;
+}
+
+template <class Shape>
+auto ImplicitSystem<Shape>::acceleration(int node, std::span<const double> u) const -> Vec<D> {
+  if (!how_.dynamic) return Vec<D>::Zero();
+  const Node& n = node_[static_cast<std::size_t>(node)];
+  return 4 / dt_ * (displacement(node, u) / dt_ - n.velocity) - n.acceleration;
+}
+
+template <class Shape>
+Matrix3 ImplicitSystem<Shape>::displacementGradient(std::size_t point, std::span<const double> u) const {
+  const Level& level = map_.level();
+  const NodeTouch<D>* touch = touchesOf(point);
+  Matrix3 gradient = Matrix3::Zero();
+  for (int k = 0; k < touches_; ++k) {
+    if (touch[k].node < 0) continue;
+    const Vec<D> moved = touch[k].sign.cwiseProduct(displacement(touch[k].node, u));
+    for (int i = 0; i < D; ++i)
+      for (int j = 0; j < D; ++j) gradient(sceneAxis<D>(level, i), sceneAxis<D>(level, j)) += moved[i] * touch[k].gradient[j];
+    gradient(2, 2) += touch[k].hoop * moved[0];
+  }
+  return gradient;
+}
+
+template <class Shape>
+bool ImplicitSystem<Shape>::residual(std::span<const double> u, std::span<double> r) {
+  std::fill(r.begin(), r.end(), 0.0);
+  for (int k = 0; k < map_.owned(); ++k) {
+    const Node& node = node_[static_cast<std::size_t>(k)];
+    Eigen::Map<Vec<D>>(r.data() + D * k) = node.mass * acceleration(k, u) - node.force +
+                                           node.support * (displacement(k, u) - dt_ * node.velocity);
+  }
+  bool admissible = true;
+  forEachRun([&](const PointSources<Shape>&, const PointRun& run) {
+    for (int k = run.from; k < run.from + run.count; ++k) {
+      const std::size_t at = run.group->first + static_cast<std::size_t>(k);
+      states_.gradient[at] = displacementGradient(at, u);
+    }
+    admissible = admissible && states_.deform(run);
+    if (!admissible) return;
+    states_.updateStress(run);
+    addInternalForce(run, r);
+  });
+  for (std::size_t k = 0; k < prescribed_.size(); ++k)
+    if (prescribed_[k]) r[k] = 0;
+  return admissible;
+}
+
+template <class Shape>
+void ImplicitSystem<Shape>::addInternalForce(const PointRun& run, std::span<double> r) const {
+  const Level& level = map_.level();
+  const PointGroup& group = *run.group;
+  for (int p = run.from; p < run.from + run.count; ++p) {
+    const std::size_t at = group.first + static_cast<std::size_t>(p);
+    const Matrix3 step = Matrix3::Identity() + states_.gradient[at];
+    const double volume = group.mass[p] / group.material->density * states_.deformation[at].determinant();
+    const Matrix3 stress = volume * states_.stress[at] * step.inverse().transpose();
+    const NodeTouch<D>* touch = touchesOf(at);
+    for (int k = 0; k < touches_; ++k) {
+      if (touch[k].node < 0) continue;
+      Vec<D> force;
+      for (int i = 0; i < D; ++i) {
+        force[i] = i == 0 ? touch[k].hoop * stress(2, 2) : 0.0;
+        for (int j = 0; j < D; ++j) force[i] += stress(sceneAxis<D>(level, i), sceneAxis<D>(level, j)) * touch[k].gradient[j];
+      }
+      Eigen::Map<Vec<D>>(r.data() + D * touch[k].node) += touch[k].sign.cwiseProduct(force);
+    }
+  }
+}
+
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,150 @@
+#pragma once
+
+#include <map>
+
+#include "components/mpm/solid/implicit/system.hpp"
+
+// The tangent of ImplicitSystem: included by the files that instantiate it.
+
+namespace tushar::mpm::solid {
+
+/// The nine numbers of the displacement gradient for a unit displacement of each node that a point touches.
+template <class Shape>
+auto ImplicitSystem<Shape>::strainOf(std::size_t point) const -> Strain {
+  const Level& level = map_.level();
+  const NodeTouch<D>* touch = touchesOf(point);
+  Strain strain = Strain::Zero(9, touches_ * D);
+  for (int k = 0; k < touches_; ++k) {
+    if (touch[k].node < 0) continue;
+    for (int i = 0; i < D; ++i)
+      for (int j = 0; j < D; ++j)
+        strain(3 * sceneAxis<D>(level, i) + sceneAxis<D>(level, j), D * k + i) = touch[k].sign[i] * touch[k].gradient[j];
+    strain(8, D * k) += touch[k].sign[0] * touch[k].hoop;
+  }
+  return strain;
+}
+
+/// V0 Bᵀ a B, where B is strainOf and a_ijkl = sum_JL dP_iJ/dF_kL F_old_jJ F_old_lL.
+template <class Shape>
+auto ImplicitSystem<Shape>::stiffnessOf(const PointGroup& group, int k, const Matrix9& tangent) const -> Local {
+  const Matrix3& f = group.oldDeformation[k];
+  Matrix9 half, whole;
+  for (int c = 0; c < 3; ++c) half.middleCols<3>(3 * c) = tangent.middleCols<3>(3 * c) * f.transpose();
+  for (int c = 0; c < 3; ++c) whole.middleRows<3>(3 * c) = f * half.middleRows<3>(3 * c);
+  const Strain strain = strainOf(group.first + static_cast<std::size_t>(k));
+  return group.mass[k] / group.material->density * (strain.transpose() * (whole * strain));
+}
+
+/// The row of ln det F: its change for a unit displacement of each node that a point touches, 1/m.
+template <class Shape>
+auto ImplicitSystem<Shape>::volumeRow(std::size_t point) const -> Rows {
+  const Matrix3 inverse = (Matrix3::Identity() + states_.gradient[point]).inverse().transpose();
+  return strainOf(point).transpose() * Eigen::Map<const Vector9>(inverse.data());
+}
+
+/// What a point adds to the forces of nodes for a unit change of ln det(stretch F) at its own F, N: V0 Bᵀ q F_oldᵀ with
+/// q = (dP/dF F / stretch - 2 P) / 3.
+template <class Shape>
+auto ImplicitSystem<Shape>::volumeForce(const PointGroup& group, int k, const Matrix9& tangent) const -> Rows {
+  const std::size_t at = group.first + static_cast<std::size_t>(k);
+  const Matrix3& f = states_.deformation[at];
+  const Matrix3 nominal = f.determinant() * states_.stress[at] * f.inverse().transpose();
+  const Vector9 along = tangent * Eigen::Map<const Vector9>(f.data()) / states_.stretch[at];
+  const Matrix3 q = (Matrix3(Eigen::Map<const Matrix3>(along.data())) - 2 * nominal) / 3;
+  const Matrix3 pushed = q * group.oldDeformation[k].transpose();
+  return group.mass[k] / group.material->density * (strainOf(at).transpose() * Eigen::Map<const Vector9>(pushed.data()));
+}
+
+template <class Shape>
+auto ImplicitSystem<Shape>::numbersOf(std::size_t point) const -> std::array<int, touches_> {
+  std::array<int, touches_> numbers;
+  for (int n = 0; n < touches_; ++n) numbers[static_cast<std::size_t>(n)] = touchesOf(point)[n].node;
+  return numbers;
+}
+
+template <class Shape>
+void ImplicitSystem<Shape>::addStiffness(const PointGroup& group, int k, Local stiffness, solvers::Matrix& matrix) const {
+  const std::array<int, touches_> numbers = numbersOf(group.first + static_cast<std::size_t>(k));
+  for (int n = 0; n < touches_; ++n)
+    for (int d = 0; d < D; ++d) {
+      const int node = numbers[static_cast<std::size_t>(n)];
+      if (node < 0 || !isPrescribed(node, d)) continue;
+      stiffness.row(D * n + d).setZero();
+      stiffness.col(D * n + d).setZero();
+    }
+  matrix.add(numbers, numbers, {stiffness.data(), static_cast<std::size_t>(stiffness.size())});
+}
+
+template <class Shape>
+void ImplicitSystem<Shape>::addRunStiffness(const PointRun& run, solvers::Matrix& matrix) {
+  const PointGroup& group = *run.group;
+  const bool shares = states_.sharesVolume(run);
+  std::vector<Rows> forces;
+  states_.forEachTangent(run, [&](int k, const Matrix9& tangent) {
+    const std::size_t at = group.first + static_cast<std::size_t>(k);
+    Local stiffness = stiffnessOf(group, k, tangent) / states_.stretch[at];
+    if (shares) {
+      forces.push_back(volumeForce(group, k, tangent));
+      stiffness -= forces.back() * volumeRow(at).transpose();
+    }
+    addStiffness(group, k, stiffness, matrix);
+  });
+  if (shares) addSharedStiffness(run, forces, matrix);
+}
+
+/// The common change of volume of a run, which every one of its points answers to.
+template <class Shape>
+void ImplicitSystem<Shape>::addSharedStiffness(const PointRun& run, const std::vector<Rows>& forces,
+                                               solvers::Matrix& matrix) const {
+  const PointGroup& group = *run.group;
+  std::map<int, Vec<D>> common;
+  double whole = 0;
+  for (int k = run.from; k < run.from + run.count; ++k) {
+    const std::size_t at = group.first + static_cast<std::size_t>(k);
+    const double volume = group.mass[k] * states_.deformation[at].determinant();
+    const Rows row = volumeRow(at);
+    whole += volume;
+    for (int n = 0; n < touches_; ++n)
+      if (const int node = touchesOf(at)[n].node; node >= 0)
+        common.try_emplace(node, Vec<D>::Zero()).first->second += volume * row.template segment<D>(D * n);
+  }
+  std::vector<int> columns;
+  std::vector<double> change;
+  for (const auto& [node, row] : common) {
+    columns.push_back(node);
+    for (int d = 0; d < D; ++d) change.push_back(isPrescribed(node, d) ? 0.0 : row[d] / whole);
+  }
+  std::vector<double> block;
+  for (int k = run.from; k < run.from + run.count; ++k) {
+    const std::array<int, touches_> rows = numbersOf(group.first + static_cast<std::size_t>(k));
+    const Rows& force = forces[static_cast<std::size_t>(k - run.from)];
+    block.clear();
+    for (int i = 0; i < touches_ * D; ++i) {
+      const int node = rows[static_cast<std::size_t>(i / D)];
+      const bool free = node >= 0 && !isPrescribed(node, i % D);
+      for (const double value : change) block.push_back(free ? force[i] * value : 0.0);
+    }
+    matrix.add(rows, columns, block);
+  }
+}
+
+/// Inertia, weak springs, and the rows of what is prescribed, as stiff as the rest.
+template <class Shape>
+void ImplicitSystem<Shape>::addDiagonals(solvers::Matrix& matrix) const {
+  for (int k = 0; k < map_.owned(); ++k) {
+    Eigen::Matrix<double, D, D> block;  // diagonal: the order of rows and columns does not matter
+    block.setZero();
+    const Node& node = node_[static_cast<std::size_t>(k)];
+    const double free = node.support + (how_.dynamic ? 4 * node.mass / (dt_ * dt_) : 0.0);
+    for (int d = 0; d < D; ++d) block(d, d) = isPrescribed(k, d) ? stiffest_ : free;
+    matrix.add({&k, 1}, {&k, 1}, {block.data(), D * D});
+  }
+}
+
+template <class Shape>
+void ImplicitSystem<Shape>::tangent(solvers::Matrix& matrix) {
+  forEachRun([&](const PointSources<Shape>&, const PointRun& run) { addRunStiffness(run, matrix); });
+  addDiagonals(matrix);
+}
+
+}  // namespace tushar::mpm::solid

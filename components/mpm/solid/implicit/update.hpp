@@ -1,0 +1,91 @@
+#pragma once
+
+#include "components/mpm/solid/implicit/solve.hpp"
+
+namespace tushar::mpm::solid {
+
+/// What a particle takes from a field of the nodes: sum_i S_i f_i and the gradient, in x, y, z.
+template <class Stencil, int D = Stencil::dimension>
+std::pair<Vec<D>, Matrix3> interpolated(const Level& level, const Stencil& stencil, const NodeView<const Vec<D>>& field) {
+  Vec<D> value = Vec<D>::Zero();
+  Matrix3 gradient = Matrix3::Zero();
+  stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>& slope) {
+    const Vec<D>& f = field[node];
+    value += s * f;
+    for (int i = 0; i < D; ++i)
+      for (int j = 0; j < D; ++j) gradient(sceneAxis<D>(level, i), sceneAxis<D>(level, j)) += f[i] * slope[j];
+    gradient(2, 2) += f[0] * hoopOf(stencil, node);
+  });
+  return {value, gradient};
+}
+
+/// x_p += sum_i S_i u_i,  F_p = (I + sum_i u_i grad S_i) F_p, and the stress that follows.
+template <class Shape, int D = Shape::dimension>
+void moveAndStress(const Patch& patch, const Material& material, const ImplicitSetup& setup, double dt,
+                   NodeView<const Vec<D>> increment, ParticleView<const Vec<D>> x, ParticleView<const Vec<D>> size,
+                   ParticleView<const double> mass, ParticleView<const double> temperature,
+                   ParticleView<const Matrix3> oldDeformation, ParticleView<const Matrix3> oldStress,
+                   ParticleView<const double> oldState, ParticleView<Vec<D>> newX, ParticleView<Matrix3> deformation,
+                   ParticleView<Matrix3> stress, ParticleView<double> state, ParticleView<double> volume,
+                   ParticleView<double> strainEnergy) {
+  const int count = x.owned();
+  if (count == 0) return;
+  PointStates states(static_cast<std::size_t>(count), setup.stateSize, dt, setup.how.sharesVolume);
+  const Extents<Shape> extents(patch.level(), setup.problem->method.commonSize, size, std::nullopt);
+  forEachStencil<Shape>(patch, patch.cells(), x, extents, [&](int p, const auto& stencil) {
+    const auto [moved, gradient] = interpolated(patch.level(), stencil, increment);
+    newX[p] = x[p] + moved;
+    states.gradient[static_cast<std::size_t>(p)] = gradient;
+  });
+  const PointGroup group{&material,       count, 0, valuesOf(mass), valuesOf(temperature), valuesOf(oldDeformation),
+                         valuesOf(oldStress), valuesOf(oldState), valuesOf(state), valuesOf(strainEnergy)};
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    const data::ParticleRange range = x.in(cell);
+    const PointRun run{&group, range.first, range.size()};
+    states.deform(run);
+    states.updateStress(run);
+  });
+  for (int p = 0; p < count; ++p) {
+    deformation[p] = states.deformation[static_cast<std::size_t>(p)];
+    stress[p] = states.stress[static_cast<std::size_t>(p)];
+    volume[p] = mass[p] / material.density * deformation[p].determinant();
+  }
+}
+
+/// Newmark: v_p += dt/2 (a_p + a'_p) with a'_p = sum_i S_i a_i.
+template <class Shape, int D = Shape::dimension>
+void advanceVelocity(const Patch& patch, const Material&, const ImplicitSetup& setup, double dt,
+                     NodeView<const Vec<D>> acceleration, ParticleView<const Vec<D>> x, ParticleView<const Vec<D>> size,
+                     ParticleView<const Vec<D>> oldVelocity, ParticleView<const Vec<D>> oldAcceleration,
+                     ParticleView<Vec<D>> velocity, ParticleView<Vec<D>> newAcceleration) {
+  const Extents<Shape> extents(patch.level(), setup.problem->method.commonSize, size, std::nullopt);
+  forEachStencil<Shape>(patch, patch.cells(), x, extents, [&](int p, const auto& stencil) {
+    newAcceleration[p] = interpolated(patch.level(), stencil, acceleration).first;
+    velocity[p] = oldVelocity[p] + dt / 2 * (oldAcceleration[p] + newAcceleration[p]);
+  });
+}
+
+/// Without inertia: v_p is how far the particle went over dt; what the next step starts from.
+template <int D>
+void meanVelocity(const Patch&, const Material&, double dt, ParticleView<const Vec<D>> x, ParticleView<const Vec<D>> newX,
+                  ParticleView<Vec<D>> velocity, ParticleView<Vec<D>> acceleration) {
+  for (int p = 0; p < x.owned(); ++p) {
+    velocity[p] = (newX[p] - x[p]) / dt;
+    acceleration[p] = Vec<D>::Zero();
+  }
+}
+
+template <int D>
+void startAtRest(const Patch&, const Material&, ParticleView<const double> mass, ParticleView<Vec<D>> acceleration) {
+  for (int p = 0; p < mass.owned(); ++p) acceleration[p] = Vec<D>::Zero();
+}
+
+/// The force of loads on each particle at the end of the step.
+template <int D>
+void applyLoadsAtEnd(const Patch& patch, const Material& material, const Loads& loads, double time, double dt,
+                     ParticleView<const Vec<D>> x, ParticleView<const double> mass, ParticleView<const int> loadCurves,
+                     ParticleView<Vec<D>> externalForce) {
+  applyExternalLoads<D>(patch, material, loads, time + dt, x, mass, loadCurves, externalForce);
+}
+
+}  // namespace tushar::mpm::solid

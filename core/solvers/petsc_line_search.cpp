@@ -1,0 +1,61 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/solvers/petsc_objects.hpp"
+
+namespace tushar::solvers {
+
+namespace {
+
+/// A point on the way u - length step of a Newton step.
+struct Trial {
+  double length = 1;
+  double slope = 0;  ///< r . step there, the derivative of the energy against the way
+  bool isFinite = false;
+};
+
+Trial tryStep(SNESLineSearch search, double length) {
+  SNES snes = nullptr;
+  Vec u = nullptr, r = nullptr, step = nullptr, there = nullptr, residual = nullptr;
+  check(SNESLineSearchGetSNES(search, &snes));
+  check(SNESLineSearchGetVecs(search, &u, &r, &step, &there, &residual));
+  check(VecWAXPY(there, -length, step, u));
+  check(SNESComputeFunction(snes, there, residual));
+  Trial trial{length, 0, false};
+  check(VecDot(residual, step, &trial.slope));
+  trial.isFinite = std::isfinite(trial.slope);
+  return trial;
+}
+
+/// Back to where there is a residual; then, twice at most, to where the secant of the slope is 0, but no shorter than a
+/// quarter of what there was: a longer way back keeps a slender body from turning.
+Trial chooseStep(SNESLineSearch search, double slopeAtStart) {
+  Trial trial = tryStep(search, 1);
+  while (!trial.isFinite && trial.length > 1e-3) trial = tryStep(search, trial.length / 2);
+  const double shortest = trial.length / 4;
+  for (int turn = 0; turn < 2 && trial.isFinite && std::abs(trial.slope) > 0.8 * std::abs(slopeAtStart); ++turn) {
+    const double zero = trial.length * slopeAtStart / (slopeAtStart - trial.slope);
+    if (!(zero > 0 && zero < trial.length) || trial.length <= shortest) break;
+    trial = tryStep(search, std::max(zero, shortest));
+  }
+  return trial;
+}
+
+}  // namespace
+
+PetscErrorCode searchAlongStep(SNESLineSearch search, void* context) {
+  return guarded(*static_cast<std::exception_ptr*>(context), [&] {
+    Vec u = nullptr, r = nullptr, step = nullptr, there = nullptr, residual = nullptr;
+    check(SNESLineSearchGetVecs(search, &u, &r, &step, &there, &residual));
+    double slope = 0;
+    check(VecDot(r, step, &slope));
+    const Trial trial = chooseStep(search, slope);
+    check(SNESLineSearchSetLambda(search, trial.length));
+    check(SNESLineSearchSetReason(search, trial.isFinite ? SNES_LINESEARCH_SUCCEEDED : SNES_LINESEARCH_FAILED_REDUCT));
+    check(VecCopy(there, u));
+    check(VecCopy(residual, r));
+    check(SNESLineSearchComputeNorms(search));
+  });
+}
+
+}  // namespace tushar::solvers

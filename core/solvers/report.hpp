@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+
+#include "core/base/vec.hpp"
+#include "core/data/reduction.hpp"
+#include "core/solvers/solver.hpp"
+
+namespace tushar::solvers {
+
+// What a scene may save of a solve.
+inline constexpr data::ReductionLabel<data::Maximum> assemblyTime{"AssemblyTime", "s", "filling the matrix of the last solve"};
+inline constexpr data::ReductionLabel<data::Maximum> preconditionerTime{"PreconditionerTime", "s",
+                                                                        "making the preconditioner of the last solve"};
+inline constexpr data::ReductionLabel<data::Maximum> solveTime{"SolveTime", "s", "iterations of the last solve"};
+
+inline void addTimes(const Outcome& outcome, data::Maximum& assembly, data::Maximum& preconditioner,
+                     data::Maximum& solve) {
+  assembly.add(outcome.assembly);
+  preconditioner.add(outcome.setup);
+  solve.add(outcome.solve);
+}
+
+/// Where the residual is the greatest, the end of a sentence, the same on all ranks: `mine` [m] on the rank that has it.
+std::string worstPlace(const mpi::Communicator& ranks, const std::optional<Vec3>& mine, const std::string& what);
+
+}  // namespace tushar::solvers

@@ -1,0 +1,101 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "components/components.hpp"
+#include "core/simulation/scene.hpp"
+#include "tests/ranks/ranks.hpp"
+
+// Scenes with a solve over the whole grid, on several ranks: the same answer, though not the same bits, since every
+// number of ranks makes another preconditioner and another order of sums.
+
+namespace tushar::simulation {
+
+namespace {
+
+using data::Generation;
+using test::onRanks;
+
+/// A field as all ranks see it: for each cell the number there, or the sums over its particles, `width` numbers each.
+std::vector<double> gathered(data::Warehouse& warehouse, const std::string& label, int width,
+                             const mpi::Communicator& ranks) {
+  const grid::Level& level = warehouse.level();
+  const auto wide = static_cast<std::size_t>(width);
+  std::vector<double> field(level.cells().size() * wide, -std::numeric_limits<double>::infinity());
+  const bool ofParticles = label.front() == 'p';
+  const int number = warehouse.table().find(label, ofParticles ? 0 : -1);
+  for (const grid::Patch& patch : level.patches()) {
+    const data::Variable& held = warehouse.variable(Generation::old, number, patch.id());
+    const auto* values = reinterpret_cast<const double*>(held.values.data());
+    grid::forEach<3>(patch.cells(), [&](const Index3& cell) {
+      double* into = &field[level.cellNumber<3>(cell) * wide];
+      std::fill_n(into, width, 0.0);
+      if (!ofParticles) into[0] = values[held.stored.offset(cell)];
+      if (ofParticles)
+        for (const int p : warehouse.particles(Generation::old, 0, patch.id()).at(cell))
+          for (int k = 0; k < width; ++k) into[k] += values[p * width + k];
+    });
+  }
+  ranks.max(field);
+  return field;
+}
+
+/// The field at the end of a scene.
+std::vector<double> result(const std::string& scene, const std::string& label, int width, std::vector<std::string> sets,
+                           const mpi::Communicator& ranks) {
+  sets.push_back("DataArchiver/outputInterval=0");
+  Problem problem = readScene(scene, sets, catalogue(), {}, test::shareOf(ranks));
+  problem.archive.saves.clear();
+  RunOptions options;
+  options.quiet = true;
+  Simulation simulation(std::move(problem), options, std::chrono::steady_clock::now(), ranks);
+  EXPECT_EQ(simulation.run().failure, "");
+  return gathered(simulation.warehouse(), label, width, ranks);
+}
+
+/// On 2 and 4 ranks as on one: each number differs by less than 1e-10 of the greatest.
+void expectSame(const std::string& scene, const std::string& label, int width, const std::vector<std::string>& sets) {
+  SCOPED_TRACE(scene);
+  const std::vector<double> expected = result(scene, label, width, sets, mpi::Communicator::alone());
+  double greatest = 0;
+  for (const double value : expected) greatest = std::max(greatest, std::abs(value));
+  ASSERT_GT(greatest, 0);
+  for (const int count : {2, 4})
+    onRanks(count, [&](const mpi::Communicator& ranks) {
+      const std::vector<double> found = result(scene, label, width, sets, ranks);
+      double worst = 0;
+      for (std::size_t k = 0; k < expected.size(); ++k) worst = std::max(worst, std::abs(found[k] - expected[k]));
+      EXPECT_LT(worst / greatest, 1e-10) << count << " ranks";
+    });
+}
+
+const char* const patches = "Grid/Level/Box/patches=[4,2,1]";
+
+}  // namespace
+
+// The systems are solved to 1e-13, so that what is left is the conditioning, below 1e3 here, times rounding.
+TEST(Solves, GiveTheSameFieldOfPoissonsEquationOnAnyRanks) {
+  expectSame("ups/poisson/sine.ups", "c.phi", 1, {patches, "Poisson/Solver/tolerance=1e-13", "Time/max_Timesteps=2"});
+}
+
+TEST(Solves, GiveTheSameTemperatureOnAnyRanks) {
+  expectSame("ups/heat/implicit.ups", "c.temperature", 1,
+             {"Grid/Level/Box/patches=[5,1,1]", "Heat/thermal_conductivity=1 + x", "Heat/Solver/tolerance=1e-13"});
+}
+
+TEST(Solves, GiveTheSamePlacesOfASolidOnAnyRanks) {
+  expectSame("ups/solid/implicit_cantilever.ups", "p.x", 2, {patches});
+}
+
+TEST(Solves, GiveTheSamePlacesWithGimpAndInertia) {
+  expectSame("ups/solid/implicit_cantilever.ups", "p.x", 2,
+             {patches, "MPM/interpolator=gimp", "MPM/dynamic=true", "MPM/DoPressureStabilization=true"});
+}
+
+TEST(Solves, RunWhereARankHasNoPatch) {
+  expectSame("ups/poisson/sine.ups", "c.phi", 1,
+             {"Grid/Level/Box/patches=[2,1,1]", "Poisson/Solver/tolerance=1e-13", "Time/max_Timesteps=1"});
+}
+
+}  // namespace tushar::simulation

@@ -1,0 +1,66 @@
+#!/usr/bin/env python3
+"""Implicit steps of solids: where explicit ones end, on any patches, and what a solve that fails says."""
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from sus import ROOT, SUS, run
+
+BEAM = "ups/solid/implicit_cantilever.ups"
+COARSE = ("MPM/interpolator=gimp", "Grid/Level/Box/upper=[1.2,0.8,0.05]", "Grid/Level/Box/resolution=[12,8,1]")
+
+
+def last_of(scene, names, sets):
+    """The last line of each global, less its time."""
+    with tempfile.TemporaryDirectory() as folder:
+        command = [SUS, scene, "--quiet", "--output", folder]
+        for override in sets:
+            command += ["--set", override]
+        subprocess.run(command, cwd=ROOT, check=True)
+        archive = next(pathlib.Path(folder).glob("*.uda.*"))
+        return [[float(word) for word in (archive / f"{name}.dat").read_text().splitlines()[-1].split()[1:]]
+                for name in names]
+
+
+def explicit(text):
+    """The same scene by explicit steps with a damping that brings it to rest."""
+    text = re.sub(r"<dynamic>.*</Solver>", "<artificial_damping_coeff>6</artificial_damping_coeff>", text, flags=re.DOTALL)
+    text = text.replace('type="impm"', 'type="mpm"').replace(">implicit<", ">explicit<")
+    text = re.sub(r".*(Newton|Krylov)Iterations.*\n", "", text)
+    return text.replace("<delt_init>1</delt_init>", "<timestep_multiplier>0.5</timestep_multiplier>")
+
+
+class Implicit(unittest.TestCase):
+    def test_ends_where_explicit_steps_end(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scene = pathlib.Path(folder, "explicit.ups")
+            scene.write_text(explicit((ROOT / BEAM).read_text()))
+            names = ("CenterOfMassPosition", "StrainEnergy")
+            # Half the period of the beam is 1.1 s, and its damping nearly critical: exp(-3 t) is left of the motion.
+            at_rest = last_of(scene, names, (*COARSE, "Time/maxTime=3"))
+            implicit = last_of(BEAM, names, COARSE)
+        mass, middle = 200 * .05, .5
+        sunk = [mass * middle - values[0][1] for values in (at_rest, implicit)]
+        self.assertAlmostEqual(sunk[1] / sunk[0], 1, delta=.005)
+        self.assertAlmostEqual(implicit[1][0] / at_rest[1][0], 1, delta=.01)  # goes as the square of the above
+
+    def test_a_failed_solve_tells_history_place_and_what_to_try(self):
+        result = run(BEAM, "MPM/iters_before_timestep_restart=1", "Time/delt_min=0.9")
+        self.assertEqual(result.code, 4)
+        self.assertRegex(result.err, r"Newton's method did not converge \(DIVERGED_MAX_IT\) in 1 iterations; residuals "
+                                     r"\S+, \S+; the greatest residual is at the node at \(")
+        self.assertIn("try a smaller <delt_init>", result.err)
+
+    def test_a_step_that_fails_is_halved(self):
+        result = run(BEAM, "MPM/iters_before_timestep_restart=2", "Time/max_Timesteps=1", "PhysicalConstants/gravity=[0,-50,0]",
+                     "MPM/dynamic=true")
+        self.assertEqual(result.code, 0, result.err)
+        self.assertGreater(result.report["retries"], 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
