@@ -41,6 +41,11 @@ class ShortGallery(unittest.TestCase):
                 run = self.gallery.run(case, method)
                 self.assertEqual(judge(run, case, True), ["pass"], run)
 
+    def test_finite_volumes_are_measured_where_they_have_no_particles(self):
+        run = self.gallery.run(case_of("contact"), METHODS["volumes"])
+        self.assertEqual(judge(run, case_of("contact"), False), ["pass"], run)
+        self.assertLess(run["error"], 1e-13)
+
     def test_the_papers_method_fails_where_it_must_and_says_so(self):
         for name in FATAL:
             with self.subTest(case=name):

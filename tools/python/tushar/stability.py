@@ -94,6 +94,13 @@ class Gallery:
         return good
 
 
+def error_of(case, errors):
+    """Where a case's error stands in a report: that of particles is, where a method has none, the norm L2 over cells."""
+    variable, where, norm = case.error.split(".")
+    has_it = where != "particle" or where in errors.get(variable, {})
+    return case.error if has_it else f"{variable}.cell.L2"
+
+
 def measured(report, totals, case):
     """The part of a report that counts."""
     if "steps" not in report:
@@ -103,7 +110,7 @@ def measured(report, totals, case):
               "mass": report["drift"].get("mass"), "momentum": report["drift"].get("momentum"),
               "energy": report["drift"].get("energy"), "fingerprint": report["fingerprint"]}
     if case.error and not result["failure"]:
-        result["error"] = value_at(report["errors"], case.error)
+        result["error"] = value_at(report["errors"], error_of(case, report["errors"]))
     for name, label in (("least_density", "LeastDensity"), ("least_energy", "LeastInternalEnergy")):
         if totals.get(label):
             result[name] = min(totals[label])
