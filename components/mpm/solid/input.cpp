@@ -94,6 +94,85 @@ const std::vector<std::pair<std::string, std::string>> meaningless{
     {"temperature_solve", "belongs to the implicit method"},
 };
 
+/// What works against compression and motion.
+void addDissipation(Schema<MpmSection>& mpm) {
+  mpm.value("artificial_viscosity", &MpmSection::artificialViscosity, false, "1", "pressure against compression")
+      .value("artificial_viscosity_coeff1", &MpmSection::linearViscosity, 0.2, "1", "factor of c |D| h",
+             input::nonNegative())
+      .value("artificial_viscosity_coeff2", &MpmSection::quadraticViscosity, 2, "1", "factor of D^2 h^2",
+             input::nonNegative())
+      .value("artificial_viscosity_heating", &MpmSection::viscosityHeats, false, "1",
+             "the work of the artificial viscosity heats the material")
+      .value("artificial_damping_coeff", &MpmSection::damping, 0, "1/s", "acceleration against the velocity",
+             input::nonNegative());
+}
+
+/// What keeps single particles and nodes from ruling the run.
+void addLimits(Schema<MpmSection>& mpm) {
+  mpm.value("minimum_particle_mass", &MpmSection::minimumParticleMass, 3e-15, "kg",
+             "a particle lighter than that is taken out", input::nonNegative())
+      .value("minimum_mass_for_acc", &MpmSection::minimumMassForAcceleration, 1e-199, "kg",
+             "a node lighter than that is only accelerated by gravity", input::nonNegative())
+      .value("maximum_particle_velocity", &MpmSection::maximumParticleVelocity, 3e105, "m/s",
+             "a particle that becomes faster is slowed down to 9/10 of it", input::positive())
+      .value("minimum_subcycles_for_F", &MpmSection::minimumSubcycles, 1, "1",
+             "least number of parts in which a step changes the deformation gradient", input::atLeast(1));
+}
+
+/// When stresses are brought forward, and how velocities go from the grid to the particles.
+void addUpdates(Schema<MpmSection>& mpm) {
+  mpm.choice("stress_update", &MpmSection::stressUpdate,
+              {{"usl", StressUpdate::last}, {"musl", StressUpdate::modifiedLast}, {"usf", StressUpdate::first}},
+              StressUpdate::last,
+              "stresses follow the grid's velocity at the end of the step, the particles' new velocity on the grid, or "
+              "the grid's velocity at the start")
+      .ours()
+      .value("XPIC2", &MpmSection::xpic, false, "1", "velocities by extended PIC of order 2")
+      .value("pic_fraction", &MpmSection::picFraction, 0, "1",
+             "share of the grid's own velocity in what particles get; the rest is FLIP", input::between(0, 1))
+      .ours()
+      .value("apic", &MpmSection::affine, false, "1",
+             "affine particle-in-cell: particles take the grid's velocity and a moment of it that keeps rotation")
+      .ours();
+}
+
+/// The space, what acts from outside, and heat.
+void addSurroundings(Schema<MpmSection>& mpm) {
+  mpm.value("axisymmetric", &MpmSection::axisymmetric, false, "1",
+             "x is the radius and y the axis; mass, energy and forces are per radian")
+      .value("use_load_curves", &MpmSection::useLoadCurves, false, "1", "the loads of <PhysicalBC> act")
+      .value("DoExplicitHeatConduction", &MpmSection::conductsHeat, true, "1", "heat is conducted")
+      .value("do_contact_friction_heating", &MpmSection::contactHeats, false, "1",
+             "friction between materials heats them, where heat is conducted")
+      .choice("RunMMSProblem", &MpmSection::manufactured,
+              {{"none", ""},
+               {"AxisAligned", "AxisAligned"},
+               {"ExpandingRing", "ExpandingRing"},
+               {"GeneralizedVortex", "GeneralizedVortex"}},
+              "", "start as a manufactured solution, under its body force")
+      .value("withColor", &MpmSection::withColor, false, "1",
+             "accepted for Uintah's sake: p.color is there where it is saved");
+}
+
+void checkUpdates(const MpmSection& read, const Element& element, Diagnostics& diagnostics) {
+  const bool hasAxisymmetric = read.interpolator == Interpolator::linear || read.interpolator == Interpolator::gimp;
+  if (read.axisymmetric && !hasAxisymmetric)
+    diagnostics.error(element, "axisymmetric: only with the interpolators linear and gimp");
+  if (read.affine && (read.axisymmetric || read.interpolator == Interpolator::cpdi))
+    diagnostics.error(element, "apic: neither with axisymmetric nor with the interpolator cpdi; use XPIC2");
+  if (read.affine + read.xpic + (read.picFraction > 0) > 1)
+    diagnostics.error(element, "apic, XPIC2 and pic_fraction are three ways to take the velocity: pick one");
+}
+
+/// What Uintah has and this method has not, or always does.
+void addForeign(Schema<MpmSection>& mpm) {
+  for (const auto& [tag, why] : meaningless) mpm.ignored(tag, why);
+  for (const auto& [tag, instead] : lacking) refuseSwitch(mpm, tag, instead);
+  requireSwitch(mpm, "computeColinearNormals", "both sides of a contact have one normal");
+  requireSwitch(mpm, "do_grid_reset", "the grid is where it was at the start of each step");
+  refuseTag(mpm, "cpdi_lcrit", "domains of cpdi keep the size that the deformation gives them");
+}
+
 const Schema<MpmSection>& mpmSchema() {
   static const Schema<MpmSection> schema = [] {
     Schema<MpmSection> mpm("MPM", "The Material Point Method for solids.");
@@ -101,65 +180,13 @@ const Schema<MpmSection>& mpmSchema() {
                "how time advances; implicit is another method, sus --describe impm")
         .choice("interpolator", &MpmSection::interpolator, interpolators, Interpolator::linear,
                 "shape functions: linear, generalised interpolation, convected particle domains (fast_cpdi is another "
-                "word for them), quadratic or cubic B-splines")
-        .value("artificial_viscosity", &MpmSection::artificialViscosity, false, "1", "pressure against compression")
-        .value("artificial_viscosity_coeff1", &MpmSection::linearViscosity, 0.2, "1", "factor of c |D| h",
-               input::nonNegative())
-        .value("artificial_viscosity_coeff2", &MpmSection::quadraticViscosity, 2, "1", "factor of D^2 h^2",
-               input::nonNegative())
-        .value("artificial_viscosity_heating", &MpmSection::viscosityHeats, false, "1",
-               "the work of the artificial viscosity heats the material")
-        .value("artificial_damping_coeff", &MpmSection::damping, 0, "1/s", "acceleration against the velocity",
-               input::nonNegative())
-        .value("minimum_particle_mass", &MpmSection::minimumParticleMass, 3e-15, "kg",
-               "a particle lighter than that is taken out", input::nonNegative())
-        .value("minimum_mass_for_acc", &MpmSection::minimumMassForAcceleration, 1e-199, "kg",
-               "a node lighter than that is only accelerated by gravity", input::nonNegative())
-        .value("maximum_particle_velocity", &MpmSection::maximumParticleVelocity, 3e105, "m/s",
-               "a particle that becomes faster is slowed down to 9/10 of it", input::positive())
-        .value("minimum_subcycles_for_F", &MpmSection::minimumSubcycles, 1, "1",
-               "least number of parts in which a step changes the deformation gradient", input::atLeast(1))
-        .choice("stress_update", &MpmSection::stressUpdate,
-                {{"usl", StressUpdate::last}, {"musl", StressUpdate::modifiedLast}, {"usf", StressUpdate::first}},
-                StressUpdate::last,
-                "stresses follow the grid's velocity at the end of the step, the particles' new velocity on the grid, or "
-                "the grid's velocity at the start")
-        .ours()
-        .value("XPIC2", &MpmSection::xpic, false, "1", "velocities by extended PIC of order 2")
-        .value("pic_fraction", &MpmSection::picFraction, 0, "1",
-               "share of the grid's own velocity in what particles get; the rest is FLIP", input::between(0, 1))
-        .ours()
-        .value("apic", &MpmSection::affine, false, "1",
-               "affine particle-in-cell: particles take the grid's velocity and a moment of it that keeps rotation")
-        .ours()
-        .value("axisymmetric", &MpmSection::axisymmetric, false, "1",
-               "x is the radius and y the axis; mass, energy and forces are per radian")
-        .value("use_load_curves", &MpmSection::useLoadCurves, false, "1", "the loads of <PhysicalBC> act")
-        .value("DoExplicitHeatConduction", &MpmSection::conductsHeat, true, "1", "heat is conducted")
-        .value("do_contact_friction_heating", &MpmSection::contactHeats, false, "1",
-               "friction between materials heats them, where heat is conducted")
-        .choice("RunMMSProblem", &MpmSection::manufactured,
-                {{"none", ""},
-                 {"AxisAligned", "AxisAligned"},
-                 {"ExpandingRing", "ExpandingRing"},
-                 {"GeneralizedVortex", "GeneralizedVortex"}},
-                "", "start as a manufactured solution, under its body force")
-        .value("withColor", &MpmSection::withColor, false, "1",
-               "accepted for Uintah's sake: p.color is there where it is saved");
-    mpm.check([](const MpmSection& read, const Element& element, Diagnostics& diagnostics) {
-      const bool hasAxisymmetric = read.interpolator == Interpolator::linear || read.interpolator == Interpolator::gimp;
-      if (read.axisymmetric && !hasAxisymmetric)
-        diagnostics.error(element, "axisymmetric: only with the interpolators linear and gimp");
-      if (read.affine && (read.axisymmetric || read.interpolator == Interpolator::cpdi))
-        diagnostics.error(element, "apic: neither with axisymmetric nor with the interpolator cpdi; use XPIC2");
-      if (read.affine + read.xpic + (read.picFraction > 0) > 1)
-        diagnostics.error(element, "apic, XPIC2 and pic_fraction are three ways to take the velocity: pick one");
-    });
-    for (const auto& [tag, why] : meaningless) mpm.ignored(tag, why);
-    for (const auto& [tag, instead] : lacking) refuseSwitch(mpm, tag, instead);
-    requireSwitch(mpm, "computeColinearNormals", "both sides of a contact have one normal");
-    requireSwitch(mpm, "do_grid_reset", "the grid is where it was at the start of each step");
-    refuseTag(mpm, "cpdi_lcrit", "domains of cpdi keep the size that the deformation gives them");
+                "word for them), quadratic or cubic B-splines");
+    addDissipation(mpm);
+    addLimits(mpm);
+    addUpdates(mpm);
+    addSurroundings(mpm);
+    mpm.check(checkUpdates);
+    addForeign(mpm);
     return mpm;
   }();
   return schema;
