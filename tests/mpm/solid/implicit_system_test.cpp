@@ -17,6 +17,16 @@ HypoElastic hypoElastic() {
   return model;
 }
 
+/// Yields at a strain of about .01.
+CompNeoHookPlastic softMetal() {
+  CompNeoHookPlastic model;
+  model.bulkModulus = 8e5;
+  model.shearModulus = 2e5;
+  model.yieldStress = 5e3;
+  model.hardeningModulus = 1e4;
+  return model;
+}
+
 /// A matrix as it is: every number.
 class Dense : public solvers::Matrix {
  public:
@@ -75,7 +85,8 @@ TEST(ImplicitSystem, HasTheTangentOfItsResidual) {
 }
 
 TEST(ImplicitSystem, HasTheTangentOfEveryMaterialFromADeformedStart) {
-  for (const auto& model : {modelOf(rubber()), modelOf(mooneyRivlin()), modelOf(hypoElastic())}) {
+  for (const auto& model : {modelOf(rubber()), modelOf(mooneyRivlin()), modelOf(hypoElastic()),
+                            modelOf(softMetal())}) {
     Block<LinearShape<2>> block(model, {{2, 2, 1}}, 1.2);
     EXPECT_LT(errorOfTangent(block.system(false), 0.1), 1e-6) << model->name();
   }
