@@ -36,19 +36,14 @@ SolidMpm<Shape>::SolidMpm(Problem problem) : Solids(std::move(problem)) {
   keeps_stress_ = is_damageable_ || any([](const Model& model) { return !model.dependsOnDeformationOnly(); });
   is_thermal_ = any([](const Model& model) { return model.usesTemperature(); });
   heats_ = any([](const Model& model) { return model.heats(); }) || (isViscous() && problem_.method.viscosityHeats);
-  for (const Material& material : problem_.materials) state_size_ = std::max(state_size_, material.model->stateSize());
-  state_.components = state_size_;
-  state_.bytes = static_cast<std::size_t>(state_size_) * sizeof(double);
+  state_size_ = std::max(state_size_, largestStateOf(problem_.materials));
+  state_.setCount(state_size_);
   state_views_ = stateViews(problem_.materials);
 }
 
 template <class Shape>
 void SolidMpm<Shape>::scheduleInitialize(TaskList& tasks) const {
-  tasks.newParticles("mpm::actuallyInitialize", actuallyInitialize<D>, problem_.materials, with(problem_.start),
-                     creates(p::x<D>), creates(p::velocity<D>), creates(p::displacement<D>), creates(p::size<D>),
-                     creates(p::externalForce<D>), creates(p::mass), creates(p::temperature), creates(p::color),
-                     creates(p::viscosity), creates(p::strainEnergy), creates(p::deformationMeasure),
-                     creates(p::velocityGradient), creates(p::loadCurves));
+  scheduleActuallyInitialize<D>(tasks, problem_.materials, problem_.start);
   tasks.perMaterial("mpm::computeInitialTimeStep", computeInitialTimeStep<D>, problem_.materials,
                     requiresNew(p::velocity<D>), requiresNew(p::temperature), requiresNew(p::deformationMeasure),
                     computes(c::stableTimeStep));

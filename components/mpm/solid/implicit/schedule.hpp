@@ -17,18 +17,13 @@ namespace tushar::mpm::solid {
 
 template <class Shape>
 ImplicitMpm<Shape>::ImplicitMpm(Problem problem, ImplicitMethod how) : problem_(std::move(problem)), how_(std::move(how)) {
-  for (const Material& material : problem_.materials) state_size_ = std::max(state_size_, material.model->stateSize());
-  state_.components = state_size_;
-  state_.bytes = static_cast<std::size_t>(state_size_) * sizeof(double);
+  state_size_ = std::max(state_size_, largestStateOf(problem_.materials));
+  state_.setCount(state_size_);
 }
 
 template <class Shape>
 void ImplicitMpm<Shape>::scheduleInitialize(TaskList& tasks) const {
-  tasks.newParticles("mpm::actuallyInitialize", actuallyInitialize<D>, problem_.materials, with(problem_.start),
-                     creates(p::x<D>), creates(p::velocity<D>), creates(p::displacement<D>), creates(p::size<D>),
-                     creates(p::externalForce<D>), creates(p::mass), creates(p::temperature), creates(p::color),
-                     creates(p::viscosity), creates(p::strainEnergy), creates(p::deformationMeasure),
-                     creates(p::velocityGradient), creates(p::loadCurves));
+  scheduleActuallyInitialize<D>(tasks, problem_.materials, problem_.start);
   tasks.perMaterial("mpm::initializeStress", initializeStress, problem_.materials, with(state_size_),
                     requiresNew(p::mass), requiresNew(p::deformationMeasure), computes(p::volume), computes(p::stress),
                     when(true, computes(state_)));

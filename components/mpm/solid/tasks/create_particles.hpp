@@ -135,4 +135,13 @@ inline void initializeStress(const Patch&, const Material& material, int stateSi
   }
 }
 
+template <int D>
+void scheduleActuallyInitialize(TaskList& tasks, const std::vector<Material>& materials, const Start& start) {
+  tasks.newParticles("mpm::actuallyInitialize", actuallyInitialize<D>, materials, with(start), creates(p::x<D>),
+                     creates(p::velocity<D>), creates(p::displacement<D>), creates(p::size<D>),
+                     creates(p::externalForce<D>), creates(p::mass), creates(p::temperature), creates(p::color),
+                     creates(p::viscosity), creates(p::strainEnergy), creates(p::deformationMeasure),
+                     creates(p::velocityGradient), creates(p::loadCurves));
+}
+
 }  // namespace tushar::mpm::solid
