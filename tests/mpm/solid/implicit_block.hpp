@@ -32,6 +32,20 @@ std::shared_ptr<const Model> modelOf(const M& model) {
   return std::make_shared<ModelOf<M>>(model);
 }
 
+/// A grid of unit cells, two more than `filled` along each axis that has any, between symmetry planes.
+inline grid::Domain domainAround(const Index3& filled) {
+  grid::Domain domain;
+  domain.upper = Vec3::Zero();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (filled[axis] == 0) continue;
+    domain.resolution[axis] = filled[axis] + 2;
+    domain.upper[axis] = filled[axis] + 2;
+    for (const int side : {0, 1}) domain.boundaries.face(axis, side).push_back({"Symmetric", "symmetry", Vec3::Zero()});
+  }
+  domain.nodesBeyond = 1;
+  return domain;
+}
+
 /// A block of particles, two along each axis of a cell, on a grid of unit cells between symmetry planes.
 template <class Shape>
 class Block {
@@ -40,7 +54,7 @@ class Block {
 
   /// Fills the `filled` cells next to the lower corner. `stretched` > 1 pulls the block apart before the step.
   Block(std::shared_ptr<const Model> model, const Index3& filled, double stretched = 1)
-      : level_(domainAround(filled)), state_size_(std::max(1, model->stateSize())) {
+      : level_(domainAround(restricted(filled))), state_size_(std::max(1, model->stateSize())) {
     material_.density = 1000;
     material_.model = std::move(model);
     const Patch& patch = level_.patches().front();
@@ -124,16 +138,10 @@ class Block {
   }
 
  private:
-  static grid::Domain domainAround(const Index3& filled) {
-    grid::Domain domain;
-    domain.upper = Vec3::Zero();
-    for (int d = 0; d < D; ++d) {
-      domain.resolution[d] = filled[d] + 2;
-      domain.upper[d] = filled[d] + 2;
-      for (const int side : {0, 1}) domain.boundaries.face(d, side).push_back({"Symmetric", "symmetry", Vec3::Zero()});
-    }
-    domain.nodesBeyond = Shape::ghostNodes;
-    return domain;
+  static Index3 restricted(const Index3& filled) {
+    Index3 cells;
+    for (int d = 0; d < D; ++d) cells[d] = filled[d];
+    return cells;
   }
   void add(const Vec<D>& at, double stretched) {
     x_.push_back(at);

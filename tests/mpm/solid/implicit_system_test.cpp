@@ -104,6 +104,26 @@ TEST(ImplicitSystem, HasTheTangentOfItsResidualWhereParticlesAreCompressedAsOne)
   }
 }
 
+/// sum_i r_i S_i/r, the hoop strain of u_r = r, at points all over a cell that does not lie at the axis.
+template <class Shape>
+void expectHoopStrainOfExpansion() {
+  const Level level(domainAround(Index3{{4, 4, 0}}));
+  for (const double along : {0.1, 0.3, 0.7, 0.95}) {
+    const Vec<2> x(2.15, 1 + along);
+    const typename Shape::Stencil stencil(level, {{2, 1}}, x, Extent<2>{Vec<2>(0.5, 0.5), {}});
+    double strain = 0;
+    stencil.forEachNode([&](const Index<2>& node, double, const Vec<2>&) {
+      strain += level.nodePosition(0, node[0]) * hoopOf(stencil, node);
+    });
+    EXPECT_NEAR(strain, 1, 1e-13);  // round-off of sums of order 1
+  }
+}
+
+TEST(HoopOf, GivesTheStrainOfAnExpansionWhereverTheParticleIsAlongTheAxis) {
+  expectHoopStrainOfExpansion<AxisymmetricLinearShape<2>>();
+  expectHoopStrainOfExpansion<AxisymmetricGimpShape<2>>();
+}
+
 TEST(ImplicitSystem, HasNoForceWhereNothingIsDeformed) {
   Block<GimpShape<2>> block(modelOf(rubber()), {{2, 2, 1}});
   ImplicitSystem<GimpShape<2>> system = block.system(false);

@@ -6,6 +6,7 @@
 #include "components/mpm/solid/implicit/system_stiffness.hpp"
 #include "components/mpm/solid/implicit/update.hpp"
 #include "components/mpm/solid/tasks/apply_external_loads.hpp"
+#include "components/mpm/solid/tasks/boundary_force.hpp"
 #include "components/mpm/solid/tasks/diagnose.hpp"
 #include "components/mpm/solid/tasks/heat.hpp"
 #include "components/mpm/solid/tasks/show_grid.hpp"
@@ -19,6 +20,7 @@ template <class Shape>
 ImplicitMpm<Shape>::ImplicitMpm(Problem problem, ImplicitMethod how) : problem_(std::move(problem)), how_(std::move(how)) {
   state_size_ = std::max(state_size_, largestStateOf(problem_.materials));
   state_.setCount(state_size_);
+  state_views_ = stateViews(problem_.materials);
 }
 
 template <class Shape>
@@ -93,22 +95,13 @@ void ImplicitMpm<Shape>::scheduleHeat(TaskList& tasks) const {
 
 template <class Shape>
 void ImplicitMpm<Shape>::scheduleDiagnostics(TaskList& tasks) const {
-  tasks.perMaterial("mpm::sumMass", sumParticles, problem_.materials, requiresOld(p::mass), computes(total::mass));
-  tasks.perMaterial("mpm::sumStrainEnergy", sumParticles, problem_.materials, requiresOld(p::strainEnergy),
-                    computes(total::strainEnergy));
-  tasks.perMaterial("mpm::sumKineticEnergy", sumKineticEnergy<D>, problem_.materials, requiresOld(p::mass),
-                    requiresOld(p::velocity<D>), computes(total::kineticEnergy));
-  tasks.perMaterial("mpm::sumMomentum", sumMomentum<D>, problem_.materials, requiresOld(p::mass),
-                    requiresOld(p::velocity<D>), computes(total::momentum));
-  tasks.perMaterial("mpm::sumCenterOfMass", sumCenterOfMass<D>, problem_.materials, requiresOld(p::mass),
-                    requiresOld(p::x<D>), computes(total::centerOfMass));
-  tasks.perMaterial("mpm::showOnGrid", showOnGrid<Shape>, problem_.materials, with(problem_.method.commonSize),
-                    requiresOld(p::x<D>, Shape::reach), when(true, requiresOld(p::size<D>, Shape::reach)),
-                    requiresOld(p::deformationMeasure, Shape::reach), requiresOld(p::mass, Shape::reach),
-                    requiresOld(p::velocity<D>, Shape::reach), requiresOld(p::volume, Shape::reach),
-                    requiresOld(p::stress, Shape::reach), computes(g::mass), computes(g::volume),
-                    computes(g::velocity<D>), computes(g::internalForce<D>), computes(g::acceleration<D>),
-                    computes(g::stress));
+  scheduleTotals<D>(tasks, problem_.materials, when(false, requiresOld(p::affineMoment)));
+  for (const auto& view : state_views_) view->schedule(tasks, problem_.materials, state_size_, state_);
+  scheduleShowOnGrid<Shape>(tasks, problem_.materials, problem_.method.commonSize,
+                            when(true, requiresOld(p::size<D>, Shape::reach)), requiresOld(p::volume, Shape::reach),
+                            requiresOld(p::stress, Shape::reach));
+  scheduleBoundaryForces<D>(tasks, problem_.materials, problem_.method.isThin, requiresOld(p::volume),
+                            requiresOld(p::stress));
 }
 
 }  // namespace tushar::mpm::solid
