@@ -1,5 +1,7 @@
 #include "components/mpm/solid/input.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "components/mpm/solid/loads/load_input.hpp"
@@ -30,12 +32,14 @@ struct MpmSection {
   int integrator = 0;
   Interpolator interpolator = Interpolator::linear;
   bool artificialViscosity = false, withColor = false, axisymmetric = false, useLoadCurves = false;
-  bool conductsHeat = true, xpic = false, affine = false, viscosityHeats = false, contactHeats = false;
+  bool conductsHeat = true, xpic = false, affine = false, contactHeats = false;
+  std::optional<bool> viscosityHeats;
   double picFraction = 0;
   StressUpdate stressUpdate = StressUpdate::last;
   std::string manufactured;
   double linearViscosity = 0, quadraticViscosity = 0, damping = 0;
-  double minimumParticleMass = 0, minimumMassForAcceleration = 0, maximumParticleVelocity = 0;
+  double minimumParticleMass = 0, minimumMassForAcceleration = 0;
+  std::optional<double> maximumParticleVelocity;
   int minimumSubcycles = 1;
 };
 
@@ -81,6 +85,7 @@ const std::vector<std::pair<std::string, std::string>> meaningless{
     {"with_gauss_solver", "belongs to the implicit method"},
     {"dynamic", "belongs to the implicit method"},
     {"solver", "belongs to the implicit method"},
+    {"Solver", "belongs to the implicit method"},
     {"convergence_criteria_disp", "belongs to the implicit method"},
     {"convergence_criteria_energy", "belongs to the implicit method"},
     {"num_iters_to_decrease_delT", "belongs to the implicit method"},
@@ -101,8 +106,9 @@ void addDissipation(Schema<MpmSection>& mpm) {
              input::nonNegative())
       .value("artificial_viscosity_coeff2", &MpmSection::quadraticViscosity, 2, "1", "factor of D^2 h^2",
              input::nonNegative())
-      .value("artificial_viscosity_heating", &MpmSection::viscosityHeats, false, "1",
-             "the work of the artificial viscosity heats the material")
+      .optional("artificial_viscosity_heating", &MpmSection::viscosityHeats, "1",
+                "the work of the artificial viscosity heats elastic_plastic and elastic_plastic_hp: true unless told "
+                "otherwise, where there is one")
       .value("artificial_damping_coeff", &MpmSection::damping, 0, "1/s", "acceleration against the velocity",
              input::nonNegative());
 }
@@ -110,11 +116,11 @@ void addDissipation(Schema<MpmSection>& mpm) {
 /// What keeps single particles and nodes from ruling the run.
 void addLimits(Schema<MpmSection>& mpm) {
   mpm.value("minimum_particle_mass", &MpmSection::minimumParticleMass, 3e-15, "kg",
-             "a particle lighter than that is taken out", input::nonNegative())
+             "no particle may be as light as that (Uintah takes such out)", input::nonNegative())
       .value("minimum_mass_for_acc", &MpmSection::minimumMassForAcceleration, 1e-199, "kg",
              "a node lighter than that is only accelerated by gravity", input::nonNegative())
-      .value("maximum_particle_velocity", &MpmSection::maximumParticleVelocity, 3e105, "m/s",
-             "a particle that becomes faster is slowed down to 9/10 of it", input::positive())
+      .optional("maximum_particle_velocity", &MpmSection::maximumParticleVelocity, "m/s",
+                "a particle that becomes faster is slowed down to 9/10 of it", input::positive())
       .value("minimum_subcycles_for_F", &MpmSection::minimumSubcycles, 1, "1",
              "least number of parts in which a step changes the deformation gradient", input::atLeast(1));
 }
@@ -154,12 +160,19 @@ void addSurroundings(Schema<MpmSection>& mpm) {
              "accepted for Uintah's sake: p.color is there where it is saved");
 }
 
+void checkDissipation(const MpmSection& read, const Element& element, Diagnostics& diagnostics) {
+  if (read.viscosityHeats.value_or(false) && !read.artificialViscosity)
+    diagnostics.error(element.child("artificial_viscosity_heating").value(), "needs <artificial_viscosity> true");
+}
+
 void checkUpdates(const MpmSection& read, const Element& element, Diagnostics& diagnostics) {
   const bool hasAxisymmetric = read.interpolator == Interpolator::linear || read.interpolator == Interpolator::gimp;
   if (read.axisymmetric && !hasAxisymmetric)
     diagnostics.error(element, "axisymmetric: only with the interpolators linear and gimp");
   if (read.affine && (read.axisymmetric || read.interpolator == Interpolator::cpdi))
     diagnostics.error(element, "apic: neither with axisymmetric nor with the interpolator cpdi; use XPIC2");
+  if (read.affine && read.stressUpdate != StressUpdate::last)
+    diagnostics.error(element, "apic: only with stress_update usl");
   if (read.affine + read.xpic + (read.picFraction > 0) > 1)
     diagnostics.error(element, "apic, XPIC2 and pic_fraction are three ways to take the velocity: pick one");
 }
@@ -185,7 +198,7 @@ const Schema<MpmSection>& mpmSchema() {
     addLimits(mpm);
     addUpdates(mpm);
     addSurroundings(mpm);
-    mpm.check(checkUpdates);
+    mpm.check(checkDissipation).check(checkUpdates);
     addForeign(mpm);
     return mpm;
   }();
@@ -276,7 +289,6 @@ Method settle(const MpmSection& read, const PhysicalConstants& constants) {
   method.damping = read.damping;
   if (read.artificialViscosity) method.viscosity = {read.linearViscosity, read.quadraticViscosity};
   method.minimumMassForAcceleration = read.minimumMassForAcceleration;
-  method.minimumParticleMass = read.minimumParticleMass;
   method.maximumParticleVelocity = read.maximumParticleVelocity;
   method.minimumSubcyclesForF = read.minimumSubcycles;
   method.conductsHeat = read.conductsHeat;
@@ -284,9 +296,37 @@ Method settle(const MpmSection& read, const PhysicalConstants& constants) {
   method.picFraction = read.affine ? 1 : read.picFraction;
   method.xpic = read.xpic;
   method.affine = read.affine;
-  method.viscosityHeats = read.viscosityHeats;
+  method.viscosityHeats = read.artificialViscosity && read.viscosityHeats.value_or(true);
   method.contactHeats = read.contactHeats;
   return method;
+}
+
+/// Heat that works or flows changes a temperature by the heat capacity.
+void checkHeat(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
+  const bool sharesHeat = problem.method.conductsHeat && problem.method.thermalContact;
+  const auto tags = root.child("MaterialProperties")->child("MPM")->children("material");
+  for (std::size_t m = 0; m < tags.size(); ++m) {
+    const Material& material = problem.materials[m];
+    if (material.specificHeat > 0) continue;
+    if (material.model->heats())
+      diagnostics.error(tags[m], "missing tag <specific_heat>: " + std::string(material.model->name()) + " heats by its work");
+    else if (material.thermalConductivity > 0 || sharesHeat)
+      diagnostics.error(tags[m], "missing tag <specific_heat>: it conducts heat");
+  }
+}
+
+/// Loads that something else in the scene would put out of effect.
+void checkLoads(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
+  const Loads& loads = problem.start.loads;
+  if (problem.start.solution && (loads.hasForces() || loads.hasHeat()))
+    diagnostics.error(root.child("PhysicalBC").value(), "<RunMMSProblem> has loads of its own: take these out");
+  for (const SurfaceLoad& load : loads.surfaces)
+    if (load.material >= static_cast<int>(problem.materials.size()))
+      diagnostics.error(root.child("PhysicalBC").value(),
+                        fmt::format("load_curve/material: there is no material {}: they are counted from 0 to {}",
+                                    load.material, problem.materials.size() - 1));
+  if (loads.hasHeat() && !problem.method.conductsHeat)
+    diagnostics.error(root.child("PhysicalBC").value(), "heat_flux: needs <DoExplicitHeatConduction> true");
 }
 
 }  // namespace
@@ -306,7 +346,14 @@ simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostic
   problem.method.thermalContact = properties.mpm.thermalContact;
   problem.start = {read.axisymmetric, readLoads(root, read.useLoadCurves, diagnostics),
                    makeManufactured(read.manufactured)};
+  problem.start.leastMass = read.minimumParticleMass;
   nameMaterials(problem.materials);
+  checkHeat(problem, root, diagnostics);
+  checkLoads(problem, root, diagnostics);
+  for (const Contact& contact : problem.contacts)
+    if (problem.start.axisymmetric && contact.volumeConstraint > 0)
+      diagnostics.error(root.child("MPM")->child("axisymmetric").value(),
+                        "volume_constraint of <contact> compares volumes, which are per radian here: leave it out");
   for (const Material& material : problem.materials) {
     if (problem.start.solution && material.model->name() != "cnh_mms")
       diagnostics.error(root.child("MPM")->child("RunMMSProblem").value(),
