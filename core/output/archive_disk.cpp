@@ -95,8 +95,17 @@ herr_t read(H5FD_t* base, H5FD_mem_t, hid_t, haddr_t from, size_t count, void* b
   return 0;
 }
 
+/// Lets the disk begin with a large part while the next is made; how that goes is seen when the file is synchronised.
+void startOnDisk(const DiskFile& file, haddr_t from, size_t count) {
+  constexpr size_t large = size_t{1} << 18;
+  if (count >= large)
+    sync_file_range(file.descriptor, static_cast<off_t>(from), static_cast<off_t>(count), SYNC_FILE_RANGE_WRITE);
+}
+
 herr_t write(H5FD_t* base, H5FD_mem_t, hid_t, haddr_t to, size_t count, const void* buffer) {
   DiskFile& file = of(base);
+  const haddr_t first = to;
+  const size_t all = count;
   const auto* from = static_cast<const char*>(buffer);
   file.size = std::max<haddr_t>(file.size, to + count);
   while (count > 0 && file.failure->error == 0) {
@@ -110,6 +119,7 @@ herr_t write(H5FD_t* base, H5FD_mem_t, hid_t, haddr_t to, size_t count, const vo
     to += static_cast<haddr_t>(done);
     count -= static_cast<size_t>(done);
   }
+  startOnDisk(file, first, all);
   return 0;
 }
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <functional>
+#include <numeric>
 #include <system_error>
 #include <type_traits>
 
@@ -18,8 +20,22 @@ hid_t fileType(double, bool asFloat) { return asFloat ? H5T_IEEE_F32LE : H5T_IEE
 hid_t fileType(std::uint64_t, bool) { return H5T_STD_U64LE; }
 hid_t fileType(std::int32_t, bool) { return H5T_STD_I32LE; }
 
-/// About a megabyte, whole along the axes that vary fastest.
-std::vector<hsize_t> chunkOf(const std::vector<hsize_t>& shape) {
+hsize_t volume(const std::vector<hsize_t>& extent) {
+  return std::accumulate(extent.begin(), extent.end(), hsize_t{1}, std::multiplies<>());
+}
+
+/// The first of the next piece: along the axis that varies fastest where there is one, else along the next.
+void advance(std::vector<hsize_t>& first, const std::vector<hsize_t>& piece, const std::vector<hsize_t>& shape) {
+  for (std::size_t k = shape.size(); k-- > 0;) {
+    first[k] += piece[k];
+    if (first[k] < shape[k]) return;
+    first[k] = 0;
+  }
+}
+
+/// The part of a dataset that is written at once, and compressed by itself: about a megabyte, whole along the axes that
+/// vary fastest.
+std::vector<hsize_t> pieceOf(const std::vector<hsize_t>& shape) {
   std::vector<hsize_t> chunk(shape.size());
   hsize_t room = 1 << 17;
   for (std::size_t k = shape.size(); k-- > 0;) {
@@ -31,7 +47,7 @@ std::vector<hsize_t> chunkOf(const std::vector<hsize_t>& shape) {
 
 bool setCompression(hid_t creation, const std::vector<hsize_t>& shape, int level) {
   if (level <= 0 || std::count(shape.begin(), shape.end(), hsize_t{0}) > 0) return true;
-  return H5Pset_chunk(creation, static_cast<int>(shape.size()), chunkOf(shape).data()) >= 0 &&
+  return H5Pset_chunk(creation, static_cast<int>(shape.size()), pieceOf(shape).data()) >= 0 &&
          H5Pset_shuffle(creation) >= 0 && H5Pset_deflate(creation, static_cast<unsigned>(level)) >= 0;
 }
 
@@ -91,16 +107,42 @@ void Hdf5File::dataset(const std::string& name, const Array& array, std::vector<
   std::visit(
       [&](const auto& values) {
         using Number = typename std::decay_t<decltype(values)>::value_type;
-        assert(static_cast<hsize_t>(H5Sget_simple_extent_npoints(space)) == values.size());
+        assert(static_cast<hsize_t>(H5Sget_simple_extent_npoints(space)) ==
+               array.entries() * static_cast<std::size_t>(array.components));
         const Handle data(
             H5Dcreate2(file_, name.c_str(), fileType(Number{}, double_as_float_), space, links, creation, H5P_DEFAULT),
             H5Dclose);
         checked<hid_t>(data, name + " in");
-        checked(H5Dwrite(data, memoryType(Number{}), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), name + " in");
+        array.source ? writePieces<Number>(data, array, full, name) : writeValues(data, values, name);
       },
       array.values);
   attribute(name, "unit", array.unit);
   attribute(name, "description", array.description);
+}
+
+template <class Number>
+void Hdf5File::writeValues(Id data, const std::vector<Number>& values, const std::string& what) {
+  checked(H5Dwrite(data, memoryType(Number{}), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), what + " in");
+}
+
+/// Each piece is a box of the shape, and in the file without a gap.
+template <class Number>
+void Hdf5File::writePieces(Id data, const Array& array, const Shape& shape, const std::string& what) {
+  if (array.entries() == 0) return;
+  const Handle space(H5Dget_space(data), H5Sclose);
+  const std::vector<hsize_t> most = pieceOf(shape);
+  std::vector<hsize_t> first(shape.size(), 0), extent(shape.size());
+  piece_.resize(std::max<std::size_t>(piece_.size(), volume(most) * sizeof(Number)));
+  for (std::size_t read = 0; read < array.entries();) {
+    for (std::size_t k = 0; k < shape.size(); ++k) extent[k] = std::min(most[k], shape[k] - first[k]);
+    const std::size_t entries = volume(extent) / static_cast<std::size_t>(array.components);
+    array.source->read(read, entries, piece_.data());
+    const Handle memory = vectorSpace(volume(extent));
+    H5Sselect_hyperslab(space, H5S_SELECT_SET, first.data(), nullptr, extent.data(), nullptr);
+    checked(H5Dwrite(data, memoryType(Number{}), memory, space, H5P_DEFAULT, piece_.data()), what + " in");
+    read += entries;
+    advance(first, most, shape);
+  }
 }
 
 void Hdf5File::text(const std::string& name, const std::string& value) {

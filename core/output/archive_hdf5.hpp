@@ -26,7 +26,7 @@ class Hdf5File {
   /// Makes a group, `/particles/gas`, with those above it.
   void group(const std::string& name);
   /// Writes an array as a dataset of shape `shape` × components (the last only where there are several), with the
-  /// attributes unit and description. The groups above it are made.
+  /// attributes unit and description. The groups above it are made. Values of a source are written piece by piece.
   void dataset(const std::string& name, const Array& array, std::vector<std::uint64_t> shape);
   /// Writes a text of any length as a dataset. The groups above it are made.
   void text(const std::string& name, const std::string& value);
@@ -41,9 +41,14 @@ class Hdf5File {
   void close();
 
  private:
-  using Id = std::int64_t;  ///< HDF5's hid_t
+  using Id = std::int64_t;                          ///< HDF5's hid_t
+  using Shape = std::vector<unsigned long long>;  ///< of its hsize_t
   template <class Result>
   Result checked(Result result, const std::string& what) const;
+  template <class Number>
+  void writeValues(Id data, const std::vector<Number>& values, const std::string& what);
+  template <class Number>
+  void writePieces(Id data, const Array& array, const Shape& shape, const std::string& what);
   void writeAttribute(const std::string& object, const char* name, Id space, Id type, const void* data);
 
   std::filesystem::path path_;
@@ -51,6 +56,7 @@ class Hdf5File {
   int compression_;
   DiskFailure failure_;
   Id file_ = -1;
+  std::vector<std::byte> piece_;  ///< memory for one, kept for the next
 };
 
 }  // namespace tushar::output

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
@@ -10,6 +11,15 @@
 
 namespace tushar::output {
 
+/// Makes the values of an array while they are written, so that they are never in memory all at once.
+class Source {
+ public:
+  virtual ~Source() = default;
+  virtual std::size_t entries() const = 0;
+  /// Puts `count` entries, from `first` on, one after the other to `to`.
+  virtual void read(std::size_t first, std::size_t count, std::byte* to) const = 0;
+};
+
 /// A named column of numbers, as it goes to the archive.
 struct Array {
   std::string label, unit, description;
@@ -17,13 +27,19 @@ struct Array {
   using Values = std::variant<std::vector<double>, std::vector<std::uint64_t>, std::vector<std::int32_t>>;
   /// Entry by entry: values[entry * components + k].
   Values values;
+  /// Where it is set, it has the values, and `values` has their type alone.
+  std::shared_ptr<const Source> source{};
 
   /// Number of particles, cells, nodes or rows that have a value.
   std::size_t entries() const {
+    if (source) return source->entries();
     const std::size_t numbers = std::visit([](const auto& all) { return all.size(); }, values);
     return numbers / static_cast<std::size_t>(components);
   }
 };
+
+/// Brings the values of an array into memory.
+void load(Array& array);
 
 /// The particles of a material. The first array is p.x [m], with 3 components always; the others have as many entries
 /// as it has, or none where a variable is not held at this time: such an array is left out of the archive.
@@ -62,5 +78,8 @@ struct Snapshot {
   std::vector<FieldBlock> fields;
   std::vector<Array> reference;  ///< table of exact values: columns of 1 component, `x` first; often empty
 };
+
+/// Brings the values of all arrays into memory.
+void load(Snapshot& snapshot);
 
 }  // namespace tushar::output

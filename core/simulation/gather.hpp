@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "core/data/warehouse.hpp"
 #include "core/output/snapshot.hpp"
+#include "core/simulation/sources.hpp"
 
 namespace tushar::simulation {
 
@@ -16,20 +18,21 @@ class Gather {
  public:
   explicit Gather(data::Warehouse& warehouse) : warehouse_(&warehouse) {}
 
-  /// The values of a variable of a generation; none if it is not held, and on every rank but the first.
+  /// The values of a variable of a generation; none if it is not held, and on every rank but the first. They are in memory.
   output::Array array(data::Generation generation, int variable);
+  /// The same with the values still where they are: they are good while the state is as it is.
+  output::Array stream(data::Generation generation, int variable);
 
  private:
-  /// By patch and place, the position of each particle of a material among all by id.
-  const std::vector<std::size_t>& positionsById(int material);
-  /// Calls `take(how many came before, values, count)` for each patch.
-  template <class Take>
-  void collectParticles(data::Generation generation, int number, Take&& take);
-  void fillParticles(data::Generation generation, int number, output::Array& array);
-  void fillGrid(data::Generation generation, int number, output::Array& array);
+  using Places = std::shared_ptr<const std::vector<Place>>;
+
+  /// Where the particles of a material are, by id.
+  const Places& placesOf(int material);
+  void streamParticles(data::Generation generation, int number, output::Array& array);
+  void streamGrid(data::Generation generation, int number, output::Array& array);
 
   data::Warehouse* warehouse_;
-  std::map<int, std::vector<std::size_t>> positions_;  ///< by material
+  std::map<int, Places> places_;  ///< by material
 };
 
 /// The geometry of the grid as the archive keeps it.

@@ -1,5 +1,6 @@
 #include "core/simulation/particle_order.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 #include "core/simulation/collect.hpp"
@@ -13,23 +14,24 @@ using grid::Patch;
 ParticleOrder::ParticleOrder(data::Warehouse& warehouse, int material) : warehouse_(&warehouse), material_(material) {
   const grid::Box& cells = warehouse.level().cells();
   std::vector<std::int32_t> perCell(warehouse.ranks().isFirst() ? cells.size() : 0);
-  const auto lengthOf = [](const Patch& patch) {
-    return static_cast<std::size_t>(patch.cells().extent(0)) * sizeof(std::int32_t);
+  const auto countsOf = [&](const Patch& patch, auto&& take) {
+    const data::ParticleSet& set = warehouse.particles(Generation::old, material, patch.id());
+    grid::forEach<3>(patch.cells(), [&](const Index3& cell) { take(cell, std::int32_t{set.in(cell).size()}); });
   };
   collect(
       warehouse,
+      [&](const Patch& patch) {
+        countsOf(patch, [&](const Index3& cell, std::int32_t count) { perCell[cells.offset(cell)] = count; });
+      },
       [&](const Patch& patch, mpi::Bytes& bytes) {
-        const data::ParticleSet& set = warehouse.particles(Generation::old, material, patch.id());
-        grid::forEach<3>(patch.cells(), [&](const Index3& cell) {
-          const std::int32_t count = set.in(cell).size();
-          mpi::append(bytes, &count, sizeof(count));
-        });
+        countsOf(patch, [&](const Index3&, std::int32_t count) { mpi::append(bytes, &count, sizeof(count)); });
       },
       [&](const Patch& patch, const std::byte* from) {
+        const std::size_t length = static_cast<std::size_t>(patch.cells().extent(0)) * sizeof(std::int32_t);
         std::size_t read = 0;
-        simulation::forEachRow(patch.cells(), [&](const Index3& first) {
-          std::memcpy(&perCell[cells.offset(first)], from + read, lengthOf(patch));
-          read += lengthOf(patch);
+        forEachRow(patch.cells(), [&](const Index3& first) {
+          std::memcpy(&perCell[cells.offset(first)], from + read, length);
+          read += length;
         });
         return read;
       });
@@ -52,12 +54,29 @@ std::vector<std::int32_t> ParticleOrder::perCell() const {
   return counts;
 }
 
+Runs ParticleOrder::runs() const {
+  const grid::Level& level = warehouse_->level();
+  Runs runs;
+  for (int id = 0; id < level.patchCount(); ++id) {
+    const Patch patch = level.patch(id);
+    std::uint32_t next = 0;
+    forEachRow(patch.cells(), [&](const Index3& first) {
+      const std::size_t* start = startOf(first);
+      const std::size_t count = start[patch.cells().extent(0)] - start[0];
+      if (count > 0) runs.push_back({start[0], static_cast<std::uint32_t>(id), next});
+      next += static_cast<std::uint32_t>(count);
+    });
+  }
+  std::sort(runs.begin(), runs.end(), [](const Run& a, const Run& b) { return a.place < b.place; });
+  return runs;
+}
+
 void ParticleOrder::install() {
   for (const Patch& patch : warehouse_->level().patches()) {
     data::ParticleSet& set = warehouse_->particles(Generation::old, material_, patch.id());
     set.reset(patch, warehouse_->table().reach(material_));
     int next = 0;
-    simulation::forEachRow(patch.cells(), [&](const Index3& first) {
+    forEachRow(patch.cells(), [&](const Index3& first) {
       ParticleRange* row = set.row(first);
       const std::size_t* start = startOf(first);
       for (int k = 0; k < patch.cells().extent(0); ++k) {

@@ -4,16 +4,10 @@
 #include <vector>
 
 #include "core/data/warehouse.hpp"
+#include "core/simulation/rows.hpp"
+#include "core/simulation/sources.hpp"
 
 namespace tushar::simulation {
-
-/// Calls `visit(first cell or node)` for each row of a box along the first axis.
-template <class Visit>
-void forEachRow(grid::Box box, Visit&& visit) {
-  if (box.empty()) return;
-  box.upper[0] = box.lower[0] + 1;
-  grid::forEach<3>(box, visit);
-}
 
 /// The order (cell, id) of the old particles of a material over the whole grid, which no layout changes, and where each
 /// patch has them.
@@ -29,16 +23,8 @@ class ParticleOrder {
   std::vector<std::int32_t> perCell() const;
   /// Gives each patch its particles, without values.
   void install();
-  /// Calls `visit(place in the order, count)` for each row of cells of any patch that has particles: there they stand in
-  /// the same order.
-  template <class Visit>
-  void forEachRow(const grid::Patch& patch, Visit&& visit) const {
-    simulation::forEachRow(patch.cells(), [&](const Index3& first) {
-      const std::size_t* start = startOf(first);
-      const std::size_t count = start[patch.cells().extent(0)] - start[0];
-      if (count > 0) visit(start[0], count);
-    });
-  }
+  /// The rows of cells that have particles, of all patches of the grid.
+  Runs runs() const;
   /// Calls `visit(place in the order, place on the patch, count)` for each row of cells of a patch of this rank.
   template <class Visit>
   void forEachRun(const grid::Patch& patch, Visit&& visit) const {
@@ -56,7 +42,7 @@ class ParticleOrder {
 
   data::Warehouse* warehouse_;
   int material_;
-  std::vector<std::size_t> starts_;  ///< place of the first particle of each cell, then of the end
+  std::vector<std::size_t> starts_{0};  ///< place of the first particle of each cell, then of the end
 };
 
 }  // namespace tushar::simulation

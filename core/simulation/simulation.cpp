@@ -198,6 +198,7 @@ void Simulation::sample(Analysis& analysis) {
   Gather gather(warehouse_);
   output::Snapshot snapshot = positions(gather);
   for (const SaveRequest& request : analysis.samples()) addField(snapshot, request, gather);
+  output::load(snapshot);
   ranks_->onFirst([&] { analysis.sample(snapshot, folder_); });
   wall_output_ += since(started);
 }
@@ -236,7 +237,7 @@ output::Snapshot Simulation::positions(Gather& gather) {
     const int number = table_.find(data::positionName, static_cast<int>(m));
     if (number < 0) continue;
     snapshot.particles.push_back({phases_.materials()[m], static_cast<int>(m), {}});
-    snapshot.particles.back().arrays.push_back(gather.array(Generation::old, number));
+    snapshot.particles.back().arrays.push_back(gather.stream(Generation::old, number));
   }
   return snapshot;
 }
@@ -257,11 +258,10 @@ void Simulation::addField(output::Snapshot& snapshot, const SaveRequest& save, G
     if (number < 0 || save.label == data::positionName || (!save.material.empty() && save.material != material)) continue;
     const data::Label& label = *table_[number].label;
     const bool derived = !warehouse_.isHeld(Generation::old, number);
-    output::Array array = gather.array(derived ? Generation::fresh : Generation::old, number);
-    const bool empty = std::visit([](const auto& values) { return values.empty(); }, array.values);
+    output::Array array = gather.stream(derived ? Generation::fresh : Generation::old, number);
     if (label.centring == data::Centring::particle)
       snapshot.particles[static_cast<std::size_t>(m)].arrays.push_back(std::move(array));
-    else if (!empty)
+    else if (array.entries() > 0)
       snapshot.fields.push_back({label.centring == data::Centring::node ? output::Centring::node : output::Centring::cell,
                                  material, m, std::move(array)});
   }

@@ -36,13 +36,10 @@ Array::Values emptyValues(data::Number number) {
   return std::vector<double>{};
 }
 
-/// An array for all entries of a variable, in the memory of `scratch` where that is of the same type.
-Array arrayOf(const Label& label, std::size_t entries, Array::Values scratch = {}) {
-  Array::Values values = emptyValues(label.number);
-  if (scratch.index() == values.index()) values = std::move(scratch);
-  std::visit([&](auto& all) { all.resize(entries * static_cast<std::size_t>(label.components)); }, values);
+/// An array of a variable, without values yet.
+Array arrayOf(const Label& label) {
   return {std::string(label.name), std::string(label.unit), std::string(label.description), label.components,
-          std::move(values)};
+          emptyValues(label.number)};
 }
 
 const char* folderOf(Centring centring) {
@@ -56,10 +53,6 @@ const char* folderOf(Centring centring) {
 
 Box allOf(const grid::Level& level, const Label& label) {
   return label.centring == Centring::node ? level.nodes() : level.cells();
-}
-
-Box ownOf(const Patch& patch, const Label& label) {
-  return label.centring == Centring::node ? patch.nodes() : patch.cells();
 }
 
 std::size_t wordsOf(std::size_t bytes) { return (bytes + sizeof(std::uint64_t) - 1) / sizeof(std::uint64_t); }
@@ -127,32 +120,14 @@ class StateWriter : StateWalk {
   bool isHeld(int number) const { return warehouse_.isHeld(Generation::old, number); }
 
   void writeField(int number, const std::string& path) {
-    const std::size_t bytes = label(number).bytes;
     const Box all = allOf(level_, label(number));
-    Array array = arrayOf(label(number), file_ ? all.size() : 0, std::move(scratch_));
-    std::byte* to = bytesOf(array.values);
-    const auto lengthOf = [&](const Box& box) { return static_cast<std::size_t>(box.extent(0)) * bytes; };
-    collect(
-        warehouse_,
-        [&](const Patch& patch, mpi::Bytes& message) {
-          const Variable& from = variable(number, patch);
-          const Box own = ownOf(patch, label(number));
-          forEachRow(own, [&](const Index3& first) {
-            mpi::append(message, from.values.data() + from.stored.offset(first) * bytes, lengthOf(own));
-          });
-        },
-        [&](const Patch& patch, const std::byte* from) {
-          const Box own = ownOf(patch, label(number));
-          std::size_t read = 0;
-          forEachRow(own, [&](const Index3& first) {
-            std::memcpy(to + all.offset(first) * bytes, from + read, lengthOf(own));
-            read += lengthOf(own);
-          });
-          return read;
-        });
+    Parts parts = collectGrid(warehouse_, Generation::old, number, all);
+    if (!file_) return;
+    auto runs = std::make_shared<Runs>(runsOfGrid(level_, label(number), parts, all));
+    Array array = arrayOf(label(number));
+    array.source = sourceInRuns(std::move(runs), all.size(), std::move(parts), EntryForm(label(number)));
     const auto extent = [&](int axis) { return static_cast<std::uint64_t>(all.extent(axis)); };
-    if (file_) file_->dataset(path, array, {extent(2), extent(1), extent(0)});
-    scratch_ = std::move(array.values);
+    file_->dataset(path, array, {extent(2), extent(1), extent(0)});
   }
 
   void writeParticles(int material) {
@@ -160,32 +135,18 @@ class StateWriter : StateWalk {
     if (file_)
       file_->dataset(perCellPath(material), {"perCell", "1", "particles of each cell", 1, order.perCell()},
                      {level_.cells().size()});
+    const auto runs = std::make_shared<const Runs>(file_ ? order.runs() : Runs{});
     forEachVariable(Centring::particle, material, [&](int number, const std::string& path) {
-      if (isHeld(number)) writeColumn(number, path, order);
+      if (isHeld(number)) writeColumn(number, path, runs, order.count());
     });
   }
 
-  void writeColumn(int number, const std::string& path, const ParticleOrder& order) {
-    const std::size_t bytes = label(number).bytes;
-    const int material = table_[number].material;
-    Array array = arrayOf(label(number), file_ ? order.count() : 0, std::move(scratch_));
-    std::byte* to = bytesOf(array.values);
-    collect(
-        warehouse_,
-        [&](const Patch& patch, mpi::Bytes& message) {
-          const int owned = warehouse_.particles(Generation::old, material, patch.id()).owned();
-          mpi::append(message, variable(number, patch).values.data(), static_cast<std::size_t>(owned) * bytes);
-        },
-        [&](const Patch& patch, const std::byte* from) {
-          std::size_t read = 0;
-          order.forEachRow(patch, [&](std::size_t place, std::size_t count) {
-            std::memcpy(to + place * bytes, from + read, count * bytes);
-            read += count * bytes;
-          });
-          return read;
-        });
-    if (file_) file_->dataset(path, array, {order.count()});
-    scratch_ = std::move(array.values);
+  void writeColumn(int number, const std::string& path, const std::shared_ptr<const Runs>& runs, std::size_t count) {
+    Parts parts = collectParticles(warehouse_, Generation::old, number);
+    if (!file_) return;
+    Array array = arrayOf(label(number));
+    array.source = sourceInRuns(runs, count, std::move(parts), EntryForm(label(number)));
+    file_->dataset(path, array, {count});
   }
 
   void writeReduction(int number, const std::string& path) {
@@ -193,13 +154,12 @@ class StateWriter : StateWalk {
     if (bytes.empty() || !file_) return;
     std::vector<std::uint64_t> words(wordsOf(bytes.size()));
     std::memcpy(words.data(), bytes.data(), bytes.size());
-    Array array = arrayOf(label(number), 0);
+    Array array = arrayOf(label(number));
     array.values = std::move(words);
     file_->dataset(path, array, {array.entries()});
   }
 
   output::Hdf5File* file_;
-  Array::Values scratch_;  ///< memory that is used again: new memory costs as much as the copying
 };
 
 class StateReader : StateWalk {
@@ -240,7 +200,7 @@ class StateReader : StateWalk {
     return values;
   }
   Array::Values stored(const std::string& path, const Label& label, std::size_t entries) const {
-    return stored(path, arrayOf(label, 0).values, entries * static_cast<std::size_t>(label.components));
+    return stored(path, emptyValues(label.number), entries * static_cast<std::size_t>(label.components));
   }
 
   /// Ghosts are left to the first exchange.

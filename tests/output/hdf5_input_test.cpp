@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <fstream>
 
 #include "core/base/error.hpp"
@@ -29,7 +30,41 @@ void writeSample(const std::filesystem::path& path) {
   file.close();
 }
 
+/// Makes the numbers of an array when it is asked for them.
+class Maker : public Source {
+ public:
+  explicit Maker(Array array) : array_(std::move(array)) {}
+  std::size_t entries() const override { return array_.entries(); }
+  void read(std::size_t first, std::size_t count, std::byte* to) const override {
+    const auto numbers = static_cast<std::size_t>(array_.components);
+    const double* from = std::get<std::vector<double>>(array_.values).data() + first * numbers;
+    std::memcpy(to, from, count * numbers * sizeof(double));
+  }
+
+ private:
+  Array array_;
+};
+
 }  // namespace
+
+TEST(Hdf5Input, ReadsBackToTheBitWhatASourceMadePieceByPiece) {
+  const TemporaryFolder here;
+  const std::vector<std::uint64_t> shapes[] = {{100000}, {1, 1, 200001}, {3, 250, 311}, {40, 1, 2500}};
+  for (const int compression : {0, 1})
+    for (const auto& shape : shapes)
+      for (const int components : {1, 3}) {
+        std::size_t entries = 1;
+        for (const std::uint64_t extent : shape) entries *= extent;
+        const Array whole = counting("a", components, entries, 0.5);
+        const Array array{"a", "m/s", "made", components, {}, std::make_shared<Maker>(whole)};
+
+        Hdf5File file(here / "a.h5", false, compression);
+        file.dataset("/a", array, shape);
+        file.close();
+
+        EXPECT_TRUE(Hdf5Input(here / "a.h5").dataset("/a") == whole.values) << shape.size() << " axes, " << components;
+      }
+}
 
 TEST(Hdf5Input, ReadsBackToTheBitWhatWasWritten) {
   const TemporaryFolder here;

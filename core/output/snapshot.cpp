@@ -1,0 +1,23 @@
+#include "core/output/snapshot.hpp"
+
+namespace tushar::output {
+
+void load(Array& array) {
+  if (!array.source) return;
+  const std::size_t entries = array.entries();
+  std::visit(
+      [&](auto& values) {
+        values.resize(entries * static_cast<std::size_t>(array.components));
+        array.source->read(0, entries, reinterpret_cast<std::byte*>(values.data()));
+      },
+      array.values);
+  array.source.reset();
+}
+
+void load(Snapshot& snapshot) {
+  for (ParticleBlock& block : snapshot.particles)
+    for (Array& array : block.arrays) load(array);
+  for (FieldBlock& field : snapshot.fields) load(field.array);
+}
+
+}  // namespace tushar::output
