@@ -59,6 +59,8 @@ class Phases {
   tasks::Names saveable() const;
   /// What analyses want to see of particles. Throws InputError for what nothing computes.
   std::vector<SaveRequest> samplesOf(const std::vector<std::unique_ptr<Analysis>>& analyses) const;
+  /// The same, with materials that are given by their numbers named.
+  std::vector<SaveRequest> named(const std::vector<SaveRequest>& saves) const;
   void sortSaves(const std::vector<SaveRequest>& saves);
 
   Lists lists_;
