@@ -153,4 +153,9 @@ void Warehouse::swapSets(int material) {
     std::swap(old_sets_[place(material, patch.id())], fresh_sets_[place(material, patch.id())]);
 }
 
+void Warehouse::forgetGhosts() {
+  for (std::deque<ParticleSet>* sets : {&old_sets_, &fresh_sets_})
+    for (ParticleSet& set : *sets) set.forgetGhosts();
+}
+
 }  // namespace tushar::data

@@ -123,6 +123,8 @@ class Warehouse {
   /// What was computed becomes old: exchanges the two generations of a variable on every patch.
   void swap(int number);
   void swapSets(int material);
+  /// No particle set has ghosts any more: the next exchange settles them anew.
+  void forgetGhosts();
 
   /// Allocations made so far; a test shows that variables nobody reads add none.
   std::size_t allocations() const;

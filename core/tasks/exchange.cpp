@@ -182,6 +182,7 @@ void Exchange::fillFromHere() {
   });
 }
 
+/// All patches of all ranks have settled a set, or none: what a stopped graph has settled is forgotten.
 void Exchange::noteUnsettled() {
   settles_.assign(fills_.size(), false);
   std::set<std::pair<Generation, int>> settled;

@@ -136,6 +136,7 @@ std::optional<data::Minimum> Scheduler::run(TaskGraph& graph, const StepInfo& at
   }
   agree(graph);
   if (outcome_.isNone()) return std::nullopt;
+  warehouse_->forgetGhosts();  // ranks that stopped before others have settled fewer
   if (outcome_.kind == Outcome::Kind::asks) return outcome_.factor;
   if (at.mayRepeat) return data::Minimum{0.5, outcome_.value};
   if (outcome_.kind == Outcome::Kind::throws) throw told(warehouse_->ranks(), error_, outcome_.rank);
