@@ -185,11 +185,22 @@ Bytes Outbox::buffer() {
   return bytes;
 }
 
+std::list<Outbox::Sent>& Outbox::abandoned() {
+  static std::list<Sent> sent;
+  return sent;
+}
+
 Outbox::~Outbox() {
-  int finalized = 0;
-  if (!sent_.empty()) MPI_Finalized(&finalized);
-  for (Sent& sent : sent_)
-    if (!finalized && sent.request != MPI_REQUEST_NULL) MPI_Request_free(&sent.request);
+  if (sent_.empty()) return;
+  abandoned().splice(abandoned().end(), sent_);
+  int isFinalized = 0;
+  MPI_Finalized(&isFinalized);
+  if (isFinalized) return;
+  abandoned().remove_if([](Sent& sent) {
+    int isGone = 0;
+    MPI_Test(&sent.request, &isGone, MPI_STATUS_IGNORE);
+    return isGone != 0;
+  });
 }
 
 Session::Session() {

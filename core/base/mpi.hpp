@@ -90,7 +90,7 @@ class Outbox {
   explicit Outbox(const Communicator& ranks);
   Outbox(const Outbox&) = delete;
   Outbox& operator=(const Outbox&) = delete;
-  /// Forgets what nobody has received.
+  /// What nobody has received yet stays in memory, where MPI reads it.
   ~Outbox();
 
   /// Returns at once.
@@ -103,6 +103,9 @@ class Outbox {
 
  private:
   struct Sent;
+  /// Of outboxes that are no more.
+  static std::list<Sent>& abandoned();
+
   const Communicator* ranks_;
   std::list<Sent> sent_;
   std::vector<Bytes> spare_;

@@ -43,6 +43,19 @@ TEST(Communicator, CarriesMessagesOfAnyLengthInTheOrderInWhichTheyAreSent) {
   outbox.wait();
 }
 
+TEST(Communicator, CarriesMessagesWhoseOutboxIsNoMore) {
+  const Bytes message(8'000'000, std::byte{42});
+  if (allRanks().isFirst()) {
+    Outbox outbox(allRanks());
+    outbox.send(1, 7, message);
+  }
+  const Bytes other(message.size(), std::byte{7});  // in the memory of the first, had that been given back
+  allRanks().any(false);
+
+  if (allRanks().rank() == 1) EXPECT_EQ(allRanks().receive(0, 7), message);
+  allRanks().any(false);
+}
+
 TEST(Communicator, LetsTheFirstRankActAndTheOthersKnowThatItFailed) {
   const auto fail = [] { throw std::runtime_error("disk full"); };
   if (allRanks().isFirst())
