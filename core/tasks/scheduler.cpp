@@ -221,13 +221,15 @@ void Scheduler::relocate(const CompiledTask& task, const StepInfo& at) {
 }
 
 void Scheduler::runOnPatches(CompiledTask& task, int material, const StepInfo& at) {
+  const bool all = task.task.acrossMaterials;
+  const int from = all ? 0 : material, end = all ? static_cast<int>(task.materials.size()) : material + 1;
   FirstRefusal first;
   std::atomic<bool> kept = true;
   forEachPatch(task, [&](const grid::Patch& patch) {
     try {
-      if (task.task.acrossMaterials) return runAcrossMaterials(task, patch, at);
-      runPlaced(task, patch, material, at);
-      if (!keepsBounds(*warehouse_, task.of(material).bounded, patch)) kept = false;
+      all ? runAcrossMaterials(task, patch, at) : runPlaced(task, patch, material, at);
+      for (int m = from; m < end; ++m)
+        if (!keepsBounds(*warehouse_, task.of(m).bounded, patch)) kept = false;
     } catch (const NumericalError& error) {
       first.note(error, patch.id());
     }
@@ -236,7 +238,7 @@ void Scheduler::runOnPatches(CompiledTask& task, int material, const StepInfo& a
   if (first.error())
     note(task, material, *first.error());
   else if (!kept)
-    noteBroken(task, material);
+    noteBroken(task, from, end);
 }
 
 void Scheduler::runOnRank(CompiledTask& task, const StepInfo& at) {
@@ -263,8 +265,7 @@ void Scheduler::runOnRank(CompiledTask& task, const StepInfo& at) {
     note(task, -1, error);
   }
   gatherReductions(task);
-  for (int m = first; m < first + static_cast<int>(task.materials.size()) && !hasStopped(); ++m)
-    if (firstThatBreaks(*warehouse_, task.of(m).bounded) < task.of(m).bounded.size()) noteBroken(task, m);
+  if (!hasStopped()) noteBroken(task, first, first + static_cast<int>(task.materials.size()));
 }
 
 void Scheduler::runAcrossMaterials(CompiledTask& task, const grid::Patch& patch, const StepInfo& at) {

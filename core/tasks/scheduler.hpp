@@ -76,7 +76,8 @@ class Scheduler {
 
   std::optional<data::Minimum> askedBy(const CompiledTask& task);
   void note(const CompiledTask& task, int material, const NumericalError& error);
-  void noteBroken(const CompiledTask& task, int material);
+  /// Notes the first bound that is broken for the materials `first` up to `end`, if one is.
+  void noteBroken(const CompiledTask& task, int first, int end);
   void agree(const TaskGraph& graph);
   NumericalError whatBroke(TaskGraph& graph, const StepInfo& at);
 

@@ -29,11 +29,14 @@ void Scheduler::note(const CompiledTask& task, int material, const NumericalErro
   if (before.task != outcome_.task || before.kind != outcome_.kind || before.material != outcome_.material) error_ = error;
 }
 
-void Scheduler::noteBroken(const CompiledTask& task, int material) {
-  const auto& bounded = task.of(material).bounded;
-  const std::size_t place = firstThatBreaks(*warehouse_, bounded);
-  const auto value = data::Reason::of(warehouse_->table()[bounded[place].variable].label->name);
-  outcome_.merge({running_, Outcome::Kind::breaks, material, place, warehouse_->ranks().rank(), {}, value});
+void Scheduler::noteBroken(const CompiledTask& task, int first, int end) {
+  for (int material = first; material < end; ++material) {
+    const auto& bounded = task.of(material).bounded;
+    const std::size_t place = firstThatBreaks(*warehouse_, bounded);
+    if (place == bounded.size()) continue;
+    const auto value = data::Reason::of(warehouse_->table()[bounded[place].variable].label->name);
+    return outcome_.merge({running_, Outcome::Kind::breaks, material, place, warehouse_->ranks().rank(), {}, value});
+  }
 }
 
 /// Merges the outcome and the reductions of all ranks, in one message to each.
