@@ -76,6 +76,10 @@ NumericalError Scheduler::whatBroke(TaskGraph& graph, const StepInfo& at) {
   }
   const CompiledTask& task = graph.tasks()[static_cast<std::size_t>(outcome.task)];
   const auto broken = firstBroken(*warehouse_, task.of(outcome.material).bounded);
+  if (!broken)
+    throw TaskError(fmt::format("{} broke its bound, but not when the task was run again: a body gives the same whenever it "
+                                "runs ({})",
+                                outcome.value.text(), placeOf(task, -1, outcome.material, at)));
   return {fmt::format("{} ({})", broken->sentence, placeOf(task, broken->patch, outcome.material, at)), "", broken->label};
 }
 

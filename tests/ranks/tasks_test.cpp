@@ -267,6 +267,18 @@ TEST(Ranks, TellTheSameOfAFaultOnAnyOfThem) {
   }
 }
 
+TEST(Ranks, RefuseATaskThatBreaksABoundOnceAndNotAgain) {
+  onRanks(2, [](const mpi::Communicator& some) {
+    bool isBroken = false;
+    const auto breakOnce = [&isBroken](const Patch& patch, CellView<double> cells, Minimum&) {
+      const Index<2> bad{{2, 6}};
+      if (patch.cells().contains(bad) && !std::exchange(isBroken, true)) cells[bad] = -1;
+    };
+
+    EXPECT_THROW(failure(some, false, breakOnce), TaskError);
+  });
+}
+
 TEST(Ranks, RepeatAStepThatStoppedBeforeAllHadSettledTheirGhosts) {
   for (const int faulty : {0, 1, 2})
     onRanks(3, [faulty](const mpi::Communicator& some) {
