@@ -220,9 +220,10 @@ Session::~Session() {
 
 bool Session::speaks(bool isKnown, int& exitCode) {
   if (ranks_.isAlone()) return true;
-  constexpr std::chrono::milliseconds patience(2000), pause(1);
+  constexpr std::chrono::milliseconds patience(2000), pause(1), turn(200);
   constexpr long codes = 256;
-  const long mine = (isKnown ? meeting_.rank() : meeting_.size()) * codes + exitCode;
+  const int place = isKnown ? meeting_.rank() : meeting_.size();
+  const long mine = place * codes + exitCode;
   long first = mine;
   int done = 0;
   MPI_Request request = MPI_REQUEST_NULL;
@@ -233,7 +234,11 @@ bool Session::speaks(bool isKnown, int& exitCode) {
     std::this_thread::sleep_for(pause);
   }
   is_agreed_ = done != 0;
-  if (!is_agreed_) return isKnown;
+  if (!is_agreed_) {
+    // One after the other, so that the first ends the next before it speaks; no longer than patience in all.
+    std::this_thread::sleep_for(std::min(turn, patience / meeting_.size()) * place);
+    return isKnown;
+  }
   exitCode = static_cast<int>(first % codes);
   return first / codes == meeting_.rank();
 }
