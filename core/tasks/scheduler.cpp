@@ -105,6 +105,7 @@ bool Scheduler::finishExchange(CompiledTask& task) {
 
 std::vector<double> Scheduler::takeCosts() {
   costs_.resize(warehouse_->level().patches().size());
+  for (double& cost : costs_) cost /= threads_.count();
   return std::exchange(costs_, std::vector<double>(costs_.size()));
 }
 
@@ -113,6 +114,7 @@ void Scheduler::forgetLayout() {
   relocation_.forgetLayout();
   costs_.clear();
   with_patches_.reset();
+  threads_.resize(usefulThreads());
 }
 
 void Scheduler::divideReductions(const CompiledTask& task) {

@@ -76,6 +76,18 @@ TEST(Threads, GoOnAfterAnException) {
   EXPECT_EQ(failureOf(threads, {}, 100).second, 100);
 }
 
+TEST(Threads, MayBecomeMoreOrFewer) {
+  Threads threads(1);
+  for (const int count : {3, 1, 2, 2}) {
+    threads.resize(count);
+    std::atomic<int> calls = 0;
+    threads.forEach(100, [&](int) { ++calls; });
+
+    EXPECT_EQ(threads.count(), count);
+    EXPECT_EQ(calls, 100);
+  }
+}
+
 TEST(Threads, AreAtLeastOneWhateverTheLauncherSays) { EXPECT_GE(allowedThreads(), 1); }
 
 }  // namespace tushar

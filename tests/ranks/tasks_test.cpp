@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <numeric>
+#include <thread>
 
 #include "core/base/error.hpp"
 #include "core/tasks/migration.hpp"
@@ -252,6 +255,40 @@ TEST(Ranks, MayGivePatchesToOneAnotherBetweenSteps) {
         EXPECT_EQ(swarm.after(5), std::pair(0.0, 240.0)) << some.size() << " ranks";
       }
     });
+}
+
+TEST(Ranks, UseAsManyThreadsAsTheyHavePatchesFor) {
+  onRanks(2, [](const mpi::Communicator& some) {
+    test::Runner run(plane({{4, 3, 1}}, false), 4, some);
+    EXPECT_EQ(run.scheduler.threads().count(), 4);
+
+    for (const int first : {12, 2, 10}) {
+      migrate(run.level, run.warehouse, {}, {0, first, 12});
+      run.scheduler.forgetLayout();
+      const int patches = some.isFirst() ? first : 12 - first;
+      EXPECT_EQ(run.scheduler.threads().count(), std::clamp(patches, 1, 4)) << patches << " patches";
+    }
+  });
+}
+
+TEST(Ranks, MeasureNoMoreThanTheClockByAnyNumberOfThreads) {
+  using Clock = std::chrono::steady_clock;
+  onRanks(2, [](const mpi::Communicator& some) {
+    test::Runner run(plane({{4, 3, 1}}, false), 2, some);
+    TaskList list;
+    list.perPatch("wait", [](const Patch&, CellView<double> cells) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      cells.fill(1);
+    }, computes(number));
+    TaskGraph graph = run.compile(list, {"c.number"});
+
+    const auto started = Clock::now();
+    run.step(graph);
+    const double passed = std::chrono::duration<double>(Clock::now() - started).count();
+    const std::vector<double> costs = run.scheduler.takeCosts();
+
+    EXPECT_LE(std::accumulate(costs.begin(), costs.end(), 0.0), passed);
+  });
 }
 
 TEST(Ranks, TellTheSameOfAFaultOnAnyOfThem) {
