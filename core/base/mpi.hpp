@@ -8,6 +8,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace tushar::mpi {
@@ -58,6 +59,7 @@ class Communicator {
   /// The same for a value without pointers.
   template <class T>
   T broadcast(T value, int from = 0) const {
+    static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>, "another rank has no use for addresses");
     Bytes bytes(sizeof(T));
     std::memcpy(bytes.data(), &value, sizeof(T));
     bytes = broadcast(std::move(bytes), from);
