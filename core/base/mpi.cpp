@@ -207,6 +207,11 @@ Session::Session() {
   if (launchedRanks() <= 1) return;
   int provided = 0;
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
+  if (provided < MPI_THREAD_FUNNELED) {
+    MPI_Finalize();
+    if (launchedRank() > 0) throw FailedElsewhere();
+    throw std::runtime_error("this MPI allows a process no threads of its own, which sus needs");
+  }
   is_open_ = true;
   ranks_ = copyOf(MPI_COMM_WORLD);
   meeting_ = copyOf(MPI_COMM_WORLD);

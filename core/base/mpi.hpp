@@ -117,6 +117,7 @@ class Outbox {
 /// MPI for the life of a program: initialised only if a launcher (mpirun, srun) started several processes.
 class Session {
  public:
+  /// Throws std::runtime_error for an MPI that allows no threads, and FailedElsewhere on all ranks but the first.
   Session();
   ~Session();
   Session(const Session&) = delete;
