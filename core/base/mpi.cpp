@@ -137,10 +137,10 @@ void Communicator::onFirst(const std::function<void()>& action) const {
   if (failed) throw FailedElsewhere();
 }
 
-Bytes Communicator::receive(int from, int tag) const {
+Bytes Communicator::receive(int from, Tag tag) const {
   MPI_Message message = MPI_MESSAGE_NULL;
   MPI_Status status;
-  MPI_Mprobe(from, tag, native_->ranks, &message, &status);
+  MPI_Mprobe(from, static_cast<int>(tag), native_->ranks, &message, &status);
   int words = 0;
   MPI_Get_count(&status, MPI_UINT64_T, &words);
   Bytes bytes(static_cast<std::size_t>(words) * wordBytes);
@@ -162,10 +162,11 @@ struct Outbox::Sent {
 
 Outbox::Outbox(const Communicator& ranks) : ranks_(&ranks) {}
 
-void Outbox::send(int to, int tag, Bytes bytes) {
+void Outbox::send(int to, Tag tag, Bytes bytes) {
   Sent& sent = sent_.emplace_back();
   sent.bytes = sealed(std::move(bytes));
-  MPI_Isend(sent.bytes.data(), wordsOf(sent.bytes), MPI_UINT64_T, to, tag, ranks_->native()->ranks, &sent.request);
+  MPI_Isend(sent.bytes.data(), wordsOf(sent.bytes), MPI_UINT64_T, to, static_cast<int>(tag), ranks_->native()->ranks,
+            &sent.request);
   ++messages_;
 }
 

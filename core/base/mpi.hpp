@@ -15,6 +15,9 @@ namespace tushar::mpi {
 
 using Bytes = std::vector<std::byte>;
 
+/// What a message is about: a rank that waits for one takes no other.
+enum class Tag : int { ghosts, emigrants, patches, output };
+
 /// Adds `length` bytes to the end.
 inline void append(Bytes& bytes, const void* from, std::size_t length) {
   const auto* first = static_cast<const std::byte*>(from);
@@ -74,7 +77,7 @@ class Communicator {
   void onFirst(const std::function<void()>& action) const;
 
   /// Waits for the next message of rank `from` with this tag.
-  Bytes receive(int from, int tag) const;
+  Bytes receive(int from, Tag tag) const;
 
   /// The ranks with the same colour among themselves.
   Communicator split(int colour) const;
@@ -96,7 +99,7 @@ class Outbox {
   ~Outbox();
 
   /// Returns at once.
-  void send(int to, int tag, Bytes bytes);
+  void send(int to, Tag tag, Bytes bytes);
   /// Waits until all have gone; their memory is used for later ones.
   void wait();
   /// An empty buffer, with the memory of an earlier message where there is one.

@@ -11,17 +11,13 @@ using data::Variable;
 using grid::Box;
 using grid::Patch;
 
-namespace {
-constexpr int tag = 3;
-}
-
 void sendPatches(const mpi::Communicator& ranks, mpi::Bytes bytes) {
   mpi::Outbox outbox(ranks);
-  outbox.send(0, tag, std::move(bytes));
+  outbox.send(0, mpi::Tag::output, std::move(bytes));
   outbox.wait();
 }
 
-mpi::Bytes receivePatches(const mpi::Communicator& ranks, int from) { return ranks.receive(from, tag); }
+mpi::Bytes receivePatches(const mpi::Communicator& ranks, int from) { return ranks.receive(from, mpi::Tag::output); }
 
 Parts collectParticles(data::Warehouse& warehouse, Generation generation, int variable) {
   const auto [label, material] = warehouse.table()[variable];

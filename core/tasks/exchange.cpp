@@ -17,8 +17,6 @@ using mpi::Bytes;
 
 namespace {
 
-constexpr int tag = 1;
-
 /// Calls `visit(first, length)` for each row of a box along the first axis.
 template <class Visit>
 void forEachRow(const Box& box, std::size_t bytes, Visit&& visit) {
@@ -138,7 +136,7 @@ bool Exchange::finish() {
   Letters letters;
   for (const int rank : senders_) {
     const trace::Span span(trace::Kind::wait, "receive");
-    letters.add(rank, warehouse_->ranks().receive(rank, tag));
+    letters.add(rank, warehouse_->ranks().receive(rank, mpi::Tag::ghosts));
     has_stopped_ = letters.readStopped(rank) || has_stopped_;
   }
   outbox_.wait();
@@ -210,7 +208,7 @@ void Exchange::post() {
         for (const GhostCopy& copy : copies->second) packer.addCounts(copy);
       for (const GhostCopy& copy : copies->second) fills_[k].particles ? packer.addParticles(copy) : packer.addGrid(copy);
     }
-    outbox_.send(rank, tag, std::move(message));
+    outbox_.send(rank, mpi::Tag::ghosts, std::move(message));
   }
 }
 

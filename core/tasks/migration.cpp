@@ -18,8 +18,6 @@ using mpi::Bytes;
 
 namespace {
 
-constexpr int tag = 3;
-
 Box ownOf(const Patch& patch, const data::Label& label) {
   return label.centring == Centring::node ? patch.nodes() : patch.cells();
 }
@@ -147,11 +145,11 @@ void migrate(grid::Level& level, data::Warehouse& warehouse, const Luggage& lugg
     for (int patch = first; patch < end; ++patch) packer.add(level.patch(patch), parts[rank]);
   });
   for (auto& [rank, bytes] : parts)
-    if (rank != ranks.rank()) outbox.send(rank, tag, std::move(bytes));
+    if (rank != ranks.rank()) outbox.send(rank, mpi::Tag::patches, std::move(bytes));
   level.share(firsts);
   warehouse.startAnew(luggage.materials);
   forEachOwner(before, firsts[me], firsts[me + 1], [&](int rank, int first, int end) {
-    const Bytes bytes = rank == ranks.rank() ? std::move(parts[rank]) : ranks.receive(rank, tag);
+    const Bytes bytes = rank == ranks.rank() ? std::move(parts[rank]) : ranks.receive(rank, mpi::Tag::patches);
     Unpacker unpacker(warehouse, luggage, bytes);
     for (int patch = first; patch < end; ++patch) unpacker.take(level.patch(patch));
   });
