@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
-#include <numeric>
 #include <thread>
 
 #include "core/base/launcher.hpp"
@@ -167,7 +166,6 @@ void Outbox::send(int to, Tag tag, Bytes bytes) {
   sent.bytes = sealed(std::move(bytes));
   MPI_Isend(sent.bytes.data(), wordsOf(sent.bytes), MPI_UINT64_T, to, static_cast<int>(tag), ranks_->native()->ranks,
             &sent.request);
-  ++messages_;
 }
 
 void Outbox::wait() {

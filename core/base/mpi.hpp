@@ -104,7 +104,6 @@ class Outbox {
   void wait();
   /// An empty buffer, with the memory of an earlier message where there is one.
   Bytes buffer();
-  long messages() const { return messages_; }
 
  private:
   struct Sent;
@@ -114,7 +113,6 @@ class Outbox {
   const Communicator* ranks_;
   std::list<Sent> sent_;
   std::vector<Bytes> spare_;
-  long messages_ = 0;
 };
 
 /// MPI for the life of a program: initialised only if a launcher (mpirun, srun) started several processes.

@@ -38,18 +38,14 @@ class Exchange {
   Exchange(data::Warehouse& warehouse, Threads& threads)
       : warehouse_(&warehouse), threads_(&threads), outbox_(warehouse.ranks()) {}
 
-  /// Fills the ghosts of node and cell variables, and of particle variables; which particles are ghosts is settled on
-  /// first use of their set. All ranks run it for the same fills in the same order.
+  /// Fills the ghosts of node and cell variables, and of particle variables, in two parts; which particles are ghosts is
+  /// settled on first use of their set. All ranks run both for the same fills in the same order.
   ///
-  /// A rank on which a task failed says so in place of its values (`hasStopped`). False if a rank that this one hears of
-  /// has stopped: then nothing is filled, and this one is to stop, too, before it reads what is not there.
-  bool run(std::span<const NumberedFill> fills, bool hasStopped) {
-    begin(fills, hasStopped);
-    return finish();
-  }
-  /// The same in two parts: posts messages, and fills what needs none from other ranks.
+  /// Posts messages, and fills what needs none from other ranks. A rank on which a task failed says so in place of its
+  /// values (`hasStopped`).
   void begin(std::span<const NumberedFill> fills, bool hasStopped);
-  /// Waits for the messages of others and fills the rest. False as `run`.
+  /// Waits for the messages of others and fills the rest. False if a rank that this one hears of has stopped: then
+  /// nothing more is filled, and this one is to stop, too, before it reads what is not there.
   bool finish();
   /// Between the two: whether there are messages to wait for.
   bool isUnderWay() const { return !senders_.empty(); }
