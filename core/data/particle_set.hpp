@@ -38,9 +38,10 @@ struct GhostRun {
 
 /// Which particles a patch has of one material, cell by cell.
 ///
-/// Owned particles come first in memory, sorted by (cell, id); ghost particles, those of cells within `reach()` of
-/// the patch that belong to other patches, follow in the same order. Sums run cell by cell in lexicographic order
-/// and by id within a cell, so they do not depend on who owns what.
+/// Owned particles come first in memory, sorted by (cell, id); ghost particles, those of the cells around the patch that
+/// belong to other patches, follow, sorted within each cell, the cells as they came from one patch after another. The index
+/// of cells brings all into one order: sums run cell by cell in lexicographic order and by id within a cell, so they do
+/// not depend on who owns what.
 class ParticleSet {
  public:
   /// An empty set over a patch and the cells of the grid within `reach` of it.
