@@ -21,7 +21,7 @@ struct Domain {
   Index3 resolution{{1, 1, 1}};  ///< cells along x, y, z
   Index3 patches{{1, 1, 1}};     ///< along x, y, z
   Index3 periodic{};             ///< 1 along axes where the grid repeats without end
-  int nodesBeyond = 0;           ///< layers of nodes outside every side that is not periodic: wide shape functions reach there
+  int nodesBeyond = 0;           ///< layers of nodes outside every side that is not periodic, for wide shape functions
   BoundaryConditions boundaries;
 };
 
@@ -155,7 +155,9 @@ class Level {
   bool isPeriodic(int kernelAxis) const { return domain_.periodic[axis(kernelAxis)] != 0; }
   bool isPeriodic() const { return is_periodic_; }
   /// How far apart the images of a point are along a kernel axis, m.
-  double period(int kernelAxis) const { return nodePosition(kernelAxis, cells_.upper[kernelAxis]) - nodePosition(kernelAxis, 0); }
+  double period(int kernelAxis) const {
+    return nodePosition(kernelAxis, cells_.upper[kernelAxis]) - nodePosition(kernelAxis, 0);
+  }
   bool isSymmetry(int kernelAxis, int side, int material = 0) const {
     return boundary(kernelAxis, side, "Symmetric", material) != nullptr;
   }

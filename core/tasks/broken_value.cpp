@@ -274,7 +274,8 @@ bool keepsBounds(Warehouse& warehouse, const std::vector<Bounded>& written, cons
 std::size_t firstThatBreaks(Warehouse& warehouse, const std::vector<Bounded>& written) {
   const auto& patches = warehouse.level().patches();
   const auto breaks = [&](const Bounded& variable) {
-    return std::any_of(patches.begin(), patches.end(), [&](const Patch& patch) { return !keepsBound(warehouse, variable, patch); });
+    return std::any_of(patches.begin(), patches.end(),
+                       [&](const Patch& patch) { return !keepsBound(warehouse, variable, patch); });
   };
   return static_cast<std::size_t>(std::find_if(written.begin(), written.end(), breaks) - written.begin());
 }
