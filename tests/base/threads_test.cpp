@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/environment.hpp"
+
 namespace tushar {
 
 namespace {
@@ -88,6 +90,18 @@ TEST(Threads, MayBecomeMoreOrFewer) {
   }
 }
 
-TEST(Threads, AreAtLeastOneWhateverTheLauncherSays) { EXPECT_GE(allowedThreads(), 1); }
+TEST(Threads, AreAllowedAsTheLauncherSaysAndAtLeastOne) {
+  const test::Environment none("SLURM_CPUS_PER_TASK", std::nullopt), alone("OMPI_COMM_WORLD_LOCAL_SIZE", "1");
+  const int all = allowedThreads();
+  const auto with = [](const char* name, const char* value) {
+    const test::Environment launcher(name, value);
+    return allowedThreads();
+  };
+
+  EXPECT_EQ(with("OMPI_COMM_WORLD_LOCAL_SIZE", "100000"), 1);
+  EXPECT_EQ(with("SLURM_CPUS_PER_TASK", "1"), 1);
+  EXPECT_EQ(with("SLURM_CPUS_PER_TASK", "0"), all);
+  EXPECT_EQ(with("SLURM_CPUS_PER_TASK", "100000"), all);
+}
 
 }  // namespace tushar
