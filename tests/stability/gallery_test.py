@@ -68,6 +68,13 @@ class ShortGallery(unittest.TestCase):
             for file in files:
                 self.assertNotRegex(file.read_text().lower(), "nan|inf", file.name)
 
+    def test_what_was_not_measured_is_not_passed(self):
+        run = self.gallery.run(case_of("sod"), METHODS["default"])
+        self.assertEqual(judge(run, case_of("sod"), True), ["pass"])
+        for name in ("entropy", "error", *case_of("sod").keeps):
+            without = {key: value for key, value in run.items() if key != name}
+            self.assertRaises(KeyError, judge, without, case_of("sod"), True)
+
     def test_a_written_scene_is_the_one_that_is_run(self):
         with tempfile.TemporaryDirectory() as folder:
             for name, method in (("relaxation_1000", "affine_flip"), ("on_faces", "paper_tracked")):

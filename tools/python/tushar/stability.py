@@ -158,7 +158,7 @@ def judge(run, case, isOurs):
     for name in ("least_density", "least_energy"):
         if name in run and not run[name] > 0:
             broken.append(f"{name.replace('_', ' ')} not positive")
-    if case.entropy and not run.get("entropy", 0) >= -FALL:
+    if case.entropy and not run["entropy"] >= -FALL:
         broken.append("entropy falls")
     return broken or ["pass"]
 
