@@ -65,9 +65,7 @@ class ParticleSet {
   /// Calls `visit(cell, particles)` for the cells of a box that hold particles, in lexicographic order.
   template <int D, class Visit>
   void forEachOccupied(const grid::Box& box, Visit&& visit) const {
-    grid::Box rows = box;
-    rows.upper[0] = std::min(rows.upper[0], rows.lower[0] + 1);
-    grid::forEach<D>(rows, [&](Index<D> cell) {
+    grid::forEach<D>(box.rowStarts(), [&](Index<D> cell) {
       const Span span = occupied(cell, box.upper[0]);
       cell[0] = span.first;
       const ParticleRange* range = &ranges_[offset(cell)];

@@ -39,10 +39,8 @@ bool keepsBound(Warehouse& warehouse, const Bounded& written, const Patch& patch
     return holds(label->bound, numbersOf(variable), static_cast<std::size_t>(owned) * components);
   }
   const Box box = boxOf(*label, patch);
-  Box rows = box;
-  rows.upper[0] = rows.lower[0] + 1;
   bool kept = true;
-  grid::forEach<3>(rows, [&](const Index3& first) {
+  grid::forEach<3>(box.rowStarts(), [&](const Index3& first) {
     kept = kept && holds(label->bound, numbersOf(variable) + variable.stored.offset(first) * components,
                          static_cast<std::size_t>(box.extent(0)) * components);
   });

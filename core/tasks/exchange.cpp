@@ -20,10 +20,8 @@ namespace {
 /// Calls `visit(first, length)` for each row of a box along the first axis.
 template <class Visit>
 void forEachRow(const Box& box, std::size_t bytes, Visit&& visit) {
-  Box rows = box;
-  rows.upper[0] = rows.lower[0] + 1;
   const std::size_t length = static_cast<std::size_t>(box.extent(0)) * bytes;
-  if (!box.empty()) grid::forEach<3>(rows, [&](const Index3& first) { visit(first, length); });
+  grid::forEach<3>(box.rowStarts(), [&](const Index3& first) { visit(first, length); });
 }
 
 std::byte* at(Variable& variable, const Index3& place, std::size_t bytes) {

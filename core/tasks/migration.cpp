@@ -22,12 +22,6 @@ Box ownOf(const Patch& patch, const data::Label& label) {
   return label.centring == Centring::node ? patch.nodes() : patch.cells();
 }
 
-template <class Visit>
-void forEachRow(Box box, Visit&& visit) {
-  box.upper[0] = box.lower[0] + 1;
-  grid::forEach<3>(box, visit);
-}
-
 /// Writes what stands on patches: particles by cell, then each variable, behind a byte that says whether there is one.
 class Packer {
  public:
@@ -61,7 +55,7 @@ class Packer {
     }
     const Box own = ownOf(patch, *label);
     const std::size_t length = static_cast<std::size_t>(own.extent(0)) * label->bytes, bytes = label->bytes;
-    forEachRow(own, [&](const Index3& first) {
+    grid::forEach<3>(own.rowStarts(), [&](const Index3& first) {
       mpi::append(to, from.values.data() + from.stored.offset(first) * bytes, length);
     });
   }
@@ -114,7 +108,7 @@ class Unpacker {
     const Box own = ownOf(patch, *label);
     warehouse_.allocateGrid(to, *label,
                             label->centring == Centring::node ? patch.nodesWithin(ghost) : patch.cellsWithin(ghost));
-    forEachRow(own, [&](const Index3& first) {
+    grid::forEach<3>(own.rowStarts(), [&](const Index3& first) {
       copyTo(to.values.data() + to.stored.offset(first) * bytes, static_cast<std::size_t>(own.extent(0)) * bytes);
     });
   }

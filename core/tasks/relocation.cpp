@@ -276,10 +276,8 @@ void Relocation::rebuild(const Patch& patch, int material, int id) {
   moves.count = 0;
   std::size_t nextDeparted = 0;
   const int* firstIncoming = moves.firstIncoming.data();
-  grid::Box rows = patch.cells();
-  rows.upper[0] = rows.lower[0] + 1;
   const int rowLength = patch.cells().extent(0);
-  grid::forEach<3>(rows, [&](const Index3& cell) {
+  grid::forEach<3>(patch.cells().rowStarts(), [&](const Index3& cell) {
     const ParticleRange* from = before.row(cell);
     ParticleRange* to = after.row(cell);
     if (!moves.isEntered[patch.cells().rowOf(cell)] && before.occupied(cell, patch.cells().upper[0]).empty()) {
