@@ -119,6 +119,15 @@ class Level {
   /// The periodic images of the grid that hold cells of a box, as shifts in cells: cell c + shift is an image of c.
   /// Zero among them where the box holds cells of the grid.
   std::vector<Index3> imagesOverlapping(const Box& cells) const;
+  /// The cell of the grid that a cell is an image of along periodic axes.
+  template <int D>
+  Index<D> wrapped(Index<D> cell) const {
+    for (int d = 0; d < std::min(D, dimension()); ++d) {
+      const int count = cells_.extent(d);
+      if (isPeriodic(d)) cell[d] = (cell[d] % count + count) % count;
+    }
+    return cell;
+  }
   /// Number of a cell in lexicographic order, x fastest, 0 for the first; independent of the patches.
   template <int D>
   std::uint64_t cellNumber(const Index<D>& cell) const {
