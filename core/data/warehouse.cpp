@@ -111,11 +111,13 @@ void fillWithNaN(Buffer& buffer, const Label& label, std::size_t fromByte, std::
 }
 }  // namespace
 
-void Warehouse::allocateGrid(Variable& variable, const Label& label, const grid::Box& stored) {
-  const std::size_t bytes = stored.size() * label.bytes;
+void Warehouse::allocateGrid(Variable& variable, int number, const grid::Patch& patch) {
+  const Label& label = *(*table_)[number].label;
+  const int ghost = table_->ghost(number);
+  variable.stored = label.centring == Centring::node ? patch.nodesWithin(ghost) : patch.cellsWithin(ghost);
+  const std::size_t bytes = variable.stored.size() * label.bytes;
   variable.held = true;
   pools_[static_cast<std::size_t>(variable.pool)].reserve(variable.values, bytes);
-  variable.stored = stored;
   fillWithNaN(variable.values, label, 0, bytes);
 }
 

@@ -26,10 +26,6 @@ namespace {
 
 const double* numbersOf(const Variable& variable) { return reinterpret_cast<const double*>(variable.values.data()); }
 
-Box boxOf(const Label& label, const Patch& patch) {
-  return label.centring == Centring::node ? patch.nodes() : patch.cells();
-}
-
 bool keepsBound(Warehouse& warehouse, const Bounded& written, const Patch& patch) {
   const auto [label, material] = warehouse.table()[written.variable];
   const Variable& variable = warehouse.variable(Generation::fresh, written.variable, patch.id());
@@ -38,7 +34,7 @@ bool keepsBound(Warehouse& warehouse, const Bounded& written, const Patch& patch
     const int owned = warehouse.particles(written.set, material, patch.id()).owned();
     return holds(label->bound, numbersOf(variable), static_cast<std::size_t>(owned) * components);
   }
-  const Box box = boxOf(*label, patch);
+  const Box box = ownBox(patch, *label);
   bool kept = true;
   grid::forEach<3>(box.rowStarts(), [&](const Index3& first) {
     kept = kept && holds(label->bound, numbersOf(variable) + variable.stored.offset(first) * components,
@@ -147,7 +143,7 @@ class Search {
   }
   void lookAtGrid(const Patch& patch) {
     const Box all = gridBox();
-    grid::forEach<3>(boxOf(label_, patch), [&](const Index3& at) {
+    grid::forEach<3>(ownBox(patch, label_), [&](const Index3& at) {
       if (ownerOf(at).id() != patch.id()) return;
       const std::size_t place = gridPlace(patch.id(), at);
       look(numbers(Generation::fresh, patch.id(), place), {all.offset(at), 0}, patch.id(), at, place);

@@ -18,10 +18,6 @@ using mpi::Bytes;
 
 namespace {
 
-Box ownOf(const Patch& patch, const data::Label& label) {
-  return label.centring == Centring::node ? patch.nodes() : patch.cells();
-}
-
 /// Writes what stands on patches: particles by cell, then each variable, behind a byte that says whether there is one.
 class Packer {
  public:
@@ -53,7 +49,7 @@ class Packer {
       const int owned = warehouse_.particles(Generation::old, material, patch.id()).owned();
       return mpi::append(to, from.values.data(), static_cast<std::size_t>(owned) * label->bytes);
     }
-    const Box own = ownOf(patch, *label);
+    const Box own = ownBox(patch, *label);
     const std::size_t length = static_cast<std::size_t>(own.extent(0)) * label->bytes, bytes = label->bytes;
     grid::forEach<3>(own.rowStarts(), [&](const Index3& first) {
       mpi::append(to, from.values.data() + from.stored.offset(first) * bytes, length);
@@ -104,10 +100,8 @@ class Unpacker {
       warehouse_.allocateParticles(to, *label, owned);
       return copyTo(to.values.data(), static_cast<std::size_t>(owned) * bytes);
     }
-    const int ghost = warehouse_.table().ghost(number);
-    const Box own = ownOf(patch, *label);
-    warehouse_.allocateGrid(to, *label,
-                            label->centring == Centring::node ? patch.nodesWithin(ghost) : patch.cellsWithin(ghost));
+    const Box own = ownBox(patch, *label);
+    warehouse_.allocateGrid(to, number, patch);
     grid::forEach<3>(own.rowStarts(), [&](const Index3& first) {
       copyTo(to.values.data() + to.stored.offset(first) * bytes, static_cast<std::size_t>(own.extent(0)) * bytes);
     });

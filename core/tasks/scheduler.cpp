@@ -299,13 +299,10 @@ void Scheduler::allocateOutputs(const MaterialBinding& binding, const grid::Patc
   for (const Output& output : binding.outputs) {
     data::Variable& variable = warehouse_->variable(Generation::fresh, output.variable, patch.id());
     const data::Label& label = *warehouse_->table()[output.variable].label;
-    const int ghost = warehouse_->table().ghost(output.variable);
     if (label.centring == data::Centring::particle)
       warehouse_->allocateParticles(variable, label, warehouse_->particles(output.set, material, patch.id()).owned());
-    else if (label.centring == data::Centring::node)
-      warehouse_->allocateGrid(variable, label, patch.nodesWithin(ghost));
     else
-      warehouse_->allocateGrid(variable, label, patch.cellsWithin(ghost));
+      warehouse_->allocateGrid(variable, output.variable, patch);
   }
 }
 
