@@ -11,6 +11,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "core/base/merge.hpp"
+
 namespace tushar::mpi {
 
 using Bytes = std::vector<std::byte>;
@@ -57,6 +59,11 @@ class Communicator {
   /// Every rank gets `merge(from, into)` over the values of all, in a tree that depends on their number alone, so that
   /// all get the same bits.
   void merge(std::span<std::byte> value, const std::function<void(const std::byte* from, std::byte* into)>& merge) const;
+  /// The same for a value that has a function `merge`.
+  template <class T>
+  void merge(T& value) const {
+    merge(std::as_writable_bytes(std::span(&value, 1)), mergeInMemory<T>);
+  }
   /// What rank `from` has, on every rank.
   Bytes broadcast(Bytes bytes, int from = 0) const;
   /// The same for a value without pointers.

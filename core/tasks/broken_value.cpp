@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 
 #include "core/base/mpi.hpp"
 
@@ -61,22 +60,12 @@ struct Found {
   int patch = 0;
   Index3 at;
 
-  void add(const Found& other) {
+  void merge(const Found& other) {
     const bool isLater = other.broken == 0 || (broken > 0 && first < other.first);
     const long all = seen + other.seen, bad = broken + other.broken;
     if (!isLater) *this = other;
     seen = all;
     broken = bad;
-  }
-  /// Adds what all ranks have found.
-  void merge(const mpi::Communicator& ranks) {
-    ranks.merge(std::as_writable_bytes(std::span(this, 1)), [](const std::byte* from, std::byte* into) {
-      Found one, other;
-      std::memcpy(&one, into, sizeof(Found));
-      std::memcpy(&other, from, sizeof(Found));
-      one.add(other);
-      std::memcpy(into, &one, sizeof(Found));
-    });
   }
 };
 
@@ -93,7 +82,7 @@ class Search {
 
   std::optional<BrokenValue> run() {
     for (const Patch& patch : level_.patches()) isParticle() ? lookAtParticles(patch) : lookAtGrid(patch);
-    found_.merge(warehouse_.ranks());
+    warehouse_.ranks().merge(found_);
     if (found_.broken == 0) return std::nullopt;
     return BrokenValue{std::string(label_.name), found_.patch, isParticle() ? particleSentence() : gridSentence()};
   }

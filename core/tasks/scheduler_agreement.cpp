@@ -49,11 +49,7 @@ void Scheduler::agree(const TaskGraph& graph) {
     std::memcpy(mine.data() + place, slot.bytes().data(), slot.bytes().size());
   });
   warehouse_->ranks().merge(mine, [&](const std::byte* from, std::byte* into) {
-    Outcome one, other;
-    std::memcpy(&one, into, sizeof(Outcome));
-    std::memcpy(&other, from, sizeof(Outcome));
-    one.merge(other);
-    std::memcpy(into, &one, sizeof(Outcome));
+    mergeInMemory<Outcome>(from, into);
     forEachReduction(*warehouse_, graph,
                      [&](data::ReductionSlot& slot, std::size_t place) { slot.merge(from + place, into + place); });
   });
