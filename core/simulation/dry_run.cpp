@@ -5,7 +5,6 @@
 
 #include <ctime>
 #include <fstream>
-#include <map>
 #include <set>
 
 #include "core/simulation/scene.hpp"
@@ -39,7 +38,7 @@ class Messages {
     for (const tasks::CompiledTask& task : graph.tasks()) {
       std::set<int> receivers;
       for (const tasks::NumberedFill& fill : task.fills)
-        for (const auto& [rank, copies] : planOf(tasks::reachOf(table_, fill)).outgoing) {
+        for (const auto& [rank, copies] : plans_.of(level_, tasks::reachOf(table_, fill)).outgoing) {
           receivers.insert(rank);
           if (!fill.particles) result.bytes += bytesOf(copies, table_[fill.variable].label->bytes);
         }
@@ -58,20 +57,15 @@ class Messages {
     return all;
   }
   void addRelocations(int materials, DryRun& result) {
-    const auto& receivers = planOf({false, tasks::Emigration::neighbourhood}).incoming;
+    const auto& receivers = plans_.of(level_, {false, tasks::Emigration::neighbourhood}).incoming;
     neighbours_.insert(receivers.begin(), receivers.end());
     result.messages += materials * static_cast<int>(receivers.size());
     result.agreements += materials;
   }
-  const tasks::GhostPlan& planOf(const tasks::GhostReach& reach) {
-    const auto [plan, isNew] = plans_.try_emplace(reach);
-    if (isNew) plan->second = tasks::planGhosts(level_, reach.nodes, reach.width);
-    return plan->second;
-  }
 
   const grid::Level& level_;
   const data::VariableTable& table_;
-  std::map<tasks::GhostReach, tasks::GhostPlan> plans_;
+  tasks::GhostPlans plans_;
   std::set<int> neighbours_;
 };
 

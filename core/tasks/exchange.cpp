@@ -109,13 +109,6 @@ GhostReach reachOf(const data::VariableTable& table, const NumberedFill& fill) {
   return {label->centring == data::Centring::node, fill.particles ? table.reach(material) : table.ghost(fill.variable)};
 }
 
-const GhostPlan& Exchange::planOf(const NumberedFill& fill) {
-  const GhostReach reach = reachOf(warehouse_->table(), fill);
-  const auto [plan, isNew] = plans_.try_emplace(reach);
-  if (isNew) plan->second = planGhosts(warehouse_->level(), reach.nodes, reach.width);
-  return plan->second;
-}
-
 void Exchange::begin(std::span<const NumberedFill> fills, bool hasStopped) {
   has_stopped_ = hasStopped;
   fills_ = fills;

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <compare>
-#include <map>
 #include <set>
 #include <span>
 #include <vector>
@@ -20,13 +18,6 @@ struct NumberedFill {
   bool particles;
 };
 
-/// Which ghosts a fill needs, whatever the variable.
-struct GhostReach {
-  bool nodes;
-  int width;
-
-  friend auto operator<=>(const GhostReach&, const GhostReach&) = default;
-};
 GhostReach reachOf(const data::VariableTable& table, const NumberedFill& fill);
 
 /// Fills the ghosts of every patch from the patches that own them, on this rank or another.
@@ -52,7 +43,7 @@ class Exchange {
   /// Between the two: whether the patch at this place of the rank's has all its ghosts.
   bool isReady(std::size_t place);
   /// This rank has other patches from now on.
-  void forgetLayout() { plans_.clear(); }
+  void forgetLayout() { plans_.forget(); }
 
  private:
   class Letters;
@@ -69,12 +60,14 @@ class Exchange {
   /// Calls `work(fill, whether it settles ghosts, patch, its place)` on several threads at once.
   template <class Work>
   void forEach(const Work& work);
-  const GhostPlan& planOf(const NumberedFill& fill);
+  const GhostPlan& planOf(const NumberedFill& fill) {
+    return plans_.of(warehouse_->level(), reachOf(warehouse_->table(), fill));
+  }
 
   data::Warehouse* warehouse_;
   Threads* threads_;
   mpi::Outbox outbox_;
-  std::map<GhostReach, GhostPlan> plans_;
+  GhostPlans plans_;
   // Of the exchange under way:
   std::span<const NumberedFill> fills_;
   bool has_stopped_ = false;
