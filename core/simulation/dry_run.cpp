@@ -35,6 +35,7 @@ class Messages {
   Messages(const grid::Level& level, const data::VariableTable& table) : level_(level), table_(table) {}
 
   void add(const tasks::TaskGraph& graph, DryRun& result) {
+    if (graph.tasks().empty()) return;
     for (const tasks::CompiledTask& task : graph.tasks()) {
       std::set<int> receivers;
       for (const tasks::NumberedFill& fill : task.fills)
@@ -45,8 +46,9 @@ class Messages {
       result.messages += static_cast<int>(receivers.size());
       neighbours_.insert(receivers.begin(), receivers.end());
       if (task.task.kind == tasks::TaskKind::relocate) addRelocations(static_cast<int>(task.materials.size()), result);
+      if (task.task.perRank) ++result.agreements;  // on whether to begin
     }
-    ++result.agreements;
+    ++result.agreements;  // on how it went
     result.neighbours = static_cast<int>(neighbours_.size());
   }
 
@@ -83,7 +85,7 @@ DryRun dryRun(const std::string& scene, const std::vector<std::string>& override
   DryRun result;
   result.agreements = 1;  // on whether to stop
   Messages messages(level, table);
-  for (const tasks::TaskGraph* graph : {&phases.stableTimeStep, &phases.timeAdvance}) {
+  for (const tasks::TaskGraph* graph : {&phases.stableTimeStep, &phases.timeAdvance, &phases.everyStep}) {
     result.tasks += static_cast<int>(graph->tasks().size());
     result.placements += static_cast<int>(graph->placements().size());
     messages.add(*graph, result);
