@@ -47,7 +47,7 @@ Parts collectParticles(data::Warehouse& warehouse, Generation generation, int va
 Parts collectGrid(data::Warehouse& warehouse, Generation generation, int variable, const Box& all) {
   const data::Label& label = *warehouse.table()[variable].label;
   const std::size_t bytes = label.bytes;
-  const auto sentOf = [&](const Patch& patch) { return ownOf(patch, label).intersect(all); };
+  const auto sentOf = [&](const Patch& patch) { return ownBox(patch, label).intersect(all); };
   Parts parts;
   parts.messages = collect(
       warehouse,
@@ -68,10 +68,6 @@ Parts collectGrid(data::Warehouse& warehouse, Generation generation, int variabl
         return sentOf(patch).size() * bytes;
       });
   return parts;
-}
-
-Box ownOf(const Patch& patch, const data::Label& label) {
-  return label.centring == data::Centring::node ? patch.nodes() : patch.cells();
 }
 
 }  // namespace tushar::simulation

@@ -210,7 +210,7 @@ class StateReader : StateWalk {
     Array::Values values = stored(path, label(number), all.size());
     const std::byte* from = bytesOf(values);
     for (const Patch& patch : level_.patches()) {
-      const Box own = ownOf(patch, label(number));
+      const Box own = ownBox(patch, label(number));
       Variable& to = variable(number, patch);
       warehouse_.allocateGrid(to, number, patch);
       forEachRow(own, [&](const Index3& first) {
