@@ -153,17 +153,8 @@ const input::Schema<Settings>& schema() {
 }  // namespace
 
 simulation::ComponentKind kind() {
-  simulation::ComponentKind kind;
-  kind.name = "burgers";
-  kind.sentence = "Burgers' equation by finite volumes";
-  kind.sections = {"Burgers"};
-  kind.boundaryLabels = {{"Velocity"}, {"Symmetric"}};
-  kind.describe = [](std::ostream& out) { schema().describe(out); };
-  kind.read = [](const input::Element& root, input::Diagnostics& diagnostics) {
-    const Settings settings = simulation::readSection(root, schema(), diagnostics);
-    return [settings](const Level& level) { return simulation::makeByDimension<Burgers>(level, settings); };
-  };
-  return kind;
+  return simulation::kindWithSection<Burgers>("burgers", "Burgers' equation by finite volumes",
+                                              schema(), {{"Velocity"}, {"Symmetric"}});
 }
 
 template class Burgers<1>;

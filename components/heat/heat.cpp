@@ -144,17 +144,8 @@ const input::Schema<Settings>& schema() {
 }  // namespace
 
 simulation::ComponentKind kind() {
-  simulation::ComponentKind kind;
-  kind.name = "heat";
-  kind.sentence = "heat conduction, explicit or implicit; the smallest complete component";
-  kind.sections = {"Heat"};
-  kind.boundaryLabels = {{"Temperature"}, {"Symmetric"}};
-  kind.describe = [](std::ostream& out) { schema().describe(out); };
-  kind.read = [](const input::Element& root, input::Diagnostics& diagnostics) {
-    const Settings settings = simulation::readSection(root, schema(), diagnostics);
-    return [settings](const Level& level) { return simulation::makeByDimension<Heat>(level, settings); };
-  };
-  return kind;
+  return simulation::kindWithSection<Heat>("heat", "heat conduction, explicit or implicit; the smallest complete component",
+                                           schema(), {{"Temperature"}, {"Symmetric"}});
 }
 
 template class Heat<1>;

@@ -28,7 +28,8 @@ inline constexpr NodeLabel<Vec<D>> velocity{"g.velocity", "m/s", "velocity befor
 template <int D>
 inline constexpr NodeLabel<Vec<D>> internalForce{"g.internalforce", "N", "force of the stresses in the cells around"};
 template <int D>
-inline constexpr NodeLabel<Vec<D>> acceleration{"g.acceleration", "m/s^2", "acceleration"};
+inline constexpr NodeLabel<Vec<D>> acceleration{"g.acceleration", "m/s^2",
+                                                  "by the stresses alone: internal force over mass"};
 template <int D>
 inline constexpr NodeLabel<Vec<D>> velocityStar{"g.velocity_star", "m/s", "velocity at the end of the step",
                                                   Bound::finite};

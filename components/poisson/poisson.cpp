@@ -105,17 +105,8 @@ const input::Schema<Settings>& schema() {
 }  // namespace
 
 simulation::ComponentKind kind() {
-  simulation::ComponentKind kind;
-  kind.name = "poisson";
-  kind.sentence = "Poisson's equation; the smallest component with a global solve";
-  kind.sections = {"Poisson"};
-  kind.boundaryLabels = {{"Phi"}, {"Symmetric"}};
-  kind.describe = [](std::ostream& out) { schema().describe(out); };
-  kind.read = [](const input::Element& root, input::Diagnostics& diagnostics) {
-    const Settings settings = simulation::readSection(root, schema(), diagnostics);
-    return [settings](const Level& level) { return simulation::makeByDimension<Poisson>(level, settings); };
-  };
-  return kind;
+  return simulation::kindWithSection<Poisson>("poisson", "Poisson's equation; the smallest component with a global solve",
+                                              schema(), {{"Phi"}, {"Symmetric"}});
 }
 
 template class Poisson<1>;

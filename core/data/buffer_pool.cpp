@@ -7,7 +7,7 @@ namespace tushar::data {
 void BufferPool::reserve(Buffer& buffer, std::size_t bytes, std::size_t keep) {
   constexpr std::size_t tooSmallToMatter = std::size_t{1} << 16;
   if (bytes <= buffer.capacity()) return;
-  const auto best = smallest(bytes, 2 * bytes + tooSmallToMatter);
+  const auto best = smallest(bytes, bytes + bytes / 4 + tooSmallToMatter);
   if (keep > 0 || best == free_.end()) {
     ++allocations_;
     if (const auto outgrown = smallest(bytes - bytes / 4, bytes); outgrown != free_.end()) take(outgrown);

@@ -6,9 +6,9 @@
 
 namespace tushar::data {
 
-/// Memory that variables of a patch have given back, for the next ones. A buffer goes to nobody who needs less than half
-/// of it, so that each size finds its own again in the next step; one that has been outgrown a little is given up when a
-/// larger one is made. Not for several threads at once.
+/// Memory that variables of a patch have given back, for the next ones. A buffer goes to nobody who needs much less
+/// than it holds, so that each size finds its own again in the next step; one that has been outgrown a little is given
+/// up when a larger one is made. Not for several threads at once.
 class alignas(64) BufferPool {
  public:
   /// Makes room for `bytes` in a buffer, from the pool where it has one that fits; the first `keep` bytes stay as they were.

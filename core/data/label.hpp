@@ -72,6 +72,11 @@ struct FieldLabel : Label {
       throw std::invalid_argument("only real numbers have bounds");
     if (!called.starts_with(prefix())) throw std::invalid_argument("a label starts with p., g. or c.");
   }
+  /// Keeps `count` values of T for each particle, node or cell.
+  constexpr void setCount(int count) {
+    components = count * Stored<T>::components;
+    bytes = static_cast<std::size_t>(count) * sizeof(T);
+  }
   /// What the names of such labels start with, as in Uintah: p. for particles, g. for grid nodes, c. for cells.
   static constexpr std::string_view prefix() {
     return C == Centring::particle ? "p." : C == Centring::node ? "g." : "c.";

@@ -6,7 +6,7 @@
 
 #include "core/grid/level.hpp"
 #include "core/input/schema.hpp"
-#include "core/simulation/component.hpp"
+#include "core/simulation/catalogue.hpp"
 
 namespace tushar::simulation {
 
@@ -30,6 +30,23 @@ S readSection(const input::Element& root, const input::Schema<S>& schema, input:
     diagnostics.error(sections[1], fmt::format("<{}> is given twice; the first is at {}", schema.name(),
                                                sections[0].where().text()));
   return schema.read(sections.front(), diagnostics);
+}
+
+/// A component of as many dimensions as the grid has axes that is made of the settings of its one section.
+template <template <int> class C, class S>
+ComponentKind kindWithSection(std::string name, std::string sentence, const input::Schema<S>& schema,
+                              std::vector<BoundaryLabel> boundaryLabels) {
+  ComponentKind kind;
+  kind.name = std::move(name);
+  kind.sentence = std::move(sentence);
+  kind.sections = {schema.name()};
+  kind.boundaryLabels = std::move(boundaryLabels);
+  kind.describe = [&schema](std::ostream& out) { schema.describe(out); };
+  kind.read = [&schema](const input::Element& root, input::Diagnostics& diagnostics) -> MakeComponent {
+    const S settings = readSection(root, schema, diagnostics);
+    return [settings](const grid::Level& level) { return makeByDimension<C>(level, settings); };
+  };
+  return kind;
 }
 
 }  // namespace tushar::simulation

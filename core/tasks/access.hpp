@@ -39,6 +39,11 @@ struct FieldAccess<data::FieldLabel<C, T>, Kind> {
   }
 };
 
+template <class Argument>
+inline constexpr bool isFieldAccess = false;
+template <data::Centring C, class T, AccessKind Kind>
+inline constexpr bool isFieldAccess<FieldAccess<data::FieldLabel<C, T>, Kind>> = true;
+
 template <class R, AccessKind Kind>
 struct FieldAccess<data::ReductionLabel<R>, Kind> {
   const data::ReductionLabel<R>* label;
@@ -64,40 +69,40 @@ struct PlainArgument {
   const T& bind(const TaskContext&) const { return value; }
 };
 
-/// What an argument becomes for a task that sees all materials: for labels a view of each material.
-template <data::Centring C, class T, AccessKind Kind>
-auto bindAll(const FieldAccess<data::FieldLabel<C, T>, Kind>& access, const TaskContext& context) {
-  std::vector<std::decay_t<decltype(access.bind(context))>> views;
-  for (const TaskContext& one : context.ofMaterials()) views.push_back(access.bind(one));
+/// What `bind` makes of each of `contexts`.
+template <class Contexts, class Bind>
+auto bindEach(const Contexts& contexts, Bind bind) {
+  std::vector<std::decay_t<decltype(bind(contexts[0]))>> views;
+  for (const TaskContext& one : contexts) views.push_back(bind(one));
   return views;
-}
-template <class Argument>
-decltype(auto) bindAll(const Argument& argument, const TaskContext& context) {
-  return argument.bind(context);
 }
 
-/// What an argument becomes for a task that sees the whole rank: for labels a view of each patch, and of each material
-/// there if there are any: `views[patch][material]`.
-template <data::Centring C, class T, AccessKind Kind>
-auto bindRank(const FieldAccess<data::FieldLabel<C, T>, Kind>& access, const TaskContext& context) {
-  std::vector<std::decay_t<decltype(access.bind(context))>> views;
-  for (const TaskContext& patch : context.ofPatches()) views.push_back(access.bind(patch));
-  return views;
+/// What an argument becomes for a task that sees all materials: for labels a view of each material.
+template <class Argument>
+decltype(auto) bindAll(const Argument& argument, const TaskContext& context) {
+  if constexpr (isFieldAccess<Argument>)
+    return bindEach(context.ofMaterials(), [&](const TaskContext& one) { return argument.bind(one); });
+  else
+    return argument.bind(context);
 }
+
+/// What an argument becomes for a task that sees the whole rank: for labels a view of each patch.
 template <class Argument>
 decltype(auto) bindRank(const Argument& argument, const TaskContext& context) {
-  return argument.bind(context);
+  if constexpr (isFieldAccess<Argument>)
+    return bindEach(context.ofPatches(), [&](const TaskContext& patch) { return argument.bind(patch); });
+  else
+    return argument.bind(context);
 }
-template <data::Centring C, class T, AccessKind Kind>
-auto bindRankAll(const FieldAccess<data::FieldLabel<C, T>, Kind>& access, const TaskContext& context) {
-  std::vector<decltype(bindAll(access, context))> views;
-  for (const TaskContext& patch : context.ofPatches()) views.push_back(bindAll(access, patch));
-  return views;
-}
+/// The same where there are materials: `views[patch][material]`.
 template <class Argument>
 decltype(auto) bindRankAll(const Argument& argument, const TaskContext& context) {
-  return argument.bind(context);
+  if constexpr (isFieldAccess<Argument>)
+    return bindEach(context.ofPatches(), [&](const TaskContext& patch) { return bindAll(argument, patch); });
+  else
+    return argument.bind(context);
 }
+
 /// Hands a task that sees the whole rank the ranks that run it together: all that have patches.
 struct RanksArgument {
   void declare(std::vector<Access>&) {}

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 
 #include "tests/support/run.hpp"
 
@@ -37,6 +38,7 @@ Settings settingsOf(const std::string& source, const std::string& coefficient = 
 struct Solved {
   double error;  ///< mean of |phi - exact|
   double iterations;
+  std::map<std::uint64_t, double> phi;  ///< by the number of the cell
 };
 
 template <int D>
@@ -54,6 +56,7 @@ Solved solved(const grid::Domain& domain, const Settings& settings, const std::s
   run.step(step);
   const input::Expression phi = *input::Expression::parse(exact);
   Norm error;
+  std::map<std::uint64_t, double> found;
   for (const Patch& patch : run.level.patches()) {
     const auto& held = run.warehouse.variable(data::Generation::old, run.table.find("c.phi", -1), patch.id());
     const auto* values = reinterpret_cast<const double*>(held.values.data());
@@ -61,9 +64,10 @@ Solved solved(const grid::Domain& domain, const Settings& settings, const std::s
       Vec3 x = Vec3::Zero();
       for (int d = 0; d < D; ++d) x[d] = run.level.nodePosition(d, cell[d]) + run.level.spacing(d) / 2;
       error.add(values[held.stored.offset(cell)] - phi(x, 1.0));
+      found[run.level.cellNumber<3>(cell)] = values[held.stored.offset(cell)];
     });
   }
-  return {error.l1(), run.warehouse.reductionValues(run.table.find("KrylovIterations", -1)).at(0)};
+  return {error.l1(), run.warehouse.reductionValues(run.table.find("KrylovIterations", -1)).at(0), found};
 }
 
 /// Order between `cells` and twice as many.
@@ -135,7 +139,9 @@ TEST(Poisson, GivesTheSameBitsOnAnyPatches) {
   grid::Domain one = keptAtOne<2>(12), many = one;
   one.patches = {{1, 1, 1}};
   many.patches = {{5, 3, 1}};
-  EXPECT_EQ(solved<2>(one, settings, "0").iterations, solved<2>(many, settings, "0").iterations);
+  const Solved alone = solved<2>(one, settings, "0"), shared = solved<2>(many, settings, "0");
+  EXPECT_EQ(alone.iterations, shared.iterations);
+  EXPECT_EQ(alone.phi, shared.phi);
 }
 
 TEST(Poisson, KeepsTheFluxOverAJumpOfTheCoefficient) {

@@ -19,6 +19,7 @@ PATCHES = "Grid/Level/Box/patches=[7,1,1]"
 FINE = ("Grid/Level/Box/resolution=[5000,1,1]", "Grid/Level/Box/patches=[12,1,1]")
 EVERY = ("DataArchiver/checkpoint/@timestepInterval=10", "DataArchiver/checkpoint/@cycle=2")
 PATIENCE = 200  # seconds after which a job hangs, even on a machine with much else to do
+OVER = 10  # seconds after which a job that has lost a rank, or its disk, hangs
 
 
 class Ranks(unittest.TestCase):
@@ -46,6 +47,11 @@ class Ranks(unittest.TestCase):
         self.assertNotEqual(job.returncode, 0)
         self.assertEqual(errors.count(sentence), times, errors)
         return errors
+
+    def assert_soon(self, folder):
+        """No more than OVER seconds have gone since the job that has just ended wrote its last file."""
+        last = max(path.stat().st_mtime for path in folder.rglob("*") if path.is_file())
+        self.assertLess(time.time() - last, OVER)
 
     def uncut(self):
         code, errors, report = self.folder(1).run(SOD)
@@ -115,6 +121,7 @@ class Ranks(unittest.TestCase):
         job = subprocess.Popen([FAULTY_SUS if word == SUS else word for word in command], cwd=ROOT,
                                stderr=subprocess.PIPE, text=True)
         errors = self.assert_over(job, "sus: made to fail (task faulty::fail, patch 3, step ")
+        self.assert_soon(here.path)
         self.assertEqual(errors.count("(rank 1 of 3)"), 1)
         code, errors, report = here.restart()
         self.assertEqual((code, errors, report["ended"]), (0, "", "maxTime"))
@@ -138,12 +145,26 @@ class Ranks(unittest.TestCase):
         job = self.start(here, [SOD, "--output", small], (*EVERY, "DataArchiver/outputTimestepInterval=1",
                                                           "DataArchiver/outputInterval=0"))
         self.assert_over(job, "No space left on device")
+        self.assert_soon(small)
         for output in small.glob("*.uda.000/t*.h5"):
             output.unlink()
         uda = next(small.glob("*.uda"))
         done = subprocess.run([SUS, "-restart", uda, "--quiet", "--set", "Time/max_Timesteps=1"], cwd=ROOT,
                               capture_output=True, text=True)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_a_killed_rank_ends_the_job_and_the_last_checkpoint_restarts(self):
+        here = self.folder(3)
+        job = self.start(here, [SOD, "--output", here.path], (*FINE, *EVERY))
+        while not list(here.path.glob("*.uda/checkpoints/LATEST")):
+            time.sleep(0.01)
+        os.kill(self.ranks_of(job)[1], signal.SIGKILL)
+        errors = job.communicate(timeout=OVER)[1]
+        self.assertNotEqual(job.returncode, 0)
+        self.assertEqual(errors.count("signal 9 (Killed)"), 1, errors)
+        here.ranks = 1
+        end = f"Time/max_Timesteps={int(here.checkpoints[-1].name[1:]) + 10}"
+        self.assertEqual(here.restart(end)[2]["fingerprint"], self.folder(2).run(SOD, *FINE, end)[2]["fingerprint"])
 
     def bare(self, here):
         """Sod's tube by the paper's method with one particle per cell, which empties a cell."""

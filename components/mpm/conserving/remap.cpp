@@ -1,4 +1,5 @@
 #include "components/mpm/conserving/redistribute.hpp"
+#include "components/mpm/particle_ids.hpp"
 
 namespace tushar::mpm::conserving {
 
@@ -233,7 +234,7 @@ void addParticle(const Level& level, CellView<const double> mass, const Index<D>
   }
   const NewBox<D> box(level, mass, cell, offset);
   const double within = contained.within[lane], affine = std::min(within, modalEnergy<D>(modes, box.inertia));
-  fresh.maker.add(cell, level.cellNumber(cell) << 16);
+  fresh.maker.add(cell, level.cellNumber(cell) * idsOfCell);
   fresh.x.push_back(box.centre);
   fresh.edges.push_back(box.edges);
   fresh.mass.push_back(contained.mass[lane]);

@@ -85,7 +85,8 @@ struct StateVariable {
 /// - optional `MaterialConstants material`: filled with those of the model's material.
 /// - optional `double temperatureChange(const Deformation&, const Matrix3& stress, const State&) const`: by the work of
 ///   the step, K.
-/// - optional `void addHeat(State&, double heat) const`: told of the heat of the artificial viscosity, J/kg.
+/// - optional `void addHeat(State&, double heat) const`: told of the heat of the artificial viscosity, J/kg;
+///   where it is missing, the viscosity heats nothing, as in Uintah.
 /// - optional `static constexpr ArtificialViscosity ownViscosity`: takes the place of the scene's.
 /// - optional `double initialWaveSpeed(double initialDensity) const`: at the start, where it is not waveSpeed of F = I.
 /// - optional `bulkSpeed`, with the arguments of waveSpeed: sqrt(K / density) for the artificial viscosity, m/s.

@@ -1,5 +1,7 @@
 #include "components/mpm/solid/input.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "components/mpm/solid/loads/load_input.hpp"
@@ -30,12 +32,14 @@ struct MpmSection {
   int integrator = 0;
   Interpolator interpolator = Interpolator::linear;
   bool artificialViscosity = false, withColor = false, axisymmetric = false, useLoadCurves = false;
-  bool conductsHeat = true, xpic = false, affine = false, viscosityHeats = false, contactHeats = false;
+  bool conductsHeat = true, xpic = false, affine = false, contactHeats = false;
+  std::optional<bool> viscosityHeats;
   double picFraction = 0;
   StressUpdate stressUpdate = StressUpdate::last;
   std::string manufactured;
   double linearViscosity = 0, quadraticViscosity = 0, damping = 0;
-  double minimumParticleMass = 0, minimumMassForAcceleration = 0, maximumParticleVelocity = 0;
+  double minimumParticleMass = 0, minimumMassForAcceleration = 0;
+  std::optional<double> maximumParticleVelocity;
   int minimumSubcycles = 1;
 };
 
@@ -81,6 +85,7 @@ const std::vector<std::pair<std::string, std::string>> meaningless{
     {"with_gauss_solver", "belongs to the implicit method"},
     {"dynamic", "belongs to the implicit method"},
     {"solver", "belongs to the implicit method"},
+    {"Solver", "belongs to the implicit method"},
     {"convergence_criteria_disp", "belongs to the implicit method"},
     {"convergence_criteria_energy", "belongs to the implicit method"},
     {"num_iters_to_decrease_delT", "belongs to the implicit method"},
@@ -94,6 +99,93 @@ const std::vector<std::pair<std::string, std::string>> meaningless{
     {"temperature_solve", "belongs to the implicit method"},
 };
 
+/// What works against compression and motion.
+void addDissipation(Schema<MpmSection>& mpm) {
+  mpm.value("artificial_viscosity", &MpmSection::artificialViscosity, false, "1", "pressure against compression")
+      .value("artificial_viscosity_coeff1", &MpmSection::linearViscosity, 0.2, "1", "factor of c |D| h",
+             input::nonNegative())
+      .value("artificial_viscosity_coeff2", &MpmSection::quadraticViscosity, 2, "1", "factor of D^2 h^2",
+             input::nonNegative())
+      .optional("artificial_viscosity_heating", &MpmSection::viscosityHeats, "1",
+                "the work of the artificial viscosity heats elastic_plastic and elastic_plastic_hp: true unless told "
+                "otherwise, where there is one")
+      .value("artificial_damping_coeff", &MpmSection::damping, 0, "1/s", "acceleration against the velocity",
+             input::nonNegative());
+}
+
+/// What keeps single particles and nodes from ruling the run.
+void addLimits(Schema<MpmSection>& mpm) {
+  mpm.value("minimum_particle_mass", &MpmSection::minimumParticleMass, 3e-15, "kg",
+             "no particle may be as light as that (Uintah takes such out)", input::nonNegative())
+      .value("minimum_mass_for_acc", &MpmSection::minimumMassForAcceleration, 1e-199, "kg",
+             "a node lighter than that is only accelerated by gravity", input::nonNegative())
+      .optional("maximum_particle_velocity", &MpmSection::maximumParticleVelocity, "m/s",
+                "a particle that becomes faster is slowed down to 9/10 of it", input::positive())
+      .value("minimum_subcycles_for_F", &MpmSection::minimumSubcycles, 1, "1",
+             "least number of parts in which a step changes the deformation gradient", input::atLeast(1));
+}
+
+/// When stresses are brought forward, and how velocities go from the grid to the particles.
+void addUpdates(Schema<MpmSection>& mpm) {
+  mpm.choice("stress_update", &MpmSection::stressUpdate,
+              {{"usl", StressUpdate::last}, {"musl", StressUpdate::modifiedLast}, {"usf", StressUpdate::first}},
+              StressUpdate::last,
+              "stresses follow the grid's velocity at the end of the step, the particles' new velocity on the grid, or "
+              "the grid's velocity at the start")
+      .ours()
+      .value("XPIC2", &MpmSection::xpic, false, "1", "velocities by extended PIC of order 2")
+      .value("pic_fraction", &MpmSection::picFraction, 0, "1",
+             "share of the grid's own velocity in what particles get; the rest is FLIP", input::between(0, 1))
+      .ours()
+      .value("apic", &MpmSection::affine, false, "1",
+             "affine particle-in-cell: particles take the grid's velocity and a moment of it that keeps rotation")
+      .ours();
+}
+
+/// The space, what acts from outside, and heat.
+void addSurroundings(Schema<MpmSection>& mpm) {
+  mpm.value("axisymmetric", &MpmSection::axisymmetric, false, "1",
+             "x is the radius and y the axis; mass, energy and forces are per radian")
+      .value("use_load_curves", &MpmSection::useLoadCurves, false, "1", "the loads of <PhysicalBC> act")
+      .value("DoExplicitHeatConduction", &MpmSection::conductsHeat, true, "1", "heat is conducted")
+      .value("do_contact_friction_heating", &MpmSection::contactHeats, false, "1",
+             "friction between materials heats them, where heat is conducted")
+      .choice("RunMMSProblem", &MpmSection::manufactured,
+              {{"none", ""},
+               {"AxisAligned", "AxisAligned"},
+               {"ExpandingRing", "ExpandingRing"},
+               {"GeneralizedVortex", "GeneralizedVortex"}},
+              "", "start as a manufactured solution, under its body force")
+      .value("withColor", &MpmSection::withColor, false, "1",
+             "accepted for Uintah's sake: p.color is there where it is saved");
+}
+
+void checkDissipation(const MpmSection& read, const Element& element, Diagnostics& diagnostics) {
+  if (read.viscosityHeats.value_or(false) && !read.artificialViscosity)
+    diagnostics.error(element.child("artificial_viscosity_heating").value(), "needs <artificial_viscosity> true");
+}
+
+void checkUpdates(const MpmSection& read, const Element& element, Diagnostics& diagnostics) {
+  const bool hasAxisymmetric = read.interpolator == Interpolator::linear || read.interpolator == Interpolator::gimp;
+  if (read.axisymmetric && !hasAxisymmetric)
+    diagnostics.error(element, "axisymmetric: only with the interpolators linear and gimp");
+  if (read.affine && (read.axisymmetric || read.interpolator == Interpolator::cpdi))
+    diagnostics.error(element, "apic: neither with axisymmetric nor with the interpolator cpdi; use XPIC2");
+  if (read.affine && read.stressUpdate != StressUpdate::last)
+    diagnostics.error(element, "apic: only with stress_update usl");
+  if (read.affine + read.xpic + (read.picFraction > 0) > 1)
+    diagnostics.error(element, "apic, XPIC2 and pic_fraction are three ways to take the velocity: pick one");
+}
+
+/// What Uintah has and this method has not, or always does.
+void addForeign(Schema<MpmSection>& mpm) {
+  for (const auto& [tag, why] : meaningless) mpm.ignored(tag, why);
+  for (const auto& [tag, instead] : lacking) refuseSwitch(mpm, tag, instead);
+  requireSwitch(mpm, "computeColinearNormals", "both sides of a contact have one normal");
+  requireSwitch(mpm, "do_grid_reset", "the grid is where it was at the start of each step");
+  refuseTag(mpm, "cpdi_lcrit", "domains of cpdi keep the size that the deformation gives them");
+}
+
 const Schema<MpmSection>& mpmSchema() {
   static const Schema<MpmSection> schema = [] {
     Schema<MpmSection> mpm("MPM", "The Material Point Method for solids.");
@@ -101,65 +193,13 @@ const Schema<MpmSection>& mpmSchema() {
                "how time advances; implicit is another method, sus --describe impm")
         .choice("interpolator", &MpmSection::interpolator, interpolators, Interpolator::linear,
                 "shape functions: linear, generalised interpolation, convected particle domains (fast_cpdi is another "
-                "word for them), quadratic or cubic B-splines")
-        .value("artificial_viscosity", &MpmSection::artificialViscosity, false, "1", "pressure against compression")
-        .value("artificial_viscosity_coeff1", &MpmSection::linearViscosity, 0.2, "1", "factor of c |D| h",
-               input::nonNegative())
-        .value("artificial_viscosity_coeff2", &MpmSection::quadraticViscosity, 2, "1", "factor of D^2 h^2",
-               input::nonNegative())
-        .value("artificial_viscosity_heating", &MpmSection::viscosityHeats, false, "1",
-               "the work of the artificial viscosity heats the material")
-        .value("artificial_damping_coeff", &MpmSection::damping, 0, "1/s", "acceleration against the velocity",
-               input::nonNegative())
-        .value("minimum_particle_mass", &MpmSection::minimumParticleMass, 3e-15, "kg",
-               "a particle lighter than that is taken out", input::nonNegative())
-        .value("minimum_mass_for_acc", &MpmSection::minimumMassForAcceleration, 1e-199, "kg",
-               "a node lighter than that is only accelerated by gravity", input::nonNegative())
-        .value("maximum_particle_velocity", &MpmSection::maximumParticleVelocity, 3e105, "m/s",
-               "a particle that becomes faster is slowed down to 9/10 of it", input::positive())
-        .value("minimum_subcycles_for_F", &MpmSection::minimumSubcycles, 1, "1",
-               "least number of parts in which a step changes the deformation gradient", input::atLeast(1))
-        .choice("stress_update", &MpmSection::stressUpdate,
-                {{"usl", StressUpdate::last}, {"musl", StressUpdate::modifiedLast}, {"usf", StressUpdate::first}},
-                StressUpdate::last,
-                "stresses follow the grid's velocity at the end of the step, the particles' new velocity on the grid, or "
-                "the grid's velocity at the start")
-        .ours()
-        .value("XPIC2", &MpmSection::xpic, false, "1", "velocities by extended PIC of order 2")
-        .value("pic_fraction", &MpmSection::picFraction, 0, "1",
-               "share of the grid's own velocity in what particles get; the rest is FLIP", input::between(0, 1))
-        .ours()
-        .value("apic", &MpmSection::affine, false, "1",
-               "affine particle-in-cell: particles take the grid's velocity and a moment of it that keeps rotation")
-        .ours()
-        .value("axisymmetric", &MpmSection::axisymmetric, false, "1",
-               "x is the radius and y the axis; mass, energy and forces are per radian")
-        .value("use_load_curves", &MpmSection::useLoadCurves, false, "1", "the loads of <PhysicalBC> act")
-        .value("DoExplicitHeatConduction", &MpmSection::conductsHeat, true, "1", "heat is conducted")
-        .value("do_contact_friction_heating", &MpmSection::contactHeats, false, "1",
-               "friction between materials heats them, where heat is conducted")
-        .choice("RunMMSProblem", &MpmSection::manufactured,
-                {{"none", ""},
-                 {"AxisAligned", "AxisAligned"},
-                 {"ExpandingRing", "ExpandingRing"},
-                 {"GeneralizedVortex", "GeneralizedVortex"}},
-                "", "start as a manufactured solution, under its body force")
-        .value("withColor", &MpmSection::withColor, false, "1",
-               "accepted for Uintah's sake: p.color is there where it is saved");
-    mpm.check([](const MpmSection& read, const Element& element, Diagnostics& diagnostics) {
-      const bool hasAxisymmetric = read.interpolator == Interpolator::linear || read.interpolator == Interpolator::gimp;
-      if (read.axisymmetric && !hasAxisymmetric)
-        diagnostics.error(element, "axisymmetric: only with the interpolators linear and gimp");
-      if (read.affine && (read.axisymmetric || read.interpolator == Interpolator::cpdi))
-        diagnostics.error(element, "apic: neither with axisymmetric nor with the interpolator cpdi; use XPIC2");
-      if (read.affine + read.xpic + (read.picFraction > 0) > 1)
-        diagnostics.error(element, "apic, XPIC2 and pic_fraction are three ways to take the velocity: pick one");
-    });
-    for (const auto& [tag, why] : meaningless) mpm.ignored(tag, why);
-    for (const auto& [tag, instead] : lacking) refuseSwitch(mpm, tag, instead);
-    requireSwitch(mpm, "computeColinearNormals", "both sides of a contact have one normal");
-    requireSwitch(mpm, "do_grid_reset", "the grid is where it was at the start of each step");
-    refuseTag(mpm, "cpdi_lcrit", "domains of cpdi keep the size that the deformation gives them");
+                "word for them), quadratic or cubic B-splines");
+    addDissipation(mpm);
+    addLimits(mpm);
+    addUpdates(mpm);
+    addSurroundings(mpm);
+    mpm.check(checkDissipation).check(checkUpdates);
+    addForeign(mpm);
     return mpm;
   }();
   return schema;
@@ -249,7 +289,6 @@ Method settle(const MpmSection& read, const PhysicalConstants& constants) {
   method.damping = read.damping;
   if (read.artificialViscosity) method.viscosity = {read.linearViscosity, read.quadraticViscosity};
   method.minimumMassForAcceleration = read.minimumMassForAcceleration;
-  method.minimumParticleMass = read.minimumParticleMass;
   method.maximumParticleVelocity = read.maximumParticleVelocity;
   method.minimumSubcyclesForF = read.minimumSubcycles;
   method.conductsHeat = read.conductsHeat;
@@ -257,9 +296,37 @@ Method settle(const MpmSection& read, const PhysicalConstants& constants) {
   method.picFraction = read.affine ? 1 : read.picFraction;
   method.xpic = read.xpic;
   method.affine = read.affine;
-  method.viscosityHeats = read.viscosityHeats;
+  method.viscosityHeats = read.artificialViscosity && read.viscosityHeats.value_or(true);
   method.contactHeats = read.contactHeats;
   return method;
+}
+
+/// Heat that works or flows changes a temperature by the heat capacity.
+void checkHeat(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
+  const bool sharesHeat = problem.method.conductsHeat && problem.method.thermalContact;
+  const auto tags = root.child("MaterialProperties")->child("MPM")->children("material");
+  for (std::size_t m = 0; m < tags.size(); ++m) {
+    const Material& material = problem.materials[m];
+    if (material.specificHeat > 0) continue;
+    if (material.model->heats())
+      diagnostics.error(tags[m], "missing tag <specific_heat>: " + std::string(material.model->name()) + " heats by its work");
+    else if (material.thermalConductivity > 0 || sharesHeat)
+      diagnostics.error(tags[m], "missing tag <specific_heat>: it conducts heat");
+  }
+}
+
+/// Loads that something else in the scene would put out of effect.
+void checkLoads(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
+  const Loads& loads = problem.start.loads;
+  if (problem.start.solution && (loads.hasForces() || loads.hasHeat()))
+    diagnostics.error(root.child("PhysicalBC").value(), "<RunMMSProblem> has loads of its own: take these out");
+  for (const SurfaceLoad& load : loads.surfaces)
+    if (load.material >= static_cast<int>(problem.materials.size()))
+      diagnostics.error(root.child("PhysicalBC").value(),
+                        fmt::format("load_curve/material: there is no material {}: they are counted from 0 to {}",
+                                    load.material, problem.materials.size() - 1));
+  if (loads.hasHeat() && !problem.method.conductsHeat)
+    diagnostics.error(root.child("PhysicalBC").value(), "heat_flux: needs <DoExplicitHeatConduction> true");
 }
 
 }  // namespace
@@ -279,7 +346,14 @@ simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostic
   problem.method.thermalContact = properties.mpm.thermalContact;
   problem.start = {read.axisymmetric, readLoads(root, read.useLoadCurves, diagnostics),
                    makeManufactured(read.manufactured)};
+  problem.start.leastMass = read.minimumParticleMass;
   nameMaterials(problem.materials);
+  checkHeat(problem, root, diagnostics);
+  checkLoads(problem, root, diagnostics);
+  for (const Contact& contact : problem.contacts)
+    if (problem.start.axisymmetric && contact.volumeConstraint > 0)
+      diagnostics.error(root.child("MPM")->child("axisymmetric").value(),
+                        "volume_constraint of <contact> compares volumes, which are per radian here: leave it out");
   for (const Material& material : problem.materials) {
     if (problem.start.solution && material.model->name() != "cnh_mms")
       diagnostics.error(root.child("MPM")->child("RunMMSProblem").value(),

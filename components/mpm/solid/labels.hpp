@@ -42,8 +42,6 @@ namespace g {
 using namespace mpm::g;
 inline constexpr NodeLabel<double> volume{"g.volume", "m^3", "volume gathered from particles"};
 inline constexpr NodeLabel<Matrix3> stress{"g.stressFS", "Pa", "Cauchy stress, mean over the volume of the particles around"};
-template <int D>
-inline constexpr NodeLabel<Vec<D>> externalForce{"g.externalforce", "N", "force of loads"};
 inline constexpr NodeLabel<Octet> record{"g.record", "SI units", "velocity, mass, force and volume of a step in progress"};
 inline constexpr NodeLabel<Octet> stressRecord{"g.stressRecord", "SI units",
                                                "velocity and mass that stresses follow, where it is not that of a step"};

@@ -38,4 +38,11 @@ struct Material {
   bool isDamageable() const { return erosion.acts() || !std::holds_alternative<NoDamage>(damage); }
 };
 
+/// Most numbers that a particle of any of the materials keeps for its model.
+inline int largestStateOf(const std::vector<Material>& materials) {
+  int size = 0;
+  for (const Material& material : materials) size = std::max(size, material.model->stateSize());
+  return size;
+}
+
 }  // namespace tushar::mpm::solid

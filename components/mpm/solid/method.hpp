@@ -24,8 +24,7 @@ struct Method {
   double damping = 0;                                         ///< artificial_damping_coeff, 1/s
   std::optional<ArtificialViscosity> viscosity;
   double minimumMassForAcceleration = 1e-199;                 ///< kg
-  double minimumParticleMass = 3e-15;                         ///< kg
-  double maximumParticleVelocity = 3e105;                     ///< m/s
+  std::optional<double> maximumParticleVelocity;              ///< m/s
   int minimumSubcyclesForF = 1;
   Vec3 commonSize = Vec3::Ones();  ///< of all particles at the start, in cells; unless each keeps its own
   std::array<bool, 3> isThin{};    ///< axes x, y, z that the grid leaves out

@@ -47,8 +47,12 @@ class Model {
 
   /// Whether the work of a step changes the temperature.
   virtual bool heats() const = 0;
-  /// Tells the state of a particle of the heat of the artificial viscosity, J/kg.
+  /// Whether the artificial viscosity heats the material.
+  virtual bool takesHeat() const = 0;
+  /// Tells the state of a particle of the heat of the artificial viscosity, J/kg; only where takesHeat().
   virtual void addHeat(double* state, double heat) const = 0;
+  /// Whether a point with F, a stress (Pa) and a temperature (K) is above what melts it; never where nothing melts.
+  virtual bool isMolten(const Matrix3& deformation, const Matrix3& stress, double temperature) const = 0;
   /// Coefficients that the model has instead of the scene's.
   virtual std::optional<ArtificialViscosity> ownViscosity() const = 0;
 
@@ -98,12 +102,19 @@ class ModelOf : public Model {
   }
   bool dependsOnDeformationOnly() const override { return fromDeformation; }
   bool heats() const override { return heating; }
+  bool takesHeat() const override { return heatable; }
   void addHeat(double* numbers, double heat) const override {
-    if constexpr (requires(State& state) { model_.addHeat(state, heat); }) {
+    if constexpr (heatable) {
       State state = load(numbers);
       model_.addHeat(state, heat);
       store(state, numbers);
     }
+  }
+  bool isMolten(const Matrix3& deformation, const Matrix3& stress, double temperature) const override {
+    if constexpr (requires { model_.isMolten(deformation, stress, temperature); })
+      return model_.isMolten(deformation, stress, temperature);
+    else
+      return false;
   }
   std::optional<ArtificialViscosity> ownViscosity() const override {
     if constexpr (requires { M::ownViscosity; })
@@ -165,6 +176,7 @@ class ModelOf : public Model {
       requires(const M& m, const Deformation& d, const Matrix3& s, const State& state) { m.nominalTangent(d, s, state); };
   static constexpr bool heating =
       requires(const M& m, const Deformation& d, const Matrix3& s, const State& state) { m.temperatureChange(d, s, state); };
+  static constexpr bool heatable = requires(const M& m, State& state) { m.addHeat(state, 0.0); };
   static constexpr bool fromDeformation = [] {
     if constexpr (requires { M::dependsOnDeformationOnly; })
       return M::dependsOnDeformationOnly;

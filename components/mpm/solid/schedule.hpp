@@ -35,20 +35,15 @@ SolidMpm<Shape>::SolidMpm(Problem problem) : Solids(std::move(problem)) {
                                [](const Material& material) { return material.isDamageable(); });
   keeps_stress_ = is_damageable_ || any([](const Model& model) { return !model.dependsOnDeformationOnly(); });
   is_thermal_ = any([](const Model& model) { return model.usesTemperature(); });
-  heats_ = any([](const Model& model) { return model.heats(); }) || (isViscous() && problem_.method.viscosityHeats);
-  for (const Material& material : problem_.materials) state_size_ = std::max(state_size_, material.model->stateSize());
-  state_.components = state_size_;
-  state_.bytes = static_cast<std::size_t>(state_size_) * sizeof(double);
+  heats_ = any([](const Model& model) { return model.heats(); });
+  state_size_ = std::max(state_size_, largestStateOf(problem_.materials));
+  state_.setCount(state_size_);
   state_views_ = stateViews(problem_.materials);
 }
 
 template <class Shape>
 void SolidMpm<Shape>::scheduleInitialize(TaskList& tasks) const {
-  tasks.newParticles("mpm::actuallyInitialize", actuallyInitialize<D>, problem_.materials, with(problem_.start),
-                     creates(p::x<D>), creates(p::velocity<D>), creates(p::displacement<D>), creates(p::size<D>),
-                     creates(p::externalForce<D>), creates(p::mass), creates(p::temperature), creates(p::color),
-                     creates(p::viscosity), creates(p::strainEnergy), creates(p::deformationMeasure),
-                     creates(p::velocityGradient), creates(p::loadCurves));
+  scheduleActuallyInitialize<D>(tasks, problem_.materials, problem_.start);
   tasks.perMaterial("mpm::computeInitialTimeStep", computeInitialTimeStep<D>, problem_.materials,
                     requiresNew(p::velocity<D>), requiresNew(p::temperature), requiresNew(p::deformationMeasure),
                     computes(c::stableTimeStep));
@@ -94,6 +89,10 @@ void SolidMpm<Shape>::scheduleTimeAdvance(TaskList& tasks) const {
       scheduleVelocityUpdate(tasks, fresh);
       break;
   }
+  if (problem_.method.maximumParticleVelocity)
+    tasks.perMaterial("mpm::limitVelocity", limitVelocity<D>, problem_.materials,
+                      with(*problem_.method.maximumParticleVelocity), requiresOld(p::velocity<D>),
+                      modifies(p::velocity<D>));
   scheduleHeating(tasks);
   tasks.perMaterial("mpm::addDisplacement", addDisplacement<D>, problem_.materials, requiresOld(p::x<D>),
                     requiresNew(p::x<D>), requiresOld(p::displacement<D>), computes(p::displacement<D>));
@@ -199,8 +198,8 @@ void SolidMpm<Shape>::scheduleHeat(TaskList& tasks) const {
                     computes(g::temperatureNoBC), computes(g::temperature));
   const bool heated = problem_.start.loads.hasHeat();
   if (heated)
-    tasks.perMaterial("mpm::applyHeatFlux", applyHeatFlux, problem_.materials, with(problem_.start.loads), startTime(),
-                      requiresOld(p::loadCurves), computes(p::heatFlux));
+    tasks.perMaterial("mpm::applyHeatFlux", applyHeatFlux<D>, problem_.materials, with(problem_.start.loads), startTime(),
+                      requiresOld(p::x<D>), requiresOld(p::loadCurves), computes(p::heatFlux));
   tasks.perMaterial("mpm::computeInternalHeatRate", computeInternalHeatRate<Shape>, problem_.materials,
                     with(problem_.method.commonSize), requiresOld(p::x<D>, reach),
                     when(keepsSizes(), requiresOld(p::size<D>, reach)), requiresOld(p::deformationMeasure, reach),
@@ -337,20 +336,7 @@ void SolidMpm<Shape>::scheduleHeating(TaskList& tasks) const {
 
 template <class Shape>
 void SolidMpm<Shape>::scheduleDiagnostics(TaskList& tasks) const {
-  tasks.perMaterial("mpm::sumMass", sumParticles, problem_.materials, requiresOld(p::mass), computes(total::mass));
-  tasks.perMaterial("mpm::sumStrainEnergy", sumParticles, problem_.materials, requiresOld(p::strainEnergy),
-                    computes(total::strainEnergy));
-  tasks.perMaterial("mpm::sumThermalEnergy", sumThermalEnergy, problem_.materials, requiresOld(p::mass),
-                    requiresOld(p::temperature), computes(total::thermalEnergy));
-  tasks.perMaterial("mpm::sumKineticEnergy", sumKineticEnergy<D>, problem_.materials, requiresOld(p::mass),
-                    requiresOld(p::velocity<D>), computes(total::kineticEnergy));
-  tasks.perMaterial("mpm::sumMomentum", sumMomentum<D>, problem_.materials, requiresOld(p::mass),
-                    requiresOld(p::velocity<D>), computes(total::momentum));
-  tasks.perMaterial("mpm::sumCenterOfMass", sumCenterOfMass<D>, problem_.materials, requiresOld(p::mass),
-                    requiresOld(p::x<D>), computes(total::centerOfMass));
-  tasks.perMaterial("mpm::sumAngularMomentum", sumAngularMomentum<D>, problem_.materials, requiresOld(p::mass),
-                    requiresOld(p::x<D>), requiresOld(p::velocity<D>),
-                    when(problem_.method.affine, requiresOld(p::affineMoment)), computes(total::angularMomentum));
+  scheduleTotals<D>(tasks, problem_.materials, when(problem_.method.affine, requiresOld(p::affineMoment)));
   for (const auto& view : state_views_) view->schedule(tasks, problem_.materials, state_size_, state_);
   if (!keeps_stress_) {
     tasks.perMaterial("mpm::computeVolume", computeVolume, problem_.materials, requiresOld(p::mass, Shape::reach),
@@ -358,33 +344,16 @@ void SolidMpm<Shape>::scheduleDiagnostics(TaskList& tasks) const {
     tasks.perMaterial("mpm::computeStress", computeStress, problem_.materials, requiresOld(p::deformationMeasure),
                       computes(p::stress));
   }
-  const auto show = [&](const auto& volume, const auto& stress) {
-    tasks.perMaterial("mpm::showOnGrid", showOnGrid<Shape>, problem_.materials, with(problem_.method.commonSize),
-                      requiresOld(p::x<D>, Shape::reach), when(keepsSizes(), requiresOld(p::size<D>, Shape::reach)),
-                      requiresOld(p::deformationMeasure, Shape::reach), requiresOld(p::mass, Shape::reach),
-                      requiresOld(p::velocity<D>, Shape::reach), volume, stress, computes(g::mass), computes(g::volume),
-                      computes(g::velocity<D>), computes(g::internalForce<D>), computes(g::acceleration<D>),
-                      computes(g::stress));
+  const auto show = [&](auto reads) {
+    scheduleShowOnGrid<Shape>(tasks, problem_.materials, problem_.method.commonSize,
+                              when(keepsSizes(), requiresOld(p::size<D>, Shape::reach)), reads(p::volume, Shape::reach),
+                              reads(p::stress, Shape::reach));
+    scheduleBoundaryForces<D>(tasks, problem_.materials, problem_.method.isThin, reads(p::volume, 0), reads(p::stress, 0));
   };
-  const auto measure = [&](const auto& volume, const auto& stress) {
-    for (int face = 0; face < 6; ++face) {
-      const auto k = static_cast<std::size_t>(face);
-      if (problem_.method.isThin[k / 2])
-        tasks.perMaterial("mpm::measureThinBoundary", measureThinBoundary, problem_.materials, with(face), volume,
-                          stress, computes(total::boundaryForce[k]), computes(total::contactArea[k]));
-      else
-        tasks.perMaterial("mpm::measureBoundary", measureBoundary<D>, problem_.materials, with(face),
-                          requiresNew(g::internalForce<D>), requiresNew(g::volume), computes(total::boundaryForce[k]),
-                          computes(total::contactArea[k]));
-    }
-  };
-  if (keeps_stress_) {
-    show(requiresOld(p::volume, Shape::reach), requiresOld(p::stress, Shape::reach));
-    measure(requiresOld(p::volume), requiresOld(p::stress));
-  } else {
-    show(requiresNew(p::volume, Shape::reach), requiresNew(p::stress, Shape::reach));
-    measure(requiresNew(p::volume), requiresNew(p::stress));
-  }
+  if (keeps_stress_)
+    show(old);
+  else
+    show(fresh);
 }
 
 }  // namespace tushar::mpm::solid

@@ -30,7 +30,7 @@ class Solids : public Component {
 /// The Material Point Method for solids: Sulsky, Chen & Schreyer, Comput. Methods Appl. Mech. Engrg. 118 (1994) 179, step
 /// by step as Uintah takes it, stress last.
 ///
-/// solid_mpm.cpp is the schedule and reads as the method; the bodies of its tasks are in tasks/.
+/// schedule.hpp is the schedule and reads as the method; the bodies of its tasks are in tasks/.
 template <class Shape>
 class SolidMpm : public Solids {
  public:

@@ -2,6 +2,7 @@
 
 #include "components/mpm/labels.hpp"
 #include "components/mpm/materials/gas.hpp"
+#include "components/mpm/particle_ids.hpp"
 #include "components/mpm/shapes/mirrored.hpp"
 
 namespace tushar::mpm {
@@ -85,7 +86,7 @@ void createParticles(const Patch& patch, const Gas& gas, ParticleMaker& maker, s
         const Vec3 point = level.expandPoint<D>(at);
         if (!object.shape->contains(point)) return;
         refuseOverlap(gas, object, point);
-        maker.add(cell, (level.cellNumber(cell) << 16) + inCell++);
+        maker.add(cell, idOf<D>(level, cell, inCell++, object.where));
         const double rho = object.density(point), p = object.pressure(point);
         const Vec3 v = object.velocity(point);
         refuseImpossible(object, point, rho, p, v);

@@ -6,7 +6,8 @@
 
 namespace tushar::mpm {
 
-/// Errors of density, velocity, pressure (without artificial viscosity) and internal energy against the exact values at the particles.
+/// Errors of density, velocity, pressure (without artificial viscosity) and internal energy against the exact values at the
+/// particles.
 template <int D>
 void measureParticleError(const Patch& patch, const Gas& gas, const reference::GasReference* exact,
                           const reference::Clock* clock, ParticleView<const Vec<D>> x,

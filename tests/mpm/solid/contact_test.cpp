@@ -3,6 +3,7 @@
 #include "components/mpm/solid/contact/friction.hpp"
 #include "components/mpm/solid/materials/all.hpp"
 #include "components/mpm/solid/shapes/tensor_shape.hpp"
+#include "components/mpm/solid/tasks/exchange_momentum.hpp"
 #include "components/mpm/solid/tasks/friction.hpp"
 
 // What contacts do at single nodes, on plain fields.
@@ -63,6 +64,11 @@ struct TwoBodies {
   }
   void move(int body, const Vec<2>& v) { setLanes<2>(at(records[static_cast<std::size_t>(body)]), lane::velocity, v); }
   Vec<2> velocity(int body) { return lanes<2>(at(records[static_cast<std::size_t>(body)]), lane::velocity); }
+  Records views() {
+    Records all;
+    for (auto& one : records) all.emplace_back(one.data(), nodes);
+    return all;
+  }
   void rub() {
     Records views;
     std::vector<NodeView<const Vec<2>>> gradients, positions;
@@ -86,6 +92,28 @@ struct TwoBodies {
   std::array<std::vector<Matrix3>, 2> stress;
   std::array<std::vector<double>, 2> volume;
 };
+
+TEST(SingleVelocity, ActsAtTheStartOfAStepUnlessItIsToldToActOnce) {
+  TwoBodies bodies;
+  bodies.contact.type = Contact::Type::singleVelocity;
+  bodies.move(0, {0, -1});
+  bodies.contact.actsTwice = false;
+  exMomInterpolated<2>(bodies.level.patches().front(), {}, {bodies.contact}, 0, bodies.views());
+  EXPECT_EQ(bodies.velocity(0), Vec<2>(0, -1));
+  bodies.contact.actsTwice = true;
+  exMomInterpolated<2>(bodies.level.patches().front(), {}, {bodies.contact}, 0, bodies.views());
+  EXPECT_EQ(bodies.velocity(0), Vec<2>(0, -0.5));
+  EXPECT_EQ(bodies.velocity(1), Vec<2>(0, -0.5));
+}
+
+TEST(SingleVelocity, DoesNotActWhereAMaterialExcludesIt) {
+  TwoBodies bodies;
+  bodies.contact.type = Contact::Type::singleVelocity;
+  bodies.contact.excluded = 1;
+  bodies.move(0, {0, -1});
+  exMomInterpolated<2>(bodies.level.patches().front(), {}, {bodies.contact}, 0, bodies.views());
+  EXPECT_EQ(bodies.velocity(0), Vec<2>(0, -1));
+}
 
 TEST(Friction, LetsBodiesNeitherPassNorLoseMomentum) {
   TwoBodies bodies;

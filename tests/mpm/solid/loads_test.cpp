@@ -33,7 +33,7 @@ struct TwoParticles {
 };
 
 SurfaceLoad onASquare(SurfaceLoad::Kind kind) {
-  SurfaceLoad load{kind, input::Box(), {{{0, 0}, {2, 8}}}};
+  SurfaceLoad load{kind, input::Box(), {{{0, 0}, {2, 8}}}, -1, {}};
   std::get<input::Box>(load.surface).min = Vec3(1, 0, 0);
   std::get<input::Box>(load.surface).max = Vec3(1, 2, 3);
   load.particles = 4;
@@ -64,10 +64,22 @@ TEST(Load, BringsHeatToTheParticlesOfASurface) {
   TwoParticles two;
   const Loads loads{{onASquare(SurfaceLoad::Kind::heatFlux)}, {{Vec3::Zero(), Vec3::Ones(), Vec3(0, -5, 0)}}};
   std::vector<double> heat(2);
-  applyHeatFlux(two.level.patches().front(), two.material, loads, 1, two.read(std::vector<int>{2, 1 + 256 * 2}),
-                {heat.data(), two.set, two.level.cells()});
+  applyHeatFlux<2>(two.level.patches().front(), two.material, loads, 1, two.read(two.x),
+                   two.read(std::vector<int>{2, 1 + 256 * 2}), {heat.data(), two.set, two.level.cells()});
   EXPECT_EQ(heat[0], 0);
   EXPECT_EQ(heat[1], 4 * 6 / 4.0);
+}
+
+TEST(Load, OnAnAxisymmetricEndIsSharedByRadius) {
+  input::Cylinder end;
+  end.top = Vec3(0, 1, 0);
+  end.radius = 2;
+  end.axisymmetricEnd = true;
+  SurfaceLoad load{SurfaceLoad::Kind::pressure, end, {{{0, 6}}}, -1, {}};
+  load.particles = 0.5 + 1.5;  // two particles, .5 and 1.5 m from the axis
+  // p r dr for each, and together the pressure times the area of a radian, R²/2.
+  EXPECT_DOUBLE_EQ(load.force(Vec3(0.5, 1, 0), 0)[1], 6 * 0.5);
+  EXPECT_DOUBLE_EQ(load.force(Vec3(1.5, 1, 0), 0)[1], 6 * 1.5);
 }
 
 TEST(Load, ActsOnBodiesInABoxAndAParticlesSpacingBeyond) {

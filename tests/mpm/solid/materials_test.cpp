@@ -325,5 +325,15 @@ TEST(WaveSpeed, OfFluidsIsThatOfTheirPressure) {
   EXPECT_NEAR(water.waveSpeed(density, {f, f, f, 1, 300}, f, {}), std::sqrt(slope), 1e-6);
 }
 
+TEST(ElasticPlastic, MeltsWhereItsMeltingModelSays) {
+  ElasticPlasticHp model;
+  model.melting = ScgMelting{1790, 2.02, 1.5};
+  model.material.meltTemperature = 295;
+  const Matrix3 still = Matrix3::Identity(), free = Matrix3::Zero();
+  EXPECT_FALSE(ModelOf<ElasticPlasticHp>(model).isMolten(still, free, 1789));
+  EXPECT_TRUE(ModelOf<ElasticPlasticHp>(model).isMolten(still, free, 1791));
+  EXPECT_FALSE(ModelOf<CompNeoHook>(CompNeoHook()).isMolten(still, free, 1e6));
+}
+
 }  // namespace
 }  // namespace tushar::mpm::solid::testing

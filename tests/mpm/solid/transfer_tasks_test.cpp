@@ -251,5 +251,27 @@ TYPED_TEST(Affine, KeepsAngularMomentumToTheGridAndBack) {
   EXPECT_LT((spin(v, b) - before).norm(), roundOff * 10);
 }
 
+TEST(LimitVelocity, SlowsDownWhatHasBecomeFasterAndLeavesWhatWasFastBefore) {
+  Cloud<LinearShape<1>> cloud;
+  std::vector<Vec<1>> before(cloud.x.size(), Vec<1>(1)), after(cloud.x.size(), Vec<1>(-20));
+  before[1] = Vec<1>(30);
+  after[2] = Vec<1>(9);
+  limitVelocity<1>(cloud.patch(), cloud.material, 10, {before.data(), cloud.set, cloud.level.cells()},
+                   {after.data(), cloud.set, cloud.level.cells()});
+  EXPECT_DOUBLE_EQ(after[0][0], -9);
+  EXPECT_EQ(after[1][0], -20);
+  EXPECT_EQ(after[2][0], 9);
+}
+
+TEST(CrossingRate, KnowsThatASpeedIsNoNumberWhateverFollows) {
+  const Cloud<LinearShape<1>> cloud;
+  CrossingRate<1> rate(cloud.level);
+  rate.add(2, Vec<1>(0));
+  EXPECT_TRUE(rate.isKnown());
+  rate.add(std::nan(""), Vec<1>(0));
+  rate.add(2, Vec<1>(0));
+  EXPECT_FALSE(rate.isKnown());
+}
+
 }  // namespace
 }  // namespace tushar::mpm::solid

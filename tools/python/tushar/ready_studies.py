@@ -51,6 +51,17 @@ def shapes(scene):
     return lines + [Method(name, scene, (setting,)) for name, setting in transfers.items()]
 
 
+STATIC = ("MPM/time_integrator=implicit", "MPM/dynamic=false", "Time/timestep_multiplier=1")
+SPARSE = ("MPM/Solver/solver=direct", "MPM/Solver/preconditioner=lu")
+
+
+def at_rest(scene, *sets):
+    """Explicit steps, which the others are compared with, and implicit ones without inertia."""
+    return [Method("explicit", scene, sets, is_varied=False),
+            Method("implicit, LU", scene, (*sets, *STATIC, *SPARSE)),
+            Method("implicit, GMRES with GAMG", scene, (*sets, *STATIC))]
+
+
 # name -> (methods, what is varied, the error)
 READY = {
     "sod": (SOD, {"resolution": ["100", "200", "400", "800"]}, "density.cell.L1"),
@@ -69,6 +80,12 @@ READY = {
                        Method("Crank-Nicolson", "ups/heat/sine.ups", ("Heat/time_integrator=crank_nicolson",)),
                        Method("explicit", "ups/heat/sine.ups")],
                       {"dt": ["1e-1", "1e-2", "1e-3", "1e-4", "1e-5"]}, "temperature.cell.L1"),
+    "rest_cylinder": (at_rest("ups/solid/thick_cylinder.ups", "MPM/artificial_damping_coeff=6000"),
+                      {"dt": ["1e-2", "1e-3", "1e-4", "1e-5"]}, "change.StrainEnergy"),
+    "rest_cantilever": (at_rest("ups/solid/cantilever.ups", "MPM/interpolator=gimp"),
+                        {"dt": ["10", "1", "1e-1", "1e-2"]}, "change.CenterOfMassPosition[1]"),
+    "rest_billet": (at_rest("ups/solid/billet.ups", "MPM/artificial_viscosity=false"), {"dt": ["1e-5", "1e-6", "1e-7", "1e-8"]},
+                    "change.CenterOfMassPosition"),
     "heat": ([Method("explicit", "ups/heat/sine.ups")], {"resolution": ["16", "32", "64", "128"]},
              "temperature.cell.L1"),
 }

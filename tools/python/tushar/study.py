@@ -11,6 +11,7 @@ import statistics
 import tempfile
 import time
 
+from tushar.change import Change
 from tushar.program import SceneError, run_scene, scene_path
 from tushar.shorthand import SHORT
 
@@ -25,6 +26,7 @@ class Method:
     name: str
     scene: str
     sets: tuple = ()
+    is_varied: bool = True  # else it runs once, as it is: what the others are compared with
 
 
 @dataclasses.dataclass(frozen=True)
@@ -61,8 +63,9 @@ class Study:
 
     def __init__(self, methods, varied, repeats, folder, sus, error):
         values = [[(name, value) for value in values] for name, values in varied.items()]
-        self.cases = [Case(method, combination) for method in methods for combination in itertools.product(*values)]
-        self.repeats, self.error = repeats, error
+        self.cases = [Case(method, combination) for method in methods
+                      for combination in (itertools.product(*values) if method.is_varied else [()])]
+        self.repeats, self.error, self.change = repeats, error, Change.of(error)
         self.folder, self.sus = pathlib.Path(folder).resolve(), pathlib.Path(sus).resolve()
         self.folder.mkdir(parents=True, exist_ok=True)
         self.runs = self._known_runs()
@@ -107,13 +110,26 @@ class Study:
                 report = run_scene(self.sus, case.method.scene, sets, folder)
             except SceneError as problem:
                 raise StudyError(str(problem)) from None
-            return {"died": report["failure"]} if report["failure"] else report
+            if report["failure"]:
+                return {"died": report["failure"]}
+            return report | {"change": self._change(case, folder)} if self.change else report
+
+    def _change(self, case, folder):
+        measured = self.change.measured(folder)
+        if measured is None:
+            raise StudyError(f"{case.method.scene} does not save {self.change.name}, or it has no number {self.change.component}")
+        return measured
 
     def _save(self):
         path = self.folder / "study.json.tmp"
         path.write_text(json.dumps({"program": self._program(), "error": self.error, "rows": self.rows(),
                                     "runs": self.runs}, indent=1))
         path.replace(self.folder / "study.json")
+
+    def _error(self, report):
+        if not self.change:
+            return value_at(report["errors"], self.error)
+        return self.change.error(report["change"], self.runs[self.cases[0].key()][0].get("change"))
 
     def rows(self):
         """One row a case that has run: error, cell width, median run time, orders against the case before."""
@@ -127,7 +143,7 @@ class Study:
                 rows.append({**row, **row["varied"], "died": reports[0]["died"]})
                 continue
             first = reports[0]
-            row |= {"h": first["layout"]["h"], "error": value_at(first["errors"], self.error),
+            row |= {"h": first["layout"]["h"], "error": self._error(first),
                     "seconds": statistics.median(report["wall"]["loop"] for report in reports),
                     "steps": first["steps"], "particle_count": first["particles"], "cells": first["layout"]["cells"],
                     "mass_drift": first["drift"].get("mass"), "energy_drift": first["drift"].get("energy"),

@@ -20,9 +20,27 @@ std::optional<Vec3> Contact::prescribedVelocity(double time) const {
   return share * next->second + (1 - share) * v0;
 }
 
+namespace {
+
+/// Whether the material that keeps a contact from acting is at a node.
+template <int D>
+bool isExcluded(const Contact& contact, const Records& records, const Index<D>& node) {
+  return contact.excluded >= 0 && records[static_cast<std::size_t>(contact.excluded)][node][lane::mass] != 0;
+}
+
+/// Whether a contact acts at a node: its master is there, and nobody who excludes it.
+template <int D>
+bool isAt(const Contact& contact, const Records& records, const Index<D>& node) {
+  return records[static_cast<std::size_t>(contact.master)][node][lane::mass] != 0 &&
+         !isExcluded<D>(contact, records, node);
+}
+
+}  // namespace
+
 template <int D>
 void moveAsOne(const Patch&, const Contact& contact, const Records& records) {
   forEach<D>(records.front().box(), [&](const Index<D>& node) {
+    if (isExcluded<D>(contact, records, node)) return;
     Vec<D> momentum = Vec<D>::Zero();
     double total = 0;
     for (std::size_t m = 0; m < records.size(); ++m) {
@@ -36,17 +54,6 @@ void moveAsOne(const Patch&, const Contact& contact, const Records& records) {
       if (contact.concerns(static_cast<int>(m))) setLanes<D>(records[m][node], lane::velocity, momentum / total);
   });
 }
-
-namespace {
-
-/// Whether a contact acts at a node: its master is there, and nobody who excludes it.
-template <int D>
-bool isAt(const Contact& contact, const Records& records, const Index<D>& node) {
-  if (records[static_cast<std::size_t>(contact.master)][node][lane::mass] == 0) return false;
-  return contact.excluded < 0 || records[static_cast<std::size_t>(contact.excluded)][node][lane::mass] == 0;
-}
-
-}  // namespace
 
 template <int D>
 void followMaster(const Patch& patch, const Contact& contact, double time, const Records& records) {

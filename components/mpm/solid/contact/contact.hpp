@@ -26,8 +26,8 @@ struct Contact {
   Vec3 velocityAfterStop = Vec3::Zero();              ///< m/s
   std::vector<std::pair<double, Vec3>> profile;       ///< time (s) and the master's velocity (m/s); empty: it is free
 
-  bool actsTwice = true;  ///< friction, specified: on the velocities that came from the particles, too
-  int excluded = -1;      ///< specified: where this material is, nothing follows
+  bool actsTwice = true;  ///< on the velocities that came from the particles, too
+  int excluded = -1;      ///< where this material is, nothing follows a master or moves as one; -1: none
 
   double friction = 0;          ///< coefficient mu
   bool onlyOnApproach = false;  ///< friction: what the stress presses together may part

@@ -53,6 +53,9 @@ struct ContactSection {
 void checkContact(const ContactSection& read, const Element& element, Diagnostics& diagnostics) {
   if (slides(read.kind) && !read.friction)
     diagnostics.error(element, "missing tag <mu> in <contact>: friction needs its coefficient");
+  if (slides(read.kind) && read.excluded)
+    diagnostics.error(element.child("ExcludeMaterial").value(),
+                      "acts in contacts of type rigid, specified and single_velocity only");
   if (!slides(read.kind) && read.volumeConstraint > 0)
     diagnostics.error(element.child("volume_constraint").value(),
                       "acts in contacts of type friction, friction_bard and approach only");
@@ -88,7 +91,7 @@ const Schema<ContactSection>& contactSchema() {
                   "rigid and specified, else 2; with XPIC2 always 2",
                   input::between(1, 2))
         .optional("ExcludeMaterial", &ContactSection::excluded, "1",
-                  "rigid, specified: nothing follows the master where this material is", input::nonNegative())
+                  "rigid, specified, single_velocity: does not act where this material is", input::nonNegative())
         .ignored("vel_fields", "an old word for materials")
         .ignored("rigid_material", "an old word for master_material")
         .check(checkContact);

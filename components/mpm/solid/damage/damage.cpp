@@ -44,8 +44,10 @@ double JohnsonCookDamage::fractureStrain(const MaterialConstants& material, cons
 
 void JohnsonCookDamage::grow(const MaterialConstants& material, const DamageState& state, Matrix3& stress,
                              Harm& harm) const {
-  if (state.plasticStrainRate > 0)
-    harm.damage += state.plasticStrainRate * state.timeStep / fractureStrain(material, state, stress);
+  if (state.plasticStrainRate > 0) {
+    const double bearable = fractureStrain(material, state, stress);
+    harm.damage = bearable > 0 ? harm.damage + state.plasticStrainRate * state.timeStep / bearable : 1.0;
+  }
   if (harm.damage < leastDamage) harm.damage = 0;
   if (harm.damage >= 1) harm.hasFailed = true;
 }

@@ -52,8 +52,9 @@ struct JohnsonCookDamage {
 
 /// Damage of brittle materials by the root of the energy of the greatest principal strain, r = E^(1/2) e_max, once it is
 /// above a threshold r_0: d = 0.999/D ((1 + D) / (1 + D exp(-C (r - r_0))) - 1) with C = r_0 h (1 + D) ln(1 + D) / (G_f D)
-/// for a particle of size h; the stress is (1 - d) of the sound one's. Leavy, Brannon & Strack, Int. J. Appl. Ceram.
-/// Technol. 7 (2010) 606; Uintah's `Brittle`.
+/// for a particle of size h; the stress that the model gives is multiplied by 1 - d. Models that go on from the stress of
+/// the step before, as hypo_elastic does, are weakened anew in every step, as in Uintah. Leavy, Brannon & Strack, Int. J.
+/// Appl. Ceram. Technol. 7 (2010) 606; Uintah's `Brittle`.
 struct BrittleDamage {
   static constexpr std::string_view name = "Brittle";
   double threshold = 57;        ///< r_0, Pa^(1/2)

@@ -85,6 +85,8 @@ const Schema<ThresholdDamage>& ThresholdDamage::schema() {
           .check([](const Self& read, const Element& element, Diagnostics& diagnostics) {
             if (read.distribution == Distribution::weibull && read.deviation <= 0)
               diagnostics.error(element, "failure_distrib weibull needs <failure_std>, its modulus");
+            if (read.scalesWithVolume && read.distribution == Distribution::constant)
+              diagnostics.error(element, "scaling needs a <failure_distrib> that is not constant");
             if (read.scalesWithVolume && !read.referenceVolume)
               diagnostics.error(element, "scaling needs <reference_volume>");
             if (read.scalesWithVolume && !read.exponent && read.distribution != Distribution::weibull)
@@ -114,6 +116,8 @@ const Schema<Erosion>& erosionSchema() {
 /// What a damage model takes from the constitutive model.
 void connect(Material& material, const Element& parent, const Element& tag, Diagnostics& diagnostics) {
   const bool needsRate = std::holds_alternative<JohnsonCookDamage>(material.damage);
+  if (needsRate && material.meltTemperature <= material.roomTemperature)
+    diagnostics.error(tag, "johnson_cook: <melt_temp> of the material must be greater than its <room_temp>");
   if (needsRate && material.model && offsetOf(*material.model, "p.plasticStrainRate") < 0)
     diagnostics.error(tag, "johnson_cook needs the plastic strain of a constitutive model elastic_plastic_hp, found " +
                                std::string(material.model->name()));

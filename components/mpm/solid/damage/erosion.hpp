@@ -18,7 +18,7 @@ struct Erosion {
     preserveStress  ///< it is only marked
   };
   Algorithm algorithm = Algorithm::none;
-  double relaxationTime = 1e-99;  ///< in which lost stress fades to 1/e, s
+  double relaxationTime = 1e-99;  ///< in which lost stress of a function of F fades to 1/e, s; others fade anew each step
 
   bool acts() const { return algorithm != Algorithm::none; }
 

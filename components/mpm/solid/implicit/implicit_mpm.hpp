@@ -28,6 +28,7 @@ class ImplicitMpm : public Component {
   ImplicitMethod how_;
   int state_size_ = 1;  ///< most numbers that a particle keeps for its model, at least one
   ParticleLabel<double> state_{"p.modelState", "SI units", "internal variables of the constitutive model"};
+  std::vector<std::shared_ptr<const StateView>> state_views_;
 };
 
 }  // namespace tushar::mpm::solid

@@ -4,6 +4,7 @@
 #include "components/mpm/solid/input.hpp"
 #include "components/mpm/solid/loads/load_input.hpp"
 #include "components/mpm/solid/material_input.hpp"
+#include "components/mpm/solid/refuse.hpp"
 #include "core/simulation/by_dimension.hpp"
 #include "core/solvers/input.hpp"
 
@@ -32,7 +33,7 @@ struct Section {
     method.newton.displacement = displacement;
     method.newton.energy = energy;
     method.newton.maxIterations = maxIterations;
-    if (linear) method.newton.linear = *linear;
+    if (linear) method.newton.linear = method.heat = *linear;
     method.iterationsToDecrease = decrease;
     method.iterationsToIncrease = increase;
     method.decreaseFactor = decreaseFactor;
@@ -84,8 +85,10 @@ const Schema<Section>& sectionSchema() {
         .ignored("temperature_solve", "heat is conducted where DoImplicitHeatConduction says so")
         .ignored("interpolateParticleTempToGridEveryStep", "it always is")
         .ignored("do_grid_reset", "the grid is new in every step")
+        .ignored("artificial_damping_coeff", "as in Uintah, only explicit steps are damped")
         .ignored("minimum_particle_mass", "no particle is taken out")
         .ignored("maximum_particle_velocity", "no particle is slowed down");
+    refuseSwitch(mpm, "artificial_viscosity", "only explicit steps have one");
     return mpm;
   }();
   return schema;
@@ -102,14 +105,21 @@ void settleMasters(const Element& root, std::vector<Contact>& contacts) {
   }
 }
 
-/// Implicit steps need the tangent of every material that is deformed.
+bool isMaster(const Problem& problem, int material) {
+  return std::any_of(problem.contacts.begin(), problem.contacts.end(), [material](const Contact& contact) {
+    return contact.type == Contact::Type::specified && contact.master == material;
+  });
+}
+
+/// Implicit steps need the tangent of every material that is deformed: all but the masters of contacts.
 void refuseWithoutTangent(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
   for (const Material& material : problem.materials)
-    if (!material.model->hasTangent() && material.model->name() != "rigid")
+    if (!material.model->hasTangent() && !isMaster(problem, material.index))
       diagnostics.error(root.child("MaterialProperties").value(),
                         "'" + material.name + "' is " + std::string(material.model->name()) +
                             ", which has no tangent: implicit time steps need one; take comp_neo_hook, "
-                            "comp_mooney_rivlin, hypo_elastic or UCNH");
+                            "comp_mooney_rivlin, hypo_elastic or UCNH, or make it the master of a <contact> of type "
+                            "rigid or specified");
 }
 
 /// What a scene may ask for that only explicit time steps know.
@@ -118,9 +128,36 @@ void refuseExplicitOnly(const Problem& problem, const Element& root, Diagnostics
   for (const Material& material : problem.materials)
     if (material.isDamageable())
       diagnostics.error(where, "'" + material.name + "' may be damaged or eroded: only with <time_integrator> explicit");
-  for (const Contact& contact : problem.contacts)
+  for (const Contact& contact : problem.contacts) {
     if (contact.type == Contact::Type::friction)
       diagnostics.error(where, "contact: friction only with <time_integrator> explicit; here all materials move as one");
+    if (contact.excluded >= 0)
+      diagnostics.error(where, "contact: ExcludeMaterial only with <time_integrator> explicit");
+    for (const Material& material : problem.materials)
+      if (!contact.concerns(material.index))
+        diagnostics.error(where, "contact: '" + material.name + "' is not among its <materials>; with <time_integrator> "
+                                 "implicit all materials move as one");
+  }
+  if (problem.start.loads.hasHeat())
+    diagnostics.error(root.child("PhysicalBC").value(), "heat_flux: only with <time_integrator> explicit");
+}
+
+/// Conditions of faces that implicit steps would pass over: those of one material of several, and a flow of heat.
+void refuseConditions(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
+  const auto grid = root.child("Grid");
+  const auto conditions = grid ? grid->child("BoundaryConditions") : std::nullopt;
+  if (!conditions) return;
+  for (const Element& face : conditions->children("Face"))
+    for (const Element& condition : face.children("BCType")) {
+      const std::string id = condition.attribute("id").value_or("all");
+      if (id != "all" && problem.materials.size() > 1)
+        diagnostics.error(condition, "id: found '" + id + "'; with <time_integrator> implicit materials share their nodes, and "
+                                     "a condition holds for all of them");
+      const auto value = condition.child("value");
+      const bool flows = value && input::parse<double>(value->text()).value != 0.0;
+      if (condition.attribute("label") == "Temperature" && condition.attribute("var") == "Neumann" && flows)
+        diagnostics.error(condition, "var: Neumann for Temperature only with <time_integrator> explicit, unless its value is 0");
+    }
 }
 
 template <template <int> class Shape>
@@ -154,6 +191,7 @@ simulation::MakeComponent readImplicitScene(const Element& root, Diagnostics& di
   nameMaterials(problem.materials);
   refuseWithoutTangent(problem, root, diagnostics);
   refuseExplicitOnly(problem, root, diagnostics);
+  refuseConditions(problem, root, diagnostics);
   if (diagnostics.size() > before) return {};
   return [read, problem](const Level& level) {
     Problem settled = problem;

@@ -18,16 +18,6 @@ struct NodeTouch {
   Vec<D> gradient, sign;  ///< the sign with which the node moves the particle along each axis
 };
 
-/// S_i / r of a node, 1/m; 0 where nothing is axisymmetric.
-template <class Stencil, int D = Stencil::dimension>
-double hoopOf(const Stencil& stencil, const Index<D>& node) {
-  if constexpr (!Stencil::axisymmetric) return 0;
-  double value = stencil.hoop[static_cast<std::size_t>(node[0] - stencil.first[0])];
-  for (int d = 1; d < D; ++d)
-    value *= stencil.s[static_cast<std::size_t>(d)][static_cast<std::size_t>(node[d] - stencil.first[d])];
-  return value;
-}
-
 /// The particles of a material on a patch, one after another in memory, and what they keep through Newton's iterations.
 struct PointGroup {
   const Material* material = nullptr;

@@ -6,6 +6,7 @@
 #include "components/mpm/solid/implicit/system_stiffness.hpp"
 #include "components/mpm/solid/implicit/update.hpp"
 #include "components/mpm/solid/tasks/apply_external_loads.hpp"
+#include "components/mpm/solid/tasks/boundary_force.hpp"
 #include "components/mpm/solid/tasks/diagnose.hpp"
 #include "components/mpm/solid/tasks/heat.hpp"
 #include "components/mpm/solid/tasks/show_grid.hpp"
@@ -17,18 +18,14 @@ namespace tushar::mpm::solid {
 
 template <class Shape>
 ImplicitMpm<Shape>::ImplicitMpm(Problem problem, ImplicitMethod how) : problem_(std::move(problem)), how_(std::move(how)) {
-  for (const Material& material : problem_.materials) state_size_ = std::max(state_size_, material.model->stateSize());
-  state_.components = state_size_;
-  state_.bytes = static_cast<std::size_t>(state_size_) * sizeof(double);
+  state_size_ = std::max(state_size_, largestStateOf(problem_.materials));
+  state_.setCount(state_size_);
+  state_views_ = stateViews(problem_.materials);
 }
 
 template <class Shape>
 void ImplicitMpm<Shape>::scheduleInitialize(TaskList& tasks) const {
-  tasks.newParticles("mpm::actuallyInitialize", actuallyInitialize<D>, problem_.materials, with(problem_.start),
-                     creates(p::x<D>), creates(p::velocity<D>), creates(p::displacement<D>), creates(p::size<D>),
-                     creates(p::externalForce<D>), creates(p::mass), creates(p::temperature), creates(p::color),
-                     creates(p::viscosity), creates(p::strainEnergy), creates(p::deformationMeasure),
-                     creates(p::velocityGradient), creates(p::loadCurves));
+  scheduleActuallyInitialize<D>(tasks, problem_.materials, problem_.start);
   tasks.perMaterial("mpm::initializeStress", initializeStress, problem_.materials, with(state_size_),
                     requiresNew(p::mass), requiresNew(p::deformationMeasure), computes(p::volume), computes(p::stress),
                     when(true, computes(state_)));
@@ -98,22 +95,13 @@ void ImplicitMpm<Shape>::scheduleHeat(TaskList& tasks) const {
 
 template <class Shape>
 void ImplicitMpm<Shape>::scheduleDiagnostics(TaskList& tasks) const {
-  tasks.perMaterial("mpm::sumMass", sumParticles, problem_.materials, requiresOld(p::mass), computes(total::mass));
-  tasks.perMaterial("mpm::sumStrainEnergy", sumParticles, problem_.materials, requiresOld(p::strainEnergy),
-                    computes(total::strainEnergy));
-  tasks.perMaterial("mpm::sumKineticEnergy", sumKineticEnergy<D>, problem_.materials, requiresOld(p::mass),
-                    requiresOld(p::velocity<D>), computes(total::kineticEnergy));
-  tasks.perMaterial("mpm::sumMomentum", sumMomentum<D>, problem_.materials, requiresOld(p::mass),
-                    requiresOld(p::velocity<D>), computes(total::momentum));
-  tasks.perMaterial("mpm::sumCenterOfMass", sumCenterOfMass<D>, problem_.materials, requiresOld(p::mass),
-                    requiresOld(p::x<D>), computes(total::centerOfMass));
-  tasks.perMaterial("mpm::showOnGrid", showOnGrid<Shape>, problem_.materials, with(problem_.method.commonSize),
-                    requiresOld(p::x<D>, Shape::reach), when(true, requiresOld(p::size<D>, Shape::reach)),
-                    requiresOld(p::deformationMeasure, Shape::reach), requiresOld(p::mass, Shape::reach),
-                    requiresOld(p::velocity<D>, Shape::reach), requiresOld(p::volume, Shape::reach),
-                    requiresOld(p::stress, Shape::reach), computes(g::mass), computes(g::volume),
-                    computes(g::velocity<D>), computes(g::internalForce<D>), computes(g::acceleration<D>),
-                    computes(g::stress));
+  scheduleTotals<D>(tasks, problem_.materials, when(false, requiresOld(p::affineMoment)));
+  for (const auto& view : state_views_) view->schedule(tasks, problem_.materials, state_size_, state_);
+  scheduleShowOnGrid<Shape>(tasks, problem_.materials, problem_.method.commonSize,
+                            when(true, requiresOld(p::size<D>, Shape::reach)), requiresOld(p::volume, Shape::reach),
+                            requiresOld(p::stress, Shape::reach));
+  scheduleBoundaryForces<D>(tasks, problem_.materials, problem_.method.isThin, requiresOld(p::volume),
+                            requiresOld(p::stress));
 }
 
 }  // namespace tushar::mpm::solid

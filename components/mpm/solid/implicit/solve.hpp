@@ -86,7 +86,8 @@ void writeNodes(const Patch& patch, const RigidBody<Shape>& body, const NodeView
 template <class Shape, int D = Shape::dimension>
 void solveStep(const RankPatches& patches, const std::vector<Material>& materials, const mpi::Communicator& ranks,
                const ImplicitSetup& setup, double time, double dt, const ParticleViews<const Vec<D>>& x,
-               const ParticleViews<const Vec<D>>& size, const ParticleViews<const double>& mass, const ParticleViews<const Vec<D>>& velocity,
+               const ParticleViews<const Vec<D>>& size, const ParticleViews<const double>& mass,
+               const ParticleViews<const Vec<D>>& velocity,
                const ParticleViews<const Vec<D>>& acceleration, const ParticleViews<const Vec<D>>& externalForce,
                const ParticleViews<const double>& temperature, const ParticleViews<const Matrix3>& deformation,
                const ParticleViews<const Matrix3>& stress, const ParticleViews<const double>& state,

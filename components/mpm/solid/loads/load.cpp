@@ -119,9 +119,16 @@ bool SurfaceLoad::acts(const Body& body, const Vec3& point, const Vec3& spacing)
   return false;
 }
 
-double SurfaceLoad::share(double time) const { return curve.at(time) * areaOf(surface) / particles; }
+double SurfaceLoad::weight(const Vec3& point) const {
+  const auto* cylinder = std::get_if<input::Cylinder>(&surface);
+  return cylinder && cylinder->axisymmetricEnd ? point[0] : 1.0;
+}
 
-Vec3 SurfaceLoad::force(const Vec3& point, double time) const { return share(time) * normalAt(surface, point); }
+double SurfaceLoad::share(const Vec3& point, double time) const {
+  return curve.at(time) * areaOf(surface) * weight(point) / particles;
+}
+
+Vec3 SurfaceLoad::force(const Vec3& point, double time) const { return share(point, time) * normalAt(surface, point); }
 
 namespace {
 
@@ -147,13 +154,23 @@ void countParticles(const grid::Level& level, const std::vector<Material>& mater
       if (load.material >= 0 && load.material != static_cast<int>(m)) continue;
       for (const Body& body : materials[m].bodies) {
         const Vec3 spacing = particleSpacing(level, body);
-        const auto count = [&](const Vec3& point) { load.particles += load.acts(body, point, spacing); };
+        const auto count = [&](const Vec3& point) {
+          if (load.acts(body, point, spacing)) load.particles += load.weight(point);
+        };
         if (level.dimension() == 1) forEachParticle<1>(level, body, count);
         if (level.dimension() == 2) forEachParticle<2>(level, body, count);
         if (level.dimension() == 3) forEachParticle<3>(level, body, count);
       }
     }
   }
+}
+
+void refuseIdle(const std::vector<SurfaceLoad>& loads) {
+  std::vector<InputProblem> problems;
+  for (const SurfaceLoad& load : loads)
+    if (load.particles == 0)
+      problems.push_back({load.where, "PhysicalBC/MPM", "no particle of a body lies along the surface of this load"});
+  if (!problems.empty()) throw InputError(std::move(problems));
 }
 
 }  // namespace tushar::mpm::solid

@@ -28,7 +28,8 @@ bool isAlong(const Surface& surface, const Vec3& point, const Vec3& spacing);
 /// The direction in which a positive load pushes: the thin axis of a box, outwards, or along a cylinder to its top.
 Vec3 normalAt(const Surface& surface, const Vec3& point);
 
-/// A `PhysicalBC/MPM/pressure` or `heat_flux`: what acts on the area is shared evenly among the particles at the surface.
+/// A `PhysicalBC/MPM/pressure` or `heat_flux`: what acts on the area is shared evenly among the particles at the surface, but
+/// by their radius on the end of an axisymmetric cylinder.
 struct SurfaceLoad {
   enum class Kind { pressure, heatFlux };
 
@@ -36,14 +37,17 @@ struct SurfaceLoad {
   Surface surface;
   LoadCurve curve;         ///< Pa, or W/m^2
   int material = -1;       ///< -1: all
-  double particles = 0;    ///< how many there are at the surface, set by countParticles
+  Location where;          ///< in the scene
+  double particles = 0;    ///< how many shares there are at the surface, set by countParticles
 
   /// Whether a particle of a body is loaded: it is along the surface and some neighbour's place is not in the body.
   bool acts(const Body& body, const Vec3& point, const Vec3& spacing) const;
   /// Of a pressure, N.
   Vec3 force(const Vec3& point, double time) const;
-  /// What one particle gets, N or W.
-  double share(double time) const;
+  /// What a particle gets, N or W.
+  double share(const Vec3& point, double time) const;
+  /// Its weight among those at the surface: 1, or its radius (m).
+  double weight(const Vec3& point) const;
 };
 
 /// A `PhysicalBC/MPM/force`: a force per mass on the particles that start in a box, or next to it.
@@ -70,5 +74,7 @@ Vec3 particleSpacing(const grid::Level& level, const Body& body);
 
 /// Counts the particles at the surface of each load.
 void countParticles(const grid::Level& level, const std::vector<Material>& materials, std::vector<SurfaceLoad>& loads);
+/// Throws InputError for the loads whose surface has no particle.
+void refuseIdle(const std::vector<SurfaceLoad>& loads);
 
 }  // namespace tushar::mpm::solid

@@ -22,6 +22,7 @@ struct CurveSection {
   std::vector<TimePoint> points;
 };
 struct SurfaceSection {
+  Location where;
   std::optional<Surface> surface;
   CurveSection curve;
 };
@@ -43,6 +44,7 @@ const Schema<input::Box>& boxSchema() {
 }
 
 void readSurface(SurfaceSection& load, const Element& parent, Diagnostics& diagnostics) {
+  load.where = parent.where();
   const auto object = parent.child("geom_object");
   const auto shapes = object ? object->children() : std::vector<Element>{};
   if (shapes.size() != 1) return diagnostics.error(parent, "needs one <geom_object> with one shape: where it acts");
@@ -126,7 +128,7 @@ Loads readLoads(const Element& root, bool usesCurves, Diagnostics& diagnostics) 
   const auto add = [&](const std::vector<SurfaceSection>& sections, SurfaceLoad::Kind kind) {
     for (const SurfaceSection& one : sections) {
       if (!one.surface || !usesCurves) continue;
-      SurfaceLoad load{kind, *one.surface, {}, one.curve.material.value_or(-1)};
+      SurfaceLoad load{kind, *one.surface, {}, one.curve.material.value_or(-1), one.where};
       for (const TimePoint& point : one.curve.points) load.curve.points.emplace_back(point.time, point.load);
       loads.surfaces.push_back(load);
     }

@@ -84,6 +84,9 @@ struct ElasticPlastic {
     return byVolume + heatedShare * work * j / (material.density * material.specificHeat);
   }
   void addHeat(State& state, double heat) const { state.energy += heat; }
+  bool isMolten(const Matrix3& deformation, const Matrix3& stress, double temperature) const {
+    return isMolten(compressionOf(deformation, stress, temperature));
+  }
 
  private:
   static input::Schema<ElasticPlastic> makeSchema() {
@@ -129,8 +132,11 @@ struct ElasticPlastic {
     refuseTypes(tags, "deviatoric_stress_model", {"hypoElastic"}, "the stress deviator grows with 2 G dev D");
   }
 
+  static Compression compressionOf(const Matrix3& deformation, const Matrix3& stress, double temperature) {
+    return {-stress.trace() / 3, 1 / deformation.determinant(), temperature};
+  }
   static Compression compressionOf(const Deformation& d, const Matrix3& stress) {
-    return {-stress.trace() / 3, 1 / d.deformationGradient.determinant(), d.temperature};
+    return compressionOf(d.deformationGradient, stress, d.temperature);
   }
   double shearModulusAt(const Compression& compression) const {
     return std::visit([&](const auto& model) { return model.modulus(compression, shearModulus); }, shear);
@@ -144,7 +150,7 @@ struct ElasticPlastic {
   /// Takes what is beyond the yield surface from the trial stress deviator; returns the rate of the plastic strain, 1/s.
   double yield(const Deformation& d, const Compression& compression, double modulus, Matrix3& stress,
                State& state) const {
-    if (isMolten(compression)) {
+    if (isMolten(compression) || modulus <= 0) {
       stress.setZero();
       return 0;
     }

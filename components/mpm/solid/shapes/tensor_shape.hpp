@@ -98,4 +98,14 @@ using AxisymmetricLinearShape = TensorShape<D, LinearAxis, true>;
 template <int D>
 using AxisymmetricGimpShape = TensorShape<D, GimpAxis, true>;
 
+/// S_i / r of a node, 1/m; 0 where nothing is axisymmetric.
+template <class Stencil, int D = Stencil::dimension>
+double hoopOf(const Stencil& stencil, const Index<D>& node) {
+  if constexpr (!Stencil::axisymmetric) return 0;
+  double value = stencil.hoop[static_cast<std::size_t>(node[0] - stencil.first[0])];
+  for (int d = 1; d < D; ++d)
+    value *= stencil.s[static_cast<std::size_t>(node[d] - stencil.first[d])][d];
+  return value;
+}
+
 }  // namespace tushar::mpm::solid

@@ -37,14 +37,16 @@ void applyExternalLoads(const Patch& patch, const Material&, const Loads& loads,
 }
 
 /// The heat that loads bring to each particle at the start of the step, W.
-inline void applyHeatFlux(const Patch&, const Material&, const Loads& loads, double time, ParticleView<const int> loadCurves,
-                          ParticleView<double> heatFlux) {
+template <int D>
+void applyHeatFlux(const Patch& patch, const Material&, const Loads& loads, double time, ParticleView<const Vec<D>> x,
+                   ParticleView<const int> loadCurves, ParticleView<double> heatFlux) {
   for (int p = 0; p < loadCurves.owned(); ++p) {
     heatFlux[p] = 0;
     forEachLoad(
         loads, loadCurves[p],
         [&](const SurfaceLoad& load) {
-          if (load.kind == SurfaceLoad::Kind::heatFlux) heatFlux[p] += load.share(time);
+          if (load.kind == SurfaceLoad::Kind::heatFlux)
+            heatFlux[p] += load.share(patch.level().expandPoint<D>(x[p]), time);
         },
         [](const BodyLoad&) {});
   }

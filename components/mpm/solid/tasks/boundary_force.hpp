@@ -1,6 +1,7 @@
 #pragma once
 
 #include "components/mpm/solid/contact/contact.hpp"
+#include "components/mpm/solid/labels.hpp"
 #include "components/mpm/solid/material.hpp"
 
 namespace tushar::mpm::solid {
@@ -29,6 +30,22 @@ inline void measureThinBoundary(const Patch& patch, const Material&, int face, P
   for (int p = 0; p < volume.owned(); ++p) {
     total.add(sign * volume[p] / width * stress[p].col(face / 2));
     area.add(volume[p] / width);
+  }
+}
+
+/// Of every side of the scene; `volume` and `stress` read those of particles.
+template <int D, class Volume, class Stress>
+void scheduleBoundaryForces(TaskList& tasks, const std::vector<Material>& materials, const std::array<bool, 3>& isThin,
+                            Volume volume, Stress stress) {
+  for (int face = 0; face < 6; ++face) {
+    const auto k = static_cast<std::size_t>(face);
+    if (isThin[k / 2])
+      tasks.perMaterial("mpm::measureThinBoundary", measureThinBoundary, materials, with(face), volume, stress,
+                        computes(total::boundaryForce[k]), computes(total::contactArea[k]));
+    else
+      tasks.perMaterial("mpm::measureBoundary", measureBoundary<D>, materials, with(face),
+                        requiresNew(g::internalForce<D>), requiresNew(g::volume), computes(total::boundaryForce[k]),
+                        computes(total::contactArea[k]));
   }
 }
 

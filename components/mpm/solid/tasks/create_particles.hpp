@@ -1,7 +1,10 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <Eigen/LU>
 
+#include "components/mpm/particle_ids.hpp"
 #include "components/mpm/solid/labels.hpp"
 #include "components/mpm/solid/loads/load.hpp"
 #include "components/mpm/solid/loads/manufactured.hpp"
@@ -16,15 +19,22 @@ struct Start {
   Loads loads;
   std::shared_ptr<const Manufactured> solution;  ///< null: there is none
   bool domainsDeform = false;                    ///< by F, so that p.size stays as it was before any deformation
+  double leastMass = 0;                          ///< that no particle may have, kg
 };
 
-/// The numbers of the loads on a particle, 1 for the first, packed as p.loadCurveID says.
+/// The numbers of the loads on a particle, 1 for the first, packed as p.loadCurveID says. Throws InputError where there are
+/// more than three.
 inline int loadsOn(const Start& start, const Material& material, const Body& body, const Vec3& point,
                    const Vec3& spacing) {
   int ids = 0, factor = 1, number = 0;
   const auto addIf = [&](bool acts) {
     ++number;
-    if (!acts || factor > 65536) return;
+    if (!acts) return;
+    if (factor > 65536)
+      throw InputError({{body.where, "geom_object",
+                         fmt::format("more than three loads act on the particle at ({:g}, {:g}, {:g}) m; a particle can "
+                                     "bear three",
+                                     point[0], point[1], point[2])}});
     ids += factor * number;
     factor *= 256;
   };
@@ -54,6 +64,10 @@ struct NewParticles {
     double volume = level.cellVolume() * extent.prod();
     if (start.axisymmetric) volume *= point[0] / (level.cellWidth(2) > 0 ? level.cellWidth(2) : 1.0);
     mass.push_back(material.density * volume);
+    if (mass.back() <= start.leastMass)
+      throw InputError({{body.where, "geom_object",
+                         fmt::format("the particle at ({:g}, {:g}, {:g}) m has {:g} kg; <minimum_particle_mass> is {:g} kg",
+                                     point[0], point[1], point[2], mass.back(), start.leastMass)}});
     temperature.push_back(body.temperature(point));
     color.push_back(body.color);
     deformation.push_back(Matrix3::Identity());
@@ -91,6 +105,7 @@ void actuallyInitialize(const Patch& patch, const Material& material, ParticleMa
                         std::vector<double>& strainEnergy, std::vector<Matrix3>& deformation,
                         std::vector<Matrix3>& velocityGradient, std::vector<int>& loads) {
   const Level& level = patch.level();
+  if (patch.id() == 0) refuseIdle(start.loads.surfaces);
   NewParticles<D> particles{x,         velocity,     displacement, size,             externalForce, mass, temperature, color,
                             viscosity, strainEnergy, deformation,  velocityGradient, loads};
   // A displaced particle may start in another cell than the one that made it, and so on another patch.
@@ -110,7 +125,7 @@ void actuallyInitialize(const Patch& patch, const Material& material, ParticleMa
         for (int d = 0; d < D; ++d)
           at[d] = level.nodePosition(d, 0) + (cell[d] + (k[d] + 0.5) * extent[d]) * level.spacing(d);
         if (!body.shape->contains(level.expandPoint<D>(at))) return;
-        const ParticleId id = (level.cellNumber(cell) << 16) + inCell++;
+        const ParticleId id = idOf<D>(level, cell, inCell++, body.where);
         Index<D> home = cell;
         if (start.solution) {
           const Vec3 point = level.expandPoint<D>(at);
@@ -133,6 +148,15 @@ inline void initializeStress(const Patch&, const Material& material, int stateSi
     stress[p] = Matrix3::Zero();
     if (state) material.model->initialize(&(*state)[0] + p * stateSize);
   }
+}
+
+template <int D>
+void scheduleActuallyInitialize(TaskList& tasks, const std::vector<Material>& materials, const Start& start) {
+  tasks.newParticles("mpm::actuallyInitialize", actuallyInitialize<D>, materials, with(start), creates(p::x<D>),
+                     creates(p::velocity<D>), creates(p::displacement<D>), creates(p::size<D>),
+                     creates(p::externalForce<D>), creates(p::mass), creates(p::temperature), creates(p::color),
+                     creates(p::viscosity), creates(p::strainEnergy), creates(p::deformationMeasure),
+                     creates(p::velocityGradient), creates(p::loadCurves));
 }
 
 }  // namespace tushar::mpm::solid

@@ -35,8 +35,7 @@ inline void computeDamage(const Patch&, const Material& material, int stateSize,
     const DamageState now{deformation[p], volume[p], plasticStrainRate, temperature[p], dt};
     Harm harm{oldDamage[p], oldThreshold[p], oldLocalized[p] != 0};
     std::visit([&](const auto& model) { model.grow(constants, now, stress[p], harm); }, material.damage);
-    const bool isMolten = rate >= 0 && temperature[p] > material.meltTemperature;
-    if (isMolten && material.erosion.acts()) harm.hasFailed = true;
+    if (material.erosion.acts() && material.model->isMolten(deformation[p], stress[p], temperature[p])) harm.hasFailed = true;
     damage[p] = harm.damage;
     threshold[p] = harm.threshold;
     localized[p] = harm.hasFailed ? 1 : 0;

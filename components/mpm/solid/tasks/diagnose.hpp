@@ -59,4 +59,22 @@ void sumKineticEnergy(const Patch&, const Material&, ParticleView<const double> 
   for (int p = 0; p < mass.owned(); ++p) sum.add(0.5 * mass[p] * velocity[p].squaredNorm());
 }
 
+/// The totals that can be saved; `affine` reads APIC's moment.
+template <int D, class Affine>
+void scheduleTotals(TaskList& tasks, const std::vector<Material>& materials, Affine affine) {
+  tasks.perMaterial("mpm::sumMass", sumParticles, materials, requiresOld(p::mass), computes(total::mass));
+  tasks.perMaterial("mpm::sumStrainEnergy", sumParticles, materials, requiresOld(p::strainEnergy),
+                    computes(total::strainEnergy));
+  tasks.perMaterial("mpm::sumThermalEnergy", sumThermalEnergy, materials, requiresOld(p::mass),
+                    requiresOld(p::temperature), computes(total::thermalEnergy));
+  tasks.perMaterial("mpm::sumKineticEnergy", sumKineticEnergy<D>, materials, requiresOld(p::mass),
+                    requiresOld(p::velocity<D>), computes(total::kineticEnergy));
+  tasks.perMaterial("mpm::sumMomentum", sumMomentum<D>, materials, requiresOld(p::mass), requiresOld(p::velocity<D>),
+                    computes(total::momentum));
+  tasks.perMaterial("mpm::sumCenterOfMass", sumCenterOfMass<D>, materials, requiresOld(p::mass), requiresOld(p::x<D>),
+                    computes(total::centerOfMass));
+  tasks.perMaterial("mpm::sumAngularMomentum", sumAngularMomentum<D>, materials, requiresOld(p::mass), requiresOld(p::x<D>),
+                    requiresOld(p::velocity<D>), affine, computes(total::angularMomentum));
+}
+
 }  // namespace tushar::mpm::solid

@@ -10,8 +10,9 @@ template <int D>
 void exMomInterpolated(const Patch& patch, const std::vector<Material>&, const std::vector<Contact>& contacts, double time,
                        const Records& records) {
   for (const Contact& contact : contacts) {
+    if (!contact.actsTwice) continue;
     if (contact.type == Contact::Type::singleVelocity) moveAsOne<D>(patch, contact, records);
-    if (contact.type == Contact::Type::specified && contact.actsTwice) followMaster<D>(patch, contact, time, records);
+    if (contact.type == Contact::Type::specified) followMaster<D>(patch, contact, time, records);
   }
 }
 

@@ -12,8 +12,8 @@ void interpolateToParticlesAndUpdate(
     NodeView<const Octet> record, ParticleView<const Vec<D>> x, OptionalView<const Vec<D>> size,
     ParticleView<const Vec<D>> velocity, ParticleView<const double> mass, ParticleView<const Matrix3> oldDeformation,
     OptionalView<const double> temperature, OptionalView<const double> oldVolume, OptionalView<const Matrix3> oldStress,
-    OptionalView<const double> oldState, OptionalView<const int> localized, ParticleView<Vec<D>> newX, ParticleView<Vec<D>> newVelocity,
-    ParticleView<Matrix3> deformation, OptionalView<double> volume, OptionalView<Matrix3> stress,
+    OptionalView<const double> oldState, OptionalView<const int> localized, ParticleView<Vec<D>> newX,
+    ParticleView<Vec<D>> newVelocity, ParticleView<Matrix3> deformation, OptionalView<double> volume, OptionalView<Matrix3> stress,
     OptionalView<double> state, OptionalView<double> viscosity, OptionalView<double> strainEnergy,
     OptionalView<double> temperatureChange, OptionalView<Matrix3> velocityGradient, CellView<double> stableTimeStep) {
   const ParticleStates<Shape> states{

@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 
+#include "components/mpm/solid/labels.hpp"
 #include "components/mpm/solid/material.hpp"
 #include "components/mpm/solid/tasks/extent.hpp"
 
@@ -21,8 +22,8 @@ inline void computeStress(const Patch&, const Material& material, ParticleView<c
   for (int p = 0; p < deformation.owned(); ++p) stress[p] /= deformation[p].determinant();
 }
 
-/// m_i = sum_p S_i m_p,   v_i = sum_p S_i m_p v_p / m_i, f_i = - sum_p V_p sigma_p grad S_i and f_i / m_i before any
-/// contact or boundary condition; V_i = sum_p S_i V_p,   sigma_i = sum_p S_i V_p sigma_p / V_i. 0 where there is no mass.
+/// m_i = sum_p S_i m_p,   v_i = sum_p S_i m_p v_p / m_i, f_i = - sum_p V_p sigma_p grad S_i (and - V_p sigma_theta
+/// S_i / r where axisymmetric) and f_i / m_i before any contact or boundary condition; V_i = sum_p S_i V_p,   sigma_i = sum_p S_i V_p sigma_p / V_i. 0 where there is no mass.
 template <class Shape, int D = Shape::dimension>
 void showOnGrid(const Patch& patch, const Material&, const Vec3& commonSize, ParticleView<const Vec<D>> x,
                 OptionalView<const Vec<D>> size, ParticleView<const Matrix3> deformation,
@@ -49,6 +50,7 @@ void showOnGrid(const Patch& patch, const Material&, const Vec3& commonSize, Par
       for (int i = 0; i < D; ++i)
         for (int d = 0; d < D; ++d)
           force[node][i] -= moment(sceneAxis<D>(level, i), sceneAxis<D>(level, d)) * gradient[d];
+      if constexpr (Shape::axisymmetric) force[node][0] -= moment(2, 2) * hoopOf(stencil, node);
     });
   });
   forEach<D>(box, [&](const Index<D>& node) {
@@ -56,6 +58,18 @@ void showOnGrid(const Patch& patch, const Material&, const Vec3& commonSize, Par
     if (volume[node] > 0) stress[node] /= volume[node];
     acceleration[node] = mass[node] > 0 ? Vec<D>(force[node] / mass[node]) : Vec<D>(Vec<D>::Zero());
   });
+}
+
+/// `size`, `volume` and `stress` read those of particles, as far as shape functions reach.
+template <class Shape, class Size, class Volume, class Stress>
+void scheduleShowOnGrid(TaskList& tasks, const std::vector<Material>& materials, const Vec3& commonSize, Size size,
+                        Volume volume, Stress stress) {
+  constexpr int D = Shape::dimension;
+  tasks.perMaterial("mpm::showOnGrid", showOnGrid<Shape>, materials, with(commonSize), requiresOld(p::x<D>, Shape::reach),
+                    size, requiresOld(p::deformationMeasure, Shape::reach), requiresOld(p::mass, Shape::reach),
+                    requiresOld(p::velocity<D>, Shape::reach), volume, stress, computes(g::mass), computes(g::volume),
+                    computes(g::velocity<D>), computes(g::internalForce<D>), computes(g::acceleration<D>),
+                    computes(g::stress));
 }
 
 }  // namespace tushar::mpm::solid

@@ -7,7 +7,7 @@
 
 namespace tushar::mpm::solid {
 
-/// How many cells a wave crosses in a second: the most of all that it is told of.
+/// How many cells a wave crosses in a second: the most of all that it is told of, and no number if one is none.
 template <int D>
 class CrossingRate {
  public:
@@ -19,13 +19,16 @@ class CrossingRate {
 
   /// Waves of speed c, m/s, in a material that moves with v.
   void add(double c, const Vec<D>& v) {
-    rate_ = std::max(rate_, c * inverse_width_);
-    for (int d = 0; d < D; ++d) rate_ = std::max(rate_, (c + std::abs(v[d])) * inverse_spacing_[d]);
+    rate_ = greater(rate_, c * inverse_width_);
+    for (int d = 0; d < D; ++d) rate_ = greater(rate_, (c + std::abs(v[d])) * inverse_spacing_[d]);
   }
   /// Time in which the fastest crosses a cell, s; infinite where there are none.
   double time() const { return 1 / rate_; }
+  bool isKnown() const { return rate_ == rate_; }
 
  private:
+  static double greater(double so_far, double other) { return so_far > other || so_far != so_far ? so_far : other; }
+
   double inverse_width_ = 0, rate_ = 0;
   Vec<D> inverse_spacing_;
 };

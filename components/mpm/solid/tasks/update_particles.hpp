@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <Eigen/LU>
 
 #include "components/mpm/solid/kernels/node_record.hpp"
@@ -51,21 +53,18 @@ struct ParticleStates {
 /// x_p += dt sum_i S_i v*_i,   v_p += sum_i S_i (v*_i - v_i): the FLIP of Brackbill & Ruppel, J. Comput. Phys. 65 (1986)
 /// 314.
 template <class Shape, int D = Shape::dimension>
-[[gnu::always_inline]] inline void moveParticle(const Method& method, double dt, const Gathered<D>& sums, const ParticleStates<Shape>& s, int p) {
+[[gnu::always_inline]] inline void moveParticle(double dt, const Gathered<D>& sums, const ParticleStates<Shape>& s,
+                                                int p) {
   const Vec<D> after = lanes<D>(sums.value, lane::velocity), before = lanes<D>(sums.value, lane::before);
   s.newX[p] = s.x[p] + dt * after;
   s.newVelocity[p] = s.velocity[p] + (after - before);
-  if (method.maximumParticleVelocity < 1e105) {
-    const double speed = s.newVelocity[p].norm();
-    if (speed > method.maximumParticleVelocity && speed >= s.velocity[p].norm())
-      s.newVelocity[p] *= 0.9 * method.maximumParticleVelocity / speed;
-  }
 }
 
 /// L_p = sum_i v*_i grad S_i (and L_theta = sum_i v*_r S_i / r where axisymmetric),   F_p = (I + L_p dt) F_p.
 template <class Shape, int D = Shape::dimension>
-[[gnu::always_inline]] inline void deformParticle(const Level& level, const Method& method, double dt, const Gathered<D>& sums,
-                    const Erosion& erosion, const ParticleStates<Shape>& s, int p, Matrix3& velocityGradient) {
+[[gnu::always_inline]] inline void deformParticle(const Level& level, const Method& method, double dt,
+                                                  const Gathered<D>& sums, const Erosion& erosion,
+                                                  const ParticleStates<Shape>& s, int p, Matrix3& velocityGradient) {
   if constexpr (D < 3) velocityGradient.setZero();
   if constexpr (Shape::axisymmetric) velocityGradient(2, 2) = sums.hoop[lane::velocity];
   Quad squares = sums.hoop * sums.hoop;
@@ -87,8 +86,8 @@ template <class Shape, int D = Shape::dimension>
 template <class Shape>
 void heatByViscosity(const Material& material, double growth, const ParticleStates<Shape>& s, int p) {
   const double heat = -s.viscosity[p] * growth;
-  if (s.temperatureChange && material.specificHeat > 0) s.temperatureChange[p] += heat / material.specificHeat;
-  if (s.state) material.model->addHeat(s.state + p * s.stateSize, heat);
+  if (s.temperatureChange) s.temperatureChange[p] += heat / material.specificHeat;
+  material.model->addHeat(s.state + p * s.stateSize, heat);
 }
 
 /// Stress, artificial viscosity and strain energy of particles of a cell, where a scene keeps them; tells `rate` of their
@@ -120,6 +119,7 @@ void updateStress(const Material& material, const Method& method, double dt,
   const ArtificialViscosity own = material.model->ownViscosity().value_or(method.viscosity.value_or(ArtificialViscosity{}));
   for (int k = 0; k < count; ++k) rate.add(waveSpeed[static_cast<std::size_t>(k)], s.velocity[first + k]);
   if (!s.viscosity && !s.strainEnergy) return;
+  const bool heated = method.viscosityHeats && material.model->takesHeat();
   for (int k = 0; k < count; ++k) {
     const int p = first + k;
     const auto at = static_cast<std::size_t>(k);
@@ -127,11 +127,24 @@ void updateStress(const Material& material, const Method& method, double dt,
       const double jump = std::max(-velocityGradient[k].trace(), 0.0) * method.meanWidth;
       const double density = material.density / s.deformation[p].determinant();
       s.viscosity[p] = density * jump * (own.linear * bulkSpeed[at] + own.quadratic * jump);
-      if (method.viscosityHeats) heatByViscosity(material, velocityGradient[k].trace() * dt / density, s, p);
+      if (heated) heatByViscosity(material, velocityGradient[k].trace() * dt / density, s, p);
     }
     const bool bears = !s.localized || !s.localized[p];
     if (s.strainEnergy) s.strainEnergy[p] = bears ? energyDensity[at] * s.mass[p] / material.density : 0.0;
   }
+}
+
+/// Of the particles of a cell the first that moves or is deformed so that waves in it have no speed.
+template <class Shape, int D = Shape::dimension>
+NumericalError withoutWaveSpeed(const Level& level, const ParticleStates<Shape>& s, const Index<D>& cell,
+                                const data::ParticleRange& range) {
+  const auto isSound = [&](int p) { return s.velocity[p].allFinite() && s.deformation[p].determinant() > 0; };
+  int p = range.first;
+  while (p + 1 < range.last && isSound(p)) ++p;
+  const Vec3 x = level.expandPoint<D>(s.x[p]);
+  return {fmt::format("the wave speed of the particle at ({:g}, {:g}, {:g}) m is no number: det F is {:g}, its speed {:g} m/s",
+                      x[0], x[1], x[2], s.deformation[p].determinant(), s.velocity[p].norm()),
+          "", "p.deformationMeasure", level.cellNumber<D>(cell)};
 }
 
 /// What updateParticles does.
@@ -141,7 +154,7 @@ enum class Update {
   all
 };
 
-/// Brings the patch's own particles to the end of the step.
+/// Brings the patch's own particles to the end of the step. Throws NumericalError where a wave has no speed.
 template <class Shape, Update what = Update::all, int D = Shape::dimension>
 void updateParticles(const Patch& patch, const Material& material, const Method& method, double dt,
                      NodeView<const Octet> record, const ParticleStates<Shape>& s,
@@ -159,7 +172,7 @@ void updateParticles(const Patch& patch, const Material& material, const Method&
         const int p = first + k;
         const typename Shape::Stencil stencil(frame, cell, s.x[p], s.extents[p]);
         const Gathered<D> sums = gather(stencil, windowOf<const Octet>(record, stencil));
-        if constexpr (what != Update::stress) moveParticle<Shape>(method, dt, sums, s, p);
+        if constexpr (what != Update::stress) moveParticle<Shape>(dt, sums, s, p);
         if constexpr (what != Update::motion)
           deformParticle<Shape>(level, method, dt, sums, material.erosion, s, p,
                                 velocityGradient[static_cast<std::size_t>(k)]);
@@ -167,7 +180,10 @@ void updateParticles(const Patch& patch, const Material& material, const Method&
       if constexpr (what != Update::motion)
         updateStress<Shape>(material, method, dt, s, velocityGradient.data(), first, count, rate);
     }
-    if constexpr (what != Update::motion) (*stableTimeStep)[cell] = rate.time();
+    if constexpr (what != Update::motion) {
+      if (!rate.isKnown()) throw withoutWaveSpeed<Shape>(level, s, cell, range);
+      (*stableTimeStep)[cell] = rate.time();
+    }
   });
 }
 

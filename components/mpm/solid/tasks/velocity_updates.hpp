@@ -31,6 +31,16 @@ void computeSSPlusVp(const Patch& patch, const Material&, const Method& method, 
   });
 }
 
+/// A particle that has become faster than the greatest speed is slowed down to 9/10 of it, as in Uintah.
+template <int D>
+void limitVelocity(const Patch&, const Material&, double greatest, ParticleView<const Vec<D>> oldVelocity,
+                   ParticleView<Vec<D>> velocity) {
+  for (int p = 0; p < velocity.owned(); ++p) {
+    const double speed = velocity[p].norm();
+    if (speed > greatest && speed >= oldVelocity[p].norm()) velocity[p] *= 0.9 * greatest / speed;
+  }
+}
+
 /// v_p = 2 v+_p - v++_p + a dt,   x_p += (v* - (v_p + a dt - 2 v+_p + v++_p) / 2) dt with v++_p = sum_i S_i v+_i of the
 /// grid that v+ went to: XPIC of order 2, Hammerquist & Nairn, Comput. Methods Appl. Mech. Engng 318 (2017) 724. The
 /// particles have moved by FLIP before.

@@ -58,7 +58,11 @@ struct JohnsonCook {
             .required("m", &JohnsonCook::m, "1", "exponent of the temperature", input::positive())
             .value("epdot_0", &JohnsonCook::referenceRate, 1, "1/s", "rate of the constants", input::positive())
             .value("T_r", &JohnsonCook::roomTemperature, 298, "K", "temperature of the constants", input::nonNegative())
-            .value("T_m", &JohnsonCook::meltTemperature, 1793, "K", "temperature without strength", input::positive());
+            .value("T_m", &JohnsonCook::meltTemperature, 1793, "K", "temperature without strength", input::positive())
+            .check([](const JohnsonCook& read, const input::Element& element, input::Diagnostics& diagnostics) {
+              if (read.meltTemperature <= read.roomTemperature)
+                diagnostics.error(element, "T_m must be greater than T_r");
+            });
     return schema;
   }
   double flowStress(const FlowState& state) const {

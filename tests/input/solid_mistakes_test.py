@@ -1,0 +1,87 @@
+#!/usr/bin/env python3
+"""Solids: what a scene asks for and the method would pass over, or give another meaning, is refused at its place."""
+import pathlib
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from sus import ROOT, run
+
+BEAM, BILLET, CYLINDER, SPALL = (f"ups/solid/{name}.ups" for name in ("implicit_cantilever", "billet", "thick_cylinder", "spall"))
+CONDITIONS, GEOMETRY = "</BoundaryConditions>", "<geom_object>"
+TEMPERATURE = '<Face side="x+"><BCType id="ID" label="Temperature" var="KIND"><value>VALUE</value></BCType></Face>'
+HEAT = """<PhysicalBC><MPM><heat_flux><geom_object><box><min>[1,.4,0]</min><max>[1,.6,.05]</max></box></geom_object>
+          <load_curve><time_point><time>0</time><load>1</load></time_point></load_curve></heat_flux></MPM></PhysicalBC><Grid>"""
+
+
+def heat_flow(kind, value):
+    return (CONDITIONS, TEMPERATURE.replace("ID", "all").replace("KIND", kind).replace("VALUE", value) + CONDITIONS)
+
+
+# name: scene, (text, what takes its place), sentence
+REFUSED = {
+    "a rigid body that nothing holds in implicit steps":
+        (BEAM, ('type="comp_neo_hook"', 'type="rigid"'), "'rubber' is rigid, which has no tangent"),
+    "a flow of heat into implicit steps": (BEAM, heat_flow("Neumann", "5"), "var: Neumann for Temperature only with"),
+    "heat on a surface in implicit steps":
+        (BEAM, ("<Grid>", HEAT), "heat_flux: only with <time_integrator> explicit", "MPM/use_load_curves=true"),
+    "artificial viscosity in implicit steps":
+        (BEAM, ("<dynamic>", "<artificial_viscosity>true</artificial_viscosity><dynamic>"),
+         "artificial_viscosity: is not available; only explicit steps have one"),
+    "a condition of one material of several in implicit steps":
+        (BILLET, ('id="all" label="Symmetric" var="symmetry"/></Face>\n      <Face side="y-">',
+                  'id="1" label="Velocity" var="Dirichlet"><value>[0,0,0]</value></BCType></Face>\n      <Face side="y-">'),
+         "id: found '1'; with <time_integrator> implicit materials share their nodes",
+         "MPM/time_integrator=implicit", "MPM/artificial_viscosity=false"),
+    "a contact of some materials in implicit steps":
+        (BILLET, ("<materials>[0,1]</materials>", "<materials>[0]</materials>"), "'billet' is not among its <materials>",
+         "MPM/time_integrator=implicit", "MPM/artificial_viscosity=false"),
+    "the heat of a viscosity that is not there":
+        (SPALL, ("<artificial_viscosity>true", "<artificial_viscosity>false"),
+         "artificial_viscosity_heating: needs <artificial_viscosity> true"),
+    "a metal without a heat capacity":
+        (SPALL, ("<specific_heat>383</specific_heat>", ""), "missing tag <specific_heat>"),
+    "affine velocities that stresses would not see":
+        (BILLET, ("<interpolator>", "<apic>true</apic><stress_update>usf</stress_update><interpolator>"),
+         "apic: only with stress_update usl"),
+    "volumes per radian in a contact":
+        (CYLINDER, ("</MPM>\n  </MaterialProperties>", "<contact><type>friction</type><mu>.1</mu><volume_constraint>.5"
+                    "</volume_constraint></contact></MPM>\n  </MaterialProperties>"), "volume_constraint of <contact>"),
+    "a load beside all bodies":
+        (CYLINDER, ("<radius>0.5</radius></cylinder>\n        </geom_object>", "<radius>0.3</radius></cylinder>\n"
+                    "        </geom_object>"), ":43:8: PhysicalBC/MPM: no particle of a body lies along the surface"),
+    "a load on a material that is not there":
+        (CYLINDER, ("<id>1</id>", "<id>1</id><material>4</material>"), "there is no material 4: they are counted from 0 to 0"),
+    "particles lighter than may be":
+        (BILLET, ("<artificial_viscosity>", "<minimum_particle_mass>1</minimum_particle_mass><artificial_viscosity>"),
+         "<minimum_particle_mass> is 1 kg"),
+    "an exclusion that friction does not know":
+        (BILLET, ("<type>rigid</type>", "<type>friction</type><mu>.1</mu><ExcludeMaterial>0</ExcludeMaterial>"),
+         "acts in contacts of type rigid, specified and single_velocity only"),
+}
+
+
+class SolidMistakes(unittest.TestCase):
+    def edited(self, scene, before, after, *sets):
+        text = (ROOT / scene).read_text()
+        self.assertIn(before, text)
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "scene.ups")
+            path.write_text(text.replace(before, after))
+            return run(path, "Time/max_Timesteps=1", *sets, outputs=True)
+
+    def test_are_refused(self):
+        for name, (scene, edit, sentence, *sets) in REFUSED.items():
+            with self.subTest(name):
+                result = self.edited(scene, *edit, *sets)
+                self.assertEqual(result.code, 3, result.err)
+                self.assertIn(sentence, result.err)
+                self.assertEqual(result.files, [])
+
+    def test_a_wall_that_lets_no_heat_through_is_what_implicit_steps_have(self):
+        self.assertEqual(self.edited(BEAM, *heat_flow("Neumann", "0")).code, 0)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,20 @@
+#include "tests/mpm/solid/implicit_block.hpp"
+
+namespace tushar::mpm::solid {
+
+using namespace testing;
+
+TEST(ImplicitHeat, SpreadsEvenlyInOneLongStepAndKeepsTheHeat) {
+  Block<LinearShape<2>> block(modelOf(rubber()), {{6, 2, 1}});
+  for (std::size_t p = 0; p < block.x().size(); ++p) block.temperature()[p] = block.x()[p][0] < 3 ? 400 : 300;
+
+  // The slowest part decays at k pi²/(rho c L²) = 2.7e-4 /s: 50 K / 2.7e6 are left of it.
+  for (const Vec<2>& x : block.x()) EXPECT_NEAR(block.temperatureAfter(1e10, x), 350, 1e-4);
+  // In a shorter step heat goes from the warm half to the cold one, and none is lost.
+  double sum = 0;
+  for (const Vec<2>& x : block.x()) sum += block.temperatureAfter(1000, x);
+  EXPECT_NEAR(sum / double(block.x().size()), 350, 1e-7);
+  EXPECT_GT(block.temperatureAfter(1000, Vec<2>(3.75, 0.25)), block.temperatureAfter(10, Vec<2>(3.75, 0.25)) + 1);
+}
+
+}  // namespace tushar::mpm::solid

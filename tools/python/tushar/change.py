@@ -1,0 +1,38 @@
+"""The error of a run by a global that it saves: how far its change is from that of another run, or from a number."""
+import dataclasses
+import pathlib
+import re
+
+
+@dataclasses.dataclass(frozen=True)
+class Change:
+    """`change.NAME[k]=VALUE`: the k-th number of a global, the first if left out, and what its change should be; without
+    a value as in the first run of the study."""
+    name: str
+    component: int = 0
+    value: float = None
+
+    @staticmethod
+    def of(text):
+        """None where `text` means an error norm of the report."""
+        found = re.fullmatch(r"change\.(\w+)(?:\[(\d)\])?(?:=(\S+))?", text)
+        if not found:
+            return None
+        name, component, value = found.groups()
+        return Change(name, int(component or 0), None if value is None else float(value))
+
+    def measured(self, folder):
+        """Mean over the last quarter of the simulated time less the first value. Of a run that swings about its end as
+        of one that is at rest there it is the end. None where the run has not saved the global."""
+        files = sorted(pathlib.Path(folder).glob(f"*.uda.*/{self.name}.dat"))
+        lines = [line.split() for line in files[-1].read_text().splitlines() if line[:1] != "#"] if files else []
+        if not lines or len(lines[0]) <= 1 + self.component:
+            return None
+        values = [(float(line[0]), float(line[1 + self.component])) for line in lines]
+        start, end = values[0][0], values[-1][0]
+        late = [value for time, value in values if time >= end - (end - start) / 4]
+        return sum(late) / len(late) - values[0][1]
+
+    def error(self, measured, first):
+        """Relative, |measured / expected - 1|."""
+        return abs(measured / (first if self.value is None else self.value) - 1)
