@@ -52,7 +52,9 @@ TEST(Communicator, CarriesMessagesWhoseOutboxIsNoMore) {
   const Bytes other(message.size(), std::byte{7});  // in the memory of the first, had that been given back
   allRanks().any(false);
 
-  if (allRanks().rank() == 1) EXPECT_EQ(allRanks().receive(0, Tag::ghosts), message);
+  if (allRanks().rank() == 1) {
+    EXPECT_EQ(allRanks().receive(0, Tag::ghosts), message);
+  }
   allRanks().any(false);
 }
 
