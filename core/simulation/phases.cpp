@@ -200,13 +200,6 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   report = tasks::TaskGraph("diagnostics of the report", std::move(end), level, table);
 }
 
-std::string Phases::globalSolve() const {
-  for (const tasks::TaskList* list : {&lists_.initialize, &lists_.stableTimeStep, &lists_.timeAdvance, &lists_.diagnostics})
-    for (const tasks::Task& task : list->tasks())
-      if (task.perRank) return task.name;
-  return "";
-}
-
 void Phases::printSchedule(std::ostream& out) const {
   for (const tasks::TaskGraph* graph : {&initialize, &stableTimeStep, &timeAdvance}) {
     graph->print(out);

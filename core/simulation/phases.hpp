@@ -44,9 +44,6 @@ class Phases {
   /// Totals whose drift the component can report, as pairs of what they are (mass, momentum, energy) and their label.
   const std::vector<std::pair<std::string, std::string>>& totals() const { return totals_; }
 
-  /// A task that solves a system over the whole grid; empty where there is none.
-  std::string globalSolve() const;
-
   void printSchedule(std::ostream& out) const;
   void printDot(std::ostream& out) const;
 
