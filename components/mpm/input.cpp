@@ -103,7 +103,7 @@ const Schema<ConservingSection>& conservingSchema() {
                   {{"apic", Transfer::apic}, {"affine_flip", Transfer::affineFlip}}, Transfer::apic,
                   "particles take the grid's velocity, or, where the gas is smooth, its change: of second order")
           .ours()
-          .value("cfl", &ConservingSection::cfl, 0.5, "1", "dt max(|v| + c) / h; affine_flip: dt max(c) / h",
+          .value("cfl", &ConservingSection::cfl, 0.5, "1", "dt times the speed of signals over h; affine_flip: dt max(c) / h",
                  input::positive())
           .ours()
           .value("advective_cfl", &ConservingSection::advectiveCfl, 0.8, "1", "affine_flip: dt max |v_d| / h",

@@ -11,32 +11,39 @@ namespace {
 /// What is looked at of many numbers at once.
 struct Look {
   double least;  ///< of those that are numbers, or 1; looked for only where it is asked for
-  double zero;   ///< the sum of 0 times each: not a number where one is not finite
+  double sum;    ///< not finite where one is not finite, or where they overflow together
 };
 
 /// Lanes that do not wait for one another, for vector instructions; halves are joined until one is left.
 template <bool SeeksLeast>
 Look lookAt(const double* values, std::size_t count) {
   constexpr std::size_t width = 32;
-  std::array<double, width> least, zero{};
+  std::array<double, width> least, sum{};
   least.fill(1);
   const auto lower = [](double& a, double b) { a = b < a ? b : a; };
   std::size_t k = 0;
   for (; k + width <= count; k += width)
     for (std::size_t lane = 0; lane < width; ++lane) {
       if constexpr (SeeksLeast) lower(least[lane], values[k + lane]);
-      zero[lane] += 0 * values[k + lane];
+      sum[lane] += values[k + lane];
     }
   for (; k < count; ++k) {
     if constexpr (SeeksLeast) lower(least[0], values[k]);
-    zero[0] += 0 * values[k];
+    sum[0] += values[k];
   }
   for (std::size_t half = width / 2; half > 0; half /= 2)
     for (std::size_t lane = 0; lane < half; ++lane) {
       if constexpr (SeeksLeast) lower(least[lane], least[lane + half]);
-      zero[lane] += zero[lane + half];
+      sum[lane] += sum[lane + half];
     }
-  return {least[0], zero[0]};
+  return {least[0], sum[0]};
+}
+
+/// Whether the numbers keep a bound for sure: their sum is finite, and so are they.
+bool surelyHolds(Bound bound, const double* values, std::size_t count) {
+  if (bound == Bound::finite) return std::isfinite(lookAt<false>(values, count).sum);
+  const Look look = lookAt<true>(values, count);
+  return std::isfinite(look.sum) && (bound == Bound::positive ? look.least > 0 : look.least >= 0);
 }
 
 }  // namespace
@@ -47,10 +54,8 @@ bool holds(Bound bound, double value) {
 }
 
 bool holds(Bound bound, const double* values, std::size_t count) {
-  if (bound == Bound::none) return true;
-  if (bound == Bound::finite) return lookAt<false>(values, count).zero == 0;
-  const Look look = lookAt<true>(values, count);
-  return look.zero == 0 && (bound == Bound::positive ? look.least > 0 : look.least >= 0);
+  if (bound == Bound::none || surelyHolds(bound, values, count)) return true;
+  return std::all_of(values, values + count, [bound](double value) { return holds(bound, value); });
 }
 
 std::string_view textOf(Bound bound) {

@@ -8,6 +8,7 @@
 #include "core/base/interrupt.hpp"
 #include "core/simulation/error_norms.hpp"
 #include "core/simulation/gather.hpp"
+#include "core/simulation/kept_reductions.hpp"
 
 namespace tushar::simulation {
 
@@ -136,7 +137,13 @@ void Simulation::step() {
   const auto tryStep = [&] {
     return scheduler_.run(phases_.timeAdvance, {time_.step() + 1, time_.time(), dt.value, time_.repeats(), time_.mayHalve()});
   };
-  while (const auto asked = tryStep()) dt.value = time_.repeat(*asked);
+  const KeptReductions before(warehouse_, phases_.timeAdvance.reductions());
+  try {
+    while (const auto asked = tryStep()) dt.value = time_.repeat(*asked);
+  } catch (const NumericalError&) {
+    before.restore();
+    throw;
+  }
   scheduler_.commit(phases_.timeAdvance);
   time_.advance();
   particle_steps_ += ownParticles();

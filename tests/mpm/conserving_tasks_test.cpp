@@ -188,20 +188,75 @@ TEST(CountSteps, CallsForARemapWhenItsTimeHasComeOrACellIsOverfull) {
   EXPECT_EQ(count(0, 1.03), 0);
 }
 
-TEST(LimitDeformation, BoundsWhatACellIsCompressedAndStretched) {
+/// dt of a plane whose gradient is `of` in one cell and 0 elsewhere; `mass` is that of the cell.
+double deformationLimit(const Tensor<2>& of, double mass = 1) {
   const Level level(shaped<2>());
+  CellValues<double> cellMass(level);
   CellValues<Tensor<2>> gradient(level);
+  std::fill(cellMass.values.begin(), cellMass.values.end(), 1.0);
   std::fill(gradient.values.begin(), gradient.values.end(), Tensor<2>::Zero());
-  Minimum still, sheared, stretched;
-  limitDeformation<2>(level.patches().front(), Gas(), gradient.read(), still);
-  gradient.values[3] = Tensor<2>{{0, 9}, {0, 0}};
-  limitDeformation<2>(level.patches().front(), Gas(), gradient.read(), sheared);
-  gradient.values[3] = Tensor<2>{{4, 0}, {0, -4}};
-  limitDeformation<2>(level.patches().front(), Gas(), gradient.read(), stretched);
+  cellMass.values[3] = mass;
+  gradient.values[3] = of;
+  Minimum dt;
+  limitDeformation<2>(level.patches().front(), Gas(), cellMass.read(), gradient.read(), dt);
+  return dt.value;
+}
 
-  EXPECT_TRUE(std::isinf(still.value));
-  EXPECT_TRUE(std::isinf(sheared.value));
-  EXPECT_DOUBLE_EQ(stretched.value, 0.1);
+TEST(LimitDeformation, BoundsWhatACellIsCompressedAndStretched) {
+  EXPECT_TRUE(std::isinf(deformationLimit(Tensor<2>{{0, 0}, {0, 0}})));
+  EXPECT_TRUE(std::isinf(deformationLimit(Tensor<2>{{0, 9}, {0, 0}})));
+  EXPECT_DOUBLE_EQ(deformationLimit(Tensor<2>{{4, 0}, {0, -4}}), 0.1);
+}
+
+TEST(LimitDeformation, LetsAFrontRunTwiceAsFarIntoAnEmptyCell) {
+  const Tensor<2> gradient{{4, 0}, {0, -4}};
+  EXPECT_DOUBLE_EQ(deformationLimit(gradient, 0), 2 * deformationLimit(gradient, 1));
+}
+
+/// A line of gas that moves with `speed` and is compressed by `compression` over each cell [m/s].
+struct MovingLine {
+  BoxCloud<1> cloud{Index3{{4, 1, 1}}};
+  CellValues<double> mass{cloud.level}, energy{cloud.level};
+  CellValues<Tensor<1>> gradient{cloud.level};
+  Maximum pastGrid, pastGas;
+
+  MovingLine(double speed, double compression) {
+    const double h = cloud.level.minSpacing();
+    std::fill(cloud.v.begin(), cloud.v.end(), Vec<1>(speed));
+    std::fill(cloud.energy.begin(), cloud.energy.end(), 1.0);
+    std::fill(mass.values.begin(), mass.values.end(), 1.0);
+    std::fill(energy.values.begin(), energy.values.end(), 1.0);
+    std::fill(gradient.values.begin(), gradient.values.end(), Tensor<1>(-compression / h));
+    measureSignals<1>(cloud.patch(), cloud.gas, cloud.read(cloud.v), cloud.read(cloud.energy), mass.read(),
+                      energy.read(), gradient.read(), pastGrid, pastGas);
+  }
+  double timeStep() const {
+    Minimum dt;
+    computeAcousticTimeStep<1>(cloud.patch(), cloud.gas, {}, mass.read(), gradient.read(), pastGrid.value,
+                               pastGas.value, dt);
+    return dt.value;
+  }
+};
+
+TEST(MeasureSignals, KnowsThemPastTheGridAndPastTheGas) {
+  const double c = std::sqrt(Gas().soundSpeedSquared(1));
+  const MovingLine moving(-3, 0), compressed(0, 2);
+
+  EXPECT_DOUBLE_EQ(moving.pastGrid.value, 3 + c);
+  EXPECT_DOUBLE_EQ(moving.pastGas.value, 1.25 * c);
+  EXPECT_DOUBLE_EQ(compressed.pastGrid.value, c);
+  EXPECT_DOUBLE_EQ(compressed.pastGas.value, 1.25 * (2.8 + std::sqrt(2.8 * 2.8 + c * c)));
+}
+
+TEST(ComputeAcousticTimeStep, IsTheSameAtAnySpeedAndAFifthShorterThanAtRest) {
+  const double moving = MovingLine(10, 0).timeStep();
+
+  EXPECT_DOUBLE_EQ(MovingLine(100, 0).timeStep(), moving);
+  EXPECT_DOUBLE_EQ(MovingLine(0, 0).timeStep(), 1.25 * moving);
+}
+
+TEST(ComputeAcousticTimeStep, IsShorterWhereAShockRuns) {
+  EXPECT_LT(MovingLine(100, 0.3).timeStep(), MovingLine(100, 0).timeStep());
 }
 
 }  // namespace tushar::mpm::conserving

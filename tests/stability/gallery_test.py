@@ -42,6 +42,10 @@ class ShortGallery(unittest.TestCase):
                 run = self.gallery.run(case, method)
                 self.assertEqual(judge(run, case, True), ["pass"], run)
 
+    def test_a_tube_that_moves_has_nearly_the_error_of_the_one_at_rest(self):
+        resting, moving = (self.gallery.run(case_of(name), METHODS["default"]) for name in ("sod", "sod_moving"))
+        self.assertLess(moving["error"], 1.25 * resting["error"])
+
     def test_finite_volumes_are_measured_where_they_have_no_particles(self):
         run = self.gallery.run(case_of("contact"), METHODS["volumes"])
         self.assertEqual(judge(run, case_of("contact"), False), ["pass"], run)

@@ -132,6 +132,13 @@ TEST(Bound, IsKeptByWhatItAllows) {
     }
 }
 
+TEST(Bound, IsKeptByNumbersWhoseSumOverflows) {
+  const std::vector<double> many(67, std::numeric_limits<double>::max());
+
+  for (const Bound bound : {Bound::finite, Bound::nonNegative, Bound::positive})
+    EXPECT_TRUE(data::holds(bound, many.data(), many.size())) << data::textOf(bound);
+}
+
 TEST(BrokenValue, SaysWhichParticleWhereWhenAndWhatIsAroundIt) {
   for (const int patches : {1, 2, 7, 8})
     for (const bool relocated : {false, true})

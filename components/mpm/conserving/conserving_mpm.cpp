@@ -27,11 +27,14 @@ void ConservingMpm<D>::scheduleInitialize(TaskList& tasks) const {
 
 template <int D>
 void ConservingMpm<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
-  tasks.perMaterial("mpm::computeStableTimeStep",
-                    method_.transfer == Transfer::apic ? conserving::computeAcousticTimeStep<D>
-                                                       : conserving::computeStableTimeStep<D>,
-                    materials_, with(method_), requiresOld(p::velocity<D>), requiresOld(p::internalEnergy),
-                    requiresOld(c::velocityGradient<D>), computes(delT));
+  if (method_.transfer == Transfer::apic)
+    tasks.perMaterial("mpm::computeStableTimeStep", conserving::computeAcousticTimeStep<D>, materials_, with(method_),
+                      requiresOld(c::mass), requiresOld(c::velocityGradient<D>), requiresOld(signalPastGrid),
+                      requiresOld(signalPastGas), computes(delT));
+  else
+    tasks.perMaterial("mpm::computeStableTimeStep", conserving::computeStableTimeStep<D>, materials_, with(method_),
+                      requiresOld(p::velocity<D>), requiresOld(p::internalEnergy), requiresOld(c::mass),
+                      requiresOld(c::velocityGradient<D>), computes(delT));
   if (method_.remap)
     tasks.perPatch("mpm::countSteps", conserving::countSteps, with(*method_.remap), requiresOld(remapAge),
                    requiresOld(cellFill), computes(remapCount));
@@ -116,10 +119,11 @@ void ConservingMpm<D>::scheduleGridState(TaskList& tasks) const {
     schedule(conserving::interpolateParticlesToGrid<D>);
   tasks.perMaterial("mpm::computeVelocityGradient", conserving::computeVelocityGradient<D>, materials_,
                     requiresNew(g::velocity<D>), computes(c::velocityGradient<D>));
-  if (method_.transfer == Transfer::apic)
-    scheduleComputePressure<Apic>(tasks);
-  else
-    scheduleComputePressure<AffineFlip>(tasks);
+  if (method_.transfer != Transfer::apic) return scheduleComputePressure<AffineFlip>(tasks);
+  scheduleComputePressure<Apic>(tasks);
+  tasks.perMaterial("mpm::measureSignals", conserving::measureSignals<D>, materials_, requiresNew(p::velocity<D>),
+                    requiresNew(p::internalEnergy), requiresNew(c::mass), requiresNew(c::internalEnergy),
+                    requiresNew(c::velocityGradient<D>), computes(signalPastGrid), computes(signalPastGas));
 }
 
 template <int D>

@@ -45,28 +45,24 @@ class GridSums<1, N, More> {
   void add(const Footprint<1>& footprint, int count, const Brought& brought) {
     const auto& span = footprint.along[0];
     const LaneIntegers cell = span.first + (span.below - before_);
-    const bool alone = standAlone(cell, count);
-    const int end = span.cells + More;
-    for (std::size_t n = 0; n < N; ++n)
-      for (int slot = 0; slot < slots; ++slot) {
-        const int k = slot - overhang + span.below;
-        const Lanes share = k >= 0 && k < end ? brought[n][static_cast<std::size_t>(k)] : Lanes(0);
-        const std::size_t row = (n * slots + static_cast<std::size_t>(slot)) * stride_;
-        if (alone)
-          share.copyTo(brought_.get() + row + cell[0]);
-        else
-          addOneByOne(row, cell, count, share);
-      }
-    for (int lane = 0; lane < count; ++lane) ++particles_[static_cast<std::size_t>(cell[lane])];
+    if (standAlone(cell, count)) return store(span, cell, count, brought);
+    for (int lane = 0; lane < count; ++lane) {
+      int& particles = particles_[static_cast<std::size_t>(cell[lane])];
+      if (particles == 0)
+        storeOne(span, lane, cell[lane], brought);
+      else
+        addOne(span, lane, cell[lane], brought, particles == 1);
+      ++particles;
+    }
   }
 
   void finish() {
     for (std::size_t cell = 0; cell < stride_; ++cell)
       if (particles_[cell] != 1) settle(cell);
-    sums_.resize(N * stride_);
+    sums_ = std::make_unique_for_overwrite<double[]>(N * stride_);
     for (std::size_t n = 0; n < N; ++n) {
       const double* const rows = brought_.get() + n * slots * stride_;
-      double* const sums = sums_.data() + n * stride_;
+      double* const sums = sums_.get() + n * stride_;
       for (std::size_t place = slots; place < stride_ - slots; ++place) sums[place] = sumAt(rows, place);
     }
   }
@@ -76,7 +72,7 @@ class GridSums<1, N, More> {
 
  private:
   const double* find(std::size_t field, const Index<1>& index) const {
-    return sums_.data() + field * stride_ + (index[0] - before_);
+    return sums_.get() + field * stride_ + (index[0] - before_);
   }
   /// Whether these are the first particles of cells side by side.
   bool standAlone(const LaneIntegers& cell, int count) const {
@@ -84,20 +80,33 @@ class GridSums<1, N, More> {
     for (int lane = 1; lane < count; ++lane) alone = alone && cell[lane] == cell[0] + lane;
     return alone;
   }
-  void addOneByOne(std::size_t row, const LaneIntegers& cell, int count, const Lanes& share) {
-    for (int lane = 0; lane < count; ++lane) {
-      const auto c = static_cast<std::size_t>(cell[lane]);
-      double& sum = brought_[row + c];
-      if (particles_[c] == 0 && (lane == 0 || cell[lane - 1] != cell[lane])) {
-        sum = share[lane];
-        continue;
+  std::size_t row(std::size_t n, int slot) const { return (n * slots + static_cast<std::size_t>(slot)) * stride_; }
+  /// What particles bring to a slot.
+  static Lanes share(const Span<overhang>& span, const std::array<Lanes, Footprint<1>::places>& brought, int slot) {
+    const int k = slot - overhang + span.below;
+    return k >= 0 && k < span.cells + More ? brought[static_cast<std::size_t>(k)] : Lanes(0);
+  }
+  void store(const Span<overhang>& span, const LaneIntegers& cell, int count, const Brought& brought) {
+    for (std::size_t n = 0; n < N; ++n)
+      for (int slot = 0; slot < slots; ++slot) share(span, brought[n], slot).copyTo(brought_.get() + row(n, slot) + cell[0]);
+    std::fill_n(particles_.begin() + cell[0], count, 1);
+  }
+  void storeOne(const Span<overhang>& span, int lane, int cell, const Brought& brought) {
+    for (std::size_t n = 0; n < N; ++n)
+      for (int slot = 0; slot < slots; ++slot)
+        brought_[row(n, slot) + static_cast<std::size_t>(cell)] = share(span, brought[n], slot)[lane];
+  }
+  /// Adds a particle to those of its cell; `isSecond` to one alone.
+  void addOne(const Span<overhang>& span, int lane, int cell, const Brought& brought, bool isSecond) {
+    if (!lost_) lost_ = std::make_unique_for_overwrite<double[]>(N * slots * stride_);
+    for (std::size_t n = 0; n < N; ++n)
+      for (int slot = 0; slot < slots; ++slot) {
+        const std::size_t at = row(n, slot) + static_cast<std::size_t>(cell);
+        const double more = share(span, brought[n], slot)[lane], before = brought_[at];
+        const double sum = before + more, added = sum - before;
+        brought_[at] = sum;
+        lost_[at] = (isSecond ? 0.0 : lost_[at]) + ((before - (sum - added)) + (more - added));
       }
-      if (lost_.empty()) lost_.resize(N * slots * stride_, 0.0);
-      const double before = sum;
-      sum += share[lane];
-      const double added = sum - before;
-      lost_[row + c] += (before - (sum - added)) + (share[lane] - added);
-    }
   }
   /// What a cell brings if it has no particle, or several.
   void settle(std::size_t cell) {
@@ -119,8 +128,8 @@ class GridSums<1, N, More> {
   std::size_t stride_;
   std::vector<int> particles_;  ///< by cell
   std::unique_ptr<double[]> brought_;  ///< by field, slot, and cell that it comes from
-  std::vector<double> lost_;           ///< to rounding
-  std::vector<double> sums_;
+  std::unique_ptr<double[]> lost_;     ///< to rounding, in cells of several particles
+  std::unique_ptr<double[]> sums_;
 };
 
 }  // namespace tushar::mpm

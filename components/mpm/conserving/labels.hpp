@@ -43,6 +43,10 @@ inline constexpr CellLabel<double> movedMass{"c.movedMass", "kg", "mass in the c
 inline constexpr CellLabel<double> movedEnergy{"c.movedEnergy", "J", "internal energy in the cell before the remap"};
 }  // namespace c
 
+/// What limits the time step.
+inline constexpr ReductionLabel<Maximum> signalPastGrid{"SignalPastGrid", "m/s", "signals relative to the grid, fastest"};
+inline constexpr ReductionLabel<Maximum> signalPastGas{"SignalPastGas", "m/s", "signals relative to the gas, fastest"};
+
 /// When to remap.
 inline constexpr ReductionLabel<Maximum> cellFill{"CellFill", "1", "volume of particles in a cell over its own, greatest"};
 inline constexpr ReductionLabel<Maximum> remapCount{"RemapCount", "1", "steps since the last remap; 0: remap in this step"};

@@ -19,7 +19,7 @@ struct Remap {
 /// The `conserving_gas_dynamics` section.
 struct ConservingGasDynamics {
   Transfer transfer = Transfer::apic;
-  double cfl = 0.5;               ///< apic: dt max(|v| + c) / h; affineFlip: dt max(c) / h
+  double cfl = 0.5;               ///< apic: dt times the speed of signals over h; affineFlip: dt max(c) / h
   double advectiveCfl = 0.8;      ///< affineFlip: dt max |v_d| / h
   double longestParticle = 2.36;  ///< cells; longer ones are halved
   Viscosity viscosity{1.0, 0.5};

@@ -45,10 +45,9 @@ void shareCellVolume(const Patch& patch, const Gas&, ParticleView<const double> 
   });
 }
 
-/// dt = cfl h / max_p(|v_p| + c_p), c = sqrt(gamma (gamma - 1) eps); h is the least cell width.
+/// max_p(|v_p| + c_p), c = sqrt(gamma (gamma - 1) eps) [m/s].
 template <int D>
-void computeStableTimeStep(const Patch& patch, const Gas& gas, double cfl, ParticleView<const Vec<D>> velocity,
-                           ParticleView<const double> internalEnergy, Minimum& dt) {
+double fastestSignal(const Gas& gas, ParticleView<const Vec<D>> velocity, ParticleView<const double> internalEnergy) {
   constexpr int chunk = 256;
   std::array<double, chunk> speed;
   double greatest = 0;
@@ -59,6 +58,14 @@ void computeStableTimeStep(const Patch& patch, const Gas& gas, double cfl, Parti
           length(velocity[first + k]) + std::sqrt(gas.soundSpeedSquared(internalEnergy[first + k]));
     greatest = std::max(greatest, Eigen::Map<const Eigen::ArrayXd>(speed.data(), count).maxCoeff());
   }
+  return greatest;
+}
+
+/// dt = cfl h / fastestSignal; h is the least cell width.
+template <int D>
+void computeStableTimeStep(const Patch& patch, const Gas& gas, double cfl, ParticleView<const Vec<D>> velocity,
+                           ParticleView<const double> internalEnergy, Minimum& dt) {
+  const double greatest = fastestSignal<D>(gas, velocity, internalEnergy);
   if (greatest > 0) dt.add(cfl * patch.level().minSpacing() / greatest, "CFL");
 }
 

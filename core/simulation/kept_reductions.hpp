@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/data/warehouse.hpp"
+
+namespace tushar::simulation {
+
+/// Reductions as they were before a step that may fail: of each there is one value, which a step overwrites as it goes.
+class KeptReductions {
+ public:
+  KeptReductions(data::Warehouse& warehouse, const std::vector<int>& numbers) : warehouse_(&warehouse) {
+    for (const int number : numbers) {
+      const std::span<const std::byte> bytes = warehouse.reductionBytes(number);
+      kept_.emplace_back(number, std::vector<std::byte>(bytes.begin(), bytes.end()));
+    }
+  }
+  /// Gives them these values back; those that had none start anew.
+  void restore() const {
+    for (const auto& [number, bytes] : kept_)
+      bytes.empty() ? warehouse_->resetReduction(number) : warehouse_->restoreReduction(number, bytes);
+  }
+
+ private:
+  data::Warehouse* warehouse_;
+  std::vector<std::pair<int, std::vector<std::byte>>> kept_;  ///< number and bytes
+};
+
+}  // namespace tushar::simulation
