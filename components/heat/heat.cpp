@@ -56,12 +56,8 @@ namespace {
 
 /// k in the middle of a cell of the grid or of its periodic images [W/(m K)].
 template <int D>
-double conductivityIn(const Level& level, const Settings& settings, Index<D> cell) {
-  for (int d = 0; d < D; ++d) {
-    const int cells = level.cells().upper[d];
-    if (level.isPeriodic(d)) cell[d] = (cell[d] % cells + cells) % cells;
-  }
-  return settings.conductivity(level.expandPoint<D>(level.cellCentre<D>(cell)));
+double conductivityIn(const Level& level, const Settings& settings, const Index<D>& cell) {
+  return settings.conductivity(level.expandPoint<D>(level.cellCentre<D>(level.wrapped(cell))));
 }
 
 /// k at a face of a cell [W/(m K)]; at the rim of the grid that of the cell.

@@ -36,12 +36,8 @@ struct Balance {
 
 /// k in the middle of a cell of the grid or of its periodic images.
 template <int D>
-double coefficientIn(const Level& level, const input::Expression& k, Index<D> cell) {
-  for (int d = 0; d < D; ++d) {
-    const int cells = level.cells().upper[d];
-    if (level.isPeriodic(d)) cell[d] = (cell[d] % cells + cells) % cells;
-  }
-  return k(level.expandPoint<D>(level.cellCentre<D>(cell)));
+double coefficientIn(const Level& level, const input::Expression& k, const Index<D>& cell) {
+  return k(level.expandPoint<D>(level.cellCentre<D>(level.wrapped(cell))));
 }
 
 /// What a face of the grid adds to the balance of its cell: k A (value - phi) / (h/2) where the scene keeps the value,

@@ -15,14 +15,23 @@ int numberFrom(std::initializer_list<const char*> names, int otherwise) {
   return otherwise;
 }
 
+/// What srun says to processes that find one another by PMIx. Its other variables do not mean that there are several
+/// ranks: a program in an allocation of many that was started without srun has them, too.
+int fromSlurm(const char* name, int otherwise) { return std::getenv("PMIX_RANK") ? numberFrom({name}, otherwise) : otherwise; }
+
 }  // namespace
 
-int launchedRanks() { return numberFrom({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "MV2_COMM_WORLD_SIZE"}, 1); }
+int launchedRanks() {
+  return numberFrom({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "MV2_COMM_WORLD_SIZE"}, fromSlurm("SLURM_STEP_NUM_TASKS", 1));
+}
 
-int launchedRank() { return numberFrom({"OMPI_COMM_WORLD_RANK", "PMI_RANK", "MV2_COMM_WORLD_RANK"}, 0); }
+int launchedRank() {
+  return numberFrom({"OMPI_COMM_WORLD_RANK", "PMI_RANK", "MV2_COMM_WORLD_RANK"}, fromSlurm("SLURM_PROCID", 0));
+}
 
 int ranksOnThisMachine() {
-  return std::max(1, numberFrom({"OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS", "MV2_COMM_WORLD_LOCAL_SIZE"}, 1));
+  return std::max(1, numberFrom({"OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS", "MV2_COMM_WORLD_LOCAL_SIZE"},
+                                fromSlurm("SLURM_STEP_TASKS_PER_NODE", 1)));
 }
 
 int launchedCoresPerRank() {

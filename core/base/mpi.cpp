@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
-#include <numeric>
 #include <thread>
 
 #include "core/base/launcher.hpp"
@@ -137,10 +136,10 @@ void Communicator::onFirst(const std::function<void()>& action) const {
   if (failed) throw FailedElsewhere();
 }
 
-Bytes Communicator::receive(int from, int tag) const {
+Bytes Communicator::receive(int from, Tag tag) const {
   MPI_Message message = MPI_MESSAGE_NULL;
   MPI_Status status;
-  MPI_Mprobe(from, tag, native_->ranks, &message, &status);
+  MPI_Mprobe(from, static_cast<int>(tag), native_->ranks, &message, &status);
   int words = 0;
   MPI_Get_count(&status, MPI_UINT64_T, &words);
   Bytes bytes(static_cast<std::size_t>(words) * wordBytes);
@@ -162,11 +161,11 @@ struct Outbox::Sent {
 
 Outbox::Outbox(const Communicator& ranks) : ranks_(&ranks) {}
 
-void Outbox::send(int to, int tag, Bytes bytes) {
+void Outbox::send(int to, Tag tag, Bytes bytes) {
   Sent& sent = sent_.emplace_back();
   sent.bytes = sealed(std::move(bytes));
-  MPI_Isend(sent.bytes.data(), wordsOf(sent.bytes), MPI_UINT64_T, to, tag, ranks_->native()->ranks, &sent.request);
-  ++messages_;
+  MPI_Isend(sent.bytes.data(), wordsOf(sent.bytes), MPI_UINT64_T, to, static_cast<int>(tag), ranks_->native()->ranks,
+            &sent.request);
 }
 
 void Outbox::wait() {
@@ -185,17 +184,33 @@ Bytes Outbox::buffer() {
   return bytes;
 }
 
+std::list<Outbox::Sent>& Outbox::abandoned() {
+  static std::list<Sent> sent;
+  return sent;
+}
+
 Outbox::~Outbox() {
-  int finalized = 0;
-  if (!sent_.empty()) MPI_Finalized(&finalized);
-  for (Sent& sent : sent_)
-    if (!finalized && sent.request != MPI_REQUEST_NULL) MPI_Request_free(&sent.request);
+  if (sent_.empty()) return;
+  abandoned().splice(abandoned().end(), sent_);
+  int isFinalized = 0;
+  MPI_Finalized(&isFinalized);
+  if (isFinalized) return;
+  abandoned().remove_if([](Sent& sent) {
+    int isGone = 0;
+    MPI_Test(&sent.request, &isGone, MPI_STATUS_IGNORE);
+    return isGone != 0;
+  });
 }
 
 Session::Session() {
   if (launchedRanks() <= 1) return;
   int provided = 0;
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
+  if (provided < MPI_THREAD_FUNNELED) {
+    MPI_Finalize();
+    if (launchedRank() > 0) throw FailedElsewhere();
+    throw std::runtime_error("this MPI allows a process no threads of its own, which sus needs");
+  }
   is_open_ = true;
   ranks_ = copyOf(MPI_COMM_WORLD);
   meeting_ = copyOf(MPI_COMM_WORLD);
@@ -209,9 +224,10 @@ Session::~Session() {
 
 bool Session::speaks(bool isKnown, int& exitCode) {
   if (ranks_.isAlone()) return true;
-  constexpr std::chrono::milliseconds patience(2000), pause(1);
+  constexpr std::chrono::milliseconds patience(2000), pause(1), turn(200);
   constexpr long codes = 256;
-  const long mine = (isKnown ? meeting_.rank() : meeting_.size()) * codes + exitCode;
+  const int place = isKnown ? meeting_.rank() : meeting_.size();
+  const long mine = place * codes + exitCode;
   long first = mine;
   int done = 0;
   MPI_Request request = MPI_REQUEST_NULL;
@@ -222,7 +238,11 @@ bool Session::speaks(bool isKnown, int& exitCode) {
     std::this_thread::sleep_for(pause);
   }
   is_agreed_ = done != 0;
-  if (!is_agreed_) return isKnown;
+  if (!is_agreed_) {
+    // One after the other, so that the first ends the next before it speaks; no longer than patience in all.
+    std::this_thread::sleep_for(std::min(turn, patience / meeting_.size()) * place);
+    return isKnown;
+  }
   exitCode = static_cast<int>(first % codes);
   return first / codes == meeting_.rank();
 }

@@ -8,11 +8,17 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <vector>
+
+#include "core/base/merge.hpp"
 
 namespace tushar::mpi {
 
 using Bytes = std::vector<std::byte>;
+
+/// What a message is about: a rank that waits for one takes no other.
+enum class Tag : int { ghosts, emigrants, patches, output };
 
 /// Adds `length` bytes to the end.
 inline void append(Bytes& bytes, const void* from, std::size_t length) {
@@ -53,11 +59,17 @@ class Communicator {
   /// Every rank gets `merge(from, into)` over the values of all, in a tree that depends on their number alone, so that
   /// all get the same bits.
   void merge(std::span<std::byte> value, const std::function<void(const std::byte* from, std::byte* into)>& merge) const;
+  /// The same for a value that has a function `merge`.
+  template <class T>
+  void merge(T& value) const {
+    merge(std::as_writable_bytes(std::span(&value, 1)), mergeInMemory<T>);
+  }
   /// What rank `from` has, on every rank.
   Bytes broadcast(Bytes bytes, int from = 0) const;
   /// The same for a value without pointers.
   template <class T>
   T broadcast(T value, int from = 0) const {
+    static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>, "another rank has no use for addresses");
     Bytes bytes(sizeof(T));
     std::memcpy(bytes.data(), &value, sizeof(T));
     bytes = broadcast(std::move(bytes), from);
@@ -72,7 +84,7 @@ class Communicator {
   void onFirst(const std::function<void()>& action) const;
 
   /// Waits for the next message of rank `from` with this tag.
-  Bytes receive(int from, int tag) const;
+  Bytes receive(int from, Tag tag) const;
 
   /// The ranks with the same colour among themselves.
   Communicator split(int colour) const;
@@ -90,28 +102,30 @@ class Outbox {
   explicit Outbox(const Communicator& ranks);
   Outbox(const Outbox&) = delete;
   Outbox& operator=(const Outbox&) = delete;
-  /// Forgets what nobody has received.
+  /// What nobody has received yet stays in memory, where MPI reads it.
   ~Outbox();
 
   /// Returns at once.
-  void send(int to, int tag, Bytes bytes);
+  void send(int to, Tag tag, Bytes bytes);
   /// Waits until all have gone; their memory is used for later ones.
   void wait();
   /// An empty buffer, with the memory of an earlier message where there is one.
   Bytes buffer();
-  long messages() const { return messages_; }
 
  private:
   struct Sent;
+  /// Of outboxes that are no more.
+  static std::list<Sent>& abandoned();
+
   const Communicator* ranks_;
   std::list<Sent> sent_;
   std::vector<Bytes> spare_;
-  long messages_ = 0;
 };
 
 /// MPI for the life of a program: initialised only if a launcher (mpirun, srun) started several processes.
 class Session {
  public:
+  /// Throws std::runtime_error for an MPI that allows no threads, and FailedElsewhere on all ranks but the first.
   Session();
   ~Session();
   Session(const Session&) = delete;
@@ -122,7 +136,7 @@ class Session {
   /// Called by a rank that cannot go on, for whatever reason; `isKnown` where it has a sentence of its own. Where the
   /// others come here too, within some seconds, all may end in order, and the first that has a sentence is to say it:
   /// true for that one, whose exit code all get. Where they do not, this rank is to say what it knows and to end them by
-  /// `abort`.
+  /// `abort`: each in its turn, in the order of the ranks, so that of several that fail at the same time one speaks.
   bool speaks(bool isKnown, int& exitCode);
   /// Whether all ranks have come to `speaks`.
   bool isAgreed() const { return is_agreed_; }

@@ -113,9 +113,16 @@ class Threads::Pool {
   std::atomic<long> finished_ = 0;
 };
 
-Threads::Threads(int count) : count_(count), pool_(count > 1 ? std::make_unique<Pool>(count) : nullptr) {}
+Threads::Threads(int count) { resize(count); }
 
 Threads::~Threads() = default;
+
+void Threads::resize(int count) {
+  if (count == count_) return;
+  count_ = count;
+  pool_.reset();
+  if (count > 1) pool_ = std::make_unique<Pool>(count);
+}
 
 void Threads::run(int times, const Loop& loop, trace::Kind kind) {
   FirstFailure failure;

@@ -20,6 +20,8 @@ class Threads {
   Threads& operator=(const Threads&) = delete;
 
   int count() const { return count_; }
+  /// So many from the next loop on.
+  void resize(int count);
 
   /// Calls `work(0)` to `work(times - 1)`, in any order and several at once, and returns when all are done. Of what they
   /// throw, that of the least number comes out; the others are called nevertheless.
@@ -53,7 +55,7 @@ class Threads {
   class Pool;
   void run(int times, const Loop& loop, trace::Kind kind);
 
-  int count_;
+  int count_ = 1;
   Use use_;
   std::unique_ptr<Pool> pool_;  ///< none for one thread
 };

@@ -17,9 +17,7 @@ void ParticleSet::reset(const grid::Patch& patch, int reach) {
 
 void ParticleSet::setOwned(int count) {
   owned_ = total_ = count;
-  grid::Box rows = owned_cells_;
-  rows.upper[0] = std::min(rows.upper[0], rows.lower[0] + 1);
-  grid::forEach<3>(rows, [&](const Index3& cell) {
+  grid::forEach<3>(owned_cells_.rowStarts(), [&](const Index3& cell) {
     const ParticleRange* range = row(cell);
     int first = 0, last = owned_cells_.extent(0);
     while (first < last && range[first].empty()) ++first;

@@ -38,9 +38,10 @@ struct GhostRun {
 
 /// Which particles a patch has of one material, cell by cell.
 ///
-/// Owned particles come first in memory, sorted by (cell, id); ghost particles, those of cells within `reach()` of
-/// the patch that belong to other patches, follow in the same order. Sums run cell by cell in lexicographic order
-/// and by id within a cell, so they do not depend on who owns what.
+/// Owned particles come first in memory, sorted by (cell, id); ghost particles, those of the cells around the patch that
+/// belong to other patches, follow, sorted within each cell, the cells as they came from one patch after another. The index
+/// of cells brings all into one order: sums run cell by cell in lexicographic order and by id within a cell, so they do
+/// not depend on who owns what.
 class ParticleSet {
  public:
   /// An empty set over a patch and the cells of the grid within `reach` of it.
@@ -64,9 +65,7 @@ class ParticleSet {
   /// Calls `visit(cell, particles)` for the cells of a box that hold particles, in lexicographic order.
   template <int D, class Visit>
   void forEachOccupied(const grid::Box& box, Visit&& visit) const {
-    grid::Box rows = box;
-    rows.upper[0] = std::min(rows.upper[0], rows.lower[0] + 1);
-    grid::forEach<D>(rows, [&](Index<D> cell) {
+    grid::forEach<D>(box.rowStarts(), [&](Index<D> cell) {
       const Span span = occupied(cell, box.upper[0]);
       cell[0] = span.first;
       const ParticleRange* range = &ranges_[offset(cell)];

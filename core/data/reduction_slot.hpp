@@ -1,11 +1,12 @@
 #pragma once
 
 #include <cstddef>
-#include <cstring>
 #include <memory>
 #include <span>
 #include <type_traits>
 #include <vector>
+
+#include "core/base/merge.hpp"
 
 namespace tushar::data {
 
@@ -37,11 +38,7 @@ class TypedReduction : public ReductionSlot {
   std::vector<double> values() const override { return reducer.values(); }
   std::span<std::byte> bytes() override { return std::as_writable_bytes(std::span(&reducer, 1)); }
   void merge(const std::byte* from, std::byte* into) const override {
-    R one, other;
-    std::memcpy(&one, into, sizeof(R));
-    std::memcpy(&other, from, sizeof(R));
-    one.merge(other);
-    std::memcpy(into, &one, sizeof(R));
+    mergeInMemory<R>(from, into);
   }
   void divide(std::size_t parts) override { parts_.assign(parts, {}); }
   void gather() override {

@@ -111,11 +111,13 @@ void fillWithNaN(Buffer& buffer, const Label& label, std::size_t fromByte, std::
 }
 }  // namespace
 
-void Warehouse::allocateGrid(Variable& variable, const Label& label, const grid::Box& stored) {
-  const std::size_t bytes = stored.size() * label.bytes;
+void Warehouse::allocateGrid(Variable& variable, int number, const grid::Patch& patch) {
+  const Label& label = *(*table_)[number].label;
+  const int ghost = table_->ghost(number);
+  variable.stored = label.centring == Centring::node ? patch.nodesWithin(ghost) : patch.cellsWithin(ghost);
+  const std::size_t bytes = variable.stored.size() * label.bytes;
   variable.held = true;
   pools_[static_cast<std::size_t>(variable.pool)].reserve(variable.values, bytes);
-  variable.stored = stored;
   fillWithNaN(variable.values, label, 0, bytes);
 }
 
@@ -151,6 +153,11 @@ void Warehouse::swap(int number) {
 void Warehouse::swapSets(int material) {
   for (const grid::Patch& patch : level_->patches())
     std::swap(old_sets_[place(material, patch.id())], fresh_sets_[place(material, patch.id())]);
+}
+
+void Warehouse::forgetGhosts() {
+  for (std::deque<ParticleSet>* sets : {&old_sets_, &fresh_sets_})
+    for (ParticleSet& set : *sets) set.forgetGhosts();
 }
 
 }  // namespace tushar::data

@@ -58,6 +58,11 @@ struct Variable {
   int pool = 0;       ///< where its memory comes from: there is one for each patch
 };
 
+/// The cells or nodes that a patch has for itself.
+inline grid::Box ownBox(const grid::Patch& patch, const Label& label) {
+  return label.centring == Centring::node ? patch.nodes() : patch.cells();
+}
+
 /// What tasks read as `requiresOld`: the state at the start of the step. The rest is new.
 enum class Generation { old, fresh };
 
@@ -110,8 +115,9 @@ class Warehouse {
   void grow(int materials);
   /// Forgets what stands on patches, for those that the level gives this rank now; reductions stay.
   void startAnew(int materials);
-  /// Room for a node or cell variable over `stored`; NaN-filled in the dev preset.
-  void allocateGrid(Variable& variable, const Label& label, const grid::Box& stored);
+  /// Room for a node or cell variable of this number on a patch, with all ghosts that tasks read; NaN-filled in the dev
+  /// preset.
+  void allocateGrid(Variable& variable, int number, const grid::Patch& patch);
   /// Room for `count` particles; the first `keep` stay, the rest is NaN-filled in the dev preset.
   void allocateParticles(Variable& variable, const Label& label, int count, int keep = 0);
   /// Gives the memory of a variable back, for the next one that is allocated.
@@ -123,6 +129,8 @@ class Warehouse {
   /// What was computed becomes old: exchanges the two generations of a variable on every patch.
   void swap(int number);
   void swapSets(int material);
+  /// No particle set has ghosts any more: the next exchange settles them anew.
+  void forgetGhosts();
 
   /// Allocations made so far; a test shows that variables nobody reads add none.
   std::size_t allocations() const;

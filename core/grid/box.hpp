@@ -38,7 +38,12 @@ struct Box {
     return x + static_cast<std::size_t>(extent(0)) * (y + static_cast<std::size_t>(extent(1)) * z);
   }
 
-  /// Rows along the first axis: how many, and the place of that of an index among them.
+  /// Rows along the first axis: the first index of each, how many, and the place of that of an index among them.
+  constexpr Box rowStarts() const {
+    Box starts = *this;
+    starts.upper[0] = std::min(upper[0], lower[0] + 1);
+    return starts;
+  }
   constexpr std::size_t rows() const { return static_cast<std::size_t>(extent(1)) * static_cast<std::size_t>(extent(2)); }
   constexpr std::size_t rowOf(const Index3& at) const {
     return static_cast<std::size_t>(at[1] - lower[1]) +

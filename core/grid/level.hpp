@@ -21,7 +21,7 @@ struct Domain {
   Index3 resolution{{1, 1, 1}};  ///< cells along x, y, z
   Index3 patches{{1, 1, 1}};     ///< along x, y, z
   Index3 periodic{};             ///< 1 along axes where the grid repeats without end
-  int nodesBeyond = 0;           ///< layers of nodes outside every side that is not periodic: wide shape functions reach there
+  int nodesBeyond = 0;           ///< layers of nodes outside every side that is not periodic, for wide shape functions
   BoundaryConditions boundaries;
 };
 
@@ -119,6 +119,15 @@ class Level {
   /// The periodic images of the grid that hold cells of a box, as shifts in cells: cell c + shift is an image of c.
   /// Zero among them where the box holds cells of the grid.
   std::vector<Index3> imagesOverlapping(const Box& cells) const;
+  /// The cell of the grid that a cell is an image of along periodic axes.
+  template <int D>
+  Index<D> wrapped(Index<D> cell) const {
+    for (int d = 0; d < std::min(D, dimension()); ++d) {
+      const int count = cells_.extent(d);
+      if (isPeriodic(d)) cell[d] = (cell[d] % count + count) % count;
+    }
+    return cell;
+  }
   /// Number of a cell in lexicographic order, x fastest, 0 for the first; independent of the patches.
   template <int D>
   std::uint64_t cellNumber(const Index<D>& cell) const {
@@ -155,7 +164,9 @@ class Level {
   bool isPeriodic(int kernelAxis) const { return domain_.periodic[axis(kernelAxis)] != 0; }
   bool isPeriodic() const { return is_periodic_; }
   /// How far apart the images of a point are along a kernel axis, m.
-  double period(int kernelAxis) const { return nodePosition(kernelAxis, cells_.upper[kernelAxis]) - nodePosition(kernelAxis, 0); }
+  double period(int kernelAxis) const {
+    return nodePosition(kernelAxis, cells_.upper[kernelAxis]) - nodePosition(kernelAxis, 0);
+  }
   bool isSymmetry(int kernelAxis, int side, int material = 0) const {
     return boundary(kernelAxis, side, "Symmetric", material) != nullptr;
   }

@@ -4,7 +4,8 @@
 
 namespace tushar::grid {
 
-// Where nothing else is given, a patch belongs to rank floor(before · ranks / cells), where `before` counts the cells of the patches before it.
+// Where nothing else is given, a patch belongs to rank floor(before · ranks / cells), where `before` counts the cells of
+// the patches before it.
 
 int Partition::firstOf(int rank) const {
   if (!firsts_.empty()) return firsts_[static_cast<std::size_t>(rank)];
@@ -13,7 +14,8 @@ int Partition::firstOf(int rank) const {
 }
 
 int Partition::ownerOf(int place) const {
-  if (!firsts_.empty()) return static_cast<int>(std::upper_bound(firsts_.begin(), firsts_.end(), place) - firsts_.begin()) - 1;
+  if (!firsts_.empty())
+    return static_cast<int>(std::upper_bound(firsts_.begin(), firsts_.end(), place) - firsts_.begin()) - 1;
   return static_cast<int>(curve_->cellsBefore(place) * static_cast<std::uint64_t>(ranks_) / curve_->cells());
 }
 

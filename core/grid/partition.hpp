@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "core/grid/balance.hpp"
+#include "core/grid/shares.hpp"
 #include "core/grid/morton_curve.hpp"
 
 namespace tushar::grid {

@@ -111,6 +111,18 @@ bool TreeBuilder::isCycle(const std::string& path, const Location& where) {
   return true;
 }
 
+/// A file that is named relative to the folder of the one that includes it or, as Uintah's scenes have it, to one above.
+std::string findIncluded(const std::filesystem::path& beside, const std::string& href) {
+  std::error_code ignored;
+  const std::filesystem::path here = std::filesystem::absolute(beside, ignored);
+  if (!std::filesystem::exists(here / href, ignored))
+    for (std::filesystem::path above = here; above.has_relative_path();) {
+      above = above.parent_path();
+      if (std::filesystem::exists(above / href, ignored)) return (above / href).string();
+    }
+  return (beside / href).string();
+}
+
 void TreeBuilder::addInclude(const XmlFile& file, const pugi::xml_node& xml, Node& parent) {
   const Location where = file.locate(xml);
   checkAttributesOfInclude(xml, where);
@@ -119,7 +131,7 @@ void TreeBuilder::addInclude(const XmlFile& file, const pugi::xml_node& xml, Nod
     diagnostics_.error(where, {}, "<include> needs the attribute 'href', the file to include");
     return;
   }
-  const std::string path = (std::filesystem::path(file.name()).parent_path() / href).string();
+  const std::string path = findIncluded(std::filesystem::path(file.name()).parent_path(), href);
   if (isCycle(path, where)) return;
   const auto text = XmlFile::slurp(path, where, diagnostics_);
   if (!text) return;

@@ -25,10 +25,17 @@ std::string_view withoutPlus(std::string_view text) {
   return plus ? text.substr(1) : text;
 }
 
+/// Without a point that nothing but zeros follow: `2.0` is a whole number, too.
+std::string_view withoutPoint(std::string_view text) {
+  const auto point = text.find('.');
+  const bool isWhole = point != std::string_view::npos && point > 0 && text.find_first_not_of('0', point + 1) == text.npos;
+  return isWhole ? text.substr(0, point) : text;
+}
+
 template <class T>
 Parsed<T> parseInteger(std::string_view given) {
   const std::string text = trimmed(given);
-  const std::string_view digits = withoutPlus(text);
+  const std::string_view digits = withoutPoint(withoutPlus(text));
   T value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   const bool whole = end == digits.data() + digits.size();

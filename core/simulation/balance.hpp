@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/grid/balance.hpp"
+#include "core/grid/shares.hpp"
 
 namespace tushar::simulation {
 

@@ -11,17 +11,13 @@ using data::Variable;
 using grid::Box;
 using grid::Patch;
 
-namespace {
-constexpr int tag = 3;
-}
-
 void sendPatches(const mpi::Communicator& ranks, mpi::Bytes bytes) {
   mpi::Outbox outbox(ranks);
-  outbox.send(0, tag, std::move(bytes));
+  outbox.send(0, mpi::Tag::output, std::move(bytes));
   outbox.wait();
 }
 
-mpi::Bytes receivePatches(const mpi::Communicator& ranks, int from) { return ranks.receive(from, tag); }
+mpi::Bytes receivePatches(const mpi::Communicator& ranks, int from) { return ranks.receive(from, mpi::Tag::output); }
 
 Parts collectParticles(data::Warehouse& warehouse, Generation generation, int variable) {
   const auto [label, material] = warehouse.table()[variable];
@@ -51,7 +47,7 @@ Parts collectParticles(data::Warehouse& warehouse, Generation generation, int va
 Parts collectGrid(data::Warehouse& warehouse, Generation generation, int variable, const Box& all) {
   const data::Label& label = *warehouse.table()[variable].label;
   const std::size_t bytes = label.bytes;
-  const auto sentOf = [&](const Patch& patch) { return ownOf(patch, label).intersect(all); };
+  const auto sentOf = [&](const Patch& patch) { return ownBox(patch, label).intersect(all); };
   Parts parts;
   parts.messages = collect(
       warehouse,
@@ -72,10 +68,6 @@ Parts collectGrid(data::Warehouse& warehouse, Generation generation, int variabl
         return sentOf(patch).size() * bytes;
       });
   return parts;
-}
-
-Box ownOf(const Patch& patch, const data::Label& label) {
-  return label.centring == data::Centring::node ? patch.nodes() : patch.cells();
 }
 
 }  // namespace tushar::simulation

@@ -58,7 +58,4 @@ Parts collectParticles(data::Warehouse& warehouse, data::Generation generation, 
 /// The cells or nodes of a variable within a box. All ranks call it.
 Parts collectGrid(data::Warehouse& warehouse, data::Generation generation, int variable, const grid::Box& all);
 
-/// The cells or nodes of a patch, as the label says.
-grid::Box ownOf(const grid::Patch& patch, const data::Label& label);
-
 }  // namespace tushar::simulation

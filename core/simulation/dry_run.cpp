@@ -5,7 +5,6 @@
 
 #include <ctime>
 #include <fstream>
-#include <map>
 #include <set>
 
 #include "core/simulation/scene.hpp"
@@ -36,18 +35,20 @@ class Messages {
   Messages(const grid::Level& level, const data::VariableTable& table) : level_(level), table_(table) {}
 
   void add(const tasks::TaskGraph& graph, DryRun& result) {
+    if (graph.tasks().empty()) return;
     for (const tasks::CompiledTask& task : graph.tasks()) {
       std::set<int> receivers;
       for (const tasks::NumberedFill& fill : task.fills)
-        for (const auto& [rank, copies] : planOf(tasks::reachOf(table_, fill)).outgoing) {
+        for (const auto& [rank, copies] : plans_.of(level_, tasks::reachOf(table_, fill)).outgoing) {
           receivers.insert(rank);
           if (!fill.particles) result.bytes += bytesOf(copies, table_[fill.variable].label->bytes);
         }
       result.messages += static_cast<int>(receivers.size());
       neighbours_.insert(receivers.begin(), receivers.end());
       if (task.task.kind == tasks::TaskKind::relocate) addRelocations(static_cast<int>(task.materials.size()), result);
+      if (task.task.perRank) ++result.agreements;  // on whether to begin
     }
-    ++result.agreements;
+    ++result.agreements;  // on how it went
     result.neighbours = static_cast<int>(neighbours_.size());
   }
 
@@ -58,20 +59,15 @@ class Messages {
     return all;
   }
   void addRelocations(int materials, DryRun& result) {
-    const auto& receivers = planOf({false, tasks::Emigration::neighbourhood}).incoming;
+    const auto& receivers = plans_.of(level_, {false, tasks::Emigration::neighbourhood}).incoming;
     neighbours_.insert(receivers.begin(), receivers.end());
     result.messages += materials * static_cast<int>(receivers.size());
     result.agreements += materials;
   }
-  const tasks::GhostPlan& planOf(const tasks::GhostReach& reach) {
-    const auto [plan, isNew] = plans_.try_emplace(reach);
-    if (isNew) plan->second = tasks::planGhosts(level_, reach.nodes, reach.width);
-    return plan->second;
-  }
 
   const grid::Level& level_;
   const data::VariableTable& table_;
-  std::map<tasks::GhostReach, tasks::GhostPlan> plans_;
+  tasks::GhostPlans plans_;
   std::set<int> neighbours_;
 };
 
@@ -89,7 +85,7 @@ DryRun dryRun(const std::string& scene, const std::vector<std::string>& override
   DryRun result;
   result.agreements = 1;  // on whether to stop
   Messages messages(level, table);
-  for (const tasks::TaskGraph* graph : {&phases.stableTimeStep, &phases.timeAdvance}) {
+  for (const tasks::TaskGraph* graph : {&phases.stableTimeStep, &phases.timeAdvance, &phases.everyStep}) {
     result.tasks += static_cast<int>(graph->tasks().size());
     result.placements += static_cast<int>(graph->placements().size());
     messages.add(*graph, result);

@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <ostream>
+#include <sstream>
+
+#include "core/input/values.hpp"
 
 namespace tushar::simulation {
 
@@ -64,10 +67,46 @@ void Phases::noteMaterials() {
     if (task.materials.size() > materials_.size()) materials_ = task.materials;
 }
 
+namespace {
+
+/// The numbers that `0`, `0,2` or `1-3` name; none where the text is something else.
+std::vector<int> numbersIn(const std::string& text) {
+  std::vector<int> numbers;
+  std::istringstream parts(text);
+  for (std::string part; std::getline(parts, part, ',');) {
+    const auto dash = part.find('-');
+    const auto first = input::parse<int>(part.substr(0, dash));
+    const auto last = dash == std::string::npos ? first : input::parse<int>(part.substr(dash + 1));
+    if (!first.value || !last.value || *first.value < 0 || *last.value < *first.value) return {};
+    for (int number = *first.value; number <= *last.value; ++number) numbers.push_back(number);
+  }
+  return numbers;
+}
+
+}  // namespace
+
+std::vector<SaveRequest> Phases::named(const std::vector<SaveRequest>& saves) const {
+  std::vector<SaveRequest> all;
+  for (SaveRequest save : saves) {
+    const bool isName = std::find(materials_.begin(), materials_.end(), save.material) != materials_.end();
+    const std::vector<int> numbers = isName ? std::vector<int>{} : numbersIn(save.material);
+    if (save.material == "all" && !isName) save.material.clear();
+    if (numbers.empty() || numbers.back() >= static_cast<int>(materials_.size())) {
+      all.push_back(save);
+      continue;
+    }
+    for (const int number : numbers) {
+      save.material = materials_[static_cast<std::size_t>(number)];
+      all.push_back(save);
+    }
+  }
+  return all;
+}
+
 std::vector<InputProblem> Phases::problemsOf(const std::vector<SaveRequest>& saves, const std::string& path) const {
   const Names known = saveable();
   std::vector<InputProblem> problems;
-  for (const SaveRequest& save : saves) {
+  for (const SaveRequest& save : named(saves)) {
     if (!known.contains(save.label))
       problems.push_back({save.where, path,
                           fmt::format("no task of this component computes '{}'{}; there are {}", save.label,
@@ -114,7 +153,7 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
                      const grid::Level& level, data::VariableTable& table) {
   if (std::vector<InputProblem> problems = problemsOf(saves); !problems.empty()) throw InputError(std::move(problems));
   const std::vector<SaveRequest> samples = samplesOf(analyses);
-  sortSaves(saves);
+  sortSaves(named(saves));
   const Lists& lists = lists_;
   const Names diagnosed = producedBy(lists.diagnostics.tasks());
   const Names stepped = united(producedBy(lists.initialize.tasks()), producedBy(lists.timeAdvance.tasks()));
@@ -159,13 +198,6 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   everyOutput = tasks::TaskGraph("diagnostics of every output", std::move(output), level, table);
   startTotals = tasks::TaskGraph("totals of the start", std::move(begin), level, table);
   report = tasks::TaskGraph("diagnostics of the report", std::move(end), level, table);
-}
-
-std::string Phases::globalSolve() const {
-  for (const tasks::TaskList* list : {&lists_.initialize, &lists_.stableTimeStep, &lists_.timeAdvance, &lists_.diagnostics})
-    for (const tasks::Task& task : list->tasks())
-      if (task.perRank) return task.name;
-  return "";
 }
 
 void Phases::printSchedule(std::ostream& out) const {

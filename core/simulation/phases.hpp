@@ -44,9 +44,6 @@ class Phases {
   /// Totals whose drift the component can report, as pairs of what they are (mass, momentum, energy) and their label.
   const std::vector<std::pair<std::string, std::string>>& totals() const { return totals_; }
 
-  /// A task that solves a system over the whole grid; empty where there is none.
-  std::string globalSolve() const;
-
   void printSchedule(std::ostream& out) const;
   void printDot(std::ostream& out) const;
 
@@ -59,6 +56,8 @@ class Phases {
   tasks::Names saveable() const;
   /// What analyses want to see of particles. Throws InputError for what nothing computes.
   std::vector<SaveRequest> samplesOf(const std::vector<std::unique_ptr<Analysis>>& analyses) const;
+  /// The same, with materials that are given by their numbers named.
+  std::vector<SaveRequest> named(const std::vector<SaveRequest>& saves) const;
   void sortSaves(const std::vector<SaveRequest>& saves);
 
   Lists lists_;

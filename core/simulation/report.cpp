@@ -87,15 +87,18 @@ std::string useLine(const Report& report) {
   const TimeUse& use = report.use;
   const double all = use.task + use.message + use.output + use.wait;
   if (all <= 0) return "";
-  return fmt::format("  {}{} thread{}: {:.1f} % in tasks, {:.1f} % messages, {:.1f} % output, {:.1f} % waiting; load imbalance {:.3f}\n",
-                     report.ranks > 1 ? fmt::format("{} ranks of ", report.ranks) : "", report.threads, report.threads == 1 ? "" : "s", 100 * use.task / all, 100 * use.message / all,
-                     100 * use.output / all, 100 * use.wait / all, use.imbalance);
+  const std::string ranks = report.ranks > 1 ? fmt::format("{} ranks of ", report.ranks) : "";
+  return fmt::format("  {}{} thread{}: {:.1f} % in tasks, {:.1f} % messages, {:.1f} % output, {:.1f} % waiting; "
+                     "load imbalance {:.3f}\n",
+                     ranks, report.threads, report.threads == 1 ? "" : "s", 100 * use.task / all,
+                     100 * use.message / all, 100 * use.output / all, 100 * use.wait / all, use.imbalance);
 }
 
 std::string rebalancingLine(const Report& report) {
   const Rebalancing& change = report.rebalancing;
   if (change.times == 0) return "";
-  return fmt::format("  patches changed ranks {} time{}, last after step {}: the busiest rank had {:.2f} times its share, then {:.2f}\n",
+  return fmt::format("  patches changed ranks {} time{}, last after step {}: the busiest rank had {:.2f} times its share, "
+                     "then {:.2f}\n",
                      change.times, change.times == 1 ? "" : "s", change.step, change.before, change.after);
 }
 

@@ -6,10 +6,8 @@ namespace tushar::simulation {
 
 /// Calls `visit(first cell or node)` for each row of a box along the first axis.
 template <class Visit>
-void forEachRow(grid::Box box, Visit&& visit) {
-  if (box.empty()) return;
-  box.upper[0] = box.lower[0] + 1;
-  grid::forEach<3>(box, visit);
+void forEachRow(const grid::Box& box, Visit&& visit) {
+  grid::forEach<3>(box.rowStarts(), visit);
 }
 
 }  // namespace tushar::simulation

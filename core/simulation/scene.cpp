@@ -18,15 +18,25 @@ namespace {
 const std::vector<std::string> sharedSections{"Meta", "SimulationComponent", "Time", "DataArchiver", "Grid",
                                               "DataAnalysis"};
 
-/// Sections of Uintah's that tune what works by itself here.
-const std::vector<std::string> idleSections{"LoadBalancer", "Scheduler", "ParallelOptions", "Debug"};
+/// Sections of Uintah's without effect here, and why.
+const std::vector<std::pair<std::string, std::string>> idleSections{
+    {"LoadBalancer", "does nothing here: patches and tasks are placed without it"},
+    {"Scheduler", "does nothing here: patches and tasks are placed without it"},
+    {"ParallelOptions", "does nothing here: patches and tasks are placed without it"},
+    {"SimulationController", "does nothing here: sus has options of its own"},
+    {"Debug", "does nothing here: see sus --trace and --schedule"},
+    {"ParticlePosition", "does nothing here: particles start by the <res> of their bodies"},
+    {"InitialConditions", "does nothing here: no component reads it"},
+    {"CFD", "does nothing here: no component reads it"}};
 
 struct Meta {
   std::string title;
 };
 const input::Schema<Meta>& metaSchema() {
   static const input::Schema<Meta> schema =
-      input::Schema<Meta>("Meta", "About the scene.").value("title", &Meta::title, "", "1", "its name");
+      input::Schema<Meta>("Meta", "About the scene.").value("title", &Meta::title, "", "1", "its name")
+                                                          .ignored("info", "for readers")
+                                                          .ignored("description", "for readers");
   return schema;
 }
 
@@ -69,8 +79,10 @@ void refuseUnknownSections(const Element& root, const ComponentKind* kind, const
   for (const ComponentKind& other : catalogue.components)
     if (!kind || kind == &other) known.insert(known.end(), other.sections.begin(), other.sections.end());
   for (const Element& child : root.children())
-    if (std::find(idleSections.begin(), idleSections.end(), child.name()) != idleSections.end())
-      diagnostics.note(child, "does nothing here: patches and tasks are placed without it");
+    if (const auto idle = std::find_if(idleSections.begin(), idleSections.end(),
+                                       [&](const auto& section) { return section.first == child.name(); });
+        idle != idleSections.end())
+      diagnostics.note(child, idle->second);
     else if (std::find(known.begin(), known.end(), child.name()) == known.end())
       diagnostics.error(child, fmt::format("unknown section <{}>{}; allowed here: {}", child.name(),
                                            didYouMean(child.name(), known), fmt::join(known, ", ")));

@@ -50,6 +50,8 @@ const Schema<SaveRequest>& saveSchema() {
           .requiredAttribute("label", &SaveRequest::label, "1", "its name, such as p.x or KineticEnergy")
           .attributeValue("material", &SaveRequest::material, "", "1", "only of this material")
           .ignoredAttribute("levels", "there is one level")
+          .ignoredAttribute("compression", "<compression> in <DataArchiver> holds for all")
+          .ignoredAttribute("table_lookup", "belongs to components that read tables")
           .location(&SaveRequest::where, "label")
           .location(&SaveRequest::whereOfMaterial, "material");
   return schema;
@@ -102,6 +104,22 @@ const Schema<CheckpointSettings>& checkpointSchema() {
   return schema;
 }
 
+/// A level, or a word of Uintah's.
+void readCompression(ArchiveSettings& archive, const Element& element, Diagnostics& diagnostics) {
+  const auto given = element.child("compression");
+  if (!given) return;
+  const std::string word = given->text();
+  const auto level = input::parse<int>(word);
+  if (word.find("gzip") != std::string::npos)
+    archive.compression = 1;
+  else if (word == "none" || word == "rle" || word == "tryall")
+    archive.compression = 0;
+  else if (!level.problem.empty() || !input::satisfies(*level.value, input::between(0, 9)))
+    diagnostics.error(*given, "found '" + word + "', expected an integer from 0 to 9, gzip, none, rle or tryall");
+  else
+    archive.compression = *level.value;
+}
+
 const Schema<ArchiveSettings>& archiveSchema() {
   static const Schema<ArchiveSettings> schema =
       Schema<ArchiveSettings>("DataArchiver", "What is saved, where and how often.")
@@ -112,10 +130,11 @@ const Schema<ArchiveSettings>& archiveSchema() {
                  "steps between outputs", input::nonNegative())
           .flag("outputInitTimestep", &ArchiveSettings::outputInitTimestep, "also save the state at the start")
           .flag("outputLastTimestep", &ArchiveSettings::outputLastTimestep, "also save the state at the end")
-          .value("outputDoubleAsFloat", &ArchiveSettings::doubleAsFloat, false, "1", "save with 7 digits")
-          .value("compression", &ArchiveSettings::compression, 0, "1", "level of gzip, 0 for none",
-                 input::between(0, 9))
-          .ours()
+          .flag("outputDoubleAsFloat", &ArchiveSettings::doubleAsFloat, "save with 7 digits")
+          .custom("compression", readCompression, {"compression"}, "level of gzip from 0 for none, the default, to 9; "
+                                                                    "gzip is 1, none, rle and tryall are 0")
+          .ignoredAttribute("type", "there is one kind of archive: HDF5 with an index for ParaView")
+          .ignored("save_crack_geometry", "there are no cracks")
           .list("save", &ArchiveSettings::saves, saveSchema(), "a variable to be saved")
           .section("checkpoint", &ArchiveSettings::checkpoint, checkpointSchema())
           .check([](const ArchiveSettings& archive, const Element& element, Diagnostics& diagnostics) {

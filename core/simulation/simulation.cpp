@@ -25,7 +25,7 @@ Simulation::Simulation(Problem problem, const RunOptions& options, Clock::time_p
       started_at_(startedAt),
       phases_(*problem_.component, problem_.analyses),
       warehouse_(*problem_.level, table_, ranks),
-      scheduler_(warehouse_, std::clamp(problem_.threads, 1, std::max(1, warehouse_.patches()))),
+      scheduler_(warehouse_, problem_.threads),
       time_(problem_.time),
       balance_(ranks.size()),
       progress_(options.quiet || !ranks.isFirst(), stdout),

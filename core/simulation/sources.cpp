@@ -55,29 +55,78 @@ class AtPlaces : public output::Source {
   EntryForm form_;
 };
 
+/// Calls `visit(id, place)` for each particle.
+template <class Visit>
+void forEachId(const Parts& ids, Visit&& visit) {
+  for (std::uint32_t patch = 0; patch < ids.of.size(); ++patch)
+    for (std::uint32_t k = 0; k < ids.of[patch].count; ++k) {
+      std::uint64_t id = 0;
+      std::memcpy(&id, ids.of[patch].values + k * sizeof(id), sizeof(id));
+      visit(id, Place{patch, k});
+    }
+}
+
+/// The bits in which ids differ, pushed together: the order of the ids stays, and where they are dense the keys are small.
+class Packing {
+ public:
+  explicit Packing(std::uint64_t differing) {
+    for (int from = 0; from < 64 && differing >> from != 0;) {
+      from += std::countr_zero(differing >> from);
+      const int length = std::countr_one(differing >> from);
+      groups_.push_back({~std::uint64_t{0} >> (64 - length) << from, from - bits_});
+      bits_ += length;
+      from += length;
+    }
+  }
+  int bits() const { return bits_; }
+  std::uint64_t operator()(std::uint64_t id) const {
+    std::uint64_t key = 0;
+    for (const Group& group : groups_) key |= (id & group.mask) >> group.shift;
+    return key;
+  }
+
+ private:
+  struct Group {
+    std::uint64_t mask;
+    int shift;
+  };
+  std::vector<Group> groups_;
+  int bits_ = 0;
+};
+
+/// By a table of all keys that there may be.
+std::vector<Place> sortedByTable(const Parts& ids, const Packing& keyOf) {
+  constexpr std::uint32_t nobody = ~std::uint32_t{0};
+  std::vector<Place> places(std::size_t{1} << keyOf.bits(), Place{nobody, 0});
+  forEachId(ids, [&](std::uint64_t id, const Place& place) { places[keyOf(id)] = place; });
+  std::erase_if(places, [](const Place& place) { return place.patch == nobody; });
+  return places;
+}
+
 struct Keyed {
-  std::uint64_t id;
+  std::uint64_t key;
   Place place;
 };
 
-/// Sorts by ids, which are all different: by digits of 11 bits, the lowest first, without bits in which none differ.
-std::vector<Keyed> sorted(std::vector<Keyed> all) {
+/// By digits of 11 bits, the lowest first.
+std::vector<Place> sortedByDigits(const Parts& ids, const Packing& keyOf, std::size_t count) {
   constexpr int bits = 11;
   constexpr std::size_t digits = std::size_t{1} << bits;
-  std::uint64_t differing = 0;
-  for (const Keyed& one : all) differing |= one.id ^ all.front().id;
-  std::vector<Keyed> other(all.size());
+  std::vector<Keyed> all, other(count);
+  all.reserve(count);
+  forEachId(ids, [&](std::uint64_t id, const Place& place) { all.push_back({keyOf(id), place}); });
   std::array<std::size_t, digits + 1> next;
-  for (int shift = 0; shift < 64 && differing >> shift > 0; shift += bits) {
-    shift += std::countr_zero(differing >> shift);
-    const auto digitOf = [&](std::uint64_t id) { return id >> shift & (digits - 1); };
+  for (int shift = 0; shift < keyOf.bits(); shift += bits) {
+    const auto digitOf = [&](std::uint64_t key) { return key >> shift & (digits - 1); };
     next.fill(0);
-    for (const Keyed& one : all) ++next[digitOf(one.id) + 1];
+    for (const Keyed& one : all) ++next[digitOf(one.key) + 1];
     for (std::size_t k = 0; k < digits; ++k) next[k + 1] += next[k];
-    for (const Keyed& one : all) other[next[digitOf(one.id)]++] = one;
+    for (const Keyed& one : all) other[next[digitOf(one.key)]++] = one;
     all.swap(other);
   }
-  return all;
+  std::vector<Place> places(count);
+  for (std::size_t k = 0; k < count; ++k) places[k] = all[k].place;
+  return places;
 }
 
 template <std::size_t bytes, class EntryAt>
@@ -90,7 +139,7 @@ void gatherFixed(const EntryAt& entryAt, std::size_t count, std::byte* to) {
 Runs runsOfGrid(const Level& level, const data::Label& label, const Parts& parts, const Box& all) {
   Runs runs;
   for (std::size_t id = 0; id < parts.of.size(); ++id) {
-    const Box own = ownOf(level.patch(static_cast<int>(id)), label).intersect(all);
+    const Box own = ownBox(level.patch(static_cast<int>(id)), label).intersect(all);
     forEachRow(own, [&](const Index3& first) {
       runs.push_back({all.offset(first), static_cast<std::uint32_t>(id),
                       static_cast<std::uint32_t>(parts.of[id].stored.offset(first))});
@@ -103,17 +152,14 @@ Runs runsOfGrid(const Level& level, const data::Label& label, const Parts& parts
 std::vector<Place> placesById(const Parts& ids) {
   std::size_t count = 0;
   for (const Part& part : ids.of) count += part.count;
-  std::vector<Keyed> all;
-  all.reserve(count);
-  for (std::uint32_t patch = 0; patch < ids.of.size(); ++patch)
-    for (std::uint32_t k = 0; k < ids.of[patch].count; ++k) {
-      all.push_back({0, {patch, k}});
-      std::memcpy(&all.back().id, ids.of[patch].values + k * sizeof(std::uint64_t), sizeof(std::uint64_t));
-    }
-  const std::vector<Keyed> ordered = sorted(std::move(all));
-  std::vector<Place> places(ordered.size());
-  for (std::size_t k = 0; k < places.size(); ++k) places[k] = ordered[k].place;
-  return places;
+  std::uint64_t all = 0, common = ~std::uint64_t{0};
+  forEachId(ids, [&](std::uint64_t id, const Place&) {
+    all |= id;
+    common &= id;
+  });
+  const Packing keyOf(all & ~common);
+  const bool dense = keyOf.bits() < 48 && std::uint64_t{1} << keyOf.bits() <= 4 * count;
+  return dense ? sortedByTable(ids, keyOf) : sortedByDigits(ids, keyOf, count);
 }
 
 EntryForm::EntryForm(const data::Label& label, const Level& level) : bytes_(label.bytes) {

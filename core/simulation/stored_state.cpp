@@ -209,12 +209,10 @@ class StateReader : StateWalk {
     const Box all = allOf(level_, label(number));
     Array::Values values = stored(path, label(number), all.size());
     const std::byte* from = bytesOf(values);
-    const int ghost = table_.ghost(number);
     for (const Patch& patch : level_.patches()) {
-      const bool nodes = label(number).centring == Centring::node;
-      const Box own = ownOf(patch, label(number));
+      const Box own = ownBox(patch, label(number));
       Variable& to = variable(number, patch);
-      warehouse_.allocateGrid(to, label(number), nodes ? patch.nodesWithin(ghost) : patch.cellsWithin(ghost));
+      warehouse_.allocateGrid(to, number, patch);
       forEachRow(own, [&](const Index3& first) {
         std::memcpy(to.values.data() + to.stored.offset(first) * bytes, from + all.offset(first) * bytes,
                     static_cast<std::size_t>(own.extent(0)) * bytes);

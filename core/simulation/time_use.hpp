@@ -14,9 +14,10 @@ struct TimeUse {
   double imbalance = 1;  ///< time of all loops over what it would be if each thread worked all the time
 
   TimeUse() = default;
-  /// From what the threads had done before, over `wall` seconds with `output` seconds of output among them. Every rank
+  /// From what the threads had done before, over `wall` seconds with `outputSeconds` of output among them. Every rank
   /// makes it.
-  TimeUse(const Threads::Use& before, const Threads& threads, double wall, double output, const mpi::Communicator& ranks);
+  TimeUse(const Threads::Use& before, const Threads& threads, double wall, double outputSeconds,
+          const mpi::Communicator& ranks);
 };
 
 }  // namespace tushar::simulation

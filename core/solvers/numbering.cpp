@@ -2,18 +2,6 @@
 
 namespace tushar::solvers {
 
-namespace {
-
-Index3 imageOf(const grid::Level& level, Index3 cell) {
-  for (int d = 0; d < level.dimension(); ++d) {
-    const int count = level.cells().extent(d);
-    if (level.isPeriodic(d)) cell[d] = (cell[d] % count + count) % count;
-  }
-  return cell;
-}
-
-}  // namespace
-
 void CellNumbering::numberOwnPatches() {
   std::vector<int> firstOf{0};
   for (int id = 0; id < level_->patchCount(); ++id)
@@ -32,7 +20,7 @@ void CellNumbering::numberGhosts(const grid::Patch& patch, const std::vector<int
       else
         beyond.lower[d] = beyond.upper[d]++;
       grid::forEach<3>(level_->clipCells(beyond), [&](const Index3& next) {
-        const Index3 cell = imageOf(*level_, next);
+        const Index3 cell = level_->wrapped(next);
         const int number = owned_ + static_cast<int>(ghosts_.size());
         if (!numbers_.emplace(level_->cellNumber<3>(cell), number).second) return;
         const grid::Patch other = level_->patchOf(cell);

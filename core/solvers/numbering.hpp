@@ -20,12 +20,9 @@ class CellNumbering {
   const std::vector<int>& ghosts() const { return ghosts_; }
   /// Of a cell of the grid or, along periodic axes, of an image of one; -1 beyond the grid and far from the rank's patches.
   template <int D>
-  int operator()(Index<D> cell) const {
-    for (int d = 0; d < D; ++d) {
-      const int count = level_->cells().extent(d);
-      if (level_->isPeriodic(d)) cell[d] = (cell[d] % count + count) % count;
-      if (cell[d] < 0 || cell[d] >= count) return -1;
-    }
+  int operator()(const Index<D>& image) const {
+    const Index<D> cell = level_->wrapped(image);
+    if (!level_->cells().contains(cell)) return -1;
     const std::uint64_t place = level_->cellNumber<D>(cell);
     if (level_->share().ranks == 1) return static_cast<int>(place);
     const auto found = numbers_.find(place);

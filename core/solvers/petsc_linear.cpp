@@ -42,7 +42,7 @@ void note(Outcome& outcome, KSP krylov) {
 
 Outcome solveLinear(const Unknowns& unknowns, const LinearProblem& problem, const LinearSettings& settings,
                     std::span<double> x) {
-  startPetsc(settings.petsc);
+  const PetscOptionsOfSolve options(settings.petsc);
   Outcome outcome;
   PetscMatrix matrix(unknowns);
   outcome.assembly = timed([&] { matrix.assemble(problem.assemble); });

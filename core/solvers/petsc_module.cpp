@@ -17,7 +17,7 @@ class PetscSolver : public Solver {
     return solveNewton(unknowns, problem, settings, u);
   }
   void addUp(const Unknowns& unknowns, std::span<double> values) const override {
-    startPetsc("");
+    startPetsc();
     GhostedVector(unknowns).addUp(values);
   }
 };

@@ -117,7 +117,7 @@ void note(Outcome& outcome, SNES snes, Vec r) {
 
 Outcome solveNewton(const Unknowns& unknowns, NonlinearProblem& problem, const NewtonSettings& settings,
                     std::span<double> u) {
-  startPetsc(settings.linear.petsc);
+  const PetscOptionsOfSolve options(settings.linear.petsc);
   PetscMatrix matrix(unknowns);
   GhostedVector seen(unknowns), added(unknowns);
   const auto owned = static_cast<std::size_t>(unknowns.block * unknowns.owned);

@@ -50,11 +50,17 @@ void check(PetscErrorCode code) {
                                        lastMessage()));
 }
 
-void startPetsc(const std::string& options) {
-  static const Session session;
-  if (!options.empty()) check(PetscOptionsInsertString(nullptr, options.c_str()));
-  if (const char* given = std::getenv("PETSC_OPTIONS")) check(PetscOptionsInsertString(nullptr, given));
+void startPetsc() { static const Session session; }
+
+PetscOptionsOfSolve::PetscOptionsOfSolve(const std::string& options) {
+  startPetsc();
+  check(PetscOptionsCreate(options_.address()));
+  if (!options.empty()) check(PetscOptionsInsertString(options_, options.c_str()));
+  if (const char* given = std::getenv("PETSC_OPTIONS")) check(PetscOptionsInsertString(options_, given));
+  check(PetscOptionsPush(options_));
 }
+
+PetscOptionsOfSolve::~PetscOptionsOfSolve() { PetscOptionsPop(); }
 
 PetscMatrix::PetscMatrix(const Unknowns& unknowns) : ranks_(mpi::handleOf(*unknowns.ranks)) {
   const PetscInt block = unknowns.block, rows = block * unknowns.owned;

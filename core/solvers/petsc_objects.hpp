@@ -16,8 +16,8 @@ namespace tushar::solvers {
 /// Throws std::runtime_error with PETSc's words where a call has failed.
 void check(PetscErrorCode code);
 
-/// Starts PETSc at the first call, and gives it options: those of the scene, then those of PETSC_OPTIONS, which win.
-void startPetsc(const std::string& options);
+/// Starts PETSc at the first call.
+void startPetsc();
 
 /// Owns a PETSc object.
 template <class T, PetscErrorCode (*destroy)(T*)>
@@ -40,6 +40,20 @@ using OwnedKsp = Owned<KSP, KSPDestroy>;
 using OwnedSnes = Owned<SNES, SNESDestroy>;
 using OwnedNumbering = Owned<ISLocalToGlobalMapping, ISLocalToGlobalMappingDestroy>;
 using OwnedNullSpace = Owned<MatNullSpace, MatNullSpaceDestroy>;
+
+/// The options of one solve, for as long as this lives: those of its settings, then those of PETSC_OPTIONS, which win.
+/// Other solves do not see them.
+class PetscOptionsOfSolve {
+ public:
+  /// Starts PETSc, where it has not been.
+  explicit PetscOptionsOfSolve(const std::string& options);
+  PetscOptionsOfSolve(const PetscOptionsOfSolve&) = delete;
+  PetscOptionsOfSolve& operator=(const PetscOptionsOfSolve&) = delete;
+  ~PetscOptionsOfSolve();
+
+ private:
+  Owned<PetscOptions, PetscOptionsDestroy> options_;
+};
 
 /// A matrix of PETSc that is assembled block by block.
 class PetscMatrix : public Matrix {

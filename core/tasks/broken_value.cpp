@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 
 #include "core/base/mpi.hpp"
 
@@ -26,10 +25,6 @@ namespace {
 
 const double* numbersOf(const Variable& variable) { return reinterpret_cast<const double*>(variable.values.data()); }
 
-Box boxOf(const Label& label, const Patch& patch) {
-  return label.centring == Centring::node ? patch.nodes() : patch.cells();
-}
-
 bool keepsBound(Warehouse& warehouse, const Bounded& written, const Patch& patch) {
   const auto [label, material] = warehouse.table()[written.variable];
   const Variable& variable = warehouse.variable(Generation::fresh, written.variable, patch.id());
@@ -38,11 +33,9 @@ bool keepsBound(Warehouse& warehouse, const Bounded& written, const Patch& patch
     const int owned = warehouse.particles(written.set, material, patch.id()).owned();
     return holds(label->bound, numbersOf(variable), static_cast<std::size_t>(owned) * components);
   }
-  const Box box = boxOf(*label, patch);
-  Box rows = box;
-  rows.upper[0] = rows.lower[0] + 1;
+  const Box box = ownBox(patch, *label);
   bool kept = true;
-  grid::forEach<3>(rows, [&](const Index3& first) {
+  grid::forEach<3>(box.rowStarts(), [&](const Index3& first) {
     kept = kept && holds(label->bound, numbersOf(variable) + variable.stored.offset(first) * components,
                          static_cast<std::size_t>(box.extent(0)) * components);
   });
@@ -67,22 +60,12 @@ struct Found {
   int patch = 0;
   Index3 at;
 
-  void add(const Found& other) {
+  void merge(const Found& other) {
     const bool isLater = other.broken == 0 || (broken > 0 && first < other.first);
     const long all = seen + other.seen, bad = broken + other.broken;
     if (!isLater) *this = other;
     seen = all;
     broken = bad;
-  }
-  /// Adds what all ranks have found.
-  void merge(const mpi::Communicator& ranks) {
-    ranks.merge(std::as_writable_bytes(std::span(this, 1)), [](const std::byte* from, std::byte* into) {
-      Found one, other;
-      std::memcpy(&one, into, sizeof(Found));
-      std::memcpy(&other, from, sizeof(Found));
-      one.add(other);
-      std::memcpy(into, &one, sizeof(Found));
-    });
   }
 };
 
@@ -99,7 +82,7 @@ class Search {
 
   std::optional<BrokenValue> run() {
     for (const Patch& patch : level_.patches()) isParticle() ? lookAtParticles(patch) : lookAtGrid(patch);
-    found_.merge(warehouse_.ranks());
+    warehouse_.ranks().merge(found_);
     if (found_.broken == 0) return std::nullopt;
     return BrokenValue{std::string(label_.name), found_.patch, isParticle() ? particleSentence() : gridSentence()};
   }
@@ -149,7 +132,7 @@ class Search {
   }
   void lookAtGrid(const Patch& patch) {
     const Box all = gridBox();
-    grid::forEach<3>(boxOf(label_, patch), [&](const Index3& at) {
+    grid::forEach<3>(ownBox(patch, label_), [&](const Index3& at) {
       if (ownerOf(at).id() != patch.id()) return;
       const std::size_t place = gridPlace(patch.id(), at);
       look(numbers(Generation::fresh, patch.id(), place), {all.offset(at), 0}, patch.id(), at, place);
@@ -274,7 +257,8 @@ bool keepsBounds(Warehouse& warehouse, const std::vector<Bounded>& written, cons
 std::size_t firstThatBreaks(Warehouse& warehouse, const std::vector<Bounded>& written) {
   const auto& patches = warehouse.level().patches();
   const auto breaks = [&](const Bounded& variable) {
-    return std::any_of(patches.begin(), patches.end(), [&](const Patch& patch) { return !keepsBound(warehouse, variable, patch); });
+    return std::any_of(patches.begin(), patches.end(),
+                       [&](const Patch& patch) { return !keepsBound(warehouse, variable, patch); });
   };
   return static_cast<std::size_t>(std::find_if(written.begin(), written.end(), breaks) - written.begin());
 }

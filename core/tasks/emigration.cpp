@@ -6,12 +6,6 @@
 
 namespace tushar::tasks {
 
-namespace {
-
-constexpr int tag = 2;
-
-}  // namespace
-
 void Emigration::forgetLayout() {
   knows_neighbours_ = false;
   leaving_.clear();
@@ -79,8 +73,8 @@ void Emigration::run(const std::vector<Carried>& carried, bool goFar) {
     for (int rank = 0; rank < warehouse_->ranks().size(); ++rank)
       if (rank != warehouse_->ranks().rank()) peers.push_back(rank);
   }
-  for (const int rank : peers) outbox_.send(rank, tag, packed(leaving_[rank], carried));
-  for (const int rank : peers) unpack(warehouse_->ranks().receive(rank, tag), carried);
+  for (const int rank : peers) outbox_.send(rank, mpi::Tag::emigrants, packed(leaving_[rank], carried));
+  for (const int rank : peers) unpack(warehouse_->ranks().receive(rank, mpi::Tag::emigrants), carried);
   outbox_.wait();
 }
 

@@ -17,15 +17,11 @@ using mpi::Bytes;
 
 namespace {
 
-constexpr int tag = 1;
-
 /// Calls `visit(first, length)` for each row of a box along the first axis.
 template <class Visit>
 void forEachRow(const Box& box, std::size_t bytes, Visit&& visit) {
-  Box rows = box;
-  rows.upper[0] = rows.lower[0] + 1;
   const std::size_t length = static_cast<std::size_t>(box.extent(0)) * bytes;
-  if (!box.empty()) grid::forEach<3>(rows, [&](const Index3& first) { visit(first, length); });
+  grid::forEach<3>(box.rowStarts(), [&](const Index3& first) { visit(first, length); });
 }
 
 std::byte* at(Variable& variable, const Index3& place, std::size_t bytes) {
@@ -113,13 +109,6 @@ GhostReach reachOf(const data::VariableTable& table, const NumberedFill& fill) {
   return {label->centring == data::Centring::node, fill.particles ? table.reach(material) : table.ghost(fill.variable)};
 }
 
-const GhostPlan& Exchange::planOf(const NumberedFill& fill) {
-  const GhostReach reach = reachOf(warehouse_->table(), fill);
-  const auto [plan, isNew] = plans_.try_emplace(reach);
-  if (isNew) plan->second = planGhosts(warehouse_->level(), reach.nodes, reach.width);
-  return plan->second;
-}
-
 void Exchange::begin(std::span<const NumberedFill> fills, bool hasStopped) {
   has_stopped_ = hasStopped;
   fills_ = fills;
@@ -138,7 +127,7 @@ bool Exchange::finish() {
   Letters letters;
   for (const int rank : senders_) {
     const trace::Span span(trace::Kind::wait, "receive");
-    letters.add(rank, warehouse_->ranks().receive(rank, tag));
+    letters.add(rank, warehouse_->ranks().receive(rank, mpi::Tag::ghosts));
     has_stopped_ = letters.readStopped(rank) || has_stopped_;
   }
   outbox_.wait();
@@ -182,6 +171,7 @@ void Exchange::fillFromHere() {
   });
 }
 
+/// All patches of all ranks have settled a set, or none: what a stopped graph has settled is forgotten.
 void Exchange::noteUnsettled() {
   settles_.assign(fills_.size(), false);
   std::set<std::pair<Generation, int>> settled;
@@ -209,7 +199,7 @@ void Exchange::post() {
         for (const GhostCopy& copy : copies->second) packer.addCounts(copy);
       for (const GhostCopy& copy : copies->second) fills_[k].particles ? packer.addParticles(copy) : packer.addGrid(copy);
     }
-    outbox_.send(rank, tag, std::move(message));
+    outbox_.send(rank, mpi::Tag::ghosts, std::move(message));
   }
 }
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <compare>
-#include <map>
 #include <set>
 #include <span>
 #include <vector>
@@ -20,13 +18,6 @@ struct NumberedFill {
   bool particles;
 };
 
-/// Which ghosts a fill needs, whatever the variable.
-struct GhostReach {
-  bool nodes;
-  int width;
-
-  friend auto operator<=>(const GhostReach&, const GhostReach&) = default;
-};
 GhostReach reachOf(const data::VariableTable& table, const NumberedFill& fill);
 
 /// Fills the ghosts of every patch from the patches that own them, on this rank or another.
@@ -38,25 +29,21 @@ class Exchange {
   Exchange(data::Warehouse& warehouse, Threads& threads)
       : warehouse_(&warehouse), threads_(&threads), outbox_(warehouse.ranks()) {}
 
-  /// Fills the ghosts of node and cell variables, and of particle variables; which particles are ghosts is settled on
-  /// first use of their set. All ranks run it for the same fills in the same order.
+  /// Fills the ghosts of node and cell variables, and of particle variables, in two parts; which particles are ghosts is
+  /// settled on first use of their set. All ranks run both for the same fills in the same order.
   ///
-  /// A rank on which a task failed says so in place of its values (`hasStopped`). False if a rank that this one hears of
-  /// has stopped: then nothing is filled, and this one is to stop, too, before it reads what is not there.
-  bool run(std::span<const NumberedFill> fills, bool hasStopped) {
-    begin(fills, hasStopped);
-    return finish();
-  }
-  /// The same in two parts: posts messages, and fills what needs none from other ranks.
+  /// Posts messages, and fills what needs none from other ranks. A rank on which a task failed says so in place of its
+  /// values (`hasStopped`).
   void begin(std::span<const NumberedFill> fills, bool hasStopped);
-  /// Waits for the messages of others and fills the rest. False as `run`.
+  /// Waits for the messages of others and fills the rest. False if a rank that this one hears of has stopped: then
+  /// nothing more is filled, and this one is to stop, too, before it reads what is not there.
   bool finish();
   /// Between the two: whether there are messages to wait for.
   bool isUnderWay() const { return !senders_.empty(); }
   /// Between the two: whether the patch at this place of the rank's has all its ghosts.
   bool isReady(std::size_t place);
   /// This rank has other patches from now on.
-  void forgetLayout() { plans_.clear(); }
+  void forgetLayout() { plans_.forget(); }
 
  private:
   class Letters;
@@ -73,12 +60,14 @@ class Exchange {
   /// Calls `work(fill, whether it settles ghosts, patch, its place)` on several threads at once.
   template <class Work>
   void forEach(const Work& work);
-  const GhostPlan& planOf(const NumberedFill& fill);
+  const GhostPlan& planOf(const NumberedFill& fill) {
+    return plans_.of(warehouse_->level(), reachOf(warehouse_->table(), fill));
+  }
 
   data::Warehouse* warehouse_;
   Threads* threads_;
   mpi::Outbox outbox_;
-  std::map<GhostReach, GhostPlan> plans_;
+  GhostPlans plans_;
   // Of the exchange under way:
   std::span<const NumberedFill> fills_;
   bool has_stopped_ = false;

@@ -99,4 +99,10 @@ class Planner {
 
 GhostPlan planGhosts(const Level& level, bool nodes, int width) { return Planner(level, nodes, width).run(); }
 
+const GhostPlan& GhostPlans::of(const grid::Level& level, const GhostReach& reach) {
+  const auto [plan, isNew] = plans_.try_emplace(reach);
+  if (isNew) plan->second = planGhosts(level, reach.nodes, reach.width);
+  return plan->second;
+}
+
 }  // namespace tushar::tasks

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <compare>
 #include <map>
 #include <set>
 #include <vector>
@@ -27,5 +28,24 @@ struct GhostPlan {
 
 /// For cells (particles among them) or nodes within `width` of each patch. Each ghost comes from one patch.
 GhostPlan planGhosts(const grid::Level& level, bool nodes, int width);
+
+/// Which ghosts a patch needs.
+struct GhostReach {
+  bool nodes;
+  int width;
+
+  friend auto operator<=>(const GhostReach&, const GhostReach&) = default;
+};
+
+/// The plans of a layout, each made when it is asked for.
+class GhostPlans {
+ public:
+  const GhostPlan& of(const grid::Level& level, const GhostReach& reach);
+  /// There is another layout from now on.
+  void forget() { plans_.clear(); }
+
+ private:
+  std::map<GhostReach, GhostPlan> plans_;
+};
 
 }  // namespace tushar::tasks

@@ -18,18 +18,6 @@ using mpi::Bytes;
 
 namespace {
 
-constexpr int tag = 3;
-
-Box ownOf(const Patch& patch, const data::Label& label) {
-  return label.centring == Centring::node ? patch.nodes() : patch.cells();
-}
-
-template <class Visit>
-void forEachRow(Box box, Visit&& visit) {
-  box.upper[0] = box.lower[0] + 1;
-  grid::forEach<3>(box, visit);
-}
-
 /// Writes what stands on patches: particles by cell, then each variable, behind a byte that says whether there is one.
 class Packer {
  public:
@@ -61,9 +49,9 @@ class Packer {
       const int owned = warehouse_.particles(Generation::old, material, patch.id()).owned();
       return mpi::append(to, from.values.data(), static_cast<std::size_t>(owned) * label->bytes);
     }
-    const Box own = ownOf(patch, *label);
+    const Box own = ownBox(patch, *label);
     const std::size_t length = static_cast<std::size_t>(own.extent(0)) * label->bytes, bytes = label->bytes;
-    forEachRow(own, [&](const Index3& first) {
+    grid::forEach<3>(own.rowStarts(), [&](const Index3& first) {
       mpi::append(to, from.values.data() + from.stored.offset(first) * bytes, length);
     });
   }
@@ -112,11 +100,9 @@ class Unpacker {
       warehouse_.allocateParticles(to, *label, owned);
       return copyTo(to.values.data(), static_cast<std::size_t>(owned) * bytes);
     }
-    const int ghost = warehouse_.table().ghost(number);
-    const Box own = ownOf(patch, *label);
-    warehouse_.allocateGrid(to, *label,
-                            label->centring == Centring::node ? patch.nodesWithin(ghost) : patch.cellsWithin(ghost));
-    forEachRow(own, [&](const Index3& first) {
+    const Box own = ownBox(patch, *label);
+    warehouse_.allocateGrid(to, number, patch);
+    grid::forEach<3>(own.rowStarts(), [&](const Index3& first) {
       copyTo(to.values.data() + to.stored.offset(first) * bytes, static_cast<std::size_t>(own.extent(0)) * bytes);
     });
   }
@@ -147,11 +133,11 @@ void migrate(grid::Level& level, data::Warehouse& warehouse, const Luggage& lugg
     for (int patch = first; patch < end; ++patch) packer.add(level.patch(patch), parts[rank]);
   });
   for (auto& [rank, bytes] : parts)
-    if (rank != ranks.rank()) outbox.send(rank, tag, std::move(bytes));
+    if (rank != ranks.rank()) outbox.send(rank, mpi::Tag::patches, std::move(bytes));
   level.share(firsts);
   warehouse.startAnew(luggage.materials);
   forEachOwner(before, firsts[me], firsts[me + 1], [&](int rank, int first, int end) {
-    const Bytes bytes = rank == ranks.rank() ? std::move(parts[rank]) : ranks.receive(rank, tag);
+    const Bytes bytes = rank == ranks.rank() ? std::move(parts[rank]) : ranks.receive(rank, mpi::Tag::patches);
     Unpacker unpacker(warehouse, luggage, bytes);
     for (int patch = first; patch < end; ++patch) unpacker.take(level.patch(patch));
   });

@@ -106,7 +106,8 @@ bool Relocation::run(int material, int position, const std::vector<Carried>& car
       case 2: findMoves<2>(material, position, id); break;
       default: findMoves<3>(material, position, id);
     }
-  const Verdict verdict = agreed(gatherMoves(hasStopped));
+  Verdict verdict = gatherMoves(hasStopped);
+  warehouse_->ranks().merge(verdict);
   if (verdict.hasStopped) return false;
   if (verdict.hasEscape) refuseEscape(position, verdict);
   emigration_.run(carried, verdict.goFar);
@@ -123,17 +124,6 @@ void Relocation::Verdict::merge(const Verdict& other) {
   hasEscape = true;
   escape = other.escape;
   rank = other.rank;
-}
-
-Relocation::Verdict Relocation::agreed(Verdict mine) const {
-  warehouse_->ranks().merge(std::as_writable_bytes(std::span(&mine, 1)), [](const std::byte* from, std::byte* into) {
-    Verdict one, other;
-    std::memcpy(&one, into, sizeof(Verdict));
-    std::memcpy(&other, from, sizeof(Verdict));
-    one.merge(other);
-    std::memcpy(into, &one, sizeof(Verdict));
-  });
-  return mine;
 }
 
 template <int D>
@@ -276,10 +266,8 @@ void Relocation::rebuild(const Patch& patch, int material, int id) {
   moves.count = 0;
   std::size_t nextDeparted = 0;
   const int* firstIncoming = moves.firstIncoming.data();
-  grid::Box rows = patch.cells();
-  rows.upper[0] = rows.lower[0] + 1;
   const int rowLength = patch.cells().extent(0);
-  grid::forEach<3>(rows, [&](const Index3& cell) {
+  grid::forEach<3>(patch.cells().rowStarts(), [&](const Index3& cell) {
     const ParticleRange* from = before.row(cell);
     ParticleRange* to = after.row(cell);
     if (!moves.isEntered[patch.cells().rowOf(cell)] && before.occupied(cell, patch.cells().upper[0]).empty()) {

@@ -101,7 +101,6 @@ class Relocation {
   }
   /// Sorts out what left its patch: who escaped first, how many left the grid, who goes to another rank.
   Verdict gatherMoves(bool hasStopped);
-  Verdict agreed(Verdict mine) const;
   [[noreturn]] void refuseEscape(int position, const Verdict& verdict) const;
   template <int D>
   std::string sentence(int position, const Escape& escape) const;

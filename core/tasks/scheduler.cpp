@@ -105,6 +105,7 @@ bool Scheduler::finishExchange(CompiledTask& task) {
 
 std::vector<double> Scheduler::takeCosts() {
   costs_.resize(warehouse_->level().patches().size());
+  for (double& cost : costs_) cost /= threads_.count();
   return std::exchange(costs_, std::vector<double>(costs_.size()));
 }
 
@@ -113,6 +114,7 @@ void Scheduler::forgetLayout() {
   relocation_.forgetLayout();
   costs_.clear();
   with_patches_.reset();
+  threads_.resize(usefulThreads());
 }
 
 void Scheduler::divideReductions(const CompiledTask& task) {
@@ -136,6 +138,7 @@ std::optional<data::Minimum> Scheduler::run(TaskGraph& graph, const StepInfo& at
   }
   agree(graph);
   if (outcome_.isNone()) return std::nullopt;
+  warehouse_->forgetGhosts();  // ranks that stopped before others have settled fewer
   if (outcome_.kind == Outcome::Kind::asks) return outcome_.factor;
   if (at.mayRepeat) return data::Minimum{0.5, outcome_.value};
   if (outcome_.kind == Outcome::Kind::throws) throw told(warehouse_->ranks(), error_, outcome_.rank);
@@ -220,13 +223,15 @@ void Scheduler::relocate(const CompiledTask& task, const StepInfo& at) {
 }
 
 void Scheduler::runOnPatches(CompiledTask& task, int material, const StepInfo& at) {
+  const bool all = task.task.acrossMaterials;
+  const int from = all ? 0 : material, end = all ? static_cast<int>(task.materials.size()) : material + 1;
   FirstRefusal first;
   std::atomic<bool> kept = true;
   forEachPatch(task, [&](const grid::Patch& patch) {
     try {
-      if (task.task.acrossMaterials) return runAcrossMaterials(task, patch, at);
-      runPlaced(task, patch, material, at);
-      if (!keepsBounds(*warehouse_, task.of(material).bounded, patch)) kept = false;
+      all ? runAcrossMaterials(task, patch, at) : runPlaced(task, patch, material, at);
+      for (int m = from; m < end; ++m)
+        if (!keepsBounds(*warehouse_, task.of(m).bounded, patch)) kept = false;
     } catch (const NumericalError& error) {
       first.note(error, patch.id());
     }
@@ -235,7 +240,7 @@ void Scheduler::runOnPatches(CompiledTask& task, int material, const StepInfo& a
   if (first.error())
     note(task, material, *first.error());
   else if (!kept)
-    noteBroken(task, material);
+    noteBroken(task, from, end);
 }
 
 void Scheduler::runOnRank(CompiledTask& task, const StepInfo& at) {
@@ -262,8 +267,7 @@ void Scheduler::runOnRank(CompiledTask& task, const StepInfo& at) {
     note(task, -1, error);
   }
   gatherReductions(task);
-  for (int m = first; m < first + static_cast<int>(task.materials.size()) && !hasStopped(); ++m)
-    if (firstThatBreaks(*warehouse_, task.of(m).bounded) < task.of(m).bounded.size()) noteBroken(task, m);
+  if (!hasStopped()) noteBroken(task, first, first + static_cast<int>(task.materials.size()));
 }
 
 void Scheduler::runAcrossMaterials(CompiledTask& task, const grid::Patch& patch, const StepInfo& at) {
@@ -295,13 +299,10 @@ void Scheduler::allocateOutputs(const MaterialBinding& binding, const grid::Patc
   for (const Output& output : binding.outputs) {
     data::Variable& variable = warehouse_->variable(Generation::fresh, output.variable, patch.id());
     const data::Label& label = *warehouse_->table()[output.variable].label;
-    const int ghost = warehouse_->table().ghost(output.variable);
     if (label.centring == data::Centring::particle)
       warehouse_->allocateParticles(variable, label, warehouse_->particles(output.set, material, patch.id()).owned());
-    else if (label.centring == data::Centring::node)
-      warehouse_->allocateGrid(variable, label, patch.nodesWithin(ghost));
     else
-      warehouse_->allocateGrid(variable, label, patch.cellsWithin(ghost));
+      warehouse_->allocateGrid(variable, output.variable, patch);
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "core/tasks/outcome.hpp"
@@ -29,8 +30,13 @@ std::string placeOf(const CompiledTask& task, int patch, int material, const Ste
 /// all patches at once is run by all ranks that have patches, or by none.
 class Scheduler {
  public:
+  /// On so many threads, but no more than this rank has patches.
   explicit Scheduler(data::Warehouse& warehouse, int threads = 1)
-      : warehouse_(&warehouse), threads_(threads), exchange_(warehouse, threads_), relocation_(warehouse, threads_) {}
+      : warehouse_(&warehouse),
+        most_threads_(threads),
+        threads_(usefulThreads()),
+        exchange_(warehouse, threads_),
+        relocation_(warehouse, threads_) {}
 
   /// Runs every task on every patch, and looks whether what it wrote keeps the bounds of its labels. The old generation
   /// is never touched. A body that throws and a broken bound end the run of the graph: a NumericalError comes out with
@@ -44,7 +50,8 @@ class Scheduler {
   /// Makes the results of a graph the old state.
   void commit(const TaskGraph& graph);
 
-  /// What each patch of this rank has cost since this was asked last, s; nothing is measured on a rank alone.
+  /// What each patch of this rank has cost since this was asked last, in seconds of the clock where all threads work all
+  /// the time; nothing is measured on a rank alone.
   std::vector<double> takeCosts();
   /// This rank has other patches from now on.
   void forgetLayout();
@@ -53,6 +60,7 @@ class Scheduler {
   const Threads& threads() const { return threads_; }
 
  private:
+  int usefulThreads() const { return std::clamp(most_threads_, 1, std::max(1, warehouse_->patches())); }
   bool hasStopped() const { return !outcome_.isNone() || heard_stop_; }
   bool mayRunTogether();
   const mpi::Communicator& ranksWithPatches();
@@ -76,17 +84,19 @@ class Scheduler {
 
   std::optional<data::Minimum> askedBy(const CompiledTask& task);
   void note(const CompiledTask& task, int material, const NumericalError& error);
-  void noteBroken(const CompiledTask& task, int material);
+  /// Notes the first bound that is broken for the materials `first` up to `end`, if one is.
+  void noteBroken(const CompiledTask& task, int first, int end);
   void agree(const TaskGraph& graph);
   NumericalError whatBroke(TaskGraph& graph, const StepInfo& at);
 
   data::Warehouse* warehouse_;
+  int most_threads_;
   Threads threads_;
   Exchange exchange_;
   Relocation relocation_;
   Outcome outcome_;                      ///< of the run of a graph
   std::optional<NumericalError> error_;  ///< behind it, on the rank where a body threw it
-  std::vector<double> costs_;            ///< by patch, s
+  std::vector<double> costs_;            ///< by patch, s of the threads that worked on it
   bool heard_stop_ = false;              ///< a rank whose values this one needs has stopped
   int running_ = 0;                      ///< place of the task in its graph
   std::optional<mpi::Communicator> with_patches_;

@@ -29,11 +29,14 @@ void Scheduler::note(const CompiledTask& task, int material, const NumericalErro
   if (before.task != outcome_.task || before.kind != outcome_.kind || before.material != outcome_.material) error_ = error;
 }
 
-void Scheduler::noteBroken(const CompiledTask& task, int material) {
-  const auto& bounded = task.of(material).bounded;
-  const std::size_t place = firstThatBreaks(*warehouse_, bounded);
-  const auto value = data::Reason::of(warehouse_->table()[bounded[place].variable].label->name);
-  outcome_.merge({running_, Outcome::Kind::breaks, material, place, warehouse_->ranks().rank(), {}, value});
+void Scheduler::noteBroken(const CompiledTask& task, int first, int end) {
+  for (int material = first; material < end; ++material) {
+    const auto& bounded = task.of(material).bounded;
+    const std::size_t place = firstThatBreaks(*warehouse_, bounded);
+    if (place == bounded.size()) continue;
+    const auto value = data::Reason::of(warehouse_->table()[bounded[place].variable].label->name);
+    return outcome_.merge({running_, Outcome::Kind::breaks, material, place, warehouse_->ranks().rank(), {}, value});
+  }
 }
 
 /// Merges the outcome and the reductions of all ranks, in one message to each.
@@ -46,11 +49,7 @@ void Scheduler::agree(const TaskGraph& graph) {
     std::memcpy(mine.data() + place, slot.bytes().data(), slot.bytes().size());
   });
   warehouse_->ranks().merge(mine, [&](const std::byte* from, std::byte* into) {
-    Outcome one, other;
-    std::memcpy(&one, into, sizeof(Outcome));
-    std::memcpy(&other, from, sizeof(Outcome));
-    one.merge(other);
-    std::memcpy(into, &one, sizeof(Outcome));
+    mergeInMemory<Outcome>(from, into);
     forEachReduction(*warehouse_, graph,
                      [&](data::ReductionSlot& slot, std::size_t place) { slot.merge(from + place, into + place); });
   });
@@ -73,6 +72,10 @@ NumericalError Scheduler::whatBroke(TaskGraph& graph, const StepInfo& at) {
   }
   const CompiledTask& task = graph.tasks()[static_cast<std::size_t>(outcome.task)];
   const auto broken = firstBroken(*warehouse_, task.of(outcome.material).bounded);
+  if (!broken)
+    throw TaskError(fmt::format("{} broke its bound, but not when the task was run again: a body gives the same whenever it "
+                                "runs ({})",
+                                outcome.value.text(), placeOf(task, -1, outcome.material, at)));
   return {fmt::format("{} ({})", broken->sentence, placeOf(task, broken->patch, outcome.material, at)), "", broken->label};
 }
 

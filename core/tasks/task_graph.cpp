@@ -59,7 +59,8 @@ TaskGraph::TaskGraph(std::string name, Pruned pruned, const grid::Level& level, 
       for (int m = fill.perMaterial ? 0 : -1; m < (fill.perMaterial ? materials_ : 0); ++m)
         tasks_[t].fills.push_back({table.number(*fill.label, m), fill.generation, fill.set,
                                    fill.label->centring == Centring::particle});
-  for (const CompiledTask& task : tasks_) reductions_.insert(reductions_.end(), task.reductions.begin(), task.reductions.end());
+  for (const CompiledTask& task : tasks_)
+    reductions_.insert(reductions_.end(), task.reductions.begin(), task.reductions.end());
   std::sort(reductions_.begin(), reductions_.end());
   reductions_.erase(std::unique(reductions_.begin(), reductions_.end()), reductions_.end());
   for (CompiledTask& task : tasks_) task.mayStartEarly = mayStartEarly(task, table);

@@ -42,7 +42,9 @@ struct CompiledTask {
   double exchangeSeconds = 0;   ///< of that, time spent filling ghosts before it
 
   /// What depends on a material (-1 for a task that belongs to none).
-  const MaterialBinding& of(int material) const { return materials[task.perMaterial() ? static_cast<std::size_t>(material) : 0]; }
+  const MaterialBinding& of(int material) const {
+    return materials[task.perMaterial() ? static_cast<std::size_t>(material) : 0];
+  }
 };
 
 /// A compiled task list.

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/environment.hpp"
+
 namespace tushar {
 
 namespace {
@@ -76,6 +78,30 @@ TEST(Threads, GoOnAfterAnException) {
   EXPECT_EQ(failureOf(threads, {}, 100).second, 100);
 }
 
-TEST(Threads, AreAtLeastOneWhateverTheLauncherSays) { EXPECT_GE(allowedThreads(), 1); }
+TEST(Threads, MayBecomeMoreOrFewer) {
+  Threads threads(1);
+  for (const int count : {3, 1, 2, 2}) {
+    threads.resize(count);
+    std::atomic<int> calls = 0;
+    threads.forEach(100, [&](int) { ++calls; });
+
+    EXPECT_EQ(threads.count(), count);
+    EXPECT_EQ(calls, 100);
+  }
+}
+
+TEST(Threads, AreAllowedAsTheLauncherSaysAndAtLeastOne) {
+  const test::Environment none("SLURM_CPUS_PER_TASK", std::nullopt), alone("OMPI_COMM_WORLD_LOCAL_SIZE", "1");
+  const int all = allowedThreads();
+  const auto with = [](const char* name, const char* value) {
+    const test::Environment launcher(name, value);
+    return allowedThreads();
+  };
+
+  EXPECT_EQ(with("OMPI_COMM_WORLD_LOCAL_SIZE", "100000"), 1);
+  EXPECT_EQ(with("SLURM_CPUS_PER_TASK", "1"), 1);
+  EXPECT_EQ(with("SLURM_CPUS_PER_TASK", "0"), all);
+  EXPECT_EQ(with("SLURM_CPUS_PER_TASK", "100000"), all);
+}
 
 }  // namespace tushar

@@ -30,6 +30,26 @@ TEST(Box, GivesConsecutiveOffsetsInTheOrderOfVisits) {
   EXPECT_EQ(next, box.size());
 }
 
+TEST(Box, FindsTheStartOfEachRowAndOfAnEmptyBoxNone) {
+  const Box box{{{1, 5, 0}}, {{3, 7, 1}}}, empty{{{1, 5, 0}}, {{1, 7, 1}}};
+  std::vector<Index3> starts;
+
+  for (const Box& one : {box, empty}) forEach<3>(one.rowStarts(), [&](const Index3& at) { starts.push_back(at); });
+
+  EXPECT_EQ(starts, (std::vector<Index3>{{{1, 5, 0}}, {{1, 6, 0}}}));
+}
+
+TEST(Level, WrapsCellsAlongPeriodicAxesAlone) {
+  Domain plane = domain({{8, 4, 1}});
+  plane.periodic[1] = 1;
+  for (const int side : {0, 1}) plane.boundaries.face(1, side).clear();
+  const Level level(plane);
+
+  EXPECT_EQ(level.wrapped(Index<2>{{3, 2}}), (Index<2>{{3, 2}}));
+  EXPECT_EQ(level.wrapped(Index<2>{{-1, -1}}), (Index<2>{{-1, 3}}));
+  EXPECT_EQ(level.wrapped(Index3{{9, 9, 0}}), (Index3{{9, 1, 0}}));
+}
+
 TEST(Level, LeavesOutAxesWithOneCellBetweenSymmetryPlanesOrWithoutExtent) {
   Domain flat = domain({{8, 4, 1}});
   flat.upper[1] = 0;

@@ -1,6 +1,7 @@
 #include "core/input/document.hpp"
 
 #include <filesystem>
+#include <fstream>
 
 #include "tests/input/support.hpp"
 
@@ -200,6 +201,17 @@ TEST_F(Include, InsertsTheSectionItself) {
   Diagnostics diagnostics;
   const Document document = load("<include href='other.xml' section='A/B'/>", diagnostics);
 
+  EXPECT_EQ(document.root().child("Grid")->children().at(0).name(), "B");
+}
+
+TEST_F(Include, FindsAFileThatIsNamedFromAFolderAbove) {
+  const std::filesystem::path deep = std::filesystem::path(test::temporaryFolder()) / "MPM" / "inner";
+  std::filesystem::create_directories(deep);
+  std::ofstream(deep / "main.ups") << scene("\n<Grid><include href='other.xml' section='A/B'/></Grid>");
+  Diagnostics diagnostics;
+  const Document document = Document::load((deep / "main.ups").string(), diagnostics);
+
+  EXPECT_EQ(told(diagnostics), Lines{});
   EXPECT_EQ(document.root().child("Grid")->children().at(0).name(), "B");
 }
 

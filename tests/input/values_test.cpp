@@ -18,6 +18,9 @@ TEST(Values, ReadIntegers) {
 }
 
 TEST(Values, RefuseWhatIsNoInteger) {
+  EXPECT_EQ(parse<int>("2.0").value, 2);
+  EXPECT_EQ(parse<int>("-4.").value, -4);
+  EXPECT_EQ(parse<int>(".0").problem, "found '.0', expected an integer");
   EXPECT_EQ(parse<int>("10.5").problem, "found '10.5', expected an integer");
   EXPECT_EQ(parse<int>("+-1").problem, "found '+-1', expected an integer");
   EXPECT_EQ(parse<int>("").problem, "found nothing, expected an integer");

@@ -36,11 +36,26 @@ TEST(Communicator, MergesInTheOrderOfRanks) {
 TEST(Communicator, CarriesMessagesOfAnyLengthInTheOrderInWhichTheyAreSent) {
   const int next = (allRanks().rank() + 1) % allRanks().size(), last = (allRanks().rank() + 3) % allRanks().size();
   Outbox outbox(allRanks());
-  for (const std::size_t length : {0u, 1u, 8u, 100001u}) outbox.send(next, 7, Bytes(length, std::byte{42}));
+  for (const std::size_t length : {0u, 1u, 8u, 100001u}) outbox.send(next, Tag::ghosts, Bytes(length, std::byte{42}));
 
   for (const std::size_t length : {0u, 1u, 8u, 100001u})
-    EXPECT_EQ(allRanks().receive(last, 7), Bytes(length, std::byte{42}));
+    EXPECT_EQ(allRanks().receive(last, Tag::ghosts), Bytes(length, std::byte{42}));
   outbox.wait();
+}
+
+TEST(Communicator, CarriesMessagesWhoseOutboxIsNoMore) {
+  const Bytes message(8'000'000, std::byte{42});
+  if (allRanks().isFirst()) {
+    Outbox outbox(allRanks());
+    outbox.send(1, Tag::ghosts, message);
+  }
+  const Bytes other(message.size(), std::byte{7});  // in the memory of the first, had that been given back
+  allRanks().any(false);
+
+  if (allRanks().rank() == 1) {
+    EXPECT_EQ(allRanks().receive(0, Tag::ghosts), message);
+  }
+  allRanks().any(false);
 }
 
 TEST(Communicator, LetsTheFirstRankActAndTheOthersKnowThatItFailed) {

@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <numeric>
+#include <thread>
 
 #include "core/base/error.hpp"
 #include "core/tasks/migration.hpp"
@@ -32,6 +35,8 @@ constexpr ParticleLabel<Vec<2>> x{"p.x", "m", "position"};
 constexpr ParticleLabel<double> mark{"p.mark", "1", "a value that belongs to the id"};
 constexpr data::ReductionLabel<Sum> wrong{"wrong", "1", "values that are not what they should be"};
 constexpr data::ReductionLabel<Sum> count{"count", "1", "particles"};
+constexpr data::ReductionLabel<Sum> wrongBefore{"wrongBefore", "1", "the same at the start of the step"};
+constexpr data::ReductionLabel<Sum> countBefore{"countBefore", "1", "particles at the start of the step"};
 
 struct Material {
   std::string name;
@@ -76,9 +81,16 @@ double differingGhosts(const mpi::Communicator& ranks, const Index3& patches, in
 /// Two particles in each cell, which jump by some cells in each step, on a periodic grid.
 class Swarm {
  public:
-  Swarm(const mpi::Communicator& ranks, const Index3& patches, double jump) : run(plane(patches, true), 1, ranks) {
+  /// A rank that `fails` does so once, at the start of a step.
+  Swarm(const mpi::Communicator& ranks, const Index3& patches, double jump, bool fails = false)
+      : run(plane(patches, true), 1, ranks), failing(fails) {
     TaskList start, advance;
     start.newParticles("create", create, gas, creates(x), creates(mark));
+    advance.perMaterial("fail", [this](const Patch&, const Material&, ParticleView<const Vec<2>>, Minimum&) {
+      if (std::exchange(failing, false)) throw NumericalError("made to fail", "", "value");
+    }, gas, requiresOld(x), computes(data::recomputeTimeStep));
+    advance.perMaterial("inspect the start", inspect, gas, requiresOld(x, 1), requiresOld(data::particleId, 1),
+                        requiresOld(mark, 1), computes(wrongBefore), computes(countBefore));
     advance.perMaterial("move", [jump](const Patch& patch, const Material&, ParticleView<const Vec<2>> from,
                                        ParticleView<Vec<2>> to) {
       for (int p = 0; p < from.owned(); ++p)
@@ -88,18 +100,24 @@ class Swarm {
     advance.perMaterial("inspect", inspect, gas, requiresNew(x, 1), requiresNew(data::particleId, 1),
                         requiresNew(mark, 1), computes(wrong), computes(count));
     begin = run.compile(start, {"p.x", "p.mark"});
-    step = run.compile(advance, {"p.x", "p.mark", "wrong", "count"}, true);
+    step = run.compile(advance, {"p.x", "p.mark", "wrong", "count", "wrongBefore", "countBefore", "recomputeTimeStep"}, true);
     run.step(begin);
   }
   /// Patches change ranks before each step from now on: all to one, or to each another number of them.
   void keepMoving() { moves = true; }
+  /// Whether a step that may be repeated is to be.
+  bool isRepeated() {
+    StepInfo at;
+    at.mayRepeat = true;
+    return run.scheduler.run(step, at).has_value();
+  }
   /// What is wrong after some steps, and how many particles there are.
   std::pair<double, double> after(int steps) {
     double all = 0;
     for (int k = 0; k < steps; ++k) {
       if (moves) move(k);
       run.step(step);
-      all += valueOf(run, "wrong");
+      all += valueOf(run, "wrong") + valueOf(run, "wrongBefore");
     }
     return {all, valueOf(run, "count")};
   }
@@ -142,7 +160,7 @@ class Swarm {
 
   test::Runner run;
   TaskGraph begin, step;
-  bool moves = false;
+  bool moves = false, failing;
 };
 
 /// What comes of a run in which one task does something to one cell.
@@ -239,6 +257,40 @@ TEST(Ranks, MayGivePatchesToOneAnotherBetweenSteps) {
     });
 }
 
+TEST(Ranks, UseAsManyThreadsAsTheyHavePatchesFor) {
+  onRanks(2, [](const mpi::Communicator& some) {
+    test::Runner run(plane({{4, 3, 1}}, false), 4, some);
+    EXPECT_EQ(run.scheduler.threads().count(), 4);
+
+    for (const int first : {12, 2, 10}) {
+      migrate(run.level, run.warehouse, {}, {0, first, 12});
+      run.scheduler.forgetLayout();
+      const int patches = some.isFirst() ? first : 12 - first;
+      EXPECT_EQ(run.scheduler.threads().count(), std::clamp(patches, 1, 4)) << patches << " patches";
+    }
+  });
+}
+
+TEST(Ranks, MeasureNoMoreThanTheClockByAnyNumberOfThreads) {
+  using Clock = std::chrono::steady_clock;
+  onRanks(2, [](const mpi::Communicator& some) {
+    test::Runner run(plane({{4, 3, 1}}, false), 2, some);
+    TaskList list;
+    list.perPatch("wait", [](const Patch&, CellView<double> cells) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      cells.fill(1);
+    }, computes(number));
+    TaskGraph graph = run.compile(list, {"c.number"});
+
+    const auto started = Clock::now();
+    run.step(graph);
+    const double passed = std::chrono::duration<double>(Clock::now() - started).count();
+    const std::vector<double> costs = run.scheduler.takeCosts();
+
+    EXPECT_LE(std::accumulate(costs.begin(), costs.end(), 0.0), passed);
+  });
+}
+
 TEST(Ranks, TellTheSameOfAFaultOnAnyOfThem) {
   for (const auto& harm : {breakTwo, throwTwo, askAndThrow}) {
     const std::string alone = failure(mpi::Communicator::alone(), false, harm);
@@ -252,11 +304,25 @@ TEST(Ranks, TellTheSameOfAFaultOnAnyOfThem) {
   }
 }
 
-TEST(Ranks, GoOnAfterAFault) {
-  onRanks(3, [](const mpi::Communicator& some) {
-    failure(some, true, throwTwo);
-    EXPECT_EQ(failure(some, false, [](const Patch&, CellView<double>, Minimum&) {}), "");
+TEST(Ranks, RefuseATaskThatBreaksABoundOnceAndNotAgain) {
+  onRanks(2, [](const mpi::Communicator& some) {
+    bool isBroken = false;
+    const auto breakOnce = [&isBroken](const Patch& patch, CellView<double> cells, Minimum&) {
+      const Index<2> bad{{2, 6}};
+      if (patch.cells().contains(bad) && !std::exchange(isBroken, true)) cells[bad] = -1;
+    };
+
+    EXPECT_THROW(failure(some, false, breakOnce), TaskError);
   });
+}
+
+TEST(Ranks, RepeatAStepThatStoppedBeforeAllHadSettledTheirGhosts) {
+  for (const int faulty : {0, 1, 2})
+    onRanks(3, [faulty](const mpi::Communicator& some) {
+      Swarm swarm(some, {{12, 10, 1}}, 0.3, some.rank() == faulty);
+      EXPECT_TRUE(swarm.isRepeated());
+      EXPECT_EQ(swarm.after(2), std::pair(0.0, 240.0)) << "rank " << faulty;
+    });
 }
 
 }  // namespace tushar::tasks

@@ -99,12 +99,21 @@ class Ranks(unittest.TestCase):
         self.assert_over(job, "expected a value greater than 0")
         self.assertEqual(job.returncode, 3)
 
+    def start_each(self, folder, *scenes):
+        """A job whose ranks run a scene each."""
+        parts = (f"{SUS} {scene} --quiet --set DataArchiver/outputInterval=0 --output {folder}" for scene in scenes)
+        line = "mpirun --oversubscribe -n 1 " + " : -n 1 ".join(parts)
+        return subprocess.Popen(line.split(), cwd=ROOT, stderr=subprocess.PIPE, text=True)
+
     def test_what_one_rank_cannot_do_ends_all_with_one_sentence(self):
-        parts = (f"{SUS} {scene} --quiet --set DataArchiver/outputInterval=0" for scene in (SOD, "gone.ups", SOD))
         with tempfile.TemporaryDirectory() as folder:
-            line = "mpirun --oversubscribe -n 1 " + " : -n 1 ".join(f"{part} --output {folder}" for part in parts)
-            job = subprocess.Popen(line.split(), cwd=ROOT, stderr=subprocess.PIPE, text=True)
+            job = self.start_each(folder, SOD, "gone.ups", SOD)
             self.assertIn("(rank 1 of 3)", self.assert_over(job, "gone.ups"))
+
+    def test_what_two_ranks_cannot_do_is_told_by_one_while_a_third_waits(self):
+        with tempfile.TemporaryDirectory() as folder:
+            job = self.start_each(folder, SOD, "gone.ups", "missing.ups")
+            self.assertNotIn("missing.ups", self.assert_over(job, "gone.ups"))
 
     def test_a_throw_in_a_task_of_one_rank_ends_all_with_one_sentence(self):
         here = self.folder(3)

@@ -68,6 +68,7 @@ class Trace(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         _, _, report = folder.run(*SCENE)
         self.assertEqual(report["fingerprint"], self.report["fingerprint"])
+        self.assertEqual({path.name for path in folder.path.iterdir()}, {"report.json", "vortex.uda", "vortex.uda.000"})
 
 
 if __name__ == "__main__":

@@ -46,6 +46,22 @@ TEST(PlacesById, AreInAscendingOrderWhateverBitsTheIdsDifferIn) {
                                                  std::uint64_t{5} << 60, std::uint64_t{1} << 63}));
 }
 
+TEST(PlacesById, AreInAscendingOrderWhereTheIdsAreDense) {
+  const std::vector<std::uint64_t> first{(7 << 16) + 1, 6 << 16, 5 << 16}, second{7 << 16, (5 << 16) + 1};
+
+  const std::vector<Place> places = placesById(Parts{{partOf(first), partOf(second)}});
+
+  std::vector<std::uint64_t> ordered;
+  for (const Place& place : places) ordered.push_back((place.patch == 0 ? first : second)[place.index]);
+  EXPECT_EQ(ordered, (std::vector<std::uint64_t>{5 << 16, (5 << 16) + 1, 6 << 16, 7 << 16, (7 << 16) + 1}));
+}
+
+TEST(PlacesById, AreOneForOneParticle) {
+  const std::vector<std::uint64_t> id{42};
+
+  EXPECT_EQ(placesById(Parts{{Part{}, partOf(id)}}).size(), 1U);
+}
+
 TEST(PlacesById, AreNoneWithoutParticles) { EXPECT_TRUE(placesById(Parts{{Part{}, Part{}}}).empty()); }
 
 TEST(SourceInRuns, GivesTheSameForPiecesThatCutRuns) {

@@ -13,7 +13,8 @@ from sus import ROOT, SUS
 sys.path.insert(0, str(ROOT / "tools/python"))
 from tushar import scene_variants
 from tushar.gallery import CASES, METHODS
-from tushar.stability import Gallery, is_stable, judge, scene_of
+from tushar.program import run_scene
+from tushar.stability import Gallery, is_stable, judge, scene_of, write_scene
 
 FATAL = ("toro_2", "toro_4", "toro_5", "leblanc", "ratio_1e6")  # for the paper's method
 SENTENCE = re.compile(r"p\.(?:density|internalEnergy) became -\S+ \S+ from \S+, but must be (?:greater than|at least) 0: "
@@ -70,6 +71,22 @@ class ShortGallery(unittest.TestCase):
             self.assertEqual(len(files), 3)
             for file in files:
                 self.assertNotRegex(file.read_text().lower(), "nan|inf", file.name)
+
+    def test_what_was_not_measured_is_not_passed(self):
+        run = self.gallery.run(case_of("sod"), METHODS["default"])
+        self.assertEqual(judge(run, case_of("sod"), True), ["pass"])
+        for name in ("entropy", "error", *case_of("sod").keeps):
+            without = {key: value for key, value in run.items() if key != name}
+            self.assertRaises(KeyError, judge, without, case_of("sod"), True)
+
+    def test_a_written_scene_is_the_one_that_is_run(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for name, method in (("relaxation_1000", "affine_flip"), ("on_faces", "paper_tracked")):
+                with self.subTest(case=name):
+                    case, scene = case_of(name), pathlib.Path(folder, f"{name}.ups")
+                    write_scene(case, METHODS[method], scene)
+                    report = run_scene(SUS, scene, [], folder)
+                    self.assertEqual(report["fingerprint"], self.gallery.run(case, METHODS[method])["fingerprint"])
 
     def test_too_large_a_time_step_is_found(self):
         case, method = case_of("sod"), METHODS["paper"]

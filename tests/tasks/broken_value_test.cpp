@@ -194,6 +194,24 @@ TEST(BrokenValue, SaysWhereInTwoDimensions) {
               "0.5 s)");
 }
 
+TEST(BrokenValue, IsFoundInEachMaterialOfATaskForAllOfThem) {
+  const std::vector<Material> two{{"gas"}, {"dust"}};
+  for (const std::size_t bad : {0u, 1u}) {
+    test::Runner run(test::domain({{4, 1, 1}}, {{2, 1, 1}}));
+    TaskList list;
+    list.acrossMaterials("mix", [bad](const Patch& patch, const std::vector<Material>&,
+                                      const std::vector<CellView<double>>& fields) {
+      for (const CellView<double>& field : fields) field.fill(3);
+      if (patch.cells().contains(Index<1>{{2}})) fields[bad][Index<1>{{2}}] = -1;
+    }, two, computes(heat));
+    TaskGraph graph = run.compile(list, {"c.heat"});
+
+    EXPECT_EQ(failure(run, graph),
+              "c.heat became -1 J, but must be at least 0: cell (2) at x = 0.625 m; around it: 3 in cell (1), 3 in cell (3); "
+              "no other of 4 cells is broken (task mix, patch *, material " + two[bad].name + ", step 7, time 0.5 s)");
+  }
+}
+
 TEST(BrokenValue, LooksAtGhostsOfNobody) {
   test::Runner run(test::domain({{8, 1, 1}}, {{2, 1, 1}}));
   TaskList list;

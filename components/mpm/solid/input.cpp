@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
+#include "components/mpm/solid/foreign_tags.hpp"
 #include "components/mpm/solid/loads/load_input.hpp"
 #include "components/mpm/solid/material_input.hpp"
-#include "components/mpm/solid/refuse.hpp"
 #include "components/mpm/solid/shapes/cpdi_shape.hpp"
 #include "components/mpm/solid/solid_mpm.hpp"
 #include "core/simulation/by_dimension.hpp"
@@ -41,62 +42,6 @@ struct MpmSection {
   double minimumParticleMass = 0, minimumMassForAcceleration = 0;
   std::optional<double> maximumParticleVelocity;
   int minimumSubcycles = 1;
-};
-
-/// Switches of Uintah's that are missing here, and what there is instead.
-const std::vector<std::pair<std::string, std::string>> lacking{
-    {"DoPressureStabilization",
-     "use <time_integrator> implicit, or a wider <interpolator>, such as gimp or 3rdorderBS, against locking"},
-    {"UseGradientEnhancedVelocityProjection", "take it out: particles pass on their own velocity"},
-    {"UsePrescribedDeformation", "move the body by a <contact> of type specified"},
-    {"InsertParticles", "give every body its place at the start"},
-    {"refine_particles", "give the body more particles by <res>"},
-    {"use_cohesive_zones", "give the bodies a <contact>"},
-    {"do_scalar_diffusion", "heat conduction obeys the same equation"},
-    {"coupled_flow_analysis", "there is one phase"},
-    {"AMR", "there is one level: choose a finer <resolution>"},
-    {"DoCapDensity", "take it out: density is not capped"},
-    {"DoGranularMPM", "take it out"},
-    {"DoDefGradAveraging", "use a wider <interpolator>, such as gimp or 3rdorderBS, against locking"},
-    {"keepPressBCNormalToSurface", "a pressure keeps the direction of its surface at the start"},
-    {"use_CBDI_boundary_condition", "a pressure is shared among the particles at its surface"},
-    {"use_volume_integral", "take it out: particles stand for their volume"},
-};
-
-/// Tags of Uintah's that change nothing here, and why.
-const std::vector<std::pair<std::string, std::string>> meaningless{
-    {"boundary_traction_faces", "BndyForce_… and BndyContactArea_… of every face can be saved without it"},
-    {"CanAddMPMMaterial", "all materials are there from the start"},
-    {"restartOnLargeNodalVelocity", "a run that fails says where and why"},
-    {"DeleteGeometryObjects", "shapes are not kept"},
-    {"computeNodalHeatFlux", "nothing depends on it"},
-    {"interpolateParticleTempToGridEveryStep", "temperatures always come from the particles"},
-    {"testForNegTemps_mpm", "nothing depends on it"},
-    {"PrescribedDeformationFile", "belongs to UsePrescribedDeformation"},
-    {"exactDeformation", "belongs to UsePrescribedDeformation"},
-    {"InsertParticlesFile", "belongs to InsertParticles"},
-    {"water_damping_coef", "belongs to coupled_flow_analysis"},
-    {"solid_damping_coef", "belongs to coupled_flow_analysis"},
-    {"PorePressureFilter", "belongs to coupled_flow_analysis"},
-    {"do_auto_cycle_bc", "belongs to do_scalar_diffusion"},
-    {"auto_cycle_use_minmax", "belongs to do_scalar_diffusion"},
-    {"auto_cycle_max", "belongs to do_scalar_diffusion"},
-    {"auto_cycle_min", "belongs to do_scalar_diffusion"},
-    {"with_gauss_solver", "belongs to the implicit method"},
-    {"dynamic", "belongs to the implicit method"},
-    {"solver", "belongs to the implicit method"},
-    {"Solver", "belongs to the implicit method"},
-    {"convergence_criteria_disp", "belongs to the implicit method"},
-    {"convergence_criteria_energy", "belongs to the implicit method"},
-    {"num_iters_to_decrease_delT", "belongs to the implicit method"},
-    {"num_iters_to_increase_delT", "belongs to the implicit method"},
-    {"iters_before_timestep_restart", "belongs to the implicit method"},
-    {"DoImplicitHeatConduction", "belongs to the implicit method"},
-    {"DoTransientImplicitHeatConduction", "belongs to the implicit method"},
-    {"DoMechanics", "belongs to the implicit method"},
-    {"delT_decrease_factor", "belongs to the implicit method"},
-    {"delT_increase_factor", "belongs to the implicit method"},
-    {"temperature_solve", "belongs to the implicit method"},
 };
 
 /// What works against compression and motion.
@@ -177,13 +122,29 @@ void checkUpdates(const MpmSection& read, const Element& element, Diagnostics& d
     diagnostics.error(element, "apic, XPIC2 and pic_fraction are three ways to take the velocity: pick one");
 }
 
+/// Tags of Uintah's that only implicit steps look at.
+constexpr std::array implicitOnly{"with_gauss_solver", "dynamic", "solver", "Solver", "convergence_criteria_disp",
+    "convergence_criteria_energy", "num_iters_to_decrease_delT", "num_iters_to_increase_delT",
+    "iters_before_timestep_restart", "DoImplicitHeatConduction", "DoTransientImplicitHeatConduction", "DoMechanics",
+    "delT_decrease_factor", "delT_increase_factor", "temperature_solve"};
+
+/// Uintah divides domains that become longer than so many cells; its default is 1e10.
+void refuseShortDomains(MpmSection&, const Element& element, Diagnostics& diagnostics) {
+  const auto given = element.child("cpdi_lcrit");
+  if (given && input::parse<double>(given->text()).value.value_or(0) < 1e10)
+    diagnostics.error(*given, "is not available; domains of cpdi keep the size that the deformation gives them");
+}
+
 /// What Uintah has and this method has not, or always does.
 void addForeign(Schema<MpmSection>& mpm) {
-  for (const auto& [tag, why] : meaningless) mpm.ignored(tag, why);
-  for (const auto& [tag, instead] : lacking) refuseSwitch(mpm, tag, instead);
+  addForeignTags(mpm);
+  for (const char* tag : implicitOnly) mpm.ignored(tag, "belongs to the implicit method");
+  refuseSwitch(mpm, "DoPressureStabilization",
+               "use <time_integrator> implicit, or a wider <interpolator>, such as gimp or 3rdorderBS, against locking");
   requireSwitch(mpm, "computeColinearNormals", "both sides of a contact have one normal");
   requireSwitch(mpm, "do_grid_reset", "the grid is where it was at the start of each step");
-  refuseTag(mpm, "cpdi_lcrit", "domains of cpdi keep the size that the deformation gives them");
+  mpm.custom("cpdi_lcrit", refuseShortDomains, {"cpdi_lcrit"},
+             "only 1e10 and more: domains of cpdi keep the size that the deformation gives them");
 }
 
 const Schema<MpmSection>& mpmSchema() {
@@ -211,6 +172,10 @@ const Schema<PhysicalConstants>& constantsSchema() {
   static const Schema<PhysicalConstants> schema =
       Schema<PhysicalConstants>("PhysicalConstants", "What acts everywhere.")
           .value("gravity", &PhysicalConstants::gravity, Vec3::Zero(), "m/s^2", "acceleration of all that has mass")
+          .ignored("reference_point", "belongs to components of flow")
+          .ignored("viscosity", "belongs to components of flow")
+          .ignored("ideal_gas_constant", "belongs to components of flow")
+          .ignored("pressure", "belongs to components of flow")
           .ignored("reference_pressure", "nothing here depends on it");
   return schema;
 }

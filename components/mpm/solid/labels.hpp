@@ -32,6 +32,8 @@ inline constexpr ParticleLabel<Matrix3> affineMoment{"p.affineMoment", "m^2/s",
                                                      "velocity times distance, mean over the nodes around (APIC)"};
 template <int D>
 inline constexpr ParticleLabel<Vec<D>> externalForce{"p.externalforce", "N", "force of loads"};
+inline constexpr ParticleLabel<Matrix3> scaleFactor{"p.scalefactor", "m",
+                                                    "edges of the particle, one a column, as F has deformed them"};
 inline constexpr ParticleLabel<double> heatFlux{"p.externalHeatFlux", "W", "heat that loads bring"};
 inline constexpr ParticleLabel<int> loadCurves{"p.loadCurveID", "1",
                                                "number of the load on it, or 0; further ones times 256, 65536"};
@@ -55,7 +57,7 @@ inline constexpr NodeLabel<double> surfaceVolume{"g.surfaceVolume", "m^3",
                                                  "volume of particles, with what mirrors it beyond symmetry planes"};
 inline constexpr NodeLabel<double> frictionHeat{"g.frictionHeat", "J", "heat that rubbing makes in a step"};
 inline constexpr NodeLabel<double> heatCapacity{"g.heatCapacity", "J/K", "heat capacity gathered from particles"};
-inline constexpr NodeLabel<double> temperatureNoBC{"g.temperatureNoBC", "K", "temperature gathered from particles"};
+inline constexpr NodeLabel<double> temperatureNoBC{"g.temperaturenobc", "K", "temperature gathered from particles"};
 inline constexpr NodeLabel<double> temperature{"g.temperature", "K", "the same, as the sides of the grid have it"};
 inline constexpr NodeLabel<double> heatRate{"g.heatRate", "W", "heat that flows to the node by conduction"};
 inline constexpr NodeLabel<double> contactTemperatureRate{"g.contactTemperatureRate", "K/s",
@@ -74,6 +76,7 @@ namespace total {
 using namespace mpm::total;
 inline constexpr ReductionLabel<VectorSum> angularMomentum{"AngularMomentum", "kg m^2/s",
                                                            "of all particles about the origin of x, y, z"};
+inline constexpr ReductionLabel<Sum> volume{"TotalVolumeDeformed", "m^3", "of all particles, as F has deformed them"};
 inline constexpr ReductionLabel<Sum> thermalEnergy{"ThermalEnergy", "J", "mass times specific heat times temperature"};
 inline constexpr ReductionLabel<VectorSum> rigidReactionForce{
     "RigidReactionForce", "N", "force that a contact of type rigid or specified holds the others with, against their stresses"};

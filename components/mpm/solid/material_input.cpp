@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <set>
 
 #include "components/mpm/solid/contact/contact_input.hpp"
@@ -37,10 +38,14 @@ std::vector<std::string> modelNames() {
   return names;
 }
 
+/// Older words of Uintah's for models that are here.
+const std::map<std::string, std::string> otherWords{{"cnh_damage", "UCNH"}, {"cnhp_damage", "comp_neo_hook_plastic"}};
+
 /// Models of Uintah's that are missing here, and what there is instead.
 const std::vector<std::pair<std::string, std::string>> lackingModels{
-    {"cnh_damage", "UCNH with a <damage_model>"},
-    {"cnhp_damage", "comp_neo_hook_plastic with a <damage_model>"},
+    {"visco_scram", "hypo_elastic, without viscosity, with a <damage_model>"},
+    {"mw_visco_elastic", "hypo_elastic, without viscosity"},
+    {"membrane", "comp_neo_hook for bodies as thick as a cell"},
     {"three_factor_mooney", "comp_mooney_rivlin"},
     {"SVK", "comp_neo_hook"},
     {"ArrudaBoyce8", "comp_mooney_rivlin"},
@@ -76,7 +81,8 @@ void refuseModel(const Element& tag, const std::string& type, Diagnostics& diagn
 void readModel(Material& material, const Element& parent, Diagnostics& diagnostics) {
   const auto tag = parent.child("constitutive_model");
   if (!tag) return diagnostics.error(parent, "missing tag <constitutive_model> in <material>");
-  const std::string type = tag->attribute("type").value_or("");
+  std::string type = tag->attribute("type").value_or("");
+  if (const auto other = otherWords.find(type); other != otherWords.end()) type = other->second;
   forEachModel([&]<class M>(const M&) {
     if (type != M::name) return;
     M model = modelSchema<M>().read(*tag, diagnostics);
@@ -108,7 +114,10 @@ const Schema<Body>& bodySchema() {
           .value("velocity", &Body::velocity, input::VectorExpression(), "m/s", "velocity at the start")
           .value("temperature", &Body::temperature, input::Expression(293.0), "K", "temperature at the start",
                  input::nonNegative())
-          .value("color", &Body::color, 0, "1", "a number that its particles keep, p.color");
+          .value("color", &Body::color, 0, "1", "a number that its particles keep, p.color")
+          .ignored("concentration", "belongs to do_scalar_diffusion")
+          .ignored("volumeFraction", "belongs to components with several phases")
+          .ignored("comment", "for readers");
   return schema;
 }
 
@@ -118,6 +127,7 @@ void acceptUintahsTags(Schema<Material>& tags) {
     tags.ignored(tag, "a <contact> of type rigid or specified makes a body its master");
   for (const char* tag : {"water_density", "porosity", "permeability", "initial_pore_pressure"})
     tags.ignored(tag, "belongs to coupled_flow_analysis");
+  tags.ignored("heat_transfer_coefficient", "with <thermal_contact> materials share one temperature at a node");
   tags.ignored("C_p", "the <specific_heat> is taken").ignored("do_conc_reduction", "belongs to do_scalar_diffusion");
   refuseSwitch(tags, "linear_thermal_expansion_coef", "temperature does not make bodies longer");
   requireSwitch(tags, "is_active", "every material is there from the start");

@@ -337,6 +337,11 @@ void SolidMpm<Shape>::scheduleHeating(TaskList& tasks) const {
 template <class Shape>
 void SolidMpm<Shape>::scheduleDiagnostics(TaskList& tasks) const {
   scheduleTotals<D>(tasks, problem_.materials, when(problem_.method.affine, requiresOld(p::affineMoment)));
+  tasks.perMaterial("mpm::computeScaleFactor", computeScaleFactor<D>, problem_.materials, with(problem_.method.commonSize),
+                    when(keepsSizes(), requiresOld(p::size<D>)), requiresOld(p::deformationMeasure),
+                    computes(p::scaleFactor));
+  if (!is_damageable_)
+    tasks.perMaterial("mpm::showSound", showSound, problem_.materials, requiresOld(p::mass), computes(p::localized));
   for (const auto& view : state_views_) view->schedule(tasks, problem_.materials, state_size_, state_);
   if (!keeps_stress_) {
     tasks.perMaterial("mpm::computeVolume", computeVolume, problem_.materials, requiresOld(p::mass, Shape::reach),
@@ -349,6 +354,7 @@ void SolidMpm<Shape>::scheduleDiagnostics(TaskList& tasks) const {
                               when(keepsSizes(), requiresOld(p::size<D>, Shape::reach)), reads(p::volume, Shape::reach),
                               reads(p::stress, Shape::reach));
     scheduleBoundaryForces<D>(tasks, problem_.materials, problem_.method.isThin, reads(p::volume, 0), reads(p::stress, 0));
+    tasks.perMaterial("mpm::sumVolume", sumParticles, problem_.materials, reads(p::volume, 0), computes(total::volume));
   };
   if (keeps_stress_)
     show(old);

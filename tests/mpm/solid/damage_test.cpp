@@ -61,6 +61,22 @@ TEST(BrittleDamage, SoftensInTensionOnly) {
   EXPECT_NEAR(tension(0, 0), 3 * 0.9, roundOff);
 }
 
+TEST(HancockMackenzieDamage, GrowsWithTheTriaxialityAndFailsAtTheCriticalDamage) {
+  HancockMackenzieDamage model;
+  model.initialDamage = 0.1;
+  model.criticalDamage = 0.29;
+  const Matrix3 still = Matrix3::Identity();
+  Harm harm = model.initial(1, 0);
+  Matrix3 tension = diagonal(2, 0, 0);  // mean over equivalent stress: 1/3
+  model.grow(constants, stateOf(still, 0), tension, harm);
+  EXPECT_EQ(harm.damage, 0.1) << "nothing flows";
+  model.grow(constants, stateOf(still, 100), tension, harm);  // a plastic strain of .1
+  EXPECT_NEAR(harm.damage, 0.1 + 0.1 / 1.65 * std::exp(0.5), roundOff);
+  EXPECT_FALSE(harm.hasFailed);
+  model.grow(constants, stateOf(still, 100), tension, harm);
+  EXPECT_TRUE(harm.hasFailed);
+}
+
 TEST(BrittleDamage, FollowsItsSofteningCurve) {
   BrittleDamage model;
   model.young = 1e10;

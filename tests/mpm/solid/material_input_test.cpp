@@ -115,5 +115,19 @@ TEST(MaterialInput, TakesTheStiffnessOfBrittleDamageFromTheModel) {
   EXPECT_NEAR(std::get<BrittleDamage>(materials[0].damage).young, 9.0 * 7 * 3 / (3 * 7 + 3), 1e-12);
 }
 
+TEST(MaterialInput, TakesTheConstantPartOfTheYieldStressOfZerilliAndArmstrongFromTheGrainsToo) {
+  const std::string before = moduli + std::string("<flow_model type='zerilli_armstrong'>");
+  const std::string rest = "<B>1</B><beta_0>1</beta_0><beta_1>1</beta_1><B_0>1</B_0><alpha_0>1</alpha_0>"
+                           "<alpha_1>1</alpha_1><K>1</K><n>1</n></flow_model>";
+  const auto constantPart = [&](const std::string& tags) {
+    const auto materials = materialsOf(sceneOf("elastic_plastic", before + tags + rest, "<specific_heat>5</specific_heat>"));
+    const auto& model = dynamic_cast<const ModelOf<ElasticPlasticModel>&>(*materials[0].model).model();
+    return std::get<ZerilliArmstrong>(model.flow).c0;
+  };
+  EXPECT_EQ(constantPart("<c_0>7</c_0>"), 7);
+  EXPECT_EQ(constantPart("<sigma_g>2</sigma_g><k_H>3</k_H><sqrt_l_inv>4</sqrt_l_inv>"), 14);
+  expectProblem(sceneOf("elastic_plastic", before + rest), "missing tag <c_0>");
+}
+
 }  // namespace
 }  // namespace tushar::mpm::solid::testing

@@ -82,7 +82,7 @@ READY = {
                       {"dt": ["1e-1", "1e-2", "1e-3", "1e-4", "1e-5"]}, "temperature.cell.L1"),
     "rest_cylinder": (at_rest("ups/solid/thick_cylinder.ups", "MPM/artificial_damping_coeff=6000"),
                       {"dt": ["1e-2", "1e-3", "1e-4", "1e-5"]}, "change.StrainEnergy"),
-    "rest_cantilever": (at_rest("ups/solid/cantilever.ups", "MPM/interpolator=gimp"),
+    "rest_cantilever": (at_rest("ups/solid/cantilever.ups", "MPM/interpolator=gimp", "PhysicalConstants/gravity=[0,-0.1,0]"),
                         {"dt": ["10", "1", "1e-1", "1e-2"]}, "change.CenterOfMassPosition[1]"),
     "rest_billet": (at_rest("ups/solid/billet.ups", "MPM/artificial_viscosity=false"), {"dt": ["1e-5", "1e-6", "1e-7", "1e-8"]},
                     "change.CenterOfMassPosition"),

@@ -18,6 +18,16 @@ def cells_of(root):
     return [int(count) for count in root.find("Grid/Level/Box/resolution").text.strip(" []").split(",")]
 
 
+def override(root, text):
+    """Sets what sus sets by --set PATH=VALUE, where each tag of the path is there once or not at all."""
+    path, value = text.split("=", 1)
+    element = root
+    for tag in path.split("/"):
+        found = element.find(tag)
+        element = xml.SubElement(element, tag) if found is None else found
+    element.text = value
+
+
 def save(root, *labels):
     """Makes the scene keep no fields, and these totals of every step."""
     archiver = root.find("DataArchiver")

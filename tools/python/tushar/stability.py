@@ -25,6 +25,21 @@ def scene_of(case, method):
     return root
 
 
+def write_scene(case, method, path):
+    """The scene of a case as a method runs it, without what it is measured against."""
+    root = scene_of(case, method)
+    for text in sets_of(case, method):
+        scene_variants.override(root, text)
+    for analysis in root.findall("DataAnalysis"):
+        root.remove(analysis)
+    scene_variants.write(root, pathlib.Path(path))
+
+
+def sets_of(case, method):
+    """What is overridden in that scene when it is run."""
+    return [*method.sets, *case.sets]
+
+
 class Gallery:
     """Runs of cases by methods; kept in a file, so that work goes on where it stopped. Runs of another program, and
     of scenes that have changed since, are forgotten."""
@@ -56,7 +71,7 @@ class Gallery:
     def run(self, case, method, factor=1.0):
         """What is known of a case by a method with so many times the time step that the method itself would take."""
         scene = self.scene(case, method)
-        sets = [*method.sets, *case.sets, f"Time/timestep_multiplier={factor!r}", f"Time/max_wall_time={WALL}"]
+        sets = [*sets_of(case, method), f"Time/timestep_multiplier={factor!r}", f"Time/max_wall_time={WALL}"]
         key = hashlib.sha1(json.dumps([scene.read_text(), sets]).encode()).hexdigest()[:12]
         if key not in self.runs:
             self.runs[key] = self._measure(scene, sets, case)
@@ -143,7 +158,7 @@ def judge(run, case, isOurs):
     for name in ("least_density", "least_energy"):
         if name in run and not run[name] > 0:
             broken.append(f"{name.replace('_', ' ')} not positive")
-    if case.entropy and not run.get("entropy", 0) >= -FALL:
+    if case.entropy and not run["entropy"] >= -FALL:
         broken.append("entropy falls")
     return broken or ["pass"]
 

@@ -110,6 +110,10 @@ const Schema<ContactSection>& contactSchema() {
 std::vector<std::pair<double, Vec3>> readProfile(const Element& tag, const std::string& name, Diagnostics& diagnostics) {
   const auto path = std::filesystem::path(tag.where().file).parent_path() / name;
   std::ifstream file(path);
+  if (!file) {
+    diagnostics.error(tag, fmt::format("filename: '{}' cannot be read: there is no such file", path.string()));
+    return {};
+  }
   std::vector<std::pair<double, Vec3>> profile;
   double t;
   Vec3 v;

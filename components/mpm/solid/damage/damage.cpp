@@ -52,6 +52,13 @@ void JohnsonCookDamage::grow(const MaterialConstants& material, const DamageStat
   if (harm.damage >= 1) harm.hasFailed = true;
 }
 
+void HancockMackenzieDamage::grow(const MaterialConstants&, const DamageState& state, Matrix3& stress, Harm& harm) const {
+  const double equivalent = std::sqrt(1.5) * deviator(stress).norm();
+  if (state.plasticStrainRate > 0 && equivalent > 0)
+    harm.damage += state.plasticStrainRate * state.timeStep / 1.65 * std::exp(0.5 * stress.trace() / equivalent);
+  if (harm.damage >= criticalDamage) harm.hasFailed = true;
+}
+
 void BrittleDamage::grow(const MaterialConstants&, const DamageState& state, Matrix3& stress, Harm& harm) const {
   const double energy = std::sqrt(young) * std::max(greatestStrain(state.deformation), 0.0);
   if (stress.trace() > 0 && energy > harm.threshold) {

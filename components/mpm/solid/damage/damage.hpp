@@ -50,6 +50,18 @@ struct JohnsonCookDamage {
   void grow(const MaterialConstants& material, const DamageState& state, Matrix3& stress, Harm& harm) const;
 };
 
+/// D = sum de_p / e_f, e_f = 1.65 exp(-3/2 mean stress over equivalent stress): Hancock & Mackenzie, J. Mech. Phys. Solids
+/// 24 (1976) 147. A particle fails at the critical damage.
+struct HancockMackenzieDamage {
+  static constexpr std::string_view name = "hancock_mackenzie";
+  double initialDamage = 0;
+  double criticalDamage = 1;
+
+  static const input::Schema<HancockMackenzieDamage>& schema();
+  Harm initial(double, ParticleId) const { return {initialDamage, 0, false}; }
+  void grow(const MaterialConstants& material, const DamageState& state, Matrix3& stress, Harm& harm) const;
+};
+
 /// Damage of brittle materials by the root of the energy of the greatest principal strain, r = E^(1/2) e_max, once it is
 /// above a threshold r_0: d = 0.999/D ((1 + D) / (1 + D exp(-C (r - r_0))) - 1) with C = r_0 h (1 + D) ln(1 + D) / (G_f D)
 /// for a particle of size h; the stress that the model gives is multiplied by 1 - d. Models that go on from the stress of
@@ -94,7 +106,8 @@ struct ThresholdDamage {
   bool isBeyond(const DamageState& state, const Matrix3& stress, double threshold) const;
 };
 
-using Damage = std::variant<NoDamage, JohnsonCookDamage, BrittleDamage, ThresholdDamage>;
+using Damage =
+    std::variant<NoDamage, JohnsonCookDamage, HancockMackenzieDamage, BrittleDamage, ThresholdDamage>;
 
 /// Principal values, the least first.
 inline Vec3 principalValues(const Matrix3& tensor) {

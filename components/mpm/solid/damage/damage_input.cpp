@@ -15,24 +15,46 @@ const Schema<NoDamage>& NoDamage::schema() {
   return schema;
 }
 
+/// How damaged particles are at the start.
+template <class Self>
+void declareStart(Schema<Self>& tags) {
+  tags.value("initial_mean_scalar_damage", &Self::initialDamage, 0, "1", "damage at the start", input::between(0, 1))
+      .ignored("initial_std_scalar_damage", "all particles start with the mean damage")
+      .custom("initial_scalar_damage_distrib",
+              [](Self&, const Element& element, Diagnostics& diagnostics) {
+                const auto given = element.child("initial_scalar_damage_distrib");
+                const auto spread = element.child("initial_std_scalar_damage");
+                const bool isEven = spread && input::parse<double>(spread->text()).value == 0.0;
+                if (given && given->text() != "constant" && !isEven)
+                  diagnostics.error(*given, input::choiceProblem(given->text(), {"constant"}));
+              },
+              {"initial_scalar_damage_distrib"}, "only constant, or gauss without a deviation");
+}
+
 const Schema<JohnsonCookDamage>& JohnsonCookDamage::schema() {
   using Self = JohnsonCookDamage;
-  static const Schema<Self> schema =
-      Schema<Self>("damage_model", "Johnson's and Cook's; a particle fails where p.damage is 1 (in Uintah nothing does).")
-          .required("D1", &Self::d1, "1", "fracture strain without stress")
-          .required("D2", &Self::d2, "1", "factor of exp(D3 s*)")
-          .required("D3", &Self::d3, "1", "factor of the triaxiality")
-          .required("D4", &Self::d4, "1", "factor of the logarithm of the rate")
-          .required("D5", &Self::d5, "1", "factor of the temperature")
-          .value("initial_mean_scalar_damage", &Self::initialDamage, 0, "1", "damage at the start", input::between(0, 1))
-          .value("critical_scalar_damage", &Self::leastDamage, 1e-10, "1", "smaller damage is none", input::nonNegative())
-          .ignored("initial_std_scalar_damage", "all particles start with the mean damage")
-          .check([](const Self&, const Element& element, Diagnostics& diagnostics) {
-            const auto given = element.child("initial_scalar_damage_distrib");
-            if (given && given->text() != "constant")
-              diagnostics.error(*given, input::choiceProblem(given->text(), {"constant"}));
-          })
-          .ignored("initial_scalar_damage_distrib", "only constant");
+  static const Schema<Self> schema = [] {
+    Schema<Self> tags("damage_model", "Johnson's and Cook's; a particle fails where p.damage is 1 (in Uintah nothing does).");
+    tags.required("D1", &Self::d1, "1", "fracture strain without stress")
+        .required("D2", &Self::d2, "1", "factor of exp(D3 s*)")
+        .required("D3", &Self::d3, "1", "factor of the triaxiality")
+        .required("D4", &Self::d4, "1", "factor of the logarithm of the rate")
+        .required("D5", &Self::d5, "1", "factor of the temperature")
+        .value("critical_scalar_damage", &Self::leastDamage, 1e-10, "1", "smaller damage is none", input::nonNegative());
+    declareStart(tags);
+    return tags;
+  }();
+  return schema;
+}
+
+const Schema<HancockMackenzieDamage>& HancockMackenzieDamage::schema() {
+  using Self = HancockMackenzieDamage;
+  static const Schema<Self> schema = [] {
+    Schema<Self> tags("damage_model", "Hancock's and Mackenzie's; a particle fails at the critical damage.");
+    tags.value("critical_scalar_damage", &Self::criticalDamage, 1, "1", "damage at which it fails", input::positive());
+    declareStart(tags);
+    return tags;
+  }();
   return schema;
 }
 
@@ -115,11 +137,12 @@ const Schema<Erosion>& erosionSchema() {
 
 /// What a damage model takes from the constitutive model.
 void connect(Material& material, const Element& parent, const Element& tag, Diagnostics& diagnostics) {
-  const bool needsRate = std::holds_alternative<JohnsonCookDamage>(material.damage);
-  if (needsRate && material.meltTemperature <= material.roomTemperature)
+  const bool isJohnsonCook = std::holds_alternative<JohnsonCookDamage>(material.damage);
+  const bool needsRate = isJohnsonCook || std::holds_alternative<HancockMackenzieDamage>(material.damage);
+  if (isJohnsonCook && material.meltTemperature <= material.roomTemperature)
     diagnostics.error(tag, "johnson_cook: <melt_temp> of the material must be greater than its <room_temp>");
   if (needsRate && material.model && offsetOf(*material.model, "p.plasticStrainRate") < 0)
-    diagnostics.error(tag, "johnson_cook needs the plastic strain of a constitutive model elastic_plastic_hp, found " +
+    diagnostics.error(tag, tag.attribute("type").value_or("") + " needs the plastic strain of a constitutive model elastic_plastic_hp, found " +
                                std::string(material.model->name()));
   BrittleDamage* brittle = std::get_if<BrittleDamage>(&material.damage);
   if (!brittle) return;
@@ -143,6 +166,15 @@ void refuseStabilityChecks(const Element& parent, const Element& erosion, Diagno
                                           erosion.where().line));
 }
 
+/// In Uintah metals fail by porosity, too, unless the scene says otherwise.
+void noteWhatDoesNotFail(const Material& material, const Element& parent, const Element& erosion, Diagnostics& diagnostics) {
+  const auto model = parent.child("constitutive_model");
+  const auto isOff = [&](const char* tag) { return model && model->child(tag) && model->child(tag)->text() == "false"; };
+  if (material.model && offsetOf(*material.model, "p.plasticStrainRate") >= 0 && !isOff("evolve_porosity") &&
+      !isOff("check_TEPLA_failure_criterion"))
+    diagnostics.note(erosion, "particles fail by the <damage_model> and by melting; Uintah's fail by porosity, too");
+}
+
 }  // namespace
 
 void readDamage(Material& material, const Element& parent, Diagnostics& diagnostics) {
@@ -153,6 +185,7 @@ void readDamage(Material& material, const Element& parent, Diagnostics& diagnost
   if (const auto tag = parent.child("erosion")) {
     material.erosion = erosionSchema().read(*tag, diagnostics);
     if (material.erosion.acts()) refuseStabilityChecks(parent, *tag, diagnostics);
+    if (material.erosion.acts()) noteWhatDoesNotFail(material, parent, *tag, diagnostics);
   }
 }
 

@@ -1,10 +1,10 @@
 #include "components/mpm/solid/implicit/input.hpp"
 
+#include "components/mpm/solid/foreign_tags.hpp"
 #include "components/mpm/solid/implicit/implicit_mpm.hpp"
 #include "components/mpm/solid/input.hpp"
 #include "components/mpm/solid/loads/load_input.hpp"
 #include "components/mpm/solid/material_input.hpp"
-#include "components/mpm/solid/refuse.hpp"
 #include "core/simulation/by_dimension.hpp"
 #include "core/solvers/input.hpp"
 
@@ -71,24 +71,28 @@ const Schema<Section>& sectionSchema() {
     mpm.value("DoPressureStabilization", &Section::sharesVolume, false, "1",
               "F-bar: the particles of a cell answer to compression as one, against locking where nothing is compressible");
     declareSteps(mpm);
-    mpm.choice("solver", &Section::solver, {{"petsc", 0}}, 0, "what solves the linear systems")
+    mpm.choice("solver", &Section::solver, {{"petsc", 0}, {"simple", 0}}, 0,
+               "what solves the linear systems: PETSc, under two words")
         .section("Solver", &Section::linear, solvers::linearSchema(),
                  "how; left out: gmres with gamg, to a tolerance of 1e-8")
         .ours()
         .value("use_load_curves", &Section::useLoadCurves, false, "1", "the loads of <PhysicalBC> act")
         .value("withColor", &Section::withColor, false, "1",
                "accepted for Uintah's sake: p.color is there where it is saved")
-        .ignored("boundary_traction_faces", "save p.stress, or the loads of <PhysicalBC>")
         .value("DoImplicitHeatConduction", &Section::heat, false, "1", "heat is conducted, by backward Euler")
         .ignored("DoExplicitHeatConduction", "heat is conducted implicitly, where DoImplicitHeatConduction says so")
         .choice("DoTransientImplicitHeatConduction", &Section::transient, {{"true", 0}}, 0, "heat takes time to spread")
         .ignored("temperature_solve", "heat is conducted where DoImplicitHeatConduction says so")
-        .ignored("interpolateParticleTempToGridEveryStep", "it always is")
         .ignored("do_grid_reset", "the grid is new in every step")
         .ignored("artificial_damping_coeff", "as in Uintah, only explicit steps are damped")
         .ignored("minimum_particle_mass", "no particle is taken out")
         .ignored("maximum_particle_velocity", "no particle is slowed down");
     refuseSwitch(mpm, "artificial_viscosity", "only explicit steps have one");
+    for (const char* tag : {"artificial_viscosity_coeff1", "artificial_viscosity_coeff2", "artificial_viscosity_heating",
+                            "minimum_mass_for_acc", "minimum_subcycles_for_F", "XPIC2", "do_contact_friction_heating",
+                            "cpdi_lcrit", "computeColinearNormals"})
+      mpm.ignored(tag, "as in Uintah, only explicit steps look at it");
+    addForeignTags(mpm);
     return mpm;
   }();
   return schema;
@@ -134,7 +138,7 @@ void refuseExplicitOnly(const Problem& problem, const Element& root, Diagnostics
     if (contact.excluded >= 0)
       diagnostics.error(where, "contact: ExcludeMaterial only with <time_integrator> explicit");
     for (const Material& material : problem.materials)
-      if (!contact.concerns(material.index))
+      if (contact.type == Contact::Type::specified && !contact.concerns(material.index))
         diagnostics.error(where, "contact: '" + material.name + "' is not among its <materials>; with <time_integrator> "
                                  "implicit all materials move as one");
   }

@@ -96,6 +96,9 @@ void ImplicitMpm<Shape>::scheduleHeat(TaskList& tasks) const {
 template <class Shape>
 void ImplicitMpm<Shape>::scheduleDiagnostics(TaskList& tasks) const {
   scheduleTotals<D>(tasks, problem_.materials, when(false, requiresOld(p::affineMoment)));
+  tasks.perMaterial("mpm::computeScaleFactor", computeScaleFactor<D>, problem_.materials, with(problem_.method.commonSize),
+                    when(true, requiresOld(p::size<D>)), requiresOld(p::deformationMeasure), computes(p::scaleFactor));
+  tasks.perMaterial("mpm::sumVolume", sumParticles, problem_.materials, requiresOld(p::volume), computes(total::volume));
   for (const auto& view : state_views_) view->schedule(tasks, problem_.materials, state_size_, state_);
   scheduleShowOnGrid<Shape>(tasks, problem_.materials, problem_.method.commonSize,
                             when(true, requiresOld(p::size<D>, Shape::reach)), requiresOld(p::volume, Shape::reach),

@@ -8,6 +8,7 @@
 #include "components/mpm/solid/kernels/cube_root.hpp"
 #include "components/mpm/solid/kernels/tangent.hpp"
 #include "components/mpm/solid/kernels/tensor.hpp"
+#include "components/mpm/solid/refuse.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -24,10 +25,19 @@ struct CompNeoHook {
   double shearModulus = 0;  ///< G, Pa
 
   static const input::Schema<CompNeoHook>& schema() {
-    static const input::Schema<CompNeoHook> schema =
-        input::Schema<CompNeoHook>("comp_neo_hook", "Compressible neo-Hookean elasticity.")
-            .required("bulk_modulus", &CompNeoHook::bulkModulus, "Pa", "K", input::positive())
-            .required("shear_modulus", &CompNeoHook::shearModulus, "Pa", "G", input::nonNegative());
+    static const input::Schema<CompNeoHook> schema = [] {
+      input::Schema<CompNeoHook> tags("comp_neo_hook", "Compressible neo-Hookean elasticity.");
+      tags.required("bulk_modulus", &CompNeoHook::bulkModulus, "Pa", "K", input::positive())
+          .required("shear_modulus", &CompNeoHook::shearModulus, "Pa", "G", input::nonNegative());
+      for (const char* tag : {"yield_stress", "hardening_modulus", "alpha", "yield_distrib"})
+        tags.ignored(tag, "it does not yield: comp_neo_hook_plastic does");
+      tags.ignored("useModifiedEOS", "only Uintah's coupled fluid reads it")
+          .ignored("initial_pressure", "belongs to useInitialStress");
+      refuseSwitch(tags, "usePlasticity", "comp_neo_hook_plastic yields");
+      refuseSwitch(tags, "useInitialStress", "bodies start without stress");
+      refuseSwitch(tags, "reinitializeCMData", "bodies start without stress");
+      return tags;
+    }();
     return schema;
   }
   State initialState() const { return {}; }

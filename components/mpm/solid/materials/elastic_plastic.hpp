@@ -110,6 +110,8 @@ struct ElasticPlastic {
     tags.ignored("tolerance", "the return is exact to round-off")
         .ignored("coeff_thermal_expansion", "only Uintah's implicit method reads it")
         .ignored("critical_stress", "Uintah does not read it either")
+        .ignored("isothermal", "Uintah does not read it either")
+        .ignored("check_failure", "Uintah does not read it either")
         .ignored("useModifiedEOS", "only Uintah's coupled fluid reads it")
         .ignored("evolve_damage", "a <damage_model> does it where there is one")
         .ignored("do_melting", "above <melt_temp> there is no shear stress, as in Uintah");

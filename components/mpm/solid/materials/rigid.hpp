@@ -14,16 +14,15 @@ struct Rigid {
   static constexpr bool dependsOnDeformationOnly = true;
   static constexpr bool strainEnergyIsRate = false;
 
-  double bulkModulus = 0;   ///< Pa, in scenes only
-  double shearModulus = 0;  ///< Pa, in scenes only
-
   static const input::Schema<Rigid>& schema() {
     static const input::Schema<Rigid> schema =
         input::Schema<Rigid>("rigid", "No stress at all: for bodies that a contact moves.")
-            .required("bulk_modulus", &Rigid::bulkModulus, "Pa", "accepted for Uintah's sake: nothing depends on it",
-                      input::nonNegative())
-            .required("shear_modulus", &Rigid::shearModulus, "Pa", "accepted for Uintah's sake: nothing depends on it",
-                      input::nonNegative());
+            .ignored("bulk_modulus", "nothing depends on it")
+            .ignored("shear_modulus", "nothing depends on it")
+            .ignored("K", "nothing depends on it")
+            .ignored("G", "nothing depends on it")
+            .ignored("alpha", "nothing depends on it")
+            .ignored("coeff_thermal_expansion", "nothing depends on it");
     return schema;
   }
   State initialState() const { return {}; }

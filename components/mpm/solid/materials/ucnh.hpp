@@ -47,6 +47,7 @@ struct NeoHookPlastic {
                     "growth of the yield stress with the plastic strain; needed where it yields", input::nonNegative())
           .value("alpha", &Self::initialPlasticStrain, 0, "1", "plastic strain at the start", input::nonNegative())
           .ignored("useModifiedEOS", "only Uintah's coupled fluid reads it")
+          .ignored("initial_pressure", "belongs to useInitialStress")
           .check([](const Self& read, const input::Element& element, input::Diagnostics& diagnostics) {
             if (read.isPlastic && !(read.yieldStress && read.hardeningModulus))
               diagnostics.error(element, "where it yields, <yield_stress> and <hardening_modulus> must be given");

@@ -19,6 +19,11 @@ inline void initializeDamage(const Patch&, const Material& material, ParticleVie
   }
 }
 
+/// Nothing has failed where nothing can.
+inline void showSound(const Patch&, const Material&, ParticleView<const double> mass, ParticleView<int> localized) {
+  for (int p = 0; p < mass.owned(); ++p) localized[p] = 0;
+}
+
 /// Damage at the end of the step, and what damaged and failed particles bear of the stress. Uintah's computeBasicDamage
 /// and updateErosionParameter.
 inline void computeDamage(const Patch&, const Material& material, int stateSize, double time, double dt,

@@ -59,6 +59,20 @@ void sumKineticEnergy(const Patch&, const Material&, ParticleView<const double> 
   for (int p = 0; p < mass.owned(); ++p) sum.add(0.5 * mass[p] * velocity[p].squaredNorm());
 }
 
+/// F times the edges that the particle had at the start: what it fills of space.
+template <int D>
+void computeScaleFactor(const Patch& patch, const Material&, const Vec3& commonSize,
+                        const std::optional<ParticleView<const Vec<D>>>& size, ParticleView<const Matrix3> deformation,
+                        ParticleView<Matrix3> scale) {
+  const Level& level = patch.level();
+  for (int p = 0; p < deformation.owned(); ++p) {
+    Vec3 edges;
+    for (int axis = 0; axis < 3; ++axis) edges[axis] = commonSize[axis] * level.cellWidth(axis);
+    for (int d = 0; d < D && size; ++d) edges[level.axis(d)] = (*size)[p][d] * level.spacing(d);
+    scale[p] = deformation[p] * edges.asDiagonal();
+  }
+}
+
 /// The totals that can be saved; `affine` reads APIC's moment.
 template <int D, class Affine>
 void scheduleTotals(TaskList& tasks, const std::vector<Material>& materials, Affine affine) {

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string_view>
 #include <variant>
 
 #include "core/input/schema.hpp"
+#include "core/input/values.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -139,7 +141,8 @@ struct ZerilliArmstrong {
     using Self = ZerilliArmstrong;
     static const input::Schema<Self> schema =
         input::Schema<Self>("flow_model", "The yield stress of Zerilli and Armstrong.")
-            .required("c_0", &Self::c0, "Pa", "part that nothing changes", input::nonNegative())
+            .custom("c_0", readConstantPart, {"c_0", "sigma_g", "k_H", "sqrt_l_inv"},
+                    "part that nothing changes, Pa; or <sigma_g> + <k_H> <sqrt_l_inv>, by the size of the grains")
             .required("B", &Self::b, "Pa", "part without hardening", input::nonNegative())
             .required("beta_0", &Self::beta0, "1/K", "its fall with the temperature", input::nonNegative())
             .required("beta_1", &Self::beta1, "1/K", "and with the logarithm of the rate", input::nonNegative())
@@ -161,6 +164,20 @@ struct ZerilliArmstrong {
   }
 
  private:
+  /// c_0, or Hall and Petch's sigma_g + k_H l^(-1/2) of grains of size l.
+  static void readConstantPart(ZerilliArmstrong& read, const input::Element& element, input::Diagnostics& diagnostics) {
+    std::array<double, 4> values{};
+    for (std::size_t k = 0; const char* name : {"c_0", "sigma_g", "k_H", "sqrt_l_inv"}) {
+      const auto given = element.child(name);
+      const auto value = given ? input::parse<double>(given->text()) : input::parse<double>("0");
+      if (!value.problem.empty()) diagnostics.error(*given, value.problem);
+      values[k++] = value.value.value_or(0);
+    }
+    if (!element.child("c_0") && !element.child("sigma_g"))
+      diagnostics.error(element, "missing tag <c_0> in <flow_model> (part that nothing changes)");
+    read.c0 = values[0] + values[1] + values[2] * values[3];
+    if (read.c0 < 0) diagnostics.error(element, "c_0 must be at least 0 Pa");
+  }
   static double fading(double byTemperature, double byRate, const FlowState& state) {
     const double logarithm = std::log(std::max(state.strainRate, 1e-8));
     return std::exp(-(byTemperature - byRate * logarithm) * state.temperature);

@@ -1,4 +1,4 @@
-#include "core/grid/balance.hpp"
+#include "core/grid/shares.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstddef>
+#include <cstring>
+#include <type_traits>
+
+namespace tushar {
+
+/// Merges two values as they lie in memory, aligned or not: `into.merge(from)`.
+template <class T>
+void mergeInMemory(const std::byte* from, std::byte* into) {
+  static_assert(std::is_trivially_copyable_v<T>, "such as messages and checkpoints keep");
+  T one, other;
+  std::memcpy(&one, into, sizeof(T));
+  std::memcpy(&other, from, sizeof(T));
+  one.merge(other);
+  std::memcpy(into, &one, sizeof(T));
+}
+
+}  // namespace tushar

@@ -1,0 +1,84 @@
+#!/usr/bin/env python3
+"""Words of Uintah's scenes that stand for what is here under another word, or for nothing: such scenes run unchanged."""
+import pathlib
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from solids import columns, globals_of, archive_of
+from sus import ROOT, run
+
+DISCS, BEAM, BILLET, SPALL = (f"ups/solid/{name}.ups" for name in ("two_discs", "implicit_cantilever", "billet", "spall"))
+FEW = ("Time/max_Timesteps=3",)
+FLAGS = """<cpdi_lcrit>1e10</cpdi_lcrit><minimum_mass_for_acc>1e-20</minimum_mass_for_acc><XPIC2>false</XPIC2>
+  <artificial_viscosity_coeff1>.3</artificial_viscosity_coeff1><refine_particles>false</refine_particles>
+  <do_contact_friction_heating>false</do_contact_friction_heating><DeleteGeometryObjects>true</DeleteGeometryObjects>
+  <artificial_damping_coeff>1</artificial_damping_coeff>"""
+SECTIONS = """<InitialConditions><MPM/></InitialConditions><SimulationController><doMultiTaskgraphScheduling>false
+  </doMultiTaskgraphScheduling></SimulationController></Uintah_specification>"""
+DAMAGE = """<damage_model type="hancock_mackenzie"><initial_mean_scalar_damage>0.005</initial_mean_scalar_damage>
+  <initial_std_scalar_damage>0</initial_std_scalar_damage><critical_scalar_damage>0.3</critical_scalar_damage>
+  <initial_scalar_damage_distrib>gauss</initial_scalar_damage_distrib></damage_model>"""
+THRESHOLD = """<damage_model type="Threshold">
+          <failure_criteria>MaximumPrincipalStress</failure_criteria>
+          <failure_mean>1.5e9</failure_mean>
+          <failure_distrib>constant</failure_distrib>
+        </damage_model>"""
+
+# what: scene, text, what takes its place
+RUN = {
+    "an archive of a type": (DISCS, "<DataArchiver>", '<DataArchiver type="PIDX">'),
+    "a compression by name": (DISCS, "<save ", "<compression>gzip</compression><save ", 1),
+    "digits by an empty tag": (DISCS, "<save ", "<outputDoubleAsFloat/><save ", 1),
+    "materials by their numbers": (BILLET, '<save label="p.x"/>', '<save label="p.x" material="0-1"/>'),
+    "all materials": (BILLET, '<save label="p.x"/>', '<save label="p.x" material="all"/>'),
+    "a rigid body without moduli":
+        (BILLET, "<bulk_modulus>1e9</bulk_modulus><shear_modulus>1e9</shear_modulus>", ""),
+    "an older word for a model": (BILLET, "comp_neo_hook_plastic", "cnhp_damage"),
+    "sections of other components": (BILLET, "</Uintah_specification>", SECTIONS),
+    "flags of explicit steps in implicit ones": (BEAM, "<dynamic>", FLAGS + "<dynamic>"),
+    "a solver of Uintah's own": (BEAM, "<dynamic>", "<solver>simple</solver><dynamic>"),
+    "Hancock's and Mackenzie's damage": (SPALL, THRESHOLD, DAMAGE),
+}
+
+
+class UintahsWords(unittest.TestCase):
+    def test_run(self):
+        for name, (scene, before, after, *count) in RUN.items():
+            with self.subTest(name), tempfile.TemporaryDirectory() as folder:
+                text = (ROOT / scene).read_text()
+                self.assertIn(before, text)
+                path = pathlib.Path(folder, "scene.ups")
+                path.write_text(text.replace(before, after, *count))
+                result = run(path, *FEW)
+                self.assertEqual(result.code, 0, result.err)
+
+    def test_a_saved_number_means_the_material_of_that_place(self):
+        with tempfile.TemporaryDirectory() as folder:
+            archive = archive_of(BILLET, folder, *FEW, "DataArchiver/save[1]/@material=1")
+            self.assertGreater(len(columns(archive, "p.x", material="billet")["x [m]"]), 0)
+        result = run(BILLET, *FEW, "DataArchiver/save[1]/@material=2")
+        self.assertEqual(result.code, 3)
+        self.assertIn("there is no material '2'", result.err)
+
+    def test_a_particle_fills_the_edges_that_the_deformation_gives_it(self):
+        with tempfile.TemporaryDirectory() as folder:
+            archive = archive_of(DISCS, folder, *FEW, "DataArchiver/save[1]/@label=p.scalefactor",
+                                 "DataArchiver/outputTimestepInterval=1", "DataArchiver/outputInterval=0")
+            edges = columns(archive, "p.scalefactor", time=0)
+        # Cells of .05 m with 2 x 2 x 2 particles each.
+        for component in ("xx", "yy", "zz"):
+            self.assertEqual({round(edge, 12) for edge in edges[f"p.scalefactor.{component} [m]"]}, {.025})
+        self.assertEqual({round(edge, 12) for edge in edges["p.scalefactor.xy [m]"]}, {0})
+
+    def test_the_volume_of_all_particles_is_that_of_the_bodies(self):
+        volumes = globals_of(DISCS, "TotalVolumeDeformed", sets=(*FEW, "DataArchiver/save[1]/@label=TotalVolumeDeformed"))
+        time, volume = volumes["TotalVolumeDeformed"][0]
+        self.assertEqual(time, 0)
+        self.assertAlmostEqual(volume, 13 / 1000, delta=1e-12)  # the mass that the scene names, over the density
+
+
+
+if __name__ == "__main__":
+    unittest.main()
