@@ -48,5 +48,5 @@ class Folder:
 
     @property
     def checkpoints(self):
-        """Folders of the checkpoints, by step."""
-        return sorted(path for path in (self.uda / "checkpoints").iterdir() if path.is_dir())
+        """Folders of the checkpoints, by step; one that a killed run has not finished ends in .tmp and is none."""
+        return sorted(path for path in (self.uda / "checkpoints").iterdir() if path.is_dir() and path.suffix != ".tmp")
