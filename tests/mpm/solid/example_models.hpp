@@ -4,19 +4,19 @@
 
 namespace tushar::mpm::solid::testing {
 
-/// A model of each kind with constants of the order of 1.
+/// A model of each kind, with constants of the order of 1 unless others are given.
 template <class M>
-M withModuli() {
+M withModuli(double bulk = 7, double shear = 3) {
   M model;
-  model.bulkModulus = 7;
-  model.shearModulus = 3;
+  model.bulkModulus = bulk;
+  model.shearModulus = shear;
   return model;
 }
-inline CompMooneyRivlin compMooneyRivlin() {
+inline CompMooneyRivlin compMooneyRivlin(double c1 = 3, double c2 = 1, double poissonRatio = 0.45) {
   CompMooneyRivlin model;
-  model.c1 = 3;
-  model.c2 = 1;
-  model.poissonRatio = 0.45;
+  model.c1 = c1;
+  model.c2 = c2;
+  model.poissonRatio = poissonRatio;
   return model;
 }
 inline CompNeoHookPlastic compNeoHookPlastic(double hardening) {

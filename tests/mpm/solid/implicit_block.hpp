@@ -5,27 +5,15 @@
 #include <cmath>
 
 #include "components/mpm/solid/implicit/conduct_heat.hpp"
-#include "components/mpm/solid/materials/all.hpp"
+#include "tests/mpm/solid/example_models.hpp"
 #include "tests/support/levels.hpp"
 
 // Plain particles, and the equations of an implicit step on them.
 
 namespace tushar::mpm::solid::testing {
 
-inline CompNeoHook rubber() {
-  CompNeoHook model;
-  model.bulkModulus = 8e5;
-  model.shearModulus = 2e5;
-  return model;
-}
-
-inline CompMooneyRivlin mooneyRivlin() {
-  CompMooneyRivlin model;
-  model.c1 = 1e5;
-  model.c2 = 2e4;
-  model.poissonRatio = 0.4;
-  return model;
-}
+inline CompNeoHook rubber() { return withModuli<CompNeoHook>(8e5, 2e5); }
+inline CompMooneyRivlin mooneyRivlin() { return compMooneyRivlin(1e5, 2e4, 0.4); }
 
 template <class M>
 std::shared_ptr<const Model> modelOf(const M& model) {

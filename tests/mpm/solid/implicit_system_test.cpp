@@ -10,18 +10,9 @@ using namespace testing;
 
 namespace {
 
-HypoElastic hypoElastic() {
-  HypoElastic model;
-  model.bulkModulus = 8e5;
-  model.shearModulus = 2e5;
-  return model;
-}
-
 /// Yields at a strain of about .01.
 CompNeoHookPlastic softMetal() {
-  CompNeoHookPlastic model;
-  model.bulkModulus = 8e5;
-  model.shearModulus = 2e5;
+  auto model = withModuli<CompNeoHookPlastic>(8e5, 2e5);
   model.yieldStress = 5e3;
   model.hardeningModulus = 1e4;
   return model;
@@ -85,7 +76,7 @@ TEST(ImplicitSystem, HasTheTangentOfItsResidual) {
 }
 
 TEST(ImplicitSystem, HasTheTangentOfEveryMaterialFromADeformedStart) {
-  for (const auto& model : {modelOf(rubber()), modelOf(mooneyRivlin()), modelOf(hypoElastic()),
+  for (const auto& model : {modelOf(rubber()), modelOf(mooneyRivlin()), modelOf(withModuli<HypoElastic>(8e5, 2e5)),
                             modelOf(softMetal())}) {
     Block<LinearShape<2>> block(model, {{2, 2, 1}}, 1.2);
     EXPECT_LT(errorOfTangent(block.system(false), 0.1), 1e-6) << model->name();
