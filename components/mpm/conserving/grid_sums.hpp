@@ -25,7 +25,7 @@ class GridSums : public GridFields<D, N> {
 /// bring to one place are summed, then what cells equally far on either side of the place bring.
 ///
 /// The first particle of a cell is stored. Those after it add what is lost to rounding as well (the two-sum of O. Moller,
-/// BIT 5 (1965) 37), which leaves the order of the particles of a cell no more than the last bit of the sum, and of two particles none.
+/// BIT 5 (1965) 37): the order of the particles of a cell changes at most the last bit of the sum, and that of two none.
 template <std::size_t N, int More>
 class GridSums<1, N, More> {
   static constexpr int overhang = Footprint<1>::overhang;
