@@ -36,9 +36,6 @@ SolidMpm<Shape>::SolidMpm(Problem problem) : Solids(std::move(problem)) {
   keeps_stress_ = is_damageable_ || any([](const Model& model) { return !model.dependsOnDeformationOnly(); });
   is_thermal_ = any([](const Model& model) { return model.usesTemperature(); });
   heats_ = any([](const Model& model) { return model.heats(); });
-  state_size_ = std::max(state_size_, largestStateOf(problem_.materials));
-  state_.setCount(state_size_);
-  state_views_ = stateViews(problem_.materials);
 }
 
 template <class Shape>

@@ -17,14 +17,23 @@ struct Problem {
   Start start;
 };
 
-/// Solids of any shape function.
+/// Solids of any shape function, by explicit or implicit steps.
 class Solids : public Component {
  public:
-  explicit Solids(Problem problem) : problem_(std::move(problem)) {}
+  /// Particles keep at least `leastState` numbers for their model.
+  explicit Solids(Problem problem, int leastState = 0)
+      : problem_(std::move(problem)),
+        state_size_(std::max(leastState, largestStateOf(problem_.materials))),
+        state_views_(stateViews(problem_.materials)) {
+    state_.setCount(state_size_);
+  }
   const Problem& problem() const { return problem_; }
 
  protected:
   Problem problem_;
+  int state_size_;  ///< most numbers that a particle keeps for its model
+  ParticleLabel<double> state_{"p.modelState", "SI units", "internal variables of the constitutive model"};
+  std::vector<std::shared_ptr<const StateView>> state_views_;
 };
 
 /// The Material Point Method for solids: Sulsky, Chen & Schreyer, Comput. Methods Appl. Mech. Engrg. 118 (1994) 179, step
@@ -79,9 +88,6 @@ class SolidMpm : public Solids {
   bool is_thermal_ = false;    ///< some material's stress depends on the temperature
   bool is_damageable_ = false; ///< particles of some material may fail
   bool heats_ = false;         ///< the work of a step changes the temperature
-  int state_size_ = 0;         ///< most numbers that a particle keeps for its model
-  ParticleLabel<double> state_{"p.modelState", "SI units", "internal variables of the constitutive model"};
-  std::vector<std::shared_ptr<const StateView>> state_views_;
 };
 
 }  // namespace tushar::mpm::solid

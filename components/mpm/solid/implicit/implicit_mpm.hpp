@@ -8,7 +8,7 @@ namespace tushar::mpm::solid {
 /// The Material Point Method with implicit time steps, as Uintah's impm: Guilkey & Weiss, Int. J. Numer. Meth. Engng 57
 /// (2003) 1323. The displacement of the nodes in a step solves a non-linear system (see ImplicitSystem).
 template <class Shape>
-class ImplicitMpm : public Component {
+class ImplicitMpm : public Solids {
  public:
   ImplicitMpm(Problem problem, ImplicitMethod how);
 
@@ -24,11 +24,7 @@ class ImplicitMpm : public Component {
   void scheduleVelocity(TaskList& tasks) const;
   void scheduleHeat(TaskList& tasks) const;
 
-  Problem problem_;
   ImplicitMethod how_;
-  int state_size_ = 1;  ///< most numbers that a particle keeps for its model, at least one
-  ParticleLabel<double> state_{"p.modelState", "SI units", "internal variables of the constitutive model"};
-  std::vector<std::shared_ptr<const StateView>> state_views_;
 };
 
 }  // namespace tushar::mpm::solid

@@ -17,11 +17,7 @@
 namespace tushar::mpm::solid {
 
 template <class Shape>
-ImplicitMpm<Shape>::ImplicitMpm(Problem problem, ImplicitMethod how) : problem_(std::move(problem)), how_(std::move(how)) {
-  state_size_ = std::max(state_size_, largestStateOf(problem_.materials));
-  state_.setCount(state_size_);
-  state_views_ = stateViews(problem_.materials);
-}
+ImplicitMpm<Shape>::ImplicitMpm(Problem problem, ImplicitMethod how) : Solids(std::move(problem), 1), how_(std::move(how)) {}
 
 template <class Shape>
 void ImplicitMpm<Shape>::scheduleInitialize(TaskList& tasks) const {
