@@ -45,6 +45,11 @@ TEST(Hyperelasticity, StressIsTheDerivativeOfTheEnergy) {
   expectStressFromEnergy(withModuli<CompNeoHook>());
   expectStressFromEnergy(compMooneyRivlin());
   expectStressFromEnergy(withModuli<Ucnh>());
+  TransIsoHyper fibres = ligament();
+  for (const double straight : {1.0, 1.05, 2.0}) {  // fibres that are straight, have become so, are still crimped
+    fibres.straight = straight;
+    expectStressFromEnergy(fibres);
+  }
 }
 
 TEST(Model, WorksOnSeveralParticlesAsOnEachAlone) {
@@ -101,21 +106,81 @@ TEST(CompNeoHookPlastic, ReturnsToTheYieldSurface) {
 }
 
 TEST(ElasticPlastic, ReturnsToTheYieldSurfaceOfEachFlowModel) {
-  JohnsonCook soft = copper();
-  soft.a = 0.1;
-  soft.b = 0.3;
-  const SteinbergCochranGuinan saturating{3, 0.1, 0.15, 30, 0.4, 0};
-  const ZerilliArmstrong crystal{0.1, 0.1, 0.3, 0.1, 0.5, 3e-3, 1e-4, 5e-3, 3e-4};
-  for (const FlowModel& flow : {FlowModel(IsotropicHardening{0.2, 0.5}), FlowModel(soft), FlowModel(saturating),
-                                FlowModel(crystal)}) {
+  for (const FlowModel& flow : flowModels()) {
     MaterialPoint<ElasticPlasticHp> point{elasticPlastic(flow)};
     for (const double strain : {0.05, 0.1, 0.3}) {
       point.advance(generalDeformation(strain));
-      const FlowState state{point.oldState.plasticStrain, point.oldState.strainRate, point.temperature, 3};
+      const double density = 2 / point.oldDeformation.determinant(), plasticRate = point.oldState.plasticStrainRate;
+      const FlowState state{point.oldState.plasticStrain, point.oldState.strainRate, 300, 3, density, 2000, plasticRate};
       const double yieldStress = std::visit([&](const auto& model) { return model.flowStress(state); }, flow);
       EXPECT_NEAR(equivalent(point.oldStress), yieldStress, roundOff);
     }
   }
+}
+
+TEST(FlowModel, OfSteinbergAndLundFulfilsTheirEquation) {
+  const SteinbergCochranGuinan flow{3, 0.1, 0.15, 0, 0, 0, 1e6, 1e-5, 0.31, 8.617e-5, 0.1};
+  for (const double rate : {1.0, 100.0, 1e3}) {
+    const double thermal = flow.flowStress({0, rate, 300, 3, 2, 2000, rate}) - 0.1, away = 1 - thermal / 0.1;
+    const double time = std::exp(2 * 0.31 / (8.617e-5 * 300) * away * away) / 1e6 + 1e-5 / thermal;
+    EXPECT_NEAR(rate * time, 1, 1e-10);  // its exponential makes some hundred of rounding
+  }
+  EXPECT_DOUBLE_EQ(flow.flowStress({0, 1e12, 300, 3, 2, 2000, 1e12}), 0.2);
+  EXPECT_DOUBLE_EQ(flow.flowStress({0, 0, 300, 3, 2, 2000, 0}), 0.1);
+}
+
+TEST(FlowModel, OfPrestonTonksAndWallaceGoesFromYieldToSaturation) {
+  const PrestonTonksWallace flow{0.1, 2, 0.03, 0.01, 0.3, 1e-5, 0.02, 0.006, 0.05, 0.5, 0.25, 60};
+  FlowState cold{0, 1, 0, 3, 2, 2000, 1};
+  EXPECT_NEAR(flow.flowStress(cold), 2 * 3 * 0.02, 1e-15);
+  FlowState strained = cold;
+  strained.plasticStrain = 1e-7;
+  // d t / d e_p = theta / (exp(B/A) - 1) (exp(B/A) - 1) = theta at e_p = 0
+  EXPECT_NEAR((flow.flowStress(strained) - flow.flowStress(cold)) / (2 * 3 * 1e-7), 0.1, 1e-5);
+  strained.plasticStrain = 100;
+  EXPECT_NEAR(flow.flowStress(strained), 2 * 3 * 0.03, 1e-15);
+}
+
+TEST(FlowModel, OfTheMechanicalThresholdHardensToSaturation) {
+  const auto flow = std::get<MechanicalThreshold>(flowModels()[2]);
+  const FlowState cold{0, 1e7, 300, 3.2};  // at the rates of reference nothing is activated
+  const double hardening = 0.6 + 0.01 * std::log(1e7) + 1e-3 * std::sqrt(1e7) - 3e-4 * 300;
+  EXPECT_NEAR(flow.flowStress(cold), 0.05 + 0.05, 1e-15);
+  FlowState strained = cold;
+  strained.plasticStrain = 1e-7;
+  EXPECT_NEAR((flow.flowStress(strained) - flow.flowStress(cold)) / 1e-7, hardening, 1e-4 * hardening);
+  strained.plasticStrain = 10;
+  EXPECT_NEAR(flow.flowStress(strained), 0.1 + 0.3, 1e-12);
+  strained.strainRate = 1;
+  EXPECT_LT(flow.flowStress(strained), 0.3);
+}
+
+TEST(ShearModel, FallsWithTheTemperature) {
+  const Compression cold{0, 1, 0.001, 2, 1000}, warm{0, 1, 500, 2, 1000}, molten{0, 1, 1100, 2, 1000};
+  const MtsShear varshni{3.2, 0.1, 200};
+  EXPECT_EQ(varshni.modulus(cold, 0), 3.2);
+  EXPECT_NEAR(varshni.modulus(warm, 0), 3.2 - 0.1 / (std::exp(0.4) - 1), 1e-15);
+  const NpShear nadal{3, 0.05, 0.05, 1e6, 60};
+  EXPECT_NEAR(nadal.modulus(cold, 0), 3, 1e-5);  // a millionth of the melting temperature
+  EXPECT_NEAR(nadal.modulus(warm, 0), 3 * 0.5 + 2 * 8314.46 * 500 / 6e7, 1e-3);
+  EXPECT_EQ(nadal.modulus(molten, 0), 0);
+}
+
+TEST(TransIsoHyper, HoldsByItsFibresWhereTheyArePulled) {
+  TransIsoHyper model = ligament();
+  model.fibre = {0, 1, 0};
+  model.straight = 1.2;
+  const MaterialPoint<TransIsoHyper> point{model};
+  const double l = 1.1, side = 1 / std::sqrt(l);  // no change of volume
+  const Matrix3 pulled = Vec3(side, l, side).asDiagonal();
+  model.c3 = model.c5 = 0;
+  const MaterialPoint<TransIsoHyper> bare{model};
+
+  const Matrix3 byFibres = point.stress(pulled) - bare.stress(pulled);
+
+  EXPECT_NEAR(byFibres(1, 1) - byFibres(0, 0), 0.4 * (std::exp(3 * 0.1) - 1), roundOff);
+  EXPECT_NEAR(point.state(pulled).stretch, l, roundOff);
+  EXPECT_EQ((point.stress(pulled.inverse()) - bare.stress(pulled.inverse())).norm(), 0);
 }
 
 TEST(ElasticPlastic, FollowsTheUniaxialStrainPathBeyondTheElasticLimit) {
