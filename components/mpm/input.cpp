@@ -280,12 +280,7 @@ struct MaterialProperties {
 const Schema<MaterialProperties>& propertiesSchema() {
   static const Schema<MaterialList> list =
       Schema<MaterialList>("MPM", "The materials of the Material Point Method.")
-          .list("material", &MaterialList::materials, materialSchema(), "a material", 1)
-          .check([](const MaterialList& read, const Element& element, Diagnostics& diagnostics) {
-            if (read.materials.size() > 1)
-              diagnostics.error(element.children("material")[1],
-                                "the gas method takes one material; give it several <geom_object>s instead");
-          });
+          .list("material", &MaterialList::materials, materialSchema(), "a material", 1);
   static const Schema<MaterialProperties> schema =
       Schema<MaterialProperties>("MaterialProperties", "What there is.")
           .requiredSection("MPM", &MaterialProperties::mpm, list);
@@ -300,11 +295,12 @@ input::Expression pressureOf(const ObjectSection& object, const input::Expressio
   return *input::Expression::parse(text);
 }
 
-Gas makeGas(const MaterialSection& material) {
+Gas makeGas(const MaterialSection& material, bool isAlone) {
   Gas gas;
   gas.name = material.name;
   gas.gamma = material.model.gamma;
   gas.pInfinity = material.model.pInfinity;
+  gas.carried = isAlone ? 0 : gas.pInfinity;
   gas.where = material.model.where;
   gas.relaxation = material.relaxation;
   for (const ObjectSection& object : material.objects) {
@@ -322,6 +318,26 @@ void refusePlacements(const MaterialProperties& properties, Diagnostics& diagnos
       if (object.placement != Placement::midpoint)
         diagnostics.error(object.where, "MaterialProperties/MPM/material/geom_object",
                           "placement: the boxes of <conserving_gas_dynamics> fill the gas; use midpoint, or <gas_dynamics>");
+}
+
+/// Several gases at once: by boxes that are never mixed, with the transfer of the default.
+void refuseMixtures(const MpmSection& method, const MaterialProperties& properties, Diagnostics& diagnostics) {
+  const std::vector<MaterialSection>& materials = properties.mpm.materials;
+  if (materials.size() < 2) return;
+  const auto refuse = [&](const std::string& why) {
+    diagnostics.error(materials[1].model.where, "MaterialProperties/MPM/material", why);
+  };
+  if (method.gas) refuse("<gas_dynamics> takes one material; give it several <geom_object>s, or use <conserving_gas_dynamics>");
+  if (!method.conserving) return;
+  if (method.conserving->transfer != Transfer::apic) refuse("several gases need <transfer> apic");
+  if (method.conserving->remap) refuse("several gases are not mixed by a <remap>; take it out");
+  if (method.conserving->heatConduction > 0) refuse("several gases take no <artificial_heat_conduction>");
+  for (std::size_t k = 0; k < materials.size(); ++k) {
+    if (materials[k].relaxation) refuse("several gases take no <relaxation>");
+    for (std::size_t other = 0; other < k; ++other)
+      if (materials[k].name == materials[other].name)
+        refuse("two materials are called '" + materials[k].name + "'; give each a name of its own");
+  }
 }
 
 /// The paper's method knows the ideal gas alone.
@@ -388,10 +404,12 @@ simulation::ComponentKind kind() {
     const std::size_t before = diagnostics.size();
     const MpmSection method = simulation::readSection(root, mpmSchema(), diagnostics);
     const MaterialProperties properties = simulation::readSection(root, propertiesSchema(), diagnostics);
+    refuseMixtures(method, properties, diagnostics);
     method.conserving ? refusePlacements(properties, diagnostics) : refuseStiffness(properties, diagnostics);
     if (diagnostics.size() > before) return {};
     std::vector<Gas> gases;
-    for (const MaterialSection& material : properties.mpm.materials) gases.push_back(makeGas(material));
+    const std::vector<MaterialSection>& materials = properties.mpm.materials;
+    for (const MaterialSection& material : materials) gases.push_back(makeGas(material, materials.size() == 1));
     return [method, gases](const Level& level) { return makeComponent(level, method, gases); };
   };
   return kind;
