@@ -23,9 +23,7 @@ void ConservingMpm<D>::scheduleInitialize(TaskList& tasks) const {
                      creates(p::edges<D>), creates(p::mass), creates(p::velocity<D>), creates(p::modes<D>),
                      creates(p::internalEnergy), creates(p::affineEnergy));
   if (method_.remap) tasks.perPatch("mpm::countSteps", conserving::keepCount, with(0.0), computes(remapAge));
-  scheduleGridState(tasks);
-  if (isMixture())
-    tasks.acrossMaterials("mpm::checkFill", conserving::checkFill<D>, materials_, requiresNew(c::fill));
+  scheduleGridState(tasks, true);
 }
 
 template <int D>
@@ -111,7 +109,7 @@ void ConservingMpm<D>::scheduleRedistribute(TaskList& tasks) const {
 }
 
 template <int D>
-void ConservingMpm<D>::scheduleGridState(TaskList& tasks) const {
+void ConservingMpm<D>::scheduleGridState(TaskList& tasks, bool isStart) const {
   constexpr int reach = Footprint<D>::reach;
   const double spare = method_.transfer == Transfer::apic ? Apic::spareEnergy : AffineFlip::spareEnergy;
   tasks.perMaterial("mpm::limitModes", conserving::limitModes<D>, materials_, with(spare), requiresNew(p::edges<D>),
@@ -126,6 +124,8 @@ void ConservingMpm<D>::scheduleGridState(TaskList& tasks) const {
     schedule(conserving::interpolateAndMeasureFill<D>, computes(c::fill), computes(cellFill));
   else
     schedule(conserving::interpolateParticlesToGrid<D>);
+  if (isMixture() && isStart)
+    tasks.acrossMaterials("mpm::checkFill", conserving::checkFill<D>, materials_, modifies(c::fill));
   if (isMixture())
     tasks.acrossMaterials("mpm::mixAtNodes", conserving::mixAtNodes<D>, materials_, modifies(g::mass),
                           modifies(g::velocity<D>));

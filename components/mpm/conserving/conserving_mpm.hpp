@@ -38,7 +38,7 @@ class ConservingMpm : public Component, public reference::GasSolution {
   /// Of the gases of a mixture, which share pressure and velocity.
   void scheduleMixtureState(TaskList& tasks) const;
   void scheduleRedistribute(TaskList& tasks) const;
-  void scheduleGridState(TaskList& tasks) const;
+  void scheduleGridState(TaskList& tasks, bool isStart = false) const;
   bool isMixture() const { return materials_.size() > 1; }
 
   ConservingGasDynamics method_;

@@ -88,10 +88,10 @@ void mixAtNodes(const Patch&, const std::vector<Gas>& gases, const NodeViews<dou
 /// Throws InputError where the gases leave a part of a cell empty at the start, or overlap: what a mixture's pressure acts
 /// on is all of the grid.
 template <int D>
-void checkFill(const Patch& patch, const std::vector<Gas>& gases, const CellViews<const double>& fill) {
+void checkFill(const Patch& patch, const std::vector<Gas>& gases, const CellViews<double>& fill) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     double all = 0;
-    for (const CellView<const double>& one : fill) all += one[cell];
+    for (const CellView<double>& one : fill) all += one[cell];
     if (std::abs(all - 1) < 1e-9) return;
     const Vec3 middle = patch.level().template expandPoint<D>(patch.level().template cellCentre<D>(cell));
     throw InputError({{gases.front().where, "MaterialProperties/MPM/material",
