@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 
 #include "core/solvers/petsc_objects.hpp"
@@ -27,17 +26,12 @@ Trial tryStep(SNESLineSearch search, double length) {
   return trial;
 }
 
-/// Back to where there is a residual; then, twice at most, to where the secant of the slope is 0, but no shorter than a
-/// quarter of what there was: a longer way back keeps a slender body from turning.
+/// Half of the way, again and again, until there is a residual and the slope is smaller than at the start: a perfectly
+/// plastic solid has steps that lead far out. (To where the secant of the slope is 0 is further back than helps.)
 Trial chooseStep(SNESLineSearch search, double slopeAtStart) {
   Trial trial = tryStep(search, 1);
-  while (!trial.isFinite && trial.length > 1e-3) trial = tryStep(search, trial.length / 2);
-  const double shortest = trial.length / 4;
-  for (int turn = 0; turn < 2 && trial.isFinite && std::abs(trial.slope) > 0.8 * std::abs(slopeAtStart); ++turn) {
-    const double zero = trial.length * slopeAtStart / (slopeAtStart - trial.slope);
-    if (!(zero > 0 && zero < trial.length) || trial.length <= shortest) break;
-    trial = tryStep(search, std::max(zero, shortest));
-  }
+  while (!(trial.isFinite && std::abs(trial.slope) <= 0.8 * std::abs(slopeAtStart)) && trial.length > 1e-3)
+    trial = tryStep(search, trial.length / 2);
   return trial;
 }
 

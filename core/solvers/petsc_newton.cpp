@@ -17,6 +17,7 @@ struct Newton {
   NonlinearProblem& problem;
   const NewtonSettings& settings;
   PetscMatrix& matrix;
+  Balance& balance;
   GhostedVector &u, &r;
   OwnedVec lastU, lastResidual, change;
   double greatestChange = 0, firstEnergy = 0, assembly = 0, setup = 0;
@@ -41,6 +42,7 @@ PetscErrorCode evaluateTangent(SNES snes, Vec, Mat, Mat, void* context) {
   return guarded(newton.thrown, [&] {
     const auto start = Clock::now();
     newton.matrix.assemble([&](Matrix& matrix) { newton.problem.tangent(matrix); });
+    newton.balance.scale(newton.matrix);
     const auto assembled = Clock::now();
     KSP krylov = nullptr;
     check(SNESGetKSP(snes, &krylov));
@@ -51,7 +53,18 @@ PetscErrorCode evaluateTangent(SNES snes, Vec, Mat, Mat, void* context) {
   });
 }
 
-/// |du| <= displacement max |du| and |du . r| <= energy |du . r| of the first iteration; or no residual to speak of.
+bool isNegligible(Newton& newton, Vec u, Vec r) {
+  newton.u.take(u);
+  PetscInt count = 0;
+  const PetscScalar* values = nullptr;
+  check(VecGetLocalSize(r, &count));
+  check(VecGetArrayRead(r, &values));
+  const bool negligible = newton.problem.isNegligible(newton.u.values(), {values, static_cast<std::size_t>(count)});
+  check(VecRestoreArrayRead(r, &values));
+  return negligible;
+}
+
+/// |du| <= displacement max |du| and |du . r| <= energy |du . r| of the first iteration; or nothing but rounding is left of r.
 PetscErrorCode hasConverged(SNES snes, PetscInt iteration, PetscReal, PetscReal, PetscReal norm,
                             SNESConvergedReason* reason, void* context) {
   Newton& newton = *static_cast<Newton*>(context);
@@ -61,7 +74,7 @@ PetscErrorCode hasConverged(SNES snes, PetscInt iteration, PetscReal, PetscReal,
     check(SNESGetFunction(snes, &r, nullptr, nullptr));
     *reason = SNES_CONVERGED_ITERATING;
     if (!std::isfinite(norm)) *reason = SNES_DIVERGED_FNORM_NAN;
-    if (norm <= newton.problem.negligible()) *reason = SNES_CONVERGED_FNORM_ABS;
+    if (isNegligible(newton, u, r)) *reason = SNES_CONVERGED_FNORM_ABS;
     if (iteration > 0) {
       PetscReal size = 0, energy = 0;
       check(VecWAXPY(newton.change, -1, newton.lastU, u));
@@ -93,6 +106,7 @@ void configure(SNES snes, Newton& newton, Vec r) {
   check(SNESGetKSP(snes, &krylov));
   check(SNESSetFromOptions(snes));
   configure(krylov, settings.linear);
+  newton.balance.attach(krylov);
 }
 
 void note(Outcome& outcome, SNES snes, Vec r) {
@@ -123,7 +137,8 @@ Outcome solveNewton(const Unknowns& unknowns, NonlinearProblem& problem, const N
   const auto owned = static_cast<std::size_t>(unknowns.block * unknowns.owned);
   std::vector<double> values(owned);
   const PetscVector solution(unknowns, u.first(owned)), r(unknowns, values);
-  Newton newton{problem, settings, matrix, seen, added, {}, {}, {}, 0, 0, 0, 0, nullptr};
+  Balance balance(r);
+  Newton newton{problem, settings, matrix, balance, seen, added, {}, {}, {}, 0, 0, 0, 0, nullptr};
   for (OwnedVec* work : {&newton.lastU, &newton.lastResidual, &newton.change})
     check(VecDuplicate(solution, work->address()));
   OwnedSnes snes;

@@ -93,7 +93,7 @@ void PetscMatrix::setNullSpaces(const Unknowns& unknowns) {
   }
   int given = unknowns.coordinates.empty() ? 0 : 1;  // on a rank that owns nothing there are none
   MPI_Allreduce(MPI_IN_PLACE, &given, 1, MPI_INT, MPI_MAX, ranks_);
-  if (given == 0 || unknowns.block == 1) return;
+  if (given == 0) return;
   OwnedVec places;
   check(MatCreateVecs(matrix_, places.address(), nullptr));
   check(VecSetBlockSize(places, unknowns.block));
@@ -101,9 +101,11 @@ void PetscMatrix::setNullSpaces(const Unknowns& unknowns) {
   check(VecGetArrayWrite(places, &values));
   std::copy(unknowns.coordinates.begin(), unknowns.coordinates.end(), values);
   check(VecRestoreArrayWrite(places, &values));
-  OwnedNullSpace rigid;
-  check(MatNullSpaceCreateRigidBody(places, rigid.address()));
-  check(MatSetNearNullSpace(matrix_, rigid));
+  if (unknowns.block > 1)
+    check(MatNullSpaceCreateRigidBody(places, rigid_.address()));
+  else
+    check(MatNullSpaceCreate(ranks_, PETSC_TRUE, 0, nullptr, rigid_.address()));
+  check(MatSetNearNullSpace(matrix_, rigid_));
 }
 
 void PetscMatrix::add(std::span<const int> rows, std::span<const int> columns, std::span<const double> values) {

@@ -70,6 +70,8 @@ class PetscMatrix : public Matrix {
     check(MatAssemblyBegin(matrix_, MAT_FINAL_ASSEMBLY));
     check(MatAssemblyEnd(matrix_, MAT_FINAL_ASSEMBLY));
   }
+  /// A becomes S A S with the diagonal S; what multigrid is told goes along.
+  void scale(Vec s);
   operator Mat() const { return matrix_; }
 
  private:
@@ -78,6 +80,26 @@ class PetscMatrix : public Matrix {
 
   MPI_Comm ranks_;
   OwnedMat matrix_;
+  OwnedNullSpace rigid_;  ///< motions without strain of the matrix as it was assembled
+};
+
+/// Solves A x = b as (S A S) y = S b, x = S y. S strengthens the rows of unknowns that hardly anything holds, to a diagonal
+/// of 1e-4 of the greatest: as they are, multigrid's answer to a force on such an unknown is so large that rounding in it
+/// is all that a Krylov method sees, and their residuals drown in the norm of all.
+class Balance {
+ public:
+  /// For a right-hand side like `b`.
+  explicit Balance(Vec b);
+  /// Chooses S, and scales the matrix.
+  void scale(PetscMatrix& matrix);
+  /// The solves of `krylov`, with a matrix that has been scaled, take b and give x as they were.
+  void attach(KSP krylov);
+
+ private:
+  static PetscErrorCode before(KSP, Vec b, Vec, void* balance);
+  static PetscErrorCode after(KSP, Vec b, Vec x, void* balance);
+
+  OwnedVec s_, b_;
 };
 
 /// A vector over numbers that somebody else holds: those of the owned unknowns.

@@ -64,8 +64,8 @@ class NonlinearProblem {
   virtual bool residual(std::span<const double> u, std::span<double> r) = 0;
   /// dr/du at the u of the last residual.
   virtual void tangent(Matrix& matrix) = 0;
-  /// Norm of a residual that is nothing but rounding, the same on all ranks.
-  virtual double negligible() const { return 0; }
+  /// Whether r(u), of the unknowns that the rank owns, is nothing but rounding; the same on all ranks.
+  virtual bool isNegligible(std::span<const double> /*u*/, std::span<const double> /*r*/) const { return false; }
 };
 
 /// When Newton's iterations end, as in Uintah's implicit MPM.

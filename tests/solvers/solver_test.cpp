@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -58,6 +60,52 @@ class Logarithm : public NonlinearProblem {
 
  private:
   double u_ = 0;
+};
+
+/// arctan(10 u) = 0. Newton's step from u = 1 leads to -14, and from there further away.
+class Plateau : public NonlinearProblem {
+ public:
+  bool residual(std::span<const double> u, std::span<double> r) override {
+    u_ = u[0];
+    r[0] = std::atan(10 * u_);
+    return true;
+  }
+  void tangent(Matrix& matrix) override {
+    const int zero = 0;
+    matrix.add({&zero, 1}, {&zero, 1}, std::vector<double>{10 / (1 + 100 * u_ * u_)});
+  }
+
+ private:
+  double u_ = 0;
+};
+
+/// A chain of 26 springs of 1, a force of 1 on the last, and one more unknown that is hardly held: a particle that has just
+/// reached into the next cell touches its node with a slope of 4e-6.
+class Chain : public NonlinearProblem {
+ public:
+  static constexpr int links = 26;
+
+  bool residual(std::span<const double> u, std::span<double> r) override {
+    for (int k = 0; k < links; ++k)
+      r[std::size_t(k)] = (k == links - 1 ? 1 : 2) * u[std::size_t(k)] - (k > 0 ? u[std::size_t(k) - 1] : 0) -
+                          (k < links - 1 ? u[std::size_t(k) + 1] : 1);
+    const double stretch = u[links - 1] - u[links - 2];
+    r[links - 1] += slope * u[links];
+    r[links - 2] -= slope * u[links];
+    r[links] = slope * stretch + held * u[links];
+    return true;
+  }
+  void tangent(Matrix& matrix) override {
+    laplacian(matrix, links, false);
+    const int last = links - 1, weak = links;
+    const std::array<int, 3> touched{links - 2, last, weak};
+    matrix.add({&last, 1}, {&last, 1}, std::vector<double>{-1});
+    matrix.add({&touched[0], 2}, {&weak, 1}, std::vector<double>{-slope, slope});
+    matrix.add({&weak, 1}, touched, std::vector<double>{-slope, slope, held});
+  }
+
+ private:
+  static constexpr double slope = 4.2e-6, held = 8.6e-11;
 };
 
 class Throwing : public Roots {
@@ -159,6 +207,31 @@ TEST(Newton, GoesBackWhereThereIsNoResidual) {
 
   EXPECT_TRUE(outcome.converged) << outcome.reason;
   EXPECT_NEAR(u[0], 1, 1e-12);
+}
+
+TEST(Newton, GoesBackFromAStepThatLeadsFarOut) {
+  std::vector<double> u{1};
+  Plateau problem;
+
+  const Outcome outcome = solver().solve(row(1), problem, directNewton(), u);
+
+  EXPECT_TRUE(outcome.converged) << outcome.reason;
+  EXPECT_NEAR(u[0], 0, 1e-12);
+}
+
+TEST(Newton, SolvesByMultigridWhereAnUnknownIsHardlyHeld) {
+  Unknowns unknowns = row(Chain::links + 1);
+  unknowns.entries.assign(unknowns.entries.size(), 4);
+  for (int k = 0; k <= Chain::links; ++k) unknowns.coordinates.push_back(k);
+  std::vector<double> byMultigrid(Chain::links + 1, 0), direct = byMultigrid;
+  Chain chain;
+
+  const Outcome outcome = solver().solve(unknowns, chain, NewtonSettings{}, byMultigrid);
+
+  ASSERT_TRUE(outcome.converged) << outcome.reason;
+  ASSERT_TRUE(solver().solve(unknowns, chain, directNewton(), direct).converged);
+  // Linear systems are solved to 1e-8, the changes of the solution to 1e-10; the chain's condition number is 700.
+  for (std::size_t k = 0; k < direct.size(); ++k) EXPECT_NEAR(byMultigrid[k] / direct[k], 1, 1e-6) << k;
 }
 
 TEST(Newton, PassesOnWhatTheProblemThrows) {

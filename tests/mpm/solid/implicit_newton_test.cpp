@@ -81,6 +81,29 @@ TEST(Fbar, BendsWhatIsNearlyIncompressibleWithoutLocking) {
   EXPECT_LT(locked / fine, 0.3);
 }
 
+TEST(Newton, GoesOnUntilOnlyRoundingIsLeftOfALoad) {
+  Block<GimpShape<2>> block(modelOf(rubber()), {{4, 2, 1}});
+  block.method.gravity = {0, -1e-9, 0};
+  ImplicitSystem<GimpShape<2>> system = block.system(false);
+  clamp(system);
+  std::vector<double> u = system.guess(), r(u.size());
+  solvers::NewtonSettings settings = direct();
+  settings.displacement = settings.energy = 1e-300;  // nothing else ends it
+
+  EXPECT_TRUE(system.residual(u, r));
+  EXPECT_FALSE(system.isNegligible(u, r));
+  const solvers::Outcome outcome = solvers::solver().solve(system.unknowns(), system, settings, u);
+
+  EXPECT_TRUE(outcome.converged) << outcome.reason << ' ' << textOf(outcome.residuals);
+  EXPECT_TRUE(system.residual(u, r));
+  EXPECT_TRUE(system.isNegligible(u, r));
+  // A hundred times the strain that counts as rounding, in one cell.
+  for (int k = 0; k < system.nodes().size(); ++k)
+    if (system.nodes().node(k) == Index<2>{{2, 1}}) u[static_cast<std::size_t>(2 * k)] += 1e-12;
+  EXPECT_TRUE(system.residual(u, r));
+  EXPECT_FALSE(system.isNegligible(u, r));
+}
+
 TEST(Newton, SolvesWithOneParticleInACellAtItsEdge) {
   Block<LinearShape<2>> block(modelOf(rubber()), {{3, 1, 1}});
   block.method.gravity = {1, 0, 0};

@@ -43,8 +43,9 @@ class ImplicitSystem : public solvers::NonlinearProblem {
 
   bool residual(std::span<const double> u, std::span<double> r) override;
   void tangent(solvers::Matrix& matrix) override;
-  /// What a strain of 1e-14 comes to at every node.
-  double negligible() const override { return negligible_; }
+  /// Whether no node has more of a residual than 1e-14 of the forces that it is the sum of, the stresses of particles
+  /// counted as those of a strain of 1.
+  bool isNegligible(std::span<const double> u, std::span<const double> r) const override;
 
   /// Of a node, from its displacement in the step, m/s^2; 0 where inertia is left out.
   Vec<D> acceleration(int node, std::span<const double> u) const;
@@ -70,10 +71,11 @@ class ImplicitSystem : public solvers::NonlinearProblem {
   /// What the particles bring to a node of the system, in the order of the numbers in which it is summed.
   struct Node {
     double mass = 0, volume = 0;  ///< kg, m^3 at the start of the simulation
+    double rigidity = 0;          ///< N, sum of the forces of particles at a strain of 1
     Vec<D> velocity = Vec<D>::Zero(), acceleration = Vec<D>::Zero(), force = Vec<D>::Zero();  ///< mass times, at first
     double support = 0;           ///< N/m, of a weak spring to where the node would go by itself
   };
-  static constexpr int brought_ = 2 + 3 * D;
+  static constexpr int brought_ = 3 + 3 * D;
 
   void findRuns();
   void findNodes(const RankPatches& patches);
@@ -112,7 +114,6 @@ class ImplicitSystem : public solvers::NonlinearProblem {
   std::vector<char> prescribed_;
   std::vector<double> prescribed_value_;
   double stiffest_ = 0;  ///< of all particles at the start of the simulation: rho c^2 V / h^2, N/m
-  double negligible_ = 0;
 };
 
 }  // namespace tushar::mpm::solid

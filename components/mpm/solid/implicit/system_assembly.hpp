@@ -78,17 +78,21 @@ template <class Shape>
 void ImplicitSystem<Shape>::gatherNodes() {
   std::vector<double> sums(static_cast<std::size_t>(brought_ * map_.size()), 0.0);
   forEachRun([&](const PointSources<Shape>& from, const PointRun& run) {
+    const Material& material = *from.group.material;
     for (int p = run.from; p < run.from + run.count; ++p) {
       const NodeTouch<D>* touch = touchesOf(from.group.first + static_cast<std::size_t>(p));
+      const double c = material.model->initialWaveSpeed(material.density, from.group.temperature[p]);
+      const double modulus = c * c + from.group.oldStress[p].norm() / material.density;  // over the density
       for (int k = 0; k < touches_; ++k) {
         if (touch[k].node < 0) continue;
         Eigen::Map<Eigen::Matrix<double, brought_, 1>> sum(sums.data() + brought_ * touch[k].node);
         const double mass = touch[k].s * from.group.mass[p];
         sum[0] += mass;
-        sum[1] += mass / from.group.material->density;
-        sum.template segment<D>(2) += mass * touch[k].sign.cwiseProduct(from.velocity[p]);
-        sum.template segment<D>(2 + D) += mass * touch[k].sign.cwiseProduct(from.acceleration[p]);
-        sum.template segment<D>(2 + 2 * D) += touch[k].s * touch[k].sign.cwiseProduct(from.externalForce[p]);
+        sum[1] += mass / material.density;
+        sum[2] += from.group.mass[p] * modulus * (touch[k].gradient.norm() + std::abs(touch[k].hoop));
+        sum.template segment<D>(3) += mass * touch[k].sign.cwiseProduct(from.velocity[p]);
+        sum.template segment<D>(3 + D) += mass * touch[k].sign.cwiseProduct(from.acceleration[p]);
+        sum.template segment<D>(3 + 2 * D) += touch[k].s * touch[k].sign.cwiseProduct(from.externalForce[p]);
       }
     }
   });
@@ -104,10 +108,11 @@ void ImplicitSystem<Shape>::shareNodes(const std::vector<double>& sums) {
     Node& node = node_.emplace_back();
     node.mass = sum[0];
     node.volume = sum[1];
-    node.force = sum.template segment<D>(2 + 2 * D) + node.mass * gravity;
+    node.rigidity = sum[2];
+    node.force = sum.template segment<D>(3 + 2 * D) + node.mass * gravity;
     if (node.mass <= 0) continue;
-    node.velocity = sum.template segment<D>(2) / node.mass;
-    node.acceleration = sum.template segment<D>(2 + D) / node.mass;
+    node.velocity = sum.template segment<D>(3) / node.mass;
+    node.acceleration = sum.template segment<D>(3 + D) / node.mass;
   }
 }
 
@@ -122,7 +127,6 @@ void ImplicitSystem<Shape>::measureStiffness() {
   }
   const double h = map_.level().minSpacing();
   stiffest_ = map_.ranks().max(stiffest_) / (h * h);
-  negligible_ = 1e-14 * stiffest_ * h * std::sqrt(static_cast<double>(map_.ranks().sum(map_.owned())));
 }
 
 /// A node with a millionth of a cell's matter around it may have no stiffness to speak of along some axis.
@@ -201,6 +205,20 @@ bool ImplicitSystem<Shape>::residual(std::span<const double> u, std::span<double
   for (std::size_t k = 0; k < prescribed_.size(); ++k)
     if (prescribed_[k]) r[k] = 0;
   return admissible;
+}
+
+template <class Shape>
+bool ImplicitSystem<Shape>::isNegligible(std::span<const double> u, std::span<const double> r) const {
+  double largest = 0;
+  for (int k = 0; k < map_.owned(); ++k) {
+    const Node& node = node_[static_cast<std::size_t>(k)];
+    double forces = node.rigidity + node.force.norm();
+    if (how_.dynamic)
+      forces += node.mass * (4 / dt_ * (displacement(k, u).norm() / dt_ + node.velocity.norm()) + node.acceleration.norm());
+    const double left = Eigen::Map<const Vec<D>>(r.data() + D * k).norm();
+    if (left > 0) largest = std::max(largest, left / forces);
+  }
+  return map_.ranks().max(largest) <= 1e-14;
 }
 
 template <class Shape>
