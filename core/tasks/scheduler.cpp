@@ -130,7 +130,7 @@ std::optional<data::Minimum> Scheduler::run(TaskGraph& graph, const StepInfo& at
   if (graph.tasks().empty()) return std::nullopt;
   start(graph);
   for (std::size_t t = 0; t < graph.tasks().size(); ++t) {
-    runTask(graph.tasks()[t], static_cast<int>(t), at);
+    runTask(graph, static_cast<int>(t), at);
     if (!hasStopped())
       free(graph.tasks()[t]);
     else if (warehouse_->ranks().isAlone())
@@ -154,11 +154,13 @@ void Scheduler::start(const TaskGraph& graph) {
   for (const int reduction : graph.reductions()) warehouse_->resetReduction(reduction);
 }
 
-void Scheduler::runTask(CompiledTask& task, int number, const StepInfo& at) {
+void Scheduler::runTask(TaskGraph& graph, int number, const StepInfo& at) {
+  CompiledTask& task = graph.tasks()[static_cast<std::size_t>(number)];
   running_ = number;
   auto started = Clock::now();
+  if (task.sends >= 0) exchange_.send(graph.tasks()[static_cast<std::size_t>(task.sends)].fills, hasStopped());
   if (!task.fills.empty()) {
-    exchange_.begin(task.fills, hasStopped());
+    exchange_.begin(hasStopped());
     if (!task.mayStartEarly || hasStopped()) heard_stop_ = !exchange_.finish() || heard_stop_;
     const auto exchanged = Clock::now();
     task.exchangeSeconds += seconds(exchanged - started);

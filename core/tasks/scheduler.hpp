@@ -65,7 +65,7 @@ class Scheduler {
   bool mayRunTogether();
   const mpi::Communicator& ranksWithPatches();
   void start(const TaskGraph& graph);
-  void runTask(CompiledTask& task, int number, const StepInfo& at);
+  void runTask(TaskGraph& graph, int number, const StepInfo& at);
   void runWork(CompiledTask& task, const StepInfo& at);
   void relocate(const CompiledTask& task, const StepInfo& at);
   template <class Work>
