@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include "components/mpm/conserving/conserving_mpm.hpp"
+#include "components/mpm/materials/gas_input.hpp"
 #include "components/mpm/mpm.hpp"
 #include "components/mpm/solid/implicit/input.hpp"
 #include "components/mpm/solid/input.hpp"
-#include "core/input/geometry.hpp"
 #include "core/simulation/by_dimension.hpp"
 
 namespace tushar::mpm {
@@ -159,174 +159,39 @@ const Schema<MpmSection>& mpmSchema() {
   return schema;
 }
 
-struct ObjectSection {
-  Location where;
-  std::shared_ptr<const input::GeometryPiece> shape;
-  Index3 res{{1, 1, 1}};
-  std::optional<input::Expression> density, pressure, temperature;
-  input::VectorExpression velocity;
-  Placement placement = Placement::midpoint;
-  int seed = 0;
-};
-const Schema<ObjectSection>& objectSchema() {
-  static const Schema<ObjectSection> schema =
-      Schema<ObjectSection>("geom_object", "A body of material at the start.")
-          .custom("shape",
-                  [](ObjectSection& object, const Element& element, Diagnostics& diagnostics) {
-                    object.where = element.where();
-                    object.shape = input::readGeometry(element, diagnostics);
-                  },
-                  input::geometryNames(), "the body's shape; several are united", input::describeGeometry)
-          .required("res", &ObjectSection::res, "1", "particles per cell along x, y, z", input::between(1, 64))
-          .value("velocity", &ObjectSection::velocity, input::VectorExpression(), "m/s", "velocity at the start",
-                 input::WithoutTime())
-          .optional("temperature", &ObjectSection::temperature, "K",
-                    "temperature at the start, in place of <pressure>: p = (gamma - 1) rho c_v T", input::positive(),
-                    input::WithoutTime())
-          .optional("density", &ObjectSection::density, "kg/m^3", "density at the start, if not that of the material",
-                    input::positive(), input::WithoutTime())
-          .ours()
-          .optional("pressure", &ObjectSection::pressure, "Pa", "pressure at the start", input::positive(),
-                    input::WithoutTime())
-          .ours()
-          .choice("placement", &ObjectSection::placement,
-                  {{"midpoint", Placement::midpoint}, {"jittered", Placement::jittered}, {"random", Placement::random}},
-                  Placement::midpoint,
-                  "particles in the middle of equal parts of a cell, anywhere in these parts, or anywhere in the cell")
-          .ours()
-          .value("seed", &ObjectSection::seed, 0, "1", "another one draws other places", input::nonNegative())
-          .ours()
-          .check([](const ObjectSection& object, const Element& element, Diagnostics& diagnostics) {
-            if (object.pressure.has_value() == object.temperature.has_value())
-              diagnostics.error(element, object.pressure ? "gives both <pressure> and <temperature>; keep one"
-                                                         : "gives neither <pressure> nor <temperature>");
-          });
-  return schema;
-}
-
-enum class GasType { ideal, stiffened };
-struct ModelSection {
-  Location where;
-  GasType type = GasType::ideal;
-  double gamma = 1.4, pInfinity = 0;
-  double specificHeat = 717.5;
-};
-const Schema<ModelSection>& modelSchema() {
-  static const Schema<ModelSection> schema =
-      Schema<ModelSection>("constitutive_model", "How the material answers to being deformed.")
-          .location(&ModelSection::where)
-          .requiredChoiceAttribute("type", &ModelSection::type,
-                                   {{"ideal_gas", GasType::ideal}, {"stiffened_gas", GasType::stiffened}},
-                                   "p = (gamma - 1) rho e, or (gamma - 1) rho e - gamma p_infinity")
-          .value("gamma", &ModelSection::gamma, 1.4, "1", "ratio of specific heats", input::greaterThan(1))
-          .value("specific_heat", &ModelSection::specificHeat, 717.5, "J/(kg K)",
-                 "c_v, for bodies that give a temperature", input::positive())
-          .value("p_infinity", &ModelSection::pInfinity, 0, "Pa", "stiffness: 0 for air, about 6e8 for water",
-                 input::nonNegative())
-          .ours()
-          .check([](const ModelSection& model, const Element& element, Diagnostics& diagnostics) {
-            if (model.type == GasType::ideal && model.pInfinity > 0)
-              diagnostics.error(element, "an ideal_gas has no p_infinity; use type=\"stiffened_gas\"");
-          });
-  return schema;
-}
-
-const Schema<Relaxation>& relaxationSchema() {
-  static const Schema<Relaxation> schema =
-      Schema<Relaxation>("relaxation", "A source of heat, de/dt = -rate (e - internal_energy), integrated exactly.")
-          .required("rate", &Relaxation::rate, "1/s", "how fast", input::nonNegative())
-          .ours()
-          .required("internal_energy", &Relaxation::internalEnergy, "J/kg", "what the gas goes to", input::positive())
-          .ours();
-  return schema;
-}
-
-struct MaterialSection {
-  std::string name;
-  std::optional<double> density;
-  ModelSection model;
-  std::optional<Relaxation> relaxation;
-  std::vector<ObjectSection> objects;
-  double thermalConductivity = 0, specificHeat = 0;
-};
-const Schema<MaterialSection>& materialSchema() {
-  static const Schema<MaterialSection> schema =
-      Schema<MaterialSection>("material", "A material and the bodies made of it.")
-          .attributeValue("name", &MaterialSection::name, "gas", "1", "its name")
-          .optional("density", &MaterialSection::density, "kg/m^3", "density at the start", input::positive())
-          .requiredSection("constitutive_model", &MaterialSection::model, modelSchema())
-          .section("relaxation", &MaterialSection::relaxation, relaxationSchema())
-          .ours()
-          .value("thermal_conductivity", &MaterialSection::thermalConductivity, 0, "W/(m K)",
-                 "must be 0: the gas method conducts no heat", input::between(0, 0))
-          .value("specific_heat", &MaterialSection::specificHeat, 0, "J/(kg K)",
-                 "accepted for Uintah's sake: the constitutive model has its own", input::nonNegative())
-          .list("geom_object", &MaterialSection::objects, objectSchema(), "a body of material at the start", 1)
-          .check([](const MaterialSection& material, const Element& element, Diagnostics& diagnostics) {
-            const auto bodies = element.children("geom_object");
-            for (std::size_t k = 0; k < material.objects.size(); ++k)
-              if (!material.density && !material.objects[k].density)
-                diagnostics.error(bodies[k], "has no <density>, and neither has its material");
-          });
-  return schema;
-}
-
-struct MaterialList {
-  std::vector<MaterialSection> materials;
-};
-struct MaterialProperties {
-  MaterialList mpm;
-};
-const Schema<MaterialProperties>& propertiesSchema() {
-  static const Schema<MaterialList> list =
-      Schema<MaterialList>("MPM", "The materials of the Material Point Method.")
-          .list("material", &MaterialList::materials, materialSchema(), "a material", 1)
-          .check([](const MaterialList& read, const Element& element, Diagnostics& diagnostics) {
-            if (read.materials.size() > 1)
-              diagnostics.error(element.children("material")[1],
-                                "the gas method takes one material; give it several <geom_object>s instead");
-          });
-  static const Schema<MaterialProperties> schema =
-      Schema<MaterialProperties>("MaterialProperties", "What there is.")
-          .requiredSection("MPM", &MaterialProperties::mpm, list);
-  return schema;
-}
-
-/// The pressure of a body, from its temperature where it gives that: (gamma - 1) rho c_v T - p_inf.
-input::Expression pressureOf(const ObjectSection& object, const input::Expression& density, const ModelSection& model) {
-  if (object.pressure) return *object.pressure;
-  const std::string text = fmt::format("({})*({})*({})-({})", (model.gamma - 1) * model.specificHeat, density.text(),
-                                       object.temperature->text(), model.pInfinity);
-  return *input::Expression::parse(text);
-}
-
-Gas makeGas(const MaterialSection& material) {
-  Gas gas;
-  gas.name = material.name;
-  gas.gamma = material.model.gamma;
-  gas.pInfinity = material.model.pInfinity;
-  gas.where = material.model.where;
-  gas.relaxation = material.relaxation;
-  for (const ObjectSection& object : material.objects) {
-    const input::Expression density = object.density ? *object.density : input::Expression(*material.density);
-    gas.objects.push_back({object.where, object.shape, object.res, density, pressureOf(object, density, material.model),
-                           object.velocity, object.placement, object.seed});
-  }
-  return gas;
-}
-
 /// The particles of the conserving method fill their cells: they cannot stand just anywhere.
-void refusePlacements(const MaterialProperties& properties, Diagnostics& diagnostics) {
-  for (const MaterialSection& material : properties.mpm.materials)
-    for (const ObjectSection& object : material.objects)
+void refusePlacements(const GasProperties& properties, Diagnostics& diagnostics) {
+  for (const GasSection& material : properties.mpm.materials)
+    for (const GasObjectSection& object : material.objects)
       if (object.placement != Placement::midpoint)
         diagnostics.error(object.where, "MaterialProperties/MPM/material/geom_object",
                           "placement: the boxes of <conserving_gas_dynamics> fill the gas; use midpoint, or <gas_dynamics>");
 }
 
+/// Several gases at once: by boxes that are never mixed, with the transfer of the default.
+void refuseMixtures(const MpmSection& method, const GasProperties& properties, Diagnostics& diagnostics) {
+  const std::vector<GasSection>& materials = properties.mpm.materials;
+  if (materials.size() < 2) return;
+  const auto refuse = [&](const std::string& why) {
+    diagnostics.error(materials[1].model.where, "MaterialProperties/MPM/material", why);
+  };
+  if (method.gas)
+    refuse("<gas_dynamics> takes one material; give it several <geom_object>s, or use <conserving_gas_dynamics>");
+  if (!method.conserving) return;
+  if (method.conserving->transfer != Transfer::apic) refuse("several gases need <transfer> apic");
+  if (method.conserving->remap) refuse("several gases are not mixed by a <remap>; take it out");
+  if (method.conserving->heatConduction > 0) refuse("several gases take no <artificial_heat_conduction>");
+  for (std::size_t k = 0; k < materials.size(); ++k) {
+    if (materials[k].relaxation) refuse("several gases take no <relaxation>");
+    for (std::size_t other = 0; other < k; ++other)
+      if (materials[k].name == materials[other].name)
+        refuse("two materials are called '" + materials[k].name + "'; give each a name of its own");
+  }
+}
+
 /// The paper's method knows the ideal gas alone.
-void refuseStiffness(const MaterialProperties& properties, Diagnostics& diagnostics) {
-  for (const MaterialSection& material : properties.mpm.materials)
+void refuseStiffness(const GasProperties& properties, Diagnostics& diagnostics) {
+  for (const GasSection& material : properties.mpm.materials)
     if (material.model.type == GasType::stiffened)
       diagnostics.error(material.model.where, "MaterialProperties/MPM/material/constitutive_model",
                         "type: <gas_dynamics> takes an ideal_gas alone; use <conserving_gas_dynamics>");
@@ -379,7 +244,7 @@ simulation::ComponentKind kind() {
     solid::describe(out);
     out << "Where <MPM> has <gas_dynamics> or <conserving_gas_dynamics>, instead:\n";
     mpmSchema().describe(out);
-    propertiesSchema().describe(out);
+    gasProperties().describe(out);
   };
   kind.nodesBeyond = [](const Element& root) { return isGas(root) ? 0 : solid::nodesBeyond(root); };
   kind.read = [](const Element& root, Diagnostics& diagnostics) -> simulation::MakeComponent {
@@ -387,11 +252,13 @@ simulation::ComponentKind kind() {
     refuseSolidsOnly(root, diagnostics);
     const std::size_t before = diagnostics.size();
     const MpmSection method = simulation::readSection(root, mpmSchema(), diagnostics);
-    const MaterialProperties properties = simulation::readSection(root, propertiesSchema(), diagnostics);
+    const GasProperties properties = simulation::readSection(root, gasProperties(), diagnostics);
+    refuseMixtures(method, properties, diagnostics);
     method.conserving ? refusePlacements(properties, diagnostics) : refuseStiffness(properties, diagnostics);
     if (diagnostics.size() > before) return {};
     std::vector<Gas> gases;
-    for (const MaterialSection& material : properties.mpm.materials) gases.push_back(makeGas(material));
+    const std::vector<GasSection>& materials = properties.mpm.materials;
+    for (const GasSection& material : materials) gases.push_back(makeGas(material, materials.size() == 1));
     return [method, gases](const Level& level) { return makeComponent(level, method, gases); };
   };
   return kind;

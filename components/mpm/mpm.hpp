@@ -26,7 +26,7 @@ class Mpm : public Component, public reference::GasSolution {
   std::string advice() const override {
     return "a smaller <cfl>, more particles per cell (<res>), or <redistribute> in <gas_dynamics>";
   }
-  std::optional<double> gamma() const override { return materials_.front().effectiveGamma(); }
+  std::vector<reference::GasLaw> gases() const override { return lawsOf(materials_); }
   void scheduleMeasureError(TaskList& tasks, const reference::GasReference& reference,
                             const reference::Clock& clock) const override;
 

@@ -11,10 +11,23 @@ namespace tushar::reference {
 
 namespace {
 
-/// A stiffened gas as the ideal gas with the same waves.
-RiemannState stiffened(RiemannState state, double pInfinity) {
-  state.pressure += pInfinity;
-  return state;
+double leastStiffnessOf(const RiemannProblem& problem) {
+  return std::min(problem.gas.stiffness, problem.rightGas.value_or(problem.gas).stiffness);
+}
+
+/// The problem with the same waves in which the softer gas is an ideal one.
+RiemannSolution solveShifted(const RiemannProblem& problem) {
+  const double shift = leastStiffnessOf(problem);
+  const auto shifted = [&](RiemannState state) {
+    state.pressure += shift;
+    return state;
+  };
+  const auto softened = [&](GasLaw gas) {
+    gas.stiffness -= shift;
+    return gas;
+  };
+  return solveRiemann(shifted(problem.left), shifted(problem.right), softened(problem.gas),
+                      softened(problem.rightGas.value_or(problem.gas)));
 }
 
 void checkTime(double t) {
@@ -24,9 +37,7 @@ void checkTime(double t) {
 }  // namespace
 
 ExactRiemann::ExactRiemann(const RiemannProblem& problem)
-    : problem_(problem),
-      solution_(solveRiemann(stiffened(problem.left, problem.pInfinity), stiffened(problem.right, problem.pInfinity),
-                             problem.gamma)) {
+    : problem_(problem), solution_(solveShifted(problem)) {
   if (problem.axis < 0 || problem.axis > 2) {
     throw std::invalid_argument(fmt::format("The axis of a Riemann problem is 0, 1 or 2, not {}.", problem.axis));
   }
@@ -34,6 +45,8 @@ ExactRiemann::ExactRiemann(const RiemannProblem& problem)
     throw std::invalid_argument("The diaphragm of a Riemann problem must stand at a finite position.");
   }
 }
+
+double ExactRiemann::leastStiffness() const { return leastStiffnessOf(problem_); }
 
 GasState ExactRiemann::at(const Vec3& x, double t) const {
   checkTime(t);
@@ -43,10 +56,12 @@ GasState ExactRiemann::at(const Vec3& x, double t) const {
   const RiemannState state = solution_.sample(xi);
   GasState gas;
   gas.density = state.density;
-  gas.pressure = state.pressure - problem_.pInfinity;
-  const double heat = state.pressure / (problem_.gamma - 1) + problem_.pInfinity;
+  const bool isLeft = xi < solution_.starVelocity;
+  const GasLaw& law = isLeft ? problem_.gas : problem_.rightGas.value_or(problem_.gas);
+  gas.pressure = state.pressure - leastStiffness();
+  const double heat = (state.pressure + (law.stiffness - leastStiffness())) / (law.gamma - 1) + law.stiffness;
   gas.energy = state.density > 0 ? heat / state.density : 0;
-  gas.velocity = xi < solution_.starVelocity ? problem_.leftTransverse : problem_.rightTransverse;
+  gas.velocity = isLeft ? problem_.leftTransverse : problem_.rightTransverse;
   gas.velocity[problem_.axis] = state.velocity;
   return gas;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "components/reference/gas_reference.hpp"
@@ -7,14 +8,14 @@
 
 namespace tushar::reference {
 
-/// Two uniform gases that meet at a plane at t = 0.
+/// Two uniform bodies of gas that meet at a plane at t = 0.
 struct RiemannProblem {
-  RiemannState left;       ///< below the diaphragm
-  RiemannState right;      ///< above it
-  double gamma = 1.4;      ///< ratio of specific heats
-  double pInfinity = 0;    ///< of a stiffened gas, Pa
-  double diaphragm = 0.5;  ///< its position along `axis`, m
-  int axis = 0;            ///< 0, 1 or 2: the normal of the plane
+  RiemannState left;               ///< below the diaphragm
+  RiemannState right;              ///< above it
+  GasLaw gas;                      ///< of both, or of the left one
+  std::optional<GasLaw> rightGas;  ///< where that is another
+  double diaphragm = 0.5;          ///< its position along `axis`, m
+  int axis = 0;                    ///< 0, 1 or 2: the normal of the plane
   /// Velocities along the other axes, m/s: carried along with each gas, so that they jump at the contact alone.
   Vec3 leftTransverse = Vec3::Zero();
   Vec3 rightTransverse = Vec3::Zero();
@@ -23,8 +24,7 @@ struct RiemannProblem {
 /// The exact solution of a Riemann problem in space and time: shock tubes, Noh's plane wall, gas into vacuum.
 ///
 /// In vacuum density, pressure and energy are 0 and the velocity is that of the nearer front.
-/// A stiffened gas has the waves of an ideal gas of pressure p + p_inf, and the internal energy (p + gamma p_inf) /
-/// ((gamma - 1) rho).
+/// The internal energy is (p + gamma p_inf) / ((gamma - 1) rho).
 /// Source: E. F. Toro, Riemann Solvers and Numerical Methods for Fluid Dynamics, 3rd ed., chapter 4.
 class ExactRiemann : public GasReference {
  public:
@@ -35,10 +35,13 @@ class ExactRiemann : public GasReference {
   GasState average(const Vec3& lower, const Vec3& upper, double t) const override;
   std::vector<double> breaks(int axis, double t) const override;
 
-  /// That of the ideal gas with the same waves: its pressures are p + p_inf.
+  /// Its pressures are p + p_inf, with the lesser p_inf of two gases.
   const RiemannSolution& solution() const { return solution_; }
 
  private:
+  /// The lesser p_inf, Pa.
+  double leastStiffness() const;
+
   RiemannProblem problem_;
   RiemannSolution solution_;
 };

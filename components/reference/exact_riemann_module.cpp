@@ -20,12 +20,19 @@ namespace {
 
 struct State {
   double density = 0, pressure = 0, velocity = 0;
+  std::optional<double> gamma, pInfinity;
 };
 const Schema<State>& stateSchema() {
   static const Schema<State> schema = Schema<State>("left", "A uniform gas.")
                                           .required("density", &State::density, "kg/m^3", "rho", input::nonNegative())
                                           .required("pressure", &State::pressure, "Pa", "p", input::nonNegative())
-                                          .value("velocity", &State::velocity, 0, "m/s", "u along the normal");
+                                          .value("velocity", &State::velocity, 0, "m/s", "u along the normal")
+                                          .optional("gamma", &State::gamma, "1", "where the two gases differ",
+                                                    input::greaterThan(1))
+                                          .ours()
+                                          .optional("p_infinity", &State::pInfinity, "Pa", "where the two gases differ",
+                                                    input::nonNegative())
+                                          .ours();
   return schema;
 }
 
@@ -59,6 +66,11 @@ const Schema<RiemannSection>& riemannSchema() {
     return declared;
   }();
   return schema;
+}
+
+/// The gas of one side.
+GasLaw gasOf(const State& side, const RiemannSection& read) {
+  return {side.gamma.value_or(read.gamma), side.pInfinity.value_or(read.pInfinity)};
 }
 
 /// Length along the tube after which a periodic grid stands again, m; 0 where it never does. Throws
@@ -98,8 +110,8 @@ ReferencePointer tubeOn(const grid::Level& level, const RiemannSection& read) {
   RiemannProblem problem;
   problem.left = {read.left.density, read.left.velocity, read.left.pressure};
   problem.right = {read.right.density, read.right.velocity, read.right.pressure};
-  problem.gamma = read.gamma;
-  problem.pInfinity = read.pInfinity;
+  problem.gas = gasOf(read.left, read);
+  problem.rightGas = gasOf(read.right, read);
   problem.diaphragm = read.diaphragm / length;
   TubePlacement placement{normal, {}, periodAlong(normal, level)};
   if (placement.period == 0) checkDiaphragm(problem.diaphragm, normal, level.domain());
@@ -115,8 +127,10 @@ AnalysisKind exactRiemannKind() {
   AnalysisKind kind{"exactRiemann", "errors against the exact solution of a shock tube", {}, {}};
   kind.describe = [](std::ostream& out) { riemannSchema().describe(out); };
   kind.read = [](const Element& module, Diagnostics& diagnostics) {
-    return readModule(riemannSchema(), module, diagnostics,
-                            [](const RiemannSection& read, const grid::Level& level) { return tubeOn(level, read); });
+    return readModule(
+        riemannSchema(), module, diagnostics,
+        [](const RiemannSection& read, const grid::Level& level) { return tubeOn(level, read); },
+        [](const RiemannSection& read) { return std::vector{gasOf(read.left, read), gasOf(read.right, read)}; });
   };
   return kind;
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "components/reference/gas_solution.hpp"
 
 namespace tushar::reference {
@@ -71,25 +73,38 @@ std::vector<output::Array> GasError::exactProfile(const Level& level) const {
           {"energy", "J/kg", "exact internal energy", 1, columns[4]}};
 }
 
+bool isClose(double a, double b) { return std::abs(a - b) <= 1e-6 * std::abs(b); }
+
+/// A sentence where a gas is none of those of the scene; none where it is, or where the scene has no law.
+std::string whyNotAmong(const std::vector<GasLaw>& scene, const GasLaw& gas) {
+  const auto isIt = [&](const GasLaw& other) {
+    return isClose(gas.gamma, other.gamma) && isClose(gas.stiffness, other.stiffness);
+  };
+  if (scene.empty() || std::any_of(scene.begin(), scene.end(), isIt)) return {};
+  if (scene.size() > 1)
+    return fmt::format("gamma and p_infinity: found {} and {:g} Pa, and no gas of the scene has both", gas.gamma,
+                       gas.stiffness);
+  if (!isClose(gas.gamma, scene.front().gamma))
+    return fmt::format("gamma: found {}, but the gas of the scene has {}", gas.gamma, scene.front().gamma);
+  return fmt::format("p_infinity: found {:g} Pa, but the gas of the scene has {:g} Pa", gas.stiffness,
+                     scene.front().stiffness);
+}
+
 }  // namespace
 
 simulation::MakeAnalysis measureAgainst(std::function<ReferencePointer(const Level&)> build, const GasTags& tags,
-                                        const input::Element& module) {
+                                        const std::vector<GasLaw>& gases, const input::Element& module) {
   const auto problem = [where = module.where(), path = module.path()](const std::string& sentence) {
     return InputError({InputProblem{where, path, sentence}});
   };
-  return [build, problem, name = tags.name, gamma = tags.gamma, pInfinity = tags.pInfinity, within = tags.within](
+  return [build, problem, gases, name = tags.name, within = tags.within](
              const Component& component, const Level& level) -> std::unique_ptr<simulation::Analysis> {
     const auto* solution = dynamic_cast<const GasSolution*>(&component);
     if (!solution) throw problem("measures a gas, but this component does not solve for one; take the module out");
     try {
       ReferencePointer exact = build(level);
-      const std::optional<double> solved = solution->gamma();
-      if (solved && std::abs(gamma - *solved) > 1e-6 * gamma)
-        throw problem(fmt::format("gamma: found {}, but the gas of the scene has {}", gamma, *solved));
-      if (std::abs(pInfinity - solution->pInfinity()) > 1e-6 * solution->pInfinity())
-        throw problem(fmt::format("p_infinity: found {:g} Pa, but the gas of the scene has {:g} Pa", pInfinity,
-                                  solution->pInfinity()));
+      for (const GasLaw& gas : gases)
+        if (const std::string missing = whyNotAmong(solution->gases(), gas); !missing.empty()) throw problem(missing);
       if (within) exact = std::make_shared<Within>(exact, *within);
       return std::make_unique<GasError>(name, std::move(exact), *solution);
     } catch (const std::invalid_argument& error) {

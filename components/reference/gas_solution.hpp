@@ -1,9 +1,9 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "components/reference/gas_reference.hpp"
+#include "components/reference/riemann_solution.hpp"
 #include "core/core.hpp"
 
 namespace tushar::reference {
@@ -43,10 +43,8 @@ enum class MeasuredPlace { particle, cell, node };
 class GasSolution {
  public:
   virtual ~GasSolution() = default;
-  /// Ratio of specific heats of the gas; none where no one number describes the flow.
-  virtual std::optional<double> gamma() const = 0;
-  /// p_inf of a stiffened gas, Pa; 0 of an ideal one.
-  virtual double pInfinity() const { return 0; }
+  /// The gases; none where no such law describes the flow.
+  virtual std::vector<GasLaw> gases() const = 0;
   /// The places whose error labels scheduleMeasureError's tasks compute.
   virtual std::vector<MeasuredPlace> measuredPlaces() const {
     return {MeasuredPlace::particle, MeasuredPlace::cell, MeasuredPlace::node};

@@ -15,16 +15,23 @@ namespace {
 constexpr double kRoundOff = 2 * std::numeric_limits<double>::epsilon();
 constexpr int kMostIterations = 500;
 
-/// One side seen so that its wave runs to the left: the right side is mirrored, u -> -u.
+/// One side seen so that its wave runs to the left: the right side is mirrored, u -> -u. Its own pressure has the
+/// stiffness in it; those that it is asked about have not.
 struct Side {
-  double density, velocity, pressure, gamma;
+  double density, velocity, pressure, gamma, stiffness;
 
-  Side(const RiemannState& state, double mirror, double heatRatio)
-      : density(state.density), velocity(mirror * state.velocity), pressure(state.pressure), gamma(heatRatio) {}
+  Side(const RiemannState& state, double mirror, const GasLaw& gas)
+      : density(state.density),
+        velocity(mirror * state.velocity),
+        pressure(state.pressure + gas.stiffness),
+        gamma(gas.gamma),
+        stiffness(gas.stiffness) {}
 
   double soundSpeed() const { return density > 0 ? std::sqrt(gamma * pressure / density) : 0; }
-  /// Speed at which the gas expands into vacuum, Toro (4.77).
-  double front() const { return velocity + 2 * soundSpeed() / (gamma - 1); }
+  /// Speed at which the gas expands into what has no pressure, Toro (4.77).
+  double front() const {
+    return stiffness > 0 ? velocity - velocityChange(0) : velocity + 2 * soundSpeed() / (gamma - 1);
+  }
   /// (gamma - 1) / (2 gamma): c ~ p^exponent along an isentrope.
   double exponent() const { return (gamma - 1) / (2 * gamma); }
   /// A and B of Toro (4.8).
@@ -32,27 +39,31 @@ struct Side {
   double b() const { return (gamma - 1) / (gamma + 1) * pressure; }
 
   /// Velocity lost on the way to pressure p, Toro (4.6)-(4.7).
-  double velocityChange(double p) const {
+  double velocityChange(double outside) const {
+    const double p = outside + stiffness;
     if (p > pressure) return (p - pressure) * std::sqrt(a() / (p + b()));
     if (pressure == 0) return 0;
     return 2 * soundSpeed() / (gamma - 1) * std::expm1(exponent() * std::log(p / pressure));
   }
 
   /// d velocityChange / dp, Toro (4.37); p > 0.
-  double slope(double p) const {
+  double slope(double outside) const {
+    const double p = outside + stiffness;
     if (p > pressure) return std::sqrt(a() / (p + b())) * (1 - 0.5 * (p - pressure) / (p + b()));
     return std::pow(p / pressure, exponent() - 1) * soundSpeed() / (gamma * pressure);
   }
 
   /// Toro (4.50) and (4.53).
-  double starDensity(double p) const {
+  double starDensity(double outside) const {
+    const double p = outside + stiffness;
     if (p <= pressure) return pressure > 0 ? density * std::pow(p / pressure, 1 / gamma) : density;
     const double ratio = (gamma - 1) / (gamma + 1);
     return density * (p + ratio * pressure) / (ratio * p + pressure);
   }
 
   /// The wave that leads to pressure p and velocity u, Toro (4.52), (4.54)-(4.55).
-  RiemannWave wave(double p, double u) const {
+  RiemannWave wave(double outside, double u) const {
+    const double p = outside + stiffness;
     if (p > pressure) {
       const double speed = velocity - std::sqrt((p + b()) / a()) / density;
       return {WaveKind::shock, speed, speed};
@@ -70,7 +81,8 @@ struct Side {
     const double ratio = 2 / (gamma + 1) * (1 + 0.5 * (gamma - 1) * (velocity - xi) / sound);
     const double u = 2 / (gamma + 1) * (sound + 0.5 * (gamma - 1) * velocity + xi);
     const double relative = std::max(0.0, ratio);
-    return {density * std::pow(relative, 2 / (gamma - 1)), u, pressure * std::pow(relative, 2 * gamma / (gamma - 1))};
+    return {density * std::pow(relative, 2 / (gamma - 1)), u,
+            pressure * std::pow(relative, 2 * gamma / (gamma - 1)) - stiffness};
   }
 };
 
@@ -92,11 +104,18 @@ void checkSide(std::string_view name, const RiemannState& state) {
   if (state.density == 0 && state.pressure > 0) fail("is vacuum and cannot have a pressure");
 }
 
-void checkProblem(const RiemannState& left, const RiemannState& right, double gamma) {
-  if (!(gamma > 1) || !std::isfinite(gamma)) {
+void checkGas(const GasLaw& gas) {
+  if (!(gas.gamma > 1) || !std::isfinite(gas.gamma))
     throw std::invalid_argument(
-        fmt::format("The gamma of a Riemann problem must be above 1 and finite, not {}.", gamma));
-  }
+        fmt::format("The gamma of a Riemann problem must be above 1 and finite, not {}.", gas.gamma));
+  if (!(gas.stiffness >= 0) || !std::isfinite(gas.stiffness))
+    throw std::invalid_argument(
+        fmt::format("The stiffness of a gas in a Riemann problem must be 0 or more and finite, not {}.", gas.stiffness));
+}
+
+void checkProblem(const RiemannState& left, const RiemannState& right, const GasLaw& leftGas, const GasLaw& rightGas) {
+  checkGas(leftGas);
+  checkGas(rightGas);
   checkSide("left", left);
   checkSide("right", right);
   if (left.density == 0 && right.density == 0) {
@@ -110,13 +129,17 @@ class StarPressure {
   StarPressure(const Side& left, const Side& right) : left_(left), right_(right) {}
 
   double solve() {
-    const double least = std::min(left_.pressure, right_.pressure);
+    const double least = std::min(left_.pressure - left_.stiffness, right_.pressure - right_.stiffness);
     const double excess = least > 0 ? mismatch(least) : -1;
     if (excess == 0) return least;
-    return excess > 0 ? betweenRarefactions() : search(least);
+    if (excess < 0) return search(least, upperBound());
+    return isOneIdealGas() ? betweenRarefactions() : search(0, least);
   }
 
  private:
+  bool isOneIdealGas() const {
+    return left_.gamma == right_.gamma && left_.stiffness == 0 && right_.stiffness == 0;
+  }
   /// Toro (4.5): increasing and concave in p.
   double mismatch(double p) const {
     return left_.velocityChange(p) + right_.velocityChange(p) - (right_.velocity + left_.velocity);
@@ -141,9 +164,9 @@ class StarPressure {
     return p;
   }
 
-  double search(double least) {
-    lower_ = least;
-    upper_ = upperBound();
+  double search(double lower, double upper) {
+    lower_ = lower;
+    upper_ = upper;
     double p = upper_;
     double previousStep = upper_ - lower_;
     for (int i = 0; i < kMostIterations; ++i) {
@@ -207,21 +230,29 @@ RiemannState RiemannSolution::sample(double xi) const {
   if (xi >= rightWave.head && right.density > 0) return right;
   if (xi < starVelocity) {
     const RiemannState star{starDensityLeft, hasVacuum() ? leftWave.tail : starVelocity, starPressure};
-    return behindHead(Side(left, 1, gamma), leftWave, xi, star);
+    return behindHead(Side(left, 1, leftGas), leftWave, xi, star);
   }
   const RiemannState star{starDensityRight, hasVacuum() ? -rightWave.tail : -starVelocity, starPressure};
-  return mirrored(behindHead(Side(right, -1, gamma), mirrored(rightWave), -xi, star));
+  return mirrored(behindHead(Side(right, -1, rightGas), mirrored(rightWave), -xi, star));
 }
 
 RiemannSolution solveRiemann(const RiemannState& left, const RiemannState& right, double gamma) {
-  checkProblem(left, right, gamma);
+  return solveRiemann(left, right, {gamma, 0}, {gamma, 0});
+}
+
+RiemannSolution solveRiemann(const RiemannState& left, const RiemannState& right, const GasLaw& leftGas,
+                             const GasLaw& rightGas) {
+  checkProblem(left, right, leftGas, rightGas);
   RiemannSolution solution;
   solution.left = left;
   solution.right = right;
-  solution.gamma = gamma;
-  const Side leftSide(left, 1, gamma);
-  const Side rightSide(right, -1, gamma);
+  solution.leftGas = leftGas;
+  solution.rightGas = rightGas;
+  const Side leftSide(left, 1, leftGas);
+  const Side rightSide(right, -1, rightGas);
   const bool vacuum = left.density == 0 || right.density == 0 || leftSide.front() <= -rightSide.front();
+  if (vacuum && (leftGas.gamma != rightGas.gamma || leftGas.stiffness > 0 || rightGas.stiffness > 0))
+    throw std::invalid_argument("Two gases part, with vacuum between them: there is no solution for that here.");
   vacuum ? fillVacuum(solution, leftSide, rightSide) : fillStar(solution, leftSide, rightSide);
   return solution;
 }

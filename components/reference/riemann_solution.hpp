@@ -2,6 +2,12 @@
 
 namespace tushar::reference {
 
+/// A stiffened gas, p = (gamma - 1) rho e - gamma stiffness; with stiffness 0 an ideal gas.
+struct GasLaw {
+  double gamma = 1.4;    ///< ratio of specific heats
+  double stiffness = 0;  ///< p_inf, Pa
+};
+
 /// One side of a Riemann problem.  density = pressure = 0 is vacuum; pressure = 0 alone is a cold gas.
 struct RiemannState {
   double density = 0;   ///< kg/m^3
@@ -18,7 +24,7 @@ struct RiemannWave {
   double tail = 0;  ///< speed of its other edge, m/s; equals `head` in a shock; at the edge of vacuum, the front
 };
 
-/// The self-similar solution of a Riemann problem of an ideal gas.
+/// The self-similar solution of a Riemann problem of one gas or two.
 ///
 /// Source: E. F. Toro, Riemann Solvers and Numerical Methods for Fluid Dynamics, 3rd ed., chapter 4.
 /// Made by solveRiemann.  Values are exact to round-off of the input: about 1e-14, relative to the larger of the
@@ -26,7 +32,7 @@ struct RiemannWave {
 struct RiemannSolution {
   RiemannState left;            ///< as given
   RiemannState right;           ///< as given
-  double gamma = 0;             ///< ratio of specific heats
+  GasLaw leftGas, rightGas;
   double starPressure = 0;      ///< p*, Pa; 0 where the waves leave vacuum between them
   double starVelocity = 0;      ///< u*, the contact's speed, m/s; the mean speed of the two fronts around vacuum
   double starDensityLeft = 0;   ///< rho*L, kg/m^3
@@ -42,12 +48,16 @@ struct RiemannSolution {
   bool hasVacuum() const;
 };
 
-/// Solves the Riemann problem of an ideal gas exactly, vacuum and cold gas included.
+/// Solves the Riemann problem of two gases exactly; where both are of one gas, with vacuum and cold gas included.
 ///
+/// A stiffened gas has the waves of an ideal one of pressure p + p_inf.
 /// p* is found by Newton's method on Toro (4.5) inside a bracket that falls back to bisection, to round-off; two
-/// rarefactions use the closed form (4.46).  Vacuum: section 4.6.
-/// Throws std::invalid_argument where gamma <= 1, a value is not finite, a density or pressure is negative, a pressure
-/// stands in vacuum, or both sides are vacuum.
+/// rarefactions of one gas use the closed form (4.46).  Vacuum: section 4.6.
+/// Throws std::invalid_argument where gamma <= 1, a value is not finite, a density, pressure or stiffness is negative, a
+/// pressure stands in vacuum, both sides are vacuum, or vacuum is beside or between two different gases.
+RiemannSolution solveRiemann(const RiemannState& left, const RiemannState& right, const GasLaw& leftGas,
+                             const GasLaw& rightGas);
+/// Of one ideal gas.
 RiemannSolution solveRiemann(const RiemannState& left, const RiemannState& right, double gamma);
 
 }  // namespace tushar::reference

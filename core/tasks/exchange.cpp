@@ -109,17 +109,26 @@ GhostReach reachOf(const data::VariableTable& table, const NumberedFill& fill) {
   return {label->centring == data::Centring::node, fill.particles ? table.reach(material) : table.ghost(fill.variable)};
 }
 
-void Exchange::begin(std::span<const NumberedFill> fills, bool hasStopped) {
-  has_stopped_ = hasStopped;
+bool Exchange::movesNothing() const {
+  return warehouse_->level().patchCount() == 1 && !warehouse_->level().isPeriodic();
+}
+
+void Exchange::send(std::span<const NumberedFill> fills, bool hasStopped) {
   fills_ = fills;
+  if (movesNothing()) return;
+  noteUnsettled();
+  if (!warehouse_->ranks().isAlone())
+    threads_->alone([&] { post(hasStopped); }, trace::Kind::message, "send");
+}
+
+void Exchange::begin(bool hasStopped) {
+  has_stopped_ = hasStopped;
   senders_.clear();
-  if (warehouse_->level().patchCount() == 1 && !warehouse_->level().isPeriodic()) return;
-  for (const NumberedFill& fill : fills) {
+  if (movesNothing()) return;
+  for (const NumberedFill& fill : fills_) {
     const std::set<int>& incoming = planOf(fill).incoming;
     senders_.insert(incoming.begin(), incoming.end());
   }
-  noteUnsettled();
-  if (!warehouse_->ranks().isAlone()) threads_->alone([&] { post(); }, trace::Kind::message, "send");
   if (!hasStopped) fillFromHere();
 }
 
@@ -184,14 +193,14 @@ void Exchange::noteUnsettled() {
   }
 }
 
-void Exchange::post() {
+void Exchange::post(bool hasStopped) {
   std::set<int> receivers;
   for (const NumberedFill& fill : fills_)
     for (const auto& copies : planOf(fill).outgoing) receivers.insert(copies.first);
   for (const int rank : receivers) {
     Bytes message = outbox_.buffer();
-    message.push_back(std::byte{has_stopped_});
-    for (std::size_t k = 0; k < fills_.size() && !has_stopped_; ++k) {
+    message.push_back(std::byte{hasStopped});
+    for (std::size_t k = 0; k < fills_.size() && !hasStopped; ++k) {
       const auto copies = planOf(fills_[k]).outgoing.find(rank);
       if (copies == planOf(fills_[k]).outgoing.end()) continue;
       Packer packer(*warehouse_, fills_[k], message);

@@ -22,25 +22,28 @@ GhostReach reachOf(const data::VariableTable& table, const NumberedFill& fill);
 
 /// Fills the ghosts of every patch from the patches that own them, on this rank or another.
 ///
-/// Before a task one message goes to each neighbouring rank, with all that it needs for that task; while messages are
-/// on their way, patches fill their ghosts from one another, and those that need nothing of other ranks may be worked on.
+/// For a task one message goes to each neighbouring rank, with all that it needs for that task, as soon as the last of that
+/// has been computed; other tasks run meanwhile. Before the task patches fill their ghosts from one another, and those that
+/// need nothing of other ranks may be worked on while messages are still on their way.
 class Exchange {
  public:
   Exchange(data::Warehouse& warehouse, Threads& threads)
       : warehouse_(&warehouse), threads_(&threads), outbox_(warehouse.ranks()) {}
 
-  /// Fills the ghosts of node and cell variables, and of particle variables, in two parts; which particles are ghosts is
-  /// settled on first use of their set. All ranks run both for the same fills in the same order.
+  /// Fills the ghosts of node and cell variables, and of particle variables, in three parts; which particles are ghosts is
+  /// settled on first use of their set. All ranks run them for the same fills in the same order, all three of one before
+  /// the next.
   ///
-  /// Posts messages, and fills what needs none from other ranks. A rank on which a task failed says so in place of its
-  /// values (`hasStopped`).
-  void begin(std::span<const NumberedFill> fills, bool hasStopped);
+  /// Posts messages. A rank on which a task failed says so in place of its values (`hasStopped`).
+  void send(std::span<const NumberedFill> fills, bool hasStopped);
+  /// Fills what needs no message from other ranks, where no task has failed by then.
+  void begin(bool hasStopped);
   /// Waits for the messages of others and fills the rest. False if a rank that this one hears of has stopped: then
   /// nothing more is filled, and this one is to stop, too, before it reads what is not there.
   bool finish();
-  /// Between the two: whether there are messages to wait for.
+  /// Between the last two: whether there are messages to wait for.
   bool isUnderWay() const { return !senders_.empty(); }
-  /// Between the two: whether the patch at this place of the rank's has all its ghosts.
+  /// Between the last two: whether the patch at this place of the rank's has all its ghosts.
   bool isReady(std::size_t place);
   /// This rank has other patches from now on.
   void forgetLayout() { plans_.forget(); }
@@ -48,7 +51,8 @@ class Exchange {
  private:
   class Letters;
 
-  void post();
+  bool movesNothing() const;
+  void post(bool hasStopped);
   /// What patches of this rank have from one another.
   void fillFromHere();
   void fillFromElsewhere(const NumberedFill& fill, bool settles, Letters& letters);
@@ -68,7 +72,7 @@ class Exchange {
   Threads* threads_;
   mpi::Outbox outbox_;
   GhostPlans plans_;
-  // Of the exchange under way:
+  // Of the exchange that was sent:
   std::span<const NumberedFill> fills_;
   bool has_stopped_ = false;
   std::set<int> senders_;      ///< ranks whose messages are awaited

@@ -69,9 +69,11 @@ std::vector<Stage> plan(const std::vector<Task>& tasks) {
   std::stable_sort(open.begin(), open.end(), [](const Need& a, const Need& b) { return a.reader < b.reader; });
   while (!open.empty()) {
     const int at = open.front().reader;
+    Stage& stage = stages[static_cast<std::size_t>(at)];
     std::erase_if(open, [&](const Need& need) {
       if (need.ready >= at) return false;
-      stages[static_cast<std::size_t>(at)].fills.push_back(need.fill);
+      stage.fills.push_back(need.fill);
+      stage.ready = std::max(stage.ready, need.ready);
       return true;
     });
   }

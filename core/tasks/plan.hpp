@@ -21,6 +21,7 @@ struct GhostFill {
 /// What moves between patches before a task runs. All of it goes in one message per pair of patches' owners.
 struct Stage {
   std::vector<GhostFill> fills;
+  int ready = -1;  ///< the task after which all of it may be sent, which no earlier stage is read after; -1: at once
 };
 
 /// Where the particles of an access stand: the old set until the list relocates or makes particles, then the new.

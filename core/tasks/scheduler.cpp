@@ -128,11 +128,11 @@ void Scheduler::gatherReductions(const CompiledTask& task) {
 
 std::optional<data::Minimum> Scheduler::run(TaskGraph& graph, const StepInfo& at) {
   if (graph.tasks().empty()) return std::nullopt;
-  start(graph);
-  for (std::size_t t = 0; t < graph.tasks().size(); ++t) {
-    runTask(graph.tasks()[t], static_cast<int>(t), at);
+  start(graph, static_cast<int>(graph.tasks().size()));
+  for (int t = 0; t < end_; ++t) {
+    runTask(graph, t, at);
     if (!hasStopped())
-      free(graph.tasks()[t]);
+      free(graph.tasks()[static_cast<std::size_t>(t)]);
     else if (warehouse_->ranks().isAlone())
       break;
   }
@@ -145,7 +145,8 @@ std::optional<data::Minimum> Scheduler::run(TaskGraph& graph, const StepInfo& at
   throw whatBroke(graph, at);
 }
 
-void Scheduler::start(const TaskGraph& graph) {
+void Scheduler::start(const TaskGraph& graph, int end) {
+  end_ = end;
   outcome_ = {};
   error_.reset();
   heard_stop_ = false;
@@ -154,11 +155,14 @@ void Scheduler::start(const TaskGraph& graph) {
   for (const int reduction : graph.reductions()) warehouse_->resetReduction(reduction);
 }
 
-void Scheduler::runTask(CompiledTask& task, int number, const StepInfo& at) {
+void Scheduler::runTask(TaskGraph& graph, int number, const StepInfo& at) {
+  CompiledTask& task = graph.tasks()[static_cast<std::size_t>(number)];
   running_ = number;
   auto started = Clock::now();
+  if (task.sends >= 0 && task.sends < end_)
+    exchange_.send(graph.tasks()[static_cast<std::size_t>(task.sends)].fills, hasStopped());
   if (!task.fills.empty()) {
-    exchange_.begin(task.fills, hasStopped());
+    exchange_.begin(hasStopped());
     if (!task.mayStartEarly || hasStopped()) heard_stop_ = !exchange_.finish() || heard_stop_;
     const auto exchanged = Clock::now();
     task.exchangeSeconds += seconds(exchanged - started);

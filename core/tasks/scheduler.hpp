@@ -64,8 +64,9 @@ class Scheduler {
   bool hasStopped() const { return !outcome_.isNone() || heard_stop_; }
   bool mayRunTogether();
   const mpi::Communicator& ranksWithPatches();
-  void start(const TaskGraph& graph);
-  void runTask(CompiledTask& task, int number, const StepInfo& at);
+  /// Of a run of the first `end` tasks.
+  void start(const TaskGraph& graph, int end);
+  void runTask(TaskGraph& graph, int number, const StepInfo& at);
   void runWork(CompiledTask& task, const StepInfo& at);
   void relocate(const CompiledTask& task, const StepInfo& at);
   template <class Work>
@@ -99,6 +100,7 @@ class Scheduler {
   std::vector<double> costs_;            ///< by patch, s of the threads that worked on it
   bool heard_stop_ = false;              ///< a rank whose values this one needs has stopped
   int running_ = 0;                      ///< place of the task in its graph
+  int end_ = 0;                          ///< place behind the last task that is to run
   std::optional<mpi::Communicator> with_patches_;
 };
 

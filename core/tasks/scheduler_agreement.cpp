@@ -64,10 +64,10 @@ void Scheduler::agree(const TaskGraph& graph) {
 NumericalError Scheduler::whatBroke(TaskGraph& graph, const StepInfo& at) {
   const Outcome outcome = outcome_;
   if (!warehouse_->ranks().isAlone()) {
-    start(graph);
-    for (int t = 0; t <= outcome.task; ++t) {
+    start(graph, outcome.task + 1);
+    for (int t = 0; t < end_; ++t) {
       if (t > 0) free(graph.tasks()[static_cast<std::size_t>(t - 1)]);
-      runTask(graph.tasks()[static_cast<std::size_t>(t)], t, at);
+      runTask(graph, t, at);
     }
   }
   const CompiledTask& task = graph.tasks()[static_cast<std::size_t>(outcome.task)];

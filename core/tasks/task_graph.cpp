@@ -54,11 +54,14 @@ TaskGraph::TaskGraph(std::string name, Pruned pruned, const grid::Level& level, 
       lifetimes_(lifetimes(pruned_)) {
   for (std::size_t t = 0; t < pruned_.kept.size(); ++t) bind(t, table);
   const std::vector<Stage> stages = plan(pruned_.kept);
-  for (std::size_t t = 0; t < stages.size(); ++t)
+  for (std::size_t t = 0; t < stages.size(); ++t) {
+    if (!stages[t].fills.empty())
+      tasks_[static_cast<std::size_t>(stages[t].ready + 1)].sends = static_cast<int>(t);
     for (const GhostFill& fill : stages[t].fills)
       for (int m = fill.perMaterial ? 0 : -1; m < (fill.perMaterial ? materials_ : 0); ++m)
         tasks_[t].fills.push_back({table.number(*fill.label, m), fill.generation, fill.set,
                                    fill.label->centring == Centring::particle});
+  }
   for (const CompiledTask& task : tasks_)
     reductions_.insert(reductions_.end(), task.reductions.begin(), task.reductions.end());
   std::sort(reductions_.begin(), reductions_.end());

@@ -34,7 +34,8 @@ struct MaterialBinding {
 struct CompiledTask {
   Task task;
   std::vector<MaterialBinding> materials;  ///< one for a task that belongs to no material
-  std::vector<NumberedFill> fills;
+  std::vector<NumberedFill> fills;  ///< of ghosts, before it runs
+  int sends = -1;                   ///< the task whose ghosts are sent to other ranks before this one runs, if one is
   std::vector<int> reductions, readReductions;  ///< that it computes, and reads
   bool mayStartEarly = false;   ///< whether patches that have their ghosts may be worked on while others wait for theirs
   int recomputeTimeStep = -1;   ///< number of that reduction, for a task that may ask for the step to be repeated

@@ -176,6 +176,21 @@ class BrokenScenes(unittest.TestCase):
             with self.subTest(scene):
                 self.assert_refused(run(f"ups/{scene}.ups", *stiff, *sets, outputs=True), sentence)
 
+    def test_gases_that_cannot_be_together(self):
+        method, air = "MPM/conserving_gas_dynamics/", "MaterialProperties/MPM/material[2]/"
+        for sets, sentence in (
+                (("MPM/conserving_gas_dynamics/transfer=affine_flip",), "several gases need <transfer> apic"),
+                ((method + "remap/every=4",), "several gases are not mixed by a <remap>; take it out"),
+                ((method + "artificial_heat_conduction=1",), "several gases take no <artificial_heat_conduction>"),
+                ((air + "relaxation/rate=1", air + "relaxation/internal_energy=1"), "several gases take no <relaxation>"),
+                ((air + "@name=water",), "two materials are called 'water'; give each a name of its own"),
+                ((air + "geom_object/box/min=[0.6,0,0]",), "several gases must fill the grid without overlap, and they fill 2 of"),
+                ((air + "geom_object/box/min=[0.8,0,0]",), "several gases must fill the grid without overlap, and they fill 0 of"),
+                (("DataAnalysis/Module/right/gamma=1.5",),
+                 "Module: gamma and p_infinity: found 1.5 and 0 Pa, and no gas of the scene has both")):
+            with self.subTest(sentence):
+                self.assert_refused(run("ups/stability/water_air.ups", *sets, outputs=True), sentence)
+
     def test_a_mass_projection_that_cannot_be_measured(self):
         for sets, sentence in (((BOX + "resolution=[20,2,1]",), "works in one dimension, as its theorem does, and this grid has 2"),
                                ((GAS + "volume_model=tracked",), "volume_model is tracked; use cell_share")):

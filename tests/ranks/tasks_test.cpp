@@ -305,6 +305,54 @@ TEST(Ranks, TellTheSameOfAFaultOnAnyOfThem) {
   }
 }
 
+/// Ghosts that differ from what their owners have, where other tasks run between the one that computes them and the one
+/// that reads them, and one of these breaks a bound on the last rank.
+std::pair<double, std::string> readLater(const mpi::Communicator& ranks, bool breaks, bool mayRepeat = true) {
+  test::Runner run(plane({{4, 3, 1}}, false), 1, ranks);
+  TaskList list;
+  list.perPatch("fill", [](const Patch& patch, NodeView<double> nodes) {
+    forEach<2>(patch.nodes(), [&](const Index<2>& at) { nodes[at] = numberOf(at, false); });
+  }, computes(nodeNumber));
+  list.perPatch("meanwhile", [breaks](const Patch& patch, CellView<double> cells) {
+    cells.fill(breaks && patch.cells().contains(Index<2>{{11, 9}}) ? -1 : 1);
+  }, computes(number));
+  list.perPatch("check", [](const Patch&, CellView<const double>, NodeView<const double> nodes, Sum& bad) {
+    forEach<2>(nodes.box(), [&](const Index<2>& at) { bad.add(nodes[at] != numberOf(at, false)); });
+  }, requiresNew(number), requiresNew(nodeNumber, 1), computes(wrong));
+  TaskGraph graph = run.compile(list, {"wrong"});
+  run.warehouse.grow(0);
+  StepInfo at;
+  at.mayRepeat = mayRepeat;
+  try {
+    const auto asked = run.scheduler.run(graph, at);
+    const auto again = asked ? run.scheduler.run(graph, at) : asked;
+    if (again) return {again->value, std::string(again->reason.text())};
+  } catch (const NumericalError& error) {
+    return {-1, error.what()};
+  }
+  run.scheduler.commit(graph);
+  return {valueOf(run, "wrong"), ""};
+}
+
+TEST(Ranks, GoOnWithOtherTasksWhileGhostsAreOnTheirWay) {
+  for (const int ranks : {2, 4})
+    onRanks(ranks, [](const mpi::Communicator& some) {
+      EXPECT_EQ(readLater(some, false), std::pair(0.0, std::string())) << some.size() << " ranks";
+    });
+}
+
+TEST(Ranks, HearOfAFaultThatCameAfterGhostsWereSent) {
+  const auto asked = readLater(mpi::Communicator::alone(), true), thrown = readLater(mpi::Communicator::alone(), true, false);
+  EXPECT_EQ(asked.first, 0.5);
+  EXPECT_EQ(thrown.first, -1);
+  for (const int ranks : {2, 4})
+    onRanks(ranks, [&](const mpi::Communicator& some) {
+      EXPECT_EQ(readLater(some, true), asked);
+      EXPECT_EQ(readLater(some, true, false), thrown);
+      EXPECT_EQ(differingGhosts(some, {{4, 3, 1}}, 1, false), 0) << "something was left in the post";
+    });
+}
+
 TEST(Ranks, RefuseATaskThatBreaksABoundOnceAndNotAgain) {
   onRanks(2, [](const mpi::Communicator& some) {
     bool isBroken = false;

@@ -42,8 +42,8 @@ TEST(ExactRiemann, StartsAsTwoUniformStates) {
 
 TEST(ExactRiemann, OfAStiffenedGasKeepsMassMomentumAndEnergyAcrossItsShock) {
   RiemannProblem water = tube({1000, 0, 1e10}, {1000, 0, 1e5}, 0.5);
-  water.gamma = 4.4;
-  water.pInfinity = 6e8;
+  water.gas.gamma = 4.4;
+  water.gas.stiffness = 6e8;
   const ExactRiemann exact(water);
   const double t = 1e-5, speed = exact.solution().rightWave.head;
   const GasState ahead = exact.at(Vec3(0.5 + 1.01 * speed * t, 0, 0), t);
@@ -63,6 +63,60 @@ TEST(ExactRiemann, OfAStiffenedGasKeepsMassMomentumAndEnergyAcrossItsShock) {
   EXPECT_NEAR(massFlux(behind) / massFlux(ahead), 1, 1e-12);
   EXPECT_NEAR(momentumFlux(behind) / momentumFlux(ahead), 1, 1e-12);
   EXPECT_NEAR(totalEnthalpy(behind) / totalEnthalpy(ahead), 1, 1e-12);
+}
+
+/// Water at 1e9 Pa beside air: R. Saurel & R. Abgrall, J. Comput. Phys. 150 (1999) 425.
+RiemannProblem waterBesideAir() {
+  RiemannProblem problem = tube({1000, 0, 1e9}, {50, 0, 1e5}, 0.7);
+  problem.gas = {4.4, 6e8};
+  problem.rightGas = GasLaw{1.4, 0};
+  return problem;
+}
+
+TEST(ExactRiemann, OfTwoGasesHasOnePressureAndVelocityAtTheirContact) {
+  const ExactRiemann exact(waterBesideAir());
+  const double contact = 0.7 + 2e-4 * exact.solution().starVelocity;
+
+  const GasState water = exact.at(Vec3(contact - 1e-9, 0, 0), 2e-4), air = exact.at(Vec3(contact + 1e-9, 0, 0), 2e-4);
+
+  EXPECT_GT(water.density, 2 * air.density);
+  EXPECT_NEAR(water.pressure / air.pressure, 1, 1e-9);  // the solver is exact to 1e-14 of p + p_inf, here 40 times p
+  EXPECT_NEAR(water.velocity[0] / air.velocity[0], 1, 1e-12);
+  EXPECT_NEAR(water.energy, (water.pressure + 4.4 * 6e8) / (3.4 * water.density), 1e-9 * water.energy);
+  EXPECT_NEAR(air.energy, air.pressure / (0.4 * air.density), 1e-9 * air.energy);
+}
+
+TEST(ExactRiemann, OfTwoGasesKeepsEntropyInTheFanAndFluxesAcrossTheShock) {
+  const ExactRiemann exact(waterBesideAir());
+  const RiemannSolution& s = exact.solution();
+  const GasState water = exact.at(Vec3(0.7 + 1e-4 * s.leftWave.tail, 0, 0), 1e-4);
+  const GasState shocked = exact.at(Vec3(0.7 + 1e-4 * s.rightWave.head * 0.999, 0, 0), 1e-4);
+  const double ahead = 50 * (0 - s.rightWave.head), behind = shocked.density * (shocked.velocity[0] - s.rightWave.head);
+
+  EXPECT_EQ(s.leftWave.kind, WaveKind::rarefaction);
+  EXPECT_EQ(s.rightWave.kind, WaveKind::shock);
+  EXPECT_NEAR((water.pressure + 6e8) / 1.6e9, std::pow(water.density / 1000, 4.4), 1e-11);
+  EXPECT_NEAR(behind / ahead, 1, 1e-12);
+  EXPECT_NEAR((shocked.pressure - 1e5) / (-ahead * shocked.velocity[0]), 1, 1e-12);
+}
+
+TEST(ExactRiemann, OfTwoGasesIsItsOwnMirrorImage) {
+  RiemannProblem mirrored = waterBesideAir();
+  std::swap(mirrored.left, mirrored.right);
+  mirrored.rightGas = std::exchange(mirrored.gas, *mirrored.rightGas);
+  const ExactRiemann one(waterBesideAir()), other(mirrored);
+  for (const double x : {-0.5, -0.3, -0.1, 0.05, 0.12, 0.15}) {
+    const GasState a = one.at(Vec3(0.7 + x, 0, 0), 2e-4), b = other.at(Vec3(0.7 - x, 0, 0), 2e-4);
+    EXPECT_NEAR(a.density / b.density, 1, 1e-12) << x;
+    EXPECT_NEAR(a.velocity[0] + b.velocity[0], 0, 1e-9) << x;
+  }
+}
+
+TEST(ExactRiemann, RefusesTwoGasesThatPart) {
+  RiemannProblem problem = waterBesideAir();
+  problem.left.velocity = -1e4;
+  problem.right.velocity = 1e4;
+  EXPECT_THROW(ExactRiemann{problem}, std::invalid_argument);
 }
 
 TEST(ExactRiemann, IsSelfSimilar) {

@@ -21,7 +21,7 @@ inline RiemannProblem tube(RiemannState left, RiemannState right, double diaphra
   problem.left = left;
   problem.right = right;
   problem.diaphragm = diaphragm;
-  problem.gamma = gamma;
+  problem.gas.gamma = gamma;
   return problem;
 }
 

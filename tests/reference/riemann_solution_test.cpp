@@ -14,7 +14,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 RiemannSolution solve(const RiemannProblem& problem) {
-  return solveRiemann(problem.left, problem.right, problem.gamma);
+  return solveRiemann(problem.left, problem.right, problem.gas.gamma);
 }
 
 std::vector<RiemannSolution> allSolutions() {
@@ -73,8 +73,8 @@ TEST(RiemannSolution, MeetsRankineHugoniotAcrossEveryShock) {
   for (const RiemannSolution& s : allSolutions()) {
     const RiemannState left{s.starDensityLeft, s.starVelocity, s.starPressure};
     const RiemannState right{s.starDensityRight, s.starVelocity, s.starPressure};
-    if (s.leftWave.kind == WaveKind::shock) expectRankineHugoniot(s.left, left, s.leftWave.head, s.gamma), ++shocks;
-    if (s.rightWave.kind == WaveKind::shock) expectRankineHugoniot(s.right, right, s.rightWave.head, s.gamma), ++shocks;
+    if (s.leftWave.kind == WaveKind::shock) expectRankineHugoniot(s.left, left, s.leftWave.head, s.leftGas.gamma), ++shocks;
+    if (s.rightWave.kind == WaveKind::shock) expectRankineHugoniot(s.right, right, s.rightWave.head, s.leftGas.gamma), ++shocks;
   }
   EXPECT_GE(shocks, 15);
 }
@@ -88,15 +88,15 @@ TEST(RiemannSolution, KeepsRiemannInvariantAndEntropyInEveryFan) {
       if (wave.kind == WaveKind::shock || side.pressure == 0) continue;
       ++fans;
       const double sign = onLeft ? 1 : -1;
-      const auto sound = [&](const RiemannState& q) { return std::sqrt(s.gamma * q.pressure / q.density); };
-      const auto invariant = [&](const RiemannState& q) { return q.velocity + sign * 2 * sound(q) / (s.gamma - 1); };
+      const auto sound = [&](const RiemannState& q) { return std::sqrt(s.leftGas.gamma * q.pressure / q.density); };
+      const auto invariant = [&](const RiemannState& q) { return q.velocity + sign * 2 * sound(q) / (s.leftGas.gamma - 1); };
       for (const double part : {0.1, 0.5, 0.9}) {
         const double xi = wave.head + part * (wave.tail - wave.head);
         const RiemannState q = s.sample(xi);
-        const double size = sound(side) / (s.gamma - 1) + std::abs(side.velocity);
+        const double size = sound(side) / (s.leftGas.gamma - 1) + std::abs(side.velocity);
         EXPECT_NEAR(invariant(q), invariant(side), 1e-12 * size);
         EXPECT_NEAR(q.velocity - sign * sound(q), xi, 1e-12 * size);
-        EXPECT_NEAR(q.pressure / side.pressure, std::pow(q.density / side.density, s.gamma), 1e-11);
+        EXPECT_NEAR(q.pressure / side.pressure, std::pow(q.density / side.density, s.leftGas.gamma), 1e-11);
       }
     }
   }
@@ -125,7 +125,7 @@ TEST(RiemannSolution, OrdersItsWaves) {
 TEST(RiemannSolution, IsItsOwnMirrorImage) {
   for (const RiemannSolution& s : allSolutions()) {
     const auto flip = [](const RiemannState& q) { return RiemannState{q.density, -q.velocity, q.pressure}; };
-    const RiemannSolution m = solveRiemann(flip(s.right), flip(s.left), s.gamma);
+    const RiemannSolution m = solveRiemann(flip(s.right), flip(s.left), s.leftGas.gamma);
     EXPECT_NEAR(m.starPressure, s.starPressure, 1e-13 * s.starPressure);
     for (int k = 0; k <= 20; ++k) {
       const double xi = s.leftWave.head + (s.rightWave.head - s.leftWave.head) * (k + 0.123) / 20;
@@ -290,7 +290,7 @@ TEST(RiemannSolution, ConservesMassMomentumAndEnergy) {
     };
     const auto mass = [](const RiemannState& q) { return q.density; };
     const auto momentum = [](const RiemannState& q) { return q.density * q.velocity; };
-    const auto energy = [&](const RiemannState& q) { return totalEnergy(q, s.gamma); };
+    const auto energy = [&](const RiemannState& q) { return totalEnergy(q, s.leftGas.gamma); };
     expectBalance(mass, momentum);
     expectBalance(momentum, [](const RiemannState& q) { return q.density * q.velocity * q.velocity + q.pressure; });
     expectBalance(energy, [&](const RiemannState& q) { return (energy(q) + q.pressure) * q.velocity; });

@@ -205,6 +205,37 @@ TEST(Plan, SendsWhatIsReadyWithAnEarlierExchange) {
   EXPECT_TRUE(stages[3].fills.empty());
 }
 
+TEST(Plan, SendsAsSoonAsTheLastOfAStageIsComputed) {
+  TaskList list;
+  list.perPatch("readOld", read, requiresOld(a, 1));
+  list.perPatch("writeA", write, computes(a));
+  list.perPatch("writeB", write, computes(b));
+  list.perPatch("useB", readWrite, requiresNew(b), computes(c));
+  list.perPatch("readB", read, requiresNew(b, 1));
+  list.perPatch("readA", read, requiresNew(a, 1));
+
+  const std::vector<Stage> stages = plan(list.tasks());
+
+  EXPECT_EQ(stages[0].ready, -1);
+  ASSERT_EQ(stages[4].fills.size(), 2u);
+  EXPECT_EQ(stages[4].ready, 2);
+}
+
+TEST(TaskGraph, SendsBeforeTheTaskAfterTheOneThatComputes) {
+  const grid::Level level(test::domain({{8, 1, 1}}));
+  data::VariableTable table;
+  TaskList list;
+  list.perPatch("writeA", write, computes(a));
+  list.perPatch("writeB", write, computes(b));
+  list.perPatch("readA", readWrite, requiresNew(a, 1), computes(c));
+
+  const TaskGraph graph("step", prune(list.tasks(), {"c.b", "c.c"}, false), level, table);
+
+  EXPECT_EQ(graph.tasks()[0].sends, -1);
+  EXPECT_EQ(graph.tasks()[1].sends, 2);
+  EXPECT_EQ(graph.tasks()[2].sends, -1);
+}
+
 TEST(Lifetimes, EndWithTheLastReaderUnlessTheResultIsWanted) {
   TaskList list;
   list.perPatch("makeA", write, computes(a));

@@ -92,20 +92,26 @@ void computeRelaxation(const Patch& patch, const Gas&, CellView<const double> sh
   });
 }
 
-/// f_c = -dt V_c T_c : grad(v + dt a / 2) / IE_c, the work of the forces of computeAcceleration.
+/// -dt V_c T_c : grad(v + dt a / 2) [J], the work of the forces of computeAcceleration on the gas in a cell.
+template <int D>
+double workOnCell(const Level& level, const Tensor<D>& stress, const NodeView<const Vec<D>>& velocity,
+                  const NodeView<const Vec<D>>& acceleration, double dt, const Index<D>& cell) {
+  const double power = sumOverCorners<D>([&](int k) -> double {
+    const Index<D> node = Linear<D>::node(cell, k);
+    return (velocity[node] + 0.5 * dt * acceleration[node]).dot(stress * centreGradient<D>(level, k));
+  });
+  return -dt * level.cellVolume() * power;
+}
+
+/// f_c = workOnCell / IE_c.
 template <int D>
 void computeWork(const Patch& patch, const Gas&, CellView<const Tensor<D>> stress,
                  CellView<const double> internalEnergy, NodeView<const Vec<D>> velocity,
                  NodeView<const Vec<D>> acceleration, double dt, CellView<double> work) {
-  const Level& level = patch.level();
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    const Tensor<D> t = stress[cell];
-    const double power = sumOverCorners<D>([&](int k) -> double {
-      const Index<D> node = Linear<D>::node(cell, k);
-      return (velocity[node] + 0.5 * dt * acceleration[node]).dot(t * centreGradient<D>(level, k));
-    });
     const double energy = internalEnergy[cell];
-    work[cell] = energy > 0 ? -dt * level.cellVolume() * power / energy : 0.0;
+    const double done = workOnCell<D>(patch.level(), stress[cell], velocity, acceleration, dt, cell);
+    work[cell] = energy > 0 ? done / energy : 0.0;
   });
 }
 

@@ -4,6 +4,7 @@
 #include "components/mpm/conserving/create_boxes.hpp"
 #include "components/mpm/conserving/diagnose.hpp"
 #include "components/mpm/conserving/heat_conduction.hpp"
+#include "components/mpm/conserving/mixture.hpp"
 #include "components/mpm/conserving/redistribute.hpp"
 #include "components/mpm/conserving/stable_time_step.hpp"
 #include "components/mpm/conserving/transfer.hpp"
@@ -22,7 +23,7 @@ void ConservingMpm<D>::scheduleInitialize(TaskList& tasks) const {
                      creates(p::edges<D>), creates(p::mass), creates(p::velocity<D>), creates(p::modes<D>),
                      creates(p::internalEnergy), creates(p::affineEnergy));
   if (method_.remap) tasks.perPatch("mpm::countSteps", conserving::keepCount, with(0.0), computes(remapAge));
-  scheduleGridState(tasks);
+  scheduleGridState(tasks, true);
 }
 
 template <int D>
@@ -63,9 +64,15 @@ void ConservingMpm<D>::scheduleStep(TaskList& tasks) const {
                     requiresNew(c::stress<D>, 1), requiresOld(g::mass), computes(g::acceleration<D>));
   tasks.perMaterial("mpm::computeRelaxation", conserving::computeRelaxation<D>, materials_, requiresOld(c::shock, 1),
                     computes(g::relaxation));
-  tasks.perMaterial("mpm::computeWork", conserving::computeWork<D>, materials_, requiresNew(c::stress<D>),
-                    requiresOld(c::internalEnergy), requiresOld(g::velocity<D>), requiresNew(g::acceleration<D>),
-                    requiresOld(delT), computes(c::work));
+  if (isMixture())
+    tasks.acrossMaterials("mpm::computeWork", conserving::computeMixtureWork<D>, materials_, requiresNew(c::stress<D>),
+                          requiresOld(c::mass), requiresOld(c::internalEnergy), requiresOld(c::fill),
+                          requiresOld(g::velocity<D>), requiresNew(g::acceleration<D>), requiresOld(delT),
+                          computes(c::work));
+  else
+    tasks.perMaterial("mpm::computeWork", conserving::computeWork<D>, materials_, requiresNew(c::stress<D>),
+                      requiresOld(c::internalEnergy), requiresOld(g::velocity<D>), requiresNew(g::acceleration<D>),
+                      requiresOld(delT), computes(c::work));
   if (method_.heatConduction > 0)
     tasks.perMaterial("mpm::conductHeat", conserving::conductHeat<D>, materials_, with(method_.heatConduction),
                       requiresOld(c::mass, 1), requiresOld(c::internalEnergy, 1), requiresOld(c::velocityGradient<D>, 1),
@@ -102,7 +109,7 @@ void ConservingMpm<D>::scheduleRedistribute(TaskList& tasks) const {
 }
 
 template <int D>
-void ConservingMpm<D>::scheduleGridState(TaskList& tasks) const {
+void ConservingMpm<D>::scheduleGridState(TaskList& tasks, bool isStart) const {
   constexpr int reach = Footprint<D>::reach;
   const double spare = method_.transfer == Transfer::apic ? Apic::spareEnergy : AffineFlip::spareEnergy;
   tasks.perMaterial("mpm::limitModes", conserving::limitModes<D>, materials_, with(spare), requiresNew(p::edges<D>),
@@ -113,17 +120,34 @@ void ConservingMpm<D>::scheduleGridState(TaskList& tasks) const {
                       requiresNew(p::modes<D>, reach), requiresNew(p::internalEnergy, reach), computes(g::mass),
                       computes(g::velocity<D>), computes(c::mass), computes(c::internalEnergy), more...);
   };
-  if (method_.remap)
+  if (method_.remap || isMixture())
     schedule(conserving::interpolateAndMeasureFill<D>, computes(c::fill), computes(cellFill));
   else
     schedule(conserving::interpolateParticlesToGrid<D>);
+  if (isMixture() && isStart)
+    tasks.acrossMaterials("mpm::checkFill", conserving::checkFill<D>, materials_, modifies(c::fill));
+  if (isMixture())
+    tasks.acrossMaterials("mpm::mixAtNodes", conserving::mixAtNodes<D>, materials_, modifies(g::mass),
+                          modifies(g::velocity<D>));
   tasks.perMaterial("mpm::computeVelocityGradient", conserving::computeVelocityGradient<D>, materials_,
                     requiresNew(g::velocity<D>), computes(c::velocityGradient<D>));
+  if (isMixture()) return scheduleMixtureState(tasks);
   if (method_.transfer != Transfer::apic) return scheduleComputePressure<AffineFlip>(tasks);
   scheduleComputePressure<Apic>(tasks);
   tasks.perMaterial("mpm::measureSignals", conserving::measureSignals<D>, materials_, requiresNew(p::velocity<D>),
                     requiresNew(p::internalEnergy), requiresNew(c::mass), requiresNew(c::internalEnergy),
                     requiresNew(c::velocityGradient<D>), computes(signalPastGrid), computes(signalPastGas));
+}
+
+template <int D>
+void ConservingMpm<D>::scheduleMixtureState(TaskList& tasks) const {
+  tasks.acrossMaterials("mpm::computePressure", conserving::computeMixturePressure<D>, materials_,
+                        with(method_.viscosity), requiresNew(c::mass), requiresNew(c::internalEnergy),
+                        requiresNew(c::fill), requiresNew(c::velocityGradient<D>), computes(c::pressure),
+                        computes(c::viscosity), computes(c::shock));
+  tasks.acrossMaterials("mpm::measureSignals", conserving::measureMixtureSignals<D>, materials_, requiresNew(c::mass),
+                        requiresNew(c::internalEnergy), requiresNew(c::fill), requiresNew(c::velocityGradient<D>),
+                        requiresNew(g::velocity<D>), computes(signalPastGrid), computes(signalPastGas));
 }
 
 template <int D>
@@ -169,10 +193,17 @@ void ConservingMpm<D>::scheduleMeasureError(TaskList& tasks, const reference::Ga
                     requiresOld(p::internalEnergy), computes(reference::particleError.density),
                     computes(reference::particleError.velocity), computes(reference::particleError.pressure),
                     computes(reference::particleError.energy));
-  tasks.perMaterial("mpm::measureCellError", conserving::measureCellError<D>, materials_, with(&exact), with(&clock),
-                    requiresOld(c::mass), requiresNew(c::velocity<D>), requiresOld(c::internalEnergy),
-                    computes(reference::cellError.density), computes(reference::cellError.velocity),
-                    computes(reference::cellError.pressure), computes(reference::cellError.energy));
+  if (isMixture())
+    tasks.acrossMaterials("mpm::measureCellError", conserving::measureMixtureError<D>, materials_, with(&exact),
+                          with(&clock), requiresOld(c::mass), requiresNew(c::velocity<D>),
+                          requiresOld(c::internalEnergy), requiresOld(c::fill), computes(reference::cellError.density),
+                          computes(reference::cellError.velocity), computes(reference::cellError.pressure),
+                          computes(reference::cellError.energy));
+  else
+    tasks.perMaterial("mpm::measureCellError", conserving::measureCellError<D>, materials_, with(&exact), with(&clock),
+                      requiresOld(c::mass), requiresNew(c::velocity<D>), requiresOld(c::internalEnergy),
+                      computes(reference::cellError.density), computes(reference::cellError.velocity),
+                      computes(reference::cellError.pressure), computes(reference::cellError.energy));
   tasks.perMaterial("mpm::measureNodeError", measureNodeError<D>, materials_, with(&exact), with(&clock),
                     requiresOld(g::mass), computes(reference::nodeError));
 }

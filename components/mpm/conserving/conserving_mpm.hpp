@@ -25,8 +25,7 @@ class ConservingMpm : public Component, public reference::GasSolution {
   void scheduleComputeStableTimeStep(TaskList& tasks) const override;
   void scheduleTimeAdvance(TaskList& tasks) const override;
   void scheduleDiagnostics(TaskList& tasks) const override;
-  std::optional<double> gamma() const override { return materials_.front().effectiveGamma(); }
-  double pInfinity() const override { return materials_.front().pInfinity; }
+  std::vector<reference::GasLaw> gases() const override { return lawsOf(materials_); }
   void scheduleMeasureError(TaskList& tasks, const reference::GasReference& reference,
                             const reference::Clock& clock) const override;
 
@@ -36,8 +35,11 @@ class ConservingMpm : public Component, public reference::GasSolution {
   void scheduleStep(TaskList& tasks) const;
   template <class Scheme>
   void scheduleComputePressure(TaskList& tasks) const;
+  /// Of the gases of a mixture, which share pressure and velocity.
+  void scheduleMixtureState(TaskList& tasks) const;
   void scheduleRedistribute(TaskList& tasks) const;
-  void scheduleGridState(TaskList& tasks) const;
+  void scheduleGridState(TaskList& tasks, bool isStart = false) const;
+  bool isMixture() const { return materials_.size() > 1; }
 
   ConservingGasDynamics method_;
   std::vector<Gas> materials_;

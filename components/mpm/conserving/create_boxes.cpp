@@ -56,7 +56,7 @@ Contents<D> integrate(const Level& level, const Gas& gas, const GasObject& objec
 }
 
 /// A stiffened gas presses on all around it with p + p_inf. Throws InputError where nothing would press back: on a grid
-/// with a free side, and where `boxes` leave a part of the patch empty.
+/// with a free side, and, if it is alone, where `boxes` leave a part of the patch empty.
 template <int D>
 void refuseLooseness(const Patch& patch, const Gas& gas, const std::vector<Vec<D>>& boxes) {
   if (gas.pInfinity == 0) return;
@@ -68,6 +68,7 @@ void refuseLooseness(const Patch& patch, const Gas& gas, const std::vector<Vec<D
     for (const int side : {0, 1})
       if (!level.isPeriodic(d) && !level.isSymmetry(d, side))
         fail("type: a stiffened_gas needs a grid whose sides are symmetry planes or periodic");
+  if (gas.carried > 0) return;
   double all = static_cast<double>(patch.cells().size()), filled = 0;
   for (int d = 0; d < D; ++d) all *= level.spacing(d);
   for (const Vec<D>& box : boxes) filled += box.prod();

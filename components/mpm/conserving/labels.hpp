@@ -32,7 +32,7 @@ template <int D>
 inline constexpr CellLabel<Vec<D>> velocity{"c.velocity", "m/s", "momentum over mass of the parts of particles in the cell"};
 template <int D>
 inline constexpr CellLabel<Tensor<D>> velocityGradient{"c.velocityGradient", "1/s", "in the middle of the cell"};
-inline constexpr CellLabel<double> pressure{"c.pressure", "Pa", "pressure of the cell, plus p_infinity of a stiffened gas"};
+inline constexpr CellLabel<double> pressure{"c.pressure", "Pa", "pressure of the cell, plus p_infinity of a stiffened gas that is alone"};
 inline constexpr CellLabel<double> viscosity{"c.viscosity", "Pa", "artificial viscosity of the cell", Bound::finite};
 inline constexpr CellLabel<double> shock{"c.shock", "1", "whether a shock runs through the cell: 0 to 1"};
 template <int D>

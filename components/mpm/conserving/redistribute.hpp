@@ -7,10 +7,10 @@
 
 namespace tushar::mpm::conserving {
 
-/// Velocity modes are scaled down where their kinetic energy could exceed K_A by more than `spare` e; what a mode
+/// Velocity modes are scaled down where their kinetic energy could exceed K_A by more than `spare` of the heat; what a mode
 /// holds on the grid is at most L²/12 + h²/4 along each of its axes.
 template <int D>
-void limitModes(const Patch& patch, const Gas&, double spare, ParticleView<const Vec<D>> edges,
+void limitModes(const Patch& patch, const Gas& gas, double spare, ParticleView<const Vec<D>> edges,
                 ParticleView<const double> internalEnergy, ParticleView<const double> affineEnergy,
                 ParticleView<Modes<D>> modes) {
   for (int p = 0; p < edges.owned(); ++p) {
@@ -19,7 +19,8 @@ void limitModes(const Patch& patch, const Gas&, double spare, ParticleView<const
       const double h = patch.level().spacing(d);
       inertia[d] = edges[p][d] * edges[p][d] / 12 + h * h / 4;
     }
-    const double energy = modalEnergy<D>(modes[p], inertia), most = affineEnergy[p] + spare * internalEnergy[p];
+    const double energy = modalEnergy<D>(modes[p], inertia), heat = gas.leastHeat() * internalEnergy[p];
+    const double most = affineEnergy[p] + spare * heat;
     if (energy > most) modes[p] *= std::sqrt(most / energy);
   }
 }

@@ -37,10 +37,17 @@ void computeStableTimeStep(const Patch& patch, const Gas& gas, const ConservingG
   limitDeformation<D>(patch, gas, mass, gradient, dt);
 }
 
-/// The greatest speeds of signals [m/s]: of particles relative to the grid, |v| + c; and of cells relative to their gas,
-/// 1.25 (q + sqrt(q² + c²)) with q = 1.4 |Delta|, Delta the velocity difference over the cell: shocks are faster than
-/// sound. The form is that of D. J. Benson, Comput. Methods Appl. Mech. Eng. 99 (1992) 235; the factors are such that a
-/// gas that moves has hardly more of an error than one at rest, and one at rest that of |v| + c alone.
+/// The greatest speed of signals in a cell relative to its gas [m/s], 1.25 (q + sqrt(q² + c²)) with q = 1.4 |Delta|, Delta
+/// the velocity difference over the cell: shocks are faster than sound. The form is that of D. J. Benson, Comput. Methods
+/// Appl. Mech. Eng. 99 (1992) 235; the factors are such that a gas that moves has hardly more of an error than one at
+/// rest, and one at rest that of |v| + c alone.
+template <int D>
+double signalInCell(const Level& level, const Tensor<D>& gradient, double soundSpeedSquared) {
+  const double q = 1.4 * level.minSpacing() * std::abs(gradient.trace());
+  return 1.25 * (q + std::sqrt(q * q + soundSpeedSquared));
+}
+
+/// The greatest speeds of signals [m/s]: of particles relative to the grid, |v| + c; and signalInCell.
 template <int D>
 void measureSignals(const Patch& patch, const Gas& gas, ParticleView<const Vec<D>> velocity,
                     ParticleView<const double> internalEnergy, CellView<const double> mass,
@@ -50,9 +57,8 @@ void measureSignals(const Patch& patch, const Gas& gas, ParticleView<const Vec<D
   double fastest = 0;
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     if (!(mass[cell] > 0)) return;
-    const double q = 1.4 * patch.level().minSpacing() * std::abs(gradient[cell].trace());
     const double cSquared = gas.soundSpeedSquared(cellInternalEnergy[cell] / mass[cell]);
-    fastest = std::max(fastest, 1.25 * (q + std::sqrt(q * q + cSquared)));
+    fastest = std::max(fastest, signalInCell<D>(patch.level(), gradient[cell], cSquared));
   });
   pastGas.add(fastest);
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "components/reference/riemann_solution.hpp"
 #include "core/core.hpp"
 #include "core/input/expression.hpp"
 #include "core/input/geometry.hpp"
@@ -38,28 +39,42 @@ struct Relaxation {
 
 /// A stiffened gas: p = (gamma - 1) rho epsilon - p_inf; with p_inf = 0 an ideal gas, (3) of Tran, Kim & Berzins.
 ///
-/// epsilon, what particles carry as p.internalEnergy, is e - p_inf / rho: the part of the internal energy e that waves
-/// exchange. Of epsilon and P = p + p_inf all laws are those of an ideal gas, and totals of energy differ by p_inf times
-/// the volume alone, which is that of the grid: a stiffened gas fills it.
+/// epsilon is e - p_inf / rho: the part of the internal energy e that waves exchange. Of epsilon and P = p + p_inf all
+/// laws are those of an ideal gas. Particles of a gas that is alone carry epsilon as p.internalEnergy: totals of energy
+/// differ by p_inf times the volume, which is that of the grid, as a stiffened gas fills it. Beside other gases, with which
+/// it trades volume, it carries all of e.
 /// Source: F. H. Harlow & A. A. Amsden, Fluid Dynamics, LANL report LA-4700 (1971).
 struct Gas {
   std::string name;
   double gamma = 1.4;    ///< ratio of specific heats
   double pInfinity = 0;  ///< Pa
+  double carried = 0;    ///< what of p_inf is in the energy that particles carry, Pa: 0 or all
   Location where;        ///< of the constitutive model, in the scene
   std::vector<GasObject> objects;
   std::optional<Relaxation> relaxation;
 
-  /// p [Pa] of density rho [kg/m³] and epsilon [J/kg].
-  double pressure(double rho, double epsilon) const { return (gamma - 1) * rho * epsilon - pInfinity; }
-  /// epsilon [J/kg] of density rho [kg/m³] and p [Pa].
-  double internalEnergy(double rho, double p) const { return (p + pInfinity) / ((gamma - 1) * rho); }
-  /// e [J/kg] of density rho [kg/m³] and epsilon [J/kg].
-  double fullEnergy(double rho, double epsilon) const { return epsilon + pInfinity / rho; }
-  /// What the flow answers to; none where heat from outside decides, too.
-  std::optional<double> effectiveGamma() const { return relaxation ? std::nullopt : std::optional(gamma); }
+  /// epsilon [J/kg] of density rho [kg/m³] and the energy that particles carry [J/kg].
+  double heat(double rho, double energy) const { return energy - carried / rho; }
+  /// p [Pa] of density rho [kg/m³] and the energy that particles carry [J/kg].
+  double pressure(double rho, double energy) const { return (gamma - 1) * rho * heat(rho, energy) - pInfinity; }
+  /// What particles carry [J/kg] at density rho [kg/m³] and p [Pa].
+  double internalEnergy(double rho, double p) const { return (p + pInfinity) / ((gamma - 1) * rho) + carried / rho; }
+  /// e [J/kg] of density rho [kg/m³] and the energy that particles carry [J/kg].
+  double fullEnergy(double rho, double energy) const { return energy + (pInfinity - carried) / rho; }
+  /// Least share of that energy that is epsilon, as long as p is not negative.
+  double leastHeat() const { return carried > 0 ? 1 / gamma : 1; }
   /// Square of the speed of sound [m²/s²].
   double soundSpeedSquared(double epsilon) const { return gamma * (gamma - 1) * epsilon; }
 };
+
+/// What the flow of gases answers to; none where heat from outside decides, too.
+inline std::vector<reference::GasLaw> lawsOf(const std::vector<Gas>& gases) {
+  std::vector<reference::GasLaw> laws;
+  for (const Gas& gas : gases) {
+    if (gas.relaxation) return {};
+    laws.push_back({gas.gamma, gas.pInfinity});
+  }
+  return laws;
+}
 
 }  // namespace tushar::mpm

@@ -64,7 +64,7 @@ inline void findLeast(const Patch&, const Gas&, ParticleView<const double> densi
   }
 }
 
-/// Sum of m (ln e - (gamma - 1) ln rho) [kg]: entropy over c_v, but for a constant that the units decide.
+/// Sum of m (ln epsilon - (gamma - 1) ln rho) [kg]: entropy over c_v, but for a constant that the units decide.
 template <int D>
 void sumEntropy(const Patch& patch, const Gas& gas, ParticleView<const double> mass, ParticleView<const double> density,
                 ParticleView<const double> internalEnergy, Sum& entropy) {
@@ -72,7 +72,7 @@ void sumEntropy(const Patch& patch, const Gas& gas, ParticleView<const double> m
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     double s = 0;
     for (const int p : mass.in(cell))
-      s += mass[p] * (std::log(internalEnergy[p]) - (gas.gamma - 1) * std::log(density[p]));
+      s += mass[p] * (std::log(gas.heat(density[p], internalEnergy[p])) - (gas.gamma - 1) * std::log(density[p]));
     sum.add(s);
   });
 }

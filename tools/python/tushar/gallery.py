@@ -62,6 +62,7 @@ CASES = [
     Case("ratio_1e6", .0044), Case("density_1e6", .01),
     Case("gamma_1_01", .0072, entropy=True), Case("gamma_5_3", .0055, entropy=True), Case("gamma_7", .0018, entropy=True),
     Case("water_shock", .0045, entropy=True, only=("default", "affine_flip", "volumes")),
+    Case("water_air", .0040, only=("default",)), Case("air_bubble", error="", only=("default",)),
     Case("noh", .061, entropy=True), Case("noh_2d", entropy=True, long=True), Case("sedov", long=True),
     Case("blast_waves"), Case("shu_osher"), Case("box", .0068, error="density.cell.L1", entropy=True, long=True),
     Case("contact", 1e-13, error="velocity.particle.max"), Case("contact_slow", 1e-4),
