@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 #include <optional>
 
 #include "core/input/geometry/combined.hpp"
 #include "core/input/geometry/shapes.hpp"
+#include "core/input/geometry/surface.hpp"
 #include "core/input/schema.hpp"
 #include "core/input/text.hpp"
 
@@ -83,6 +85,41 @@ Kind combined(const Schema<Operands>& schema, const std::function<PiecePtr(std::
   return {schema.name(), read, describe};
 }
 
+Kind nothing() {
+  struct Tag {};
+  static const Schema<Tag> schema =
+      Schema<Tag>("null", "No point: a body without particles.")
+          .foreignAttribute("label", "an empty tag with this label, further down, stands for this shape");
+  const auto read = [](const Element& element, Diagnostics& diagnostics) -> PiecePtr {
+    schema.read(element, diagnostics);
+    return std::make_shared<Nothing>();
+  };
+  return {"null", read, [](std::ostream& out, int indent) { schema.describe(out, indent); }};
+}
+
+/// `tri`: the file of a surface.
+struct SurfaceTag {
+  std::string file;
+};
+
+Kind surface() {
+  static const Schema<SurfaceTag> schema =
+      Schema<SurfaceTag>("tri", "What lies within a closed surface of triangles.")
+          .foreignAttribute("label", "an empty tag with this label, further down, stands for this shape")
+          .required("name", &SurfaceTag::file, "m",
+                    "a file beside the scene: STL (text or binary) if it ends in .stl, else what NAME.pts, a point `x y z` a "
+                    "line, and NAME.tri, three numbers of points (from 0) a line, hold together");
+  const auto read = [](const Element& element, Diagnostics& diagnostics) -> PiecePtr {
+    const std::size_t before = diagnostics.size();
+    const SurfaceTag tag = schema.read(element, diagnostics);
+    if (diagnostics.size() != before) return nullptr;
+    const auto path = std::filesystem::path(element.where().file).parent_path() / tag.file;
+    Triangles triangles = readTriangles(path.string(), *element.child("name"), diagnostics);
+    return triangles.empty() ? nullptr : std::make_shared<Surface>(std::move(triangles));
+  };
+  return {"tri", read, [](std::ostream& out, int indent) { schema.describe(out, indent); }};
+}
+
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> all{
       simple<Box>(),
@@ -92,6 +129,8 @@ const std::vector<Kind>& kinds() {
       simple<Ellipsoid>(),
       simple<Parallelepiped>(),
       simple<Torus>(),
+      nothing(),
+      surface(),
       combined(operandsSchema("union", "What is in any of its shapes.", false),
                [](std::vector<PiecePtr> pieces) { return std::make_shared<Union>(std::move(pieces)); }),
       combined(operandsSchema("difference", "What is in its first shape but not in its second.", true),
@@ -177,7 +216,7 @@ void checkLabelIsNew(const Element& shape, const std::string& label, Diagnostics
 
 std::vector<std::string> geometryNames() {
   return {"box",   "cylinder", "sphere",     "cone",        "ellipsoid", "parallelepiped",
-          "torus", "union",    "difference", "intersection"};
+          "torus", "null",     "tri",        "union",       "difference", "intersection"};
 }
 
 PiecePtr readShape(const Element& shape, Diagnostics& diagnostics) {

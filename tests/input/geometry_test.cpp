@@ -204,7 +204,7 @@ TEST(Geometry, TellsOfAWrongShapeOnlyOnce) {
 TEST(Geometry, SaysThatThereIsNoShape) {
   EXPECT_EQ(problemsOf("<a><res>[1,1,1]</res></a>"),
             Lines{"s.ups:2:2: M/a: <a> has no shape; the shapes are: box, cylinder, sphere, cone, ellipsoid, "
-                  "parallelepiped, torus, union, difference, intersection"});
+                  "parallelepiped, torus, null, tri, union, difference, intersection"});
 }
 
 TEST(Geometry, SaysThatAShapeIsUnknown) {
@@ -215,14 +215,14 @@ TEST(Geometry, SaysThatAShapeIsUnknown) {
 
   EXPECT_EQ(told(diagnostics),
             Lines{"s.ups:1:24: bx: unknown shape <bx> (did you mean 'box'?); the shapes are: box, cylinder, sphere, "
-                  "cone, ellipsoid, parallelepiped, torus, union, difference, intersection"});
+                  "cone, ellipsoid, parallelepiped, torus, null, tri, union, difference, intersection"});
 }
 
 TEST(Geometry, SaysThatAShapeInAUnionIsUnknown) {
   EXPECT_EQ(
       problemsOf("<a><union>" + box("[0,0,0]", "[1,1,1]") + "<spere/></union></a>"),
       Lines{"s.ups:2:59: M/a/union/spere: unknown tag <spere> in <union> (did you mean 'sphere'?); allowed here: box, "
-            "cylinder, sphere, cone, ellipsoid, parallelepiped, torus, union, difference, intersection"});
+            "cylinder, sphere, cone, ellipsoid, parallelepiped, torus, null, tri, union, difference, intersection"});
 }
 
 TEST(Geometry, SaysHowManyShapesAreNeeded) {

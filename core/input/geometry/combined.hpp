@@ -6,6 +6,13 @@
 
 namespace tushar::input {
 
+/// No point: Uintah's `null`, the shape of a material that has no particles at the start.
+class Nothing : public GeometryPiece {
+ public:
+  bool contains(const Vec3&) const override { return false; }
+  Box3 bounds() const override { return {}; }
+};
+
 /// Inside any of its pieces.
 class Union : public GeometryPiece {
  public:

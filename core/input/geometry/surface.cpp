@@ -1,0 +1,92 @@
+#include "core/input/geometry/surface.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace tushar::input {
+
+namespace {
+
+/// A point in the plane z = const: y and x.
+struct Cut {
+  double y, x;
+};
+
+/// Where an edge passes the height z: from its lower end to its upper one, whichever is given first.
+Cut cutAt(double z, Vec3 a, Vec3 b) {
+  if (b[2] < a[2]) std::swap(a, b);
+  const double share = (z - a[2]) / (b[2] - a[2]);
+  return {a[1] + share * (b[1] - a[1]), a[0] + share * (b[0] - a[0])};
+}
+
+/// Whether the line from the point towards +x passes through the triangle.
+bool isAhead(const Vec3& point, const std::array<Vec3, 3>& corners) {
+  std::array<Cut, 2> cuts{};
+  std::size_t found = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 &a = corners[k], &b = corners[(k + 1) % 3];
+    if ((a[2] <= point[2]) != (b[2] <= point[2])) cuts[found++] = cutAt(point[2], a, b);
+  }
+  if (found < 2 || (cuts[0].y <= point[1]) == (cuts[1].y <= point[1])) return false;
+  const double share = (point[1] - cuts[0].y) / (cuts[1].y - cuts[0].y);
+  return cuts[0].x + share * (cuts[1].x - cuts[0].x) > point[0];
+}
+
+using Corner = std::array<double, 3>;
+using Edge = std::pair<Corner, Corner>;
+
+Edge edgeOf(const Vec3& a, const Vec3& b) {
+  const Corner p{a[0], a[1], a[2]}, q{b[0], b[1], b[2]};
+  return std::minmax(p, q);
+}
+
+}  // namespace
+
+Surface::Surface(Triangles triangles) : triangles_(std::move(triangles)) {
+  bounds_ = {triangles_.front()[0], triangles_.front()[0]};
+  for (const auto& corners : triangles_)
+    for (const Vec3& corner : corners) bounds_ = bounds_.hull({corner, corner});
+  bins_ = 1 + static_cast<std::size_t>(std::sqrt(static_cast<double>(triangles_.size())) / 2);
+  crossing_.resize(bins_ * bins_);
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    const auto& [a, b, c] = triangles_[t];
+    const Vec3 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
+    for (std::size_t z = binOf(2, low[2]); z <= binOf(2, high[2]); ++z)
+      for (std::size_t y = binOf(1, low[1]); y <= binOf(1, high[1]); ++y)
+        crossing_[z * bins_ + y].push_back(static_cast<int>(t));
+  }
+}
+
+std::size_t Surface::binOf(int axis, double coordinate) const {
+  const double extent = bounds_.max[axis] - bounds_.min[axis];
+  const double place = extent > 0 ? (coordinate - bounds_.min[axis]) / extent * static_cast<double>(bins_) : 0;
+  return std::min(static_cast<std::size_t>(std::max(place, 0.0)), bins_ - 1);
+}
+
+bool Surface::contains(const Vec3& point) const {
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(point[axis] >= bounds_.min[axis] && point[axis] <= bounds_.max[axis])) return false;
+  const std::vector<int>& ahead = crossing_[binOf(2, point[2]) * bins_ + binOf(1, point[1])];
+  return std::count_if(ahead.begin(), ahead.end(), [&](int t) {
+           return isAhead(point, triangles_[static_cast<std::size_t>(t)]);
+         }) % 2 == 1;
+}
+
+std::string whyOpen(const Triangles& triangles) {
+  std::map<Edge, int> uses;
+  for (const auto& corners : triangles)
+    for (std::size_t k = 0; k < 3; ++k) ++uses[edgeOf(corners[k], corners[(k + 1) % 3])];
+  const auto isOpen = [](const auto& use) { return use.second % 2 != 0; };
+  const auto first = std::find_if(uses.begin(), uses.end(), isOpen);
+  if (first == uses.end()) return {};
+  const auto& [a, b] = first->first;
+  return fmt::format("{} of its {} edges belong to an odd number of triangles, so that it does not close, such as that from "
+                     "({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g}) m",
+                     std::count_if(uses.begin(), uses.end(), isOpen), uses.size(), a[0], a[1], a[2], b[0], b[1], b[2]);
+}
+
+}  // namespace tushar::input
