@@ -239,7 +239,7 @@ simulation::ComponentKind kind() {
   kind.name = "mpm";
   kind.sentence = "the Material Point Method: solids, and gas dynamics of Tran, Kim & Berzins";
   kind.sections = {"MPM", "MaterialProperties", "PhysicalConstants", "PhysicalBC"};
-  kind.boundaryLabels = {{"Symmetric"}, {"Velocity", true}, {"Temperature", false, true}};
+  kind.boundaryLabels = {{"Symmetric"}, {"Velocity", true, true}, {"Temperature", false, true}};
   kind.describe = [](std::ostream& out) {
     solid::describe(out);
     out << "Where <MPM> has <gas_dynamics> or <conserving_gas_dynamics>, instead:\n";

@@ -160,7 +160,13 @@ std::string contradiction(const grid::BoundaryCondition& condition, bool hasValu
   return {};
 }
 
-void readConditions(const std::vector<ConditionSection>& given, const std::vector<Element>& tags,
+/// Whether a value may be given on a plane of symmetry: the images of its vector have the same where it lies in the plane.
+bool fitsPlane(const BoundaryLabel& label, const grid::BoundaryCondition& condition, int axis) {
+  return label.isEven && condition.kind == "Dirichlet" && (!label.isVector || condition.value[axis] == 0);
+}
+
+/// Those of a side across `axis`.
+void readConditions(const std::vector<ConditionSection>& given, const std::vector<Element>& tags, int axis,
                     const std::vector<BoundaryLabel>& labels, std::vector<grid::BoundaryCondition>& conditions,
                     Diagnostics& diagnostics) {
   const bool onPlane = std::any_of(given.begin(), given.end(), [](const auto& one) { return one.var == "symmetry"; });
@@ -172,7 +178,7 @@ void readConditions(const std::vector<ConditionSection>& given, const std::vecto
     if (!label || !input::choiceProblem(given[k].var, conditionKinds).empty()) continue;
     conditions.push_back({label->name, given[k].var, conditionValue(given[k], label->isVector, tags[k], diagnostics),
                           input::parse<int>(given[k].id).value.value_or(-1)});
-    const bool onOddPlane = onPlane && !(label->isEven && given[k].var == "Dirichlet");
+    const bool onOddPlane = onPlane && !fitsPlane(*label, conditions.back(), axis);
     if (const std::string problem = contradiction(conditions.back(), given[k].value.has_value(), onOddPlane);
         !problem.empty())
       diagnostics.error(tags[k], problem);
@@ -189,7 +195,7 @@ void readFaces(const Element& section, const FacesSection& faces, const std::vec
   const std::vector<Element> elements = group->children("Face");
   std::map<std::string, Location> seen;
   for (std::size_t f = 0; f < faces.faces.size() && f < elements.size(); ++f) {
-    readConditions(faces.faces[f].conditions, elements[f].children("BCType"), labels,
+    readConditions(faces.faces[f].conditions, elements[f].children("BCType"), faces.faces[f].face / 2, labels,
                    domain.boundaries.faces[static_cast<std::size_t>(faces.faces[f].face)], diagnostics);
     const std::string side = elements[f].attribute("side").value_or("");
     if (const auto [first, isNew] = seen.emplace(side, elements[f].where()); !isNew)

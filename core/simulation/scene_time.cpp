@@ -57,16 +57,26 @@ const Schema<SaveRequest>& saveSchema() {
   return schema;
 }
 
-/// Of each two saves that ask for one variable of one material, the second is a problem.
-void refuseSavedTwice(const std::vector<SaveRequest>& saves, Diagnostics& diagnostics) {
-  for (std::size_t k = 0; k < saves.size(); ++k)
-    for (std::size_t before = 0; before < k; ++before) {
-      const std::string &one = saves[before].material, &other = saves[k].material;
-      if (saves[before].label != saves[k].label || (one != other && !one.empty() && !other.empty())) continue;
-      diagnostics.error(saves[k].where, "DataArchiver/save",
-                        fmt::format("'{}' is saved already, by {}; keep one", saves[k].label, saves[before].where.text()));
-      break;
-    }
+/// Whether `one` asks for all that `other` asks for.
+bool covers(const SaveRequest& one, const SaveRequest& other) {
+  return one.label == other.label && (one.material.empty() || one.material == other.material);
+}
+
+/// Takes out what another save asks for, too.
+void takeOutRepeated(std::vector<SaveRequest>& saves, const std::vector<Element>& tags, Diagnostics& diagnostics) {
+  if (saves.size() != tags.size()) return;
+  std::vector<SaveRequest> kept;
+  for (std::size_t k = 0; k < saves.size(); ++k) {
+    std::size_t other = 0;
+    while (other < saves.size() && (other == k || !covers(saves[other], saves[k]) ||
+                                    (other > k && covers(saves[k], saves[other]))))
+      ++other;
+    if (other == saves.size())
+      kept.push_back(saves[k]);
+    else
+      diagnostics.note(tags[k], fmt::format("does nothing: '{}' is saved by {}", saves[k].label, saves[other].where.text()));
+  }
+  saves = std::move(kept);
 }
 
 void checkIntervals(const CheckpointSettings& checkpoint, const Element& element, Diagnostics& diagnostics) {
@@ -140,7 +150,6 @@ const Schema<ArchiveSettings>& archiveSchema() {
           .check([](const ArchiveSettings& archive, const Element& element, Diagnostics& diagnostics) {
             if (archive.outputInterval > 0 && archive.outputTimestepInterval > 0)
               diagnostics.error(element, "gives both outputInterval and outputTimestepInterval; keep one");
-            refuseSavedTwice(archive.saves, diagnostics);
             if (archive.filebase.find('/') != std::string::npos || archive.filebase == "." || archive.filebase == "..")
               diagnostics.error(*element.child("filebase"),
                                 "found '" + archive.filebase +
@@ -155,7 +164,9 @@ TimeSettings readTime(const Element& section, Diagnostics& diagnostics) {
   return timeSchema().read(section, diagnostics);
 }
 ArchiveSettings readArchive(const Element& section, Diagnostics& diagnostics) {
-  return archiveSchema().read(section, diagnostics);
+  ArchiveSettings archive = archiveSchema().read(section, diagnostics);
+  takeOutRepeated(archive.saves, section.children("save"), diagnostics);
+  return archive;
 }
 void describeTime(std::ostream& out) { timeSchema().describe(out); }
 void describeArchive(std::ostream& out) { archiveSchema().describe(out); }

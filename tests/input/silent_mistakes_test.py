@@ -30,14 +30,6 @@ class SilentMistakes(unittest.TestCase):
         self.assert_refused(run("ups/mpm/sod.ups", "DataArchiver/save[1]/@label=p.foo", outputs=True),
                             "--set DataArchiver/save[1]/@label=p.foo: DataArchiver/save: no task")
 
-    def test_a_variable_saved_twice(self):
-        self.assert_edited_is_refused("ups/mpm/sod.ups", '<save label="p.x"/>', '<save label="p.density"/>',
-                                      "SCENE:41:6: DataArchiver/save: 'p.density' is saved already, by SCENE:40:6; keep one")
-        self.assert_edited_is_refused("ups/mpm/sod.ups", '<save label="p.x"/>', '<save label="p.density" material="gas"/>',
-                                      "SCENE:41:6: DataArchiver/save: 'p.density' is saved already")
-        self.assert_edited_is_refused("ups/mpm/sod.ups", '<save label="p.x"/>', '<save label="KineticEnergy"/>',
-                                      "'KineticEnergy' is saved already")
-
     def test_a_reseeded_cell_with_more_than_max_particles(self):
         how = "MPM/gas_dynamics/redistribute/"
         sets = (how + "mode=reseed", how + "target_particles=5", how + "max_particles=8")

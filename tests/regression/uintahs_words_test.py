@@ -26,6 +26,9 @@ THRESHOLD = """<damage_model type="Threshold">
           <failure_distrib>constant</failure_distrib>
         </damage_model>"""
 
+SYMMETRIC = '<BCType id="all" label="Symmetric" var="symmetry"/>'
+STILL = '<BCType id="all" label="Velocity" var="Dirichlet"><value>[0,0,0]</value></BCType>'
+
 # what: scene, text, what takes its place
 RUN = {
     "an archive of a type": (DISCS, "<DataArchiver>", '<DataArchiver type="PIDX">'),
@@ -40,6 +43,9 @@ RUN = {
     "flags of explicit steps in implicit ones": (BEAM, "<dynamic>", FLAGS + "<dynamic>"),
     "a solver of Uintah's own": (BEAM, "<dynamic>", "<solver>simple</solver><dynamic>"),
     "Hancock's and Mackenzie's damage": (SPALL, THRESHOLD, DAMAGE),
+    "damage that differs from particle to particle at the start": (SPALL, THRESHOLD, DAMAGE.replace(">0<", ">1e-3<")),
+    "a velocity in a plane of symmetry": (DISCS, SYMMETRIC, SYMMETRIC + STILL, 1),
+    "a body without particles": (DISCS, "</geom_object>", "</geom_object><geom_object><null/><res>[1,1,1]</res></geom_object>", 1),
 }
 
 
@@ -62,6 +68,27 @@ class UintahsWords(unittest.TestCase):
         self.assertEqual(result.code, 3)
         self.assertIn("there is no material '2'", result.err)
 
+    def test_what_is_saved_twice_is_saved_once(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "scene.ups")
+            path.write_text((ROOT / BILLET).read_text().replace(
+                '<save label="p.x"/>', '<save label="p.x"/><save label="p.x"/><save label="p.mass" material="billet"/>'
+                '<save label="p.mass"/><save label="TotalMass"/><save label="TotalMass" material="0"/>'))
+            result = run(path, *FEW, options=())
+            self.assertEqual(result.code, 0, result.err)
+            self.assertEqual(result.err.count("is saved by"), 3, result.err)
+            lines = globals_of(path, "TotalMass", sets=FEW)["TotalMass"]
+            self.assertEqual(len(lines), len({time for time, mass in lines}))
+
+    def test_materials_may_share_a_name(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "scene.ups")
+            path.write_text((ROOT / DISCS).read_text().replace('name="upper"', 'name="lower"'))
+            archive = archive_of(path, folder, *FEW)
+            masses = [len(columns(archive, "p.x", material=name)["x [m]"]) for name in ("lower", "lower.1")]
+        self.assertEqual(masses[0], masses[1])
+        self.assertGreater(masses[0], 0)
+
     def test_a_particle_fills_the_edges_that_the_deformation_gives_it(self):
         with tempfile.TemporaryDirectory() as folder:
             archive = archive_of(DISCS, folder, *FEW, "DataArchiver/save[1]/@label=p.scalefactor",
@@ -77,7 +104,6 @@ class UintahsWords(unittest.TestCase):
         time, volume = volumes["TotalVolumeDeformed"][0]
         self.assertEqual(time, 0)
         self.assertAlmostEqual(volume, 13 / 1000, delta=1e-12)  # the mass that the scene names, over the density
-
 
 
 if __name__ == "__main__":

@@ -155,12 +155,12 @@ const Schema<Material>& materialSchema() {
   return schema;
 }
 
-void nameMaterials(const MaterialProperties::List& list, const Element& element, Diagnostics& diagnostics) {
+void noteCommonNames(const MaterialProperties::List& list, const Element& element, Diagnostics& diagnostics) {
   std::set<std::string> names;
   const auto tags = element.children("material");
   for (std::size_t m = 0; m < list.materials.size(); ++m)
     if (const std::string& name = list.materials[m].name; !name.empty() && !names.insert(name).second)
-      diagnostics.error(tags[m], fmt::format("a second material is called '{}'", name));
+      diagnostics.note(tags[m], fmt::format("a second material is called '{0}': this one is saved as '{0}.{1}'", name, m));
 }
 
 /// Contacts name materials that there are; numbers too many in <materials> mean nothing, as in Uintah.
@@ -192,7 +192,7 @@ const Schema<MaterialProperties>& propertiesSchema() {
                     read.thermalContact = element.child("thermal_contact").has_value();
                   },
                   {"thermal_contact"}, "materials that share nodes share a temperature there")
-          .check(nameMaterials)
+          .check(noteCommonNames)
           .check(checkContacts);
   static const Schema<MaterialProperties> schema =
       Schema<MaterialProperties>("MaterialProperties", "What there is.")

@@ -48,6 +48,27 @@ TEST(JohnsonCookDamage, GrowsWithThePlasticStrainUntilTheParticleFails) {
   EXPECT_GE(harm.damage, 1);
 }
 
+TEST(JohnsonCookDamage, StartsSpreadAboutItsMeanWhereThatIsAskedFor) {
+  JohnsonCookDamage model = copper();
+  model.initialDamage = 0.2;
+  model.initialDeviation = 0.03;
+  EXPECT_EQ(model.initial(1, 77).damage, 0.2);
+
+  model.startsSpread = true;
+  const int count = 20000;
+  double sum = 0, squares = 0;
+  for (ParticleId id = 0; id < count; ++id) {
+    const double damage = model.initial(1, id << 16).damage;
+    sum += damage;
+    squares += (damage - 0.2) * (damage - 0.2);
+  }
+
+  // Both scatter by 0.03 / (count or twice that)^(1/2) < 2.2e-4; five times that.
+  EXPECT_NEAR(sum / count, 0.2, 1.1e-3);
+  EXPECT_NEAR(std::sqrt(squares / count), 0.03, 1.1e-3);
+  EXPECT_EQ(model.initial(1, 77).damage, model.initial(1, 77).damage);
+}
+
 TEST(BrittleDamage, SoftensInTensionOnly) {
   BrittleDamage model;
   model.young = 1e10;

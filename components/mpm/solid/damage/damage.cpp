@@ -26,6 +26,10 @@ double drawNormal(int seed, ParticleId id) {
 
 }  // namespace
 
+Harm damagedAtStart(double mean, double deviation, ParticleId id) {
+  return {deviation > 0 ? std::abs(mean + deviation * drawNormal(0, id)) : mean, 0, false};
+}
+
 double greatestStrain(const Matrix3& deformation) {
   const Matrix3 b = deformation * deformation.transpose();
   return 0.5 * (1 - 1 / principalValues(b)[2]);

@@ -26,6 +26,9 @@ struct Harm {
   bool hasFailed;
 };
 
+/// |mean + deviation n|, n a number of a normal distribution that is drawn by the id, so that it does not depend on patches.
+Harm damagedAtStart(double mean, double deviation, ParticleId id);
+
 /// No damage.
 struct NoDamage {
   static constexpr std::string_view name = "none";
@@ -40,11 +43,12 @@ struct NoDamage {
 struct JohnsonCookDamage {
   static constexpr std::string_view name = "johnson_cook";
   double d1 = 0, d2 = 0, d3 = 0, d4 = 0, d5 = 0;
-  double initialDamage = 0;
+  double initialDamage = 0, initialDeviation = 0;
+  bool startsSpread = false;   ///< damage at the start by a normal distribution
   double leastDamage = 1e-10;  ///< damage below that is none
 
   static const input::Schema<JohnsonCookDamage>& schema();
-  Harm initial(double, ParticleId) const { return {initialDamage, 0, false}; }
+  Harm initial(double, ParticleId id) const { return damagedAtStart(initialDamage, startsSpread ? initialDeviation : 0, id); }
   /// e_f
   double fractureStrain(const MaterialConstants& material, const DamageState& state, const Matrix3& stress) const;
   void grow(const MaterialConstants& material, const DamageState& state, Matrix3& stress, Harm& harm) const;
@@ -54,11 +58,12 @@ struct JohnsonCookDamage {
 /// 24 (1976) 147. A particle fails at the critical damage.
 struct HancockMackenzieDamage {
   static constexpr std::string_view name = "hancock_mackenzie";
-  double initialDamage = 0;
+  double initialDamage = 0, initialDeviation = 0;
+  bool startsSpread = false;  ///< damage at the start by a normal distribution
   double criticalDamage = 1;
 
   static const input::Schema<HancockMackenzieDamage>& schema();
-  Harm initial(double, ParticleId) const { return {initialDamage, 0, false}; }
+  Harm initial(double, ParticleId id) const { return damagedAtStart(initialDamage, startsSpread ? initialDeviation : 0, id); }
   void grow(const MaterialConstants& material, const DamageState& state, Matrix3& stress, Harm& harm) const;
 };
 

@@ -19,16 +19,9 @@ const Schema<NoDamage>& NoDamage::schema() {
 template <class Self>
 void declareStart(Schema<Self>& tags) {
   tags.value("initial_mean_scalar_damage", &Self::initialDamage, 0, "1", "damage at the start", input::between(0, 1))
-      .ignored("initial_std_scalar_damage", "all particles start with the mean damage")
-      .custom("initial_scalar_damage_distrib",
-              [](Self&, const Element& element, Diagnostics& diagnostics) {
-                const auto given = element.child("initial_scalar_damage_distrib");
-                const auto spread = element.child("initial_std_scalar_damage");
-                const bool isEven = spread && input::parse<double>(spread->text()).value == 0.0;
-                if (given && given->text() != "constant" && !isEven)
-                  diagnostics.error(*given, input::choiceProblem(given->text(), {"constant"}));
-              },
-              {"initial_scalar_damage_distrib"}, "only constant, or gauss without a deviation");
+      .value("initial_std_scalar_damage", &Self::initialDeviation, 0, "1", "of gauss: standard deviation", input::nonNegative())
+      .choice("initial_scalar_damage_distrib", &Self::startsSpread, {{"constant", false}, {"gauss", true}}, false,
+              "how the damage at the start differs from particle to particle; other numbers than Uintah draws");
 }
 
 const Schema<JohnsonCookDamage>& JohnsonCookDamage::schema() {
