@@ -6,6 +6,7 @@
 #include "components/heat/heat.hpp"
 #include "components/mpm/analysis/mass_projection.hpp"
 #include "components/mpm/input.hpp"
+#include "components/mpm/solid/analysis/energy_budget.hpp"
 #include "components/mpm/solid/analysis/manufactured_error.hpp"
 #include "components/mpm/solid/implicit/input.hpp"
 #include "components/poisson/poisson.hpp"
@@ -28,6 +29,7 @@ simulation::Catalogue catalogue() {
       {
           burgers::waveKind(),
           mpm::massProjectionKind(),
+          mpm::solid::energyBudgetKind(),
           mpm::solid::manufacturedErrorKind(),
           reference::exactRiemannKind(),
           reference::simpleWaveKind(),

@@ -18,6 +18,17 @@ struct MeasuredError {
   std::vector<std::string> norms;
 };
 
+/// A part of an energy budget that an analysis module keeps: the total `label` (J).
+struct EnergyTerm {
+  enum class Side {
+    came,   ///< what there was at the start, or came since
+    went,   ///< where it is now, or where it has gone
+  };
+  std::string name;
+  const data::Label* label;
+  Side side;
+};
+
 /// A `DataAnalysis/Module`: it looks at the state of a run through diagnostic tasks.
 class Analysis {
  public:
@@ -28,6 +39,8 @@ class Analysis {
   virtual void setTime(double time, double sinceStart) = 0;
   /// What the tasks measure; they are run at the end of the run.
   virtual std::vector<MeasuredError> errors() const { return {}; }
+  /// What comes and goes of the energy; the report sets it off.
+  virtual std::vector<EnergyTerm> energies() const { return {}; }
   /// Why errors mean nothing at the time that is set, in a sentence; empty where they do.
   virtual std::string whyUnmeasured() const { return {}; }
   /// Particle variables that sample() wants to see, and where the scene asks for them.

@@ -142,10 +142,13 @@ void Phases::sortSaves(const std::vector<SaveRequest>& saves) {
     const data::Label* label = nullptr;
     for (const auto* list : {&lists_.timeAdvance, &lists_.initialize, &lists_.diagnostics})
       if (!label) label = findProduced(list->tasks(), save.label);
-    if (label && label->centring == data::Centring::reduction)
-      saved_globals_.push_back(save.label);
-    else if (label)
+    const auto isSame = [&](const SaveRequest& other) { return other.label == save.label && other.material == save.material; };
+    if (label && label->centring == data::Centring::reduction) {
+      if (std::find(saved_globals_.begin(), saved_globals_.end(), save.label) == saved_globals_.end())
+        saved_globals_.push_back(save.label);
+    } else if (label && std::none_of(saved_fields_.begin(), saved_fields_.end(), isSame)) {
       saved_fields_.push_back(save);
+    }
   }
 }
 
@@ -162,8 +165,10 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
     if (diagnosed.contains(label)) totals_.emplace_back(what, label);
   for (const auto& total : totals_) totals.insert(total.second);
   Names reported = totals;
-  for (const auto& analysis : analyses)
+  for (const auto& analysis : analyses) {
     for (const MeasuredError& error : analysis->errors()) reported.emplace(error.label->name);
+    for (const EnergyTerm& term : analysis->energies()) reported.emplace(term.label->name);
+  }
   for (const SaveRequest& save : saved_fields_)
     (stepped.contains(save.label) ? savedState : derived).insert(save.label);
   Names everyStepWants(saved_globals_.begin(), saved_globals_.end());

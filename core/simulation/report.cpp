@@ -43,6 +43,14 @@ Json driftOf(const Report& report) {
   return drift;
 }
 
+Json energiesOf(const Report& report) {
+  const EnergyBudget& energies = report.energies;
+  Json came = Json::object(), went = Json::object();
+  for (const auto& [name, value] : energies.came) came[name] = value;
+  for (const auto& [name, value] : energies.went) went[name] = value;
+  return {{"came", came}, {"went", went}, {"unaccounted", energies.unaccounted()}, {"greatest", energies.greatest()}};
+}
+
 Json tasksOf(const Report& report) {
   Json leftOut = Json::array();
   for (const tasks::LeftOut& task : report.leftOut) leftOut.push_back({{"name", task.task}, {"why", task.reason}});
@@ -82,6 +90,16 @@ std::string driftTable(const Report& report) {
   return text;
 }
 
+std::string energyTable(const Report& report) {
+  const EnergyBudget& energies = report.energies;
+  if (energies.came.empty()) return "";
+  std::string text = fmt::format("\n  {:<36} {:>14}\n", "energy budget", "J");
+  for (const auto& [name, value] : energies.came) text += fmt::format("  {:<36} {:>14.6g}\n", name, value);
+  for (const auto& [name, value] : energies.went) text += fmt::format("  - {:<34} {:>14.6g}\n", name, value);
+  return text + fmt::format("  {:<36} {:>14.2e}   {:.2e} of the greatest\n", "unaccounted", energies.unaccounted(),
+                            energies.unaccounted() / energies.greatest());
+}
+
 /// What the threads did during the time loop and its outputs, in parts of their time.
 std::string useLine(const Report& report) {
   const TimeUse& use = report.use;
@@ -117,6 +135,20 @@ std::string timeTable(const Report& report) {
 
 }  // namespace
 
+double EnergyBudget::unaccounted() const {
+  double rest = 0;
+  for (const auto& term : came) rest += term.second;
+  for (const auto& term : went) rest -= term.second;
+  return rest;
+}
+
+double EnergyBudget::greatest() const {
+  double most = 0;
+  for (const auto* terms : {&came, &went})
+    for (const auto& term : *terms) most = std::max(most, std::abs(term.second));
+  return most;
+}
+
 std::string toJson(const Report& report) {
   Json json;
   json["scene"] = report.scene;
@@ -139,6 +171,7 @@ std::string toJson(const Report& report) {
   json["errors"] = errorsOf(report);
   json["unmeasured"] = report.unmeasured;
   json["drift"] = driftOf(report);
+  if (!report.energies.came.empty()) json["energies"] = energiesOf(report);
   json["tasks"] = tasksOf(report);
   json["archive"] = report.archive;
   json["fingerprint"] = report.fingerprint;
@@ -154,7 +187,7 @@ std::string toText(const Report& report) {
     if (report.wallLoop > 0)
       text += fmt::format(", {:.3g} million particle-steps/s", 1e-6 * report.particleSteps / report.wallLoop);
   }
-  text += "\n" + limitLine(report) + errorTable(report) + driftTable(report) + timeTable(report);
+  text += "\n" + limitLine(report) + errorTable(report) + driftTable(report) + energyTable(report) + timeTable(report);
   if (!report.archive.empty()) text += fmt::format("\n  saved in {}\n", report.archive);
   text += fmt::format("\n  fingerprint {}\n", report.fingerprint);
   return text;

@@ -27,6 +27,16 @@ struct Drift {
   std::string unit;
 };
 
+/// What energy came and went over a run, J.
+struct EnergyBudget {
+  std::vector<std::pair<std::string, double>> came, went;  ///< names and amounts; of work that was done on others negative
+
+  /// What came and has not been seen again.
+  double unaccounted() const;
+  /// The greatest amount: what `unaccounted` is small or great against.
+  double greatest() const;
+};
+
 /// Wall time of a task over the whole run.
 struct TaskTime {
   std::string name;
@@ -53,6 +63,7 @@ struct Report {
   std::vector<ErrorNorms> errors;
   std::vector<std::string> unmeasured;  ///< why errors are left out, a sentence for each module that has none
   std::vector<Drift> drifts;
+  EnergyBudget energies;  ///< empty where nobody asked
   std::vector<std::string> kept;
   std::vector<tasks::LeftOut> leftOut;
   std::string fingerprint;

@@ -369,6 +369,10 @@ void Simulation::reportErrors(Report& report) {
       report.unmeasured.push_back(std::move(why));
       continue;
     }
+    for (const EnergyTerm& term : analysis->energies()) {
+      auto& side = term.side == EnergyTerm::Side::came ? report.energies.came : report.energies.went;
+      side.emplace_back(term.name, reduction(term.label->name).front());
+    }
     for (const MeasuredError& error : analysis->errors()) {
       ErrorNorms norms = normsOf(error, reduction(error.label->name));
       if (!norms.norms.empty()) report.errors.push_back(std::move(norms));

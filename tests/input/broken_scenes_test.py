@@ -29,7 +29,7 @@ OVERRIDES = {
     "ideal gas with p_infinity": (MATERIAL + "constitutive_model/p_infinity=6e8", "MaterialProperties/MPM/material/"
                                   "constitutive_model: an ideal_gas has no p_infinity; use type=\"stiffened_gas\""),
     "unknown module": ("DataAnalysis/Module/@name=exactRieman", "DataAnalysis/Module: name: found 'exactRieman', expected "
-                       "'burgersWave', 'massProjection', 'manufacturedError', 'exactRiemann', 'simpleWave', 'isentropicVortex', "
+                       "'burgersWave', 'massProjection', 'energyBudget', 'manufacturedError', 'exactRiemann', 'simpleWave', 'isentropicVortex', "
                        "'gresho', 'noh', 'sedov', 'tabulated', 'exactSolution' or 'particleExtract' (did you mean "
                        "'exactRiemann'?)"),
     "unknown choice": (GAS + "volume_model=tracket", GAS + "volume_model: found 'tracket', expected 'cell_share' or "

@@ -37,6 +37,9 @@ REFUSED = {
     "a contact of some materials in implicit steps":
         (BILLET, ("<materials>[0,1]</materials>", "<materials>[0]</materials>"), "'billet' is not among its <materials>",
          "MPM/time_integrator=implicit", "MPM/artificial_viscosity=false"),
+    "an energy budget of implicit steps":
+        (BEAM, ("<dynamic>", " <dynamic>"), "only solids by explicit time steps have an energy budget; take the module out",
+         "DataAnalysis/Module/@name=energyBudget"),
     "the heat of a viscosity that is not there":
         (SPALL, ("<artificial_viscosity>true", "<artificial_viscosity>false"),
          "artificial_viscosity_heating: needs <artificial_viscosity> true"),

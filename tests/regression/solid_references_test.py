@@ -171,6 +171,31 @@ class Cylinder(unittest.TestCase):
         self.assertAlmostEqual(sum(late) / len(late) / work, 1, delta=.01)
 
 
+class Tube(unittest.TestCase):
+    """Of rubber with a Poisson's ratio of .4999."""
+    def widening(self, *sets):
+        """Of the innermost particles, over Lame's."""
+        state = last_state("ups/solid/rubber_tube.ups", "p.x", "p.displacement", sets=sets)
+        u, r = min((u, x - u) for x, u in zip(state["x [m]"], state["p.displacement.x [m]"]) if x < .52)
+        shear, bulk, p, a, b = 1e6, 5e9, 500 * math.pi, .5, 1
+        young, poisson = 9 * bulk * shear / (3 * bulk + shear), (3 * bulk - 2 * shear) / (6 * bulk + 2 * shear)
+        return u / (p * a**2 * (1 + poisson) / (young * (b**2 - a**2)) * ((1 - 2 * poisson) * r + b**2 / r))
+
+    def test_widens_as_lame_says_where_cells_change_their_volume_as_one(self):
+        # Particles a quarter of a cell, 2.5 % of the radius, within the rim bear the load.
+        self.assertAlmostEqual(self.widening(), 1, delta=.03)
+
+    def test_locks_where_each_particle_keeps_its_own(self):
+        self.assertLess(self.widening("MPM/DoPressureStabilization=false"), .5)
+
+    def test_gives_the_same_bits_with_every_shape_and_stress_update_on_any_patches(self):
+        for way in (("MPM/stress_update=musl",), ("MPM/stress_update=usf",), ("MPM/interpolator=gimp",)):
+            with self.subTest(way=way):
+                prints = {run("ups/solid/rubber_tube.ups", *way, "Time/max_Timesteps=200", "DataAnalysis/Module/@name=energyBudget",
+                              f"Grid/Level/Box/patches={layout}").report["fingerprint"] for layout in ("[1,1,1]", "[5,1,1]")}
+                self.assertEqual(len(prints), 1)
+
+
 class Conservation(unittest.TestCase):
     """Of a disc on which nothing acts. Round-off: some 1e3 steps of sums over 1e3 particles."""
     SCENE = "ups/solid/spinning_disc.ups"

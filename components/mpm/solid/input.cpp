@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 
 #include "components/mpm/solid/foreign_tags.hpp"
 #include "components/mpm/solid/loads/load_input.hpp"
@@ -33,7 +34,7 @@ struct MpmSection {
   int integrator = 0;
   Interpolator interpolator = Interpolator::linear;
   bool artificialViscosity = false, withColor = false, axisymmetric = false, useLoadCurves = false;
-  bool conductsHeat = true, xpic = false, affine = false, contactHeats = false;
+  bool conductsHeat = true, xpic = false, affine = false, contactHeats = false, sharesVolume = false;
   std::optional<bool> viscosityHeats;
   double picFraction = 0;
   StressUpdate stressUpdate = StressUpdate::last;
@@ -91,6 +92,8 @@ void addUpdates(Schema<MpmSection>& mpm) {
 void addSurroundings(Schema<MpmSection>& mpm) {
   mpm.value("axisymmetric", &MpmSection::axisymmetric, false, "1",
              "x is the radius and y the axis; mass, energy and forces are per radian")
+      .value("DoPressureStabilization", &MpmSection::sharesVolume, false, "1",
+             "the particles of a cell change their volume as one, so that a nearly incompressible body can bend and shear")
       .value("use_load_curves", &MpmSection::useLoadCurves, false, "1", "the loads of <PhysicalBC> act")
       .value("DoExplicitHeatConduction", &MpmSection::conductsHeat, true, "1", "heat is conducted")
       .value("do_contact_friction_heating", &MpmSection::contactHeats, false, "1",
@@ -139,8 +142,6 @@ void refuseShortDomains(MpmSection&, const Element& element, Diagnostics& diagno
 void addForeign(Schema<MpmSection>& mpm) {
   addForeignTags(mpm);
   for (const char* tag : implicitOnly) mpm.ignored(tag, "belongs to the implicit method");
-  refuseSwitch(mpm, "DoPressureStabilization",
-               "use <time_integrator> implicit, or a wider <interpolator>, such as gimp or 3rdorderBS, against locking");
   requireSwitch(mpm, "computeColinearNormals", "both sides of a contact have one normal");
   requireSwitch(mpm, "do_grid_reset", "the grid is where it was at the start of each step");
   mpm.custom("cpdi_lcrit", refuseShortDomains, {"cpdi_lcrit"},
@@ -208,9 +209,11 @@ void settleParticles(const Level& level, Problem& problem) {
 }
 
 void nameMaterials(std::vector<Material>& materials) {
+  std::set<std::string> names;
   for (std::size_t m = 0; m < materials.size(); ++m) {
     materials[m].index = static_cast<int>(m);
     if (materials[m].name.empty()) materials[m].name = "material" + std::to_string(m);
+    if (!names.insert(materials[m].name).second) names.insert(materials[m].name += "." + std::to_string(m));
   }
 }
 
@@ -248,6 +251,14 @@ bool isSaved(const Element& root, const std::string& label) {
   return std::any_of(saves.begin(), saves.end(), [&](const Element& save) { return save.attribute("label") == label; });
 }
 
+/// Whether the report is to say where energy went.
+bool hasEnergyBudget(const Element& root) {
+  const auto analysis = root.child("DataAnalysis");
+  const auto modules = analysis ? analysis->children("Module") : std::vector<Element>{};
+  return std::any_of(modules.begin(), modules.end(),
+                     [](const Element& module) { return module.attribute("name") == "energyBudget"; });
+}
+
 Method settle(const MpmSection& read, const PhysicalConstants& constants) {
   Method method;
   method.gravity = constants.gravity;
@@ -263,6 +274,7 @@ Method settle(const MpmSection& read, const PhysicalConstants& constants) {
   method.affine = read.affine;
   method.viscosityHeats = read.artificialViscosity && read.viscosityHeats.value_or(true);
   method.contactHeats = read.contactHeats;
+  method.sharesVolume = read.sharesVolume;
   return method;
 }
 
@@ -304,7 +316,8 @@ simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostic
   const MaterialProperties properties = simulation::readSection(root, propertiesSchema(), diagnostics);
   if (diagnostics.size() > before) return {};
   Problem problem{method, properties.mpm.materials, properties.mpm.contacts, {}};
-  problem.method.strainEnergy = isSaved(root, "StrainEnergy") || isSaved(root, "p.strainEnergy");
+  problem.method.strainEnergy =
+      isSaved(root, "StrainEnergy") || isSaved(root, "p.strainEnergy") || hasEnergyBudget(root);
   if (read.xpic)
     for (Contact& contact : problem.contacts) contact.actsTwice = true;
   problem.method.velocityGradient = isSaved(root, "p.velGrad");

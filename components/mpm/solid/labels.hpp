@@ -34,6 +34,11 @@ template <int D>
 inline constexpr ParticleLabel<Vec<D>> externalForce{"p.externalforce", "N", "force of loads"};
 inline constexpr ParticleLabel<Matrix3> scaleFactor{"p.scalefactor", "m",
                                                     "edges of the particle, one a column, as F has deformed them"};
+/// What has worked on a particle since the start, J: one number for each of total::work.
+using Works = Eigen::Matrix<double, 1, 7, Eigen::DontAlign | Eigen::RowMajor>;
+inline constexpr ParticleLabel<Works> work{"p.work", "J", "work on it since the start: of loads and gravity, of the grid's faces, "
+                                           "of contact, lost to viscosity and damping, to strain, to plastic flow; 1/2 m v^2 "
+                                           "at the start"};
 inline constexpr ParticleLabel<double> heatFlux{"p.externalHeatFlux", "W", "heat that loads bring"};
 inline constexpr ParticleLabel<int> loadCurves{"p.loadCurveID", "1",
                                                "number of the load on it, or 0; further ones times 256, 65536"};
@@ -48,6 +53,11 @@ inline constexpr NodeLabel<Octet> record{"g.record", "SI units", "velocity, mass
 inline constexpr NodeLabel<Octet> stressRecord{"g.stressRecord", "SI units",
                                                "velocity and mass that stresses follow, where it is not that of a step"};
 inline constexpr NodeLabel<Octet> smoothRecord{"g.smoothRecord", "SI units", "velocity of p.velocitySSPlus, and mass"};
+template <int D>
+inline constexpr NodeLabel<Vec<D>> velocityOfForces{"g.velocityOfForces", "m/s", "velocity after the forces of a step"};
+template <int D>
+inline constexpr NodeLabel<Vec<D>> velocityOfContact{"g.velocityOfContact", "m/s", "the same, after contact"};
+inline constexpr NodeLabel<Octet> workRecord{"g.workRecord", "SI units", "mean velocity of a step, and work for a unit of mass"};
 template <int D>
 inline constexpr NodeLabel<Vec<D>> massGradient{"g.massGradient", "kg/m", "gradient of the mass, out of the body"};
 template <int D>
@@ -82,6 +92,17 @@ inline constexpr ReductionLabel<VectorSum> rigidReactionForce{
     "RigidReactionForce", "N", "force that a contact of type rigid or specified holds the others with, against their stresses"};
 inline constexpr ReductionLabel<Sum> strainEnergy{
     "StrainEnergy", "J", "strain energy of elastic materials and, of others, what the last step added, as in Uintah"};
+/// Sums of the numbers of p.work, in their order.
+inline constexpr std::array<ReductionLabel<Sum>, 7> work{{
+    {"ExternalWork", "J", "of loads and gravity since the start"},
+    {"BoundaryWork", "J", "of faces of the grid with a given velocity since the start"},
+    {"ContactWork", "J", "of contact since the start: of what drives a body; what friction takes is negative"},
+    {"DissipatedWork", "J", "taken by artificial viscosity and damping since the start"},
+    {"StrainWork", "J", "of the stresses since the start, less PlasticWork: what is stored, and what models without "
+                        "p.plasticStrain dissipate"},
+    {"PlasticWork", "J", "taken by plastic flow since the start, of models that keep p.plasticStrain"},
+    {"KineticEnergyAtStart", "J", "of the particles that are still there"},
+}};
 /// The faces of the grid in the order x-, x+, y-, y+, z-, z+.
 inline constexpr std::array<ReductionLabel<VectorSum>, 6> boundaryForce{{
     {"BndyForce_xminus", "N", "force of the body on the face x-"},

@@ -33,6 +33,7 @@ struct Method {
   bool viscosityHeats = false;     ///< artificial_viscosity_heating
   bool strainEnergy = false;       ///< someone wants to know it
   bool velocityGradient = false;   ///< someone wants to know it
+  bool sharesVolume = false;       ///< DoPressureStabilization: the particles of a cell change their volume as one
   bool conductsHeat = true;
   bool contactHeats = false;       ///< do_contact_friction_heating
   bool thermalContact = false;     ///< materials that share nodes share a temperature

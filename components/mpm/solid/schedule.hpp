@@ -1,5 +1,6 @@
 #pragma once
 
+#include "components/mpm/solid/schedule_heat.hpp"
 #include "components/mpm/solid/solid_mpm.hpp"
 #include "components/mpm/solid/tasks/affine.hpp"
 #include "components/mpm/solid/tasks/apply_external_loads.hpp"
@@ -8,11 +9,11 @@
 #include "components/mpm/solid/tasks/diagnose.hpp"
 #include "components/mpm/solid/tasks/exchange_momentum.hpp"
 #include "components/mpm/solid/tasks/friction.hpp"
-#include "components/mpm/solid/tasks/heat.hpp"
 #include "components/mpm/solid/tasks/integrate_acceleration.hpp"
 #include "components/mpm/solid/tasks/interpolate_momentum.hpp"
 #include "components/mpm/solid/tasks/interpolate_particles_to_grid.hpp"
 #include "components/mpm/solid/tasks/interpolate_to_particles_and_update.hpp"
+#include "components/mpm/solid/tasks/measure_work.hpp"
 #include "components/mpm/solid/tasks/show_grid.hpp"
 #include "components/mpm/solid/tasks/stable_time_step.hpp"
 #include "components/mpm/solid/tasks/update_in_parts.hpp"
@@ -51,6 +52,8 @@ void SolidMpm<Shape>::scheduleInitialize(TaskList& tasks) const {
   if (problem_.method.affine)
     tasks.perMaterial("mpm::initializeAffineMoment", initializeAffineMoment, problem_.materials, requiresNew(p::mass),
                       computes(p::affineMoment));
+  tasks.perMaterial("mpm::startWork", startWork<D>, problem_.materials, requiresNew(p::mass),
+                    requiresNew(p::velocity<D>), computes(p::work));
   if (is_damageable_)
     tasks.perMaterial("mpm::initializeDamage", initializeDamage, problem_.materials, requiresNew(data::particleId),
                       requiresNew(p::volume), computes(p::damage), computes(p::failureThreshold),
@@ -70,17 +73,19 @@ void SolidMpm<Shape>::scheduleTimeAdvance(TaskList& tasks) const {
   switch (problem_.method.stressUpdate) {
     case StressUpdate::last:
       scheduleMomentum(tasks, old);
-      scheduleUpdateParticles(tasks);
+      problem_.method.sharesVolume ? scheduleUpdateInCells(tasks) : scheduleUpdateParticles(tasks);
       scheduleVelocityUpdate(tasks, old);
       break;
     case StressUpdate::modifiedLast:
       scheduleMomentum(tasks, old);
       scheduleMoveParticles(tasks, old);
       scheduleVelocityUpdate(tasks, old);
-      scheduleComputeStressTensor(tasks, fresh);
+      scheduleInterpolateMomentum(tasks, fresh);
+      scheduleComputeStressTensor(tasks, g::stressRecord);
       break;
     case StressUpdate::first:
-      scheduleComputeStressTensor(tasks, old);
+      scheduleInterpolateMomentum(tasks, old);
+      scheduleComputeStressTensor(tasks, g::stressRecord);
       scheduleMomentum(tasks, fresh);
       scheduleMoveParticles(tasks, fresh);
       scheduleVelocityUpdate(tasks, fresh);
@@ -91,6 +96,7 @@ void SolidMpm<Shape>::scheduleTimeAdvance(TaskList& tasks) const {
                       with(*problem_.method.maximumParticleVelocity), requiresOld(p::velocity<D>),
                       modifies(p::velocity<D>));
   scheduleHeating(tasks);
+  scheduleStrainWork(tasks);
   tasks.perMaterial("mpm::addDisplacement", addDisplacement<D>, problem_.materials, requiresOld(p::x<D>),
                     requiresNew(p::x<D>), requiresOld(p::displacement<D>), computes(p::displacement<D>));
   tasks.relocate(p::x<D>, problem_.materials);
@@ -113,6 +119,7 @@ template <class Reads>
 void SolidMpm<Shape>::scheduleMomentum(TaskList& tasks, Reads stressed) const {
   scheduleInterpolateParticlesToGrid(tasks, stressed);
   scheduleIntegrateAcceleration(tasks);
+  scheduleMeasureWork(tasks, stressed);
   scheduleHeat(tasks);
 }
 
@@ -170,6 +177,7 @@ template <class Shape>
 void SolidMpm<Shape>::scheduleIntegrateAcceleration(TaskList& tasks) const {
   tasks.perMaterial("mpm::computeAndIntegrateAcceleration", computeAndIntegrateAcceleration<Shape>, problem_.materials,
                     with(problem_.method), requiresOld(p::x<D>, Shape::reach), requiresOld(delT), modifies(g::record));
+  scheduleKeepVelocity(tasks, g::velocityOfForces<D>);
   if (!problem_.contacts.empty())
     tasks.acrossMaterials("mpm::exMomIntegrated", exMomIntegrated<D>, problem_.materials, with(problem_.contacts),
                           with(Acceleration{problem_.method.gravity, problem_.method.damping}), startTime(),
@@ -178,43 +186,40 @@ void SolidMpm<Shape>::scheduleIntegrateAcceleration(TaskList& tasks) const {
     scheduleHeatingFriction(tasks);
   else if (hasFriction())
     scheduleFriction(tasks, "mpm::frictionIntegrated", Moment::end, g::record);
+  scheduleKeepVelocity(tasks, g::velocityOfContact<D>);
   tasks.perMaterial("mpm::setGridBoundaryConditions", setGridBoundaryConditions<Shape>, problem_.materials,
                     requiresOld(p::x<D>, Shape::reach), modifies(g::record));
 }
 
-/// Only run where someone reads or saves the temperature.
 template <class Shape>
-void SolidMpm<Shape>::scheduleHeat(TaskList& tasks) const {
-  if (!problem_.method.conductsHeat) return;
-  const int reach = Shape::reach;
-  const bool touching = problem_.method.thermalContact;
-  tasks.perMaterial("mpm::interpolateTemperatureToGrid", interpolateTemperatureToGrid<Shape>, problem_.materials,
-                    with(problem_.method.commonSize), requiresOld(p::x<D>, reach),
-                    when(keepsSizes(), requiresOld(p::size<D>, reach)), requiresOld(p::deformationMeasure, reach),
-                    requiresOld(p::mass, reach), requiresOld(p::temperature, reach), computes(g::heatCapacity),
-                    computes(g::temperatureNoBC), computes(g::temperature));
-  const bool heated = problem_.start.loads.hasHeat();
-  if (heated)
-    tasks.perMaterial("mpm::applyHeatFlux", applyHeatFlux<D>, problem_.materials, with(problem_.start.loads), startTime(),
-                      requiresOld(p::x<D>), requiresOld(p::loadCurves), computes(p::heatFlux));
-  tasks.perMaterial("mpm::computeInternalHeatRate", computeInternalHeatRate<Shape>, problem_.materials,
-                    with(problem_.method.commonSize), requiresOld(p::x<D>, reach),
-                    when(keepsSizes(), requiresOld(p::size<D>, reach)), requiresOld(p::deformationMeasure, reach),
-                    requiresOld(p::mass, reach), when(heated, requiresNew(p::heatFlux, reach)),
-                    requiresNew(g::temperature, reach + Shape::ghostNodes), computes(g::heatRate));
-  if (touching)
-    tasks.acrossMaterials("mpm::computeHeatExchange", computeHeatExchange<D>, problem_.materials,
-                          requiresNew(g::heatCapacity), requiresNew(g::temperature), requiresOld(delT),
-                          computes(g::contactTemperatureRate));
-  tasks.perMaterial("mpm::integrateTemperatureRate", integrateTemperatureRate<D>, problem_.materials,
-                    requiresNew(g::heatCapacity), requiresNew(g::temperatureNoBC), requiresNew(g::temperature),
-                    requiresNew(g::heatRate), when(touching, requiresNew(g::contactTemperatureRate)),
-                    when(rubbingHeats(), requiresNew(g::frictionHeat)), requiresOld(delT),
-                    computes(g::temperatureRate));
-  tasks.perMaterial("mpm::updateTemperature", updateTemperature<Shape>, problem_.materials,
-                    with(problem_.method.commonSize), requiresOld(p::x<D>), when(keepsSizes(), requiresOld(p::size<D>)),
-                    requiresOld(p::deformationMeasure), requiresOld(p::temperature),
-                    requiresNew(g::temperatureRate, Shape::ghostNodes), requiresOld(delT), computes(p::temperature));
+void SolidMpm<Shape>::scheduleKeepVelocity(TaskList& tasks, const NodeLabel<Vec<D>>& kept) const {
+  tasks.perMaterial("mpm::keepVelocity", keepVelocity<D>, problem_.materials, requiresNew(g::record), computes(kept));
+}
+
+/// Only run where someone saves or reports work, as scheduleStrainWork; `shaped` reads the F that shape functions follow.
+template <class Shape>
+template <class Reads>
+void SolidMpm<Shape>::scheduleMeasureWork(TaskList& tasks, Reads shaped) const {
+  tasks.perMaterial("mpm::computeNodalWork", computeNodalWork<D>, problem_.materials, with(problem_.method),
+                    requiresOld(delT), requiresNew(g::record), requiresNew(g::velocityOfForces<D>),
+                    when(!problem_.contacts.empty(), requiresNew(g::velocityOfContact<D>)), computes(g::workRecord));
+  tasks.perMaterial("mpm::measureWork", measureWork<Shape>, problem_.materials, with(problem_.method.commonSize),
+                    requiresOld(delT), requiresOld(p::x<D>), when(keepsSizes(), requiresOld(p::size<D>)),
+                    requiresOld(p::mass), when(Shape::deforms, shaped(p::deformationMeasure, 0)),
+                    when(isLoaded(), requiresNew(p::externalForce<D>)), requiresNew(g::workRecord, Shape::storedNodes),
+                    requiresOld(p::work), computes(p::work));
+}
+template <class Shape>
+void SolidMpm<Shape>::scheduleStrainWork(TaskList& tasks) const {
+  tasks.perMaterial("mpm::measureStrainWork", measureStrainWork, problem_.materials, requiresOld(p::mass),
+                    requiresOld(p::deformationMeasure), requiresNew(p::deformationMeasure),
+                    when(keeps_stress_, requiresOld(p::volume)), when(keeps_stress_, requiresOld(p::stress)), when(keeps_stress_, requiresNew(p::volume)),
+                    when(keeps_stress_, requiresNew(p::stress)), when(isViscous(), requiresNew(p::viscosity)),
+                    modifies(p::work));
+  if (keeps_stress_ && state_size_ > 0)
+    tasks.perMaterial("mpm::measurePlasticWork", measurePlasticWork, problem_.materials, with(state_size_),
+                      requiresOld(state_), requiresNew(state_), requiresNew(p::volume), requiresNew(p::stress),
+                      modifies(p::work));
 }
 
 /// With the gradients and the stresses: Uintah's computeParticleGradients and computeStressTensor.
@@ -234,6 +239,13 @@ void SolidMpm<Shape>::scheduleUpdateParticles(TaskList& tasks) const {
       when(problem_.method.strainEnergy, computes(p::strainEnergy)), when(heats_, computes(p::temperatureChange)),
       when(problem_.method.velocityGradient, computes(p::velocityGradient)), computes(c::stableTimeStep));
   scheduleDamage(tasks);
+}
+
+/// In two passes, so that the particles of a cell share their change of volume before their stress is computed.
+template <class Shape>
+void SolidMpm<Shape>::scheduleUpdateInCells(TaskList& tasks) const {
+  scheduleMoveParticles(tasks, old);
+  scheduleComputeStressTensor(tasks, g::record);
 }
 
 /// x and v alone; `shaped` reads the F that shape functions follow.
@@ -276,12 +288,11 @@ void SolidMpm<Shape>::scheduleVelocityUpdate(TaskList& tasks, Reads shaped) cons
                         requiresOld(p::x<D>), sizes, computes(p::affineMoment));
 }
 
-/// F and the stress, apart from the motion; `moving` reads the velocity that they follow.
+/// The velocity that stresses follow, where that is not the one of the motion; `moving` reads that of the particles.
 template <class Shape>
 template <class Reads>
-void SolidMpm<Shape>::scheduleComputeStressTensor(TaskList& tasks, Reads moving) const {
+void SolidMpm<Shape>::scheduleInterpolateMomentum(TaskList& tasks, Reads moving) const {
   const int reach = Shape::reach;
-  const bool hasState = state_size_ > 0;
   tasks.perMaterial("mpm::interpolateMomentum", interpolateMomentum<Shape>, problem_.materials,
                     with(problem_.method.commonSize), requiresOld(p::x<D>, reach),
                     when(keepsSizes(), requiresOld(p::size<D>, reach)), requiresOld(p::mass, reach),
@@ -293,9 +304,17 @@ void SolidMpm<Shape>::scheduleComputeStressTensor(TaskList& tasks, Reads moving)
   if (hasFriction()) scheduleFriction(tasks, "mpm::frictionOfStresses", Moment::end, g::stressRecord);
   tasks.perMaterial("mpm::setGridBoundaryConditionsOfStresses", setGridBoundaryConditions<Shape>, problem_.materials,
                     requiresOld(p::x<D>, reach), modifies(g::stressRecord));
+}
+
+/// F and the stress, apart from the motion, with the velocity of `record`.
+template <class Shape>
+void SolidMpm<Shape>::scheduleComputeStressTensor(TaskList& tasks, const NodeLabel<Octet>& record) const {
+  const bool hasState = state_size_ > 0;
+  const auto body = problem_.method.sharesVolume ? computeStressTensor<Shape, Volumes::shared>
+                                                 : computeStressTensor<Shape, Volumes::own>;
   tasks.perMaterial(
-      "mpm::computeStressTensor", computeStressTensor<Shape>, problem_.materials, with(problem_.method),
-      with(state_size_), requiresOld(delT), requiresNew(g::stressRecord, Shape::storedNodes), requiresOld(p::x<D>),
+      "mpm::computeStressTensor", body, problem_.materials, with(problem_.method),
+      with(state_size_), requiresOld(delT), requiresNew(record, Shape::storedNodes), requiresOld(p::x<D>),
       when(keepsSizes(), requiresOld(p::size<D>)), requiresOld(p::velocity<D>), requiresOld(p::mass),
       requiresOld(p::deformationMeasure), when(is_thermal_, requiresOld(p::temperature)),
       when(keeps_stress_, requiresOld(p::volume)), when(keeps_stress_, requiresOld(p::stress)),
@@ -320,23 +339,15 @@ void SolidMpm<Shape>::scheduleDamage(TaskList& tasks) const {
                       computes(p::failureTime));
 }
 
-/// The heat of a step's work, once conduction has had its share.
-template <class Shape>
-void SolidMpm<Shape>::scheduleHeating(TaskList& tasks) const {
-  if (heats_ && problem_.method.conductsHeat)
-    tasks.perMaterial("mpm::finalParticleUpdate", addWorkOfStep, problem_.materials, requiresNew(p::temperatureChange),
-                      modifies(p::temperature));
-  else if (heats_)
-    tasks.perMaterial("mpm::finalParticleUpdate", heatByWorkOfStep, problem_.materials,
-                      requiresNew(p::temperatureChange), requiresOld(p::temperature), computes(p::temperature));
-}
-
 template <class Shape>
 void SolidMpm<Shape>::scheduleDiagnostics(TaskList& tasks) const {
   scheduleTotals<D>(tasks, problem_.materials, when(problem_.method.affine, requiresOld(p::affineMoment)));
   tasks.perMaterial("mpm::computeScaleFactor", computeScaleFactor<D>, problem_.materials, with(problem_.method.commonSize),
                     when(keepsSizes(), requiresOld(p::size<D>)), requiresOld(p::deformationMeasure),
                     computes(p::scaleFactor));
+  for (std::size_t k = 0; k < total::work.size(); ++k)
+    tasks.perMaterial("mpm::sumWork", sumWork, problem_.materials, with(static_cast<int>(k)), requiresOld(p::work),
+                      computes(total::work[k]));
   if (!is_damageable_)
     tasks.perMaterial("mpm::showSound", showSound, problem_.materials, requiresOld(p::mass), computes(p::localized));
   for (const auto& view : state_views_) view->schedule(tasks, problem_.materials, state_size_, state_);

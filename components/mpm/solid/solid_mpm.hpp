@@ -28,6 +28,8 @@ class Solids : public Component {
     state_.setCount(state_size_);
   }
   const Problem& problem() const { return problem_; }
+  /// Whether p.work can be had.
+  virtual bool measuresWork() const { return false; }
 
  protected:
   Problem problem_;
@@ -49,6 +51,7 @@ class SolidMpm : public Solids {
   void scheduleComputeStableTimeStep(TaskList& tasks) const override;
   void scheduleTimeAdvance(TaskList& tasks) const override;
   void scheduleDiagnostics(TaskList& tasks) const override;
+  bool measuresWork() const override { return true; }
 
  private:
   static constexpr int D = Shape::dimension;
@@ -62,7 +65,13 @@ class SolidMpm : public Solids {
   template <class Reads>
   void scheduleVelocityUpdate(TaskList& tasks, Reads shaped) const;
   template <class Reads>
-  void scheduleComputeStressTensor(TaskList& tasks, Reads moving) const;
+  void scheduleInterpolateMomentum(TaskList& tasks, Reads moving) const;
+  template <class Reads>
+  void scheduleMeasureWork(TaskList& tasks, Reads shaped) const;
+  void scheduleStrainWork(TaskList& tasks) const;
+  void scheduleKeepVelocity(TaskList& tasks, const NodeLabel<Vec<D>>& kept) const;
+  void scheduleComputeStressTensor(TaskList& tasks, const NodeLabel<Octet>& record) const;
+  void scheduleUpdateInCells(TaskList& tasks) const;
   void scheduleComputeSurface(TaskList& tasks) const;
   void scheduleFriction(TaskList& tasks, const std::string& name, Moment moment, const NodeLabel<Octet>& record) const;
   void scheduleHeatingFriction(TaskList& tasks) const;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "components/mpm/solid/tasks/update_particles.hpp"
+#include "components/mpm/solid/tasks/share_volume.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -20,7 +20,7 @@ void moveParticles(const Patch& patch, const Material& material, const Method& m
 }
 
 /// L_p, F_p and the stress with the velocity that the records hold: Uintah's computeStressTensor.
-template <class Shape, int D = Shape::dimension>
+template <class Shape, Volumes volumes = Volumes::own, int D = Shape::dimension>
 void computeStressTensor(const Patch& patch, const Material& material, const Method& method, int stateSize, double dt,
                          NodeView<const Octet> record, ParticleView<const Vec<D>> x, OptionalView<const Vec<D>> size,
                          ParticleView<const Vec<D>> velocity, ParticleView<const double> mass,
@@ -48,7 +48,10 @@ void computeStressTensor(const Patch& patch, const Material& material, const Met
   states.oldState = valuesOf(oldState);
   states.stateSize = stateSize;
   states.localized = valuesOf(localized);
-  updateParticles<Shape, Update::stress>(patch, material, method, dt, record, states, stableTimeStep);
+  if constexpr (volumes == Volumes::own)
+    updateParticles<Shape, Update::stress>(patch, material, method, dt, record, states, stableTimeStep);
+  else
+    updateCells<Shape>(patch, material, method, dt, record, states, stableTimeStep);
 }
 
 }  // namespace tushar::mpm::solid

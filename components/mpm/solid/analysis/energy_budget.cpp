@@ -1,0 +1,73 @@
+#include "components/mpm/solid/analysis/energy_budget.hpp"
+
+#include <algorithm>
+
+#include "components/mpm/solid/materials/comp_mooney_rivlin.hpp"
+#include "components/mpm/solid/materials/comp_neo_hook.hpp"
+#include "components/mpm/solid/solid_mpm.hpp"
+#include "components/mpm/solid/tasks/measure_work.hpp"
+#include "core/input/schema.hpp"
+
+namespace tushar::mpm::solid {
+
+namespace {
+
+/// Whether all that strains is stored, and known from F: then StrainEnergy is exact, however much a step strains.
+bool storesAllStrain(const Problem& problem) {
+  return !problem.start.solution && std::all_of(problem.materials.begin(), problem.materials.end(), [](const Material& material) {
+    const auto name = material.model->name();
+    return !material.isDamageable() && (name == CompNeoHook::name || name == CompMooneyRivlin::name);
+  });
+}
+
+class EnergyBudget : public simulation::Analysis {
+ public:
+  explicit EnergyBudget(bool storesAllStrain) : stores_all_strain_(storesAllStrain) {}
+
+  void schedule(TaskList&) const override {}
+  void setTime(double, double) override {}
+  std::vector<simulation::EnergyTerm> energies() const override {
+    using enum simulation::EnergyTerm::Side;
+    return {{"kinetic energy at the start", &total::work[works::start], came},
+            {"work of loads and gravity", &total::work[works::external], came},
+            {"work of faces of the grid", &total::work[works::boundary], came},
+            {"work of contact", &total::work[works::contact], came},
+            {"kinetic energy", &total::kineticEnergy, went},
+            {"strain", stores_all_strain_ ? &total::strainEnergy : &total::work[works::strain], went},
+            {"plastic flow", &total::work[works::plastic], went},
+            {"viscosity and damping", &total::work[works::dissipated], went}};
+  }
+
+ private:
+  bool stores_all_strain_;
+};
+
+struct Settings {
+  std::string name;
+};
+const input::Schema<Settings>& settingsSchema() {
+  static const input::Schema<Settings> schema =
+      input::Schema<Settings>("Module", "Where the energy of solids came from and where it went, in the report.")
+          .requiredAttribute("name", &Settings::name, "1", "energyBudget");
+  return schema;
+}
+
+}  // namespace
+
+simulation::AnalysisKind energyBudgetKind() {
+  simulation::AnalysisKind kind{"energyBudget", "where the energy of solids came from and where it went", {}, {}};
+  kind.describe = [](std::ostream& out) { settingsSchema().describe(out); };
+  kind.read = [](const input::Element& module, input::Diagnostics& diagnostics) -> simulation::MakeAnalysis {
+    settingsSchema().read(module, diagnostics);
+    return [where = module.where(), path = module.path()](const Component& component,
+                                                          const Level&) -> std::unique_ptr<simulation::Analysis> {
+      const auto* solids = dynamic_cast<const Solids*>(&component);
+      if (!solids || !solids->measuresWork())
+        throw InputError({{where, path, "only solids by explicit time steps have an energy budget; take the module out"}});
+      return std::make_unique<EnergyBudget>(storesAllStrain(solids->problem()));
+    };
+  };
+  return kind;
+}
+
+}  // namespace tushar::mpm::solid
