@@ -88,8 +88,8 @@ TEST(MaterialInput, ChecksDamageAgainstTheConstitutiveModel) {
   expectProblem(sceneOf("comp_neo_hook", moduli, johnsonCook + "</damage_model>"),
                 "johnson_cook needs the plastic strain of a constitutive model elastic_plastic_hp, found comp_neo_hook");
   expectProblem(sceneOf("elastic_plastic", moduli + flow, johnsonCook +
-                        "<initial_scalar_damage_distrib>gauss</initial_scalar_damage_distrib></damage_model>"),
-                "found 'gauss', expected 'constant'");
+                        "<initial_scalar_damage_distrib>uniform</initial_scalar_damage_distrib></damage_model>"),
+                "found 'uniform', expected 'constant' or 'gauss'");
   expectProblem(sceneOf("hypo_elastic", "<G>1</G><K>1</K>", "<damage_model type='Brittle'/>"),
                 "Brittle needs a constitutive model with bulk_modulus and shear_modulus");
   expectProblem(sceneOf("elastic_plastic", moduli + flow + "<stability_check type='drucker'/>",
