@@ -28,7 +28,7 @@ class GasScene {
   }
 
  private:
-  static simulation::Scene read(const std::string& scene) {
+  static simulation::Problem read(const std::string& scene) {
     const std::string path = test::temporaryFolder() + "scene.ups";
     std::ofstream(path) << scene;
     return simulation::readScene(path, {}, catalogue());
