@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -50,7 +49,7 @@ Balance::Balance(Vec b) {
   check(VecDuplicate(b, b_.address()));
 }
 
-/// s = max(1, (1e-4 greatest / |a_ii|)^(1/2)); 1 where there is no diagonal.
+/// s = (greatest / |a_ii|)^(1/2); 1 where there is no diagonal.
 void Balance::scale(PetscMatrix& matrix) {
   check(MatGetDiagonal(matrix, s_));
   check(VecAbs(s_));
@@ -61,7 +60,7 @@ void Balance::scale(PetscMatrix& matrix) {
   check(VecGetLocalSize(s_, &count));
   check(VecGetArray(s_, &values));
   for (PetscInt k = 0; k < count; ++k)
-    values[k] = values[k] > 0 ? std::sqrt(std::max(1.0, 1e-4 * greatest / values[k])) : 1.0;
+    values[k] = values[k] > 0 ? std::sqrt(greatest / values[k]) : 1.0;
   check(VecRestoreArray(s_, &values));
   matrix.scale(s_);
 }

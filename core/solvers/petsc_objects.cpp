@@ -150,7 +150,11 @@ void configure(KSP krylov, const LinearSettings& settings) {
   check(KSPSetType(krylov, settings.solver.c_str()));
   check(KSPSetTolerances(krylov, settings.tolerance, 0, 1e10, settings.maxIterations));
   check(KSPSetNormType(krylov, settings.solver == "preonly" ? KSP_NORM_NONE : KSP_NORM_UNPRECONDITIONED));
-  if (settings.solver == "gmres") check(KSPSetPCSide(krylov, PC_RIGHT));
+  if (settings.solver == "gmres") {
+    check(KSPSetPCSide(krylov, PC_RIGHT));
+    // Without it, what is nearly singular breaks down by rounding.
+    check(KSPGMRESSetCGSRefinementType(krylov, KSP_GMRES_CGS_REFINE_IFNEEDED));
+  }
   PC preconditioner = nullptr;
   check(KSPGetPC(krylov, &preconditioner));
   check(PCSetType(preconditioner, settings.preconditioner.c_str()));

@@ -83,9 +83,9 @@ class PetscMatrix : public Matrix {
   OwnedNullSpace rigid_;  ///< motions without strain of the matrix as it was assembled
 };
 
-/// Solves A x = b as (S A S) y = S b, x = S y. S strengthens the rows of unknowns that hardly anything holds, to a diagonal
-/// of 1e-4 of the greatest: as they are, multigrid's answer to a force on such an unknown is so large that rounding in it
-/// is all that a Krylov method sees, and their residuals drown in the norm of all.
+/// Solves A x = b as (S A S) y = S b, x = S y. S brings the diagonal to its greatest entry everywhere: as they are, the
+/// residuals of unknowns that hardly anything holds drown in the norm of all, and multigrid's answer to a force on them is
+/// so large that a Krylov method sees its rounding.
 class Balance {
  public:
   /// For a right-hand side like `b`.

@@ -74,6 +74,7 @@ struct StateVariable {
 ///
 /// - `State`: internal variables of one particle; a struct of doubles and Tensors only, empty where there are none.
 ///   Where it is not empty, `static constexpr std::array<StateVariable, N> stateVariables` names them in their order.
+/// - optional `static constexpr std::array<StateVariable, N> absentVariables`: those of Uintah that are always 0 here.
 /// - optional `bool keepsState() const`: false where the constants make that needless; initialState() then stands in.
 /// - `updateStress`: Cauchy stress at the end of the step, Pa, from that at its begin; brings the State to the end.
 /// - `waveSpeed`: of the fastest elastic wave, m/s, from the density at the start of the run, kg/m^3.

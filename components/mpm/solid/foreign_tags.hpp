@@ -27,6 +27,7 @@ inline const std::vector<std::pair<std::string, std::string>> lackingSwitches{
 /// Tags of Uintah's that change nothing here, and why.
 inline const std::vector<std::pair<std::string, std::string>> meaninglessTags{
     {"boundary_traction_faces", "BndyForce_… and BndyContactArea_… of every face can be saved without it"},
+    {"create_new_particles", "particles stay as they are"},
     {"CanAddMPMMaterial", "all materials are there from the start"},
     {"restartOnLargeNodalVelocity", "a run that fails says where and why"},
     {"DeleteGeometryObjects", "shapes are not kept"},

@@ -40,6 +40,8 @@ class Model {
   /// Numbers that a particle keeps for the model.
   virtual int stateSize() const = 0;
   virtual std::vector<StateVariable> stateVariables() const = 0;
+  /// Variables that Uintah has, and that are always 0 here.
+  virtual std::vector<StateVariable> absentVariables() const = 0;
   virtual void initialize(double* state) const = 0;
   virtual bool usesTemperature() const = 0;
   /// Whether the stress is a function of F alone: nothing but F needs to be kept then.
@@ -89,6 +91,10 @@ class ModelOf : public Model {
     if constexpr (hasState) {
       if (keepsState()) return {M::stateVariables.begin(), M::stateVariables.end()};
     }
+    return {};
+  }
+  std::vector<StateVariable> absentVariables() const override {
+    if constexpr (requires { M::absentVariables; }) return {M::absentVariables.begin(), M::absentVariables.end()};
     return {};
   }
   void initialize(double* state) const override {

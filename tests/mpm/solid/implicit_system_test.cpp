@@ -18,6 +18,21 @@ CompNeoHookPlastic softMetal() {
   return model;
 }
 
+/// Fibres across the block.
+TransIsoHyper fibres() {
+  TransIsoHyper model = ligament();
+  for (double* modulus : {&model.bulkModulus, &model.c1, &model.c2, &model.c3, &model.c5}) *modulus *= 1e5;
+  return model;
+}
+
+/// Yields at a strain of about .01, by the flow of Johnson and Cook.
+ElasticPlasticModel hardeningMetal() {
+  auto model = withModuli<ElasticPlasticModel>(8e5, 2e5);
+  model.flow = JohnsonCook{5e3, 1e4, 0.025, 0.31, 1.09, 1, 298, 1356};
+  model.material = {1000, 500, 2000, 294};
+  return model;
+}
+
 /// A matrix as it is: every number.
 class Dense : public solvers::Matrix {
  public:
@@ -77,7 +92,7 @@ TEST(ImplicitSystem, HasTheTangentOfItsResidual) {
 
 TEST(ImplicitSystem, HasTheTangentOfEveryMaterialFromADeformedStart) {
   for (const auto& model : {modelOf(rubber()), modelOf(mooneyRivlin()), modelOf(withModuli<HypoElastic>(8e5, 2e5)),
-                            modelOf(softMetal())}) {
+                            modelOf(softMetal()), modelOf(fibres()), modelOf(hardeningMetal())}) {
     Block<LinearShape<2>> block(model, {{2, 2, 1}}, 1.2);
     EXPECT_LT(errorOfTangent(block.system(false), 0.1), 1e-6) << model->name();
   }
@@ -162,6 +177,22 @@ TEST(ImplicitSystem, BringsABarIntoEquilibriumWithItsLoad) {
   const Matrix3 kirchhoff = rubber().kirchhoffStress(Matrix3(Vec3(f, 1, 1).asDiagonal()));
   // The particle at 3/4 hands 3/4 of its load to the node that is free.
   EXPECT_NEAR(kirchhoff(0, 0) / f, 0.75 * load, 1e-6 * load);
+}
+
+TEST(ImplicitSystem, KnowsTheForcesThatHoldWhatIsPrescribed) {
+  Block<LinearShape<2>> block(modelOf(rubber()), {{2, 1, 1}});
+  block.method.gravity = {-3, 0, 0};
+  ImplicitSystem<LinearShape<2>> system = block.system(false);
+  clamp(system);
+  std::vector<double> u = system.guess();
+
+  ASSERT_TRUE(solvers::solver().solve(system.unknowns(), system, direct(), u).converged);
+
+  // The clamped end bears the weight of two cells of 1000 kg.
+  double along = 0;
+  const std::vector<double> forces = system.reactions();
+  for (std::size_t k = 0; k < forces.size(); k += 2) along += forces[k];
+  EXPECT_NEAR(along, 2 * 1000 * 3, 1e-6);  // the residual's rounding of 8e5 Pa m, and of Newton's method
 }
 
 TEST(ImplicitMethod, ChangesTheTimeStepByNewtonsIterations) {

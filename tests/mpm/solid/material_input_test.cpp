@@ -67,8 +67,8 @@ TEST(MaterialInput, AsksForWhatAPlasticModelNeeds) {
   expectProblem(sceneOf("comp_neo_hook_plastic", moduli),
                 "where it yields, <yield_stress> and <hardening_modulus> must be given");
   expectProblem(sceneOf("elastic_plastic_hp", moduli), "missing tag <flow_model>");
-  expectProblem(sceneOf("elastic_plastic_hp", moduli + std::string("<flow_model type='mts_model'/>")),
-                "attribute 'type': found 'mts_model', expected 'isotropic_hardening', 'johnson_cook', ");
+  expectProblem(sceneOf("elastic_plastic_hp", moduli + std::string("<flow_model type='linear'/>")),
+                "attribute 'type': found 'linear', expected 'isotropic_hardening', 'johnson_cook', ");
 }
 
 TEST(MaterialInput, RefusesWhatItDoesNotHave) {

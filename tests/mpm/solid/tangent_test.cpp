@@ -20,6 +20,12 @@ TEST(NominalTangent, IsTheDerivativeOfTheStressOfHyperelasticModels) {
   expectConsistentTangent(MaterialPoint<CompNeoHook>{withModuli<CompNeoHook>()}, f);
   expectConsistentTangent(MaterialPoint<CompMooneyRivlin>{compMooneyRivlin()}, f);
   expectConsistentTangent(MaterialPoint<CnhMms>{withModuli<CnhMms>()}, f);
+  TransIsoHyper fibres = ligament();
+  for (const double straight : {1.0, 1.05, 2.0}) {
+    fibres.straight = straight;
+    expectConsistentTangent(MaterialPoint<TransIsoHyper>{fibres}, f);
+  }
+  expectConsistentTangent(MaterialPoint<TransIsoHyper>{fibres}, f.inverse());
 }
 
 TEST(NominalTangent, OfHypoElasticCountsTheStressAtTheBeginOfTheStep) {
@@ -38,6 +44,54 @@ TEST(NominalTangent, OfJ2FlowIsConsistentWithTheReturnBeforeAndAfterYield) {
     EXPECT_GT(point.state(plasticStep).plasticStrain, point.oldState.plasticStrain);
     expectConsistentTangent(point, plasticStep);
   }
+}
+
+/// Before and after yield, from a state that has been stressed and turned.
+void expectConsistentTangentOfMetal(const ElasticPlasticHp& model) {
+  MaterialPoint<ElasticPlasticHp> point{model};
+  point.oldDeformation = generalDeformation(0);
+  const Matrix3 elastic = generalDeformation(0.003), plasticStep = generalDeformation(0.2);
+  EXPECT_EQ(point.state(elastic).plasticStrain, 0);
+  expectConsistentTangent(point, elastic);
+  point.advance(generalDeformation(0.1));
+  EXPECT_GT(point.state(plasticStep).plasticStrain, point.oldState.plasticStrain);
+  expectConsistentTangent(point, plasticStep);
+}
+
+TEST(NominalTangent, OfElasticPlasticIsConsistentWithEveryFlowModel) {
+  for (const FlowModel& flow : flowModels()) {
+    SCOPED_TRACE(std::visit([](const auto& model) { return std::string(model.name); }, flow));
+    expectConsistentTangentOfMetal(elasticPlastic(flow));
+  }
+}
+
+TEST(NominalTangent, OfElasticPlasticIsConsistentWithEveryEquationOfState) {
+  ElasticPlasticHp model = elasticPlastic(IsotropicHardening{0.2, 0.5});
+  for (const EquationOfState& law :
+       {EquationOfState(HyperelasticVolume{}), EquationOfState(MieGruneisen{1.9, 2, 1.5}),
+        EquationOfState(MieGruneisenEnergy{1.9, 2, 1.5, 0.1, 0.1})}) {
+    SCOPED_TRACE(std::visit([](const auto& one) { return std::string(one.name); }, law));
+    model.equationOfState = law;
+    expectConsistentTangentOfMetal(model);
+  }
+}
+
+TEST(NominalTangent, OfElasticPlasticIsConsistentWithEveryShearModulus) {
+  for (const ShearModel& shear : {ShearModel(MtsShear{3.2, 0.1, 200}), ShearModel(NpShear{3, 0.05, 0.05, 1e6, 60}),
+                                  ShearModel(ScgShear{3, 0.1, 1e-4})})
+    for (const FlowModel& flow : flowModels()) {
+      SCOPED_TRACE(std::visit([](const auto& one) { return std::string(one.name); }, shear));
+      ElasticPlasticHp model = elasticPlastic(flow);
+      model.shear = shear;
+      expectConsistentTangentOfMetal(model);
+    }
+}
+
+TEST(NominalTangent, OfElasticPlasticWhereItIsMoltenHasOnlyTheMeanStress) {
+  MaterialPoint<ElasticPlasticHp> point{elasticPlastic(IsotropicHardening{0.2, 0.5})};
+  point.temperature = 3000;
+  point.advance(generalDeformation(0.1));
+  expectConsistentTangent(point, generalDeformation(0.2));
 }
 
 TEST(NominalTangent, OfUcnhWithoutPlasticityIsThatOfNeoHookElasticity) {

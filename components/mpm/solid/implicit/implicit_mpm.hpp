@@ -23,8 +23,11 @@ class ImplicitMpm : public Solids {
 
   void scheduleVelocity(TaskList& tasks) const;
   void scheduleHeat(TaskList& tasks) const;
+  void scheduleDamage(TaskList& tasks) const;
 
   ImplicitMethod how_;
+  bool heats_;          ///< whether the work of a step changes the temperature of any material
+  bool is_damageable_;  ///< whether damage of any material is counted
 };
 
 }  // namespace tushar::mpm::solid

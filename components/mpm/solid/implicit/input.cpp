@@ -71,8 +71,8 @@ const Schema<Section>& sectionSchema() {
     mpm.value("DoPressureStabilization", &Section::sharesVolume, false, "1",
               "F-bar: the particles of a cell answer to compression as one, against locking where nothing is compressible");
     declareSteps(mpm);
-    mpm.choice("solver", &Section::solver, {{"petsc", 0}, {"simple", 0}}, 0,
-               "what solves the linear systems: PETSc, under two words")
+    mpm.choice("solver", &Section::solver, {{"petsc", 0}, {"simple", 0}, {"amgx", 0}}, 0,
+               "what solves the linear systems: PETSc, under three words")
         .section("Solver", &Section::linear, solvers::linearSchema(),
                  "how; left out: gmres with gamg, to a tolerance of 1e-8")
         .ours()
@@ -122,16 +122,24 @@ void refuseWithoutTangent(const Problem& problem, const Element& root, Diagnosti
       diagnostics.error(root.child("MaterialProperties").value(),
                         "'" + material.name + "' is " + std::string(material.model->name()) +
                             ", which has no tangent: implicit time steps need one; take comp_neo_hook, "
-                            "comp_mooney_rivlin, hypo_elastic or UCNH, or make it the master of a <contact> of type "
-                            "rigid or specified");
+                            "comp_mooney_rivlin, trans_iso_hyper, hypo_elastic, UCNH or elastic_plastic, or make it the "
+                            "master of a <contact> of type rigid or specified");
+}
+
+/// Whether a damage model only counts the damage.
+bool onlyCounts(const Damage& damage) {
+  return std::holds_alternative<NoDamage>(damage) || std::holds_alternative<HancockMackenzieDamage>(damage) ||
+         std::holds_alternative<JohnsonCookDamage>(damage);
 }
 
 /// What a scene may ask for that only explicit time steps know.
 void refuseExplicitOnly(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
   const Element where = root.child("MaterialProperties").value();
   for (const Material& material : problem.materials)
-    if (material.isDamageable())
-      diagnostics.error(where, "'" + material.name + "' may be damaged or eroded: only with <time_integrator> explicit");
+    if (material.erosion.acts() || !onlyCounts(material.damage))
+      diagnostics.error(where, "'" + material.name + "' may come to bear less than its model says: only with "
+                               "<time_integrator> explicit; here <damage_model> hancock_mackenzie and johnson_cook count "
+                               "damage, without <erosion>");
   for (const Contact& contact : problem.contacts) {
     if (contact.type == Contact::Type::friction)
       diagnostics.error(where, "contact: friction only with <time_integrator> explicit; here all materials move as one");

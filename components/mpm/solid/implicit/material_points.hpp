@@ -28,6 +28,7 @@ struct PointGroup {
   const double* oldState = nullptr;   ///< stateSize numbers each
   double* newState = nullptr;         ///< the same at the end; null where nobody asks
   double* strainEnergy = nullptr;     ///< J; null where nobody asks
+  double* temperatureChange = nullptr;  ///< K; null where nobody asks
 };
 
 /// Particles of a group that follow each other in memory: those of a cell.
@@ -67,6 +68,7 @@ class PointStates {
     std::array<double, stressGroup> energyDensity;
     forEachChunk(run, [&](int from, StressPoints& points) {
       points.strainEnergyDensity = group.strainEnergy ? energyDensity.data() : nullptr;
+      points.temperatureChange = group.temperatureChange ? group.temperatureChange + from : nullptr;
       group.material->model->updateStress(group.material->density, points);
       if (group.newState) std::copy_n(points.state, points.count * state_size_, group.newState + from * state_size_);
       for (int k = 0; k < points.count && group.strainEnergy; ++k)

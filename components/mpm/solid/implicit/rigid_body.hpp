@@ -64,6 +64,13 @@ class RigidBody {
     if (number < 0) return std::nullopt;
     return Vec<D>(image.sign.cwiseProduct(moved_[static_cast<std::size_t>(number)]));
   }
+  /// Adds the forces with which the body holds the solid, of the nodes of this rank.
+  void addReaction(const ImplicitSystem<Shape>& system, VectorSum& reaction) const {
+    const std::vector<double> forces = system.reactions();
+    for (int k = 0; k < system.nodes().owned(); ++k)
+      if ((*this)(system.nodes().node(k)))
+        reaction.add(level_->template expandDirection<D>(Eigen::Map<const Vec<D>>(forces.data() + D * k)));
+  }
   /// The solid goes along with the body where both are.
   void prescribe(ImplicitSystem<Shape>& system) const {
     for (int k = 0; k < system.nodes().size(); ++k)

@@ -7,6 +7,7 @@
 #include "components/mpm/solid/implicit/update.hpp"
 #include "components/mpm/solid/tasks/apply_external_loads.hpp"
 #include "components/mpm/solid/tasks/boundary_force.hpp"
+#include "components/mpm/solid/tasks/damage.hpp"
 #include "components/mpm/solid/tasks/diagnose.hpp"
 #include "components/mpm/solid/tasks/heat.hpp"
 #include "components/mpm/solid/tasks/show_grid.hpp"
@@ -17,7 +18,13 @@
 namespace tushar::mpm::solid {
 
 template <class Shape>
-ImplicitMpm<Shape>::ImplicitMpm(Problem problem, ImplicitMethod how) : Solids(std::move(problem), 1), how_(std::move(how)) {}
+ImplicitMpm<Shape>::ImplicitMpm(Problem problem, ImplicitMethod how)
+    : Solids(std::move(problem), 1),
+      how_(std::move(how)),
+      heats_(std::any_of(problem_.materials.begin(), problem_.materials.end(),
+                         [](const Material& material) { return material.model->heats(); })),
+      is_damageable_(std::any_of(problem_.materials.begin(), problem_.materials.end(),
+                                 [](const Material& material) { return material.isDamageable(); })) {}
 
 template <class Shape>
 void ImplicitMpm<Shape>::scheduleInitialize(TaskList& tasks) const {
@@ -25,6 +32,10 @@ void ImplicitMpm<Shape>::scheduleInitialize(TaskList& tasks) const {
   tasks.perMaterial("mpm::initializeStress", initializeStress, problem_.materials, with(state_size_),
                     requiresNew(p::mass), requiresNew(p::deformationMeasure), computes(p::volume), computes(p::stress),
                     when(true, computes(state_)));
+  if (is_damageable_)
+    tasks.perMaterial("mpm::initializeDamage", initializeDamage, problem_.materials, requiresNew(data::particleId),
+                      requiresNew(p::volume), computes(p::damage), computes(p::failureThreshold),
+                      computes(p::localized), computes(p::failureTime));
   tasks.perMaterial("impm::startAtRest", startAtRest<D>, problem_.materials, requiresNew(p::mass),
                     computes(p::acceleration<D>));
   tasks.perPatch("impm::allowAnyTimeStep", [](const Patch&, Minimum&) {}, computes(total::nextTimeStep));
@@ -50,14 +61,16 @@ void ImplicitMpm<Shape>::scheduleTimeAdvance(TaskList& tasks) const {
       requiresOld(p::deformationMeasure), requiresOld(p::stress), requiresOld(state_), computes(g::increment<D>),
       computes(g::newAcceleration<D>), computes(total::newtonIterations), computes(total::krylovIterations),
       computes(total::nextTimeStep), computes(solvers::assemblyTime), computes(solvers::preconditionerTime),
-      computes(solvers::solveTime));
+      computes(solvers::solveTime), computes(total::rigidReactionForce));
   tasks.perMaterial("impm::moveAndStress", moveAndStress<Shape>, problem_.materials, with(setup), requiresOld(delT),
                     requiresNew(g::increment<D>, Shape::ghostNodes), requiresOld(p::x<D>), requiresOld(p::size<D>),
                     requiresOld(p::mass), requiresOld(p::temperature), requiresOld(p::deformationMeasure),
                     requiresOld(p::stress), requiresOld(state_), computes(p::x<D>), computes(p::deformationMeasure),
-                    computes(p::stress), computes(state_), computes(p::volume), computes(p::strainEnergy));
+                    computes(p::stress), computes(state_), computes(p::volume), computes(p::strainEnergy),
+                    when(heats_, computes(p::temperatureChange)));
+  if (is_damageable_) scheduleDamage(tasks);
   scheduleVelocity(tasks);
-  if (how_.conductsHeat) scheduleHeat(tasks);
+  scheduleHeat(tasks);
   tasks.perMaterial("mpm::addDisplacement", addDisplacement<D>, problem_.materials, requiresOld(p::x<D>),
                     requiresNew(p::x<D>), requiresOld(p::displacement<D>), computes(p::displacement<D>));
   tasks.relocate(p::x<D>, problem_.materials);
@@ -76,9 +89,22 @@ void ImplicitMpm<Shape>::scheduleVelocity(TaskList& tasks) const {
                       requiresNew(p::x<D>), computes(p::velocity<D>), computes(p::acceleration<D>));
 }
 
+/// What a scene may save of the temperature on the nodes, conduction, and the heat of the step's work.
 template <class Shape>
 void ImplicitMpm<Shape>::scheduleHeat(TaskList& tasks) const {
   const ImplicitSetup setup{&problem_, how_, state_size_};
+  const int reach = Shape::reach;
+  tasks.perMaterial("mpm::interpolateTemperatureToGrid", interpolateTemperatureToGrid<Shape>, problem_.materials,
+                    with(problem_.method.commonSize), requiresOld(p::x<D>, reach), when(true, requiresOld(p::size<D>, reach)),
+                    requiresOld(p::deformationMeasure, reach), requiresOld(p::mass, reach),
+                    requiresOld(p::temperature, reach), computes(g::heatCapacity), computes(g::temperatureNoBC),
+                    computes(g::temperature));
+  if (!how_.conductsHeat) {
+    if (heats_)
+      tasks.perMaterial("mpm::finalParticleUpdate", heatByWorkOfStep, problem_.materials,
+                        requiresNew(p::temperatureChange), requiresOld(p::temperature), computes(p::temperature));
+    return;
+  }
   tasks.perRankAcrossMaterials("impm::conductHeat", conductHeat<Shape>, problem_.materials, togetherOnRanks(), with(setup),
                                requiresOld(delT), requiresOld(p::x<D>), requiresOld(p::size<D>), requiresOld(p::mass),
                                requiresOld(p::temperature), requiresOld(p::deformationMeasure),
@@ -87,6 +113,19 @@ void ImplicitMpm<Shape>::scheduleHeat(TaskList& tasks) const {
                     with(problem_.method.commonSize), requiresOld(p::x<D>), when(true, requiresOld(p::size<D>)),
                     requiresOld(p::deformationMeasure), requiresOld(p::temperature),
                     requiresNew(g::temperatureRate, Shape::ghostNodes), requiresOld(delT), computes(p::temperature));
+  if (heats_)
+    tasks.perMaterial("mpm::finalParticleUpdate", addWorkOfStep, problem_.materials, requiresNew(p::temperatureChange),
+                      modifies(p::temperature));
+}
+
+/// Damage that is only counted.
+template <class Shape>
+void ImplicitMpm<Shape>::scheduleDamage(TaskList& tasks) const {
+  tasks.perMaterial("mpm::computeDamage", computeDamage, problem_.materials, with(state_size_), startTime(),
+                    requiresOld(delT), requiresOld(p::temperature), requiresOld(p::damage), requiresOld(p::failureThreshold),
+                    requiresOld(p::localized), requiresOld(p::failureTime), requiresNew(p::deformationMeasure),
+                    requiresNew(p::volume), when(true, requiresNew(state_)), modifies(p::stress), computes(p::damage),
+                    computes(p::failureThreshold), computes(p::localized), computes(p::failureTime));
 }
 
 template <class Shape>

@@ -93,7 +93,7 @@ void solveStep(const RankPatches& patches, const std::vector<Material>& material
                const ParticleViews<const Matrix3>& stress, const ParticleViews<const double>& state,
                const NodeViews<Vec<D>>& increment, const NodeViews<Vec<D>>& newAcceleration, Maximum& newtonIterations,
                Maximum& krylovIterations, Minimum& nextTimeStep, Maximum& assembly, Maximum& preconditioner,
-               Maximum& solution) {
+               Maximum& solution, VectorSum& rigidReaction) {
   const SolidViews<D> views{x, size, velocity, acceleration, externalForce, mass, temperature, state, deformation, stress};
   ImplicitSystem<Shape> system(patches, ranks, setup.problem->method, setup.how, dt, setup.stateSize,
                                sourcesOf<Shape>(patches, materials, setup, views));
@@ -114,6 +114,8 @@ void solveStep(const RankPatches& patches, const std::vector<Material>& material
       else
         writeNodes(*patches[p], system, u, increment[p][m], newAcceleration[p][m]);
     }
+  for (const auto& body : rigid)
+    if (body) body->addReaction(system, rigidReaction);
   newtonIterations.add(outcome.newtonIterations);
   krylovIterations.add(outcome.krylovIterations);
   solvers::addTimes(outcome, assembly, preconditioner, solution);

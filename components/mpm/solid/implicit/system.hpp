@@ -47,6 +47,9 @@ class ImplicitSystem : public solvers::NonlinearProblem {
   /// counted as those of a strain of 1.
   bool isNegligible(std::span<const double> u, std::span<const double> r) const override;
 
+  /// The forces that hold the nodes of this rank where they are prescribed, along the axes along which they are, N.
+  std::vector<double> reactions() const;
+
   /// Of a node, from its displacement in the step, m/s^2; 0 where inertia is left out.
   Vec<D> acceleration(int node, std::span<const double> u) const;
   Vec<D> displacement(int node, std::span<const double> u) const {
@@ -113,6 +116,7 @@ class ImplicitSystem : public solvers::NonlinearProblem {
   std::vector<Node> node_;
   std::vector<char> prescribed_;
   std::vector<double> prescribed_value_;
+  std::vector<double> held_;  ///< what the particles of this rank bring to reactions
   double stiffest_ = 0;  ///< of all particles at the start of the simulation: rho c^2 V / h^2, N/m
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <utility>
 
 #include "components/mpm/solid/implicit/system.hpp"
 
@@ -33,6 +34,7 @@ ImplicitSystem<Shape>::ImplicitSystem(const RankPatches& patches, const mpi::Com
   supportNodes();
   prescribed_.assign(node_.size() * D, 0);
   prescribed_value_.assign(node_.size() * D, 0);
+  held_.assign(node_.size() * D, 0);
 }
 
 template <class Shape>
@@ -203,8 +205,16 @@ bool ImplicitSystem<Shape>::residual(std::span<const double> u, std::span<double
     addInternalForce(run, r);
   });
   for (std::size_t k = 0; k < prescribed_.size(); ++k)
-    if (prescribed_[k]) r[k] = 0;
+    if (prescribed_[k]) held_[k] = std::exchange(r[k], 0.0);
   return admissible;
+}
+
+template <class Shape>
+std::vector<double> ImplicitSystem<Shape>::reactions() const {
+  std::vector<double> sums = held_;
+  solvers::addUp(map_.unknowns(D), sums);
+  sums.resize(static_cast<std::size_t>(D * map_.owned()));
+  return sums;
 }
 
 template <class Shape>

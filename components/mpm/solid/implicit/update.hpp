@@ -27,7 +27,7 @@ void moveAndStress(const Patch& patch, const Material& material, const ImplicitS
                    ParticleView<const Matrix3> oldDeformation, ParticleView<const Matrix3> oldStress,
                    ParticleView<const double> oldState, ParticleView<Vec<D>> newX, ParticleView<Matrix3> deformation,
                    ParticleView<Matrix3> stress, ParticleView<double> state, ParticleView<double> volume,
-                   ParticleView<double> strainEnergy) {
+                   ParticleView<double> strainEnergy, OptionalView<double> temperatureChange) {
   const int count = x.owned();
   if (count == 0) return;
   PointStates states(static_cast<std::size_t>(count), setup.stateSize, dt, setup.how.sharesVolume);
@@ -37,8 +37,9 @@ void moveAndStress(const Patch& patch, const Material& material, const ImplicitS
     newX[p] = x[p] + moved;
     states.gradient[static_cast<std::size_t>(p)] = gradient;
   });
-  const PointGroup group{&material,       count, 0, valuesOf(mass), valuesOf(temperature), valuesOf(oldDeformation),
-                         valuesOf(oldStress), valuesOf(oldState), valuesOf(state), valuesOf(strainEnergy)};
+  PointGroup group{&material,           count, 0, valuesOf(mass), valuesOf(temperature), valuesOf(oldDeformation),
+                   valuesOf(oldStress), valuesOf(oldState), valuesOf(state), valuesOf(strainEnergy)};
+  if (temperatureChange) group.temperatureChange = valuesOf(*temperatureChange);
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     const data::ParticleRange range = x.in(cell);
     const PointRun run{&group, range.first, range.size()};

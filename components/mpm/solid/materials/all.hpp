@@ -10,6 +10,7 @@
 #include "components/mpm/solid/materials/ideal_gas.hpp"
 #include "components/mpm/solid/materials/mohr_coulomb.hpp"
 #include "components/mpm/solid/materials/rigid.hpp"
+#include "components/mpm/solid/materials/trans_iso_hyper.hpp"
 #include "components/mpm/solid/materials/ucnh.hpp"
 #include "components/mpm/solid/materials/water.hpp"
 
@@ -26,6 +27,7 @@ using AllModels = std::tuple<CnhMms,               //
                              IdealGas,             //
                              MohrCoulomb,          //
                              Rigid,                //
+                             TransIsoHyper,        //
                              Ucnh,                 //
                              Water>;
 

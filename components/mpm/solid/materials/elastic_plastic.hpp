@@ -6,8 +6,10 @@
 
 #include "components/mpm/solid/constitutive_model.hpp"
 #include "components/mpm/solid/kernels/polar.hpp"
+#include "components/mpm/solid/kernels/tangent.hpp"
 #include "components/mpm/solid/materials/plasticity/equation_of_state.hpp"
 #include "components/mpm/solid/materials/plasticity/flow.hpp"
+#include "components/mpm/solid/materials/plasticity/return_tangent.hpp"
 #include "components/mpm/solid/materials/plasticity/shear_and_melting.hpp"
 #include "components/mpm/solid/refuse.hpp"
 #include "components/mpm/solid/variant_input.hpp"
@@ -30,6 +32,7 @@ struct ElasticPlastic {
        {"p.plasticStrainRate", "1/s", "its rate in the last step"},
        {"p.strainRate", "1/s", "equivalent strain rate in the last step"},
        {"p.energy", "J/kg", "work of the stresses since the start"}}};
+  static constexpr std::array<StateVariable, 1> absentVariables{{{"p.porosity", "1", "share of pores: there are none"}}};
   static constexpr std::string_view name = isHp ? "elastic_plastic_hp" : "elastic_plastic";
   static constexpr bool strainEnergyIsRate = true;
 
@@ -52,14 +55,31 @@ struct ElasticPlastic {
   Matrix3 updateStress(const Deformation& d, const Matrix3& oldStress, State& state) const {
     const Corotated step(d, oldStress);
     state.strainRate = std::sqrt(2.0 / 3.0) * step.strain.norm() / d.timeStep;
-    const Compression compression = compressionOf(d, oldStress);
-    const double modulus = shearModulusAt(compression);
-    Matrix3 stress = deviator(step.stress) + 2 * modulus * deviator(step.strain);
-    state.plasticStrainRate = yield(d, compression, modulus, stress, state);
+    const FlowState start = flowStateOf(compressionOf(d, oldStress), state);
+    Matrix3 stress = deviator(step.stress) + 2 * start.shearModulus * deviator(step.strain);
+    state.plasticStrainRate = yield(start, d.timeStep, stress, state);
     stress.diagonal().array() += meanStress(d, oldStress.trace() / 3, state.energy);
     stress = step.turned(stress);
     state.energy += stressWork(d, oldStress, stress) / material.density;
     return stress;
+  }
+  /// d tau = J (tr h sigma + W sigma - sigma W + R (ds + dp I) Rᵀ): W the spin that h adds to R, ds and dp the changes of
+  /// deviator and mean stress as the turning observer sees them.
+  Matrix9 nominalTangent(const Deformation& d, const Matrix3& oldStress, const State& old) const {
+    const Matrix3& f = d.deformationGradient;
+    const Matrix3 moved = f * d.oldDeformationGradient.inverse(), stretch = f * rotationOf(f).transpose();
+    const Corotated step(d, oldStress);
+    State state = old;
+    const Matrix3 stress = updateStress(d, oldStress, state);
+    const ReturnTangent deviators = returnTangent(d, oldStress, step, old);
+    const auto [byDilatation, byVolume] = meanStressSlopes(d, oldStress.trace() / 3, old.energy);
+    const double j = f.determinant();
+    return solid::nominalTangent(f, j * stress, [&](const Matrix3& h) {
+      const Matrix3 grown = h * moved, spin = spinOf(h, stretch);
+      Matrix3 change = deviators.change(step.seen(0.5 * (grown + grown.transpose())), h.trace());
+      change.diagonal().array() += byDilatation * grown.trace() + byVolume * h.trace();
+      return Matrix3(j * (h.trace() * stress + spin * stress - stress * spin + step.turned(change)));
+    });
   }
   double initialWaveSpeed(double initialDensity) const {
     return std::sqrt((bulkModulus + 4.0 / 3.0 * shearModulus) / initialDensity);
@@ -85,7 +105,7 @@ struct ElasticPlastic {
   }
   void addHeat(State& state, double heat) const { state.energy += heat; }
   bool isMolten(const Matrix3& deformation, const Matrix3& stress, double temperature) const {
-    return isMolten(compressionOf(deformation, stress, temperature));
+    return temperature > compressionOf(deformation.determinant(), -stress.trace() / 3, temperature).meltTemperature;
   }
 
  private:
@@ -105,10 +125,10 @@ struct ElasticPlastic {
     acceptWhatDoesNotMatter(tags);
     return tags;
   }
-  /// Tags of Uintah's without effect on an explicit run with radial return, and choices of which one is there.
+  /// Tags of Uintah's without effect on a run with radial return, and choices of which one is there.
   static void acceptWhatDoesNotMatter(input::Schema<ElasticPlastic>& tags) {
     tags.ignored("tolerance", "the return is exact to round-off")
-        .ignored("coeff_thermal_expansion", "only Uintah's implicit method reads it")
+        .ignored("coeff_thermal_expansion", "the equation of state knows of the temperature")
         .ignored("critical_stress", "Uintah does not read it either")
         .ignored("isothermal", "Uintah does not read it either")
         .ignored("check_failure", "Uintah does not read it either")
@@ -134,36 +154,73 @@ struct ElasticPlastic {
     refuseTypes(tags, "deviatoric_stress_model", {"hypoElastic"}, "the stress deviator grows with 2 G dev D");
   }
 
-  static Compression compressionOf(const Matrix3& deformation, const Matrix3& stress, double temperature) {
-    return {-stress.trace() / 3, 1 / deformation.determinant(), temperature};
+  Compression compressionOf(double volume, double pressure, double temperature) const {
+    Compression compression{pressure, 1 / volume, temperature, material.density / volume};
+    compression.meltTemperature =
+        std::visit([&](const auto& model) { return model.temperature(compression, material.meltTemperature); }, melting);
+    return compression;
   }
-  static Compression compressionOf(const Deformation& d, const Matrix3& stress) {
-    return compressionOf(d.deformationGradient, stress, d.temperature);
+  Compression compressionOf(const Deformation& d, const Matrix3& stress) const {
+    return compressionOf(d.deformationGradient.determinant(), -stress.trace() / 3, d.temperature);
   }
   double shearModulusAt(const Compression& compression) const {
     return std::visit([&](const auto& model) { return model.modulus(compression, shearModulus); }, shear);
   }
-  bool isMolten(const Compression& compression) const {
-    const double melts = std::visit(
-        [&](const auto& model) { return model.temperature(compression, material.meltTemperature); }, melting);
-    return compression.temperature > melts;
+  FlowState flowStateOf(const Compression& c, const State& state) const {
+    return {state.plasticStrain, state.strainRate, c.temperature, shearModulusAt(c), c.density, c.meltTemperature};
+  }
+  static bool isFluid(const FlowState& state) {
+    return state.temperature > state.meltTemperature || state.shearModulus <= 0;
   }
 
   /// Takes what is beyond the yield surface from the trial stress deviator; returns the rate of the plastic strain, 1/s.
-  double yield(const Deformation& d, const Compression& compression, double modulus, Matrix3& stress,
-               State& state) const {
-    if (isMolten(compression) || modulus <= 0) {
+  double yield(const FlowState& start, double timeStep, Matrix3& stress, State& state) const {
+    if (isFluid(start)) {
       stress.setZero();
       return 0;
     }
-    FlowState now{state.plasticStrain, state.strainRate, d.temperature, modulus};
-    const double size = stress.norm();
-    const double excess = std::visit([&](const auto& model) { return radialReturn(model, size, now); }, flow);
-    if (excess <= 0) return 0;
-    stress *= 1 - excess / size;
-    const double rate = (now.plasticStrain - state.plasticStrain) / d.timeStep;
-    state.plasticStrain = now.plasticStrain;
-    return rate;
+    return std::visit(
+        [&]<class Flow>(const Flow& model) {
+          const RadialReturn<Flow> back(model, start, timeStep);
+          const double size = stress.norm(), excess = back.excess(size);
+          if (excess <= 0) return 0.0;
+          stress *= 1 - excess / size;
+          state.plasticStrain = back.after(excess).plasticStrain;
+          return (state.plasticStrain - start.plasticStrain) / timeStep;
+        },
+        flow);
+  }
+  ReturnTangent returnTangent(const Deformation& d, const Matrix3& oldStress, const Corotated& step, State state) const {
+    state.strainRate = std::sqrt(2.0 / 3.0) * step.strain.norm() / d.timeStep;
+    const auto startAt = [&](double swollen) {
+      const double volume = swollen * d.deformationGradient.determinant();
+      return flowStateOf(compressionOf(volume, -oldStress.trace() / 3, d.temperature), state);
+    };
+    const FlowState start = startAt(1);
+    ReturnTangent tangent{step.strain, deviator(step.stress) + 2 * start.shearModulus * deviator(step.strain)};
+    if (isFluid(start)) return tangent;
+    tangent.modulus = start.shearModulus;
+    tangent.modulusByVolume = logarithmicSlope([&](double swollen) { return startAt(swollen).shearModulus; });
+    std::visit(
+        [&]<class Flow>(const Flow& model) {
+          const RadialReturn<Flow> back(model, start, d.timeStep);
+          tangent.excess = back.excess(tangent.trial.norm());
+          const FlowState end = back.after(tangent.excess);
+          tangent.hardening = back.hardening(end);
+          tangent.byRate = logarithmicSlope([&](double faster) {
+            FlowState moved = end;
+            moved.strainRate *= faster;
+            return model.flowStress(moved);
+          });
+          tangent.yieldByVolume = logarithmicSlope([&](double swollen) {
+            FlowState moved = startAt(swollen);
+            moved.plasticStrain = end.plasticStrain;
+            moved.plasticStrainRate = end.plasticStrainRate;
+            return model.flowStress(moved);
+          });
+        },
+        flow);
+    return tangent;
   }
   VolumeState volumeState(const Deformation& d, double oldMeanStress, double energy) const {
     return {oldMeanStress, d.velocityGradient.trace() * d.timeStep, d.deformationGradient.determinant(), d.temperature,
@@ -172,6 +229,17 @@ struct ElasticPlastic {
   double meanStress(const Deformation& d, double old, double energy) const {
     const VolumeState state = volumeState(d, old, energy);
     return std::visit([&](const auto& model) { return model.meanStress(state); }, equationOfState);
+  }
+  /// d mean stress over the change of the dilatation of the step, and over d ln J, Pa.
+  std::pair<double, double> meanStressSlopes(const Deformation& d, double old, double energy) const {
+    const auto at = [&](double dilated, double swollen) {
+      VolumeState state = volumeState(d, old, energy);
+      state.dilatation += dilated;
+      state.volume *= swollen;
+      return std::visit([&](const auto& model) { return model.meanStress(state); }, equationOfState);
+    };
+    return {logarithmicSlope([&](double share) { return at(share - 1, 1); }),
+            logarithmicSlope([&](double share) { return at(0, share); })};
   }
 };
 

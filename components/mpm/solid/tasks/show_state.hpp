@@ -45,18 +45,23 @@ class StateViewOf : public StateView {
   ParticleLabel<T> label_;
 };
 
-/// Every state variable of the materials, once.
+/// Every state variable of the materials, once, and those that are always 0.
 inline std::vector<std::shared_ptr<const StateView>> stateViews(const std::vector<Material>& materials) {
   std::vector<std::shared_ptr<const StateView>> views;
   std::set<std::string_view> known;
-  for (const Material& material : materials)
-    for (const StateVariable& variable : material.model->stateVariables()) {
+  const auto add = [&](const std::vector<StateVariable>& variables) {
+    for (const StateVariable& variable : variables) {
       if (!known.insert(variable.label).second) continue;
       if (variable.components == 9)
         views.push_back(std::make_shared<StateViewOf<Matrix3>>(variable));
       else
         views.push_back(std::make_shared<StateViewOf<double>>(variable));
     }
+  };
+  for (const Material& material : materials) {
+    add(material.model->stateVariables());
+    add(material.model->absentVariables());
+  }
   return views;
 }
 

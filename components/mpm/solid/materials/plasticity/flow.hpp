@@ -6,18 +6,13 @@
 #include <string_view>
 #include <variant>
 
+#include "components/mpm/solid/materials/plasticity/mts.hpp"
+#include "components/mpm/solid/materials/plasticity/ptw.hpp"
+#include "components/mpm/solid/materials/plasticity/scg.hpp"
 #include "core/input/schema.hpp"
 #include "core/input/values.hpp"
 
 namespace tushar::mpm::solid {
-
-/// What the yield stress depends on.
-struct FlowState {
-  double plasticStrain;  ///< equivalent plastic strain, 1
-  double strainRate;     ///< equivalent strain rate, 1/s
-  double temperature;    ///< K
-  double shearModulus;   ///< Pa
-};
 
 /// sigma_y = sigma_Y + K e_p
 struct IsotropicHardening {
@@ -86,47 +81,6 @@ struct JohnsonCook {
   }
 };
 
-/// sigma_y = min(sigma_0 (1 + beta (e_p + epsilon_p0))^n, Y_max) G/mu_0, whatever the rate: Steinberg, Cochran & Guinan, J.
-/// Appl. Phys. 51 (1980) 1498.
-struct SteinbergCochranGuinan {
-  static constexpr std::string_view name = "steinberg_cochran_guinan";
-
-  double shearModulus = 0;   ///< mu_0, Pa
-  double yieldStress = 0;    ///< sigma_0, Pa
-  double greatest = 0;       ///< Y_max, Pa
-  double beta = 0, n = 0;    ///< 1
-  double initialStrain = 0;  ///< epsilon_p0, 1
-
-  static const input::Schema<SteinbergCochranGuinan>& schema() {
-    using Self = SteinbergCochranGuinan;
-    static const input::Schema<Self> schema =
-        input::Schema<Self>("flow_model", "The yield stress of Steinberg, Cochran and Guinan, without thermal activation.")
-            .required("mu_0", &Self::shearModulus, "Pa", "shear modulus of the constants", input::positive())
-            .required("sigma_0", &Self::yieldStress, "Pa", "yield stress without hardening", input::positive())
-            .required("Y_max", &Self::greatest, "Pa", "yield stress that hardening never passes", input::positive())
-            .required("beta", &Self::beta, "1", "factor of the plastic strain", input::nonNegative())
-            .required("n", &Self::n, "1", "exponent of the hardening", input::nonNegative())
-            .value("epsilon_p0", &Self::initialStrain, 0, "1", "plastic strain at the start", input::nonNegative())
-            .ignored("A", "the <shear_modulus_model> has it")
-            .ignored("B", "the <shear_modulus_model> has it")
-            .ignored("T_m0", "the <melting_temp_model> has it")
-            .ignored("Gamma_0", "the <melting_temp_model> has it")
-            .ignored("a", "the <melting_temp_model> has it");
-    return schema;
-  }
-  double flowStress(const FlowState& state) const {
-    return std::min(hardened(state), greatest) * state.shearModulus / shearModulus;
-  }
-  double hardening(const FlowState& state) const {
-    if (hardened(state) >= greatest) return 0;
-    return beta * n * hardened(state) / base(state) * state.shearModulus / shearModulus;
-  }
-
- private:
-  double base(const FlowState& state) const { return 1 + beta * (state.plasticStrain + initialStrain); }
-  double hardened(const FlowState& state) const { return yieldStress * std::pow(base(state), n); }
-};
-
 /// sigma_y = c_0 + B exp(-beta T) + B_0 e_p^(1/2) exp(-alpha T) + K e_p^n, alpha = alpha_0 - alpha_1 ln rate, beta
 /// likewise: Zerilli & Armstrong, J. Appl. Phys. 61 (1987) 1816. The rate is that of the whole strain, and at least 1e-8/s.
 struct ZerilliArmstrong {
@@ -184,26 +138,62 @@ struct ZerilliArmstrong {
   }
 };
 
-using FlowModel = std::variant<IsotropicHardening, JohnsonCook, SteinbergCochranGuinan, ZerilliArmstrong>;
+using FlowModel = std::variant<IsotropicHardening, JohnsonCook, MechanicalThreshold, PrestonTonksWallace,
+                               SteinbergCochranGuinan, ZerilliArmstrong>;
 
-/// By how much the return shortens the trial stress s: the root q of |s| - q = (2/3)^(1/2) sigma_y(e_p + (2/3)^(1/2) q/(2 G)),
-/// Pa, by Newton's iteration between bounds; Simo & Hughes, Computational Inelasticity (1998), box 3.1. `state` goes to
-/// the end of the step.
+/// A radial return to the yield surface of a flow model, in a step of `timeStep` s.
 template <class Flow>
-double radialReturn(const Flow& flow, double trialSize, FlowState& state) {
-  const double root = std::sqrt(2.0 / 3.0), perStress = root / (2 * state.shearModulus), start = state.plasticStrain;
-  double low = 0, high = trialSize - root * flow.flowStress(state), q = high;
-  if (high <= 0) return 0;
-  for (int step = 0; step < 100; ++step) {
-    state.plasticStrain = start + perStress * q;
-    const double excess = trialSize - q - root * flow.flowStress(state);
-    (excess > 0 ? low : high) = q;
-    if (std::abs(excess) <= 1e-14 * trialSize) break;
-    const double slope = 1 + root * perStress * flow.hardening(state), newton = q + excess / slope;
-    q = newton > low && newton < high ? newton : 0.5 * (low + high);
+class RadialReturn {
+ public:
+  RadialReturn(const Flow& flow, const FlowState& start, double timeStep) : flow_(flow), start_(start), time_step_(timeStep) {}
+
+  /// By how much it shortens the trial stress s: the root q of |s| - q = (2/3)^(1/2) sigma_y, e_p = (2/3)^(1/2) q/(2 G) more
+  /// than at the start, Pa, by Newton's iteration between bounds; Simo & Hughes, Computational Inelasticity (1998), box 3.1.
+  double excess(double trialSize) const {
+    double low = 0, high = trialSize - root_ * flow_.flowStress(start_), q = high;
+    if (high <= 0) return 0;
+    for (int step = 0; step < 100; ++step) {
+      const FlowState state = after(q);
+      const double excess = trialSize - q - root_ * flow_.flowStress(state);
+      (excess > 0 ? low : high) = q;
+      if (std::abs(excess) <= 1e-14 * trialSize) break;
+      const double slope = 1 + root_ * perStress() * hardening(state), newton = q + excess / slope;
+      q = newton > low && newton < high ? newton : 0.5 * (low + high);
+    }
+    return q;
   }
-  state.plasticStrain = start + perStress * q;
-  return q;
-}
+  /// At the end of a step that shortens the trial stress by q.
+  FlowState after(double q) const {
+    FlowState state = start_;
+    state.plasticStrain += perStress() * q;
+    state.plasticStrainRate = perStress() * q / time_step_;
+    return state;
+  }
+  /// d sigma_y / d e_p where the step's plastic strain changes with e_p, Pa.
+  double hardening(const FlowState& state) const {
+    if constexpr (requires { flow_.hardening(state); })
+      if (!dependsOnPlasticRate()) return flow_.hardening(state);
+    const double h = 1e-5 * std::max(state.plasticStrain - start_.plasticStrain, 1e-6);
+    const auto at = [&](double more) {
+      FlowState moved = state;
+      moved.plasticStrain += more;
+      moved.plasticStrainRate += more / time_step_;
+      return flow_.flowStress(moved);
+    };
+    return (at(h) - at(-h)) / (2 * h);
+  }
+  /// Plastic strain per stress, (2/3)^(1/2) / (2 G), 1/Pa.
+  double perStress() const { return root_ / (2 * start_.shearModulus); }
+
+ private:
+  bool dependsOnPlasticRate() const {
+    if constexpr (requires { flow_.dependsOnPlasticRate(); }) return flow_.dependsOnPlasticRate();
+    return false;
+  }
+
+  const Flow& flow_;
+  FlowState start_;
+  double time_step_, root_ = std::sqrt(2.0 / 3.0);
+};
 
 }  // namespace tushar::mpm::solid

@@ -13,6 +13,8 @@ struct Compression {
   double pressure;     ///< Pa
   double ratio;        ///< density over that at the start, 1
   double temperature;  ///< K
+  double density = 0;          ///< kg/m^3
+  double meltTemperature = 0;  ///< K; only for the shear modulus
 };
 
 /// The <shear_modulus> of the constitutive model.
@@ -46,7 +48,55 @@ struct ScgShear {
   }
 };
 
-using ShearModel = std::variant<ConstantShear, ScgShear>;
+/// G = mu_0 - D / (exp(T_0/T) - 1): Varshni, Phys. Rev. B 2 (1970) 3952.
+struct MtsShear {
+  static constexpr std::string_view name = "mts_shear";
+  double initial = 0;      ///< mu_0, Pa
+  double fall = 0;         ///< D, Pa
+  double temperature = 0;  ///< T_0, K
+
+  static const input::Schema<MtsShear>& schema() {
+    static const input::Schema<MtsShear> schema =
+        input::Schema<MtsShear>("shear_modulus_model", "That of Varshni, of the mechanical threshold stress.")
+            .required("mu_0", &MtsShear::initial, "Pa", "at 0 K", input::positive())
+            .required("D", &MtsShear::fall, "Pa", "its fall with the temperature", input::nonNegative())
+            .required("T_0", &MtsShear::temperature, "K", "where it begins to fall", input::positive());
+    return schema;
+  }
+  double modulus(const Compression& c, double) const { return initial - fall / std::expm1(temperature / c.temperature); }
+};
+
+/// G = ((mu_0 + mu' p/eta^(1/3)) (1 - t) + rho k T / (C m)) / (1 + exp((t - 1) / (zeta (1 - t / (1 + zeta))))), t = T/T_m,
+/// eta = rho/rho_0, and 0 above t = 1 + zeta: Nadal & Le Poac, J. Appl. Phys. 93 (2003) 2472.
+struct NpShear {
+  static constexpr std::string_view name = "np_shear";
+  double initial = 0;     ///< mu_0, Pa
+  double zeta = 0;        ///< 1
+  double byPressure = 0;  ///< mu'/mu_0, 1/Pa
+  double lindemann = 0;   ///< C, 1
+  double atomicMass = 0;  ///< m, u
+
+  static const input::Schema<NpShear>& schema() {
+    static const input::Schema<NpShear> schema =
+        input::Schema<NpShear>("shear_modulus_model", "That of Nadal and Le Poac, which falls to 0 at melting.")
+            .required("mu_0", &NpShear::initial, "Pa", "at 0 K without pressure", input::positive())
+            .required("zeta", &NpShear::zeta, "1", "width of the fall at melting", input::positive())
+            .required("slope_mu_p_over_mu0", &NpShear::byPressure, "1/Pa", "its growth with the pressure")
+            .required("C", &NpShear::lindemann, "1", "Lindemann's constant", input::positive())
+            .required("m", &NpShear::atomicMass, "u", "mass of an atom", input::positive());
+    return schema;
+  }
+  double modulus(const Compression& c, double) const {
+    constexpr double boltzmannOverMassUnit = 1.380649e-23 / 1.66053906660e-27;
+    const double t = c.temperature / c.meltTemperature, width = zeta * (1 - t / (1 + zeta));
+    if (width <= 0) return 0;
+    const double cold = initial * (1 + byPressure * c.pressure / std::cbrt(c.ratio)) * (1 - t);
+    const double thermal = c.density * boltzmannOverMassUnit * c.temperature / (lindemann * atomicMass);
+    return (cold + thermal) / (1 + std::exp((t - 1) / width));
+  }
+};
+
+using ShearModel = std::variant<ConstantShear, MtsShear, NpShear, ScgShear>;
 
 /// The <melt_temp> of the material.
 struct ConstantMelting {
