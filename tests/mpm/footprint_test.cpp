@@ -27,12 +27,12 @@ Lanes at(const Lanes& values, int lane, double value) {
 }
 
 void addParts(const Level& level, const Batch<2>& batch, const LanesVec<2>& centre, const LanesVec<2>& edges,
-              GridFields<2, 1>& fields) {
+              GridSums<2, 1, 0>& sums) {
   const Footprint<2> footprint(level, batch, centre, edges);
-  GridFields<2, 1>::Brought brought;
+  GridSums<2, 1, 0>::Brought brought;
   footprint.forEachPart(
       [&](const Index<2>& k, const Lanes& part) { brought[0][Footprint<2>::number(k)] = batch.only(part); });
-  fields.add(footprint, batch.count, 0, brought);
+  sums.add(footprint, batch.count, brought);
 }
 
 /// Sum of the first `count` values.
@@ -177,11 +177,11 @@ TEST(Footprint, EvaluatesMultilinearFieldsAtTheNodes) {
   });
 }
 
-TEST(GridFields, GetTheSameFromParticlesSideBySideAsFromOneAfterTheOther) {
+TEST(GridSums, AreTheSameFromParticlesSideBySideAsFromOneAfterTheOther) {
   const Level level(test::domain({{8, 6, 1}}));
   std::mt19937 generator(3);
   std::uniform_real_distribution<double> uniform(0, 1);
-  GridFields<2, 1> together(level.cells()), apart(level.cells());
+  GridSums<2, 1, 0> together(level.cells()), apart(level.cells());
   for (int row = 1; row < 5; ++row) {
     Batch<2> all;
     LanesVec<2> centre, edges;
@@ -207,8 +207,37 @@ TEST(GridFields, GetTheSameFromParticlesSideBySideAsFromOneAfterTheOther) {
       addParts(level, one, x, size, apart);
     }
   }
+  together.finish();
+  apart.finish();
   forEach<2>(level.cells(), [&](const Index<2>& cell) { EXPECT_EQ(together.at(0, cell), apart.at(0, cell)); });
   EXPECT_GT(together.at(0, {{1, 3}}), 0);
+}
+
+TEST(GridSums, DoNotDependOnTheOrderOfTheParticles) {
+  const Level level(test::domain({{8, 6, 1}}));
+  std::mt19937 generator(5);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::vector<std::pair<Vec<2>, Vec<2>>> boxes;
+  for (int k = 0; k < 200; ++k)
+    boxes.push_back({{0.4 + 0.2 * uniform(generator), 0.2 + 0.2 * uniform(generator)}, {0.125 * uniform(generator), 0.1}});
+  const auto sumsOf = [&] {
+    GridSums<2, 1, 0> sums(level.cells());
+    for (const auto& [x, edges] : boxes) {
+      Batch<2> one;
+      one.add(0, level.cellOf<2>(x));
+      one.fillUp();
+      addParts(level, one, x.cast<Lanes>(), edges.cast<Lanes>(), sums);
+    }
+    sums.finish();
+    std::vector<double> all;
+    forEach<2>(level.cells(), [&](const Index<2>& cell) { all.push_back(sums.at(0, cell)); });
+    return all;
+  };
+
+  const std::vector<double> forwards = sumsOf();
+  std::shuffle(boxes.begin(), boxes.end(), generator);
+
+  EXPECT_EQ(sumsOf(), forwards);
 }
 
 }  // namespace tushar::mpm

@@ -1,14 +1,8 @@
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
-#include <fstream>
 
-#include "components/components.hpp"
-#include "core/simulation/gather.hpp"
-#include "core/simulation/scene.hpp"
-#include "tests/support/temporary.hpp"
+#include "tests/mpm/gas_scene.hpp"
 
 // What must not matter: the units of a scene, and which way it faces.
 
@@ -44,18 +38,15 @@ std::string tube(const Half& left, const Half& right, const Units& units, const 
         units.length * from, units.length * to, method == papers ? 4 : 1, units.velocity() * gas.velocity, units.density() * gas.density,
         units.pressure() * gas.pressure);
   };
-  std::string faces;
-  for (const char* side : {"x-", "x+", "y-", "y+", "z-", "z+"})
-    faces += fmt::format("<Face side='{}'><BCType id='all' label='Symmetric' var='symmetry'/></Face>", side);
   return fmt::format(
       "<Uintah_specification><Meta><title>tube</title></Meta><SimulationComponent type='mpm'/>"
-      "<Time><maxTime>{:.17g}</maxTime></Time><Grid><BoundaryConditions>{}</BoundaryConditions><Level><Box label='tube'>"
+      "<Time><maxTime>{:.17g}</maxTime></Time><Grid>{}<Level><Box label='tube'>"
       "<lower>[{:.17g},0,0]</lower><upper>[{:.17g},1,1]</upper><resolution>[64,1,1]</resolution>"
       "<patches>[1,1,1]</patches></Box></Level></Grid><DataArchiver><filebase>tube.uda</filebase></DataArchiver>"
       "<MPM><time_integrator>explicit</time_integrator>{}</MPM><MaterialProperties><MPM><material name='gas'>"
       "<constitutive_model type='ideal_gas'><gamma>1.4</gamma></constitutive_model>{}{}</material></MPM>"
       "</MaterialProperties></Uintah_specification>",
-      0.3 * units.time, faces, -units.length, units.length, method, body(-1, 0, left), body(0, 1, right));
+      0.3 * units.time, walls(), -units.length, units.length, method, body(-1, 0, left), body(0, 1, right));
 }
 
 /// What a particle has at the end.
@@ -65,18 +56,8 @@ struct Particle {
 
 /// The particles at the end of a scene, from left to right.
 std::vector<Particle> run(const std::string& scene) {
-  const std::string path = test::temporaryFolder() + "tube.ups";
-  std::ofstream(path) << scene;
-  simulation::RunOptions options;
-  options.quiet = true;
-  simulation::Simulation run(simulation::readScene(path, {}, catalogue()), options, std::chrono::steady_clock::now());
-  EXPECT_EQ(run.run().failure, "");
-  data::Warehouse& warehouse = run.warehouse();
-  const auto values = [&](const char* label) {
-    const auto array = simulation::Gather(warehouse).array(data::Generation::old, warehouse.table().find(label, 0));
-    return std::get<std::vector<double>>(array.values);
-  };
-  const auto x = values("p.x"), velocity = values("p.velocity"), energy = values("p.internalEnergy");
+  GasScene run(scene);
+  const auto x = run.values("p.x"), velocity = run.values("p.velocity"), energy = run.values("p.internalEnergy");
   std::vector<Particle> particles;
   for (std::size_t k = 0; k < energy.size(); ++k) particles.push_back({x[3 * k], velocity[3 * k], energy[k]});
   std::sort(particles.begin(), particles.end(), [](const Particle& a, const Particle& b) { return a.x < b.x; });

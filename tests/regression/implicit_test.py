@@ -68,6 +68,27 @@ class Implicit(unittest.TestCase):
         self.assertAlmostEqual(at_rest[-1][1] / (sum(loaded) / len(loaded)), 1, delta=.005)
         self.assertLess(len(at_rest), len(swinging) / 1000)
 
+    def test_a_die_presses_a_billet_with_the_force_of_plastic_flow(self):
+        billet = (ROOT / "ups/solid/billet.ups").read_text()
+        metal = re.sub(r"<yield_stress>(.*)</yield_stress>\s*<hardening_modulus>(.*)</hardening_modulus>",
+                       r'<flow_model type="isotropic_hardening"><sigma_Y>\1</sigma_Y><K>\2</K></flow_model>', billet)
+        metal = metal.replace("comp_neo_hook_plastic", "elastic_plastic")
+        metal = metal.replace("<density>2700</density>",
+                              "<density>2700</density><specific_heat>900</specific_heat><melt_temp>900</melt_temp>")
+        height = .01 - 20 * 2.5e-5
+        for text in (billet, metal):
+            with tempfile.TemporaryDirectory() as folder:
+                scene = pathlib.Path(folder, "billet.ups")
+                scene.write_text(text)
+                force, = last_of(scene, ["RigidReactionForce"],
+                                 ("MPM/time_integrator=implicit", "MPM/dynamic=false", "MPM/artificial_viscosity=false",
+                                  "Time/timestep_multiplier=1", "Time/delt_init=2.5e-6", "Time/delt_max=2.5e-6",
+                                  "Time/maxTime=2.5e-5"))
+            hill = -2 / 3**.5 * 200e6 * .01 * .01 / height * .001  # plastic flow keeps the volume
+            self.assertEqual((force[0], force[2]), (0, 0))  # the die is smooth
+            # The nodes of the die reach up to a cell into the billet, and keep its ten cells from widening there.
+            self.assertTrue(1 < force[1] / hill < 1.2, force[1] / hill)
+
     def test_patches_change_no_bit(self):
         prints = {run(BEAM, "Time/max_Timesteps=2", f"Grid/Level/Box/patches={patches}").report["fingerprint"]
                   for patches in ("[1,1,1]", "[2,1,1]", "[5,3,1]")}

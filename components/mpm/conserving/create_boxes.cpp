@@ -23,36 +23,56 @@ struct Contents {
   double mass = 0, energy = 0;
   Vec<D> momentum = Vec<D>::Zero();
   Modes<D> moments = Modes<D>::Zero();  ///< column a - 1: momentum times phi_a
+
+  Contents& operator+=(const Contents& other) {
+    mass += other.mass;
+    energy += other.energy;
+    momentum += other.momentum;
+    moments += other.moments;
+    return *this;
+  }
 };
 
-/// Integrals over a box about `x`, Gauss-Legendre with 3 points per axis.
+/// What a volume [m³] of the gas holds at `offset` from `x`.
+template <int D>
+Contents<D> contentsAt(const Level& level, const Gas& gas, const GasObject& object, const Vec<D>& x,
+                       const Vec<D>& offset, double volume) {
+  const Vec3 point = level.expandPoint<D>(x + offset);
+  const double rho = object.density(point), p = object.pressure(point);
+  const Vec<D> u = level.reduce<D>(object.velocity(point));
+  refuseImpossible(object, point, rho, p, object.velocity(point));
+  Contents<D> held;
+  held.mass = volume * rho;
+  held.momentum = held.mass * u;
+  held.energy = held.mass * (gas.internalEnergy(rho, p) + 0.5 * u.squaredNorm());
+  const auto products = productsOver(offset);
+  for (std::size_t a = 1; a < products.size(); ++a)
+    held.moments.col(static_cast<int>(a) - 1) = held.mass * products[a] * u;
+  return held;
+}
+
+/// Sum of `held(offset, volume)` over the points of Gauss & Legendre, 3 per axis, of a box: the same for a mirrored one.
+template <int D, class Held>
+Contents<D> sumOverPoints(const Vec<D>& edges, double volume, const Held& held, Vec<D> offset = Vec<D>::Zero(),
+                          int axis = 0) {
+  if (axis == D) return held(offset, volume);
+  const auto along = [&](double at, double weight) {
+    offset[axis] = 0.5 * edges[axis] * at;
+    return sumOverPoints<D>(edges, volume * weight, held, offset, axis + 1);
+  };
+  Contents<D> sum = along(-std::sqrt(0.6), 5.0 / 18);
+  sum += along(std::sqrt(0.6), 5.0 / 18);
+  sum += along(0, 8.0 / 18);
+  return sum;
+}
+
+/// Integrals over a box about `x`.
 template <int D>
 Contents<D> integrate(const Level& level, const Gas& gas, const GasObject& object, const Vec<D>& x,
                       const Vec<D>& edges) {
-  static const std::array<double, 3> at{-std::sqrt(0.6), 0, std::sqrt(0.6)}, weight{5.0 / 18, 8.0 / 18, 5.0 / 18};
-  Contents<D> sum;
-  const double volume = edges.prod() * crossSection<D>(level);
-  Box points{{}, Index3::filled(1)};
-  for (int d = 0; d < D; ++d) points.upper[d] = 3;
-  forEach<D>(points, [&](const Index<D>& k) {
-    Vec<D> offset;
-    double v = volume;
-    for (int d = 0; d < D; ++d) {
-      offset[d] = 0.5 * edges[d] * at[static_cast<std::size_t>(k[d])];
-      v *= weight[static_cast<std::size_t>(k[d])];
-    }
-    const Vec3 point = level.expandPoint<D>(x + offset);
-    const double rho = object.density(point), p = object.pressure(point);
-    const Vec<D> u = level.reduce<D>(object.velocity(point));
-    refuseImpossible(object, point, rho, p, object.velocity(point));
-    sum.mass += v * rho;
-    sum.momentum += v * rho * u;
-    sum.energy += v * rho * (gas.internalEnergy(rho, p) + 0.5 * u.squaredNorm());
-    const auto products = productsOver(offset);
-    for (std::size_t a = 1; a < products.size(); ++a)
-      sum.moments.col(static_cast<int>(a) - 1) += v * rho * products[a] * u;
+  return sumOverPoints<D>(edges, edges.prod() * crossSection<D>(level), [&](const Vec<D>& offset, double volume) {
+    return contentsAt<D>(level, gas, object, x, offset, volume);
   });
-  return sum;
 }
 
 /// A stiffened gas presses on all around it with p + p_inf. Throws InputError where nothing would press back: on a grid

@@ -48,21 +48,13 @@ class GridFields {
   /// A field at a node or cell and those beside it along the first axis.
   Lanes readRow(std::size_t field, const Index<D>& index) const { return Lanes::at(&at(field, index)); }
 
-  /// What each particle of a batch brings to each place of its footprint.
-  using Brought = std::array<std::array<Lanes, Footprint<D>::places>, N>;
-
-  /// Adds, particle by particle, to the nodes (more = 1) or cells (more = 0) of a footprint. Lanes not in use bring 0.
-  void add(const Footprint<D>& footprint, int count, int more, const Brought& brought) {
-    const Near near(*this, footprint.first(), count);
-    for (std::size_t n = 0; n < N; ++n) {
-      double* field = values_.data() + n * size_;
-      if (near.consecutive_)
-        addRows<D - 1>(field + near.place_[0], footprint, more, brought[n].data());
-      else
-        for (int lane = 0; lane < Lanes::count; ++lane)
-          addOne<D - 1>(field + near.place_[lane], footprint, more, brought[n].data(), lane);
-    }
-  }
+ protected:
+  /// Of fields that are sums: where they are, and how far apart neighbours along an axis are.
+  double* values(std::size_t field) { return values_.data() + field * size_; }
+  std::size_t size() const { return size_; }
+  int stride(int axis) const { return stride_[axis]; }
+  static const LaneIntegers& placesOf(const Near& near) { return near.place_; }
+  static bool areConsecutive(const Near& near) { return near.consecutive_; }
 
  private:
   int offset(const Index<D>& by) const {
@@ -79,44 +71,6 @@ class GridFields {
     LaneIntegers at = index[0] - box_.lower[0];
     for (int d = 1; d < D; ++d) at += (index[static_cast<std::size_t>(d)] - box_.lower[d]) * stride_[d];
     return at;
-  }
-
-  /// Adds what one lane brings.
-  template <int Axis>
-  void addOne(double* field, const Footprint<D>& footprint, int more, const Lanes* brought, int lane) {
-    const int end = footprint.along[Axis].cells + more;
-    for (int k = 0; k < end; ++k, brought += Footprint<D>::stride(Axis), field += stride_[Axis]) {
-      if constexpr (Axis == 0)
-        *field += (*brought)[lane];
-      else
-        addOne<Axis - 1>(field, footprint, more, brought, lane);
-    }
-  }
-  /// Adds what consecutive particles bring.
-  template <int Axis>
-  void addRows(double* field, const Footprint<D>& footprint, int more, const Lanes* brought) {
-    const int end = footprint.along[Axis].cells + more;
-    if constexpr (Axis == 0) {
-      addRow(field, end, brought, std::make_integer_sequence<int, Footprint<D>::most>());
-    } else {
-      for (int k = 0; k < end; ++k, brought += Footprint<D>::stride(Axis), field += stride_[Axis])
-        addRows<Axis - 1>(field, footprint, more, brought);
-    }
-  }
-  /// Each place gets what the first particle that touches it brings first: its last node.
-  template <int... K>
-  static void addRow(double* field, int end, const Lanes* brought, std::integer_sequence<int, K...>) {
-    Lanes low = Lanes::at(field), high = Lanes::at(field + Lanes::count);
-    constexpr int last = sizeof...(K);
-    const auto addShifted = [&]<int Shift>(std::integral_constant<int, Shift>) {
-      if (Shift >= end) return;
-      low += window<Lanes::count - Shift>(0, brought[Shift]);
-      high += window<Lanes::count - Shift>(brought[Shift], 0);
-    };
-    (addShifted(std::integral_constant<int, last - K>()), ...);
-    low += brought[0];
-    low.copyTo(field);
-    high.copyTo(field + Lanes::count);
   }
 
   Box box_;

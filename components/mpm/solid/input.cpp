@@ -278,20 +278,6 @@ Method settle(const MpmSection& read, const PhysicalConstants& constants) {
   return method;
 }
 
-/// Heat that works or flows changes a temperature by the heat capacity.
-void checkHeat(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
-  const bool sharesHeat = problem.method.conductsHeat && problem.method.thermalContact;
-  const auto tags = root.child("MaterialProperties")->child("MPM")->children("material");
-  for (std::size_t m = 0; m < tags.size(); ++m) {
-    const Material& material = problem.materials[m];
-    if (material.specificHeat > 0) continue;
-    if (material.model->heats())
-      diagnostics.error(tags[m], "missing tag <specific_heat>: " + std::string(material.model->name()) + " heats by its work");
-    else if (material.thermalConductivity > 0 || sharesHeat)
-      diagnostics.error(tags[m], "missing tag <specific_heat>: it conducts heat");
-  }
-}
-
 /// Loads that something else in the scene would put out of effect.
 void checkLoads(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
   const Loads& loads = problem.start.loads;
@@ -307,6 +293,19 @@ void checkLoads(const Problem& problem, const Element& root, Diagnostics& diagno
 }
 
 }  // namespace
+
+void checkHeat(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
+  const bool sharesHeat = problem.method.conductsHeat && problem.method.thermalContact;
+  const auto tags = root.child("MaterialProperties")->child("MPM")->children("material");
+  for (std::size_t m = 0; m < tags.size(); ++m) {
+    const Material& material = problem.materials[m];
+    if (material.specificHeat > 0) continue;
+    if (material.model->heats())
+      diagnostics.error(tags[m], "missing tag <specific_heat>: " + std::string(material.model->name()) + " heats by its work");
+    else if (material.thermalConductivity > 0 || sharesHeat)
+      diagnostics.error(tags[m], "missing tag <specific_heat>: it conducts heat");
+  }
+}
 
 simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.size();

@@ -15,6 +15,9 @@ const input::Schema<PhysicalConstants>& constantsSchema();
 /// Gives every material its number, and a name where the scene gives none.
 void nameMaterials(std::vector<Material>& materials);
 
+/// Heat that works or flows changes a temperature by the heat capacity, which must be there.
+void checkHeat(const Problem& problem, const input::Element& root, input::Diagnostics& diagnostics);
+
 /// What depends on the grid: how many particles share each load, their size, the width of cells.
 void settleParticles(const Level& level, Problem& problem);
 

@@ -201,6 +201,7 @@ simulation::MakeComponent readImplicitScene(const Element& root, Diagnostics& di
   problem.start.axisymmetric = read.axisymmetric;
   problem.start.loads = readLoads(root, read.useLoadCurves, diagnostics);
   nameMaterials(problem.materials);
+  checkHeat(problem, root, diagnostics);
   refuseWithoutTangent(problem, root, diagnostics);
   refuseExplicitOnly(problem, root, diagnostics);
   refuseConditions(problem, root, diagnostics);

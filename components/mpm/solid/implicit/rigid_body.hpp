@@ -64,12 +64,16 @@ class RigidBody {
     if (number < 0) return std::nullopt;
     return Vec<D>(image.sign.cwiseProduct(moved_[static_cast<std::size_t>(number)]));
   }
-  /// Adds the forces with which the body holds the solid, of the nodes of this rank.
+  /// Adds the forces with which the body holds the solid along the contact's `direction`, of the nodes of this rank.
   void addReaction(const ImplicitSystem<Shape>& system, VectorSum& reaction) const {
     const std::vector<double> forces = system.reactions();
-    for (int k = 0; k < system.nodes().owned(); ++k)
-      if ((*this)(system.nodes().node(k)))
-        reaction.add(level_->template expandDirection<D>(Eigen::Map<const Vec<D>>(forces.data() + D * k)));
+    for (int k = 0; k < system.nodes().owned(); ++k) {
+      if (!(*this)(system.nodes().node(k))) continue;
+      Vec<D> force = Eigen::Map<const Vec<D>>(forces.data() + D * k);
+      for (int d = 0; d < D; ++d)
+        if (!contact_->direction[static_cast<std::size_t>(level_->axis(d))]) force[d] = 0;
+      reaction.add(level_->template expandDirection<D>(force));
+    }
   }
   /// The solid goes along with the body where both are.
   void prescribe(ImplicitSystem<Shape>& system) const {
