@@ -21,7 +21,12 @@ const input::Schema<LinearSettings>& linearSchema() {
                  input::atLeast(1))
           .ours()
           .value("petsc", &LinearSettings::petsc, "", "1", "options in PETSc's language; sus -petsc wins")
-          .ours();
+          .ours()
+          .check([](const LinearSettings& read, const input::Element& element, input::Diagnostics& diagnostics) {
+            if (read.solver == "preonly" && read.preconditioner != "lu" && read.preconditioner != "cholesky")
+              diagnostics.error(element, "preconditioner: found '" + read.preconditioner +
+                                             "', but with <solver> direct it solves the system: take lu or cholesky");
+          });
   return schema;
 }
 

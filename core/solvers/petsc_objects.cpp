@@ -29,6 +29,9 @@ class Session {
   Session() {
     PetscBool started = PETSC_FALSE;
     PetscInitialized(&started);
+    int underLauncher = 0;
+    MPI_Initialized(&underLauncher);
+    if (underLauncher) PETSC_COMM_WORLD = MPI_COMM_SELF;  // ranks without patches do not come here
     if (!started) check(PetscInitializeNoArguments());
     check(PetscPushErrorHandler(keepMessage, nullptr));
     check(PetscPopSignalHandler());
@@ -154,6 +157,8 @@ void configure(KSP krylov, const LinearSettings& settings) {
     check(KSPSetPCSide(krylov, PC_RIGHT));
     // Without it, what is nearly singular breaks down by rounding.
     check(KSPGMRESSetCGSRefinementType(krylov, KSP_GMRES_CGS_REFINE_IFNEEDED));
+    // PETSc begins anew after 30: where nothing is compressible it then gets nowhere.
+    check(KSPGMRESSetRestart(krylov, std::min(settings.maxIterations, 200)));
   }
   PC preconditioner = nullptr;
   check(KSPGetPC(krylov, &preconditioner));

@@ -37,6 +37,17 @@ REFUSED = {
     "a contact of some materials in implicit steps":
         (BILLET, ("<materials>[0,1]</materials>", "<materials>[0]</materials>"), "'billet' is not among its <materials>",
          "MPM/time_integrator=implicit", "MPM/artificial_viscosity=false"),
+    "a direct solver that solves nothing":
+        (BEAM, ("<preconditioner>lu", "<preconditioner>gamg"),
+         "preconditioner: found 'gamg', but with <solver> direct it solves the system: take lu or cholesky"),
+    "a grid that stays in implicit steps":
+        (BEAM, ("<dynamic>", "<do_grid_reset>false</do_grid_reset><dynamic>"), "do_grid_reset: is always true"),
+    "a rigid body without a contact":
+        (BEAM, ('<material name="rubber">', '<material name="rubber"><is_rigid>true</is_rigid>'),
+         "is_rigid: needs a <contact> of type rigid or specified, whose master the material is"),
+    "volumes that are shared by what goes by rates":
+        (BEAM, ('type="comp_neo_hook"', 'type="UCNH"'), "DoPressureStabilization: with <time_integrator> implicit only for "
+         "comp_neo_hook and comp_mooney_rivlin; 'rubber' is", "MPM/DoPressureStabilization=true"),
     "an energy budget of implicit steps":
         (BEAM, ("<dynamic>", " <dynamic>"), "only solids by explicit time steps have an energy budget; take the module out",
          "DataAnalysis/Module/@name=energyBudget"),

@@ -194,6 +194,11 @@ class Ranks(unittest.TestCase):
             said.append([re.sub("saved: .*", "", line) for line in sentence])
         self.assertEqual(said[0], said[1])
 
+    def test_a_rank_without_a_patch_lets_the_others_solve(self):
+        solved = [self.folder(ranks).run("ups/poisson/sine.ups", "Grid/Level/Box/patches=[2,1,1]")[2]["errors"]
+                  for ranks in (2, 3)]
+        self.assertEqual(solved[0], solved[1])
+
     def test_questions_are_answered_once(self):
         for words in (["--version"], ["--list"], [SOD, "--schedule"], [SOD, "--check"]):
             alone = subprocess.run([SUS, *words], cwd=ROOT, capture_output=True, text=True)

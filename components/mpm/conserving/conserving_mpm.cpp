@@ -112,8 +112,12 @@ template <int D>
 void ConservingMpm<D>::scheduleGridState(TaskList& tasks, bool isStart) const {
   constexpr int reach = Footprint<D>::reach;
   const double spare = method_.transfer == Transfer::apic ? Apic::spareEnergy : AffineFlip::spareEnergy;
+  if (isMixture())
+    tasks.perMaterial("mpm::computeHeat", conserving::computeHeat<D>, materials_, requiresNew(p::mass),
+                      requiresNew(p::edges<D>), requiresNew(p::internalEnergy), computes(p::heat));
   tasks.perMaterial("mpm::limitModes", conserving::limitModes<D>, materials_, with(spare), requiresNew(p::edges<D>),
-                    requiresNew(p::internalEnergy), requiresNew(p::affineEnergy), modifies(p::modes<D>));
+                    requiresNew(isMixture() ? p::heat : p::internalEnergy), requiresNew(p::affineEnergy),
+                    modifies(p::modes<D>));
   const auto schedule = [&](auto body, auto... more) {
     tasks.perMaterial("mpm::interpolateParticlesToGrid", body, materials_, requiresNew(p::x<D>, reach),
                       requiresNew(p::edges<D>, reach), requiresNew(p::mass, reach), requiresNew(p::velocity<D>, reach),

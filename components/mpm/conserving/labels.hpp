@@ -13,6 +13,8 @@ inline constexpr ParticleLabel<Vec<D>> edges{"p.edges", "m", "edge lengths of th
 template <int D>
 inline constexpr ParticleLabel<Modes<D>> modes{"p.velocityModes", "1/s",
                                                "velocity gradient within, and its mixed derivatives", Bound::finite};
+inline constexpr ParticleLabel<double> heat{"p.heat", "J/kg", "e - p_inf / rho of a gas beside others; 0 at a pressure of -p_inf",
+                                            Bound::nonNegative};
 inline constexpr ParticleLabel<double> affineEnergy{"p.affineEnergy", "J/kg",
                                                     "kinetic energy per mass of the motion about the mean velocity",
                                                     Bound::nonNegative};

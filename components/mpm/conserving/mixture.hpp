@@ -66,6 +66,16 @@ struct Cells {
   }
 };
 
+/// epsilon = e - p_inf / rho of each particle, with rho = m / V of its box: negative where the gas is torn, at a pressure
+/// below -p_inf.
+template <int D>
+void computeHeat(const Patch& patch, const Gas& gas, ParticleView<const double> mass, ParticleView<const Vec<D>> edges,
+                 ParticleView<const double> internalEnergy, ParticleView<double> heat) {
+  const double area = crossSection<D>(patch.level());
+  for (int p = 0; p < mass.owned(); ++p)
+    heat[p] = gas.heat(mass[p] / (edges[p].prod() * area), internalEnergy[p]);
+}
+
 /// All gases move with one velocity: m_i = sum over the gases, v_i = sum m v / m_i, which each gets.
 template <int D>
 void mixAtNodes(const Patch&, const std::vector<Gas>& gases, const NodeViews<double>& mass,

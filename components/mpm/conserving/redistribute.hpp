@@ -10,8 +10,8 @@ namespace tushar::mpm::conserving {
 /// Velocity modes are scaled down where their kinetic energy could exceed K_A by more than `spare` of the heat; what a mode
 /// holds on the grid is at most L²/12 + h²/4 along each of its axes.
 template <int D>
-void limitModes(const Patch& patch, const Gas& gas, double spare, ParticleView<const Vec<D>> edges,
-                ParticleView<const double> internalEnergy, ParticleView<const double> affineEnergy,
+void limitModes(const Patch& patch, const Gas&, double spare, ParticleView<const Vec<D>> edges,
+                ParticleView<const double> heat, ParticleView<const double> affineEnergy,
                 ParticleView<Modes<D>> modes) {
   for (int p = 0; p < edges.owned(); ++p) {
     Vec<D> inertia;
@@ -19,8 +19,7 @@ void limitModes(const Patch& patch, const Gas& gas, double spare, ParticleView<c
       const double h = patch.level().spacing(d);
       inertia[d] = edges[p][d] * edges[p][d] / 12 + h * h / 4;
     }
-    const double energy = modalEnergy<D>(modes[p], inertia), heat = gas.leastHeat() * internalEnergy[p];
-    const double most = affineEnergy[p] + spare * heat;
+    const double energy = modalEnergy<D>(modes[p], inertia), most = affineEnergy[p] + spare * heat[p];
     if (energy > most) modes[p] *= std::sqrt(most / energy);
   }
 }

@@ -61,8 +61,6 @@ struct Gas {
   double internalEnergy(double rho, double p) const { return (p + pInfinity) / ((gamma - 1) * rho) + carried / rho; }
   /// e [J/kg] of density rho [kg/m³] and the energy that particles carry [J/kg].
   double fullEnergy(double rho, double energy) const { return energy + (pInfinity - carried) / rho; }
-  /// Least share of that energy that is epsilon, as long as p is not negative.
-  double leastHeat() const { return carried > 0 ? 1 / gamma : 1; }
   /// Square of the speed of sound [m²/s²].
   double soundSpeedSquared(double epsilon) const { return gamma * (gamma - 1) * epsilon; }
 };

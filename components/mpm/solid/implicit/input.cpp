@@ -69,7 +69,8 @@ const Schema<Section>& sectionSchema() {
         .value("dynamic", &Section::dynamic, true, "1",
                "Newmark's method; false: no inertia, each step ends in equilibrium");
     mpm.value("DoPressureStabilization", &Section::sharesVolume, false, "1",
-              "F-bar: the particles of a cell answer to compression as one, against locking where nothing is compressible");
+              "F-bar: the particles of a cell answer to compression as one, against locking where nothing is compressible; "
+              "for comp_neo_hook and comp_mooney_rivlin");
     declareSteps(mpm);
     mpm.choice("solver", &Section::solver, {{"petsc", 0}, {"simple", 0}, {"amgx", 0}}, 0,
                "what solves the linear systems: PETSc, under three words")
@@ -83,11 +84,11 @@ const Schema<Section>& sectionSchema() {
         .ignored("DoExplicitHeatConduction", "heat is conducted implicitly, where DoImplicitHeatConduction says so")
         .choice("DoTransientImplicitHeatConduction", &Section::transient, {{"true", 0}}, 0, "heat takes time to spread")
         .ignored("temperature_solve", "heat is conducted where DoImplicitHeatConduction says so")
-        .ignored("do_grid_reset", "the grid is new in every step")
         .ignored("artificial_damping_coeff", "as in Uintah, only explicit steps are damped")
         .ignored("minimum_particle_mass", "no particle is taken out")
         .ignored("maximum_particle_velocity", "no particle is slowed down");
     refuseSwitch(mpm, "artificial_viscosity", "only explicit steps have one");
+    requireSwitch(mpm, "do_grid_reset", "the grid is where it was at the start of each step");
     for (const char* tag : {"artificial_viscosity_coeff1", "artificial_viscosity_coeff2", "artificial_viscosity_heating",
                             "minimum_mass_for_acc", "minimum_subcycles_for_F", "XPIC2", "do_contact_friction_heating",
                             "cpdi_lcrit", "computeColinearNormals"})
@@ -98,14 +99,20 @@ const Schema<Section>& sectionSchema() {
   return schema;
 }
 
-/// A material that says is_rigid is the master of the contacts that have one.
-void settleMasters(const Element& root, std::vector<Contact>& contacts) {
+/// A material that says is_rigid, if it is one, is the master of the contacts that have one.
+void settleMasters(const Element& root, std::vector<Contact>& contacts, Diagnostics& diagnostics) {
   const std::vector<Element> materials = root.child("MaterialProperties")->child("MPM")->children("material");
+  const auto isSpecified = [](const Contact& contact) { return contact.type == Contact::Type::specified; };
+  bool isKnown = false;
   for (std::size_t m = 0; m < materials.size(); ++m) {
     const auto rigid = materials[m].child("is_rigid");
     if (!rigid || rigid->text() != "true") continue;
+    if (isKnown) diagnostics.error(*rigid, "only one material can be rigid, the master of the contacts");
+    if (std::none_of(contacts.begin(), contacts.end(), isSpecified))
+      diagnostics.error(*rigid, "needs a <contact> of type rigid or specified, whose master the material is");
+    isKnown = true;
     for (Contact& contact : contacts)
-      if (contact.type == Contact::Type::specified) contact.master = static_cast<int>(m);
+      if (isSpecified(contact)) contact.master = static_cast<int>(m);
   }
 }
 
@@ -130,6 +137,15 @@ void refuseWithoutTangent(const Problem& problem, const Element& root, Diagnosti
 bool onlyCounts(const Damage& damage) {
   return std::holds_alternative<NoDamage>(damage) || std::holds_alternative<HancockMackenzieDamage>(damage) ||
          std::holds_alternative<JohnsonCookDamage>(damage);
+}
+
+/// F-bar changes the F that a stress follows from; what goes by the rate or remembers would need more than that.
+void refuseVolumesOfStates(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
+  for (const Material& material : problem.materials)
+    if (!material.model->dependsOnDeformationOnly() && !isMaster(problem, material.index))
+      diagnostics.error(root.child("MPM")->child("DoPressureStabilization").value(),
+                        "with <time_integrator> implicit only for comp_neo_hook and comp_mooney_rivlin; '" + material.name +
+                            "' is " + std::string(material.model->name()));
 }
 
 /// What a scene may ask for that only explicit time steps know.
@@ -197,13 +213,14 @@ simulation::MakeComponent readImplicitScene(const Element& root, Diagnostics& di
   if (diagnostics.size() > before) return {};
   problem.materials = properties.mpm.materials;
   problem.contacts = properties.mpm.contacts;
-  settleMasters(root, problem.contacts);
+  settleMasters(root, problem.contacts, diagnostics);
   problem.start.axisymmetric = read.axisymmetric;
   problem.start.loads = readLoads(root, read.useLoadCurves, diagnostics);
   nameMaterials(problem.materials);
   checkHeat(problem, root, diagnostics);
   refuseWithoutTangent(problem, root, diagnostics);
   refuseExplicitOnly(problem, root, diagnostics);
+  if (read.sharesVolume) refuseVolumesOfStates(problem, root, diagnostics);
   refuseConditions(problem, root, diagnostics);
   if (diagnostics.size() > before) return {};
   return [read, problem](const Level& level) {
