@@ -64,7 +64,8 @@ bool isNegligible(Newton& newton, Vec u, Vec r) {
   return negligible;
 }
 
-/// |du| <= displacement max |du| and |du . r| <= energy |du . r| of the first iteration; or nothing but rounding is left of r.
+/// |du| <= displacement max |du| and |du . r| <= energy |du . r| of the first iteration; or nothing but rounding is left of r
+/// after an iteration: before, a small load may be no more than rounding of a great stiffness, and is to act.
 PetscErrorCode hasConverged(SNES snes, PetscInt iteration, PetscReal, PetscReal, PetscReal norm,
                             SNESConvergedReason* reason, void* context) {
   Newton& newton = *static_cast<Newton*>(context);
@@ -74,7 +75,7 @@ PetscErrorCode hasConverged(SNES snes, PetscInt iteration, PetscReal, PetscReal,
     check(SNESGetFunction(snes, &r, nullptr, nullptr));
     *reason = SNES_CONVERGED_ITERATING;
     if (!std::isfinite(norm)) *reason = SNES_DIVERGED_FNORM_NAN;
-    if (isNegligible(newton, u, r)) *reason = SNES_CONVERGED_FNORM_ABS;
+    if ((iteration > 0 || norm == 0) && isNegligible(newton, u, r)) *reason = SNES_CONVERGED_FNORM_ABS;
     if (iteration > 0) {
       PetscReal size = 0, energy = 0;
       check(VecWAXPY(newton.change, -1, newton.lastU, u));

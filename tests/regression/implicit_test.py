@@ -46,6 +46,16 @@ def explicit(text):
 
 
 class Implicit(unittest.TestCase):
+    def test_a_load_acts_however_small_it_is_beside_the_stiffness(self):
+        steps = ("Time/maxTime=1", "DataArchiver/save[1]/@label=p.x")
+        falls = []
+        for gravity in (1e-6, 1e-12):
+            end, = last_of(BEAM, ["CenterOfMassPosition"], (f"PhysicalConstants/gravity=[0,-{gravity},0]", *steps))
+            start, = last_of(BEAM, ["CenterOfMassPosition"], ("PhysicalConstants/gravity=[0,0,0]", *steps))
+            falls.append((start[1] - end[1]) / gravity)
+        self.assertGreater(falls[1], 0)
+        self.assertAlmostEqual(falls[1] / falls[0], 1, delta=.05)  # of 1e-12 the position keeps two digits
+
     def test_ends_where_explicit_steps_end(self):
         with tempfile.TemporaryDirectory() as folder:
             scene = pathlib.Path(folder, "explicit.ups")
