@@ -289,7 +289,8 @@ Failure failureOf(const std::exception_ptr& thrown) {
   } catch (const InputError& error) {
     return {fmt::format("{}\n", error.what()), ExitCode::badInput};
   } catch (const NumericalError& error) {
-    return {fmt::format("sus: {}\n     try {}\n", error.what(), error.advice()), ExitCode::numerical};
+    const std::string advice = error.advice().empty() ? "" : fmt::format("     try {}\n", error.advice());
+    return {fmt::format("sus: {}\n{}", error.what(), advice), ExitCode::numerical};
   } catch (const mpi::FailedElsewhere&) {
     return {};
   } catch (const std::bad_alloc&) {
