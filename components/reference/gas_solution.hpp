@@ -36,6 +36,17 @@ inline constexpr GasErrorLabels cellError{{"CellError.density", "kg/m^3", "error
 inline constexpr ReductionLabel<Norm> nodeError{"NodeError.density", "kg/m^3",
                                                 "error of nodal mass over nodal volume against the exact density"};
 
+/// The exact means over a cell of a grid.
+template <int D>
+GasState cellMean(const GasReference& exact, const Level& level, const Index<D>& cell, double time) {
+  Vec<D> lower, upper;
+  for (int d = 0; d < D; ++d) {
+    lower[d] = level.nodePosition(d, cell[d]);
+    upper[d] = level.nodePosition(d, cell[d] + 1);
+  }
+  return exact.average(level.expandPoint<D>(lower), level.expandPoint<D>(upper), time);
+}
+
 /// Where a component can measure errors.
 enum class MeasuredPlace { particle, cell, node };
 

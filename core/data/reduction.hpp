@@ -65,10 +65,11 @@ struct Maximum {
 };
 
 /// Makes `a` the rounded sum of both and `b` the rest of it, exactly (D. E. Knuth, The Art of Computer Programming 2,
-/// 4.2.2, theorem B).
-inline void addExactly(double& a, double& b) {
-  const double sum = a + b;
-  const double part = sum - a;
+/// 4.2.2, theorem B). Of registers: lane by lane.
+template <class Number>
+void addExactly(Number& a, Number& b) {
+  const Number sum = a + b;
+  const Number part = sum - a;
   b = (a - (sum - part)) + (b - part);
   a = sum;
 }

@@ -15,12 +15,7 @@ void measureCellError(const Patch& patch, const Gas& gas, const reference::GasRe
   const Level& level = patch.level();
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     if (!exact->covers(level.expandPoint<D>(level.cellCentre<D>(cell)), clock->time)) return;
-    Vec<D> lower, upper;
-    for (int d = 0; d < D; ++d) {
-      lower[d] = level.nodePosition(d, cell[d]);
-      upper[d] = level.nodePosition(d, cell[d] + 1);
-    }
-    const auto mean = exact->average(level.expandPoint<D>(lower), level.expandPoint<D>(upper), clock->time);
+    const reference::GasState mean = reference::cellMean<D>(*exact, level, cell, clock->time);
     const double internal = internalEnergyPerVolume<D>(density[cell], momentum[cell], totalEnergy[cell]);
     const Vec<D> velocity = momentum[cell] / density[cell];
     rho.add(density[cell] - mean.density, mean.density);

@@ -83,18 +83,6 @@ void computeCellDensity(const Patch& patch, const Gas&, CellView<const double> m
   forEach<D>(patch.cells(), [&](const Index<D>& cell) { density[cell] = mass[cell] / patch.level().cellVolume(); });
 }
 
-/// The exact means over a cell.
-template <int D>
-reference::GasState exactMean(const Level& level, const reference::GasReference& exact, const reference::Clock& clock,
-                              const Index<D>& cell) {
-  Vec<D> lower, upper;
-  for (int d = 0; d < D; ++d) {
-    lower[d] = level.nodePosition(d, cell[d]);
-    upper[d] = level.nodePosition(d, cell[d] + 1);
-  }
-  return exact.average(level.expandPoint<D>(lower), level.expandPoint<D>(upper), clock.time);
-}
-
 /// Errors of M_c / V_c, momentum over mass, and pressure and internal energy of M_c / V_c and IE_c / M_c, against exact
 /// cell means.
 template <int D>
@@ -106,7 +94,7 @@ void measureCellError(const Patch& patch, const Gas& gas, const reference::GasRe
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     if (!exact->covers(level.expandPoint<D>(level.cellCentre<D>(cell)), clock->time)) return;
     const double m = mass[cell], ie = internalEnergy[cell];
-    const reference::GasState state = exactMean<D>(level, *exact, *clock, cell);
+    const reference::GasState state = reference::cellMean<D>(*exact, level, cell, clock->time);
     density.add(m / volume - state.density, state.density);
     u.add((level.expandDirection<D>(velocity[cell]) - state.velocity).norm(), state.velocity.norm());
     pressure.add((gas.gamma - 1) * ie / volume - gas.pInfinity - state.pressure, state.pressure);

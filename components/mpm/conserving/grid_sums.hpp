@@ -4,16 +4,14 @@
 
 namespace tushar::mpm {
 
-/// A sum and what its additions have lost to rounding (the two-sum of O. Moller, BIT 5 (1965) 37).
+/// A sum and what its additions have lost to rounding.
 template <class Number>
 struct CarefulSum {
   Number sum, lost;
 
-  void add(const Number& more) {
-    const Number before = sum;
-    sum = before + more;
-    const Number added = sum - before;
-    lost += (before - (sum - added)) + (more - added);
+  void add(Number more) {
+    data::addExactly(sum, more);
+    lost += more;
   }
 };
 

@@ -218,7 +218,7 @@ void measureMixtureError(const Patch& patch, const std::vector<Gas>& gases, cons
     const Mixture mixture = cells.at(cell, level.cellVolume());
     Vec<D> momentum = Vec<D>::Zero();
     for (std::size_t k = 0; k < gases.size(); ++k) momentum += mass[k][cell] / level.cellVolume() * velocity[k][cell];
-    const reference::GasState state = exactMean<D>(level, *exact, *clock, cell);
+    const reference::GasState state = reference::cellMean<D>(*exact, level, cell, clock->time);
     density.add(mixture.density - state.density, state.density);
     u.add((level.expandDirection<D>(momentum / mixture.density) - state.velocity).norm(), state.velocity.norm());
     pressure.add(mixture.pressure() - state.pressure, state.pressure);

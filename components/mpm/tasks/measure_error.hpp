@@ -43,12 +43,7 @@ void measureCellError(const Patch& patch, const Gas& gas, const reference::GasRe
       mean.energy += internalEnergyPerMass[p];
     }
     const double count = std::max(density.in(cell).size(), 1);
-    Vec<D> lower, upper;
-    for (int d = 0; d < D; ++d) {
-      lower[d] = level.nodePosition(d, cell[d]);
-      upper[d] = level.nodePosition(d, cell[d] + 1);
-    }
-    const auto state = exact->average(level.expandPoint<D>(lower), level.expandPoint<D>(upper), clock->time);
+    const reference::GasState state = reference::cellMean<D>(*exact, level, cell, clock->time);
     rho.add(mean.density / count - state.density, state.density);
     u.add((mean.velocity / count - state.velocity).norm(), state.velocity.norm());
     pressure.add(mean.pressure / count - state.pressure, state.pressure);
