@@ -48,6 +48,12 @@ std::string resolved(const std::string& path, const std::string& scene) {
   return (std::filesystem::absolute(scene).parent_path() / path).lexically_normal().string();
 }
 
+/// Whether the text of a tag is the path of a file: it must lead there from the archive's copy of the scene, too.
+bool isPath(const pugi::xml_node& xml) {
+  const std::string_view name = xml.name(), parent = xml.parent().name();
+  return name == "file" || (parent == "contact" && name == "filename") || (parent == "tri" && name == "name");
+}
+
 std::unique_ptr<Node> TreeBuilder::makeTag(const XmlFile& file, const pugi::xml_node& xml) {
   auto node = std::make_unique<Node>();
   node->name = xml.name();
@@ -55,7 +61,7 @@ std::unique_ptr<Node> TreeBuilder::makeTag(const XmlFile& file, const pugi::xml_
   addAttributes(xml, *node);
   addChildren(file, xml, *node);
   node->text = trimmed(node->text);
-  if (node->name == "file" && !node->text.empty()) node->text = resolved(node->text, file.name());
+  if (isPath(xml) && !node->text.empty()) node->text = resolved(node->text, file.name());
   return node;
 }
 

@@ -19,7 +19,7 @@ using MakeComponent = std::function<std::unique_ptr<Component>(const grid::Level
 struct BoundaryLabel {
   std::string name;
   bool isVector = false;  ///< whether its value is one
-  bool isEven = false;    ///< may be given on a plane of symmetry, whose images have the same
+  bool isEven = false;    ///< may be given on a plane of symmetry; a vector where it lies in the plane
 };
 
 /// A component that sus knows: one line of the table in components/components.cpp.

@@ -142,11 +142,15 @@ void Phases::sortSaves(const std::vector<SaveRequest>& saves) {
     const data::Label* label = nullptr;
     for (const auto* list : {&lists_.timeAdvance, &lists_.initialize, &lists_.diagnostics})
       if (!label) label = findProduced(list->tasks(), save.label);
-    const auto isSame = [&](const SaveRequest& other) { return other.label == save.label && other.material == save.material; };
+    const auto isSameLabel = [&](const SaveRequest& other) { return other.label == save.label; };
+    const auto covers = [&](const SaveRequest& other) {
+      return isSameLabel(other) && (other.material.empty() || other.material == save.material);
+    };
     if (label && label->centring == data::Centring::reduction) {
       if (std::find(saved_globals_.begin(), saved_globals_.end(), save.label) == saved_globals_.end())
         saved_globals_.push_back(save.label);
-    } else if (label && std::none_of(saved_fields_.begin(), saved_fields_.end(), isSame)) {
+    } else if (label && std::none_of(saved_fields_.begin(), saved_fields_.end(), covers)) {
+      if (save.material.empty()) std::erase_if(saved_fields_, isSameLabel);
       saved_fields_.push_back(save);
     }
   }

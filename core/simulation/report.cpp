@@ -97,7 +97,7 @@ std::string energyTable(const Report& report) {
   for (const auto& [name, value] : energies.came) text += fmt::format("  {:<36} {:>14.6g}\n", name, value);
   for (const auto& [name, value] : energies.went) text += fmt::format("  - {:<34} {:>14.6g}\n", name, value);
   return text + fmt::format("  {:<36} {:>14.2e}   {:.2e} of the greatest\n", "unaccounted", energies.unaccounted(),
-                            energies.unaccounted() / energies.greatest());
+                            energies.greatest() > 0 ? energies.unaccounted() / energies.greatest() : 0.0);
 }
 
 /// What the threads did during the time loop and its outputs, in parts of their time.

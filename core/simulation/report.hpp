@@ -29,7 +29,7 @@ struct Drift {
 
 /// What energy came and went over a run, J.
 struct EnergyBudget {
-  std::vector<std::pair<std::string, double>> came, went;  ///< names and amounts; of work that was done on others negative
+  std::vector<std::pair<std::string, double>> came, went;  ///< names and amounts; work done on others is negative
 
   /// What came and has not been seen again.
   double unaccounted() const;

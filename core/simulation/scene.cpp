@@ -115,13 +115,15 @@ std::vector<ReadModule> readModules(const Element& root, const Catalogue& catalo
   return modules;
 }
 
-/// A report has one place for the errors of a field. Throws InputError for a module that measures what is `measured`
+/// A report has one place for the errors of a field, and for an energy budget. Throws InputError for a module that measures what is `measured`
 /// already, and adds to it.
 void refuseMeasuredTwice(const Analysis& analysis, const Element& module, std::set<std::string>& measured) {
   for (const MeasuredError& error : analysis.errors())
     if (const std::string what = error.field + ", " + error.place; !measured.insert(what).second)
       throw InputError({{module.where(), module.path(),
                          fmt::format("the errors of '{}' are measured by a module above already; keep one", what)}});
+  if (!analysis.energies().empty() && !measured.insert("energies").second)
+    throw InputError({{module.where(), module.path(), "a module above keeps the energy budget already; keep one"}});
 }
 
 std::vector<std::unique_ptr<Analysis>> makeModules(const std::vector<ReadModule>& modules, const Component& component,

@@ -149,13 +149,13 @@ Vec3 conditionValue(const ConditionSection& condition, bool isVector, const Elem
 }
 
 /// Why a condition contradicts itself or, on a plane of symmetry, the plane; or nothing.
-std::string contradiction(const grid::BoundaryCondition& condition, bool hasValue, bool onPlane) {
+std::string contradiction(const grid::BoundaryCondition& condition, bool hasValue, bool onOddPlane) {
   const bool symmetry = condition.kind == "symmetry";
   if (symmetry != (condition.variable == "Symmetric"))
     return fmt::format("found label '{}' with var '{}'; 'Symmetric' goes with 'symmetry', and with nothing else",
                        condition.variable, condition.kind);
   if (symmetry && hasValue) return "a plane of symmetry takes no <value>";
-  if (!symmetry && onPlane && (condition.kind == "Dirichlet" || condition.value != Vec3::Zero()))
+  if (!symmetry && onOddPlane && (condition.kind == "Dirichlet" || condition.value != Vec3::Zero()))
     return "this face is a plane of symmetry: beside it only a Neumann condition of 0 is right";
   return {};
 }

@@ -74,8 +74,10 @@ PetscErrorCode hasConverged(SNES snes, PetscInt iteration, PetscReal, PetscReal,
     check(SNESGetSolution(snes, &u));
     check(SNESGetFunction(snes, &r, nullptr, nullptr));
     *reason = SNES_CONVERGED_ITERATING;
-    if (!std::isfinite(norm)) *reason = SNES_DIVERGED_FNORM_NAN;
-    if ((iteration > 0 || norm == 0) && isNegligible(newton, u, r)) *reason = SNES_CONVERGED_FNORM_ABS;
+    if (!std::isfinite(norm))
+      *reason = SNES_DIVERGED_FNORM_NAN;
+    else if (norm == 0 || (iteration > 0 && isNegligible(newton, u, r)))
+      *reason = SNES_CONVERGED_FNORM_ABS;
     if (iteration > 0) {
       PetscReal size = 0, energy = 0;
       check(VecWAXPY(newton.change, -1, newton.lastU, u));

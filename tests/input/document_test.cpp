@@ -188,9 +188,13 @@ TEST_F(Include, InsertsTheWholeFileWithoutASection) {
 
 TEST(Document, MakesThePathOfAFileAbsolute) {
   Diagnostics diagnostics;
-  Document document = Document::parse("<Uintah_specification><a><file> ../t.h5 </file></a></Uintah_specification>",
-                                      "some/folder/s.ups", diagnostics);
+  Document document = Document::parse("<Uintah_specification><a><file> ../t.h5 </file><name>steel</name></a>"
+                                      "<tri><name>../t.h5</name></tri><contact><filename>../t.h5</filename></contact>"
+                                      "</Uintah_specification>", "some/folder/s.ups", diagnostics);
   const std::string expected = (std::filesystem::current_path() / "some/t.h5").string();
+  EXPECT_EQ(document.root().child("tri")->child("name")->text(), expected);
+  EXPECT_EQ(document.root().child("contact")->child("filename")->text(), expected);
+  EXPECT_EQ(document.root().child("a")->child("name")->text(), "steel");
   EXPECT_EQ(document.root().child("a")->child("file")->text(), expected);
   EXPECT_NE(document.text().find("<file>" + expected + "</file>"), std::string::npos);
   document.set("a/file=other.h5", diagnostics);

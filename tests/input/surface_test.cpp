@@ -119,6 +119,7 @@ TEST_F(SurfaceFile, IsRefusedWithItsNameAndWhatIsWrong) {
   temporaryFile("short.stl", bytes.substr(0, bytes.size() - 7));
   temporaryFile("word.stl", "solid\nfacet normal 0 0 0\nvertx 1 2 3\n");
   temporaryFile("number.stl", "solid\nfacet normal 0 0 0\nvertex 1 2 x\n");
+  temporaryFile("facet.stl", "solid\nfacet normal 0 0 0\nvertex 1 2 3\nfacet normal 0 0 0\nvertex 1 2 3\n");
   temporaryFile("empty.stl", "solid nothing\nendsolid nothing\n");
   temporaryFile("points.pts", "0 0 0\n1 0 0\n0 1 0\n");
   temporaryFile("points.tri", "0 1 3\n");
@@ -128,6 +129,7 @@ TEST_F(SurfaceFile, IsRefusedWithItsNameAndWhatIsWrong) {
   expectRefused("short.stl", "a binary file of 12 triangles has 684 bytes, not 677");
   expectRefused("word.stl", "line 3: found 'vertx', expected solid");
   expectRefused("number.stl", "line 3: expected `vertex x y z`, found 'vertex 1 2 x'");
+  expectRefused("facet.stl", "line 4: a facet of 1 vertices; it has three");
   expectRefused("empty.stl", "there are no triangles in it");
   expectRefused("points", ".tri: there is no point 3: they are counted from 0 to 2");
   expectRefused("missing.stl", "there is no such file");

@@ -82,6 +82,11 @@ class EnergyBudget(unittest.TestCase):
         steps = "Time/max_Timesteps=20"
         self.assertEqual(run(BILLET, BUDGET, steps).report["fingerprint"], run(BILLET, steps).report["fingerprint"])
 
+    def test_is_kept_once(self):
+        result = run(BILLET, BUDGET, BUDGET.replace("/@name", "[2]/@name"), outputs=True)
+        self.assertEqual(result.code, 3)
+        self.assertIn("a module above keeps the energy budget already; keep one", result.err)
+
     def test_what_is_summed_can_be_saved(self):
         sets = ("Time/max_Timesteps=50", "DataArchiver/save[1]/@label=ContactWork", "DataArchiver/save[2]/@label=PlasticWork")
         works = globals_of(BILLET, "ContactWork", "PlasticWork", sets=sets)

@@ -80,6 +80,16 @@ class UintahsWords(unittest.TestCase):
             lines = globals_of(path, "TotalMass", sets=FEW)["TotalMass"]
             self.assertEqual(len(lines), len({time for time, mass in lines}))
 
+    def test_what_is_saved_of_all_materials_is_saved_once_of_each(self):
+        for order in ("all", "billet"), ("billet", "all"):
+            with tempfile.TemporaryDirectory() as folder:
+                path = pathlib.Path(folder, "scene.ups")
+                saves = "".join(f'<save label="p.mass" material="{material}"/>' for material in order)
+                path.write_text((ROOT / BILLET).read_text().replace('<save label="p.x"/>', '<save label="p.x"/>' + saves))
+                archive = archive_of(path, folder, *FEW)
+                for material in ("billet", "die"):
+                    self.assertGreater(len(columns(archive, "p.mass", material=material)["p.mass [kg]"]), 0)
+
     def test_materials_may_share_a_name(self):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, "scene.ups")

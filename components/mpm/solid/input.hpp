@@ -12,7 +12,7 @@ struct PhysicalConstants {
 };
 const input::Schema<PhysicalConstants>& constantsSchema();
 
-/// Gives every material its number, and a name where the scene gives none.
+/// Gives every material its number, and a name of its own where the scene gives none or one that a material above has.
 void nameMaterials(std::vector<Material>& materials);
 
 /// Heat that works or flows changes a temperature by the heat capacity, which must be there.

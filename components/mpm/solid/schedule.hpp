@@ -213,8 +213,9 @@ template <class Shape>
 void SolidMpm<Shape>::scheduleStrainWork(TaskList& tasks) const {
   tasks.perMaterial("mpm::measureStrainWork", measureStrainWork, problem_.materials, requiresOld(p::mass),
                     requiresOld(p::deformationMeasure), requiresNew(p::deformationMeasure),
-                    when(keeps_stress_, requiresOld(p::volume)), when(keeps_stress_, requiresOld(p::stress)), when(keeps_stress_, requiresNew(p::volume)),
-                    when(keeps_stress_, requiresNew(p::stress)), when(isViscous(), requiresNew(p::viscosity)),
+                    when(keeps_stress_, requiresOld(p::volume)), when(keeps_stress_, requiresOld(p::stress)),
+                    when(keeps_stress_, requiresNew(p::volume)), when(keeps_stress_, requiresNew(p::stress)),
+                    when(isViscous(), requiresNew(p::viscosity)),
                     modifies(p::work));
   if (keeps_stress_ && state_size_ > 0)
     tasks.perMaterial("mpm::measurePlasticWork", measurePlasticWork, problem_.materials, with(state_size_),
@@ -241,7 +242,7 @@ void SolidMpm<Shape>::scheduleUpdateParticles(TaskList& tasks) const {
   scheduleDamage(tasks);
 }
 
-/// In two passes, so that the particles of a cell share their change of volume before their stress is computed.
+/// The motion apart from the stress, in which the particles of a cell share their change of volume.
 template <class Shape>
 void SolidMpm<Shape>::scheduleUpdateInCells(TaskList& tasks) const {
   scheduleMoveParticles(tasks, old);

@@ -63,16 +63,17 @@ Read readText(const std::string& text) {
   for (int number = 1; std::getline(lines, line); ++number) {
     std::istringstream words(line);
     if (!(words >> word)) continue;
+    if ((word == "endfacet" || (word == "facet" && !read.triangles.empty())) && corner != 3)
+      return failed(fmt::format("line {}: a facet of {} vertices; it has three", number, corner));
     if (word == "facet") {
       read.triangles.emplace_back();
       corner = 0;
     } else if (word == "vertex") {
       Vec3 x;
       if (read.triangles.empty() || corner == 3) return failed(fmt::format("line {}: a fourth vertex of a facet", number));
-      if (!(words >> x[0] >> x[1] >> x[2])) return failed(fmt::format("line {}: expected `vertex x y z`, found '{}'", number, line));
+      if (!(words >> x[0] >> x[1] >> x[2]))
+        return failed(fmt::format("line {}: expected `vertex x y z`, found '{}'", number, line));
       read.triangles.back()[corner++] = x;
-    } else if (word == "endfacet" && corner != 3) {
-      return failed(fmt::format("line {}: a facet of {} vertices; it has three", number, corner));
     } else if (word != "solid" && word != "endsolid" && word != "outer" && word != "endloop" && word != "endfacet") {
       return failed(fmt::format("line {}: found '{}', expected solid, facet, outer loop, vertex, endloop, endfacet or endsolid",
                                 number, word));

@@ -34,28 +34,37 @@ TEST(NominalTangent, OfHypoElasticCountsTheStressAtTheBeginOfTheStep) {
   expectConsistentTangent(point, generalDeformation(0.2));
 }
 
+/// Before yield, at an elastic strain, and after.
+template <class M>
+void expectConsistentTangentAroundYield(MaterialPoint<M> point, double elasticStrain) {
+  const Matrix3 elastic = generalDeformation(elasticStrain), plasticStep = generalDeformation(0.2);
+  EXPECT_EQ(point.state(elastic).plasticStrain, 0);
+  expectConsistentTangent(point, elastic);
+  point.advance(generalDeformation(0.1));
+  EXPECT_GT(point.state(plasticStep).plasticStrain, point.oldState.plasticStrain);
+  expectConsistentTangent(point, plasticStep);
+}
+
 TEST(NominalTangent, OfJ2FlowIsConsistentWithTheReturnBeforeAndAfterYield) {
-  for (const double hardening : {0.0, 0.5}) {
-    MaterialPoint<CompNeoHookPlastic> point{compNeoHookPlastic(hardening)};
-    const Matrix3 elastic = generalDeformation(0.01), plasticStep = generalDeformation(0.2);
-    EXPECT_EQ(point.state(elastic).plasticStrain, 0);
-    expectConsistentTangent(point, elastic);
-    point.advance(generalDeformation(0.1));
-    EXPECT_GT(point.state(plasticStep).plasticStrain, point.oldState.plasticStrain);
-    expectConsistentTangent(point, plasticStep);
-  }
+  for (const double hardening : {0.0, 0.5})
+    expectConsistentTangentAroundYield(MaterialPoint<CompNeoHookPlastic>{compNeoHookPlastic(hardening)}, 0.01);
 }
 
 /// Before and after yield, from a state that has been stressed and turned.
 void expectConsistentTangentOfMetal(const ElasticPlasticHp& model) {
   MaterialPoint<ElasticPlasticHp> point{model};
   point.oldDeformation = generalDeformation(0);
-  const Matrix3 elastic = generalDeformation(0.003), plasticStep = generalDeformation(0.2);
-  EXPECT_EQ(point.state(elastic).plasticStrain, 0);
-  expectConsistentTangent(point, elastic);
-  point.advance(generalDeformation(0.1));
-  EXPECT_GT(point.state(plasticStep).plasticStrain, point.oldState.plasticStrain);
-  expectConsistentTangent(point, plasticStep);
+  expectConsistentTangentAroundYield(point, 0.003);
+}
+
+TEST(NominalTangent, OfElasticPlasticIsFiniteWhereAYieldedPointIsAtRest) {
+  for (const FlowModel& flow : flowModels()) {
+    SCOPED_TRACE(std::visit([](const auto& model) { return std::string(model.name); }, flow));
+    MaterialPoint<ElasticPlasticHp> point{elasticPlastic(flow)};
+    point.advance(generalDeformation(0.1));
+    const Matrix3 beyond = 1.001 * point.oldStress;
+    EXPECT_TRUE(point.model.nominalTangent(point.step(point.oldDeformation), beyond, point.oldState).allFinite());
+  }
 }
 
 TEST(NominalTangent, OfElasticPlasticIsConsistentWithEveryFlowModel) {

@@ -116,7 +116,7 @@ class ImplicitSystem : public solvers::NonlinearProblem {
   std::vector<Node> node_;
   std::vector<char> prescribed_;
   std::vector<double> prescribed_value_;
-  std::vector<double> held_;  ///< what the particles of this rank bring to reactions
+  std::vector<double> held_;  ///< what this rank brings to reactions
   double stiffest_ = 0;  ///< of all particles at the start of the simulation: rho c^2 V / h^2, N/m
 };
 

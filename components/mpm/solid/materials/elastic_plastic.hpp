@@ -67,8 +67,8 @@ struct ElasticPlastic {
   /// deviator and mean stress as the turning observer sees them.
   Matrix9 nominalTangent(const Deformation& d, const Matrix3& oldStress, const State& old) const {
     const Matrix3& f = d.deformationGradient;
-    const Matrix3 moved = f * d.oldDeformationGradient.inverse(), stretch = f * rotationOf(f).transpose();
     const Corotated step(d, oldStress);
+    const Matrix3 moved = f * d.oldDeformationGradient.inverse(), stretch = f * step.after.transpose();
     State state = old;
     const Matrix3 stress = updateStress(d, oldStress, state);
     const ReturnTangent deviators = returnTangent(d, oldStress, step, old);

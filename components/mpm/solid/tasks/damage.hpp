@@ -5,7 +5,7 @@
 
 namespace tushar::mpm::solid {
 
-/// Particles start sound, each with its own threshold.
+/// Particles start with the damage of the scene, each with its own threshold; none has failed.
 inline void initializeDamage(const Patch&, const Material& material, ParticleView<const ParticleId> id,
                              ParticleView<const double> volume, ParticleView<double> damage,
                              ParticleView<double> threshold, ParticleView<int> localized,

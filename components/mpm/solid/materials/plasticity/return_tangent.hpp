@@ -28,7 +28,8 @@ struct ReturnTangent {
     if (excess <= 0) return ds;
     const double root = std::sqrt(2.0 / 3.0), perStress = root / (2 * modulus), size = trial.norm();
     const Matrix3 normal = trial / size;
-    const double grown = ds.cwiseProduct(normal).sum(), rate = strain.cwiseProduct(de).sum() / strain.squaredNorm();
+    const double grown = ds.cwiseProduct(normal).sum(), squared = strain.squaredNorm();
+    const double rate = squared > 0 ? strain.cwiseProduct(de).sum() / squared : 0.0;  // at rest byRate is 0
     const double softened = hardening * perStress * excess * modulusByVolume * volume / modulus;
     const double dq = (grown - root * (yieldByVolume * volume + byRate * rate - softened)) / (1 + root * hardening * perStress);
     return (1 - excess / size) * ds + (excess / size * grown - dq) * normal;
