@@ -1,5 +1,6 @@
 #include "core/data/buffer_pool.hpp"
 
+#include <limits>
 #include <utility>
 
 namespace tushar::data {
@@ -16,6 +17,14 @@ void BufferPool::reserve(Buffer& buffer, std::size_t bytes, std::size_t keep) {
   Buffer found = take(best);
   takeBack(buffer);
   buffer = std::move(found);
+}
+
+Buffer BufferPool::lend(std::size_t bytes) {
+  const auto best = smallest(bytes, std::numeric_limits<std::size_t>::max());
+  if (best != free_.end()) return take(best);
+  Buffer made;
+  reserve(made, bytes);
+  return made;
 }
 
 std::vector<Buffer>::iterator BufferPool::smallest(std::size_t least, std::size_t below) {

@@ -13,8 +13,12 @@ class alignas(64) BufferPool {
  public:
   /// Makes room for `bytes` in a buffer, from the pool where it has one that fits; the first `keep` bytes stay as they were.
   void reserve(Buffer& buffer, std::size_t bytes, std::size_t keep = 0);
+  /// A buffer of at least `bytes`, for a moment: it may be one that holds much more.
+  Buffer lend(std::size_t bytes);
   /// Leaves the buffer empty.
   void takeBack(Buffer& buffer);
+  /// Gives what is free back to the system.
+  void release() { free_.clear(); }
   /// Times that the pool had not enough.
   std::size_t allocations() const { return allocations_; }
 

@@ -94,6 +94,10 @@ class ParticleSet {
 
   /// All cells of the patch have their particles now, `count` together.
   void setOwned(int count);
+  /// The cells of the patch in the row from `first` on have their particles now.
+  void closeRow(const Index3& first);
+  /// As setOwned, where closeRow has been called for every row that has particles.
+  void setOwnedOfClosedRows(int count) { owned_ = total_ = count; }
 
   /// Adds the particles of a ghost cell behind those that are there: those of cell - shift on `patch`.
   void addGhostCell(const Index3& cell, int patch, const ParticleRange& there, const Index3& shift = {});
@@ -122,6 +126,9 @@ class ParticleSet {
     if constexpr (D > 2) row += std::ptrdiff_t{cell[2] - cells_.lower[2]} * cells_.extent(1);
     return static_cast<std::size_t>(row);
   }
+
+  /// Takes the particles out of the cells of a row.
+  void empty(std::size_t row);
 
   grid::Box owned_cells_, cells_;
   Index3 stride_{};

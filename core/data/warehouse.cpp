@@ -1,5 +1,9 @@
 #include "core/data/warehouse.hpp"
 
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+
 #include <algorithm>
 #include <limits>
 
@@ -134,6 +138,13 @@ void Warehouse::free(Variable& variable) {
   pools_[static_cast<std::size_t>(variable.pool)].takeBack(variable.values);
 }
 
+void Warehouse::releaseFreeMemory() {
+  for (BufferPool& pool : pools_) pool.release();
+#if defined(__GLIBC__)
+  malloc_trim(0);
+#endif
+}
+
 std::size_t Warehouse::allocations() const {
   std::size_t all = 0;
   for (const BufferPool& pool : pools_) all += pool.allocations();
@@ -145,9 +156,11 @@ bool Warehouse::isHeld(Generation generation, int number) {
   return ranks_->any(!patches.empty() && variable(generation, number, patches.front().id()).held);
 }
 
-void Warehouse::swap(int number) {
-  for (const grid::Patch& patch : level_->patches())
+void Warehouse::makeOld(int number) {
+  for (const grid::Patch& patch : level_->patches()) {
     std::swap(old_[place(number, patch.id())], fresh_[place(number, patch.id())]);
+    free(fresh_[place(number, patch.id())]);
+  }
 }
 
 void Warehouse::swapSets(int material) {

@@ -123,11 +123,17 @@ class Warehouse {
   /// Gives the memory of a variable back, for the next one that is allocated.
   void free(Variable& variable);
 
+  /// Memory of a patch for a moment, which goes back by takeBack.
+  Buffer lend(std::size_t bytes, const grid::Patch& patch) { return poolOf(patch).lend(bytes); }
+  void takeBack(Buffer& buffer, const grid::Patch& patch) { poolOf(patch).takeBack(buffer); }
+  /// Gives memory that no variable has back to the system.
+  void releaseFreeMemory();
+
   /// Whether any rank has values of a variable; every rank asks.
   bool isHeld(Generation generation, int number);
 
-  /// What was computed becomes old: exchanges the two generations of a variable on every patch.
-  void swap(int number);
+  /// What was computed becomes old, and the memory of what was old is free, on every patch.
+  void makeOld(int number);
   void swapSets(int material);
   /// No particle set has ghosts any more: the next exchange settles them anew.
   void forgetGhosts();
@@ -139,6 +145,9 @@ class Warehouse {
   std::size_t place(int number, int patch) const {
     return static_cast<std::size_t>(number) * level_->patches().size() +
            static_cast<std::size_t>(patch - level_->firstPatch());
+  }
+  BufferPool& poolOf(const grid::Patch& patch) {
+    return pools_[static_cast<std::size_t>(patch.id() - level_->firstPatch())];
   }
   void takeRestored(int number);
 

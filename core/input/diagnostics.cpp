@@ -15,7 +15,11 @@ void Diagnostics::error(const Element& element, std::string sentence) {
 }
 
 void Diagnostics::note(const Element& element, std::string sentence) {
-  notes_.push_back({element.where(), element.path(), std::move(sentence)});
+  note(element.where(), element.path(), std::move(sentence));
+}
+
+void Diagnostics::note(const Location& where, std::string tagPath, std::string sentence) {
+  notes_.push_back({where, std::move(tagPath), std::move(sentence)});
 }
 
 std::vector<InputProblem> Diagnostics::sorted() const {

@@ -18,6 +18,7 @@ class Diagnostics {
 
   /// Something that is accepted but does nothing: the user should know.
   void note(const Element& element, std::string sentence);
+  void note(const Location& where, std::string tagPath, std::string sentence);
   const std::vector<InputProblem>& notes() const { return notes_; }
 
   bool any() const { return !problems_.empty(); }

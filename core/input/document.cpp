@@ -43,9 +43,16 @@ class TreeBuilder {
   std::vector<std::string> including_;
 };
 
-/// The path of a file that a tag of the scene `scene` names.
+/// The path of a file that a tag of the scene `scene` names: beside the scene, in a folder above it, or where the run
+/// is started.
 std::string resolved(const std::string& path, const std::string& scene) {
-  return (std::filesystem::absolute(scene).parent_path() / path).lexically_normal().string();
+  const std::filesystem::path beside = std::filesystem::absolute(scene).parent_path();
+  const auto at = [&](const std::filesystem::path& folder) { return (folder / path).lexically_normal(); };
+  std::error_code unreadable;
+  for (std::filesystem::path folder = beside; folder.has_relative_path(); folder = folder.parent_path())
+    if (std::filesystem::exists(at(folder), unreadable)) return at(folder).string();
+  const std::filesystem::path here = at(std::filesystem::current_path(unreadable));
+  return (std::filesystem::exists(here, unreadable) ? here : at(beside)).string();
 }
 
 /// Whether the text of a tag is the path of a file: it must lead there from the archive's copy of the scene, too.

@@ -24,6 +24,8 @@ class Component {
   virtual std::string advice() const { return "a smaller time step (timestep_multiplier in <Time>)"; }
   /// Whether a value that cannot be has the step repeated with half the time step, even where the scene does not ask.
   virtual bool mayRepeatStep() const { return false; }
+  /// Variables that Uintah's component of this kind computes, whichever of them this one does.
+  virtual std::vector<std::string> foreignLabels() const { return {}; }
   /// What can be said about a state, from the old state: totals, derived fields. Only what someone asks for is run.
   virtual void scheduleDiagnostics(tasks::TaskList&) const {}
 };

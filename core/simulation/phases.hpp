@@ -46,6 +46,8 @@ class Phases {
 
   void printSchedule(std::ostream& out) const;
   void printDot(std::ostream& out) const;
+  /// Names of what can be saved.
+  tasks::Names saveable() const;
 
  private:
   struct Lists {
@@ -53,7 +55,6 @@ class Phases {
   };
   void validateAll() const;
   void noteMaterials();
-  tasks::Names saveable() const;
   /// What analyses want to see of particles. Throws InputError for what nothing computes.
   std::vector<SaveRequest> samplesOf(const std::vector<std::unique_ptr<Analysis>>& analyses) const;
   /// The same, with materials that are given by their numbers named.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <set>
 
 #include "core/input/schema.hpp"
@@ -34,7 +35,12 @@ struct Meta {
 };
 const input::Schema<Meta>& metaSchema() {
   static const input::Schema<Meta> schema =
-      input::Schema<Meta>("Meta", "About the scene.").value("title", &Meta::title, "", "1", "its name")
+      input::Schema<Meta>("Meta", "About the scene.").custom("title",
+                                                                  [](Meta& meta, const Element& element, Diagnostics&) {
+                                                                    if (const auto title = element.child("title"))
+                                                                      meta.title = title->text();
+                                                                  },
+                                                                  {"title"}, "its name")
                                                           .ignored("info", "for readers")
                                                           .ignored("description", "for readers");
   return schema;
@@ -68,7 +74,10 @@ const ComponentKind* readComponentKind(const Element& root, const Catalogue& cat
   const std::size_t before = diagnostics.size();
   const ComponentTag read = componentSchema().read(*tag, diagnostics);
   if (diagnostics.size() > before) return nullptr;
-  const ComponentKind* kind = findKind(catalogue.components, read.type);
+  std::string type = read.type;
+  if (std::none_of(type.begin(), type.end(), [](unsigned char c) { return std::islower(c); }))  // as Uintah takes it
+    std::transform(type.begin(), type.end(), type.begin(), [](unsigned char c) { return std::tolower(c); });
+  const ComponentKind* kind = findKind(catalogue.components, type);
   if (!kind) diagnostics.error(*tag, "type: " + input::choiceProblem(read.type, namesOf(catalogue.components)));
   return kind;
 }
@@ -77,7 +86,9 @@ void refuseUnknownSections(const Element& root, const ComponentKind* kind, const
                            Diagnostics& diagnostics) {
   std::vector<std::string> known = sharedSections;
   for (const ComponentKind& other : catalogue.components)
-    if (!kind || kind == &other) known.insert(known.end(), other.sections.begin(), other.sections.end());
+    if (!kind || kind == &other)
+      for (const std::string& section : other.sections)
+        if (std::find(known.begin(), known.end(), section) == known.end()) known.push_back(section);
   for (const Element& child : root.children())
     if (const auto idle = std::find_if(idleSections.begin(), idleSections.end(),
                                        [&](const auto& section) { return section.first == child.name(); });
@@ -158,9 +169,9 @@ void checkIntervals(const TimeSettings& time, const ArchiveSettings& archive, co
 }
 
 /// Names what is wrong with the saved labels, even where the rest of the scene is wrong, too: the labels of a component
-/// and of its modules do not depend on the grid. Says nothing where a module cannot be had: its labels are not known.
+/// and of its modules do not depend on the grid. Takes out, with a note, what Uintah has and nobody here. Says nothing where a module cannot be had: its labels are not known.
 void checkSaves(const MakeComponent& make, const std::vector<ReadModule>& modules,
-                const std::vector<SaveRequest>& saves, Diagnostics& diagnostics) {
+                std::vector<SaveRequest>& saves, Diagnostics& diagnostics) {
   grid::Domain line;
   line.upper = {1, 0, 0};
   const grid::Level anyLevel(line);
@@ -171,7 +182,16 @@ void checkSaves(const MakeComponent& make, const std::vector<ReadModule>& module
   } catch (const InputError&) {
     return;
   }
-  for (const InputProblem& problem : Phases(*component, analyses).problemsOf(saves))
+  const Phases phases(*component, analyses);
+  const std::vector<std::string> foreign = component->foreignLabels();
+  std::erase_if(saves, [&](const SaveRequest& save) {
+    const bool isLacking = std::find(foreign.begin(), foreign.end(), save.label) != foreign.end() &&
+                           !phases.saveable().contains(save.label);
+    if (isLacking)
+      diagnostics.note(save.where, "DataArchiver/save", fmt::format("'{}' is not saved: nobody computes it here", save.label));
+    return isLacking;
+  });
+  for (const InputProblem& problem : phases.problemsOf(saves))
     diagnostics.error(problem.where, problem.tagPath, problem.sentence);
 }
 

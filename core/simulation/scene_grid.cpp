@@ -124,7 +124,7 @@ const Schema<FaceSection>& faceSchema() {
       Schema<FaceSection>("Face", "A side of the grid.")
           .requiredChoiceAttribute("side", &FaceSection::face,
                                    {{"x-", 0}, {"x+", 1}, {"y-", 2}, {"y+", 3}, {"z-", 4}, {"z+", 5}}, "which")
-          .list("BCType", &FaceSection::conditions, conditionSchema(), "what a variable does there", 1);
+          .list("BCType", &FaceSection::conditions, conditionSchema(), "what a variable does there");
   return schema;
 }
 
@@ -149,12 +149,11 @@ Vec3 conditionValue(const ConditionSection& condition, bool isVector, const Elem
 }
 
 /// Why a condition contradicts itself or, on a plane of symmetry, the plane; or nothing.
-std::string contradiction(const grid::BoundaryCondition& condition, bool hasValue, bool onOddPlane) {
+std::string contradiction(const grid::BoundaryCondition& condition, bool onOddPlane) {
   const bool symmetry = condition.kind == "symmetry";
   if (symmetry != (condition.variable == "Symmetric"))
     return fmt::format("found label '{}' with var '{}'; 'Symmetric' goes with 'symmetry', and with nothing else",
                        condition.variable, condition.kind);
-  if (symmetry && hasValue) return "a plane of symmetry takes no <value>";
   if (!symmetry && onOddPlane && (condition.kind == "Dirichlet" || condition.value != Vec3::Zero()))
     return "this face is a plane of symmetry: beside it only a Neumann condition of 0 is right";
   return {};
@@ -176,10 +175,13 @@ void readConditions(const std::vector<ConditionSection>& given, const std::vecto
     if (!label && !labels.empty())
       diagnostics.error(tags[k], "label: " + input::choiceProblem(given[k].label, namesOf(labels)));
     if (!label || !input::choiceProblem(given[k].var, conditionKinds).empty()) continue;
-    conditions.push_back({label->name, given[k].var, conditionValue(given[k], label->isVector, tags[k], diagnostics),
+    const bool isPlane = given[k].var == "symmetry";
+    if (isPlane && given[k].value) diagnostics.note(tags[k], "<value> does nothing on a plane of symmetry");
+    conditions.push_back({label->name, given[k].var,
+                          isPlane ? Vec3(Vec3::Zero()) : conditionValue(given[k], label->isVector, tags[k], diagnostics),
                           input::parse<int>(given[k].id).value.value_or(-1)});
     const bool onOddPlane = onPlane && !fitsPlane(*label, conditions.back(), axis);
-    if (const std::string problem = contradiction(conditions.back(), given[k].value.has_value(), onOddPlane);
+    if (const std::string problem = contradiction(conditions.back(), onOddPlane);
         !problem.empty())
       diagnostics.error(tags[k], problem);
     if (const auto [first, isNew] = seen.emplace(label->name + given[k].id, tags[k].where()); !isNew)

@@ -19,10 +19,11 @@ const Schema<TimeSettings>& timeSchema() {
           .required("maxTime", &TimeSettings::maxTime, "s", "time at which the run ends", input::positive())
           .value("initTime", &TimeSettings::initTime, 0, "s", "time at which the run starts")
           .value("delt_min", &TimeSettings::deltMin, 0, "s", "least time step", input::nonNegative())
-          .value("delt_max", &TimeSettings::deltMax, unlimited, "s", "greatest time step", input::positive())
+          .value("delt_max", &TimeSettings::deltMax, unlimited, "s", "greatest time step; 0 is no limit",
+                 input::nonNegative())
           .value("delt_init", &TimeSettings::deltInit, unlimited, "s", "greatest first time step", input::positive())
           .value("max_delt_increase", &TimeSettings::maxDeltIncrease, unlimited, "1",
-                 "greatest ratio of a time step to the one before", input::positive())
+                 "by how much of the one before a time step may be longer; 0 or less is no limit")
           .value("timestep_multiplier", &TimeSettings::timestepMultiplier, 1, "1",
                  "factor on the time step that the physics allow", input::positive())
           .value("max_Timesteps", &TimeSettings::maxTimesteps, std::numeric_limits<int>::max(), "1",
@@ -36,10 +37,13 @@ const Schema<TimeSettings>& timeSchema() {
           .value("recompute_timestep", &TimeSettings::recomputeTimeStep, false, "1",
                  "where a value becomes impossible, undo the step and repeat it with half the time step, up to 20 times")
           .ours()
+          .ignored("override_restart_delt", "a restart goes on as the run would have: sus -restart --set Time/delt_max=… "
+                                            "makes its steps shorter")
+          .ignored("initial_delt_range", "delt_init holds for the first step; delt_max for all")
           .check([](const TimeSettings& time, const Element& element, Diagnostics& diagnostics) {
             if (time.maxTime <= time.initTime)
               diagnostics.error(element, "maxTime is not after initTime; nothing would be computed");
-            if (time.deltMin > time.deltMax) diagnostics.error(element, "delt_min is greater than delt_max");
+            if (time.deltMax > 0 && time.deltMin > time.deltMax) diagnostics.error(element, "delt_min is greater than delt_max");
           });
   return schema;
 }
@@ -145,6 +149,7 @@ const Schema<ArchiveSettings>& archiveSchema() {
                                                                     "gzip is 1, none, rle and tryall are 0")
           .ignoredAttribute("type", "there is one kind of archive: HDF5 with an index for ParaView")
           .ignored("save_crack_geometry", "there are no cracks")
+          .ignored("PIDX", "there is one kind of archive: HDF5 with an index for ParaView")
           .list("save", &ArchiveSettings::saves, saveSchema(), "a variable to be saved")
           .section("checkpoint", &ArchiveSettings::checkpoint, checkpointSchema())
           .check([](const ArchiveSettings& archive, const Element& element, Diagnostics& diagnostics) {

@@ -124,6 +124,7 @@ void Simulation::initialize() {
     throw advised(error);
   }
   scheduler_.commit(phases_.initialize);
+  warehouse_.releaseFreeMemory();  // what particles are made with is not what steps need
   const int materials = static_cast<int>(phases_.materials().size());
   if (materials > 0 && particleCount(warehouse_, materials) == 0)
     throw InputError({{{problem_.scenePath, 0, 0}, "MaterialProperties",

@@ -14,7 +14,7 @@ struct TimeSettings {
   double deltMin = 0;                  ///< s
   double deltMax = std::numeric_limits<double>::max();   ///< s
   double deltInit = std::numeric_limits<double>::max();  ///< greatest first time step, s
-  double maxDeltIncrease = std::numeric_limits<double>::max();  ///< greatest ratio of a step to the one before
+  double maxDeltIncrease = std::numeric_limits<double>::max();  ///< longest step is 1 + this times the one before; no limit where not positive
   double timestepMultiplier = 1;
   int maxTimesteps = std::numeric_limits<int>::max();
   double maxWallTime = std::numeric_limits<double>::max();  ///< s

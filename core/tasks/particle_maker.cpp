@@ -40,7 +40,7 @@ void ParticleMaker::makeSet(data::ParticleSet& set, const grid::Patch& patch, in
 }
 
 void ParticleMaker::install(data::Warehouse& warehouse, const grid::Patch& patch, int material,
-                            const std::vector<BoundAccess>& accesses) {
+                            const std::vector<BoundAccess>& accesses, const std::vector<int>& unread) {
   if (keeps_all_) return warehouse.particles(Generation::fresh, material, patch.id()).forgetGhosts();
   const std::vector<std::size_t> order = sortedOrder(patch);
   makeSet(warehouse.particles(Generation::fresh, material, patch.id()), patch, warehouse.table().reach(material), order);
@@ -56,7 +56,8 @@ void ParticleMaker::install(data::Warehouse& warehouse, const grid::Patch& patch
     if (columns_[a]->size() != ids_.size())
       throw data::AccessError(
           fmt::format("{} got {} values for {} particles made", label.name, columns_[a]->size(), ids_.size()));
-    write(accesses[a].variable, label, columns_[a]->bytes());
+    if (std::find(unread.begin(), unread.end(), accesses[a].variable) == unread.end())
+      write(accesses[a].variable, label, columns_[a]->bytes());
     columns_[a].reset();
   }
   write(warehouse.table().find(data::particleId.name, material), data::particleId,

@@ -49,10 +49,11 @@ class ParticleMaker {
     return static_cast<Column<T>&>(*column).values;
   }
 
-  /// Makes these the new particles of the patch, sorted by (cell, id), and forgets their values.
+  /// Makes these the new particles of the patch, sorted by (cell, id), and forgets their values. The variables `unread`
+  /// get none.
   /// Throws data::AccessError for a particle outside the patch, or a column of another length.
   void install(data::Warehouse& warehouse, const grid::Patch& patch, int material,
-               const std::vector<BoundAccess>& accesses);
+               const std::vector<BoundAccess>& accesses, const std::vector<int>& unread);
 
  private:
   std::vector<std::size_t> sortedOrder(const grid::Patch& patch) const;

@@ -26,26 +26,25 @@ Index3 widened(const Index<D>& cell) {
   return wide;
 }
 
-template <std::size_t Words>
-void gatherWords(const std::byte* from, std::byte* to, const int* source, int count) {
-  const auto* in = reinterpret_cast<const std::uint64_t*>(from);
-  auto* out = reinterpret_cast<std::uint64_t*>(to);
-  for (int k = 0; k < count; ++k)
-    for (std::size_t w = 0; w < Words; ++w)
-      out[static_cast<std::size_t>(k) * Words + w] = in[static_cast<std::size_t>(source[k]) * Words + w];
+template <class Run>
+void moveRun(const Run& run, const std::byte* from, std::byte* to, std::size_t bytes) {
+  std::memmove(to + static_cast<std::size_t>(run.to) * bytes, from + static_cast<std::size_t>(run.from) * bytes,
+               static_cast<std::size_t>(run.count) * bytes);
 }
 
-/// to[k] = from[source[k]] for `count` elements of `bytes` bytes.
-void gather(const std::byte* from, std::byte* to, const int* source, int count, std::size_t bytes) {
-  switch (bytes) {  // numbers, vectors, tensors: no call for each of them
-    case 8: return gatherWords<1>(from, to, source, count);
-    case 16: return gatherWords<2>(from, to, source, count);
-    case 24: return gatherWords<3>(from, to, source, count);
-    case 72: return gatherWords<9>(from, to, source, count);
-    default: break;
+/// Moves runs of elements of `bytes` bytes, which may be within the same memory: those that go up from the last to the
+/// first, so that none is overwritten before it has moved. Runs keep their order, so that one that goes down is never in
+/// the way of one that goes up.
+template <class Run>
+void shift(const std::vector<Run>& runs, const std::byte* from, std::byte* to, std::size_t bytes) {
+  if (from == to && runs.size() == 1 && runs.front().from == runs.front().to) return;
+  const auto goesUp = [](const Run& run) { return run.to > run.from; };
+  for (auto run = runs.begin(); run != runs.end();) {
+    const auto next = std::find_if_not(run, runs.end(), goesUp);
+    for (auto up = next; up != run;) moveRun(*--up, from, to, bytes);
+    run = std::find_if(next, runs.end(), goesUp);
+    for (auto down = next; down != run; ++down) moveRun(*down, from, to, bytes);
   }
-  for (int k = 0; k < count; ++k)
-    std::memcpy(to + static_cast<std::size_t>(k) * bytes, from + static_cast<std::size_t>(source[k]) * bytes, bytes);
 }
 
 /// Whether a position lies in the cell with these bounds.
@@ -82,8 +81,13 @@ bool mayLeave(const grid::Level& level, const Vec<D>& x, const Index<D>& cell) {
 
 void Relocation::forgetLayout() {
   moves_.clear();
-  spare_.clear();
-  emigration_.forgetLayout();
+}
+
+Relocation::Moves& Relocation::movesOf(int material) {
+  while (moves_.size() <= static_cast<std::size_t>(material)) moves_.emplace_back(*warehouse_);
+  Moves& moves = moves_[static_cast<std::size_t>(material)];
+  moves.patches.resize(static_cast<std::size_t>(warehouse_->patches()));
+  return moves;
 }
 
 template <class Work>
@@ -96,25 +100,31 @@ void Relocation::forEachPatch(const Work& work) {
   });
 }
 
-bool Relocation::run(int material, int position, const std::vector<Carried>& carried, bool hasStopped) {
-  moves_.resize(static_cast<std::size_t>(warehouse_->patches()));
-  spare_.resize(moves_.size());
-  for (std::size_t patch = 0; patch < spare_.size(); ++patch) spare_[patch].pool = static_cast<int>(patch);
+bool Relocation::find(int material, int position, bool hasStopped) {
   const int id = warehouse_->table().find(data::particleId.name, material);
   if (!hasStopped) switch (warehouse_->level().dimension()) {
       case 1: findMoves<1>(material, position, id); break;
       case 2: findMoves<2>(material, position, id); break;
       default: findMoves<3>(material, position, id);
     }
-  Verdict verdict = gatherMoves(hasStopped);
+  Verdict verdict = gather(movesOf(material), hasStopped);
   warehouse_->ranks().merge(verdict);
   if (verdict.hasStopped) return false;
   if (verdict.hasEscape) refuseEscape(position, verdict);
-  emigration_.run(carried, verdict.goFar);
-  receiveAll();
-  forEachPatch([&](const Patch& patch) { rebuild(patch, material, id); });
-  for (std::size_t place = 0; place < carried.size(); ++place) carry(carried[place], place);
+  movesOf(material).goFar = verdict.goFar;
   return true;
+}
+
+void Relocation::settle(int material, const std::vector<Carried>& carried, Generation to) {
+  Moves& moves = movesOf(material);
+  moves.emigration.run(carried, moves.goFar);
+  receiveAll(moves);
+  forEachPatch([&](const Patch& patch) { rebuild(patch, material, of(moves, patch.id())); });
+  for (std::size_t place = 0; place < carried.size(); ++place) {
+    forEachPatch([&](const Patch& patch) { pack(carried[place], patch, of(moves, patch.id())); });
+    forEachPatch([&](const Patch& patch) { carry(carried[place], place, to, patch, moves); });
+    for (const Patch& patch : warehouse_->level().patches()) warehouse_->takeBack(of(moves, patch.id()).packed, patch);
+  }
 }
 
 void Relocation::Verdict::merge(const Verdict& other) {
@@ -128,27 +138,29 @@ void Relocation::Verdict::merge(const Verdict& other) {
 
 template <int D>
 void Relocation::findMoves(int material, int position, int id) {
+  Moves& moves = movesOf(material);
   forEachPatch([&](const Patch& patch) {
     const auto values = [&](Generation generation, int number) {
       return warehouse_->variable(generation, number, patch.id()).values.data();
     };
     findMoves<D>(patch, warehouse_->particles(Generation::old, material, patch.id()),
                  reinterpret_cast<Vec<D>*>(values(Generation::fresh, position)),
-                 reinterpret_cast<const ParticleId*>(values(Generation::old, id)));
+                 reinterpret_cast<const ParticleId*>(values(Generation::old, id)), of(moves, patch.id()));
   });
 }
 
 template <int D>
-void Relocation::findMoves(const Patch& patch, const ParticleSet& set, Vec<D>* x, const ParticleId* ids) {
-  const grid::Level& level = warehouse_->level();
-  PatchMoves& moves = movesOf(patch);
+void Relocation::findMoves(const Patch& patch, const ParticleSet& set, Vec<D>* x, const ParticleId* ids,
+                           PatchMoves& moves) {
   moves.departed.clear();
   moves.outgoing.clear();
   moves.incoming.clear();
-  moves.firstIncoming.assign(patch.cells().size(), -1);
+  moves.strangers.clear();
+  moves.firstIncoming.resize(patch.cells().size(), -1);
   moves.isEntered.assign(patch.cells().rows(), false);
   moves.escape.reset();
   moves.leaving = 0;
+  const grid::Level& level = warehouse_->level();
   set.forEachOccupied<D>(patch.cells(), [&](const Index<D>& cell, const ParticleRange& range) {
     Vec<D> lower, upper;
     for (int d = 0; d < D; ++d) {
@@ -156,15 +168,23 @@ void Relocation::findMoves(const Patch& patch, const ParticleSet& set, Vec<D>* x
       upper[d] = level.nodePosition(d, cell[d] + 1);
     }
     for (const int p : range)
-      if (!isInside<D>(x[p], lower, upper) && level.cellOf<D>(x[p]) != cell) move<D>(patch, cell, x[p], ids[p], p);
+      if (!isInside<D>(x[p], lower, upper) && level.cellOf<D>(x[p]) != cell) moves.departed.push_back(p);
+  });
+  moves.incoming.reserve(moves.departed.size());
+  std::size_t next = 0;
+  set.forEachOccupied<D>(patch.cells(), [&](const Index<D>& cell, const ParticleRange& range) {
+    for (; next < moves.departed.size() && moves.departed[next] < range.last; ++next) {
+      const int p = moves.departed[next];
+      move<D>(patch, cell, x[p], ids[p], static_cast<int>(next), moves);
+    }
   });
 }
 
 template <int D>
-void Relocation::move(const Patch& from, const Index<D>& fromCell, Vec<D>& x, ParticleId id, int place) {
+void Relocation::move(const Patch& from, const Index<D>& fromCell, Vec<D>& x, ParticleId id, int departed,
+                      PatchMoves& moves) {
   const grid::Level& level = warehouse_->level();
-  PatchMoves& moves = movesOf(from);
-  moves.departed.push_back(place);
+  const int place = moves.departed[static_cast<std::size_t>(departed)];
   if (level.isPeriodic()) wrap<D>(level, x);
   const Index<D> cell = level.cellOf<D>(x);
   if (!level.cells().contains(cell)) {
@@ -174,26 +194,26 @@ void Relocation::move(const Patch& from, const Index<D>& fromCell, Vec<D>& x, Pa
     return;
   }
   const Index3 wide = widened(cell);
-  const Incoming particle{id, from.id(), place, -1};
   if (from.cells().contains(wide))
-    receive(from, wide, particle);
+    receive(from, wide, {id, departed, -1}, moves);
   else
-    moves.outgoing.push_back({wide, particle});
+    moves.outgoing.push_back({id, wide, place, departed});
 }
 
-Relocation::Verdict Relocation::gatherMoves(bool hasStopped) {
+Relocation::Verdict Relocation::gather(Moves& moves, bool hasStopped) {
   const grid::Level& level = warehouse_->level();
   Verdict verdict{hasStopped, false, false, warehouse_->ranks().rank(), {}};
-  emigration_.start();
-  for (const PatchMoves& moves : moves_) {
+  moves.emigration.start();
+  for (const Patch& from : level.patches()) {
     if (hasStopped) break;
-    leaving_ += moves.leaving;
-    if (moves.escape) verdict.merge({false, true, false, verdict.rank, *moves.escape});
-    for (const Outgoing& one : moves.outgoing)
+    const PatchMoves& ofPatch = of(moves, from.id());
+    leaving_ += ofPatch.leaving;
+    if (ofPatch.escape) verdict.merge({false, true, false, verdict.rank, *ofPatch.escape});
+    for (const Outgoing& one : ofPatch.outgoing)
       if (const int patch = level.patchOf(one.cell).id(); !level.isMine(patch))
-        emigration_.add(level.ownerOf(patch), {one.particle.id, one.cell, one.particle.patch, one.particle.place});
+        moves.emigration.add(level.ownerOf(patch), {one.id, one.cell, from.id(), one.from});
   }
-  verdict.goFar = emigration_.goesFar();
+  verdict.goFar = moves.emigration.goesFar();
   return verdict;
 }
 
@@ -231,18 +251,23 @@ std::string Relocation::sentence(int position, const Escape& escape) const {
                      escape.id, axis, "-+"[side], axis, at(Generation::old)[through], x[through], escape.patch);
 }
 
-void Relocation::receiveAll() {
+void Relocation::receiveAll(Moves& moves) {
   const grid::Level& level = warehouse_->level();
-  for (const PatchMoves& moves : moves_)
-    for (const Outgoing& one : moves.outgoing)
-      if (const Patch to = level.patchOf(one.cell); level.isMine(to.id())) receive(to, one.cell, one.particle);
-  const std::vector<Emigrant>& arrived = emigration_.arrived();
+  const auto receiveAt = [&](ParticleId id, const Index3& cell, const Stranger& from) {
+    const Patch to = level.patchOf(cell);
+    if (!level.isMine(to.id())) return;
+    PatchMoves& there = of(moves, to.id());
+    there.strangers.push_back(from);
+    receive(to, cell, {id, -static_cast<int>(there.strangers.size()), -1}, there);
+  };
+  for (const Patch& patch : level.patches())
+    for (const Outgoing& one : of(moves, patch.id()).outgoing) receiveAt(one.id, one.cell, {patch.id(), one.departed});
+  const std::vector<Emigrant>& arrived = moves.emigration.arrived();
   for (std::size_t k = 0; k < arrived.size(); ++k)
-    receive(level.patchOf(arrived[k].cell), arrived[k].cell, {arrived[k].id, -1, static_cast<int>(k), -1});
+    receiveAt(arrived[k].id, arrived[k].cell, {-1, static_cast<int>(k)});
 }
 
-void Relocation::receive(const Patch& patch, const Index3& cell, const Incoming& particle) {
-  PatchMoves& moves = movesOf(patch);
+void Relocation::receive(const Patch& patch, const Index3& cell, const Incoming& particle, PatchMoves& moves) {
   const int added = static_cast<int>(moves.incoming.size());
   moves.incoming.push_back(particle);
   int* link = &moves.firstIncoming[patch.cells().offset(cell)];
@@ -253,128 +278,98 @@ void Relocation::receive(const Patch& patch, const Index3& cell, const Incoming&
   moves.isEntered[patch.cells().rowOf(cell)] = true;
 }
 
-void Relocation::rebuild(const Patch& patch, int material, int id) {
-  PatchMoves& moves = movesOf(patch);
+void Relocation::rebuild(const Patch& patch, int material, PatchMoves& moves) {
+  const int id = warehouse_->table().find(data::particleId.name, material);
   const ParticleSet& before = warehouse_->particles(Generation::old, material, patch.id());
   ParticleSet& after = warehouse_->particles(Generation::fresh, material, patch.id());
   const auto* ids =
       reinterpret_cast<const ParticleId*>(warehouse_->variable(Generation::old, id, patch.id()).values.data());
   after.reset(patch, warehouse_->table().reach(material));
-  moves.foreign.clear();
-  moves.pieces.clear();
-  moves.source.resize(static_cast<std::size_t>(before.owned()) + moves.incoming.size());
+  moves.runs.clear();
+  moves.entries.clear();
+  moves.entries.reserve(moves.incoming.size());
+  moves.before = before.owned();
   moves.count = 0;
   std::size_t nextDeparted = 0;
-  const int* firstIncoming = moves.firstIncoming.data();
   const int rowLength = patch.cells().extent(0);
   grid::forEach<3>(patch.cells().rowStarts(), [&](const Index3& cell) {
+    const bool isEntered = moves.isEntered[patch.cells().rowOf(cell)];
+    if (!isEntered && before.occupied(cell, patch.cells().upper[0]).empty()) return;
     const ParticleRange* from = before.row(cell);
     ParticleRange* to = after.row(cell);
-    if (!moves.isEntered[patch.cells().rowOf(cell)] && before.occupied(cell, patch.cells().upper[0]).empty()) {
-      std::fill_n(to, rowLength, ParticleRange{moves.count, moves.count});
-      firstIncoming += rowLength;
-      return;
-    }
-    for (int k = 0; k < rowLength; ++k, ++from, ++to, ++firstIncoming) {
+    int* firstIncoming = &moves.firstIncoming[patch.cells().offset(cell)];
+    for (int k = 0; k < rowLength; ++k, ++from, ++to) {
       const int first = moves.count;
       const bool stays = nextDeparted == moves.departed.size() || moves.departed[nextDeparted] >= from->last;
-      if (stays && *firstIncoming < 0)
-        keepCell(moves, *from);
+      if (stays && firstIncoming[k] < 0)
+        keep(moves, from->first, from->size());
       else
-        mergeCell(patch.id(), moves, *from, *firstIncoming, ids, nextDeparted);
+        mergeCell(moves, *from, firstIncoming[k], ids, nextDeparted);
       *to = {first, moves.count};
     }
+    if (isEntered) std::fill_n(firstIncoming, rowLength, -1);
+    after.closeRow(cell);
   });
-  after.setOwned(moves.count);
-  gatherShortCopies(moves);
+  after.setOwnedOfClosedRows(moves.count);
 }
 
-/// Appends a cell that nobody leaves and nobody enters.
-void Relocation::keepCell(PatchMoves& moves, const ParticleRange& before) {
-  if (before.empty()) return;
-  Piece* last = moves.pieces.empty() ? nullptr : &moves.pieces.back();
-  if (last && last->from >= 0 && last->from + last->count == before.first)
-    last->count += before.size();
+/// Appends particles that were consecutive and stay so.
+void Relocation::keep(PatchMoves& moves, int first, int count) {
+  if (count == 0) return;
+  Run* last = moves.runs.empty() ? nullptr : &moves.runs.back();
+  if (last && last->from + last->count == first && last->to + last->count == moves.count)
+    last->count += count;
   else
-    moves.pieces.push_back({moves.count, before.size(), before.first});
-  moves.count += before.size();
-}
-
-/// Turns copies too short to be worth a call into gathers, and joins neighbouring gathers.
-void Relocation::gatherShortCopies(PatchMoves& moves) {
-  constexpr int worthwhile = 32;
-  std::size_t kept = 0;
-  for (Piece piece : moves.pieces) {
-    if (piece.from >= 0 && piece.count < worthwhile) {
-      for (int k = 0; k < piece.count; ++k) moves.source[static_cast<std::size_t>(piece.to + k)] = piece.from + k;
-      piece.from = -1;
-    }
-    if (kept > 0 && piece.from < 0 && moves.pieces[kept - 1].from < 0)
-      moves.pieces[kept - 1].count += piece.count;
-    else
-      moves.pieces[kept++] = piece;
-  }
-  moves.pieces.resize(kept);
+    moves.runs.push_back({moves.count, first, count});
+  moves.count += count;
 }
 
 /// Appends the particles of one cell: those that stay, in their order, and those that come in between by id.
-void Relocation::mergeCell(int patch, PatchMoves& moves, const ParticleRange& before, int firstIncoming,
-                           const ParticleId* ids, std::size_t& nextDeparted) {
-  int* source = moves.source.data();
-  int next = moves.count, waiting = firstIncoming;
-  const auto isDeparted = [&](int p) {
-    return nextDeparted < moves.departed.size() && moves.departed[nextDeparted] == p;
-  };
+void Relocation::mergeCell(PatchMoves& moves, const ParticleRange& before, int firstIncoming, const ParticleId* ids,
+                           std::size_t& nextDeparted) {
+  int waiting = firstIncoming;
   const auto letInOne = [&] {
-    const Incoming& particle = moves.incoming[static_cast<std::size_t>(waiting)];
-    if (particle.patch != patch) moves.foreign.emplace_back(next, waiting);
-    source[next++] = particle.patch == patch ? particle.place : 0;
-    waiting = particle.next;
+    moves.entries.push_back({moves.count++, waiting});
+    waiting = moves.incoming[static_cast<std::size_t>(waiting)].next;
   };
   for (int p = before.first; p < before.last; ++p) {
-    if (isDeparted(p)) {
+    if (nextDeparted < moves.departed.size() && moves.departed[nextDeparted] == p) {
       ++nextDeparted;
       continue;
     }
     while (waiting >= 0 && moves.incoming[static_cast<std::size_t>(waiting)].id < ids[p]) letInOne();
-    source[next++] = p;
+    keep(moves, p, 1);
   }
   while (waiting >= 0) letInOne();
-  if (next > moves.count) moves.pieces.push_back({moves.count, next - moves.count, -1});
-  moves.count = next;
 }
 
-void Relocation::carry(const Carried& carried, std::size_t place) {
-  forEachPatch([&](const Patch& patch) { carry(carried, place, patch); });
-  std::size_t k = 0;
-  for (const Patch& patch : warehouse_->level().patches()) {
-    std::swap(warehouse_->variable(Generation::fresh, carried.variable, patch.id()), spare_[k]);
-    warehouse_->free(spare_[k++]);
+void Relocation::pack(const Carried& carried, const Patch& patch, PatchMoves& moves) {
+  const std::size_t bytes = warehouse_->table()[carried.variable].label->bytes;
+  moves.packed = warehouse_->lend(moves.departed.size() * bytes, patch);
+  const std::byte* from = warehouse_->variable(carried.from, carried.variable, patch.id()).values.data();
+  std::byte* to = moves.packed.data();
+  for (const int place : moves.departed) {
+    std::memcpy(to, from + static_cast<std::size_t>(place) * bytes, bytes);
+    to += bytes;
   }
 }
 
-void Relocation::carry(const Carried& carried, std::size_t place, const Patch& patch) {
+void Relocation::carry(const Carried& carried, std::size_t place, Generation to, const Patch& patch, Moves& all) {
   const data::Label& label = *warehouse_->table()[carried.variable].label;
-  const PatchMoves& moves = movesOf(patch);
-  const Variable& from = warehouse_->variable(carried.from, carried.variable, patch.id());
-  Variable& spare = spare_[static_cast<std::size_t>(patch.id() - warehouse_->level().firstPatch())];
-  warehouse_->allocateParticles(spare, label, moves.count);
-  std::byte* to = spare.values.data();
-  for (const Piece& piece : moves.pieces) {
-    std::byte* there = to + static_cast<std::size_t>(piece.to) * label.bytes;
-    if (piece.from >= 0)
-      std::memcpy(there, from.values.data() + static_cast<std::size_t>(piece.from) * label.bytes,
-                  static_cast<std::size_t>(piece.count) * label.bytes);
-    else if (from.held && from.values.data())
-      gather(from.values.data(), there, moves.source.data() + piece.to, piece.count, label.bytes);
-  }
-  for (const auto& [newPlace, index] : moves.foreign) {
-    const Incoming& particle = moves.incoming[static_cast<std::size_t>(index)];
-    const std::byte* values =
-        particle.patch < 0 ? emigration_.values(place)
-                           : warehouse_->variable(carried.from, carried.variable, particle.patch).values.data();
-    std::memcpy(to + static_cast<std::size_t>(newPlace) * label.bytes,
-                values + static_cast<std::size_t>(particle.place) * label.bytes, label.bytes);
+  const std::size_t bytes = label.bytes;
+  const PatchMoves& moves = of(all, patch.id());
+  Variable& variable = warehouse_->variable(to, carried.variable, patch.id());
+  const int kept = carried.from == to ? std::min(moves.before, moves.count) : 0;
+  warehouse_->allocateParticles(variable, label, moves.count, kept);
+  std::byte* values = variable.values.data();
+  shift(moves.runs, warehouse_->variable(carried.from, carried.variable, patch.id()).values.data(), values, bytes);
+  for (const Entry& entry : moves.entries) {
+    const int source = moves.incoming[static_cast<std::size_t>(entry.incoming)].from;
+    Stranger from{patch.id(), source};
+    if (source < 0) from = moves.strangers[static_cast<std::size_t>(-1 - source)];
+    const std::byte* packed = from.patch < 0 ? all.emigration.values(place) : of(all, from.patch).packed.data();
+    std::memcpy(values + static_cast<std::size_t>(entry.to) * bytes,
+                packed + static_cast<std::size_t>(from.place) * bytes, bytes);
   }
 }
 

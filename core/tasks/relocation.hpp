@@ -1,6 +1,7 @@
 #pragma once
 
 #include <compare>
+#include <deque>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,19 +15,21 @@ namespace tushar::tasks {
 
 /// Brings particles to the cell and patch where they are now, in the order (cell, id), and their variables with them.
 ///
-/// Keeps its working memory from step to step.
+/// Keeps its working memory from step to step. Finding the moves, which may fail, is one thing, to make them another: where
+/// nothing reads particles between, they are made when the step counts, within the memory that the particles have.
 class Relocation {
  public:
-  Relocation(data::Warehouse& warehouse, Threads& threads)
-      : warehouse_(&warehouse), threads_(&threads), emigration_(warehouse) {}
+  Relocation(data::Warehouse& warehouse, Threads& threads) : warehouse_(&warehouse), threads_(&threads) {}
 
-  /// Builds the new particle set of a material from the old one and the new values of `position`; afterwards every
-  /// carried variable is new and follows the new set. Particles that left through a periodic face come in at the opposite
-  /// one; those that left through a free face are dropped.
+  /// Finds out where the particles of a material belong by the new values of `position`. Those that left through a
+  /// periodic face come in at the opposite one; those that left through a free face are to be dropped.
   ///
   /// All ranks run it together. False if one of them has stopped before: then nothing is done on any.
   /// Throws NumericalError, on all ranks, for a position that is not finite or lies behind a symmetry plane.
-  bool run(int material, int position, const std::vector<Carried>& carried, bool hasStopped);
+  bool find(int material, int position, bool hasStopped);
+  /// Builds the new particle set of a material as found, from the old one; every carried variable then follows it in
+  /// generation `to`. What is in that generation already moves within its memory. All ranks run it together.
+  void settle(int material, const std::vector<Carried>& carried, data::Generation to);
 
   /// This rank has other patches from now on.
   void forgetLayout();
@@ -44,13 +47,18 @@ class Relocation {
   /// A particle that comes into a cell, from this patch or another.
   struct Incoming {
     ParticleId id;
-    int patch, place;  ///< where it was; patch -1: on another rank, place among those that came from there
-    int next;          ///< the incoming particle of the same cell with the next greater id, or -1
+    int from;  ///< place among the departed of the patch; or -1 - its place among the strangers
+    int next;  ///< the incoming particle of the same cell with the next greater id, or -1
+  };
+  /// Where a particle from another patch was.
+  struct Stranger {
+    int patch, place;  ///< place among the departed of that patch; patch -1: among those that came from other ranks
   };
   /// A particle that goes to a cell of another patch.
   struct Outgoing {
+    ParticleId id;
     Index3 cell;
-    Incoming particle;
+    int from, departed;  ///< place before, and among the departed
   };
   /// A particle that went where none can be; of several the first by cell and id.
   struct Escape {
@@ -68,59 +76,71 @@ class Relocation {
 
     void merge(const Verdict& other);
   };
-  /// Consecutive places of the new set: a copy of consecutive places before from `from` on, or (-1) gathered by
-  /// `source`.
-  struct Piece {
-    int to, count, from;
+  /// Particles that stay in their cells, consecutive before and after: `count` from place `from` on come to `to`.
+  struct Run {
+    int to, from, count;
+  };
+  /// An incoming particle that comes to `to`.
+  struct Entry {
+    int to, incoming;
   };
   struct PatchMoves {
     std::vector<int> departed;       ///< places of the patch's particles that leave their cell, ascending
     std::vector<Outgoing> outgoing;  ///< of these, the ones that go to other patches
     std::vector<Incoming> incoming;  ///< particles that come into a cell of the patch
+    std::vector<Stranger> strangers;
     std::vector<int> firstIncoming;  ///< by cell, or -1
     std::vector<char> isEntered;     ///< by row of cells along the first axis: whether particles come in
-    std::vector<Piece> pieces;
-    /// For each gathered particle of the new set its place before (0 if it comes from another patch).
-    std::vector<int> source;
-    int count = 0;                             ///< of the new set
-    std::vector<std::pair<int, int>> foreign;  ///< new place and index in `incoming` of those from other patches
+    std::vector<Run> runs;           ///< ascending
+    std::vector<Entry> entries;      ///< ascending
+    data::Buffer packed;             ///< values of the departed of a variable, in their order
+    int before = 0, count = 0;       ///< particles of the old set and the new one
     std::optional<Escape> escape;
     long leaving = 0;  ///< through free faces of the grid
+  };
+  /// How the particles of a material move.
+  struct Moves {
+    explicit Moves(data::Warehouse& warehouse) : emigration(warehouse) {}
+
+    std::vector<PatchMoves> patches;
+    Emigration emigration;
+    bool goFar = false;
   };
 
   template <class Work>
   void forEachPatch(const Work& work);
+  Moves& movesOf(int material);
+  PatchMoves& of(Moves& moves, int patch) {
+    return moves.patches[static_cast<std::size_t>(patch - warehouse_->level().firstPatch())];
+  }
   template <int D>
   void findMoves(int material, int position, int id);
   template <int D>
-  void findMoves(const grid::Patch& patch, const data::ParticleSet& set, Vec<D>* x, const ParticleId* ids);
+  void findMoves(const grid::Patch& patch, const data::ParticleSet& set, Vec<D>* x, const ParticleId* ids,
+                 PatchMoves& moves);
+  /// Of the one at place `departed` among those that leave their cells.
   template <int D>
-  void move(const grid::Patch& from, const Index<D>& cell, Vec<D>& x, ParticleId id, int place);
-  PatchMoves& movesOf(const grid::Patch& patch) {
-    return moves_[static_cast<std::size_t>(patch.id() - warehouse_->level().firstPatch())];
-  }
+  void move(const grid::Patch& from, const Index<D>& cell, Vec<D>& x, ParticleId id, int departed, PatchMoves& moves);
   /// Sorts out what left its patch: who escaped first, how many left the grid, who goes to another rank.
-  Verdict gatherMoves(bool hasStopped);
+  Verdict gather(Moves& moves, bool hasStopped);
   [[noreturn]] void refuseEscape(int position, const Verdict& verdict) const;
   template <int D>
   std::string sentence(int position, const Escape& escape) const;
   /// Hands out those who come into a cell of another patch.
-  void receiveAll();
-  void receive(const grid::Patch& patch, const Index3& cell, const Incoming& particle);
-  void rebuild(const grid::Patch& patch, int material, int id);
-  static void keepCell(PatchMoves& moves, const data::ParticleRange& before);
-  static void mergeCell(int patch, PatchMoves& moves, const data::ParticleRange& before, int firstIncoming,
-                        const ParticleId* ids, std::size_t& nextDeparted);
-  static void gatherShortCopies(PatchMoves& moves);
+  void receiveAll(Moves& moves);
+  static void receive(const grid::Patch& patch, const Index3& cell, const Incoming& particle, PatchMoves& moves);
+  void rebuild(const grid::Patch& patch, int material, PatchMoves& moves);
+  static void keep(PatchMoves& moves, int first, int count);
+  static void mergeCell(PatchMoves& moves, const data::ParticleRange& before, int firstIncoming, const ParticleId* ids,
+                        std::size_t& nextDeparted);
+  /// Keeps the values of those that leave their cells apart.
+  void pack(const Carried& carried, const grid::Patch& patch, PatchMoves& moves);
   /// `place` is that of the variable among all that are carried.
-  void carry(const Carried& variable, std::size_t place);
-  void carry(const Carried& variable, std::size_t place, const grid::Patch& patch);
+  void carry(const Carried& carried, std::size_t place, data::Generation to, const grid::Patch& patch, Moves& moves);
 
   data::Warehouse* warehouse_;
   Threads* threads_;
-  Emigration emigration_;
-  std::vector<PatchMoves> moves_;
-  std::vector<data::Variable> spare_;
+  std::deque<Moves> moves_;  ///< by material
   long leaving_ = 0;  ///< in the step in progress
   long dropped_ = 0;
 };

@@ -211,14 +211,15 @@ void Scheduler::runWork(CompiledTask& task, const StepInfo& at) {
     outcome_.merge({running_, Outcome::Kind::asks, 0, 0, warehouse_->ranks().rank(), *factor, {}});
 }
 
-/// All ranks relocate together, or none.
+/// All ranks relocate together, or none. A relocation behind which no task comes is made when the step counts.
 void Scheduler::relocate(const CompiledTask& task, const StepInfo& at) {
   for (int m = 0; m < static_cast<int>(task.materials.size()) && (m == 0 || !hasStopped()); ++m) {
     const MaterialBinding& binding = task.of(m);
     try {
       located(task, -1, m, at, [&] {
         const int position = binding.accesses.front().variable;
-        heard_stop_ = !relocation_.run(m, position, binding.carried, hasStopped()) || heard_stop_;
+        heard_stop_ = !relocation_.find(m, position, hasStopped()) || heard_stop_;
+        if (!heard_stop_ && !task.isLast) relocation_.settle(m, binding.carried, Generation::fresh);
       });
     } catch (const NumericalError& error) {
       note(task, m, error);
@@ -291,7 +292,7 @@ void Scheduler::runPlaced(CompiledTask& task, const grid::Patch& patch, int mate
     if (task.task.kind == TaskKind::newParticles) {
       ParticleMaker maker(binding.accesses.size());
       task.task.body(TaskContext(*warehouse_, patch, material, binding.accesses, at.time, &maker));
-      maker.install(*warehouse_, patch, material, binding.accesses);
+      maker.install(*warehouse_, patch, material, binding.accesses, binding.freed);
       return;
     }
     allocateOutputs(binding, patch, material);
@@ -317,10 +318,19 @@ void Scheduler::free(const CompiledTask& task) {
         warehouse_->free(warehouse_->variable(Generation::fresh, number, patch.id()));
 }
 
-void Scheduler::commit(const TaskGraph& graph) {
+void Scheduler::commit(TaskGraph& graph) {
   relocation_.commit();
-  for (const int number : graph.results()) warehouse_->swap(number);
+  for (const int number : graph.results()) warehouse_->makeOld(number);
+  if (!graph.tasks().empty()) settle(graph.tasks().back());
   for (const int material : graph.changedSets()) warehouse_->swapSets(material);
+}
+
+void Scheduler::settle(CompiledTask& last) {
+  if (last.task.kind != TaskKind::relocate) return;
+  const auto started = Clock::now();
+  for (std::size_t m = 0; m < last.materials.size(); ++m)
+    relocation_.settle(static_cast<int>(m), last.materials[m].carried, Generation::old);
+  last.seconds += seconds(Clock::now() - started);
 }
 
 }  // namespace tushar::tasks

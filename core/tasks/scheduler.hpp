@@ -48,7 +48,7 @@ class Scheduler {
   /// reason come back; running the graph once more repeats the step. Else nothing comes back: all is done.
   std::optional<data::Minimum> run(TaskGraph& graph, const StepInfo& at);
   /// Makes the results of a graph the old state.
-  void commit(const TaskGraph& graph);
+  void commit(TaskGraph& graph);
 
   /// What each patch of this rank has cost since this was asked last, in seconds of the clock where all threads work all
   /// the time; nothing is measured on a rank alone.
@@ -82,6 +82,8 @@ class Scheduler {
   void runPlaced(CompiledTask& task, const grid::Patch& patch, int material, const StepInfo& at);
   void allocateOutputs(const MaterialBinding& binding, const grid::Patch& patch, int material);
   void free(const CompiledTask& task);
+  /// Makes the moves that the last task of a graph has found, if it is a relocation.
+  void settle(CompiledTask& last);
 
   std::optional<data::Minimum> askedBy(const CompiledTask& task);
   void note(const CompiledTask& task, int material, const NumericalError& error);

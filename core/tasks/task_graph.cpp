@@ -67,6 +67,7 @@ TaskGraph::TaskGraph(std::string name, Pruned pruned, const grid::Level& level, 
   std::sort(reductions_.begin(), reductions_.end());
   reductions_.erase(std::unique(reductions_.begin(), reductions_.end()), reductions_.end());
   for (CompiledTask& task : tasks_) task.mayStartEarly = mayStartEarly(task, table);
+  if (!tasks_.empty()) tasks_.back().isLast = true;
   noteResults(table);
 }
 
@@ -122,7 +123,8 @@ std::vector<Carried> TaskGraph::carriedBy(std::size_t t, int material, data::Var
     const auto known = labels.find(name);
     const int number = known == labels.end() ? table.find(name, material) : table.number(*known->second.first, material);
     if (number < 0 || table[number].label->centring != Centring::particle) continue;
-    carried.push_back({number, produced.contains(name) ? Generation::fresh : Generation::old});
+    const bool isNew = produced.contains(name) && t + 1 < pruned_.kept.size();  // the last task moves what counts already
+    carried.push_back({number, isNew ? Generation::fresh : Generation::old});
   }
   return carried;
 }
@@ -148,7 +150,8 @@ void TaskGraph::noteResults(data::VariableTable& table) {
   for (const CompiledTask& compiled : tasks_) {
     changes = changes || compiled.task.kind != TaskKind::work;
     for (const MaterialBinding& binding : compiled.materials)
-      for (const Carried& carried : binding.carried) written.emplace(table[carried.variable].label->name);
+      for (const Carried& carried : binding.carried)
+        if (!compiled.isLast) written.emplace(table[carried.variable].label->name);
   }
   Names needed = pruned_.needed;
   if (changes) needed.emplace(data::particleId.name);

@@ -38,6 +38,7 @@ struct CompiledTask {
   int sends = -1;                   ///< the task whose ghosts are sent to other ranks before this one runs, if one is
   std::vector<int> reductions, readReductions;  ///< that it computes, and reads
   bool mayStartEarly = false;   ///< whether patches that have their ghosts may be worked on while others wait for theirs
+  bool isLast = false;          ///< of its graph
   int recomputeTimeStep = -1;   ///< number of that reduction, for a task that may ask for the step to be repeated
   double seconds = 0;           ///< time spent in it so far
   double exchangeSeconds = 0;   ///< of that, time spent filling ghosts before it

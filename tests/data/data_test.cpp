@@ -109,6 +109,22 @@ TEST(BufferPool, GivesUpWhatWasOutgrownALittle) {
   EXPECT_EQ(pool.allocations(), 3u) << "the first buffer is gone, so the third request makes another";
 }
 
+TEST(BufferPool, LendsTheSmallestThatIsLargeEnough) {
+  BufferPool pool;
+  Buffer large, middle;
+  pool.reserve(large, 8'000'000);
+  pool.reserve(middle, 2'000'000);
+  const std::byte* const expected = middle.data();
+  pool.takeBack(large);
+  pool.takeBack(middle);
+
+  EXPECT_EQ(pool.lend(1000).data(), expected);
+  EXPECT_EQ(pool.allocations(), 2u);
+  pool.release();
+  EXPECT_GE(pool.lend(1000).capacity(), 1000u);
+  EXPECT_EQ(pool.allocations(), 3u);
+}
+
 /// A set on a grid of 5 x 4 x 3 cells, some without particles.
 ParticleSet someCells(const grid::Level& level) {
   ParticleSet set;
@@ -137,6 +153,20 @@ TEST(ParticleSet, VisitsTheCellsOfABoxThatHoldParticlesInOrder) {
     set.forEachOccupied<3>(box, [&](const Index3& cell, const ParticleRange& range) { visited.emplace_back(cell, range.first); });
     EXPECT_EQ(visited, expected);
   }
+}
+
+TEST(ParticleSet, IsEmptyAfterAReset) {
+  grid::Domain domain;
+  domain.resolution = {{5, 4, 3}};
+  domain.upper = {5, 4, 3};
+  const grid::Level level(domain);
+  ParticleSet set = someCells(level);
+
+  set.reset(level.patches().front(), 0);
+
+  grid::forEach<3>(level.cells(), [&](const Index3& cell) { EXPECT_TRUE(set.in(cell).empty()); });
+  set.forEachOccupied<3>(level.cells(), [](const Index3&, const ParticleRange&) { ADD_FAILURE(); });
+  EXPECT_EQ(set.total(), 0);
 }
 
 TEST(View, RefusesWhatIsOutsideNamingTheLabel) {

@@ -95,7 +95,6 @@ class SilentMistakes(unittest.TestCase):
         refused(plane, plane.replace('symmetry"/>', 'Dirichlet"><value>3</value></BCType>'),
                 "found label 'Symmetric' with var 'Dirichlet'; 'Symmetric' goes with 'symmetry', and with nothing else")
         refused(plane, plane.replace("Symmetric", "Temperature"), "found label 'Temperature' with var 'symmetry'")
-        refused(plane, plane.replace("/>", "><value>3</value></BCType>"), "a plane of symmetry takes no <value>")
         refused(plane, plane + cold, "this face is a plane of symmetry: beside it only a Neumann condition of 0 is right")
         refused(cold, cold.replace("0<", "[1,2,3]<"), "value: found '[1,2,3]', expected a number")
         refused("[2.576693,0,0]", "2.576693", "value: found '2.576693', expected three numbers, as [1,2,3]",

@@ -45,6 +45,13 @@ RUN = {
     "Hancock's and Mackenzie's damage": (SPALL, THRESHOLD, DAMAGE),
     "damage that differs from particle to particle at the start": (SPALL, THRESHOLD, DAMAGE.replace(">0<", ">1e-3<")),
     "a velocity in a plane of symmetry": (DISCS, SYMMETRIC, SYMMETRIC + STILL, 1),
+    "a value in a plane of symmetry": (DISCS, SYMMETRIC, SYMMETRIC.replace("/>", "><value>[0,0,0]</value></BCType>")),
+    "a side without conditions": (BILLET, "</BoundaryConditions>", '<Face side="y+"/></BoundaryConditions>'),
+    "a component in capitals": (DISCS, 'type="mpm"', 'type="MPM"'),
+    "no title": (DISCS, "Two discs collide", ""),
+    "no greatest step": (DISCS, "</Time>", "<delt_max>0</delt_max><override_restart_delt>1</override_restart_delt></Time>"),
+    "a density of a body": (DISCS, "<geom_object>", '<geom_object name="one"><density>1</density>', 1),
+    "variables that nobody computes here": (DISCS, "<save ", '<save label="AccStrainEnergy"/><save label="g.surfnorm"/><save ', 1),
     "a body without particles": (DISCS, "</geom_object>", "</geom_object><geom_object><null/><res>[1,1,1]</res></geom_object>", 1),
 }
 
@@ -59,6 +66,13 @@ class UintahsWords(unittest.TestCase):
                 path.write_text(text.replace(before, after, *count))
                 result = run(path, *FEW)
                 self.assertEqual(result.code, 0, result.err)
+
+    def test_a_variable_that_nobody_computes_is_noted(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "scene.ups")
+            path.write_text((ROOT / DISCS).read_text().replace("<save ", '<save label="AccStrainEnergy"/><save ', 1))
+            result = run(path, *FEW, options=())
+            self.assertIn("'AccStrainEnergy' is not saved: nobody computes it here", result.err)
 
     def test_a_saved_number_means_the_material_of_that_place(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -50,12 +50,24 @@ TEST(TimeControl, MultipliesAndBoundsTheStableStep) {
 TEST(TimeControl, LimitsTheFirstStepAndTheGrowthOfTheOthers) {
   TimeSettings settings = until(1);
   settings.deltInit = 0.001;
-  settings.maxDeltIncrease = 2;
+  settings.maxDeltIncrease = 1;
   TimeControl time(settings);
 
   EXPECT_EQ(time.next({0.1}, never), 0.001);
   time.advance();
-  EXPECT_EQ(time.next({0.1}, never), 0.002);
+  EXPECT_EQ(time.next({0.1}, never), 0.002) << "1 more than the step before, as Uintah has it";
+}
+
+TEST(TimeControl, TakesNoGreatestStepOrGrowthFromZero) {
+  TimeSettings settings = until(1);
+  settings.deltInit = 0.001;
+  settings.maxDeltIncrease = 0;
+  settings.deltMax = 0;
+  TimeControl time(settings);
+
+  time.next({0.1}, never);
+  time.advance();
+  EXPECT_EQ(time.next({0.1}, never), 0.1);
 }
 
 TEST(TimeControl, EndsAtMaxTimeExactlyAndAtOutputsWhereAsked) {
@@ -96,7 +108,7 @@ TEST(TimeControl, RefusesStepsThatLeadNowhere) {
 TEST(TimeControl, CountsWhichLimitRuledEachStep) {
   TimeSettings settings = until(1);
   settings.deltInit = 0.001;
-  settings.maxDeltIncrease = 50;
+  settings.maxDeltIncrease = 49;
   settings.endAtMaxTimeExactly = true;
   TimeControl time(settings);
 
@@ -112,7 +124,7 @@ TEST(TimeControl, CountsWhichLimitRuledEachStep) {
 
 TEST(TimeControl, RepeatsAStepFromTheSameTimeWithTheFactorAskedFor) {
   TimeSettings settings = until(1);
-  settings.maxDeltIncrease = 2;
+  settings.maxDeltIncrease = 1;
   TimeControl time(settings);
   time.next({0.25, "CFL"}, never);
 

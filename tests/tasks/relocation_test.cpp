@@ -81,22 +81,32 @@ void inspect(const Patch& patch, const Material&, ParticleView<const Vec<D>> pos
   });
 }
 
+/// When particles are looked at: still in the step, or when it counts.
+enum class Look { inStep, afterwards };
+
 /// Positions by id after some steps, and what `inspect` found on the way.
 template <int D>
-std::pair<std::map<ParticleId, Vec<D>>, double> wanderFor(int steps, const Index3& resolution, const Index3& patches) {
+std::pair<std::map<ParticleId, Vec<D>>, double> wanderFor(int steps, const Index3& resolution, const Index3& patches,
+                                                          Look look) {
   test::Runner run(test::domain(resolution, patches));
-  TaskList start, advance;
+  TaskList start, advance, looking;
   start.newParticles("create", create<D>, gas, creates(x<D>), creates(mark));
   advance.perMaterial("wander", wander<D>, gas, requiresOld(x<D>), requiresOld(data::particleId), computes(x<D>));
   advance.relocate(x<D>, gas);
-  advance.perMaterial("inspect", inspect<D>, gas, requiresNew(x<D>, 1), requiresNew(data::particleId, 1),
-                      requiresNew(mark, 1), computes(wrong));
+  if (look == Look::inStep)
+    advance.perMaterial("inspect", inspect<D>, gas, requiresNew(x<D>, 1), requiresNew(data::particleId, 1),
+                        requiresNew(mark, 1), computes(wrong));
+  else
+    looking.perMaterial("inspect", inspect<D>, gas, requiresOld(x<D>, 1), requiresOld(data::particleId, 1),
+                        requiresOld(mark, 1), computes(wrong));
   TaskGraph begin = run.compile(start, {"p.x", "p.mark", "p.particleID"});
   TaskGraph step = run.compile(advance, {"p.x", "p.mark", "wrong"}, true);
+  TaskGraph after = run.compile(looking, {"wrong"});
   run.step(begin);
   double errors = 0;
   for (int k = 0; k < steps; ++k) {
     run.step(step);
+    run.step(after);
     errors += run.warehouse.reductionValues(run.table.find("wrong", -1)).at(0);
   }
   std::map<ParticleId, Vec<D>> positions;
@@ -112,14 +122,15 @@ std::pair<std::map<ParticleId, Vec<D>>, double> wanderFor(int steps, const Index
 
 template <int D>
 void expectSameOnAll(const Index3& resolution, const std::vector<Index3>& layouts) {
-  const auto reference = wanderFor<D>(25, resolution, {{1, 1, 1}});
+  const auto reference = wanderFor<D>(25, resolution, {{1, 1, 1}}, Look::inStep);
   EXPECT_EQ(reference.second, 0);
   EXPECT_EQ(reference.first.size(), 3 * grid::Box({{}, resolution}).size());
-  for (const Index3& layout : layouts) {
-    const auto other = wanderFor<D>(25, resolution, layout);
-    EXPECT_EQ(other.second, 0);
-    EXPECT_TRUE(other.first == reference.first) << layout[0] << ' ' << layout[1] << ' ' << layout[2];
-  }
+  for (const Index3& layout : layouts)
+    for (const Look look : {Look::inStep, Look::afterwards}) {
+      const auto other = wanderFor<D>(25, resolution, layout, look);
+      EXPECT_EQ(other.second, 0);
+      EXPECT_TRUE(other.first == reference.first) << layout[0] << ' ' << layout[1] << ' ' << layout[2];
+    }
 }
 
 /// The sentence of an advance in which everyone moves by `shift`, on a grid with a free upper x face if `open`.

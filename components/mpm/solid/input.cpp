@@ -351,6 +351,8 @@ int nodesBeyond(const Element& root) {
   return interpolator && interpolator->text() != "linear" ? 1 : 0;
 }
 
+std::vector<std::string> Solids::foreignLabels() const { return uintahsLabels; }
+
 void describe(std::ostream& out) {
   mpmSchema().describe(out);
   constantsSchema().describe(out);

@@ -116,7 +116,11 @@ const Schema<Body>& bodySchema() {
           .value("color", &Body::color, 0, "1", "a number that its particles keep, p.color")
           .ignored("concentration", "belongs to do_scalar_diffusion")
           .ignored("volumeFraction", "belongs to components with several phases")
-          .ignored("comment", "for readers");
+          .ignored("comment", "for readers")
+          .ignored("density", "the material's is taken, as in Uintah")
+          .ignored("pressure", "bodies start without stress")
+          .ignored("level", "there is one level")
+          .ignoredAttribute("name", "for readers");
   return schema;
 }
 
@@ -141,7 +145,8 @@ const Schema<Material>& materialSchema() {
         .value("specific_heat", &Material::specificHeat, 0, "J/(kg K)", "c_v", input::nonNegative())
         .value("thermal_conductivity", &Material::thermalConductivity, 0, "W/(m K)", "conductivity",
                input::nonNegative())
-        .value("melt_temp", &Material::meltTemperature, 295, "K", "temperature at which it melts", input::positive())
+        .value("melt_temp", &Material::meltTemperature, 295e10, "K",
+               "temperature at which it melts; it never does where none is given, as in Uintah", input::positive())
         .value("room_temp", &Material::roomTemperature, 294, "K", "temperature of the constants of damage",
                input::nonNegative())
         .custom("constitutive_model", readModel, {"constitutive_model"}, "how it answers to being deformed",

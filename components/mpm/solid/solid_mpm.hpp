@@ -28,6 +28,7 @@ class Solids : public Component {
     state_.setCount(state_size_);
   }
   const Problem& problem() const { return problem_; }
+  std::vector<std::string> foreignLabels() const override;
   /// Whether p.work can be had.
   virtual bool measuresWork() const { return false; }
 

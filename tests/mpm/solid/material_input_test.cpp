@@ -50,6 +50,11 @@ TEST(MaterialInput, GivesTheModelTheConstantsOfItsMaterial) {
   EXPECT_EQ(model.material.roomTemperature, 294);
 }
 
+TEST(MaterialInput, MeltsNothingWhereNoTemperatureIsGivenAsUintah) {
+  const auto materials = materialsOf(sceneOf("elastic_plastic", moduli + flow, "<specific_heat>5</specific_heat>"));
+  EXPECT_EQ(dynamic_cast<const ModelOf<ElasticPlasticModel>&>(*materials[0].model).model().material.meltTemperature, 295e10);
+}
+
 TEST(MaterialInput, KeepsStateOnlyWhereTheConstantsNeedIt) {
   const std::string yields = "<usePlasticity>true</usePlasticity><yield_stress>1</yield_stress>"
                              "<hardening_modulus>0</hardening_modulus>";

@@ -139,8 +139,15 @@ struct ElasticPlastic {
                             "frac_nucleation", "meanstrain_nucleation", "stddevstrain_nucleation",
                             "initial_porosity_distrib", "check_TEPLA_failure_criterion", "check_max_stress_failure"})
       tags.ignored(tag, "there is no porosity: the yield surface of von Mises does not feel it");
-    refuseSwitch(tags, "compute_specific_heat", "give the <specific_heat> of the material");
-    tags.ignored("specific_heat_model", "the <specific_heat> of the material is taken");
+    tags.custom("compute_specific_heat",
+                [](ElasticPlastic&, const input::Element& element, input::Diagnostics& diagnostics) {
+                  const auto compute = element.child("compute_specific_heat"), model = element.child("specific_heat_model");
+                  if (!compute || !model || compute->text() == "false") return;
+                  const std::string type = model->attribute("type").value_or("constant_Cp");
+                  if (const std::string problem = input::choiceProblem(type, {"constant_Cp"}); !problem.empty())
+                    diagnostics.error(*model, "type: " + problem + ": give the <specific_heat> of the material");
+                },
+                {"compute_specific_heat", "specific_heat_model"}, "only constant_Cp: the <specific_heat> of the material");
     tags.custom("plastic_convergence_algo",
                 [](ElasticPlastic&, const input::Element& element, input::Diagnostics& diagnostics) {
                   const auto given = element.child("plastic_convergence_algo");

@@ -21,6 +21,7 @@ struct Rigid {
             .ignored("shear_modulus", "nothing depends on it")
             .ignored("K", "nothing depends on it")
             .ignored("G", "nothing depends on it")
+            .ignored("useModifiedEOS", "nothing depends on it")
             .ignored("alpha", "nothing depends on it")
             .ignored("coeff_thermal_expansion", "nothing depends on it");
     return schema;

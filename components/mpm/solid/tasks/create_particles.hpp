@@ -47,9 +47,8 @@ inline int loadsOn(const Start& start, const Material& material, const Body& bod
 /// The columns of the particles that are made.
 template <int D>
 struct NewParticles {
-  std::vector<Vec<D>>&x, &velocity, &displacement, &size, &externalForce;
-  std::vector<double>&mass, &temperature, &color, &viscosity, &strainEnergy;
-  std::vector<Matrix3>&deformation, &velocityGradient;
+  std::vector<Vec<D>>&x, &velocity, &displacement, &size;
+  std::vector<double>&mass, &temperature, &color;
   std::vector<int>& loads;
 
   void add(const Level& level, const Start& start, const Material& material, const Body& body, const Vec<D>& at,
@@ -58,8 +57,6 @@ struct NewParticles {
     x.push_back(at);
     velocity.push_back(level.reduce<D>(body.velocity(point)));
     displacement.push_back(Vec<D>::Zero());
-    externalForce.push_back(Vec<D>::Zero());
-    velocityGradient.push_back(Matrix3::Zero());
     size.push_back(extent);
     double volume = level.cellVolume() * extent.prod();
     if (start.axisymmetric) volume *= point[0] / (level.cellWidth(2) > 0 ? level.cellWidth(2) : 1.0);
@@ -70,9 +67,6 @@ struct NewParticles {
                                      point[0], point[1], point[2], mass.back(), start.leastMass)}});
     temperature.push_back(body.temperature(point));
     color.push_back(body.color);
-    deformation.push_back(Matrix3::Identity());
-    viscosity.push_back(0);
-    strainEnergy.push_back(0);
     loads.push_back(loadsOn(start, material, body, point, particleSpacing(level, body)));
     if (start.solution) deform(level, start, material, point);
   }
@@ -82,12 +76,11 @@ struct NewParticles {
   void deform(const Level& level, const Start& start, const Material& material, const Vec3& point) {
     const Manufactured& solution = *start.solution;
     const Elastic elastic = elasticOf(material);
-    const Matrix3 f = solution.deformationGradient(elastic, point, 0);
     displacement.back() = level.reduce<D>(solution.displacement(elastic, point, 0));
     x.back() += displacement.back();
     velocity.back() = level.reduce<D>(solution.velocity(elastic, point, 0));
-    deformation.back() = f;
     if (start.domainsDeform) return;
+    const Matrix3 f = solution.deformationGradient(elastic, point, 0);
     for (int d = 0; d < D; ++d)  // gimp's are no wider than a cell
       size.back()[d] = std::min(size.back()[d] * f(level.axis(d), level.axis(d)), 1.0);
   }
@@ -100,14 +93,11 @@ struct NewParticles {
 template <int D>
 void actuallyInitialize(const Patch& patch, const Material& material, ParticleMaker& maker, const Start& start,
                         std::vector<Vec<D>>& x, std::vector<Vec<D>>& velocity, std::vector<Vec<D>>& displacement,
-                        std::vector<Vec<D>>& size, std::vector<Vec<D>>& externalForce, std::vector<double>& mass,
-                        std::vector<double>& temperature, std::vector<double>& color, std::vector<double>& viscosity,
-                        std::vector<double>& strainEnergy, std::vector<Matrix3>& deformation,
-                        std::vector<Matrix3>& velocityGradient, std::vector<int>& loads) {
+                        std::vector<Vec<D>>& size, std::vector<double>& mass, std::vector<double>& temperature,
+                        std::vector<double>& color, std::vector<int>& loads) {
   const Level& level = patch.level();
   if (patch.id() == 0) refuseIdle(start.loads.surfaces);
-  NewParticles<D> particles{x,         velocity,     displacement, size,             externalForce, mass, temperature, color,
-                            viscosity, strainEnergy, deformation,  velocityGradient, loads};
+  NewParticles<D> particles{x, velocity, displacement, size, mass, temperature, color, loads};
   // A displaced particle may start in another cell than the one that made it, and so on another patch.
   const double farthest = start.solution ? start.solution->farthestAtStart() : 0.0;
   const int around = static_cast<int>(std::ceil(farthest / level.minSpacing()));
@@ -139,6 +129,28 @@ void actuallyInitialize(const Patch& patch, const Material& material, ParticleMa
   });
 }
 
+/// What is zero on every particle at the start.
+template <class T>
+void startAtZero(const Patch&, const Material&, ParticleView<const double> mass, ParticleView<T> values) {
+  for (int p = 0; p < mass.owned(); ++p)
+    if constexpr (std::is_arithmetic_v<T>)
+      values[p] = 0;
+    else
+      values[p].setZero();
+}
+
+/// F = I, or that of the manufactured solution at time 0.
+template <int D>
+void startDeformation(const Patch& patch, const Material& material, const Start& start, ParticleView<const Vec<D>> x,
+                      std::optional<ParticleView<const Vec<D>>> displacement, ParticleView<Matrix3> deformation) {
+  for (int p = 0; p < x.owned(); ++p)
+    if (displacement)
+      deformation[p] = start.solution->deformationGradient(
+          elasticOf(material), patch.level().expandPoint<D>(Vec<D>(x[p] - (*displacement)[p])), 0);
+    else
+      deformation[p].setIdentity();
+}
+
 /// What particles of materials whose stress depends on more than F keep besides.
 inline void initializeStress(const Patch&, const Material& material, int stateSize, ParticleView<const double> mass,
                              ParticleView<const Matrix3> deformation, ParticleView<double> volume,
@@ -153,10 +165,17 @@ inline void initializeStress(const Patch&, const Material& material, int stateSi
 template <int D>
 void scheduleActuallyInitialize(TaskList& tasks, const std::vector<Material>& materials, const Start& start) {
   tasks.newParticles("mpm::actuallyInitialize", actuallyInitialize<D>, materials, with(start), creates(p::x<D>),
-                     creates(p::velocity<D>), creates(p::displacement<D>), creates(p::size<D>),
-                     creates(p::externalForce<D>), creates(p::mass), creates(p::temperature), creates(p::color),
-                     creates(p::viscosity), creates(p::strainEnergy), creates(p::deformationMeasure),
-                     creates(p::velocityGradient), creates(p::loadCurves));
+                     creates(p::velocity<D>), creates(p::displacement<D>), creates(p::size<D>), creates(p::mass),
+                     creates(p::temperature), creates(p::color), creates(p::loadCurves));
+  tasks.perMaterial("mpm::initializeDeformation", startDeformation<D>, materials, with(start), requiresNew(p::x<D>),
+                    when(start.solution != nullptr, requiresNew(p::displacement<D>)), computes(p::deformationMeasure));
+  const auto atZero = [&]<class T>(const ParticleLabel<T>& label) {
+    tasks.perMaterial("mpm::initializeAtZero", startAtZero<T>, materials, requiresNew(p::mass), computes(label));
+  };
+  atZero(p::externalForce<D>);
+  atZero(p::viscosity);
+  atZero(p::strainEnergy);
+  atZero(p::velocityGradient);
 }
 
 }  // namespace tushar::mpm::solid
