@@ -8,7 +8,9 @@ import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from solids import globals_of
 from sus import ROOT, SUS, run
+from uda import Folder
 
 BEAM = "ups/solid/implicit_cantilever.ups"
 COARSE = ("MPM/interpolator=gimp", "Grid/Level/Box/upper=[1.2,0.8,0.05]", "Grid/Level/Box/resolution=[12,8,1]")
@@ -45,7 +47,35 @@ def explicit(text):
     return text.replace("<delt_init>1</delt_init>", "<timestep_multiplier>0.5</timestep_multiplier>")
 
 
+def free(text):
+    """The same beam, which nothing holds, with inertia."""
+    text = re.sub(r'.*label="Velocity" var="Dirichlet".*\n', "", text)
+    return text.replace("<dynamic>false", "<dynamic>true").replace('"StrainEnergy"', '"TotalMomentum"')
+
+
 class Implicit(unittest.TestCase):
+    def scene(self, text):
+        """A file with the scene, for as long as the test takes."""
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        path = pathlib.Path(folder.name, "scene.ups")
+        path.write_text(text)
+        return path
+
+    def test_a_load_that_is_there_from_the_start_acts_from_the_start(self):
+        pressed = """<PhysicalBC><MPM><pressure>
+            <geom_object><box><min>[1,0.4,0]</min><max>[1,0.6,0.05]</max></box></geom_object>
+            <load_curve><id>1</id><time_point><time>0</time><load>-30</load></time_point>
+                        <time_point><time>10</time><load>-30</load></time_point></load_curve>
+            </pressure></MPM></PhysicalBC><MPM><use_load_curves>true</use_load_curves>"""
+        scene = self.scene(free((ROOT / BEAM).read_text()).replace("<MPM>", pressed, 1))
+        dt, force = .1, (-30 * .2 * .05, -.1 * 10)
+        rows = globals_of(scene, "TotalMomentum", "CenterOfMassPosition", sets=(f"Time/delt_init={dt}", f"Time/delt_max={dt}",
+                                                                                "Time/maxTime=.3"))
+        for k, (momentum, moment) in enumerate(zip(rows["TotalMomentum"], rows["CenterOfMassPosition"])):
+            for axis in (0, 1):  # of 10 kg, in the middle at (.5, .5); rounding and what Newton's method leaves
+                self.assertAlmostEqual(momentum[1 + axis], force[axis] * k * dt, delta=1e-9)
+                self.assertAlmostEqual(moment[1 + axis], 5 + force[axis] * (k * dt)**2 / 2, delta=1e-9)
     def test_a_load_acts_however_small_it_is_beside_the_stiffness(self):
         steps = ("Time/maxTime=1", "DataArchiver/save[1]/@label=p.x")
         falls = []
@@ -103,6 +133,16 @@ class Implicit(unittest.TestCase):
         prints = {run(BEAM, "Time/max_Timesteps=2", f"Grid/Level/Box/patches={patches}").report["fingerprint"]
                   for patches in ("[1,1,1]", "[2,1,1]", "[5,3,1]")}
         self.assertEqual(len(prints), 1)
+
+    def test_a_restart_changes_no_bit_of_what_moves(self):
+        scene, steps = self.scene(free((ROOT / BEAM).read_text())), "Time/max_Timesteps=4"
+        folder = Folder()
+        self.addCleanup(folder.cleanup)
+        code, errors, whole = folder.run(scene, "DataArchiver/checkpoint/@timestepInterval=1", steps)
+        self.assertEqual((code, errors), (0, ""))
+        code, errors, report = folder.restart(steps, step=3)
+        self.assertEqual((code, errors), (0, ""))
+        self.assertEqual(report["fingerprint"], whole["fingerprint"])
 
     def test_a_failed_solve_tells_history_place_and_what_to_try(self):
         result = run(BEAM, "MPM/iters_before_timestep_restart=1", "Time/delt_min=0.9")

@@ -36,9 +36,29 @@ void ImplicitMpm<Shape>::scheduleInitialize(TaskList& tasks) const {
     tasks.perMaterial("mpm::initializeDamage", initializeDamage, problem_.materials, requiresNew(data::particleId),
                       requiresNew(p::volume), computes(p::damage), computes(p::failureThreshold),
                       computes(p::localized), computes(p::failureTime));
-  tasks.perMaterial("impm::startAtRest", startAtRest<D>, problem_.materials, requiresNew(p::mass),
-                    computes(p::acceleration<D>));
+  scheduleStartingAcceleration(tasks);
   tasks.perPatch("impm::allowAnyTimeStep", [](const Patch&, Minimum&) {}, computes(total::nextTimeStep));
+}
+
+template <class Shape>
+void ImplicitMpm<Shape>::scheduleStartingAcceleration(TaskList& tasks) const {
+  if (!how_.dynamic) {
+    tasks.perMaterial("impm::startAtRest", startAtRest<D>, problem_.materials, requiresNew(p::mass),
+                      computes(p::acceleration<D>));
+    return;
+  }
+  const ImplicitSetup setup{&problem_, how_, state_size_};
+  tasks.perMaterial("mpm::applyExternalLoads", applyExternalLoads<D>, problem_.materials, with(problem_.start.loads),
+                    startTime(), requiresNew(p::x<D>), requiresNew(p::mass), requiresNew(p::loadCurves),
+                    modifies(p::externalForce<D>));
+  tasks.perRankAcrossMaterials(
+      "impm::accelerateAtStart", accelerateAtStart<Shape>, problem_.materials, togetherOnRanks(), with(setup), startTime(),
+      requiresNew(p::x<D>), requiresNew(p::size<D>), requiresNew(p::mass), requiresNew(p::velocity<D>),
+      requiresNew(p::externalForce<D>), requiresNew(p::temperature), requiresNew(p::deformationMeasure),
+      requiresNew(p::stress), requiresNew(state_), computes(g::newAcceleration<D>));
+  tasks.perMaterial("impm::startInMotion", startInMotion<Shape>, problem_.materials, with(setup),
+                    requiresNew(g::newAcceleration<D>, Shape::ghostNodes), requiresNew(p::x<D>), requiresNew(p::size<D>),
+                    computes(p::acceleration<D>));
 }
 
 template <class Shape>

@@ -47,6 +47,10 @@ class ImplicitSystem : public solvers::NonlinearProblem {
   /// counted as those of a strain of 1.
   bool isNegligible(std::span<const double> u, std::span<const double> r) const override;
 
+  /// What each node is accelerated by when a run starts: (f + m g - sum_p V_p sigma_p grad S) / m, 0 where prescribed, m/s^2.
+  /// Newmark's rule begins with it: without, a load that is there from the start would lose half a step of its momentum.
+  std::vector<double> startingAcceleration();
+
   /// The forces that hold the nodes of this rank where they are prescribed, along the axes along which they are, N.
   std::vector<double> reactions() const;
 
@@ -88,6 +92,7 @@ class ImplicitSystem : public solvers::NonlinearProblem {
   void supportNodes();
   const NodeTouch<D>* touchesOf(std::size_t point) const { return &touch_[point * touches_]; }
   Matrix3 displacementGradient(std::size_t point, std::span<const double> u) const;
+  bool addInternalForces(std::span<const double> u, std::span<double> r);
   void addInternalForce(const PointRun& run, std::span<double> r) const;
   Strain strainOf(std::size_t point) const;
   Local stiffnessOf(const PointGroup& group, int k, const Matrix9& tangent) const;

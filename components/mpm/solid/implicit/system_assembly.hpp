@@ -193,6 +193,15 @@ bool ImplicitSystem<Shape>::residual(std::span<const double> u, std::span<double
     Eigen::Map<Vec<D>>(r.data() + D * k) = node.mass * acceleration(k, u) - node.force +
                                            node.support * (displacement(k, u) - dt_ * node.velocity);
   }
+  const bool admissible = addInternalForces(u, r);
+  for (std::size_t k = 0; k < prescribed_.size(); ++k)
+    if (prescribed_[k]) held_[k] = std::exchange(r[k], 0.0);
+  return admissible;
+}
+
+/// False where a point would be turned inside out.
+template <class Shape>
+bool ImplicitSystem<Shape>::addInternalForces(std::span<const double> u, std::span<double> r) {
   bool admissible = true;
   forEachRun([&](const PointSources<Shape>&, const PointRun& run) {
     for (int k = run.from; k < run.from + run.count; ++k) {
@@ -204,9 +213,23 @@ bool ImplicitSystem<Shape>::residual(std::span<const double> u, std::span<double
     states_.updateStress(run);
     addInternalForce(run, r);
   });
-  for (std::size_t k = 0; k < prescribed_.size(); ++k)
-    if (prescribed_[k]) held_[k] = std::exchange(r[k], 0.0);
   return admissible;
+}
+
+template <class Shape>
+std::vector<double> ImplicitSystem<Shape>::startingAcceleration() {
+  std::vector<double> sums(node_.size() * D, 0.0);
+  const std::vector<double> still(sums);
+  addInternalForces(still, sums);
+  solvers::addUp(map_.unknowns(D), sums);
+  for (int k = 0; k < map_.size(); ++k) {
+    const Node& node = node_[static_cast<std::size_t>(k)];
+    Eigen::Map<Vec<D>> sum(sums.data() + D * k);
+    sum = node.mass > 0 ? Vec<D>((node.force - sum) / node.mass) : Vec<D>::Zero();
+    for (int d = 0; d < D; ++d)
+      if (isPrescribed(k, d)) sum[d] = 0;
+  }
+  return sums;
 }
 
 template <class Shape>

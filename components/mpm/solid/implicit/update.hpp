@@ -81,6 +81,16 @@ void startAtRest(const Patch&, const Material&, ParticleView<const double> mass,
   for (int p = 0; p < mass.owned(); ++p) acceleration[p] = Vec<D>::Zero();
 }
 
+/// Newmark: a_p = sum_i S_i a_i when a run starts.
+template <class Shape, int D = Shape::dimension>
+void startInMotion(const Patch& patch, const Material&, const ImplicitSetup& setup, NodeView<const Vec<D>> nodal,
+                   ParticleView<const Vec<D>> x, ParticleView<const Vec<D>> size, ParticleView<Vec<D>> acceleration) {
+  const Extents<Shape> extents(patch.level(), setup.problem->method.commonSize, size, std::nullopt);
+  forEachStencil<Shape>(patch, patch.cells(), x, extents, [&](int p, const auto& stencil) {
+    acceleration[p] = interpolated(patch.level(), stencil, nodal).first;
+  });
+}
+
 /// The force of loads on each particle at the end of the step.
 template <int D>
 void applyLoadsAtEnd(const Patch& patch, const Material& material, const Loads& loads, double time, double dt,
