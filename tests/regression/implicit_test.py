@@ -129,6 +129,25 @@ class Implicit(unittest.TestCase):
             # The nodes of the die reach up to a cell into the billet, and keep its ten cells from widening there.
             self.assertTrue(1 < force[1] / hill < 1.2, force[1] / hill)
 
+    def test_a_rigid_body_is_followed_along_all_axes_unless_the_scene_says_which(self):
+        billet = (ROOT / "ups/solid/billet.ups").read_text()
+        steps = ("MPM/time_integrator=implicit", "MPM/dynamic=false", "MPM/artificial_viscosity=false",
+                 "Time/timestep_multiplier=1", "Time/delt_init=1e-6", "Time/max_Timesteps=1")
+        line = "<direction>[0,1,0]</direction>"
+        forces = [last_of(self.scene(billet.replace(line, other)), ["RigidReactionForce"], steps)[0]
+                  for other in (line, "<direction>[1,1,1]</direction>", "")]
+        self.assertEqual(forces[0][0], 0)
+        self.assertNotEqual(forces[1][0], 0)
+        self.assertEqual(forces[2], forces[1])
+
+    def test_particles_go_no_further_than_most_of_a_cell_in_a_step(self):
+        scene = self.scene(free((ROOT / BEAM).read_text()))
+        rows = globals_of(scene, "TotalMomentum", sets=("MaterialProperties/MPM/material/geom_object/velocity=[1,0,0]",
+                                                        "PhysicalConstants/gravity=[0,0,0]", "Time/maxTime=0.15"))
+        times = [row[0] for row in rows["TotalMomentum"]]
+        for before, after in zip(times, times[1:]):
+            self.assertAlmostEqual(after - before, .8 * .05, delta=1e-9)  # of a cell, at 1 m/s
+
     def test_patches_change_no_bit(self):
         prints = {run(BEAM, "Time/max_Timesteps=2", f"Grid/Level/Box/patches={patches}").report["fingerprint"]
                   for patches in ("[1,1,1]", "[2,1,1]", "[5,3,1]")}
@@ -147,9 +166,24 @@ class Implicit(unittest.TestCase):
     def test_a_failed_solve_tells_history_place_and_what_to_try(self):
         result = run(BEAM, "MPM/iters_before_timestep_restart=1", "Time/delt_min=0.9")
         self.assertEqual(result.code, 4)
-        self.assertRegex(result.err, r"Newton's method did not converge \(DIVERGED_MAX_IT\) in 1 iterations; residuals "
-                                     r"\S+, \S+; the greatest residual is at the node at \(")
+        self.assertRegex(result.err, r"Newton's method did not converge: more iterations than allowed \(DIVERGED_MAX_IT\) "
+                                     r"in 1 iteration; residuals \S+, \S+; the greatest residual is at the node at \(")
         self.assertIn("try a smaller <delt_init>", result.err)
+
+    def test_a_failed_linear_solve_tells_its_own_history_too(self):
+        result = run(BEAM, "MPM/Solver/solver=gmres", "MPM/Solver/preconditioner=jacobi", "MPM/Solver/maxiterations=3",
+                     "Time/delt_min=0.9")
+        self.assertEqual(result.code, 4)
+        self.assertRegex(result.err, r"Newton's method did not converge: a linear solve failed, more iterations than allowed "
+                                     r"\(DIVERGED_ITS\) in .*; those of the last linear solve, 3 iterations; residuals \S+, ")
+        self.assertIn("more <maxiterations>", result.err)
+
+    def test_a_tag_in_solver_leaves_the_defaults_of_the_others(self):
+        sets = ("MPM/interpolator=gimp", "Time/max_Timesteps=1", "Grid/Level/Box/patches=[1,1,1]")
+        without = self.scene(re.sub(r"<Solver>.*</Solver>", "", (ROOT / BEAM).read_text(), flags=re.DOTALL))
+        one = self.scene(re.sub(r"<Solver>.*</Solver>", "<Solver><maxiterations>999</maxiterations></Solver>",
+                                (ROOT / BEAM).read_text(), flags=re.DOTALL))
+        self.assertEqual(run(one, *sets).report["fingerprint"], run(without, *sets).report["fingerprint"])
 
     def test_a_step_that_fails_is_halved(self):
         result = run(BEAM, "MPM/iters_before_timestep_restart=2", "Time/max_Timesteps=1", "PhysicalConstants/gravity=[0,-50,0]",

@@ -99,7 +99,7 @@ TEST(ImplicitSystem, HasTheTangentOfEveryMaterialFromADeformedStart) {
 }
 
 TEST(ImplicitSystem, HasTheTangentOfItsResidualWhereParticlesAreCompressedAsOne) {
-  for (const auto& model : {modelOf(rubber()), modelOf(mooneyRivlin())}) {
+  for (const auto& model : {modelOf(rubber()), modelOf(mooneyRivlin()), modelOf(softMetal())}) {
     Block<LinearShape<2>> narrow(model, {{2, 2, 1}}, 1.2);
     Block<GimpShape<2>> wide(model, {{2, 1, 1}}, 1.2);
     Block<LinearShape<3>> solid(model, {{1, 1, 1}}, 0.9);
@@ -197,8 +197,8 @@ TEST(ImplicitSystem, KnowsTheForcesThatHoldWhatIsPrescribed) {
 
 TEST(ImplicitMethod, ChangesTheTimeStepByNewtonsIterations) {
   const ImplicitMethod method;
-  EXPECT_EQ(method.nextTimeStep(1, 13), 0.6);
-  EXPECT_EQ(method.nextTimeStep(1, 12), 1);
+  EXPECT_EQ(method.nextTimeStep(1, 12), 0.6);
+  EXPECT_EQ(method.nextTimeStep(1, 11), 1);
   EXPECT_EQ(method.nextTimeStep(1, 5), 1);
   EXPECT_EQ(method.nextTimeStep(1, 4), 2);
 }

@@ -12,14 +12,14 @@ struct ImplicitMethod {
   solvers::NewtonSettings newton;
   bool conductsHeat = false;
   solvers::LinearSettings heat;  ///< where heat is conducted
-  int iterationsToDecrease = 12;  ///< a step that took more makes the next one shorter
+  int iterationsToDecrease = 12;  ///< a step that took so many makes the next one shorter
   int iterationsToIncrease = 4;   ///< a step that took no more makes the next one longer
   double decreaseFactor = 0.6;
   double increaseFactor = 2;
 
   /// What the next step may be after one of `dt` [s] that took so many iterations, s.
   double nextTimeStep(double dt, int iterations) const {
-    if (iterations > iterationsToDecrease) return decreaseFactor * dt;
+    if (iterations >= iterationsToDecrease) return decreaseFactor * dt;
     return iterations <= iterationsToIncrease ? increaseFactor * dt : dt;
   }
 };

@@ -66,6 +66,9 @@ void ImplicitMpm<Shape>::scheduleComputeStableTimeStep(TaskList& tasks) const {
   tasks.perPatch("impm::limitTimeStep",
                  [](const Patch&, double allowed, Minimum& dt) { dt.add(allowed, "Newton's iterations"); },
                  requiresOld(total::nextTimeStep), computes(delT));
+  if (how_.dynamic)
+    tasks.perMaterial("impm::limitBySpeed", limitBySpeed<D>, problem_.materials, requiresOld(p::velocity<D>),
+                      computes(delT));
 }
 
 template <class Shape>

@@ -52,9 +52,10 @@ NumericalError failureOf(const solvers::Outcome& outcome, const ImplicitSystem<S
   const NodeMap<D>& nodes = system.nodes();
   std::optional<Vec3> worst;
   if (outcome.worst >= 0) worst = nodes.level().template expandPoint<D>(nodes.position(outcome.worst / D));
+  const char* linear = outcome.krylovResiduals.empty() ? "" : "more <maxiterations> or ";
   return {solvers::sentenceOf("Newton's method", outcome) + solvers::worstPlace(nodes.ranks(), worst, "at the node"),
-          "a smaller <delt_init> or <delt_max>, slower loads, <preconditioner> lu in <MPM>/<Solver>, or support for a body "
-          "that is free to move",
+          fmt::format("a smaller <delt_init> or <delt_max>, slower loads, {}<solver> direct with <preconditioner> lu in "
+                      "<MPM>/<Solver>, or support for a body that is free to move", linear),
           "g.displacement"};
 }
 

@@ -91,6 +91,15 @@ void startInMotion(const Patch& patch, const Material&, const ImplicitSetup& set
   });
 }
 
+/// No particle goes further than .8 of a cell along any axis in the next step; with inertia, where it keeps its velocity.
+template <int D>
+void limitBySpeed(const Patch& patch, const Material&, ParticleView<const Vec<D>> velocity, Minimum& dt) {
+  for (int p = 0; p < velocity.owned(); ++p)
+    for (int d = 0; d < D; ++d)
+      if (const double speed = std::abs(velocity[p][d]); speed > 0)
+        dt.add(0.8 * patch.level().spacing(d) / speed, "the speed of particles");
+}
+
 /// The force of loads on each particle at the end of the step.
 template <int D>
 void applyLoadsAtEnd(const Patch& patch, const Material& material, const Loads& loads, double time, double dt,
