@@ -51,8 +51,6 @@ REFUSED = {
     "a direct solver that solves nothing":
         (BEAM, ("<preconditioner>lu", "<preconditioner>gamg"),
          "preconditioner: found 'gamg', but with <solver> direct it solves the system: take lu or cholesky"),
-    "a grid that stays in implicit steps":
-        (BEAM, ("<dynamic>", "<do_grid_reset>false</do_grid_reset><dynamic>"), "do_grid_reset: is always true"),
     "a rigid body without a contact":
         (BEAM, ('<material name="rubber">', '<material name="rubber"><is_rigid>true</is_rigid>'),
          "is_rigid: needs a <contact> of type rigid or specified, whose master the material is"),

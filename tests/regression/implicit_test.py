@@ -8,7 +8,7 @@ import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from solids import globals_of
+from solids import globals_of, last_state
 from sus import ROOT, SUS, run
 from uda import Folder
 
@@ -147,6 +147,18 @@ class Implicit(unittest.TestCase):
         times = [row[0] for row in rows["TotalMomentum"]]
         for before, after in zip(times, times[1:]):
             self.assertAlmostEqual(after - before, .8 * .05, delta=1e-9)  # of a cell, at 1 m/s
+
+    def test_a_grid_that_goes_along_gives_one_equilibrium_in_any_number_of_steps(self):
+        along = ("MPM/do_grid_reset=false", "DataArchiver/save[1]/@label=p.displacement")
+        reset, one, many = (last_state(BEAM, "p.x", "p.displacement", sets=sets) for sets in (
+            ("Time/max_Timesteps=1",), (*along, "Time/max_Timesteps=1"), (*along, "Time/max_Timesteps=4")))
+        for axis in "xy":
+            name = f"p.displacement.{axis} [m]"
+            for moved, once, again in zip(reset[name], one[name], many[name]):
+                self.assertAlmostEqual(once, moved, delta=1e-15)  # nothing has moved yet; rounding of places of 1 m
+                self.assertAlmostEqual(again, once, delta=1e-9)  # Newton's tolerance of .1 m, and rounding
+        self.assertEqual(one["x [m]"], many["x [m]"])  # the place in the grid
+        self.assertGreater(max(map(abs, many["p.displacement.y [m]"])), .05)  # of a cell
 
     def test_patches_change_no_bit(self):
         prints = {run(BEAM, "Time/max_Timesteps=2", f"Grid/Level/Box/patches={patches}").report["fingerprint"]

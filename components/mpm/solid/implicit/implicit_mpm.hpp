@@ -22,6 +22,7 @@ class ImplicitMpm : public Solids {
   static constexpr int D = Shape::dimension;
 
   void scheduleStartingAcceleration(TaskList& tasks) const;
+  void scheduleMovement(TaskList& tasks) const;
   void scheduleVelocity(TaskList& tasks) const;
   void scheduleHeat(TaskList& tasks) const;
   void scheduleDamage(TaskList& tasks) const;

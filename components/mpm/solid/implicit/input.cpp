@@ -20,7 +20,7 @@ namespace {
 struct Section {
   int integrator = 0, solver = 0, transient = 0;
   bool gimp = false, useLoadCurves = false, withColor = false, axisymmetric = false;
-  bool dynamic = true, sharesVolume = false, heat = false;
+  bool dynamic = true, resetsGrid = true, sharesVolume = false, heat = false;
   double displacement = 1e-10, energy = 4e-10, decreaseFactor = 0.6, increaseFactor = 2;
   int maxIterations = 25, decrease = 12, increase = 4;
   std::optional<solvers::LinearSettings> linear;
@@ -28,6 +28,7 @@ struct Section {
   ImplicitMethod method() const {
     ImplicitMethod method;
     method.dynamic = dynamic;
+    method.resetsGrid = resetsGrid;
     method.sharesVolume = sharesVolume;
     method.conductsHeat = heat;
     method.newton.displacement = displacement;
@@ -68,7 +69,10 @@ const Schema<Section>& sectionSchema() {
                "x is the radius and y the axis; mass, energy and forces are per radian")
         .value("dynamic", &Section::dynamic, true, "1",
                "Newmark's method; false: no inertia, each step ends in equilibrium");
-    mpm.value("DoPressureStabilization", &Section::sharesVolume, false, "1",
+    mpm.value("do_grid_reset", &Section::resetsGrid, true, "1",
+              "false: the grid goes along with the solid, particles keep their places in it, and p.displacement tells where "
+              "they are")
+        .value("DoPressureStabilization", &Section::sharesVolume, false, "1",
               "F-bar: the particles of a cell answer to compression as one, against locking where nothing is compressible; "
               "for comp_neo_hook, comp_mooney_rivlin, UCNH and comp_neo_hook_plastic");
     declareSteps(mpm);
@@ -88,7 +92,6 @@ const Schema<Section>& sectionSchema() {
         .ignored("minimum_particle_mass", "no particle is taken out")
         .ignored("maximum_particle_velocity", "no particle is slowed down");
     refuseSwitch(mpm, "artificial_viscosity", "only explicit steps have one");
-    requireSwitch(mpm, "do_grid_reset", "the grid is where it was at the start of each step");
     for (const char* tag : {"artificial_viscosity_coeff1", "artificial_viscosity_coeff2", "artificial_viscosity_heating",
                             "minimum_mass_for_acc", "minimum_subcycles_for_F", "XPIC2", "do_contact_friction_heating",
                             "cpdi_lcrit", "computeColinearNormals"})

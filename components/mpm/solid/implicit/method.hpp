@@ -8,6 +8,7 @@ namespace tushar::mpm::solid {
 /// How an implicit step is taken; names and defaults are Uintah's.
 struct ImplicitMethod {
   bool dynamic = true;  ///< Newmark's method; else inertia is left out and each step ends at rest
+  bool resetsGrid = true;     ///< else the grid goes along with the solid: shape functions are those of its places at the start
   bool sharesVolume = false;  ///< F-bar: the particles of a cell are compressed as one, against locking
   solvers::NewtonSettings newton;
   bool conductsHeat = false;

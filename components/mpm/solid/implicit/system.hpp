@@ -23,7 +23,8 @@ struct PointSources {
 ///     r_i = sum_p V0_p P_p F_oldᵀ grad S_i + m_i a_i - f_i - m_i g = 0,
 ///
 /// for the displacement u of the nodes in the step, with P = J sigma F^-T, F = (I + sum_i u_i grad S_i) F_old and S_i at the
-/// positions at its begin. By Newmark's rule with beta = 1/4, gamma = 1/2: a = 4 (u/dt - v_old)/dt - a_old.
+/// positions at its begin, or where the grid goes along with the solid at those of the start, so that grad S =
+/// F_old^-T grad_0 S. By Newmark's rule with beta = 1/4, gamma = 1/2: a = 4 (u/dt - v_old)/dt - a_old.
 /// Guilkey & Weiss, Int. J. Numer. Meth. Engng 57 (2003) 1323.
 template <class Shape>
 class ImplicitSystem : public solvers::NonlinearProblem {
@@ -86,6 +87,7 @@ class ImplicitSystem : public solvers::NonlinearProblem {
 
   void findRuns();
   void findNodes(const RankPatches& patches);
+  void carrySlopes();
   void gatherNodes();
   void shareNodes(const std::vector<double>& sums);
   void measureStiffness();

@@ -28,6 +28,7 @@ ImplicitSystem<Shape>::ImplicitSystem(const RankPatches& patches, const mpi::Com
       touch_(countPoints(sources_) * touches_),
       states_(countPoints(sources_), stateSize, dt, how.sharesVolume) {
   findNodes(patches);
+  if (!how.resetsGrid) carrySlopes();
   findRuns();
   gatherNodes();
   measureStiffness();
@@ -59,6 +60,22 @@ void ImplicitSystem<Shape>::findNodes(const RankPatches& patches) {
   map_.number(patches, Shape::ghostNodes + 1);
   for (std::size_t k = 0; k < touch_.size(); ++k)
     if (touch_[k].node >= 0) touch_[k].node = map_(images[k]);
+}
+
+/// grad S = F_old^-T grad_0 S
+template <class Shape>
+void ImplicitSystem<Shape>::carrySlopes() {
+  const Level& level = map_.level();
+  for (const PointSources<Shape>& from : sources_)
+    for (int p = 0; p < from.group.count; ++p) {
+      const Matrix3 inverse = from.group.oldDeformation[p].inverse();
+      NodeTouch<D>* touch = &touch_[(from.group.first + static_cast<std::size_t>(p)) * touches_];
+      for (int k = 0; k < touches_; ++k) {
+        const Vec<D> slope = touch[k].gradient;
+        touch[k].gradient = level.template reduce<D>(Vec3(level.template expandDirection<D>(slope).transpose() * inverse));
+        touch[k].hoop *= inverse(2, 2);
+      }
+    }
 }
 
 template <class Shape>
