@@ -158,7 +158,7 @@ class Implicit(unittest.TestCase):
                 self.assertAlmostEqual(once, moved, delta=1e-15)  # nothing has moved yet; rounding of places of 1 m
                 self.assertAlmostEqual(again, once, delta=1e-9)  # Newton's tolerance of .1 m, and rounding
         self.assertEqual(one["x [m]"], many["x [m]"])  # the place in the grid
-        self.assertGreater(max(map(abs, many["p.displacement.y [m]"])), .05)  # of a cell
+        self.assertGreater(max(map(abs, many["p.displacement.y [m]"])), .01)  # a fifth of a cell
 
     def test_patches_change_no_bit(self):
         prints = {run(BEAM, "Time/max_Timesteps=2", f"Grid/Level/Box/patches={patches}").report["fingerprint"]
