@@ -233,6 +233,8 @@ ExitCode runScene(const Arguments& arguments, const simulation::Catalogue& known
   const simulation::Report report = run.run();
   if (traces) writeTrace(arguments.trace, ranks);
   if (reports) ranks.onFirst([&] { writeFile(arguments.run.jsonPath, toJson(report)); });
+  for (const std::string& option : report.unusedOptions)
+    if (ranks.isFirst()) fmt::print(stderr, "note: PETSc: no solve has looked at the option {}\n", option);
   if (!report.failure.empty()) throw NumericalError(report.failure, report.advice);
   if (!arguments.run.quiet && ranks.isFirst()) fmt::print("{}", toText(report));
   return report.ended == "interrupted" ? ExitCode::interrupted : ExitCode::success;

@@ -49,6 +49,18 @@ bool keepsValueSomewhere(const Level& level) {
   return false;
 }
 
+/// Where no face keeps a value, integral f dV must be what the slopes at the faces bring in, k dphi/dn dA; or else there
+/// is no solution (R. Courant & D. Hilbert, Methods of Mathematical Physics 1, V.14: a free constant is orthogonal to f).
+void refuseImbalance(const Level& level, const solvers::Outcome& outcome, double tolerance) {
+  if (!(std::abs(outcome.unbalanced) > tolerance * outcome.loads)) return;
+  const double excess = -outcome.unbalanced / (static_cast<double>(level.cells().size()) * level.cellVolume());
+  throw NumericalError(
+      fmt::format("Poisson's equation has no solution: no face keeps a value of Phi, and the source over the whole grid is "
+                  "greater by {:.6g} than what the slopes at the faces let in, {:.2g} of all that is summed",
+                  -outcome.unbalanced, std::abs(outcome.unbalanced) / outcome.loads),
+      fmt::format("a <source> that is smaller by {:.15g} everywhere, or a face with a Dirichlet value", excess), "c.phi");
+}
+
 }  // namespace
 
 template <int D>
@@ -74,6 +86,7 @@ void solve(const RankPatches& patches, const mpi::Communicator& ranks, const Set
   };
   forEachCell<D>(patches, [&](std::size_t p, const Index<D>& cell) { x[place(cell)] = oldPhi[p][cell]; });
   const solvers::Outcome outcome = solvers::solver().solve(unknowns, {assemble, right}, settings.solver, x);
+  refuseImbalance(level, outcome, settings.solver.tolerance);
   if (!outcome.converged)
     throw NumericalError(solvers::sentenceOf("Poisson's equation", outcome) +
                              solvers::worstPlace(ranks, poisson::placeOf<D>(patches, number, outcome.worst), "in the cell"),

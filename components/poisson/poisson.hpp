@@ -27,8 +27,8 @@ struct Settings {
 /// div(k grad phi) = f in D dimensions, by finite volumes, solved anew in every step for the f of its end.
 ///
 /// At a face with `Phi` Dirichlet the value is kept, with Neumann the outward derivative; any other face lets no flux
-/// through. Where no face keeps a value, f has its mean taken away and phi has mean 0. The component to copy where a step
-/// needs a global solve.
+/// through. Where no face keeps a value, phi has mean 0, and a source that the faces do not balance is refused. The
+/// component to copy where a step needs a global solve.
 template <int D>
 class Poisson : public Component {
  public:

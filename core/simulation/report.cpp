@@ -174,6 +174,7 @@ std::string toJson(const Report& report) {
   if (!report.energies.came.empty()) json["energies"] = energiesOf(report);
   json["tasks"] = tasksOf(report);
   json["archive"] = report.archive;
+  json["unused_petsc_options"] = report.unusedOptions;
   json["fingerprint"] = report.fingerprint;
   return json.dump(2) + "\n";
 }

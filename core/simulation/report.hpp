@@ -68,6 +68,7 @@ struct Report {
   std::vector<tasks::LeftOut> leftOut;
   std::string fingerprint;
   std::string archive;  ///< folder, if anything was saved
+  std::vector<std::string> unusedOptions;  ///< given to PETSc, which no solve has looked at
 };
 
 /// As JSON: the keys are listed in README.md.

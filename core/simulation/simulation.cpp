@@ -9,6 +9,7 @@
 #include "core/simulation/error_norms.hpp"
 #include "core/simulation/gather.hpp"
 #include "core/simulation/kept_reductions.hpp"
+#include "core/solvers/solver.hpp"
 
 namespace tushar::simulation {
 
@@ -324,6 +325,7 @@ Report Simulation::makeReport() {
   }
   report.wallOutput = wall_output_;
   report.archive = folder_;
+  report.unusedOptions = solvers::unusedOptions();
   report.fingerprint = fingerprint(warehouse_, phases_.state(), static_cast<int>(phases_.materials().size()));
   return report;
 }

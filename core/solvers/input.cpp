@@ -2,31 +2,44 @@
 
 namespace tushar::solvers {
 
+namespace {
+
+/// What a scene leaves out is as in `defaults`.
+input::Schema<LinearSettings> schemaOf(const LinearSettings& defaults) {
+  return input::Schema<LinearSettings>("Solver", "How linear systems are solved.")
+      .choice("solver", &LinearSettings::solver,
+              {{"cg", "cg"}, {"gmres", "gmres"}, {"fgmres", "fgmres"}, {"bicgstab", "bcgs"}, {"direct", "preonly"}},
+              defaults.solver, "Krylov method; direct: none, the preconditioner lu or cholesky solves")
+      .ours()
+      .choice("preconditioner", &LinearSettings::preconditioner,
+              {{"gamg", "gamg"}, {"hypre", "hypre"}, {"jacobi", "jacobi"}, {"ilu", "ilu"}, {"lu", "lu"},
+               {"cholesky", "cholesky"}, {"none", "none"}},
+              defaults.preconditioner, "algebraic multigrid of PETSc or of hypre, or one for small systems")
+      .ours()
+      .value("tolerance", &LinearSettings::tolerance, defaults.tolerance, "1", "residual over right-hand side",
+             input::positive(), input::atMost(0.1))
+      .ours()
+      .value("maxiterations", &LinearSettings::maxIterations, defaults.maxIterations, "1", "more of them are a failure",
+             input::atLeast(1))
+      .ours()
+      .value("petsc", &LinearSettings::petsc, "", "1", "options in PETSc's language; sus -petsc wins")
+      .ours()
+      .check([](const LinearSettings& read, const input::Element& element, input::Diagnostics& diagnostics) {
+        if (read.solver == "preonly" && read.preconditioner != "lu" && read.preconditioner != "cholesky")
+          diagnostics.error(element, "preconditioner: found '" + read.preconditioner +
+                                         "', but with <solver> direct it solves the system: take lu or cholesky");
+      });
+}
+
+}  // namespace
+
 const input::Schema<LinearSettings>& linearSchema() {
-  static const input::Schema<LinearSettings> schema =
-      input::Schema<LinearSettings>("Solver", "How linear systems are solved.")
-          .choice("solver", &LinearSettings::solver,
-                  {{"cg", "cg"}, {"gmres", "gmres"}, {"fgmres", "fgmres"}, {"bicgstab", "bcgs"}, {"direct", "preonly"}},
-                  "cg", "Krylov method; direct: none, the preconditioner lu or cholesky solves")
-          .ours()
-          .choice("preconditioner", &LinearSettings::preconditioner,
-                  {{"gamg", "gamg"}, {"hypre", "hypre"}, {"jacobi", "jacobi"}, {"ilu", "ilu"}, {"lu", "lu"},
-                   {"cholesky", "cholesky"}, {"none", "none"}},
-                  "gamg", "algebraic multigrid of PETSc or of hypre, or one for small systems")
-          .ours()
-          .value("tolerance", &LinearSettings::tolerance, 1e-10, "1", "residual over right-hand side",
-                 input::positive(), input::atMost(0.1))
-          .ours()
-          .value("maxiterations", &LinearSettings::maxIterations, 1000, "1", "more of them are a failure",
-                 input::atLeast(1))
-          .ours()
-          .value("petsc", &LinearSettings::petsc, "", "1", "options in PETSc's language; sus -petsc wins")
-          .ours()
-          .check([](const LinearSettings& read, const input::Element& element, input::Diagnostics& diagnostics) {
-            if (read.solver == "preonly" && read.preconditioner != "lu" && read.preconditioner != "cholesky")
-              diagnostics.error(element, "preconditioner: found '" + read.preconditioner +
-                                             "', but with <solver> direct it solves the system: take lu or cholesky");
-          });
+  static const input::Schema<LinearSettings> schema = schemaOf({});
+  return schema;
+}
+
+const input::Schema<LinearSettings>& tangentSchema() {
+  static const input::Schema<LinearSettings> schema = schemaOf(NewtonSettings{}.linear);
   return schema;
 }
 

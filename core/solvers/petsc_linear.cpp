@@ -25,17 +25,20 @@ int worstRow(Mat matrix, Vec b, Vec x) {
 
 void note(Outcome& outcome, KSP krylov) {
   KSPConvergedReason reason;
-  const char* word = nullptr;
-  PetscInt iterations = 0, count = 0;
-  const PetscReal* history = nullptr;
+  PetscInt iterations = 0;
   check(KSPGetConvergedReason(krylov, &reason));
-  check(KSPGetConvergedReasonString(krylov, &word));
   check(KSPGetIterationNumber(krylov, &iterations));
-  check(KSPGetResidualHistory(krylov, &history, &count));
   outcome.converged = reason > 0;
-  outcome.reason = word;
+  outcome.reason = reasonOf(reason);
   outcome.krylovIterations = static_cast<int>(iterations);
-  outcome.residuals.assign(history, history + count);
+  outcome.residuals = residualsOf(krylov);
+}
+
+/// Takes out of b what no solution can balance.
+void balance(Outcome& outcome, MatNullSpace free, Vec b) {
+  check(VecSum(b, &outcome.unbalanced));
+  check(VecNorm(b, NORM_1, &outcome.loads));
+  check(MatNullSpaceRemove(free, b));
 }
 
 }  // namespace
@@ -50,7 +53,7 @@ Outcome solveLinear(const Unknowns& unknowns, const LinearProblem& problem, cons
   const PetscVector b(unknowns, right), solution(unknowns, x);
   MatNullSpace free = nullptr;
   check(MatGetNullSpace(matrix, &free));
-  if (free) check(MatNullSpaceRemove(free, b));
+  if (free) balance(outcome, free, b);
   OwnedKsp krylov;
   check(KSPCreate(mpi::handleOf(*unknowns.ranks), krylov.address()));
   check(KSPSetOperators(krylov, matrix, matrix));

@@ -20,6 +20,7 @@ class PetscSolver : public Solver {
     startPetsc();
     GhostedVector(unknowns).addUp(values);
   }
+  std::vector<std::string> unusedOptions() const override { return PetscOptionsOfSolve::unused(); }
 };
 
 }  // namespace

@@ -108,26 +108,29 @@ void configure(SNES snes, Newton& newton, Vec r) {
   KSP krylov = nullptr;
   check(SNESGetKSP(snes, &krylov));
   check(SNESSetFromOptions(snes));
+  check(KSPSetResidualHistory(krylov, nullptr, settings.linear.maxIterations + 1, PETSC_TRUE));
   configure(krylov, settings.linear);
   newton.balance.attach(krylov);
 }
 
 void note(Outcome& outcome, SNES snes, Vec r) {
   SNESConvergedReason reason;
-  const char* word = nullptr;
   PetscInt newton = 0, krylov = 0, count = 0;
   PetscReal* history = nullptr;
   check(SNESGetConvergedReason(snes, &reason));
-  check(SNESGetConvergedReasonString(snes, &word));
   check(SNESGetIterationNumber(snes, &newton));
   check(SNESGetLinearSolveIterations(snes, &krylov));
   check(SNESGetConvergenceHistory(snes, &history, nullptr, &count));
   outcome.converged = reason > 0;
-  outcome.reason = word;
+  outcome.reason = reasonOf(snes);
   outcome.newtonIterations = static_cast<int>(newton);
   outcome.krylovIterations = static_cast<int>(krylov);
   outcome.residuals.assign(history, history + count);
   if (!outcome.converged) outcome.worst = worstOf(r);
+  if (reason != SNES_DIVERGED_LINEAR_SOLVE) return;
+  KSP linear = nullptr;
+  check(SNESGetKSP(snes, &linear));
+  outcome.krylovResiduals = residualsOf(linear);
 }
 
 }  // namespace

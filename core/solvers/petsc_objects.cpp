@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <numeric>
 
@@ -54,16 +53,6 @@ void check(PetscErrorCode code) {
 }
 
 void startPetsc() { static const Session session; }
-
-PetscOptionsOfSolve::PetscOptionsOfSolve(const std::string& options) {
-  startPetsc();
-  check(PetscOptionsCreate(options_.address()));
-  if (!options.empty()) check(PetscOptionsInsertString(options_, options.c_str()));
-  if (const char* given = std::getenv("PETSC_OPTIONS")) check(PetscOptionsInsertString(options_, given));
-  check(PetscOptionsPush(options_));
-}
-
-PetscOptionsOfSolve::~PetscOptionsOfSolve() { PetscOptionsPop(); }
 
 PetscMatrix::PetscMatrix(const Unknowns& unknowns) : ranks_(mpi::handleOf(*unknowns.ranks)) {
   const PetscInt block = unknowns.block, rows = block * unknowns.owned;

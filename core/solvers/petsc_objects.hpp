@@ -51,7 +51,13 @@ class PetscOptionsOfSolve {
   PetscOptionsOfSolve& operator=(const PetscOptionsOfSolve&) = delete;
   ~PetscOptionsOfSolve();
 
+  /// The options of all solves so far that neither one of them nor PETSc's own start has looked at.
+  static std::vector<std::string> unused();
+
  private:
+  void noteUse(const std::string& options);
+
+  std::string given_;
   Owned<PetscOptions, PetscOptionsDestroy> options_;
 };
 
@@ -147,6 +153,12 @@ PetscErrorCode guarded(std::exception_ptr& thrown, Work&& work) {
 /// The line search of Newton's method, by the energy (Crisfield, Non-linear Finite Element Analysis, 9.2); `context` is a
 /// std::exception_ptr.
 PetscErrorCode searchAlongStep(SNESLineSearch search, void* context);
+
+/// Why a solve ended, in words, and PETSc's word for it.
+std::string reasonOf(KSPConvergedReason reason);
+std::string reasonOf(SNES snes);
+/// The norms of the residual that a Krylov method has kept.
+std::vector<double> residualsOf(KSP krylov);
 
 /// Number of the unknown whose residual is the greatest; -1 where another rank has it.
 int worstOf(Vec residual);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -15,6 +16,8 @@ namespace tushar::solvers {
 namespace {
 
 constexpr const char* library = "libtushar_petsc.so";
+
+std::atomic<bool> isLoaded = false;
 
 /// Lazily bound, so that what PETSc brings along is only resolved where it is used.
 const Solver& load() {
@@ -30,21 +33,36 @@ const Solver& load() {
 
 const Solver& solver() {
   static const Solver& loaded = load();
+  isLoaded = true;
   return loaded;
 }
+
+std::vector<std::string> unusedOptions() { return isLoaded ? solver().unusedOptions() : std::vector<std::string>{}; }
 
 void addUp(const Unknowns& unknowns, std::span<double> values) {
   if (!unknowns.ranks->isAlone()) solver().addUp(unknowns, values);
 }
 
-std::string sentenceOf(const std::string& what, const Outcome& outcome) {
+namespace {
+
+/// `k iterations; residuals a, b, …`: the first and the last ones.
+std::string historyOf(const std::vector<double>& residuals) {
   constexpr std::size_t shown = 8;
   std::string history;
-  const std::size_t count = outcome.residuals.size(), first = count > shown ? count - shown : 0;
-  for (std::size_t k = first; k < count; ++k)
-    history += fmt::format("{}{:.3g}", history.empty() ? "" : ", ", outcome.residuals[k]);
-  return fmt::format("{} did not converge ({}) in {} iterations; residuals {}{}", what, outcome.reason,
-                     count == 0 ? 0 : count - 1, first > 0 ? "…, " : "", history);
+  const std::size_t count = residuals.size(), first = count > shown ? count - shown : 0;
+  for (std::size_t k = first; k < count; ++k) history += fmt::format("{}{:.3g}", history.empty() ? "" : ", ", residuals[k]);
+  const std::string start = first > 0 ? fmt::format("{:.3g}, …, ", residuals.front()) : "";
+  const std::size_t iterations = count == 0 ? 0 : count - 1;
+  return fmt::format("{} iteration{}; residuals {}{}", iterations, iterations == 1 ? "" : "s", start, history);
+}
+
+}  // namespace
+
+std::string sentenceOf(const std::string& what, const Outcome& outcome) {
+  std::string sentence = fmt::format("{} did not converge: {} in {}", what, outcome.reason, historyOf(outcome.residuals));
+  if (!outcome.krylovResiduals.empty())
+    sentence += fmt::format("; those of the last linear solve, {}", historyOf(outcome.krylovResiduals));
+  return sentence;
 }
 
 std::string worstPlace(const mpi::Communicator& ranks, const std::optional<Vec3>& mine, const std::string& what) {

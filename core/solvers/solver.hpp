@@ -41,12 +41,15 @@ struct LinearSettings {
 /// How a solve went.
 struct Outcome {
   bool converged = false;
-  std::string reason;             ///< PETSc's word for why it ended
+  std::string reason;             ///< why it ended, in words, and PETSc's word for it
   int newtonIterations = 0;       ///< 0 of a linear solve
   int krylovIterations = 0;       ///< in all
-  std::vector<double> residuals;  ///< norm after each iteration, from the start on
+  std::vector<double> residuals;  ///< norm after each iteration, from the start on; of Newton's method, where it is one
+  std::vector<double> krylovResiduals;  ///< of the linear solve that ended Newton's method, if one did
   int worst = -1;  ///< number of the unknown with the greatest residual at the end; -1: of another rank
   double assembly = 0, setup = 0, solve = 0;  ///< s: matrix, preconditioner, iterations
+  /// Where a constant is free: the sum of b, without which it was solved, and that of its sizes.
+  double unbalanced = 0, loads = 0;
 };
 
 /// A x = b.
@@ -86,12 +89,16 @@ class Solver {
   /// From the guess in `u`, owned unknowns and ghosts, by Newton's method with line search. Throws what the problem throws.
   virtual Outcome solve(const Unknowns& unknowns, NonlinearProblem& problem, const NewtonSettings& settings,
                         std::span<double> u) const = 0;
-  /// See the function of that name.
+  /// See the functions of these names.
   virtual void addUp(const Unknowns& unknowns, std::span<double> values) const = 0;
+  virtual std::vector<std::string> unusedOptions() const = 0;
 };
 
 /// Every rank gets, for the blocks that it owns and for its ghosts, the sum of what all ranks have for them.
 void addUp(const Unknowns& unknowns, std::span<double> values);
+
+/// Options in PETSc's language that were given, and that no solve so far has looked at.
+std::vector<std::string> unusedOptions();
 
 /// The solver; loads PETSc at the first call. Throws std::runtime_error where the library is missing.
 const Solver& solver();

@@ -19,6 +19,17 @@ def heat_flow(kind, value):
     return (CONDITIONS, TEMPERATURE.replace("ID", "all").replace("KIND", kind).replace("VALUE", value) + CONDITIONS)
 
 
+RUBBER = '''<constitutive_model type="comp_neo_hook">
+          <bulk_modulus>166667</bulk_modulus>
+          <shear_modulus>76923</shear_modulus>'''
+METAL = '<constitutive_model type="elastic_plastic"><bulk_modulus>1</bulk_modulus><shear_modulus>1</shear_modulus>'
+HARDENS = '<flow_model type="isotropic_hardening"><sigma_Y>1</sigma_Y><K>1</K></flow_model>'
+MTS = '<flow_model type="mts_model">' + "".join(f"<{tag}>{number}</{tag}>" for tag, number in (
+    ("sigma_a", 1), ("mu_0", 1), ("koverbcubed", 1), ("g_0i", 0), ("g_0e", 1), ("edot_0i", 1), ("edot_0e", 1), ("p_i", 1),
+    ("q_i", 1), ("p_e", 1), ("q_e", 1), ("sigma_i", 1), ("a_0", 1), ("a_1", 1), ("a_2", 1), ("a_3", 1), ("alpha", 1),
+    ("edot_es0", 1), ("g_0es", 1), ("sigma_es0", 1))) + "</flow_model>"
+
+
 # name: scene, (text, what takes its place), sentence
 REFUSED = {
     "a rigid body that nothing holds in implicit steps":
@@ -40,14 +51,12 @@ REFUSED = {
     "a direct solver that solves nothing":
         (BEAM, ("<preconditioner>lu", "<preconditioner>gamg"),
          "preconditioner: found 'gamg', but with <solver> direct it solves the system: take lu or cholesky"),
-    "a grid that stays in implicit steps":
-        (BEAM, ("<dynamic>", "<do_grid_reset>false</do_grid_reset><dynamic>"), "do_grid_reset: is always true"),
     "a rigid body without a contact":
         (BEAM, ('<material name="rubber">', '<material name="rubber"><is_rigid>true</is_rigid>'),
          "is_rigid: needs a <contact> of type rigid or specified, whose master the material is"),
     "volumes that are shared by what goes by rates":
-        (BEAM, ('type="comp_neo_hook"', 'type="UCNH"'), "DoPressureStabilization: with <time_integrator> implicit only for "
-         "comp_neo_hook and comp_mooney_rivlin; 'rubber' is", "MPM/DoPressureStabilization=true"),
+        (BEAM, (RUBBER, '<constitutive_model type="hypo_elastic"><G>1</G><K>1</K>'), "DoPressureStabilization: with <time_integrator> implicit only "
+         "for comp_neo_hook, comp_mooney_rivlin, UCNH and comp_neo_hook_plastic; 'rubber' is", "MPM/DoPressureStabilization=true"),
     "an energy budget of implicit steps":
         (BEAM, ("<dynamic>", " <dynamic>"), "only solids by explicit time steps have an energy budget; take the module out",
          "DataAnalysis/Module/@name=energyBudget"),
@@ -56,6 +65,15 @@ REFUSED = {
          "artificial_viscosity_heating: needs <artificial_viscosity> true"),
     "a metal without a heat capacity":
         (SPALL, ("<specific_heat>383</specific_heat>", ""), "missing tag <specific_heat>"),
+    "a metal without a heat capacity in implicit steps":
+        (BEAM, (RUBBER, METAL + HARDENS), "missing tag <specific_heat>: elastic_plastic heats by its work"),
+    "obstacles without an energy":
+        (BEAM, (RUBBER, METAL + MTS), "g_0i, edot_0i and q_i must be greater than 0 where p_i is"),
+    "friction in implicit steps":
+        (BILLET, ("<type>rigid</type>", "<type>friction</type><mu>.1</mu>"), "contact: friction only with <time_integrator> "
+         "explicit; here all materials move as one", "MPM/time_integrator=implicit", "MPM/artificial_viscosity=false"),
+    "fibres with viscosity":
+        (BEAM, ('type="comp_neo_hook"', 'type="visco_trans_iso_hyper"'), "trans_iso_hyper, without viscosity"),
     "affine velocities that stresses would not see":
         (BILLET, ("<interpolator>", "<apic>true</apic><stress_update>usf</stress_update><interpolator>"),
          "apic: only with stress_update usl"),

@@ -8,7 +8,9 @@ import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from solids import globals_of, last_state
 from sus import ROOT, SUS, run
+from uda import Folder
 
 BEAM = "ups/solid/implicit_cantilever.ups"
 COARSE = ("MPM/interpolator=gimp", "Grid/Level/Box/upper=[1.2,0.8,0.05]", "Grid/Level/Box/resolution=[12,8,1]")
@@ -45,7 +47,35 @@ def explicit(text):
     return text.replace("<delt_init>1</delt_init>", "<timestep_multiplier>0.5</timestep_multiplier>")
 
 
+def free(text):
+    """The same beam, which nothing holds, with inertia."""
+    text = re.sub(r'.*label="Velocity" var="Dirichlet".*\n', "", text)
+    return text.replace("<dynamic>false", "<dynamic>true").replace('"StrainEnergy"', '"TotalMomentum"')
+
+
 class Implicit(unittest.TestCase):
+    def scene(self, text):
+        """A file with the scene, for as long as the test takes."""
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        path = pathlib.Path(folder.name, "scene.ups")
+        path.write_text(text)
+        return path
+
+    def test_a_load_that_is_there_from_the_start_acts_from_the_start(self):
+        pressed = """<PhysicalBC><MPM><pressure>
+            <geom_object><box><min>[1,0.4,0]</min><max>[1,0.6,0.05]</max></box></geom_object>
+            <load_curve><id>1</id><time_point><time>0</time><load>-30</load></time_point>
+                        <time_point><time>10</time><load>-30</load></time_point></load_curve>
+            </pressure></MPM></PhysicalBC><MPM><use_load_curves>true</use_load_curves>"""
+        scene = self.scene(free((ROOT / BEAM).read_text()).replace("<MPM>", pressed, 1))
+        dt, force = .1, (-30 * .2 * .05, -.1 * 10)
+        rows = globals_of(scene, "TotalMomentum", "CenterOfMassPosition", sets=(f"Time/delt_init={dt}", f"Time/delt_max={dt}",
+                                                                                "Time/maxTime=.3"))
+        for k, (momentum, moment) in enumerate(zip(rows["TotalMomentum"], rows["CenterOfMassPosition"])):
+            for axis in (0, 1):  # of 10 kg, in the middle at (.5, .5); rounding and what Newton's method leaves
+                self.assertAlmostEqual(momentum[1 + axis], force[axis] * k * dt, delta=1e-9)
+                self.assertAlmostEqual(moment[1 + axis], 5 + force[axis] * (k * dt)**2 / 2, delta=1e-9)
     def test_a_load_acts_however_small_it_is_beside_the_stiffness(self):
         steps = ("Time/maxTime=1", "DataArchiver/save[1]/@label=p.x")
         falls = []
@@ -99,17 +129,73 @@ class Implicit(unittest.TestCase):
             # The nodes of the die reach up to a cell into the billet, and keep its ten cells from widening there.
             self.assertTrue(1 < force[1] / hill < 1.2, force[1] / hill)
 
+    def test_a_rigid_body_is_followed_along_all_axes_unless_the_scene_says_which(self):
+        billet = (ROOT / "ups/solid/billet.ups").read_text()
+        steps = ("MPM/time_integrator=implicit", "MPM/dynamic=false", "MPM/artificial_viscosity=false",
+                 "Time/timestep_multiplier=1", "Time/delt_init=1e-6", "Time/max_Timesteps=1")
+        line = "<direction>[0,1,0]</direction>"
+        forces = [last_of(self.scene(billet.replace(line, other)), ["RigidReactionForce"], steps)[0]
+                  for other in (line, "<direction>[1,1,1]</direction>", "")]
+        self.assertEqual(forces[0][0], 0)
+        self.assertNotEqual(forces[1][0], 0)
+        self.assertEqual(forces[2], forces[1])
+
+    def test_particles_go_no_further_than_most_of_a_cell_in_a_step(self):
+        scene = self.scene(free((ROOT / BEAM).read_text()))
+        rows = globals_of(scene, "TotalMomentum", sets=("MaterialProperties/MPM/material/geom_object/velocity=[1,0,0]",
+                                                        "PhysicalConstants/gravity=[0,0,0]", "Time/maxTime=0.15"))
+        times = [row[0] for row in rows["TotalMomentum"]]
+        for before, after in zip(times, times[1:]):
+            self.assertAlmostEqual(after - before, .8 * .05, delta=1e-9)  # of a cell, at 1 m/s
+
+    def test_a_grid_that_goes_along_gives_one_equilibrium_in_any_number_of_steps(self):
+        along = ("MPM/do_grid_reset=false", "DataArchiver/save[1]/@label=p.displacement")
+        reset, one, many = (last_state(BEAM, "p.x", "p.displacement", sets=sets) for sets in (
+            ("Time/max_Timesteps=1",), (*along, "Time/max_Timesteps=1"), (*along, "Time/max_Timesteps=4")))
+        for axis in "xy":
+            name = f"p.displacement.{axis} [m]"
+            for moved, once, again in zip(reset[name], one[name], many[name]):
+                self.assertAlmostEqual(once, moved, delta=1e-15)  # nothing has moved yet; rounding of places of 1 m
+                self.assertAlmostEqual(again, once, delta=1e-9)  # Newton's tolerance of .1 m, and rounding
+        self.assertEqual(one["x [m]"], many["x [m]"])  # the place in the grid
+        self.assertGreater(max(map(abs, many["p.displacement.y [m]"])), .01)  # a fifth of a cell
+
     def test_patches_change_no_bit(self):
         prints = {run(BEAM, "Time/max_Timesteps=2", f"Grid/Level/Box/patches={patches}").report["fingerprint"]
                   for patches in ("[1,1,1]", "[2,1,1]", "[5,3,1]")}
         self.assertEqual(len(prints), 1)
 
+    def test_a_restart_changes_no_bit_of_what_moves(self):
+        scene, steps = self.scene(free((ROOT / BEAM).read_text())), "Time/max_Timesteps=4"
+        folder = Folder()
+        self.addCleanup(folder.cleanup)
+        code, errors, whole = folder.run(scene, "DataArchiver/checkpoint/@timestepInterval=1", steps)
+        self.assertEqual((code, errors), (0, ""))
+        code, errors, report = folder.restart(steps, step=3)
+        self.assertEqual((code, errors), (0, ""))
+        self.assertEqual(report["fingerprint"], whole["fingerprint"])
+
     def test_a_failed_solve_tells_history_place_and_what_to_try(self):
         result = run(BEAM, "MPM/iters_before_timestep_restart=1", "Time/delt_min=0.9")
         self.assertEqual(result.code, 4)
-        self.assertRegex(result.err, r"Newton's method did not converge \(DIVERGED_MAX_IT\) in 1 iterations; residuals "
-                                     r"\S+, \S+; the greatest residual is at the node at \(")
+        self.assertRegex(result.err, r"Newton's method did not converge: more iterations than allowed \(DIVERGED_MAX_IT\) "
+                                     r"in 1 iteration; residuals \S+, \S+; the greatest residual is at the node at \(")
         self.assertIn("try a smaller <delt_init>", result.err)
+
+    def test_a_failed_linear_solve_tells_its_own_history_too(self):
+        result = run(BEAM, "MPM/Solver/solver=gmres", "MPM/Solver/preconditioner=jacobi", "MPM/Solver/maxiterations=3",
+                     "Time/delt_min=0.9")
+        self.assertEqual(result.code, 4)
+        self.assertRegex(result.err, r"Newton's method did not converge: a linear solve failed, more iterations than allowed "
+                                     r"\(DIVERGED_ITS\) in .*; those of the last linear solve, 3 iterations; residuals \S+, ")
+        self.assertIn("more <maxiterations>", result.err)
+
+    def test_a_tag_in_solver_leaves_the_defaults_of_the_others(self):
+        sets = ("MPM/interpolator=gimp", "Time/max_Timesteps=1", "Grid/Level/Box/patches=[1,1,1]")
+        without = self.scene(re.sub(r"<Solver>.*</Solver>", "", (ROOT / BEAM).read_text(), flags=re.DOTALL))
+        one = self.scene(re.sub(r"<Solver>.*</Solver>", "<Solver><maxiterations>999</maxiterations></Solver>",
+                                (ROOT / BEAM).read_text(), flags=re.DOTALL))
+        self.assertEqual(run(one, *sets).report["fingerprint"], run(without, *sets).report["fingerprint"])
 
     def test_a_step_that_fails_is_halved(self):
         result = run(BEAM, "MPM/iters_before_timestep_restart=2", "Time/max_Timesteps=1", "PhysicalConstants/gravity=[0,-50,0]",

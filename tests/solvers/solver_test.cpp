@@ -162,7 +162,30 @@ TEST(Solver, TellsHowASolveFailed) {
   EXPECT_EQ(outcome.residuals.size(), 4U);
   EXPECT_TRUE(outcome.worst >= 0 && outcome.worst < 40);
   const std::string sentence = sentenceOf("a row", outcome);
-  EXPECT_EQ(sentence.find("a row did not converge (DIVERGED_ITS) in 3 iterations; residuals 6.32, "), 0U) << sentence;
+  EXPECT_EQ(sentence.find("a row did not converge: more iterations than allowed (DIVERGED_ITS) in 3 iterations; residuals "
+                          "6.32, "), 0U) << sentence;
+}
+
+TEST(Solver, TellsWhyAPreconditionerFailed) {
+  std::vector<double> b(4, 1), x(4, 0);
+
+  const Outcome outcome = solver().solve(row(4), {[](Matrix& a) { laplacian(a, 4, true); }, b},
+                                         {"preonly", "lu", 1e-12, 1, ""}, x);
+
+  EXPECT_FALSE(outcome.converged);
+  EXPECT_EQ(outcome.reason, "the preconditioner could not be made, as where the matrix is singular (DIVERGED_PC_FAILED)");
+}
+
+TEST(Solver, TellsByHowMuchARightHandSideIsUnbalancedWhereAConstantIsFree) {
+  Unknowns unknowns = row(4);
+  unknowns.constantIsFree = true;
+  std::vector<double> b{3, -1, 1, -2}, x(4, 0);
+
+  const Outcome outcome = solver().solve(unknowns, {[](Matrix& a) { laplacian(a, 4, true); }, b},
+                                         {"cg", "jacobi", 1e-12, 100, ""}, x);
+
+  EXPECT_EQ(outcome.unbalanced, 1);
+  EXPECT_EQ(outcome.loads, 7);
 }
 
 TEST(Solver, PassesOptionsThroughToPetsc) {
@@ -238,6 +261,22 @@ TEST(Newton, PassesOnWhatTheProblemThrows) {
   std::vector<double> u{3, 3, 3};
   Throwing problem;
   EXPECT_THROW(solver().solve(row(3), problem, directNewton(), u), std::out_of_range);
+}
+
+TEST(Newton, TellsOfTheLinearSolveThatFailed) {
+  std::vector<double> u(Chain::links + 1, 0);
+  Unknowns unknowns = row(Chain::links + 1);
+  unknowns.entries.assign(unknowns.entries.size(), 4);
+  NewtonSettings settings;
+  settings.linear = {"gmres", "none", 1e-12, 3, ""};
+  Chain chain;
+
+  const Outcome outcome = solver().solve(unknowns, chain, settings, u);
+
+  EXPECT_FALSE(outcome.converged);
+  EXPECT_EQ(outcome.reason, "a linear solve failed, more iterations than allowed (DIVERGED_ITS)");
+  EXPECT_EQ(outcome.krylovResiduals.size(), 4U);
+  EXPECT_NE(sentenceOf("it", outcome).find("; those of the last linear solve, 3 iterations; residuals "), std::string::npos);
 }
 
 TEST(Newton, TellsThatItGaveUp) {

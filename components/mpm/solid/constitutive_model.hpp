@@ -82,6 +82,8 @@ struct StateVariable {
 ///   a particle need not be kept. Such a model may have `TensorOf<Real> kirchhoffStress(const TensorOf<Real>& f) const`,
 ///   J sigma, and `Real waveSpeed(double initialDensity, const TensorOf<Real>& f) const`, templates for a Real that is a
 ///   number or Lanes: several particles are then worked on at once.
+/// - optional `static constexpr bool feelsVolumeOfEndOnly = true`: updateStress looks at F, F_old and the State, and
+///   F -> s F changes nothing but the mean of J sigma. So is one that dependsOnDeformationOnly. For F-bar in implicit steps.
 /// - optional `static constexpr bool usesTemperature = false`: updateStress never looks at the temperature.
 /// - optional `MaterialConstants material`: filled with those of the model's material.
 /// - optional `double temperatureChange(const Deformation&, const Matrix3& stress, const State&) const`: by the work of

@@ -46,6 +46,8 @@ class Model {
   virtual bool usesTemperature() const = 0;
   /// Whether the stress is a function of F alone: nothing but F needs to be kept then.
   virtual bool dependsOnDeformationOnly() const = 0;
+  /// Whether the volume may be another than that of F, and only the pressure follows.
+  virtual bool feelsVolumeOfEndOnly() const = 0;
 
   /// Whether the work of a step changes the temperature.
   virtual bool heats() const = 0;
@@ -107,6 +109,12 @@ class ModelOf : public Model {
       return true;
   }
   bool dependsOnDeformationOnly() const override { return fromDeformation; }
+  bool feelsVolumeOfEndOnly() const override {
+    if constexpr (requires { M::feelsVolumeOfEndOnly; })
+      return M::feelsVolumeOfEndOnly;
+    else
+      return fromDeformation;
+  }
   bool heats() const override { return heating; }
   bool takesHeat() const override { return heatable; }
   void addHeat(double* numbers, double heat) const override {

@@ -65,7 +65,7 @@ class Block {
   }
 
   Method method;
-  bool sharesVolume = false;
+  bool sharesVolume = false, resetsGrid = true;
   std::vector<Vec<D>>& x() { return x_; }
   std::vector<Vec<D>>& force() { return force_; }
   std::vector<Vec<D>>& velocity() { return velocity_; }
@@ -94,7 +94,7 @@ class Block {
     const SolidViews<D> views{places,       velocities,  velocities, velocities, velocities, masses,
                               temperatures, masses,      deformations, deformations};
     const RankPatches patches{&patch};
-    NodalHeat<Shape> heat(patches, materials, mpi::Communicator::alone(), Vec3(0.5, 0.5, 0.5), views);
+    NodalHeat<Shape> heat(patches, materials, mpi::Communicator::alone(), Vec3(0.5, 0.5, 0.5), views, resetsGrid);
     EXPECT_TRUE(heat.solve(dt, {"preonly", "lu", 1e-12, 1, ""}).converged);
     for (std::size_t p = 0; p < x_.size(); ++p) {
       if (x_[p] != x) continue;
@@ -121,6 +121,7 @@ class Block {
     ImplicitMethod how;
     how.dynamic = dynamic;
     how.sharesVolume = sharesVolume;
+    how.resetsGrid = resetsGrid;
     return ImplicitSystem<Shape>({&patch}, mpi::Communicator::alone(), method, how, dt, state_size_,
                                  {{group, &patch, extents, places, velocity_.data(), acceleration_.data(), force_.data()}});
   }

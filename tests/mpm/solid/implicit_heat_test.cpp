@@ -17,4 +17,15 @@ TEST(ImplicitHeat, SpreadsEvenlyInOneLongStepAndKeepsTheHeat) {
   EXPECT_GT(block.temperatureAfter(1000, Vec<2>(3.75, 0.25)), block.temperatureAfter(10, Vec<2>(3.75, 0.25)) + 1);
 }
 
+TEST(ImplicitHeat, SpreadsSlowerWhereTheGridHasBeenStretched) {
+  // Twice as long, a bar has half the slopes and twice the volume: it takes twice the time.
+  Block<LinearShape<1>> bar(modelOf(rubber()), {{6, 1, 1}}), stretched(modelOf(rubber()), {{6, 1, 1}}, 2);
+  stretched.resetsGrid = false;
+  for (auto* block : {&bar, &stretched})
+    for (std::size_t p = 0; p < block->x().size(); ++p) block->temperature()[p] = block->x()[p][0] < 3 ? 400 : 300;
+
+  for (const Vec<1>& x : bar.x()) EXPECT_NEAR(stretched.temperatureAfter(2000, x), bar.temperatureAfter(1000, x), 1e-9);
+  EXPECT_GT(bar.temperatureAfter(1000, Vec<1>(3.75)), 301);
+}
+
 }  // namespace tushar::mpm::solid

@@ -52,6 +52,32 @@ TEST(Hyperelasticity, StressIsTheDerivativeOfTheEnergy) {
   }
 }
 
+/// W of a strain of 1e-7 is that of the linear theory, e:e G + (K/2 - G/3) tr² e, in a body that has turned.
+template <class M>
+void expectEnergyOfSmallStrain(const M& model, double bulkModulus, double shearModulus) {
+  constexpr double size = 1e-7;
+  Matrix3 strain;
+  strain << 1.0, 0.35, -0.45, 0.35, -0.8, 0.25, -0.45, 0.25, 0.7;
+  const double linear = size * size * (shearModulus * strain.squaredNorm() +
+                                       (bulkModulus / 2 - shearModulus / 3) * strain.trace() * strain.trace());
+  for (const double angle : {0.0, 0.7}) {
+    const MaterialPoint<M> point{model};
+    // The next order of the strain, and rounding of F over it: 1e-7 and 1e-9, times factors of the order of 10.
+    EXPECT_NEAR(point.energy(rotation(angle) * (Matrix3::Identity() + size * strain)) / linear, 1, 1e-5) << angle;
+  }
+}
+
+TEST(Hyperelasticity, KeepsTheEnergyOfStrainsThatAreHardlyThere) {
+  expectEnergyOfSmallStrain(withModuli<CompNeoHook>(8e9, 5e8), 8e9, 5e8);
+  expectEnergyOfSmallStrain(withModuli<Ucnh>(8e9, 5e8), 8e9, 5e8);
+  const CompMooneyRivlin rubber = compMooneyRivlin();
+  const double shear = 2 * (rubber.c1 + rubber.c2), nu = rubber.poissonRatio;
+  expectEnergyOfSmallStrain(rubber, 2 * shear * (1 + nu) / (3 * (1 - 2 * nu)), shear);
+  TransIsoHyper fibres = ligament();
+  fibres.c3 = fibres.c5 = 0;
+  expectEnergyOfSmallStrain(fibres, fibres.bulkModulus, 2 * (fibres.c1 + fibres.c2));
+}
+
 TEST(Model, WorksOnSeveralParticlesAsOnEachAlone) {
   const ModelOf<CompNeoHook> model({8e5, 4e5});
   std::vector<Matrix3> f, together(9), alone(9);

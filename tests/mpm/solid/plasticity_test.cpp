@@ -32,6 +32,21 @@ TEST(FlowModel, OfPrestonTonksAndWallaceGoesFromYieldToSaturation) {
   EXPECT_NEAR(flow.flowStress(strained), 2 * 3 * 0.03, 1e-15);
 }
 
+TEST(FlowModel, OfPrestonTonksAndWallaceIsANumberHoweverAbruptlyItSaturates) {
+  PrestonTonksWallace flow{0.1, 2, 0.03, 0.01, 0.3, 1e-5, 0.02, 0.006, 0.05, 0.5, 0.25, 60};
+  for (const double p : {2.0, 35.9, 36.1, 1e3, 1e6}) {
+    flow.p = p;
+    double before = 0;
+    for (const double plasticStrain : {0.0, 1e-9, 1e-5, 1e-3, 0.1, 1.0, 100.0}) {
+      const double stress = flow.flowStress({plasticStrain, 1, 0, 3, 2, 2000, 1});
+      EXPECT_GE(stress, before - 1e-15) << p << ' ' << plasticStrain;  // rounding of 0.18
+      before = stress;
+    }
+    EXPECT_NEAR(flow.flowStress({0, 1, 0, 3, 2, 2000, 1}), 2 * 3 * 0.02, 1e-14) << p;
+    EXPECT_LE(before, 2 * 3 * 0.03 + 1e-14) << p;
+  }
+}
+
 TEST(FlowModel, OfTheMechanicalThresholdHardensToSaturation) {
   const auto flow = std::get<MechanicalThreshold>(flowModels()[2]);
   const FlowState cold{0, 1e7, 300, 3.2};  // at the rates of reference nothing is activated

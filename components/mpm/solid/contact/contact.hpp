@@ -22,6 +22,7 @@ struct Contact {
   std::vector<int> materials;  ///< that take part; empty: all
   int master = 0;
   std::array<bool, 3> direction{false, false, true};  ///< along x, y, z the others follow the master
+  bool directionIsGiven = false;                      ///< by the scene
   double stopTime = std::numeric_limits<double>::max();  ///< s
   Vec3 velocityAfterStop = Vec3::Zero();              ///< m/s
   std::vector<std::pair<double, Vec3>> profile;       ///< time (s) and the master's velocity (m/s); empty: it is free

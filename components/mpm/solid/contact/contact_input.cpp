@@ -40,7 +40,7 @@ bool slides(Kind kind) { return kind == Kind::friction || kind == Kind::approach
 struct ContactSection {
   Kind kind = Kind::none;
   std::optional<std::vector<int>> materials;
-  Index3 direction{{0, 0, 1}};
+  std::optional<Index3> direction;
   int master = 0;
   double stopTime = 0;
   Vec3 velocityAfterStop = Vec3::Zero();
@@ -69,8 +69,10 @@ const Schema<ContactSection>& contactSchema() {
         "not at all; as one body; they follow a master, which is free or moves as told (two words for it); they part "
         "freely and slide with friction (two words for it); the same, but only while they approach each other");
     contact.optional("materials", &ContactSection::materials, "1", "numbers of the materials that take part; else all")
-        .value("direction", &ContactSection::direction, Index3{{0, 0, 1}}, "1",
-               "rigid, specified: 1 along x, y, z where the others follow the master", input::between(0, 1))
+        .optional("direction", &ContactSection::direction, "1",
+                  "rigid, specified: 1 along x, y, z where the others follow the master. Left out: along z, in implicit "
+                  "steps along all",
+                  input::between(0, 1))
         .value("master_material", &ContactSection::master, 0, "1", "rigid, specified: number of the master",
                input::nonNegative())
         .value("stop_time", &ContactSection::stopTime, std::numeric_limits<double>::max(), "s",
@@ -141,7 +143,9 @@ Contact settle(const ContactSection& read, const Element& tag, Diagnostics& diag
   contact.volumeConstraint = read.volumeConstraint;
   contact.materials = read.materials.value_or(std::vector<int>{});
   contact.master = read.master;
-  for (int axis = 0; axis < 3; ++axis) contact.direction[static_cast<std::size_t>(axis)] = read.direction[axis] != 0;
+  contact.directionIsGiven = read.direction.has_value();
+  for (int axis = 0; axis < 3 && read.direction; ++axis)
+    contact.direction[static_cast<std::size_t>(axis)] = (*read.direction)[axis] != 0;
   contact.stopTime = read.stopTime;
   contact.velocityAfterStop = read.velocityAfterStop;
   if (!read.profileFile.empty()) contact.profile = readProfile(tag, read.profileFile, diagnostics);

@@ -16,8 +16,8 @@ class NodalHeat {
   static constexpr int D = Shape::dimension;
 
   NodalHeat(const RankPatches& patches, const std::vector<Material>& materials, const mpi::Communicator& ranks,
-            const Vec3& commonSize, const SolidViews<D>& views)
-      : patches_(patches), materials_(materials), common_size_(commonSize), views_(views),
+            const Vec3& commonSize, const SolidViews<D>& views, bool resetsGrid = true)
+      : patches_(patches), materials_(materials), common_size_(commonSize), views_(views), resets_grid_(resetsGrid),
         nodes_(patches.front()->level(), ranks) {
     forEachPoint([&](const Point&, const auto& stencil) {
       stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>& slope) {
@@ -59,6 +59,7 @@ class NodalHeat {
   struct Point {
     const Material& material;
     double mass, temperature, volume;  ///< kg, K, m^3
+    Matrix3 carried;                   ///< grad S by grad S of the grid, transposed
   };
 
   template <class Visit>
@@ -68,8 +69,9 @@ class NodalHeat {
         const Extents<Shape> extents(nodes_.level(), common_size_, views_.size[p][m], std::nullopt);
         forEachStencil<Shape>(*patches_[p], patches_[p]->cells(), views_.x[p][m], extents, [&](int k, const auto& stencil) {
           const double mass = views_.mass[p][m][k], volume = mass / materials_[m].density;
-          visit(Point{materials_[m], mass, views_.temperature[p][m][k], volume * views_.deformation[p][m][k].determinant()},
-                stencil);
+          const Matrix3& f = views_.deformation[p][m][k];
+          const Matrix3 carried = resets_grid_ ? Matrix3(Matrix3::Identity()) : Matrix3(f.inverse());
+          visit(Point{materials_[m], mass, views_.temperature[p][m][k], volume * f.determinant(), carried}, stencil);
         });
       }
   }
@@ -107,6 +109,7 @@ class NodalHeat {
     return std::nullopt;
   }
   void assemble(double dt, solvers::Matrix& matrix, std::vector<double>& right) const {
+    const Level& level = nodes_.level();
     forEachPoint([&](const Point& point, const auto& stencil) {
       std::array<int, touches_> numbers;
       std::array<Vec<D>, touches_> slopes;
@@ -114,7 +117,7 @@ class NodalHeat {
       stencil.forEachNode([&](const Index<D>& node, double, const Vec<D>& slope) {
         const auto image = nodes_.imageOf(node);
         numbers[n] = nodes_(image.node);
-        slopes[n++] = slope;
+        slopes[n++] = level.template reduce<D>(Vec3(level.template expandDirection<D>(slope).transpose() * point.carried));
       });
       addPoint(dt * point.volume * point.material.thermalConductivity, numbers, slopes, matrix, right);
     });
@@ -146,6 +149,7 @@ class NodalHeat {
   const std::vector<Material>& materials_;
   Vec3 common_size_;
   const SolidViews<D>& views_;
+  bool resets_grid_;
   NodeMap<D> nodes_;
   std::vector<double> capacity_, before_, after_;  ///< J/K, K, K
   double least_ = 0;                               ///< J/K, of a node that particles touch by their slopes alone
@@ -160,7 +164,7 @@ void conductHeat(const RankPatches& patches, const std::vector<Material>& materi
                  const ParticleViews<const double>& temperature, const ParticleViews<const Matrix3>& deformation,
                  const NodeViews<double>& rate) {
   const SolidViews<D> views{x, size, x, x, x, mass, temperature, mass, deformation, deformation};
-  NodalHeat<Shape> heat(patches, materials, ranks, setup.problem->method.commonSize, views);
+  NodalHeat<Shape> heat(patches, materials, ranks, setup.problem->method.commonSize, views, setup.how.resetsGrid);
   const solvers::Outcome outcome = heat.solve(dt, setup.how.heat);
   if (!outcome.converged) {
     std::optional<Vec3> worst;

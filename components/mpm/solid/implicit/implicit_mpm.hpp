@@ -21,6 +21,8 @@ class ImplicitMpm : public Solids {
  private:
   static constexpr int D = Shape::dimension;
 
+  void scheduleStartingAcceleration(TaskList& tasks) const;
+  void scheduleMovement(TaskList& tasks) const;
   void scheduleVelocity(TaskList& tasks) const;
   void scheduleHeat(TaskList& tasks) const;
   void scheduleDamage(TaskList& tasks) const;

@@ -20,7 +20,7 @@ namespace {
 struct Section {
   int integrator = 0, solver = 0, transient = 0;
   bool gimp = false, useLoadCurves = false, withColor = false, axisymmetric = false;
-  bool dynamic = true, sharesVolume = false, heat = false;
+  bool dynamic = true, resetsGrid = true, sharesVolume = false, heat = false;
   double displacement = 1e-10, energy = 4e-10, decreaseFactor = 0.6, increaseFactor = 2;
   int maxIterations = 25, decrease = 12, increase = 4;
   std::optional<solvers::LinearSettings> linear;
@@ -28,6 +28,7 @@ struct Section {
   ImplicitMethod method() const {
     ImplicitMethod method;
     method.dynamic = dynamic;
+    method.resetsGrid = resetsGrid;
     method.sharesVolume = sharesVolume;
     method.conductsHeat = heat;
     method.newton.displacement = displacement;
@@ -50,7 +51,7 @@ void declareSteps(Schema<Section>& schema) {
              "and: last change times the residual before it, over the first", input::positive())
       .value("iters_before_timestep_restart", &Section::maxIterations, 25, "1",
              "more of Newton's iterations: the step is repeated with half the time step", input::atLeast(1))
-      .value("num_iters_to_decrease_delT", &Section::decrease, 12, "1", "more of them make the next time step shorter",
+      .value("num_iters_to_decrease_delT", &Section::decrease, 12, "1", "so many of them make the next time step shorter",
              input::atLeast(1))
       .value("num_iters_to_increase_delT", &Section::increase, 4, "1", "at most so many make it longer",
              input::nonNegative())
@@ -68,14 +69,17 @@ const Schema<Section>& sectionSchema() {
                "x is the radius and y the axis; mass, energy and forces are per radian")
         .value("dynamic", &Section::dynamic, true, "1",
                "Newmark's method; false: no inertia, each step ends in equilibrium");
-    mpm.value("DoPressureStabilization", &Section::sharesVolume, false, "1",
+    mpm.value("do_grid_reset", &Section::resetsGrid, true, "1",
+              "false: the grid goes along with the solid, particles keep their places in it, and p.displacement tells where "
+              "they are")
+        .value("DoPressureStabilization", &Section::sharesVolume, false, "1",
               "F-bar: the particles of a cell answer to compression as one, against locking where nothing is compressible; "
-              "for comp_neo_hook and comp_mooney_rivlin");
+              "for comp_neo_hook, comp_mooney_rivlin, UCNH and comp_neo_hook_plastic");
     declareSteps(mpm);
     mpm.choice("solver", &Section::solver, {{"petsc", 0}, {"simple", 0}, {"amgx", 0}}, 0,
                "what solves the linear systems: PETSc, under three words")
-        .section("Solver", &Section::linear, solvers::linearSchema(),
-                 "how; left out: gmres with gamg, to a tolerance of 1e-8")
+        .section("Solver", &Section::linear, solvers::tangentSchema(),
+                 "how; conduction of heat takes the same, or where it is left out conjugate gradients")
         .ours()
         .value("use_load_curves", &Section::useLoadCurves, false, "1", "the loads of <PhysicalBC> act")
         .value("withColor", &Section::withColor, false, "1",
@@ -88,7 +92,6 @@ const Schema<Section>& sectionSchema() {
         .ignored("minimum_particle_mass", "no particle is taken out")
         .ignored("maximum_particle_velocity", "no particle is slowed down");
     refuseSwitch(mpm, "artificial_viscosity", "only explicit steps have one");
-    requireSwitch(mpm, "do_grid_reset", "the grid is where it was at the start of each step");
     for (const char* tag : {"artificial_viscosity_coeff1", "artificial_viscosity_coeff2", "artificial_viscosity_heating",
                             "minimum_mass_for_acc", "minimum_subcycles_for_F", "XPIC2", "do_contact_friction_heating",
                             "cpdi_lcrit", "computeColinearNormals"})
@@ -97,6 +100,12 @@ const Schema<Section>& sectionSchema() {
     return mpm;
   }();
   return schema;
+}
+
+/// A contact whose scene does not say along which axes: implicit steps follow the master along all of them.
+void settleDirections(std::vector<Contact>& contacts) {
+  for (Contact& contact : contacts)
+    if (!contact.directionIsGiven) contact.direction = {true, true, true};
 }
 
 /// A material that says is_rigid, if it is one, is the master of the contacts that have one.
@@ -139,12 +148,12 @@ bool onlyCounts(const Damage& damage) {
          std::holds_alternative<JohnsonCookDamage>(damage);
 }
 
-/// F-bar changes the F that a stress follows from; what goes by the rate or remembers would need more than that.
+/// F-bar changes the F that a stress follows from; what goes by the rate would need more than that.
 void refuseVolumesOfStates(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
   for (const Material& material : problem.materials)
-    if (!material.model->dependsOnDeformationOnly() && !isMaster(problem, material.index))
+    if (!material.model->feelsVolumeOfEndOnly() && !isMaster(problem, material.index))
       diagnostics.error(root.child("MPM")->child("DoPressureStabilization").value(),
-                        "with <time_integrator> implicit only for comp_neo_hook and comp_mooney_rivlin; '" + material.name +
+                        "with <time_integrator> implicit only for comp_neo_hook, comp_mooney_rivlin, UCNH and comp_neo_hook_plastic; '" + material.name +
                             "' is " + std::string(material.model->name()));
 }
 
@@ -214,6 +223,7 @@ simulation::MakeComponent readImplicitScene(const Element& root, Diagnostics& di
   problem.materials = properties.mpm.materials;
   problem.contacts = properties.mpm.contacts;
   settleMasters(root, problem.contacts, diagnostics);
+  settleDirections(problem.contacts);
   problem.start.axisymmetric = read.axisymmetric;
   problem.start.loads = readLoads(root, read.useLoadCurves, diagnostics);
   nameMaterials(problem.materials);

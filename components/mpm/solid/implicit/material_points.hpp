@@ -48,9 +48,9 @@ class PointStates {
   std::vector<Matrix3> gradient;             ///< of the displacement in the step, by the position at its begin, 1
   std::vector<double> stretch;               ///< what the model is told of is stretch F, 1
 
-  /// Whether the points of a run are told of their common change of volume: of models that look at F alone.
+  /// Whether the points of a run are told of their common change of volume: of models that can be told.
   bool sharesVolume(const PointRun& run) const {
-    return shares_volume_ && run.group->material->model->dependsOnDeformationOnly();
+    return shares_volume_ && run.group->material->model->feelsVolumeOfEndOnly();
   }
   /// F = (I + gradient) F_old of a run. False where a point would be turned inside out or crushed to a tenth.
   bool deform(const PointRun& run) {

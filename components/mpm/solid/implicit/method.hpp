@@ -8,18 +8,19 @@ namespace tushar::mpm::solid {
 /// How an implicit step is taken; names and defaults are Uintah's.
 struct ImplicitMethod {
   bool dynamic = true;  ///< Newmark's method; else inertia is left out and each step ends at rest
+  bool resetsGrid = true;     ///< else the grid goes along with the solid: shape functions are those of its places at the start
   bool sharesVolume = false;  ///< F-bar: the particles of a cell are compressed as one, against locking
   solvers::NewtonSettings newton;
   bool conductsHeat = false;
   solvers::LinearSettings heat;  ///< where heat is conducted
-  int iterationsToDecrease = 12;  ///< a step that took more makes the next one shorter
+  int iterationsToDecrease = 12;  ///< a step that took so many makes the next one shorter
   int iterationsToIncrease = 4;   ///< a step that took no more makes the next one longer
   double decreaseFactor = 0.6;
   double increaseFactor = 2;
 
   /// What the next step may be after one of `dt` [s] that took so many iterations, s.
   double nextTimeStep(double dt, int iterations) const {
-    if (iterations > iterationsToDecrease) return decreaseFactor * dt;
+    if (iterations >= iterationsToDecrease) return decreaseFactor * dt;
     return iterations <= iterationsToIncrease ? increaseFactor * dt : dt;
   }
 };

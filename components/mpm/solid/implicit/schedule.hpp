@@ -36,9 +36,29 @@ void ImplicitMpm<Shape>::scheduleInitialize(TaskList& tasks) const {
     tasks.perMaterial("mpm::initializeDamage", initializeDamage, problem_.materials, requiresNew(data::particleId),
                       requiresNew(p::volume), computes(p::damage), computes(p::failureThreshold),
                       computes(p::localized), computes(p::failureTime));
-  tasks.perMaterial("impm::startAtRest", startAtRest<D>, problem_.materials, requiresNew(p::mass),
-                    computes(p::acceleration<D>));
+  scheduleStartingAcceleration(tasks);
   tasks.perPatch("impm::allowAnyTimeStep", [](const Patch&, Minimum&) {}, computes(total::nextTimeStep));
+}
+
+template <class Shape>
+void ImplicitMpm<Shape>::scheduleStartingAcceleration(TaskList& tasks) const {
+  if (!how_.dynamic) {
+    tasks.perMaterial("impm::startAtRest", startAtRest<D>, problem_.materials, requiresNew(p::mass),
+                      computes(p::acceleration<D>));
+    return;
+  }
+  const ImplicitSetup setup{&problem_, how_, state_size_};
+  tasks.perMaterial("mpm::applyExternalLoads", applyExternalLoads<D>, problem_.materials, with(problem_.start.loads),
+                    startTime(), requiresNew(p::x<D>), requiresNew(p::mass), requiresNew(p::loadCurves),
+                    modifies(p::externalForce<D>));
+  tasks.perRankAcrossMaterials(
+      "impm::accelerateAtStart", accelerateAtStart<Shape>, problem_.materials, togetherOnRanks(), with(setup), startTime(),
+      requiresNew(p::x<D>), requiresNew(p::size<D>), requiresNew(p::mass), requiresNew(p::velocity<D>),
+      requiresNew(p::externalForce<D>), requiresNew(p::temperature), requiresNew(p::deformationMeasure),
+      requiresNew(p::stress), requiresNew(state_), computes(g::newAcceleration<D>));
+  tasks.perMaterial("impm::startInMotion", startInMotion<Shape>, problem_.materials, with(setup),
+                    requiresNew(g::newAcceleration<D>, Shape::ghostNodes), requiresNew(p::x<D>), requiresNew(p::size<D>),
+                    computes(p::acceleration<D>));
 }
 
 template <class Shape>
@@ -46,6 +66,9 @@ void ImplicitMpm<Shape>::scheduleComputeStableTimeStep(TaskList& tasks) const {
   tasks.perPatch("impm::limitTimeStep",
                  [](const Patch&, double allowed, Minimum& dt) { dt.add(allowed, "Newton's iterations"); },
                  requiresOld(total::nextTimeStep), computes(delT));
+  if (how_.dynamic)
+    tasks.perMaterial("impm::limitBySpeed", limitBySpeed<D>, problem_.materials, requiresOld(p::velocity<D>),
+                      computes(delT));
 }
 
 template <class Shape>
@@ -62,18 +85,35 @@ void ImplicitMpm<Shape>::scheduleTimeAdvance(TaskList& tasks) const {
       computes(g::newAcceleration<D>), computes(total::newtonIterations), computes(total::krylovIterations),
       computes(total::nextTimeStep), computes(solvers::assemblyTime), computes(solvers::preconditionerTime),
       computes(solvers::solveTime), computes(total::rigidReactionForce));
-  tasks.perMaterial("impm::moveAndStress", moveAndStress<Shape>, problem_.materials, with(setup), requiresOld(delT),
-                    requiresNew(g::increment<D>, Shape::ghostNodes), requiresOld(p::x<D>), requiresOld(p::size<D>),
-                    requiresOld(p::mass), requiresOld(p::temperature), requiresOld(p::deformationMeasure),
-                    requiresOld(p::stress), requiresOld(state_), computes(p::x<D>), computes(p::deformationMeasure),
-                    computes(p::stress), computes(state_), computes(p::volume), computes(p::strainEnergy),
-                    when(heats_, computes(p::temperatureChange)));
+  scheduleMovement(tasks);
   if (is_damageable_) scheduleDamage(tasks);
   scheduleVelocity(tasks);
   scheduleHeat(tasks);
-  tasks.perMaterial("mpm::addDisplacement", addDisplacement<D>, problem_.materials, requiresOld(p::x<D>),
-                    requiresNew(p::x<D>), requiresOld(p::displacement<D>), computes(p::displacement<D>));
+  if (how_.resetsGrid)
+    tasks.perMaterial("mpm::addDisplacement", addDisplacement<D>, problem_.materials, requiresOld(p::x<D>),
+                      requiresNew(p::x<D>), requiresOld(p::displacement<D>), computes(p::displacement<D>));
   tasks.relocate(p::x<D>, problem_.materials);
+}
+
+/// What the displacement of the nodes makes of the particles.
+template <class Shape>
+void ImplicitMpm<Shape>::scheduleMovement(TaskList& tasks) const {
+  const ImplicitSetup setup{&problem_, how_, state_size_};
+  if (how_.resetsGrid)
+    tasks.perMaterial("impm::moveAndStress", moveAndStress<Shape>, problem_.materials, with(setup), requiresOld(delT),
+                      requiresNew(g::increment<D>, Shape::ghostNodes), requiresOld(p::x<D>), requiresOld(p::size<D>),
+                      requiresOld(p::mass), requiresOld(p::temperature), requiresOld(p::deformationMeasure),
+                      requiresOld(p::stress), requiresOld(state_), computes(p::x<D>), computes(p::deformationMeasure),
+                      computes(p::stress), computes(state_), computes(p::volume), computes(p::strainEnergy),
+                      when(heats_, computes(p::temperatureChange)));
+  else
+    tasks.perMaterial("impm::stressInPlace", stressInPlace<Shape>, problem_.materials, with(setup), requiresOld(delT),
+                      requiresNew(g::increment<D>, Shape::ghostNodes), requiresOld(p::x<D>), requiresOld(p::size<D>),
+                      requiresOld(p::mass), requiresOld(p::temperature), requiresOld(p::deformationMeasure),
+                      requiresOld(p::stress), requiresOld(state_), requiresOld(p::displacement<D>), computes(p::x<D>),
+                      computes(p::displacement<D>), computes(p::deformationMeasure), computes(p::stress),
+                      computes(state_), computes(p::volume), computes(p::strainEnergy),
+                      when(heats_, computes(p::temperatureChange)));
 }
 
 template <class Shape>
@@ -84,9 +124,11 @@ void ImplicitMpm<Shape>::scheduleVelocity(TaskList& tasks) const {
                       requiresNew(g::newAcceleration<D>, Shape::ghostNodes), requiresOld(p::x<D>),
                       requiresOld(p::size<D>), requiresOld(p::velocity<D>), requiresOld(p::acceleration<D>),
                       computes(p::velocity<D>), computes(p::acceleration<D>));
-  else
-    tasks.perMaterial("impm::meanVelocity", meanVelocity<D>, problem_.materials, requiresOld(delT), requiresOld(p::x<D>),
-                      requiresNew(p::x<D>), computes(p::velocity<D>), computes(p::acceleration<D>));
+  else {
+    const auto& place = how_.resetsGrid ? p::x<D> : p::displacement<D>;
+    tasks.perMaterial("impm::meanVelocity", meanVelocity<D>, problem_.materials, requiresOld(delT), requiresOld(place),
+                      requiresNew(place), computes(p::velocity<D>), computes(p::acceleration<D>));
+  }
 }
 
 /// What a scene may save of the temperature on the nodes, conduction, and the heat of the step's work.

@@ -52,9 +52,10 @@ NumericalError failureOf(const solvers::Outcome& outcome, const ImplicitSystem<S
   const NodeMap<D>& nodes = system.nodes();
   std::optional<Vec3> worst;
   if (outcome.worst >= 0) worst = nodes.level().template expandPoint<D>(nodes.position(outcome.worst / D));
+  const char* linear = outcome.krylovResiduals.empty() ? "" : "more <maxiterations> or ";
   return {solvers::sentenceOf("Newton's method", outcome) + solvers::worstPlace(nodes.ranks(), worst, "at the node"),
-          "a smaller <delt_init> or <delt_max>, slower loads, <preconditioner> lu in <MPM>/<Solver>, or support for a body "
-          "that is free to move",
+          fmt::format("a smaller <delt_init> or <delt_max>, slower loads, {}<solver> direct with <preconditioner> lu in "
+                      "<MPM>/<Solver>, or support for a body that is free to move", linear),
           "g.displacement"};
 }
 
@@ -81,6 +82,50 @@ void writeNodes(const Patch& patch, const RigidBody<Shape>& body, const NodeView
   });
 }
 
+/// The rigid body of each material that is one.
+template <class Shape>
+using RigidBodies = std::vector<std::optional<RigidBody<Shape>>>;
+
+/// Prescribes what faces and rigid bodies do to the solid in the step.
+template <class Shape, int D = Shape::dimension>
+RigidBodies<Shape> constrain(ImplicitSystem<Shape>& system, const RankPatches& patches,
+                             const std::vector<Material>& materials, const mpi::Communicator& ranks,
+                             const ImplicitSetup& setup, double time, double dt, const SolidViews<D>& views) {
+  prescribeFaces(system, dt);
+  RigidBodies<Shape> rigid(materials.size());
+  for (std::size_t m = 0; m < materials.size(); ++m)
+    if (setup.rigidContact(static_cast<int>(m))) {
+      rigid[m].emplace(patches, ranks, setup, static_cast<int>(m), time, dt, views);
+      rigid[m]->prescribe(system);
+    }
+  return rigid;
+}
+
+/// The acceleration that Newmark's rule begins with, on the nodes: 0 where faces or rigid bodies hold them.
+template <class Shape, int D = Shape::dimension>
+void accelerateAtStart(const RankPatches& patches, const std::vector<Material>& materials, const mpi::Communicator& ranks,
+                       const ImplicitSetup& setup, double time, const ParticleViews<const Vec<D>>& x,
+                       const ParticleViews<const Vec<D>>& size, const ParticleViews<const double>& mass,
+                       const ParticleViews<const Vec<D>>& velocity, const ParticleViews<const Vec<D>>& externalForce,
+                       const ParticleViews<const double>& temperature, const ParticleViews<const Matrix3>& deformation,
+                       const ParticleViews<const Matrix3>& stress, const ParticleViews<const double>& state,
+                       const NodeViews<Vec<D>>& acceleration) {
+  constexpr double dt = 1;  // nothing moves, over whatever time
+  const SolidViews<D> views{x, size, velocity, velocity, externalForce, mass, temperature, state, deformation, stress};
+  ImplicitSystem<Shape> system(patches, ranks, setup.problem->method, setup.how, dt, setup.stateSize,
+                               sourcesOf<Shape>(patches, materials, setup, views));
+  const auto rigid = constrain(system, patches, materials, ranks, setup, time, dt, views);
+  const std::vector<double> starting = system.startingAcceleration();
+  for (std::size_t p = 0; p < patches.size(); ++p)
+    for (std::size_t m = 0; m < materials.size(); ++m)
+      forEach<D>(patches[p]->nodes(), [&](const Index<D>& node) {
+        const auto image = system.nodes().imageOf(node);
+        const int number = rigid[m] ? -1 : system.nodes()(image.node);
+        acceleration[p][m][node] = Vec<D>::Zero();
+        if (number >= 0) acceleration[p][m][node] = image.sign.cwiseProduct(system.displacement(number, starting));
+      });
+}
+
 /// Solves for the displacement of all nodes in the step, by Newton's method. All materials move in one field, but those
 /// that a contact makes rigid bodies. Throws NumericalError where Newton's method gives up.
 template <class Shape, int D = Shape::dimension>
@@ -97,13 +142,7 @@ void solveStep(const RankPatches& patches, const std::vector<Material>& material
   const SolidViews<D> views{x, size, velocity, acceleration, externalForce, mass, temperature, state, deformation, stress};
   ImplicitSystem<Shape> system(patches, ranks, setup.problem->method, setup.how, dt, setup.stateSize,
                                sourcesOf<Shape>(patches, materials, setup, views));
-  prescribeFaces(system, dt);
-  std::vector<std::optional<RigidBody<Shape>>> rigid(materials.size());
-  for (std::size_t m = 0; m < materials.size(); ++m)
-    if (setup.rigidContact(static_cast<int>(m))) {
-      rigid[m].emplace(patches, ranks, setup, static_cast<int>(m), time, dt, views);
-      rigid[m]->prescribe(system);
-    }
+  const auto rigid = constrain(system, patches, materials, ranks, setup, time, dt, views);
   std::vector<double> u = system.guess();
   const solvers::Outcome outcome = solvers::solver().solve(system.unknowns(), system, setup.how.newton, u);
   if (!outcome.converged) throw failureOf(outcome, system);

@@ -23,7 +23,8 @@ struct PointSources {
 ///     r_i = sum_p V0_p P_p F_oldᵀ grad S_i + m_i a_i - f_i - m_i g = 0,
 ///
 /// for the displacement u of the nodes in the step, with P = J sigma F^-T, F = (I + sum_i u_i grad S_i) F_old and S_i at the
-/// positions at its begin. By Newmark's rule with beta = 1/4, gamma = 1/2: a = 4 (u/dt - v_old)/dt - a_old.
+/// positions at its begin, or where the grid goes along with the solid at those of the start, so that grad S =
+/// F_old^-T grad_0 S. By Newmark's rule with beta = 1/4, gamma = 1/2: a = 4 (u/dt - v_old)/dt - a_old.
 /// Guilkey & Weiss, Int. J. Numer. Meth. Engng 57 (2003) 1323.
 template <class Shape>
 class ImplicitSystem : public solvers::NonlinearProblem {
@@ -46,6 +47,10 @@ class ImplicitSystem : public solvers::NonlinearProblem {
   /// Whether no node has more of a residual than 1e-14 of the forces that it is the sum of, the stresses of particles
   /// counted as those of a strain of 1.
   bool isNegligible(std::span<const double> u, std::span<const double> r) const override;
+
+  /// What each node is accelerated by when a run starts: (f + m g - sum_p V_p sigma_p grad S) / m, 0 where prescribed, m/s^2.
+  /// Newmark's rule begins with it: without, a load that is there from the start would lose half a step of its momentum.
+  std::vector<double> startingAcceleration();
 
   /// The forces that hold the nodes of this rank where they are prescribed, along the axes along which they are, N.
   std::vector<double> reactions() const;
@@ -82,12 +87,14 @@ class ImplicitSystem : public solvers::NonlinearProblem {
 
   void findRuns();
   void findNodes(const RankPatches& patches);
+  void carrySlopes();
   void gatherNodes();
   void shareNodes(const std::vector<double>& sums);
   void measureStiffness();
   void supportNodes();
   const NodeTouch<D>* touchesOf(std::size_t point) const { return &touch_[point * touches_]; }
   Matrix3 displacementGradient(std::size_t point, std::span<const double> u) const;
+  bool addInternalForces(std::span<const double> u, std::span<double> r);
   void addInternalForce(const PointRun& run, std::span<double> r) const;
   Strain strainOf(std::size_t point) const;
   Local stiffnessOf(const PointGroup& group, int k, const Matrix9& tangent) const;

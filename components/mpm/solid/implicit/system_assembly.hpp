@@ -28,6 +28,7 @@ ImplicitSystem<Shape>::ImplicitSystem(const RankPatches& patches, const mpi::Com
       touch_(countPoints(sources_) * touches_),
       states_(countPoints(sources_), stateSize, dt, how.sharesVolume) {
   findNodes(patches);
+  if (!how.resetsGrid) carrySlopes();
   findRuns();
   gatherNodes();
   measureStiffness();
@@ -59,6 +60,22 @@ void ImplicitSystem<Shape>::findNodes(const RankPatches& patches) {
   map_.number(patches, Shape::ghostNodes + 1);
   for (std::size_t k = 0; k < touch_.size(); ++k)
     if (touch_[k].node >= 0) touch_[k].node = map_(images[k]);
+}
+
+/// grad S = F_old^-T grad_0 S
+template <class Shape>
+void ImplicitSystem<Shape>::carrySlopes() {
+  const Level& level = map_.level();
+  for (const PointSources<Shape>& from : sources_)
+    for (int p = 0; p < from.group.count; ++p) {
+      const Matrix3 inverse = from.group.oldDeformation[p].inverse();
+      NodeTouch<D>* touch = &touch_[(from.group.first + static_cast<std::size_t>(p)) * touches_];
+      for (int k = 0; k < touches_; ++k) {
+        const Vec<D> slope = touch[k].gradient;
+        touch[k].gradient = level.template reduce<D>(Vec3(level.template expandDirection<D>(slope).transpose() * inverse));
+        touch[k].hoop *= inverse(2, 2);
+      }
+    }
 }
 
 template <class Shape>
@@ -193,6 +210,15 @@ bool ImplicitSystem<Shape>::residual(std::span<const double> u, std::span<double
     Eigen::Map<Vec<D>>(r.data() + D * k) = node.mass * acceleration(k, u) - node.force +
                                            node.support * (displacement(k, u) - dt_ * node.velocity);
   }
+  const bool admissible = addInternalForces(u, r);
+  for (std::size_t k = 0; k < prescribed_.size(); ++k)
+    if (prescribed_[k]) held_[k] = std::exchange(r[k], 0.0);
+  return admissible;
+}
+
+/// False where a point would be turned inside out.
+template <class Shape>
+bool ImplicitSystem<Shape>::addInternalForces(std::span<const double> u, std::span<double> r) {
   bool admissible = true;
   forEachRun([&](const PointSources<Shape>&, const PointRun& run) {
     for (int k = run.from; k < run.from + run.count; ++k) {
@@ -204,9 +230,23 @@ bool ImplicitSystem<Shape>::residual(std::span<const double> u, std::span<double
     states_.updateStress(run);
     addInternalForce(run, r);
   });
-  for (std::size_t k = 0; k < prescribed_.size(); ++k)
-    if (prescribed_[k]) held_[k] = std::exchange(r[k], 0.0);
   return admissible;
+}
+
+template <class Shape>
+std::vector<double> ImplicitSystem<Shape>::startingAcceleration() {
+  std::vector<double> sums(node_.size() * D, 0.0);
+  const std::vector<double> still(sums);
+  addInternalForces(still, sums);
+  solvers::addUp(map_.unknowns(D), sums);
+  for (int k = 0; k < map_.size(); ++k) {
+    const Node& node = node_[static_cast<std::size_t>(k)];
+    Eigen::Map<Vec<D>> sum(sums.data() + D * k);
+    sum = node.mass > 0 ? Vec<D>((node.force - sum) / node.mass) : Vec<D>::Zero();
+    for (int d = 0; d < D; ++d)
+      if (isPrescribed(k, d)) sum[d] = 0;
+  }
+  return sums;
 }
 
 template <class Shape>

@@ -7,6 +7,7 @@
 
 #include "components/mpm/solid/constitutive_model.hpp"
 #include "components/mpm/solid/kernels/tangent.hpp"
+#include "components/mpm/solid/materials/strain_invariants.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -69,11 +70,12 @@ struct CompMooneyRivlin {
   double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
     return std::sqrt(4 * (c1 + c2 * Invariants(d.deformationGradient).second) / initialDensity);
   }
+  /// W as above, where c3 (1/I3² - 1) takes away what is linear in the strain.
   double strainEnergyDensity(const Deformation& d, const Matrix3&, const Matrix3&, const State&) const {
-    const Invariants i(d.deformationGradient);
-    const double compression = i.third - 1;
-    return c1 * (i.first - 3) + c2 * (i.second - 3) + c3() * (1 / (i.third * i.third) - 1) +
-           c4() * compression * compression;
+    const StrainInvariants strain(d.deformationGradient);
+    const double v = strain.volume, i3 = 1 + v;
+    return c2 * strain.second - 2 * c3() * (strain.second + strain.third) +
+           (c3() * (3 + 2 * v) / (i3 * i3) + c4()) * v * v;
   }
 
  private:

@@ -8,6 +8,7 @@
 #include "components/mpm/solid/kernels/cube_root.hpp"
 #include "components/mpm/solid/kernels/tangent.hpp"
 #include "components/mpm/solid/kernels/tensor.hpp"
+#include "components/mpm/solid/materials/strain_invariants.hpp"
 #include "components/mpm/solid/refuse.hpp"
 
 namespace tushar::mpm::solid {
@@ -80,9 +81,8 @@ struct CompNeoHook {
     return std::sqrt(bulkModulus * d.deformationGradient.determinant() / initialDensity);
   }
   double strainEnergyDensity(const Deformation& d, const Matrix3&, const Matrix3&, const State&) const {
-    const Matrix3& f = d.deformationGradient;
-    const double j = f.determinant(), trace = f.squaredNorm() * inverseCubeRootSquared(j);
-    return bulkModulus / 2 * (0.5 * (j * j - 1) - std::log(j)) + shearModulus / 2 * (trace - 3);
+    const StrainInvariants strain(d.deformationGradient);
+    return bulkModulus * strain.dilatation() + shearModulus / 2 * strain.isochoricFirst();
   }
 };
 static_assert(ConstitutiveModel<CompNeoHook>);

@@ -7,6 +7,7 @@
 
 #include "components/mpm/solid/constitutive_model.hpp"
 #include "components/mpm/solid/kernels/tangent.hpp"
+#include "components/mpm/solid/materials/strain_invariants.hpp"
 #include "components/mpm/solid/refuse.hpp"
 
 namespace tushar::mpm::solid {
@@ -72,9 +73,9 @@ struct TransIsoHyper {
     return std::sqrt(bulkModulus * d.deformationGradient.determinant() / initialDensity);
   }
   double strainEnergyDensity(const Deformation& d, const Matrix3&, const Matrix3&, const State&) const {
-    const Point at(*this, d.deformationGradient);
-    const double second = 0.5 * (at.first * at.first - at.b.squaredNorm()), logarithm = std::log(at.j);
-    return c1 * (at.first - 3) + c2 * (second - 3) + fibreEnergy(at.stretch) + 0.5 * bulkModulus * logarithm * logarithm;
+    const StrainInvariants strain(d.deformationGradient);
+    const double logarithm = 0.5 * std::log1p(strain.volume), fibres = fibreEnergy(Point(*this, d.deformationGradient).stretch);
+    return c1 * strain.isochoricFirst() + c2 * strain.isochoricSecond() + fibres + 0.5 * bulkModulus * logarithm * logarithm;
   }
 
  private:

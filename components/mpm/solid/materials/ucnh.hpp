@@ -8,6 +8,7 @@
 
 #include "components/mpm/solid/constitutive_model.hpp"
 #include "components/mpm/solid/kernels/tangent.hpp"
+#include "components/mpm/solid/materials/strain_invariants.hpp"
 #include "components/mpm/solid/refuse.hpp"
 
 namespace tushar::mpm::solid {
@@ -25,6 +26,7 @@ struct NeoHookPlastic {
        {"p.bElBar", "1", "elastic part of the left Cauchy-Green tensor, without its volume", 9}}};
   static constexpr std::string_view name = plasticByDefault ? "comp_neo_hook_plastic" : "UCNH";
   static constexpr bool usesTemperature = false;
+  static constexpr bool feelsVolumeOfEndOnly = true;
   static constexpr bool strainEnergyIsRate = false;
 
   double bulkModulus = 0;                  ///< K, Pa
@@ -103,10 +105,9 @@ struct NeoHookPlastic {
   }
   /// W = K/2 ((J² - 1)/2 - ln J) + G/2 (tr b - 3)
   double strainEnergyDensity(const Deformation& d, const Matrix3&, const Matrix3&, const State& state) const {
-    const Matrix3& f = d.deformationGradient;
-    const double j = f.determinant();
-    const double trace = isPlastic ? matrixOf(state.bElBar).trace() : f.squaredNorm() / std::cbrt(j * j);
-    return bulkModulus / 2 * (0.5 * (j * j - 1) - std::log(j)) + shearModulus / 2 * (trace - 3);
+    const StrainInvariants strain(d.deformationGradient);
+    const double shear = isPlastic ? matrixOf(state.bElBar).trace() - 3 : strain.isochoricFirst();
+    return bulkModulus * strain.dilatation() + shearModulus / 2 * shear;
   }
 
  private:

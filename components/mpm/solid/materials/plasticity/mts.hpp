@@ -74,6 +74,10 @@ struct MechanicalThreshold {
         .ignored("D", "the <shear_modulus_model> has it")
         .ignored("T_0", "the <shear_modulus_model> has it");
     refuseTag(tags, "T_c", "there is one phase");
+    tags.check([](const Self& read, const input::Element& element, input::Diagnostics& diagnostics) {
+      if (read.pI > 0 && !(read.energyI > 0 && read.rateI > 0 && read.qI > 0))
+        diagnostics.error(element, "g_0i, edot_0i and q_i must be greater than 0 where p_i is");
+    });
     return tags;
   }
   /// (1 - x^(1/q))^(1/p)

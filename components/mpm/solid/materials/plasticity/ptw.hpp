@@ -66,8 +66,9 @@ struct PrestonTonksWallace {
   double hardened(double saturated, double yield, double plasticStrain) const {
     const double a = (s0 - yield) / p, b = saturated - yield;
     if (b <= 0 || a <= 0) return saturated;
-    const double growth = std::expm1(b / a);
-    return saturated + a * std::log1p(-growth / (growth + 1) * std::exp(-theta * plasticStrain / (a * growth)));
+    const double range = std::min(b / a, 700.0);  // exp(700) is nearly the greatest number
+    const double hardening = theta * plasticStrain / (a * std::expm1(range));
+    return yield + a * (range + std::log(std::exp(-range - hardening) - std::expm1(-hardening)));
   }
 };
 
