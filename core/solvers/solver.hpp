@@ -74,7 +74,7 @@ class NonlinearProblem {
 /// When Newton's iterations end, as in Uintah's implicit MPM.
 struct NewtonSettings {
   LinearSettings linear{"gmres", "gamg", 1e-8, 1000, ""};
-  double displacement = 1e-10;  ///< last change of u over the greatest
+  double displacement = 1e-10;  ///< square of the last change of u over that of the greatest
   double energy = 4e-10;        ///< last change of u times the residual before it, over the first
   int maxIterations = 25;
 };
