@@ -97,6 +97,8 @@ class Solver {
 /// Every rank gets, for the blocks that it owns and for its ghosts, the sum of what all ranks have for them.
 void addUp(const Unknowns& unknowns, std::span<double> values);
 
+/// Whether a scene has asked for the solver so far.
+bool isLoaded();
 /// Options in PETSc's language that were given, and that no solve so far has looked at.
 std::vector<std::string> unusedOptions();
 
