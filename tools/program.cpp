@@ -20,6 +20,7 @@
 #include "core/input/geometry.hpp"
 #include "core/simulation/dry_run.hpp"
 #include "core/simulation/scene.hpp"
+#include "core/solvers/solver.hpp"
 
 namespace tushar {
 
@@ -213,6 +214,14 @@ void inspect(const Arguments& arguments, simulation::Simulation& run, bool isFir
   if (arguments.check) fmt::print("{}: fine, {}\n", arguments.scene, sizeOf(run, particles));
 }
 
+/// Options that a typing error may have made useless.
+void noteUnused(const Arguments& arguments, const simulation::Report& report) {
+  for (const std::string& option : report.unusedOptions)
+    fmt::print(stderr, "note: PETSc: no solve has looked at the option {}\n", option);
+  if (!arguments.petsc.empty() && !solvers::isLoaded())
+    fmt::print(stderr, "note: -petsc: this run has not solved anything by PETSc\n");
+}
+
 ExitCode runScene(const Arguments& arguments, const simulation::Catalogue& known,
                   std::chrono::steady_clock::time_point startedAt, const mpi::Communicator& ranks) {
   simulation::Problem problem = readProblem(arguments, known, ranks);
@@ -233,8 +242,7 @@ ExitCode runScene(const Arguments& arguments, const simulation::Catalogue& known
   const simulation::Report report = run.run();
   if (traces) writeTrace(arguments.trace, ranks);
   if (reports) ranks.onFirst([&] { writeFile(arguments.run.jsonPath, toJson(report)); });
-  for (const std::string& option : report.unusedOptions)
-    if (ranks.isFirst()) fmt::print(stderr, "note: PETSc: no solve has looked at the option {}\n", option);
+  if (ranks.isFirst()) noteUnused(arguments, report);
   if (!report.failure.empty()) throw NumericalError(report.failure, report.advice);
   if (!arguments.run.quiet && ranks.isFirst()) fmt::print("{}", toText(report));
   return report.ended == "interrupted" ? ExitCode::interrupted : ExitCode::success;

@@ -20,7 +20,7 @@ struct Newton {
   Balance& balance;
   GhostedVector &u, &r;
   OwnedVec lastU, lastResidual, change;
-  double greatestChange = 0, firstEnergy = 0, assembly = 0, setup = 0;
+  double greatestSquare = 0, firstEnergy = 0, assembly = 0, setup = 0;
   std::exception_ptr thrown;
 };
 
@@ -64,7 +64,7 @@ bool isNegligible(Newton& newton, Vec u, Vec r) {
   return negligible;
 }
 
-/// |du| <= displacement max |du| and |du . r| <= energy |du . r| of the first iteration; or nothing but rounding is left of r
+/// |du|² <= displacement max |du|² and |du . r| <= energy |du . r| of the first iteration; or nothing but rounding is left of r
 /// after an iteration: before, a small load may be no more than rounding of a great stiffness, and is to act.
 PetscErrorCode hasConverged(SNES snes, PetscInt iteration, PetscReal, PetscReal, PetscReal norm,
                             SNESConvergedReason* reason, void* context) {
@@ -83,9 +83,10 @@ PetscErrorCode hasConverged(SNES snes, PetscInt iteration, PetscReal, PetscReal,
       check(VecWAXPY(newton.change, -1, newton.lastU, u));
       check(VecNorm(newton.change, NORM_2, &size));
       check(VecDot(newton.change, newton.lastResidual, &energy));
-      newton.greatestChange = std::max(newton.greatestChange, size);
+      const double square = size * size;
+      newton.greatestSquare = std::max(newton.greatestSquare, square);
       if (iteration == 1) newton.firstEnergy = std::abs(energy);
-      if (size <= newton.settings.displacement * newton.greatestChange &&
+      if (square <= newton.settings.displacement * newton.greatestSquare &&
           std::abs(energy) <= newton.settings.energy * newton.firstEnergy)
         *reason = SNES_CONVERGED_SNORM_RELATIVE;
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "core/base/vec.hpp"
@@ -19,6 +20,12 @@ inline void addTimes(const Outcome& outcome, data::Maximum& assembly, data::Maxi
   assembly.add(outcome.assembly);
   preconditioner.add(outcome.setup);
   solve.add(outcome.solve);
+}
+
+/// The residual at the end over the greatest on the way; 0 where there never was any.
+inline double remainderOf(const Outcome& outcome) {
+  const double greatest = outcome.residuals.empty() ? 0 : *std::max_element(outcome.residuals.begin(), outcome.residuals.end());
+  return greatest > 0 ? outcome.residuals.back() / greatest : 0;
 }
 
 /// Where the residual is the greatest, the end of a sentence, the same on all ranks: `mine` [m] on the rank that has it.

@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* library = "libtushar_petsc.so";
 
-std::atomic<bool> isLoaded = false;
+std::atomic<bool> wasLoaded = false;
 
 /// Lazily bound, so that what PETSc brings along is only resolved where it is used.
 const Solver& load() {
@@ -33,11 +33,13 @@ const Solver& load() {
 
 const Solver& solver() {
   static const Solver& loaded = load();
-  isLoaded = true;
+  wasLoaded = true;
   return loaded;
 }
 
-std::vector<std::string> unusedOptions() { return isLoaded ? solver().unusedOptions() : std::vector<std::string>{}; }
+bool isLoaded() { return wasLoaded; }
+
+std::vector<std::string> unusedOptions() { return wasLoaded ? solver().unusedOptions() : std::vector<std::string>{}; }
 
 void addUp(const Unknowns& unknowns, std::span<double> values) {
   if (!unknowns.ranks->isAlone()) solver().addUp(unknowns, values);

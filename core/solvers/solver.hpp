@@ -74,7 +74,7 @@ class NonlinearProblem {
 /// When Newton's iterations end, as in Uintah's implicit MPM.
 struct NewtonSettings {
   LinearSettings linear{"gmres", "gamg", 1e-8, 1000, ""};
-  double displacement = 1e-10;  ///< last change of u over the greatest
+  double displacement = 1e-10;  ///< square of the last change of u over that of the greatest
   double energy = 4e-10;        ///< last change of u times the residual before it, over the first
   int maxIterations = 25;
 };
@@ -97,6 +97,8 @@ class Solver {
 /// Every rank gets, for the blocks that it owns and for its ghosts, the sum of what all ranks have for them.
 void addUp(const Unknowns& unknowns, std::span<double> values);
 
+/// Whether a scene has asked for the solver so far.
+bool isLoaded();
 /// Options in PETSc's language that were given, and that no solve so far has looked at.
 std::vector<std::string> unusedOptions();
 

@@ -175,6 +175,10 @@ class Implicit(unittest.TestCase):
         self.assertEqual((code, errors), (0, ""))
         self.assertEqual(report["fingerprint"], whole["fingerprint"])
 
+    def test_what_is_left_of_the_residual_can_be_saved(self):
+        left, = last_of(BEAM, ["NewtonResidual"], ("DataArchiver/save[3]/@label=NewtonResidual", "Time/max_Timesteps=1"))
+        self.assertTrue(0 < left[0] < 1e-9, left)
+
     def test_a_failed_solve_tells_history_place_and_what_to_try(self):
         result = run(BEAM, "MPM/iters_before_timestep_restart=1", "Time/delt_min=0.9")
         self.assertEqual(result.code, 4)

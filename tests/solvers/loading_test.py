@@ -43,6 +43,10 @@ class Loading(unittest.TestCase):
         self.assertEqual(result.report["unused_petsc_options"], ["-ksp_monitr", "-ksp_mxa_it"])
         self.assertIn("note: PETSc: no solve has looked at the option -ksp_monitr\n", result.err)
 
+    def test_options_of_a_run_without_a_solve_are_told_to_be_useless(self):
+        result = run("ups/heat/sine.ups", "Time/max_Timesteps=1", options=("--quiet", "-petsc", "-ksp_monitor"))
+        self.assertEqual((result.code, result.err), (0, "note: -petsc: this run has not solved anything by PETSc\n"))
+
     def test_options_that_one_solve_of_several_looks_at_are_not_named(self):
         options = ("--quiet", "-petsc", "-snes_rtol 1e-5 -ksp_gmres_modifiedgramschmidt")
         result = run("ups/solid/implicit_cantilever.ups", "MPM/DoImplicitHeatConduction=true", "MPM/Solver/solver=gmres",

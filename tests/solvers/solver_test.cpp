@@ -212,14 +212,39 @@ TEST(Solver, GivesTheOptionsOfASolveToNoOther) {
 TEST(Newton, ConvergesQuadratically) {
   std::vector<double> u{3, 3, 3};
   Roots problem;
+  NewtonSettings settings = directNewton();
+  settings.displacement = 1e-20;
 
-  const Outcome outcome = solver().solve(row(3), problem, directNewton(), u);
+  const Outcome outcome = solver().solve(row(3), problem, settings, u);
 
   ASSERT_TRUE(outcome.converged) << outcome.reason;
   for (int k = 0; k < 3; ++k) EXPECT_NEAR(u[std::size_t(k)], std::sqrt(2.0 + k), 1e-14);
   // r' = (du)² and du = r / 2u: each residual is at most r² / 4u² <= r² / 8 of the one before.
   for (std::size_t k = 1; k < outcome.residuals.size(); ++k)
     EXPECT_LE(outcome.residuals[k], outcome.residuals[k - 1] * outcome.residuals[k - 1] / 8 + 1e-14);
+}
+
+TEST(Newton, EndsWhereTheSquareOfTheLastChangeIsSmallBesideThatOfTheGreatest) {
+  NewtonSettings settings = directNewton();
+  settings.displacement = 1e-4;
+  settings.energy = 1;
+  std::vector<double> u{3, 3, 3}, byHand(u);
+  Roots problem;
+
+  const Outcome outcome = solver().solve(row(3), problem, settings, u);
+
+  double square = 1, greatest = 0;
+  int iterations = 0;
+  for (; square > settings.displacement * greatest; ++iterations) {
+    square = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double change = (byHand[k] * byHand[k] - 2 - double(k)) / (2 * byHand[k]);
+      byHand[k] -= change;
+      square += change * change;
+    }
+    greatest = std::max(greatest, square);
+  }
+  EXPECT_EQ(outcome.newtonIterations, iterations);
 }
 
 TEST(Newton, GoesBackWhereThereIsNoResidual) {

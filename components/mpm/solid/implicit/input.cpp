@@ -46,7 +46,7 @@ struct Section {
 void declareSteps(Schema<Section>& schema) {
   schema
       .value("convergence_criteria_disp", &Section::displacement, 1e-10, "1",
-             "Newton ends: last change of the displacement over the greatest", input::positive())
+             "Newton ends: square of the last change of the displacement over that of the greatest", input::positive())
       .value("convergence_criteria_energy", &Section::energy, 4e-10, "1",
              "and: last change times the residual before it, over the first", input::positive())
       .value("iters_before_timestep_restart", &Section::maxIterations, 25, "1",

@@ -37,6 +37,8 @@ inline constexpr NodeLabel<Vec<D>> newAcceleration{"g.newAcceleration", "m/s^2",
 }  // namespace g
 namespace total {
 inline constexpr ReductionLabel<Maximum> newtonIterations{"NewtonIterations", "1", "of the last step"};
+inline constexpr ReductionLabel<Maximum> newtonResidual{"NewtonResidual", "1",
+                                                        "at the end of the last step over the greatest on the way"};
 inline constexpr ReductionLabel<Maximum> krylovIterations{"KrylovIterations", "1", "of all linear solves of the last step"};
 inline constexpr ReductionLabel<Minimum> nextTimeStep{"nextTimeStep", "s", "what Newton's iterations allow the next step"};
 }  // namespace total

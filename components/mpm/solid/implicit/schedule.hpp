@@ -82,9 +82,9 @@ void ImplicitMpm<Shape>::scheduleTimeAdvance(TaskList& tasks) const {
       requiresOld(p::x<D>), requiresOld(p::size<D>), requiresOld(p::mass), requiresOld(p::velocity<D>),
       requiresOld(p::acceleration<D>), requiresNew(p::externalForce<D>), requiresOld(p::temperature),
       requiresOld(p::deformationMeasure), requiresOld(p::stress), requiresOld(state_), computes(g::increment<D>),
-      computes(g::newAcceleration<D>), computes(total::newtonIterations), computes(total::krylovIterations),
-      computes(total::nextTimeStep), computes(solvers::assemblyTime), computes(solvers::preconditionerTime),
-      computes(solvers::solveTime), computes(total::rigidReactionForce));
+      computes(g::newAcceleration<D>), computes(total::newtonIterations), computes(total::newtonResidual),
+      computes(total::krylovIterations), computes(total::nextTimeStep), computes(solvers::assemblyTime),
+      computes(solvers::preconditionerTime), computes(solvers::solveTime), computes(total::rigidReactionForce));
   scheduleMovement(tasks);
   if (is_damageable_) scheduleDamage(tasks);
   scheduleVelocity(tasks);

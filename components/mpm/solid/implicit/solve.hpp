@@ -137,7 +137,7 @@ void solveStep(const RankPatches& patches, const std::vector<Material>& material
                const ParticleViews<const double>& temperature, const ParticleViews<const Matrix3>& deformation,
                const ParticleViews<const Matrix3>& stress, const ParticleViews<const double>& state,
                const NodeViews<Vec<D>>& increment, const NodeViews<Vec<D>>& newAcceleration, Maximum& newtonIterations,
-               Maximum& krylovIterations, Minimum& nextTimeStep, Maximum& assembly, Maximum& preconditioner,
+               Maximum& newtonResidual, Maximum& krylovIterations, Minimum& nextTimeStep, Maximum& assembly, Maximum& preconditioner,
                Maximum& solution, VectorSum& rigidReaction) {
   const SolidViews<D> views{x, size, velocity, acceleration, externalForce, mass, temperature, state, deformation, stress};
   ImplicitSystem<Shape> system(patches, ranks, setup.problem->method, setup.how, dt, setup.stateSize,
@@ -156,6 +156,7 @@ void solveStep(const RankPatches& patches, const std::vector<Material>& material
   for (const auto& body : rigid)
     if (body) body->addReaction(system, rigidReaction);
   newtonIterations.add(outcome.newtonIterations);
+  newtonResidual.add(solvers::remainderOf(outcome));
   krylovIterations.add(outcome.krylovIterations);
   solvers::addTimes(outcome, assembly, preconditioner, solution);
   nextTimeStep.add(setup.how.nextTimeStep(dt, outcome.newtonIterations), "Newton's iterations");
