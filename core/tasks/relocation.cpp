@@ -149,6 +149,18 @@ void Relocation::findMoves(int material, int position, int id) {
   });
 }
 
+/// Whether or not the moves found last have been made.
+void Relocation::forgetIncoming(const Patch& patch, PatchMoves& moves) {
+  const grid::Box& cells = patch.cells();
+  moves.firstIncoming.resize(cells.size(), -1);
+  moves.isEntered.resize(cells.rows(), false);
+  grid::forEach<3>(cells.rowStarts(), [&](const Index3& first) {
+    char& isEntered = moves.isEntered[cells.rowOf(first)];
+    if (isEntered) std::fill_n(&moves.firstIncoming[cells.offset(first)], cells.extent(0), -1);
+    isEntered = false;
+  });
+}
+
 template <int D>
 void Relocation::findMoves(const Patch& patch, const ParticleSet& set, Vec<D>* x, const ParticleId* ids,
                            PatchMoves& moves) {
@@ -156,8 +168,7 @@ void Relocation::findMoves(const Patch& patch, const ParticleSet& set, Vec<D>* x
   moves.outgoing.clear();
   moves.incoming.clear();
   moves.strangers.clear();
-  moves.firstIncoming.resize(patch.cells().size(), -1);
-  moves.isEntered.assign(patch.cells().rows(), false);
+  forgetIncoming(patch, moves);
   moves.escape.reset();
   moves.leaving = 0;
   const grid::Level& level = warehouse_->level();
@@ -297,7 +308,7 @@ void Relocation::rebuild(const Patch& patch, int material, PatchMoves& moves) {
     if (!isEntered && before.occupied(cell, patch.cells().upper[0]).empty()) return;
     const ParticleRange* from = before.row(cell);
     ParticleRange* to = after.row(cell);
-    int* firstIncoming = &moves.firstIncoming[patch.cells().offset(cell)];
+    const int* firstIncoming = &moves.firstIncoming[patch.cells().offset(cell)];
     for (int k = 0; k < rowLength; ++k, ++from, ++to) {
       const int first = moves.count;
       const bool stays = nextDeparted == moves.departed.size() || moves.departed[nextDeparted] >= from->last;
@@ -307,7 +318,6 @@ void Relocation::rebuild(const Patch& patch, int material, PatchMoves& moves) {
         mergeCell(moves, *from, firstIncoming[k], ids, nextDeparted);
       *to = {first, moves.count};
     }
-    if (isEntered) std::fill_n(firstIncoming, rowLength, -1);
     after.closeRow(cell);
   });
   after.setOwnedOfClosedRows(moves.count);

@@ -113,6 +113,7 @@ class Relocation {
   PatchMoves& of(Moves& moves, int patch) {
     return moves.patches[static_cast<std::size_t>(patch - warehouse_->level().firstPatch())];
   }
+  static void forgetIncoming(const grid::Patch& patch, PatchMoves& moves);
   template <int D>
   void findMoves(int material, int position, int id);
   template <int D>

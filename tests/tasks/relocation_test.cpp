@@ -163,6 +163,31 @@ TEST(Relocation, KeepsEveryParticleInItsCellInOrderAndWithItsValuesOnAnyPatches)
   expectSameOnAll<3>({{5, 4, 3}}, {{{2, 2, 2}}, {{5, 4, 3}}});
 }
 
+TEST(Relocation, ForgetsTheMovesOfAStepThatFailed) {
+  test::Runner run(test::domain({{8, 1, 1}}, {{2, 1, 1}}));
+  double shift = 0.6;  // the particles of the left half move; some to the other patch, some through the wall
+  const auto body = [&shift](const Patch&, const Material&, ParticleView<const Vec<1>> from, ParticleView<Vec<1>> to) {
+    for (int p = 0; p < from.owned(); ++p) to[p] = Vec<1>(from[p][0] < 0.5 ? from[p][0] + shift : from[p][0]);
+  };
+  TaskList start, advance, looking;
+  start.newParticles("create", create<1>, gas, creates(x<1>), creates(mark));
+  advance.perMaterial("shift", body, gas, requiresOld(x<1>), computes(x<1>));
+  advance.relocate(x<1>, gas);
+  looking.perMaterial("inspect", inspect<1>, gas, requiresOld(x<1>), requiresOld(data::particleId), requiresOld(mark),
+                      computes(wrong));
+  TaskGraph begin = run.compile(start, {"p.x", "p.mark", "p.particleID"}), step = run.compile(advance, {"p.x", "p.mark"}, true);
+  TaskGraph look = run.compile(looking, {"wrong"});
+  run.step(begin);
+  EXPECT_THROW(run.step(step), NumericalError);
+  shift = 0.125;
+
+  run.step(step);
+  run.step(look);
+
+  EXPECT_EQ(run.warehouse.reductionValues(run.table.find("wrong", -1)).at(0), 0);
+  EXPECT_EQ(run.warehouse.particles(Generation::old, 0, 0).owned() + run.warehouse.particles(Generation::old, 0, 1).owned(), 24);
+}
+
 TEST(Relocation, DropsAndCountsWhatLeavesThroughAFreeFace) {
   long dropped = 0;
 
