@@ -291,6 +291,7 @@ std::string Simulation::whyEnded() const {
 }
 
 Report Simulation::makeReport() {
+  warehouse_.releaseFreeMemory();
   Report report;
   report.scene = problem_.scenePath;
   report.title = problem_.title;

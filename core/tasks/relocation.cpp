@@ -7,6 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "core/tasks/broken_value.hpp"
+#include "core/tasks/move_runs.hpp"
 #include "core/tasks/outcome.hpp"
 
 namespace tushar::tasks {
@@ -26,25 +27,17 @@ Index3 widened(const Index<D>& cell) {
   return wide;
 }
 
-template <class Run>
-void moveRun(const Run& run, const std::byte* from, std::byte* to, std::size_t bytes) {
-  std::memmove(to + static_cast<std::size_t>(run.to) * bytes, from + static_cast<std::size_t>(run.from) * bytes,
-               static_cast<std::size_t>(run.count) * bytes);
+/// Whether a patch keeps all its particles where they are.
+template <class Moves>
+bool staysAsItIs(const Moves& moves, Generation to) {
+  return to == Generation::old && moves.departed.empty() && moves.incoming.empty();
 }
 
-/// Moves runs of elements of `bytes` bytes, which may be within the same memory: those that go up from the last to the
-/// first, so that none is overwritten before it has moved. Runs keep their order, so that one that goes down is never in
-/// the way of one that goes up.
-template <class Run>
-void shift(const std::vector<Run>& runs, const std::byte* from, std::byte* to, std::size_t bytes) {
-  if (from == to && runs.size() == 1 && runs.front().from == runs.front().to) return;
-  const auto goesUp = [](const Run& run) { return run.to > run.from; };
-  for (auto run = runs.begin(); run != runs.end();) {
-    const auto next = std::find_if_not(run, runs.end(), goesUp);
-    for (auto up = next; up != run;) moveRun(*--up, from, to, bytes);
-    run = std::find_if(next, runs.end(), goesUp);
-    for (auto down = next; down != run; ++down) moveRun(*down, from, to, bytes);
-  }
+/// Makes the old set the new one.
+void keepSet(data::Warehouse& warehouse, int material, const Patch& patch) {
+  ParticleSet& before = warehouse.particles(Generation::old, material, patch.id());
+  before.forgetGhosts();
+  std::swap(before, warehouse.particles(Generation::fresh, material, patch.id()));
 }
 
 /// Whether a position lies in the cell with these bounds.
@@ -119,10 +112,18 @@ void Relocation::settle(int material, const std::vector<Carried>& carried, Gener
   Moves& moves = movesOf(material);
   moves.emigration.run(carried, moves.goFar);
   receiveAll(moves);
-  forEachPatch([&](const Patch& patch) { rebuild(patch, material, of(moves, patch.id())); });
+  forEachPatch([&](const Patch& patch) {
+    PatchMoves& ofPatch = of(moves, patch.id());
+    staysAsItIs(ofPatch, to) ? keepSet(*warehouse_, material, patch) : rebuild(patch, material, ofPatch);
+  });
+  const auto forEachMoved = [&](const auto& work) {
+    forEachPatch([&](const Patch& patch) {
+      if (PatchMoves& ofPatch = of(moves, patch.id()); !staysAsItIs(ofPatch, to)) work(patch, ofPatch);
+    });
+  };
   for (std::size_t place = 0; place < carried.size(); ++place) {
-    forEachPatch([&](const Patch& patch) { pack(carried[place], patch, of(moves, patch.id())); });
-    forEachPatch([&](const Patch& patch) { carry(carried[place], place, to, patch, moves); });
+    forEachMoved([&](const Patch& patch, PatchMoves& ofPatch) { pack(carried[place], patch, ofPatch); });
+    forEachMoved([&](const Patch& patch, PatchMoves&) { carry(carried[place], place, to, patch, moves); });
     for (const Patch& patch : warehouse_->level().patches()) warehouse_->takeBack(of(moves, patch.id()).packed, patch);
   }
 }
@@ -181,6 +182,7 @@ void Relocation::findMoves(const Patch& patch, const ParticleSet& set, Vec<D>* x
     for (const int p : range)
       if (!isInside<D>(x[p], lower, upper) && level.cellOf<D>(x[p]) != cell) moves.departed.push_back(p);
   });
+  if (moves.departed.empty()) return;
   moves.incoming.reserve(moves.departed.size());
   std::size_t next = 0;
   set.forEachOccupied<D>(patch.cells(), [&](const Index<D>& cell, const ParticleRange& range) {
@@ -372,7 +374,7 @@ void Relocation::carry(const Carried& carried, std::size_t place, Generation to,
   const int kept = carried.from == to ? std::min(moves.before, moves.count) : 0;
   warehouse_->allocateParticles(variable, label, moves.count, kept);
   std::byte* values = variable.values.data();
-  shift(moves.runs, warehouse_->variable(carried.from, carried.variable, patch.id()).values.data(), values, bytes);
+  moveRuns(moves.runs, warehouse_->variable(carried.from, carried.variable, patch.id()).values.data(), values, bytes);
   for (const Entry& entry : moves.entries) {
     const int source = moves.incoming[static_cast<std::size_t>(entry.incoming)].from;
     Stranger from{patch.id(), source};

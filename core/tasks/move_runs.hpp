@@ -1,0 +1,31 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <vector>
+
+namespace tushar::tasks {
+
+/// `run.count` elements of `bytes` bytes from place `run.from` to place `run.to`.
+template <class Run>
+inline void moveRun(const Run& run, const std::byte* from, std::byte* to, std::size_t bytes) {
+  std::memmove(to + static_cast<std::size_t>(run.to) * bytes, from + static_cast<std::size_t>(run.from) * bytes,
+               static_cast<std::size_t>(run.count) * bytes);
+}
+
+/// Moves runs of elements of `bytes` bytes, which may be within the same memory: those that go up from the last to the
+/// first, so that none is overwritten before it has moved. Runs keep their order, so that one that goes down is never in
+/// the way of one that goes up.
+template <class Run>
+void moveRuns(const std::vector<Run>& runs, const std::byte* from, std::byte* to, std::size_t bytes) {
+  const auto goesUp = [](const Run& run) { return run.to > run.from; };
+  for (auto run = runs.begin(); run != runs.end();) {
+    const auto next = std::find_if_not(run, runs.end(), goesUp);
+    for (auto up = next; up != run;) moveRun(*--up, from, to, bytes);
+    run = std::find_if(next, runs.end(), goesUp);
+    for (auto down = next; down != run; ++down) moveRun(*down, from, to, bytes);
+  }
+}
+
+}  // namespace tushar::tasks
