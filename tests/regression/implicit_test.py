@@ -201,6 +201,13 @@ class Implicit(unittest.TestCase):
                                 (ROOT / BEAM).read_text(), flags=re.DOTALL))
         self.assertEqual(run(one, *sets).report["fingerprint"], run(without, *sets).report["fingerprint"])
 
+    def test_cells_around_an_axis_are_refused(self):
+        implicit = "<time_integrator>implicit</time_integrator>"
+        path = self.scene((ROOT / BEAM).read_text().replace(implicit, implicit + "<axisymmetric>true</axisymmetric>"))
+        result = run(path, "Grid/Level/Box/resolution=[25,15,2]")
+        self.assertEqual(result.code, 3)
+        self.assertIn("MPM/axisymmetric: x is the radius and y the axis: give z one cell between symmetry planes", result.err)
+
     def test_a_step_that_fails_is_halved(self):
         result = run(BEAM, "MPM/iters_before_timestep_restart=2", "Time/max_Timesteps=1", "PhysicalConstants/gravity=[0,-50,0]",
                      "MPM/dynamic=true")

@@ -339,8 +339,7 @@ simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostic
   }
   if (diagnostics.size() > before) return {};
   return [interpolator = read.interpolator, problem, where = root.child("MPM")->where()](const Level& level) {
-    if (problem.start.axisymmetric && level.dimension() == 3)
-      throw InputError({{where, "MPM/axisymmetric", "x is the radius and y the axis: give z one cell between symmetry planes"}});
+    if (problem.start.axisymmetric) refuseCellsAround(level, where);
     return makeComponent(level, interpolator, problem);
   };
 }
@@ -349,6 +348,11 @@ int nodesBeyond(const Element& root) {
   const auto mpm = root.child("MPM");
   const auto interpolator = mpm ? mpm->child("interpolator") : std::nullopt;
   return interpolator && interpolator->text() != "linear" ? 1 : 0;
+}
+
+void refuseCellsAround(const Level& level, const Location& where) {
+  if (level.dimension() == 3)
+    throw InputError({{where, "MPM/axisymmetric", "x is the radius and y the axis: give z one cell between symmetry planes"}});
 }
 
 std::vector<std::string> Solids::foreignLabels() const { return uintahsLabels; }

@@ -21,6 +21,9 @@ void checkHeat(const Problem& problem, const input::Element& root, input::Diagno
 /// What depends on the grid: how many particles share each load, their size, the width of cells.
 void settleParticles(const Level& level, Problem& problem);
 
+/// Throws InputError where an axisymmetric scene, whose <MPM> stands at `where`, has cells around its axis.
+void refuseCellsAround(const Level& level, const Location& where);
+
 /// Reads a scene of solids; every problem goes to the diagnostics.
 simulation::MakeComponent readScene(const input::Element& root, input::Diagnostics& diagnostics);
 

@@ -233,7 +233,8 @@ simulation::MakeComponent readImplicitScene(const Element& root, Diagnostics& di
   if (read.sharesVolume) refuseVolumesOfStates(problem, root, diagnostics);
   refuseConditions(problem, root, diagnostics);
   if (diagnostics.size() > before) return {};
-  return [read, problem](const Level& level) {
+  return [read, problem, where = root.child("MPM")->where()](const Level& level) {
+    if (read.axisymmetric) refuseCellsAround(level, where);
     Problem settled = problem;
     settleParticles(level, settled);
     if (read.axisymmetric)
