@@ -35,6 +35,7 @@ using grid::Level;
 using grid::Patch;
 using simulation::Component;
 using tasks::computes;
+using tasks::computesOwn;
 using tasks::creates;
 using tasks::modifies;
 using tasks::ParticleMaker;

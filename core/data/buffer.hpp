@@ -1,37 +1,46 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdlib>
-#include <cstring>
-#include <memory>
-#include <new>
 #include <utility>
 
 namespace tushar::data {
 
-/// Raw memory of one variable on one patch, aligned to a cache line.
+/// Raw memory of one variable, aligned to a cache line.
 ///
 /// Buffers of the same size would all start at the same offset within a page and evict one another from the
-/// first-level cache; each buffer therefore starts some cache lines further in than the one made before.
+/// first-level cache; each buffer therefore starts some cache lines further in than the one made before. Large buffers
+/// are pages of their own, which the system gives and takes back one by one: growing one copies nothing.
 class Buffer {
  public:
+  Buffer() = default;
+  Buffer(Buffer&& other) noexcept { swap(other); }
+  Buffer& operator=(Buffer&& other) noexcept {
+    swap(other);
+    return *this;
+  }
+  ~Buffer() { release(); }
+
   std::byte* data() { return start_; }
   const std::byte* data() const { return start_; }
   std::size_t capacity() const { return capacity_; }
 
   /// Makes room for `bytes`; the first `keep` bytes stay as they were, the rest is undefined.
+  /// Throws std::bad_alloc.
   void reserve(std::size_t bytes, std::size_t keep = 0);
-  void release() {
-    memory_.reset();
-    start_ = nullptr;
-    capacity_ = 0;
-  }
+  void release();
 
  private:
-  struct Free {
-    void operator()(void* p) const { std::free(p); }
-  };
-  std::unique_ptr<void, Free> memory_;
+  void swap(Buffer& other) noexcept {
+    std::swap(memory_, other.memory_);
+    std::swap(mapped_, other.mapped_);
+    std::swap(start_, other.start_);
+    std::swap(capacity_, other.capacity_);
+  }
+  void map(std::size_t bytes, std::size_t keep);
+  void allocate(std::size_t bytes, std::size_t keep);
+
+  void* memory_ = nullptr;
+  std::size_t mapped_ = 0;  ///< bytes of pages; 0 where the memory is the heap's
   std::byte* start_ = nullptr;
   std::size_t capacity_ = 0;
 };

@@ -6,9 +6,9 @@
 
 namespace tushar::data {
 
-/// Memory that variables of a patch have given back, for the next ones. A buffer goes to nobody who needs much less
-/// than it holds, so that each size finds its own again in the next step; one that has been outgrown a little is given
-/// up when a larger one is made. Not for several threads at once.
+/// Memory that variables have given back, for the next ones. A buffer goes to nobody who needs much less than it holds, so
+/// that each size finds its own again in the next step. What lies free never exceeds a bound: the pool and all that it has
+/// lent hold together no more than `bound()` bytes. Not for several threads at once.
 class alignas(64) BufferPool {
  public:
   /// Makes room for `bytes` in a buffer, from the pool where it has one that fits; the first `keep` bytes stay as they were.
@@ -18,17 +18,36 @@ class alignas(64) BufferPool {
   /// Leaves the buffer empty.
   void takeBack(Buffer& buffer);
   /// Gives what is free back to the system.
-  void release() { free_.clear(); }
+  void release();
+  /// A step begins: what lay free during the whole of the last one goes back to the system.
+  void beginStep();
+
   /// Times that the pool had not enough.
   std::size_t allocations() const { return allocations_; }
+  /// Bytes that lie free, and that buffers hold which came from the pool.
+  std::size_t free() const { return free_bytes_; }
+  std::size_t lent() const { return lent_; }
+  /// Bytes that both together may come to: a quarter more than was lent at once in this step or the last, and little.
+  std::size_t bound() const;
 
  private:
-  /// The smallest free buffer of at least `least` and less than `below` bytes, or the end.
-  std::vector<Buffer>::iterator smallest(std::size_t least, std::size_t below);
-  Buffer take(std::vector<Buffer>::iterator which);
+  struct Free {
+    Buffer buffer;
+    bool isIdle = false;  ///< since the step began
+  };
+  using Place = std::vector<Free>::iterator;
 
-  std::vector<Buffer> free_;
-  std::size_t allocations_ = 0;
+  /// The smallest free buffer of at least `least` and less than `below` bytes, or the end.
+  Place smallest(std::size_t least, std::size_t below);
+  Buffer take(Place which);
+  void giveUp(Place which);
+  void keepBound();
+  /// Notes that a buffer of `before` bytes now holds `after`.
+  void note(std::size_t before, std::size_t after);
+
+  std::vector<Free> free_;  ///< in the order in which they came back
+  std::size_t free_bytes_ = 0, lent_ = 0, allocations_ = 0;
+  std::size_t most_lent_ = 0, most_lent_before_ = 0;  ///< at once, in this step and the last
 };
 
 }  // namespace tushar::data

@@ -7,7 +7,7 @@ namespace tushar::data {
 void ParticleSet::reset(const grid::Patch& patch, int reach) {
   const Span none{patch.cellsWithin(reach).upper[0], patch.cellsWithin(reach).lower[0]};
   if (owned_cells_ == patch.cells() && cells_ == patch.cellsWithin(reach)) {
-    for (std::size_t row = 0; row < spans_.size(); ++row) empty(row);
+    for (std::size_t row = 0; row < spans_.size(); ++row) empty(row, none);
   } else {
     owned_cells_ = patch.cells();
     cells_ = patch.cellsWithin(reach);
@@ -15,16 +15,23 @@ void ParticleSet::reset(const grid::Patch& patch, int reach) {
     ranges_.assign(cells_.size(), {});
   }
   spans_.assign(cells_.rows(), none);
-  owned_ = total_ = 0;
+  own_spans_ = spans_;
+  owned_ = 0;
+  ghosts_ = {};
   ghost_runs_.clear();
   has_ghosts_ = false;
 }
 
-void ParticleSet::empty(std::size_t row) {
+void ParticleSet::empty(std::size_t row, const Span& kept) {
+  const auto clear = [&](int from, int to) {
+    if (from >= to) return;
+    const auto start = row * static_cast<std::size_t>(cells_.extent(0)) + static_cast<std::size_t>(from - cells_.lower[0]);
+    std::fill_n(&ranges_[start], to - from, ParticleRange{});
+  };
   const Span span = spans_[row];
-  if (span.empty()) return;
-  const auto start = static_cast<std::size_t>(span.first - cells_.lower[0]);
-  std::fill_n(&ranges_[row * static_cast<std::size_t>(cells_.extent(0)) + start], span.last - span.first, ParticleRange{});
+  if (kept.empty()) return clear(span.first, span.last);
+  clear(span.first, kept.first);
+  clear(kept.last, span.last);
 }
 
 void ParticleSet::setOwned(int count) {
@@ -37,20 +44,51 @@ void ParticleSet::closeRow(const Index3& cell) {
   int first = 0, last = owned_cells_.extent(0);
   while (first < last && range[first].empty()) ++first;
   while (last > first && range[last - 1].empty()) --last;
-  if (first < last) spans_[rowOf(cell)] = {cell[0] + first, cell[0] + last};
+  if (first < last) spans_[rowOf(cell)] = own_spans_[rowOf(cell)] = {cell[0] + first, cell[0] + last};
 }
 
-void ParticleSet::addGhostCell(const Index3& cell, int patch, const ParticleRange& there, const Index3& shift) {
-  at(cell) = {total_, total_ + there.size()};
-  total_ += there.size();
+void ParticleSet::widen(std::size_t row, const Span& cells, const ParticleRange& places) {
+  Span& span = spans_[row];
+  span = {std::min(span.first, cells.first), std::max(span.last, cells.last)};
+  ghosts_ = ghosts_.empty() ? places
+                            : ParticleRange{std::min(ghosts_.first, places.first), std::max(ghosts_.last, places.last)};
+}
+
+void ParticleSet::addGhosts(const grid::Box& box, const ParticleSet& theirs, int offset) {
+  grid::forEach<3>(box.rowStarts(), [&](Index3 cell) {
+    Span span = theirs.own_spans_[theirs.rowOf(cell)];
+    span = {std::max(span.first, cell[0]), std::min(span.last, box.upper[0])};
+    if (span.empty()) return;
+    cell[0] = span.first;
+    const ParticleRange* from = theirs.row(cell);
+    ParticleRange* to = row(cell);
+    for (int k = 0; k < span.last - span.first; ++k) to[k] = {from[k].first + offset, from[k].last + offset};
+    widen(rowOf(cell), span, {to[0].first, to[span.last - span.first - 1].last});
+  });
+}
+
+void ParticleSet::addCopies(const Index3& cell, int patch, const ParticleRange& there, const Index3& shift, int to) {
+  at(cell) = {to, to + there.size()};
   if (there.empty()) return;
-  Span& span = spans_[rowOf(cell)];
-  span = {std::min(span.first, cell[0]), std::max(span.last, cell[0] + 1)};
+  widen(rowOf(cell), {cell[0], cell[0] + 1}, at(cell));
   GhostRun* last = ghost_runs_.empty() ? nullptr : &ghost_runs_.back();
-  if (last && last->patch == patch && last->shift == shift && last->first + last->count == there.first)
+  if (last && last->patch == patch && last->shift == shift && last->first + last->count == there.first &&
+      last->to + last->count == to)
     last->count += there.size();
   else
-    ghost_runs_.push_back({patch, there.first, there.size(), shift});
+    ghost_runs_.push_back({patch, there.first, there.size(), shift, to});
+}
+
+void ParticleSet::forgetGhosts() {
+  if (!has_ghosts_) return;
+  for (std::size_t row = 0; row < spans_.size(); ++row) {
+    if (spans_[row].first == own_spans_[row].first && spans_[row].last == own_spans_[row].last) continue;
+    empty(row, own_spans_[row]);
+    spans_[row] = own_spans_[row];
+  }
+  ghosts_ = {};
+  ghost_runs_.clear();
+  has_ghosts_ = false;
 }
 
 }  // namespace tushar::data

@@ -30,25 +30,29 @@ struct ParticleRange {
   Iterator end() const { return {last}; }
 };
 
-/// Consecutive particles of a patch that are ghosts of another, or of its own periodic image.
+/// Consecutive ghosts of a patch that are copies: of particles of another rank, or of a periodic image.
 struct GhostRun {
-  int patch, first, count;
-  Index3 shift;  ///< in cells, of the image they belong to; zero on the grid itself
+  int patch, first, count;  ///< where they stand themselves
+  Index3 shift;             ///< in cells, of the image they belong to; zero on the grid itself
+  int to;                   ///< place of the first copy, counted from the first particle of the patch
 };
 
 /// Which particles a patch has of one material, cell by cell.
 ///
-/// Owned particles come first in memory, sorted by (cell, id); ghost particles, those of the cells around the patch that
-/// belong to other patches, follow, sorted within each cell, the cells as they came from one patch after another. The index
-/// of cells brings all into one order: sums run cell by cell in lexicographic order and by id within a cell, so they do
-/// not depend on who owns what.
+/// Places count from the first particle of the patch. Owned particles stand there, sorted by (cell, id). Ghosts, those of
+/// the cells around the patch that belong to other patches, stand where their own patch has them, if that is on the same
+/// rank: before (places below 0) or behind. Only those of other ranks and of periodic images are copies. The index of
+/// cells brings all into one order: sums run cell by cell in lexicographic order and by id within a cell, so they do not
+/// depend on who owns what.
 class ParticleSet {
  public:
   /// An empty set over a patch and the cells of the grid within `reach` of it.
   void reset(const grid::Patch& patch, int reach);
 
   int owned() const { return owned_; }
-  int total() const { return total_; }
+  /// Whether a particle stands at this place that the patch has or reads.
+  bool covers(int place) const { return (place >= 0 && place < owned_) || (place >= ghosts_.first && place < ghosts_.last); }
+  bool hasNone() const { return owned_ == 0 && ghosts_.empty(); }
   const grid::Box& ownedCells() const { return owned_cells_; }
   /// The patch's cells and those within reach of it.
   const grid::Box& cells() const { return cells_; }
@@ -97,19 +101,17 @@ class ParticleSet {
   /// The cells of the patch in the row from `first` on have their particles now.
   void closeRow(const Index3& first);
   /// As setOwned, where closeRow has been called for every row that has particles.
-  void setOwnedOfClosedRows(int count) { owned_ = total_ = count; }
+  void setOwnedOfClosedRows(int count) { owned_ = count; }
 
-  /// Adds the particles of a ghost cell behind those that are there: those of cell - shift on `patch`.
-  void addGhostCell(const Index3& cell, int patch, const ParticleRange& there, const Index3& shift = {});
+  /// The ghosts of `box` are the particles that another set has there, which stands `offset` places behind this one.
+  void addGhosts(const grid::Box& box, const ParticleSet& theirs, int offset);
+  /// A ghost cell has copies, from place `to` on: of the particles `there` of cell - shift on `patch`.
+  void addCopies(const Index3& cell, int patch, const ParticleRange& there, const Index3& shift, int to);
   const std::vector<GhostRun>& ghostRuns() const { return ghost_runs_; }
   bool hasGhosts() const { return has_ghosts_; }
   void markGhosts() { has_ghosts_ = true; }
   /// The ghosts are out of date: their patches have other particles now.
-  void forgetGhosts() {
-    total_ = owned_;
-    ghost_runs_.clear();
-    has_ghosts_ = false;
-  }
+  void forgetGhosts();
 
  private:
   template <int D>
@@ -127,15 +129,19 @@ class ParticleSet {
     return static_cast<std::size_t>(row);
   }
 
-  /// Takes the particles out of the cells of a row.
-  void empty(std::size_t row);
+  /// Takes the particles out of the cells of a row, but for those of `kept`.
+  void empty(std::size_t row, const Span& kept);
+  /// Notes ghosts from `first` up to `last` in a row of cells.
+  void widen(std::size_t row, const Span& cells, const ParticleRange& places);
 
   grid::Box owned_cells_, cells_;
   Index3 stride_{};
   std::vector<ParticleRange> ranges_;
-  std::vector<Span> spans_;  ///< of each row along the first axis: outside of it no cell holds particles
+  std::vector<Span> spans_;      ///< of each row along the first axis: outside of it no cell holds particles
+  std::vector<Span> own_spans_;  ///< the same of the patch's own
   std::vector<GhostRun> ghost_runs_;
-  int owned_ = 0, total_ = 0;
+  ParticleRange ghosts_;  ///< from the least place of a ghost to behind the greatest
+  int owned_ = 0;
   bool has_ghosts_ = false;
 };
 

@@ -15,8 +15,8 @@ void refuse(const Label* label, const Index3& index, const grid::Box& box) {
 }
 
 void refuse(const Label* label, int particle, int count) {
-  throw AccessError(
-      fmt::format("{} was used for particle place {}, but there are {} places", nameOf(label), particle, count));
+  throw AccessError(fmt::format("{} was used for particle place {}, but the patch has {} particles and no ghost stands there",
+                                nameOf(label), particle, count));
 }
 
 }  // namespace tushar::data

@@ -35,7 +35,7 @@ class ParticleView {
 
   T& operator[](int particle) const {
     if constexpr (checked)
-      if (particle < 0 || particle >= set_->total()) refuse(label_, particle, set_->total());
+      if (!set_->covers(particle)) refuse(label_, particle, set_->owned());
     return values_[particle];
   }
   /// The cells whose particles may be used: the patch's, and the ghost cells that were declared.
@@ -57,6 +57,8 @@ class ParticleView {
   /// Number of particles that the patch owns: places 0 to owned() - 1.
   int owned() const { return set_->owned(); }
   const ParticleSet& set() const { return *set_; }
+  /// The value at place 0; those of ghosts may stand before it.
+  T* values() const { return values_; }
 
  private:
   template <int D>

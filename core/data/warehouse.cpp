@@ -43,24 +43,20 @@ Warehouse::Warehouse(const grid::Level& level, VariableTable& table)
     : Warehouse(level, table, mpi::Communicator::alone()) {}
 
 void Warehouse::grow(int materials) {
-  const std::size_t places = place(table_->size(), level_->firstPatch());
-  old_.resize(std::max(old_.size(), places));
-  fresh_.resize(std::max(fresh_.size(), places));
-  reductions_.resize(std::max(reductions_.size(), static_cast<std::size_t>(table_->size())));
-  for (std::deque<Variable>* variables : {&old_, &fresh_})
-    for (std::size_t k = 0; k < variables->size(); ++k) (*variables)[k].pool = static_cast<int>(k % level_->patches().size());
-  pools_.resize(level_->patches().size());
-  const std::size_t sets = place(materials, level_->firstPatch());
-  old_sets_.resize(std::max(old_sets_.size(), sets));
-  fresh_sets_.resize(std::max(fresh_sets_.size(), sets));
+  const auto variables = static_cast<std::size_t>(table_->size()), many = static_cast<std::size_t>(materials);
+  reductions_.resize(std::max(reductions_.size(), variables));
+  for (State* state : {&old_, &fresh_}) {
+    state->storages.resize(std::max(state->storages.size(), variables));
+    state->layouts.resize(std::max(state->layouts.size(), many));
+    state->sets.resize(std::max(state->sets.size(), place(materials, level_->firstPatch())));
+  }
 }
 
 void Warehouse::startAnew(int materials) {
-  old_.clear();
-  fresh_.clear();
-  old_sets_.clear();
-  fresh_sets_.clear();
-  pools_.clear();
+  old_ = State();
+  fresh_ = State();
+  grid_slots_.clear();
+  pool_ = BufferPool();
   grow(materials);
 }
 
@@ -106,71 +102,128 @@ void Warehouse::takeRestored(int number) {
   restored_.erase(restored);
 }
 
-namespace {
-void fillWithNaN(Buffer& buffer, const Label& label, std::size_t fromByte, std::size_t toByte) {
+Variable Warehouse::variable(Generation generation, int number, int patch) {
+  Storage& held = storage(generation, number);
+  if (!held.held) return {};
+  const std::size_t at = placeOf(patch);
+  const std::size_t bytes = (*table_)[number].label->bytes;
+  return {held.memory.data() + held.slots->first[at] * bytes, held.slots->stored.empty() ? grid::Box{} : held.slots->stored[at],
+          true};
+}
+
+void Warehouse::allocate(Storage& storage, const Label& label, const SharedSlots& slots, std::size_t values) {
+  storage.held = true;
+  storage.slots = slots;
+  pool_.reserve(storage.memory, values * label.bytes);
   if (!checked || label.number != Number::real) return;
-  auto* values = reinterpret_cast<double*>(buffer.data());
-  std::fill(values + fromByte / sizeof(double), values + toByte / sizeof(double),
-            std::numeric_limits<double>::quiet_NaN());
+  std::fill_n(reinterpret_cast<double*>(storage.memory.data()), values * label.bytes / sizeof(double),
+              std::numeric_limits<double>::quiet_NaN());
 }
-}  // namespace
 
-void Warehouse::allocateGrid(Variable& variable, int number, const grid::Patch& patch) {
+void Warehouse::allocateGrid(Generation generation, int number) {
   const Label& label = *(*table_)[number].label;
-  const int ghost = table_->ghost(number);
-  variable.stored = label.centring == Centring::node ? patch.nodesWithin(ghost) : patch.cellsWithin(ghost);
-  const std::size_t bytes = variable.stored.size() * label.bytes;
-  variable.held = true;
-  pools_[static_cast<std::size_t>(variable.pool)].reserve(variable.values, bytes);
-  fillWithNaN(variable.values, label, 0, bytes);
+  SharedSlots& slots = grid_slots_[{label.centring, table_->ghost(number)}];
+  if (!slots) slots = slotsOfGrid(*level_, label, table_->ghost(number));
+  allocate(storage(generation, number), label, slots, slots->end);
 }
 
-void Warehouse::allocateParticles(Variable& variable, const Label& label, int count, int keep) {
-  const std::size_t kept = static_cast<std::size_t>(keep) * label.bytes;
-  const std::size_t bytes = static_cast<std::size_t>(count) * label.bytes;
-  variable.held = true;
-  pools_[static_cast<std::size_t>(variable.pool)].reserve(variable.values, bytes, kept);
-  fillWithNaN(variable.values, label, kept, bytes);
+void Warehouse::allocateParticles(Generation generation, int number, Generation set) {
+  const auto [label, material] = (*table_)[number];
+  if (!layout(set, material).slots) layOut(set, material, set);
+  const Layout& where = layout(set, material);
+  allocate(storage(generation, number), *label, where.slots, valuesWithCopies(where, number));
 }
 
-void Warehouse::free(Variable& variable) {
-  variable.held = false;
-  pools_[static_cast<std::size_t>(variable.pool)].takeBack(variable.values);
+/// Those that are read beyond their patches get room for the copies that there have been.
+std::size_t Warehouse::valuesWithCopies(const Layout& layout, int number) const {
+  return layout.slots->end + (table_->ghost(number) > 0 ? layout.mostCopies : 0);
+}
+
+void Warehouse::free(Generation generation, int number) {
+  Storage& freed = storage(generation, number);
+  freed.held = false;
+  freed.slots.reset();
+  pool_.takeBack(freed.memory);
+}
+
+void Warehouse::layOut(Generation generation, int material, Generation base) {
+  std::vector<std::size_t> counts;
+  for (const grid::Patch& patch : level_->patches())
+    counts.push_back(static_cast<std::size_t>(particles(generation, material, patch.id()).owned()));
+  Layout& where = layout(generation, material);
+  where.slots = slotsThatFit(layout(base, material).slots, counts);
+  where.mostCopies = std::max(where.mostCopies, layout(base, material).mostCopies);
+  where.copies = 0;
+}
+
+Buffer Warehouse::follow(Generation generation, int number, Generation set) {
+  const auto [label, material] = (*table_)[number];
+  Storage& moved = storage(generation, number);
+  const Layout& where = layout(set, material);
+  if (moved.held && where.slots->extends(*moved.slots)) {
+    pool_.reserve(moved.memory, where.slots->end * label->bytes, moved.slots->end * label->bytes);
+    moved.slots = where.slots;
+    return {};
+  }
+  Buffer before = std::move(moved.memory);
+  moved.memory = Buffer();
+  allocateParticles(generation, number, set);
+  return before;
+}
+
+const SharedSlots& Warehouse::slots(Generation generation, int number) const {
+  return (generation == Generation::old ? old_ : fresh_).storages[static_cast<std::size_t>(number)].slots;
+}
+
+int Warehouse::distance(Generation set, int material, int from, int to) {
+  const std::vector<std::size_t>& first = layout(set, material).slots->first;
+  return static_cast<int>(first[placeOf(to)]) - static_cast<int>(first[placeOf(from)]);
+}
+
+int Warehouse::placeCopies(Generation set, int material, int patch, int count) {
+  Layout& where = layout(set, material);
+  const std::size_t first = where.slots->end + where.copies;
+  where.copies += static_cast<std::size_t>(count);
+  where.mostCopies = std::max(where.mostCopies, where.copies);
+  return static_cast<int>(first) - static_cast<int>(where.slots->first[placeOf(patch)]);
+}
+
+void Warehouse::reserveCopies(Generation generation, int number, Generation set) {
+  const auto [label, material] = (*table_)[number];
+  const Layout& where = layout(set, material);
+  Buffer& memory = storage(generation, number).memory;
+  pool_.reserve(memory, (where.slots->end + where.copies) * label->bytes, memory.capacity());
 }
 
 void Warehouse::releaseFreeMemory() {
-  for (BufferPool& pool : pools_) pool.release();
+  pool_.release();
 #if defined(__GLIBC__)
   malloc_trim(0);
 #endif
 }
 
-std::size_t Warehouse::allocations() const {
-  std::size_t all = 0;
-  for (const BufferPool& pool : pools_) all += pool.allocations();
-  return all;
-}
+void Warehouse::beginStep() { pool_.beginStep(); }
 
 bool Warehouse::isHeld(Generation generation, int number) {
-  const auto& patches = level_->patches();
-  return ranks_->any(!patches.empty() && variable(generation, number, patches.front().id()).held);
+  return ranks_->any(!level_->patches().empty() && storage(generation, number).held);
 }
 
 void Warehouse::makeOld(int number) {
-  for (const grid::Patch& patch : level_->patches()) {
-    std::swap(old_[place(number, patch.id())], fresh_[place(number, patch.id())]);
-    free(fresh_[place(number, patch.id())]);
-  }
+  std::swap(storage(Generation::old, number), storage(Generation::fresh, number));
+  free(Generation::fresh, number);
 }
 
 void Warehouse::swapSets(int material) {
+  std::swap(layout(Generation::old, material), layout(Generation::fresh, material));
   for (const grid::Patch& patch : level_->patches())
-    std::swap(old_sets_[place(material, patch.id())], fresh_sets_[place(material, patch.id())]);
+    std::swap(particles(Generation::old, material, patch.id()), particles(Generation::fresh, material, patch.id()));
 }
 
 void Warehouse::forgetGhosts() {
-  for (std::deque<ParticleSet>* sets : {&old_sets_, &fresh_sets_})
-    for (ParticleSet& set : *sets) set.forgetGhosts();
+  for (State* state : {&old_, &fresh_}) {
+    for (Layout& where : state->layouts) where.copies = 0;
+    for (ParticleSet& set : state->sets) set.forgetGhosts();
+  }
 }
 
 }  // namespace tushar::data

@@ -1,15 +1,18 @@
 #pragma once
 
 #include <deque>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "core/data/buffer_pool.hpp"
 #include "core/data/label.hpp"
 #include "core/data/particle_set.hpp"
+#include "core/data/slots.hpp"
 #include "core/grid/level.hpp"
 
 namespace tushar::mpi {
@@ -52,10 +55,9 @@ class VariableTable {
 
 /// The values of a variable on one patch.
 struct Variable {
-  Buffer values;
+  std::byte* values = nullptr;
   grid::Box stored;   ///< of node and cell variables: the box in memory, ghosts included
   bool held = false;  ///< whether there are values
-  int pool = 0;       ///< where its memory comes from: there is one for each patch
 };
 
 /// The cells or nodes that a patch has for itself.
@@ -68,8 +70,10 @@ enum class Generation { old, fresh };
 
 /// Holds the variables and particle sets of this rank, in two generations.
 ///
-/// Every address is stable once a variable has been named; `swap` exchanges contents, not addresses. Threads may allocate
-/// and free at once on different patches.
+/// A variable is one piece of memory, in which each patch of the rank has its slot. All particle variables of a material
+/// and generation of its sets stand alike, so that a place counted from the first particle of one patch reaches the
+/// particles of any other: patches read the ghosts that are on their rank where they stand.
+/// Not for several threads at once, but for what stands in variables and sets.
 class Warehouse {
  public:
   /// For one rank on its own.
@@ -84,12 +88,10 @@ class Warehouse {
   /// The ranks that share the grid.
   const mpi::Communicator& ranks() const { return *ranks_; }
 
-  /// `patch` is the number of one of this rank's.
-  Variable& variable(Generation generation, int number, int patch) {
-    return (generation == Generation::old ? old_ : fresh_)[place(number, patch)];
-  }
+  /// `patch` is the number of one of this rank's. Good until the memory of the variable changes.
+  Variable variable(Generation generation, int number, int patch);
   ParticleSet& particles(Generation generation, int material, int patch) {
-    return (generation == Generation::old ? old_sets_ : fresh_sets_)[place(material, patch)];
+    return state(generation).sets[place(material, patch)];
   }
 
   template <class R>
@@ -115,19 +117,38 @@ class Warehouse {
   void grow(int materials);
   /// Forgets what stands on patches, for those that the level gives this rank now; reductions stay.
   void startAnew(int materials);
-  /// Room for a node or cell variable of this number on a patch, with all ghosts that tasks read; NaN-filled in the dev
-  /// preset.
-  void allocateGrid(Variable& variable, int number, const grid::Patch& patch);
-  /// Room for `count` particles; the first `keep` stay, the rest is NaN-filled in the dev preset.
-  void allocateParticles(Variable& variable, const Label& label, int count, int keep = 0);
+  /// Room for a node or cell variable on all patches, with all ghosts that tasks read; NaN-filled in the dev preset.
+  void allocateGrid(Generation generation, int number);
+  /// Room for a particle variable on all patches, where the particles of the sets of generation `set` stand; NaN-filled in
+  /// the dev preset.
+  void allocateParticles(Generation generation, int number, Generation set);
   /// Gives the memory of a variable back, for the next one that is allocated.
-  void free(Variable& variable);
+  void free(Generation generation, int number);
 
-  /// Memory of a patch for a moment, which goes back by takeBack.
-  Buffer lend(std::size_t bytes, const grid::Patch& patch) { return poolOf(patch).lend(bytes); }
-  void takeBack(Buffer& buffer, const grid::Patch& patch) { poolOf(patch).takeBack(buffer); }
+  /// The sets of a material have their particles on all patches: gives them slots, where possible those of `base`.
+  void layOut(Generation generation, int material, Generation base);
+  /// Lets a particle variable that stands where the sets stood before stand where those of generation `set` do now. What
+  /// patches have in slots that stay is kept, wherever that is; patches that have other slots have undefined values.
+  /// Gives the memory that it had before, if it has another one now: give that back.
+  Buffer follow(Generation generation, int number, Generation set);
+  /// The memory of a variable, and where the patches stand in it, and those of sets.
+  std::byte* memory(Generation generation, int number) { return storage(generation, number).memory.data(); }
+  const SharedSlots& slots(Generation generation, int number) const;
+  const SharedSlots& slotsOfSets(Generation generation, int material) { return layout(generation, material).slots; }
+  /// How far behind the first particle of a patch that of another stands.
+  int distance(Generation set, int material, int from, int to);
+  /// Place of the next copies of ghosts of a patch, of which there are `count`; counted from its first particle.
+  int placeCopies(Generation set, int material, int patch, int count);
+  /// Room for all copies of ghosts that have a place; what stands in the memory stays.
+  void reserveCopies(Generation generation, int number, Generation set);
+
+  /// Memory for a moment, which goes back by takeBack.
+  Buffer lend(std::size_t bytes) { return pool_.lend(bytes); }
+  void takeBack(Buffer& buffer) { pool_.takeBack(buffer); }
   /// Gives memory that no variable has back to the system.
   void releaseFreeMemory();
+  /// A graph begins to run: memory that the last one never needed goes back to the system.
+  void beginStep();
 
   /// Whether any rank has values of a variable; every rank asks.
   bool isHeld(Generation generation, int number);
@@ -139,26 +160,49 @@ class Warehouse {
   void forgetGhosts();
 
   /// Allocations made so far; a test shows that variables nobody reads add none.
-  std::size_t allocations() const;
+  std::size_t allocations() const { return pool_.allocations(); }
 
  private:
+  /// The memory of a variable.
+  struct Storage {
+    Buffer memory;
+    SharedSlots slots;
+    bool held = false;
+  };
+  /// Where the particles of a material stand.
+  struct Layout {
+    SharedSlots slots;
+    std::size_t copies = 0, mostCopies = 0;  ///< of ghosts, behind the slots: now, and ever
+  };
+  struct State {
+    std::vector<Storage> storages;  ///< by number
+    std::deque<ParticleSet> sets;   ///< by material and patch
+    std::vector<Layout> layouts;    ///< by material
+  };
+
+  State& state(Generation generation) { return generation == Generation::old ? old_ : fresh_; }
+  Storage& storage(Generation generation, int number) {
+    return state(generation).storages[static_cast<std::size_t>(number)];
+  }
+  Layout& layout(Generation generation, int material) {
+    return state(generation).layouts[static_cast<std::size_t>(material)];
+  }
+  std::size_t placeOf(int patch) const { return static_cast<std::size_t>(patch - level_->firstPatch()); }
   std::size_t place(int number, int patch) const {
-    return static_cast<std::size_t>(number) * level_->patches().size() +
-           static_cast<std::size_t>(patch - level_->firstPatch());
+    return static_cast<std::size_t>(number) * level_->patches().size() + placeOf(patch);
   }
-  BufferPool& poolOf(const grid::Patch& patch) {
-    return pools_[static_cast<std::size_t>(patch.id() - level_->firstPatch())];
-  }
+  void allocate(Storage& storage, const Label& label, const SharedSlots& slots, std::size_t values);
+  std::size_t valuesWithCopies(const Layout& layout, int number) const;
   void takeRestored(int number);
 
   const grid::Level* level_;
   VariableTable* table_;
   const mpi::Communicator* ranks_;
-  std::deque<Variable> old_, fresh_;
-  std::deque<ParticleSet> old_sets_, fresh_sets_;
+  State old_, fresh_;
+  std::map<std::pair<Centring, int>, SharedSlots> grid_slots_;  ///< by centring and ghosts
   std::vector<std::unique_ptr<ReductionSlot>> reductions_;
   std::unordered_map<int, std::vector<std::byte>> restored_;  ///< reductions that no task has named yet
-  std::vector<BufferPool> pools_;  ///< by patch
+  BufferPool pool_;
 };
 
 }  // namespace tushar::data

@@ -66,6 +66,26 @@ void Level::makePatches() {
   first_patch_ = partition_->firstOf(share_.rank);
   const int end = partition_->firstOf(share_.rank + 1);
   for (int id = first_patch_; id < end; ++id) patches_.push_back(patch(id));
+  own_nodes_.clear();
+  for (const Patch& patch : patches_) {
+    Box own = patch.nodes();
+    for (int d = 0; d < dimension(); ++d)
+      if (sharesUpperFace(patch, d)) own.upper[d] = patch.cells().upper[d];
+    own_nodes_.push_back(own);
+  }
+}
+
+/// Not so for a patch that is no thicker than the layers of nodes beyond the grid at its other side: these mirror the
+/// nodes of the face.
+bool Level::sharesUpperFace(const Patch& patch, int kernelAxis) const {
+  const int face = patch.cells().upper[kernelAxis];
+  if (face == cells_.upper[kernelAxis]) return false;
+  if (patch.isAtBoundary(kernelAxis, 0) && patch.cells().extent(kernelAxis) <= domain_.nodesBeyond) return false;
+  Box behind = patch.cells();
+  for (int d = 0; d < dimension(); ++d) ++behind.upper[d];
+  behind.lower[kernelAxis] = face;
+  const std::vector<Patch> others = patchesOverlapping(behind);
+  return std::all_of(others.begin(), others.end(), [&](const Patch& other) { return isMine(other.id()); });
 }
 
 Box Level::nodes() const {

@@ -69,6 +69,9 @@ class Level {
   /// The rank that has a patch.
   int ownerOf(int patch) const { return isMine(patch) ? share_.rank : partition_->ownerOf(patch); }
   const Share& share() const { return share_; }
+  /// Nodes of one of this rank's patches that are its own: all but those on an upper face behind which only patches of this
+  /// rank stand, which have these nodes, too. Each node of a patch is an own node of one of the rank's.
+  const Box& ownNodes(int patch) const { return own_nodes_[static_cast<std::size_t>(patch - first_patch_)]; }
   /// Which patches each rank has.
   Firsts firsts() const;
   /// Gives the patches to the ranks anew. What stands on them is the caller's to move: see tasks::migrate.
@@ -176,6 +179,7 @@ class Level {
   Box clip(const Box& box, const Box& grid) const;
   void cutIntoPatches();
   void makePatches();
+  bool sharesUpperFace(const Patch& patch, int kernelAxis) const;
 
   Domain domain_;
   std::vector<int> axes_;
@@ -188,6 +192,7 @@ class Level {
   std::optional<Partition> partition_;
   int first_patch_ = 0;
   std::vector<Patch> patches_;
+  std::vector<Box> own_nodes_;  ///< by place of the patch on this rank
 };
 
 }  // namespace tushar::grid

@@ -24,7 +24,7 @@ Parts collectParticles(data::Warehouse& warehouse, Generation generation, int va
   const std::size_t bytes = label->bytes;
   const auto partOf = [&, which = material](const Patch& patch) {
     const int owned = warehouse.particles(Generation::old, which, patch.id()).owned();
-    return Part{warehouse.variable(generation, variable, patch.id()).values.data(), static_cast<std::size_t>(owned)};
+    return Part{warehouse.variable(generation, variable, patch.id()).values, static_cast<std::size_t>(owned)};
   };
   Parts parts;
   parts.messages = collect(
@@ -52,15 +52,15 @@ Parts collectGrid(data::Warehouse& warehouse, Generation generation, int variabl
   parts.messages = collect(
       warehouse,
       [&](const Patch& patch) {
-        const Variable& own = warehouse.variable(generation, variable, patch.id());
-        parts.of.push_back({own.values.data(), 0, own.stored});
+        const Variable own = warehouse.variable(generation, variable, patch.id());
+        parts.of.push_back({own.values, 0, own.stored});
       },
       [&](const Patch& patch, mpi::Bytes& message) {
-        const Variable& own = warehouse.variable(generation, variable, patch.id());
+        const Variable own = warehouse.variable(generation, variable, patch.id());
         const Box sent = sentOf(patch);
         const auto length = static_cast<std::size_t>(sent.extent(0)) * bytes;
         forEachRow(sent, [&](const Index3& first) {
-          mpi::append(message, own.values.data() + own.stored.offset(first) * bytes, length);
+          mpi::append(message, own.values + own.stored.offset(first) * bytes, length);
         });
       },
       [&](const Patch& patch, const std::byte* from) {

@@ -87,6 +87,7 @@ void ParticleOrder::install() {
     });
     set.setOwned(next);
   }
+  warehouse_->layOut(Generation::old, material_, Generation::old);
 }
 
 }  // namespace tushar::simulation

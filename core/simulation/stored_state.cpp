@@ -82,7 +82,7 @@ class StateWalk {
   bool hasParticles(int material) const { return table_.find(data::particleId.name, material) >= 0; }
   std::string perCellPath(int material) const { return pathOf(Centring::particle, "perCell", material); }
   const Label& label(int number) const { return *table_[number].label; }
-  Variable& variable(int number, const Patch& patch) const {
+  Variable variable(int number, const Patch& patch) const {
     return warehouse_.variable(Generation::old, number, patch.id());
   }
 
@@ -209,12 +209,12 @@ class StateReader : StateWalk {
     const Box all = allOf(level_, label(number));
     Array::Values values = stored(path, label(number), all.size());
     const std::byte* from = bytesOf(values);
+    warehouse_.allocateGrid(Generation::old, number);
     for (const Patch& patch : level_.patches()) {
       const Box own = ownBox(patch, label(number));
-      Variable& to = variable(number, patch);
-      warehouse_.allocateGrid(to, number, patch);
+      const Variable to = variable(number, patch);
       forEachRow(own, [&](const Index3& first) {
-        std::memcpy(to.values.data() + to.stored.offset(first) * bytes, from + all.offset(first) * bytes,
+        std::memcpy(to.values + to.stored.offset(first) * bytes, from + all.offset(first) * bytes,
                     static_cast<std::size_t>(own.extent(0)) * bytes);
       });
     }
@@ -234,13 +234,11 @@ class StateReader : StateWalk {
     const std::size_t bytes = label(number).bytes;
     Array::Values values = stored(path, label(number), order.count());
     const std::byte* from = bytesOf(values);
-    const int material = table_[number].material;
+    warehouse_.allocateParticles(Generation::old, number, Generation::old);
     for (const Patch& patch : level_.patches()) {
-      const int owned = warehouse_.particles(Generation::old, material, patch.id()).owned();
-      Variable& to = variable(number, patch);
-      warehouse_.allocateParticles(to, label(number), owned);
+      const Variable to = variable(number, patch);
       order.forEachRun(patch, [&](std::size_t place, std::size_t held, std::size_t count) {
-        std::memcpy(to.values.data() + held * bytes, from + place * bytes, count * bytes);
+        std::memcpy(to.values + held * bytes, from + place * bytes, count * bytes);
       });
     }
   }

@@ -19,11 +19,12 @@ template <data::Centring C, class T, AccessKind Kind>
 struct FieldAccess<data::FieldLabel<C, T>, Kind> {
   const data::FieldLabel<C, T>* label;
   int ghost = 0;
+  bool own = false;
   int index = -1;  ///< place among the task's accesses
 
   void declare(std::vector<Access>& accesses) {
     index = static_cast<int>(accesses.size());
-    accesses.push_back({label, Kind, ghost});
+    accesses.push_back({label, Kind, ghost, own});
   }
 
   static constexpr bool readOnly = Kind == AccessKind::requiresOld || Kind == AccessKind::requiresNew;
@@ -138,6 +139,12 @@ FieldAccess<data::FieldLabel<C, T>, AccessKind::requiresNew> requiresNew(const d
 template <data::Centring C, class T>
 FieldAccess<data::FieldLabel<C, T>, AccessKind::computes> computes(const data::FieldLabel<C, T>& label) {
   return {&label};
+}
+/// Writes every node that is the patch's own (Level::ownNodes): no node is written by two patches of a rank. What stands on
+/// the other nodes of the patch comes from the patches that own them, after the task.
+template <class T>
+FieldAccess<data::NodeLabel<T>, AccessKind::computes> computesOwn(const data::NodeLabel<T>& label) {
+  return {&label, 0, true};
 }
 /// Adds to a number over the whole grid: a reference to the reducer R.
 template <class R>

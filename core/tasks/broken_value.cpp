@@ -23,11 +23,11 @@ using grid::Patch;
 
 namespace {
 
-const double* numbersOf(const Variable& variable) { return reinterpret_cast<const double*>(variable.values.data()); }
+const double* numbersOf(const Variable& variable) { return reinterpret_cast<const double*>(variable.values); }
 
 bool keepsBound(Warehouse& warehouse, const Bounded& written, const Patch& patch) {
   const auto [label, material] = warehouse.table()[written.variable];
-  const Variable& variable = warehouse.variable(Generation::fresh, written.variable, patch.id());
+  const Variable variable = warehouse.variable(Generation::fresh, written.variable, patch.id());
   const auto components = static_cast<std::size_t>(label->components);
   if (label->centring == Centring::particle) {
     const int owned = warehouse.particles(written.set, material, patch.id()).owned();
@@ -99,7 +99,7 @@ class Search {
   }
   const ParticleId* ids(Generation generation, int patch) const {
     const int number = warehouse_.table().find(data::particleId.name, material_);
-    return reinterpret_cast<const ParticleId*>(warehouse_.variable(generation, number, patch).values.data());
+    return reinterpret_cast<const ParticleId*>(warehouse_.variable(generation, number, patch).values);
   }
   std::size_t gridPlace(int patch, const Index3& at) const {
     return warehouse_.variable(Generation::fresh, written_.variable, patch).stored.offset(at);

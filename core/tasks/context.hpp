@@ -18,6 +18,7 @@ struct BoundAccess {
   data::Generation generation = data::Generation::fresh;
   data::Generation set = data::Generation::old;  ///< the particle set that the values follow
   int ghost = 0;
+  bool own = false;  ///< of nodes: whether only those are used that are the patch's own
 };
 
 /// Everything that a task's body may touch on one patch, for one material.
@@ -45,18 +46,17 @@ class TaskContext {
   template <class T>
   data::ParticleView<T> particles(int access, const data::Label& label) const {
     const BoundAccess& bound = (*accesses_)[static_cast<std::size_t>(access)];
-    data::Variable& variable = warehouse_->variable(bound.generation, bound.variable, patch_->id());
+    const data::Variable variable = warehouse_->variable(bound.generation, bound.variable, patch_->id());
     const data::ParticleSet& set = warehouse_->particles(bound.set, material_, patch_->id());
     const grid::Box cells = bound.ghost > 0 ? patch_->cellsWithin(bound.ghost) : patch_->cells();
-    return {reinterpret_cast<T*>(variable.values.data()), set, cells, &label};
+    return {reinterpret_cast<T*>(variable.values), set, cells, &label};
   }
 
   template <data::Centring C, class T>
   data::GridView<C, T> grid(int access, const data::Label& label) const {
     const BoundAccess& bound = (*accesses_)[static_cast<std::size_t>(access)];
-    data::Variable& variable = warehouse_->variable(bound.generation, bound.variable, patch_->id());
-    const grid::Box box = C == data::Centring::node ? patch_->nodesWithin(bound.ghost) : patch_->cellsWithin(bound.ghost);
-    return {reinterpret_cast<T*>(variable.values.data()), variable.stored, box, &label};
+    const data::Variable variable = warehouse_->variable(bound.generation, bound.variable, patch_->id());
+    return {reinterpret_cast<T*>(variable.values), variable.stored, boxOf<C>(bound), &label};
   }
 
   /// What is known of a reduction.
@@ -76,6 +76,12 @@ class TaskContext {
   }
 
  private:
+  template <data::Centring C>
+  grid::Box boxOf(const BoundAccess& bound) const {
+    if (bound.own) return warehouse_->level().ownNodes(patch_->id());
+    return C == data::Centring::node ? patch_->nodesWithin(bound.ghost) : patch_->cellsWithin(bound.ghost);
+  }
+
   data::Warehouse* warehouse_;
   const grid::Patch* patch_;
   int material_;

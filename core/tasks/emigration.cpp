@@ -40,7 +40,7 @@ mpi::Bytes Emigration::packed(const std::vector<Emigrant>& particles, const std:
     const std::size_t bytes = warehouse_->table()[variable.variable].label->bytes;
     for (const Emigrant& particle : particles)
       mpi::append(message,
-             warehouse_->variable(variable.from, variable.variable, particle.patch).values.data() +
+             warehouse_->variable(variable.from, variable.variable, particle.patch).values +
                  static_cast<std::size_t>(particle.place) * bytes,
              bytes);
   }

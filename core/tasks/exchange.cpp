@@ -24,8 +24,8 @@ void forEachRow(const Box& box, std::size_t bytes, Visit&& visit) {
   grid::forEach<3>(box.rowStarts(), [&](const Index3& first) { visit(first, length); });
 }
 
-std::byte* at(Variable& variable, const Index3& place, std::size_t bytes) {
-  return variable.values.data() + variable.stored.offset(place) * bytes;
+std::byte* at(const Variable& variable, const Index3& place, std::size_t bytes) {
+  return variable.values + variable.stored.offset(place) * bytes;
 }
 
 /// Moves positions to the image where they are ghosts.
@@ -44,7 +44,7 @@ class Packer {
       : warehouse_(warehouse), fill_(fill), name_(warehouse.table()[fill.variable]), message_(message) {}
 
   void addGrid(const GhostCopy& copy) {
-    Variable& from = variable(copy.from);
+    const Variable from = variable(copy.from);
     forEachRow(copy.box.shifted(Index3{} - copy.shift), name_.label->bytes, [&](const Index3& first, std::size_t length) {
       mpi::append(message_, at(from, first, name_.label->bytes), length);
     });
@@ -57,15 +57,15 @@ class Packer {
     });
   }
   void addParticles(const GhostCopy& copy) {
-    Variable& from = variable(copy.from);
+    const Variable from = variable(copy.from);
     forEachCell(copy, [&](const ParticleRange& range) {
-      mpi::append(message_, from.values.data() + static_cast<std::size_t>(range.first) * name_.label->bytes,
+      mpi::append(message_, from.values + static_cast<std::size_t>(range.first) * name_.label->bytes,
              static_cast<std::size_t>(range.size()) * name_.label->bytes);
     });
   }
 
  private:
-  Variable& variable(int patch) { return warehouse_.variable(fill_.generation, fill_.variable, patch); }
+  Variable variable(int patch) { return warehouse_.variable(fill_.generation, fill_.variable, patch); }
   template <class Visit>
   void forEachCell(const GhostCopy& copy, Visit&& visit) {
     const ParticleSet& set = warehouse_.particles(fill_.set, name_.material, copy.from);
@@ -92,6 +92,12 @@ class Exchange::Letters {
     const std::byte* here = letter.bytes.data() + letter.read;
     letter.read += length;
     return here;
+  }
+  /// Particles of the next cell, of which the first stands at `place`.
+  ParticleRange nextRange(int from, int place) {
+    std::int32_t count = 0;
+    std::memcpy(&count, next(from, sizeof(count)), sizeof(count));
+    return {place, place + count};
   }
   /// Whether a rank says that it has stopped.
   bool readStopped(int from) { return *next(from, 1) != std::byte{0}; }
@@ -168,15 +174,16 @@ void Exchange::forEach(const Work& work) {
 /// A patch reads of others only what they own, and that stands still once all have made room.
 void Exchange::fillFromHere() {
   forEach([&](const NumberedFill& fill, bool settles, const Patch& patch, std::size_t place) {
-    if (!fill.particles || !planOf(fill).isClosed[place]) return;
-    if (settles) settleGhosts(fill, patch, nullptr);
-    makeRoom(fill, patch);
+    if (settles) settleDirect(fill, patch, planOf(fill).into[place]);
   });
+  for (std::size_t k = 0; k < fills_.size(); ++k)
+    if (settles_[k]) settleCopies(fills_[k], nullptr);
+  for (const NumberedFill& fill : fills_)
+    if (fill.particles) reserveCopies(fill);
   forEach([&](const NumberedFill& fill, bool, const Patch& patch, std::size_t place) {
-    if (fill.particles && planOf(fill).isClosed[place]) return fillParticles(fill, patch, nullptr);
-    if (fill.particles) return;
+    if (fill.particles) return fillCopies(fill, patch);
     for (const GhostCopy& copy : planOf(fill).into[place])
-      if (copy.rank == warehouse_->ranks().rank()) copyGrid(fill, copy);
+      if (isHere(copy)) copyGrid(fill, copy);
   });
 }
 
@@ -214,87 +221,109 @@ void Exchange::post(bool hasStopped) {
 
 void Exchange::copyGrid(const NumberedFill& fill, const GhostCopy& copy) {
   const std::size_t bytes = warehouse_->table()[fill.variable].label->bytes;
-  Variable& from = warehouse_->variable(fill.generation, fill.variable, copy.from);
-  Variable& to = warehouse_->variable(fill.generation, fill.variable, copy.to);
+  const Variable from = warehouse_->variable(fill.generation, fill.variable, copy.from);
+  const Variable to = warehouse_->variable(fill.generation, fill.variable, copy.to);
   forEachRow(copy.box, bytes, [&](const Index3& first, std::size_t length) {
     std::memcpy(at(to, first, bytes), at(from, first - copy.shift, bytes), length);
   });
 }
 
 void Exchange::fillFromElsewhere(const NumberedFill& fill, bool settles, Letters& letters) {
+  if (settles) settleCopies(fill, &letters);
+  if (fill.particles) reserveCopies(fill);
   const GhostPlan& plan = planOf(fill);
   const std::vector<Patch>& patches = warehouse_->level().patches();
-  const std::size_t bytes = warehouse_->table()[fill.variable].label->bytes;
   for (std::size_t place = 0; place < patches.size(); ++place) {
-    if (plan.isClosed[place]) continue;
-    if (fill.particles && settles) settleGhosts(fill, patches[place], &letters);
-    if (fill.particles) makeRoom(fill, patches[place]);
-  }
-  for (std::size_t place = 0; place < patches.size(); ++place) {
-    if (plan.isClosed[place]) continue;
-    if (fill.particles) {
-      fillParticles(fill, patches[place], &letters);
-      continue;
-    }
-    for (const GhostCopy& copy : plan.into[place]) {
-      if (copy.rank == warehouse_->ranks().rank()) continue;
-      Variable& to = warehouse_->variable(fill.generation, fill.variable, copy.to);
-      forEachRow(copy.box, bytes, [&](const Index3& first, std::size_t length) {
-        std::memcpy(at(to, first, bytes), letters.next(copy.rank, length), length);
-      });
-    }
+    if (fill.particles) takeParticles(fill, patches[place], letters);
+    for (const GhostCopy& copy : plan.into[place])
+      if (!fill.particles && !isHere(copy)) takeGrid(fill, copy, letters);
   }
 }
 
-/// Appends the particles of the cells around the patch to its set.
-void Exchange::settleGhosts(const NumberedFill& fill, const Patch& patch, Letters* letters) {
+void Exchange::shareFaces(int variable) {
+  const std::vector<Patch>& patches = warehouse_->level().patches();
+  if (patches.size() < 2) return;
+  if (faces_.empty()) faces_ = planFaces(warehouse_->level());
+  const NumberedFill fill{variable, Generation::fresh, Generation::fresh, false};
+  threads_->forEach(static_cast<int>(patches.size()), [&](int place) {
+    for (const GhostCopy& copy : faces_[static_cast<std::size_t>(place)]) copyGrid(fill, copy);
+  });
+}
+
+void Exchange::takeGrid(const NumberedFill& fill, const GhostCopy& copy, Letters& letters) {
+  const std::size_t bytes = warehouse_->table()[fill.variable].label->bytes;
+  const Variable to = warehouse_->variable(fill.generation, fill.variable, copy.to);
+  forEachRow(copy.box, bytes, [&](const Index3& first, std::size_t length) {
+    std::memcpy(at(to, first, bytes), letters.next(copy.rank, length), length);
+  });
+}
+
+/// The set of a patch has the particles around it that other patches of this rank have.
+void Exchange::settleDirect(const NumberedFill& fill, const Patch& patch, const std::vector<GhostCopy>& copies) {
   const int material = warehouse_->table()[fill.variable].material;
   ParticleSet& set = warehouse_->particles(fill.set, material, patch.id());
-  const auto place = static_cast<std::size_t>(patch.id() - warehouse_->level().firstPatch());
-  for (const GhostCopy& copy : planOf(fill).into[place]) {
-    if (copy.rank == warehouse_->ranks().rank()) {
-      const ParticleSet& theirs = warehouse_->particles(fill.set, material, copy.from);
-      grid::forEach<3>(copy.box, [&](const Index3& cell) {
-        set.addGhostCell(cell, copy.from, theirs.in(cell - copy.shift), copy.shift);
-      });
-      continue;
-    }
-    int there = 0;  // place in the message, among those of this copy
-    grid::forEach<3>(copy.box, [&](const Index3& cell) {
-      std::int32_t count = 0;
-      std::memcpy(&count, letters->next(copy.rank, sizeof(count)), sizeof(count));
-      set.addGhostCell(cell, copy.from, {there, there + count}, copy.shift);
-      there += count;
-    });
-  }
+  for (const GhostCopy& copy : copies)
+    if (isHere(copy) && copy.shift == Index3{})
+      set.addGhosts(copy.box, warehouse_->particles(fill.set, material, copy.from),
+                    warehouse_->distance(fill.set, material, patch.id(), copy.from));
   set.markGhosts();
 }
 
-void Exchange::makeRoom(const NumberedFill& fill, const Patch& patch) {
-  const auto [label, material] = warehouse_->table()[fill.variable];
-  const ParticleSet& set = warehouse_->particles(fill.set, material, patch.id());
-  Variable& here = warehouse_->variable(fill.generation, fill.variable, patch.id());
-  warehouse_->allocateParticles(here, *label, set.total(), set.owned());
+/// Copies of ghosts have their places: of periodic images on this rank, or of what other ranks tell in their letters.
+void Exchange::settleCopies(const NumberedFill& fill, Letters* letters) {
+  const int material = warehouse_->table()[fill.variable].material;
+  const std::vector<Patch>& patches = warehouse_->level().patches();
+  for (std::size_t place = 0; place < patches.size(); ++place) {
+    ParticleSet& set = warehouse_->particles(fill.set, material, patches[place].id());
+    for (const GhostCopy& copy : planOf(fill).into[place]) {
+      if (isHere(copy) ? letters || copy.shift == Index3{} : !letters) continue;
+      int there = 0;  // place in the message, among those of this copy
+      grid::forEach<3>(copy.box, [&](const Index3& cell) {
+        const ParticleRange range =
+            letters ? letters->nextRange(copy.rank, there)
+                    : warehouse_->particles(fill.set, material, copy.from).in(cell - copy.shift);
+        there = range.last;
+        if (range.empty()) return;
+        set.addCopies(cell, copy.from, range, copy.shift,
+                      warehouse_->placeCopies(fill.set, material, patches[place].id(), range.size()));
+      });
+    }
+  }
 }
 
-void Exchange::fillParticles(const NumberedFill& fill, const Patch& patch, Letters* letters) {
+void Exchange::reserveCopies(const NumberedFill& fill) {
+  warehouse_->reserveCopies(fill.generation, fill.variable, fill.set);
+}
+
+void Exchange::shift(const NumberedFill& fill, const data::GhostRun& run, std::byte* copies) const {
+  if (warehouse_->table()[fill.variable].label->name == data::positionName && !(run.shift == Index3{}))
+    shiftPositions(warehouse_->level(), run.shift, reinterpret_cast<double*>(copies), run.count);
+}
+
+/// The copies that a patch has of particles of this rank.
+void Exchange::fillCopies(const NumberedFill& fill, const Patch& patch) {
   const auto [label, material] = warehouse_->table()[fill.variable];
-  const grid::Level& level = warehouse_->level();
-  const ParticleSet& set = warehouse_->particles(fill.set, material, patch.id());
-  Variable& here = warehouse_->variable(fill.generation, fill.variable, patch.id());
-  std::byte* to = here.values.data() + static_cast<std::size_t>(set.owned()) * label->bytes;
-  for (const data::GhostRun& run : set.ghostRuns()) {
+  const Variable here = warehouse_->variable(fill.generation, fill.variable, patch.id());
+  for (const data::GhostRun& run : warehouse_->particles(fill.set, material, patch.id()).ghostRuns()) {
+    if (!warehouse_->level().isMine(run.patch)) continue;
+    const Variable there = warehouse_->variable(fill.generation, fill.variable, run.patch);
+    std::byte* to = here.values + static_cast<std::size_t>(run.to) * label->bytes;
+    std::memcpy(to, there.values + static_cast<std::size_t>(run.first) * label->bytes,
+                static_cast<std::size_t>(run.count) * label->bytes);
+    shift(fill, run, to);
+  }
+}
+
+/// Those of particles of other ranks.
+void Exchange::takeParticles(const NumberedFill& fill, const Patch& patch, Letters& letters) {
+  const auto [label, material] = warehouse_->table()[fill.variable];
+  const Variable here = warehouse_->variable(fill.generation, fill.variable, patch.id());
+  for (const data::GhostRun& run : warehouse_->particles(fill.set, material, patch.id()).ghostRuns()) {
+    if (warehouse_->level().isMine(run.patch)) continue;
     const std::size_t length = static_cast<std::size_t>(run.count) * label->bytes;
-    const std::byte* from = nullptr;
-    if (level.isMine(run.patch))
-      from = warehouse_->variable(fill.generation, fill.variable, run.patch).values.data() +
-             static_cast<std::size_t>(run.first) * label->bytes;
-    else
-      from = letters->next(level.ownerOf(run.patch), length);
-    std::memcpy(to, from, length);
-    if (label->name == data::positionName && !(run.shift == Index3{}))
-      shiftPositions(level, run.shift, reinterpret_cast<double*>(to), run.count);
-    to += length;
+    std::byte* to = here.values + static_cast<std::size_t>(run.to) * label->bytes;
+    std::memcpy(to, letters.next(warehouse_->level().ownerOf(run.patch), length), length);
+    shift(fill, run, to);
   }
 }
 

@@ -45,8 +45,13 @@ class Exchange {
   bool isUnderWay() const { return !senders_.empty(); }
   /// Between the last two: whether the patch at this place of the rank's has all its ghosts.
   bool isReady(std::size_t place);
+  /// Patches of this rank take the new values of a node variable that they have but do not own from one another.
+  void shareFaces(int variable);
   /// This rank has other patches from now on.
-  void forgetLayout() { plans_.forget(); }
+  void forgetLayout() {
+    plans_.forget();
+    faces_.clear();
+  }
 
  private:
   class Letters;
@@ -57,9 +62,15 @@ class Exchange {
   void fillFromHere();
   void fillFromElsewhere(const NumberedFill& fill, bool settles, Letters& letters);
   void copyGrid(const NumberedFill& fill, const GhostCopy& copy);
-  void settleGhosts(const NumberedFill& fill, const grid::Patch& patch, Letters* letters);
-  void makeRoom(const NumberedFill& fill, const grid::Patch& patch);
-  void fillParticles(const NumberedFill& fill, const grid::Patch& patch, Letters* letters);
+  void takeGrid(const NumberedFill& fill, const GhostCopy& copy, Letters& letters);
+  void settleDirect(const NumberedFill& fill, const grid::Patch& patch, const std::vector<GhostCopy>& copies);
+  void settleCopies(const NumberedFill& fill, Letters* letters);
+  void reserveCopies(const NumberedFill& fill);
+  void fillCopies(const NumberedFill& fill, const grid::Patch& patch);
+  void takeParticles(const NumberedFill& fill, const grid::Patch& patch, Letters& letters);
+  /// Moves copies of positions to the image that they belong to.
+  void shift(const NumberedFill& fill, const data::GhostRun& run, std::byte* copies) const;
+  bool isHere(const GhostCopy& copy) const { return copy.rank == warehouse_->ranks().rank(); }
   void noteUnsettled();
   /// Calls `work(fill, whether it settles ghosts, patch, its place)` on several threads at once.
   template <class Work>
@@ -72,6 +83,7 @@ class Exchange {
   Threads* threads_;
   mpi::Outbox outbox_;
   GhostPlans plans_;
+  std::vector<std::vector<GhostCopy>> faces_;  ///< by place of the patch on this rank; settled on first use
   // Of the exchange that was sent:
   std::span<const NumberedFill> fills_;
   bool has_stopped_ = false;

@@ -99,6 +99,23 @@ class Planner {
 
 GhostPlan planGhosts(const Level& level, bool nodes, int width) { return Planner(level, nodes, width).run(); }
 
+std::vector<std::vector<GhostCopy>> planFaces(const Level& level) {
+  std::vector<std::vector<GhostCopy>> faces;
+  for (const Patch& patch : level.patches()) {
+    std::vector<GhostCopy>& into = faces.emplace_back();
+    const Box own = level.ownNodes(patch.id());
+    for (const Patch& other : level.patchesOverlapping(patch.cellsWithin(1))) {
+      if (other.id() == patch.id() || !level.isMine(other.id())) continue;
+      const Box given = level.ownNodes(other.id()).intersect(patch.nodes());
+      if (given.empty()) continue;
+      forEachPartOutside(given, own, [&](const Box& part) {
+        into.push_back({other.id(), patch.id(), level.share().rank, part, Index3{}});
+      });
+    }
+  }
+  return faces;
+}
+
 const GhostPlan& GhostPlans::of(const grid::Level& level, const GhostReach& reach) {
   const auto [plan, isNew] = plans_.try_emplace(reach);
   if (isNew) plan->second = planGhosts(level, reach.nodes, reach.width);

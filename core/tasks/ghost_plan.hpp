@@ -29,6 +29,9 @@ struct GhostPlan {
 /// For cells (particles among them) or nodes within `width` of each patch. Each ghost comes from one patch.
 GhostPlan planGhosts(const grid::Level& level, bool nodes, int width);
 
+/// Nodes that patches of this rank have and do not own, by patch: each from one that does.
+std::vector<std::vector<GhostCopy>> planFaces(const grid::Level& level);
+
 /// Which ghosts a patch needs.
 struct GhostReach {
   bool nodes;

@@ -1,7 +1,10 @@
 #include "core/tasks/migration.hpp"
 
 #include <cstring>
+#include <deque>
 #include <map>
+#include <utility>
+#include <vector>
 
 #include "core/base/mpi.hpp"
 
@@ -18,14 +21,17 @@ using mpi::Bytes;
 
 namespace {
 
-/// Writes what stands on patches: particles by cell, then each variable, behind a byte that says whether there is one.
+/// Writes what stands on patches: the particles of all by cell, then each variable, behind a byte that says whether there
+/// is one.
 class Packer {
  public:
   Packer(data::Warehouse& warehouse, const Luggage& luggage) : warehouse_(warehouse), luggage_(luggage) {}
 
-  void add(const Patch& patch, Bytes& to) {
-    for (int material = 0; material < luggage_.materials; ++material) addSet(patch, material, to);
-    for (const int number : luggage_.variables) addVariable(patch, number, to);
+  void add(const std::vector<Patch>& patches, Bytes& to) {
+    for (const Patch& patch : patches)
+      for (int material = 0; material < luggage_.materials; ++material) addSet(patch, material, to);
+    for (const Patch& patch : patches)
+      for (const int number : luggage_.variables) addVariable(patch, number, to);
   }
 
  private:
@@ -43,16 +49,16 @@ class Packer {
   }
   void addVariable(const Patch& patch, int number, Bytes& to) {
     const auto [label, material] = warehouse_.table()[number];
-    const Variable& from = warehouse_.variable(Generation::old, number, patch.id());
+    const Variable from = warehouse_.variable(Generation::old, number, patch.id());
     if (!addWhether(from.held, to)) return;
     if (label->centring == Centring::particle) {
       const int owned = warehouse_.particles(Generation::old, material, patch.id()).owned();
-      return mpi::append(to, from.values.data(), static_cast<std::size_t>(owned) * label->bytes);
+      return mpi::append(to, from.values, static_cast<std::size_t>(owned) * label->bytes);
     }
     const Box own = ownBox(patch, *label);
     const std::size_t length = static_cast<std::size_t>(own.extent(0)) * label->bytes, bytes = label->bytes;
     grid::forEach<3>(own.rowStarts(), [&](const Index3& first) {
-      mpi::append(to, from.values.data() + from.stored.offset(first) * bytes, length);
+      mpi::append(to, from.values + from.stored.offset(first) * bytes, length);
     });
   }
 
@@ -63,12 +69,21 @@ class Packer {
 /// Reads what a Packer has written.
 class Unpacker {
  public:
-  Unpacker(data::Warehouse& warehouse, const Luggage& luggage, const Bytes& from)
-      : warehouse_(warehouse), luggage_(luggage), from_(from.data()) {}
+  Unpacker(data::Warehouse& warehouse, const Luggage& luggage, std::vector<Patch> patches, Bytes message)
+      : warehouse_(warehouse),
+        luggage_(luggage),
+        patches_(std::move(patches)),
+        message_(std::move(message)),
+        from_(message_.data()) {}
 
-  void take(const Patch& patch) {
-    for (int material = 0; material < luggage_.materials; ++material) takeSet(patch, material);
-    for (const int number : luggage_.variables) takeVariable(patch, number);
+  void takeSets() {
+    for (const Patch& patch : patches_)
+      for (int material = 0; material < luggage_.materials; ++material) takeSet(patch, material);
+  }
+  /// Once the particles of all patches of the rank have slots.
+  void takeVariables() {
+    for (const Patch& patch : patches_)
+      for (const int number : luggage_.variables) takeVariable(patch, number);
   }
 
  private:
@@ -93,22 +108,26 @@ class Unpacker {
   void takeVariable(const Patch& patch, int number) {
     if (!takeWhether()) return;
     const auto [label, material] = warehouse_.table()[number];
-    Variable& to = warehouse_.variable(Generation::old, number, patch.id());
+    const bool isParticle = label->centring == Centring::particle;
+    if (!warehouse_.variable(Generation::old, number, patch.id()).held)
+      isParticle ? warehouse_.allocateParticles(Generation::old, number, Generation::old)
+                 : warehouse_.allocateGrid(Generation::old, number);
+    const Variable to = warehouse_.variable(Generation::old, number, patch.id());
     const std::size_t bytes = label->bytes;
-    if (label->centring == Centring::particle) {
+    if (isParticle) {
       const int owned = warehouse_.particles(Generation::old, material, patch.id()).owned();
-      warehouse_.allocateParticles(to, *label, owned);
-      return copyTo(to.values.data(), static_cast<std::size_t>(owned) * bytes);
+      return copyTo(to.values, static_cast<std::size_t>(owned) * bytes);
     }
     const Box own = ownBox(patch, *label);
-    warehouse_.allocateGrid(to, number, patch);
     grid::forEach<3>(own.rowStarts(), [&](const Index3& first) {
-      copyTo(to.values.data() + to.stored.offset(first) * bytes, static_cast<std::size_t>(own.extent(0)) * bytes);
+      copyTo(to.values + to.stored.offset(first) * bytes, static_cast<std::size_t>(own.extent(0)) * bytes);
     });
   }
 
   data::Warehouse& warehouse_;
   const Luggage& luggage_;
+  std::vector<Patch> patches_;
+  Bytes message_;
   const std::byte* from_;
 };
 
@@ -120,6 +139,12 @@ void forEachOwner(const grid::Firsts& firsts, int first, int end, Visit&& visit)
       visit(static_cast<int>(rank), from, to);
 }
 
+std::vector<Patch> patchesFrom(const grid::Level& level, int first, int end) {
+  std::vector<Patch> patches;
+  for (int patch = first; patch < end; ++patch) patches.push_back(level.patch(patch));
+  return patches;
+}
+
 }  // namespace
 
 void migrate(grid::Level& level, data::Warehouse& warehouse, const Luggage& luggage, const grid::Firsts& firsts) {
@@ -129,18 +154,21 @@ void migrate(grid::Level& level, data::Warehouse& warehouse, const Luggage& lugg
   mpi::Outbox outbox(ranks);
   std::map<int, Bytes> parts;
   forEachOwner(firsts, before[me], before[me + 1], [&](int rank, int first, int end) {
-    Packer packer(warehouse, luggage);
-    for (int patch = first; patch < end; ++patch) packer.add(level.patch(patch), parts[rank]);
+    Packer(warehouse, luggage).add(patchesFrom(level, first, end), parts[rank]);
   });
   for (auto& [rank, bytes] : parts)
     if (rank != ranks.rank()) outbox.send(rank, mpi::Tag::patches, std::move(bytes));
   level.share(firsts);
   warehouse.startAnew(luggage.materials);
+  std::deque<Unpacker> unpackers;
   forEachOwner(before, firsts[me], firsts[me + 1], [&](int rank, int first, int end) {
-    const Bytes bytes = rank == ranks.rank() ? std::move(parts[rank]) : ranks.receive(rank, mpi::Tag::patches);
-    Unpacker unpacker(warehouse, luggage, bytes);
-    for (int patch = first; patch < end; ++patch) unpacker.take(level.patch(patch));
+    Bytes bytes = rank == ranks.rank() ? std::move(parts[rank]) : ranks.receive(rank, mpi::Tag::patches);
+    unpackers.emplace_back(warehouse, luggage, patchesFrom(level, first, end), std::move(bytes));
+    unpackers.back().takeSets();
   });
+  for (int material = 0; material < luggage.materials; ++material)
+    warehouse.layOut(Generation::old, material, Generation::old);
+  for (Unpacker& unpacker : unpackers) unpacker.takeVariables();
   outbox.wait();
 }
 

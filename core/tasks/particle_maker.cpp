@@ -7,11 +7,8 @@
 #include <numeric>
 
 #include "core/data/views.hpp"
-#include "core/tasks/context.hpp"
 
 namespace tushar::tasks {
-
-using data::Generation;
 
 std::vector<std::size_t> ParticleMaker::sortedOrder(const grid::Patch& patch) const {
   std::vector<std::size_t> offsets(ids_.size()), order(ids_.size());
@@ -27,41 +24,39 @@ std::vector<std::size_t> ParticleMaker::sortedOrder(const grid::Patch& patch) co
   return order;
 }
 
-void ParticleMaker::makeSet(data::ParticleSet& set, const grid::Patch& patch, int reach,
-                            const std::vector<std::size_t>& order) const {
+void ParticleMaker::makeSet(data::ParticleSet& set, const grid::Patch& patch, int reach) {
+  order_ = sortedOrder(patch);
   set.reset(patch, reach);
   std::size_t next = 0;
   grid::forEach<3>(patch.cells(), [&](const Index3& cell) {
     const std::size_t first = next;
-    while (next < order.size() && cells_[order[next]] == cell) ++next;
+    while (next < order_.size() && cells_[order_[next]] == cell) ++next;
     set.at(cell) = {static_cast<int>(first), static_cast<int>(next)};
   });
   set.setOwned(static_cast<int>(next));
 }
 
-void ParticleMaker::install(data::Warehouse& warehouse, const grid::Patch& patch, int material,
-                            const std::vector<BoundAccess>& accesses, const std::vector<int>& unread) {
-  if (keeps_all_) return warehouse.particles(Generation::fresh, material, patch.id()).forgetGhosts();
-  const std::vector<std::size_t> order = sortedOrder(patch);
-  makeSet(warehouse.particles(Generation::fresh, material, patch.id()), patch, warehouse.table().reach(material), order);
-  const auto write = [&](int number, const data::Label& label, const std::byte* values) {
-    data::Variable& variable = warehouse.variable(Generation::fresh, number, patch.id());
-    warehouse.allocateParticles(variable, label, static_cast<int>(order.size()));
-    for (std::size_t k = 0; k < order.size(); ++k)
-      std::memcpy(variable.values.data() + k * label.bytes, values + order[k] * label.bytes, label.bytes);
-  };
-  for (std::size_t a = 0; a < columns_.size(); ++a) {
-    if (!columns_[a]) continue;
-    const data::Label& label = *warehouse.table()[accesses[a].variable].label;
-    if (columns_[a]->size() != ids_.size())
-      throw data::AccessError(
-          fmt::format("{} got {} values for {} particles made", label.name, columns_[a]->size(), ids_.size()));
-    if (std::find(unread.begin(), unread.end(), accesses[a].variable) == unread.end())
-      write(accesses[a].variable, label, columns_[a]->bytes());
-    columns_[a].reset();
-  }
-  write(warehouse.table().find(data::particleId.name, material), data::particleId,
-        reinterpret_cast<const std::byte*>(ids_.data()));
+void ParticleMaker::check(std::size_t access, const data::Label& label) const {
+  if (columns_[access]->size() != ids_.size())
+    throw data::AccessError(
+        fmt::format("{} got {} values for {} particles made", label.name, columns_[access]->size(), ids_.size()));
+}
+
+void ParticleMaker::write(std::size_t access, const data::Label& label, std::byte* to) {
+  check(access, label);
+  const std::byte* values = columns_[access]->bytes();
+  for (std::size_t k = 0; k < order_.size(); ++k)
+    std::memcpy(to + k * label.bytes, values + order_[k] * label.bytes, label.bytes);
+  columns_[access].reset();
+}
+
+void ParticleMaker::drop(std::size_t access, const data::Label& label) {
+  check(access, label);
+  columns_[access].reset();
+}
+
+void ParticleMaker::writeIds(ParticleId* to) const {
+  for (std::size_t k = 0; k < order_.size(); ++k) to[k] = ids_[order_[k]];
 }
 
 }  // namespace tushar::tasks

@@ -7,8 +7,6 @@
 
 namespace tushar::tasks {
 
-struct BoundAccess;
-
 /// A column of a particle set under construction; `Column<T>::values` is what the task's body fills.
 class ColumnBase {
  public:
@@ -49,19 +47,27 @@ class ParticleMaker {
     return static_cast<Column<T>&>(*column).values;
   }
 
-  /// Makes these the new particles of the patch, sorted by (cell, id), and forgets their values. The variables `unread`
-  /// get none.
-  /// Throws data::AccessError for a particle outside the patch, or a column of another length.
-  void install(data::Warehouse& warehouse, const grid::Patch& patch, int material,
-               const std::vector<BoundAccess>& accesses, const std::vector<int>& unread);
+  bool keepsAll() const { return keeps_all_; }
+  /// Makes these the new particles of the patch, sorted by (cell, id).
+  /// Throws data::AccessError for a particle outside the patch.
+  void makeSet(data::ParticleSet& set, const grid::Patch& patch, int reach);
+  /// Whether there are values of a created label.
+  bool creates(std::size_t access) const { return columns_[access] != nullptr; }
+  /// Writes the values of a created label in the order of the set, and forgets them.
+  /// Throws data::AccessError for a column of another length.
+  void write(std::size_t access, const data::Label& label, std::byte* to);
+  void writeIds(ParticleId* to) const;
+  /// Forgets the values of a label that nobody reads, once they are counted.
+  void drop(std::size_t access, const data::Label& label);
 
  private:
   std::vector<std::size_t> sortedOrder(const grid::Patch& patch) const;
-  void makeSet(data::ParticleSet& set, const grid::Patch& patch, int reach, const std::vector<std::size_t>& order) const;
+  void check(std::size_t access, const data::Label& label) const;
 
   bool keeps_all_ = false;
   std::vector<Index3> cells_;
   std::vector<ParticleId> ids_;
+  std::vector<std::size_t> order_;  ///< by place in the set: place among those that were made
   std::vector<std::unique_ptr<ColumnBase>> columns_;  ///< by access
 };
 

@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "core/tasks/broken_value.hpp"
-#include "core/tasks/move_runs.hpp"
 #include "core/tasks/outcome.hpp"
 
 namespace tushar::tasks {
@@ -25,12 +24,6 @@ Index3 widened(const Index<D>& cell) {
   Index3 wide;
   for (int d = 0; d < D; ++d) wide[d] = cell[d];
   return wide;
-}
-
-/// Whether a patch keeps all its particles where they are.
-template <class Moves>
-bool staysAsItIs(const Moves& moves, Generation to) {
-  return to == Generation::old && moves.departed.empty() && moves.incoming.empty();
 }
 
 /// Makes the old set the new one.
@@ -83,16 +76,6 @@ Relocation::Moves& Relocation::movesOf(int material) {
   return moves;
 }
 
-template <class Work>
-void Relocation::forEachPatch(const Work& work) {
-  const std::vector<Patch>& patches = warehouse_->level().patches();
-  threads_->forEach(static_cast<int>(patches.size()), [&](int k) {
-    const Patch& patch = patches[static_cast<std::size_t>(k)];
-    const trace::Span span(trace::Kind::task, "relocate", patch.id());
-    work(patch);
-  });
-}
-
 bool Relocation::find(int material, int position, bool hasStopped) {
   const int id = warehouse_->table().find(data::particleId.name, material);
   if (!hasStopped) switch (warehouse_->level().dimension()) {
@@ -114,18 +97,17 @@ void Relocation::settle(int material, const std::vector<Carried>& carried, Gener
   receiveAll(moves);
   forEachPatch([&](const Patch& patch) {
     PatchMoves& ofPatch = of(moves, patch.id());
-    staysAsItIs(ofPatch, to) ? keepSet(*warehouse_, material, patch) : rebuild(patch, material, ofPatch);
+    if (!ofPatch.staysAsItIs(to)) return rebuild(patch, material, ofPatch);
+    keepSet(*warehouse_, material, patch);
+    keepAll(ofPatch, warehouse_->particles(Generation::fresh, material, patch.id()).owned());
   });
-  const auto forEachMoved = [&](const auto& work) {
-    forEachPatch([&](const Patch& patch) {
-      if (PatchMoves& ofPatch = of(moves, patch.id()); !staysAsItIs(ofPatch, to)) work(patch, ofPatch);
-    });
-  };
-  for (std::size_t place = 0; place < carried.size(); ++place) {
-    forEachMoved([&](const Patch& patch, PatchMoves& ofPatch) { pack(carried[place], patch, ofPatch); });
-    forEachMoved([&](const Patch& patch, PatchMoves&) { carry(carried[place], place, to, patch, moves); });
-    for (const Patch& patch : warehouse_->level().patches()) warehouse_->takeBack(of(moves, patch.id()).packed, patch);
+  warehouse_->layOut(Generation::fresh, material, Generation::old);
+  moves.departed = 0;
+  for (const Patch& patch : warehouse_->level().patches()) {
+    PatchMoves& ofPatch = of(moves, patch.id());
+    ofPatch.packed = std::exchange(moves.departed, moves.departed + ofPatch.departed.size());
   }
+  for (std::size_t place = 0; place < carried.size(); ++place) carry(carried[place], place, to, material, moves);
 }
 
 void Relocation::Verdict::merge(const Verdict& other) {
@@ -142,7 +124,7 @@ void Relocation::findMoves(int material, int position, int id) {
   Moves& moves = movesOf(material);
   forEachPatch([&](const Patch& patch) {
     const auto values = [&](Generation generation, int number) {
-      return warehouse_->variable(generation, number, patch.id()).values.data();
+      return warehouse_->variable(generation, number, patch.id()).values;
     };
     findMoves<D>(patch, warehouse_->particles(Generation::old, material, patch.id()),
                  reinterpret_cast<Vec<D>*>(values(Generation::fresh, position)),
@@ -248,8 +230,8 @@ template <int D>
 std::string Relocation::sentence(int position, const Escape& escape) const {
   const grid::Level& level = warehouse_->level();
   const auto at = [&](Generation generation) {
-    const Variable& x = warehouse_->variable(generation, position, escape.patch);
-    return reinterpret_cast<const Vec<D>*>(x.values.data())[escape.place];
+    const Variable x = warehouse_->variable(generation, position, escape.patch);
+    return reinterpret_cast<const Vec<D>*>(x.values)[escape.place];
   };
   const Vec<D> x = at(Generation::fresh);
   int through = 0, side = 0;
@@ -296,12 +278,11 @@ void Relocation::rebuild(const Patch& patch, int material, PatchMoves& moves) {
   const ParticleSet& before = warehouse_->particles(Generation::old, material, patch.id());
   ParticleSet& after = warehouse_->particles(Generation::fresh, material, patch.id());
   const auto* ids =
-      reinterpret_cast<const ParticleId*>(warehouse_->variable(Generation::old, id, patch.id()).values.data());
+      reinterpret_cast<const ParticleId*>(warehouse_->variable(Generation::old, id, patch.id()).values);
   after.reset(patch, warehouse_->table().reach(material));
   moves.runs.clear();
   moves.entries.clear();
   moves.entries.reserve(moves.incoming.size());
-  moves.before = before.owned();
   moves.count = 0;
   std::size_t nextDeparted = 0;
   const int rowLength = patch.cells().extent(0);
@@ -323,6 +304,14 @@ void Relocation::rebuild(const Patch& patch, int material, PatchMoves& moves) {
     after.closeRow(cell);
   });
   after.setOwnedOfClosedRows(moves.count);
+}
+
+/// All particles of a patch stay in their places.
+void Relocation::keepAll(PatchMoves& moves, int count) {
+  moves.runs.clear();
+  moves.entries.clear();
+  moves.count = 0;
+  keep(moves, 0, count);
 }
 
 /// Appends particles that were consecutive and stay so.
@@ -353,36 +342,6 @@ void Relocation::mergeCell(PatchMoves& moves, const ParticleRange& before, int f
     keep(moves, p, 1);
   }
   while (waiting >= 0) letInOne();
-}
-
-void Relocation::pack(const Carried& carried, const Patch& patch, PatchMoves& moves) {
-  const std::size_t bytes = warehouse_->table()[carried.variable].label->bytes;
-  moves.packed = warehouse_->lend(moves.departed.size() * bytes, patch);
-  const std::byte* from = warehouse_->variable(carried.from, carried.variable, patch.id()).values.data();
-  std::byte* to = moves.packed.data();
-  for (const int place : moves.departed) {
-    std::memcpy(to, from + static_cast<std::size_t>(place) * bytes, bytes);
-    to += bytes;
-  }
-}
-
-void Relocation::carry(const Carried& carried, std::size_t place, Generation to, const Patch& patch, Moves& all) {
-  const data::Label& label = *warehouse_->table()[carried.variable].label;
-  const std::size_t bytes = label.bytes;
-  const PatchMoves& moves = of(all, patch.id());
-  Variable& variable = warehouse_->variable(to, carried.variable, patch.id());
-  const int kept = carried.from == to ? std::min(moves.before, moves.count) : 0;
-  warehouse_->allocateParticles(variable, label, moves.count, kept);
-  std::byte* values = variable.values.data();
-  moveRuns(moves.runs, warehouse_->variable(carried.from, carried.variable, patch.id()).values.data(), values, bytes);
-  for (const Entry& entry : moves.entries) {
-    const int source = moves.incoming[static_cast<std::size_t>(entry.incoming)].from;
-    Stranger from{patch.id(), source};
-    if (source < 0) from = moves.strangers[static_cast<std::size_t>(-1 - source)];
-    const std::byte* packed = from.patch < 0 ? all.emigration.values(place) : of(all, from.patch).packed.data();
-    std::memcpy(values + static_cast<std::size_t>(entry.to) * bytes,
-                packed + static_cast<std::size_t>(from.place) * bytes, bytes);
-  }
 }
 
 }  // namespace tushar::tasks

@@ -93,10 +93,15 @@ class Relocation {
     std::vector<char> isEntered;     ///< by row of cells along the first axis: whether particles come in
     std::vector<Run> runs;           ///< ascending
     std::vector<Entry> entries;      ///< ascending
-    data::Buffer packed;             ///< values of the departed of a variable, in their order
-    int before = 0, count = 0;       ///< particles of the old set and the new one
+    std::size_t packed = 0;          ///< place of the first of the departed among those of all patches
+    int count = 0;                   ///< particles of the new set
     std::optional<Escape> escape;
     long leaving = 0;  ///< through free faces of the grid
+
+    /// Whether the patch keeps all its particles where they are.
+    bool staysAsItIs(data::Generation to) const {
+      return to == data::Generation::old && departed.empty() && incoming.empty();
+    }
   };
   /// How the particles of a material move.
   struct Moves {
@@ -105,10 +110,27 @@ class Relocation {
     std::vector<PatchMoves> patches;
     Emigration emigration;
     bool goFar = false;
+    std::size_t departed = 0;  ///< from their cells, on all patches
+  };
+  /// A variable on its way: from where to where on each patch, and the values of the departed.
+  struct Move {
+    std::size_t bytes;
+    const std::byte* from;
+    std::byte* to;
+    const data::Slots *before, *after;
+    const std::byte* emigrants;
+    std::byte* packed;
   };
 
   template <class Work>
-  void forEachPatch(const Work& work);
+  void forEachPatch(const Work& work) {
+    const std::vector<grid::Patch>& patches = warehouse_->level().patches();
+    threads_->forEach(static_cast<int>(patches.size()), [&](int k) {
+      const grid::Patch& patch = patches[static_cast<std::size_t>(k)];
+      const trace::Span span(trace::Kind::task, "relocate", patch.id());
+      work(patch);
+    });
+  }
   Moves& movesOf(int material);
   PatchMoves& of(Moves& moves, int patch) {
     return moves.patches[static_cast<std::size_t>(patch - warehouse_->level().firstPatch())];
@@ -131,13 +153,15 @@ class Relocation {
   void receiveAll(Moves& moves);
   static void receive(const grid::Patch& patch, const Index3& cell, const Incoming& particle, PatchMoves& moves);
   void rebuild(const grid::Patch& patch, int material, PatchMoves& moves);
+  static void keepAll(PatchMoves& moves, int count);
   static void keep(PatchMoves& moves, int first, int count);
   static void mergeCell(PatchMoves& moves, const data::ParticleRange& before, int firstIncoming, const ParticleId* ids,
                         std::size_t& nextDeparted);
+  void carry(const Carried& carried, std::size_t place, data::Generation to, int material, Moves& moves);
   /// Keeps the values of those that leave their cells apart.
-  void pack(const Carried& carried, const grid::Patch& patch, PatchMoves& moves);
-  /// `place` is that of the variable among all that are carried.
-  void carry(const Carried& carried, std::size_t place, data::Generation to, const grid::Patch& patch, Moves& moves);
+  static void pack(const Move& move, std::size_t place, const PatchMoves& moves);
+  /// Brings those that stay to their places, and lets the others in.
+  void moveOn(const Move& move, std::size_t place, Moves& moves);
 
   data::Warehouse* warehouse_;
   Threads* threads_;

@@ -151,6 +151,7 @@ void Scheduler::start(const TaskGraph& graph, int end) {
   error_.reset();
   heard_stop_ = false;
   costs_.resize(warehouse_->level().patches().size());
+  warehouse_->beginStep();
   relocation_.start();
   for (const int reduction : graph.reductions()) warehouse_->resetReduction(reduction);
 }
@@ -230,18 +231,32 @@ void Scheduler::relocate(const CompiledTask& task, const StepInfo& at) {
 void Scheduler::runOnPatches(CompiledTask& task, int material, const StepInfo& at) {
   const bool all = task.task.acrossMaterials;
   const int from = all ? 0 : material, end = all ? static_cast<int>(task.materials.size()) : material + 1;
+  for (int m = from; m < end; ++m) allocateOutputs(task.of(m));
+  const bool makes = task.task.kind == TaskKind::newParticles;
+  makers_.clear();
+  for (int place = 0; makes && place < warehouse_->patches(); ++place)
+    makers_.emplace_back(task.of(material).accesses.size());
   FirstRefusal first;
   std::atomic<bool> kept = true;
+  const auto checkBounds = [&](const grid::Patch& patch) {
+    for (int m = from; m < end; ++m)
+      if (!keepsBounds(*warehouse_, task.of(m).bounded, patch)) kept = false;
+  };
   forEachPatch(task, [&](const grid::Patch& patch) {
     try {
       all ? runAcrossMaterials(task, patch, at) : runPlaced(task, patch, material, at);
-      for (int m = from; m < end; ++m)
-        if (!keepsBounds(*warehouse_, task.of(m).bounded, patch)) kept = false;
+      if (!makes) checkBounds(patch);
     } catch (const NumericalError& error) {
       first.note(error, patch.id());
     }
   });
   gatherReductions(task);
+  if (makes && !first.error()) {
+    install(task, material, at);
+    forEachPatch(task, checkBounds);
+  }
+  for (int m = from; m < end && !first.error(); ++m)
+    for (const int number : task.of(m).shared) exchange_.shareFaces(number);
   if (first.error())
     note(task, material, *first.error());
   else if (!kept)
@@ -250,11 +265,11 @@ void Scheduler::runOnPatches(CompiledTask& task, int material, const StepInfo& a
 
 void Scheduler::runOnRank(CompiledTask& task, const StepInfo& at) {
   const int first = firstMaterial(task);
+  for (const MaterialBinding& binding : task.materials) allocateOutputs(binding);
   std::vector<std::vector<TaskContext>> contexts;
   for (const grid::Patch& patch : warehouse_->level().patches()) {
     std::vector<TaskContext>& ofPatch = contexts.emplace_back();
     for (std::size_t m = 0; m < task.materials.size(); ++m) {
-      allocateOutputs(task.materials[m], patch, static_cast<int>(m) + first);
       ofPatch.emplace_back(*warehouse_, patch, static_cast<int>(m) + first, task.materials[m].accesses, at.time);
     }
   }
@@ -277,45 +292,54 @@ void Scheduler::runOnRank(CompiledTask& task, const StepInfo& at) {
 
 void Scheduler::runAcrossMaterials(CompiledTask& task, const grid::Patch& patch, const StepInfo& at) {
   std::vector<TaskContext> contexts;
-  for (std::size_t m = 0; m < task.materials.size(); ++m) {
-    allocateOutputs(task.materials[m], patch, static_cast<int>(m));
+  for (std::size_t m = 0; m < task.materials.size(); ++m)
     contexts.emplace_back(*warehouse_, patch, static_cast<int>(m), task.materials[m].accesses, at.time);
-  }
   TaskContext all = contexts.front();
   all.setMaterials(contexts);
   located(task, patch.id(), -1, at, [&] { task.task.body(all); });
 }
 
 void Scheduler::runPlaced(CompiledTask& task, const grid::Patch& patch, int material, const StepInfo& at) {
-  const MaterialBinding& binding = task.of(material);
+  ParticleMaker* maker = nullptr;
+  if (task.task.kind == TaskKind::newParticles)
+    maker = &makers_[static_cast<std::size_t>(patch.id() - warehouse_->level().firstPatch())];
   located(task, patch.id(), material, at, [&] {
-    if (task.task.kind == TaskKind::newParticles) {
-      ParticleMaker maker(binding.accesses.size());
-      task.task.body(TaskContext(*warehouse_, patch, material, binding.accesses, at.time, &maker));
-      maker.install(*warehouse_, patch, material, binding.accesses, binding.freed);
-      return;
-    }
-    allocateOutputs(binding, patch, material);
-    task.task.body(TaskContext(*warehouse_, patch, material, binding.accesses, at.time));
+    task.task.body(TaskContext(*warehouse_, patch, material, task.of(material).accesses, at.time, maker));
   });
 }
 
-void Scheduler::allocateOutputs(const MaterialBinding& binding, const grid::Patch& patch, int material) {
-  for (const Output& output : binding.outputs) {
-    data::Variable& variable = warehouse_->variable(Generation::fresh, output.variable, patch.id());
-    const data::Label& label = *warehouse_->table()[output.variable].label;
-    if (label.centring == data::Centring::particle)
-      warehouse_->allocateParticles(variable, label, warehouse_->particles(output.set, material, patch.id()).owned());
-    else
-      warehouse_->allocateGrid(variable, output.variable, patch);
+void Scheduler::install(const CompiledTask& task, int material, const StepInfo& at) {
+  const std::vector<grid::Patch>& patches = warehouse_->level().patches();
+  const MaterialBinding& binding = task.of(material);
+  ParticleInstaller installer(*warehouse_, material, makers_);
+  const auto onPatches = [&](const ParticleInstaller::Work& work) {
+    threads_.forEach(static_cast<int>(patches.size()), [&](int k) {
+      const grid::Patch& patch = patches[static_cast<std::size_t>(k)];
+      located(task, patch.id(), material, at, [&] { work(patch, makers_[static_cast<std::size_t>(k)]); });
+    });
+  };
+  installer.makeSets(onPatches);
+  for (std::size_t a = 0; a < binding.accesses.size(); ++a) {
+    const int number = binding.accesses[a].variable;
+    if (task.task.accesses[a].kind != AccessKind::creates) continue;
+    const bool isRead = std::find(binding.freed.begin(), binding.freed.end(), number) == binding.freed.end();
+    installer.write(number, a, isRead, onPatches);
   }
+  installer.writeIds(onPatches);
+  makers_.clear();
+}
+
+void Scheduler::allocateOutputs(const MaterialBinding& binding) {
+  for (const Output& output : binding.outputs)
+    if (warehouse_->table()[output.variable].label->centring == data::Centring::particle)
+      warehouse_->allocateParticles(Generation::fresh, output.variable, output.set);
+    else
+      warehouse_->allocateGrid(Generation::fresh, output.variable);
 }
 
 void Scheduler::free(const CompiledTask& task) {
   for (const MaterialBinding& binding : task.materials)
-    for (const int number : binding.freed)
-      for (const grid::Patch& patch : warehouse_->level().patches())
-        warehouse_->free(warehouse_->variable(Generation::fresh, number, patch.id()));
+    for (const int number : binding.freed) warehouse_->free(Generation::fresh, number);
 }
 
 void Scheduler::commit(TaskGraph& graph) {

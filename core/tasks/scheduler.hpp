@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/tasks/outcome.hpp"
+#include "core/tasks/particle_installer.hpp"
 #include "core/tasks/task_graph.hpp"
 
 namespace tushar::tasks {
@@ -79,8 +80,10 @@ class Scheduler {
   void runOnPatches(CompiledTask& task, int material, const StepInfo& at);
   void runOnRank(CompiledTask& task, const StepInfo& at);
   void runAcrossMaterials(CompiledTask& task, const grid::Patch& patch, const StepInfo& at);
+  /// What a task has made on all patches becomes the particles of its material.
+  void install(const CompiledTask& task, int material, const StepInfo& at);
   void runPlaced(CompiledTask& task, const grid::Patch& patch, int material, const StepInfo& at);
-  void allocateOutputs(const MaterialBinding& binding, const grid::Patch& patch, int material);
+  void allocateOutputs(const MaterialBinding& binding);
   void free(const CompiledTask& task);
   /// Makes the moves that the last task of a graph has found, if it is a relocation.
   void settle(CompiledTask& last);
@@ -97,6 +100,7 @@ class Scheduler {
   Threads threads_;
   Exchange exchange_;
   Relocation relocation_;
+  std::vector<ParticleMaker> makers_;    ///< by patch, while a task makes particles
   Outcome outcome_;                      ///< of the run of a graph
   std::optional<NumericalError> error_;  ///< behind it, on the rank where a body threw it
   std::vector<double> costs_;            ///< by patch, s of the threads that worked on it

@@ -95,7 +95,8 @@ MaterialBinding TaskGraph::bindMaterial(std::size_t t, int material, data::Varia
     const int number = table.number(*access.label, materialOf(access, material));
     const Generation generation = access.isNew() ? Generation::fresh : Generation::old;
     const Generation set = access.isNew() ? sets_[t] : Generation::old;
-    binding.accesses.push_back({number, generation, set, access.ghost});
+    binding.accesses.push_back({number, generation, set, access.ghost, access.own});
+    if (access.own) binding.shared.push_back(number);
     table.widen(number, access.ghost);
     if (access.kind == AccessKind::computes && access.label->centring != Centring::reduction)
       binding.outputs.push_back({number, set});

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "core/base/error.hpp"
@@ -29,6 +30,8 @@ class Validator {
     }
     for (const Access& access : task.accesses)
       if (access.writes()) checkWriter(task, access);
+    for (const Access& access : task.accesses)
+      if (isGhostsOfParticles(access)) checkStandsStill(task, access);
   }
 
   void checkMaterial(const Task& task, const Access& access) {
@@ -55,6 +58,19 @@ class Validator {
     const bool reduction = access.label->centring == data::Centring::reduction;
     if (!added && !reduction && access.kind == AccessKind::computes)
       complain(task, access, "is computed a second time; use modifies to change it");
+  }
+
+  /// Patches of a rank read one another's particles where they stand; only new particles wait until all are made.
+  static bool isGhostsOfParticles(const Access& access) {
+    return access.kind == AccessKind::requiresNew && access.ghost > 0 &&
+           access.label->centring == data::Centring::particle;
+  }
+  void checkStandsStill(const Task& task, const Access& access) {
+    const bool writes = std::any_of(task.accesses.begin(), task.accesses.end(), [&](const Access& other) {
+      return other.kind == AccessKind::modifies && other.label->name == access.label->name;
+    });
+    if (writes)
+      complain(task, access, "is read beyond the patch and written by the same task; write another label");
   }
 
   static std::string nearest(const Access& access, const Names& available) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "core/data/buffer.hpp"
 #include "core/data/buffer_pool.hpp"
@@ -125,6 +127,52 @@ TEST(BufferPool, LendsTheSmallestThatIsLargeEnough) {
   EXPECT_EQ(pool.allocations(), 3u);
 }
 
+TEST(BufferPool, TakesAFreeBufferForOneThatGrows) {
+  BufferPool pool;
+  Buffer other, large, small;
+  pool.reserve(other, 2'000'000);
+  pool.reserve(large, 2'000'000);
+  pool.takeBack(large);
+  pool.reserve(small, 800'000);
+  small.data()[799'999] = std::byte{42};
+
+  pool.reserve(small, 1'900'000, 800'000);
+
+  EXPECT_EQ(pool.allocations(), 3u);
+  EXPECT_EQ(small.data()[799'999], std::byte{42});
+}
+
+TEST(BufferPool, HoldsNoMoreThanItsBoundHoweverSizesChange) {
+  constexpr std::size_t variables = 8, largest = 1'300'000;
+  std::mt19937 generator(1);
+  BufferPool pool;
+  for (int step = 0; step < 200; ++step) {
+    pool.beginStep();
+    std::vector<Buffer> held(variables);
+    for (Buffer& variable : held) {
+      const std::size_t bytes = 100'000 + generator() % 900'000;
+      pool.reserve(variable, bytes);
+      pool.reserve(variable, bytes + generator() % 300'000, bytes);
+      ASSERT_LE(pool.free() + pool.lent(), pool.bound());
+    }
+    for (Buffer& variable : held) pool.takeBack(variable);
+    ASSERT_LE(pool.free() + pool.lent(), pool.bound());
+    ASSERT_LE(pool.bound(), (variables + 1) * largest * 3 / 2);
+  }
+  EXPECT_EQ(pool.lent(), 0u);
+}
+
+TEST(BufferPool, GivesUpWhatAWholeStepDidNotNeed) {
+  BufferPool pool;
+  Buffer buffer;
+  pool.reserve(buffer, 1'000'000);
+  pool.takeBack(buffer);
+  pool.beginStep();
+  EXPECT_GT(pool.free(), 0u) << "the step may still ask for it";
+  pool.beginStep();
+  EXPECT_EQ(pool.free(), 0u);
+}
+
 /// A set on a grid of 5 x 4 x 3 cells, some without particles.
 ParticleSet someCells(const grid::Level& level) {
   ParticleSet set;
@@ -166,7 +214,7 @@ TEST(ParticleSet, IsEmptyAfterAReset) {
 
   grid::forEach<3>(level.cells(), [&](const Index3& cell) { EXPECT_TRUE(set.in(cell).empty()); });
   set.forEachOccupied<3>(level.cells(), [](const Index3&, const ParticleRange&) { ADD_FAILURE(); });
-  EXPECT_EQ(set.total(), 0);
+  EXPECT_TRUE(set.hasNone());
 }
 
 TEST(View, RefusesWhatIsOutsideNamingTheLabel) {

@@ -46,8 +46,8 @@ double errorOfSine(int cells) {
   for (int k = 0; k < steps; ++k) run.step(step);
   Norm error;
   for (const Patch& patch : run.level.patches()) {
-    const auto& held = run.warehouse.variable(data::Generation::old, run.table.find("c.temperature", -1), patch.id());
-    const auto* values = reinterpret_cast<const double*>(held.values.data());
+    const auto held = run.warehouse.variable(data::Generation::old, run.table.find("c.temperature", -1), patch.id());
+    const auto* values = reinterpret_cast<const double*>(held.values);
     forEach<3>(patch.cells(), [&](const Index3& cell) {
       double exact = std::exp(-D * M_PI * M_PI * end);
       for (int d = 0; d < D; ++d) exact *= std::sin(M_PI * (cell[d] + 0.5) / cells);

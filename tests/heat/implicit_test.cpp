@@ -47,8 +47,8 @@ std::vector<double> after(const grid::Domain& domain, const Settings& settings, 
   for (int k = 0; k < steps; ++k) run.step(step);
   std::vector<double> temperature;
   for (const Patch& patch : run.level.patches()) {
-    const auto& held = run.warehouse.variable(data::Generation::old, run.table.find("c.temperature", -1), patch.id());
-    const auto* values = reinterpret_cast<const double*>(held.values.data());
+    const auto held = run.warehouse.variable(data::Generation::old, run.table.find("c.temperature", -1), patch.id());
+    const auto* values = reinterpret_cast<const double*>(held.values);
     forEach<3>(patch.cells(), [&](const Index3& cell) { temperature.push_back(values[held.stored.offset(cell)]); });
   }
   return temperature;

@@ -50,7 +50,7 @@ std::map<ParticleId, double> made(const Gas& gas, int patches) {
   std::map<ParticleId, double> positions;
   for (int patch = 0; patch < patches; ++patch) {
     const auto read = [&](const char* name) {
-      return run.warehouse.variable(data::Generation::old, run.table.find(name, 0), patch).values.data();
+      return run.warehouse.variable(data::Generation::old, run.table.find(name, 0), patch).values;
     };
     for (int k = 0; k < run.warehouse.particles(data::Generation::old, 0, patch).owned(); ++k) {
       const double x = reinterpret_cast<const double*>(read("p.x"))[k];

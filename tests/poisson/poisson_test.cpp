@@ -58,8 +58,8 @@ Solved solved(const grid::Domain& domain, const Settings& settings, const std::s
   Norm error;
   std::map<std::uint64_t, double> found;
   for (const Patch& patch : run.level.patches()) {
-    const auto& held = run.warehouse.variable(data::Generation::old, run.table.find("c.phi", -1), patch.id());
-    const auto* values = reinterpret_cast<const double*>(held.values.data());
+    const auto held = run.warehouse.variable(data::Generation::old, run.table.find("c.phi", -1), patch.id());
+    const auto* values = reinterpret_cast<const double*>(held.values);
     forEach<3>(patch.cells(), [&](const Index3& cell) {
       Vec3 x = Vec3::Zero();
       for (int d = 0; d < D; ++d) x[d] = run.level.nodePosition(d, cell[d]) + run.level.spacing(d) / 2;

@@ -26,8 +26,8 @@ std::vector<double> gathered(data::Warehouse& warehouse, const std::string& labe
   const bool ofParticles = label.front() == 'p';
   const int number = warehouse.table().find(label, ofParticles ? 0 : -1);
   for (const grid::Patch& patch : level.patches()) {
-    const data::Variable& held = warehouse.variable(Generation::old, number, patch.id());
-    const auto* values = reinterpret_cast<const double*>(held.values.data());
+    const data::Variable held = warehouse.variable(Generation::old, number, patch.id());
+    const auto* values = reinterpret_cast<const double*>(held.values);
     grid::forEach<3>(patch.cells(), [&](const Index3& cell) {
       double* into = &field[level.cellNumber<3>(cell) * wide];
       std::fill_n(into, width, 0.0);

@@ -34,6 +34,7 @@ void write(const Patch&, CellView<double>) {}
 void readWrite(const Patch&, CellView<const double>, CellView<double>) {}
 void writeX(const Patch&, const Material&, ParticleView<Vec<1>>) {}
 void readMass(const Patch&, const Material&, ParticleView<const double>, CellView<double>) {}
+void change(const Patch&, const Material&, ParticleView<const double>, ParticleView<double>) {}
 void makeX(const Patch&, const Material&, ParticleMaker&, std::vector<Vec<1>>&) {}
 
 std::string complaint(const TaskList& list, const Names& state = {}) {
@@ -83,6 +84,19 @@ TEST(Validate, RefusesTwoProducersAndUseWithAndWithoutAMaterial) {
             "task second: c.a is computed a second time; use modifies to change it\n"
             "task third: c.a is used both with and without a material; use two labels\n"
             "task third: c.a is computed a second time; use modifies to change it");
+}
+
+TEST(Validate, RefusesATaskThatChangesParticlesWhichItsNeighboursRead) {
+  const auto complaintAbout = [](int ghost) {
+    TaskList list;
+    list.perMaterial("weigh", change, gas, requiresOld(mass), computes(mass));
+    list.perMaterial("smooth", change, gas, requiresNew(mass, ghost), modifies(mass));
+    return complaint(list, {"p.mass"});
+  };
+
+  EXPECT_EQ(complaintAbout(0), "");
+  EXPECT_EQ(complaintAbout(1),
+            "task smooth: p.mass is read beyond the patch and written by the same task; write another label");
 }
 
 TEST(Validate, LetsTasksReadWhatARelocationBroughtAlong) {

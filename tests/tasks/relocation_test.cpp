@@ -112,9 +112,9 @@ std::pair<std::map<ParticleId, Vec<D>>, double> wanderFor(int steps, const Index
   std::map<ParticleId, Vec<D>> positions;
   for (int patch = 0; patch < run.warehouse.patches(); ++patch) {
     const auto* ids = reinterpret_cast<const ParticleId*>(
-        run.warehouse.variable(Generation::old, run.table.find("p.particleID", 0), patch).values.data());
+        run.warehouse.variable(Generation::old, run.table.find("p.particleID", 0), patch).values);
     const auto* at = reinterpret_cast<const Vec<D>*>(
-        run.warehouse.variable(Generation::old, run.table.find("p.x", 0), patch).values.data());
+        run.warehouse.variable(Generation::old, run.table.find("p.x", 0), patch).values);
     for (int p = 0; p < run.warehouse.particles(Generation::old, 0, patch).owned(); ++p) positions[ids[p]] = at[p];
   }
   return {positions, errors};

@@ -66,7 +66,7 @@ class Tube {
       for (int patch = 0; patch < run.warehouse.patches(); ++patch) {
         const auto owned = static_cast<std::size_t>(run.warehouse.particles(Generation::old, 0, patch).owned());
         const auto& values = run.warehouse.variable(Generation::old, run.table.find(label, 0), patch).values;
-        bytes.append(reinterpret_cast<const char*>(values.data()), 8 * owned);
+        bytes.append(reinterpret_cast<const char*>(values), 8 * owned);
       }
     return bytes;
   }

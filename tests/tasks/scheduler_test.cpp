@@ -47,6 +47,28 @@ void checkGhosts(const Patch&, CellView<const double> cells, NodeView<const doub
 }
 
 template <int D>
+void fillOwnNodes(const Patch&, NodeView<double> field) {
+  forEach<D>(field.box(), [&](const Index<D>& node) { field[node] = numberOf(wide(node)); });
+}
+
+/// Of nodes that each patch writes as far as they are its own; and how many were written.
+template <int D>
+std::pair<double, std::size_t> differingOwnNodes(const Index3& resolution, const Index3& patches, int nodesBeyond = 0) {
+  grid::Domain domain = test::domain(resolution, patches);
+  domain.nodesBeyond = nodesBeyond;
+  test::Runner run(domain, 2);
+  TaskList list;
+  list.perPatch("fillCells", fillCells<D>, computes(number));
+  list.perPatch("fillOwnNodes", fillOwnNodes<D>, computesOwn(nodeNumber));
+  list.perPatch("check", checkGhosts<D>, requiresNew(number), requiresNew(nodeNumber, 1), computes(wrong));
+  TaskGraph graph = run.compile(list, {"wrong"});
+  run.step(graph);
+  std::size_t written = 0;
+  for (const Patch& patch : run.level.patches()) written += run.level.ownNodes(patch.id()).size();
+  return {run.warehouse.reductionValues(run.table.find("wrong", -1)).at(0), written};
+}
+
+template <int D>
 double differingGhosts(const Index3& resolution, const Index3& patches, int width, int threads = 1) {
   test::Runner run(test::domain(resolution, patches), threads);
   TaskList list;
@@ -73,6 +95,14 @@ TEST(Scheduler, FillsGhostCellsAndNodesFromTheirOwnersCornersIncluded) {
     EXPECT_EQ(differingGhosts<3>({{3, 3, 3}}, {{3, 3, 3}}, width), 0);
     EXPECT_EQ(differingGhosts<2>({{9, 7, 1}}, {{3, 2, 1}}, width, 4), 0);
   }
+}
+
+TEST(Scheduler, SharesTheNodesThatOnePatchOfARankWritesForAll) {
+  EXPECT_EQ(differingOwnNodes<1>({{20, 1, 1}}, {{7, 1, 1}}), std::pair(0.0, std::size_t{21}));
+  EXPECT_EQ(differingOwnNodes<2>({{9, 7, 1}}, {{3, 2, 1}}), std::pair(0.0, std::size_t{10 * 8}));
+  EXPECT_EQ(differingOwnNodes<3>({{5, 4, 6}}, {{3, 2, 2}}), std::pair(0.0, std::size_t{6 * 5 * 7}));
+  EXPECT_EQ(differingOwnNodes<3>({{9, 8, 6}}, {{3, 2, 2}}, 1), std::pair(0.0, std::size_t{12 * 11 * 9}));
+  EXPECT_EQ(differingOwnNodes<2>({{3, 3, 1}}, {{3, 3, 1}}, 1).first, 0) << "patches as thin as the layers beyond the grid";
 }
 
 TEST(Scheduler, SumsToTheSameBitsOnAnyThreads) {
@@ -126,8 +156,8 @@ TEST(Scheduler, HandsTheNewStateToTheNextStepAsOld) {
   run.step(step);
 
   const int last = run.level.patches().back().id();
-  const data::Variable& held = run.warehouse.variable(data::Generation::old, run.table.find("c.number", -1), last);
-  const auto* values = reinterpret_cast<const double*>(held.values.data());
+  const data::Variable held = run.warehouse.variable(data::Generation::old, run.table.find("c.number", -1), last);
+  const auto* values = reinterpret_cast<const double*>(held.values);
   EXPECT_EQ(values[held.stored.offset({{7, 0, 0}})], 4 * numberOf({{7, 0, 0}}));
 }
 
@@ -148,8 +178,8 @@ TEST(Scheduler, TellsTaskPatchStepAndTimeOfANumericalErrorAndKeepsTheOldState) {
     EXPECT_STREQ(error.what(), "c.number became nan (task fail, patch 1, step 7, time 0.5 s)");
     EXPECT_EQ(error.advice(), "less");
   }
-  const data::Variable& held = run.warehouse.variable(data::Generation::old, run.table.find("c.number", -1), 0);
-  EXPECT_EQ(reinterpret_cast<const double*>(held.values.data())[0], numberOf({{0, 0, 0}}));
+  const data::Variable held = run.warehouse.variable(data::Generation::old, run.table.find("c.number", -1), 0);
+  EXPECT_EQ(reinterpret_cast<const double*>(held.values)[0], numberOf({{0, 0, 0}}));
 }
 
 TEST(Scheduler, TurnsAnyOtherExceptionIntoATaskError) {

@@ -135,7 +135,7 @@ void SolidMpm<Shape>::scheduleInterpolateParticlesToGrid(TaskList& tasks, Reads 
                     when(!keeps_stress_ || Shape::deforms, stressed(p::deformationMeasure, reach)),
                     when(keeps_stress_, stressed(p::volume, reach)), when(keeps_stress_, stressed(p::stress, reach)),
                     when(isViscous(), stressed(p::viscosity, reach)),
-                    when(isLoaded(), requiresNew(p::externalForce<D>, reach)), computes(g::record));
+                    when(isLoaded(), requiresNew(p::externalForce<D>, reach)), computesOwn(g::record));
   if constexpr (!Shape::deforms && !Shape::axisymmetric)
     if (problem_.method.affine)
       tasks.perMaterial("mpm::addAffineVelocity", addAffineVelocity<Shape>, problem_.materials, with(problem_.method),
@@ -206,7 +206,7 @@ void SolidMpm<Shape>::scheduleMeasureWork(TaskList& tasks, Reads shaped) const {
   tasks.perMaterial("mpm::measureWork", measureWork<Shape>, problem_.materials, with(problem_.method.commonSize),
                     requiresOld(delT), requiresOld(p::x<D>), when(keepsSizes(), requiresOld(p::size<D>)),
                     requiresOld(p::mass), when(Shape::deforms, shaped(p::deformationMeasure, 0)),
-                    when(isLoaded(), requiresNew(p::externalForce<D>)), requiresNew(g::workRecord, Shape::storedNodes),
+                    when(isLoaded(), requiresNew(p::externalForce<D>)), requiresNew(g::workRecord, Shape::ghostNodes),
                     requiresOld(p::work), computes(p::work));
 }
 template <class Shape>
@@ -229,7 +229,7 @@ void SolidMpm<Shape>::scheduleUpdateParticles(TaskList& tasks) const {
   const bool hasState = state_size_ > 0;
   tasks.perMaterial(
       "mpm::interpolateToParticlesAndUpdate", interpolateToParticlesAndUpdate<Shape>, problem_.materials,
-      with(problem_.method), with(state_size_), requiresOld(delT), requiresNew(g::record, Shape::storedNodes),
+      with(problem_.method), with(state_size_), requiresOld(delT), requiresNew(g::record, Shape::ghostNodes),
       requiresOld(p::x<D>), when(keepsSizes(), requiresOld(p::size<D>)), requiresOld(p::velocity<D>),
       requiresOld(p::mass), requiresOld(p::deformationMeasure), when(is_thermal_, requiresOld(p::temperature)),
       when(keeps_stress_, requiresOld(p::volume)), when(keeps_stress_, requiresOld(p::stress)),
@@ -254,7 +254,7 @@ template <class Shape>
 template <class Reads>
 void SolidMpm<Shape>::scheduleMoveParticles(TaskList& tasks, Reads shaped) const {
   tasks.perMaterial("mpm::interpolateToParticlesAndUpdate", moveParticles<Shape>, problem_.materials,
-                    with(problem_.method), requiresOld(delT), requiresNew(g::record, Shape::storedNodes),
+                    with(problem_.method), requiresOld(delT), requiresNew(g::record, Shape::ghostNodes),
                     requiresOld(p::x<D>), when(keepsSizes(), requiresOld(p::size<D>)), requiresOld(p::velocity<D>),
                     when(Shape::deforms, shaped(p::deformationMeasure, 0)), computes(p::x<D>), computes(p::velocity<D>));
 }
@@ -265,7 +265,7 @@ template <class Reads>
 void SolidMpm<Shape>::scheduleVelocityUpdate(TaskList& tasks, Reads shaped) const {
   const auto shape = when(Shape::deforms, shaped(p::deformationMeasure, 0));
   const auto sizes = when(keepsSizes(), requiresOld(p::size<D>));
-  const auto record = requiresNew(g::record, Shape::storedNodes);
+  const auto record = requiresNew(g::record, Shape::ghostNodes);
   const auto& [materials, method] = std::tie(problem_.materials, problem_.method);
   if (method.picFraction > 0)
     tasks.perMaterial("mpm::blendVelocity", blendVelocity<Shape>, materials, with(method), record, requiresOld(p::x<D>),
@@ -277,9 +277,9 @@ void SolidMpm<Shape>::scheduleVelocityUpdate(TaskList& tasks, Reads shaped) cons
     tasks.perMaterial("mpm::computeSPlusSSPlusVp", interpolateMomentum<Shape>, materials, with(method.commonSize),
                       requiresOld(p::x<D>, reach), when(keepsSizes(), requiresOld(p::size<D>, reach)),
                       requiresOld(p::mass, reach), when(Shape::deforms, shaped(p::deformationMeasure, reach)),
-                      requiresNew(p::smoothVelocity<D>, reach), computes(g::smoothRecord));
+                      requiresNew(p::smoothVelocity<D>, reach), computesOwn(g::smoothRecord));
     tasks.perMaterial("mpm::applyXpic", applyXpic<Shape>, materials, with(method), requiresOld(delT),
-                      requiresNew(g::smoothRecord, Shape::storedNodes), requiresOld(p::x<D>), sizes, shape,
+                      requiresNew(g::smoothRecord, Shape::ghostNodes), requiresOld(p::x<D>), sizes, shape,
                       requiresOld(p::velocity<D>), requiresNew(p::smoothVelocity<D>), modifies(p::x<D>),
                       modifies(p::velocity<D>));
   }
@@ -298,7 +298,7 @@ void SolidMpm<Shape>::scheduleInterpolateMomentum(TaskList& tasks, Reads moving)
                     with(problem_.method.commonSize), requiresOld(p::x<D>, reach),
                     when(keepsSizes(), requiresOld(p::size<D>, reach)), requiresOld(p::mass, reach),
                     when(Shape::deforms, requiresOld(p::deformationMeasure, reach)), moving(p::velocity<D>, reach),
-                    computes(g::stressRecord));
+                    computesOwn(g::stressRecord));
   if (!problem_.contacts.empty())
     tasks.acrossMaterials("mpm::exMomOfStresses", exMomOfStresses<D>, problem_.materials, with(problem_.contacts),
                           startTime(), modifies(g::stressRecord));
@@ -315,7 +315,7 @@ void SolidMpm<Shape>::scheduleComputeStressTensor(TaskList& tasks, const NodeLab
                                                  : computeStressTensor<Shape, Volumes::own>;
   tasks.perMaterial(
       "mpm::computeStressTensor", body, problem_.materials, with(problem_.method),
-      with(state_size_), requiresOld(delT), requiresNew(record, Shape::storedNodes), requiresOld(p::x<D>),
+      with(state_size_), requiresOld(delT), requiresNew(record, Shape::ghostNodes), requiresOld(p::x<D>),
       when(keepsSizes(), requiresOld(p::size<D>)), requiresOld(p::velocity<D>), requiresOld(p::mass),
       requiresOld(p::deformationMeasure), when(is_thermal_, requiresOld(p::temperature)),
       when(keeps_stress_, requiresOld(p::volume)), when(keeps_stress_, requiresOld(p::stress)),

@@ -99,6 +99,21 @@ class TouchedRows {
   std::vector<std::pair<int, int>> touched_;
 };
 
+/// The records as one sees them from a node, which may lie beyond those that are stored.
+template <class Record, int D>
+NodeWindow<Record, D> windowFrom(const NodeView<Record>& records, const Index<D>& first) {
+  const Box& stored = records.stored();
+  NodeWindow<Record, D> window;
+  std::ptrdiff_t at = 0, stride = 1;
+  for (int d = 0; d < D; ++d) {
+    window.stride[static_cast<std::size_t>(d)] = stride;
+    at += (first[d] - stored.lower[d]) * stride;
+    stride *= stored.extent(d);
+  }
+  window.origin = records.values() + at;
+  return window;
+}
+
 /// The records that a stencil touches. Throws AccessError in the dev preset where some are not stored.
 template <class Record, class Stencil, int D = Stencil::dimension>
 NodeWindow<Record, D> windowOf(const NodeView<Record>& records, const Stencil& stencil) {
@@ -109,15 +124,7 @@ NodeWindow<Record, D> windowOf(const NodeView<Record>& records, const Stencil& s
     if (!stored.contains(stencil.first) || !stored.contains(last))
       throw data::AccessError("a particle touches nodes beyond those that are stored");
   }
-  NodeWindow<Record, D> window;
-  std::ptrdiff_t at = 0, stride = 1;
-  for (int d = 0; d < D; ++d) {
-    window.stride[static_cast<std::size_t>(d)] = stride;
-    at += (stencil.first[d] - stored.lower[d]) * stride;
-    stride *= stored.extent(d);
-  }
-  window.origin = records.values() + at;
-  return window;
+  return windowFrom(records, stencil.first);
 }
 
 }  // namespace tushar::mpm::solid

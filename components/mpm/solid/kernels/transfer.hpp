@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -61,6 +62,44 @@ template <class Stencil, int D = Stencil::dimension>
     for (std::size_t i = 0; i < Stencil::nodes; ++i) {
       row[i].low = multiplyAdd(s[i], low, row[i].low);
       row[i].high = multiplyAdd(s[i], high, multiplyAdd(ds[i], change, row[i].high));
+      if constexpr (Stencil::axisymmetric) row[i].high = multiplyAdd(stencil.hoop[i], round, row[i].high);
+    }
+  });
+}
+
+/// The same, with the same bits, for those nodes of a stencil that lie within a box; `origin` is where the record of the
+/// first node would stand, stored or not.
+template <class Stencil, int D = Stencil::dimension>
+inline void scatterWithin(const Stencil& stencil, const Box& box, const NodeWindow<Octet, D>& nodes, const Octet& value,
+                          const std::array<Quad, Stencil::dimension>& slope, const Quad& hoop = Quad{}) {
+  Box part{{}, Index3::filled(1)};  // of the stencil, counted from its first node
+  for (int d = 0; d < D; ++d) {
+    part.lower[d] = std::max(0, box.lower[d] - stencil.first[d]);
+    part.upper[d] = std::min(Stencil::nodes, box.upper[d] - stencil.first[d]);
+  }
+  const auto begin = static_cast<std::size_t>(part.lower[0]);
+  const auto end = static_cast<std::size_t>(std::max(part.lower[0], part.upper[0]));
+  forEach<3>(part.rowStarts(), [&](const Index3& at) {
+    const auto j = static_cast<std::size_t>(at[1]), k = static_cast<std::size_t>(at[2]);
+    RowFactors f = quadOf(1.0);
+    std::ptrdiff_t offset = 0;
+    if constexpr (D > 1) {
+      f = __builtin_shufflevector(stencil.s[j], stencil.ds[j], 1, 5, 1, 1);
+      offset += at[1] * nodes.stride[1];
+    }
+    if constexpr (D > 2) {
+      f = f * __builtin_shufflevector(stencil.s[k], stencil.ds[k], 2, 2, 6, 2);
+      offset += at[2] * nodes.stride[2];
+    }
+    const Quad share = spread<0>(f), low = share * value.low, change = share * slope[0], round = share * hoop;
+    Quad high = share * value.high;
+    if constexpr (D > 1) high = multiplyAdd(spread<1>(f), slope[1], high);
+    if constexpr (D > 2) high = multiplyAdd(spread<2>(f), slope[2], high);
+    Octet* row = nodes.origin + offset;
+    for (std::size_t i = begin; i < end; ++i) {
+      row[i].low = multiplyAdd(spread<0>(stencil.s[i]), low, row[i].low);
+      row[i].high =
+          multiplyAdd(spread<0>(stencil.s[i]), high, multiplyAdd(spread<0>(stencil.ds[i]), change, row[i].high));
       if constexpr (Stencil::axisymmetric) row[i].high = multiplyAdd(stencil.hoop[i], round, row[i].high);
     }
   });

@@ -7,13 +7,15 @@ namespace tushar::mpm::solid {
 
 // Shape functions along an axis, in units of the cell width: `xi` in [0,1] is where the particle stands in its cell,
 // `size` its extent. Each fills the values and derivatives at consecutive nodes and returns the first node's number,
-// where 0 is the lower node of the cell. A Real is a number, or a Quad of one for each axis, for all axes at once.
+// where 0 is the lower node of the cell. A Real is a number, or a Quad of one for each axis, for all axes at once. No
+// particle touches a node that is `support` cells away or more.
 
 /// Piecewise linear ("tent") functions.
 struct LinearAxis {
   static constexpr int nodes = 2;
   static constexpr int ghostNodes = 0;  ///< nodes beyond those of the cell that a particle touches
   static constexpr bool hasSize = false;
+  static double support(double) { return 1; }
 
   template <class Real>
   [[gnu::always_inline]] static Real fill(const Real& xi, const Real&, std::array<Real, nodes>& s,
@@ -31,6 +33,7 @@ struct GimpAxis {
   static constexpr int nodes = 3;
   static constexpr int ghostNodes = 1;
   static constexpr bool hasSize = true;
+  static double support(double size) { return 1 + 0.5 * size; }
 
   template <class Real>
   [[gnu::always_inline]] static Real fill(const Real& xi, const Real& size, std::array<Real, nodes>& s,
@@ -62,6 +65,7 @@ struct QuadraticAxis {
   static constexpr int nodes = 3;
   static constexpr int ghostNodes = 1;
   static constexpr bool hasSize = false;
+  static double support(double) { return 1.5; }
 
   template <class Real>
   [[gnu::always_inline]] static Real fill(const Real& xi, const Real&, std::array<Real, nodes>& s,
@@ -79,6 +83,7 @@ struct CubicAxis {
   static constexpr int nodes = 4;
   static constexpr int ghostNodes = 1;
   static constexpr bool hasSize = false;
+  static double support(double) { return 2; }
 
   template <class Real>
   [[gnu::always_inline]] static Real fill(const Real& xi, const Real&, std::array<Real, nodes>& s,

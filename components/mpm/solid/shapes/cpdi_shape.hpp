@@ -17,10 +17,15 @@ namespace tushar::mpm::solid {
 template <int D>
 struct CpdiShape {
   static constexpr int dimension = D;
-  static constexpr int ghostNodes = 1, reach = 1 + ghostNodes, storedNodes = ghostNodes + reach;
+  static constexpr int ghostNodes = 1, reach = 1 + ghostNodes;
   static constexpr bool hasSize = true;
   static constexpr bool deforms = true;
   static constexpr bool axisymmetric = false;
+
+  /// How far a particle reaches along each axis, in cells.
+  static Vec<D> support(const Extent<D>& extent) {
+    return (1 + extent.halfEdges.cwiseAbs().rowwise().sum().array().min(1.0)).matrix();
+  }
 
   struct Stencil {
     static constexpr int dimension = D;
@@ -129,6 +134,31 @@ template <class Stencil, int D = Stencil::dimension>
       cell[offset].low = multiplyAdd(corner.weights[k], low, cell[offset].low);
       cell[offset].high = multiplyAdd(corner.weights[k], high, cell[offset].high);
     });
+  }
+}
+
+/// The same for the nodes of a stencil that lie within a box; `origin` is the record of its first node, stored or not.
+template <class Stencil, int D = Stencil::dimension>
+  requires(Stencil::corners > 0)
+inline void scatterWithin(const Stencil& stencil, const Box& box, const NodeWindow<Octet, D>& nodes, const Octet& value,
+                          const std::array<Quad, Stencil::dimension>& slope, const Quad& = Quad{}) {
+  const Quad low = Stencil::share * value.low, mean = Stencil::share * value.high;
+  for (const auto& corner : stencil.corner) {
+    Quad high = mean;
+    for (std::size_t d = 0; d < D; ++d) high = multiplyAdd(corner.slope[static_cast<int>(d)], slope[d], high);
+    for (std::size_t k = 0; k < (1U << D); ++k) {
+      Index<D> node;
+      std::ptrdiff_t offset = 0;
+      for (std::size_t d = 0; d < D; ++d) {
+        const int upper = (k >> d) & 1U ? 1 : 0, at = corner.cell[static_cast<int>(d)] + upper;
+        node[static_cast<int>(d)] = stencil.first[static_cast<int>(d)] + at;
+        offset += at * nodes.stride[d];
+      }
+      if (!box.contains(node)) continue;
+      Octet& record = nodes.origin[offset];
+      record.low = multiplyAdd(corner.weights[k], low, record.low);
+      record.high = multiplyAdd(corner.weights[k], high, record.high);
+    }
   }
 }
 

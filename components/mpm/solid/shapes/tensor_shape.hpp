@@ -24,11 +24,16 @@ struct TensorShape {
   static constexpr int ghostNodes = Axis::ghostNodes;
   /// Cells beyond a patch whose particles touch its nodes.
   static constexpr int reach = 1 + Axis::ghostNodes;
-  /// Nodes beyond a patch that particles in its own cells and in those within reach touch.
-  static constexpr int storedNodes = Axis::ghostNodes + reach;
   static constexpr bool hasSize = Axis::hasSize;
   static constexpr bool deforms = false;
   static constexpr bool axisymmetric = Axisymmetric;
+
+  /// How far a particle reaches along each axis, in cells: no node touches it that is as far away.
+  static Vec<D> support(const Extent<D>& extent) {
+    Vec<D> reaches;
+    for (int d = 0; d < D; ++d) reaches[d] = Axis::support(extent.size[d]);
+    return reaches;
+  }
 
   /// S_i and its gradient (1/m) at every node i that a particle touches; where axisymmetric, S_i / r (1/m), too.
   struct Stencil {

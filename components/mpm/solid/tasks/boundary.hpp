@@ -5,17 +5,17 @@
 namespace tushar::mpm::solid {
 
 /// Nothing moves through a symmetry plane, and no force acts across: both vectors of a record have no normal component
-/// there, and the nodes beyond it mirror those inside.
+/// there, and the nodes beyond it mirror those inside. On the nodes of the view's box.
 template <int D>
 void setSymmetry(const Patch& patch, int material, NodeView<Octet> record) {
   for (int d = 0; d < D; ++d)
     for (const int side : {0, 1}) {
       if (!patch.isAtBoundary(d, side) || !patch.level().isSymmetry(d, side, material)) continue;
       const int face = side == 0 ? patch.cells().lower[d] : patch.cells().upper[d];
-      forEach<D>(patch.faceNodes(d, side), [&](const Index<D>& node) {
+      forEach<D>(patch.faceNodes(d, side).intersect(record.box()), [&](const Index<D>& node) {
         record[node][lane::velocity + d] = record[node][lane::force + d] = 0;
       });
-      forEach<D>(patch.nodesBeyond(d, side), [&](const Index<D>& node) {
+      forEach<D>(patch.nodesBeyond(d, side).intersect(record.box()), [&](const Index<D>& node) {
         Index<D> image = node;
         image[d] = 2 * face - node[d];
         Octet value = record[image];

@@ -23,7 +23,7 @@ using OptionalView = std::optional<ParticleView<T>>;
 /// The values of a view, or null where there are none.
 template <class T>
 T* valuesOf(const ParticleView<T>& view) {
-  return view.set().total() > 0 ? &view[0] : nullptr;
+  return view.set().hasNone() ? nullptr : view.values();
 }
 template <class T>
 T* valuesOf(const OptionalView<T>& view) {

@@ -46,10 +46,11 @@ void forceMoments(const Material& material, const Sources<Shape>& from, int firs
   }
 }
 
-/// Adds the particles of a cell to the nodes around: m v and m with S_i, -V sigma with its gradient.
-template <class Shape, int D = Shape::dimension>
-void scatterCell(const Level& level, const Material& material, const Sources<Shape>& from, const Index<D>& cell,
-                 int first, int count, const NodeView<Octet>& record) {
+/// Adds particles of a cell to the nodes around, those of the view's box where `isWithin`, else all: m v and m with S_i,
+/// -V sigma with its gradient.
+template <class Shape, bool isWithin, int D = Shape::dimension>
+void scatterGroup(const Level& level, const Material& material, const Sources<Shape>& from, const Index<D>& cell,
+                  int first, int count, const NodeView<Octet>& record) {
   std::array<Matrix3, stressGroup> moments;
   forceMoments(material, from, first, count, moments.data());
   const CellFrame<D> frame(level, cell);
@@ -67,17 +68,55 @@ void scatterCell(const Level& level, const Material& material, const Sources<Sha
       slope[static_cast<std::size_t>(d)] = quadOf<D>(traction, 0);
     }
     const Quad hoop{-moment(2, 2), 0, 0, 0};
-    scatter(stencil, windowOf<Octet>(record, stencil), value, slope, hoop);
+    if constexpr (isWithin)
+      scatterWithin(stencil, record.box(), windowFrom(record, stencil.first), value, slope, hoop);
+    else
+      scatter(stencil, windowOf<Octet>(record, stencil), value, slope, hoop);
   }
 }
 
-/// What particles bring to the nodes of a patch: complete on all that are touched; what is not touched is 0 where
+/// Whether a particle touches a node of a box, or nearly.
+template <class Shape, int D = Shape::dimension>
+bool touches(const CellFrame<D>& frame, const Index<D>& cell, const Vec<D>& x, const Extent<D>& extent, const Box& nodes) {
+  constexpr double rounding = 1e-6;
+  const Vec<D> xi = frame.coordinates(x), support = Shape::support(extent);
+  for (int d = 0; d < D; ++d) {
+    const double at = cell[d] + xi[d], reach = support[d] + rounding;
+    if (at + reach <= nodes.lower[d] || at - reach >= nodes.upper[d] - 1) return false;
+  }
+  return true;
+}
+
+/// The particles of a cell of the patch.
+template <class Shape, int D = Shape::dimension>
+void scatterCell(const Level& level, const Material& material, const Sources<Shape>& from, const Index<D>& cell,
+                 const data::ParticleRange& range, const NodeView<Octet>& record) {
+  for (int at = range.first; at < range.last; at += stressGroup)
+    scatterGroup<Shape, false>(level, material, from, cell, at, std::min(stressGroup, range.last - at), record);
+}
+
+/// The particles of a ghost cell: those that touch the patch's own nodes.
+template <class Shape, int D = Shape::dimension>
+void scatterGhosts(const Level& level, const Material& material, const Sources<Shape>& from, const Index<D>& cell,
+                   const data::ParticleRange& range, const NodeView<Octet>& record) {
+  const CellFrame<D> frame(level, cell);
+  const auto isNear = [&](int p) { return touches<Shape>(frame, cell, from.x[p], from.extents[p], record.box()); };
+  for (int first = range.first; first < range.last;) {
+    while (first < range.last && !isNear(first)) ++first;
+    int end = first;
+    while (end < range.last && end - first < stressGroup && isNear(end)) ++end;
+    if (first < end) scatterGroup<Shape, true>(level, material, from, cell, first, end - first, record);
+    first = end;
+  }
+}
+
+/// What particles bring to the patch's own nodes: complete on all that are touched; what is not touched is 0 where
 /// `clearsAll`, else undefined.
 template <class Shape, int D = Shape::dimension>
 void scatterParticles(const Patch& patch, const Material& material, bool clearsAll, const Sources<Shape>& from,
                       NodeView<Octet> record) {
   const ParticleView<const Vec<D>> x = from.x;
-  const TouchedRows<D> rows(x, x.cells(), Shape::ghostNodes, record.stored());
+  const TouchedRows<D> rows(x, x.cells(), Shape::ghostNodes, record.box());
   if (clearsAll)
     record.fill(Octet{});
   else
@@ -85,8 +124,10 @@ void scatterParticles(const Patch& patch, const Material& material, bool clearsA
       std::fill_n(record.values() + record.stored().offset(first), end - first[0], Octet{});
     });
   x.template forEachOccupied<D>(x.cells(), [&](const Index<D>& cell, const data::ParticleRange& range) {
-    for (int at = range.first; at < range.last; at += stressGroup)
-      scatterCell<Shape>(patch.level(), material, from, cell, at, std::min(stressGroup, range.last - at), record);
+    if (patch.cells().contains(cell))
+      scatterCell<Shape>(patch.level(), material, from, cell, range, record);
+    else
+      scatterGhosts<Shape>(patch.level(), material, from, cell, range, record);
   });
   rows.forEachRow([&](const Index3& first, int end) {
     Octet* node = record.values() + record.stored().offset(first);
@@ -98,7 +139,7 @@ void scatterParticles(const Patch& patch, const Material& material, bool clearsA
 
 /// m_i = sum_p S_i m_p,   v_i = sum_p S_i m_p v_p / m_i,
 /// f_i = sum_p S_i f_p - V_p (sigma_p - q_p I) grad S_i; where axisymmetric, the hoop stress pulls inwards with S_i / r.
-/// Complete on all nodes of the patch that are touched; what is not touched is 0 where `clearsAll`, else undefined.
+/// Complete on all own nodes of the patch that are touched; what is not touched is 0 where `clearsAll`, else undefined.
 template <class Shape, int D = Shape::dimension>
 void interpolateParticlesToGrid(const Patch& patch, const Material& material, const Vec3& commonSize, bool clearsAll,
                                 ParticleView<const Vec<D>> x, OptionalView<const Vec<D>> size,

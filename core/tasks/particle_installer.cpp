@@ -1,0 +1,56 @@
+#include "core/tasks/particle_installer.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace tushar::tasks {
+
+using data::Generation;
+using data::ParticleSet;
+
+ParticleInstaller::ParticleInstaller(data::Warehouse& warehouse, int material, const std::vector<ParticleMaker>& makers)
+    : warehouse_(&warehouse),
+      material_(material),
+      keeps_all_(std::all_of(makers.begin(), makers.end(), [](const ParticleMaker& one) { return one.keepsAll(); })) {}
+
+void ParticleInstaller::makeSets(const OnPatches& onPatches) {
+  onPatches([&](const grid::Patch& patch, ParticleMaker& maker) {
+    ParticleSet& set = warehouse_->particles(Generation::fresh, material_, patch.id());
+    maker.keepsAll() ? set.forgetGhosts() : maker.makeSet(set, patch, warehouse_->table().reach(material_));
+  });
+  warehouse_->layOut(Generation::fresh, material_, Generation::fresh);
+}
+
+template <class WriteOne>
+void ParticleInstaller::writeEach(int number, const OnPatches& onPatches, const WriteOne& writeOne) {
+  if (keeps_all_) return;
+  const data::SharedSlots before = warehouse_->slots(Generation::fresh, number);
+  data::Buffer outgrown = warehouse_->follow(Generation::fresh, number, Generation::fresh);
+  const std::size_t bytes = warehouse_->table()[number].label->bytes;
+  onPatches([&](const grid::Patch& patch, ParticleMaker& maker) {
+    std::byte* to = warehouse_->variable(Generation::fresh, number, patch.id()).values;
+    if (!maker.keepsAll()) return writeOne(maker, to);
+    const int owned = warehouse_->particles(Generation::fresh, material_, patch.id()).owned();
+    if (owned > 0 && outgrown.capacity() > 0)
+      std::memcpy(to, outgrown.data() + before->first[placeOf(patch)] * bytes, static_cast<std::size_t>(owned) * bytes);
+  });
+  warehouse_->takeBack(outgrown);
+}
+
+void ParticleInstaller::write(int number, std::size_t access, bool isRead, const OnPatches& onPatches) {
+  const data::Label& label = *warehouse_->table()[number].label;
+  if (isRead)
+    return writeEach(number, onPatches, [&](ParticleMaker& maker, std::byte* to) {
+      if (maker.creates(access)) maker.write(access, label, to);
+    });
+  onPatches([&](const grid::Patch&, ParticleMaker& maker) {
+    if (maker.creates(access)) maker.drop(access, label);
+  });
+}
+
+void ParticleInstaller::writeIds(const OnPatches& onPatches) {
+  writeEach(warehouse_->table().find(data::particleId.name, material_), onPatches,
+            [](ParticleMaker& maker, std::byte* to) { maker.writeIds(reinterpret_cast<ParticleId*>(to)); });
+}
+
+}  // namespace tushar::tasks

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "core/data/warehouse.hpp"
+#include "core/tasks/particle_maker.hpp"
+
+namespace tushar::tasks {
+
+/// Makes what a task has gathered on all patches of a rank the new particles of a material.
+class ParticleInstaller {
+ public:
+  using Work = std::function<void(const grid::Patch&, ParticleMaker&)>;
+  /// Does work on all patches, perhaps several at once.
+  using OnPatches = std::function<void(const Work&)>;
+
+  ParticleInstaller(data::Warehouse& warehouse, int material, const std::vector<ParticleMaker>& makers);
+
+  /// First the sets, which then have slots.
+  void makeSets(const OnPatches& onPatches);
+  /// Then the values of each label that is created; of one that nobody reads none are kept.
+  void write(int number, std::size_t access, bool isRead, const OnPatches& onPatches);
+  void writeIds(const OnPatches& onPatches);
+
+ private:
+  /// Calls `writeOne(maker, where its values go)` for the patches that have new particles; the others keep their values.
+  template <class WriteOne>
+  void writeEach(int number, const OnPatches& onPatches, const WriteOne& writeOne);
+  std::size_t placeOf(const grid::Patch& patch) const {
+    return static_cast<std::size_t>(patch.id() - warehouse_->level().firstPatch());
+  }
+
+  data::Warehouse* warehouse_;
+  int material_;
+  bool keeps_all_;  ///< on all patches
+};
+
+}  // namespace tushar::tasks
