@@ -7,9 +7,10 @@ namespace tushar {
 namespace {
 volatile std::sig_atomic_t interrupted = 0;
 
-extern "C" void noteInterrupt(int signal) {
+extern "C" void noteInterrupt(int) {
   interrupted = 1;
-  std::signal(signal, SIG_DFL);
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
 }
 }  // namespace
 

@@ -42,6 +42,17 @@ class Interrupt(unittest.TestCase):
             self.assertLess(report["time"], 0.2)
             self.assertIn(f"t{report['steps']:05d}.h5", outputs)
 
+    def test_a_second_signal_of_either_kind_ends_at_once_whatever_the_run_is_at(self):
+        large = "Grid/Level/Box/resolution=[100,100,25]"
+        for options in ((), ("-check",)):
+            with tempfile.TemporaryDirectory() as folder:
+                run = subprocess.Popen([SUS, "ups/mpm/vortex_3d.ups", "--output", folder, "--quiet", "--set", large, *options],
+                                       stdout=subprocess.DEVNULL)
+                for number in (signal.SIGTERM, signal.SIGINT):
+                    time.sleep(0.5)
+                    run.send_signal(number)
+                self.assertLess(run.wait(timeout=5), 0, options)
+
     def folder(self):
         here = Folder()
         self.addCleanup(here.cleanup)
