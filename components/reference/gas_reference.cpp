@@ -44,14 +44,14 @@ class BoxMean {
   }
 
   /// Mean over [a, b], whose Gauss mean is `whole`: halves it for as long as that changes the mean
-  /// over the undivided piece, of which [a, b] is the part 2^-depth.
+  /// over the undivided piece, of which [a, b] is the part 2^-depth. Values too large for a number have no better mean.
   Fields adaptive(int axis, const Vec3& x, double a, double b, const Fields& whole, int depth) const {
     const double middle = 0.5 * (a + b);
     const Fields left = gauss(axis, x, a, middle);
     const Fields right = gauss(axis, x, middle, b);
     const Fields both = 0.5 * (left + right);
     const bool agree = ((both - whole).abs() <= std::ldexp(kTolerance, depth) * sizes(left, right)).all();
-    if (agree || depth == kMostHalvings || middle <= a || middle >= b) return both;
+    if (agree || !both.allFinite() || depth == kMostHalvings || middle <= a || middle >= b) return both;
     return 0.5 * (adaptive(axis, x, a, middle, left, depth + 1) + adaptive(axis, x, middle, b, right, depth + 1));
   }
 

@@ -68,6 +68,10 @@ void SimpleWave::checkProfile() const {
       throw std::invalid_argument(
           fmt::format("The velocity {} of the simple wave at x = {} leaves no positive sound speed.", u, x));
     }
+    if (!std::isfinite(stateOf(u).pressure)) {
+      throw std::invalid_argument(
+          fmt::format("The velocity {} of the simple wave at x = {} makes a pressure beyond all numbers.", u, x));
+    }
   }
 }
 
@@ -130,9 +134,13 @@ GasState SimpleWave::at(const Vec3& x, double t) const {
     throw std::domain_error(
         fmt::format("The simple wave breaks at t = {}: it has no smooth solution at t = {}.", breakingTime_, t));
   }
+  return stateOf(problem_.velocity(foot(x[problem_.axis], t)));
+}
+
+/// Where the velocity is `u`.
+GasState SimpleWave::stateOf(double u) const {
   const double gamma = problem_.gamma;
   const double c0 = problem_.soundSpeed;
-  const double u = problem_.velocity(foot(x[problem_.axis], t));
   const double ratio = 1 + 0.5 * (gamma - 1) * u / c0;
   GasState gas;
   gas.density = problem_.density * std::pow(ratio, 2 / (gamma - 1));

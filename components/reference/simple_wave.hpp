@@ -45,6 +45,7 @@ class SimpleWave : public GasReference {
   double signalSpeed(double start) const;
   double signalSlope(double start) const;
   void checkProfile() const;
+  GasState stateOf(double u) const;
   double findBreakingTime() const;
   double steepestFall() const;
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 namespace tushar::reference {
 namespace {
@@ -35,6 +36,19 @@ TEST(GasReference, SplitsAtDeclaredBreaks) {
 
 TEST(GasReference, FindsKinksThatAreNotDeclared) {
   EXPECT_NEAR(Polynomial().average(Vec3(0, 0, 0), Vec3(1, 0, 0), 0).energy, (0.49 + 0.09) / 2, 1e-12);
+}
+
+TEST(GasReference, HasNoFiniteMeanOfValuesBeyondAllNumbers) {
+  class Huge : public GasReference {
+   public:
+    GasState at(const Vec3& x, double) const override {
+      GasState gas;
+      gas.pressure = x[0] < 0.3 ? std::numeric_limits<double>::infinity() : 1;
+      return gas;
+    }
+  };
+
+  EXPECT_FALSE(std::isfinite(Huge().average(Vec3(0, 0, 0), Vec3(1, 1, 1), 0).pressure)) << "and says so at once";
 }
 
 TEST(GasReference, TakesAnAxisWithoutExtentAsAPoint) {

@@ -57,6 +57,13 @@ TEST(SimpleWave, FollowsCharacteristicsCloseToBreaking) {
   }
 }
 
+TEST(SimpleWave, RefusesAVelocityThatMakesAPressureBeyondAllNumbers) {
+  SimpleWaveProblem problem;
+  problem.velocity = [](double) { return 1e308; };
+
+  EXPECT_THROW(SimpleWave{problem}, std::invalid_argument);
+}
+
 TEST(SimpleWave, SolvesTheGasEquations) {
   const SimpleWave wave(bumpProblem());
   const double d = 1e-4;
