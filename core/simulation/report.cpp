@@ -167,6 +167,7 @@ std::string toJson(const Report& report) {
   json["particles"] = report.particles;
   json["particles_dropped"] = report.dropped;
   json["particle_steps_per_second"] = report.wallLoop > 0 ? report.particleSteps / report.wallLoop : 0;
+  json["memory"] = {{"resident", report.memory.now}, {"peak", report.memory.peak}};
   json["wall"] = wallOf(report);
   json["errors"] = errorsOf(report);
   json["unmeasured"] = report.unmeasured;

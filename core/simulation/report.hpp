@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/memory.hpp"
 #include "core/simulation/balance.hpp"
 #include "core/simulation/time_use.hpp"
 #include "core/tasks/prune.hpp"
@@ -55,6 +56,7 @@ struct Report {
   std::string ended;  ///< why: maxTime, max_Timesteps, max_wall_time, interrupted, failed
   std::string failure, advice;  ///< of a run that failed: the value that cannot be, and what to try
   double particleSteps = 0;
+  ResidentMemory memory;  ///< after the last step, of the rank that has most
   double wallStartup = 0, wallLoop = 0, wallOutput = 0;  ///< s
   TimeUse use;
   Rebalancing rebalancing;

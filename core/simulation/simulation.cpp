@@ -291,8 +291,10 @@ std::string Simulation::whyEnded() const {
 }
 
 Report Simulation::makeReport() {
+  const ResidentMemory memory = residentMemory();
   warehouse_.releaseFreeMemory();
   Report report;
+  report.memory = {ranks_->max(memory.now), ranks_->max(memory.peak)};
   report.scene = problem_.scenePath;
   report.title = problem_.title;
   report.component = problem_.componentName;

@@ -26,11 +26,11 @@ class Result:
         self.report, self.files = report, files
 
 
-def run(scene, *sets, options=("--quiet",), outputs=False):
+def run(scene, *sets, options=("--quiet",), outputs=False, ranks=1):
     """Runs a scene with overrides; without `outputs` only the totals are kept."""
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder, "report.json")
-        command = [SUS, str(scene), *options, "--output", folder, "--json", str(path)]
+        command = [*on_ranks(ranks), SUS, str(scene), *options, "--output", folder, "--json", str(path)]
         for override in sets if outputs else ("DataArchiver/outputInterval=0", *sets):
             command += ["--set", override]
         done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=300)

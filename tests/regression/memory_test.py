@@ -1,0 +1,73 @@
+#!/usr/bin/env python3
+"""No run takes more memory the longer it lasts: every component and both kinds of particles, in one, two and three
+dimensions, on several patches and ranks."""
+import pathlib
+import sys
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from sus import run
+
+FEW, MANY = 50, 400
+MOST = 1.05  # times the memory after few steps
+
+BOX = "Grid/Level/Box"
+LINE = (f"{BOX}/resolution=[200,1,1]",)
+PLANE = (f"{BOX}/resolution=[40,6,1]", f"{BOX}/upper=[1,.15,1]")
+SPACE = (f"{BOX}/resolution=[16,4,4]", f"{BOX}/upper=[1,.25,.25]")
+SMALL_SPACE = (f"{BOX}/resolution=[12,12,4]",)
+SPHERES = (f"{BOX}/resolution=[12,12,12]",)
+GIMP, CPDI = "MPM/interpolator=gimp", "MPM/interpolator=cpdi"
+
+# Scene, overrides, layout of patches.
+CASES = {
+    "burgers": ("ups/burgers/sine.ups", LINE, "4x1x1"),
+    "heat": ("ups/heat/sine.ups", PLANE, "4x2x1"),
+    "implicit heat": ("ups/heat/implicit.ups", (), None),
+    "euler in 1-D": ("ups/euler/sod.ups", LINE, "4x1x1"),
+    "euler in 2-D": ("ups/euler/vortex.ups", (f"{BOX}/resolution=[24,24,1]",), "3x2x1"),
+    "euler in 3-D": ("ups/euler/vortex_3d.ups", SMALL_SPACE, "2x2x2"),
+    "gas in 1-D": ("ups/mpm/sod.ups", LINE, "4x1x1"),
+    "gas in 2-D": ("ups/mpm/sod.ups", PLANE, "4x2x1"),
+    "gas in 3-D": ("ups/mpm/sod.ups", SPACE, "4x2x2"),
+    "redistributed gas": ("ups/mpm/sod_redistribute.ups", PLANE, "4x2x1"),
+    "conserving gas in 1-D": ("ups/mpm/smooth_wave_conserving.ups", (), "4x1x1"),
+    "conserving gas in 2-D": ("ups/mpm/vortex.ups", (f"{BOX}/resolution=[20,20,1]",), "3x2x1"),
+    "conserving gas in 3-D": ("ups/mpm/vortex_3d.ups", SMALL_SPACE, "2x2x2"),
+    "solids in 1-D": ("ups/solid/riemann.ups", (), "4x1x1"),
+    "solids in 2-D": ("ups/solid/two_discs.ups", (), "3x2x1"),
+    "solids in 3-D": ("tests/benchmark/spheres.ups", SPHERES, "2x2x2"),
+    "solids in 3-D, GIMP": ("tests/benchmark/spheres.ups", (*SPHERES, GIMP), "3x2x2"),
+    "solids in 3-D, CPDI": ("tests/benchmark/spheres.ups", (*SPHERES, CPDI), "2x2x3"),
+}
+
+
+class Memory(unittest.TestCase):
+    def after(self, steps, name, ranks):
+        scene, sets, layout = CASES[name]
+        options = ("--quiet", *(("-layout", layout) if layout else ()))
+        ends = ("Time/maxTime=1e9", f"Time/max_Timesteps={steps}")
+        result = run(scene, *sets, *ends, options=options, ranks=ranks)
+        self.assertIsNotNone(result.report, result.err)
+        self.assertEqual(result.report["steps"], steps, result.err)
+        return result.report["memory"]["resident"]
+
+    def check(self, ranks):
+        for name in CASES:
+            with self.subTest(name, ranks=ranks):
+                few, many = self.after(FEW, name, ranks), self.after(MANY, name, ranks)
+                self.assertGreater(few, 0)
+                self.assertLessEqual(many / few, MOST, f"{few / 1e6:.1f} MB after {FEW} steps, {many / 1e6:.1f} MB after {MANY}")
+
+    def test_on_several_patches(self):
+        self.check(1)
+
+    def test_on_two_ranks(self):
+        self.check(2)
+
+    def test_on_three_ranks(self):
+        self.check(3)
+
+
+if __name__ == "__main__":
+    unittest.main()
