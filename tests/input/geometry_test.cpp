@@ -34,13 +34,16 @@ void expectBounds(const GeometryPiece& piece, const Vec3& min, const Vec3& max) 
   EXPECT_TRUE(piece.bounds().max.isApprox(max)) << piece.bounds().max.transpose();
 }
 
-TEST(Geometry, BoxHoldsItsLowerButNotItsUpperFaces) {
+TEST(Geometry, BoxHoldsItsFacesAndOwnsTheLower) {
   const PiecePtr piece = pieceOf(box("[0,0,0]", "[1,2,3]"));
 
   EXPECT_TRUE(piece->contains({0, 0, 0}));
   EXPECT_TRUE(piece->contains({0.9, 1.9, 2.9}));
-  EXPECT_FALSE(piece->contains({1, 1, 1}));
+  EXPECT_TRUE(piece->contains({1, 2, 3}));
+  EXPECT_FALSE(piece->contains({std::nextafter(1, 2), 1, 1}));
   EXPECT_FALSE(piece->contains({0.5, -0.1, 1}));
+  EXPECT_TRUE(piece->owns({0, 0, 0}));
+  EXPECT_FALSE(piece->owns({1, 1, 1}));
   expectBounds(*piece, {0, 0, 0}, {1, 2, 3});
 }
 
@@ -52,12 +55,15 @@ TEST(Geometry, SphereHoldsItsSurface) {
   expectBounds(*piece, {0.5, 0.5, 0.5}, {1.5, 1.5, 1.5});
 }
 
-TEST(Geometry, CylinderHoldsItsBottomButNotItsTop) {
+TEST(Geometry, CylinderHoldsItsEndsAndOwnsItsBottom) {
   const PiecePtr piece = pieceOf("<cylinder><bottom>[0,0,1]</bottom><top>[0,0,3]</top><radius>1</radius></cylinder>");
 
   EXPECT_TRUE(piece->contains({1, 0, 1}));
-  EXPECT_FALSE(piece->contains({0, 0, 3}));
+  EXPECT_TRUE(piece->contains({1, 0, 3}));
+  EXPECT_FALSE(piece->contains({0, 0, 3.0001}));
   EXPECT_FALSE(piece->contains({0.8, 0.8, 2}));
+  EXPECT_TRUE(piece->owns({1, 0, 1}));
+  EXPECT_FALSE(piece->owns({0, 0, 3}));
   expectBounds(*piece, {-1, -1, 1}, {1, 1, 3});
 }
 
@@ -67,6 +73,8 @@ TEST(Geometry, ConeNarrowsTowardsItsTop) {
       "cone>");
 
   EXPECT_TRUE(piece->contains({2, 1, 0}));
+  EXPECT_TRUE(piece->contains({4, 0, 0}));
+  EXPECT_FALSE(piece->owns({4, 0, 0}));
   EXPECT_FALSE(piece->contains({2, 1.01, 0}));
   expectBounds(*piece, {0, -2, -2}, {4, 2, 2});
 }
@@ -75,6 +83,8 @@ TEST(Geometry, EllipsoidHasRadiiAlongTheAxes) {
   const PiecePtr piece = pieceOf("<ellipsoid><origin>[0,0,0]</origin><rx>1</rx><ry>2</ry><rz>3</rz></ellipsoid>");
 
   EXPECT_TRUE(piece->contains({0, 2, 0}));
+  EXPECT_TRUE(piece->contains({0, 2 * (1 + 4e-13), 0}));
+  EXPECT_FALSE(piece->contains({0, 2 * (1 + 6e-13), 0}));
   EXPECT_FALSE(piece->contains({0.8, 1.3, 0}));
   expectBounds(*piece, {-1, -2, -3}, {1, 2, 3});
 }
@@ -94,7 +104,10 @@ TEST(Geometry, ParallelepipedIsSheared) {
 
   EXPECT_TRUE(piece->contains({1.2, 0.5, 0.5}));
   EXPECT_FALSE(piece->contains({0.2, 0.5, 0.5}));
-  EXPECT_FALSE(piece->contains({0, 0, 1}));
+  EXPECT_TRUE(piece->contains({1.5, 1, 1}));
+  EXPECT_FALSE(piece->contains({0.5, 0.25, 0}));
+  EXPECT_TRUE(piece->owns({0.5, 0.25, 0}));
+  EXPECT_FALSE(piece->owns({1.5, 1, 1}));
   expectBounds(*piece, {0, 0, 0}, {2, 1, 1});
 }
 
@@ -103,7 +116,8 @@ TEST(Geometry, TorusHasAHole) {
       "<torus><center>[0,0,0]</center><major_radius>2</major_radius><minor_radius>0.5</minor_radius><axis>z</axis></"
       "torus>");
 
-  EXPECT_TRUE(piece->contains({0, 2.5, 0}));
+  EXPECT_TRUE(piece->contains({0, 2.49, 0}));
+  EXPECT_FALSE(piece->contains({0, 2.5, 0}));
   EXPECT_FALSE(piece->contains({0, 0, 0}));
   EXPECT_FALSE(piece->contains({2, 0, 0.6}));
   expectBounds(*piece, {-2.5, -2.5, -0.5}, {2.5, 2.5, 0.5});
@@ -125,6 +139,9 @@ TEST(Geometry, DifferenceTakesTheSecondFromTheFirst) {
 
   EXPECT_TRUE(piece->contains({0.5, 1, 1}));
   EXPECT_FALSE(piece->contains({1.5, 1, 1}));
+  EXPECT_FALSE(piece->contains({1, 1, 1}));
+  EXPECT_TRUE(piece->contains({0.5, 2, 2}));
+  EXPECT_FALSE(piece->owns({0.5, 2, 2}));
   expectBounds(*piece, {0, 0, 0}, {2, 2, 2});
 }
 

@@ -82,6 +82,11 @@ TEST(CreateParticles, GivesTheSameIdsOnAnyPatches) {
   for (const int patches : {2, 7, 10}) EXPECT_EQ(made(gas, patches), reference);
 }
 
+TEST(CreateParticles, GivesAPlaceOnASharedFaceToTheUpperBody) {
+  EXPECT_EQ(made(gasOf({{"[0,-1,-1]", "[0.25,2,2]"}, {"[0.25,-1,-1]", "[2,2,2]"}}, 1), 1).size(), 10u);
+  EXPECT_EQ(made(gasOf({{"[0,-1,-1]", "[0.25,2,2]"}}, 1), 1).size(), 2u);
+}
+
 TEST(CreateParticles, DrawsAPlaceInEachPartOfACellWhereJittered) {
   Gas gas = gasOf({{"[0,-1,-1]", "[2,2,2]"}}, 4);
   gas.objects[0].placement = Placement::jittered;

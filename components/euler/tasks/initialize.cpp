@@ -8,7 +8,7 @@ namespace {
 
 const GasObject& objectAt(const Settings& settings, const Vec3& point) {
   for (auto object = settings.objects.rbegin(); object != settings.objects.rend(); ++object)
-    if (object->shape->contains(point)) return *object;
+    if (object->shape->owns(point)) return *object;
   throw InputError({{settings.where, "Euler",
                      fmt::format("no geom_object contains the middle of the cell at ({:g}, {:g}, {:g}); every cell "
                                  "needs a gas at the start",
@@ -23,7 +23,7 @@ void checkObjects(const Level& level, const Settings& settings) {
     const input::Box3 bounds = object.shape->bounds();
     bool found = false;
     forEach<D>(level.cellsNear(bounds.min, bounds.max), [&](const Index<D>& cell) {
-      found = found || object.shape->contains(level.expandPoint<D>(level.cellCentre<D>(cell)));
+      found = found || object.shape->owns(level.expandPoint<D>(level.cellCentre<D>(cell)));
     });
     if (!found)
       problems.push_back({object.where, "Euler/geom_object", "its shape contains the middle of no cell of the grid"});

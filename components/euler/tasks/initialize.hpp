@@ -5,7 +5,7 @@
 
 namespace tushar::euler {
 
-/// The state of the last object that contains the middle of each cell, there.
+/// The state of the last object that owns the middle of each cell (a face belongs to the object above it), there.
 /// Throws InputError for objects that contain none, where no object does, and where density or p + p_inf is not
 /// positive or the state not finite.
 template <int D>

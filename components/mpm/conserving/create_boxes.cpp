@@ -13,7 +13,7 @@ bool isUniform(const GasObject& object) {
 
 const GasObject& objectAt(const Gas& gas, const Vec3& point) {
   for (const GasObject& object : gas.objects)
-    if (object.shape->contains(point)) return object;
+    if (object.shape->owns(point)) return object;
   return gas.objects.front();
 }
 

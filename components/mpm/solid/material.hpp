@@ -19,6 +19,18 @@ struct Body {
   double color = 0;
 };
 
+/// Where the k-th particle of a cell starts, m, rounded as Uintah rounds it: a point on a face of the shape is inside or not
+/// by its last digit.
+template <int D>
+Vec3 placeOf(const Level& level, const Body& body, const Index<D>& cell, const Index<D>& k) {
+  Vec<D> at;
+  for (int d = 0; d < D; ++d) {
+    const double apart = level.spacing(d) / body.particlesPerCell[level.axis(d)];
+    at[d] = (level.nodePosition(d, cell[d]) + apart * 0.5) + apart * k[d];
+  }
+  return level.expandPoint<D>(at);
+}
+
 /// A material: how it answers to being deformed, and the bodies made of it.
 struct Material {
   std::string name;

@@ -12,7 +12,7 @@ double drawn(int seed, std::uint64_t cellNumber, int place, int axis) {
 
 void refuseOverlap(const Gas& gas, const GasObject& object, const Vec3& point) {
   for (const GasObject& other : gas.objects)
-    if (&other != &object && other.shape->contains(point))
+    if (&other != &object && other.shape->owns(point))
       throw InputError({{object.where, "geom_object",
                          fmt::format("overlaps the geom_object at {}: both contain the point ({:g}, {:g}, {:g})",
                                      other.where.text(), point[0], point[1], point[2])}});

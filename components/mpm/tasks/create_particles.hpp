@@ -58,7 +58,7 @@ void checkBodies(const Level& level, const Gas& gas) {
       if (found) return;
       place = before;
       forEachPlace<D>(level, object, cell, place, [&](const Vec<D>& at) {
-        found = found || object.shape->contains(level.expandPoint<D>(at));
+        found = found || object.shape->owns(level.expandPoint<D>(at));
       });
     });
     if (!found) problems.push_back(emptyBody(level, object));
@@ -68,7 +68,7 @@ void checkBodies(const Level& level, const Gas& gas) {
 }
 
 /// Fills each body with its particles: `particlesPerCell` along each axis, in the middle of equal parts of the cell,
-/// x_p = (c + (k + 1/2) / N) h, or where the body's `placement` puts them, if that point is inside the shape. They
+/// x_p = (c + (k + 1/2) / N) h, or where the body's `placement` puts them, if its shape owns that point. They
 /// start with the body's state there.
 ///
 /// The id of a particle is its cell's number and its place in the cell, so that it does not depend on the patches.
@@ -84,7 +84,7 @@ void createParticles(const Patch& patch, const Gas& gas, ParticleMaker& maker, s
     for (const GasObject& object : gas.objects) {
       forEachPlace<D>(level, object, cell, place, [&](const Vec<D>& at) {
         const Vec3 point = level.expandPoint<D>(at);
-        if (!object.shape->contains(point)) return;
+        if (!object.shape->owns(point)) return;
         refuseOverlap(gas, object, point);
         maker.add(cell, idOf<D>(level, cell, inCell++, object.where));
         const double rho = object.density(point), p = object.pressure(point);

@@ -8,6 +8,10 @@ bool Union::contains(const Vec3& point) const {
   return std::any_of(pieces_.begin(), pieces_.end(), [&](const PiecePtr& piece) { return piece->contains(point); });
 }
 
+bool Union::owns(const Vec3& point) const {
+  return std::any_of(pieces_.begin(), pieces_.end(), [&](const PiecePtr& piece) { return piece->owns(point); });
+}
+
 Box3 Union::bounds() const {
   Box3 box = pieces_.front()->bounds();
   for (const PiecePtr& piece : pieces_) box = box.hull(piece->bounds());
@@ -16,6 +20,10 @@ Box3 Union::bounds() const {
 
 bool Intersection::contains(const Vec3& point) const {
   return std::all_of(pieces_.begin(), pieces_.end(), [&](const PiecePtr& piece) { return piece->contains(point); });
+}
+
+bool Intersection::owns(const Vec3& point) const {
+  return std::all_of(pieces_.begin(), pieces_.end(), [&](const PiecePtr& piece) { return piece->owns(point); });
 }
 
 Box3 Intersection::bounds() const {

@@ -19,6 +19,7 @@ class Union : public GeometryPiece {
   /// At least one piece.
   explicit Union(std::vector<PiecePtr> pieces) : pieces_(std::move(pieces)) {}
   bool contains(const Vec3& point) const override;
+  bool owns(const Vec3& point) const override;
   Box3 bounds() const override;
 
  private:
@@ -31,17 +32,19 @@ class Intersection : public GeometryPiece {
   /// At least one piece.
   explicit Intersection(std::vector<PiecePtr> pieces) : pieces_(std::move(pieces)) {}
   bool contains(const Vec3& point) const override;
+  bool owns(const Vec3& point) const override;
   Box3 bounds() const override;
 
  private:
   std::vector<PiecePtr> pieces_;
 };
 
-/// Inside the first piece and outside of the second.
+/// Inside the first piece and outside of the second, whose faces so are no part of it.
 class Difference : public GeometryPiece {
  public:
   Difference(PiecePtr from, PiecePtr taken) : from_(std::move(from)), taken_(std::move(taken)) {}
   bool contains(const Vec3& point) const override { return from_->contains(point) && !taken_->contains(point); }
+  bool owns(const Vec3& point) const override { return from_->owns(point) && !taken_->owns(point); }
   Box3 bounds() const override { return from_->bounds(); }
 
  private:

@@ -72,7 +72,7 @@ void checkParallelepiped(const Parallelepiped& shape, const Element& element, Di
 }  // namespace
 
 const Schema<Box>& Box::schema() {
-  static const Schema<Box> schema = shapeSchema<Box>("box", "A box along the axes, without its upper faces.")
+  static const Schema<Box> schema = shapeSchema<Box>("box", "A box along the axes.")
                                         .required("min", &Box::min, "m", "lower corner")
                                         .required("max", &Box::max, "m", "upper corner")
                                         .check(checkBox);
@@ -103,8 +103,8 @@ const Schema<Ellipsoid>& Ellipsoid::schema() {
 const Schema<Cone>& Cone::schema() {
   static const Schema<Cone> schema =
       shapeSchema<Cone>("cone", "A cone, or what is left of one whose tip is cut off.")
-          .required("bottom", &Cone::bottom, "m", "centre of one end, which belongs to it")
-          .required("top", &Cone::top, "m", "centre of the other end, which does not")
+          .required("bottom", &Cone::bottom, "m", "centre of one end")
+          .required("top", &Cone::top, "m", "centre of the other end")
           .required("bottom_radius", &Cone::bottomRadius, "m", "radius at the bottom", nonNegative())
           .required("top_radius", &Cone::topRadius, "m", "radius at the top", nonNegative())
           .check(checkCone);
@@ -114,8 +114,8 @@ const Schema<Cone>& Cone::schema() {
 const Schema<Cylinder>& Cylinder::schema() {
   static const Schema<Cylinder> schema =
       shapeSchema<Cylinder>("cylinder", "A circular cylinder in any direction.")
-          .required("bottom", &Cylinder::bottom, "m", "centre of one end, which belongs to it")
-          .required("top", &Cylinder::top, "m", "centre of the other end, which does not")
+          .required("bottom", &Cylinder::bottom, "m", "centre of one end")
+          .required("top", &Cylinder::top, "m", "centre of the other end")
           .required("radius", &Cylinder::radius, "m", "its radius", positive())
           .value("cylinder_end", &Cylinder::cylinderEnd, false, "", "a pressure acts on its end, not on its side")
           .value("axisymmetric_end", &Cylinder::axisymmetricEnd, false, "", "the same in an axisymmetric scene")

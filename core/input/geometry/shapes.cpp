@@ -1,5 +1,6 @@
 #include "core/input/geometry/shapes.hpp"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -21,7 +22,7 @@ double height(const Vec3& point, const Vec3& bottom, const Vec3& top) {
   return (point - bottom).dot(axis) / axis.squaredNorm();
 }
 
-bool inFrustum(const Vec3& point, const Vec3& bottom, const Vec3& top, double bottomRadius, double topRadius) {
+bool ownedByFrustum(const Vec3& point, const Vec3& bottom, const Vec3& top, double bottomRadius, double topRadius) {
   const double s = height(point, bottom, top);
   if (s < 0 || s >= 1) return false;
   const double radius = bottomRadius + s * (topRadius - bottomRadius);
@@ -36,6 +37,10 @@ Box3 frustumBounds(const Vec3& bottom, const Vec3& top, double bottomRadius, dou
 }  // namespace
 
 bool Box::contains(const Vec3& point) const {
+  return (point.array() >= min.array()).all() && (point.array() <= max.array()).all();
+}
+
+bool Box::owns(const Vec3& point) const {
   return (point.array() >= min.array()).all() && (point.array() < max.array()).all();
 }
 
@@ -54,7 +59,7 @@ std::array<Vec3, 3> Ellipsoid::semiAxes() const {
 bool Ellipsoid::contains(const Vec3& point) const {
   double sum = 0;
   for (const Vec3& axis : semiAxes()) sum += std::pow((point - origin).dot(axis) / axis.squaredNorm(), 2);
-  return sum <= 1;
+  return sum - 1 < 1e-12;
 }
 
 Box3 Ellipsoid::bounds() const {
@@ -64,10 +69,23 @@ Box3 Ellipsoid::bounds() const {
   return {origin - half, origin + half};
 }
 
-bool Cone::contains(const Vec3& point) const { return inFrustum(point, bottom, top, bottomRadius, topRadius); }
+bool Cone::contains(const Vec3& point) const {
+  const double s = height(point, bottom, top);
+  if (s < 0 || s > 1) return false;
+  return (point - (bottom * (1 - s) + top * s)).norm() <= bottomRadius * (1 - s) + topRadius * s;
+}
+
+bool Cone::owns(const Vec3& point) const { return ownedByFrustum(point, bottom, top, bottomRadius, topRadius); }
 Box3 Cone::bounds() const { return frustumBounds(bottom, top, bottomRadius, topRadius); }
 
-bool Cylinder::contains(const Vec3& point) const { return inFrustum(point, bottom, top, radius, radius); }
+bool Cylinder::contains(const Vec3& point) const {
+  const Vec3 axis = top - bottom, offset = point - bottom;
+  const double along = offset.dot(axis), length2 = axis.squaredNorm();
+  if (along < 0 || along > length2) return false;
+  return axis.cross(offset).squaredNorm() / length2 <= radius * radius;
+}
+
+bool Cylinder::owns(const Vec3& point) const { return ownedByFrustum(point, bottom, top, radius, radius); }
 Box3 Cylinder::bounds() const { return frustumBounds(bottom, top, radius, radius); }
 
 Eigen::Matrix<double, 3, 3, Eigen::DontAlign> Parallelepiped::edges() const {
@@ -77,6 +95,11 @@ Eigen::Matrix<double, 3, 3, Eigen::DontAlign> Parallelepiped::edges() const {
 }
 
 bool Parallelepiped::contains(const Vec3& point) const {
+  const Vec3 along = edges().inverse() * (point - p1);
+  return (along.array() > 0).all() && (along.array() <= 1).all();
+}
+
+bool Parallelepiped::owns(const Vec3& point) const {
   const Vec3 along = edges().inverse() * (point - p1);
   return (along.array() >= 0).all() && (along.array() < 1).all();
 }
@@ -98,7 +121,7 @@ bool Torus::contains(const Vec3& point) const {
   const Vec3 offset = point - center;
   const double h = offset.dot(direction());
   const double d = std::sqrt(std::max(0.0, offset.squaredNorm() - h * h));
-  return (majorRadius - d) * (majorRadius - d) + h * h <= minorRadius * minorRadius;
+  return (majorRadius - d) * (majorRadius - d) + h * h < minorRadius * minorRadius;
 }
 
 Box3 Torus::bounds() const {

@@ -7,15 +7,17 @@
 
 namespace tushar::input {
 
-// Flat faces are half-open, as those of cells: a point on the lower face (bottom, p1) is inside, one on the upper face
-// is not, so that abutting pieces never share a particle. Round surfaces belong to the piece.
+// `contains` takes faces as Uintah does, with its formulas in its order, so that rounding decides alike: those of boxes,
+// cylinders, cones and spheres belong to them, of a parallelepiped only the far ones, of a torus none; an ellipsoid's
+// reaches 1e-12 (of the sum) beyond it. `owns` leaves out the flat upper faces (max, top, far from p1), as those of cells.
 
-/// min <= p < max along each axis.
+/// min <= p <= max along each axis.
 struct Box : GeometryPiece {
   Vec3 min = Vec3::Zero();
   Vec3 max = Vec3::Zero();
 
   bool contains(const Vec3& point) const override;
+  bool owns(const Vec3& point) const override;
   Box3 bounds() const override { return {min, max}; }
   static const Schema<Box>& schema();
 };
@@ -30,7 +32,7 @@ struct Sphere : GeometryPiece {
   static const Schema<Sphere>& schema();
 };
 
-/// Sum over its semi-axes v of ((p - origin).v / v.v)^2 <= 1; the semi-axes are perpendicular.
+/// Sum over its semi-axes v of ((p - origin).v / v.v)^2 < 1 + 1e-12; the semi-axes are perpendicular.
 struct Ellipsoid : GeometryPiece {
   Vec3 origin = Vec3::Zero();
   std::optional<double> rx, ry, rz;  ///< along the axes of space …
@@ -42,7 +44,7 @@ struct Ellipsoid : GeometryPiece {
   static const Schema<Ellipsoid>& schema();
 };
 
-/// With s from 0 at the bottom to 1 at the top: 0 <= s < 1 and distance from the axis <= radius(s), which is linear.
+/// With s from 0 at the bottom to 1 at the top: 0 <= s <= 1 and distance from the axis <= radius(s), which is linear.
 struct Cone : GeometryPiece {
   Vec3 bottom = Vec3::Zero();
   Vec3 top = Vec3::Zero();
@@ -50,6 +52,7 @@ struct Cone : GeometryPiece {
   double topRadius = 0;
 
   bool contains(const Vec3& point) const override;
+  bool owns(const Vec3& point) const override;
   Box3 bounds() const override;
   static const Schema<Cone>& schema();
 };
@@ -64,12 +67,13 @@ struct Cylinder : GeometryPiece {
   bool axisymmetricSide = false;
 
   bool contains(const Vec3& point) const override;
+  bool owns(const Vec3& point) const override;
   Box3 bounds() const override;
   static const Schema<Cylinder>& schema();
 };
 
 /// The corner p1 and the three corners next to it; p = p1 + a (p2 - p1) + b (p3 - p1) + c (p4 - p1) with a, b and c
-/// at least 0 and below 1.
+/// above 0 and at most 1.
 struct Parallelepiped : GeometryPiece {
   Vec3 p1 = Vec3::Zero();
   Vec3 p2 = Vec3::Zero();
@@ -79,11 +83,12 @@ struct Parallelepiped : GeometryPiece {
   /// The edges from p1, one per column.
   Eigen::Matrix<double, 3, 3, Eigen::DontAlign> edges() const;
   bool contains(const Vec3& point) const override;
+  bool owns(const Vec3& point) const override;
   Box3 bounds() const override;
   static const Schema<Parallelepiped>& schema();
 };
 
-/// (R - d)^2 + h^2 <= r^2 with d the distance from the axis and h that from the plane of the ring.
+/// (R - d)^2 + h^2 < r^2 with d the distance from the axis and h that from the plane of the ring.
 struct Torus : GeometryPiece {
   Vec3 center = Vec3::Zero();
   double majorRadius = 0;  ///< R, of the ring

@@ -46,10 +46,7 @@ void forEachParticle(const grid::Level& level, const Body& body, Visit&& visit) 
   for (int d = 0; d < D; ++d) places.upper[d] = body.particlesPerCell[level.axis(d)];
   grid::forEach<D>(level.cells(), [&](const Index<D>& cell) {
     grid::forEach<D>(places, [&](const Index<D>& k) {
-      Vec<D> at;
-      for (int d = 0; d < D; ++d)
-        at[d] = level.nodePosition(d, 0) + (cell[d] + (k[d] + 0.5) / places.upper[d]) * level.spacing(d);
-      const Vec3 point = level.expandPoint<D>(at);
+      const Vec3 point = placeOf<D>(level, body, cell, k);
       if (body.shape->contains(point)) visit(point);
     });
   });
@@ -83,18 +80,22 @@ double areaOf(const Surface& surface) {
                     surface);
 }
 
-bool isAlong(const Surface& surface, const Vec3& point, const Vec3& spacing) {
+bool isAlong(const Surface& surface, const Vec3& point, const Vec3& spacing, bool forHeat) {
   return std::visit(
       Overloaded{[&](const input::Box& box) {
-                   Vec3 more = Vec3::Zero();
-                   more[thinAxis(box)] = spacing[thinAxis(box)];
-                   return ((point - box.min + more).array() >= 0).all() && ((box.max + more - point).array() > 0).all();
+                   Vec3 more = spacing;
+                   if (!forHeat) more = spacing[thinAxis(box)] * Vec3::Unit(thinAxis(box));
+                   input::Box around;
+                   around.min = box.min - more;
+                   around.max = box.max + more;
+                   return around.contains(point);
                  },
                  [&](const input::Cylinder& c) {
                    const CylinderPlace place(c, point);
-                   const double near = 0.9 * spacing.minCoeff(), height = (c.top - c.bottom).norm();
-                   if (isEnd(c)) return place.height >= -near && place.height < height + near && place.radius <= c.radius;
-                   return place.height >= 0 && place.height < height && std::abs(place.radius - c.radius) <= near;
+                   const double end = 1.2 * spacing.minCoeff(), side = forHeat ? 0.5 * spacing.norm() : end;
+                   const double height = (c.top - c.bottom).norm();
+                   if (isEnd(c)) return place.height >= -end && place.height <= height + end && place.radius <= c.radius;
+                   return place.height >= 0 && place.height <= height && std::abs(place.radius - c.radius) <= side;
                  },
                  [&](const input::Sphere& s) {
                    return std::abs((point - s.origin).norm() - s.radius) <= spacing.norm();
@@ -111,9 +112,11 @@ Vec3 normalAt(const Surface& surface, const Vec3& point) {
                     surface);
 }
 
-bool SurfaceLoad::acts(const Body& body, const Vec3& point, const Vec3& spacing) const {
-  if (!isAlong(surface, point, spacing)) return false;
-  for (int d = 0; d < 3; ++d)
+bool SurfaceLoad::acts(const grid::Level& level, const Body& body, const Vec3& point) const {
+  const Vec3 spacing = particleSpacing(level, body);
+  if (!isAlong(surface, point, spacing, kind == Kind::heatFlux)) return false;
+  const int axes = level.domain().resolution[2] > 1 ? 3 : 2;
+  for (int d = 0; d < axes; ++d)
     for (const double side : {-1.0, 1.0})
       if (!body.shape->contains(point + side * spacing[d] * Vec3::Unit(d))) return true;
   return false;
@@ -153,9 +156,8 @@ void countParticles(const grid::Level& level, const std::vector<Material>& mater
     for (std::size_t m = 0; m < materials.size(); ++m) {
       if (load.material >= 0 && load.material != static_cast<int>(m)) continue;
       for (const Body& body : materials[m].bodies) {
-        const Vec3 spacing = particleSpacing(level, body);
         const auto count = [&](const Vec3& point) {
-          if (load.acts(body, point, spacing)) load.particles += load.weight(point);
+          if (load.acts(level, body, point)) load.particles += load.weight(point);
         };
         if (level.dimension() == 1) forEachParticle<1>(level, body, count);
         if (level.dimension() == 2) forEachParticle<2>(level, body, count);

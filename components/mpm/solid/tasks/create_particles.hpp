@@ -24,8 +24,8 @@ struct Start {
 
 /// The numbers of the loads on a particle, 1 for the first, packed as p.loadCurveID says. Throws InputError where there are
 /// more than three.
-inline int loadsOn(const Start& start, const Material& material, const Body& body, const Vec3& point,
-                   const Vec3& spacing) {
+inline int loadsOn(const Level& level, const Start& start, const Material& material, const Body& body,
+                   const Vec3& point) {
   int ids = 0, factor = 1, number = 0;
   const auto addIf = [&](bool acts) {
     ++number;
@@ -39,7 +39,8 @@ inline int loadsOn(const Start& start, const Material& material, const Body& bod
     factor *= 256;
   };
   for (const SurfaceLoad& load : start.loads.surfaces)
-    addIf((load.material < 0 || load.material == material.index) && load.acts(body, point, spacing));
+    addIf((load.material < 0 || load.material == material.index) && load.acts(level, body, point));
+  const Vec3 spacing = particleSpacing(level, body);
   for (const BodyLoad& load : start.loads.bodies) addIf(load.acts(point, spacing));
   return ids;
 }
@@ -51,8 +52,9 @@ struct NewParticles {
   std::vector<double>&mass, &temperature, &color;
   std::vector<int>& loads;
 
-  void add(const Level& level, const Start& start, const Material& material, const Body& body, const Vec<D>& at,
-           const Vec<D>& extent) {
+  /// At `at`, m; where Uintah's rounding has it, `place` says whether loads act there.
+  void add(const Level& level, const Start& start, const Material& material, const Body& body, const Vec3& place,
+           const Vec<D>& at, const Vec<D>& extent) {
     const Vec3 point = level.expandPoint<D>(at);
     x.push_back(at);
     velocity.push_back(level.reduce<D>(body.velocity(point)));
@@ -67,7 +69,7 @@ struct NewParticles {
                                      point[0], point[1], point[2], mass.back(), start.leastMass)}});
     temperature.push_back(body.temperature(point));
     color.push_back(body.color);
-    loads.push_back(loadsOn(start, material, body, point, particleSpacing(level, body)));
+    loads.push_back(loadsOn(level, start, material, body, place));
     if (start.solution) deform(level, start, material, point);
   }
 
@@ -87,7 +89,8 @@ struct NewParticles {
 };
 
 /// Fills each body with its particles, `particlesPerCell` along each axis in the middle of equal parts of a cell, where
-/// that point is inside the shape. Bodies may overlap, as in Uintah.
+/// the shape contains that point. As in Uintah, bodies may overlap, and of two that share a face on which such points lie
+/// each has particles there.
 ///
 /// The id of a particle is its cell's number and its place in the cell, so that it does not depend on the patches.
 template <int D>
@@ -114,7 +117,8 @@ void actuallyInitialize(const Patch& patch, const Material& material, ParticleMa
         Vec<D> at;
         for (int d = 0; d < D; ++d)
           at[d] = level.nodePosition(d, 0) + (cell[d] + (k[d] + 0.5) * extent[d]) * level.spacing(d);
-        if (!body.shape->contains(level.expandPoint<D>(at))) return;
+        const Vec3 place = placeOf<D>(level, body, cell, k);
+        if (!body.shape->contains(place)) return;
         const ParticleId id = idOf<D>(level, cell, inCell++, body.where);
         Index<D> home = cell;
         if (start.solution) {
@@ -123,7 +127,7 @@ void actuallyInitialize(const Patch& patch, const Material& material, ParticleMa
         }
         if (!patch.cells().contains(home)) return;
         maker.add(home, id);
-        particles.add(level, start, material, body, at, extent);
+        particles.add(level, start, material, body, place, at, extent);
       });
     }
   });
