@@ -41,6 +41,8 @@ struct Material {
   double meltTemperature = 0;      ///< K
   double roomTemperature = 0;      ///< K
   double thermalConductivity = 0;  ///< W/(m K)
+  bool isRigid = false;            ///< its stress exerts no force
+  bool transmitsForce = false;     ///< it moves as a rigid whole, by the sum of the forces on it
   Damage damage;
   Erosion erosion;
   std::vector<Body> bodies;

@@ -126,8 +126,7 @@ const Schema<Body>& bodySchema() {
 
 /// Tags of Uintah's in a material that change nothing here, and those that are missing.
 void acceptUintahsTags(Schema<Material>& tags) {
-  for (const char* tag : {"is_rigid", "is_force_transmitting_material", "possible_alpha_material"})
-    tags.ignored(tag, "a <contact> of type rigid or specified makes a body its master");
+  tags.ignored("possible_alpha_material", "belongs to the contact friction_LR");
   for (const char* tag : {"water_density", "porosity", "permeability", "initial_pore_pressure"})
     tags.ignored(tag, "belongs to coupled_flow_analysis");
   tags.ignored("heat_transfer_coefficient", "with <thermal_contact> materials share one temperature at a node");
@@ -149,6 +148,12 @@ const Schema<Material>& materialSchema() {
                "temperature at which it melts; it never does where none is given, as in Uintah", input::positive())
         .value("room_temp", &Material::roomTemperature, 294, "K", "temperature of the constants of damage",
                input::nonNegative())
+        .value("is_rigid", &Material::isRigid, false, "1",
+               "explicit steps: its stress exerts no force, and its velocities go by FLIP also with XPIC2; in implicit steps "
+               "bodies are rigid that a <contact> of type rigid or specified makes its master")
+        .value("is_force_transmitting_material", &Material::transmitsForce, false, "1",
+               "explicit steps: it moves as a rigid whole, by the sum of the loads on it and of what <contact> of type rigid or "
+               "specified, whose master it is, takes from others; gravity, damping and sides of the grid do not act on it")
         .custom("constitutive_model", readModel, {"constitutive_model"}, "how it answers to being deformed",
                 describeModels)
         .custom("damage_model", readDamage, {"damage_model", "erosion"}, "how it fails, and what it bears then",

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "components/mpm/solid/schedule_contact.hpp"
 #include "components/mpm/solid/schedule_heat.hpp"
 #include "components/mpm/solid/solid_mpm.hpp"
 #include "components/mpm/solid/tasks/affine.hpp"
@@ -178,10 +179,7 @@ void SolidMpm<Shape>::scheduleIntegrateAcceleration(TaskList& tasks) const {
   tasks.perMaterial("mpm::computeAndIntegrateAcceleration", computeAndIntegrateAcceleration<Shape>, problem_.materials,
                     with(problem_.method), requiresOld(p::x<D>, Shape::reach), requiresOld(delT), modifies(g::record));
   scheduleKeepVelocity(tasks, g::velocityOfForces<D>);
-  if (!problem_.contacts.empty())
-    tasks.acrossMaterials("mpm::exMomIntegrated", exMomIntegrated<D>, problem_.materials, with(problem_.contacts),
-                          with(Acceleration{problem_.method.gravity, problem_.method.damping}), startTime(),
-                          requiresOld(delT), modifies(g::record), computes(total::rigidReactionForce));
+  scheduleContactAtEnd(tasks);
   if (rubbingHeats())
     scheduleHeatingFriction(tasks);
   else if (hasFriction())
@@ -189,6 +187,7 @@ void SolidMpm<Shape>::scheduleIntegrateAcceleration(TaskList& tasks) const {
   scheduleKeepVelocity(tasks, g::velocityOfContact<D>);
   tasks.perMaterial("mpm::setGridBoundaryConditions", setGridBoundaryConditions<Shape>, problem_.materials,
                     requiresOld(p::x<D>, Shape::reach), modifies(g::record));
+  if (transmitsForce()) scheduleTransmittedForce(tasks);
 }
 
 template <class Shape>

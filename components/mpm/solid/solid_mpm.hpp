@@ -77,6 +77,8 @@ class SolidMpm : public Solids {
   void scheduleFriction(TaskList& tasks, const std::string& name, Moment moment, const NodeLabel<Octet>& record) const;
   void scheduleHeatingFriction(TaskList& tasks) const;
   void scheduleIntegrateAcceleration(TaskList& tasks) const;
+  void scheduleContactAtEnd(TaskList& tasks) const;
+  void scheduleTransmittedForce(TaskList& tasks) const;
   void scheduleApplyExternalLoads(TaskList& tasks) const;
   void scheduleUpdateParticles(TaskList& tasks) const;
   void scheduleHeat(TaskList& tasks) const;
@@ -91,7 +93,11 @@ class SolidMpm : public Solids {
   bool rubbingHeats() const {
     return hasFriction() && problem_.method.contactHeats && problem_.method.conductsHeat;
   }
-  bool isLoaded() const { return problem_.start.loads.hasForces() || problem_.start.solution; }
+  bool transmitsForce() const {
+    return std::any_of(problem_.materials.begin(), problem_.materials.end(),
+                       [](const Material& material) { return material.transmitsForce; });
+  }
+  bool isLoaded() const { return problem_.start.loads.hasForces() || problem_.start.solution || transmitsForce(); }
   bool keepsSizes() const { return Shape::hasSize && problem_.method.keepsSizes; }
 
   bool keeps_stress_ = false;  ///< some material's stress is not a function of F alone

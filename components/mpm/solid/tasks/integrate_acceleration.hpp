@@ -7,9 +7,10 @@
 
 namespace tushar::mpm::solid {
 
-/// v*_i = v_i + (f_i / m_i - damping v_i + gravity) dt; afterwards the record holds v* and v.
+/// v*_i = v_i + (f_i / m_i - damping v_i + gravity) dt, or v_i where the material transmits force; afterwards the record
+/// holds v* and v.
 template <class Shape, int D = Shape::dimension>
-void computeAndIntegrateAcceleration(const Patch& patch, const Material&, const Method& method,
+void computeAndIntegrateAcceleration(const Patch& patch, const Material& material, const Method& method,
                                      ParticleView<const Vec<D>> x, double dt, NodeView<Octet> record) {
   const Vec<D> gravity = patch.level().reduce<D>(method.gravity);
   const TouchedRows<D> rows(x, x.cells(), Shape::ghostNodes, record.box());
@@ -20,7 +21,7 @@ void computeAndIntegrateAcceleration(const Patch& patch, const Material&, const 
       const Vec<D> v = lanes<D>(*node, lane::velocity);
       Vec<D> a = gravity;
       if (mass > method.minimumMassForAcceleration) a += lanes<D>(*node, lane::force) / mass - method.damping * v;
-      setLanes<D>(*node, lane::velocity, v + a * dt);
+      if (!material.transmitsForce) setLanes<D>(*node, lane::velocity, v + a * dt);
       setLanes<D>(*node, lane::before, v);
     }
   });

@@ -27,7 +27,7 @@ struct Sources {
 /// V (sigma - q I) of up to stressGroup particles from `first` on.
 template <class Shape>
 void forceMoments(const Material& material, const Sources<Shape>& from, int first, int count, Matrix3* moments) {
-  if (!from.stress && !from.deformation) {
+  if (material.isRigid || (!from.stress && !from.deformation)) {
     std::fill_n(moments, count, Matrix3(Matrix3::Zero()));
     return;
   }

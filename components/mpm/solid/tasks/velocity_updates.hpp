@@ -43,12 +43,13 @@ void limitVelocity(const Patch&, const Material&, double greatest, ParticleView<
 
 /// v_p = 2 v+_p - v++_p + a dt,   x_p += (v* - (v_p + a dt - 2 v+_p + v++_p) / 2) dt with v++_p = sum_i S_i v+_i of the
 /// grid that v+ went to: XPIC of order 2, Hammerquist & Nairn, Comput. Methods Appl. Mech. Engng 318 (2017) 724. The
-/// particles have moved by FLIP before.
+/// particles have moved by FLIP before; as in Uintah those of a rigid material stay with it.
 template <class Shape, int D = Shape::dimension>
-void applyXpic(const Patch& patch, const Material&, const Method& method, double dt, NodeView<const Octet> smoothRecord,
+void applyXpic(const Patch& patch, const Material& material, const Method& method, double dt, NodeView<const Octet> smoothRecord,
                ParticleView<const Vec<D>> x, OptionalView<const Vec<D>> size, OptionalView<const Matrix3> deformation,
                ParticleView<const Vec<D>> oldVelocity, ParticleView<const Vec<D>> smooth, ParticleView<Vec<D>> newX,
                ParticleView<Vec<D>> velocity) {
+  if (material.isRigid) return;
   const Extents<Shape> extents(patch.level(), method.commonSize, size, deformation);
   forEachStencil<Shape>(patch, patch.cells(), x, extents, [&](int p, const auto& stencil) {
     const Gathered<D> sums = gather(stencil, windowOf<const Octet>(smoothRecord, stencil));
