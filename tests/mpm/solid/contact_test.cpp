@@ -125,12 +125,34 @@ TEST(Friction, LetsBodiesNeitherPassNorLoseMomentum) {
   EXPECT_LT((bodies.velocity(1) - Vec<2>(1.25, 0)).norm(), roundOff);
 }
 
-TEST(Friction, TakesTheNormalOfTheBodyWhoseMassChangesMost) {
+TEST(Friction, TakesTheNormalOfTheBodyWhoseMassChangesMostToKeepMomentum) {
   TwoBodies bodies;
+  bodies.contact.keepsMomentum = true;
   bodies.at(bodies.massGradient[1]) = Vec<2>(0.5, 0.5);  // the corner of the other
   bodies.move(0, {1, -1});
   bodies.rub();
   EXPECT_LT((bodies.velocity(0) - Vec<2>(1, -0.5)).norm(), roundOff) << "without friction nothing changes along it";
+}
+
+TEST(Friction, TakesHalfTheDifferenceOfMassGradientsForANormal) {
+  TwoBodies bodies;
+  bodies.at(bodies.massGradient[1]) = Vec<2>(2, 2);  // of (0, -2) and this: (-1, -2)
+  bodies.move(0, {0, -1});
+  bodies.rub();
+  EXPECT_LT((bodies.velocity(0) - Vec<2>(0.2, -0.6)).norm(), roundOff);
+  EXPECT_LT((bodies.velocity(1) - Vec<2>(-0.2, -0.4)).norm(), roundOff);
+}
+
+TEST(Friction, HoldsABodyThatIsPressedAloneUnlessItKeepsMomentum) {
+  for (const bool keepsMomentum : {false, true}) {
+    TwoBodies bodies;
+    bodies.contact.keepsMomentum = keepsMomentum;
+    bodies.move(0, {0, 1});
+    bodies.at(bodies.stress[0])(1, 1) = -1;
+    bodies.rub();
+    EXPECT_LT((bodies.velocity(0) - Vec<2>(0, keepsMomentum ? 1 : 0.5)).norm(), roundOff);
+    EXPECT_LT((bodies.velocity(1) - Vec<2>(0, 0)).norm(), roundOff);
+  }
 }
 
 TEST(Friction, LetsBodiesPartUnlessTheyArePressed) {

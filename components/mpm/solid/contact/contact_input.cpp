@@ -16,7 +16,7 @@ using input::Schema;
 
 namespace {
 
-enum class Kind { none, singleVelocity, rigid, specified, friction, approach };
+enum class Kind { none, singleVelocity, rigid, specified, friction, conservingFriction, approach };
 
 const input::Choices<Kind> kinds{{"null", Kind::none},
                                  {"single_velocity", Kind::singleVelocity},
@@ -25,6 +25,7 @@ const input::Choices<Kind> kinds{{"null", Kind::none},
                                  {"specified_velocity", Kind::specified},
                                  {"friction", Kind::friction},
                                  {"friction_bard", Kind::friction},
+                                 {"friction_conserving", Kind::conservingFriction},
                                  {"approach", Kind::approach}};
 const Lacking lackingKinds{{"friction_LR", "friction_bard"},
                            {"friction_LRVar", "friction_bard"},
@@ -34,7 +35,9 @@ const Lacking lackingKinds{{"friction_LR", "friction_bard"},
                            {"fluid", "single_velocity"}};
 
 /// Whether bodies slide and part.
-bool slides(Kind kind) { return kind == Kind::friction || kind == Kind::approach; }
+bool slides(Kind kind) {
+  return kind == Kind::friction || kind == Kind::conservingFriction || kind == Kind::approach;
+}
 
 /// The tags of every kind of contact, as they are written.
 struct ContactSection {
@@ -58,7 +61,7 @@ void checkContact(const ContactSection& read, const Element& element, Diagnostic
                       "acts in contacts of type rigid, specified and single_velocity only");
   if (!slides(read.kind) && read.volumeConstraint > 0)
     diagnostics.error(element.child("volume_constraint").value(),
-                      "acts in contacts of type friction, friction_bard and approach only");
+                      "acts in contacts of type friction, friction_bard, friction_conserving and approach only");
 }
 
 const Schema<ContactSection>& contactSchema() {
@@ -67,7 +70,9 @@ const Schema<ContactSection>& contactSchema() {
     requiredChoiceOrRefusal(
         contact, "type", &ContactSection::kind, kinds, lackingKinds,
         "not at all; as one body; they follow a master, which is free or moves as told (two words for it); they part "
-        "freely and slide with friction (two words for it); the same, but only while they approach each other");
+        "freely and slide with friction as in Uintah, which asks each body alone whether its stress presses (two words for it); "
+        "the same, but all have one normal and are pressed where the stresses of all press, which keeps momentum; as in "
+        "Uintah, but only while they approach each other");
     contact.optional("materials", &ContactSection::materials, "1", "numbers of the materials that take part; else all")
         .optional("direction", &ContactSection::direction, "1",
                   "rigid, specified: 1 along x, y, z where the others follow the master. Left out: along z, in implicit "
@@ -139,6 +144,7 @@ Contact settle(const ContactSection& read, const Element& tag, Diagnostics& diag
   contact.excluded = read.excluded.value_or(-1);
   contact.friction = read.friction.value_or(0);
   contact.onlyOnApproach = read.kind == Kind::approach;
+  contact.keepsMomentum = read.kind == Kind::conservingFriction;
   contact.separationFactor = read.separationFactor;
   contact.volumeConstraint = read.volumeConstraint;
   contact.materials = read.materials.value_or(std::vector<int>{});

@@ -8,6 +8,8 @@ namespace {
 
 /// Below it a traction is round-off, Pa.
 constexpr double leastTraction = 1e-12;
+/// Of what changes less the normal is not made one of length 1, kg/m.
+constexpr double leastGradient = 1e-15;
 /// Below it a share of the mass at a node is what rounding has left of a body.
 constexpr double leastShare = 1e-14;
 
@@ -54,11 +56,25 @@ bool isPressed(const Level& level, const Matrix3& stress, const Vec<D>& normal) 
   return traction < -leastTraction;
 }
 
+/// Out of a body at a node; 0 where its mass does not change.
+template <int D>
+Vec<D> normalOf(const Records& records, const Surfaces<D>& surfaces, std::size_t m, const Index<D>& node) {
+  Vec<D> others = Vec<D>::Zero();
+  double mass = 0;
+  for (std::size_t n = 0; n < records.size(); ++n) {
+    if (n == m) continue;
+    others += records[n][node][lane::mass] * surfaces.massGradient[n][node];
+    mass += records[n][node][lane::mass];
+  }
+  const Vec<D> normal = 0.5 * (surfaces.massGradient[m][node] - (mass > 0 ? Vec<D>(others / mass) : others));
+  const double size = normal.norm();
+  return size > leastGradient ? Vec<D>(normal / size) : normal;
+}
+
 /// Whether the stresses of all bodies at a node push along its normal.
 template <int D>
 bool arePressed(const Level& level, const Contact& contact, const Records& records, const Surfaces<D>& surfaces,
                 const Gathering<D>& all, const Index<D>& node) {
-  if (contact.onlyOnApproach) return false;
   for (std::size_t m = 0; m < records.size(); ++m)
     if (isThere<D>(contact, records, all.mass, m, node) && !isPressed<D>(level, surfaces.stress[m][node], all.normal))
       return false;
@@ -98,16 +114,22 @@ void rub(const Patch& patch, const Contact& contact, double dt, const Records& r
   const Level& level = patch.level();
   const double reach = contact.separationFactor * std::cbrt(level.cellVolume());
   const double leastVolume = contact.volumeConstraint * level.cellVolume();
-  forEach<D>(records.front().box(), [&](const Index<D>& node) {
+  const Box nodes = records.front().box();
+  forEach<D>(contact.keepsMomentum ? nodes : nodes.intersect(level.nodesOfCells()), [&](const Index<D>& node) {
     const Gathering<D> all = gatherBodies<D>(contact, records, surfaces, node);
     if (all.mass == 0 || all.normal.isZero() || all.volume <= leastVolume) return;
-    const bool pressed = arePressed<D>(level, contact, records, surfaces, all, node);
+    const bool together = contact.keepsMomentum && arePressed<D>(level, contact, records, surfaces, all, node);
     for (std::size_t m = 0; m < records.size(); ++m) {
       Octet& record = records[m][node];
       const double mass = record[lane::mass], others = all.mass - mass;
       if (!isThere<D>(contact, records, all.mass, m, node) || others < leastShare * all.mass) continue;
       if (separation<D>(all, surfaces.position[m][node], mass) >= reach) continue;
-      const Vec<D> v = lanes<D>(record, lane::velocity), normal = m == all.steepest ? all.normal : Vec<D>(-all.normal);
+      const Vec<D> v = lanes<D>(record, lane::velocity);
+      const Vec<D> normal = !contact.keepsMomentum ? normalOf<D>(records, surfaces, m, node)
+                            : m == all.steepest    ? all.normal
+                                                   : Vec<D>(-all.normal);
+      const bool alone = !contact.keepsMomentum && !contact.onlyOnApproach;
+      const bool pressed = alone ? isPressed<D>(level, surfaces.stress[m][node], normal) : together;
       const Rubbing<D> rubbed = rubbing<D>({normal, v - all.momentum / all.mass, pressed}, contact.friction);
       const double share = strainLimit<D>(level, rubbed.change, dt, mass / others);
       setLanes<D>(record, lane::velocity, v + share * rubbed.change);

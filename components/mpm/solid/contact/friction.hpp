@@ -34,10 +34,13 @@ struct Surfaces {
   const std::vector<NodeView<const double>>& volume;        ///< sum_p S_i V_p, and its image's beyond symmetry planes, m^3
 };
 
-/// Applies `rubbing` to all materials that take part, where their volumes and distance are as the contact asks. All have
-/// the normal of the one whose mass changes most across the node, or its opposite: that of each would catch on corners. They
-/// are pressed where the stresses of all are, so that what one of two loses the other has; Uintah asks each alone. A change
+/// Applies `rubbing` to all materials that take part, where their volumes and distance are as the contact asks. A change
 /// that would strain a cell by more than a half is cut down to that. Adds the heat (J) to `heat`, if there is any.
+///
+/// As in Uintah the normal of a body is half the difference of its mass gradient and of the mean, by mass, of those of all
+/// others, and its own stress says whether it is pressed, so that of three bodies, or where one of two is pressed alone, the
+/// sum of momenta changes. Of contacts that keep momentum all have the normal of the one whose mass changes most, or its
+/// opposite, and are pressed where the stresses of all press.
 template <int D>
 void rub(const Patch& patch, const Contact& contact, double dt, const Records& records, const Surfaces<D>& surfaces,
          const std::vector<NodeView<double>>& heat);
