@@ -58,9 +58,8 @@ void JohnsonCookDamage::grow(const MaterialConstants& material, const DamageStat
 
 void HancockMackenzieDamage::grow(const MaterialConstants&, const DamageState& state, Matrix3& stress, Harm& harm) const {
   const double equivalent = std::sqrt(1.5) * deviator(stress).norm();
-  if (state.plasticStrainRate > 0 && equivalent > 0)
+  if (state.plasticStrainRate > 0 && equivalent > 0 && stress.trace() > 0)
     harm.damage += state.plasticStrainRate * state.timeStep / 1.65 * std::exp(0.5 * stress.trace() / equivalent);
-  if (harm.damage >= criticalDamage) harm.hasFailed = true;
 }
 
 void BrittleDamage::grow(const MaterialConstants&, const DamageState& state, Matrix3& stress, Harm& harm) const {

@@ -55,12 +55,11 @@ struct JohnsonCookDamage {
 };
 
 /// D = sum de_p / e_f, e_f = 1.65 exp(-3/2 mean stress over equivalent stress): Hancock & Mackenzie, J. Mech. Phys. Solids
-/// 24 (1976) 147. A particle fails at the critical damage.
+/// 24 (1976) 147. As in Uintah it grows in tension only, and is only counted: no particle fails by it.
 struct HancockMackenzieDamage {
   static constexpr std::string_view name = "hancock_mackenzie";
   double initialDamage = 0, initialDeviation = 0;
   bool startsSpread = false;  ///< damage at the start by a normal distribution
-  double criticalDamage = 1;
 
   static const input::Schema<HancockMackenzieDamage>& schema();
   Harm initial(double, ParticleId id) const { return damagedAtStart(initialDamage, startsSpread ? initialDeviation : 0, id); }

@@ -43,8 +43,8 @@ const Schema<JohnsonCookDamage>& JohnsonCookDamage::schema() {
 const Schema<HancockMackenzieDamage>& HancockMackenzieDamage::schema() {
   using Self = HancockMackenzieDamage;
   static const Schema<Self> schema = [] {
-    Schema<Self> tags("damage_model", "Hancock's and Mackenzie's; a particle fails at the critical damage.");
-    tags.value("critical_scalar_damage", &Self::criticalDamage, 1, "1", "damage at which it fails", input::positive());
+    Schema<Self> tags("damage_model", "Hancock's and Mackenzie's, p.damage: as in Uintah no particle fails by it.");
+    tags.ignored("critical_scalar_damage", "as in Uintah no particle fails by this damage");
     declareStart(tags);
     return tags;
   }();
