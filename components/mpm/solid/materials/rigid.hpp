@@ -13,6 +13,7 @@ struct Rigid {
   static constexpr bool usesTemperature = false;
   static constexpr bool dependsOnDeformationOnly = true;
   static constexpr bool strainEnergyIsRate = false;
+  static constexpr ArtificialViscosity ownViscosity{0, 0};
 
   static const input::Schema<Rigid>& schema() {
     static const input::Schema<Rigid> schema =
