@@ -82,7 +82,8 @@ struct JohnsonCook {
 };
 
 /// sigma_y = c_0 + B exp(-beta T) + B_0 e_p^(1/2) exp(-alpha T) + K e_p^n, alpha = alpha_0 - alpha_1 ln rate, beta
-/// likewise: Zerilli & Armstrong, J. Appl. Phys. 61 (1987) 1816. The rate is that of the whole strain, and at least 1e-8/s.
+/// likewise: Zerilli & Armstrong, J. Appl. Phys. 61 (1987) 1816. As in Uintah the rate is that of the plastic strain, and at
+/// least 1e-8/s.
 struct ZerilliArmstrong {
   static constexpr std::string_view name = "zerilli_armstrong";
 
@@ -111,11 +112,6 @@ struct ZerilliArmstrong {
     const double ep = state.plasticStrain;
     return c0 + b * fading(beta0, beta1, state) + b0 * std::sqrt(ep) * fading(alpha0, alpha1, state) + k * std::pow(ep, n);
   }
-  double hardening(const FlowState& state) const {
-    const double ep = state.plasticStrain;
-    if (ep <= 0) return 0;
-    return 0.5 * b0 / std::sqrt(ep) * fading(alpha0, alpha1, state) + k * n * std::pow(ep, n - 1);
-  }
 
  private:
   /// c_0, or Hall and Petch's sigma_g + k_H l^(-1/2) of grains of size l.
@@ -133,7 +129,7 @@ struct ZerilliArmstrong {
     if (read.c0 < 0) diagnostics.error(element, "c_0 must be at least 0 Pa");
   }
   static double fading(double byTemperature, double byRate, const FlowState& state) {
-    const double logarithm = std::log(std::max(state.strainRate, 1e-8));
+    const double logarithm = std::log(std::max(state.plasticStrainRate, 1e-8));
     return std::exp(-(byTemperature - byRate * logarithm) * state.temperature);
   }
 };
