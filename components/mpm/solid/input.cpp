@@ -317,8 +317,10 @@ simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostic
   Problem problem{method, properties.mpm.materials, properties.mpm.contacts, {}};
   problem.method.strainEnergy =
       isSaved(root, "StrainEnergy") || isSaved(root, "p.strainEnergy") || hasEnergyBudget(root);
-  if (read.xpic)
-    for (Contact& contact : problem.contacts) contact.actsTwice = true;
+  for (Contact& contact : problem.contacts) {
+    contact.actsTwice = contact.actsTwice || read.xpic;
+    contact.normalsInCells = read.axisymmetric;
+  }
   problem.method.velocityGradient = isSaved(root, "p.velGrad");
   problem.method.thermalContact = properties.mpm.thermalContact;
   problem.start = {read.axisymmetric, readLoads(root, read.useLoadCurves, diagnostics),

@@ -42,7 +42,7 @@ struct TwoBodies {
     domain.resolution = {{2, 2, 0}};
     return domain;
   }
-  TwoBodies() {
+  explicit TwoBodies(const grid::Domain& domain = TwoBodies::domain()) : level(domain) {
     for (auto* all : {&records[0], &records[1]}) all->assign(nodes.size(), Octet{});
     for (int m : {0, 1}) {
       const auto k = static_cast<std::size_t>(m);
@@ -84,7 +84,7 @@ struct TwoBodies {
     solid::rub<2>(level.patches().front(), contact, 1e-3, views, {gradients, positions, stresses, volumes}, {});
   }
 
-  Level level{domain()};
+  Level level;
   Box nodes = level.nodes();
   Contact contact;
   std::array<std::vector<Octet>, 2> records;
@@ -143,6 +143,18 @@ TEST(Friction, TakesHalfTheDifferenceOfMassGradientsForANormal) {
   EXPECT_LT((bodies.velocity(1) - Vec<2>(-0.2, -0.4)).norm(), roundOff);
 }
 
+TEST(Friction, TakesNormalsPerCellWhereItIsToldTo) {
+  grid::Domain domain = TwoBodies::domain();
+  domain.upper = {2, 6, 0};  // cells of 1 by 3 m
+  TwoBodies bodies(domain);
+  bodies.contact.normalsInCells = true;
+  bodies.at(bodies.massGradient[0]) = Vec<2>(-3, -1);
+  bodies.at(bodies.massGradient[1]) = Vec<2>(3, 1);
+  bodies.move(0, {-1, -1});
+  bodies.rub();
+  EXPECT_LT((bodies.velocity(0) - Vec<2>(-0.5, -0.5)).norm(), roundOff) << "straight through";
+}
+
 TEST(Friction, HoldsABodyThatIsPressedAloneUnlessItKeepsMomentum) {
   for (const bool keepsMomentum : {false, true}) {
     TwoBodies bodies;
@@ -151,7 +163,7 @@ TEST(Friction, HoldsABodyThatIsPressedAloneUnlessItKeepsMomentum) {
     bodies.at(bodies.stress[0])(1, 1) = -1;
     bodies.rub();
     EXPECT_LT((bodies.velocity(0) - Vec<2>(0, keepsMomentum ? 1 : 0.5)).norm(), roundOff);
-    EXPECT_LT((bodies.velocity(1) - Vec<2>(0, 0)).norm(), roundOff);
+    EXPECT_LT(bodies.velocity(1).norm(), roundOff);
   }
 }
 

@@ -32,6 +32,7 @@ struct Contact {
 
   double friction = 0;          ///< coefficient mu
   bool onlyOnApproach = false;  ///< friction: what the stress presses together may part
+  bool normalsInCells = false;  ///< friction: mass gradients are taken per cell, not per m, as axisymmetric ones in Uintah
   bool keepsMomentum = false;   ///< friction: one normal for all, who are pressed where the stresses of all press
   double separationFactor = 0;  ///< friction: farther apart than so many cells they do not touch
   double volumeConstraint = 0;  ///< friction: the share of the volume around a node that must be filled for a contact

@@ -58,7 +58,7 @@ bool isPressed(const Level& level, const Matrix3& stress, const Vec<D>& normal) 
 
 /// Out of a body at a node; 0 where its mass does not change.
 template <int D>
-Vec<D> normalOf(const Records& records, const Surfaces<D>& surfaces, std::size_t m, const Index<D>& node) {
+Vec<D> normalOf(const Level& level, const Contact& contact, const Records& records, const Surfaces<D>& surfaces, std::size_t m, const Index<D>& node) {
   Vec<D> others = Vec<D>::Zero();
   double mass = 0;
   for (std::size_t n = 0; n < records.size(); ++n) {
@@ -66,7 +66,8 @@ Vec<D> normalOf(const Records& records, const Surfaces<D>& surfaces, std::size_t
     others += records[n][node][lane::mass] * surfaces.massGradient[n][node];
     mass += records[n][node][lane::mass];
   }
-  const Vec<D> normal = 0.5 * (surfaces.massGradient[m][node] - (mass > 0 ? Vec<D>(others / mass) : others));
+  Vec<D> normal = 0.5 * (surfaces.massGradient[m][node] - (mass > 0 ? Vec<D>(others / mass) : others));
+  for (int d = 0; d < D && contact.normalsInCells; ++d) normal[d] *= level.spacing(d);
   const double size = normal.norm();
   return size > leastGradient ? Vec<D>(normal / size) : normal;
 }
@@ -125,7 +126,7 @@ void rub(const Patch& patch, const Contact& contact, double dt, const Records& r
       if (!isThere<D>(contact, records, all.mass, m, node) || others < leastShare * all.mass) continue;
       if (separation<D>(all, surfaces.position[m][node], mass) >= reach) continue;
       const Vec<D> v = lanes<D>(record, lane::velocity);
-      const Vec<D> normal = !contact.keepsMomentum ? normalOf<D>(records, surfaces, m, node)
+      const Vec<D> normal = !contact.keepsMomentum ? normalOf<D>(level, contact, records, surfaces, m, node)
                             : m == all.steepest    ? all.normal
                                                    : Vec<D>(-all.normal);
       const bool alone = !contact.keepsMomentum && !contact.onlyOnApproach;

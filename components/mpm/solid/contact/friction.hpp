@@ -28,7 +28,7 @@ Rubbing<D> rubbing(const Touch<D>& touch, double mu);
 /// What the surfaces of bodies look like from the nodes, by material.
 template <int D>
 struct Surfaces {
-  const std::vector<NodeView<const Vec<D>>>& massGradient;  ///< sum_p m_p grad S_i: out of the body, kg/m
+  const std::vector<NodeView<const Vec<D>>>& massGradient;  ///< sum_p m_p grad S_i: out of the body, kg/m; axisymmetric kg/m^4
   const std::vector<NodeView<const Vec<D>>>& position;      ///< sum_p S_i m_p x_p, kg m
   const std::vector<NodeView<const Matrix3>>& stress;       ///< sum_p S_i sigma_p, Pa
   const std::vector<NodeView<const double>>& volume;        ///< sum_p S_i V_p, and its image's beyond symmetry planes, m^3
@@ -38,9 +38,9 @@ struct Surfaces {
 /// that would strain a cell by more than a half is cut down to that. Adds the heat (J) to `heat`, if there is any.
 ///
 /// As in Uintah the normal of a body is half the difference of its mass gradient and of the mean, by mass, of those of all
-/// others, and its own stress says whether it is pressed, so that of three bodies, or where one of two is pressed alone, the
-/// sum of momenta changes. Of contacts that keep momentum all have the normal of the one whose mass changes most, or its
-/// opposite, and are pressed where the stresses of all press.
+/// others, in axisymmetric scenes per cell, and its own stress says whether it is pressed, so that of three bodies, or where
+/// one of two is pressed alone, the sum of momenta changes. Of contacts that keep momentum all have the normal of the one
+/// whose mass changes most, or its opposite, and are pressed where the stresses of all press.
 template <int D>
 void rub(const Patch& patch, const Contact& contact, double dt, const Records& records, const Surfaces<D>& surfaces,
          const std::vector<NodeView<double>>& heat);

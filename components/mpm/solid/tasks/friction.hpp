@@ -5,7 +5,8 @@
 
 namespace tushar::mpm::solid {
 
-/// What friction needs of the surface of a body (see Surfaces) at every node of the patch.
+/// What friction needs of the surface of a body (see Surfaces) at every node of the patch. Where axisymmetric, the gradient is
+/// that of the density, as in Uintah: mass grows with the radius, and would tilt the normal.
 template <class Shape, int D = Shape::dimension>
 void computeSurface(const Patch& patch, const Material& material, const Vec3& commonSize, ParticleView<const Vec<D>> x,
                     OptionalView<const Vec<D>> size, ParticleView<const double> mass,
@@ -20,6 +21,7 @@ void computeSurface(const Patch& patch, const Material& material, const Vec3& co
   const Extents<Shape> extents(patch.level(), commonSize, size, deformation);
   forEachStencil<Shape>(patch, x.cells(), x, extents, [&](int p, const auto& stencil) {
     const double j = deformation[p].determinant(), v = mass[p] / material.density * j;
+    const double weight = Shape::axisymmetric ? mass[p] / v : mass[p];
     Matrix3 sigma = Matrix3::Zero();
     if (particleStress) {
       sigma = (*particleStress)[p];
@@ -29,7 +31,7 @@ void computeSurface(const Patch& patch, const Material& material, const Vec3& co
     }
     stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>& gradient) {
       if (!box.contains(node)) return;
-      massGradient[node] += mass[p] * gradient;
+      massGradient[node] += weight * gradient;
       position[node] += s * mass[p] * x[p];
       stress[node] += s * sigma;
       volume[node] += s * v;
