@@ -18,7 +18,7 @@ void append(Slots& slots, std::size_t place, std::size_t room) {
 }
 
 /// For so many particles and some that may come.
-std::size_t roomFor(std::size_t count) { return roundedUp(count + count / 8 + step); }
+std::size_t roomFor(std::size_t count) { return roundedUp(count + count / 64 + step); }
 
 SharedSlots laidOutAnew(const std::vector<std::size_t>& counts) {
   Slots slots;
@@ -54,10 +54,10 @@ SharedSlots slotsThatFit(const SharedSlots& base, const std::vector<std::size_t>
   std::size_t needed = 0;
   for (std::size_t place = 0; place < counts.size(); ++place) {
     needed += roomFor(counts[place]);
-    if (counts[place] > slots.room[place]) append(slots, place, roundedUp(counts[place] + counts[place] / 2 + step));
+    if (counts[place] > slots.room[place]) append(slots, place, roundedUp(counts[place] + counts[place] / 8 + step));
   }
   if (slots.end == base->end) return base;
-  if (slots.end > needed + needed / 2) return laidOutAnew(counts);
+  if (slots.end > needed + needed / 4) return laidOutAnew(counts);
   return std::make_shared<const Slots>(std::move(slots));
 }
 

@@ -31,8 +31,8 @@ using SharedSlots = std::shared_ptr<const Slots>;
 SharedSlots slotsOfGrid(const grid::Level& level, const Label& label, int ghost);
 
 /// For so many particles on each patch. Slots of `base` (which may be null) stay where the particles fit; a patch that has
-/// outgrown its slot gets one behind the others, with room for half as many again. Where the memory would then be more than
-/// half as large again as it need be, all are laid out anew.
+/// outgrown its slot gets one behind the others, with room for an eighth more. Where the memory would then be more than a
+/// quarter larger than it need be, all are laid out anew.
 SharedSlots slotsThatFit(const SharedSlots& base, const std::vector<std::size_t>& counts);
 
 }  // namespace tushar::data

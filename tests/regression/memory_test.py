@@ -10,13 +10,16 @@ from sus import run
 
 FEW, MANY = 50, 400
 MOST = 1.05  # times the memory after few steps
+# Bytes of pages that a program of 20 MB touches late. Where variables grow at all, they do by a multiple of this: a single
+# buffer of a thousand particles that is lost in each step makes 8 MB.
+TOUCHED_LATE = 2e6
 
 BOX = "Grid/Level/Box"
 LINE = (f"{BOX}/resolution=[200,1,1]",)
 PLANE = (f"{BOX}/resolution=[40,6,1]", f"{BOX}/upper=[1,.15,1]")
 SPACE = (f"{BOX}/resolution=[16,4,4]", f"{BOX}/upper=[1,.25,.25]")
 SMALL_SPACE = (f"{BOX}/resolution=[12,12,4]",)
-SPHERES = (f"{BOX}/resolution=[12,12,12]",)
+SPHERES = (f"{BOX}/resolution=[12,12,12]", "Time/timestep_multiplier=0.1")
 GIMP, CPDI = "MPM/interpolator=gimp", "MPM/interpolator=cpdi"
 
 # Scene, overrides, layout of patches.
@@ -33,13 +36,18 @@ CASES = {
     "redistributed gas": ("ups/mpm/sod_redistribute.ups", PLANE, "4x2x1"),
     "conserving gas in 1-D": ("ups/mpm/smooth_wave_conserving.ups", (), "4x1x1"),
     "conserving gas in 2-D": ("ups/mpm/vortex.ups", (f"{BOX}/resolution=[20,20,1]",), "3x2x1"),
-    "conserving gas in 3-D": ("ups/mpm/vortex_3d.ups", SMALL_SPACE, "2x2x2"),
+    "conserving gas in 3-D": ("ups/mpm/vortex_3d.ups", (f"{BOX}/resolution=[8,8,4]",), "2x2x2"),
     "solids in 1-D": ("ups/solid/riemann.ups", (), "4x1x1"),
     "solids in 2-D": ("ups/solid/two_discs.ups", (), "3x2x1"),
     "solids in 3-D": ("tests/benchmark/spheres.ups", SPHERES, "2x2x2"),
     "solids in 3-D, GIMP": ("tests/benchmark/spheres.ups", (*SPHERES, GIMP), "3x2x2"),
     "solids in 3-D, CPDI": ("tests/benchmark/spheres.ups", (*SPHERES, CPDI), "2x2x3"),
 }
+
+
+# On three ranks: one of each component and kind of particles in each number of dimensions that it has.
+ON_THREE_RANKS = ("burgers", "heat", "euler in 3-D", "gas in 1-D", "gas in 3-D", "conserving gas in 2-D", "conserving gas in 3-D",
+                  "solids in 1-D", "solids in 2-D", "solids in 3-D, GIMP")
 
 
 class Memory(unittest.TestCase):
@@ -53,11 +61,12 @@ class Memory(unittest.TestCase):
         return result.report["memory"]["resident"]
 
     def check(self, ranks):
-        for name in CASES:
+        for name in CASES if ranks < 3 else ON_THREE_RANKS:
             with self.subTest(name, ranks=ranks):
                 few, many = self.after(FEW, name, ranks), self.after(MANY, name, ranks)
                 self.assertGreater(few, 0)
-                self.assertLessEqual(many / few, MOST, f"{few / 1e6:.1f} MB after {FEW} steps, {many / 1e6:.1f} MB after {MANY}")
+                self.assertLessEqual(many, MOST * few + TOUCHED_LATE,
+                                     f"{few / 1e6:.1f} MB after {FEW} steps, {many / 1e6:.1f} MB after {MANY}")
 
     def test_on_several_patches(self):
         self.check(1)
