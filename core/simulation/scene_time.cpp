@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "core/input/schema.hpp"
+#include "core/input/values.hpp"
 #include "core/simulation/scene.hpp"
 
 namespace tushar::simulation {
@@ -12,6 +13,12 @@ using input::Schema;
 namespace {
 
 constexpr double unlimited = std::numeric_limits<double>::max();
+
+void refuseRestartStep(TimeSettings&, const Element& element, Diagnostics& diagnostics) {
+  const auto given = element.child("override_restart_delt");
+  if (given && input::parse<double>(given->text()).value != 0.0)
+    diagnostics.error(*given, fmt::format("found '{}', expected 0: a restart goes on as the run would have", given->text()));
+}
 
 const Schema<TimeSettings>& timeSchema() {
   static const Schema<TimeSettings> schema =
@@ -37,9 +44,10 @@ const Schema<TimeSettings>& timeSchema() {
           .value("recompute_timestep", &TimeSettings::recomputeTimeStep, false, "1",
                  "where a value becomes impossible, undo the step and repeat it with half the time step, up to 20 times")
           .ours()
-          .ignored("override_restart_delt", "a restart goes on as the run would have: sus -restart --set Time/delt_max=… "
-                                            "makes its steps shorter")
-          .ignored("initial_delt_range", "delt_init holds for the first step; delt_max for all")
+          .value("initial_delt_range", &TimeSettings::initialDeltRange, 0, "s",
+                 "time up to which delt_init holds; the first step at least", input::nonNegative())
+          .custom("override_restart_delt", refuseRestartStep, {"override_restart_delt"},
+                  "only 0: a restart goes on as the run would have; sus -restart --set Time/delt_max=… makes its steps shorter")
           .check([](const TimeSettings& time, const Element& element, Diagnostics& diagnostics) {
             if (time.maxTime <= time.initTime)
               diagnostics.error(element, "maxTime is not after initTime; nothing would be computed");

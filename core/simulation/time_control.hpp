@@ -14,6 +14,7 @@ struct TimeSettings {
   double deltMin = 0;                  ///< s
   double deltMax = std::numeric_limits<double>::max();   ///< s
   double deltInit = std::numeric_limits<double>::max();  ///< greatest first time step, s
+  double initialDeltRange = 0;         ///< time up to which deltInit holds, the first step at least, s
   double maxDeltIncrease = std::numeric_limits<double>::max();  ///< longest step is 1 + this times the one before; no limit where not positive
   double timestepMultiplier = 1;
   int maxTimesteps = std::numeric_limits<int>::max();
@@ -34,8 +35,9 @@ class TimeControl {
   /// Whether maxTime or max_Timesteps has been reached.
   bool done() const;
 
-  /// The next time step [s] from what the physics allow: timestep_multiplier times `stable`, within delt_min and
-  /// delt_max, max_delt_increase, and (where the scene asks) up to maxTime or the next output exactly.
+  /// The next time step [s] from what the physics allow: timestep_multiplier times `stable`, within max_delt_increase,
+  /// delt_min and delt_max; at the start no longer than delt_init, be that below delt_min; and (where the scene asks) up
+  /// to maxTime or the next output exactly.
   /// Throws NumericalError for a step that is not positive or too small to move time on.
   double next(const data::Minimum& stable, double nextOutput);
   /// A shorter time step [s] from where `next` started: times the factor that was `asked` for, but at least 0.1 and at

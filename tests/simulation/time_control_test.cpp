@@ -58,6 +58,21 @@ TEST(TimeControl, LimitsTheFirstStepAndTheGrowthOfTheOthers) {
   EXPECT_EQ(time.next({0.1}, never), 0.002) << "1 more than the step before, as Uintah has it";
 }
 
+TEST(TimeControl, KeepsTheFirstStepForAsLongAsAskedBeItBelowTheLeast) {
+  TimeSettings settings = until(1);
+  settings.deltInit = 0.001;
+  settings.deltMin = 0.01;
+  settings.initialDeltRange = 0.0015;
+  TimeControl time(settings);
+  std::vector<double> steps;
+  for (int k = 0; k < 4; ++k) {
+    steps.push_back(time.next({0.1}, never));
+    time.advance();
+  }
+
+  EXPECT_EQ(steps, (std::vector<double>{0.001, 0.001, 0.1, 0.1})) << "as Uintah has it";
+}
+
 TEST(TimeControl, TakesNoGreatestStepOrGrowthFromZero) {
   TimeSettings settings = until(1);
   settings.deltInit = 0.001;
