@@ -164,6 +164,7 @@ TEST(TransIsoHyper, HoldsByItsFibresWhereTheyArePulled) {
 TEST(ElasticPlastic, FollowsTheUniaxialStrainPathBeyondTheElasticLimit) {
   const double yieldStress = 0.02;
   MaterialPoint<ElasticPlasticHp> point{elasticPlastic(IsotropicHardening{yieldStress, 0})};
+  point.model.equationOfState = HypoelasticVolume{};
   const double k = point.model.bulkModulus, g = point.model.shearModulus, elasticLimit = yieldStress / (2 * g);
   double dilatation = 0;
   for (int step = 1; step <= 100; ++step) {

@@ -119,7 +119,7 @@ struct ElasticPlastic {
         .value("initial_material_temperature", &Self::initialTemperature, 294, "K", "where heat adds no pressure",
                input::nonNegative());
     typedTag(tags, "flow_model", &Self::flow, "the yield stress", true);
-    typedTag(tags, "equation_of_state", &Self::equationOfState, "the mean stress; default_hypo if left out", false);
+    typedTag(tags, "equation_of_state", &Self::equationOfState, "the mean stress; default_hyper if left out", false);
     typedTag(tags, "shear_modulus_model", &Self::shear, "the shear modulus; constant_shear if left out", false);
     typedTag(tags, "melting_temp_model", &Self::melting, "where there is no shear stress; constant_Tm if left out", false);
     acceptWhatDoesNotMatter(tags);

@@ -36,11 +36,12 @@ struct MohrCoulomb {
           .value("c", &MohrCoulomb::cohesion, 0, "Pa", "cohesion", input::nonNegative())
           .value("Phi", &MohrCoulomb::frictionAngle, 0, "degrees", "angle of friction", input::between(0, 89))
           .value("Psi", &MohrCoulomb::dilationAngle, 0, "degrees", "angle of dilation", input::between(0, 89))
-          .ignored("Version", "there is one integration: closest return to the surface with its corners")
           .check([](const MohrCoulomb& read, const input::Element& element, input::Diagnostics& diagnostics) {
             if (read.dilationAngle > read.frictionAngle)
               diagnostics.error(element, "<Psi> is greater than <Phi>: plastic flow would create energy");
           });
+      refuseOtherValues(tags, "Version", {"1", "11", "12"},
+                        "stresses return to the nearest point of a surface with corners");
       for (const char* tag : {"Usetransition", "Usemodul", "Use_softening", "Use_linear", "Use_regular", "UseWaterRetention",
                               "UseRemould", "Use_friction", "Use_pressure_dependence", "Usetransition1", "Use_dilation"})
         refuseSwitch(tags, tag, "strength and stiffness are those of <c>, <Phi>, <G> and <K> throughout");

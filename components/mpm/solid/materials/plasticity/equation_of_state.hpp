@@ -47,9 +47,10 @@ struct HyperelasticVolume {
 };
 
 /// p = rho_0 C_0² eta (1 - Gamma_0 eta / 2) / (1 - S_alpha eta)² + Gamma_0 rho_0 c_v (T - T_0), eta = 1 - J: the shock
-/// velocity is U = C_0 + S_alpha u; Wilkins, Computer Simulation of Dynamic Phenomena (1999), chapter 3.
+/// velocity is U = C_0 + S_alpha u; Wilkins, Computer Simulation of Dynamic Phenomena (1999), chapter 3. Today's Uintah has
+/// no word for it.
 struct MieGruneisen {
-  static constexpr std::string_view name = "mie_gruneisen";
+  static constexpr std::string_view name = "mie_gruneisen_temperature";
 
   double soundSpeed = 0;  ///< C_0, m/s
   double gruneisen = 0;   ///< Gamma_0, 1
@@ -60,9 +61,7 @@ struct MieGruneisen {
         input::Schema<MieGruneisen>("equation_of_state", "Mie and Grüneisen's, with the heat by the temperature.")
             .required("C_0", &MieGruneisen::soundSpeed, "m/s", "speed of a weak shock", input::positive())
             .required("Gamma_0", &MieGruneisen::gruneisen, "1", "Grüneisen's constant", input::nonNegative())
-            .required("S_alpha", &MieGruneisen::slope, "1", "dU/du of a shock", input::nonNegative())
-            .ignored("S_2", "as in Uintah, only mie_gruneisen_energy has it")
-            .ignored("S_3", "as in Uintah, only mie_gruneisen_energy has it");
+            .required("S_alpha", &MieGruneisen::slope, "1", "dU/du of a shock", input::nonNegative());
     return schema;
   }
   double meanStress(const VolumeState& s) const {
@@ -75,9 +74,9 @@ struct MieGruneisen {
 
 /// p = rho_0 C_0² eta (1 - Gamma_0 eta / 2) / (1 - S_alpha eta - S_2 eta² - S_3 eta³)² + Gamma_0 rho_0 e under pressure,
 /// rho_0 C_0² eta + Gamma_0 rho_0 e in tension, eta = 1 - J: Steinberg, UCRL-MA-106439 (1991). The temperature changes
-/// by dT = -T Gamma_0 J tr D dt.
+/// by dT = -T Gamma_0 J tr D dt. This is what Uintah makes of mie_gruneisen.
 struct MieGruneisenEnergy {
-  static constexpr std::string_view name = "mie_gruneisen_energy";
+  static constexpr std::string_view name = "mie_gruneisen";
 
   double soundSpeed = 0;      ///< C_0, m/s
   double gruneisen = 0;       ///< Gamma_0, 1
@@ -106,6 +105,7 @@ struct MieGruneisenEnergy {
   double heating(const VolumeState& s) const { return -s.temperature * gruneisen * s.volume * s.dilatation; }
 };
 
-using EquationOfState = std::variant<HypoelasticVolume, HyperelasticVolume, MieGruneisen, MieGruneisenEnergy>;
+/// The first holds where a scene names none, as in Uintah.
+using EquationOfState = std::variant<HyperelasticVolume, HypoelasticVolume, MieGruneisen, MieGruneisenEnergy>;
 
 }  // namespace tushar::mpm::solid
