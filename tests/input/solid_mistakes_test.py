@@ -51,6 +51,27 @@ REFUSED = {
     "a direct solver that solves nothing":
         (BEAM, ("<preconditioner>lu", "<preconditioner>gamg"),
          "preconditioner: found 'gamg', but with <solver> direct it solves the system: take lu or cholesky"),
+    "steps that Uintah would take again":
+        (BILLET, ("<MPM>\n    <time", "<MPM>\n    <restartOnLargeNodalVelocity>true</restartOnLargeNodalVelocity>\n    <time"),
+         "restartOnLargeNodalVelocity: is not available; recompute_timestep in <Time> repeats a step that fails"),
+    "temperatures of nodes by least squares":
+        (BEAM, ("<dynamic>", "<temperature_solve>true</temperature_solve><dynamic>"),
+         "temperature_solve: is not available; nodes take the mean temperature of their particles"),
+    "a body that does not fill its shape":
+        (BILLET, ("<geom_object>", "<geom_object><volumeFraction>0.5</volumeFraction>"),
+         "volumeFraction: found '0.5', expected 1: a body fills its shape"),
+    "a first step after a restart":
+        (BILLET, ("</Time>", "<override_restart_delt>1e-3</override_restart_delt></Time>"),
+         "override_restart_delt: found '1e-3', expected 0: a restart goes on as the run would have"),
+    "a load curve with the number of another load":
+        (BEAM, ("<Grid>", HEAT.replace("heat_flux", "pressure").replace("<time_point>", "<id>2</id><time_point>", 1)),
+         "id: found '2', expected 1: loads are counted as they stand in the scene", "MPM/use_load_curves=true"),
+    "a word in thermal contact":
+        (BILLET, ("<contact>", "<thermal_contact><type>none</type></thermal_contact><contact>"),
+         "type: unknown tag: <thermal_contact> has none"),
+    "a surface of Mohr and Coulomb without corners":
+        (BEAM, (RUBBER, '<constitutive_model type="MohrCoulomb"><G>1</G><K>1</K><Version>3</Version>'),
+         "Version: found '3', expected 1, 11, 12: stresses return to the nearest point of a surface with corners"),
     "a rigid body without a contact":
         (BEAM, ('<material name="rubber">', '<material name="rubber"><is_rigid>true</is_rigid>'),
          "is_rigid: needs a <contact> of type rigid or specified, whose master the material is"),

@@ -22,6 +22,7 @@ inline const std::vector<std::pair<std::string, std::string>> lackingSwitches{
     {"keepPressBCNormalToSurface", "a pressure keeps the direction of its surface at the start"},
     {"use_CBDI_boundary_condition", "a pressure is shared among the particles at its surface"},
     {"use_volume_integral", "take it out: particles stand for their volume"},
+    {"restartOnLargeNodalVelocity", "recompute_timestep in <Time> repeats a step that fails"},
 };
 
 /// Tags of Uintah's that change nothing here, and why.
@@ -29,7 +30,6 @@ inline const std::vector<std::pair<std::string, std::string>> meaninglessTags{
     {"boundary_traction_faces", "BndyForce_… and BndyContactArea_… of every face can be saved without it"},
     {"create_new_particles", "particles stay as they are"},
     {"CanAddMPMMaterial", "all materials are there from the start"},
-    {"restartOnLargeNodalVelocity", "a run that fails says where and why"},
     {"DeleteGeometryObjects", "shapes are not kept"},
     {"computeNodalHeatFlux", "nothing depends on it"},
     {"interpolateParticleTempToGridEveryStep", "temperatures always come from the particles"},

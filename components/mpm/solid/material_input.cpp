@@ -100,9 +100,8 @@ void describeModels(std::ostream& out, int indent) {
   });
 }
 
-const Schema<Body>& bodySchema() {
-  static const Schema<Body> schema =
-      Schema<Body>("geom_object", "A body of material at the start.")
+Schema<Body> bodyTags() {
+  return Schema<Body>("geom_object", "A body of material at the start.")
           .custom("shape",
                   [](Body& body, const Element& element, Diagnostics& diagnostics) {
                     body.where = element.where();
@@ -115,12 +114,19 @@ const Schema<Body>& bodySchema() {
                  input::nonNegative())
           .value("color", &Body::color, 0, "1", "a number that its particles keep, p.color")
           .ignored("concentration", "belongs to do_scalar_diffusion")
-          .ignored("volumeFraction", "belongs to components with several phases")
           .ignored("comment", "for readers")
           .ignored("density", "the material's is taken, as in Uintah")
           .ignored("pressure", "bodies start without stress")
           .ignored("level", "there is one level")
           .ignoredAttribute("name", "for readers");
+}
+
+const Schema<Body>& bodySchema() {
+  static const Schema<Body> schema = [] {
+    Schema<Body> tags = bodyTags();
+    refuseOtherValues(tags, "volumeFraction", {"1"}, "a body fills its shape");
+    return tags;
+  }();
   return schema;
 }
 
@@ -198,8 +204,11 @@ const Schema<MaterialProperties>& propertiesSchema() {
                   {"contact"}, "how materials act on each other; several are applied one after the other",
                   describeContacts)
           .custom("thermal_contact",
-                  [](MaterialProperties::List& read, const Element& element, Diagnostics&) {
-                    read.thermalContact = element.child("thermal_contact").has_value();
+                  [](MaterialProperties::List& read, const Element& element, Diagnostics& diagnostics) {
+                    const auto given = element.child("thermal_contact");
+                    read.thermalContact = given.has_value();
+                    for (const Element& tag : given ? given->children() : std::vector<Element>{})
+                      diagnostics.error(tag, "unknown tag: <thermal_contact> has none");
                   },
                   {"thermal_contact"}, "materials that share nodes share a temperature there")
           .check(noteCommonNames)

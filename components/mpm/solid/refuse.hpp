@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,25 @@ void requireSwitch(input::Schema<S>& schema, const std::string& tag, const std::
                   if (given && given->text() != "true") diagnostics.error(*given, "is always true; " + instead);
                 },
                 {tag}, "only true: " + instead);
+}
+
+/// A tag of Uintah's that only stands at one of some values here; `sentence` says why.
+template <class S>
+void refuseOtherValues(input::Schema<S>& schema, const std::string& tag, const std::vector<std::string>& values,
+                       const std::string& sentence) {
+  const auto isOneOfThem = [values](const std::string& given) {
+    const auto number = input::parse<double>(given).value;
+    return std::any_of(values.begin(), values.end(), [&](const std::string& value) {
+      return given == value || (number && number == input::parse<double>(value).value);
+    });
+  };
+  schema.custom(tag,
+                [=](S&, const input::Element& element, input::Diagnostics& diagnostics) {
+                  const auto given = element.child(tag);
+                  if (given && !isOneOfThem(given->text()))
+                    diagnostics.error(*given, "found '" + given->text() + "', expected " + input::listed(values) + ": " + sentence);
+                },
+                {tag}, "only " + input::listed(values) + ": " + sentence);
 }
 
 /// A tag of Uintah's that is missing here; `instead` says what there is.

@@ -87,11 +87,11 @@ const Schema<Section>& sectionSchema() {
         .value("DoImplicitHeatConduction", &Section::heat, false, "1", "heat is conducted, by backward Euler")
         .ignored("DoExplicitHeatConduction", "heat is conducted implicitly, where DoImplicitHeatConduction says so")
         .choice("DoTransientImplicitHeatConduction", &Section::transient, {{"true", 0}}, 0, "heat takes time to spread")
-        .ignored("temperature_solve", "heat is conducted where DoImplicitHeatConduction says so")
         .ignored("artificial_damping_coeff", "as in Uintah, only explicit steps are damped")
         .ignored("minimum_particle_mass", "no particle is taken out")
         .ignored("maximum_particle_velocity", "no particle is slowed down");
     refuseSwitch(mpm, "artificial_viscosity", "only explicit steps have one");
+    refuseSwitch(mpm, "temperature_solve", "nodes take the mean temperature of their particles");
     for (const char* tag : {"artificial_viscosity_coeff1", "artificial_viscosity_coeff2", "artificial_viscosity_heating",
                             "minimum_mass_for_acc", "minimum_subcycles_for_F", "XPIC2", "do_contact_friction_heating",
                             "cpdi_lcrit", "computeColinearNormals"})

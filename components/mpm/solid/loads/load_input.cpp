@@ -89,6 +89,18 @@ Schema<SurfaceSection> surfaceSchema(const std::string& name, const std::string&
       .ignored("res", "particles are counted");
 }
 
+/// A load curve's number is the place of its load: Uintah takes the one for the other.
+void checkNumbers(const Element& loads, Diagnostics& diagnostics) {
+  int place = 0;
+  for (const Element& load : loads.children()) {
+    ++place;
+    const auto curve = load.child("load_curve"), id = curve ? curve->child("id") : std::nullopt;
+    if (id && input::parse<int>(id->text()).value != place)
+      diagnostics.error(*id, fmt::format("found '{}', expected {}: loads are counted as they stand in the scene", id->text(),
+                                         place));
+  }
+}
+
 const Schema<PhysicalBC>& loadsSchema() {
   static const Schema<SurfaceSection> pressure =
       surfaceSchema("pressure", "Force per area, shared evenly among the particles at a surface of a body.");
@@ -105,6 +117,7 @@ const Schema<PhysicalBC>& loadsSchema() {
         .list("heat_flux", &LoadsSection::heatFluxes, heatFlux, "heat per area and time through a surface, inwards")
         .list("force", &LoadsSection::forces, force, "force per mass, at all times")
         .check([](const LoadsSection& read, const Element& element, Diagnostics& diagnostics) {
+          checkNumbers(element, diagnostics);
           if (read.pressures.size() + read.heatFluxes.size() + read.forces.size() > 127)
             diagnostics.error(element, "there can be 127 loads");
         });
