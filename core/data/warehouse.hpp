@@ -147,7 +147,7 @@ class Warehouse {
   void takeBack(Buffer& buffer) { pool_.takeBack(buffer); }
   /// Gives memory that no variable has back to the system.
   void releaseFreeMemory();
-  /// A graph begins to run: memory that the last one never needed goes back to the system.
+  /// A step begins, of all its graphs: memory that the last one never needed goes back to the system.
   void beginStep();
 
   /// Whether any rank has values of a variable; every rank asks.

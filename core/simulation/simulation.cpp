@@ -133,6 +133,7 @@ void Simulation::initialize() {
 }
 
 void Simulation::step() {
+  warehouse_.beginStep();
   scheduler_.run(phases_.stableTimeStep, {time_.step() + 1, time_.time()});
   auto& dt = warehouse_.reduction<data::Minimum>(table_.number(data::delT, -1));
   dt.value = time_.next(dt, outputs_.next());

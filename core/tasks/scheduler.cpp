@@ -151,7 +151,6 @@ void Scheduler::start(const TaskGraph& graph, int end) {
   error_.reset();
   heard_stop_ = false;
   costs_.resize(warehouse_->level().patches().size());
-  warehouse_->beginStep();
   relocation_.start();
   for (const int reduction : graph.reductions()) warehouse_->resetReduction(reduction);
 }
