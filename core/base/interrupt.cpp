@@ -7,10 +7,12 @@ namespace tushar {
 namespace {
 volatile std::sig_atomic_t interrupted = 0;
 
-extern "C" void noteInterrupt(int) {
-  interrupted = 1;
+/// A second signal finds the default; where both came before the first was noted, it is raised again for that.
+extern "C" void noteInterrupt(int signal) {
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
+  if (interrupted) std::raise(signal);
+  interrupted = 1;
 }
 }  // namespace
 

@@ -44,14 +44,15 @@ class Interrupt(unittest.TestCase):
 
     def test_a_second_signal_of_either_kind_ends_at_once_whatever_the_run_is_at(self):
         large = "Grid/Level/Box/resolution=[100,100,25]"
-        for options in ((), ("-check",)):
+        for options, apart in (((), 0.5), (("-check",), 0.5), ((), 0)):
             with tempfile.TemporaryDirectory() as folder:
                 run = subprocess.Popen([SUS, "ups/mpm/vortex_3d.ups", "--output", folder, "--quiet", "--set", large, *options],
                                        stdout=subprocess.DEVNULL)
-                for number in (signal.SIGTERM, signal.SIGINT):
-                    time.sleep(0.5)
-                    run.send_signal(number)
-                self.assertLess(run.wait(timeout=5), 0, options)
+                time.sleep(0.5)
+                run.send_signal(signal.SIGTERM)
+                time.sleep(apart)
+                run.send_signal(signal.SIGINT)
+                self.assertLess(run.wait(timeout=5), 0, (options, apart))
 
     def folder(self):
         here = Folder()
