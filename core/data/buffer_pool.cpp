@@ -76,8 +76,7 @@ void BufferPool::takeBack(Buffer& buffer) {
 }
 
 void BufferPool::note(std::size_t before, std::size_t after) {
-  lent_ += after;
-  lent_ -= std::min(before, lent_);
+  lent_ = lent_ + after - before;
   most_lent_ = std::max(most_lent_, lent_);
 }
 

@@ -9,7 +9,7 @@ namespace tushar::data {
 /// Memory that variables have given back, for the next ones. A buffer goes to nobody who needs much less than it holds, so
 /// that each size finds its own again in the next step. What lies free never exceeds a bound: the pool and all that it has
 /// lent hold together no more than `bound()` bytes. Not for several threads at once.
-class alignas(64) BufferPool {
+class BufferPool {
  public:
   /// Makes room for `bytes` in a buffer, from the pool where it has one that fits; the first `keep` bytes stay as they were.
   void reserve(Buffer& buffer, std::size_t bytes, std::size_t keep = 0);

@@ -1,5 +1,9 @@
 #include "core/data/slots.hpp"
 
+#include <algorithm>
+#include <functional>
+#include <utility>
+
 #include "core/data/label.hpp"
 
 namespace tushar::data {
@@ -24,8 +28,7 @@ SharedSlots laidOutAnew(const std::vector<std::size_t>& counts) {
   Slots slots;
   slots.first.resize(counts.size());
   slots.room.resize(counts.size());
-  for (std::size_t place = 0; place < counts.size(); ++place)
-    append(slots, place, roomFor(counts[place]));
+  for (std::size_t place = 0; place < counts.size(); ++place) append(slots, place, roomFor(counts[place]));
   return std::make_shared<const Slots>(std::move(slots));
 }
 
@@ -50,13 +53,13 @@ SharedSlots slotsOfGrid(const grid::Level& level, const Label& label, int ghost)
 
 SharedSlots slotsThatFit(const SharedSlots& base, const std::vector<std::size_t>& counts) {
   if (!base || base->first.size() != counts.size()) return laidOutAnew(counts);
+  if (std::equal(counts.begin(), counts.end(), base->room.begin(), std::less_equal<>())) return base;
   Slots slots = *base;
   std::size_t needed = 0;
   for (std::size_t place = 0; place < counts.size(); ++place) {
     needed += roomFor(counts[place]);
     if (counts[place] > slots.room[place]) append(slots, place, roundedUp(counts[place] + counts[place] / 8 + step));
   }
-  if (slots.end == base->end) return base;
   if (slots.end > needed + needed / 4) return laidOutAnew(counts);
   return std::make_shared<const Slots>(std::move(slots));
 }

@@ -15,10 +15,10 @@ struct Label;
 ///
 /// Layouts do not change: variables that stand alike share one, and where particles need other slots there is a new one.
 struct Slots {
-  std::vector<std::size_t> first;    ///< by place of the patch on its rank
-  std::vector<std::size_t> room;     ///< of particles: how many each slot can hold
-  std::vector<grid::Box> stored;     ///< of nodes and cells: the box in each slot, ghosts included
-  std::size_t end = 0;               ///< behind the last slot
+  std::vector<std::size_t> first;  ///< by place of the patch on its rank
+  std::vector<std::size_t> room;   ///< of particles: how many each slot can hold
+  std::vector<grid::Box> stored;   ///< of nodes and cells: the box in each slot, ghosts included
+  std::size_t end = 0;             ///< behind the last slot
 
   /// Whether these are the slots of `other`, but for patches that have moved behind all of them: what stands there can
   /// follow without a second memory.

@@ -107,8 +107,8 @@ Variable Warehouse::variable(Generation generation, int number, int patch) {
   if (!held.held) return {};
   const std::size_t at = placeOf(patch);
   const std::size_t bytes = (*table_)[number].label->bytes;
-  return {held.memory.data() + held.slots->first[at] * bytes, held.slots->stored.empty() ? grid::Box{} : held.slots->stored[at],
-          true};
+  const grid::Box stored = held.slots->stored.empty() ? grid::Box{} : held.slots->stored[at];
+  return {held.memory.data() + held.slots->first[at] * bytes, stored, true};
 }
 
 void Warehouse::allocate(Storage& storage, const Label& label, const SharedSlots& slots, std::size_t values) {

@@ -171,17 +171,18 @@ void Exchange::forEach(const Work& work) {
   threads_->forEach(static_cast<int>(patches.size()), workOn, trace::Kind::message);
 }
 
-/// A patch reads of others only what they own, and that stands still once all have made room.
+/// Ghosts of patches of this rank are settled by all patches at once; copies then get their places one after the other.
 void Exchange::fillFromHere() {
-  forEach([&](const NumberedFill& fill, bool settles, const Patch& patch, std::size_t place) {
-    if (settles) settleDirect(fill, patch, planOf(fill).into[place]);
-  });
+  if (std::find(settles_.begin(), settles_.end(), true) != settles_.end())
+    forEach([&](const NumberedFill& fill, bool settles, const Patch& patch, std::size_t place) {
+      if (settles) settleDirect(fill, patch, planOf(fill).into[place]);
+    });
   for (std::size_t k = 0; k < fills_.size(); ++k)
     if (settles_[k]) settleCopies(fills_[k], nullptr);
   for (const NumberedFill& fill : fills_)
     if (fill.particles) reserveCopies(fill);
   forEach([&](const NumberedFill& fill, bool, const Patch& patch, std::size_t place) {
-    if (fill.particles) return fillCopies(fill, patch);
+    if (fill.particles) return fillCopies(fill, patch, nullptr);
     for (const GhostCopy& copy : planOf(fill).into[place])
       if (isHere(copy)) copyGrid(fill, copy);
   });
@@ -234,7 +235,7 @@ void Exchange::fillFromElsewhere(const NumberedFill& fill, bool settles, Letters
   const GhostPlan& plan = planOf(fill);
   const std::vector<Patch>& patches = warehouse_->level().patches();
   for (std::size_t place = 0; place < patches.size(); ++place) {
-    if (fill.particles) takeParticles(fill, patches[place], letters);
+    if (fill.particles) fillCopies(fill, patches[place], &letters);
     for (const GhostCopy& copy : plan.into[place])
       if (!fill.particles && !isHere(copy)) takeGrid(fill, copy, letters);
   }
@@ -295,35 +296,21 @@ void Exchange::reserveCopies(const NumberedFill& fill) {
   warehouse_->reserveCopies(fill.generation, fill.variable, fill.set);
 }
 
-void Exchange::shift(const NumberedFill& fill, const data::GhostRun& run, std::byte* copies) const {
-  if (warehouse_->table()[fill.variable].label->name == data::positionName && !(run.shift == Index3{}))
-    shiftPositions(warehouse_->level(), run.shift, reinterpret_cast<double*>(copies), run.count);
-}
-
-/// The copies that a patch has of particles of this rank.
-void Exchange::fillCopies(const NumberedFill& fill, const Patch& patch) {
+/// The copies that a patch has of particles of this rank, or of others from their letters.
+void Exchange::fillCopies(const NumberedFill& fill, const Patch& patch, Letters* letters) {
   const auto [label, material] = warehouse_->table()[fill.variable];
+  const grid::Level& level = warehouse_->level();
   const Variable here = warehouse_->variable(fill.generation, fill.variable, patch.id());
   for (const data::GhostRun& run : warehouse_->particles(fill.set, material, patch.id()).ghostRuns()) {
-    if (!warehouse_->level().isMine(run.patch)) continue;
-    const Variable there = warehouse_->variable(fill.generation, fill.variable, run.patch);
-    std::byte* to = here.values + static_cast<std::size_t>(run.to) * label->bytes;
-    std::memcpy(to, there.values + static_cast<std::size_t>(run.first) * label->bytes,
-                static_cast<std::size_t>(run.count) * label->bytes);
-    shift(fill, run, to);
-  }
-}
-
-/// Those of particles of other ranks.
-void Exchange::takeParticles(const NumberedFill& fill, const Patch& patch, Letters& letters) {
-  const auto [label, material] = warehouse_->table()[fill.variable];
-  const Variable here = warehouse_->variable(fill.generation, fill.variable, patch.id());
-  for (const data::GhostRun& run : warehouse_->particles(fill.set, material, patch.id()).ghostRuns()) {
-    if (warehouse_->level().isMine(run.patch)) continue;
+    if (level.isMine(run.patch) == (letters != nullptr)) continue;
     const std::size_t length = static_cast<std::size_t>(run.count) * label->bytes;
+    const std::byte* from = letters ? letters->next(level.ownerOf(run.patch), length)
+                                    : warehouse_->variable(fill.generation, fill.variable, run.patch).values +
+                                          static_cast<std::size_t>(run.first) * label->bytes;
     std::byte* to = here.values + static_cast<std::size_t>(run.to) * label->bytes;
-    std::memcpy(to, letters.next(warehouse_->level().ownerOf(run.patch), length), length);
-    shift(fill, run, to);
+    std::memcpy(to, from, length);
+    if (label->name == data::positionName && !(run.shift == Index3{}))
+      shiftPositions(level, run.shift, reinterpret_cast<double*>(to), run.count);
   }
 }
 

@@ -66,10 +66,7 @@ class Exchange {
   void settleDirect(const NumberedFill& fill, const grid::Patch& patch, const std::vector<GhostCopy>& copies);
   void settleCopies(const NumberedFill& fill, Letters* letters);
   void reserveCopies(const NumberedFill& fill);
-  void fillCopies(const NumberedFill& fill, const grid::Patch& patch);
-  void takeParticles(const NumberedFill& fill, const grid::Patch& patch, Letters& letters);
-  /// Moves copies of positions to the image that they belong to.
-  void shift(const NumberedFill& fill, const data::GhostRun& run, std::byte* copies) const;
+  void fillCopies(const NumberedFill& fill, const grid::Patch& patch, Letters* letters);
   bool isHere(const GhostCopy& copy) const { return copy.rank == warehouse_->ranks().rank(); }
   void noteUnsettled();
   /// Calls `work(fill, whether it settles ghosts, patch, its place)` on several threads at once.

@@ -102,6 +102,8 @@ void Relocation::settle(int material, const std::vector<Carried>& carried, Gener
     keepAll(ofPatch, warehouse_->particles(Generation::fresh, material, patch.id()).owned());
   });
   warehouse_->layOut(Generation::fresh, material, Generation::old);
+  const auto stands = [&](const PatchMoves& ofPatch) { return ofPatch.staysAsItIs(to); };
+  if (std::all_of(moves.patches.begin(), moves.patches.end(), stands)) return;
   moves.departed = 0;
   for (const Patch& patch : warehouse_->level().patches()) {
     PatchMoves& ofPatch = of(moves, patch.id());

@@ -22,15 +22,18 @@ void Relocation::carry(const Carried& carried, std::size_t place, Generation to,
   const std::size_t bytes = warehouse_->table()[carried.variable].label->bytes;
   data::Buffer packed = warehouse_->lend(moves.departed * bytes);
   const std::byte* from = outgrown.capacity() > 0 ? outgrown.data() : warehouse_->memory(carried.from, carried.variable);
-  const Move move{bytes,         from, warehouse_->memory(to, carried.variable), before.get(), after.get(),
-                  moves.emigration.values(place), packed.data()};
+  const Move move{.bytes = bytes,
+                  .from = from,
+                  .to = warehouse_->memory(to, carried.variable),
+                  .before = before.get(),
+                  .after = after.get(),
+                  .emigrants = moves.emigration.values(place),
+                  .packed = packed.data()};
   const bool isInPlace = from == move.to;
   const auto placeOf = [&](const Patch& patch) {
     return static_cast<std::size_t>(patch.id() - warehouse_->level().firstPatch());
   };
-  const auto stands = [&](const Patch& patch) {
-    return isInPlace && of(moves, patch.id()).staysAsItIs(to);
-  };
+  const auto stands = [&](const Patch& patch) { return isInPlace && of(moves, patch.id()).staysAsItIs(to); };
   if (moves.departed > 0)
     forEachPatch([&](const Patch& patch) { pack(move, placeOf(patch), of(moves, patch.id())); });
   forEachPatch([&](const Patch& patch) {

@@ -207,8 +207,15 @@ void Scheduler::runWork(CompiledTask& task, const StepInfo& at) {
       threads_.alone([&] { runOnRank(task, at); }, trace::Kind::task, task.task.name);
     else
       runOnPatches(task, m, at);
+  shareFaces(task);
   if (const auto factor = askedBy(task))
     outcome_.merge({running_, Outcome::Kind::asks, 0, 0, warehouse_->ranks().rank(), *factor, {}});
+}
+
+void Scheduler::shareFaces(const CompiledTask& task) {
+  for (const MaterialBinding& binding : task.materials)
+    for (const int number : binding.shared)
+      if (!hasStopped()) exchange_.shareFaces(number);
 }
 
 /// All ranks relocate together, or none. A relocation behind which no task comes is made when the step counts.
@@ -254,8 +261,6 @@ void Scheduler::runOnPatches(CompiledTask& task, int material, const StepInfo& a
     install(task, material, at);
     forEachPatch(task, checkBounds);
   }
-  for (int m = from; m < end && !first.error(); ++m)
-    for (const int number : task.of(m).shared) exchange_.shareFaces(number);
   if (first.error())
     note(task, material, *first.error());
   else if (!kept)
@@ -268,9 +273,8 @@ void Scheduler::runOnRank(CompiledTask& task, const StepInfo& at) {
   std::vector<std::vector<TaskContext>> contexts;
   for (const grid::Patch& patch : warehouse_->level().patches()) {
     std::vector<TaskContext>& ofPatch = contexts.emplace_back();
-    for (std::size_t m = 0; m < task.materials.size(); ++m) {
+    for (std::size_t m = 0; m < task.materials.size(); ++m)
       ofPatch.emplace_back(*warehouse_, patch, static_cast<int>(m) + first, task.materials[m].accesses, at.time);
-    }
   }
   std::vector<TaskContext> patches;
   for (const std::vector<TaskContext>& ofPatch : contexts) {

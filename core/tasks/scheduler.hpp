@@ -69,6 +69,8 @@ class Scheduler {
   void start(const TaskGraph& graph, int end);
   void runTask(TaskGraph& graph, int number, const StepInfo& at);
   void runWork(CompiledTask& task, const StepInfo& at);
+  /// Of nodes that the task wrote as far as they are a patch's own.
+  void shareFaces(const CompiledTask& task);
   void relocate(const CompiledTask& task, const StepInfo& at);
   template <class Work>
   void forEachPatch(CompiledTask& task, const Work& work);

@@ -67,8 +67,11 @@ REFUSED = {
         (BEAM, ("<Grid>", HEAT.replace("heat_flux", "pressure").replace("<time_point>", "<id>2</id><time_point>", 1)),
          "id: found '2', expected 1: loads are counted as they stand in the scene", "MPM/use_load_curves=true"),
     "a word in thermal contact":
-        (BILLET, ("<contact>", "<thermal_contact><type>none</type></thermal_contact><contact>"),
-         "type: unknown tag: <thermal_contact> has none"),
+        (BILLET, ("<contact>", "<thermal_contact><type>none</type></thermal_contact><contact>"), "unknown tag <type>"),
+    "a text in thermal contact":
+        (BILLET, ("<contact>", "<thermal_contact>foo</thermal_contact><contact>"), "text 'foo' in <thermal_contact>"),
+    "two thermal contacts":
+        (BILLET, ("<contact>", "<thermal_contact/><thermal_contact/><contact>"), "thermal_contact is given twice"),
     "a surface of Mohr and Coulomb without corners":
         (BEAM, (RUBBER, '<constitutive_model type="MohrCoulomb"><G>1</G><K>1</K><Version>3</Version>'),
          "Version: found '3', expected 1, 11, 12: stresses return to the nearest point of a surface with corners"),

@@ -6,21 +6,13 @@ import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from solids import columns, archive_of, globals_of
+from solids import SceneTest, archive_of, columns, globals_of
 from sus import ROOT
 
 BARS = (ROOT / "ups/solid/two_material_contact.ups").read_text().replace("[80,1,1]", "[64,1,1]")
 
 
-class Faces(unittest.TestCase):
-    def scene(self, text):
-        """A file with the scene, for as long as the test takes."""
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        path = pathlib.Path(folder.name, "scene.ups")
-        path.write_text(text)
-        return path
-
+class Faces(SceneTest):
     def particles(self, flyer, target):
         """How many particles of 1/32 m both bars have."""
         text = BARS.replace("[0.2,0,0]</min><max>[1.2", flyer).replace("[1.2,0,0]</min><max>[3.2", target)

@@ -8,7 +8,7 @@ import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from solids import globals_of, last_state
+from solids import SceneTest, globals_of, last_state
 from sus import ROOT, SUS, run
 from uda import Folder
 
@@ -53,15 +53,7 @@ def free(text):
     return text.replace("<dynamic>false", "<dynamic>true").replace('"StrainEnergy"', '"TotalMomentum"')
 
 
-class Implicit(unittest.TestCase):
-    def scene(self, text):
-        """A file with the scene, for as long as the test takes."""
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        path = pathlib.Path(folder.name, "scene.ups")
-        path.write_text(text)
-        return path
-
+class Implicit(SceneTest):
     def test_a_load_that_is_there_from_the_start_acts_from_the_start(self):
         pressed = """<PhysicalBC><MPM><pressure>
             <geom_object><box><min>[1,0.4,0]</min><max>[1,0.6,0.05]</max></box></geom_object>

@@ -1,14 +1,12 @@
 #!/usr/bin/env python3
 """Materials that Uintah's words make rigid: is_rigid and is_force_transmitting_material."""
 import pathlib
-import subprocess
 import sys
-import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from solids import globals_of
-from sus import ROOT, SUS, on_ranks, run
+from solids import SceneTest, globals_of
+from sus import ROOT, run
 
 BARS = (ROOT / "ups/solid/two_material_contact.ups").read_text()
 HAMMER = BARS.replace('<material name="flyer">', '<material name="flyer"><is_force_transmitting_material>true'
@@ -22,15 +20,7 @@ PUSH = """<PhysicalBC><MPM><pressure>
 PUSHED = HAMMER.replace("<Grid>", PUSH).replace("<time_integrator>", "<use_load_curves>true</use_load_curves><time_integrator>")
 
 
-class Scenes(unittest.TestCase):
-    def scene(self, text):
-        """A file with the scene, for as long as the test takes."""
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        path = pathlib.Path(folder.name, "scene.ups")
-        path.write_text(text)
-        return path
-
+class Scenes(SceneTest):
     def lines(self, text, name, **more):
         return globals_of(self.scene(text), name, **more)[name]
 
@@ -60,10 +50,7 @@ class ForceTransmitting(Scenes):
         prints = {run(scene, f"Grid/Level/Box/patches={patches}", "Time/max_Timesteps=60",
                       options=("--quiet", "--nthreads", threads)).report["fingerprint"]
                   for patches, threads in (("[1,1,1]", "1"), ("[7,1,1]", "1"), ("[4,1,1]", "2"))}
-        with tempfile.TemporaryDirectory() as folder:
-            done = subprocess.run([*on_ranks(2), SUS, scene, "--output", folder, "--set", "Grid/Level/Box/patches=[5,1,1]", "--set",
-                                   "Time/max_Timesteps=60"], cwd=ROOT, capture_output=True, text=True)
-        prints.add(done.stdout.split("fingerprint")[1].split()[0])
+        prints.add(run(scene, "Grid/Level/Box/patches=[5,1,1]", "Time/max_Timesteps=60", ranks=2).report["fingerprint"])
         self.assertEqual(len(prints), 1, prints)
 
 

@@ -2,8 +2,21 @@
 import pathlib
 import subprocess
 import tempfile
+import unittest
 
 from sus import ROOT, SUS
+
+
+class SceneTest(unittest.TestCase):
+    """A test that runs scenes which it writes itself."""
+
+    def scene(self, text):
+        """A file with the scene, for as long as the test takes."""
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        path = pathlib.Path(folder.name, "scene.ups")
+        path.write_text(text)
+        return path
 
 
 def globals_of(scene, *names, sets=(), until=None):

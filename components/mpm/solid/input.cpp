@@ -322,7 +322,7 @@ simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostic
     contact.normalsInCells = read.axisymmetric;
   }
   problem.method.velocityGradient = isSaved(root, "p.velGrad");
-  problem.method.thermalContact = properties.mpm.thermalContact;
+  problem.method.thermalContact = properties.mpm.thermalContact.has_value();
   problem.start = {read.axisymmetric, readLoads(root, read.useLoadCurves, diagnostics),
                    makeManufactured(read.manufactured)};
   problem.start.leastMass = read.minimumParticleMass;

@@ -58,7 +58,8 @@ inline constexpr NodeLabel<Vec<D>> velocityOfForces{"g.velocityOfForces", "m/s",
 template <int D>
 inline constexpr NodeLabel<Vec<D>> velocityOfContact{"g.velocityOfContact", "m/s", "the same, after contact"};
 template <int D>
-inline constexpr NodeLabel<Vec<D>> transmittedForce{"g.transmittedForce", "N", "what contact takes for a material that transmits force"};
+inline constexpr NodeLabel<Vec<D>> transmittedForce{"g.transmittedForce", "N",
+                                                   "what contact takes for a material that transmits force"};
 inline constexpr NodeLabel<Octet> workRecord{"g.workRecord", "SI units", "mean velocity of a step, and work for a unit of mass"};
 template <int D>
 inline constexpr NodeLabel<Vec<D>> massGradient{"g.massGradient", "kg/m", "gradient of the mass, out of the body"};

@@ -102,23 +102,23 @@ void describeModels(std::ostream& out, int indent) {
 
 Schema<Body> bodyTags() {
   return Schema<Body>("geom_object", "A body of material at the start.")
-          .custom("shape",
-                  [](Body& body, const Element& element, Diagnostics& diagnostics) {
-                    body.where = element.where();
-                    body.shape = input::readGeometry(element, diagnostics);
-                  },
-                  input::geometryNames(), "the body's shape; several are united", input::describeGeometry)
-          .required("res", &Body::particlesPerCell, "1", "particles per cell along x, y, z", input::between(1, 32))
-          .value("velocity", &Body::velocity, input::VectorExpression(), "m/s", "velocity at the start")
-          .value("temperature", &Body::temperature, input::Expression(293.0), "K", "temperature at the start",
-                 input::nonNegative())
-          .value("color", &Body::color, 0, "1", "a number that its particles keep, p.color")
-          .ignored("concentration", "belongs to do_scalar_diffusion")
-          .ignored("comment", "for readers")
-          .ignored("density", "the material's is taken, as in Uintah")
-          .ignored("pressure", "bodies start without stress")
-          .ignored("level", "there is one level")
-          .ignoredAttribute("name", "for readers");
+      .custom("shape",
+              [](Body& body, const Element& element, Diagnostics& diagnostics) {
+                body.where = element.where();
+                body.shape = input::readGeometry(element, diagnostics);
+              },
+              input::geometryNames(), "the body's shape; several are united", input::describeGeometry)
+      .required("res", &Body::particlesPerCell, "1", "particles per cell along x, y, z", input::between(1, 32))
+      .value("velocity", &Body::velocity, input::VectorExpression(), "m/s", "velocity at the start")
+      .value("temperature", &Body::temperature, input::Expression(293.0), "K", "temperature at the start",
+             input::nonNegative())
+      .value("color", &Body::color, 0, "1", "a number that its particles keep, p.color")
+      .ignored("concentration", "belongs to do_scalar_diffusion")
+      .ignored("comment", "for readers")
+      .ignored("density", "the material's is taken, as in Uintah")
+      .ignored("pressure", "bodies start without stress")
+      .ignored("level", "there is one level")
+      .ignoredAttribute("name", "for readers");
 }
 
 const Schema<Body>& bodySchema() {
@@ -194,6 +194,8 @@ void checkContacts(const MaterialProperties::List& list, const Element& element,
 }  // namespace
 
 const Schema<MaterialProperties>& propertiesSchema() {
+  static const Schema<MaterialProperties::ThermalContact> thermalContact(
+      "thermal_contact", "Materials that share nodes share a temperature there.");
   static const Schema<MaterialProperties::List> list =
       Schema<MaterialProperties::List>("MPM", "The materials of the Material Point Method, and how they touch.")
           .list("material", &MaterialProperties::List::materials, materialSchema(), "a material", 1)
@@ -203,14 +205,7 @@ const Schema<MaterialProperties>& propertiesSchema() {
                   },
                   {"contact"}, "how materials act on each other; several are applied one after the other",
                   describeContacts)
-          .custom("thermal_contact",
-                  [](MaterialProperties::List& read, const Element& element, Diagnostics& diagnostics) {
-                    const auto given = element.child("thermal_contact");
-                    read.thermalContact = given.has_value();
-                    for (const Element& tag : given ? given->children() : std::vector<Element>{})
-                      diagnostics.error(tag, "unknown tag: <thermal_contact> has none");
-                  },
-                  {"thermal_contact"}, "materials that share nodes share a temperature there")
+          .section("thermal_contact", &MaterialProperties::List::thermalContact, thermalContact)
           .check(noteCommonNames)
           .check(checkContacts);
   static const Schema<MaterialProperties> schema =

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "components/mpm/solid/contact/contact.hpp"
 #include "components/mpm/solid/material.hpp"
 #include "core/input/schema.hpp"
@@ -8,10 +11,12 @@ namespace tushar::mpm::solid {
 
 /// The `MaterialProperties` section.
 struct MaterialProperties {
+  /// A tag that acts by standing there.
+  struct ThermalContact {};
   struct List {
     std::vector<Material> materials;
     std::vector<Contact> contacts;
-    bool thermalContact = false;
+    std::optional<ThermalContact> thermalContact;
   } mpm;
 };
 

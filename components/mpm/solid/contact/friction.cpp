@@ -58,7 +58,8 @@ bool isPressed(const Level& level, const Matrix3& stress, const Vec<D>& normal) 
 
 /// Out of a body at a node; 0 where its mass does not change.
 template <int D>
-Vec<D> normalOf(const Level& level, const Contact& contact, const Records& records, const Surfaces<D>& surfaces, std::size_t m, const Index<D>& node) {
+Vec<D> normalOf(const Level& level, const Contact& contact, const Records& records, const Surfaces<D>& surfaces,
+                std::size_t m, const Index<D>& node) {
   Vec<D> others = Vec<D>::Zero();
   double mass = 0;
   for (std::size_t n = 0; n < records.size(); ++n) {
@@ -126,12 +127,12 @@ void rub(const Patch& patch, const Contact& contact, double dt, const Records& r
       if (!isThere<D>(contact, records, all.mass, m, node) || others < leastShare * all.mass) continue;
       if (separation<D>(all, surfaces.position[m][node], mass) >= reach) continue;
       const Vec<D> v = lanes<D>(record, lane::velocity);
-      const Vec<D> normal = !contact.keepsMomentum ? normalOf<D>(level, contact, records, surfaces, m, node)
-                            : m == all.steepest    ? all.normal
-                                                   : Vec<D>(-all.normal);
-      const bool alone = !contact.keepsMomentum && !contact.onlyOnApproach;
-      const bool pressed = alone ? isPressed<D>(level, surfaces.stress[m][node], normal) : together;
-      const Rubbing<D> rubbed = rubbing<D>({normal, v - all.momentum / all.mass, pressed}, contact.friction);
+      Touch<D> touch{normalOf<D>(level, contact, records, surfaces, m, node), v - all.momentum / all.mass, together};
+      if (contact.keepsMomentum)
+        touch.normal = m == all.steepest ? all.normal : Vec<D>(-all.normal);
+      else if (!contact.onlyOnApproach)
+        touch.isPressed = isPressed<D>(level, surfaces.stress[m][node], touch.normal);
+      const Rubbing<D> rubbed = rubbing<D>(touch, contact.friction);
       const double share = strainLimit<D>(level, rubbed.change, dt, mass / others);
       setLanes<D>(record, lane::velocity, v + share * rubbed.change);
       if (!heat.empty()) heat[m][node] += share * mass * rubbed.heat;

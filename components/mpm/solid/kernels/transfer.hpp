@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <type_traits>
 
 #include "components/mpm/solid/kernels/octet.hpp"
 #include "core/core.hpp"
@@ -43,65 +44,64 @@ template <class Stencil, int D, class Visit>
   }
 }
 
+/// What a particle brings to a row of nodes along the first axis, but for the factors of that axis.
+struct RowShare {
+  Quad low, high, change, round;
+
+  template <int D>
+  [[gnu::always_inline]] RowShare(std::integral_constant<int, D>, const RowFactors& f, const Octet& value,
+                                  const std::array<Quad, D>& slope, const Quad& hoop) {
+    const Quad share = spread<0>(f);
+    low = share * value.low;
+    change = share * slope[0];
+    round = share * hoop;
+    high = share * value.high;
+    if constexpr (D > 1) high = multiplyAdd(spread<1>(f), slope[1], high);
+    if constexpr (D > 2) high = multiplyAdd(spread<2>(f), slope[2], high);
+  }
+
+  /// To node i of the row.
+  template <class Stencil>
+  [[gnu::always_inline]] void addTo(Octet& record, const Stencil& stencil, std::size_t i) const {
+    const Quad s = spread<0>(stencil.s[i]), ds = spread<0>(stencil.ds[i]);
+    record.low = multiplyAdd(s, low, record.low);
+    record.high = multiplyAdd(s, high, multiplyAdd(ds, change, record.high));
+    if constexpr (Stencil::axisymmetric) record.high = multiplyAdd(stencil.hoop[i], round, record.high);
+  }
+};
+
 /// record_i += S_i value, and to its high half sum_d dS_i/dx_d slope_d (+ S_i / r hoop where axisymmetric), for the nodes
 /// i of a stencil.
 template <class Stencil, int D = Stencil::dimension>
 [[gnu::always_inline]] inline void scatter(const Stencil& stencil, const NodeWindow<Octet, D>& nodes, const Octet& value,
                                            const std::array<Quad, Stencil::dimension>& slope, const Quad& hoop = Quad{}) {
-  std::array<Quad, Stencil::nodes> s, ds;
-  for (std::size_t i = 0; i < Stencil::nodes; ++i) {
-    s[i] = spread<0>(stencil.s[i]);
-    ds[i] = spread<0>(stencil.ds[i]);
-  }
   forEachRow<Stencil, D>(stencil, nodes.stride, [&](std::ptrdiff_t offset, const RowFactors& f) {
-    const Quad share = spread<0>(f), low = share * value.low, change = share * slope[0], round = share * hoop;
-    Quad high = share * value.high;
-    if constexpr (D > 1) high = multiplyAdd(spread<1>(f), slope[1], high);
-    if constexpr (D > 2) high = multiplyAdd(spread<2>(f), slope[2], high);
-    Octet* row = nodes.origin + offset;
-    for (std::size_t i = 0; i < Stencil::nodes; ++i) {
-      row[i].low = multiplyAdd(s[i], low, row[i].low);
-      row[i].high = multiplyAdd(s[i], high, multiplyAdd(ds[i], change, row[i].high));
-      if constexpr (Stencil::axisymmetric) row[i].high = multiplyAdd(stencil.hoop[i], round, row[i].high);
-    }
+    const RowShare share(std::integral_constant<int, D>{}, f, value, slope, hoop);
+    for (std::size_t i = 0; i < Stencil::nodes; ++i) share.addTo(nodes.origin[offset + static_cast<std::ptrdiff_t>(i)], stencil, i);
   });
 }
 
-/// The same, with the same bits, for those nodes of a stencil that lie within a box; `origin` is where the record of the
-/// first node would stand, stored or not.
+/// The same for those nodes of a stencil that lie within a box; `origin` is where the record of the first node would
+/// stand, stored or not.
 template <class Stencil, int D = Stencil::dimension>
 inline void scatterWithin(const Stencil& stencil, const Box& box, const NodeWindow<Octet, D>& nodes, const Octet& value,
                           const std::array<Quad, Stencil::dimension>& slope, const Quad& hoop = Quad{}) {
-  Box part{{}, Index3::filled(1)};  // of the stencil, counted from its first node
+  Index<D> first, end;  // of the nodes within the box, counted from the first of the stencil
   for (int d = 0; d < D; ++d) {
-    part.lower[d] = std::max(0, box.lower[d] - stencil.first[d]);
-    part.upper[d] = std::min(Stencil::nodes, box.upper[d] - stencil.first[d]);
+    first[d] = std::max(0, box.lower[d] - stencil.first[d]);
+    end[d] = std::min(Stencil::nodes, box.upper[d] - stencil.first[d]);
+    if (first[d] >= end[d]) return;
   }
-  const auto begin = static_cast<std::size_t>(part.lower[0]);
-  const auto end = static_cast<std::size_t>(std::max(part.lower[0], part.upper[0]));
-  forEach<3>(part.rowStarts(), [&](const Index3& at) {
-    const auto j = static_cast<std::size_t>(at[1]), k = static_cast<std::size_t>(at[2]);
-    RowFactors f = quadOf(1.0);
-    std::ptrdiff_t offset = 0;
-    if constexpr (D > 1) {
-      f = __builtin_shufflevector(stencil.s[j], stencil.ds[j], 1, 5, 1, 1);
-      offset += at[1] * nodes.stride[1];
-    }
-    if constexpr (D > 2) {
-      f = f * __builtin_shufflevector(stencil.s[k], stencil.ds[k], 2, 2, 6, 2);
-      offset += at[2] * nodes.stride[2];
-    }
-    const Quad share = spread<0>(f), low = share * value.low, change = share * slope[0], round = share * hoop;
-    Quad high = share * value.high;
-    if constexpr (D > 1) high = multiplyAdd(spread<1>(f), slope[1], high);
-    if constexpr (D > 2) high = multiplyAdd(spread<2>(f), slope[2], high);
-    Octet* row = nodes.origin + offset;
-    for (std::size_t i = begin; i < end; ++i) {
-      row[i].low = multiplyAdd(spread<0>(stencil.s[i]), low, row[i].low);
-      row[i].high =
-          multiplyAdd(spread<0>(stencil.s[i]), high, multiplyAdd(spread<0>(stencil.ds[i]), change, row[i].high));
-      if constexpr (Stencil::axisymmetric) row[i].high = multiplyAdd(stencil.hoop[i], round, row[i].high);
-    }
+  std::ptrdiff_t row = 0;
+  forEachRow<Stencil, D>(stencil, nodes.stride, [&](std::ptrdiff_t offset, const RowFactors& f) {
+    const std::ptrdiff_t j = row % Stencil::nodes, k = row / Stencil::nodes;
+    ++row;
+    if constexpr (D > 1)
+      if (j < first[1] || j >= end[1]) return;
+    if constexpr (D > 2)
+      if (k < first[2] || k >= end[2]) return;
+    const RowShare share(std::integral_constant<int, D>{}, f, value, slope, hoop);
+    for (int i = first[0]; i < end[0]; ++i) share.addTo(nodes.origin[offset + i], stencil, static_cast<std::size_t>(i));
   });
 }
 
