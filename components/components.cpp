@@ -4,8 +4,8 @@
 #include "components/burgers/burgers_wave.hpp"
 #include "components/euler/input.hpp"
 #include "components/heat/heat.hpp"
-#include "components/mpm/analysis/mass_projection.hpp"
-#include "components/mpm/input.hpp"
+#include "components/mpm/gas/paper/mass_projection.hpp"
+#include "components/mpm/mpm.hpp"
 #include "components/mpm/solid/analysis/energy_budget.hpp"
 #include "components/mpm/solid/analysis/manufactured_error.hpp"
 #include "components/mpm/solid/implicit/input.hpp"
@@ -23,12 +23,12 @@ simulation::Catalogue catalogue() {
           euler::kind(),
           heat::kind(),
           mpm::kind(),
-          mpm::solid::implicitKind(),
+          mpm::solid::implicit::implicitKind(),
           poisson::kind(),
       },
       {
           burgers::waveKind(),
-          mpm::massProjectionKind(),
+          mpm::gas::paper::massProjectionKind(),
           mpm::solid::energyBudgetKind(),
           mpm::solid::manufacturedErrorKind(),
           reference::exactRiemannKind(),

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "components/mpm/labels.hpp"
-#include "components/mpm/solid/constitutive_model.hpp"
-#include "components/mpm/solid/kernels/node_record.hpp"
+#include "components/mpm/solid/constitutive/constitutive_model.hpp"
+#include "components/mpm/solid/transfer/node_record.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -49,10 +49,10 @@ namespace g {
 using namespace mpm::g;
 inline constexpr NodeLabel<double> volume{"g.volume", "m^3", "volume gathered from particles"};
 inline constexpr NodeLabel<Matrix3> stress{"g.stressFS", "Pa", "Cauchy stress, mean over the volume of the particles around"};
-inline constexpr NodeLabel<Octet> record{"g.record", "SI units", "velocity, mass, force and volume of a step in progress"};
-inline constexpr NodeLabel<Octet> stressRecord{"g.stressRecord", "SI units",
+inline constexpr NodeLabel<NodeRecord> record{"g.record", "SI units", "velocity, mass, force and volume of a step in progress"};
+inline constexpr NodeLabel<NodeRecord> stressRecord{"g.stressRecord", "SI units",
                                                "velocity and mass that stresses follow, where it is not that of a step"};
-inline constexpr NodeLabel<Octet> smoothRecord{"g.smoothRecord", "SI units", "velocity of p.velocitySSPlus, and mass"};
+inline constexpr NodeLabel<NodeRecord> smoothRecord{"g.smoothRecord", "SI units", "velocity of p.velocitySSPlus, and mass"};
 template <int D>
 inline constexpr NodeLabel<Vec<D>> velocityOfForces{"g.velocityOfForces", "m/s", "velocity after the forces of a step"};
 template <int D>
@@ -60,7 +60,7 @@ inline constexpr NodeLabel<Vec<D>> velocityOfContact{"g.velocityOfContact", "m/s
 template <int D>
 inline constexpr NodeLabel<Vec<D>> transmittedForce{"g.transmittedForce", "N",
                                                    "what contact takes for a material that transmits force"};
-inline constexpr NodeLabel<Octet> workRecord{"g.workRecord", "SI units", "mean velocity of a step, and work for a unit of mass"};
+inline constexpr NodeLabel<NodeRecord> workRecord{"g.workRecord", "SI units", "mean velocity of a step, and work for a unit of mass"};
 template <int D>
 inline constexpr NodeLabel<Vec<D>> massGradient{"g.massGradient", "kg/m", "gradient of the mass, out of the body"};
 template <int D>

@@ -2,7 +2,7 @@
 
 #include "components/mpm/solid/damage/damage.hpp"
 #include "components/mpm/solid/damage/erosion.hpp"
-#include "components/mpm/solid/model.hpp"
+#include "components/mpm/solid/constitutive/model.hpp"
 #include "core/core.hpp"
 #include "core/input/expression.hpp"
 #include "core/input/geometry.hpp"

@@ -7,8 +7,8 @@
 
 #include "components/mpm/solid/contact/contact_input.hpp"
 #include "components/mpm/solid/damage/damage_input.hpp"
-#include "components/mpm/solid/materials/all.hpp"
-#include "components/mpm/solid/refuse.hpp"
+#include "components/mpm/solid/constitutive/all.hpp"
+#include "core/input/refuse.hpp"
 
 namespace tushar::mpm::solid {
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "components/mpm/solid/constitutive_model.hpp"
+#include "components/mpm/solid/constitutive/constitutive_model.hpp"
 #include "core/core.hpp"
 
 namespace tushar::mpm::solid {

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "components/mpm/solid/materials/comp_mooney_rivlin.hpp"
-#include "components/mpm/solid/materials/comp_neo_hook.hpp"
-#include "components/mpm/solid/solid_mpm.hpp"
-#include "components/mpm/solid/tasks/measure_work.hpp"
+#include "components/mpm/solid/constitutive/comp_mooney_rivlin.hpp"
+#include "components/mpm/solid/constitutive/comp_neo_hook.hpp"
+#include "components/mpm/solid/explicit/solid_mpm.hpp"
+#include "components/mpm/solid/explicit/tasks/measure_work.hpp"
 #include "core/input/schema.hpp"
 
 namespace tushar::mpm::solid {

@@ -1,6 +1,6 @@
 #include "components/mpm/solid/analysis/manufactured_error.hpp"
 
-#include "components/mpm/solid/solid_mpm.hpp"
+#include "components/mpm/solid/explicit/solid_mpm.hpp"
 #include "core/input/schema.hpp"
 
 namespace tushar::mpm::solid {

@@ -45,7 +45,7 @@ void moveAsOne(const Patch&, const Contact& contact, const Records& records) {
     double total = 0;
     for (std::size_t m = 0; m < records.size(); ++m) {
       if (!contact.concerns(static_cast<int>(m))) continue;
-      const Octet& record = records[m][node];
+      const NodeRecord& record = records[m][node];
       momentum += record[lane::mass] * lanes<D>(record, lane::velocity);
       total += record[lane::mass];
     }
@@ -79,7 +79,7 @@ void sumReaction(const Patch& patch, const Contact& contact, const Acceleration&
   forEach<D>(records.front().box(), [&](const Index<D>& node) {
     if (!isOwned<D>(patch, node) || !isAt<D>(contact, records, node)) return;
     for (std::size_t m = 0; m < records.size(); ++m) {
-      const Octet& record = records[m][node];
+      const NodeRecord& record = records[m][node];
       if (static_cast<int>(m) == contact.master || !contact.concerns(static_cast<int>(m)) || record[lane::mass] == 0) continue;
       const Vec<D> before = lanes<D>(record, lane::before), after = lanes<D>(record, lane::velocity);
       const Vec<D> forced = (after - before) / dt - gravity + acceleration.damping * before;

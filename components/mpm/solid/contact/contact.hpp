@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "components/mpm/solid/kernels/node_record.hpp"
+#include "components/mpm/solid/transfer/node_record.hpp"
 #include "core/core.hpp"
 
 namespace tushar::mpm::solid {
@@ -49,7 +49,7 @@ enum class Moment {
 };
 
 /// The records of all materials (see NodeRecord), whose lanes 0 to 2 are the velocity.
-using Records = std::vector<NodeView<Octet>>;
+using Records = std::vector<NodeView<NodeRecord>>;
 
 /// All materials that take part get the velocity of their centre of mass.
 template <int D>

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "components/mpm/solid/refuse.hpp"
+#include "core/input/refuse.hpp"
 #include "core/input/schema.hpp"
 
 namespace tushar::mpm::solid {
@@ -27,7 +27,7 @@ const input::Choices<Kind> kinds{{"null", Kind::none},
                                  {"friction_bard", Kind::friction},
                                  {"friction_conserving", Kind::conservingFriction},
                                  {"approach", Kind::approach}};
-const Lacking lackingKinds{{"friction_LR", "friction_bard"},
+const input::Lacking lackingKinds{{"friction_LR", "friction_bard"},
                            {"friction_LRVar", "friction_bard"},
                            {"specified_friction", "specified, where nothing slips"},
                            {"penalty", "friction_bard"},

@@ -1,6 +1,6 @@
 #include "components/mpm/solid/contact/friction.hpp"
 
-#include "components/mpm/solid/tasks/extent.hpp"
+#include "components/mpm/solid/transfer/extent.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -28,7 +28,7 @@ Gathering<D> gatherBodies(const Contact& contact, const Records& records, const 
   Gathering<D> all;
   for (std::size_t m = 0; m < records.size(); ++m) {
     if (!contact.concerns(static_cast<int>(m))) continue;
-    const Octet& record = records[m][node];
+    const NodeRecord& record = records[m][node];
     all.momentum += record[lane::mass] * lanes<D>(record, lane::velocity);
     all.position += surfaces.position[m][node];
     all.mass += record[lane::mass];
@@ -122,7 +122,7 @@ void rub(const Patch& patch, const Contact& contact, double dt, const Records& r
     if (all.mass == 0 || all.normal.isZero() || all.volume <= leastVolume) return;
     const bool together = contact.keepsMomentum && arePressed<D>(level, contact, records, surfaces, all, node);
     for (std::size_t m = 0; m < records.size(); ++m) {
-      Octet& record = records[m][node];
+      NodeRecord& record = records[m][node];
       const double mass = record[lane::mass], others = all.mass - mass;
       if (!isThere<D>(contact, records, all.mass, m, node) || others < leastShare * all.mass) continue;
       if (separation<D>(all, surfaces.position[m][node], mass) >= reach) continue;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "components/mpm/solid/constitutive_model.hpp"
+#include "components/mpm/solid/constitutive/constitutive_model.hpp"
 #include "components/mpm/solid/contact/contact.hpp"
 
 namespace tushar::mpm::solid {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <variant>
 
-#include "components/mpm/solid/constitutive_model.hpp"
+#include "components/mpm/solid/constitutive/constitutive_model.hpp"
 #include "core/core.hpp"
 
 namespace tushar::mpm::solid {

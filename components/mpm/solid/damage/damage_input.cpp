@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "components/mpm/solid/refuse.hpp"
+#include "core/input/refuse.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -172,7 +172,7 @@ void noteWhatDoesNotFail(const Material& material, const Element& parent, const 
 
 void readDamage(Material& material, const Element& parent, Diagnostics& diagnostics) {
   if (const auto tag = parent.child("damage_model")) {
-    material.damage = TypedTag<Damage>::read(*tag, diagnostics);
+    material.damage = input::TypedTag<Damage>::read(*tag, diagnostics);
     connect(material, parent, *tag, diagnostics);
   }
   if (const auto tag = parent.child("erosion")) {
@@ -183,7 +183,7 @@ void readDamage(Material& material, const Element& parent, Diagnostics& diagnost
 }
 
 void describeDamage(std::ostream& out, int indent) {
-  TypedTag<Damage>::describe(out, indent);
+  input::TypedTag<Damage>::describe(out, indent);
   out << std::string(static_cast<std::size_t>(indent), ' ') << "<erosion>: " << erosionSchema().sentence() << '\n';
   erosionSchema().describeContents(out, indent + 2);
 }

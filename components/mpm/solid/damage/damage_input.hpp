@@ -1,7 +1,7 @@
 #pragma once
 
 #include "components/mpm/solid/material.hpp"
-#include "components/mpm/solid/variant_input.hpp"
+#include "core/input/variant.hpp"
 
 namespace tushar::mpm::solid {
 

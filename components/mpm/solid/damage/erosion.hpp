@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "components/mpm/solid/constitutive_model.hpp"
+#include "components/mpm/solid/constitutive/constitutive_model.hpp"
 
 namespace tushar::mpm::solid {
 

@@ -2,7 +2,7 @@
 
 #include "components/mpm/solid/implicit/rigid_body.hpp"
 
-namespace tushar::mpm::solid {
+namespace tushar::mpm::solid::implicit {
 
 /// Heat conduction of a step by backward Euler, for the temperature T' of all nodes:
 ///
@@ -178,4 +178,4 @@ void conductHeat(const RankPatches& patches, const std::vector<Material>& materi
       forEach<D>(patches[p]->nodes(), [&](const Index<D>& node) { rate[p][m][node] = heat.change(node) / dt; });
 }
 
-}  // namespace tushar::mpm::solid
+}  // namespace tushar::mpm::solid::implicit

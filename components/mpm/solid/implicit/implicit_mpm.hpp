@@ -1,9 +1,10 @@
 #pragma once
 
 #include "components/mpm/solid/implicit/method.hpp"
+#include "components/mpm/shapes/tensor_shape.hpp"
 #include "core/core.hpp"
 
-namespace tushar::mpm::solid {
+namespace tushar::mpm::solid::implicit {
 
 /// The Material Point Method with implicit time steps, as Uintah's impm: Guilkey & Weiss, Int. J. Numer. Meth. Engng 57
 /// (2003) 1323. The displacement of the nodes in a step solves a non-linear system (see ImplicitSystem).
@@ -32,4 +33,4 @@ class ImplicitMpm : public Solids {
   bool is_damageable_;  ///< whether damage of any material is counted
 };
 
-}  // namespace tushar::mpm::solid
+}  // namespace tushar::mpm::solid::implicit

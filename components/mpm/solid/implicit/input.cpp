@@ -1,14 +1,14 @@
 #include "components/mpm/solid/implicit/input.hpp"
 
-#include "components/mpm/solid/foreign_tags.hpp"
+#include "components/mpm/solid/uintah_words.hpp"
 #include "components/mpm/solid/implicit/implicit_mpm.hpp"
-#include "components/mpm/solid/input.hpp"
+#include "components/mpm/solid/scene_input.hpp"
 #include "components/mpm/solid/loads/load_input.hpp"
 #include "components/mpm/solid/material_input.hpp"
 #include "core/simulation/by_dimension.hpp"
 #include "core/solvers/input.hpp"
 
-namespace tushar::mpm::solid {
+namespace tushar::mpm::solid::implicit {
 
 using input::Diagnostics;
 using input::Element;
@@ -212,7 +212,7 @@ std::unique_ptr<Component> makeComponent(const Level& level, const Problem& prob
 
 }  // namespace
 
-simulation::MakeComponent readImplicitScene(const Element& root, Diagnostics& diagnostics) {
+simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.size();
   const Section read = simulation::readSection(root, sectionSchema(), diagnostics);
   const auto constants = root.child("PhysicalConstants");
@@ -264,8 +264,8 @@ simulation::ComponentKind implicitKind() {
     describeLoads(out);
   };
   kind.nodesBeyond = nodesBeyond;
-  kind.read = readImplicitScene;
+  kind.read = readScene;
   return kind;
 }
 
-}  // namespace tushar::mpm::solid
+}  // namespace tushar::mpm::solid::implicit

@@ -2,14 +2,14 @@
 
 #include "core/simulation/catalogue.hpp"
 
-namespace tushar::mpm::solid {
+namespace tushar::mpm::solid::implicit {
 
 /// Whether <MPM> asks for implicit time steps.
 bool isImplicit(const input::Element& root);
 /// Reads a scene of solids with implicit time steps; every problem goes to the diagnostics.
-simulation::MakeComponent readImplicitScene(const input::Element& root, input::Diagnostics& diagnostics);
+simulation::MakeComponent readScene(const input::Element& root, input::Diagnostics& diagnostics);
 
 /// What sus knows of solids with implicit time steps.
 simulation::ComponentKind implicitKind();
 
-}  // namespace tushar::mpm::solid
+}  // namespace tushar::mpm::solid::implicit

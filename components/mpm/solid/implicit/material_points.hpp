@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "components/mpm/solid/material.hpp"
-#include "components/mpm/solid/tasks/extent.hpp"
-#include "components/mpm/solid/tasks/interpolate_particles_to_grid.hpp"
+#include "components/mpm/solid/transfer/extent.hpp"
+#include "components/mpm/solid/transfer/node_windows.hpp"
 
-namespace tushar::mpm::solid {
+namespace tushar::mpm::solid::implicit {
 
 /// A node that a particle touches: S_i, its gradient (1/m) and S_i / r (1/m) where axisymmetric.
 template <int D>
@@ -137,4 +137,4 @@ class PointStates {
   std::vector<Matrix3> told_;
 };
 
-}  // namespace tushar::mpm::solid
+}  // namespace tushar::mpm::solid::implicit

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "components/mpm/solid/solid_mpm.hpp"
+#include "components/mpm/solid/problem.hpp"
 #include "core/solvers/report.hpp"
 
-namespace tushar::mpm::solid {
+namespace tushar::mpm::solid::implicit {
 
 /// How an implicit step is taken; names and defaults are Uintah's.
 struct ImplicitMethod {
@@ -26,16 +26,19 @@ struct ImplicitMethod {
 };
 
 namespace p {
+using namespace solid::p;
 template <int D>
 inline constexpr ParticleLabel<Vec<D>> acceleration{"p.acceleration", "m/s^2", "acceleration at the end of the step"};
-}
+}  // namespace p
 namespace g {
+using namespace solid::g;
 template <int D>
 inline constexpr NodeLabel<Vec<D>> increment{"g.displacement", "m", "displacement in the step"};
 template <int D>
 inline constexpr NodeLabel<Vec<D>> newAcceleration{"g.newAcceleration", "m/s^2", "acceleration at the end of the step"};
 }  // namespace g
 namespace total {
+using namespace solid::total;
 inline constexpr ReductionLabel<Maximum> newtonIterations{"NewtonIterations", "1", "of the last step"};
 inline constexpr ReductionLabel<Maximum> newtonResidual{"NewtonResidual", "1",
                                                         "at the end of the last step over the greatest on the way"};
@@ -43,4 +46,4 @@ inline constexpr ReductionLabel<Maximum> krylovIterations{"KrylovIterations", "1
 inline constexpr ReductionLabel<Minimum> nextTimeStep{"nextTimeStep", "s", "what Newton's iterations allow the next step"};
 }  // namespace total
 
-}  // namespace tushar::mpm::solid
+}  // namespace tushar::mpm::solid::implicit

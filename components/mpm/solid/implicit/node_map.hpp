@@ -7,7 +7,7 @@
 #include "core/core.hpp"
 #include "core/solvers/solver.hpp"
 
-namespace tushar::mpm::solid {
+namespace tushar::mpm::solid::implicit {
 
 /// Where nodes of a grid stand in a system of equations: only those that particles touch are in it. A node beyond a
 /// symmetry plane moves as the mirror image of the one inside; one on a periodic face is that on the other side.
@@ -155,4 +155,4 @@ class NodeMap {
   int owned_ = 0;
 };
 
-}  // namespace tushar::mpm::solid
+}  // namespace tushar::mpm::solid::implicit

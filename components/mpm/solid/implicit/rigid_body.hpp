@@ -2,7 +2,7 @@
 
 #include "components/mpm/solid/implicit/system.hpp"
 
-namespace tushar::mpm::solid {
+namespace tushar::mpm::solid::implicit {
 
 /// A variable of particles, by patch and material.
 template <class T>
@@ -106,4 +106,4 @@ class RigidBody {
   std::vector<Vec<D>> moved_;
 };
 
-}  // namespace tushar::mpm::solid
+}  // namespace tushar::mpm::solid::implicit

@@ -11,11 +11,11 @@
 #include "components/mpm/solid/tasks/diagnose.hpp"
 #include "components/mpm/solid/tasks/heat.hpp"
 #include "components/mpm/solid/tasks/show_grid.hpp"
-#include "components/mpm/solid/tasks/update_particles.hpp"
+#include "components/mpm/solid/tasks/displacement.hpp"
 
 // The schedule of ImplicitMpm: included by the files that instantiate it, one for each kind of shape function.
 
-namespace tushar::mpm::solid {
+namespace tushar::mpm::solid::implicit {
 
 template <class Shape>
 ImplicitMpm<Shape>::ImplicitMpm(Problem problem, ImplicitMethod how)
@@ -184,4 +184,4 @@ void ImplicitMpm<Shape>::scheduleDiagnostics(TaskList& tasks) const {
                             requiresOld(p::stress));
 }
 
-}  // namespace tushar::mpm::solid
+}  // namespace tushar::mpm::solid::implicit

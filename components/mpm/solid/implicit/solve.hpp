@@ -2,7 +2,7 @@
 
 #include "components/mpm/solid/implicit/rigid_body.hpp"
 
-namespace tushar::mpm::solid {
+namespace tushar::mpm::solid::implicit {
 
 /// The solid keeps the velocity that a face has, and does not pass a symmetry plane.
 template <class Shape, int D = Shape::dimension>
@@ -162,4 +162,4 @@ void solveStep(const RankPatches& patches, const std::vector<Material>& material
   nextTimeStep.add(setup.how.nextTimeStep(dt, outcome.newtonIterations), "Newton's iterations");
 }
 
-}  // namespace tushar::mpm::solid
+}  // namespace tushar::mpm::solid::implicit

@@ -4,7 +4,7 @@
 #include "components/mpm/solid/implicit/method.hpp"
 #include "components/mpm/solid/implicit/node_map.hpp"
 
-namespace tushar::mpm::solid {
+namespace tushar::mpm::solid::implicit {
 
 /// What particles bring to an implicit step, besides what PointGroup says.
 template <class Shape>
@@ -127,4 +127,4 @@ class ImplicitSystem : public solvers::NonlinearProblem {
   double stiffest_ = 0;  ///< of all particles at the start of the simulation: rho c^2 V / h^2, N/m
 };
 
-}  // namespace tushar::mpm::solid
+}  // namespace tushar::mpm::solid::implicit

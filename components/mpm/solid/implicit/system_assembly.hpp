@@ -7,7 +7,7 @@
 
 // The members of ImplicitSystem: included by the files that instantiate it.
 
-namespace tushar::mpm::solid {
+namespace tushar::mpm::solid::implicit {
 
 template <class Shape>
 std::size_t countPoints(const std::vector<PointSources<Shape>>& sources) {
@@ -293,4 +293,4 @@ void ImplicitSystem<Shape>::addInternalForce(const PointRun& run, std::span<doub
   }
 }
 
-}  // namespace tushar::mpm::solid
+}  // namespace tushar::mpm::solid::implicit

@@ -6,7 +6,7 @@
 
 // The tangent of ImplicitSystem: included by the files that instantiate it.
 
-namespace tushar::mpm::solid {
+namespace tushar::mpm::solid::implicit {
 
 /// The nine numbers of the displacement gradient for a unit displacement of each node that a point touches.
 template <class Shape>
@@ -147,4 +147,4 @@ void ImplicitSystem<Shape>::tangent(solvers::Matrix& matrix) {
   addDiagonals(matrix);
 }
 
-}  // namespace tushar::mpm::solid
+}  // namespace tushar::mpm::solid::implicit

@@ -2,7 +2,7 @@
 
 #include "components/mpm/solid/implicit/solve.hpp"
 
-namespace tushar::mpm::solid {
+namespace tushar::mpm::solid::implicit {
 
 /// What a particle takes from a field of the nodes: sum_i S_i f_i and the gradient, in x, y, z.
 template <class Stencil, int D = Stencil::dimension>
@@ -143,4 +143,4 @@ void applyLoadsAtEnd(const Patch& patch, const Material& material, const Loads& 
   applyExternalLoads<D>(patch, material, loads, time + dt, x, mass, loadCurves, externalForce);
 }
 
-}  // namespace tushar::mpm::solid
+}  // namespace tushar::mpm::solid::implicit

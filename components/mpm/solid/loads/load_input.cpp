@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "components/mpm/solid/refuse.hpp"
+#include "core/input/refuse.hpp"
 #include "core/input/schema.hpp"
 
 namespace tushar::mpm::solid {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "components/mpm/solid/materials/cnh_mms.hpp"
+#include "components/mpm/solid/constitutive/cnh_mms.hpp"
 
 namespace tushar::mpm::solid {
 

@@ -2,7 +2,7 @@
 
 #include "components/mpm/solid/loads/load.hpp"
 #include "components/mpm/solid/loads/manufactured.hpp"
-#include "components/mpm/solid/tasks/extent.hpp"
+#include "components/mpm/solid/transfer/extent.hpp"
 
 namespace tushar::mpm::solid {
 

@@ -4,7 +4,7 @@
 
 #include <Eigen/LU>
 
-#include "components/mpm/particle_ids.hpp"
+#include "components/mpm/particles/ids.hpp"
 #include "components/mpm/solid/labels.hpp"
 #include "components/mpm/solid/loads/load.hpp"
 #include "components/mpm/solid/loads/manufactured.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "components/mpm/solid/material.hpp"
-#include "components/mpm/solid/tasks/extent.hpp"
+#include "components/mpm/solid/transfer/extent.hpp"
 
 namespace tushar::mpm::solid {
 

@@ -4,7 +4,7 @@
 
 #include "components/mpm/solid/labels.hpp"
 #include "components/mpm/solid/material.hpp"
-#include "components/mpm/solid/tasks/extent.hpp"
+#include "components/mpm/solid/transfer/extent.hpp"
 
 namespace tushar::mpm::solid {
 

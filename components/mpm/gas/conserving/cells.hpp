@@ -1,0 +1,118 @@
+#pragma once
+
+#include "components/mpm/gas/conserving/labels.hpp"
+#include "components/mpm/gas/conserving/scheme.hpp"
+#include "components/mpm/gas/material.hpp"
+#include "components/mpm/gas/mirrored.hpp"
+#include "components/mpm/gas/symmetry.hpp"
+
+namespace tushar::mpm::gas::conserving {
+
+/// dv_j/dx_k in the middle of each cell, from its nodes [1/s].
+template <int D>
+void computeVelocityGradient(const Patch& patch, const Gas&, NodeView<const Vec<D>> velocity,
+                             CellView<Tensor<D>> gradient) {
+  const Level& level = patch.level();
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    gradient[cell] = sumOverCorners<D>([&](int k) {
+      const Vec<D> v = velocity[Linear<D>::node(cell, k)];
+      Tensor<D> share;
+      for (int d = 0; d < D; ++d) share.col(d) = Linear<D>::centreGradient(level, k, d) * v;
+      return share;
+    });
+  });
+}
+
+/// Pressure, artificial viscosity and shock sensor of a cell.
+struct CellState {
+  double pressure = 0, viscosity = 0, shock = 1;
+};
+
+/// What computePressure knows of a cell and its neighbours along the axes. Velocity differences over a cell are the
+/// derivative times the least cell width h, Delta is the sum of those along the axes [m/s].
+struct Compression {
+  double difference = 0;  ///< Delta of the cell
+  double smooth = 0;      ///< J_0: Delta less what neighbours explain, van Leer's harmonic means of the differences
+  double nearby = 0;      ///< greatest -Delta of the neighbours
+};
+
+/// q where the gas is compressed, Delta < 0:  rho |Delta| (C_q |Delta| + C_l c).
+CellState shockViscosity(double pressure, double density, double soundSpeed, double difference,
+                         const Viscosity& viscosity);
+
+/// q = rho |J| (C_q |J| + C_l c) where the gas is compressed, with J = Delta at shocks and what neighbours do not explain
+/// of it, J_0, where the flow is smooth; s = min(1, 10 max(0, -Delta / c - .05)) leads from one to the other. Where it
+/// expands next to a compressed cell q is negative, at least -0.4 p: it takes the overshoot behind a shock away.
+CellState smoothViscosity(double pressure, double density, double soundSpeed, const Compression& compression,
+                          const Viscosity& viscosity);
+
+/// p = (gamma - 1) IE_c / V_c, q by shockViscosity (apic) or smoothViscosity (affineFlip), and the sensor of shocks.
+/// Beyond the rim of the grid a cell counts as its own neighbour.
+template <int D, class Scheme>
+void computePressure(const Patch& patch, const Gas& gas, const Viscosity& viscosity, CellView<const double> mass,
+                     CellView<const double> internalEnergy, CellView<const Tensor<D>> gradient,
+                     CellView<double> pressure, CellView<double> artificial, CellView<double> shock);
+
+/// P cof(I + dt/2 grad v): the stress on the faces of a cell as they stand half a step later; P = p + q for apic, which
+/// leaves the faces as they are, and p clamp(1 - gamma dt div v / 2, .3, 2) + q, p half a step later, for affineFlip.
+template <int D, class Scheme>
+void computeStress(const Patch& patch, const Gas& gas, CellView<const double> pressure,
+                   CellView<const double> artificial, CellView<const Tensor<D>> gradient, double dt,
+                   CellView<Tensor<D>> stress);
+
+/// a_i = sum over the cells around of V_c T_c grad N_i / m_i; symmetry planes and nodes without mass stay.
+template <int D>
+void computeAcceleration(const Patch& patch, const Gas&, CellView<const Tensor<D>> stress, NodeView<const double> mass,
+                         NodeView<Vec<D>> acceleration) {
+  const Level& level = patch.level();
+  forEach<D>(patch.nodes(), [&](const Index<D>& node) {
+    const Vec<D> force = sumOverCorners<D>([&](int k) -> Vec<D> {
+      const Index<D> cell = node - (Linear<D>::node(node, k) - node);
+      if (!stress.box().contains(cell)) return Vec<D>::Zero();
+      return stress[cell] * centreGradient<D>(level, k);
+    });
+    if (mass[node] > 0)
+      acceleration[node] = level.cellVolume() / mass[node] * force;
+    else
+      acceleration[node].setZero();
+  });
+  stopAtSymmetryPlanes<D>(patch, acceleration);
+}
+
+/// beta_i, the greatest shock sensor of the cells around a node.
+template <int D>
+void computeRelaxation(const Patch& patch, const Gas&, CellView<const double> shock, NodeView<double> relaxation) {
+  forEach<D>(patch.nodes(), [&](const Index<D>& node) {
+    double greatest = 0;
+    for (int k = 0; k < Linear<D>::nodes; ++k) {
+      const Index<D> cell = node - (Linear<D>::node(node, k) - node);
+      if (shock.box().contains(cell)) greatest = std::max(greatest, shock[cell]);
+    }
+    relaxation[node] = greatest;
+  });
+}
+
+/// -dt V_c T_c : grad(v + dt a / 2) [J], the work of the forces of computeAcceleration on the gas in a cell.
+template <int D>
+double workOnCell(const Level& level, const Tensor<D>& stress, const NodeView<const Vec<D>>& velocity,
+                  const NodeView<const Vec<D>>& acceleration, double dt, const Index<D>& cell) {
+  const double power = sumOverCorners<D>([&](int k) -> double {
+    const Index<D> node = Linear<D>::node(cell, k);
+    return (velocity[node] + 0.5 * dt * acceleration[node]).dot(stress * centreGradient<D>(level, k));
+  });
+  return -dt * level.cellVolume() * power;
+}
+
+/// f_c = workOnCell / IE_c.
+template <int D>
+void computeWork(const Patch& patch, const Gas&, CellView<const Tensor<D>> stress,
+                 CellView<const double> internalEnergy, NodeView<const Vec<D>> velocity,
+                 NodeView<const Vec<D>> acceleration, double dt, CellView<double> work) {
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    const double energy = internalEnergy[cell];
+    const double done = workOnCell<D>(patch.level(), stress[cell], velocity, acceleration, dt, cell);
+    work[cell] = energy > 0 ? done / energy : 0.0;
+  });
+}
+
+}  // namespace tushar::mpm::gas::conserving

@@ -1,0 +1,52 @@
+#pragma once
+
+#include "components/mpm/gas/conserving/scheme.hpp"
+#include "components/mpm/gas/material.hpp"
+#include "components/reference/gas_solution.hpp"
+
+namespace tushar::mpm::gas::conserving {
+
+/// A particle method for gas in D dimensions that conserves mass, momentum and total energy to round-off and keeps
+/// densities and energies positive.
+///
+/// Particles are boxes of constant mass that tile the gas, so that no cell empties; they carry a multilinear velocity and
+/// the kinetic energy of the motion about its mean (as in the affine particle-in-cell method of Jiang et al., ACM Trans.
+/// Graph. 34 (2015) 51), and touch the grid with their whole box (as in GIMP, Bardenhagen & Kober, CMES 5 (2004) 477).
+/// The grid's state is gathered at the end of a step, so that the next time step may follow from it.
+///
+/// conserving_mpm.cpp is the schedule; the bodies of its tasks are beside it.
+template <int D>
+class ConservingMpm : public Component, public reference::GasSolution {
+ public:
+  ConservingMpm(const ConservingGasDynamics& method, std::vector<Gas> materials)
+      : method_(method), materials_(std::move(materials)) {}
+
+  void scheduleInitialize(TaskList& tasks) const override;
+  void scheduleComputeStableTimeStep(TaskList& tasks) const override;
+  void scheduleTimeAdvance(TaskList& tasks) const override;
+  void scheduleDiagnostics(TaskList& tasks) const override;
+  std::vector<reference::GasLaw> gases() const override { return lawsOf(materials_); }
+  void scheduleMeasureError(TaskList& tasks, const reference::GasReference& reference,
+                            const reference::Clock& clock) const override;
+
+ private:
+  /// Adds the tasks whose bodies depend on the transfer.
+  template <class Scheme>
+  void scheduleStep(TaskList& tasks) const;
+  template <class Scheme>
+  void scheduleComputePressure(TaskList& tasks) const;
+  /// Of the gases of a mixture, which share pressure and velocity.
+  void scheduleMixtureState(TaskList& tasks) const;
+  void scheduleRedistribute(TaskList& tasks) const;
+  void scheduleGridState(TaskList& tasks, bool isStart = false) const;
+  bool isMixture() const { return materials_.size() > 1; }
+
+  ConservingGasDynamics method_;
+  std::vector<Gas> materials_;
+};
+
+extern template class ConservingMpm<1>;
+extern template class ConservingMpm<2>;
+extern template class ConservingMpm<3>;
+
+}  // namespace tushar::mpm::gas::conserving

@@ -1,0 +1,143 @@
+#include "components/mpm/gas/conserving/create_boxes.hpp"
+
+#include "components/mpm/gas/conserving/diagnose.hpp"
+#include "components/mpm/gas/tasks/create_particles.hpp"
+
+namespace tushar::mpm::gas::conserving {
+
+namespace {
+
+bool isUniform(const GasObject& object) {
+  return object.density.isConstant() && object.pressure.isConstant() && object.velocity.isConstant();
+}
+
+const GasObject& objectAt(const Gas& gas, const Vec3& point) {
+  for (const GasObject& object : gas.objects)
+    if (object.shape->owns(point)) return object;
+  return gas.objects.front();
+}
+
+/// What a box holds, as integrals over it.
+template <int D>
+struct Contents {
+  double mass = 0, energy = 0;
+  Vec<D> momentum = Vec<D>::Zero();
+  Modes<D> moments = Modes<D>::Zero();  ///< column a - 1: momentum times phi_a
+
+  Contents& operator+=(const Contents& other) {
+    mass += other.mass;
+    energy += other.energy;
+    momentum += other.momentum;
+    moments += other.moments;
+    return *this;
+  }
+};
+
+/// What a volume [m³] of the gas holds at `offset` from `x`.
+template <int D>
+Contents<D> contentsAt(const Level& level, const Gas& gas, const GasObject& object, const Vec<D>& x,
+                       const Vec<D>& offset, double volume) {
+  const Vec3 point = level.expandPoint<D>(x + offset);
+  const double rho = object.density(point), p = object.pressure(point);
+  const Vec<D> u = level.reduce<D>(object.velocity(point));
+  refuseImpossible(object, point, rho, p, object.velocity(point));
+  Contents<D> held;
+  held.mass = volume * rho;
+  held.momentum = held.mass * u;
+  held.energy = held.mass * (gas.internalEnergy(rho, p) + 0.5 * u.squaredNorm());
+  const auto products = productsOver(offset);
+  for (std::size_t a = 1; a < products.size(); ++a)
+    held.moments.col(static_cast<int>(a) - 1) = held.mass * products[a] * u;
+  return held;
+}
+
+/// Sum of `held(offset, volume)` over the points of Gauss & Legendre, 3 per axis, of a box: the same for a mirrored one.
+template <int D, class Held>
+Contents<D> sumOverPoints(const Vec<D>& edges, double volume, const Held& held, Vec<D> offset = Vec<D>::Zero(),
+                          int axis = 0) {
+  if (axis == D) return held(offset, volume);
+  const auto along = [&](double at, double weight) {
+    offset[axis] = 0.5 * edges[axis] * at;
+    return sumOverPoints<D>(edges, volume * weight, held, offset, axis + 1);
+  };
+  Contents<D> sum = along(-std::sqrt(0.6), 5.0 / 18);
+  sum += along(std::sqrt(0.6), 5.0 / 18);
+  sum += along(0, 8.0 / 18);
+  return sum;
+}
+
+/// Integrals over a box about `x`.
+template <int D>
+Contents<D> integrate(const Level& level, const Gas& gas, const GasObject& object, const Vec<D>& x,
+                      const Vec<D>& edges) {
+  return sumOverPoints<D>(edges, edges.prod() * crossSection<D>(level), [&](const Vec<D>& offset, double volume) {
+    return contentsAt<D>(level, gas, object, x, offset, volume);
+  });
+}
+
+/// A stiffened gas presses on all around it with p + p_inf. Throws InputError where nothing would press back: on a grid
+/// with a free side, and, if it is alone, where `boxes` leave a part of the patch empty.
+template <int D>
+void refuseLooseness(const Patch& patch, const Gas& gas, const std::vector<Vec<D>>& boxes) {
+  if (gas.pInfinity == 0) return;
+  const Level& level = patch.level();
+  const auto fail = [&](const std::string& why) {
+    throw InputError({{gas.where, "MaterialProperties/MPM/material/constitutive_model", why}});
+  };
+  for (int d = 0; d < D; ++d)
+    for (const int side : {0, 1})
+      if (!level.isPeriodic(d) && !level.isSymmetry(d, side))
+        fail("type: a stiffened_gas needs a grid whose sides are symmetry planes or periodic");
+  if (gas.carried > 0) return;
+  double all = static_cast<double>(patch.cells().size()), filled = 0;
+  for (int d = 0; d < D; ++d) all *= level.spacing(d);
+  for (const Vec<D>& box : boxes) filled += box.prod();
+  if (!(filled > (1 - 1e-9) * all))
+    fail(fmt::format("type: a stiffened_gas must fill the grid, and {:.3g} % of patch {} is empty",
+                     100 - 100 * filled / all, patch.id()));
+}
+
+}  // namespace
+
+template <int D>
+void createBoxes(const Patch& patch, const Gas& gas, ParticleMaker& maker, std::vector<Vec<D>>& x,
+                 std::vector<Vec<D>>& edges, std::vector<double>& mass, std::vector<Vec<D>>& velocity,
+                 std::vector<Modes<D>>& modes, std::vector<double>& internalEnergy, std::vector<double>& affineEnergy) {
+  const Level& level = patch.level();
+  std::vector<double> density;
+  createParticles<D>(patch, gas, maker, x, velocity, density, internalEnergy);
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    const GasObject& object = objectAt(gas, level.expandPoint<D>(x[k]));
+    Vec<D> box, inertia;
+    for (int d = 0; d < D; ++d) {
+      box[d] = level.spacing(d) / object.particlesPerCell[level.axis(d)];
+      inertia[d] = box[d] * box[d] / 12;
+    }
+    edges.push_back(box);
+    mass.push_back(density[k] * box.prod() * crossSection<D>(level));
+    modes.push_back(Modes<D>::Zero());
+    affineEnergy.push_back(0);
+    if (isUniform(object)) continue;
+    const Contents<D> held = integrate<D>(level, gas, object, x[k], box);
+    mass[k] = held.mass;
+    velocity[k] = held.momentum / held.mass;
+    const auto products = productsOver(inertia);
+    for (std::size_t a = 1; a < products.size(); ++a)
+      modes[k].col(static_cast<int>(a) - 1) = held.moments.col(static_cast<int>(a) - 1) / (held.mass * products[a]);
+    affineEnergy[k] = modalEnergy<D>(modes[k], inertia);
+    internalEnergy[k] = held.energy / held.mass - 0.5 * velocity[k].squaredNorm() - affineEnergy[k];
+  }
+  refuseLooseness<D>(patch, gas, edges);
+}
+
+template void createBoxes<1>(const Patch&, const Gas&, ParticleMaker&, std::vector<Vec<1>>&, std::vector<Vec<1>>&,
+                             std::vector<double>&, std::vector<Vec<1>>&, std::vector<Modes<1>>&, std::vector<double>&,
+                             std::vector<double>&);
+template void createBoxes<2>(const Patch&, const Gas&, ParticleMaker&, std::vector<Vec<2>>&, std::vector<Vec<2>>&,
+                             std::vector<double>&, std::vector<Vec<2>>&, std::vector<Modes<2>>&, std::vector<double>&,
+                             std::vector<double>&);
+template void createBoxes<3>(const Patch&, const Gas&, ParticleMaker&, std::vector<Vec<3>>&, std::vector<Vec<3>>&,
+                             std::vector<double>&, std::vector<Vec<3>>&, std::vector<Modes<3>>&, std::vector<double>&,
+                             std::vector<double>&);
+
+}  // namespace tushar::mpm::gas::conserving

@@ -1,0 +1,105 @@
+#pragma once
+
+#include "components/mpm/gas/conserving/labels.hpp"
+#include "components/mpm/gas/conserving/grid_sums.hpp"
+#include "components/mpm/gas/material.hpp"
+#include "components/reference/gas_solution.hpp"
+
+namespace tushar::mpm::gas::conserving {
+
+/// Kinetic (the motion about the mean included), internal and total energy of all particles [J].
+template <int D>
+void sumEnergy(const Patch& patch, const Gas&, ParticleView<const double> mass, ParticleView<const Vec<D>> velocity,
+               ParticleView<const double> internalEnergy, ParticleView<const double> affineEnergy, Sum& kinetic,
+               Sum& internal, Sum& total) {
+  WideSum kineticSum(kinetic), internalSum(internal), totalSum(total);
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    double ke = 0, ie = 0;
+    for (const int p : mass.in(cell)) {
+      ke += mass[p] * (0.5 * velocity[p].squaredNorm() + affineEnergy[p]);
+      ie += mass[p] * internalEnergy[p];
+    }
+    kineticSum.add(ke);
+    internalSum.add(ie);
+    totalSum.add(ke + ie);
+  });
+}
+
+/// Cross-section of the grid: the extent along the axes that the scene leaves out, m^(3-D).
+template <int D>
+double crossSection(const Level& level) {
+  double area = level.cellVolume();
+  for (int d = 0; d < D; ++d) area *= level.inverseSpacing(d);
+  return area;
+}
+
+/// V = the product of the edges and the cross-section of the grid, rho = m / V, p of the gas.
+template <int D>
+void computeDensity(const Patch& patch, const Gas& gas, ParticleView<const double> mass,
+                    ParticleView<const Vec<D>> edges, ParticleView<const double> internalEnergy,
+                    ParticleView<double> density, ParticleView<double> pressure, ParticleView<double> volume) {
+  const double area = crossSection<D>(patch.level());
+  for (int p = 0; p < mass.owned(); ++p) {
+    volume[p] = edges[p].prod() * area;
+    density[p] = mass[p] / volume[p];
+    pressure[p] = gas.pressure(density[p], internalEnergy[p]);
+  }
+}
+
+/// Momentum over mass of the parts of particles in each cell; 0 where there are none.
+template <int D>
+void computeCellVelocity(const Patch& patch, const Gas&, ParticleView<const Vec<D>> x, ParticleView<const Vec<D>> edges,
+                         ParticleView<const double> mass, ParticleView<const Vec<D>> velocity,
+                         ParticleView<const Modes<D>> modes, CellView<const double> cellMass,
+                         CellView<Vec<D>> cellVelocity) {
+  const Level& level = patch.level();
+  GridSums<D, D, 0> momentum(x.cells());
+  forEachBatch<D>(x.cells(), x, [&](const Batch<D>& batch) {
+    const LanesVec<D> centre = load(x, batch), v = load(velocity, batch);
+    const LanesModes<D> u = load(modes, batch);
+    const Footprint<D> footprint(level, batch, centre, load(edges, batch));
+    const Lanes m = batch.only(load(mass, batch));
+    typename GridSums<D, D, 0>::Brought brought;
+    footprint.forEachPart([&](const Index<D>& k, const Lanes& part) {
+      LanesVec<D> there = v;
+      for (std::size_t d = 0; d < D; ++d) {
+        const int axis = static_cast<int>(d);
+        there += (footprint.along[d].middle(k[axis]) - centre[axis]) * u.col(gradientColumn(axis));
+      }
+      for (std::size_t d = 0; d < D; ++d) brought[d][Footprint<D>::number(k)] = part * m * there[static_cast<int>(d)];
+    });
+    momentum.add(footprint, batch.count, brought);
+  });
+  momentum.finish();
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    const double m = cellMass[cell], inverse = m > 0 ? 1 / m : 0;
+    for (std::size_t d = 0; d < D; ++d) cellVelocity[cell][static_cast<int>(d)] = inverse * momentum.at(d, cell);
+  });
+}
+
+/// M_c / V_c [kg/m³].
+template <int D>
+void computeCellDensity(const Patch& patch, const Gas&, CellView<const double> mass, CellView<double> density) {
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) { density[cell] = mass[cell] / patch.level().cellVolume(); });
+}
+
+/// Errors of M_c / V_c, momentum over mass, and pressure and internal energy of M_c / V_c and IE_c / M_c, against exact
+/// cell means.
+template <int D>
+void measureCellError(const Patch& patch, const Gas& gas, const reference::GasReference* exact,
+                      const reference::Clock* clock, CellView<const double> mass, CellView<const Vec<D>> velocity,
+                      CellView<const double> internalEnergy, Norm& density, Norm& u, Norm& pressure, Norm& energy) {
+  const Level& level = patch.level();
+  const double volume = level.cellVolume();
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    if (!exact->covers(level.expandPoint<D>(level.cellCentre<D>(cell)), clock->time)) return;
+    const double m = mass[cell], ie = internalEnergy[cell];
+    const reference::GasState state = reference::cellMean<D>(*exact, level, cell, clock->time);
+    density.add(m / volume - state.density, state.density);
+    u.add((level.expandDirection<D>(velocity[cell]) - state.velocity).norm(), state.velocity.norm());
+    pressure.add((gas.gamma - 1) * ie / volume - gas.pInfinity - state.pressure, state.pressure);
+    energy.add((m > 0 ? gas.fullEnergy(m / volume, ie / m) : 0) - state.energy, state.energy);
+  });
+}
+
+}  // namespace tushar::mpm::gas::conserving

@@ -1,0 +1,241 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include "components/mpm/gas/conserving/batch.hpp"
+#include "components/mpm/gas/conserving/modes.hpp"
+#include "components/mpm/gas/mirrored.hpp"
+
+namespace tushar::mpm::gas::conserving {
+
+/// What intervals of a line of cells touch, one interval per lane.
+///
+/// Weights are means of the linear shape functions over the interval, w_i = 1/L integral S_i dx; parts are the shares
+/// of the interval that lie in each cell. Ends nearer to a node than 1e-12 h count as on it. Nodes and cells that an
+/// interval does not reach have weight and part 0; what reaches further than `Overhang` counts to the outermost cell.
+///
+/// All is measured from the middle of the cell that the centre lies in, so that the mirror image of an interval has the
+/// mirrored numbers, to the bit.
+template <int Overhang>
+struct Span {
+  static constexpr int most = 2 * Overhang + 1;  ///< cells that intervals of one register may overlap
+
+  LaneIntegers first;                            ///< cell, and node below it
+  int below = 0;                                 ///< cells before that of the centre that any of the intervals overlaps
+  int cells = 1;                                 ///< of all
+  std::array<Lanes, most> part;                  ///< by cell; they sum to 1
+  std::array<Lanes, most + 1> weight;            ///< by node; they sum to 1
+  std::array<Lanes, most + 1> arm;               ///< of nodes from the centre, m
+  std::array<Lanes, most + 1> atLower, atUpper;  ///< shares of nodes in the value at the ends
+  Lanes inertia;                                 ///< sum of weight times arm², m²
+  Lanes lower, upper;                            ///< ends, m
+
+  /// Along kernel axis `d`; `cell` is that of the centre. What reaches beyond the grid is cut off.
+  Span(const Level& level, int d, const LaneIntegers& cell, const Lanes& centre, const Lanes& length) {
+    const double h = level.spacing(d), inverse = level.inverseSpacing(d), last = level.cells().upper[d] - 1;
+    const Lanes number = widen(cell), origin = middleOf(level, d) + h * fromMiddle(level, d, number);
+    const Lanes middle = inverse * (centre - origin), half = 0.5 * inverse * length;
+    Lanes from = snap(middle - half), to = snap(middle + half);
+    if (!level.isPeriodic(d)) {
+      from = max(from, -0.5 - number);
+      to = min(to, last + 0.5 - number);
+    }
+    const double least = -greatest(-from), furthest = greatest(to);
+    while (below < Overhang && least < -0.5 - below) ++below;
+    cells = below + 1;
+    while (cells < below + 1 + Overhang && furthest > cells - below - 0.5) ++cells;
+    first = cell - below;
+    lower = origin + from * h;
+    upper = origin + to * h;
+    distribute(from, to);
+    measureArms(origin - 0.5 * (lower + upper), h);
+  }
+
+  int nodes() const { return cells + 1; }
+  Lanes length() const { return upper - lower; }
+  /// Ends and middle of the part in the k-th cell, m.
+  Lanes lowerOf(int k) const { return max(lower, centre() + arm[static_cast<std::size_t>(k)]); }
+  Lanes upperOf(int k) const { return min(upper, centre() + arm[static_cast<std::size_t>(k) + 1]); }
+  Lanes middle(int k) const { return 0.5 * (lowerOf(k) + upperOf(k)); }
+
+  /// Sum over the nodes of what `add(k, sum)` adds for node k: those on either side of the middle by themselves, from
+  /// the inside out, so that the mirror image has the same sum.
+  template <class Sum, class Add>
+  [[gnu::always_inline]] Sum sumOverNodes(Add&& add) const {
+    Sum lowerSide{}, upperSide{};
+    for (int k = below; k >= 0; --k) add(k, lowerSide);
+    for (int k = below + 1; k < nodes(); ++k) add(k, upperSide);
+    lowerSide += upperSide;
+    return lowerSide;
+  }
+  /// The same over the cells, that of the centre last.
+  template <class Add>
+  [[gnu::always_inline]] Lanes sumOverCells(Add&& add) const {
+    Lanes lowerSide = 0, upperSide = 0;
+    for (int k = below - 1; k >= 0; --k) add(k, lowerSide);
+    for (int k = below + 1; k < cells; ++k) add(k, upperSide);
+    lowerSide += upperSide;
+    add(below, lowerSide);
+    return lowerSide;
+  }
+
+ private:
+  Lanes centre() const { return 0.5 * (lower + upper); }
+  static Lanes snap(const Lanes& x) {
+    const Lanes node = nearbyint(x - 0.5) + 0.5;
+    return select(abs(x - node) < 1e-12, node, x);
+  }
+  /// Shares out the interval from `from` to `to`, in cells from the middle of that of its centre.
+  void distribute(const Lanes& from, const Lanes& to) {
+    const Lanes scale = 1 / (to - from);
+    Lanes start = -0.5 - below, end = start, carried = 0;
+    for (int k = 0; k < cells; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      const int j = k - below;
+      const Lanes a = j == -Overhang ? min(from, j + 0.5) : clamp(from, j - 0.5, j + 0.5);
+      const Lanes b = j == Overhang ? max(to, j - 0.5) : clamp(to, j - 0.5, j + 0.5);
+      const Lanes share = (b - a) * scale, half = 0.5 * share, lean = half * ((a + b) - 2 * j);
+      part[at] = share;
+      weight[at] = carried + (half - lean);
+      atLower[at] = (start - a) + 1;
+      atUpper[at] = (end - b) + 1;
+      carried = half + lean;
+      start = a;
+      end = b;
+    }
+    const auto last = static_cast<std::size_t>(cells);
+    const double edge = cells - below - 0.5;
+    weight[last] = carried;
+    atLower[last] = (start - edge) + 1;
+    atUpper[last] = (end - edge) + 1;
+  }
+  /// `offset` is that of the middle of the cell from the centre.
+  void measureArms(const Lanes& offset, double h) {
+    inertia = sumOverNodes<Lanes>([&](int k, Lanes& sum) {
+      const auto at = static_cast<std::size_t>(k);
+      arm[at] = offset + (k - below - 0.5) * h;
+      sum += weight[at] * arm[at] * arm[at];
+    });
+  }
+};
+
+/// What particles that fill boxes touch, one per lane: the product of their spans.
+template <int D>
+struct Footprint {
+  /// How many cells away from that of its centre a particle may reach: boxes of less than 2 h, on a line of 3 h.
+  static constexpr int overhang = D == 1 ? 2 : 1;
+  /// Cells beyond a patch whose particles may touch its nodes.
+  static constexpr int reach = overhang + 1;
+  /// Cells along an axis that boxes of one batch may overlap.
+  static constexpr int most = Span<overhang>::most;
+  /// Cells along an axis that no particle may be longer than.
+  static constexpr double longest = D == 1 ? 3 : 2;
+
+  std::array<Span<overhang>, D> along;
+
+  Footprint(const Level& level, const Batch<D>& batch, const LanesVec<D>& centre, const LanesVec<D>& edges)
+      : Footprint(level, batch, centre, edges, std::make_index_sequence<D>()) {}
+
+  LanesVec<D> inertia() const {
+    LanesVec<D> all;
+    for (int d = 0; d < D; ++d) all[d] = along[static_cast<std::size_t>(d)].inertia;
+    return all;
+  }
+
+  /// The first cell of each, and the node below it.
+  std::array<LaneIntegers, D> first() const {
+    std::array<LaneIntegers, D> all;
+    for (std::size_t d = 0; d < D; ++d) all[d] = along[d].first;
+    return all;
+  }
+
+  /// Sum of `value(k, part)` over the places of the footprint that a cell may have; the same for the mirror image.
+  template <class Value>
+  Lanes sumOverParts(Value&& value) const {
+    Index<D> k;
+    return sumAlong<D - 1>(k, Lanes(1), value);
+  }
+  /// Calls `visit(k, part)` for each place of the footprint that a cell may have.
+  template <class Visit>
+  void forEachPart(Visit&& visit) const {
+    Index<D> k;
+    parts<D - 1>(k, Lanes(1), visit);
+  }
+  /// Coefficients of a multilinear field about the centre, sum of f_a phi_a; `Axis` is the last one it depends on.
+  template <int Axis>
+  using Field = std::array<LanesVec<D>, (1 << (Axis + 1))>;
+
+  /// Calls `visit(k, w, f)` for each place of the footprint that a node may have, with the weights and the fields
+  /// there.
+  template <class Visit>
+  void forEachWeight(const Field<D - 1>& field, Visit&& visit) const {
+    Index<D> k;
+    weights<D - 1>(k, Lanes(1), field, visit);
+  }
+  /// The field on a plane across its last axis, `arm` from the centre.
+  template <int Axis>
+  static Field<Axis - 1> slice(const Field<Axis>& field, const Lanes& arm) {
+    constexpr std::size_t half = std::size_t{1} << Axis;
+    Field<Axis - 1> result;
+    for (std::size_t a = 0; a < half; ++a) result[a] = field[a] + arm * field[a + half];
+    return result;
+  }
+
+  /// Places that nodes or cells may have in a footprint, numbered with the first axis fastest.
+  static constexpr int stride(int axis) { return axis == 0 ? 1 : (most + 1) * stride(axis - 1); }
+  static constexpr std::size_t places = D == 1   ? most + 1
+                                        : D == 2 ? (most + 1) * (most + 1)
+                                                 : (most + 1) * (most + 1) * (most + 1);
+  static constexpr std::size_t number(const Index<D>& k) {
+    int number = 0;
+    for (int d = 0; d < D; ++d) number += k[d] * stride(d);
+    return static_cast<std::size_t>(number);
+  }
+
+ private:
+  template <std::size_t... Axis>
+  Footprint(const Level& level, const Batch<D>& batch, const LanesVec<D>& centre, const LanesVec<D>& edges,
+            std::index_sequence<Axis...>)
+      : along{{{level, static_cast<int>(Axis), batch.cell[Axis], centre[Axis], edges[Axis]}...}} {}
+
+  template <int Axis, class Value>
+  Lanes sumAlong(Index<D>& k, const Lanes& part, Value& value) const {
+    const auto& span = along[Axis];
+    return span.sumOverCells([&](int at, Lanes& sum) {
+      k[Axis] = at;
+      const Lanes share = part * span.part[static_cast<std::size_t>(at)];
+      if constexpr (Axis == 0)
+        sum += value(k, share);
+      else
+        sum += sumAlong<Axis - 1>(k, share, value);
+    });
+  }
+
+  template <int Axis, class Visit>
+  void parts(Index<D>& k, const Lanes& part, Visit& visit) const {
+    const auto& span = along[Axis];
+    for (k[Axis] = 0; k[Axis] < span.cells; ++k[Axis]) {
+      const Lanes share = part * span.part[static_cast<std::size_t>(k[Axis])];
+      if constexpr (Axis == 0)
+        visit(k, share);
+      else
+        parts<Axis - 1>(k, share, visit);
+    }
+  }
+
+  template <int Axis, class Visit>
+  void weights(Index<D>& k, const Lanes& weight, const Field<Axis>& field, Visit& visit) const {
+    const auto& span = along[Axis];
+    for (k[Axis] = 0; k[Axis] < span.nodes(); ++k[Axis]) {
+      const auto at = static_cast<std::size_t>(k[Axis]);
+      const Lanes w = weight * span.weight[at];
+      if constexpr (Axis == 0)
+        visit(k, w, LanesVec<D>(field[0] + span.arm[at] * field[1]));
+      else
+        weights<Axis - 1>(k, w, slice<Axis>(field, span.arm[at]), visit);
+    }
+  }
+};
+
+}  // namespace tushar::mpm::gas::conserving

@@ -1,0 +1,101 @@
+#pragma once
+
+#include "components/mpm/gas/conserving/grid_fields.hpp"
+
+namespace tushar::mpm::gas::conserving {
+
+/// A sum and what its additions have lost to rounding.
+template <class Number>
+struct CarefulSum {
+  Number sum, lost;
+
+  void add(Number more) {
+    data::addExactly(sum, more);
+    lost += more;
+  }
+};
+
+/// N sums at the nodes (More = 1) or cells (More = 0) of a box of cells over what particles bring. What rounding loses is
+/// added as well, so that the order of the particles, which is another in a mirror image, changes nothing but where a sum
+/// lies within some 1e-32 of the middle between two numbers. To be read after `finish()`.
+template <int D, std::size_t N, int More>
+class GridSums : public GridFields<D, N> {
+  using Fields = GridFields<D, N>;
+
+ public:
+  using Brought = std::array<std::array<Lanes, Footprint<D>::places>, N>;
+
+  explicit GridSums(const Box& cells) : Fields(cells), lost_(N * this->size()) {}
+
+  /// Adds to the places of the footprints of a batch. Lanes not in use bring 0.
+  void add(const Footprint<D>& footprint, int count, const Brought& brought) {
+    const typename Fields::Near near(*this, footprint.first(), count);
+    const LaneIntegers& places = Fields::placesOf(near);
+    for (std::size_t n = 0; n < N; ++n) {
+      const Pair field{this->values(n), lost_.data() + n * this->size()};
+      if (Fields::areConsecutive(near))
+        addRows<D - 1>(field + places[0], footprint, brought[n].data());
+      else
+        for (int lane = 0; lane < count; ++lane) addOne<D - 1>(field + places[lane], footprint, brought[n].data(), lane);
+    }
+  }
+  void finish() {
+    double* const values = this->values(0);
+    for (std::size_t k = 0; k < lost_.size(); ++k) values[k] += lost_[k];
+  }
+
+ private:
+  /// Where a sum and what it has lost are.
+  struct Pair {
+    double *sum, *lost;
+
+    Pair operator+(int by) const { return {sum + by, lost + by}; }
+  };
+
+  /// Adds what one lane brings.
+  template <int Axis>
+  void addOne(Pair field, const Footprint<D>& footprint, const Lanes* brought, int lane) {
+    const int end = footprint.along[Axis].cells + More;
+    for (int k = 0; k < end; ++k, brought += Footprint<D>::stride(Axis), field = field + this->stride(Axis)) {
+      if constexpr (Axis == 0) {
+        CarefulSum<double> sum{*field.sum, *field.lost};
+        sum.add((*brought)[lane]);
+        *field.sum = sum.sum;
+        *field.lost = sum.lost;
+      } else {
+        addOne<Axis - 1>(field, footprint, brought, lane);
+      }
+    }
+  }
+  /// Adds what consecutive particles bring.
+  template <int Axis>
+  void addRows(Pair field, const Footprint<D>& footprint, const Lanes* brought) {
+    const int end = footprint.along[Axis].cells + More;
+    if constexpr (Axis == 0) {
+      addRow(field, end, brought, std::make_integer_sequence<int, Footprint<D>::most>());
+    } else {
+      for (int k = 0; k < end; ++k, brought += Footprint<D>::stride(Axis), field = field + this->stride(Axis))
+        addRows<Axis - 1>(field, footprint, brought);
+    }
+  }
+  template <int... K>
+  static void addRow(Pair field, int end, const Lanes* brought, std::integer_sequence<int, K...>) {
+    const Pair next = field + Lanes::count;
+    CarefulSum<Lanes> low{Lanes::at(field.sum), Lanes::at(field.lost)}, high{Lanes::at(next.sum), Lanes::at(next.lost)};
+    const auto addShifted = [&]<int Shift>(std::integral_constant<int, Shift>) {
+      if (Shift >= end) return;
+      low.add(window<Lanes::count - Shift>(0, brought[Shift]));
+      high.add(window<Lanes::count - Shift>(brought[Shift], 0));
+    };
+    low.add(brought[0]);
+    (addShifted(std::integral_constant<int, K + 1>()), ...);
+    low.sum.copyTo(field.sum);
+    low.lost.copyTo(field.lost);
+    high.sum.copyTo(next.sum);
+    high.lost.copyTo(next.lost);
+  }
+
+  std::vector<double> lost_;
+};
+
+}  // namespace tushar::mpm::gas::conserving

@@ -1,0 +1,229 @@
+#pragma once
+
+#include "components/mpm/gas/conserving/cells.hpp"
+#include "components/mpm/gas/conserving/diagnose.hpp"
+#include "components/mpm/gas/conserving/stable_time_step.hpp"
+
+namespace tushar::mpm::gas::conserving {
+
+/// A view of each gas.
+template <class T>
+using CellViews = std::vector<CellView<T>>;
+template <class T>
+using NodeViews = std::vector<NodeView<T>>;
+
+/// Several gases in a cell, each in its share alpha of the volume, at one pressure and velocity, compressed alike. With
+/// G = sum of alpha / (gamma - 1) and S = sum of alpha gamma p_inf / (gamma - 1) their energy per volume is p G + S, so
+/// that a contact at rest or in motion keeps its pressure, and rho c² = (p (1 + G) + S) / G.
+/// Source: G. Allaire, S. Clerc & S. Kokh, J. Comput. Phys. 181 (2002) 577; of G and S alone: R. Abgrall, J. Comput. Phys.
+/// 125 (1996) 150.
+struct Mixture {
+  double density = 0;   ///< kg/m³
+  double energy = 0;    ///< internal, J/m³
+  double softness = 0;  ///< G
+  double stiffness = 0; ///< S, J/m³
+
+  double pressure() const { return (energy - stiffness) / softness; }
+  double soundSpeedSquared() const {
+    return (pressure() * (1 + softness) + stiffness) / (softness * density);
+  }
+  /// Of a gas at this pressure, per its own volume [J/m³].
+  static double energyAt(double pressure, const Gas& gas) {
+    return (pressure + gas.gamma * gas.pInfinity) / (gas.gamma - 1);
+  }
+};
+
+/// What the gases hold in cells.
+struct Cells {
+  const std::vector<Gas>& gases;
+  const CellViews<const double>& mass;
+  const CellViews<const double>& internalEnergy;
+  const CellViews<const double>& fill;
+
+  /// Share of a gas in the volume that all fill together.
+  template <class Index>
+  double share(std::size_t gas, const Index& cell) const {
+    double all = 0;
+    for (const CellView<const double>& one : fill) all += one[cell];
+    return fill[gas][cell] / all;
+  }
+  template <class Index>
+  Mixture at(const Index& cell, double volume) const {
+    Mixture mixture;
+    for (std::size_t k = 0; k < gases.size(); ++k) {
+      const double alpha = share(k, cell), softness = alpha / (gases[k].gamma - 1);
+      mixture.density += mass[k][cell] / volume;
+      mixture.energy += internalEnergy[k][cell] / volume;
+      mixture.softness += softness;
+      mixture.stiffness += softness * gases[k].gamma * gases[k].pInfinity;
+    }
+    return mixture;
+  }
+  /// Whether more than one gas is in a cell.
+  template <class Index>
+  bool isMixed(const Index& cell) const {
+    return std::count_if(mass.begin(), mass.end(), [&](const auto& one) { return one[cell] > 0; }) > 1;
+  }
+};
+
+/// epsilon = e - p_inf / rho of each particle, with rho = m / V of its box: negative where the gas is torn, at a pressure
+/// below -p_inf.
+template <int D>
+void computeHeat(const Patch& patch, const Gas& gas, ParticleView<const double> mass, ParticleView<const Vec<D>> edges,
+                 ParticleView<const double> internalEnergy, ParticleView<double> heat) {
+  const double area = crossSection<D>(patch.level());
+  for (int p = 0; p < mass.owned(); ++p)
+    heat[p] = gas.heat(mass[p] / (edges[p].prod() * area), internalEnergy[p]);
+}
+
+/// All gases move with one velocity: m_i = sum over the gases, v_i = sum m v / m_i, which each gets.
+template <int D>
+void mixAtNodes(const Patch&, const std::vector<Gas>& gases, const NodeViews<double>& mass,
+                const NodeViews<Vec<D>>& velocity) {
+  forEach<D>(mass.front().box(), [&](const Index<D>& node) {
+    double m = 0;
+    Vec<D> momentum = Vec<D>::Zero();
+    for (std::size_t k = 0; k < gases.size(); ++k) {
+      m += mass[k][node];
+      momentum += mass[k][node] * velocity[k][node];
+    }
+    const Vec<D> common = m > 0 ? Vec<D>(momentum / m) : Vec<D>::Zero();
+    for (std::size_t k = 0; k < gases.size(); ++k) {
+      mass[k][node] = m;
+      velocity[k][node] = common;
+    }
+  });
+}
+
+/// Throws InputError where the gases leave a part of a cell empty at the start, or overlap: what a mixture's pressure acts
+/// on is all of the grid.
+template <int D>
+void checkFill(const Patch& patch, const std::vector<Gas>& gases, const CellViews<double>& fill) {
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    double all = 0;
+    for (const CellView<double>& one : fill) all += one[cell];
+    if (std::abs(all - 1) < 1e-9) return;
+    const Vec3 middle = patch.level().template expandPoint<D>(patch.level().template cellCentre<D>(cell));
+    throw InputError({{gases.front().where, "MaterialProperties/MPM/material",
+                       fmt::format("several gases must fill the grid without overlap, and they fill {:.6g} of the cell around "
+                                   "({:g}, {:g}, {:g})", all, middle[0], middle[1], middle[2])}});
+  });
+}
+
+/// p of the mixture and q by shockViscosity, which each gas gets; the sensor of shocks is 1.
+template <int D>
+void computeMixturePressure(const Patch& patch, const std::vector<Gas>& gases, const Viscosity& viscosity,
+                            const CellViews<const double>& mass, const CellViews<const double>& internalEnergy,
+                            const CellViews<const double>& fill, const CellViews<const Tensor<D>>& gradient,
+                            const CellViews<double>& pressure, const CellViews<double>& artificial,
+                            const CellViews<double>& shock) {
+  const Level& level = patch.level();
+  const Cells cells{gases, mass, internalEnergy, fill};
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    const Mixture mixture = cells.at(cell, level.cellVolume());
+    const double difference = level.minSpacing() * gradient.front()[cell].trace();
+    const CellState state = shockViscosity(mixture.pressure(), mixture.density,
+                                           std::sqrt(mixture.soundSpeedSquared()), difference, viscosity);
+    for (std::size_t k = 0; k < gases.size(); ++k) {
+      pressure[k][cell] = state.pressure;
+      artificial[k][cell] = state.viscosity;
+      shock[k][cell] = state.shock;
+    }
+  });
+}
+
+/// What the gases of a cell get of the work on it, `done` [J], as relative changes of their internal energies.
+template <class Index>
+class SharedWork {
+ public:
+  SharedWork(const Cells& cells, const Index& cell, double volume, double done)
+      : cells_(cells), cell_(cell), volume_(volume), done_(done), after_(cells.at(cell, volume)) {
+    after_.energy += done / volume;
+    if (!cells.isMixed(cell)) return;
+    equalised_ = 1;
+    for (std::size_t k = 0; k < cells.gases.size(); ++k)
+      if (energyOf(k) > 0 && atEqualPressure(k) < -0.5)
+        equalised_ = std::min(equalised_, std::max(0.0, (byVolume(k) + 0.5) / (byVolume(k) - atEqualPressure(k))));
+  }
+  double operator()(std::size_t gas) const {
+    if (!(energyOf(gas) > 0)) return 0;
+    if (equalised_ == 0) return byVolume(gas);
+    return byVolume(gas) + equalised_ * (atEqualPressure(gas) - byVolume(gas));
+  }
+
+ private:
+  double energyOf(std::size_t gas) const { return cells_.internalEnergy[gas][cell_]; }
+  double byVolume(std::size_t gas) const { return cells_.share(gas, cell_) * done_ / energyOf(gas); }
+  double atEqualPressure(std::size_t gas) const {
+    const double goal = cells_.share(gas, cell_) * volume_ * Mixture::energyAt(after_.pressure(), cells_.gases[gas]);
+    return goal / energyOf(gas) - 1;
+  }
+
+  const Cells& cells_;
+  const Index& cell_;
+  double volume_, done_;
+  Mixture after_;
+  double equalised_ = 0;  ///< 0: by volume; 1: at equal pressure
+};
+
+/// f of each gas in a cell, for updateParticles. Where there are several they have the pressure of the mixture afterwards:
+/// IE_k (1 + f_k) = alpha_k V (p' + gamma_k p_inf,k) / (gamma_k - 1), whose sum is IE + W. Where that would take more
+/// than half of the energy of one, they get the work by their volumes, and as much of the rest as would not.
+template <int D>
+void computeMixtureWork(const Patch& patch, const std::vector<Gas>& gases, const CellViews<const Tensor<D>>& stress,
+                        const CellViews<const double>& mass, const CellViews<const double>& internalEnergy,
+                        const CellViews<const double>& fill, const NodeViews<const Vec<D>>& velocity,
+                        const NodeViews<const Vec<D>>& acceleration, double dt, const CellViews<double>& work) {
+  const Level& level = patch.level();
+  const Cells cells{gases, mass, internalEnergy, fill};
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    const double done =
+        workOnCell<D>(level, stress.front()[cell], velocity.front(), acceleration.front(), dt, cell);
+    const SharedWork shared(cells, cell, level.cellVolume(), done);
+    for (std::size_t k = 0; k < gases.size(); ++k) work[k][cell] = shared(k);
+  });
+}
+
+/// measureSignals of a mixture: |v| + c from its nodes' velocities, and signals relative to the gas.
+template <int D>
+void measureMixtureSignals(const Patch& patch, const std::vector<Gas>& gases, const CellViews<const double>& mass,
+                           const CellViews<const double>& internalEnergy, const CellViews<const double>& fill,
+                           const CellViews<const Tensor<D>>& gradient, const NodeViews<const Vec<D>>& velocity,
+                           Maximum& pastGrid, Maximum& pastGas) {
+  const Cells cells{gases, mass, internalEnergy, fill};
+  double onGrid = 0, inGas = 0;
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    const double cSquared = cells.at(cell, patch.level().cellVolume()).soundSpeedSquared();
+    double fastest = 0;
+    for (int k = 0; k < Linear<D>::nodes; ++k)
+      fastest = std::max(fastest, velocity.front()[Linear<D>::node(cell, k)].norm());
+    onGrid = std::max(onGrid, fastest + std::sqrt(cSquared));
+    inGas = std::max(inGas, signalInCell<D>(patch.level(), gradient.front()[cell], cSquared));
+  });
+  pastGrid.add(onGrid);
+  pastGas.add(inGas);
+}
+
+/// Errors of the means over cells against exact ones: density, velocity (momentum over mass), pressure and internal energy
+/// of the mixture.
+template <int D>
+void measureMixtureError(const Patch& patch, const std::vector<Gas>& gases, const reference::GasReference* exact,
+                         const reference::Clock* clock, const CellViews<const double>& mass,
+                         const CellViews<const Vec<D>>& velocity, const CellViews<const double>& internalEnergy,
+                         const CellViews<const double>& fill, Norm& density, Norm& u, Norm& pressure, Norm& energy) {
+  const Level& level = patch.level();
+  const Cells cells{gases, mass, internalEnergy, fill};
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    if (!exact->covers(level.expandPoint<D>(level.cellCentre<D>(cell)), clock->time)) return;
+    const Mixture mixture = cells.at(cell, level.cellVolume());
+    Vec<D> momentum = Vec<D>::Zero();
+    for (std::size_t k = 0; k < gases.size(); ++k) momentum += mass[k][cell] / level.cellVolume() * velocity[k][cell];
+    const reference::GasState state = reference::cellMean<D>(*exact, level, cell, clock->time);
+    density.add(mixture.density - state.density, state.density);
+    u.add((level.expandDirection<D>(momentum / mixture.density) - state.velocity).norm(), state.velocity.norm());
+    pressure.add(mixture.pressure() - state.pressure, state.pressure);
+    energy.add(mixture.energy / mixture.density - state.energy, state.energy);
+  });
+}
+
+}  // namespace tushar::mpm::gas::conserving

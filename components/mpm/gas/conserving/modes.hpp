@@ -1,0 +1,44 @@
+#pragma once
+
+#include "core/core.hpp"
+
+namespace tushar::mpm::gas::conserving {
+
+/// The velocity within a box, u(x) = sum over a of u_a phi_a(x), phi_a the product of (x_d - centre_d) over the axes of
+/// a: bit d of a says whether axis d is among them. Column a - 1 holds u_a; u_0, the mean, is kept apart (p.velocity).
+/// Columns 0, 1, 3 are the velocity gradient [1/s]; those of several axes are the mixed modes [1/(m s), 1/(m² s)].
+template <int D>
+using Modes = Eigen::Matrix<double, D, (1 << D) - 1, Eigen::DontAlign>;
+
+/// A square matrix over the axes.
+template <int D>
+using Tensor = Eigen::Matrix<double, D, D, Eigen::DontAlign>;
+
+/// The column of the derivative along an axis.
+constexpr int gradientColumn(int axis) { return (1 << axis) - 1; }
+
+/// Products of one value per axis over the axes of each a, the first of none.
+template <class Values>
+auto productsOver(const Values& values) {
+  constexpr std::size_t dimension = Values::SizeAtCompileTime;
+  std::array<typename Values::Scalar, std::size_t{1} << dimension> products;
+  products[0] = 1;
+  for (std::size_t d = 0; d < dimension; ++d)
+    for (std::size_t a = 0; a < std::size_t{1} << d; ++a)
+      products[a + (std::size_t{1} << d)] = products[a] * values[static_cast<int>(d)];
+  return products;
+}
+
+/// Kinetic energy per mass of the motion about the mean, K = 1/2 sum of I_a |u_a|², I_a the product of `inertia`
+/// over the axes of a: mean squares of x_d - centre_d [m²] over whatever the modes are orthogonal on.
+template <int D, class Real>
+Real modalEnergy(const Eigen::Matrix<Real, D, (1 << D) - 1, Eigen::DontAlign>& modes,
+                 const Eigen::Matrix<Real, D, 1, Eigen::DontAlign>& inertia) {
+  const auto products = productsOver(inertia);
+  Real energy = 0;
+  for (std::size_t a = 1; a < products.size(); ++a)
+    energy += 0.5 * products[a] * modes.col(static_cast<int>(a) - 1).squaredNorm();
+  return energy;
+}
+
+}  // namespace tushar::mpm::gas::conserving

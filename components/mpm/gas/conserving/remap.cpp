@@ -1,0 +1,272 @@
+#include "components/mpm/gas/conserving/redistribute.hpp"
+#include "components/mpm/particles/ids.hpp"
+
+namespace tushar::mpm::gas::conserving {
+
+namespace {
+
+template <int D>
+using LanesTensor = Eigen::Matrix<Lanes, D, D, Eigen::DontAlign>;
+
+/// Sums over the parts of particles in each cell; offsets dx are from the middle of the cell.
+template <int D>
+struct CellSums {
+  static constexpr std::size_t mass = 0, internal = 1, kinetic = 2;
+  static constexpr std::size_t momentum = 3;
+  static constexpr std::size_t offset = momentum + D;   ///< m dx
+  static constexpr std::size_t square = offset + D;     ///< m (dx² + l²/12), l the length of the part
+  static constexpr std::size_t moment = square + D;     ///< D by axis: m (u dx_d + B_d l_d²/12)
+  static constexpr std::size_t modes = moment + D * D;  ///< D by axes of a mixed mode: m u_a
+  static constexpr std::size_t count = modes + D * ((1 << D) - 1 - D);
+
+  using Fields = GridSums<D, count, 0>;
+};
+
+/// Whether a mode is one of several axes.
+constexpr bool isMixed(std::size_t a) { return (a & (a - 1)) != 0; }
+
+/// The cells' mass and internal energy.
+template <int D>
+using Contents = GridFields<D, 2>;
+
+/// Van Leer's limited slopes of a cell variable over the value itself, 1/m; 0 at the rim of the grid. Such that boxes
+/// of these edges keep at least a fifth of the mean everywhere.
+template <int D>
+LanesVec<D> relativeSlopes(const Level& level, const Contents<D>& contents, std::size_t field, const Batch<D>& batch,
+                           const LanesVec<D>& edges) {
+  const typename Contents<D>::Near near(contents, batch.cell, batch.count);
+  const Lanes value = contents.read(field, near, {});
+  LanesVec<D> slopes;
+  for (int d = 0; d < D; ++d) {
+    const Lanes rise = contents.read(field, near, Index<D>::unit(d)) - value;
+    const Lanes fall = value - contents.read(field, near, Index<D>{} - Index<D>::unit(d));
+    const Lanes slope = 2 * level.inverseSpacing(d) * (rise * fall) / ((rise + fall) * value);
+    slopes[d] = select(rise * fall > 0, slope, 0);
+    if (level.isPeriodic(d)) continue;
+    const Lanes cell = widen(batch.cell[static_cast<std::size_t>(d)]);
+    slopes[d] = select(cell > 0, select(cell < level.cells().upper[d] - 1, slopes[d], 0), 0);
+  }
+  Lanes swing = 0;
+  for (int d = 0; d < D; ++d) swing += 0.5 * abs(slopes[d]) * edges[d];
+  return select(swing > 0.8, 0.8 / swing, 1) * slopes;
+}
+
+/// The parts of particles in a cell each.
+template <int D>
+struct Part {
+  LanesVec<D> x, edges;  ///< centre and edge lengths
+  Lanes mass, internal;  ///< shares of the particle's
+};
+
+/// Boxes cut at the faces of cells.
+template <int D>
+class Parts {
+ public:
+  /// Relative slopes of density and internal energy say how unlike the parts are.
+  Parts(const Footprint<D>& footprint, const LanesVec<D>& centre, const LanesVec<D>& density,
+        const LanesVec<D>& energy) {
+    footprint.forEachPart([&](const Index<D>& k, const Lanes& share) {
+      Part<D>& part = at(k);
+      for (int d = 0; d < D; ++d) {
+        const auto& span = footprint.along[static_cast<std::size_t>(d)];
+        part.x[d] = span.middle(k[d]);
+        part.edges[d] = span.upperOf(k[d]) - span.lowerOf(k[d]);
+      }
+      part.mass = share * (1 + density.dot(part.x - centre));
+      part.internal = share * (1 + energy.dot(part.x - centre));
+    });
+    const Lanes mass = sum(footprint, [](const Part<D>& part) { return part.mass; });
+    const Lanes internal = sum(footprint, [](const Part<D>& part) { return part.internal; });
+    footprint.forEachPart([&](const Index<D>& k, const Lanes&) {
+      at(k).mass /= mass;
+      at(k).internal /= internal;
+    });
+  }
+  /// The part in a cell of the footprint.
+  Part<D>& at(const Index<D>& k) { return parts_[Footprint<D>::number(k)]; }
+  /// Sum of a value of each part.
+  template <class Value>
+  Lanes sum(const Footprint<D>& footprint, Value&& value) {
+    return footprint.sumOverParts([&](const Index<D>& k, const Lanes&) { return value(at(k)); });
+  }
+
+ private:
+  std::array<Part<D>, Footprint<D>::places> parts_;
+};
+
+/// What a part brings to its cell.
+template <int D>
+void bring(typename CellSums<D>::Fields::Brought& brought, std::size_t place, const Part<D>& part,
+           const LanesVec<D>& dx, const LanesVec<D>& u,
+           const LanesTensor<D>& gradient, const LanesModes<D>& modes, const Lanes& surplus) {
+  using Sums = CellSums<D>;
+  const auto put = [&](std::size_t field, const LanesVec<D>& values) {
+    for (std::size_t d = 0; d < D; ++d) brought[field + d][place] = part.mass * values[static_cast<int>(d)];
+  };
+  const LanesVec<D> spread = part.edges.cwiseAbs2() / 12;
+  brought[Sums::mass][place] = part.mass;
+  brought[Sums::internal][place] = part.internal;
+  brought[Sums::kinetic][place] = part.mass * (0.5 * u.squaredNorm() + surplus);
+  put(Sums::momentum, u);
+  put(Sums::offset, dx);
+  put(Sums::square, dx.cwiseAbs2() + spread);
+  for (int d = 0; d < D; ++d)
+    put(Sums::moment + static_cast<std::size_t>(d) * D, u * dx[d] + gradient.col(d) * spread[d]);
+  std::size_t field = Sums::modes;
+  for (std::size_t a = 1; a < std::size_t{1} << D; ++a) {
+    if (!isMixed(a)) continue;
+    put(field, modes.col(static_cast<int>(a) - 1));
+    field += D;
+  }
+}
+
+/// Sends the parts of a batch of particles to their cells.
+template <int D>
+void cut(const Level& level, const Batch<D>& batch, const Boxes<D>& boxes, const Contents<D>& contents,
+         typename CellSums<D>::Fields& sums) {
+  const LanesVec<D> centre = load(boxes.x, batch), edges = load(boxes.edges, batch), v = load(boxes.velocity, batch);
+  const LanesModes<D> modes = load(boxes.modes, batch);
+  const Lanes m = batch.only(load(boxes.mass, batch)), e = load(boxes.internalEnergy, batch),
+              affine = load(boxes.affineEnergy, batch);
+  const Footprint<D> footprint(level, batch, centre, edges);
+  Parts<D> parts(footprint, centre, relativeSlopes<D>(level, contents, 0, batch, edges),
+                 relativeSlopes<D>(level, contents, 1, batch, edges));
+  LanesVec<D> centroid;
+  for (int d = 0; d < D; ++d)
+    centroid[d] = parts.sum(footprint, [&](const Part<D>& part) { return part.mass * part.x[d]; });
+  LanesTensor<D> gradient;
+  for (int d = 0; d < D; ++d) gradient.col(d) = modes.col(gradientColumn(d));
+  const Lanes kinetic = parts.sum(footprint, [&](const Part<D>& part) -> Lanes {
+    return 0.5 * part.mass * (gradient * (part.x - centroid)).squaredNorm();
+  });
+  const Lanes most = affine + 0.5 * e;
+  gradient *= select(kinetic > most, sqrt(most / kinetic), 1);
+  const Lanes surplus = affine - min(kinetic, most), warm = m * e * (1 + min(surplus, 0) / e);
+  typename CellSums<D>::Fields::Brought brought;
+  footprint.forEachPart([&](const Index<D>& k, const Lanes&) {
+    Part<D>& part = parts.at(k);
+    LanesVec<D> middle;
+    for (int d = 0; d < D; ++d) {
+      const Lanes cell = widen(footprint.along[static_cast<std::size_t>(d)].first + k[d]);
+      middle[d] = middleOf(level, d) + level.spacing(d) * fromMiddle(level, d, cell);
+    }
+    const LanesVec<D> u = v + gradient * (part.x - centroid);
+    part.mass *= m;
+    part.internal *= warm;
+    bring<D>(brought, Footprint<D>::number(k), part, part.x - middle, u, gradient, modes, max(surplus, 0));
+  });
+  sums.add(footprint, batch.count, brought);
+}
+
+/// What lies in the cells of a row side by side.
+template <int D>
+struct Contained {
+  Lanes mass, internalEnergy;
+  Lanes within;         ///< kinetic energy per mass about the mean velocity, J/kg
+  LanesVec<D> offset;   ///< of the centre of mass from the middle of the cell, m
+  LanesVec<D> velocity;
+  LanesModes<D> modes;
+
+  Contained(const typename CellSums<D>::Fields& sums, const Index<D>& cell) {
+    using Sums = CellSums<D>;
+    const auto vectorOf = [&](std::size_t field) {
+      LanesVec<D> values;
+      for (std::size_t d = 0; d < D; ++d) values[static_cast<int>(d)] = sums.readRow(field + d, cell);
+      return values;
+    };
+    mass = sums.readRow(Sums::mass, cell);
+    const Lanes inverse = 1 / mass;
+    velocity = inverse * vectorOf(Sums::momentum);
+    offset = inverse * vectorOf(Sums::offset);
+    const LanesVec<D> square = inverse * vectorOf(Sums::square);
+    for (int d = 0; d < D; ++d) {
+      const LanesVec<D> moment = inverse * vectorOf(Sums::moment + static_cast<std::size_t>(d) * D);
+      modes.col(gradientColumn(d)) = (moment - offset[d] * velocity) / (square[d] - offset[d] * offset[d]);
+    }
+    std::size_t field = Sums::modes;
+    for (std::size_t a = 1; a < std::size_t{1} << D; ++a) {
+      if (!isMixed(a)) continue;
+      modes.col(static_cast<int>(a) - 1) = inverse * vectorOf(field);
+      field += D;
+    }
+    within = max(0, inverse * sums.readRow(Sums::kinetic, cell) - 0.5 * velocity.squaredNorm());
+    internalEnergy = inverse * sums.readRow(Sums::internal, cell);
+  }
+};
+
+/// The box of a new particle: its cell, but where the next cell is empty only as far as the gas reaches, so that gas
+/// does not spread into a vacuum by a cell with every remap. No thinner than a tenth of the cell.
+template <int D>
+struct NewBox {
+  Vec<D> centre, edges;
+  Vec<D> inertia;  ///< on the grid, m²
+
+  /// `offset` is that of the centre of mass from the middle of the cell.
+  NewBox(const Level& level, CellView<const double> mass, const Index<D>& cell, const Vec<D>& offset) {
+    for (int d = 0; d < D; ++d) {
+      const double h = level.spacing(d);
+      const bool below = isEmpty(mass, cell - Index<D>::unit(d)), above = isEmpty(mass, cell + Index<D>::unit(d));
+      double lower = -0.5 * h, upper = 0.5 * h;
+      if (above && !below) upper = std::clamp(0.5 * h + 2 * offset[d], -0.4 * h, 0.5 * h);
+      if (below && !above) lower = std::clamp(2 * offset[d] - 0.5 * h, -0.5 * h, 0.4 * h);
+      const double middle = 0.5 * (lower + upper);
+      centre[d] = positionInCell(level, d, cell[d], 0) + middle;
+      edges[d] = upper - lower;
+      inertia[d] = 0.25 * h * h - middle * middle;
+    }
+  }
+
+ private:
+  static bool isEmpty(CellView<const double> mass, const Index<D>& cell) {
+    return mass.box().contains(cell) && !(mass[cell] > 0);
+  }
+};
+
+template <int D>
+void addParticle(const Level& level, CellView<const double> mass, const Index<D>& cell, const Contained<D>& contained,
+                 int lane, NewBoxes<D>& fresh) {
+  Vec<D> v, offset;
+  Modes<D> modes;
+  for (int d = 0; d < D; ++d) {
+    v[d] = contained.velocity[d][lane];
+    offset[d] = contained.offset[d][lane];
+    for (int a = 0; a < modes.cols(); ++a) modes(d, a) = contained.modes(d, a)[lane];
+  }
+  const NewBox<D> box(level, mass, cell, offset);
+  const double within = contained.within[lane], affine = std::min(within, modalEnergy<D>(modes, box.inertia));
+  fresh.maker.add(cell, level.cellNumber(cell) * idsOfCell);
+  fresh.x.push_back(box.centre);
+  fresh.edges.push_back(box.edges);
+  fresh.mass.push_back(contained.mass[lane]);
+  fresh.velocity.push_back(v);
+  fresh.modes.push_back(modes);
+  fresh.internalEnergy.push_back(contained.internalEnergy[lane] + (within - affine));
+  fresh.affineEnergy.push_back(affine);
+}
+
+}  // namespace
+
+template <int D>
+void remap(const Patch& patch, const Boxes<D>& boxes, CellView<const double> mass, CellView<const double> energy,
+           NewBoxes<D> fresh) {
+  const Level& level = patch.level();
+  Contents<D> contents(boxes.x.cells());
+  contents.copy(0, mass);
+  contents.copy(1, energy);
+  typename CellSums<D>::Fields sums(boxes.x.cells());
+  forEachBatch<D>(boxes.x.cells(), boxes.x,
+                  [&](const Batch<D>& batch) { cut<D>(level, batch, boxes, contents, sums); });
+  sums.finish();
+  forEach<D>(patch.cells(), [&](Index<D> cell) {
+    if ((cell[0] - patch.cells().lower[0]) % Lanes::count != 0) return;
+    const Contained<D> contained(sums, cell);
+    for (int lane = 0; lane < Lanes::count && cell[0] < patch.cells().upper[0]; ++lane, ++cell[0])
+      if (contained.mass[lane] > 0) addParticle<D>(level, mass, cell, contained, lane, fresh);
+  });
+}
+
+template void remap<1>(const Patch&, const Boxes<1>&, CellView<const double>, CellView<const double>, NewBoxes<1>);
+template void remap<2>(const Patch&, const Boxes<2>&, CellView<const double>, CellView<const double>, NewBoxes<2>);
+template void remap<3>(const Patch&, const Boxes<3>&, CellView<const double>, CellView<const double>, NewBoxes<3>);
+
+}  // namespace tushar::mpm::gas::conserving

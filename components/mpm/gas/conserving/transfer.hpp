@@ -1,0 +1,320 @@
+#pragma once
+
+#include "components/mpm/gas/conserving/footprint.hpp"
+#include "components/mpm/gas/conserving/grid_sums.hpp"
+#include "components/mpm/gas/conserving/labels.hpp"
+#include "components/mpm/gas/conserving/scheme.hpp"
+#include "components/mpm/gas/material.hpp"
+#include "components/mpm/gas/symmetry.hpp"
+
+namespace tushar::mpm::gas::conserving {
+
+/// The velocities of particles as fields about their centres.
+template <int D>
+typename Footprint<D>::template Field<D - 1> fieldOf(const LanesVec<D>& velocity, const LanesModes<D>& modes) {
+  typename Footprint<D>::template Field<D - 1> field;
+  field[0] = velocity;
+  for (std::size_t a = 1; a < field.size(); ++a) field[a] = modes.col(static_cast<int>(a) - 1);
+  return field;
+}
+
+/// Mass and momentum at nodes; mass, internal energy and volume in cells: sums over the boxes that overlap them.
+template <int D>
+struct Gathering {
+  GridSums<D, 1 + D, 1> nodes;
+  GridSums<D, 3, 0> cells;
+
+  explicit Gathering(const Box& around) : nodes(around), cells(around) {}
+
+  void add(const Batch<D>& batch, const Footprint<D>& footprint, const Lanes& mass, const Lanes& energy,
+           const Lanes& volume, const typename Footprint<D>::template Field<D - 1>& velocity) {
+    typename GridSums<D, 3, 0>::Brought parts;
+    footprint.forEachPart([&](const Index<D>& k, const Lanes& part) {
+      const std::size_t place = Footprint<D>::number(k);
+      parts[0][place] = part * mass;
+      parts[1][place] = part * energy;
+      parts[2][place] = part * volume;
+    });
+    cells.add(footprint, batch.count, parts);
+    typename GridSums<D, 1 + D, 1>::Brought brought;
+    footprint.forEachWeight(velocity, [&](const Index<D>& k, const Lanes& w, const LanesVec<D>& u) {
+      const std::size_t place = Footprint<D>::number(k);
+      brought[0][place] = w * mass;
+      for (std::size_t d = 0; d < D; ++d) brought[d + 1][place] = brought[0][place] * u[static_cast<int>(d)];
+    });
+    nodes.add(footprint, batch.count, brought);
+  }
+  void finish() {
+    nodes.finish();
+    cells.finish();
+  }
+};
+
+/// m_i = sum w m,   v_i = sum w m u(x_i) / m_i on the patch's nodes,   M_c = sum o m,   IE_c = sum o m e in its cells;
+/// w and o as in Footprint, u the velocity of the particle's modes. Symmetry planes: no normal velocity.
+/// `visitFill(cell, volume)` is told the volume of the boxes in each cell.
+template <int D, class Visit>
+void gatherOnGrid(const Patch& patch, ParticleView<const Vec<D>> x, ParticleView<const Vec<D>> edges,
+                  ParticleView<const double> mass, ParticleView<const Vec<D>> velocity,
+                  ParticleView<const Modes<D>> modes, ParticleView<const double> internalEnergy,
+                  NodeView<double> nodeMass, NodeView<Vec<D>> nodeVelocity, CellView<double> cellMass,
+                  CellView<double> cellInternalEnergy, Visit&& visitFill) {
+  Gathering<D> sums(x.cells());
+  forEachBatch<D>(x.cells(), x, [&](const Batch<D>& batch) {
+    const LanesVec<D> size = load(edges, batch);
+    const Footprint<D> footprint(patch.level(), batch, load(x, batch), size);
+    const Lanes m = batch.only(load(mass, batch));
+    sums.add(batch, footprint, m, m * load(internalEnergy, batch), batch.only(size.prod()),
+             fieldOf<D>(load(velocity, batch), load(modes, batch)));
+  });
+  sums.finish();
+  forEach<D>(cellMass.box(), [&](const Index<D>& cell) {
+    cellMass[cell] = sums.cells.at(0, cell);
+    cellInternalEnergy[cell] = sums.cells.at(1, cell);
+    visitFill(cell, sums.cells.at(2, cell));
+  });
+  forEach<D>(nodeMass.box(), [&](const Index<D>& node) {
+    const double m = sums.nodes.at(0, node), inverse = m > 0 ? 1 / m : 0;
+    nodeMass[node] = m;
+    for (std::size_t d = 0; d < D; ++d) nodeVelocity[node][static_cast<int>(d)] = inverse * sums.nodes.at(d + 1, node);
+  });
+  stopAtSymmetryPlanes<D>(patch, nodeVelocity);
+}
+
+/// gatherOnGrid alone.
+template <int D>
+void interpolateParticlesToGrid(const Patch& patch, const Gas&, ParticleView<const Vec<D>> x,
+                                ParticleView<const Vec<D>> edges, ParticleView<const double> mass,
+                                ParticleView<const Vec<D>> velocity, ParticleView<const Modes<D>> modes,
+                                ParticleView<const double> internalEnergy, NodeView<double> nodeMass,
+                                NodeView<Vec<D>> nodeVelocity, CellView<double> cellMass,
+                                CellView<double> cellInternalEnergy) {
+  gatherOnGrid<D>(patch, x, edges, mass, velocity, modes, internalEnergy, nodeMass, nodeVelocity, cellMass,
+                  cellInternalEnergy, [](const Index<D>&, double) {});
+}
+
+/// gatherOnGrid, and the volume of the boxes in each cell over the cell's own: 1 where they tile the gas.
+template <int D>
+void interpolateAndMeasureFill(const Patch& patch, const Gas&, ParticleView<const Vec<D>> x,
+                               ParticleView<const Vec<D>> edges, ParticleView<const double> mass,
+                               ParticleView<const Vec<D>> velocity, ParticleView<const Modes<D>> modes,
+                               ParticleView<const double> internalEnergy, NodeView<double> nodeMass,
+                               NodeView<Vec<D>> nodeVelocity, CellView<double> cellMass,
+                               CellView<double> cellInternalEnergy, CellView<double> fill, Maximum& greatest) {
+  double inverse = 1;
+  for (int d = 0; d < D; ++d) inverse *= patch.level().inverseSpacing(d);
+  gatherOnGrid<D>(patch, x, edges, mass, velocity, modes, internalEnergy, nodeMass, nodeVelocity, cellMass,
+                  cellInternalEnergy, [&](const Index<D>& cell, double volume) {
+                    fill[cell] = volume * inverse;
+                    greatest.add(fill[cell]);
+                  });
+}
+
+/// What particles take from the nodes on a line (Axis = 0), a plane, or all of their footprint (Axis = D - 1): sums
+/// with the weights along these axes; (E1)-(E3) of updateParticles.
+template <int D, int Axis>
+struct Gathered {
+  std::array<LanesVec<D>, (1 << (Axis + 1))> moments;  ///< y phi_a
+  std::array<LanesVec<D>, Axis + 1> lower, upper;      ///< velocity with which the faces across each axis move, m/s
+  LanesVec<D> moving = LanesVec<D>::Zero();            ///< the same velocity over all of it
+  Lanes slipEnergy = 0;                                ///< beta (2 - beta) |r|² / 2, J/kg
+  Lanes square = 0;                                    ///< |y|², J/kg
+
+  Gathered() {
+    moments.fill(LanesVec<D>::Zero());
+    lower.fill(LanesVec<D>::Zero());
+    upper.fill(LanesVec<D>::Zero());
+  }
+  Gathered& operator+=(const Gathered& other) {
+    for (std::size_t a = 0; a < moments.size(); ++a) moments[a] += other.moments[a];
+    for (std::size_t d = 0; d < lower.size(); ++d) {
+      lower[d] += other.lower[d];
+      upper[d] += other.upper[d];
+    }
+    moving += other.moving;
+    slipEnergy += other.slipEnergy;
+    square += other.square;
+    return *this;
+  }
+};
+
+/// The fields that particles are updated from: v and dt a at nodes along each axis, beta at nodes, f in cells.
+template <int D>
+struct Motion : GridFields<D, 2 * D + 2> {
+  static constexpr std::size_t change = D, relaxation = 2 * D, work = 2 * D + 1;
+  using GridFields<D, 2 * D + 2>::GridFields;
+};
+
+template <int D>
+Motion<D> motionOn(const Patch& patch, NodeView<const Vec<D>> velocity, NodeView<const Vec<D>> acceleration,
+                   NodeView<const double> relaxation, CellView<const double> work, double dt) {
+  Motion<D> motion(patch.cells());
+  forEach<D>(velocity.box(), [&](const Index<D>& node) {
+    for (int d = 0; d < D; ++d) {
+      motion.at(static_cast<std::size_t>(d), node) = velocity[node][d];
+      motion.at(Motion<D>::change + static_cast<std::size_t>(d), node) = dt * acceleration[node][d];
+    }
+  });
+  motion.copy(Motion<D>::relaxation, relaxation);
+  motion.copy(Motion<D>::work, work);
+  return motion;
+}
+
+/// Reads the motion near a batch.
+template <int D>
+struct Reader {
+  const Motion<D>& motion;
+  typename Motion<D>::Near near;
+
+  Lanes operator()(std::size_t field, const Index<D>& k) const { return motion.read(field, near, k); }
+};
+
+/// Adds nodes of a line, one per lane.
+template <int D, class Scheme>
+[[gnu::always_inline]] inline void addNode(const Footprint<D>& footprint, const Index<D>& at, const Reader<D>& read,
+                                           const LanesVec<D>& field, Gathered<D, 0>& sum) {
+  const auto& span = footprint.along[0];
+  const auto k = static_cast<std::size_t>(at[0]);
+  const Lanes w = span.weight[k];
+  LanesVec<D> v, dv;
+  for (int d = 0; d < D; ++d) {
+    v[d] = read(static_cast<std::size_t>(d), at);
+    dv[d] = read(Motion<D>::change + static_cast<std::size_t>(d), at);
+  }
+  const Lanes beta = Scheme::transfer == Transfer::apic ? Lanes(1.0) : read(Motion<D>::relaxation, at);
+  const LanesVec<D> r = field - v, moving = v + Scheme::faceTime * dv;
+  const LanesVec<D> y = v + dv + (1 - beta) * r, wy = w * y;
+  sum.moments[0] += wy;
+  sum.moments[1] += span.arm[k] * wy;
+  sum.lower[0] += span.atLower[k] * moving;
+  sum.upper[0] += span.atUpper[k] * moving;
+  sum.moving += w * moving;
+  sum.slipEnergy += w * (0.5 * beta * (2 - beta)) * r.squaredNorm();
+  sum.square += wy.dot(y);
+}
+
+/// Adds a line to a plane, or a plane to the footprint.
+template <int D, int Axis>
+[[gnu::always_inline]] inline void addSlice(const Footprint<D>& footprint, std::size_t k,
+                                            const Gathered<D, Axis - 1>& slice, Gathered<D, Axis>& sum) {
+  constexpr std::size_t half = std::size_t{1} << Axis;
+  const auto& span = footprint.along[Axis];
+  const Lanes w = span.weight[k];
+  for (std::size_t a = 0; a < half; ++a) {
+    sum.moments[a] += w * slice.moments[a];
+    sum.moments[a + half] += w * span.arm[k] * slice.moments[a];
+  }
+  for (std::size_t d = 0; d < Axis; ++d) {
+    sum.lower[d] += w * slice.lower[d];
+    sum.upper[d] += w * slice.upper[d];
+  }
+  sum.lower[Axis] += span.atLower[k] * slice.moving;
+  sum.upper[Axis] += span.atUpper[k] * slice.moving;
+  sum.moving += w * slice.moving;
+  sum.slipEnergy += w * slice.slipEnergy;
+  sum.square += w * slice.square;
+}
+
+template <int D, class Scheme, int Axis>
+[[gnu::always_inline]] inline Gathered<D, Axis> gatherFromNodes(
+    const Footprint<D>& footprint, Index<D>& at, const Reader<D>& read,
+    const typename Footprint<D>::template Field<Axis>& field) {
+  const auto& span = footprint.along[Axis];
+  return span.template sumOverNodes<Gathered<D, Axis>>([&](int node, Gathered<D, Axis>& sum) {
+    at[Axis] = node;
+    const auto k = static_cast<std::size_t>(node);
+    if constexpr (Axis == 0)
+      addNode<D, Scheme>(footprint, at, read, field[0] + span.arm[k] * field[1], sum);
+    else
+      addSlice<D, Axis>(footprint, k,
+                        gatherFromNodes<D, Scheme, Axis - 1>(footprint, at, read,
+                                                             Footprint<D>::template slice<Axis>(field, span.arm[k])),
+                        sum);
+  });
+}
+
+/// Sum of o_c f_c.
+template <int D>
+Lanes workOn(const Footprint<D>& footprint, const Reader<D>& read) {
+  return footprint.sumOverParts([&](const Index<D>& k, const Lanes& part) { return part * read(Motion<D>::work, k); });
+}
+
+/// Asks for a smaller time step where a box would shrink to less than .4 of its length or become longer than `most`.
+template <int D>
+void limitEdges(const Batch<D>& batch, const Lanes& before, const Lanes& after, double most, Minimum& factor) {
+  if (all((after > 0.4 * before) & (after < most), batch.count)) return;
+  for (int lane = 0; lane < batch.count; ++lane) {
+    const double length = before[lane], change = after[lane] - length;
+    if (!(after[lane] > 0.4 * length)) factor.add(-0.5 * length / change, "compression");
+    if (!(after[lane] < most)) factor.add(0.9 * (most - length) / change, "stretch");
+  }
+}
+
+/// Asks for a smaller time step where work would take more than .8 of the internal energy, or the new one be negative.
+template <int D>
+void limitCooling(const Batch<D>& batch, const Lanes& work, const Lanes& energy, Minimum& factor) {
+  if (all((work > -0.8) & (energy >= 0), batch.count)) return;
+  for (int lane = 0; lane < batch.count; ++lane) {
+    if (!(work[lane] > -0.8)) factor.add(-0.7 / work[lane], "cooling");
+    if (!(energy[lane] >= 0)) factor.add(0.5, "cooling");
+  }
+}
+
+/// Particles after a step, from node velocities v, accelerations a and relaxations beta, and the work f of cells.
+///
+/// With z = u(x_i), r = z - v_i, y = z - beta r + dt a_i (apic: beta = 1, so that y = v_i + dt a_i), and means over the
+/// box, sum of w_i:
+///   (E1) new modes  u_a = <y phi_a> / I_a;  apic: the gradient is the difference of <y> over opposite faces
+///   (E2) new affine energy  K_A = 1/2 sum over a of I_a |u_a|²;  apic: (<|y|²> - |u_0|²) / 2
+///   (E3) new e = e (1 + sum o_c f_c) + K_A,old - K_old + <beta (2 - beta) |r|²> / 2 + (<|y|²> - |u_0|²) / 2 - K_A
+/// so that the kinetic energy that a transfer loses becomes heat. Each face moves with the mean of its normal velocity
+/// v + dt a / 2 (apic: v + dt a). A step that limitEdge or limitCooling refuse is to be repeated with `factor` times dt.
+template <int D, class Scheme>
+void updateParticles(const Patch& patch, const Gas&, ParticleView<const Vec<D>> x, ParticleView<const Vec<D>> edges,
+                     ParticleView<const Vec<D>> velocity, ParticleView<const Modes<D>> modes,
+                     ParticleView<const double> internalEnergy, ParticleView<const double> affineEnergy,
+                     NodeView<const Vec<D>> nodeVelocity, NodeView<const Vec<D>> acceleration,
+                     NodeView<const double> relaxation, CellView<const double> work, double dt,
+                     ParticleView<Vec<D>> newX, ParticleView<Vec<D>> newEdges, ParticleView<Vec<D>> newVelocity,
+                     ParticleView<Modes<D>> newModes, ParticleView<double> newInternalEnergy,
+                     ParticleView<double> newAffineEnergy, Minimum& factor) {
+  constexpr bool apic = Scheme::transfer == Transfer::apic;
+  const Motion<D> motion = motionOn<D>(patch, nodeVelocity, acceleration, relaxation, work, dt);
+  forEachBatch<D>(patch.cells(), x, [&](const Batch<D>& batch) {
+    const Footprint<D> footprint(patch.level(), batch, load(x, batch), load(edges, batch));
+    const LanesModes<D> u = load(modes, batch);
+    const Reader<D> read{motion, {motion, footprint.first(), batch.count}};
+    Index<D> at;
+    const auto taken = gatherFromNodes<D, Scheme, D - 1>(footprint, at, read, fieldOf<D>(load(velocity, batch), u));
+    const LanesVec<D> mean = taken.moments[0], inertia = footprint.inertia();
+    const auto products = productsOver(inertia);
+    LanesModes<D> fresh = LanesModes<D>::Zero();
+    LanesVec<D> centre, size;
+    for (std::size_t d = 0; d < D; ++d) {
+      const auto& span = footprint.along[d];
+      const int axis = static_cast<int>(d);
+      const Lanes lower = span.lower + dt * taken.lower[d][axis], upper = span.upper + dt * taken.upper[d][axis];
+      centre[axis] = 0.5 * (lower + upper);
+      size[axis] = upper - lower;
+      limitEdges(batch, span.length(), size[axis], Footprint<D>::longest * patch.level().spacing(axis), factor);
+      if constexpr (apic) fresh.col(gradientColumn(axis)) = (taken.upper[d] - taken.lower[d]) / span.length();
+    }
+    if constexpr (!apic)
+      for (std::size_t a = 1; a < taken.moments.size(); ++a)
+        fresh.col(static_cast<int>(a) - 1) = taken.moments[a] / products[a];
+    const Lanes within = max(0.0, 0.5 * (taken.square - mean.squaredNorm()));
+    const Lanes affine = apic ? within : min(within, modalEnergy<D>(fresh, inertia));
+    store(centre, newX, batch);
+    store(size, newEdges, batch);
+    store(mean, newVelocity, batch);
+    store(fresh, newModes, batch);
+    store(affine, newAffineEnergy, batch);
+    const Lanes done = workOn(footprint, read);
+    const Lanes energy = load(internalEnergy, batch) * (1 + done) + load(affineEnergy, batch) -
+                         modalEnergy<D>(u, inertia) + taken.slipEnergy + (within - affine);
+    limitCooling(batch, done, energy, factor);
+    store(energy, newInternalEnergy, batch);
+  });
+}
+
+}  // namespace tushar::mpm::gas::conserving

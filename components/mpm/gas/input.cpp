@@ -1,0 +1,123 @@
+#include "components/mpm/gas/input.hpp"
+
+#include "components/mpm/gas/conserving/conserving_mpm.hpp"
+#include "components/mpm/gas/conserving/input.hpp"
+#include "components/mpm/gas/material_input.hpp"
+#include "components/mpm/gas/paper/gas_mpm.hpp"
+#include "components/mpm/gas/paper/input.hpp"
+#include "core/simulation/by_dimension.hpp"
+
+namespace tushar::mpm::gas {
+
+using input::Diagnostics;
+using input::Element;
+using input::Schema;
+
+namespace {
+
+struct MpmSection {
+  int integrator = 0, interpolator = 0;
+  std::optional<paper::GasDynamics> gas;
+  std::optional<conserving::Section> conserving;
+};
+const Schema<MpmSection>& mpmSchema() {
+  static const Schema<MpmSection> schema =
+      Schema<MpmSection>("MPM", "The Material Point Method.")
+          .choice("time_integrator", &MpmSection::integrator, {{"explicit", 0}}, 0, "how time advances")
+          .choice("interpolator", &MpmSection::interpolator, {{"linear", 0}}, 0, "shape functions")
+          .section("gas_dynamics", &MpmSection::gas, paper::methodSchema())
+          .ours()
+          .section("conserving_gas_dynamics", &MpmSection::conserving, conserving::sectionSchema())
+          .ours()
+          .check([](const MpmSection& mpm, const Element& element, Diagnostics& diagnostics) {
+            if (mpm.gas.has_value() == mpm.conserving.has_value())
+              diagnostics.error(element, std::string(mpm.gas ? "gives both" : "gives neither") +
+                                             " <gas_dynamics> and <conserving_gas_dynamics>; keep one");
+          });
+  return schema;
+}
+
+/// The particles of the conserving method fill their cells: they cannot stand just anywhere.
+void refusePlacements(const GasProperties& properties, Diagnostics& diagnostics) {
+  for (const GasSection& material : properties.mpm.materials)
+    for (const GasObjectSection& object : material.objects)
+      if (object.placement != Placement::midpoint)
+        diagnostics.error(object.where, "MaterialProperties/MPM/material/geom_object",
+                          "placement: the boxes of <conserving_gas_dynamics> fill the gas; use midpoint, or <gas_dynamics>");
+}
+
+/// Several gases at once: by boxes that are never mixed, with the transfer of the default.
+void refuseMixtures(const MpmSection& method, const GasProperties& properties, Diagnostics& diagnostics) {
+  const std::vector<GasSection>& materials = properties.mpm.materials;
+  if (materials.size() < 2) return;
+  const auto refuse = [&](const std::string& why) {
+    diagnostics.error(materials[1].model.where, "MaterialProperties/MPM/material", why);
+  };
+  if (method.gas)
+    refuse("<gas_dynamics> takes one material; give it several <geom_object>s, or use <conserving_gas_dynamics>");
+  if (!method.conserving) return;
+  if (method.conserving->transfer != conserving::Transfer::apic) refuse("several gases need <transfer> apic");
+  if (method.conserving->remap) refuse("several gases are not mixed by a <remap>; take it out");
+  if (method.conserving->heatConduction > 0) refuse("several gases take no <artificial_heat_conduction>");
+  for (std::size_t k = 0; k < materials.size(); ++k) {
+    if (materials[k].relaxation) refuse("several gases take no <relaxation>");
+    for (std::size_t other = 0; other < k; ++other)
+      if (materials[k].name == materials[other].name)
+        refuse("two materials are called '" + materials[k].name + "'; give each a name of its own");
+  }
+}
+
+/// The paper's method knows the ideal gas alone.
+void refuseStiffness(const GasProperties& properties, Diagnostics& diagnostics) {
+  for (const GasSection& material : properties.mpm.materials)
+    if (material.model.type == GasType::stiffened)
+      diagnostics.error(material.model.where, "MaterialProperties/MPM/material/constitutive_model",
+                        "type: <gas_dynamics> takes an ideal_gas alone; use <conserving_gas_dynamics>");
+}
+
+/// What only scenes of solids may say.
+void refuseSolidsOnly(const Element& root, Diagnostics& diagnostics) {
+  if (const auto constants = root.child("PhysicalConstants"))
+    diagnostics.error(*constants, "a gas knows no <PhysicalConstants>: nothing acts on it but its pressure");
+  const auto grid = root.child("Grid");
+  const auto conditions = grid ? grid->child("BoundaryConditions") : std::nullopt;
+  if (!conditions) return;
+  for (const Element& face : conditions->children("Face"))
+    for (const Element& condition : face.children("BCType"))
+      if (const auto label = condition.attribute("label"); label && (*label == "Velocity" || *label == "Temperature"))
+        diagnostics.error(condition, "label: found '" + *label + "', expected 'Symmetric': a gas takes no other");
+}
+
+std::unique_ptr<Component> makeComponent(const Level& level, const MpmSection& method, const std::vector<Gas>& gases) {
+  if (method.gas && method.gas->redistribute) paper::checkSeeds(*method.gas->redistribute, level.dimension());
+  if (method.gas) return simulation::makeByDimension<paper::GasMpm>(level, *method.gas, gases);
+  return simulation::makeByDimension<conserving::ConservingMpm>(level, conserving::settle(*method.conserving, level.dimension()), gases);
+}
+
+}  // namespace
+
+bool isGas(const Element& root) {
+  const auto mpm = root.child("MPM");
+  return mpm && (mpm->child("gas_dynamics") || mpm->child("conserving_gas_dynamics"));
+}
+
+simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostics) {
+  refuseSolidsOnly(root, diagnostics);
+  const std::size_t before = diagnostics.size();
+  const MpmSection method = simulation::readSection(root, mpmSchema(), diagnostics);
+  const GasProperties properties = simulation::readSection(root, gasProperties(), diagnostics);
+  refuseMixtures(method, properties, diagnostics);
+  method.conserving ? refusePlacements(properties, diagnostics) : refuseStiffness(properties, diagnostics);
+  if (diagnostics.size() > before) return {};
+  std::vector<Gas> gases;
+  const std::vector<GasSection>& materials = properties.mpm.materials;
+  for (const GasSection& material : materials) gases.push_back(makeGas(material, materials.size() == 1));
+  return [method, gases](const Level& level) { return makeComponent(level, method, gases); };
+}
+
+void describe(std::ostream& out) {
+  mpmSchema().describe(out);
+  gasProperties().describe(out);
+}
+
+}  // namespace tushar::mpm::gas

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <ostream>
+
+#include "core/input/document.hpp"
+#include "core/simulation/catalogue.hpp"
+
+namespace tushar::mpm::gas {
+
+/// Whether a scene asks for a gas.
+bool isGas(const input::Element& root);
+
+/// Reads a scene of gases; every problem goes to the diagnostics.
+simulation::MakeComponent readScene(const input::Element& root, input::Diagnostics& diagnostics);
+
+/// The manual.
+void describe(std::ostream& out);
+
+}  // namespace tushar::mpm::gas

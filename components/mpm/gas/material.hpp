@@ -1,0 +1,78 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "components/reference/riemann_solution.hpp"
+#include "core/core.hpp"
+#include "core/input/expression.hpp"
+#include "core/input/geometry.hpp"
+
+namespace tushar::mpm::gas {
+
+/// Where in a cell the particles of a body start.
+enum class Placement {
+  midpoint,  ///< in the middle of equal parts of the cell
+  jittered,  ///< one anywhere in each of these parts
+  random,    ///< anywhere in the cell, each on its own
+};
+
+/// A body of gas at the start: its shape and its state, which may vary in space.
+struct GasObject {
+  Location where;  ///< in the scene
+  std::shared_ptr<const input::GeometryPiece> shape;
+  Index3 particlesPerCell{{1, 1, 1}};  ///< along x, y, z
+  input::Expression density;           ///< kg/m³
+  input::Expression pressure;          ///< Pa
+  input::VectorExpression velocity;    ///< m/s
+  Placement placement = Placement::midpoint;
+  int seed = 0;  ///< of the places that are drawn
+};
+
+/// A source of heat, de/dt = -rate (e - internalEnergy): radiation or a wall that keep a gas near one temperature.
+struct Relaxation {
+  double rate = 0;            ///< 1/s
+  double internalEnergy = 0;  ///< J/kg, what the gas goes to
+};
+
+/// A stiffened gas: p = (gamma - 1) rho epsilon - p_inf; with p_inf = 0 an ideal gas, (3) of Tran, Kim & Berzins.
+///
+/// epsilon is e - p_inf / rho: the part of the internal energy e that waves exchange. Of epsilon and P = p + p_inf all
+/// laws are those of an ideal gas. Particles of a gas that is alone carry epsilon as p.internalEnergy: totals of energy
+/// differ by p_inf times the volume, which is that of the grid, as a stiffened gas fills it. Beside other gases, with which
+/// it trades volume, it carries all of e.
+/// Source: F. H. Harlow & A. A. Amsden, Fluid Dynamics, LANL report LA-4700 (1971).
+struct Gas {
+  std::string name;
+  double gamma = 1.4;    ///< ratio of specific heats
+  double pInfinity = 0;  ///< Pa
+  double carried = 0;    ///< what of p_inf is in the energy that particles carry, Pa: 0 or all
+  Location where;        ///< of the constitutive model, in the scene
+  std::vector<GasObject> objects;
+  std::optional<Relaxation> relaxation;
+
+  /// epsilon [J/kg] of density rho [kg/m³] and the energy that particles carry [J/kg].
+  double heat(double rho, double energy) const { return energy - carried / rho; }
+  /// p [Pa] of density rho [kg/m³] and the energy that particles carry [J/kg].
+  double pressure(double rho, double energy) const { return (gamma - 1) * rho * heat(rho, energy) - pInfinity; }
+  /// What particles carry [J/kg] at density rho [kg/m³] and p [Pa].
+  double internalEnergy(double rho, double p) const { return (p + pInfinity) / ((gamma - 1) * rho) + carried / rho; }
+  /// e [J/kg] of density rho [kg/m³] and the energy that particles carry [J/kg].
+  double fullEnergy(double rho, double energy) const { return energy + (pInfinity - carried) / rho; }
+  /// Square of the speed of sound [m²/s²].
+  double soundSpeedSquared(double epsilon) const { return gamma * (gamma - 1) * epsilon; }
+};
+
+/// What the flow of gases answers to; none where heat from outside decides, too.
+inline std::vector<reference::GasLaw> lawsOf(const std::vector<Gas>& gases) {
+  std::vector<reference::GasLaw> laws;
+  for (const Gas& gas : gases) {
+    if (gas.relaxation) return {};
+    laws.push_back({gas.gamma, gas.pInfinity});
+  }
+  return laws;
+}
+
+}  // namespace tushar::mpm::gas

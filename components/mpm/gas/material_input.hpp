@@ -1,0 +1,54 @@
+#pragma once
+
+#include "components/mpm/gas/material.hpp"
+#include "core/input/schema.hpp"
+
+namespace tushar::mpm::gas {
+
+/// A `geom_object` as it is written.
+struct GasObjectSection {
+  Location where;
+  std::shared_ptr<const input::GeometryPiece> shape;
+  Index3 res{{1, 1, 1}};
+  std::optional<input::Expression> density, pressure, temperature;
+  input::VectorExpression velocity;
+  Placement placement = Placement::midpoint;
+  int seed = 0;
+};
+
+enum class GasType { ideal, stiffened };
+
+/// A `constitutive_model` as it is written.
+struct GasModelSection {
+  Location where;
+  GasType type = GasType::ideal;
+  double gamma = 1.4, pInfinity = 0;
+  double specificHeat = 717.5;
+};
+
+/// A `material` as it is written.
+struct GasSection {
+  std::string name;
+  std::optional<double> density;
+  GasModelSection model;
+  std::optional<Relaxation> relaxation;
+  std::vector<GasObjectSection> objects;
+  double thermalConductivity = 0, specificHeat = 0;
+};
+
+struct GasList {
+  std::vector<GasSection> materials;
+};
+
+/// The section of that name.
+struct GasProperties {
+  GasList mpm;
+};
+
+/// How `MaterialProperties` is read in scenes of gases.
+const input::Schema<GasProperties>& gasProperties();
+
+/// The gas of a material; one that is not alone trades volume with others.
+Gas makeGas(const GasSection& material, bool isAlone);
+
+}  // namespace tushar::mpm::gas

@@ -1,0 +1,53 @@
+#pragma once
+
+#include "components/mpm/gas/paper/method.hpp"
+#include "components/mpm/labels.hpp"
+#include "components/mpm/gas/material.hpp"
+#include "components/mpm/shapes/linear.hpp"
+#include "components/reference/gas_solution.hpp"
+
+namespace tushar::mpm::gas::paper {
+
+/// The Material Point Method of Tran, Kim & Berzins for gas dynamics in D dimensions.
+///
+/// mpm.cpp is the schedule and reads as the method; the bodies of its tasks are in tasks/.
+template <int D>
+class GasMpm : public Component, public reference::GasSolution {
+ public:
+  GasMpm(GasDynamics method, std::vector<Gas> materials) : method_(method), materials_(std::move(materials)) {}
+
+  const GasDynamics& method() const { return method_; }
+  const std::vector<Gas>& materials() const { return materials_; }
+
+  void scheduleInitialize(TaskList& tasks) const override;
+  void scheduleComputeStableTimeStep(TaskList& tasks) const override;
+  void scheduleTimeAdvance(TaskList& tasks) const override;
+  void scheduleDiagnostics(TaskList& tasks) const override;
+  std::string advice() const override {
+    return "a smaller <cfl>, more particles per cell (<res>), or <redistribute> in <gas_dynamics>";
+  }
+  std::vector<reference::GasLaw> gases() const override { return lawsOf(materials_); }
+  void scheduleMeasureError(TaskList& tasks, const reference::GasReference& reference,
+                            const reference::Clock& clock) const override;
+
+ private:
+  using Shape = Linear<D>;
+
+  bool conserves() const { return method_.volumeModel == VolumeModel::tracked; }
+  void scheduleInterpolateParticlesToGrid(TaskList& tasks) const;
+  void scheduleComputeInternalForce(TaskList& tasks) const;
+  void scheduleComputeAndIntegrateAcceleration(TaskList& tasks) const;
+  void scheduleUpdateParticles(TaskList& tasks) const;
+  void scheduleRedistribute(TaskList& tasks) const;
+  void scheduleFilterDensity(TaskList& tasks) const;
+  void scheduleComputePressure(TaskList& tasks) const;
+
+  GasDynamics method_;
+  std::vector<Gas> materials_;
+};
+
+extern template class GasMpm<1>;
+extern template class GasMpm<2>;
+extern template class GasMpm<3>;
+
+}  // namespace tushar::mpm::gas::paper

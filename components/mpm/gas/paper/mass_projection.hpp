@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "components/mpm/labels.hpp"
+#include "components/mpm/gas/material.hpp"
+#include "core/simulation/catalogue.hpp"
+
+namespace tushar::mpm::gas::paper {
+
+/// `massProjection`: how far the nodal mass m_i is from the integral of S_i rho, and the bound on it: (19)-(23) of
+/// Tran, Kim & Berzins. In one dimension, for `gas_dynamics` with `volume_model` cell_share.
+///
+/// The density that the particles stand for is taken to be rho(x) = straight lines from particle to particle, constant
+/// beyond the last one beside an empty cell: so rho(x_p) = rho_p, which (19) asks for, at any time and without an
+/// exact solution. What particle densities themselves are wrong by is therefore no part of E_m^i.
+simulation::AnalysisKind massProjectionKind();
+
+namespace g {
+inline constexpr NodeLabel<double> massProjectionError{
+    "g.massProjectionError", "kg", "E_m^i: integral of shape function times density, less the mass from particles"};
+inline constexpr NodeLabel<double> massProjectionBound{"g.massProjectionBound", "kg", "what |E_m^i| cannot exceed"};
+}  // namespace g
+
+/// The greatest |E_m^i| over the volume of a cell, which is |E_m^i| / h in the paper.
+inline constexpr ReductionLabel<Maximum> massProjectionError{
+    "MassProjectionError", "kg/m^3", "greatest error of the projection of mass, over the cell volume"};
+inline constexpr ReductionLabel<Maximum> massProjectionRatio{"MassProjectionRatio", "1",
+                                                             "greatest error of the projection of mass over its bound"};
+
+/// A particle, seen from a cell: 0 is the lower face, 1 the upper.
+struct PlacedDensity {
+  double place;
+  double density;  ///< kg/m³
+};
+
+/// D_2 of the particles of a cell, sorted by place:
+/// sqrt(1 / (12 N²) + 1/N sum_k (z_k - (2k-1)/(2N))²), (20) with z in [0,1]; Hickernell, Math. Comp. 67 (1998) 299.
+double discrepancy(const std::vector<PlacedDensity>& particles);
+
+/// What a cell has to do with the error of its lower and its upper node, over its volume [kg/m³].
+struct CellProjection {
+  std::array<double, 2> error{};  ///< one bracket of (22)
+  std::array<double, 2> bound{};  ///< one term of (23); |d(rho S_i)/dx| at xi is its root mean square over the cell
+};
+
+/// Of a cell whose particles, sorted by place, are `particles`, at least one. `line` is the density along the cell:
+/// straight between its points, from place 0 to place 1.
+CellProjection projectCell(const std::vector<PlacedDensity>& particles, const std::vector<PlacedDensity>& line);
+
+/// E_m^i and its bound at the nodes [kg], the greatest |E_m^i| over the cell volume [kg/m³] and over its bound. A node
+/// beside a cell without particles has neither: it gets 0 for both.
+void measureMassProjection(const Patch& patch, const Gas& gas, ParticleView<const Vec<1>> x,
+                           ParticleView<const double> density, NodeView<double> error, NodeView<double> bound,
+                           Maximum& greatestError, Maximum& greatestRatio);
+
+}  // namespace tushar::mpm::gas::paper

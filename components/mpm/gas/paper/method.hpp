@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+
+#include "components/mpm/gas/viscosity.hpp"
+#include "components/mpm/gas/paper/tasks/redistribute.hpp"
+
+namespace tushar::mpm::gas::paper {
+
+/// What volume, and so what mass, a particle stands for.
+enum class VolumeModel {
+  cellShare,  ///< V_c / N_c anew in each step, as in the paper: neither mass nor energy is conserved
+  tracked,    ///< its own: mass is constant, volume is mass over density; mass and total energy are conserved
+};
+
+/// The `gas_dynamics` section: how the gas method runs.
+struct GasDynamics {
+  double cfl = 0.2125;
+  Viscosity viscosity;
+  bool densityFilter = true;
+  VolumeModel volumeModel = VolumeModel::cellShare;
+  std::optional<Redistribution> redistribute;
+};
+
+}  // namespace tushar::mpm::gas::paper

@@ -1,0 +1,52 @@
+#pragma once
+
+#include "components/mpm/labels.hpp"
+#include "components/mpm/gas/material.hpp"
+#include "components/mpm/gas/tasks/fastest_signal.hpp"
+#include "components/mpm/gas/viscosity.hpp"
+
+namespace tushar::mpm::gas::paper {
+
+/// p = (gamma - 1) rho eps + a_v,  a_v = rho (C_q h² d² - C_l h c d) where the gas is compressed (d < 0), else 0:
+/// (16) of Tran, Kim & Berzins. h is the least cell width, d the divergence of the step just done.
+template <int D>
+void computePressure(const Patch& patch, const Gas& gas, const Viscosity& viscosity,
+                     ParticleView<const double> density, ParticleView<const double> internalEnergy,
+                     ParticleView<const double> divergence, ParticleView<double> pressure) {
+  const double h = patch.level().minSpacing();
+  for (int p = 0; p < density.owned(); ++p) {
+    const double d = std::min(divergence[p], 0.0) * h;
+    const double c = std::sqrt(gas.soundSpeedSquared(internalEnergy[p]));
+    pressure[p] = gas.pressure(density[p], internalEnergy[p]) +
+                  density[p] * (viscosity.quadratic * d * d - viscosity.linear * c * d);
+  }
+}
+
+/// p = (gamma - 1) rho eps: at the start nothing is compressed.
+template <int D>
+void computeInitialPressure(const Patch&, const Gas& gas, ParticleView<const double> density,
+                            ParticleView<const double> internalEnergy, ParticleView<double> pressure) {
+  for (int p = 0; p < density.owned(); ++p) pressure[p] = gas.pressure(density[p], internalEnergy[p]);
+}
+
+/// m_p = rho_p V_p with V_p = V_c / N_c: the particles of a cell share its volume equally; (4)-(5) of Tran, Kim &
+/// Berzins. Mass is not conserved: it changes whenever a particle crosses a face.
+template <int D>
+void shareCellVolume(const Patch& patch, const Gas&, ParticleView<const double> density, ParticleView<double> mass) {
+  const double volume = patch.level().cellVolume();
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    const data::ParticleRange particles = density.in(cell);
+    const double share = volume / std::max(particles.size(), 1);
+    for (const int p : particles) mass[p] = density[p] * share;
+  });
+}
+
+/// dt = cfl h / fastestSignal; h is the least cell width.
+template <int D>
+void computeStableTimeStep(const Patch& patch, const Gas& gas, double cfl, ParticleView<const Vec<D>> velocity,
+                           ParticleView<const double> internalEnergy, Minimum& dt) {
+  const double greatest = fastestSignal<D>(gas, velocity, internalEnergy);
+  if (greatest > 0) dt.add(cfl * patch.level().minSpacing() / greatest, "CFL");
+}
+
+}  // namespace tushar::mpm::gas::paper

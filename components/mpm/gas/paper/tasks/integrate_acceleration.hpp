@@ -1,0 +1,30 @@
+#pragma once
+
+#include "components/mpm/labels.hpp"
+#include "components/mpm/gas/material.hpp"
+#include "components/mpm/gas/symmetry.hpp"
+
+namespace tushar::mpm::gas::paper {
+
+/// a_i = F_i / m_i,   v*_i = v_i + a_i dt      (10)-(11) of Tran, Kim & Berzins. A node without mass does not move.
+template <int D>
+void computeAndIntegrateAcceleration(const Patch&, const Gas&, NodeView<const double> mass,
+                                     NodeView<const Vec<D>> force, NodeView<const Vec<D>> velocity, double dt,
+                                     NodeView<Vec<D>> acceleration, NodeView<Vec<D>> velocityStar) {
+  forEach<D>(mass.box(), [&](const Index<D>& node) {
+    Vec<D> a = Vec<D>::Zero();
+    if (mass[node] > 0) a = force[node] / mass[node];
+    acceleration[node] = a;
+    velocityStar[node] = velocity[node] + a * dt;
+  });
+}
+
+/// At a symmetry plane nothing moves through it: the normal components of v*_i and a_i are 0.
+template <int D>
+void setGridBoundaryConditions(const Patch& patch, const Gas&, NodeView<Vec<D>> acceleration,
+                               NodeView<Vec<D>> velocityStar) {
+  stopAtSymmetryPlanes<D>(patch, acceleration);
+  stopAtSymmetryPlanes<D>(patch, velocityStar);
+}
+
+}  // namespace tushar::mpm::gas::paper

@@ -1,0 +1,73 @@
+#pragma once
+
+#include "components/mpm/labels.hpp"
+#include "components/mpm/gas/material.hpp"
+#include "components/reference/gas_solution.hpp"
+
+namespace tushar::mpm::gas {
+
+/// Errors of density, velocity, pressure (without artificial viscosity) and internal energy against the exact values at the
+/// particles.
+template <int D>
+void measureParticleError(const Patch& patch, const Gas& gas, const reference::GasReference* exact,
+                          const reference::Clock* clock, ParticleView<const Vec<D>> x,
+                          ParticleView<const double> density, ParticleView<const Vec<D>> velocity,
+                          ParticleView<const double> internalEnergyPerMass, Norm& rho, Norm& u, Norm& pressure,
+                          Norm& energy) {
+  const Level& level = patch.level();
+  for (int p = 0; p < density.owned(); ++p) {
+    const Vec3 place = level.expandPoint<D>(x[p]);
+    if (!exact->covers(place, clock->time)) continue;
+    const reference::GasState state = exact->at(place, clock->time);
+    rho.add(density[p] - state.density, state.density);
+    u.add((level.expandDirection<D>(velocity[p]) - state.velocity).norm(), state.velocity.norm());
+    pressure.add(gas.pressure(density[p], internalEnergyPerMass[p]) - state.pressure, state.pressure);
+    energy.add(gas.fullEnergy(density[p], internalEnergyPerMass[p]) - state.energy, state.energy);
+  }
+}
+
+/// Errors of the plain means over the particles of a cell against exact cell means. An empty cell counts as vacuum.
+template <int D>
+void measureCellError(const Patch& patch, const Gas& gas, const reference::GasReference* exact,
+                      const reference::Clock* clock, ParticleView<const double> density,
+                      ParticleView<const Vec<D>> velocity, ParticleView<const double> internalEnergyPerMass, Norm& rho,
+                      Norm& u, Norm& pressure, Norm& energy) {
+  const Level& level = patch.level();
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    if (!exact->covers(level.expandPoint<D>(level.cellCentre<D>(cell)), clock->time)) return;
+    reference::GasState mean{0, Vec3::Zero(), 0, 0};
+    for (const int p : density.in(cell)) {
+      mean.density += density[p];
+      mean.velocity += level.expandDirection<D>(velocity[p]);
+      mean.pressure += gas.pressure(density[p], internalEnergyPerMass[p]);
+      mean.energy += internalEnergyPerMass[p];
+    }
+    const double count = std::max(density.in(cell).size(), 1);
+    const reference::GasState state = reference::cellMean<D>(*exact, level, cell, clock->time);
+    rho.add(mean.density / count - state.density, state.density);
+    u.add((mean.velocity / count - state.velocity).norm(), state.velocity.norm());
+    pressure.add(mean.pressure / count - state.pressure, state.pressure);
+    energy.add(mean.energy / count - state.energy, state.energy);
+  });
+}
+
+/// Error of the nodal density m_i / V_i against the exact density at the node; V_i is the integral of S_i over the
+/// grid. Each node is counted once: by the patch whose cell begins there, the last ones by the patch at the rim.
+template <int D>
+void measureNodeError(const Patch& patch, const Gas&, const reference::GasReference* exact,
+                      const reference::Clock* clock, NodeView<const double> mass, Norm& error) {
+  const Level& level = patch.level();
+  forEach<D>(patch.nodes(), [&](const Index<D>& node) {
+    Vec<D> at;
+    double volume = level.cellVolume();
+    for (int d = 0; d < D; ++d) {
+      if (node[d] == patch.cells().upper[d] && !patch.isAtBoundary(d, 1)) return;
+      at[d] = level.nodePosition(d, node[d]);
+      if (!level.isPeriodic(d) && (node[d] == 0 || node[d] == level.cells().upper[d])) volume *= 0.5;
+    }
+    const Vec3 place = level.expandPoint<D>(at);
+    if (exact->covers(place, clock->time)) error.add(mass[node] / volume - exact->at(place, clock->time).density);
+  });
+}
+
+}  // namespace tushar::mpm::gas

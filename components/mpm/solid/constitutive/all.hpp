@@ -1,0 +1,34 @@
+#pragma once
+
+#include <tuple>
+
+#include "components/mpm/solid/constitutive/cnh_mms.hpp"
+#include "components/mpm/solid/constitutive/comp_mooney_rivlin.hpp"
+#include "components/mpm/solid/constitutive/comp_neo_hook.hpp"
+#include "components/mpm/solid/constitutive/elastic_plastic.hpp"
+#include "components/mpm/solid/constitutive/hypo_elastic.hpp"
+#include "components/mpm/solid/constitutive/ideal_gas.hpp"
+#include "components/mpm/solid/constitutive/mohr_coulomb.hpp"
+#include "components/mpm/solid/constitutive/rigid.hpp"
+#include "components/mpm/solid/constitutive/trans_iso_hyper.hpp"
+#include "components/mpm/solid/constitutive/ucnh.hpp"
+#include "components/mpm/solid/constitutive/water.hpp"
+
+namespace tushar::mpm::solid {
+
+/// Every constitutive model that a scene can pick: THE table, one line each.
+using AllModels = std::tuple<CnhMms,               //
+                             CompMooneyRivlin,     //
+                             CompNeoHook,          //
+                             CompNeoHookPlastic,   //
+                             ElasticPlasticHp,     //
+                             ElasticPlasticModel,  //
+                             HypoElastic,          //
+                             IdealGas,             //
+                             MohrCoulomb,          //
+                             Rigid,                //
+                             TransIsoHyper,        //
+                             Ucnh,                 //
+                             Water>;
+
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+
+#include "components/mpm/solid/constitutive/constitutive_model.hpp"
+#include "components/mpm/solid/constitutive/tangent.hpp"
+#include "components/mpm/solid/constitutive/strain_invariants.hpp"
+
+namespace tushar::mpm::solid {
+
+/// Compressible Mooney-Rivlin rubber of Uintah's `comp_mooney_rivlin`, with the invariants I1, I2, I3 of B = F Fᵀ:
+/// W = C1 (I1 - 3) + C2 (I2 - 3) + C3 (1/I3² - 1) + C4 (I3 - 1)²,
+/// C3 = C1/2 + C2,   C4 = (C1 (5 nu - 2) + C2 (11 nu - 5)) / (2 - 4 nu).
+struct CompMooneyRivlin {
+  struct State {};
+  static constexpr std::string_view name = "comp_mooney_rivlin";
+  static constexpr bool usesTemperature = false;
+  static constexpr bool dependsOnDeformationOnly = true;
+  static constexpr bool strainEnergyIsRate = false;
+
+  double c1 = 0, c2 = 0;     ///< Pa
+  double poissonRatio = 0;  ///< nu, 1
+
+  static const input::Schema<CompMooneyRivlin>& schema() {
+    static const input::Schema<CompMooneyRivlin> schema =
+        input::Schema<CompMooneyRivlin>("comp_mooney_rivlin", "Compressible Mooney-Rivlin rubber.")
+            .required("he_constant_1", &CompMooneyRivlin::c1, "Pa", "C1", input::positive())
+            .required("he_constant_2", &CompMooneyRivlin::c2, "Pa", "C2", input::nonNegative())
+            .required("he_PR", &CompMooneyRivlin::poissonRatio, "1", "Poisson's ratio", input::between(-0.999, 0.4999));
+    return schema;
+  }
+  State initialState() const { return {}; }
+
+  /// sigma = 2/J ((C1 + I1 C2) B - C2 B² + I3 dW/dI3 I)
+  Matrix3 updateStress(const Deformation& d, const Matrix3&, State&) const {
+    const Invariants i(d.deformationGradient);
+    Matrix3 stress = (c1 + i.first * c2) * i.b - c2 * i.b * i.b;
+    stress.diagonal().array() += i.third * slope(i.third);
+    return stress * (2 / i.j);
+  }
+  /// d tau = 2 (C2 dI1 B + (C1 + I1 C2) dB - C2 (dB B + B dB) + (dW/dI3 + I3 d²W/dI3²) dI3 I) with dB = h B + B hᵀ,
+  /// dI1 = tr dB, dI3 = 2 I3 tr h
+  Matrix9 nominalTangent(const Deformation& d, const Matrix3& oldStress, const State&) const {
+    const Invariants i(d.deformationGradient);
+    State none;
+    const double curvature = 6 * c3() / (i.third * i.third * i.third * i.third) + 2 * c4();
+    const Matrix3 tau = i.j * updateStress(d, oldStress, none);
+    return solid::nominalTangent(d.deformationGradient, tau, [&](const Matrix3& h) {
+      const Matrix3 hb = h * i.b, db = hb + hb.transpose(), bdb = i.b * db;
+      Matrix3 change = c2 * db.trace() * i.b + (c1 + i.first * c2) * db - c2 * (bdb + bdb.transpose());
+      change.diagonal().array() += (slope(i.third) + i.third * curvature) * 2 * i.third * h.trace();
+      return Matrix3(2 * change);
+    });
+  }
+  /// At the start Uintah takes the wave of the linear material: 2 mu (1 - nu) / (1 - 2 nu), mu = 2 (C1 + C2).
+  double initialWaveSpeed(double initialDensity) const {
+    return std::sqrt(4 * (c1 + c2) * (1 - poissonRatio) / ((1 - 2 * poissonRatio) * initialDensity));
+  }
+  /// The bound that Uintah takes.
+  double waveSpeed(double initialDensity, const Deformation& d, const Matrix3& stress, const State&) const {
+    const Invariants i(d.deformationGradient);
+    const double least = stress.diagonal().minCoeff();
+    const double stiffness = 4 * (c1 + c2 * i.second) / i.j +
+                             8 * (2 * c3() / (i.third * i.third * i.third) + c4() * (2 * i.third - 1)) - least / i.j;
+    return std::sqrt(std::max(stiffness, 0.0) * i.j / initialDensity);
+  }
+  double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
+    return std::sqrt(4 * (c1 + c2 * Invariants(d.deformationGradient).second) / initialDensity);
+  }
+  /// W as above, where c3 (1/I3² - 1) takes away what is linear in the strain.
+  double strainEnergyDensity(const Deformation& d, const Matrix3&, const Matrix3&, const State&) const {
+    const StrainInvariants strain(d.deformationGradient);
+    const double v = strain.volume, i3 = 1 + v;
+    return c2 * strain.second - 2 * c3() * (strain.second + strain.third) +
+           (c3() * (3 + 2 * v) / (i3 * i3) + c4()) * v * v;
+  }
+
+ private:
+  struct Invariants {
+    Matrix3 b;
+    double j, first, second, third;
+
+    explicit Invariants(const Matrix3& f) : b(f * f.transpose()), j(f.determinant()), first(b.trace()) {
+      second = 0.5 * (first * first - b.squaredNorm());
+      third = j * j;
+    }
+  };
+  /// dW/dI3
+  double slope(double i3) const { return -2 * c3() / (i3 * i3 * i3) + 2 * c4() * (i3 - 1); }
+  double c3() const { return 0.5 * c1 + c2; }
+  double c4() const { return 0.5 * (c1 * (5 * poissonRatio - 2) + c2 * (11 * poissonRatio - 5)) / (1 - 2 * poissonRatio); }
+};
+static_assert(ConstitutiveModel<CompMooneyRivlin>);
+
+}  // namespace tushar::mpm::solid

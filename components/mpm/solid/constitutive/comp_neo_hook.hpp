@@ -1,0 +1,90 @@
+#pragma once
+
+#include <Eigen/LU>
+
+#include <cmath>
+
+#include "components/mpm/solid/constitutive/constitutive_model.hpp"
+#include "components/mpm/solid/constitutive/cube_root.hpp"
+#include "components/mpm/solid/constitutive/tangent.hpp"
+#include "components/mpm/solid/constitutive/tensor_lanes.hpp"
+#include "components/mpm/solid/constitutive/strain_invariants.hpp"
+#include "core/input/refuse.hpp"
+
+namespace tushar::mpm::solid {
+
+/// Compressible neo-Hookean elasticity of Simo & Hughes, Computational Inelasticity (1998), section 9.2, with
+/// W = K/2 ((J² - 1)/2 - ln J) + G/2 (J^(-2/3) tr(F Fᵀ) - 3).
+struct CompNeoHook {
+  struct State {};
+  static constexpr std::string_view name = "comp_neo_hook";
+  static constexpr bool usesTemperature = false;
+  static constexpr bool dependsOnDeformationOnly = true;
+  static constexpr bool strainEnergyIsRate = false;
+
+  double bulkModulus = 0;   ///< K, Pa
+  double shearModulus = 0;  ///< G, Pa
+
+  static const input::Schema<CompNeoHook>& schema() {
+    static const input::Schema<CompNeoHook> schema = [] {
+      input::Schema<CompNeoHook> tags("comp_neo_hook", "Compressible neo-Hookean elasticity.");
+      tags.required("bulk_modulus", &CompNeoHook::bulkModulus, "Pa", "K", input::positive())
+          .required("shear_modulus", &CompNeoHook::shearModulus, "Pa", "G", input::nonNegative());
+      for (const char* tag : {"yield_stress", "hardening_modulus", "alpha", "yield_distrib"})
+        tags.ignored(tag, "it does not yield: comp_neo_hook_plastic does");
+      tags.ignored("useModifiedEOS", "only Uintah's coupled fluid reads it")
+          .ignored("initial_pressure", "belongs to useInitialStress");
+      refuseSwitch(tags, "usePlasticity", "comp_neo_hook_plastic yields");
+      refuseSwitch(tags, "useInitialStress", "bodies start without stress");
+      refuseSwitch(tags, "reinitializeCMData", "bodies start without stress");
+      return tags;
+    }();
+    return schema;
+  }
+  State initialState() const { return {}; }
+
+  /// J sigma = K/2 (J² - 1) I + G dev(J^(-2/3) F Fᵀ)
+  template <class Real>
+  TensorOf<Real> kirchhoffStress(const TensorOf<Real>& f) const {
+    const Real j = solid::determinant(f);
+    const Real pressure = bulkModulus / 2 * (j * j - 1), scale = shearModulus * inverseCubeRootSquared(j);
+    TensorOf<Real> b = leftCauchyGreen(f);
+    const Real third = (b(0, 0) + b(1, 1) + b(2, 2)) / 3.0;
+    for (int i = 0; i < 3; ++i)
+      for (int k = 0; k < 3; ++k) b(i, k) = i == k ? scale * (b(i, i) - third) + pressure : scale * b(i, k);
+    return b;
+  }
+  Matrix3 updateStress(const Deformation& d, const Matrix3&, State&) const {
+    return kirchhoffStress(d.deformationGradient) / d.deformationGradient.determinant();
+  }
+  /// d tau = K J² tr h I + G dev(h b + b hᵀ - 2/3 tr h b) with b = J^(-2/3) F Fᵀ
+  Matrix9 nominalTangent(const Deformation& d, const Matrix3&, const State&) const {
+    const Matrix3& f = d.deformationGradient;
+    const double j = f.determinant();
+    const Matrix3 b = f * f.transpose() / std::cbrt(j * j);
+    return solid::nominalTangent(f, kirchhoffStress(f), [&](const Matrix3& h) {
+      const Matrix3 hb = h * b;
+      Matrix3 change = shearModulus * deviator(hb + hb.transpose() - 2.0 / 3.0 * h.trace() * b);
+      change.diagonal().array() += bulkModulus * j * j * h.trace();
+      return change;
+    });
+  }
+  template <class Real>
+  Real waveSpeed(double initialDensity, const TensorOf<Real>& f) const {
+    using std::sqrt;
+    return sqrt((bulkModulus + 4.0 / 3.0 * shearModulus) / initialDensity * solid::determinant(f));
+  }
+  double waveSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
+    return waveSpeed(initialDensity, d.deformationGradient);
+  }
+  double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
+    return std::sqrt(bulkModulus * d.deformationGradient.determinant() / initialDensity);
+  }
+  double strainEnergyDensity(const Deformation& d, const Matrix3&, const Matrix3&, const State&) const {
+    const StrainInvariants strain(d.deformationGradient);
+    return bulkModulus * strain.dilatation() + shearModulus / 2 * strain.isochoricFirst();
+  }
+};
+static_assert(ConstitutiveModel<CompNeoHook>);
+
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <Eigen/LU>
+
+#include <cmath>
+
+#include "components/mpm/solid/constitutive/constitutive_model.hpp"
+#include "components/mpm/solid/constitutive/tangent.hpp"
+
+namespace tushar::mpm::solid {
+
+/// Linear elasticity in rate form, sigma += (2 G dev D + K tr D I) dt with D = (L + Lᵀ)/2, as Uintah's `hypo_elastic`:
+/// there is no objective rate, so the stress does not turn with the material.
+struct HypoElastic {
+  struct State {};
+  static constexpr std::string_view name = "hypo_elastic";
+  static constexpr bool usesTemperature = false;
+  static constexpr bool strainEnergyIsRate = true;
+
+  double bulkModulus = 0;   ///< K, Pa
+  double shearModulus = 0;  ///< G, Pa
+
+  static const input::Schema<HypoElastic>& schema() {
+    static const input::Schema<HypoElastic> schema =
+        input::Schema<HypoElastic>("hypo_elastic", "Linear elasticity in rate form, without an objective rate.")
+            .required("G", &HypoElastic::shearModulus, "Pa", "shear modulus", input::nonNegative())
+            .required("K", &HypoElastic::bulkModulus, "Pa", "bulk modulus", input::positive());
+    return schema;
+  }
+  State initialState() const { return {}; }
+
+  Matrix3 updateStress(const Deformation& d, const Matrix3& oldStress, State&) const {
+    return oldStress + stressOf(rateOfDeformation(d)) * d.timeStep;
+  }
+  /// d tau = J (tr h sigma + 2 G dev e + K tr e I) with e = sym(h F F_old^-1)
+  Matrix9 nominalTangent(const Deformation& d, const Matrix3& oldStress, const State&) const {
+    const Matrix3& f = d.deformationGradient;
+    const Matrix3 step = f * d.oldDeformationGradient.inverse();
+    const Matrix3 strain = 0.5 * (step + step.transpose()) - Matrix3::Identity();
+    const Matrix3 stress = oldStress + stressOf(strain);
+    const double j = f.determinant();
+    return solid::nominalTangent(f, j * stress, [&](const Matrix3& h) {
+      const Matrix3 moved = h * step, change = 0.5 * (moved + moved.transpose());
+      return Matrix3(j * (h.trace() * stress + stressOf(change)));
+    });
+  }
+  double waveSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
+    return std::sqrt((bulkModulus + 4.0 / 3.0 * shearModulus) * d.deformationGradient.determinant() / initialDensity);
+  }
+  double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
+    return std::sqrt(bulkModulus * d.deformationGradient.determinant() / initialDensity);
+  }
+  /// D : (mean stress) J dt
+  double strainEnergyDensity(const Deformation& d, const Matrix3& oldStress, const Matrix3& stress, const State&) const {
+    const Matrix3 mean = 0.5 * (oldStress + stress);
+    return rateOfDeformation(d).cwiseProduct(mean).sum() * d.deformationGradient.determinant() * d.timeStep;
+  }
+
+ private:
+  /// 2 G dev e + K tr e I
+  Matrix3 stressOf(const Matrix3& strain) const {
+    Matrix3 stress = 2 * shearModulus * strain;
+    stress.diagonal().array() += (bulkModulus - 2.0 / 3.0 * shearModulus) * strain.trace();
+    return stress;
+  }
+  static Matrix3 rateOfDeformation(const Deformation& d) {
+    return 0.5 * (d.velocityGradient + d.velocityGradient.transpose());
+  }
+};
+static_assert(ConstitutiveModel<HypoElastic>);
+
+}  // namespace tushar::mpm::solid

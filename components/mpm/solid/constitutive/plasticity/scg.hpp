@@ -1,0 +1,81 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "components/mpm/solid/constitutive/plasticity/flow_state.hpp"
+#include "core/input/schema.hpp"
+
+namespace tushar::mpm::solid {
+
+/// sigma_y = (sigma_T + min(sigma_0 (1 + beta (e_p + epsilon_p0))^n, Y_max)) G/mu_0: Steinberg, Cochran & Guinan, J. Appl.
+/// Phys. 51 (1980) 1498. Where C1 and C2 are given, sigma_T is the stress at which dislocations move thermally at the rate
+/// of the plastic strain, 1/rate = exp(2 U_k / (k T) (1 - sigma_T / sigma_P)^2) / C1 + C2 / sigma_T, at most Peierls' stress
+/// sigma_P: Steinberg & Lund, J. Appl. Phys. 65 (1989) 1528. Else it is 0.
+struct SteinbergCochranGuinan {
+  static constexpr std::string_view name = "steinberg_cochran_guinan";
+
+  double shearModulus = 0;   ///< mu_0, Pa
+  double yieldStress = 0;    ///< sigma_0, Pa
+  double greatest = 0;       ///< Y_max, Pa
+  double beta = 0, n = 0;    ///< 1
+  double initialStrain = 0;  ///< epsilon_p0, 1
+  double c1 = 0;             ///< 1/s
+  double c2 = 0;             ///< Pa s
+  double kinkEnergy = 0;     ///< U_k, eV
+  double boltzmann = 8.617333262e-5;  ///< k, eV/K
+  double peierls = 0;        ///< sigma_P, Pa
+
+  static const input::Schema<SteinbergCochranGuinan>& schema() {
+    using Self = SteinbergCochranGuinan;
+    static const input::Schema<Self> schema =
+        input::Schema<Self>("flow_model", "The yield stress of Steinberg, Cochran, Guinan and Lund.")
+            .required("mu_0", &Self::shearModulus, "Pa", "shear modulus of the constants", input::positive())
+            .required("sigma_0", &Self::yieldStress, "Pa", "yield stress without hardening", input::positive())
+            .required("Y_max", &Self::greatest, "Pa", "yield stress that hardening never passes", input::positive())
+            .required("beta", &Self::beta, "1", "factor of the plastic strain", input::nonNegative())
+            .required("n", &Self::n, "1", "exponent of the hardening", input::nonNegative())
+            .value("epsilon_p0", &Self::initialStrain, 0, "1", "plastic strain at the start", input::nonNegative())
+            .value("C1", &Self::c1, 0, "1/s", "rate of thermal activation; 0: the rate does not matter", input::nonNegative())
+            .value("C2", &Self::c2, 0, "Pa s", "drag of dislocations", input::nonNegative())
+            .value("energy_to_form_kink_pair", &Self::kinkEnergy, 0, "eV", "U_k", input::nonNegative())
+            .value("Boltzmann_constant", &Self::boltzmann, 8.617333262e-5, "eV/K", "k", input::positive())
+            .value("Peierls_stress", &Self::peierls, 0, "Pa", "greatest stress of thermal activation", input::nonNegative())
+            .ignored("A", "the <shear_modulus_model> has it")
+            .ignored("B", "the <shear_modulus_model> has it")
+            .ignored("T_m0", "the <melting_temp_model> has it")
+            .ignored("Gamma_0", "the <melting_temp_model> has it")
+            .ignored("a", "the <melting_temp_model> has it")
+            .check([](const Self& read, const input::Element& element, input::Diagnostics& diagnostics) {
+              if (read.c1 > 0 && read.peierls <= 0) diagnostics.error(element, "where <C1> is given, <Peierls_stress> must be");
+            });
+    return schema;
+  }
+  double flowStress(const FlowState& state) const {
+    return (thermal(state) + std::min(hardened(state), greatest)) * state.shearModulus / shearModulus;
+  }
+  bool dependsOnPlasticRate() const { return c1 > 0; }
+  /// At a rate that stays.
+  double hardening(const FlowState& state) const {
+    if (hardened(state) >= greatest) return 0;
+    return beta * n * hardened(state) / base(state) * state.shearModulus / shearModulus;
+  }
+
+ private:
+  double base(const FlowState& state) const { return 1 + beta * (state.plasticStrain + initialStrain); }
+  double hardened(const FlowState& state) const { return yieldStress * std::pow(base(state), n); }
+  /// sigma_T by bisection: the rate grows with it.
+  double thermal(const FlowState& state) const {
+    if (c1 == 0 || state.plasticStrainRate <= 0) return 0;
+    double low = 0, high = peierls;
+    for (int step = 0; step < 60; ++step) {
+      const double middle = 0.5 * (low + high), away = 1 - middle / peierls;
+      const double time = std::exp(2 * kinkEnergy / (boltzmann * state.temperature) * away * away) / c1 + c2 / middle;
+      (state.plasticStrainRate * time > 1 ? low : high) = middle;
+    }
+    return high;
+  }
+};
+
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <algorithm>
+
+#include "components/mpm/solid/constitutive/constitutive_model.hpp"
+#include "core/base/quad.hpp"
+#include "core/base/lanes.hpp"
+
+namespace tushar::mpm::solid {
+
+template <class Real>
+[[gnu::always_inline]] inline Real determinant(const TensorOf<Real>& f) {
+  return f(0, 0) * (f(1, 1) * f(2, 2) - f(1, 2) * f(2, 1)) - f(0, 1) * (f(1, 0) * f(2, 2) - f(1, 2) * f(2, 0)) +
+         f(0, 2) * (f(1, 0) * f(2, 1) - f(1, 1) * f(2, 0));
+}
+
+/// F Fᵀ
+template <class Real>
+[[gnu::always_inline]] inline TensorOf<Real> leftCauchyGreen(const TensorOf<Real>& f) {
+  TensorOf<Real> b;
+  for (int i = 0; i < 3; ++i)
+    for (int k = i; k < 3; ++k) b(i, k) = b(k, i) = f(i, 0) * f(k, 0) + f(i, 1) * f(k, 1) + f(i, 2) * f(k, 2);
+  return b;
+}
+
+/// Up to Lanes::count tensors that lie one after another, at most `count` of them: what is missing repeats the last.
+[[gnu::always_inline]] inline TensorOf<Lanes> lanesOf(const Matrix3* tensors, int count) {
+  TensorOf<Lanes> t;
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k)
+      t(i, k) = Lanes::of([&](int lane) { return tensors[count < Lanes::count ? std::min(lane, count - 1) : lane](i, k); });
+  return t;
+}
+
+/// The first tensors of the lanes, at most `count`, one after another.
+[[gnu::always_inline]] inline void storeLanes(const TensorOf<Lanes>& t, Matrix3* tensors, int count) {
+  for (int lane = 0; lane < std::min(count, Lanes::count); ++lane)
+    for (int i = 0; i < 3; ++i)
+      for (int k = 0; k < 3; ++k) tensors[lane](i, k) = t(i, k)[lane];
+}
+
+/// The rows of a tensor; lane 3 is anything.
+struct Rows {
+  Quad row[3];
+
+  explicit Rows(const Matrix3& t) {
+    Quad last;
+    std::memcpy(&row[0], t.data(), sizeof(Quad));
+    std::memcpy(&row[1], t.data() + 3, sizeof(Quad));
+    std::memcpy(&last, t.data() + 5, sizeof(Quad));
+    row[2] = __builtin_shufflevector(last, last, 1, 2, 3, 3);
+  }
+  void copyTo(Matrix3& t) const {
+    const Quad last = __builtin_shufflevector(row[1], row[2], 2, 4, 5, 6);
+    std::memcpy(t.data(), &row[0], sizeof(Quad));
+    std::memcpy(t.data() + 3, &row[1], sizeof(Quad));
+    std::memcpy(t.data() + 5, &last, sizeof(Quad));
+  }
+};
+
+}  // namespace tushar::mpm::solid

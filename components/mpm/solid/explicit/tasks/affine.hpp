@@ -1,0 +1,72 @@
+#pragma once
+
+#include "components/mpm/solid/material.hpp"
+#include "components/mpm/solid/method.hpp"
+#include "components/mpm/solid/transfer/boundary.hpp"
+#include "components/mpm/solid/transfer/extent.hpp"
+
+namespace tushar::mpm::solid {
+
+// The affine particle-in-cell method: a particle carries B_p = sum_i S_i v*_i (x_i - x_p)^T besides its velocity, so that
+// velocities that are linear in space go to the grid and back as they are, and angular momentum is kept; Jiang, Schroeder,
+// Selle, Teran & Stomakhin, ACM Trans. Graph. 34 (2015) 51. Velocities are those of PIC.
+
+/// S_i D^(-1) (x_i - x_p) along an axis, 1/m, with D = sum_i S_i (x_i - x_p)^2; where D vanishes, the factors stay
+/// dS_i/dx, its limit for the tent function.
+template <std::size_t N>
+void setAffineFactors(const std::array<Quad, N>& s, int axis, double firstNode, double spacing, double x,
+                      std::array<Quad, N>& factors) {
+  std::array<double, N> away;
+  double spread = 0;
+  for (std::size_t k = 0; k < N; ++k) {
+    away[k] = firstNode + static_cast<double>(k) * spacing - x;
+    spread += s[k][axis] * away[k] * away[k];
+  }
+  if (spread > 1e-12 * spacing * spacing)
+    for (std::size_t k = 0; k < N; ++k) factors[k][axis] = s[k][axis] * away[k] / spread;
+}
+
+/// v_i += sum_p S_i m_p B_p D_p^(-1) (x_i - x_p) / m_i
+template <class Shape, int D = Shape::dimension>
+void addAffineVelocity(const Patch& patch, const Material& material, const Method& method, ParticleView<const Vec<D>> x,
+                       OptionalView<const Vec<D>> size, ParticleView<const double> mass,
+                       ParticleView<const Matrix3> moment, NodeView<NodeRecord> record) {
+  const Level& level = patch.level();
+  const Extents<Shape> extents(level, method.commonSize, size, {});
+  forEachStencil<Shape>(patch, x.cells(), x, extents, [&](int p, auto stencil) {
+    for (int d = 0; d < D; ++d)
+      setAffineFactors(stencil.s, d, level.nodePosition(d, stencil.first[d]), level.spacing(d), x[p][d], stencil.ds);
+    stencil.forEachNode([&](const Index<D>& node, double, const Vec<D>& factors) {
+      if (!record.box().contains(node)) return;
+      NodeRecord& at = record[node];
+      if (at[lane::mass] <= 0) return;
+      const Vec<D> change = moment[p].topLeftCorner<D, D>() * factors * (mass[p] / at[lane::mass]);
+      setLanes<D>(at, lane::velocity, lanes<D>(at, lane::velocity) + change);
+    });
+  });
+  setSymmetry<D>(patch, material.index, record);
+}
+
+/// B_p = sum_i S_i v*_i (x_i - x_p)^T, m^2/s
+template <class Shape, int D = Shape::dimension>
+void updateAffineMoment(const Patch& patch, const Material&, const Method& method, NodeView<const NodeRecord> record,
+                        ParticleView<const Vec<D>> x, OptionalView<const Vec<D>> size, ParticleView<Matrix3> moment) {
+  const Level& level = patch.level();
+  const Extents<Shape> extents(level, method.commonSize, size, {});
+  forEachStencil<Shape>(patch, patch.cells(), x, extents, [&](int p, const auto& stencil) {
+    moment[p].setZero();
+    stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>&) {
+      Vec<D> away;
+      for (int d = 0; d < D; ++d) away[d] = level.nodePosition(d, node[d]) - x[p][d];
+      moment[p].template topLeftCorner<D, D>() += s * lanes<D>(record[node], lane::velocity) * away.transpose();
+    });
+  });
+}
+
+/// At the start a particle has no B.
+inline void initializeAffineMoment(const Patch&, const Material&, ParticleView<const double> mass,
+                                   ParticleView<Matrix3> moment) {
+  for (int p = 0; p < mass.owned(); ++p) moment[p].setZero();
+}
+
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "components/mpm/solid/material.hpp"
+#include "components/mpm/solid/method.hpp"
+#include "components/mpm/solid/transfer/boundary.hpp"
+#include "components/mpm/solid/transfer/extent.hpp"
+
+namespace tushar::mpm::solid {
+
+/// v*_i = v_i + (f_i / m_i - damping v_i + gravity) dt, or v_i where the material transmits force; afterwards the record
+/// holds v* and v.
+template <class Shape, int D = Shape::dimension>
+void computeAndIntegrateAcceleration(const Patch& patch, const Material& material, const Method& method,
+                                     ParticleView<const Vec<D>> x, double dt, NodeView<NodeRecord> record) {
+  const Vec<D> gravity = patch.level().reduce<D>(method.gravity);
+  const TouchedRows<D> rows(x, x.cells(), Shape::ghostNodes, record.box());
+  rows.forEachRow([&](const Index3& first, int end) {
+    NodeRecord* node = record.values() + record.stored().offset(first);
+    for (int k = first[0]; k < end; ++k, ++node) {
+      const double mass = (*node)[lane::mass];
+      const Vec<D> v = lanes<D>(*node, lane::velocity);
+      Vec<D> a = gravity;
+      if (mass > method.minimumMassForAcceleration) a += lanes<D>(*node, lane::force) / mass - method.damping * v;
+      if (!material.transmitsForce) setLanes<D>(*node, lane::velocity, v + a * dt);
+      setLanes<D>(*node, lane::before, v);
+    }
+  });
+}
+
+/// v*_i on the sides of the grid, where particles touch them.
+template <class Shape, int D = Shape::dimension>
+void setGridBoundaryConditions(const Patch& patch, const Material& material, ParticleView<const Vec<D>> x,
+                               NodeView<NodeRecord> record) {
+  setVelocity<D>(patch, material.index, TouchedRows<D>(x, x.cells(), Shape::ghostNodes, record.stored()), record);
+  setSymmetry<D>(patch, material.index, record);
+}
+
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,9 @@
+#include "components/mpm/solid/problem.hpp"
+
+#include "components/mpm/solid/uintah_words.hpp"
+
+namespace tushar::mpm::solid {
+
+std::vector<std::string> Solids::foreignLabels() const { return uintahsLabels; }
+
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "components/mpm/solid/contact/contact.hpp"
+#include "components/mpm/solid/method.hpp"
+#include "components/mpm/solid/tasks/create_particles.hpp"
+#include "components/mpm/solid/tasks/show_state.hpp"
+#include "core/core.hpp"
+
+namespace tushar::mpm::solid {
+
+/// Everything that a scene says about its solids.
+struct Problem {
+  Method method;
+  std::vector<Material> materials;
+  std::vector<Contact> contacts;
+  Start start;
+};
+
+/// Solids of any shape function, by explicit or implicit steps.
+class Solids : public Component {
+ public:
+  /// Particles keep at least `leastState` numbers for their model.
+  explicit Solids(Problem problem, int leastState = 0)
+      : problem_(std::move(problem)),
+        state_size_(std::max(leastState, largestStateOf(problem_.materials))),
+        state_views_(stateViews(problem_.materials)) {
+    state_.setCount(state_size_);
+  }
+  const Problem& problem() const { return problem_; }
+  std::vector<std::string> foreignLabels() const override;
+  /// Whether p.work can be had.
+  virtual bool measuresWork() const { return false; }
+
+ protected:
+  Problem problem_;
+  int state_size_;  ///< most numbers that a particle keeps for its model
+  ParticleLabel<double> state_{"p.modelState", "SI units", "internal variables of the constitutive model"};
+  std::vector<std::shared_ptr<const StateView>> state_views_;
+};
+
+}  // namespace tushar::mpm::solid

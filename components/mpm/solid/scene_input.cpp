@@ -1,0 +1,83 @@
+#include "components/mpm/solid/scene_input.hpp"
+
+#include <set>
+
+namespace tushar::mpm::solid {
+
+using input::Diagnostics;
+using input::Element;
+using input::Schema;
+
+const Schema<PhysicalConstants>& constantsSchema() {
+  static const Schema<PhysicalConstants> schema =
+      Schema<PhysicalConstants>("PhysicalConstants", "What acts everywhere.")
+          .value("gravity", &PhysicalConstants::gravity, Vec3::Zero(), "m/s^2", "acceleration of all that has mass")
+          .ignored("reference_point", "belongs to components of flow")
+          .ignored("viscosity", "belongs to components of flow")
+          .ignored("ideal_gas_constant", "belongs to components of flow")
+          .ignored("pressure", "belongs to components of flow")
+          .ignored("reference_pressure", "nothing here depends on it");
+  return schema;
+}
+
+namespace {
+
+/// One size for the particles of all bodies, where they agree.
+void settleSizes(Problem& problem) {
+  const Index3 first = problem.materials.front().bodies.front().particlesPerCell;
+  for (int axis = 0; axis < 3; ++axis) problem.method.commonSize[axis] = 1.0 / first[axis];
+  problem.method.keepsSizes = problem.start.solution != nullptr;
+  for (const Material& material : problem.materials)
+    for (const Body& body : material.bodies)
+      problem.method.keepsSizes = problem.method.keepsSizes || !(body.particlesPerCell == first);
+}
+
+}  // namespace
+
+void settleParticles(const Level& level, Problem& problem) {
+  countParticles(level, problem.materials, problem.start.loads.surfaces);
+  settleSizes(problem);
+  double widths = 0, axes = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    widths += level.cellWidth(axis);
+    axes += level.cellWidth(axis) > 0;
+  }
+  problem.method.meanWidth = widths / axes;
+  problem.method.isThin = {true, true, true};
+  for (int d = 0; d < level.dimension(); ++d) problem.method.isThin[static_cast<std::size_t>(level.axis(d))] = false;
+}
+
+void nameMaterials(std::vector<Material>& materials) {
+  std::set<std::string> names;
+  for (std::size_t m = 0; m < materials.size(); ++m) {
+    materials[m].index = static_cast<int>(m);
+    if (materials[m].name.empty()) materials[m].name = "material" + std::to_string(m);
+    if (!names.insert(materials[m].name).second) names.insert(materials[m].name += "." + std::to_string(m));
+  }
+}
+
+void checkHeat(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
+  const bool sharesHeat = problem.method.conductsHeat && problem.method.thermalContact;
+  const auto tags = root.child("MaterialProperties")->child("MPM")->children("material");
+  for (std::size_t m = 0; m < tags.size(); ++m) {
+    const Material& material = problem.materials[m];
+    if (material.specificHeat > 0) continue;
+    if (material.model->heats())
+      diagnostics.error(tags[m], "missing tag <specific_heat>: " + std::string(material.model->name()) + " heats by its work");
+    else if (material.thermalConductivity > 0 || sharesHeat)
+      diagnostics.error(tags[m], "missing tag <specific_heat>: it conducts heat");
+  }
+}
+
+void refuseCellsAround(const Level& level, const Location& where) {
+  if (level.dimension() == 3)
+    throw InputError({{where, "MPM/axisymmetric", "x is the radius and y the axis: give z one cell between symmetry planes"}});
+}
+
+int nodesBeyond(const Element& root) {
+  const auto mpm = root.child("MPM");
+  const auto interpolator = mpm ? mpm->child("interpolator") : std::nullopt;
+  return interpolator && interpolator->text() != "linear" ? 1 : 0;
+}
+
+}  // namespace tushar::mpm::solid

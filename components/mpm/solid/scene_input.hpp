@@ -1,0 +1,29 @@
+#pragma once
+
+#include "components/mpm/solid/problem.hpp"
+#include "core/input/schema.hpp"
+
+namespace tushar::mpm::solid {
+
+/// The `PhysicalConstants` section.
+struct PhysicalConstants {
+  Vec3 gravity = Vec3::Zero();  ///< m/s^2
+};
+const input::Schema<PhysicalConstants>& constantsSchema();
+
+/// Gives every material its number, and a name of its own where the scene gives none or one that a material above has.
+void nameMaterials(std::vector<Material>& materials);
+
+/// Heat that works or flows changes a temperature by the heat capacity, which must be there.
+void checkHeat(const Problem& problem, const input::Element& root, input::Diagnostics& diagnostics);
+
+/// What depends on the grid: how many particles share each load, their size, the width of cells.
+void settleParticles(const Level& level, Problem& problem);
+
+/// Throws InputError where an axisymmetric scene, whose <MPM> stands at `where`, has cells around its axis.
+void refuseCellsAround(const Level& level, const Location& where);
+
+/// Layers of nodes that the scene's interpolator needs beyond the sides of the grid.
+int nodesBeyond(const input::Element& root);
+
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "components/mpm/solid/transfer/node_windows.hpp"
+
+namespace tushar::mpm::solid {
+
+/// Nothing moves through a symmetry plane, and no force acts across: both vectors of a record have no normal component
+/// there, and the nodes beyond it mirror those inside. On the nodes of the view's box.
+template <int D>
+void setSymmetry(const Patch& patch, int material, NodeView<NodeRecord> record) {
+  for (int d = 0; d < D; ++d)
+    for (const int side : {0, 1}) {
+      if (!patch.isAtBoundary(d, side) || !patch.level().isSymmetry(d, side, material)) continue;
+      const int face = side == 0 ? patch.cells().lower[d] : patch.cells().upper[d];
+      forEach<D>(patch.faceNodes(d, side).intersect(record.box()), [&](const Index<D>& node) {
+        record[node][lane::velocity + d] = record[node][lane::force + d] = 0;
+      });
+      forEach<D>(patch.nodesBeyond(d, side).intersect(record.box()), [&](const Index<D>& node) {
+        Index<D> image = node;
+        image[d] = 2 * face - node[d];
+        NodeRecord value = record[image];
+        value[lane::velocity + d] = -value[lane::velocity + d];
+        value[lane::force + d] = -value[lane::force + d];
+        record[node] = value;
+      });
+    }
+}
+
+/// The velocity is given on a face, and on the nodes beyond it, as far as particles touch them.
+template <int D>
+void setVelocity(const Patch& patch, int material, const TouchedRows<D>& rows, NodeView<NodeRecord> record) {
+  for (int d = 0; d < D; ++d)
+    for (const int side : {0, 1}) {
+      const grid::BoundaryCondition* condition = patch.level().boundary(d, side, "Velocity", material);
+      if (!condition || condition->kind != "Dirichlet" || !patch.isAtBoundary(d, side)) continue;
+      const Vec<D> value = patch.level().reduce<D>(condition->value);
+      for (const Box& nodes : {patch.faceNodes(d, side), patch.nodesBeyond(d, side)})
+        rows.forEachRow(nodes, [&](const Index3& first, int end) {
+          NodeRecord* node = record.values() + record.stored().offset(first);
+          for (int k = first[0]; k < end; ++k, ++node) setLanes<D>(*node, lane::velocity, value);
+        });
+    }
+}
+
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,143 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "components/mpm/solid/transfer/node_record.hpp"
+
+namespace tushar::mpm::solid {
+
+/// Records of nodes as one sees them from a node: those along x are next to each other.
+template <class Record, int D>
+struct NodeWindow {
+  Record* origin;                          ///< of the first node that a particle touches
+  std::array<std::ptrdiff_t, D> stride{};  ///< records from one node to the next along each axis
+};
+
+/// The factors of a row of nodes along the first axis, in the lanes: of S, and of its slopes along the second and third.
+using RowFactors = Quad;
+
+/// Calls `visit(offset, factors)` for each row of nodes that a particle touches.
+template <class Stencil, int D, class Visit>
+[[gnu::always_inline]] inline void forEachRow(const Stencil& stencil,
+                                              const std::array<std::ptrdiff_t, Stencil::dimension>& stride,
+                                              Visit&& visit) {
+  constexpr int n = Stencil::nodes;
+  if constexpr (D == 1) {
+    visit(std::ptrdiff_t{0}, quadOf(1.0));
+  } else {
+    std::array<Quad, n> second;
+    for (std::size_t j = 0; j < n; ++j)
+      second[j] = __builtin_shufflevector(stencil.s[j], stencil.ds[j], 1, 5, 1, 1);
+    if constexpr (D == 2) {
+      for (std::size_t j = 0; j < n; ++j) visit(static_cast<std::ptrdiff_t>(j) * stride[1], second[j]);
+    } else {
+      for (std::size_t k = 0; k < n; ++k) {
+        const Quad third = __builtin_shufflevector(stencil.s[k], stencil.ds[k], 2, 2, 6, 2);
+        for (std::size_t j = 0; j < n; ++j)
+          visit(static_cast<std::ptrdiff_t>(j) * stride[1] + static_cast<std::ptrdiff_t>(k) * stride[2], second[j] * third);
+      }
+    }
+  }
+}
+
+/// What a particle brings to a row of nodes along the first axis, but for the factors of that axis.
+struct RowShare {
+  Quad low, high, change, round;
+
+  template <std::size_t D>
+  [[gnu::always_inline]] RowShare(const RowFactors& f, const NodeRecord& value, const std::array<Quad, D>& slope,
+                                  const Quad& hoop) {
+    const Quad share = broadcast<0>(f);
+    low = share * value.low;
+    change = share * slope[0];
+    round = share * hoop;
+    high = share * value.high;
+    if constexpr (D > 1) high = multiplyAdd(broadcast<1>(f), slope[1], high);
+    if constexpr (D > 2) high = multiplyAdd(broadcast<2>(f), slope[2], high);
+  }
+
+  /// To node i of the row.
+  template <class Stencil>
+  [[gnu::always_inline]] void addTo(NodeRecord& record, const Stencil& stencil, std::size_t i) const {
+    const Quad s = broadcast<0>(stencil.s[i]), ds = broadcast<0>(stencil.ds[i]);
+    record.low = multiplyAdd(s, low, record.low);
+    record.high = multiplyAdd(s, high, multiplyAdd(ds, change, record.high));
+    if constexpr (Stencil::axisymmetric) record.high = multiplyAdd(stencil.hoop[i], round, record.high);
+  }
+};
+
+/// record_i += S_i value, and to its high half sum_d dS_i/dx_d slope_d (+ S_i / r hoop where axisymmetric), for the nodes
+/// i of a stencil.
+template <class Stencil, int D = Stencil::dimension>
+[[gnu::always_inline]] inline void scatter(const Stencil& stencil, const NodeWindow<NodeRecord, D>& nodes, const NodeRecord& value,
+                                           const std::array<Quad, Stencil::dimension>& slope, const Quad& hoop = Quad{}) {
+  forEachRow<Stencil, D>(stencil, nodes.stride, [&](std::ptrdiff_t offset, const RowFactors& f) {
+    const RowShare share(f, value, slope, hoop);
+    for (std::size_t i = 0; i < Stencil::nodes; ++i) share.addTo(nodes.origin[offset + static_cast<std::ptrdiff_t>(i)], stencil, i);
+  });
+}
+
+/// The same for those nodes of a stencil that lie within a box; `origin` is where the record of the first node would
+/// stand, stored or not.
+template <class Stencil, int D = Stencil::dimension>
+inline void scatterWithin(const Stencil& stencil, const Box& box, const NodeWindow<NodeRecord, D>& nodes, const NodeRecord& value,
+                          const std::array<Quad, Stencil::dimension>& slope, const Quad& hoop = Quad{}) {
+  Index<D> first, end;  // of the nodes within the box, counted from the first of the stencil
+  for (int d = 0; d < D; ++d) {
+    first[d] = std::max(0, box.lower[d] - stencil.first[d]);
+    end[d] = std::min(Stencil::nodes, box.upper[d] - stencil.first[d]);
+    if (first[d] >= end[d]) return;
+  }
+  std::ptrdiff_t row = 0;
+  forEachRow<Stencil, D>(stencil, nodes.stride, [&](std::ptrdiff_t offset, const RowFactors& f) {
+    const std::ptrdiff_t j = row % Stencil::nodes, k = row / Stencil::nodes;
+    ++row;
+    if constexpr (D > 1)
+      if (j < first[1] || j >= end[1]) return;
+    if constexpr (D > 2)
+      if (k < first[2] || k >= end[2]) return;
+    const RowShare share(f, value, slope, hoop);
+    for (int i = first[0]; i < end[0]; ++i) share.addTo(nodes.origin[offset + i], stencil, static_cast<std::size_t>(i));
+  });
+}
+
+/// What a particle takes from the nodes: sum_i S_i record_i; of the low halves the gradient and sum_i S_i / r record_i, too.
+template <int D>
+struct Gathered {
+  NodeRecord value{};
+  std::array<Quad, D> gradient{};
+  Quad hoop{};
+};
+
+template <class Stencil, int D = Stencil::dimension>
+[[gnu::always_inline]] inline Gathered<D> gather(const Stencil& stencil, const NodeWindow<const NodeRecord, D>& nodes) {
+  Gathered<D> sums;
+  std::array<Quad, Stencil::nodes> s, ds;
+  for (std::size_t i = 0; i < Stencil::nodes; ++i) {
+    s[i] = broadcast<0>(stencil.s[i]);
+    ds[i] = broadcast<0>(stencil.ds[i]);
+  }
+  forEachRow<Stencil, D>(stencil, nodes.stride, [&](std::ptrdiff_t offset, const RowFactors& f) {
+    const NodeRecord* row = nodes.origin + offset;
+    Quad low = s[0] * row[0].low, high = s[0] * row[0].high, change = ds[0] * row[0].low, round{};
+    if constexpr (Stencil::axisymmetric) round = stencil.hoop[0] * row[0].low;
+    for (std::size_t i = 1; i < Stencil::nodes; ++i) {
+      low = multiplyAdd(s[i], row[i].low, low);
+      high = multiplyAdd(s[i], row[i].high, high);
+      change = multiplyAdd(ds[i], row[i].low, change);
+      if constexpr (Stencil::axisymmetric) round = multiplyAdd(stencil.hoop[i], row[i].low, round);
+    }
+    const Quad share = broadcast<0>(f);
+    sums.value.low = multiplyAdd(share, low, sums.value.low);
+    sums.value.high = multiplyAdd(share, high, sums.value.high);
+    sums.gradient[0] = multiplyAdd(share, change, sums.gradient[0]);
+    if constexpr (D > 1) sums.gradient[1] = multiplyAdd(broadcast<1>(f), low, sums.gradient[1]);
+    if constexpr (D > 2) sums.gradient[2] = multiplyAdd(broadcast<2>(f), low, sums.gradient[2]);
+    if constexpr (Stencil::axisymmetric) sums.hoop = multiplyAdd(share, round, sums.hoop);
+  });
+  return sums;
+}
+
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,65 @@
+#pragma once
+
+#include "core/input/refuse.hpp"
+
+// Tags of Uintah's <MPM> section that neither explicit nor implicit steps here have.
+
+namespace tushar::mpm::solid {
+
+/// Switches of Uintah's that are missing here, and what there is instead.
+inline const std::vector<std::pair<std::string, std::string>> lackingSwitches{
+    {"UseGradientEnhancedVelocityProjection", "take it out: particles pass on their own velocity"},
+    {"UsePrescribedDeformation", "move the body by a <contact> of type specified"},
+    {"InsertParticles", "give every body its place at the start"},
+    {"refine_particles", "give the body more particles by <res>"},
+    {"use_cohesive_zones", "give the bodies a <contact>"},
+    {"do_scalar_diffusion", "heat conduction obeys the same equation"},
+    {"coupled_flow_analysis", "there is one phase"},
+    {"AMR", "there is one level: choose a finer <resolution>"},
+    {"DoCapDensity", "take it out: density is not capped"},
+    {"DoGranularMPM", "take it out"},
+    {"DoDefGradAveraging", "use a wider <interpolator>, such as gimp or 3rdorderBS, against locking"},
+    {"keepPressBCNormalToSurface", "a pressure keeps the direction of its surface at the start"},
+    {"use_CBDI_boundary_condition", "a pressure is shared among the particles at its surface"},
+    {"use_volume_integral", "take it out: particles stand for their volume"},
+    {"restartOnLargeNodalVelocity", "recompute_timestep in <Time> repeats a step that fails"},
+};
+
+/// Tags of Uintah's that change nothing here, and why.
+inline const std::vector<std::pair<std::string, std::string>> meaninglessTags{
+    {"boundary_traction_faces", "BndyForce_… and BndyContactArea_… of every face can be saved without it"},
+    {"create_new_particles", "particles stay as they are"},
+    {"CanAddMPMMaterial", "all materials are there from the start"},
+    {"DeleteGeometryObjects", "shapes are not kept"},
+    {"computeNodalHeatFlux", "nothing depends on it"},
+    {"interpolateParticleTempToGridEveryStep", "temperatures always come from the particles"},
+    {"testForNegTemps_mpm", "nothing depends on it"},
+    {"PrescribedDeformationFile", "belongs to UsePrescribedDeformation"},
+    {"exactDeformation", "belongs to UsePrescribedDeformation"},
+    {"InsertParticlesFile", "belongs to InsertParticles"},
+    {"water_damping_coef", "belongs to coupled_flow_analysis"},
+    {"solid_damping_coef", "belongs to coupled_flow_analysis"},
+    {"PorePressureFilter", "belongs to coupled_flow_analysis"},
+    {"do_auto_cycle_bc", "belongs to do_scalar_diffusion"},
+    {"auto_cycle_use_minmax", "belongs to do_scalar_diffusion"},
+    {"auto_cycle_max", "belongs to do_scalar_diffusion"},
+    {"auto_cycle_min", "belongs to do_scalar_diffusion"},
+};
+
+/// Variables that Uintah's MPM computes, as its scenes save them.
+inline const std::vector<std::string> uintahsLabels{
+    "AccStrainEnergy", "g.surfnorm", "g.normtraction", "g.position", "g.velocity_star", "g.externalforce",
+    "g.externalHeatRate", "g.temperatureStar", "g.thermalContactTemperatureRate", "dispNew", "p.tempPrevious",
+    "p.externalHeatRate", "p.temperatureGradient", "p.currentsize", "frictionalWork", "RigidReactionTorque",
+    "SumTransmittedForce", "particleCount", "BndyTraction_xminus", "BndyTraction_xplus", "BndyTraction_yminus",
+    "BndyTraction_yplus", "BndyTraction_zminus", "BndyTraction_zplus", "BndyContactCellArea_xminus",
+    "BndyContactCellArea_xplus", "BndyContactCellArea_yminus", "BndyContactCellArea_yplus",
+    "BndyContactCellArea_zminus", "BndyContactCellArea_zplus"};
+
+template <class S>
+void addForeignTags(input::Schema<S>& mpm) {
+  for (const auto& [tag, why] : meaninglessTags) mpm.ignored(tag, why);
+  for (const auto& [tag, instead] : lackingSwitches) refuseSwitch(mpm, tag, instead);
+}
+
+}  // namespace tushar::mpm::solid

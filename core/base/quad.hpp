@@ -1,0 +1,53 @@
+#pragma once
+
+#if defined(__FMA__)
+#include <immintrin.h>
+#endif
+
+#include "core/base/vec.hpp"
+
+namespace tushar {
+
+/// Four numbers that are worked on at once: a register, or two where the processor's hold two numbers.
+using Quad = double __attribute__((vector_size(32)));
+using QuadOfIntegers = int __attribute__((vector_size(16)));
+
+/// factor * a + b, rounded once where the processor can.
+[[gnu::always_inline]] inline Quad multiplyAdd(double factor, const Quad& a, const Quad& b) {
+#if defined(__FMA__)
+  return (Quad)_mm256_fmadd_pd(_mm256_set1_pd(factor), (__m256d)a, (__m256d)b);
+#else
+  return factor * a + b;
+#endif
+}
+
+/// The same with a factor for each lane.
+[[gnu::always_inline]] inline Quad multiplyAdd(const Quad& factor, const Quad& a, const Quad& b) {
+#if defined(__FMA__)
+  return (Quad)_mm256_fmadd_pd((__m256d)factor, (__m256d)a, (__m256d)b);
+#else
+  return factor * a + b;
+#endif
+}
+
+/// The same number four times.
+[[gnu::always_inline]] inline Quad quadOf(double number) { return Quad{number, number, number, number}; }
+
+/// Lane `Which` four times.
+template <int Which>
+[[gnu::always_inline]] inline Quad broadcast(const Quad& a) {
+  return __builtin_shufflevector(a, a, Which, Which, Which, Which);
+}
+
+/// The components of a vector, zeros behind them, and a number.
+template <int D>
+[[gnu::always_inline]] inline Quad quadOf(const Vec<D>& v, double number = 0) {
+  if constexpr (D == 1)
+    return Quad{v[0], 0, 0, number};
+  else if constexpr (D == 2)
+    return Quad{v[0], v[1], 0, number};
+  else
+    return Quad{v[0], v[1], v[2], number};
+}
+
+}  // namespace tushar

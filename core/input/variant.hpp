@@ -1,0 +1,58 @@
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/input/schema.hpp"
+
+namespace tushar::input {
+
+/// A tag whose attribute `type` picks one of several structs, each with its `name` and its `schema()`.
+template <class Variant>
+class TypedTag;
+
+template <class... Ts>
+class TypedTag<std::variant<Ts...>> {
+ public:
+  /// Reads the tag `element`; where the type is unknown, the first of the structs is left as it is by default.
+  static std::variant<Ts...> read(const input::Element& element, input::Diagnostics& diagnostics) {
+    std::variant<Ts...> result;
+    const std::string type = element.attribute("type").value_or("");
+    if (const std::string problem = input::choiceProblem(type, names()); !problem.empty())
+      diagnostics.error(element, "attribute 'type': " + problem);
+    ((type == Ts::name ? void(result = schema<Ts>().read(element, diagnostics)) : void()), ...);
+    return result;
+  }
+  static std::vector<std::string> names() { return {std::string(Ts::name)...}; }
+  static void describe(std::ostream& out, int indent) { (describeOne<Ts>(out, indent), ...); }
+
+ private:
+  template <class T>
+  static const input::Schema<T>& schema() {
+    static const input::Schema<T> schema = input::Schema<T>(T::schema()).foreignAttribute("type", std::string(T::name));
+    return schema;
+  }
+  template <class T>
+  static void describeOne(std::ostream& out, int indent) {
+    out << std::string(static_cast<std::size_t>(indent), ' ') << "type=\"" << T::name << "\": " << T::schema().sentence()
+        << '\n';
+    T::schema().describeContents(out, indent + 2);
+  }
+};
+
+/// Adds such a tag to a schema; what it stands for keeps its default if it is left out.
+template <class S, class Variant>
+void typedTag(input::Schema<S>& schema, const std::string& tag, Variant S::*member, const std::string& sentence,
+              bool isRequired) {
+  schema.custom(tag,
+                [=](S& object, const input::Element& element, input::Diagnostics& diagnostics) {
+                  if (const auto given = element.child(tag))
+                    object.*member = TypedTag<Variant>::read(*given, diagnostics);
+                  else if (isRequired)
+                    diagnostics.error(element, "missing tag <" + tag + "> (" + sentence + ")");
+                },
+                {tag}, sentence, TypedTag<Variant>::describe);
+}
+
+}  // namespace tushar::input

@@ -1,0 +1,113 @@
+#pragma once
+
+#include <random>
+
+#include "components/mpm/gas/conserving/cells.hpp"
+#include "components/mpm/gas/conserving/redistribute.hpp"
+#include "components/mpm/gas/conserving/transfer.hpp"
+#include "tests/support/levels.hpp"
+
+namespace tushar::mpm::gas::conserving {
+
+/// The footprint of one box, in every lane.
+template <int D>
+Footprint<D> footprintOf(const Level& level, const Vec<D>& centre, const Vec<D>& edges) {
+  Batch<D> batch;
+  batch.add(0, level.cellOf<D>(centre));
+  batch.fillUp();
+  return Footprint<D>(level, batch, centre.template cast<Lanes>(), edges.template cast<Lanes>());
+}
+
+/// A grid with free sides.
+inline grid::Domain freeDomain(const Index3& resolution) {
+  grid::Domain domain = test::domain(resolution);
+  for (auto& face : domain.boundaries.faces) face.clear();
+  return domain;
+}
+
+/// A box of random size with random values about the middle of every cell of a grid with free sides.
+template <int D>
+struct BoxCloud {
+  Level level;
+  data::ParticleSet set;
+  std::vector<ParticleId> ids;
+  std::vector<Vec<D>> x, edges, v;
+  std::vector<Modes<D>> modes;
+  std::vector<double> mass, energy, affine;
+  Gas gas;
+
+  explicit BoxCloud(const Index3& resolution) : level(freeDomain(resolution)) {
+    std::mt19937 generator(7);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    gas.name = "gas";
+    set.reset(patch(), 2);
+    forEach<D>(level.cells(), [&](const Index<D>& cell) {
+      const int place = static_cast<int>(x.size());
+      Vec<D> at = level.cellCentre<D>(cell), edge, speed;
+      Modes<D> slopes;
+      for (int d = 0; d < D; ++d) {
+        at[d] += 0.4 * (uniform(generator) - 0.5) * level.spacing(d);
+        edge[d] = (0.7 + 0.6 * uniform(generator)) * level.spacing(d);
+        speed[d] = uniform(generator) - 0.5;
+        for (int a = 0; a < slopes.cols(); ++a) slopes(d, a) = uniform(generator) - 0.5;
+      }
+      ids.push_back(static_cast<ParticleId>(place) << 16);
+      x.push_back(at);
+      edges.push_back(edge);
+      v.push_back(speed);
+      modes.push_back(slopes);
+      mass.push_back(0.5 + uniform(generator));
+      energy.push_back(1 + uniform(generator));
+      affine.push_back(0.01 * uniform(generator));
+      set.at(cell) = {place, place + 1};
+    });
+    set.setOwned(static_cast<int>(x.size()));
+  }
+  const Patch& patch() const { return level.patches().front(); }
+  template <class T>
+  ParticleView<const T> read(const std::vector<T>& values) const {
+    return {values.data(), set, level.cells()};
+  }
+  template <class T>
+  ParticleView<T> write(std::vector<T>& values) const {
+    values.resize(x.size());
+    return {values.data(), set, level.cells()};
+  }
+  conserving::Boxes<D> boxes() const {
+    return {read(ids), read(x), read(edges), read(mass), read(v), read(modes), read(energy), read(affine)};
+  }
+};
+
+/// Values over the nodes or cells of a level, and views of them.
+template <data::Centring C, class T>
+struct GridValues {
+  Box box;
+  std::vector<T> values;
+
+  explicit GridValues(const Level& level)
+      : box(C == data::Centring::node ? level.nodes() : level.cells()), values(box.size()) {}
+  data::GridView<C, T> write() { return {values.data(), box}; }
+  data::GridView<C, const T> read() const { return {values.data(), box}; }
+};
+template <class T>
+using NodeValues = GridValues<data::Centring::node, T>;
+template <class T>
+using CellValues = GridValues<data::Centring::cell, T>;
+
+/// Mass, momentum and total energy.
+template <int D>
+struct Totals {
+  double mass = 0, energy = 0;
+  Vec<D> momentum = Vec<D>::Zero();
+
+  Totals(const std::vector<double>& m, const std::vector<Vec<D>>& v, const std::vector<double>& e,
+         const std::vector<double>& affine) {
+    for (std::size_t p = 0; p < m.size(); ++p) {
+      mass += m[p];
+      momentum += m[p] * v[p];
+      energy += m[p] * (0.5 * v[p].squaredNorm() + affine[p] + e[p]);
+    }
+  }
+};
+
+}  // namespace tushar::mpm::gas::conserving

@@ -1,0 +1,243 @@
+#include "components/mpm/gas/conserving/footprint.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/mpm/gas/conserving/boxes.hpp"
+
+namespace tushar::mpm::gas::conserving {
+
+namespace {
+
+grid::Domain line(int cells) {
+  grid::Domain domain;
+  domain.lower = {-1, 0, 0};
+  domain.upper = {2, 0, 0};
+  domain.resolution = {{cells, 1, 1}};
+  return domain;
+}
+
+using Interval = Span<2>;
+
+Interval intervalAt(const Level& level, double centre, double length) {
+  return Interval(level, 0, LaneIntegers{} + level.cellAlong(0, centre), centre, length);
+}
+
+Lanes at(const Lanes& values, int lane, double value) {
+  return Lanes::of([&](int other) { return other == lane ? value : values[other]; });
+}
+
+void addParts(const Level& level, const Batch<2>& batch, const LanesVec<2>& centre, const LanesVec<2>& edges,
+              GridSums<2, 1, 0>& sums) {
+  const Footprint<2> footprint(level, batch, centre, edges);
+  GridSums<2, 1, 0>::Brought brought;
+  footprint.forEachPart(
+      [&](const Index<2>& k, const Lanes& part) { brought[0][Footprint<2>::number(k)] = batch.only(part); });
+  sums.add(footprint, batch.count, brought);
+}
+
+/// Sum of the first `count` values.
+double sumOf(const auto& values, int count) {
+  double sum = 0;
+  for (int k = 0; k < count; ++k) sum += values[static_cast<std::size_t>(k)][0];
+  return sum;
+}
+
+}  // namespace
+
+TEST(Span, PartsAndWeightsSumToOneWhereverAndHoweverLong) {
+  const Level level(line(30));
+  for (double centre = -0.95; centre < 2; centre += 0.0173)
+    for (double length = 0.003; length < 0.29; length += 0.0217) {
+      const Interval span = intervalAt(level, centre, length);
+      EXPECT_NEAR(sumOf(span.part, span.cells), 1, 1e-13) << centre << ' ' << length;
+      EXPECT_NEAR(sumOf(span.weight, span.nodes()), 1, 1e-13) << centre << ' ' << length;
+      EXPECT_NEAR(sumOf(span.atLower, span.nodes()), 1, 1e-13) << centre << ' ' << length;
+      EXPECT_NEAR(sumOf(span.atUpper, span.nodes()), 1, 1e-13) << centre << ' ' << length;
+    }
+}
+
+TEST(Span, ReproducesPositionsOnAverageAndAtItsEnds) {
+  const Level level(line(30));
+  for (double centre = -0.8; centre < 1.8; centre += 0.0131)
+    for (const double length : {0.01, 0.1, 0.17, 0.28}) {
+      const Interval span = intervalAt(level, centre, length);
+      Lanes mean = 0, lower = 0, upper = 0, square = 0;
+      for (std::size_t k = 0; k < static_cast<std::size_t>(span.nodes()); ++k) {
+        mean += span.weight[k] * span.arm[k];
+        lower += span.atLower[k] * span.arm[k];
+        upper += span.atUpper[k] * span.arm[k];
+        square += span.weight[k] * span.arm[k] * span.arm[k];
+      }
+      EXPECT_NEAR(mean[0], 0, 1e-14);
+      EXPECT_NEAR(lower[0], -0.5 * length, 1e-14);
+      EXPECT_NEAR(upper[0], 0.5 * length, 1e-14);
+      EXPECT_NEAR(span.inertia[0], square[0], 1e-16);
+    }
+}
+
+TEST(Span, TouchesOneCellWhereItFillsThatCell) {
+  const Level level(line(30));
+  const Interval span = intervalAt(level, level.cellCentre<1>({{11}})[0], level.spacing(0));
+
+  EXPECT_EQ(span.first[0], 11);
+  EXPECT_EQ(span.cells, 1);
+  EXPECT_NEAR(span.weight[0][0], 0.5, 1e-15);
+  EXPECT_NEAR(span.inertia[0], 0.25 * level.spacing(0) * level.spacing(0), 1e-16);
+}
+
+TEST(Span, IsCutOffAtTheEndsOfTheGrid) {
+  const Level level(line(30));
+  const Interval span = intervalAt(level, 1.98, 0.1);
+
+  EXPECT_DOUBLE_EQ(span.upper[0], 2.0);
+  EXPECT_NEAR(span.lower[0], 1.93, 1e-15);
+  EXPECT_NEAR(sumOf(span.part, span.cells), 1, 1e-13);
+}
+
+TEST(Span, GoesOnBeyondAPeriodicEnd) {
+  grid::Domain ring = line(30);
+  ring.periodic[0] = 1;
+  const Level level(ring);
+  const Interval span = intervalAt(level, 1.98, 0.1);
+
+  EXPECT_EQ(span.first[0], 29);
+  EXPECT_EQ(span.cells, 2);
+  EXPECT_NEAR(span.part[1][0], 0.3, 1e-12);
+}
+
+TEST(Span, KeepsAllOfAnIntervalThatIsTooLong) {
+  const Level level(line(30));
+  const Interval span = intervalAt(level, 0.51, 0.7);
+
+  EXPECT_EQ(span.first[0], 13);
+  EXPECT_EQ(span.cells, 5);
+  EXPECT_NEAR(sumOf(span.part, 5), 1, 1e-13);
+  EXPECT_NEAR(sumOf(span.weight, 6), 1, 1e-13);
+}
+
+TEST(Span, OfTheMirrorImageHasTheMirroredBits) {
+  grid::Domain mirrored = line(30);
+  mirrored.lower[0] = -2;
+  mirrored.upper[0] = 1;
+  const Level level(line(30)), there(mirrored);
+  for (double centre = -0.987; centre < 2; centre += 0.0131)
+    for (const double length : {0.03, 0.1, 0.17, 0.28}) {
+      const Interval span = intervalAt(level, centre, length), image = intervalAt(there, -centre, length);
+      ASSERT_EQ(image.cells, span.cells);
+      for (std::size_t k = 0, last = static_cast<std::size_t>(span.cells); k <= last; ++k) {
+        EXPECT_EQ(span.weight[k][0], image.weight[last - k][0]);
+        EXPECT_EQ(span.arm[k][0], -image.arm[last - k][0]);
+        EXPECT_EQ(span.atLower[k][0], image.atUpper[last - k][0]);
+        EXPECT_EQ(k < last ? span.part[k][0] : 0, k < last ? image.part[last - 1 - k][0] : 0);
+      }
+      EXPECT_EQ(span.inertia[0], image.inertia[0]);
+    }
+}
+
+TEST(Span, HasNothingInCellsThatOnlyOthersReach) {
+  const Level level(line(30));
+  Lanes length = 0.02;
+  length = Lanes::of([&](int lane) { return lane == 1 ? 0.25 : length[lane]; });
+  const Interval span(level, 0, LaneIntegers{} + 15, 0.55, length);
+
+  EXPECT_EQ(span.cells, 3);
+  EXPECT_EQ(span.first[0], 14);
+  EXPECT_EQ(span.part[0][0], 0);
+  EXPECT_NEAR(span.part[1][0], 1, 1e-13);
+  EXPECT_EQ(span.part[2][0], 0);
+  EXPECT_EQ(span.weight[0][0], 0);
+  EXPECT_EQ(span.weight[3][0], 0);
+  EXPECT_NEAR(span.part[1][1], 0.4, 1e-13);
+}
+
+TEST(Footprint, IsTheProductOfItsSpans) {
+  const Level level(test::domain({{8, 6, 4}}));
+  const Footprint<3> footprint = footprintOf<3>(level, Vec<3>(0.4, 0.31, 0.19), Vec<3>(0.15, 0.12, 0.09));
+  Lanes parts = 0, weights = 0;
+  Footprint<3>::Field<2> still;
+  still.fill(LanesVec<3>::Zero());
+  footprint.forEachPart([&](const Index<3>&, const Lanes& part) { parts += part; });
+  footprint.forEachWeight(still, [&](const Index<3>&, const Lanes& w, const LanesVec<3>&) { weights += w; });
+
+  EXPECT_NEAR(parts[0], 1, 1e-14);
+  EXPECT_NEAR(weights[0], 1, 1e-14);
+}
+
+TEST(Footprint, EvaluatesMultilinearFieldsAtTheNodes) {
+  const Level level(test::domain({{8, 6, 1}}));
+  const Vec<2> centre(0.4, 0.31), mean(1, 2), alongX(3, -1), alongY(0.5, 4), mixed(-2, 7);
+  const Footprint<2> footprint = footprintOf<2>(level, centre, Vec<2>(0.15, 0.12));
+  const Footprint<2>::Field<1> field{LanesVec<2>(mean.cast<Lanes>()), alongX.cast<Lanes>(), alongY.cast<Lanes>(),
+                                     mixed.cast<Lanes>()};
+  footprint.forEachWeight(field, [&](const Index<2>& k, const Lanes&, const LanesVec<2>& value) {
+    const double x = level.nodePosition(0, footprint.along[0].first[0] + k[0]) - centre[0];
+    const double y = level.nodePosition(1, footprint.along[1].first[0] + k[1]) - centre[1];
+    const Vec<2> there = mean + x * alongX + y * alongY + x * y * mixed;
+    for (int d = 0; d < 2; ++d) EXPECT_NEAR(value[d][0], there[d], 1e-14);
+  });
+}
+
+TEST(GridSums, AreTheSameFromParticlesSideBySideAsFromOneAfterTheOther) {
+  const Level level(test::domain({{8, 6, 1}}));
+  std::mt19937 generator(3);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  GridSums<2, 1, 0> together(level.cells()), apart(level.cells());
+  for (int row = 1; row < 5; ++row) {
+    Batch<2> all;
+    LanesVec<2> centre, edges;
+    for (int lane = 0; lane < Lanes::count; ++lane) {
+      const Index<2> cell{{lane, row}};
+      all.add(lane, cell);
+      for (int d = 0; d < 2; ++d) {
+        centre[d] =
+            at(centre[d], lane, level.nodePosition(d, cell[d]) + (0.6 + 0.1 * uniform(generator)) * level.spacing(d));
+        edges[d] = at(edges[d], lane, level.spacing(d));
+      }
+    }
+    addParts(level, all, centre, edges, together);
+    for (int lane = 0; lane < Lanes::count; ++lane) {
+      Batch<2> one;
+      one.add(lane, {{lane, row}});
+      one.fillUp();
+      LanesVec<2> x, size;
+      for (int d = 0; d < 2; ++d) {
+        x[d] = centre[d][lane];
+        size[d] = edges[d][lane];
+      }
+      addParts(level, one, x, size, apart);
+    }
+  }
+  together.finish();
+  apart.finish();
+  forEach<2>(level.cells(), [&](const Index<2>& cell) { EXPECT_EQ(together.at(0, cell), apart.at(0, cell)); });
+  EXPECT_GT(together.at(0, {{1, 3}}), 0);
+}
+
+TEST(GridSums, DoNotDependOnTheOrderOfTheParticles) {
+  const Level level(test::domain({{8, 6, 1}}));
+  std::mt19937 generator(5);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::vector<std::pair<Vec<2>, Vec<2>>> boxes;
+  for (int k = 0; k < 200; ++k)
+    boxes.push_back({{0.4 + 0.2 * uniform(generator), 0.2 + 0.2 * uniform(generator)}, {0.125 * uniform(generator), 0.1}});
+  const auto sumsOf = [&] {
+    GridSums<2, 1, 0> sums(level.cells());
+    for (const auto& [x, edges] : boxes) {
+      Batch<2> one;
+      one.add(0, level.cellOf<2>(x));
+      one.fillUp();
+      addParts(level, one, x.cast<Lanes>(), edges.cast<Lanes>(), sums);
+    }
+    sums.finish();
+    std::vector<double> all;
+    forEach<2>(level.cells(), [&](const Index<2>& cell) { all.push_back(sums.at(0, cell)); });
+    return all;
+  };
+
+  const std::vector<double> forwards = sumsOf();
+  std::shuffle(boxes.begin(), boxes.end(), generator);
+
+  EXPECT_EQ(sumsOf(), forwards);
+}
+
+}  // namespace tushar::mpm::gas::conserving

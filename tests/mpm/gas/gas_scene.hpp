@@ -1,0 +1,53 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "components/components.hpp"
+#include "core/simulation/gather.hpp"
+#include "core/simulation/scene.hpp"
+#include "tests/support/temporary.hpp"
+
+namespace tushar::mpm::gas {
+
+/// A scene of one gas that has been run to its end.
+class GasScene {
+ public:
+  explicit GasScene(const std::string& scene) : run_(read(scene), quiet(), std::chrono::steady_clock::now()) {
+    EXPECT_EQ(run_.run().failure, "");
+  }
+  /// The values of its particles, one after the other, vectors in x, y, z.
+  std::vector<double> values(const char* label) {
+    data::Warehouse& warehouse = run_.warehouse();
+    const auto array = simulation::Gather(warehouse).array(data::Generation::old, warehouse.table().find(label, 0));
+    return std::get<std::vector<double>>(array.values);
+  }
+
+ private:
+  static simulation::Problem read(const std::string& scene) {
+    const std::string path = test::temporaryFolder() + "scene.ups";
+    std::ofstream(path) << scene;
+    return simulation::readScene(path, {}, catalogue());
+  }
+  static simulation::RunOptions quiet() {
+    simulation::RunOptions options;
+    options.quiet = true;
+    return options;
+  }
+
+  simulation::Simulation run_;
+};
+
+/// Symmetry planes all around a grid.
+inline std::string walls() {
+  std::string faces;
+  for (const char* side : {"x-", "x+", "y-", "y+", "z-", "z+"})
+    faces += std::string("<Face side='") + side + "'><BCType id='all' label='Symmetric' var='symmetry'/></Face>";
+  return "<BoundaryConditions>" + faces + "</BoundaryConditions>";
+}
+
+}  // namespace tushar::mpm::gas

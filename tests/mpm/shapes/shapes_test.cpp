@@ -1,0 +1,245 @@
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "components/mpm/shapes/cpdi_shape.hpp"
+#include "components/mpm/solid/transfer/cpdi_transfer.hpp"
+#include "components/mpm/solid/transfer/extent.hpp"
+#include "tests/support/levels.hpp"
+
+namespace tushar::mpm::solid {
+namespace {
+
+// Nodes number about ten along an axis, so that sums of S x are of order 1 and round-off of order 1e-15: 1e-13 leaves
+// room for the 64 terms of a cubic stencil in three dimensions, and for the condition of a sheared domain.
+constexpr double roundOff = 1e-13;
+
+template <int D>
+Level grid() {
+  grid::Domain domain = test::domain(D == 1 ? Index3{{10, 0, 0}} : D == 2 ? Index3{{10, 7, 0}} : Index3{{10, 7, 5}});
+  domain.nodesBeyond = 1;
+  return Level(domain);
+}
+
+/// A particle somewhere, in one of the ways that shape functions may go wrong: anywhere, on a face between cells, on an
+/// edge or corner, right at a side of the grid, or a hair's breadth from one of these.
+template <int D>
+struct Somewhere {
+  Index<D> cell;
+  Vec<D> x;
+  Extent<D> extent;
+
+  Somewhere(const Level& level, std::mt19937& random) {
+    std::uniform_real_distribution<double> uniform(0, 1);
+    std::uniform_int_distribution<int> way(0, 5);
+    for (int d = 0; d < D; ++d) {
+      const int cells = level.cells().upper[d];
+      const int kind = way(random);
+      cell[d] = kind < 2 ? 0 : kind < 4 ? cells - 1 : std::uniform_int_distribution<int>(0, cells - 1)(random);
+      const std::array<double, 6> places{uniform(random), 0, 1, 1e-9, 1 - 1e-9, 0.5};
+      x[d] = level.nodePosition(d, cell[d]) + places[static_cast<std::size_t>(way(random))] * level.spacing(d);
+      extent.size[d] = 0.1 + 0.9 * uniform(random);
+      for (int e = 0; e < D; ++e)
+        extent.halfEdges(e, d) = 0.5 * extent.size[d] * ((e == d) + 0.3 * (uniform(random) - 0.5));
+    }
+  }
+};
+
+template <class Shape>
+struct Sums {
+  static constexpr int D = Shape::dimension;
+  double value = 0;
+  Vec<D> gradient = Vec<D>::Zero(), position = Vec<D>::Zero();
+  Eigen::Matrix<double, D, D> positionGradient = Eigen::Matrix<double, D, D>::Zero();
+  double hoop = 0;
+
+  Sums(const Level& level, const typename Shape::Stencil& stencil) {
+    stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>& ds) {
+      Vec<D> at;
+      for (int d = 0; d < D; ++d) at[d] = level.nodePosition(d, node[d]);
+      value += s;
+      gradient += ds;
+      position += s * at;
+      positionGradient += at * ds.transpose();
+    });
+  }
+};
+
+template <class Shape>
+class EveryShape : public testing::Test {};
+using Shapes = testing::Types<LinearShape<1>, LinearShape<2>, LinearShape<3>, GimpShape<1>, GimpShape<2>, GimpShape<3>,
+                              CpdiShape<1>, CpdiShape<2>, CpdiShape<3>, QuadraticShape<1>, QuadraticShape<2>,
+                              QuadraticShape<3>, CubicShape<1>, CubicShape<2>, CubicShape<3>>;
+TYPED_TEST_SUITE(EveryShape, Shapes);
+
+TYPED_TEST(EveryShape, AddsUpToOneWithoutSlopeAndReproducesStraightLines) {
+  constexpr int D = TypeParam::dimension;
+  const Level level = grid<D>();
+  std::mt19937 random(1);
+  for (int k = 0; k < 2000; ++k) {
+    const Somewhere<D> p(level, random);
+    const Sums<TypeParam> sums(level, typename TypeParam::Stencil(level, p.cell, p.x, p.extent));
+    EXPECT_NEAR(sums.value, 1, roundOff);
+    EXPECT_LT((sums.position - p.x).cwiseAbs().maxCoeff(), roundOff);
+    for (int d = 0; d < D; ++d) EXPECT_LT(std::abs(sums.gradient[d]) * level.spacing(d), roundOff);
+    const auto error = sums.positionGradient - Eigen::Matrix<double, D, D>::Identity();
+    EXPECT_LT(error.cwiseAbs().maxCoeff(), 10 * roundOff) << "slopes of order 1/h = 10";
+  }
+}
+
+TYPED_TEST(EveryShape, TouchesOnlyNodesThatItSaysItDoes) {
+  constexpr int D = TypeParam::dimension;
+  const Level level = grid<D>();
+  std::mt19937 random(2);
+  for (int k = 0; k < 500; ++k) {
+    const Somewhere<D> p(level, random);
+    const typename TypeParam::Stencil stencil(level, p.cell, p.x, p.extent);
+    stencil.forEachNode([&](const Index<D>& node, double, const Vec<D>&) {
+      for (int d = 0; d < D; ++d) {
+        EXPECT_GE(node[d], p.cell[d] - TypeParam::ghostNodes);
+        EXPECT_LE(node[d], p.cell[d] + 1 + TypeParam::ghostNodes);
+      }
+    });
+  }
+}
+
+/// Records of the nodes around a particle, one after another.
+template <class Shape>
+struct Nodes {
+  static constexpr int D = Shape::dimension, n = Shape::Stencil::nodes;
+  std::vector<NodeRecord> records;
+  NodeWindow<NodeRecord, D> window;
+
+  Nodes() {
+    std::ptrdiff_t stride = 1;
+    for (std::size_t d = 0; d < D; ++d, stride *= n) window.stride[d] = stride;
+    records.assign(static_cast<std::size_t>(stride), NodeRecord{});
+    window.origin = records.data();
+  }
+  NodeRecord& at(const Index<D>& offset) {
+    std::ptrdiff_t k = 0;
+    for (int d = 0; d < D; ++d) k += offset[d] * window.stride[static_cast<std::size_t>(d)];
+    return records[static_cast<std::size_t>(k)];
+  }
+};
+
+TYPED_TEST(EveryShape, ScattersWhatItsNodesSay) {
+  constexpr int D = TypeParam::dimension;
+  const Level level = grid<D>();
+  std::mt19937 random(3);
+  const NodeRecord value{Quad{1, 2, 3, 4}, Quad{5, 6, 7, 8}};
+  std::array<Quad, D> slope;
+  for (std::size_t d = 0; d < D; ++d) slope[d] = Quad{1.0 + static_cast<double>(d), -2, .5, 0};
+  for (int k = 0; k < 50; ++k) {
+    const Somewhere<D> p(level, random);
+    const typename TypeParam::Stencil stencil(level, p.cell, p.x, p.extent);
+    Nodes<TypeParam> nodes;
+    scatter(stencil, nodes.window, value, slope);
+    stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>& gradient) {
+      const NodeRecord& record = nodes.at(node - stencil.first);
+      for (int lane = 0; lane < 8; ++lane) {
+        double expected = s * value[lane];
+        for (int d = 0; d < D && lane >= 4; ++d) expected += gradient[d] * slope[static_cast<std::size_t>(d)][lane - 4];
+        EXPECT_NEAR(record[lane], expected, 100 * roundOff) << "sums of order 100";
+      }
+    });
+  }
+}
+
+TYPED_TEST(EveryShape, GathersWhatItsNodesSay) {
+  constexpr int D = TypeParam::dimension;
+  const Level level = grid<D>();
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (int k = 0; k < 50; ++k) {
+    const Somewhere<D> p(level, random);
+    const typename TypeParam::Stencil stencil(level, p.cell, p.x, p.extent);
+    Nodes<TypeParam> nodes;
+    for (NodeRecord& record : nodes.records)
+      for (int lane = 0; lane < 8; ++lane) record[lane] = uniform(random);
+    std::array<double, 8> value{};
+    Eigen::Matrix<double, 4, D> gradient = Eigen::Matrix<double, 4, D>::Zero();
+    stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>& ds) {
+      const NodeRecord& record = nodes.at(node - stencil.first);
+      for (int lane = 0; lane < 8; ++lane) value[static_cast<std::size_t>(lane)] += s * record[lane];
+      for (int lane = 0; lane < 4; ++lane)
+        for (int d = 0; d < D; ++d) gradient(lane, d) += record[lane] * ds[d];
+    });
+    const Gathered<D> sums = gather(stencil, NodeWindow<const NodeRecord, D>{nodes.window.origin, nodes.window.stride});
+    for (int lane = 0; lane < 8; ++lane) EXPECT_NEAR(sums.value[lane], value[static_cast<std::size_t>(lane)], roundOff);
+    for (int lane = 0; lane < 4; ++lane)
+      for (int d = 0; d < D; ++d)
+        EXPECT_NEAR(sums.gradient[static_cast<std::size_t>(d)][lane], gradient(lane, d), 100 * roundOff) << "of order 10";
+  }
+}
+
+template <class Shape>
+class AxisymmetricShape : public testing::Test {};
+using AxisymmetricShapes =
+    testing::Types<AxisymmetricLinearShape<1>, AxisymmetricLinearShape<2>, AxisymmetricGimpShape<1>, AxisymmetricGimpShape<2>>;
+TYPED_TEST_SUITE(AxisymmetricShape, AxisymmetricShapes);
+
+TYPED_TEST(AxisymmetricShape, HasNoStrainInRestAndOneInRadialStretching) {
+  constexpr int D = TypeParam::dimension;
+  const Level level = grid<D>();
+  std::mt19937 random(5);
+  for (int k = 0; k < 2000; ++k) {
+    Somewhere<D> p(level, random);
+    if (p.x[0] < 1e-3) continue;  // S / r of a point on the axis has no meaning
+    const typename TypeParam::Stencil stencil(level, p.cell, p.x, p.extent);
+    const Sums<TypeParam> sums(level, stencil);
+    EXPECT_NEAR(sums.value, 1, roundOff);
+    for (int d = 0; d < D; ++d) EXPECT_LT(std::abs(sums.gradient[d]) * level.spacing(d), roundOff);
+    double hoop = 0;
+    for (int i = 0; i < TypeParam::Stencil::nodes; ++i)
+      hoop += stencil.hoop[static_cast<std::size_t>(i)] * level.nodePosition(0, stencil.first[0] + i);
+    EXPECT_NEAR(hoop, 1, 10 * roundOff) << "v_r = r: the hoop strain rate is 1";
+    EXPECT_NEAR(sums.positionGradient(0, 0), 1, 10 * roundOff);
+  }
+}
+
+TEST(CpdiDomain, IsShrunkWhereItReachesFartherThanACell) {
+  const Level level = grid<2>();
+  Extent<2> extent;
+  extent.halfEdges << 3, 0.5, 0, 0.25;
+  const Index<2> cell{{4, 3}};
+  const Vec<2> x(level.nodePosition(0, 4) + 0.3 * level.spacing(0), level.nodePosition(1, 3) + 0.9 * level.spacing(1));
+  const CpdiShape<2>::Stencil stencil(level, cell, x, extent);
+  const Sums<CpdiShape<2>> sums(level, stencil);
+  EXPECT_NEAR(sums.value, 1, roundOff);
+  EXPECT_LT((sums.position - x).norm(), roundOff);
+  for (const auto& corner : stencil.corner)
+    for (int d = 0; d < 2; ++d) EXPECT_TRUE(corner.cell[d] >= 0 && corner.cell[d] <= 2);
+}
+
+TEST(CpdiDomain, IsThatOfGimpForAnUndeformedParticleInOneDimension) {
+  const Level level = grid<1>();
+  Extent<1> extent;
+  extent.size[0] = 0.5;
+  extent.halfEdges(0, 0) = 0.25;
+  // Within a cell, where the tent is straight over the whole particle, both are the tent itself.
+  const Index<1> cell{{4}};
+  const Vec<1> x(level.nodePosition(0, 4) + 0.4 * level.spacing(0));
+  Nodes<CubicShape<1>> cpdi, gimp;
+  const auto record = [](Nodes<CubicShape<1>>& nodes) {
+    return [&nodes](const Index<1>& node, double s, const Vec<1>& ds) { nodes.at({{node[0] - 3}}) = NodeRecord{Quad{s, ds[0], 0, 0}, Quad{}}; };
+  };
+  CpdiShape<1>::Stencil(level, cell, x, extent).forEachNode(record(cpdi));
+  GimpShape<1>::Stencil(level, cell, x, extent).forEachNode(record(gimp));
+  for (int k = 0; k < 4; ++k)
+    for (int lane = 0; lane < 2; ++lane) EXPECT_NEAR(cpdi.at({{k}})[lane], gimp.at({{k}})[lane], 10 * roundOff);
+}
+
+TEST(GimpAxis, KeepsValueAndSlopeInProportionWhereAParticleBarelyTouchesANode) {
+  for (double touch = 0.25; touch > 1e-14; touch *= 0.25) {
+    std::array<double, 3> s, ds;
+    const double xi = 0.25 - touch;  // of size 1/2: its upper end is `touch` short of the middle of the cell
+    ASSERT_EQ(GimpAxis::fill(xi, 0.5, s, ds), -1.0);
+    const double overlap = 1 - (xi - 0.25 + 1);  // what of the particle lies within a cell of the node below the cell
+    if (overlap <= 0) continue;
+    EXPECT_NEAR(s[0] / ds[0] / (-overlap / 2), 1, 1e-14) << "S = t^2 / (2 size), dS = -t / size; touch " << touch;
+  }
+}
+
+}  // namespace
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <vector>
+
+#include "components/mpm/solid/constitutive/all.hpp"
+
+namespace tushar::mpm::solid::testing {
+
+/// A model of each kind, with constants of the order of 1 unless others are given.
+template <class M>
+M withModuli(double bulk = 7, double shear = 3) {
+  M model;
+  model.bulkModulus = bulk;
+  model.shearModulus = shear;
+  return model;
+}
+inline CompMooneyRivlin compMooneyRivlin(double c1 = 3, double c2 = 1, double poissonRatio = 0.45) {
+  CompMooneyRivlin model;
+  model.c1 = c1;
+  model.c2 = c2;
+  model.poissonRatio = poissonRatio;
+  return model;
+}
+inline CompNeoHookPlastic compNeoHookPlastic(double hardening) {
+  auto model = withModuli<CompNeoHookPlastic>();
+  model.yieldStress = 0.2;
+  model.hardeningModulus = hardening;
+  return model;
+}
+inline ElasticPlasticHp elasticPlastic(const FlowModel& flow) {
+  auto model = withModuli<ElasticPlasticHp>();
+  model.flow = flow;
+  model.material = {2, 0.5, 2000, 294};
+  return model;
+}
+/// A yield stress of each kind, between .05 and .5 with the moduli of elasticPlastic at 300 K and some 100/s.
+inline std::vector<FlowModel> flowModels() {
+  JohnsonCook soft{0.1, 0.3, 0.025, 0.31, 1.09, 1, 298, 1356};
+  MechanicalThreshold threshold;
+  threshold.athermal = threshold.sigmaI = 0.05;
+  threshold.shearModulus = 3.2;
+  threshold.boltzmann = 3e-4;
+  threshold.energyI = threshold.energyE = 1.6;
+  threshold.rateI = threshold.rateE = threshold.rateSaturated = 1e7;
+  threshold.pI = threshold.pE = 2.0 / 3.0;
+  threshold.qI = threshold.qE = 1;
+  threshold.a0 = 0.6;
+  threshold.a1 = 0.01;
+  threshold.a2 = 1e-3;
+  threshold.a3 = 3e-4;
+  threshold.alpha = 3;
+  threshold.energySaturated = 0.5;
+  threshold.sigmaSaturated = 0.3;
+  const PrestonTonksWallace tonks{0.1, 2, 0.03, 0.01, 0.3, 1e-5, 0.02, 0.006, 0.05, 0.5, 0.25, 60};
+  const SteinbergCochranGuinan saturating{3, 0.1, 0.15, 30, 0.4, 0};
+  const SteinbergCochranGuinan lund{3, 0.1, 0.15, 30, 0.4, 0, 1e6, 1e-5, 0.31, 8.617e-5, 0.1};
+  const ZerilliArmstrong crystal{0.1, 0.1, 0.3, 0.1, 0.5, 3e-3, 1e-4, 5e-3, 3e-4};
+  return {IsotropicHardening{0.2, 0.5}, soft, threshold, tonks, saturating, lund, crystal};
+}
+inline TransIsoHyper ligament() {
+  TransIsoHyper model;
+  model.bulkModulus = 7;
+  model.c1 = 1;
+  model.c2 = 0.5;
+  model.c3 = 0.4;
+  model.c4 = 3;
+  model.c5 = 5;
+  model.straight = 1.05;
+  model.fibre = {2, 1, 2};
+  return model;
+}
+inline MohrCoulomb mohrCoulomb(double friction, double dilation) {
+  auto model = withModuli<MohrCoulomb>();
+  model.cohesion = 0.1;
+  model.frictionAngle = friction;
+  model.dilationAngle = dilation;
+  return model;
+}
+/// Copper of Johnson & Cook, Proc. 7th Int. Symp. on Ballistics (1983), table 1.
+inline JohnsonCook copper() {
+  JohnsonCook model;
+  model.a = 90e6;
+  model.b = 292e6;
+  model.n = 0.31;
+  model.c = 0.025;
+  model.m = 1.09;
+  model.roomTemperature = 298;
+  model.meltTemperature = 1356;
+  return model;
+}
+
+}  // namespace tushar::mpm::solid::testing

@@ -1,0 +1,274 @@
+#include <gtest/gtest.h>
+
+#include "components/mpm/solid/contact/friction.hpp"
+#include "components/mpm/solid/constitutive/all.hpp"
+#include "components/mpm/shapes/tensor_shape.hpp"
+#include "components/mpm/solid/explicit/tasks/exchange_momentum.hpp"
+#include "components/mpm/solid/explicit/tasks/friction.hpp"
+
+// What contacts do at single nodes, on plain fields.
+
+namespace tushar::mpm::solid {
+namespace {
+
+// Sums of a few numbers of order 1.
+constexpr double roundOff = 1e-14;
+
+TEST(Rubbing, LeavesBodiesThatPartAlone) {
+  EXPECT_EQ(rubbing<2>({{0, 1}, {1, -1}, false}, 0.5).change.norm(), 0);
+}
+
+TEST(Rubbing, StopsWhatIsSlowerThanItHolds) {
+  const Rubbing<2> rubbed = rubbing<2>({{0, 1}, {0.2, 1}, false}, 0.5);
+  EXPECT_LT((rubbed.change + Vec<2>(0.2, 1)).norm(), roundOff) << "mu |v_n| = .5 is more than the slip of .2";
+  EXPECT_EQ(rubbed.heat, 0) << "what sticks does not rub";
+}
+
+TEST(Rubbing, SlowsFasterSlipByMuTimesTheApproach) {
+  const Rubbing<2> rubbed = rubbing<2>({{0, 1}, {2, 1}, false}, 0.5);
+  EXPECT_LT((rubbed.change - Vec<2>(-0.5, -1)).norm(), roundOff);
+  EXPECT_NEAR(rubbed.heat, 0.5 * 1.5, roundOff) << "the impulse of friction times the slip that it leaves";
+}
+
+TEST(Rubbing, HoldsPressedBodiesTogether) {
+  EXPECT_LT((rubbing<2>({{0, 1}, {0, -1}, true}, 0.5).change - Vec<2>(0, 1)).norm(), roundOff);
+}
+
+/// Two bodies at the only inner node of a grid: one above, one below, of unit mass each.
+struct TwoBodies {
+  static grid::Domain domain() {
+    grid::Domain domain;
+    domain.upper = {2, 2, 0};
+    domain.resolution = {{2, 2, 0}};
+    return domain;
+  }
+  explicit TwoBodies(const grid::Domain& domain = TwoBodies::domain()) : level(domain) {
+    for (auto* all : {&records[0], &records[1]}) all->assign(nodes.size(), NodeRecord{});
+    for (int m : {0, 1}) {
+      const auto k = static_cast<std::size_t>(m);
+      massGradient[k].assign(nodes.size(), Vec<2>::Zero());
+      position[k].assign(nodes.size(), Vec<2>::Zero());
+      stress[k].assign(nodes.size(), Matrix3::Zero());
+      volume[k].assign(nodes.size(), 0.0);
+      at(records[k])[lane::mass] = 1;
+      at(massGradient[k]) = Vec<2>(0, m == 0 ? -2 : 1);
+      at(position[k]) = Vec<2>(1, m == 0 ? 1.25 : 0.75);
+      at(volume[k]) = 0.3;
+    }
+    contact.type = Contact::Type::friction;
+    contact.separationFactor = 1;
+  }
+  template <class T>
+  T& at(std::vector<T>& field) const {
+    return field[nodes.offset(Index3{{1, 1, 0}})];
+  }
+  void move(int body, const Vec<2>& v) { setLanes<2>(at(records[static_cast<std::size_t>(body)]), lane::velocity, v); }
+  Vec<2> velocity(int body) { return lanes<2>(at(records[static_cast<std::size_t>(body)]), lane::velocity); }
+  Records views() {
+    Records all;
+    for (auto& one : records) all.emplace_back(one.data(), nodes);
+    return all;
+  }
+  void rub() {
+    Records views;
+    std::vector<NodeView<const Vec<2>>> gradients, positions;
+    std::vector<NodeView<const Matrix3>> stresses;
+    std::vector<NodeView<const double>> volumes;
+    for (const std::size_t m : {std::size_t{0}, std::size_t{1}}) {
+      views.emplace_back(records[m].data(), nodes);
+      gradients.emplace_back(massGradient[m].data(), nodes);
+      positions.emplace_back(position[m].data(), nodes);
+      stresses.emplace_back(stress[m].data(), nodes);
+      volumes.emplace_back(volume[m].data(), nodes);
+    }
+    solid::rub<2>(level.patches().front(), contact, 1e-3, views, {gradients, positions, stresses, volumes}, {});
+  }
+
+  Level level;
+  Box nodes = level.nodes();
+  Contact contact;
+  std::array<std::vector<NodeRecord>, 2> records;
+  std::array<std::vector<Vec<2>>, 2> massGradient, position;
+  std::array<std::vector<Matrix3>, 2> stress;
+  std::array<std::vector<double>, 2> volume;
+};
+
+TEST(SingleVelocity, ActsAtTheStartOfAStepUnlessItIsToldToActOnce) {
+  TwoBodies bodies;
+  bodies.contact.type = Contact::Type::singleVelocity;
+  bodies.move(0, {0, -1});
+  bodies.contact.actsTwice = false;
+  exMomInterpolated<2>(bodies.level.patches().front(), {}, {bodies.contact}, 0, bodies.views());
+  EXPECT_EQ(bodies.velocity(0), Vec<2>(0, -1));
+  bodies.contact.actsTwice = true;
+  exMomInterpolated<2>(bodies.level.patches().front(), {}, {bodies.contact}, 0, bodies.views());
+  EXPECT_EQ(bodies.velocity(0), Vec<2>(0, -0.5));
+  EXPECT_EQ(bodies.velocity(1), Vec<2>(0, -0.5));
+}
+
+TEST(SingleVelocity, DoesNotActWhereAMaterialExcludesIt) {
+  TwoBodies bodies;
+  bodies.contact.type = Contact::Type::singleVelocity;
+  bodies.contact.excluded = 1;
+  bodies.move(0, {0, -1});
+  exMomInterpolated<2>(bodies.level.patches().front(), {}, {bodies.contact}, 0, bodies.views());
+  EXPECT_EQ(bodies.velocity(0), Vec<2>(0, -1));
+}
+
+TEST(Friction, LetsBodiesNeitherPassNorLoseMomentum) {
+  TwoBodies bodies;
+  bodies.contact.friction = 0.25;
+  bodies.move(0, {3, -1});
+  bodies.move(1, {1, 1});
+  bodies.rub();
+  EXPECT_LT((bodies.velocity(0) - Vec<2>(2.75, 0)).norm(), roundOff);
+  EXPECT_LT((bodies.velocity(1) - Vec<2>(1.25, 0)).norm(), roundOff);
+}
+
+TEST(Friction, TakesTheNormalOfTheBodyWhoseMassChangesMostToKeepMomentum) {
+  TwoBodies bodies;
+  bodies.contact.keepsMomentum = true;
+  bodies.at(bodies.massGradient[1]) = Vec<2>(0.5, 0.5);  // the corner of the other
+  bodies.move(0, {1, -1});
+  bodies.rub();
+  EXPECT_LT((bodies.velocity(0) - Vec<2>(1, -0.5)).norm(), roundOff) << "without friction nothing changes along it";
+}
+
+TEST(Friction, TakesHalfTheDifferenceOfMassGradientsForANormal) {
+  TwoBodies bodies;
+  bodies.at(bodies.massGradient[1]) = Vec<2>(2, 2);  // of (0, -2) and this: (-1, -2)
+  bodies.move(0, {0, -1});
+  bodies.rub();
+  EXPECT_LT((bodies.velocity(0) - Vec<2>(0.2, -0.6)).norm(), roundOff);
+  EXPECT_LT((bodies.velocity(1) - Vec<2>(-0.2, -0.4)).norm(), roundOff);
+}
+
+TEST(Friction, TakesNormalsPerCellWhereItIsToldTo) {
+  grid::Domain domain = TwoBodies::domain();
+  domain.upper = {2, 6, 0};  // cells of 1 by 3 m
+  TwoBodies bodies(domain);
+  bodies.contact.normalsInCells = true;
+  bodies.at(bodies.massGradient[0]) = Vec<2>(-3, -1);
+  bodies.at(bodies.massGradient[1]) = Vec<2>(3, 1);
+  bodies.move(0, {-1, -1});
+  bodies.rub();
+  EXPECT_LT((bodies.velocity(0) - Vec<2>(-0.5, -0.5)).norm(), roundOff) << "straight through";
+}
+
+TEST(Friction, HoldsABodyThatIsPressedAloneUnlessItKeepsMomentum) {
+  for (const bool keepsMomentum : {false, true}) {
+    TwoBodies bodies;
+    bodies.contact.keepsMomentum = keepsMomentum;
+    bodies.move(0, {0, 1});
+    bodies.at(bodies.stress[0])(1, 1) = -1;
+    bodies.rub();
+    EXPECT_LT((bodies.velocity(0) - Vec<2>(0, keepsMomentum ? 1 : 0.5)).norm(), roundOff);
+    EXPECT_LT(bodies.velocity(1).norm(), roundOff);
+  }
+}
+
+TEST(Friction, LetsBodiesPartUnlessTheyArePressed) {
+  TwoBodies bodies;
+  bodies.move(0, {0, 1});
+  bodies.rub();
+  EXPECT_EQ(bodies.velocity(0), Vec<2>(0, 1));
+  for (const int m : {0, 1}) bodies.at(bodies.stress[static_cast<std::size_t>(m)])(1, 1) = -1;
+  bodies.rub();
+  EXPECT_LT((bodies.velocity(0) - Vec<2>(0, 0.5)).norm(), roundOff);
+}
+
+TEST(Friction, LetsPressedBodiesPartWhereOnlyApproachCounts) {
+  TwoBodies bodies;
+  bodies.contact.onlyOnApproach = true;
+  for (const int m : {0, 1}) bodies.at(bodies.stress[static_cast<std::size_t>(m)])(1, 1) = -1;
+  bodies.move(0, {0, 1});
+  bodies.rub();
+  EXPECT_EQ(bodies.velocity(0), Vec<2>(0, 1));
+}
+
+TEST(Friction, DoesNotActBetweenBodiesThatAreFarApart) {
+  TwoBodies bodies;
+  bodies.contact.separationFactor = 0.4;  // of a cell of 1 m; the bodies are 0.5 m apart
+  bodies.move(0, {0, -1});
+  bodies.rub();
+  EXPECT_EQ(bodies.velocity(0), Vec<2>(0, -1));
+}
+
+TEST(Friction, DoesNotActWhereTheVolumeIsNotFilled) {
+  TwoBodies bodies;
+  bodies.contact.volumeConstraint = 0.7;  // 0.6 of the cell are filled
+  bodies.move(0, {0, -1});
+  bodies.rub();
+  EXPECT_EQ(bodies.velocity(0), Vec<2>(0, -1));
+}
+
+TEST(Surface, PointsOutOfTheBody) {
+  const Level level(TwoBodies::domain());
+  data::ParticleSet set;
+  set.reset(level.patches().front(), LinearShape<2>::reach);
+  set.at(Index3{{0, 0, 0}}) = {0, 1};
+  set.setOwned(1);
+  const std::vector<Vec<2>> x{{0.5, 0.25}};
+  const std::vector<double> mass{3};
+  const std::vector<Matrix3> deformation{Matrix3::Identity()}, stress{Matrix3::Identity()};
+  Material material;
+  material.density = 2;
+  std::vector<Vec<2>> gradient(level.nodes().size()), position(level.nodes().size());
+  std::vector<Matrix3> nodalStress(level.nodes().size());
+  std::vector<double> volume(level.nodes().size());
+  const Box nodes = level.nodes(), cells = level.cells();
+  computeSurface<LinearShape<2>>(level.patches().front(), material, Vec3::Ones(), {x.data(), set, cells}, {},
+                                 {mass.data(), set, cells}, {deformation.data(), set, cells},
+                                 ParticleView<const Matrix3>{stress.data(), set, cells}, {gradient.data(), nodes},
+                                 {position.data(), nodes}, {nodalStress.data(), nodes}, {volume.data(), nodes});
+  const std::size_t corner = nodes.offset(Index3{{1, 1, 0}});
+  EXPECT_LT((gradient[corner] - Vec<2>(3 * 0.25, 3 * 0.5)).norm(), roundOff);
+  EXPECT_NEAR(volume[corner], 1.5 * 0.5 * 0.25, roundOff);
+}
+
+TEST(Specified, MovesTheOthersAlongItsDirectionsOnly) {
+  TwoBodies bodies;
+  bodies.contact.type = Contact::Type::specified;
+  bodies.contact.direction = {false, true, false};
+  bodies.move(0, {5, -1});
+  bodies.move(1, {1, 0});
+  const Records views{{bodies.records[0].data(), bodies.nodes}, {bodies.records[1].data(), bodies.nodes}};
+  followMaster<2>(bodies.level.patches().front(), bodies.contact, 0, views);
+  EXPECT_EQ(bodies.velocity(1), Vec<2>(1, -1));
+  EXPECT_EQ(bodies.velocity(0), Vec<2>(5, -1));
+}
+
+TEST(Specified, MovesNothingWhereTheExcludedMaterialIs) {
+  TwoBodies bodies;
+  bodies.contact.type = Contact::Type::specified;
+  bodies.contact.direction = {true, true, true};
+  bodies.contact.excluded = 1;
+  bodies.move(0, {5, -1});
+  const Records views{{bodies.records[0].data(), bodies.nodes}, {bodies.records[1].data(), bodies.nodes}};
+  followMaster<2>(bodies.level.patches().front(), bodies.contact, 0, views);
+  EXPECT_EQ(bodies.velocity(1), Vec<2>(0, 0));
+}
+
+TEST(Specified, FeelsTheForceThatItHoldsTheOthersWith) {
+  TwoBodies bodies;
+  bodies.contact.type = Contact::Type::specified;
+  bodies.move(1, {0, 0.02});  // what a force of 20 N and gravity make of rest in a millisecond
+  const Records views{{bodies.records[0].data(), bodies.nodes}, {bodies.records[1].data(), bodies.nodes}};
+  VectorSum reaction;
+  sumReaction<2>(bodies.level.patches().front(), bodies.contact, {Vec3(0, 5, 0), 0}, 1e-3, views, reaction);
+  EXPECT_NEAR(reaction.y.total(), -15, 1e-12);
+}
+
+TEST(Specified, GoesThroughItsProfileAndThenStops) {
+  Contact contact;
+  contact.profile = {{1, Vec3(0, 0, 0)}, {3, Vec3(4, 0, 0)}};
+  contact.stopTime = 5;
+  contact.velocityAfterStop = Vec3(0, 7, 0);
+  EXPECT_EQ(contact.prescribedVelocity(0)->x(), 0);
+  EXPECT_EQ(contact.prescribedVelocity(2)->x(), 2);
+  EXPECT_EQ(contact.prescribedVelocity(4)->x(), 4);
+  EXPECT_EQ(contact.prescribedVelocity(6)->y(), 7);
+}
+
+}  // namespace
+}  // namespace tushar::mpm::solid

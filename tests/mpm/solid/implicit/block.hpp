@@ -1,0 +1,175 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "components/mpm/solid/implicit/conduct_heat.hpp"
+#include "tests/mpm/solid/constitutive/example_models.hpp"
+#include "tests/support/levels.hpp"
+
+// Plain particles, and the equations of an implicit step on them.
+
+namespace tushar::mpm::solid::implicit::testing {
+
+using namespace solid::testing;
+
+inline CompNeoHook rubber() { return withModuli<CompNeoHook>(8e5, 2e5); }
+inline CompMooneyRivlin mooneyRivlin() { return compMooneyRivlin(1e5, 2e4, 0.4); }
+
+template <class M>
+std::shared_ptr<const Model> modelOf(const M& model) {
+  return std::make_shared<ModelOf<M>>(model);
+}
+
+/// A grid of unit cells, two more than `filled` along each axis that has any, between symmetry planes.
+inline grid::Domain domainAround(const Index3& filled) {
+  grid::Domain domain;
+  domain.upper = Vec3::Zero();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (filled[axis] == 0) continue;
+    domain.resolution[axis] = filled[axis] + 2;
+    domain.upper[axis] = filled[axis] + 2;
+    for (const int side : {0, 1}) domain.boundaries.face(axis, side).push_back({"Symmetric", "symmetry", Vec3::Zero()});
+  }
+  domain.nodesBeyond = 1;
+  return domain;
+}
+
+/// A block of particles, two along each axis of a cell, on a grid of unit cells between symmetry planes.
+template <class Shape>
+class Block {
+ public:
+  static constexpr int D = Shape::dimension;
+
+  /// Fills the `filled` cells next to the lower corner. `stretched` > 1 pulls the block apart before the step.
+  Block(std::shared_ptr<const Model> model, const Index3& filled, double stretched = 1)
+      : level_(domainAround(restricted(filled))), state_size_(std::max(1, model->stateSize())) {
+    material_.density = 1000;
+    material_.model = std::move(model);
+    const Patch& patch = level_.patches().front();
+    set_.reset(patch, 0);
+    forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+      const int first = static_cast<int>(x_.size());
+      Box places{{}, Index3::filled(1)};
+      for (int d = 0; d < D; ++d) {
+        if (cell[d] >= filled[d]) return;
+        places.upper[d] = 2;
+      }
+      forEach<D>(places, [&](const Index<D>& k) {
+        Vec<D> at;
+        for (int d = 0; d < D; ++d) at[d] = cell[d] + 0.25 + 0.5 * k[d];
+        add(at, stretched);
+      });
+      set_.at(cell) = {first, static_cast<int>(x_.size())};
+    });
+    set_.setOwned(static_cast<int>(x_.size()));
+  }
+
+  Method method;
+  bool sharesVolume = false, resetsGrid = true;
+  std::vector<Vec<D>>& x() { return x_; }
+  std::vector<Vec<D>>& force() { return force_; }
+  std::vector<Vec<D>>& velocity() { return velocity_; }
+  const Level& level() const { return level_; }
+  /// Takes out the last particles, of one cell.
+  void removeLast(int count) {
+    x_.resize(x_.size() - static_cast<std::size_t>(count));
+    const Index<D> cell = level_.template cellOf<D>(x_.back());
+    set_.at(cell).last -= count;
+    set_.setOwned(static_cast<int>(x_.size()));
+  }
+
+  std::vector<double>& temperature() { return temperature_; }
+  /// Of the grid where the particle at x is, after a step of heat conduction: k = 1 W/(m K), c = 1 J/(kg K).
+  double temperatureAfter(double dt, const Vec<D>& x) {
+    std::vector<Material> materials{material_};
+    materials[0].thermalConductivity = materials[0].specificHeat = 1;
+    const Patch& patch = level_.patches().front();
+    const auto view = [&](auto& values) {
+      using T = std::decay_t<decltype(values[0])>;
+      return ParticleViews<const T>{{ParticleView<const T>(values.data(), set_, patch.cells())}};
+    };
+    const auto places = view(x_), velocities = view(velocity_);
+    const auto masses = view(mass_), temperatures = view(temperature_);
+    const auto deformations = view(deformation_);
+    const SolidViews<D> views{places,       velocities,  velocities, velocities, velocities, masses,
+                              temperatures, masses,      deformations, deformations};
+    const RankPatches patches{&patch};
+    NodalHeat<Shape> heat(patches, materials, mpi::Communicator::alone(), Vec3(0.5, 0.5, 0.5), views, resetsGrid);
+    EXPECT_TRUE(heat.solve(dt, {"preonly", "lu", 1e-12, 1, ""}).converged);
+    for (std::size_t p = 0; p < x_.size(); ++p) {
+      if (x_[p] != x) continue;
+      const typename Shape::Stencil stencil(level_, level_.template cellOf<D>(x), x, Extent<D>{});
+      double after = 0;
+      stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>&) { after += s * heat.temperature(node); });
+      return after;
+    }
+    return 0;
+  }
+
+  ImplicitSystem<Shape> system(bool dynamic, double dt = 0.01) {
+    PointGroup group;
+    group.material = &material_;
+    group.count = static_cast<int>(x_.size());
+    group.mass = mass_.data();
+    group.temperature = temperature_.data();
+    group.oldDeformation = deformation_.data();
+    group.oldStress = stress_.data();
+    group.oldState = state_.data();
+    const Patch& patch = level_.patches().front();
+    const ParticleView<const Vec<D>> places(x_.data(), set_, patch.cells());
+    const Extents<Shape> extents(level_, Vec3(0.5, 0.5, 0.5), std::nullopt, std::nullopt);
+    ImplicitMethod how;
+    how.dynamic = dynamic;
+    how.sharesVolume = sharesVolume;
+    how.resetsGrid = resetsGrid;
+    return ImplicitSystem<Shape>({&patch}, mpi::Communicator::alone(), method, how, dt, state_size_,
+                                 {{group, &patch, extents, places, velocity_.data(), acceleration_.data(), force_.data()}});
+  }
+
+ private:
+  static Index3 restricted(const Index3& filled) {
+    Index3 cells;
+    for (int d = 0; d < D; ++d) cells[d] = filled[d];
+    return cells;
+  }
+  void add(const Vec<D>& at, double stretched) {
+    x_.push_back(at);
+    velocity_.push_back(Vec<D>::Zero());
+    acceleration_.push_back(Vec<D>::Zero());
+    force_.push_back(Vec<D>::Zero());
+    mass_.push_back(material_.density * std::pow(0.5, D));
+    temperature_.push_back(300);
+    deformation_.push_back(Matrix3::Identity());
+    deformation_.back()(0, 0) = stretched;
+    stress_.push_back(Matrix3::Zero());
+    state_.resize(state_.size() + static_cast<std::size_t>(state_size_));
+    material_.model->initialize(&state_[state_.size() - static_cast<std::size_t>(state_size_)]);
+  }
+
+  Level level_;
+  int state_size_;
+  Material material_;
+  data::ParticleSet set_;
+  std::vector<Vec<D>> x_, velocity_, acceleration_, force_;
+  std::vector<double> mass_, temperature_, state_;
+  std::vector<Matrix3> deformation_, stress_;
+};
+
+/// Newton's method with linear systems that are solved exactly.
+inline solvers::NewtonSettings direct() {
+  solvers::NewtonSettings settings;
+  settings.linear = {"preonly", "lu", 1e-12, 1, ""};
+  return settings;
+}
+
+/// The nodes of the block's lower end do not move.
+template <class Shape>
+void clamp(ImplicitSystem<Shape>& system) {
+  for (int k = 0; k < system.nodes().size(); ++k)
+    if (system.nodes().node(k)[0] <= 0)
+      for (int d = 0; d < Shape::dimension; ++d) system.prescribe(k, d, 0);
+}
+
+}  // namespace tushar::mpm::solid::implicit::testing
