@@ -75,8 +75,7 @@ void reportUnknown(const CLI::App& app, const std::vector<std::string>& words, c
     fmt::print(stderr, "sus: unknown option '{}'{}; sus -h lists the options\n", word, didYouMean(full, names));
     options = true;
   }
-  if (!options)
-    fmt::print(stderr, "sus: runs one scene at a time: found '{}' after '{}'\n", unknown.front(), scene);
+  if (!options) fmt::print(stderr, "sus: runs one scene at a time: found '{}' after '{}'\n", unknown.front(), scene);
 }
 
 void setThreads(int count, grid::Workers& workers) {
@@ -87,8 +86,8 @@ void setThreads(int count, grid::Workers& workers) {
 void setLayout(const std::string& text, grid::Workers& workers) {
   workers.layout = grid::parseLayout(text);
   if (!workers.layout)
-    throw CLI::ValidationError(fmt::format(
-        "--layout: found '{}', expected AxBxC, the patches along x, y and z, such as 4x2x1", text));
+    throw CLI::ValidationError(
+        fmt::format("--layout: found '{}', expected AxBxC, the patches along x, y and z, such as 4x2x1", text));
 }
 
 void declare(CLI::App& app, Arguments& arguments) {
@@ -97,16 +96,19 @@ void declare(CLI::App& app, Arguments& arguments) {
       "            4 a value became impossible during the run, 5 interrupted (output written)");
   app.add_option("scene", arguments.scene, "the scene to run (.ups), or with --restart the folder of a run (.uda)");
   CLI::Option* restart = app.add_flag("--restart", arguments.restart,
-                                     "go on with the run of a .uda, in that folder, from its last whole checkpoint");
+                                      "go on with the run of a .uda, in that folder, from its last whole checkpoint");
   app.add_option("-t", arguments.checkpoint, "with --restart: from the checkpoint of this step; later ones are removed")
       ->needs(restart);
-  app.add_option("--set", arguments.overrides, "override a value of the scene: PATH=VALUE, e.g.\n"
-                                               "Grid/Level/Box/resolution=[200,1,1]; may be repeated")
+  app.add_option("--set", arguments.overrides,
+                 "override a value of the scene: PATH=VALUE, e.g.\n"
+                 "Grid/Level/Box/resolution=[200,1,1]; may be repeated")
       ->allow_extra_args(false);
-  app.add_option_function<std::string>("--layout", [&](const std::string& text) { setLayout(text, arguments.workers); },
-                                       "patches along x, y, z, in place of those of the scene: AxBxC, such as 4x2x1");
-  app.add_option_function<int>("--nthreads", [&](int count) { setThreads(count, arguments.workers); },
-                               "threads to run on; without it as many as there are cores for and as pay")
+  app.add_option_function<std::string>(
+      "--layout", [&](const std::string& text) { setLayout(text, arguments.workers); },
+      "patches along x, y, z, in place of those of the scene: AxBxC, such as 4x2x1");
+  app.add_option_function<int>(
+         "--nthreads", [&](int count) { setThreads(count, arguments.workers); },
+         "threads to run on; without it as many as there are cores for and as pay")
       ->check(CLI::Range(1, 1024));
   app.add_option("--trace", arguments.trace,
                  "write what each thread did when to a file, for ui.perfetto.dev or chrome://tracing");
@@ -118,7 +120,8 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.add_option("--dry-run", arguments.dryRun,
                  "compile what one of so many ranks would do, and say what that takes; run nothing")
       ->check(CLI::Range(1, 10'000'000));
-  app.add_flag("--schedule", arguments.schedule, "print the tasks in order, what they read and write, what is left out");
+  app.add_flag("--schedule", arguments.schedule,
+               "print the tasks in order, what they read and write, what is left out");
   app.add_option("--graph", arguments.graph, "write the tasks of a step to a file, for Graphviz (dot)");
   app.add_flag("--list", arguments.list, "list components, analysis modules and shapes");
   app.add_option("--describe", arguments.describe, "the manual of a component, a module, or 'scene'");
@@ -182,7 +185,8 @@ simulation::Problem readProblem(const Arguments& arguments, const simulation::Ca
   const grid::Workers workers{first.threads, first.mayBeFewer, ranks.size(), first.layout};
   if (!arguments.restart) return simulation::readScene(arguments.scene, arguments.overrides, known, workers, share);
   const simulation::Restart restart = findRestart(arguments, ranks);
-  simulation::Problem problem = simulation::readScene(restart.scene().string(), arguments.overrides, known, workers, share);
+  simulation::Problem problem =
+      simulation::readScene(restart.scene().string(), arguments.overrides, known, workers, share);
   problem.restart = restart;
   return problem;
 }
@@ -190,7 +194,8 @@ simulation::Problem readProblem(const Arguments& arguments, const simulation::Ca
 /// The first rank writes what all have recorded.
 void writeTrace(const std::string& path, const mpi::Communicator& ranks) {
   std::string all;
-  for (const std::string& events : ranks.gather(trace::events(ranks.rank()))) all += (all.empty() ? "" : ",\n") + events;
+  for (const std::string& events : ranks.gather(trace::events(ranks.rank())))
+    all += (all.empty() ? "" : ",\n") + events;
   ranks.onFirst([&] { writeFile(path, trace::fileOf(all)); });
 }
 
@@ -268,8 +273,9 @@ ExitCode dispatch(const Arguments& arguments, const simulation::Catalogue& known
   }
   if (!arguments.describe.empty()) return describe(arguments.describe, known);
   if (arguments.scene.empty()) {
-    fmt::print(stderr, "sus: no scene given; sus scene.ups runs one, sus -restart x.uda goes on with one, sus -h lists "
-                       "the options\n");
+    fmt::print(stderr,
+               "sus: no scene given; sus scene.ups runs one, sus -restart x.uda goes on with one, sus -h lists "
+               "the options\n");
     return ExitCode::badCommandLine;
   }
   if (!arguments.restart && std::filesystem::is_directory(arguments.scene + "/checkpoints"))
@@ -310,8 +316,8 @@ Failure failureOf(const std::exception_ptr& thrown) {
   }
 }
 
-/// What a task takes for its work and gives back stays with the process for the next step: else the system clears the same
-/// pages anew in every step.
+/// What a task takes for its work and gives back stays with the process for the next step: else the system clears the
+/// same pages anew in every step.
 void keepMemory() {
   constexpr int mebibyte = 1 << 20;
   mallopt(M_MMAP_THRESHOLD, 32 * mebibyte);

@@ -105,7 +105,8 @@ void computeStableTimeStep(const Patch& patch, const Settings& settings, CellVie
     across += perSpacing;
     spread += 2 * settings.viscosity * perSpacing * perSpacing;
   }
-  forEach<D>(patch.cells(), [&](const Index<D>& cell) { dt.add(settings.cfl / (std::abs(u[cell]) * across + spread)); });
+  forEach<D>(patch.cells(),
+             [&](const Index<D>& cell) { dt.add(settings.cfl / (std::abs(u[cell]) * across + spread)); });
 }
 
 template <int D>
@@ -122,8 +123,7 @@ void correct(const Patch& patch, const Settings& settings, CellView<const double
              double dt, CellView<double> newU) {
   const Slope slope = slopeOf(settings.limiter);
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    newU[cell] =
-        0.5 * (u[cell] + predicted[cell] + dt * rateOfChange<D>(patch, settings, slope, predicted, cell));
+    newU[cell] = 0.5 * (u[cell] + predicted[cell] + dt * rateOfChange<D>(patch, settings, slope, predicted, cell));
   });
 }
 
@@ -153,8 +153,8 @@ const input::Schema<Settings>& schema() {
 }  // namespace
 
 simulation::ComponentKind kind() {
-  return simulation::kindWithSection<Burgers>("burgers", "Burgers' equation by finite volumes",
-                                              schema(), {{"Velocity"}, {"Symmetric"}});
+  return simulation::kindWithSection<Burgers>("burgers", "Burgers' equation by finite volumes", schema(),
+                                              {{"Velocity"}, {"Symmetric"}});
 }
 
 template class Burgers<1>;

@@ -18,9 +18,9 @@ using Slope = double (*)(double, double);
 
 /// The `Burgers` section.
 struct Settings {
-  double viscosity = 0;       ///< nu, m²/s
-  double cfl = 0.5;           ///< part of 1 / (sum_d |u| / h_d + 2 nu / h_d²)
-  int limiter = 2;            ///< an index of slopeOf
+  double viscosity = 0;             ///< nu, m²/s
+  double cfl = 0.5;                 ///< part of 1 / (sum_d |u| / h_d + 2 nu / h_d²)
+  int limiter = 2;                  ///< an index of slopeOf
   input::Expression velocity{0.0};  ///< u at the start, m/s
 };
 

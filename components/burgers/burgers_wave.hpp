@@ -22,9 +22,9 @@ struct BurgersProblem {
 ///   Phi = -2 nu ln of (4 pi nu t)^(-1/2) integral exp(-(U(y) + (x-y)²/2t) / 2 nu) dy           nu > 0
 /// so that a mean of u is a difference of Phi. U is tabulated at 8193 places, between them it is integrated by
 /// Gauss-Legendre; the integral is a sum over these places. Exact to about 1e-12 where the profile is smooth; a jump
-/// of the profile is placed to within 1/8192 of its extent, and where it stands at one of these places u is good to 1e-6.
-/// Sources: E. Hopf, Comm. Pure Appl. Math. 3 (1950) 201; J. D. Cole, Quart. Appl. Math. 9 (1951) 225; P. D. Lax, Comm.
-/// Pure Appl. Math. 10 (1957) 537.
+/// of the profile is placed to within 1/8192 of its extent, and where it stands at one of these places u is good to
+/// 1e-6. Sources: E. Hopf, Comm. Pure Appl. Math. 3 (1950) 201; J. D. Cole, Quart. Appl. Math. 9 (1951) 225; P. D. Lax,
+/// Comm. Pure Appl. Math. 10 (1957) 537.
 class BurgersWave {
  public:
   /// Throws std::invalid_argument where nu < 0, upper <= lower or the profile is not finite.
@@ -55,9 +55,9 @@ class BurgersWave {
   long nodeBelow(double y) const;
 
   BurgersProblem problem_;
-  double step_ = 0;                ///< m
+  double step_ = 0;                  ///< m
   double least_ = 0, greatest_ = 0;  ///< u of the profile, m/s
-  std::vector<double> integrals_;  ///< U at the places of the table, m²/s
+  std::vector<double> integrals_;    ///< U at the places of the table, m²/s
 };
 
 /// `burgersWave`: errors of the component burgers, in one dimension, against the exact solution of the scene.

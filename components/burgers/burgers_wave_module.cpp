@@ -35,7 +35,8 @@ class WaveError : public simulation::Analysis {
   void setTime(double, double sinceStart) override { exact_.time = sinceStart; }
   std::vector<MeasuredError> errors() const override { return {{"u", "cell", &waveError, {"L1", "L2", "max"}}}; }
   std::string whyUnmeasured() const override {
-    return exact_.wave.holdsAt(exact_.time) ? "" : fmt::format("'burgersWave' has no solution at t = {:g} s", exact_.time);
+    return exact_.wave.holdsAt(exact_.time) ? ""
+                                            : fmt::format("'burgersWave' has no solution at t = {:g} s", exact_.time);
   }
   std::vector<output::Array> exactProfile(const Level& level) const override;
 
@@ -82,9 +83,10 @@ struct Settings {
 };
 const input::Schema<Settings>& schema() {
   static const input::Schema<Settings> schema =
-      input::Schema<Settings>("Module",
-                              "Errors of the component burgers against the exact solution that follows from <Burgers>, in "
-                              "one dimension.")
+      input::Schema<Settings>(
+          "Module",
+          "Errors of the component burgers against the exact solution that follows from <Burgers>, in "
+          "one dimension.")
           .requiredAttribute("name", &Settings::name, "1", "burgersWave");
   return schema;
 }

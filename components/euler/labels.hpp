@@ -23,7 +23,8 @@ inline constexpr ReductionLabel<VectorSum> momentum{"TotalMomentum", "kg m/s", "
 inline constexpr ReductionLabel<Sum> energy{"TotalEnergy", "J", "internal and kinetic energy in all cells"};
 inline constexpr ReductionLabel<Sum> kineticEnergy{"KineticEnergy", "J", "kinetic energy of all cells"};
 inline constexpr ReductionLabel<Minimum> leastDensity{"LeastDensity", "kg/m^3", "least density of any cell"};
-inline constexpr ReductionLabel<Minimum> leastEnergy{"LeastInternalEnergy", "J/kg", "least internal energy of any cell"};
+inline constexpr ReductionLabel<Minimum> leastEnergy{"LeastInternalEnergy", "J/kg",
+                                                     "least internal energy of any cell"};
 inline constexpr ReductionLabel<Sum> entropy{"TotalEntropy", "kg", "entropy of all cells over c_v, but for a constant"};
 }  // namespace total
 

@@ -34,12 +34,14 @@ void conductImplicitly(const RankPatches& patches, const mpi::Communicator& rank
   const solvers::Outcome outcome =
       solvers::solver().solve(poisson::cellUnknowns<D>(number, ranks), {assemble, right}, settings.solver, x);
   if (!outcome.converged)
-    throw NumericalError(solvers::sentenceOf("the conduction of heat", outcome) +
-                             solvers::worstPlace(ranks, poisson::placeOf<D>(patches, number, outcome.worst), "in the cell"),
-                         "another <preconditioner>, a larger <tolerance> or more <maxiterations> in <Heat>/<Solver>, or a "
-                         "smaller <delt_max>",
-                         "c.temperature");
-  poisson::forEachCell<D>(patches, [&](std::size_t p, const Index<D>& cell) { newTemperature[p][cell] = x[place(cell)]; });
+    throw NumericalError(
+        solvers::sentenceOf("the conduction of heat", outcome) +
+            solvers::worstPlace(ranks, poisson::placeOf<D>(patches, number, outcome.worst), "in the cell"),
+        "another <preconditioner>, a larger <tolerance> or more <maxiterations> in <Heat>/<Solver>, or a "
+        "smaller <delt_max>",
+        "c.temperature");
+  poisson::forEachCell<D>(patches,
+                          [&](std::size_t p, const Index<D>& cell) { newTemperature[p][cell] = x[place(cell)]; });
   iterationsTaken.add(outcome.krylovIterations);
   solvers::addTimes(outcome, assembly, setup, solution);
 }

@@ -15,7 +15,8 @@ void Heat<D>::scheduleInitialize(TaskList& tasks) const {
 template <int D>
 void Heat<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
   if (settings_.theta > 0)
-    tasks.perPatch("heat::allowAnyTimeStep", [](const Patch&, Minimum&) {}, computes(delT));
+    tasks.perPatch(
+        "heat::allowAnyTimeStep", [](const Patch&, Minimum&) {}, computes(delT));
   else
     tasks.perPatch("heat::computeStableTimeStep", computeStableTimeStep<D>, with(settings_), computes(delT));
 }
@@ -23,8 +24,8 @@ void Heat<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
 template <int D>
 void Heat<D>::scheduleTimeAdvance(TaskList& tasks) const {
   if (settings_.theta > 0)
-    tasks.perRank("heat::conductImplicitly", conductImplicitly<D>, togetherOnRanks(), with(settings_), requiresOld(delT),
-                  requiresOld(c::temperature, 1), computes(c::temperature), computes(iterations),
+    tasks.perRank("heat::conductImplicitly", conductImplicitly<D>, togetherOnRanks(), with(settings_),
+                  requiresOld(delT), requiresOld(c::temperature, 1), computes(c::temperature), computes(iterations),
                   computes(solvers::assemblyTime), computes(solvers::preconditionerTime), computes(solvers::solveTime));
   else
     tasks.perPatch("heat::conduct", conduct<D>, with(settings_), requiresOld(c::temperature, 1), requiresOld(delT),
@@ -42,8 +43,9 @@ void initialize(const Patch& patch, const Settings& settings, CellView<double> t
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     const Vec3 middle = level.expandPoint<D>(level.cellCentre<D>(cell));
     const auto refuse = [&](const char* tag, double found, const char* unit, const char* wanted) {
-      throw InputError({{settings.where, tag, fmt::format("it is {:g} {} at ({:g}, {:g}, {:g}), and must be {} everywhere",
-                                                          found, unit, middle[0], middle[1], middle[2], wanted)}});
+      throw InputError({{settings.where, tag,
+                         fmt::format("it is {:g} {} at ({:g}, {:g}, {:g}), and must be {} everywhere", found, unit,
+                                     middle[0], middle[1], middle[2], wanted)}});
     };
     temperature[cell] = settings.temperature(middle);
     if (!std::isfinite(temperature[cell])) refuse("Heat/temperature", temperature[cell], "K", "finite");
@@ -127,14 +129,14 @@ const input::Schema<Settings>& schema() {
   static const input::Schema<Settings> schema =
       input::Schema<Settings>("Heat", "Heat conduction.")
           .location(&Settings::where)
-          .value("thermal_conductivity", &Settings::conductivity, input::Expression(1.0), "W/(m K)",
-                 "k", input::WithoutTime(),
-                 input::positive())
+          .value("thermal_conductivity", &Settings::conductivity, input::Expression(1.0), "W/(m K)", "k",
+                 input::WithoutTime(), input::positive())
           .value("density", &Settings::density, 1, "kg/m^3", "rho", input::positive())
           .value("specific_heat", &Settings::specificHeat, 1, "J/(kg K)", "c", input::positive())
           .value("cfl", &Settings::cfl, 0.9, "1", "part of the greatest stable time step", input::positive(),
                  input::atMost(1))
-          .choice("time_integrator", &Settings::theta, {{"explicit", 0}, {"backward_euler", 1}, {"crank_nicolson", 0.5}}, 0,
+          .choice("time_integrator", &Settings::theta,
+                  {{"explicit", 0}, {"backward_euler", 1}, {"crank_nicolson", 0.5}}, 0,
                   "how time advances; the steps of the implicit ones are those of <Time>")
           .section("Solver", &Settings::solver, solvers::linearSchema(), "the linear solves of an implicit one")
           .required("temperature", &Settings::temperature, "K", "T at the start", input::WithoutTime());
@@ -144,7 +146,8 @@ const input::Schema<Settings>& schema() {
 }  // namespace
 
 simulation::ComponentKind kind() {
-  return simulation::kindWithSection<Heat>("heat", "heat conduction, explicit or implicit; the smallest complete component",
+  return simulation::kindWithSection<Heat>("heat",
+                                           "heat conduction, explicit or implicit; the smallest complete component",
                                            schema(), {{"Temperature"}, {"Symmetric"}});
 }
 

@@ -16,14 +16,14 @@ inline constexpr ReductionLabel<Maximum> iterations{"KrylovIterations", "1", "it
 
 /// The `Heat` section.
 struct Settings {
-  Location where;                     ///< in the scene
+  Location where;                       ///< in the scene
   input::Expression conductivity{1.0};  ///< k, W/(m K)
-  double density = 1;                 ///< rho, kg/m³
-  double specificHeat = 1;            ///< c, J/(kg K)
-  double cfl = 0.9;                   ///< part of the greatest stable time step
-  input::Expression temperature{0.0};  ///< at the start, K
-  double theta = 0;                    ///< part of the new temperature in the flux; 0: explicit in time
-  solvers::LinearSettings solver;      ///< where theta is not 0
+  double density = 1;                   ///< rho, kg/m³
+  double specificHeat = 1;              ///< c, J/(kg K)
+  double cfl = 0.9;                     ///< part of the greatest stable time step
+  input::Expression temperature{0.0};   ///< at the start, K
+  double theta = 0;                     ///< part of the new temperature in the flux; 0: explicit in time
+  solvers::LinearSettings solver;       ///< where theta is not 0
 
   double capacity() const { return density * specificHeat; }  ///< rho c, J/(m³ K)
 };

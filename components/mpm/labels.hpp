@@ -29,10 +29,10 @@ template <int D>
 inline constexpr NodeLabel<Vec<D>> internalForce{"g.internalforce", "N", "force of the stresses in the cells around"};
 template <int D>
 inline constexpr NodeLabel<Vec<D>> acceleration{"g.acceleration", "m/s^2",
-                                                  "by the stresses alone: internal force over mass"};
+                                                "by the stresses alone: internal force over mass"};
 template <int D>
 inline constexpr NodeLabel<Vec<D>> velocityStar{"g.velocity_star", "m/s", "velocity at the end of the step",
-                                                  Bound::finite};
+                                                Bound::finite};
 }  // namespace g
 
 /// Cell variables.
@@ -48,10 +48,12 @@ inline constexpr ReductionLabel<Sum> kineticEnergy{"KineticEnergy", "J", "kineti
 inline constexpr ReductionLabel<Sum> internalEnergy{"InternalEnergy", "J", "internal energy of all particles"};
 inline constexpr ReductionLabel<Sum> energy{"TotalEnergy", "J", "kinetic and internal energy of all particles"};
 inline constexpr ReductionLabel<Minimum> leastDensity{"LeastDensity", "kg/m^3", "least density of any particle"};
-inline constexpr ReductionLabel<Minimum> leastEnergy{"LeastInternalEnergy", "J/kg", "least internal energy of any particle"};
-inline constexpr ReductionLabel<Sum> entropy{"TotalEntropy", "kg", "entropy of all particles over c_v, but for a constant"};
+inline constexpr ReductionLabel<Minimum> leastEnergy{"LeastInternalEnergy", "J/kg",
+                                                     "least internal energy of any particle"};
+inline constexpr ReductionLabel<Sum> entropy{"TotalEntropy", "kg",
+                                             "entropy of all particles over c_v, but for a constant"};
 inline constexpr ReductionLabel<VectorSum> centerOfMass{"CenterOfMassPosition", "kg m",
-                                                                "sum of mass times position, as in Uintah"};
+                                                        "sum of mass times position, as in Uintah"};
 }  // namespace total
 
 }  // namespace tushar::mpm

@@ -15,7 +15,8 @@ void Poisson<D>::scheduleInitialize(TaskList& tasks) const {
 /// A solve takes any time step.
 template <int D>
 void Poisson<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
-  tasks.perPatch("poisson::computeStableTimeStep", [](const Patch&, Minimum&) {}, computes(delT));
+  tasks.perPatch(
+      "poisson::computeStableTimeStep", [](const Patch&, Minimum&) {}, computes(delT));
 }
 
 template <int D>
@@ -32,9 +33,10 @@ void initialize(const Patch& patch, const Settings& settings, CellView<double> p
     const Vec3 middle = level.expandPoint<D>(level.cellCentre<D>(cell));
     const double k = settings.coefficient(middle);
     if (!(k > 0 && std::isfinite(k)))
-      throw InputError({{settings.where, "Poisson/coefficient",
-                         fmt::format("it is {:g} at ({:g}, {:g}, {:g}), and must be finite and greater than 0 everywhere",
-                                     k, middle[0], middle[1], middle[2])}});
+      throw InputError(
+          {{settings.where, "Poisson/coefficient",
+            fmt::format("it is {:g} at ({:g}, {:g}, {:g}), and must be finite and greater than 0 everywhere", k,
+                        middle[0], middle[1], middle[2])}});
     phi[cell] = 0;
   });
 }
@@ -49,16 +51,19 @@ bool keepsValueSomewhere(const Level& level) {
   return false;
 }
 
-/// Where no face keeps a value, integral f dV must be what the slopes at the faces bring in, k dphi/dn dA; or else there
-/// is no solution (R. Courant & D. Hilbert, Methods of Mathematical Physics 1, V.14: a free constant is orthogonal to f).
+/// Where no face keeps a value, integral f dV must be what the slopes at the faces bring in, k dphi/dn dA; or else
+/// there is no solution (R. Courant & D. Hilbert, Methods of Mathematical Physics 1, V.14: a free constant is
+/// orthogonal to f).
 void refuseImbalance(const Level& level, const solvers::Outcome& outcome, double tolerance) {
   if (!(std::abs(outcome.unbalanced) > tolerance * outcome.loads)) return;
   const double excess = -outcome.unbalanced / (static_cast<double>(level.cells().size()) * level.cellVolume());
   throw NumericalError(
-      fmt::format("Poisson's equation has no solution: no face keeps a value of Phi, and the source over the whole grid is "
-                  "greater by {:.6g} than what the slopes at the faces let in, {:.2g} of all that is summed",
-                  -outcome.unbalanced, std::abs(outcome.unbalanced) / outcome.loads),
-      fmt::format("a <source> that is smaller by {:.15g} everywhere, or a face with a Dirichlet value", excess), "c.phi");
+      fmt::format(
+          "Poisson's equation has no solution: no face keeps a value of Phi, and the source over the whole grid is "
+          "greater by {:.6g} than what the slopes at the faces let in, {:.2g} of all that is summed",
+          -outcome.unbalanced, std::abs(outcome.unbalanced) / outcome.loads),
+      fmt::format("a <source> that is smaller by {:.15g} everywhere, or a face with a Dirichlet value", excess),
+      "c.phi");
 }
 
 }  // namespace
@@ -88,10 +93,10 @@ void solve(const RankPatches& patches, const mpi::Communicator& ranks, const Set
   const solvers::Outcome outcome = solvers::solver().solve(unknowns, {assemble, right}, settings.solver, x);
   refuseImbalance(level, outcome, settings.solver.tolerance);
   if (!outcome.converged)
-    throw NumericalError(solvers::sentenceOf("Poisson's equation", outcome) +
-                             solvers::worstPlace(ranks, poisson::placeOf<D>(patches, number, outcome.worst), "in the cell"),
-                         "another <preconditioner>, a larger <tolerance> or more <maxiterations> in <Poisson>/<Solver>",
-                         "c.phi");
+    throw NumericalError(
+        solvers::sentenceOf("Poisson's equation", outcome) +
+            solvers::worstPlace(ranks, poisson::placeOf<D>(patches, number, outcome.worst), "in the cell"),
+        "another <preconditioner>, a larger <tolerance> or more <maxiterations> in <Poisson>/<Solver>", "c.phi");
   forEachCell<D>(patches, [&](std::size_t p, const Index<D>& cell) { phi[p][cell] = x[place(cell)]; });
   iterationsTaken.add(outcome.krylovIterations);
   solvers::addTimes(outcome, assembly, setup, solution);
@@ -118,8 +123,8 @@ const input::Schema<Settings>& schema() {
 }  // namespace
 
 simulation::ComponentKind kind() {
-  return simulation::kindWithSection<Poisson>("poisson", "Poisson's equation; the smallest component with a global solve",
-                                              schema(), {{"Phi"}, {"Symmetric"}});
+  return simulation::kindWithSection<Poisson>(
+      "poisson", "Poisson's equation; the smallest component with a global solve", schema(), {{"Phi"}, {"Symmetric"}});
 }
 
 template class Poisson<1>;

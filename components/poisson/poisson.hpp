@@ -11,16 +11,17 @@ namespace c {
 inline constexpr CellLabel<double> phi{"c.phi", "1", "solution", Bound::finite};
 }
 inline constexpr ReductionLabel<Maximum> iterations{"KrylovIterations", "1", "iterations of the linear solve"};
-inline constexpr ReductionLabel<Maximum> finalResidual{"KrylovResidual", "1", "residual at the end over that at the start"};
+inline constexpr ReductionLabel<Maximum> finalResidual{"KrylovResidual", "1",
+                                                       "residual at the end over that at the start"};
 using solvers::assemblyTime;
 using solvers::preconditionerTime;
 using solvers::solveTime;
 
 /// The `Poisson` section.
 struct Settings {
-  Location where;                       ///< in the scene
-  input::Expression coefficient{1.0};   ///< k
-  input::Expression source{0.0};        ///< f
+  Location where;                      ///< in the scene
+  input::Expression coefficient{1.0};  ///< k
+  input::Expression source{0.0};       ///< f
   solvers::LinearSettings solver;
 };
 

@@ -36,8 +36,7 @@ void checkTime(double t) {
 
 }  // namespace
 
-ExactRiemann::ExactRiemann(const RiemannProblem& problem)
-    : problem_(problem), solution_(solveShifted(problem)) {
+ExactRiemann::ExactRiemann(const RiemannProblem& problem) : problem_(problem), solution_(solveShifted(problem)) {
   if (problem.axis < 0 || problem.axis > 2) {
     throw std::invalid_argument(fmt::format("The axis of a Riemann problem is 0, 1 or 2, not {}.", problem.axis));
   }

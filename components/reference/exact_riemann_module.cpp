@@ -23,16 +23,15 @@ struct State {
   std::optional<double> gamma, pInfinity;
 };
 const Schema<State>& stateSchema() {
-  static const Schema<State> schema = Schema<State>("left", "A uniform gas.")
-                                          .required("density", &State::density, "kg/m^3", "rho", input::nonNegative())
-                                          .required("pressure", &State::pressure, "Pa", "p", input::nonNegative())
-                                          .value("velocity", &State::velocity, 0, "m/s", "u along the normal")
-                                          .optional("gamma", &State::gamma, "1", "where the two gases differ",
-                                                    input::greaterThan(1))
-                                          .ours()
-                                          .optional("p_infinity", &State::pInfinity, "Pa", "where the two gases differ",
-                                                    input::nonNegative())
-                                          .ours();
+  static const Schema<State> schema =
+      Schema<State>("left", "A uniform gas.")
+          .required("density", &State::density, "kg/m^3", "rho", input::nonNegative())
+          .required("pressure", &State::pressure, "Pa", "p", input::nonNegative())
+          .value("velocity", &State::velocity, 0, "m/s", "u along the normal")
+          .optional("gamma", &State::gamma, "1", "where the two gases differ", input::greaterThan(1))
+          .ours()
+          .optional("p_infinity", &State::pInfinity, "Pa", "where the two gases differ", input::nonNegative())
+          .ours();
   return schema;
 }
 
@@ -46,8 +45,9 @@ const Schema<RiemannSection>& riemannSchema() {
   static const Schema<RiemannSection> schema = [] {
     Schema<RiemannSection> declared("Module", "Errors against the exact solution of a shock tube (Toro, ch. 4).");
     declareGasTags(declared, "exactRiemann");
-    declared.value("p_infinity", memberOf<RiemannSection>(&GasTags::pInfinity), 0, "Pa", "stiffness of the gas",
-                   input::nonNegative())
+    declared
+        .value("p_infinity", memberOf<RiemannSection>(&GasTags::pInfinity), 0, "Pa", "stiffness of the gas",
+               input::nonNegative())
         .ours()
         .requiredSection("left", &RiemannSection::left, stateSchema(), "the gas below the diaphragm")
         .ours()
@@ -85,9 +85,8 @@ double periodAlong(const Vec3& normal, const grid::Level& level) {
   const double period = *std::min_element(lengths.begin(), lengths.end());
   for (const double length : lengths)
     if (std::abs(std::remainder(length, period)) > 1e-9 * period)
-      throw std::invalid_argument(
-          fmt::format("normal: along it the grid repeats every {:g} m for one axis, but every {:g} m for another", period,
-                      length));
+      throw std::invalid_argument(fmt::format(
+          "normal: along it the grid repeats every {:g} m for one axis, but every {:g} m for another", period, length));
   return period;
 }
 
@@ -96,8 +95,8 @@ void checkDiaphragm(double position, const Vec3& normal, const grid::Domain& dom
   const Vec3 lower = normal.cwiseProduct(domain.lower), upper = normal.cwiseProduct(domain.upper);
   const double first = lower.cwiseMin(upper).sum(), last = lower.cwiseMax(upper).sum();
   if (position < first || position > last)
-    throw std::invalid_argument(
-        fmt::format("diaphragm: {:g} m along the normal is outside of the grid, from {:g} to {:g} m", position, first, last));
+    throw std::invalid_argument(fmt::format(
+        "diaphragm: {:g} m along the normal is outside of the grid, from {:g} to {:g} m", position, first, last));
 }
 
 ReferencePointer tubeOn(const grid::Level& level, const RiemannSection& read) {
@@ -105,8 +104,7 @@ ReferencePointer tubeOn(const grid::Level& level, const RiemannSection& read) {
   const Vec3 normal = read.normal / length, axes = axesOf(level);
   for (int d = 0; d < 3; ++d)
     if (normal[d] != 0 && axes[d] == 0)
-      throw std::invalid_argument(
-          fmt::format("normal: points along {}, but this grid has no {}", "xyz"[d], "xyz"[d]));
+      throw std::invalid_argument(fmt::format("normal: points along {}, but this grid has no {}", "xyz"[d], "xyz"[d]));
   RiemannProblem problem;
   problem.left = {read.left.density, read.left.velocity, read.left.pressure};
   problem.right = {read.right.density, read.right.velocity, read.right.pressure};
@@ -130,7 +128,9 @@ AnalysisKind exactRiemannKind() {
     return readModule(
         riemannSchema(), module, diagnostics,
         [](const RiemannSection& read, const grid::Level& level) { return tubeOn(level, read); },
-        [](const RiemannSection& read) { return std::vector{gasOf(read.left, read), gasOf(read.right, read)}; });
+        [](const RiemannSection& read) {
+          return std::vector{gasOf(read.left, read), gasOf(read.right, read)};
+        });
   };
   return kind;
 }

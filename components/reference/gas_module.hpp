@@ -34,8 +34,9 @@ simulation::MakeAnalysis readModule(const input::Schema<S>& schema, const input:
 template <class S, class Build>
 simulation::MakeAnalysis readModule(const input::Schema<S>& schema, const input::Element& module,
                                     input::Diagnostics& diagnostics, const Build& build) {
-  return readModule(schema, module, diagnostics, build,
-                    [](const S& read) { return std::vector{GasLaw{read.gamma, read.pInfinity}}; });
+  return readModule(schema, module, diagnostics, build, [](const S& read) {
+    return std::vector{GasLaw{read.gamma, read.pInfinity}};
+  });
 }
 
 }  // namespace tushar::reference

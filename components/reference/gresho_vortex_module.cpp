@@ -39,18 +39,17 @@ AnalysisKind greshoKind() {
   AnalysisKind kind{"gresho", "errors against the vortex of Gresho", {}, {}};
   kind.describe = [](std::ostream& out) { greshoSchema().describe(out); };
   kind.read = [](const Element& module, Diagnostics& diagnostics) {
-    return readModule(greshoSchema(), module, diagnostics,
-                            [](const GreshoSection& read, const grid::Level& level) {
-                              GreshoProblem problem;
-                              problem.density = read.density;
-                              problem.pressure = read.pressure;
-                              problem.gamma = read.gamma;
-                              problem.speed = read.speed;
-                              problem.radius = read.radius;
-                              problem.axis = read.axis;
-                              problem.frame = frameOf(read, level);
-                              return std::make_shared<GreshoVortex>(problem);
-                            });
+    return readModule(greshoSchema(), module, diagnostics, [](const GreshoSection& read, const grid::Level& level) {
+      GreshoProblem problem;
+      problem.density = read.density;
+      problem.pressure = read.pressure;
+      problem.gamma = read.gamma;
+      problem.speed = read.speed;
+      problem.radius = read.radius;
+      problem.axis = read.axis;
+      problem.frame = frameOf(read, level);
+      return std::make_shared<GreshoVortex>(problem);
+    });
   };
   return kind;
 }

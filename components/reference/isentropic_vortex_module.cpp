@@ -37,18 +37,17 @@ AnalysisKind isentropicVortexKind() {
   AnalysisKind kind{"isentropicVortex", "errors against a smooth vortex in a uniform flow", {}, {}};
   kind.describe = [](std::ostream& out) { vortexSchema().describe(out); };
   kind.read = [](const Element& module, Diagnostics& diagnostics) {
-    return readModule(vortexSchema(), module, diagnostics,
-                            [](const VortexSection& read, const grid::Level& level) {
-                              IsentropicVortexProblem problem;
-                              problem.density = read.density;
-                              problem.pressure = read.pressure;
-                              problem.gamma = read.gamma;
-                              problem.strength = read.strength;
-                              problem.radius = read.radius;
-                              problem.axis = read.axis;
-                              problem.frame = frameOf(read, level);
-                              return std::make_shared<IsentropicVortex>(problem);
-                            });
+    return readModule(vortexSchema(), module, diagnostics, [](const VortexSection& read, const grid::Level& level) {
+      IsentropicVortexProblem problem;
+      problem.density = read.density;
+      problem.pressure = read.pressure;
+      problem.gamma = read.gamma;
+      problem.strength = read.strength;
+      problem.radius = read.radius;
+      problem.axis = read.axis;
+      problem.frame = frameOf(read, level);
+      return std::make_shared<IsentropicVortex>(problem);
+    });
   };
   return kind;
 }

@@ -109,8 +109,8 @@ void checkGas(const GasLaw& gas) {
     throw std::invalid_argument(
         fmt::format("The gamma of a Riemann problem must be above 1 and finite, not {}.", gas.gamma));
   if (!(gas.stiffness >= 0) || !std::isfinite(gas.stiffness))
-    throw std::invalid_argument(
-        fmt::format("The stiffness of a gas in a Riemann problem must be 0 or more and finite, not {}.", gas.stiffness));
+    throw std::invalid_argument(fmt::format(
+        "The stiffness of a gas in a Riemann problem must be 0 or more and finite, not {}.", gas.stiffness));
 }
 
 void checkProblem(const RiemannState& left, const RiemannState& right, const GasLaw& leftGas, const GasLaw& rightGas) {
@@ -137,9 +137,7 @@ class StarPressure {
   }
 
  private:
-  bool isOneIdealGas() const {
-    return left_.gamma == right_.gamma && left_.stiffness == 0 && right_.stiffness == 0;
-  }
+  bool isOneIdealGas() const { return left_.gamma == right_.gamma && left_.stiffness == 0 && right_.stiffness == 0; }
   /// Toro (4.5): increasing and concave in p.
   double mismatch(double p) const {
     return left_.velocityChange(p) + right_.velocityChange(p) - (right_.velocity + left_.velocity);

@@ -30,8 +30,8 @@ struct RiemannWave {
 /// Made by solveRiemann.  Values are exact to round-off of the input: about 1e-14, relative to the larger of the
 /// flow's velocity and sound speed.
 struct RiemannSolution {
-  RiemannState left;            ///< as given
-  RiemannState right;           ///< as given
+  RiemannState left;   ///< as given
+  RiemannState right;  ///< as given
   GasLaw leftGas, rightGas;
   double starPressure = 0;      ///< p*, Pa; 0 where the waves leave vacuum between them
   double starVelocity = 0;      ///< u*, the contact's speed, m/s; the mean speed of the two fronts around vacuum
@@ -53,8 +53,8 @@ struct RiemannSolution {
 /// A stiffened gas has the waves of an ideal one of pressure p + p_inf.
 /// p* is found by Newton's method on Toro (4.5) inside a bracket that falls back to bisection, to round-off; two
 /// rarefactions of one gas use the closed form (4.46).  Vacuum: section 4.6.
-/// Throws std::invalid_argument where gamma <= 1, a value is not finite, a density, pressure or stiffness is negative, a
-/// pressure stands in vacuum, both sides are vacuum, or vacuum is beside or between two different gases.
+/// Throws std::invalid_argument where gamma <= 1, a value is not finite, a density, pressure or stiffness is negative,
+/// a pressure stands in vacuum, both sides are vacuum, or vacuum is beside or between two different gases.
 RiemannSolution solveRiemann(const RiemannState& left, const RiemannState& right, const GasLaw& leftGas,
                              const GasLaw& rightGas);
 /// Of one ideal gas.

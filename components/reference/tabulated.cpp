@@ -30,7 +30,8 @@ std::vector<double> readField(const output::Hdf5Input& file, const std::string& 
   const auto values = file.dataset(path);
   const auto* reals = std::get_if<std::vector<double>>(&values);
   if (!reals || reals->size() != numbers)
-    throw FileError(fmt::format("'{}': {} has not the {} numbers that the grid needs", file.path().string(), path, numbers));
+    throw FileError(
+        fmt::format("'{}': {} has not the {} numbers that the grid needs", file.path().string(), path, numbers));
   return *reals;
 }
 

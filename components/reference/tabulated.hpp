@@ -9,9 +9,9 @@ namespace tushar::reference {
 
 /// Cell means of a gas at one time on a uniform grid.
 struct GasTable {
-  Vec3 lower, upper;           ///< m
-  Index3 cells;                ///< along x, y, z; along an axis with one the gas is the same without end
-  double time = 0;             ///< s
+  Vec3 lower, upper;            ///< m
+  Index3 cells;                 ///< along x, y, z; along an axis with one the gas is the same without end
+  double time = 0;              ///< s
   std::vector<GasState> means;  ///< x fastest, z slowest
 };
 
@@ -20,14 +20,15 @@ struct GasTable {
 /// Throws FileError where the file cannot be read or does not hold these.
 GasTable readGasTable(const std::filesystem::path& file, double gamma);
 
-/// The cell means of another run, of higher resolution, as the reference of a scene that has no exact solution. It holds
-/// at the time of the table and within its box.
+/// The cell means of another run, of higher resolution, as the reference of a scene that has no exact solution. It
+/// holds at the time of the table and within its box.
 class Tabulated : public GasReference {
  public:
   /// Throws std::invalid_argument where the table has no cells, no extent or another number of means than cells.
   explicit Tabulated(GasTable table);
 
-  /// Linear between the middles of cells, which smears shocks over two of them. Throws std::domain_error at another time.
+  /// Linear between the middles of cells, which smears shocks over two of them. Throws std::domain_error at another
+  /// time.
   GasState at(const Vec3& x, double t) const override;
   bool holdsAt(double t) const override;
   bool covers(const Vec3& x, double t) const override;

@@ -24,9 +24,10 @@ const Schema<TableSection>& tableSchema() {
                                   "the box of its output. Internal energy is a mean by mass.");
     declareGasTags(declared, "tabulated");
     declared
-        .required("file", &TableSection::file, "1",
-                  "an output (.h5) with c.density, c.velocity and c.pressure, or what tools/coarsen made of it; relative "
-                  "to the scene")
+        .required(
+            "file", &TableSection::file, "1",
+            "an output (.h5) with c.density, c.velocity and c.pressure, or what tools/coarsen made of it; relative "
+            "to the scene")
         .ours();
     return declared;
   }();

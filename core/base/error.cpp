@@ -43,9 +43,7 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-std::string Location::text() const {
-  return line > 0 ? fmt::format("{}:{}:{}", file, line, column) : file;
-}
+std::string Location::text() const { return line > 0 ? fmt::format("{}:{}:{}", file, line, column) : file; }
 
 std::string InputProblem::text() const {
   std::string prefix = where.text();

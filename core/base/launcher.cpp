@@ -17,7 +17,9 @@ int numberFrom(std::initializer_list<const char*> names, int otherwise) {
 
 /// What srun says to processes that find one another by PMIx. Its other variables do not mean that there are several
 /// ranks: a program in an allocation of many that was started without srun has them, too.
-int fromSlurm(const char* name, int otherwise) { return std::getenv("PMIX_RANK") ? numberFrom({name}, otherwise) : otherwise; }
+int fromSlurm(const char* name, int otherwise) {
+  return std::getenv("PMIX_RANK") ? numberFrom({name}, otherwise) : otherwise;
+}
 
 }  // namespace
 

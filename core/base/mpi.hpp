@@ -58,7 +58,8 @@ class Communicator {
   long sum(long mine) const;
   /// Every rank gets `merge(from, into)` over the values of all, in a tree that depends on their number alone, so that
   /// all get the same bits.
-  void merge(std::span<std::byte> value, const std::function<void(const std::byte* from, std::byte* into)>& merge) const;
+  void merge(std::span<std::byte> value,
+             const std::function<void(const std::byte* from, std::byte* into)>& merge) const;
   /// The same for a value that has a function `merge`.
   template <class T>
   void merge(T& value) const {
@@ -135,8 +136,8 @@ class Session {
 
   /// Called by a rank that cannot go on, for whatever reason; `isKnown` where it has a sentence of its own. Where the
   /// others come here too, within some seconds, all may end in order, and the first that has a sentence is to say it:
-  /// true for that one, whose exit code all get. Where they do not, this rank is to say what it knows and to end them by
-  /// `abort`: each in its turn, in the order of the ranks, so that of several that fail at the same time one speaks.
+  /// true for that one, whose exit code all get. Where they do not, this rank is to say what it knows and to end them
+  /// by `abort`: each in its turn, in the order of the ranks, so that of several that fail at the same time one speaks.
   bool speaks(bool isKnown, int& exitCode);
   /// Whether all ranks have come to `speaks`.
   bool isAgreed() const { return is_agreed_; }

@@ -6,7 +6,11 @@
 namespace tushar {
 
 Progress::Progress(bool quiet, std::FILE* stream)
-    : quiet_(quiet), terminal_(!quiet && isatty(fileno(stream))), stream_(stream), started_(Clock::now()), next_(started_) {}
+    : quiet_(quiet),
+      terminal_(!quiet && isatty(fileno(stream))),
+      stream_(stream),
+      started_(Clock::now()),
+      next_(started_) {}
 
 void Progress::line(const std::string& text) {
   if (quiet_) return;

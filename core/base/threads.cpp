@@ -76,7 +76,8 @@ class Threads::Pool {
       const auto from = Clock::now();
       myBusy() = {from, {}};
       tbb::parallel_for(
-          tbb::blocked_range<int>(0, times), [&](const tbb::blocked_range<int>& part) { runPart(part, work); }, partitioner_);
+          tbb::blocked_range<int>(0, times), [&](const tbb::blocked_range<int>& part) { runPart(part, work); },
+          partitioner_);
       if (trace::isOn()) trace::record(trace::Kind::wait, "wait", -1, myBusy().until, Clock::now());
     });
     finished_.load(std::memory_order_acquire);

@@ -57,8 +57,9 @@ double microseconds(Clock::duration duration) { return std::chrono::duration<dou
 
 void append(std::string& text, const Event& event, int rank, std::size_t thread) {
   text += fmt::format(R"(,
-{{"ph":"X","name":"{}","cat":"{}","pid":{},"tid":{},"ts":{:.3f},"dur":{:.3f})", event.name, nameOf(event.kind), rank,
-                      thread, microseconds(event.from - begin), microseconds(event.to - event.from));
+{{"ph":"X","name":"{}","cat":"{}","pid":{},"tid":{},"ts":{:.3f},"dur":{:.3f})",
+                      event.name, nameOf(event.kind), rank, thread, microseconds(event.from - begin),
+                      microseconds(event.to - event.from));
   text += event.patch < 0 ? "}" : fmt::format(R"(,"args":{{"patch":{}}}}})", event.patch);
 }
 
@@ -78,7 +79,8 @@ void start() {
 bool isOn() { return on.load(std::memory_order_relaxed); }
 
 void record(Kind kind, std::string_view name, int patch, Clock::time_point from, Clock::time_point to) {
-  if (Events& events = eventsOfThisThread(); events.size() < mostEvents) events.push_back({name, kind, patch, from, to});
+  if (Events& events = eventsOfThisThread(); events.size() < mostEvents)
+    events.push_back({name, kind, patch, from, to});
 }
 
 std::string events(int rank) {

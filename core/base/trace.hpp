@@ -17,7 +17,8 @@ std::string_view nameOf(Kind kind);
 void start();
 bool isOn();
 
-/// Notes what the calling thread did from `from` to `to`. `name` must outlive the trace; `patch` is -1 where there is none.
+/// Notes what the calling thread did from `from` to `to`. `name` must outlive the trace; `patch` is -1 where there is
+/// none.
 void record(Kind kind, std::string_view name, int patch, Clock::time_point from, Clock::time_point to);
 
 /// Records its own life. Spans of a thread are nested.
@@ -40,9 +41,9 @@ class Span {
   Clock::time_point from_;
 };
 
-/// What all threads of this rank recorded, as the events of Chrome's trace format (ph X: name, category, start and length
-/// in microseconds; pid is the rank, tid the thread), one after another with commas in between. Time between two spans in
-/// which a thread but the first had nothing to do is a wait. Not while threads record.
+/// What all threads of this rank recorded, as the events of Chrome's trace format (ph X: name, category, start and
+/// length in microseconds; pid is the rank, tid the thread), one after another with commas in between. Time between two
+/// spans in which a thread but the first had nothing to do is a wait. Not while threads record.
 std::string events(int rank);
 
 /// A file in that format from the events of all ranks.

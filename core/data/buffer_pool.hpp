@@ -6,12 +6,13 @@
 
 namespace tushar::data {
 
-/// Memory that variables have given back, for the next ones. A buffer goes to nobody who needs much less than it holds, so
-/// that each size finds its own again in the next step. What lies free never exceeds a bound: the pool and all that it has
-/// lent hold together no more than `bound()` bytes. Not for several threads at once.
+/// Memory that variables have given back, for the next ones. A buffer goes to nobody who needs much less than it holds,
+/// so that each size finds its own again in the next step. What lies free never exceeds a bound: the pool and all that
+/// it has lent hold together no more than `bound()` bytes. Not for several threads at once.
 class BufferPool {
  public:
-  /// Makes room for `bytes` in a buffer, from the pool where it has one that fits; the first `keep` bytes stay as they were.
+  /// Makes room for `bytes` in a buffer, from the pool where it has one that fits; the first `keep` bytes stay as they
+  /// were.
   void reserve(Buffer& buffer, std::size_t bytes, std::size_t keep = 0);
   /// A buffer of at least `bytes`, for a moment: it may be one that holds much more.
   Buffer lend(std::size_t bytes);

@@ -66,7 +66,7 @@ struct FieldLabel : Label {
   static constexpr Centring centred = C;
   constexpr FieldLabel(std::string_view called, std::string_view inUnit, std::string_view meaning,
                        Bound bounded = Bound::none)
-      : Label{called,    inUnit, meaning, C, Stored<T>::number, Stored<T>::components, sizeof(T), Stored<T>::isVector,
+      : Label{called,  inUnit, meaning, C, Stored<T>::number, Stored<T>::components, sizeof(T), Stored<T>::isVector,
               bounded, nullptr} {
     if (bounded != Bound::none && Stored<T>::number != Number::real)
       throw std::invalid_argument("only real numbers have bounds");
@@ -96,8 +96,8 @@ template <class R>
 struct ReductionLabel : Label {
   using Reducer = R;
   constexpr ReductionLabel(std::string_view called, std::string_view inUnit, std::string_view meaning)
-      : Label{called, inUnit, meaning, Centring::reduction, Number::real, 1, sizeof(R), false, Bound::none,
-              &data::makeReduction<R>} {}
+      : Label{called, inUnit,    meaning, Centring::reduction, Number::real,
+              1,      sizeof(R), false,   Bound::none,         &data::makeReduction<R>} {}
 };
 
 /// The name of the label that says where particles are: ghosts beyond a periodic face have it moved there.

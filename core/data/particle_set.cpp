@@ -25,7 +25,8 @@ void ParticleSet::reset(const grid::Patch& patch, int reach) {
 void ParticleSet::empty(std::size_t row, const Span& kept) {
   const auto clear = [&](int from, int to) {
     if (from >= to) return;
-    const auto start = row * static_cast<std::size_t>(cells_.extent(0)) + static_cast<std::size_t>(from - cells_.lower[0]);
+    const auto start =
+        row * static_cast<std::size_t>(cells_.extent(0)) + static_cast<std::size_t>(from - cells_.lower[0]);
     std::fill_n(&ranges_[start], to - from, ParticleRange{});
   };
   const Span span = spans_[row];

@@ -39,11 +39,11 @@ struct GhostRun {
 
 /// Which particles a patch has of one material, cell by cell.
 ///
-/// Places count from the first particle of the patch. Owned particles stand there, sorted by (cell, id). Ghosts, those of
-/// the cells around the patch that belong to other patches, stand where their own patch has them, if that is on the same
-/// rank: before (places below 0) or behind. Only those of other ranks and of periodic images are copies. The index of
-/// cells brings all into one order: sums run cell by cell in lexicographic order and by id within a cell, so they do not
-/// depend on who owns what.
+/// Places count from the first particle of the patch. Owned particles stand there, sorted by (cell, id). Ghosts, those
+/// of the cells around the patch that belong to other patches, stand where their own patch has them, if that is on the
+/// same rank: before (places below 0) or behind. Only those of other ranks and of periodic images are copies. The index
+/// of cells brings all into one order: sums run cell by cell in lexicographic order and by id within a cell, so they do
+/// not depend on who owns what.
 class ParticleSet {
  public:
   /// An empty set over a patch and the cells of the grid within `reach` of it.
@@ -51,7 +51,9 @@ class ParticleSet {
 
   int owned() const { return owned_; }
   /// Whether a particle stands at this place that the patch has or reads.
-  bool covers(int place) const { return (place >= 0 && place < owned_) || (place >= ghosts_.first && place < ghosts_.last); }
+  bool covers(int place) const {
+    return (place >= 0 && place < owned_) || (place >= ghosts_.first && place < ghosts_.last);
+  }
   bool hasNone() const { return owned_ == 0 && ghosts_.empty(); }
   const grid::Box& ownedCells() const { return owned_cells_; }
   /// The patch's cells and those within reach of it.

@@ -74,8 +74,8 @@ void addExactly(Number& a, Number& b) {
   a = sum;
 }
 
-/// A sum with the rounding error of each addition carried along, and the rounding error of that, about 48 digits: its 16
-/// leading digits do not depend on the order of the additions, not even where most of it cancels out.
+/// A sum with the rounding error of each addition carried along, and the rounding error of that, about 48 digits: its
+/// 16 leading digits do not depend on the order of the additions, not even where most of it cancels out.
 struct Sum {
   double value = 0, error = 0, rest = 0;
 

@@ -37,9 +37,7 @@ class TypedReduction : public ReductionSlot {
   void reset() override { reducer = R{}; }
   std::vector<double> values() const override { return reducer.values(); }
   std::span<std::byte> bytes() override { return std::as_writable_bytes(std::span(&reducer, 1)); }
-  void merge(const std::byte* from, std::byte* into) const override {
-    mergeInMemory<R>(from, into);
-  }
+  void merge(const std::byte* from, std::byte* into) const override { mergeInMemory<R>(from, into); }
   void divide(std::size_t parts) override { parts_.assign(parts, {}); }
   void gather() override {
     for (Part& part : parts_) {

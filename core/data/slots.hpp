@@ -13,7 +13,8 @@ struct Label;
 /// Where the patches of a rank stand in the one memory that a variable has, counted in values. Each patch has a slot;
 /// behind the last come copies of particles whose own place is elsewhere: on another rank, or one period away.
 ///
-/// Layouts do not change: variables that stand alike share one, and where particles need other slots there is a new one.
+/// Layouts do not change: variables that stand alike share one, and where particles need other slots there is a new
+/// one.
 struct Slots {
   std::vector<std::size_t> first;  ///< by place of the patch on its rank
   std::vector<std::size_t> room;   ///< of particles: how many each slot can hold
@@ -30,9 +31,9 @@ using SharedSlots = std::shared_ptr<const Slots>;
 /// For a node or cell variable that is read `ghost` beyond each patch.
 SharedSlots slotsOfGrid(const grid::Level& level, const Label& label, int ghost);
 
-/// For so many particles on each patch. Slots of `base` (which may be null) stay where the particles fit; a patch that has
-/// outgrown its slot gets one behind the others, with room for an eighth more. Where the memory would then be more than a
-/// quarter larger than it need be, all are laid out anew.
+/// For so many particles on each patch. Slots of `base` (which may be null) stay where the particles fit; a patch that
+/// has outgrown its slot gets one behind the others, with room for an eighth more. Where the memory would then be more
+/// than a quarter larger than it need be, all are laid out anew.
 SharedSlots slotsThatFit(const SharedSlots& base, const std::vector<std::size_t>& counts);
 
 }  // namespace tushar::data

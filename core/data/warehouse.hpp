@@ -70,10 +70,10 @@ enum class Generation { old, fresh };
 
 /// Holds the variables and particle sets of this rank, in two generations.
 ///
-/// A variable is one piece of memory, in which each patch of the rank has its slot. All particle variables of a material
-/// and generation of its sets stand alike, so that a place counted from the first particle of one patch reaches the
-/// particles of any other: patches read the ghosts that are on their rank where they stand.
-/// Not for several threads at once, but for what stands in variables and sets.
+/// A variable is one piece of memory, in which each patch of the rank has its slot. All particle variables of a
+/// material and generation of its sets stand alike, so that a place counted from the first particle of one patch
+/// reaches the particles of any other: patches read the ghosts that are on their rank where they stand. Not for several
+/// threads at once, but for what stands in variables and sets.
 class Warehouse {
  public:
   /// For one rank on its own.
@@ -119,17 +119,17 @@ class Warehouse {
   void startAnew(int materials);
   /// Room for a node or cell variable on all patches, with all ghosts that tasks read; NaN-filled in the dev preset.
   void allocateGrid(Generation generation, int number);
-  /// Room for a particle variable on all patches, where the particles of the sets of generation `set` stand; NaN-filled in
-  /// the dev preset.
+  /// Room for a particle variable on all patches, where the particles of the sets of generation `set` stand; NaN-filled
+  /// in the dev preset.
   void allocateParticles(Generation generation, int number, Generation set);
   /// Gives the memory of a variable back, for the next one that is allocated.
   void free(Generation generation, int number);
 
   /// The sets of a material have their particles on all patches: gives them slots, where possible those of `base`.
   void layOut(Generation generation, int material, Generation base);
-  /// Lets a particle variable that stands where the sets stood before stand where those of generation `set` do now. What
-  /// patches have in slots that stay is kept, wherever that is; patches that have other slots have undefined values.
-  /// Gives the memory that it had before, if it has another one now: give that back.
+  /// Lets a particle variable that stands where the sets stood before stand where those of generation `set` do now.
+  /// What patches have in slots that stay is kept, wherever that is; patches that have other slots have undefined
+  /// values. Gives the memory that it had before, if it has another one now: give that back.
   Buffer follow(Generation generation, int number, Generation set);
   /// The memory of a variable, and where the patches stand in it, and those of sets.
   std::byte* memory(Generation generation, int number) { return storage(generation, number).memory.data(); }

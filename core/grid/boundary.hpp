@@ -10,8 +10,8 @@ namespace tushar::grid {
 
 /// One `BCType` of a `Face`: what a variable does at a side of the domain.
 struct BoundaryCondition {
-  std::string variable;  ///< the `label` attribute: Symmetric, Velocity, Temperature, …
-  std::string kind;      ///< the `var` attribute: symmetry, Dirichlet, Neumann
+  std::string variable;       ///< the `label` attribute: Symmetric, Velocity, Temperature, …
+  std::string kind;           ///< the `var` attribute: symmetry, Dirichlet, Neumann
   Vec3 value = Vec3::Zero();  ///< a scalar stands in the first component; the unit is the variable's
   int material = -1;          ///< the number of the one that it holds for; -1: all
 };

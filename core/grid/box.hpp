@@ -44,7 +44,9 @@ struct Box {
     starts.upper[0] = std::min(upper[0], lower[0] + 1);
     return starts;
   }
-  constexpr std::size_t rows() const { return static_cast<std::size_t>(extent(1)) * static_cast<std::size_t>(extent(2)); }
+  constexpr std::size_t rows() const {
+    return static_cast<std::size_t>(extent(1)) * static_cast<std::size_t>(extent(2));
+  }
   constexpr std::size_t rowOf(const Index3& at) const {
     return static_cast<std::size_t>(at[1] - lower[1]) +
            static_cast<std::size_t>(extent(1)) * static_cast<std::size_t>(at[2] - lower[2]);

@@ -9,7 +9,7 @@ namespace tushar::grid {
 
 /// Who works on a grid.
 struct Workers {
-  int threads = 1;        ///< of each rank
+  int threads = 1;          ///< of each rank
   bool mayBeFewer = false;  ///< whether only as many threads are wanted as are worth having
   int ranks = 1;
   std::optional<Index3> layout;  ///< patches along x, y, z that they want, whatever the scene says
@@ -20,9 +20,9 @@ struct Workers {
   int patchesFor(const Index3& cells) const;
 };
 
-/// How to divide a grid of `cells` along x, y, z into about `count` patches: of all ways to make `count` to 1.25 `count`
-/// of them, that with the least cells and ghost cells of all patches together, each as large as the largest. No more
-/// patches along an axis than cells. Along x, where memory is contiguous, it is cut last.
+/// How to divide a grid of `cells` along x, y, z into about `count` patches: of all ways to make `count` to 1.25
+/// `count` of them, that with the least cells and ghost cells of all patches together, each as large as the largest. No
+/// more patches along an axis than cells. Along x, where memory is contiguous, it is cut last.
 Index3 choosePatches(const Index3& cells, int count);
 
 /// The patches along x, y, z that `4x2x1` stands for; none for what is not three whole numbers from 1 on.

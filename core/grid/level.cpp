@@ -26,15 +26,16 @@ void Level::chooseAxes() {
   const auto isPlane = [&](int axis, int side) {
     const auto& conditions = domain_.boundaries.face(axis, side);
     const auto has = [&](const char* kind) {
-      return std::any_of(conditions.begin(), conditions.end(), [&](const BoundaryCondition& c) { return c.kind == kind; });
+      return std::any_of(conditions.begin(), conditions.end(),
+                         [&](const BoundaryCondition& c) { return c.kind == kind; });
     };
     return has("symmetry") && !has("Dirichlet");
   };
   for (int axis = 0; axis < 3; ++axis) {
     const double extent = domain_.upper[axis] - domain_.lower[axis];
     const bool flat = extent == 0;
-    const bool thin = domain_.resolution[axis] == 1 &&
-                      ((isPlane(axis, 0) && isPlane(axis, 1)) || domain_.periodic[axis] != 0);
+    const bool thin =
+        domain_.resolution[axis] == 1 && ((isPlane(axis, 0) && isPlane(axis, 1)) || domain_.periodic[axis] != 0);
     if (!flat) cellVolume_ *= extent / domain_.resolution[axis];
     if (!flat && !thin) axes_.push_back(axis);
   }
@@ -147,9 +148,8 @@ std::vector<Patch> Level::patchesOverlapping(const Box& cells) const {
     blocks.lower[d] = curve_->blockAlong(d, inside.lower[d]);
     blocks.upper[d] = curve_->blockAlong(d, inside.upper[d] - 1) + 1;
   }
-  forEach<3>(blocks, [&](const Index3& block) {
-    found.emplace_back(*this, curve_->placeOf(block), curve_->cellsAt(block));
-  });
+  forEach<3>(blocks,
+             [&](const Index3& block) { found.emplace_back(*this, curve_->placeOf(block), curve_->cellsAt(block)); });
   return found;
 }
 

@@ -25,10 +25,11 @@ struct Domain {
   BoundaryConditions boundaries;
 };
 
-/// The grid of a run: its geometry, its boundary conditions and its patches, as one of the ranks that share it sees them.
+/// The grid of a run: its geometry, its boundary conditions and its patches, as one of the ranks that share it sees
+/// them.
 ///
-/// Patches are numbered along Morton's curve; a rank has consecutive ones. Only these are kept: any other is made when it
-/// is asked for, so that a grid of a million patches takes no more memory on a rank than its own.
+/// Patches are numbered along Morton's curve; a rank has consecutive ones. Only these are kept: any other is made when
+/// it is asked for, so that a grid of a million patches takes no more memory on a rank than its own.
 ///
 /// Kernels run in `dimension()` axes. An axis of the scene is left out when it has no extent, or has one cell
 /// between two symmetry planes or repeats one cell; the axes that remain keep their order.
@@ -65,12 +66,14 @@ class Level {
   /// The number of the first patch of this rank.
   int firstPatch() const { return first_patch_; }
   /// Whether a patch is of this rank.
-  bool isMine(int patch) const { return patch >= first_patch_ && patch < first_patch_ + static_cast<int>(patches_.size()); }
+  bool isMine(int patch) const {
+    return patch >= first_patch_ && patch < first_patch_ + static_cast<int>(patches_.size());
+  }
   /// The rank that has a patch.
   int ownerOf(int patch) const { return isMine(patch) ? share_.rank : partition_->ownerOf(patch); }
   const Share& share() const { return share_; }
-  /// Nodes of one of this rank's patches that are its own: all but those on an upper face behind which only patches of this
-  /// rank stand, which have these nodes, too. Each node of a patch is an own node of one of the rank's.
+  /// Nodes of one of this rank's patches that are its own: all but those on an upper face behind which only patches of
+  /// this rank stand, which have these nodes, too. Each node of a patch is an own node of one of the rank's.
   const Box& ownNodes(int patch) const { return own_nodes_[static_cast<std::size_t>(patch - first_patch_)]; }
   /// Which patches each rank has.
   Firsts firsts() const;
@@ -162,7 +165,8 @@ class Level {
     return full;
   }
 
-  /// The condition for a variable of a material on a face of the grid (`side` 0: lower, 1: upper), if the scene gives one.
+  /// The condition for a variable of a material on a face of the grid (`side` 0: lower, 1: upper), if the scene gives
+  /// one.
   const BoundaryCondition* boundary(int kernelAxis, int side, const std::string& variable, int material = 0) const;
   bool isPeriodic(int kernelAxis) const { return domain_.periodic[axis(kernelAxis)] != 0; }
   bool isPeriodic() const { return is_periodic_; }

@@ -4,8 +4,8 @@
 
 namespace tushar::grid {
 
-// Where nothing else is given, a patch belongs to rank floor(before · ranks / cells), where `before` counts the cells of
-// the patches before it.
+// Where nothing else is given, a patch belongs to rank floor(before · ranks / cells), where `before` counts the cells
+// of the patches before it.
 
 int Partition::firstOf(int rank) const {
   if (!firsts_.empty()) return firsts_[static_cast<std::size_t>(rank)];

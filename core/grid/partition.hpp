@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "core/grid/shares.hpp"
 #include "core/grid/morton_curve.hpp"
+#include "core/grid/shares.hpp"
 
 namespace tushar::grid {
 

@@ -124,7 +124,8 @@ bool TreeBuilder::isCycle(const std::string& path, const Location& where) {
   return true;
 }
 
-/// A file that is named relative to the folder of the one that includes it or, as Uintah's scenes have it, to one above.
+/// A file that is named relative to the folder of the one that includes it or, as Uintah's scenes have it, to one
+/// above.
 std::string findIncluded(const std::filesystem::path& beside, const std::string& href) {
   std::error_code ignored;
   const std::filesystem::path here = std::filesystem::absolute(beside, ignored);

@@ -13,9 +13,9 @@ namespace tushar::input {
 /// A scene file as a tree of tags that remember where they stand.
 ///
 /// `<include href="other.xml" section="A/B"/>` is replaced by that section of the other file, its tag included (by what
-/// is below the root where no section is given; by what is below the tag with `excludeSectionTag="true"`). `href` is relative
-/// to the including file, and so is what a tag `<file>` names: its text becomes an absolute path, so that the scene as
-/// text() gives it finds the file from any folder.
+/// is below the root where no section is given; by what is below the tag with `excludeSectionTag="true"`). `href` is
+/// relative to the including file, and so is what a tag `<file>` names: its text becomes an absolute path, so that the
+/// scene as text() gives it finds the file from any folder.
 class Document {
  public:
   /// Reads a file. Whatever is wrong with it goes to `diagnostics`; the document then has a bare root.

@@ -106,9 +106,10 @@ Kind surface() {
   static const Schema<SurfaceTag> schema =
       Schema<SurfaceTag>("tri", "What lies within a closed surface of triangles.")
           .foreignAttribute("label", "an empty tag with this label, further down, stands for this shape")
-          .required("name", &SurfaceTag::file, "m",
-                    "a file beside the scene: STL (text or binary) if it ends in .stl, else what NAME.pts, a point `x y z` a "
-                    "line, and NAME.tri, three numbers of points (from 0) a line, hold together");
+          .required(
+              "name", &SurfaceTag::file, "m",
+              "a file beside the scene: STL (text or binary) if it ends in .stl, else what NAME.pts, a point `x y z` a "
+              "line, and NAME.tri, three numbers of points (from 0) a line, hold together");
   const auto read = [](const Element& element, Diagnostics& diagnostics) -> PiecePtr {
     const std::size_t before = diagnostics.size();
     const SurfaceTag tag = schema.read(element, diagnostics);
@@ -215,8 +216,8 @@ void checkLabelIsNew(const Element& shape, const std::string& label, Diagnostics
 }  // namespace
 
 std::vector<std::string> geometryNames() {
-  return {"box",   "cylinder", "sphere",     "cone",        "ellipsoid", "parallelepiped",
-          "torus", "null",     "tri",        "union",       "difference", "intersection"};
+  return {"box",   "cylinder", "sphere", "cone",  "ellipsoid",  "parallelepiped",
+          "torus", "null",     "tri",    "union", "difference", "intersection"};
 }
 
 PiecePtr readShape(const Element& shape, Diagnostics& diagnostics) {

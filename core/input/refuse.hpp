@@ -13,24 +13,26 @@ namespace tushar::input {
 /// A switch of Uintah's that only stands at `false` or 0 here; `instead` says what there is.
 template <class S>
 void refuseSwitch(input::Schema<S>& schema, const std::string& tag, const std::string& instead) {
-  schema.custom(tag,
-                [tag, instead](S&, const input::Element& element, input::Diagnostics& diagnostics) {
-                  const auto given = element.child(tag);
-                  if (!given || given->text() == "false" || input::parse<double>(given->text()).value == 0.0) return;
-                  diagnostics.error(*given, "is not available; " + instead);
-                },
-                {tag}, "only false: " + instead);
+  schema.custom(
+      tag,
+      [tag, instead](S&, const input::Element& element, input::Diagnostics& diagnostics) {
+        const auto given = element.child(tag);
+        if (!given || given->text() == "false" || input::parse<double>(given->text()).value == 0.0) return;
+        diagnostics.error(*given, "is not available; " + instead);
+      },
+      {tag}, "only false: " + instead);
 }
 
 /// A switch of Uintah's that only stands at `true` here; `instead` says what there is.
 template <class S>
 void requireSwitch(input::Schema<S>& schema, const std::string& tag, const std::string& instead) {
-  schema.custom(tag,
-                [tag, instead](S&, const input::Element& element, input::Diagnostics& diagnostics) {
-                  const auto given = element.child(tag);
-                  if (given && given->text() != "true") diagnostics.error(*given, "is always true; " + instead);
-                },
-                {tag}, "only true: " + instead);
+  schema.custom(
+      tag,
+      [tag, instead](S&, const input::Element& element, input::Diagnostics& diagnostics) {
+        const auto given = element.child(tag);
+        if (given && given->text() != "true") diagnostics.error(*given, "is always true; " + instead);
+      },
+      {tag}, "only true: " + instead);
 }
 
 /// A tag of Uintah's that only stands at one of some values here; `sentence` says why.
@@ -43,37 +45,41 @@ void refuseOtherValues(input::Schema<S>& schema, const std::string& tag, const s
       return given == value || (number && number == input::parse<double>(value).value);
     });
   };
-  schema.custom(tag,
-                [=](S&, const input::Element& element, input::Diagnostics& diagnostics) {
-                  const auto given = element.child(tag);
-                  if (given && !isOneOfThem(given->text()))
-                    diagnostics.error(*given, "found '" + given->text() + "', expected " + input::listed(values) + ": " + sentence);
-                },
-                {tag}, "only " + input::listed(values) + ": " + sentence);
+  schema.custom(
+      tag,
+      [=](S&, const input::Element& element, input::Diagnostics& diagnostics) {
+        const auto given = element.child(tag);
+        if (given && !isOneOfThem(given->text()))
+          diagnostics.error(*given,
+                            "found '" + given->text() + "', expected " + input::listed(values) + ": " + sentence);
+      },
+      {tag}, "only " + input::listed(values) + ": " + sentence);
 }
 
 /// A tag of Uintah's that is missing here; `instead` says what there is.
 template <class S>
 void refuseTag(input::Schema<S>& schema, const std::string& tag, const std::string& instead) {
-  schema.custom(tag,
-                [tag, instead](S&, const input::Element& element, input::Diagnostics& diagnostics) {
-                  if (const auto given = element.child(tag)) diagnostics.error(*given, "is not available; " + instead);
-                },
-                {tag}, "not there: " + instead);
+  schema.custom(
+      tag,
+      [tag, instead](S&, const input::Element& element, input::Diagnostics& diagnostics) {
+        if (const auto given = element.child(tag)) diagnostics.error(*given, "is not available; " + instead);
+      },
+      {tag}, "not there: " + instead);
 }
 
 /// A choice of Uintah's of which only `available` are there; may be left out.
 template <class S>
 void refuseTypes(input::Schema<S>& schema, const std::string& tag, const std::vector<std::string>& available,
                  const std::string& sentence) {
-  schema.custom(tag,
-                [tag, available](S&, const input::Element& element, input::Diagnostics& diagnostics) {
-                  const auto given = element.child(tag);
-                  if (!given) return;
-                  const std::string problem = input::choiceProblem(given->attribute("type").value_or(""), available);
-                  if (!problem.empty()) diagnostics.error(*given, "attribute 'type': " + problem);
-                },
-                {tag}, sentence);
+  schema.custom(
+      tag,
+      [tag, available](S&, const input::Element& element, input::Diagnostics& diagnostics) {
+        const auto given = element.child(tag);
+        if (!given) return;
+        const std::string problem = input::choiceProblem(given->attribute("type").value_or(""), available);
+        if (!problem.empty()) diagnostics.error(*given, "attribute 'type': " + problem);
+      },
+      {tag}, sentence);
 }
 
 /// Words of Uintah's that are missing here, and what there is instead.
@@ -86,19 +92,20 @@ void requiredChoiceOrRefusal(input::Schema<S>& schema, const std::string& tag, E
                              const std::string& sentence) {
   std::vector<std::string> words;
   for (const auto& [word, value] : choices) words.push_back(word);
-  schema.custom(tag,
-                [=](S& read, const input::Element& element, input::Diagnostics& diagnostics) {
-                  const auto given = element.child(tag);
-                  if (!given) return diagnostics.error(element, "missing tag <" + tag + "> in <" + element.name() + ">");
-                  for (const auto& [word, value] : choices)
-                    if (given->text() == word) read.*member = value;
-                  for (const auto& [word, nearest] : lacking)
-                    if (given->text() == word)
-                      return diagnostics.error(*given, "'" + word + "' of Uintah is not available; nearest is " + nearest);
-                  const std::string problem = input::choiceProblem(given->text(), words);
-                  if (!problem.empty()) diagnostics.error(*given, problem);
-                },
-                {tag}, input::listed(words) + ": " + sentence);
+  schema.custom(
+      tag,
+      [=](S& read, const input::Element& element, input::Diagnostics& diagnostics) {
+        const auto given = element.child(tag);
+        if (!given) return diagnostics.error(element, "missing tag <" + tag + "> in <" + element.name() + ">");
+        for (const auto& [word, value] : choices)
+          if (given->text() == word) read.*member = value;
+        for (const auto& [word, nearest] : lacking)
+          if (given->text() == word)
+            return diagnostics.error(*given, "'" + word + "' of Uintah is not available; nearest is " + nearest);
+        const std::string problem = input::choiceProblem(given->text(), words);
+        if (!problem.empty()) diagnostics.error(*given, problem);
+      },
+      {tag}, input::listed(words) + ": " + sentence);
 }
 
 }  // namespace tushar::input

@@ -28,7 +28,8 @@ std::string_view withoutPlus(std::string_view text) {
 /// Without a point that nothing but zeros follow: `2.0` is a whole number, too.
 std::string_view withoutPoint(std::string_view text) {
   const auto point = text.find('.');
-  const bool isWhole = point != std::string_view::npos && point > 0 && text.find_first_not_of('0', point + 1) == text.npos;
+  const bool isWhole =
+      point != std::string_view::npos && point > 0 && text.find_first_not_of('0', point + 1) == text.npos;
   return isWhole ? text.substr(0, point) : text;
 }
 

@@ -35,8 +35,8 @@ class TypedTag<std::variant<Ts...>> {
   }
   template <class T>
   static void describeOne(std::ostream& out, int indent) {
-    out << std::string(static_cast<std::size_t>(indent), ' ') << "type=\"" << T::name << "\": " << T::schema().sentence()
-        << '\n';
+    out << std::string(static_cast<std::size_t>(indent), ' ') << "type=\"" << T::name
+        << "\": " << T::schema().sentence() << '\n';
     T::schema().describeContents(out, indent + 2);
   }
 };
@@ -45,14 +45,15 @@ class TypedTag<std::variant<Ts...>> {
 template <class S, class Variant>
 void typedTag(input::Schema<S>& schema, const std::string& tag, Variant S::*member, const std::string& sentence,
               bool isRequired) {
-  schema.custom(tag,
-                [=](S& object, const input::Element& element, input::Diagnostics& diagnostics) {
-                  if (const auto given = element.child(tag))
-                    object.*member = TypedTag<Variant>::read(*given, diagnostics);
-                  else if (isRequired)
-                    diagnostics.error(element, "missing tag <" + tag + "> (" + sentence + ")");
-                },
-                {tag}, sentence, TypedTag<Variant>::describe);
+  schema.custom(
+      tag,
+      [=](S& object, const input::Element& element, input::Diagnostics& diagnostics) {
+        if (const auto given = element.child(tag))
+          object.*member = TypedTag<Variant>::read(*given, diagnostics);
+        else if (isRequired)
+          diagnostics.error(element, "missing tag <" + tag + "> (" + sentence + ")");
+      },
+      {tag}, sentence, TypedTag<Variant>::describe);
 }
 
 }  // namespace tushar::input

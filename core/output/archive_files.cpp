@@ -34,8 +34,7 @@ std::optional<int> numberOf(const fs::path& entry, const std::string& base) {
   if (name.size() <= base.size() + 1 || !name.starts_with(base + ".")) return {};
   int number = 0;
   const auto [end, error] = std::from_chars(name.data() + base.size() + 1, name.data() + name.size(), number);
-  if (error != std::errc() || end != name.data() + name.size() || number < 0 || number > greatestNumber)
-    return {};
+  if (error != std::errc() || end != name.data() + name.size() || number < 0 || number > greatestNumber) return {};
   return number;
 }
 

@@ -41,7 +41,7 @@ class Hdf5File {
   void close();
 
  private:
-  using Id = std::int64_t;                          ///< HDF5's hid_t
+  using Id = std::int64_t;                        ///< HDF5's hid_t
   using Shape = std::vector<unsigned long long>;  ///< of its hsize_t
   template <class Result>
   Result checked(Result result, const std::string& what) const;

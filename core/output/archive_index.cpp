@@ -36,9 +36,12 @@ ArchiveIndex::ArchiveIndex(std::string version, const std::string& text, int ste
   const pugi::xml_node root = document.child(rootName);
   const auto word = [](const pugi::xml_node& node, const char* name) { return node.attribute(name).as_string(); };
   for (const pugi::xml_node& node : root.child("variables"))
-    variables_[word(node, "name")] = {word(node, "centring"),    word(node, "unit"),
-                                      word(node, "description"), word(node, "type"),
-                                      node.attribute("components").as_int(), separated(word(node, "materials"))};
+    variables_[word(node, "name")] = {word(node, "centring"),
+                                      word(node, "unit"),
+                                      word(node, "description"),
+                                      word(node, "type"),
+                                      node.attribute("components").as_int(),
+                                      separated(word(node, "materials"))};
   for (const pugi::xml_node& node : root.child("globals"))
     globals_[word(node, "name")] = {word(node, "unit"), word(node, "description"), word(node, "href"),
                                     node.attribute("components").as_uint()};

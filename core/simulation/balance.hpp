@@ -10,21 +10,23 @@ namespace tushar::simulation {
 /// What the report says of patches that have changed ranks.
 struct Rebalancing {
   int times = 0;
-  int step = 0;                   ///< after which they did so last
-  double before = 1, after = 1;   ///< costs of the rank that has most over the mean, then
+  int step = 0;                  ///< after which they did so last
+  double before = 1, after = 1;  ///< costs of the rank that has most over the mean, then
 };
 
 /// Decides when patches change ranks.
 ///
-/// At the start by cells and particles. Later by what tasks have taken on each patch, looked at after 8, 16, 32 and then
-/// every 64 steps: where over the steps that have been measured other shares would have saved more time than the last
-/// change took.
+/// At the start by cells and particles. Later by what tasks have taken on each patch, looked at after 8, 16, 32 and
+/// then every 64 steps: where over the steps that have been measured other shares would have saved more time than the
+/// last change took.
 class Balance {
  public:
   explicit Balance(int ranks) : ranks_(ranks) {}
 
   /// What a patch costs at the start, in cells.
-  static double costOf(std::size_t cells, int particles) { return static_cast<double>(cells) + particleCost * particles; }
+  static double costOf(std::size_t cells, int particles) {
+    return static_cast<double>(cells) + particleCost * particles;
+  }
 
   /// A step is done: whether to look at the costs.
   bool isDue() { return ranks_ > 1 && ++steps_ >= next_; }

@@ -27,8 +27,8 @@ S readSection(const input::Element& root, const input::Schema<S>& schema, input:
     return schema.defaults();
   }
   if (sections.size() > 1)
-    diagnostics.error(sections[1], fmt::format("<{}> is given twice; the first is at {}", schema.name(),
-                                               sections[0].where().text()));
+    diagnostics.error(
+        sections[1], fmt::format("<{}> is given twice; the first is at {}", schema.name(), sections[0].where().text()));
   return schema.read(sections.front(), diagnostics);
 }
 

@@ -24,9 +24,9 @@ struct BoundaryLabel {
 
 /// A component that sus knows: one line of the table in components/components.cpp.
 struct ComponentKind {
-  std::string name;                    ///< the `type` of SimulationComponent
-  std::string sentence;                ///< what it is
-  std::vector<std::string> sections;   ///< tags below the root that it reads
+  std::string name;                           ///< the `type` of SimulationComponent
+  std::string sentence;                       ///< what it is
+  std::vector<std::string> sections;          ///< tags below the root that it reads
   std::vector<BoundaryLabel> boundaryLabels;  ///< labels of boundary conditions that it understands
   /// Reads its sections from the root of the scene; every problem goes to the diagnostics.
   std::function<MakeComponent(const input::Element& root, input::Diagnostics&)> read;

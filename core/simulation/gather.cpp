@@ -19,8 +19,11 @@ using grid::Patch;
 namespace {
 
 output::Array emptyArray(const Label& label) {
-  output::Array array{std::string(label.name), std::string(label.unit), std::string(label.description),
-                      label.isVector ? 3 : label.components, {}};
+  output::Array array{std::string(label.name),
+                      std::string(label.unit),
+                      std::string(label.description),
+                      label.isVector ? 3 : label.components,
+                      {}};
   if (label.number == data::Number::id) array.values = std::vector<std::uint64_t>{};
   if (label.number == data::Number::integer) array.values = std::vector<std::int32_t>{};
   return array;
@@ -78,7 +81,8 @@ output::Array Gather::stream(Generation generation, int number) {
   const Label& label = *warehouse_->table()[number].label;
   output::Array array = emptyArray(label);
   if (label.centring == Centring::reduction || !warehouse_->isHeld(generation, number)) return array;
-  label.centring == Centring::particle ? streamParticles(generation, number, array) : streamGrid(generation, number, array);
+  label.centring == Centring::particle ? streamParticles(generation, number, array)
+                                       : streamGrid(generation, number, array);
   return array;
 }
 

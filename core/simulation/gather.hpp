@@ -12,13 +12,14 @@
 
 namespace tushar::simulation {
 
-/// Gathers variables over the whole grid on the first rank, in an order that no layout changes: particles by id, nodes and
-/// cells with x fastest. Vectors come out in x, y, z. All ranks ask for the same, while the state is as it is.
+/// Gathers variables over the whole grid on the first rank, in an order that no layout changes: particles by id, nodes
+/// and cells with x fastest. Vectors come out in x, y, z. All ranks ask for the same, while the state is as it is.
 class Gather {
  public:
   explicit Gather(data::Warehouse& warehouse) : warehouse_(&warehouse) {}
 
-  /// The values of a variable of a generation; none if it is not held, and on every rank but the first. They are in memory.
+  /// The values of a variable of a generation; none if it is not held, and on every rank but the first. They are in
+  /// memory.
   output::Array array(data::Generation generation, int variable);
   /// The same with the values still where they are: they are good while the state is as it is.
   output::Array stream(data::Generation generation, int variable);

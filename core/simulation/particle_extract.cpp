@@ -45,8 +45,8 @@ const Schema<Variables>& variablesSchema() {
           .location(&Variable::where, "label")
           .requiredAttribute("label", &Variable::label, "1", "its name, such as p.velocity")
           .ignoredAttribute("matl", "the material is that of the module");
-  static const Schema<Variables> schema =
-      Schema<Variables>("Variables", "What is written.").list("analyze", &Variables::list, variable, "a particle variable", 1);
+  static const Schema<Variables> schema = Schema<Variables>("Variables", "What is written.")
+                                              .list("analyze", &Variables::list, variable, "a particle variable", 1);
   return schema;
 }
 
@@ -55,20 +55,22 @@ const Schema<Settings>& settingsSchema() {
       Schema<Settings>("Module", "Variables of chosen particles over time, in a file for each.")
           .requiredAttribute("name", &Settings::name, "1", "particleExtract")
           .location(&Settings::where)
-          .value("material", &Settings::material, "", "1", "name of the material whose particles are looked at; the first")
+          .value("material", &Settings::material, "", "1",
+                 "name of the material whose particles are looked at; the first")
           .required("samplingFrequency", &Settings::frequency, "1/s", "samples per second of simulated time",
                     input::positive())
           .required("timeStart", &Settings::start, "s", "no sample before")
           .required("timeStop", &Settings::stop, "s", "no sample after")
           .required("colorThreshold", &Settings::threshold, "1", "particles whose p.color is greater are written")
-          .custom("Variables",
-                  [](Settings& settings, const Element& element, Diagnostics& diagnostics) {
-                    const auto tag = element.child("Variables");
-                    if (!tag) return diagnostics.error(element, "missing tag <Variables> with <analyze label=\"…\"/>");
-                    settings.variables = variablesSchema().read(*tag, diagnostics).list;
-                  },
-                  {"Variables"}, "what is written",
-                  [](std::ostream& out, int indent) { variablesSchema().describeContents(out, indent); });
+          .custom(
+              "Variables",
+              [](Settings& settings, const Element& element, Diagnostics& diagnostics) {
+                const auto tag = element.child("Variables");
+                if (!tag) return diagnostics.error(element, "missing tag <Variables> with <analyze label=\"…\"/>");
+                settings.variables = variablesSchema().read(*tag, diagnostics).list;
+              },
+              {"Variables"}, "what is written",
+              [](std::ostream& out, int indent) { variablesSchema().describeContents(out, indent); });
   return schema;
 }
 
@@ -106,8 +108,9 @@ class ParticleExtract : public Analysis {
   bool isSampleDue() const override { return due_; }
 
   void sample(const output::Snapshot& snapshot, const std::filesystem::path& archive) override {
-    const auto block = std::find_if(snapshot.particles.begin(), snapshot.particles.end(),
-                                    [&](const auto& b) { return settings_.material.empty() || b.material == settings_.material; });
+    const auto block = std::find_if(snapshot.particles.begin(), snapshot.particles.end(), [&](const auto& b) {
+      return settings_.material.empty() || b.material == settings_.material;
+    });
     if (block == snapshot.particles.end()) return;
     const auto folder = archive / "particleExtract" / "L-0";
     std::filesystem::create_directories(folder);

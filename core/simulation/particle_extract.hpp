@@ -6,9 +6,9 @@
 
 namespace tushar::simulation {
 
-/// `particleExtract`: variables of chosen particles over time, in a file for each: those of one material whose p.color is
-/// above a threshold. The files are `particleExtract/L-0/<p.particleID>` in the archive, as Uintah writes them: a line of
-/// names, then for every sample time, place, and the variables: numbers first, vectors, tensors by rows.
+/// `particleExtract`: variables of chosen particles over time, in a file for each: those of one material whose p.color
+/// is above a threshold. The files are `particleExtract/L-0/<p.particleID>` in the archive, as Uintah writes them: a
+/// line of names, then for every sample time, place, and the variables: numbers first, vectors, tensors by rows.
 AnalysisKind particleExtractKind();
 
 /// The line of names of such a file, for columns of particle variables.

@@ -35,7 +35,8 @@ Names united(Names a, const Names& b) {
 /// What is needed of a step for the next, less what is decided anew before each, and with the particles' names where
 /// there are particles.
 std::vector<std::string> namesOfState(Names needed, const Names& decided, const Names& computed) {
-  std::erase_if(needed, [&](const std::string& name) { return decided.contains(name) || name == data::recomputeTimeStep.name; });
+  std::erase_if(
+      needed, [&](const std::string& name) { return decided.contains(name) || name == data::recomputeTimeStep.name; });
   if (computed.contains(data::particleId.name)) needed.emplace(data::particleId.name);
   return {needed.begin(), needed.end()};
 }
@@ -165,7 +166,8 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   const Names diagnosed = producedBy(lists.diagnostics.tasks());
   const Names stepped = united(producedBy(lists.initialize.tasks()), producedBy(lists.timeAdvance.tasks()));
   Names totals, derived, savedState;
-  for (const auto& [what, label] : {std::pair{"mass", "TotalMass"}, {"momentum", "TotalMomentum"}, {"energy", "TotalEnergy"}})
+  for (const auto& [what, label] :
+       {std::pair{"mass", "TotalMass"}, {"momentum", "TotalMomentum"}, {"energy", "TotalEnergy"}})
     if (diagnosed.contains(label)) totals_.emplace_back(what, label);
   for (const auto& total : totals_) totals.insert(total.second);
   Names reported = totals;

@@ -22,13 +22,22 @@ Json errorsOf(const Report& report) {
 Json wallOf(const Report& report) {
   Json tasks = Json::object();
   for (const TaskTime& task : report.tasks) tasks[task.name] = tasks.value(task.name, 0.0) + task.seconds;
-  return {{"startup", report.wallStartup}, {"loop", report.wallLoop}, {"output", report.wallOutput},
-          {"exchange", report.exchange},   {"tasks", tasks},
-          {"use", {{"task", report.use.task}, {"message", report.use.message}, {"output", report.use.output},
-                   {"wait", report.use.wait}}},
+  return {{"startup", report.wallStartup},
+          {"loop", report.wallLoop},
+          {"output", report.wallOutput},
+          {"exchange", report.exchange},
+          {"tasks", tasks},
+          {"use",
+           {{"task", report.use.task},
+            {"message", report.use.message},
+            {"output", report.use.output},
+            {"wait", report.use.wait}}},
           {"imbalance", report.use.imbalance},
-          {"rebalanced", {{"times", report.rebalancing.times}, {"step", report.rebalancing.step},
-                          {"before", report.rebalancing.before}, {"after", report.rebalancing.after}}}};
+          {"rebalanced",
+           {{"times", report.rebalancing.times},
+            {"step", report.rebalancing.step},
+            {"before", report.rebalancing.before},
+            {"after", report.rebalancing.after}}}};
 }
 
 Json limitsOf(const Report& report) {
@@ -75,8 +84,8 @@ std::string errorTable(const Report& report) {
       const auto found = error.norms.find(name);
       return found == error.norms.end() ? std::string("-") : fmt::format("{:.5g}", found->second);
     };
-    text += fmt::format("  {:<24} {:>12} {:>12} {:>12}   {}\n", error.field + ", " + error.place, norm("L1"), norm("L2"),
-                        norm("max"), error.unit);
+    text += fmt::format("  {:<24} {:>12} {:>12} {:>12}   {}\n", error.field + ", " + error.place, norm("L1"),
+                        norm("L2"), norm("max"), error.unit);
   }
   return text;
 }
@@ -85,8 +94,8 @@ std::string driftTable(const Report& report) {
   if (report.drifts.empty()) return "";
   std::string text = fmt::format("\n  {:<24} {:>12} {:>12} {:>12}\n", "drift of", "start", "end", "change");
   for (const Drift& drift : report.drifts)
-    text += fmt::format("  {:<24} {:>12.6g} {:>12.6g} {:>12.2e}   {}\n", drift.name, drift.start, drift.end, drift.change,
-                        drift.relative ? "relative" : drift.unit);
+    text += fmt::format("  {:<24} {:>12.6g} {:>12.6g} {:>12.2e}   {}\n", drift.name, drift.start, drift.end,
+                        drift.change, drift.relative ? "relative" : drift.unit);
   return text;
 }
 
@@ -106,18 +115,20 @@ std::string useLine(const Report& report) {
   const double all = use.task + use.message + use.output + use.wait;
   if (all <= 0) return "";
   const std::string ranks = report.ranks > 1 ? fmt::format("{} ranks of ", report.ranks) : "";
-  return fmt::format("  {}{} thread{}: {:.1f} % in tasks, {:.1f} % messages, {:.1f} % output, {:.1f} % waiting; "
-                     "load imbalance {:.3f}\n",
-                     ranks, report.threads, report.threads == 1 ? "" : "s", 100 * use.task / all,
-                     100 * use.message / all, 100 * use.output / all, 100 * use.wait / all, use.imbalance);
+  return fmt::format(
+      "  {}{} thread{}: {:.1f} % in tasks, {:.1f} % messages, {:.1f} % output, {:.1f} % waiting; "
+      "load imbalance {:.3f}\n",
+      ranks, report.threads, report.threads == 1 ? "" : "s", 100 * use.task / all, 100 * use.message / all,
+      100 * use.output / all, 100 * use.wait / all, use.imbalance);
 }
 
 std::string rebalancingLine(const Report& report) {
   const Rebalancing& change = report.rebalancing;
   if (change.times == 0) return "";
-  return fmt::format("  patches changed ranks {} time{}, last after step {}: the busiest rank had {:.2f} times its share, "
-                     "then {:.2f}\n",
-                     change.times, change.times == 1 ? "" : "s", change.step, change.before, change.after);
+  return fmt::format(
+      "  patches changed ranks {} time{}, last after step {}: the busiest rank had {:.2f} times its share, "
+      "then {:.2f}\n",
+      change.times, change.times == 1 ? "" : "s", change.step, change.before, change.after);
 }
 
 std::string timeTable(const Report& report) {
@@ -156,8 +167,8 @@ std::string toJson(const Report& report) {
   json["component"] = report.component;
   json["version"] = report.version;
   json["build"] = report.build;
-  json["layout"] = {{"dimension", report.dimension}, {"cells", report.cells},     {"h", report.spacing},
-                    {"patches", report.patches},     {"ranks", report.ranks},     {"threads", report.threads}};
+  json["layout"] = {{"dimension", report.dimension}, {"cells", report.cells}, {"h", report.spacing},
+                    {"patches", report.patches},     {"ranks", report.ranks}, {"threads", report.threads}};
   json["steps"] = report.steps;
   json["retries"] = report.retries;
   json["time_step_limits"] = limitsOf(report);
@@ -181,8 +192,8 @@ std::string toJson(const Report& report) {
 }
 
 std::string toText(const Report& report) {
-  std::string text = fmt::format("{} steps to t = {:.6g} s ({}), {} cells", report.steps, report.time, report.ended,
-                                 report.cells);
+  std::string text =
+      fmt::format("{} steps to t = {:.6g} s ({}), {} cells", report.steps, report.time, report.ended, report.cells);
   if (report.particles > 0) {
     text += fmt::format(", {} particles", report.particles);
     if (report.dropped > 0) text += fmt::format(" ({} left the grid)", report.dropped);

@@ -21,9 +21,9 @@ struct ErrorNorms {
 
 /// Change of a total from the start to the end of a run.
 struct Drift {
-  std::string name;        ///< mass, momentum, energy
+  std::string name;  ///< mass, momentum, energy
   double start = 0, end = 0;
-  double change = 0;       ///< relative to the start where that is not 0, else absolute
+  double change = 0;  ///< relative to the start where that is not 0, else absolute
   bool relative = true;
   std::string unit;
 };
@@ -49,14 +49,14 @@ struct Report {
   std::string scene, title, component, version, build;
   int dimension = 0, patches = 0, ranks = 1, threads = 1;
   long cells = 0, particles = 0, dropped = 0;
-  double spacing = 0;  ///< least cell width, m
-  int steps = 0, retries = 0;  ///< taken; undone and repeated
+  double spacing = 0;                               ///< least cell width, m
+  int steps = 0, retries = 0;                       ///< taken; undone and repeated
   std::vector<std::pair<std::string, int>> limits;  ///< of the time step, and how many steps each has ruled
-  double time = 0;  ///< reached, s
-  std::string ended;  ///< why: maxTime, max_Timesteps, max_wall_time, interrupted, failed
-  std::string failure, advice;  ///< of a run that failed: the value that cannot be, and what to try
+  double time = 0;                                  ///< reached, s
+  std::string ended;                                ///< why: maxTime, max_Timesteps, max_wall_time, interrupted, failed
+  std::string failure, advice;                      ///< of a run that failed: the value that cannot be, and what to try
   double particleSteps = 0;
-  ResidentMemory memory;  ///< after the last step, of the rank that has most
+  ResidentMemory memory;                                 ///< after the last step, of the rank that has most
   double wallStartup = 0, wallLoop = 0, wallOutput = 0;  ///< s
   TimeUse use;
   Rebalancing rebalancing;
@@ -69,7 +69,7 @@ struct Report {
   std::vector<std::string> kept;
   std::vector<tasks::LeftOut> leftOut;
   std::string fingerprint;
-  std::string archive;  ///< folder, if anything was saved
+  std::string archive;                     ///< folder, if anything was saved
   std::vector<std::string> unusedOptions;  ///< given to PETSc, which no solve has looked at
 };
 

@@ -39,8 +39,8 @@ std::string damageSentence(const output::CheckpointStore& store, int step, const
 
 int chosen(const fs::path& archive, const output::CheckpointStore& store, int step) {
   const std::vector<int> steps = store.steps();
-  const std::string there = fmt::format("there {} {}", steps.size() == 1 ? "is that of step" : "are those of steps",
-                                        fmt::join(steps, ", "));
+  const std::string there =
+      fmt::format("there {} {}", steps.size() == 1 ? "is that of step" : "are those of steps", fmt::join(steps, ", "));
   if (!std::binary_search(steps.begin(), steps.end(), step))
     refuse(archive, fmt::format("there is no checkpoint of step {}; {}", step, there));
   if (const std::string damage = output::damageOf(store.folder(step)); !damage.empty())

@@ -16,8 +16,8 @@ using input::Element;
 
 namespace {
 
-const std::vector<std::string> sharedSections{"Meta", "SimulationComponent", "Time", "DataArchiver", "Grid",
-                                              "DataAnalysis"};
+const std::vector<std::string> sharedSections{"Meta", "SimulationComponent", "Time", "DataArchiver",
+                                              "Grid", "DataAnalysis"};
 
 /// Sections of Uintah's without effect here, and why.
 const std::vector<std::pair<std::string, std::string>> idleSections{
@@ -34,15 +34,16 @@ struct Meta {
   std::string title;
 };
 const input::Schema<Meta>& metaSchema() {
-  static const input::Schema<Meta> schema =
-      input::Schema<Meta>("Meta", "About the scene.").custom("title",
-                                                                  [](Meta& meta, const Element& element, Diagnostics&) {
-                                                                    if (const auto title = element.child("title"))
-                                                                      meta.title = title->text();
-                                                                  },
-                                                                  {"title"}, "its name")
-                                                          .ignored("info", "for readers")
-                                                          .ignored("description", "for readers");
+  static const input::Schema<Meta> schema = input::Schema<Meta>("Meta", "About the scene.")
+                                                .custom(
+                                                    "title",
+                                                    [](Meta& meta, const Element& element, Diagnostics&) {
+                                                      if (const auto title = element.child("title"))
+                                                        meta.title = title->text();
+                                                    },
+                                                    {"title"}, "its name")
+                                                .ignored("info", "for readers")
+                                                .ignored("description", "for readers");
   return schema;
 }
 
@@ -126,8 +127,8 @@ std::vector<ReadModule> readModules(const Element& root, const Catalogue& catalo
   return modules;
 }
 
-/// A report has one place for the errors of a field, and for an energy budget. Throws InputError for a module that measures what is `measured`
-/// already, and adds to it.
+/// A report has one place for the errors of a field, and for an energy budget. Throws InputError for a module that
+/// measures what is `measured` already, and adds to it.
 void refuseMeasuredTwice(const Analysis& analysis, const Element& module, std::set<std::string>& measured) {
   for (const MeasuredError& error : analysis.errors())
     if (const std::string what = error.field + ", " + error.place; !measured.insert(what).second)
@@ -160,8 +161,10 @@ void checkIntervals(const TimeSettings& time, const ArchiveSettings& archive, co
   const double least = timeResolution * std::max(std::abs(time.initTime), std::abs(time.maxTime));
   const auto check = [&](double interval, const Element& element, const std::string& what) {
     if (interval > 0 && interval <= least)
-      diagnostics.error(element, fmt::format("{}found {:g} s, expected more than {:g} s: times up to maxTime cannot tell "
-                                             "less apart", what, interval, least));
+      diagnostics.error(element,
+                        fmt::format("{}found {:g} s, expected more than {:g} s: times up to maxTime cannot tell "
+                                    "less apart",
+                                    what, interval, least));
   };
   if (const auto tag = section.child("outputInterval")) check(archive.outputInterval, *tag, "");
   if (archive.checkpoint && archive.checkpoint->interval)
@@ -169,9 +172,10 @@ void checkIntervals(const TimeSettings& time, const ArchiveSettings& archive, co
 }
 
 /// Names what is wrong with the saved labels, even where the rest of the scene is wrong, too: the labels of a component
-/// and of its modules do not depend on the grid. Takes out, with a note, what Uintah has and nobody here. Says nothing where a module cannot be had: its labels are not known.
-void checkSaves(const MakeComponent& make, const std::vector<ReadModule>& modules,
-                std::vector<SaveRequest>& saves, Diagnostics& diagnostics) {
+/// and of its modules do not depend on the grid. Takes out, with a note, what Uintah has and nobody here. Says nothing
+/// where a module cannot be had: its labels are not known.
+void checkSaves(const MakeComponent& make, const std::vector<ReadModule>& modules, std::vector<SaveRequest>& saves,
+                Diagnostics& diagnostics) {
   grid::Domain line;
   line.upper = {1, 0, 0};
   const grid::Level anyLevel(line);
@@ -188,7 +192,8 @@ void checkSaves(const MakeComponent& make, const std::vector<ReadModule>& module
     const bool isLacking = std::find(foreign.begin(), foreign.end(), save.label) != foreign.end() &&
                            !phases.saveable().contains(save.label);
     if (isLacking)
-      diagnostics.note(save.where, "DataArchiver/save", fmt::format("'{}' is not saved: nobody computes it here", save.label));
+      diagnostics.note(save.where, "DataArchiver/save",
+                       fmt::format("'{}' is not saved: nobody computes it here", save.label));
     return isLacking;
   });
   for (const InputProblem& problem : phases.problemsOf(saves))

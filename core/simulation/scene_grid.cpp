@@ -62,9 +62,10 @@ const Schema<GridBox>& boxSchema() {
           .required("upper", &GridBox::upper, "m", "its upper corner")
           .optional("resolution", &GridBox::resolution, "1", "cells along x, y, z (or give <spacing> of the Level)",
                     input::atLeast(1))
-          .optional("patches", &GridBox::patches, "1",
-                    "patches along x, y, z; where neither this nor autoPatch is given, as many as the threads and ranks need",
-                    input::atLeast(1))
+          .optional(
+              "patches", &GridBox::patches, "1",
+              "patches along x, y, z; where neither this nor autoPatch is given, as many as the threads and ranks need",
+              input::atLeast(1))
           .optional("autoPatch", &GridBox::autoPatch, "1", "about how many patches to make, in place of patches",
                     input::atLeast(1))
           .value("extraCells", &GridBox::extraCells, Index3{}, "1",
@@ -86,8 +87,8 @@ const Schema<LevelSection>& levelSchema() {
           .list("Box", &LevelSection::boxes, boxSchema(), "the box that is divided into cells", 1)
           .optional("spacing", &LevelSection::spacing, "m", "cell widths, in place of the resolution of the Box",
                     input::positive())
-          .value("periodic", &LevelSection::periodic, Index3{}, "1",
-                 "1 along axes where the grid repeats without end", input::between(0, 1))
+          .value("periodic", &LevelSection::periodic, Index3{}, "1", "1 along axes where the grid repeats without end",
+                 input::between(0, 1))
           .check([](const LevelSection& level, const Element& element, Diagnostics& diagnostics) {
             if (level.boxes.size() > 1)
               diagnostics.error(element.children("Box")[1],
@@ -114,7 +115,8 @@ const Schema<ConditionSection>& conditionSchema() {
             else if (condition.var != "symmetry" && !condition.value)
               diagnostics.error(element, "a " + condition.var + " condition needs a <value>");
             if (const auto number = input::parse<int>(condition.id); condition.id != "all" && !(number && *number >= 0))
-              diagnostics.error(element, "id: found '" + condition.id + "', expected 'all' or the number of a material");
+              diagnostics.error(element,
+                                "id: found '" + condition.id + "', expected 'all' or the number of a material");
           });
   return schema;
 }
@@ -130,7 +132,8 @@ const Schema<FaceSection>& faceSchema() {
 
 const Schema<GridSection>& gridSchema() {
   static const Schema<FacesSection> faces =
-      Schema<FacesSection>("BoundaryConditions", "What happens at the sides of the grid; a side that is not named is free.")
+      Schema<FacesSection>("BoundaryConditions",
+                           "What happens at the sides of the grid; a side that is not named is free.")
           .list("Face", &FacesSection::faces, faceSchema(), "a side");
   static const Schema<GridSection> schema = Schema<GridSection>("Grid", "The grid and what happens at its sides.")
                                                 .section("BoundaryConditions", &GridSection::boundaries, faces)
@@ -159,7 +162,8 @@ std::string contradiction(const grid::BoundaryCondition& condition, bool onOddPl
   return {};
 }
 
-/// Whether a value may be given on a plane of symmetry: the images of its vector have the same where it lies in the plane.
+/// Whether a value may be given on a plane of symmetry: the images of its vector have the same where it lies in the
+/// plane.
 bool fitsPlane(const BoundaryLabel& label, const grid::BoundaryCondition& condition, int axis) {
   return label.isEven && condition.kind == "Dirichlet" && (!label.isVector || condition.value[axis] == 0);
 }
@@ -177,12 +181,12 @@ void readConditions(const std::vector<ConditionSection>& given, const std::vecto
     if (!label || !input::choiceProblem(given[k].var, conditionKinds).empty()) continue;
     const bool isPlane = given[k].var == "symmetry";
     if (isPlane && given[k].value) diagnostics.note(tags[k], "<value> does nothing on a plane of symmetry");
-    conditions.push_back({label->name, given[k].var,
-                          isPlane ? Vec3(Vec3::Zero()) : conditionValue(given[k], label->isVector, tags[k], diagnostics),
-                          input::parse<int>(given[k].id).value.value_or(-1)});
+    conditions.push_back(
+        {label->name, given[k].var,
+         isPlane ? Vec3(Vec3::Zero()) : conditionValue(given[k], label->isVector, tags[k], diagnostics),
+         input::parse<int>(given[k].id).value.value_or(-1)});
     const bool onOddPlane = onPlane && !fitsPlane(*label, conditions.back(), axis);
-    if (const std::string problem = contradiction(conditions.back(), onOddPlane);
-        !problem.empty())
+    if (const std::string problem = contradiction(conditions.back(), onOddPlane); !problem.empty())
       diagnostics.error(tags[k], problem);
     if (const auto [first, isNew] = seen.emplace(label->name + given[k].id, tags[k].where()); !isNew)
       diagnostics.error(tags[k], fmt::format("{} has a condition on this face already, at {}; keep one", label->name,
@@ -212,8 +216,8 @@ Index3 resolutionOf(const GridBox& box, const LevelSection& level, const Element
   for (int axis = 0; level.spacing && axis < 3; ++axis) {
     const double cells = (box.upper[axis] - box.lower[axis]) / (*level.spacing)[axis];
     if (cells > mostCells || (cells > 0.5 && std::abs(cells - std::round(cells)) > 1e-6 * cells))
-      diagnostics.error(element, fmt::format("spacing along {} gives {:g} cells, which is not a whole number",
-                                             "xyz"[axis], cells));
+      diagnostics.error(
+          element, fmt::format("spacing along {} gives {:g} cells, which is not a whole number", "xyz"[axis], cells));
     else
       resolution[axis] = std::max(1, static_cast<int>(std::lround(cells)));
   }
@@ -229,14 +233,14 @@ void checkSize(const grid::Domain& domain, const Element& element, const std::st
       diagnostics.error(element, fmt::format("there are {} cells along {}, where the box has no extent",
                                              domain.resolution[axis], "xyz"[axis]));
     if (domain.patches[axis] > domain.resolution[axis])
-      diagnostics.error(element, fmt::format("there are {} patches along {}{}, but only {} cell(s)", domain.patches[axis],
-                                             "xyz"[axis], asker, domain.resolution[axis]));
+      diagnostics.error(element, fmt::format("there are {} patches along {}{}, but only {} cell(s)",
+                                             domain.patches[axis], "xyz"[axis], asker, domain.resolution[axis]));
   }
   if (domain.upper == domain.lower) diagnostics.error(element, "the box has no extent along any axis");
   if (cells > mostCells)
-    diagnostics.error(element, fmt::format("resolution [{},{},{}] makes {:.3g} cells; the most is {:.3g}",
-                                           domain.resolution[0], domain.resolution[1], domain.resolution[2], cells,
-                                           mostCells));
+    diagnostics.error(element,
+                      fmt::format("resolution [{},{},{}] makes {:.3g} cells; the most is {:.3g}", domain.resolution[0],
+                                  domain.resolution[1], domain.resolution[2], cells, mostCells));
 }
 
 /// A side of a periodic axis takes no conditions; Uintah overlooks them.
@@ -247,7 +251,8 @@ void checkPeriodic(const Element& section, const grid::Domain& domain, Diagnosti
   for (const Element& face : group->children("Face"))
     for (int k = 0; k < 6; ++k)
       if (domain.periodic[k / 2] != 0 && face.attribute("side") == sides[k])
-        diagnostics.note(face, fmt::format("does nothing: {} is periodic, so this side can have no condition", "xyz"[k / 2]));
+        diagnostics.note(face,
+                         fmt::format("does nothing: {} is periodic, so this side can have no condition", "xyz"[k / 2]));
 }
 
 }  // namespace

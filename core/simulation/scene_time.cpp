@@ -17,7 +17,8 @@ constexpr double unlimited = std::numeric_limits<double>::max();
 void refuseRestartStep(TimeSettings&, const Element& element, Diagnostics& diagnostics) {
   const auto given = element.child("override_restart_delt");
   if (given && input::parse<double>(given->text()).value != 0.0)
-    diagnostics.error(*given, fmt::format("found '{}', expected 0: a restart goes on as the run would have", given->text()));
+    diagnostics.error(*given,
+                      fmt::format("found '{}', expected 0: a restart goes on as the run would have", given->text()));
 }
 
 const Schema<TimeSettings>& timeSchema() {
@@ -41,17 +42,20 @@ const Schema<TimeSettings>& timeSchema() {
                  "shorten the last step so that it ends at maxTime")
           .value("clamp_time_to_output", &TimeSettings::clampTimeToOutput, false, "1",
                  "shorten steps so that outputs are at multiples of outputInterval")
-          .value("recompute_timestep", &TimeSettings::recomputeTimeStep, false, "1",
-                 "where a value becomes impossible, undo the step and repeat it with half the time step, up to 20 times")
+          .value(
+              "recompute_timestep", &TimeSettings::recomputeTimeStep, false, "1",
+              "where a value becomes impossible, undo the step and repeat it with half the time step, up to 20 times")
           .ours()
           .value("initial_delt_range", &TimeSettings::initialDeltRange, 0, "s",
                  "time up to which delt_init holds; the first step at least", input::nonNegative())
           .custom("override_restart_delt", refuseRestartStep, {"override_restart_delt"},
-                  "only 0: a restart goes on as the run would have; sus -restart --set Time/delt_max=… makes its steps shorter")
+                  "only 0: a restart goes on as the run would have; sus -restart --set Time/delt_max=… makes its steps "
+                  "shorter")
           .check([](const TimeSettings& time, const Element& element, Diagnostics& diagnostics) {
             if (time.maxTime <= time.initTime)
               diagnostics.error(element, "maxTime is not after initTime; nothing would be computed");
-            if (time.deltMax > 0 && time.deltMin > time.deltMax) diagnostics.error(element, "delt_min is greater than delt_max");
+            if (time.deltMax > 0 && time.deltMin > time.deltMax)
+              diagnostics.error(element, "delt_min is greater than delt_max");
           });
   return schema;
 }
@@ -80,13 +84,14 @@ void takeOutRepeated(std::vector<SaveRequest>& saves, const std::vector<Element>
   std::vector<SaveRequest> kept;
   for (std::size_t k = 0; k < saves.size(); ++k) {
     std::size_t other = 0;
-    while (other < saves.size() && (other == k || !covers(saves[other], saves[k]) ||
-                                    (other > k && covers(saves[k], saves[other]))))
+    while (other < saves.size() &&
+           (other == k || !covers(saves[other], saves[k]) || (other > k && covers(saves[k], saves[other]))))
       ++other;
     if (other == saves.size())
       kept.push_back(saves[k]);
     else
-      diagnostics.note(tags[k], fmt::format("does nothing: '{}' is saved by {}", saves[k].label, saves[other].where.text()));
+      diagnostics.note(tags[k],
+                       fmt::format("does nothing: '{}' is saved by {}", saves[k].label, saves[other].where.text()));
   }
   saves = std::move(kept);
 }
@@ -107,8 +112,9 @@ void checkIntervals(const CheckpointSettings& checkpoint, const Element& element
 const Schema<CheckpointSettings>& checkpointSchema() {
   using Settings = CheckpointSettings;
   static const Schema<Settings> schema =
-      Schema<Settings>("checkpoint", "The whole state, from which sus -restart goes on: at the start, at one of these "
-                                     "intervals, and at the end.")
+      Schema<Settings>("checkpoint",
+                       "The whole state, from which sus -restart goes on: at the start, at one of these "
+                       "intervals, and at the end.")
           .attributeValue("cycle", &Settings::cycle, 2, "1", "how many are kept", input::atLeast(1))
           .optionalAttribute("interval", &Settings::interval, "s", "simulated time between them", input::positive())
           .optionalAttribute("timestepInterval", &Settings::timestepInterval, "1", "steps between them",
@@ -148,13 +154,14 @@ const Schema<ArchiveSettings>& archiveSchema() {
           .required("filebase", &ArchiveSettings::filebase, "1", "name of the folder, such as sod.uda")
           .value("outputInterval", &ArchiveSettings::outputInterval, 0, "s", "time between outputs",
                  input::nonNegative())
-          .value("outputTimestepInterval", &ArchiveSettings::outputTimestepInterval, 0, "1",
-                 "steps between outputs", input::nonNegative())
+          .value("outputTimestepInterval", &ArchiveSettings::outputTimestepInterval, 0, "1", "steps between outputs",
+                 input::nonNegative())
           .flag("outputInitTimestep", &ArchiveSettings::outputInitTimestep, "also save the state at the start")
           .flag("outputLastTimestep", &ArchiveSettings::outputLastTimestep, "also save the state at the end")
           .flag("outputDoubleAsFloat", &ArchiveSettings::doubleAsFloat, "save with 7 digits")
-          .custom("compression", readCompression, {"compression"}, "level of gzip from 0 for none, the default, to 9; "
-                                                                    "gzip is 1, none, rle and tryall are 0")
+          .custom("compression", readCompression, {"compression"},
+                  "level of gzip from 0 for none, the default, to 9; "
+                  "gzip is 1, none, rle and tryall are 0")
           .ignoredAttribute("type", "there is one kind of archive: HDF5 with an index for ParaView")
           .ignored("save_crack_geometry", "there are no cracks")
           .ignored("PIDX", "there is one kind of archive: HDF5 with an index for ParaView")

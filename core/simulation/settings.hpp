@@ -14,15 +14,15 @@ namespace tushar::simulation {
 struct SaveRequest {
   std::string label;
   std::string material;  ///< empty: all
-  Location where;            ///< of the label
+  Location where;        ///< of the label
   Location whereOfMaterial;
 };
 
 /// The tag `checkpoint`: how many are kept, and one of the intervals.
 struct CheckpointSettings {
   int cycle = 2;
-  std::optional<double> interval;       ///< s of simulated time
-  std::optional<int> timestepInterval;  ///< steps
+  std::optional<double> interval;                                   ///< s of simulated time
+  std::optional<int> timestepInterval;                              ///< steps
   std::optional<double> walltimeStart, walltimeInterval;            ///< s
   std::optional<double> walltimeStartHours, walltimeIntervalHours;  ///< h
 };
@@ -42,9 +42,9 @@ struct ArchiveSettings {
 
 /// How a run is asked for on the command line.
 struct RunOptions {
-  std::string jsonPath;       ///< where the report goes; empty: nowhere
-  std::string outputFolder;   ///< instead of the current folder
-  bool quiet = false;         ///< no progress
+  std::string jsonPath;      ///< where the report goes; empty: nowhere
+  std::string outputFolder;  ///< instead of the current folder
+  bool quiet = false;        ///< no progress
 };
 
 }  // namespace tushar::simulation

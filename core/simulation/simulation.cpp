@@ -128,7 +128,8 @@ void Simulation::initialize() {
   warehouse_.releaseFreeMemory();  // what particles are made with is not what steps need
   const int materials = static_cast<int>(phases_.materials().size());
   if (materials > 0 && particleCount(warehouse_, materials) == 0)
-    throw InputError({{{problem_.scenePath, 0, 0}, "MaterialProperties",
+    throw InputError({{{problem_.scenePath, 0, 0},
+                       "MaterialProperties",
                        "there are no particles: no geom_object has a point on the grid"}});
 }
 
@@ -138,7 +139,8 @@ void Simulation::step() {
   auto& dt = warehouse_.reduction<data::Minimum>(table_.number(data::delT, -1));
   dt.value = time_.next(dt, outputs_.next());
   const auto tryStep = [&] {
-    return scheduler_.run(phases_.timeAdvance, {time_.step() + 1, time_.time(), dt.value, time_.repeats(), time_.mayHalve()});
+    return scheduler_.run(phases_.timeAdvance,
+                          {time_.step() + 1, time_.time(), dt.value, time_.repeats(), time_.mayHalve()});
   };
   const KeptReductions before(warehouse_, phases_.timeAdvance.reductions());
   try {
@@ -257,7 +259,8 @@ output::Snapshot Simulation::snapshot() {
   output::Snapshot snapshot = positions(gather);
   for (const SaveRequest& save : phases_.savedFields()) addField(snapshot, save, gather);
   for (const auto& analysis : problem_.analyses)
-    for (output::Array& column : analysis->exactProfile(*problem_.level)) snapshot.reference.push_back(std::move(column));
+    for (output::Array& column : analysis->exactProfile(*problem_.level))
+      snapshot.reference.push_back(std::move(column));
   return snapshot;
 }
 
@@ -265,15 +268,17 @@ void Simulation::addField(output::Snapshot& snapshot, const SaveRequest& save, G
   for (int m = -1; m < static_cast<int>(phases_.materials().size()); ++m) {
     const int number = table_.find(save.label, m);
     const std::string material = m < 0 ? "" : phases_.materials()[static_cast<std::size_t>(m)];
-    if (number < 0 || save.label == data::positionName || (!save.material.empty() && save.material != material)) continue;
+    if (number < 0 || save.label == data::positionName || (!save.material.empty() && save.material != material))
+      continue;
     const data::Label& label = *table_[number].label;
     const bool derived = !warehouse_.isHeld(Generation::old, number);
     output::Array array = gather.stream(derived ? Generation::fresh : Generation::old, number);
     if (label.centring == data::Centring::particle)
       snapshot.particles[static_cast<std::size_t>(m)].arrays.push_back(std::move(array));
     else if (array.entries() > 0)
-      snapshot.fields.push_back({label.centring == data::Centring::node ? output::Centring::node : output::Centring::cell,
-                                 material, m, std::move(array)});
+      snapshot.fields.push_back(
+          {label.centring == data::Centring::node ? output::Centring::node : output::Centring::cell, material, m,
+           std::move(array)});
   }
 }
 

@@ -26,7 +26,7 @@ namespace tushar::simulation {
 /// Everything that a checked scene comes down to.
 struct Problem {
   std::string scenePath, title, componentName;
-  std::string inputXml;  ///< the scene with its overrides, for the archive
+  std::string inputXml;             ///< the scene with its overrides, for the archive
   std::vector<InputProblem> notes;  ///< what of the scene does nothing
   TimeSettings time;
   ArchiveSettings archive;
@@ -120,7 +120,7 @@ class Simulation {
   TimeControl time_;
   Balance balance_;
   Progress progress_;
-  std::optional<output::FolderLock> lock_;  ///< on the archive's folder
+  std::optional<output::FolderLock> lock_;    ///< on the archive's folder
   std::unique_ptr<output::Archive> archive_;  ///< of the first rank
   std::string folder_;                        ///< of the archive; empty where there is none
   int last_output_ = -1;                      ///< step of the last that was written

@@ -37,8 +37,9 @@ void Simulation::balance(const std::vector<double>& costs) {
   scheduler_.forgetLayout();
   balance_.noteChange(ranks_->max(since(started)));
   const Rebalancing& change = balance_.report();
-  progress_.line(fmt::format("step {:>6}  patches change ranks: the busiest had {:.2f} times its share, and has {:.2f} now",
-                             time_.step(), change.before, change.after));
+  progress_.line(
+      fmt::format("step {:>6}  patches change ranks: the busiest had {:.2f} times its share, and has {:.2f} now",
+                  time_.step(), change.before, change.after));
 }
 
 tasks::Luggage Simulation::luggage() const {

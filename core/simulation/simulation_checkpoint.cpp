@@ -54,8 +54,8 @@ void Simulation::checkpointAtEnd() {
   if (folder_.empty() || !(checkpoints_ || isCutShort)) return;
   checkpoint();
   if (isCutShort)
-    progress_.line(fmt::format("step {:>6}  t = {:<12.6g} sus -restart {} goes on from here", time_.step(), time_.time(),
-                               folder_));
+    progress_.line(fmt::format("step {:>6}  t = {:<12.6g} sus -restart {} goes on from here", time_.step(),
+                               time_.time(), folder_));
 }
 
 void Simulation::checkpoint() {
@@ -77,8 +77,7 @@ void Simulation::checkpoint() {
   wall_output_ += since(started);
 }
 
-void Simulation::writeCheckpoint(const std::filesystem::path& path, const output::ArchivePoint& point,
-                                 long dropped) {
+void Simulation::writeCheckpoint(const std::filesystem::path& path, const output::ArchivePoint& point, long dropped) {
   output::Hdf5File file(path, false, 0);
   file.attribute("/", "format", format);
   file.attribute("/", "step", time_.step());
@@ -104,9 +103,11 @@ void Simulation::checkScene(const output::Hdf5Input& file) const {
     refuse(file, fmt::format("the checkpoint has format {}, and this sus reads format {}; it was written by version {}",
                              found, format, file.text("/", "version")));
   if (const int found = file.integer("/", "step"); found != problem_.restart->step)
-    refuse(file, fmt::format("the checkpoint is of step {}; give its folder the name {}", found, output::stepName(found)));
+    refuse(file,
+           fmt::format("the checkpoint is of step {}; give its folder the name {}", found, output::stepName(found)));
   if (const std::string found = file.text("/", "component"); found != problem_.componentName)
-    refuse(file, fmt::format("the checkpoint is of component '{}', and the scene has '{}'", found, problem_.componentName));
+    refuse(file,
+           fmt::format("the checkpoint is of component '{}', and the scene has '{}'", found, problem_.componentName));
   if (!isSameGrid(file, gridInfo(*problem_.level)))
     refuse(file, "the checkpoint has another grid than the scene; patches may change, cells may not");
 }
@@ -130,9 +131,10 @@ void Simulation::reopenArchive(const output::ArchiveOptions& how) {
   const output::Hdf5Input file(restart.state());
   const output::ArchivePoint from{time_.step(), time_.time(), file.text("/archive/index"), file.text("/archive/xdmf")};
   output::CheckpointStore(restart.archive, 1).goBackTo(restart.step);
-  archive_ = std::make_unique<output::Archive>(restart.archive, problem_.archive.filebase, from, problem_.inputXml, how);
-  progress_.line(fmt::format("step {:>6}  t = {:<12.6g} goes on in {}", time_.step(), time_.time(),
-                             archive_->folder().string()));
+  archive_ =
+      std::make_unique<output::Archive>(restart.archive, problem_.archive.filebase, from, problem_.inputXml, how);
+  progress_.line(
+      fmt::format("step {:>6}  t = {:<12.6g} goes on in {}", time_.step(), time_.time(), archive_->folder().string()));
 }
 
 }  // namespace tushar::simulation

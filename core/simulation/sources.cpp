@@ -66,7 +66,8 @@ void forEachId(const Parts& ids, Visit&& visit) {
     }
 }
 
-/// The bits in which ids differ, pushed together: the order of the ids stays, and where they are dense the keys are small.
+/// The bits in which ids differ, pushed together: the order of the ids stays, and where they are dense the keys are
+/// small.
 class Packing {
  public:
   explicit Packing(std::uint64_t differing) {
@@ -177,8 +178,8 @@ void EntryForm::widen(const EntryAt& entryAt, std::size_t count, std::byte* to) 
     const std::byte* from = entryAt(k);
     std::memcpy(to, rest_, sizeof(rest_));
     for (int d = 0; d < axes_; ++d)
-      std::memcpy(to + static_cast<std::size_t>(axis_[d]) * sizeof(double), from + static_cast<std::size_t>(d) * sizeof(double),
-                  sizeof(double));
+      std::memcpy(to + static_cast<std::size_t>(axis_[d]) * sizeof(double),
+                  from + static_cast<std::size_t>(d) * sizeof(double), sizeof(double));
   }
 }
 

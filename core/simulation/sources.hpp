@@ -12,7 +12,7 @@ namespace tushar::simulation {
 
 /// Entries that stand one after the other on a patch as in the order of the whole grid, up to the next run.
 struct Run {
-  std::size_t place;            ///< of the first in the order of the whole grid
+  std::size_t place;           ///< of the first in the order of the whole grid
   std::uint32_t patch, first;  ///< where that is on its patch
 };
 

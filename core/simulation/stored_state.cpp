@@ -44,10 +44,14 @@ Array arrayOf(const Label& label) {
 
 const char* folderOf(Centring centring) {
   switch (centring) {
-    case Centring::particle: return "/particles/";
-    case Centring::node: return "/nodes/";
-    case Centring::cell: return "/cells/";
-    default: return "/reductions/";
+    case Centring::particle:
+      return "/particles/";
+    case Centring::node:
+      return "/nodes/";
+    case Centring::cell:
+      return "/cells/";
+    default:
+      return "/reductions/";
   }
 }
 
@@ -221,8 +225,7 @@ class StateReader : StateWalk {
   }
 
   void readParticles(int material) {
-    const Array::Values perCell =
-        stored(perCellPath(material), std::vector<std::int32_t>{}, level_.cells().size());
+    const Array::Values perCell = stored(perCellPath(material), std::vector<std::int32_t>{}, level_.cells().size());
     ParticleOrder order(warehouse_, material, std::get<std::vector<std::int32_t>>(perCell));
     order.install();
     forEachVariable(Centring::particle, material, [&](int number, const std::string& path) {

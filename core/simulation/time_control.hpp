@@ -9,13 +9,14 @@ namespace tushar::simulation {
 
 /// The `Time` section.
 struct TimeSettings {
-  double maxTime = 0;                  ///< s
-  double initTime = 0;                 ///< s
-  double deltMin = 0;                  ///< s
+  double maxTime = 0;                                    ///< s
+  double initTime = 0;                                   ///< s
+  double deltMin = 0;                                    ///< s
   double deltMax = std::numeric_limits<double>::max();   ///< s
   double deltInit = std::numeric_limits<double>::max();  ///< greatest first time step, s
-  double initialDeltRange = 0;         ///< time up to which deltInit holds, the first step at least, s
-  double maxDeltIncrease = std::numeric_limits<double>::max();  ///< longest step is 1 + this times the one before; no limit where not positive
+  double initialDeltRange = 0;  ///< time up to which deltInit holds, the first step at least, s
+  double maxDeltIncrease = std::numeric_limits<double>::max();  ///< longest step is 1 + this times the one before; no
+                                                                ///< limit where not positive
   double timestepMultiplier = 1;
   int maxTimesteps = std::numeric_limits<int>::max();
   double maxWallTime = std::numeric_limits<double>::max();  ///< s
@@ -29,16 +30,16 @@ class TimeControl {
  public:
   explicit TimeControl(const TimeSettings& settings) : settings_(settings), time_(settings.initTime) {}
 
-  double time() const { return time_; }  ///< s
+  double time() const { return time_; }   ///< s
   double delT() const { return del_t_; }  ///< of the last step, s
   int step() const { return step_; }
   /// Whether maxTime or max_Timesteps has been reached.
   bool done() const;
 
   /// The next time step [s] from what the physics allow: timestep_multiplier times `stable`, within max_delt_increase,
-  /// delt_min and delt_max; at the start no longer than delt_init, be that below delt_min; and (where the scene asks) up
-  /// to maxTime or the next output exactly.
-  /// Throws NumericalError for a step that is not positive or too small to move time on.
+  /// delt_min and delt_max; at the start no longer than delt_init, be that below delt_min; and (where the scene asks)
+  /// up to maxTime or the next output exactly. Throws NumericalError for a step that is not positive or too small to
+  /// move time on.
   double next(const data::Minimum& stable, double nextOutput);
   /// A shorter time step [s] from where `next` started: times the factor that was `asked` for, but at least 0.1 and at
   /// most 0.9. Throws NumericalError for the 21st time in a step, for less than delt_min, and for a step too small to

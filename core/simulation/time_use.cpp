@@ -7,7 +7,9 @@ namespace tushar::simulation {
 TimeUse::TimeUse(const Threads::Use& before, const Threads& threads, double wall, double outputSeconds,
                  const mpi::Communicator& ranks) {
   constexpr double nano = 1e-9;
-  const auto ofAll = [&](double seconds) { return nano * static_cast<double>(ranks.sum(static_cast<long>(seconds / nano))); };
+  const auto ofAll = [&](double seconds) {
+    return nano * static_cast<double>(ranks.sum(static_cast<long>(seconds / nano)));
+  };
   task = ofAll(threads.use().task - before.task);
   message = ofAll(threads.use().message - before.message);
   output = ofAll(outputSeconds);

@@ -12,8 +12,13 @@ input::Schema<LinearSettings> schemaOf(const LinearSettings& defaults) {
               defaults.solver, "Krylov method; direct: none, the preconditioner lu or cholesky solves")
       .ours()
       .choice("preconditioner", &LinearSettings::preconditioner,
-              {{"gamg", "gamg"}, {"hypre", "hypre"}, {"jacobi", "jacobi"}, {"ilu", "ilu"}, {"lu", "lu"},
-               {"cholesky", "cholesky"}, {"none", "none"}},
+              {{"gamg", "gamg"},
+               {"hypre", "hypre"},
+               {"jacobi", "jacobi"},
+               {"ilu", "ilu"},
+               {"lu", "lu"},
+               {"cholesky", "cholesky"},
+               {"none", "none"}},
               defaults.preconditioner, "algebraic multigrid of PETSc or of hypre, or one for small systems")
       .ours()
       .value("tolerance", &LinearSettings::tolerance, defaults.tolerance, "1", "residual over right-hand side",

@@ -7,8 +7,9 @@
 
 namespace tushar::solvers {
 
-/// Gives each cell that a rank deals with its number in a global system, as Unknowns wants it: its own cells, then those of
-/// other ranks that share a face with them. On one rank the order is lexicographic, so that the patches do not matter.
+/// Gives each cell that a rank deals with its number in a global system, as Unknowns wants it: its own cells, then
+/// those of other ranks that share a face with them. On one rank the order is lexicographic, so that the patches do not
+/// matter.
 class CellNumbering {
  public:
   explicit CellNumbering(const grid::Level& level) : level_(&level) {
@@ -18,7 +19,8 @@ class CellNumbering {
   int owned() const { return level_->share().ranks > 1 ? owned_ : static_cast<int>(level_->cells().size()); }
   /// The cells of other ranks: their numbers among those of all ranks.
   const std::vector<int>& ghosts() const { return ghosts_; }
-  /// Of a cell of the grid or, along periodic axes, of an image of one; -1 beyond the grid and far from the rank's patches.
+  /// Of a cell of the grid or, along periodic axes, of an image of one; -1 beyond the grid and far from the rank's
+  /// patches.
   template <int D>
   int operator()(const Index<D>& image) const {
     const Index<D> cell = level_->wrapped(image);

@@ -40,7 +40,8 @@ void PetscMatrix::scale(Vec s) {
   const std::vector<OwnedVec> motions = motionsOver(s, rigid_);
   const std::vector<Vec> vectors(motions.begin(), motions.end());
   OwnedNullSpace scaled;
-  check(MatNullSpaceCreate(ranks_, PETSC_FALSE, static_cast<PetscInt>(vectors.size()), vectors.data(), scaled.address()));
+  check(
+      MatNullSpaceCreate(ranks_, PETSC_FALSE, static_cast<PetscInt>(vectors.size()), vectors.data(), scaled.address()));
   check(MatSetNearNullSpace(matrix_, scaled));
 }
 
@@ -59,8 +60,7 @@ void Balance::scale(PetscMatrix& matrix) {
   PetscScalar* values = nullptr;
   check(VecGetLocalSize(s_, &count));
   check(VecGetArray(s_, &values));
-  for (PetscInt k = 0; k < count; ++k)
-    values[k] = values[k] > 0 ? std::sqrt(greatest / values[k]) : 1.0;
+  for (PetscInt k = 0; k < count; ++k) values[k] = values[k] > 0 ? std::sqrt(greatest / values[k]) : 1.0;
   check(VecRestoreArray(s_, &values));
   matrix.scale(s_);
 }

@@ -64,8 +64,8 @@ bool isNegligible(Newton& newton, Vec u, Vec r) {
   return negligible;
 }
 
-/// |du|² <= displacement max |du|² and |du . r| <= energy |du . r| of the first iteration; or nothing but rounding is left of r
-/// after an iteration: before, a small load may be no more than rounding of a great stiffness, and is to act.
+/// |du|² <= displacement max |du|² and |du . r| <= energy |du . r| of the first iteration; or nothing but rounding is
+/// left of r after an iteration: before, a small load may be no more than rounding of a great stiffness, and is to act.
 PetscErrorCode hasConverged(SNES snes, PetscInt iteration, PetscReal, PetscReal, PetscReal norm,
                             SNESConvergedReason* reason, void* context) {
   Newton& newton = *static_cast<Newton*>(context);

@@ -48,8 +48,8 @@ void check(PetscErrorCode code) {
   if (code == 0) return;
   const char* words = nullptr;
   PetscErrorMessage(code, &words, nullptr);
-  throw std::runtime_error(fmt::format("PETSc: {}{}{}", words ? words : "error", lastMessage().empty() ? "" : ": ",
-                                       lastMessage()));
+  throw std::runtime_error(
+      fmt::format("PETSc: {}{}{}", words ? words : "error", lastMessage().empty() ? "" : ": ", lastMessage()));
 }
 
 void startPetsc() { static const Session session; }
@@ -106,12 +106,13 @@ void PetscMatrix::add(std::span<const int> rows, std::span<const int> columns, s
 }
 
 PetscVector::PetscVector(const Unknowns& unknowns, std::span<double> values) {
-  check(VecCreateMPIWithArray(mpi::handleOf(*unknowns.ranks), unknowns.block, unknowns.block * unknowns.owned, PETSC_DETERMINE,
-                              values.data(), vector_.address()));
+  check(VecCreateMPIWithArray(mpi::handleOf(*unknowns.ranks), unknowns.block, unknowns.block * unknowns.owned,
+                              PETSC_DETERMINE, values.data(), vector_.address()));
 }
 
 GhostedVector::GhostedVector(const Unknowns& unknowns)
-    : values_(static_cast<std::size_t>(unknowns.block) * (static_cast<std::size_t>(unknowns.owned) + unknowns.ghosts.size())) {
+    : values_(static_cast<std::size_t>(unknowns.block) *
+              (static_cast<std::size_t>(unknowns.owned) + unknowns.ghosts.size())) {
   check(VecCreateGhostBlockWithArray(mpi::handleOf(*unknowns.ranks), unknowns.block, unknowns.block * unknowns.owned,
                                      PETSC_DETERMINE, static_cast<PetscInt>(unknowns.ghosts.size()),
                                      unknowns.ghosts.data(), values_.data(), vector_.address()));

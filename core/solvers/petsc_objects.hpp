@@ -90,8 +90,8 @@ class PetscMatrix : public Matrix {
 };
 
 /// Solves A x = b as (S A S) y = S b, x = S y. S brings the diagonal to its greatest entry everywhere: as they are, the
-/// residuals of unknowns that hardly anything holds drown in the norm of all, and multigrid's answer to a force on them is
-/// so large that a Krylov method sees its rounding.
+/// residuals of unknowns that hardly anything holds drown in the norm of all, and multigrid's answer to a force on them
+/// is so large that a Krylov method sees its rounding.
 class Balance {
  public:
   /// For a right-hand side like `b`.
@@ -150,8 +150,8 @@ PetscErrorCode guarded(std::exception_ptr& thrown, Work&& work) {
   }
 }
 
-/// The line search of Newton's method, by the energy (Crisfield, Non-linear Finite Element Analysis, 9.2); `context` is a
-/// std::exception_ptr.
+/// The line search of Newton's method, by the energy (Crisfield, Non-linear Finite Element Analysis, 9.2); `context` is
+/// a std::exception_ptr.
 PetscErrorCode searchAlongStep(SNESLineSearch search, void* context);
 
 /// Why a solve ended, in words, and PETSc's word for it.

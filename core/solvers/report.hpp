@@ -10,7 +10,8 @@
 namespace tushar::solvers {
 
 // What a scene may save of a solve.
-inline constexpr data::ReductionLabel<data::Maximum> assemblyTime{"AssemblyTime", "s", "filling the matrix of the last solve"};
+inline constexpr data::ReductionLabel<data::Maximum> assemblyTime{"AssemblyTime", "s",
+                                                                  "filling the matrix of the last solve"};
 inline constexpr data::ReductionLabel<data::Maximum> preconditionerTime{"PreconditionerTime", "s",
                                                                         "making the preconditioner of the last solve"};
 inline constexpr data::ReductionLabel<data::Maximum> solveTime{"SolveTime", "s", "iterations of the last solve"};
@@ -24,11 +25,13 @@ inline void addTimes(const Outcome& outcome, data::Maximum& assembly, data::Maxi
 
 /// The residual at the end over the greatest on the way; 0 where there never was any.
 inline double remainderOf(const Outcome& outcome) {
-  const double greatest = outcome.residuals.empty() ? 0 : *std::max_element(outcome.residuals.begin(), outcome.residuals.end());
+  const double greatest =
+      outcome.residuals.empty() ? 0 : *std::max_element(outcome.residuals.begin(), outcome.residuals.end());
   return greatest > 0 ? outcome.residuals.back() / greatest : 0;
 }
 
-/// Where the residual is the greatest, the end of a sentence, the same on all ranks: `mine` [m] on the rank that has it.
+/// Where the residual is the greatest, the end of a sentence, the same on all ranks: `mine` [m] on the rank that has
+/// it.
 std::string worstPlace(const mpi::Communicator& ranks, const std::optional<Vec3>& mine, const std::string& what);
 
 }  // namespace tushar::solvers

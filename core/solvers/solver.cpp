@@ -52,7 +52,8 @@ std::string historyOf(const std::vector<double>& residuals) {
   constexpr std::size_t shown = 8;
   std::string history;
   const std::size_t count = residuals.size(), first = count > shown ? count - shown : 0;
-  for (std::size_t k = first; k < count; ++k) history += fmt::format("{}{:.3g}", history.empty() ? "" : ", ", residuals[k]);
+  for (std::size_t k = first; k < count; ++k)
+    history += fmt::format("{}{:.3g}", history.empty() ? "" : ", ", residuals[k]);
   const std::string start = first > 0 ? fmt::format("{:.3g}, …, ", residuals.front()) : "";
   const std::size_t iterations = count == 0 ? 0 : count - 1;
   return fmt::format("{} iteration{}; residuals {}{}", iterations, iterations == 1 ? "" : "s", start, history);
@@ -61,7 +62,8 @@ std::string historyOf(const std::vector<double>& residuals) {
 }  // namespace
 
 std::string sentenceOf(const std::string& what, const Outcome& outcome) {
-  std::string sentence = fmt::format("{} did not converge: {} in {}", what, outcome.reason, historyOf(outcome.residuals));
+  std::string sentence =
+      fmt::format("{} did not converge: {} in {}", what, outcome.reason, historyOf(outcome.residuals));
   if (!outcome.krylovResiduals.empty())
     sentence += fmt::format("; those of the last linear solve, {}", historyOf(outcome.krylovResiduals));
   return sentence;

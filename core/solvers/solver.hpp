@@ -9,12 +9,12 @@
 
 namespace tushar::solvers {
 
-/// The unknowns of a system that a rank deals with, in blocks: one block for each cell or node. A rank numbers the blocks
-/// that it owns from 0 on, and goes on with those of other ranks that it needs.
+/// The unknowns of a system that a rank deals with, in blocks: one block for each cell or node. A rank numbers the
+/// blocks that it owns from 0 on, and goes on with those of other ranks that it needs.
 struct Unknowns {
   const mpi::Communicator* ranks = &mpi::Communicator::alone();  ///< those that solve together
-  int block = 1;             ///< unknowns of a cell or node
-  int owned = 0;             ///< blocks of this rank
+  int block = 1;                                                 ///< unknowns of a cell or node
+  int owned = 0;                                                 ///< blocks of this rank
   std::vector<int> ghosts;   ///< blocks of other ranks: where they stand among the blocks of all, rank after rank
   std::vector<int> entries;  ///< of each owned block row: at most so many blocks are not zero
   /// Where the owned blocks stand, `block` numbers each [m]: gives multigrid the rigid motions of a solid. Empty: none.
@@ -62,8 +62,8 @@ struct LinearProblem {
 class NonlinearProblem {
  public:
   virtual ~NonlinearProblem() = default;
-  /// r(u), where the ghosts in r are what the rank adds to the rows of others. False if there is no residual at such a u,
-  /// so that a smaller step must be tried.
+  /// r(u), where the ghosts in r are what the rank adds to the rows of others. False if there is no residual at such a
+  /// u, so that a smaller step must be tried.
   virtual bool residual(std::span<const double> u, std::span<double> r) = 0;
   /// dr/du at the u of the last residual.
   virtual void tangent(Matrix& matrix) = 0;
@@ -83,10 +83,12 @@ struct NewtonSettings {
 class Solver {
  public:
   virtual ~Solver() = default;
-  /// From the guess in `x`, the owned unknowns, by any Krylov method. Throws std::runtime_error for options that PETSc refuses.
+  /// From the guess in `x`, the owned unknowns, by any Krylov method. Throws std::runtime_error for options that PETSc
+  /// refuses.
   virtual Outcome solve(const Unknowns& unknowns, const LinearProblem& problem, const LinearSettings& settings,
                         std::span<double> x) const = 0;
-  /// From the guess in `u`, owned unknowns and ghosts, by Newton's method with line search. Throws what the problem throws.
+  /// From the guess in `u`, owned unknowns and ghosts, by Newton's method with line search. Throws what the problem
+  /// throws.
   virtual Outcome solve(const Unknowns& unknowns, NonlinearProblem& problem, const NewtonSettings& settings,
                         std::span<double> u) const = 0;
   /// See the functions of these names.

@@ -140,8 +140,8 @@ template <data::Centring C, class T>
 FieldAccess<data::FieldLabel<C, T>, AccessKind::computes> computes(const data::FieldLabel<C, T>& label) {
   return {&label};
 }
-/// Writes every node that is the patch's own (Level::ownNodes): no node is written by two patches of a rank. What stands on
-/// the other nodes of the patch comes from the patches that own them, after the task.
+/// Writes every node that is the patch's own (Level::ownNodes): no node is written by two patches of a rank. What
+/// stands on the other nodes of the patch comes from the patches that own them, after the task.
 template <class T>
 FieldAccess<data::NodeLabel<T>, AccessKind::computes> computesOwn(const data::NodeLabel<T>& label) {
   return {&label, 0, true};
@@ -170,9 +170,7 @@ struct OptionalAccess {
   void declare(std::vector<tasks::Access>& accesses) {
     if (on) access.declare(accesses);
   }
-  auto bind(const TaskContext& context) const {
-    return on ? std::optional(access.bind(context)) : std::nullopt;
-  }
+  auto bind(const TaskContext& context) const { return on ? std::optional(access.bind(context)) : std::nullopt; }
 };
 /// An access that is only declared where `on`: the body gets a std::optional view.
 template <class Access>

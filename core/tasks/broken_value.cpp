@@ -125,8 +125,8 @@ class Search {
     grid::forEach<3>(patch.cells(), [&](const Index3& cell) {
       for (const int p : set(written_.set, patch.id()).in(cell)) {
         const auto place = static_cast<std::size_t>(p);
-        look(numbers(Generation::fresh, patch.id(), place),
-             {level_.cellNumber(cell), ids(written_.set, patch.id())[p]}, patch.id(), cell, place);
+        look(numbers(Generation::fresh, patch.id(), place), {level_.cellNumber(cell), ids(written_.set, patch.id())[p]},
+             patch.id(), cell, place);
       }
     });
   }
@@ -204,7 +204,8 @@ class Search {
       for (const int side : {-1, 1}) {
         Index3 cell = found_.at;
         cell[d] += side;
-        if (level_.cells().contains(cell)) text += fmt::format(", {} in {}", said(valuesIn(cell)), nameOf(level_, cell));
+        if (level_.cells().contains(cell))
+          text += fmt::format(", {} in {}", said(valuesIn(cell)), nameOf(level_, cell));
       }
     return text + "; " + howMany("particles");
   }

@@ -17,7 +17,8 @@ struct Bounded {
 /// Whether all that a task has written on a patch keeps its bounds.
 bool keepsBounds(data::Warehouse& warehouse, const std::vector<Bounded>& written, const grid::Patch& patch);
 
-/// The place in `written` of the first variable that breaks its bound on some patch of this rank; their number if none does.
+/// The place in `written` of the first variable that breaks its bound on some patch of this rank; their number if none
+/// does.
 std::size_t firstThatBreaks(data::Warehouse& warehouse, const std::vector<Bounded>& written);
 
 /// A value that breaks its bound, in words.

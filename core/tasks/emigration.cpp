@@ -40,9 +40,9 @@ mpi::Bytes Emigration::packed(const std::vector<Emigrant>& particles, const std:
     const std::size_t bytes = warehouse_->table()[variable.variable].label->bytes;
     for (const Emigrant& particle : particles)
       mpi::append(message,
-             warehouse_->variable(variable.from, variable.variable, particle.patch).values +
-                 static_cast<std::size_t>(particle.place) * bytes,
-             bytes);
+                  warehouse_->variable(variable.from, variable.variable, particle.patch).values +
+                      static_cast<std::size_t>(particle.place) * bytes,
+                  bytes);
   }
   return message;
 }

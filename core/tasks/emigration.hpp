@@ -23,8 +23,8 @@ struct Emigrant {
 
 /// Takes particles from rank to rank with all their values: one message to each neighbour.
 ///
-/// A particle may go to any cell of the grid. Ranks expect messages from their neighbours only; where some particle goes
-/// farther, which all ranks agree on before, they expect one from every rank.
+/// A particle may go to any cell of the grid. Ranks expect messages from their neighbours only; where some particle
+/// goes farther, which all ranks agree on before, they expect one from every rank.
 class Emigration {
  public:
   /// Ranks with patches as near as this, in cells, are neighbours: few particles go farther in a step.

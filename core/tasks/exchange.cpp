@@ -45,9 +45,10 @@ class Packer {
 
   void addGrid(const GhostCopy& copy) {
     const Variable from = variable(copy.from);
-    forEachRow(copy.box.shifted(Index3{} - copy.shift), name_.label->bytes, [&](const Index3& first, std::size_t length) {
-      mpi::append(message_, at(from, first, name_.label->bytes), length);
-    });
+    forEachRow(copy.box.shifted(Index3{} - copy.shift), name_.label->bytes,
+               [&](const Index3& first, std::size_t length) {
+                 mpi::append(message_, at(from, first, name_.label->bytes), length);
+               });
   }
   /// How many particles each cell has.
   void addCounts(const GhostCopy& copy) {
@@ -60,7 +61,7 @@ class Packer {
     const Variable from = variable(copy.from);
     forEachCell(copy, [&](const ParticleRange& range) {
       mpi::append(message_, from.values + static_cast<std::size_t>(range.first) * name_.label->bytes,
-             static_cast<std::size_t>(range.size()) * name_.label->bytes);
+                  static_cast<std::size_t>(range.size()) * name_.label->bytes);
     });
   }
 
@@ -69,9 +70,7 @@ class Packer {
   template <class Visit>
   void forEachCell(const GhostCopy& copy, Visit&& visit) {
     const ParticleSet& set = warehouse_.particles(fill_.set, name_.material, copy.from);
-    grid::forEach<3>(copy.box.shifted(Index3{} - copy.shift), [&](const Index3& cell) {
-      visit(set.in(cell));
-    });
+    grid::forEach<3>(copy.box.shifted(Index3{} - copy.shift), [&](const Index3& cell) { visit(set.in(cell)); });
   }
 
   Warehouse& warehouse_;
@@ -123,8 +122,7 @@ void Exchange::send(std::span<const NumberedFill> fills, bool hasStopped) {
   fills_ = fills;
   if (movesNothing()) return;
   noteUnsettled();
-  if (!warehouse_->ranks().isAlone())
-    threads_->alone([&] { post(hasStopped); }, trace::Kind::message, "send");
+  if (!warehouse_->ranks().isAlone()) threads_->alone([&] { post(hasStopped); }, trace::Kind::message, "send");
 }
 
 void Exchange::begin(bool hasStopped) {
@@ -157,7 +155,8 @@ bool Exchange::finish() {
 }
 
 bool Exchange::isReady(std::size_t place) {
-  return std::all_of(fills_.begin(), fills_.end(), [&](const NumberedFill& fill) { return planOf(fill).isClosed[place]; });
+  return std::all_of(fills_.begin(), fills_.end(),
+                     [&](const NumberedFill& fill) { return planOf(fill).isClosed[place]; });
 }
 
 template <class Work>
@@ -214,7 +213,8 @@ void Exchange::post(bool hasStopped) {
       Packer packer(*warehouse_, fills_[k], message);
       if (settles_[k])
         for (const GhostCopy& copy : copies->second) packer.addCounts(copy);
-      for (const GhostCopy& copy : copies->second) fills_[k].particles ? packer.addParticles(copy) : packer.addGrid(copy);
+      for (const GhostCopy& copy : copies->second)
+        fills_[k].particles ? packer.addParticles(copy) : packer.addGrid(copy);
     }
     outbox_.send(rank, mpi::Tag::ghosts, std::move(message));
   }
@@ -280,9 +280,9 @@ void Exchange::settleCopies(const NumberedFill& fill, Letters* letters) {
       if (isHere(copy) ? letters || copy.shift == Index3{} : !letters) continue;
       int there = 0;  // place in the message, among those of this copy
       grid::forEach<3>(copy.box, [&](const Index3& cell) {
-        const ParticleRange range =
-            letters ? letters->nextRange(copy.rank, there)
-                    : warehouse_->particles(fill.set, material, copy.from).in(cell - copy.shift);
+        const ParticleRange range = letters
+                                        ? letters->nextRange(copy.rank, there)
+                                        : warehouse_->particles(fill.set, material, copy.from).in(cell - copy.shift);
         there = range.last;
         if (range.empty()) return;
         set.addCopies(cell, copy.from, range, copy.shift,

@@ -22,17 +22,17 @@ GhostReach reachOf(const data::VariableTable& table, const NumberedFill& fill);
 
 /// Fills the ghosts of every patch from the patches that own them, on this rank or another.
 ///
-/// For a task one message goes to each neighbouring rank, with all that it needs for that task, as soon as the last of that
-/// has been computed; other tasks run meanwhile. Before the task patches fill their ghosts from one another, and those that
-/// need nothing of other ranks may be worked on while messages are still on their way.
+/// For a task one message goes to each neighbouring rank, with all that it needs for that task, as soon as the last of
+/// that has been computed; other tasks run meanwhile. Before the task patches fill their ghosts from one another, and
+/// those that need nothing of other ranks may be worked on while messages are still on their way.
 class Exchange {
  public:
   Exchange(data::Warehouse& warehouse, Threads& threads)
       : warehouse_(&warehouse), threads_(&threads), outbox_(warehouse.ranks()) {}
 
-  /// Fills the ghosts of node and cell variables, and of particle variables, in three parts; which particles are ghosts is
-  /// settled on first use of their set. All ranks run them for the same fills in the same order, all three of one before
-  /// the next.
+  /// Fills the ghosts of node and cell variables, and of particle variables, in three parts; which particles are ghosts
+  /// is settled on first use of their set. All ranks run them for the same fills in the same order, all three of one
+  /// before the next.
   ///
   /// Posts messages. A rank on which a task failed says so in place of its values (`hasStopped`).
   void send(std::span<const NumberedFill> fills, bool hasStopped);

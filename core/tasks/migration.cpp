@@ -21,8 +21,8 @@ using mpi::Bytes;
 
 namespace {
 
-/// Writes what stands on patches: the particles of all by cell, then each variable, behind a byte that says whether there
-/// is one.
+/// Writes what stands on patches: the particles of all by cell, then each variable, behind a byte that says whether
+/// there is one.
 class Packer {
  public:
   Packer(data::Warehouse& warehouse, const Luggage& luggage) : warehouse_(warehouse), luggage_(luggage) {}

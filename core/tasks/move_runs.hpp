@@ -15,8 +15,8 @@ inline void moveRun(const Run& run, const std::byte* from, std::byte* to, std::s
 }
 
 /// Moves runs of elements of `bytes` bytes, which may be within the same memory: those that go up from the last to the
-/// first, so that none is overwritten before it has moved. Runs keep their order, so that one that goes down is never in
-/// the way of one that goes up.
+/// first, so that none is overwritten before it has moved. Runs keep their order, so that one that goes down is never
+/// in the way of one that goes up.
 template <class Run>
 void moveRuns(const std::vector<Run>& runs, const std::byte* from, std::byte* to, std::size_t bytes) {
   const auto goesUp = [](const Run& run) { return run.to > run.from; };

@@ -24,7 +24,8 @@ class ParticleInstaller {
   void writeIds(const OnPatches& onPatches);
 
  private:
-  /// Calls `writeOne(maker, where its values go)` for the patches that have new particles; the others keep their values.
+  /// Calls `writeOne(maker, where its values go)` for the patches that have new particles; the others keep their
+  /// values.
   template <class WriteOne>
   void writeEach(int number, const OnPatches& onPatches, const WriteOne& writeOne);
   std::size_t placeOf(const grid::Patch& patch) const {

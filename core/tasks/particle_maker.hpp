@@ -67,7 +67,7 @@ class ParticleMaker {
   bool keeps_all_ = false;
   std::vector<Index3> cells_;
   std::vector<ParticleId> ids_;
-  std::vector<std::size_t> order_;  ///< by place in the set: place among those that were made
+  std::vector<std::size_t> order_;                    ///< by place in the set: place among those that were made
   std::vector<std::unique_ptr<ColumnBase>> columns_;  ///< by access
 };
 

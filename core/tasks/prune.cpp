@@ -14,9 +14,8 @@ bool particlesAmong(const Names& names) {
 
 bool isNeeded(const Task& task, const Names& live) {
   if (task.kind != TaskKind::work && particlesAmong(live)) return true;
-  return std::any_of(task.accesses.begin(), task.accesses.end(), [&](const Access& access) {
-    return access.writes() && live.contains(access.label->name);
-  });
+  return std::any_of(task.accesses.begin(), task.accesses.end(),
+                     [&](const Access& access) { return access.writes() && live.contains(access.label->name); });
 }
 
 /// What is live before a kept task, from what is live after it.
@@ -25,8 +24,7 @@ void stepBack(const Task& task, Names& live) {
     if (access.kind == AccessKind::computes || access.kind == AccessKind::creates)
       live.erase(std::string(access.label->name));
   for (const Access& access : task.accesses)
-    if (access.kind == AccessKind::requiresNew || access.kind == AccessKind::modifies)
-      live.emplace(access.label->name);
+    if (access.kind == AccessKind::requiresNew || access.kind == AccessKind::modifies) live.emplace(access.label->name);
 }
 
 struct Sweep {

@@ -65,9 +65,7 @@ bool mayLeave(const grid::Level& level, const Vec<D>& x, const Index<D>& cell) {
 
 }  // namespace
 
-void Relocation::forgetLayout() {
-  moves_.clear();
-}
+void Relocation::forgetLayout() { moves_.clear(); }
 
 Relocation::Moves& Relocation::movesOf(int material) {
   while (moves_.size() <= static_cast<std::size_t>(material)) moves_.emplace_back(*warehouse_);
@@ -79,9 +77,14 @@ Relocation::Moves& Relocation::movesOf(int material) {
 bool Relocation::find(int material, int position, bool hasStopped) {
   const int id = warehouse_->table().find(data::particleId.name, material);
   if (!hasStopped) switch (warehouse_->level().dimension()) {
-      case 1: findMoves<1>(material, position, id); break;
-      case 2: findMoves<2>(material, position, id); break;
-      default: findMoves<3>(material, position, id);
+      case 1:
+        findMoves<1>(material, position, id);
+        break;
+      case 2:
+        findMoves<2>(material, position, id);
+        break;
+      default:
+        findMoves<3>(material, position, id);
     }
   Verdict verdict = gather(movesOf(material), hasStopped);
   warehouse_->ranks().merge(verdict);
@@ -260,8 +263,7 @@ void Relocation::receiveAll(Moves& moves) {
   for (const Patch& patch : level.patches())
     for (const Outgoing& one : of(moves, patch.id()).outgoing) receiveAt(one.id, one.cell, {patch.id(), one.departed});
   const std::vector<Emigrant>& arrived = moves.emigration.arrived();
-  for (std::size_t k = 0; k < arrived.size(); ++k)
-    receiveAt(arrived[k].id, arrived[k].cell, {-1, static_cast<int>(k)});
+  for (std::size_t k = 0; k < arrived.size(); ++k) receiveAt(arrived[k].id, arrived[k].cell, {-1, static_cast<int>(k)});
 }
 
 void Relocation::receive(const Patch& patch, const Index3& cell, const Incoming& particle, PatchMoves& moves) {
@@ -279,8 +281,7 @@ void Relocation::rebuild(const Patch& patch, int material, PatchMoves& moves) {
   const int id = warehouse_->table().find(data::particleId.name, material);
   const ParticleSet& before = warehouse_->particles(Generation::old, material, patch.id());
   ParticleSet& after = warehouse_->particles(Generation::fresh, material, patch.id());
-  const auto* ids =
-      reinterpret_cast<const ParticleId*>(warehouse_->variable(Generation::old, id, patch.id()).values);
+  const auto* ids = reinterpret_cast<const ParticleId*>(warehouse_->variable(Generation::old, id, patch.id()).values);
   after.reset(patch, warehouse_->table().reach(material));
   moves.runs.clear();
   moves.entries.clear();

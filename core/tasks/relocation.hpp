@@ -15,8 +15,9 @@ namespace tushar::tasks {
 
 /// Brings particles to the cell and patch where they are now, in the order (cell, id), and their variables with them.
 ///
-/// Keeps its working memory from step to step. Finding the moves, which may fail, is one thing, to make them another: where
-/// nothing reads particles between, they are made when the step counts, within the memory that the particles have.
+/// Keeps its working memory from step to step. Finding the moves, which may fail, is one thing, to make them another:
+/// where nothing reads particles between, they are made when the step counts, within the memory that the particles
+/// have.
 class Relocation {
  public:
   Relocation(data::Warehouse& warehouse, Threads& threads) : warehouse_(&warehouse), threads_(&threads) {}
@@ -166,7 +167,7 @@ class Relocation {
   data::Warehouse* warehouse_;
   Threads* threads_;
   std::deque<Moves> moves_;  ///< by material
-  long leaving_ = 0;  ///< in the step in progress
+  long leaving_ = 0;         ///< in the step in progress
   long dropped_ = 0;
 };
 

@@ -21,7 +21,8 @@ void Relocation::carry(const Carried& carried, std::size_t place, Generation to,
     warehouse_->allocateParticles(to, carried.variable, Generation::fresh);
   const std::size_t bytes = warehouse_->table()[carried.variable].label->bytes;
   data::Buffer packed = warehouse_->lend(moves.departed * bytes);
-  const std::byte* from = outgrown.capacity() > 0 ? outgrown.data() : warehouse_->memory(carried.from, carried.variable);
+  const std::byte* from =
+      outgrown.capacity() > 0 ? outgrown.data() : warehouse_->memory(carried.from, carried.variable);
   const Move move{.bytes = bytes,
                   .from = from,
                   .to = warehouse_->memory(to, carried.variable),
@@ -34,8 +35,7 @@ void Relocation::carry(const Carried& carried, std::size_t place, Generation to,
     return static_cast<std::size_t>(patch.id() - warehouse_->level().firstPatch());
   };
   const auto stands = [&](const Patch& patch) { return isInPlace && of(moves, patch.id()).staysAsItIs(to); };
-  if (moves.departed > 0)
-    forEachPatch([&](const Patch& patch) { pack(move, placeOf(patch), of(moves, patch.id())); });
+  if (moves.departed > 0) forEachPatch([&](const Patch& patch) { pack(move, placeOf(patch), of(moves, patch.id())); });
   forEachPatch([&](const Patch& patch) {
     if (!stands(patch)) moveOn(move, placeOf(patch), moves);
   });

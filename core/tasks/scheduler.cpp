@@ -87,7 +87,8 @@ void Scheduler::forEachPatch(CompiledTask& task, const Work& work) {
   for (std::size_t place = 0; place < static_cast<std::size_t>(patches); ++place)
     (exchange_.isReady(place) ? early : late).push_back(place);
   const auto workOnAll = [&](const std::vector<std::size_t>& places) {
-    threads_.forEach(static_cast<int>(places.size()), [&](int k) { workOn(places[static_cast<std::size_t>(k)], task, work); });
+    threads_.forEach(static_cast<int>(places.size()),
+                     [&](int k) { workOn(places[static_cast<std::size_t>(k)], task, work); });
   };
   workOnAll(early);
   if (finishExchange(task)) workOnAll(late);

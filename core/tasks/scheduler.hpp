@@ -27,8 +27,8 @@ std::string placeOf(const CompiledTask& task, int patch, int material, const Ste
 ///
 /// Ranks go through the same graph, each on its patches, and wait for one another only where one needs values of
 /// another: for ghosts, in a relocation, and once at the end of the graph, where reductions are merged and all agree on
-/// how it went. A rank on which a task fails runs no other, and neither does one that should read its values. A task for
-/// all patches at once is run by all ranks that have patches, or by none.
+/// how it went. A rank on which a task fails runs no other, and neither does one that should read its values. A task
+/// for all patches at once is run by all ranks that have patches, or by none.
 class Scheduler {
  public:
   /// On so many threads, but no more than this rank has patches.
@@ -51,8 +51,8 @@ class Scheduler {
   /// Makes the results of a graph the old state.
   void commit(TaskGraph& graph);
 
-  /// What each patch of this rank has cost since this was asked last, in seconds of the clock where all threads work all
-  /// the time; nothing is measured on a rank alone.
+  /// What each patch of this rank has cost since this was asked last, in seconds of the clock where all threads work
+  /// all the time; nothing is measured on a rank alone.
   std::vector<double> takeCosts();
   /// This rank has other patches from now on.
   void forgetLayout();

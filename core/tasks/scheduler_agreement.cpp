@@ -26,7 +26,8 @@ void Scheduler::note(const CompiledTask& task, int material, const NumericalErro
   const auto value = data::Reason::of(error.value().empty() ? task.task.name : error.value());
   const Outcome before = outcome_;
   outcome_.merge({running_, Outcome::Kind::throws, material, error.cell(), warehouse_->ranks().rank(), {}, value});
-  if (before.task != outcome_.task || before.kind != outcome_.kind || before.material != outcome_.material) error_ = error;
+  if (before.task != outcome_.task || before.kind != outcome_.kind || before.material != outcome_.material)
+    error_ = error;
 }
 
 void Scheduler::noteBroken(const CompiledTask& task, int first, int end) {
@@ -73,10 +74,12 @@ NumericalError Scheduler::whatBroke(TaskGraph& graph, const StepInfo& at) {
   const CompiledTask& task = graph.tasks()[static_cast<std::size_t>(outcome.task)];
   const auto broken = firstBroken(*warehouse_, task.of(outcome.material).bounded);
   if (!broken)
-    throw TaskError(fmt::format("{} broke its bound, but not when the task was run again: a body gives the same whenever it "
-                                "runs ({})",
-                                outcome.value.text(), placeOf(task, -1, outcome.material, at)));
-  return {fmt::format("{} ({})", broken->sentence, placeOf(task, broken->patch, outcome.material, at)), "", broken->label};
+    throw TaskError(
+        fmt::format("{} broke its bound, but not when the task was run again: a body gives the same whenever it "
+                    "runs ({})",
+                    outcome.value.text(), placeOf(task, -1, outcome.material, at)));
+  return {fmt::format("{} ({})", broken->sentence, placeOf(task, broken->patch, outcome.material, at)), "",
+          broken->label};
 }
 
 }  // namespace tushar::tasks

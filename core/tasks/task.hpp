@@ -23,7 +23,7 @@ enum class AccessKind {
 struct Access {
   const data::Label* label;
   AccessKind kind;
-  int ghost = 0;  ///< cells or nodes beyond the patch that are read
+  int ghost = 0;     ///< cells or nodes beyond the patch that are read
   bool own = false;  ///< of nodes: whether it writes only those that are the patch's own
 
   bool reads() const { return kind != AccessKind::computes && kind != AccessKind::creates; }

@@ -21,8 +21,10 @@ std::map<std::string, std::pair<const data::Label*, int>, std::less<>> labelsOf(
   std::map<std::string, std::pair<const data::Label*, int>, std::less<>> labels;
   for (const Task& task : tasks) {
     const int materials = static_cast<int>(task.materials.size());
-    for (const Access& access : task.accesses) labels.try_emplace(std::string(access.label->name), access.label, materials);
-    if (task.kind != TaskKind::work) labels.try_emplace(std::string(data::particleId.name), &data::particleId, materials);
+    for (const Access& access : task.accesses)
+      labels.try_emplace(std::string(access.label->name), access.label, materials);
+    if (task.kind != TaskKind::work)
+      labels.try_emplace(std::string(data::particleId.name), &data::particleId, materials);
   }
   return labels;
 }
@@ -36,7 +38,8 @@ bool mayStartEarly(const CompiledTask& task, const data::VariableTable& table) {
   };
   const std::vector<Access>& accesses = task.task.accesses;
   return task.task.kind == TaskKind::work && !task.task.acrossMaterials && !task.task.perRank &&
-         std::none_of(accesses.begin(), accesses.end(), [&](const Access& one) { return one.writes() && isFilled(one); });
+         std::none_of(accesses.begin(), accesses.end(),
+                      [&](const Access& one) { return one.writes() && isFilled(one); });
 }
 
 int materialOf(const Access& access, int material) {
@@ -55,12 +58,11 @@ TaskGraph::TaskGraph(std::string name, Pruned pruned, const grid::Level& level, 
   for (std::size_t t = 0; t < pruned_.kept.size(); ++t) bind(t, table);
   const std::vector<Stage> stages = plan(pruned_.kept);
   for (std::size_t t = 0; t < stages.size(); ++t) {
-    if (!stages[t].fills.empty())
-      tasks_[static_cast<std::size_t>(stages[t].ready + 1)].sends = static_cast<int>(t);
+    if (!stages[t].fills.empty()) tasks_[static_cast<std::size_t>(stages[t].ready + 1)].sends = static_cast<int>(t);
     for (const GhostFill& fill : stages[t].fills)
       for (int m = fill.perMaterial ? 0 : -1; m < (fill.perMaterial ? materials_ : 0); ++m)
-        tasks_[t].fills.push_back({table.number(*fill.label, m), fill.generation, fill.set,
-                                   fill.label->centring == Centring::particle});
+        tasks_[t].fills.push_back(
+            {table.number(*fill.label, m), fill.generation, fill.set, fill.label->centring == Centring::particle});
   }
   for (const CompiledTask& task : tasks_)
     reductions_.insert(reductions_.end(), task.reductions.begin(), task.reductions.end());
@@ -122,9 +124,11 @@ std::vector<Carried> TaskGraph::carriedBy(std::size_t t, int material, data::Var
   for (const std::string& name : live) {
     // What no task of this list names, an earlier list has made: it is only carried.
     const auto known = labels.find(name);
-    const int number = known == labels.end() ? table.find(name, material) : table.number(*known->second.first, material);
+    const int number =
+        known == labels.end() ? table.find(name, material) : table.number(*known->second.first, material);
     if (number < 0 || table[number].label->centring != Centring::particle) continue;
-    const bool isNew = produced.contains(name) && t + 1 < pruned_.kept.size();  // the last task moves what counts already
+    const bool isNew =
+        produced.contains(name) && t + 1 < pruned_.kept.size();  // the last task moves what counts already
     carried.push_back({number, isNew ? Generation::fresh : Generation::old});
   }
   return carried;
@@ -141,8 +145,8 @@ void TaskGraph::checkCreated(std::size_t t) const {
     if (!created) missing += (missing.empty() ? "" : ", ") + name;
   }
   if (!missing.empty())
-    throw TaskError(fmt::format("task {} makes new particles, but does not create {}, which is needed later", task.name,
-                                missing));
+    throw TaskError(
+        fmt::format("task {} makes new particles, but does not create {}, which is needed later", task.name, missing));
 }
 
 void TaskGraph::noteResults(data::VariableTable& table) {
@@ -159,8 +163,7 @@ void TaskGraph::noteResults(data::VariableTable& table) {
   for (const std::string& name : needed)
     if (written.contains(name))
       for (int m = -1; m < materials_; ++m)
-        if (const int number = table.find(name, m);
-            number >= 0 && table[number].label->centring != Centring::reduction)
+        if (const int number = table.find(name, m); number >= 0 && table[number].label->centring != Centring::reduction)
           results_.push_back(number);
   if (changes)
     for (int m = 0; m < materials_; ++m) changed_sets_.push_back(m);

@@ -28,21 +28,21 @@ struct MaterialBinding {
   std::vector<Carried> carried;  ///< of a relocation
   std::vector<Bounded> bounded;  ///< what it writes and must keep a bound
   std::vector<int> freed;        ///< variables whose memory is free afterwards
-  std::vector<int> shared;       ///< variables of which patches wrote their own nodes and take the others from one another
+  std::vector<int> shared;  ///< variables of which patches wrote their own nodes and take the others from one another
 };
 
 /// A task that is kept, with everything settled that the time loop would otherwise have to look up.
 struct CompiledTask {
   Task task;
   std::vector<MaterialBinding> materials;  ///< one for a task that belongs to no material
-  std::vector<NumberedFill> fills;  ///< of ghosts, before it runs
-  int sends = -1;                   ///< the task whose ghosts are sent to other ranks before this one runs, if one is
+  std::vector<NumberedFill> fills;         ///< of ghosts, before it runs
+  int sends = -1;  ///< the task whose ghosts are sent to other ranks before this one runs, if one is
   std::vector<int> reductions, readReductions;  ///< that it computes, and reads
-  bool mayStartEarly = false;   ///< whether patches that have their ghosts may be worked on while others wait for theirs
-  bool isLast = false;          ///< of its graph
-  int recomputeTimeStep = -1;   ///< number of that reduction, for a task that may ask for the step to be repeated
-  double seconds = 0;           ///< time spent in it so far
-  double exchangeSeconds = 0;   ///< of that, time spent filling ghosts before it
+  bool mayStartEarly = false;  ///< whether patches that have their ghosts may be worked on while others wait for theirs
+  bool isLast = false;         ///< of its graph
+  int recomputeTimeStep = -1;  ///< number of that reduction, for a task that may ask for the step to be repeated
+  double seconds = 0;          ///< time spent in it so far
+  double exchangeSeconds = 0;  ///< of that, time spent filling ghosts before it
 
   /// What depends on a material (-1 for a task that belongs to none).
   const MaterialBinding& of(int material) const {

@@ -11,11 +11,16 @@ namespace {
 
 std::string_view word(AccessKind kind) {
   switch (kind) {
-    case AccessKind::requiresOld: return "requires old";
-    case AccessKind::requiresNew: return "requires new";
-    case AccessKind::computes: return "computes";
-    case AccessKind::modifies: return "modifies";
-    default: return "creates";
+    case AccessKind::requiresOld:
+      return "requires old";
+    case AccessKind::requiresNew:
+      return "requires new";
+    case AccessKind::computes:
+      return "computes";
+    case AccessKind::modifies:
+      return "modifies";
+    default:
+      return "creates";
   }
 }
 

@@ -19,7 +19,10 @@ class TaskList {
   template <class Body, class... Arguments>
   void perPatch(std::string name, Body body, Arguments... arguments) {
     std::vector<Access> accesses = declare(arguments...);
-    add({std::move(name), TaskKind::work, {}, std::move(accesses),
+    add({std::move(name),
+         TaskKind::work,
+         {},
+         std::move(accesses),
          [body, bound = std::make_tuple(arguments...)](const TaskContext& context) {
            std::apply([&](const auto&... argument) { body(context.patch(), argument.bind(context)...); }, bound);
          }});
@@ -56,7 +59,10 @@ class TaskList {
   template <class Body, class... Arguments>
   void perRank(std::string name, Body body, Arguments... arguments) {
     std::vector<Access> accesses = declare(arguments...);
-    addPerRank({std::move(name), TaskKind::work, {}, std::move(accesses),
+    addPerRank({std::move(name),
+                TaskKind::work,
+                {},
+                std::move(accesses),
                 [body, bound = std::make_tuple(arguments...)](const TaskContext& context) {
                   std::apply([&](const auto&... argument) { body(patchesOf(context), bindRank(argument, context)...); },
                              bound);
@@ -69,14 +75,13 @@ class TaskList {
   void perRankAcrossMaterials(std::string name, Body body, const std::vector<Material>& materials,
                               Arguments... arguments) {
     std::vector<Access> accesses = declare(arguments...);
-    addPerRank({std::move(name), TaskKind::work, names(materials), std::move(accesses),
-                [body, &materials, bound = std::make_tuple(arguments...)](const TaskContext& context) {
-                  std::apply(
-                      [&](const auto&... argument) {
-                        body(patchesOf(context), materials, bindRankAll(argument, context)...);
-                      },
-                      bound);
-                }});
+    addPerRank(
+        {std::move(name), TaskKind::work, names(materials), std::move(accesses),
+         [body, &materials, bound = std::make_tuple(arguments...)](const TaskContext& context) {
+           std::apply(
+               [&](const auto&... argument) { body(patchesOf(context), materials, bindRankAll(argument, context)...); },
+               bound);
+         }});
   }
 
   /// Runs `body(patch, material, maker, arguments...)`: the particles that the body makes replace those of the patch.

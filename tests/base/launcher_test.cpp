@@ -17,9 +17,9 @@ namespace {
 std::array<int, 4> understood(const std::map<std::string, std::string>& set) {
   std::list<test::Environment> variables;
   for (const char* name :
-       {"OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_LOCAL_SIZE", "PMI_SIZE", "PMI_RANK", "MPI_LOCALNRANKS",
-        "MV2_COMM_WORLD_SIZE", "MV2_COMM_WORLD_RANK", "MV2_COMM_WORLD_LOCAL_SIZE", "PMIX_RANK", "SLURM_STEP_NUM_TASKS",
-        "SLURM_PROCID", "SLURM_STEP_TASKS_PER_NODE", "SLURM_CPUS_PER_TASK"})
+       {"OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_LOCAL_SIZE", "PMI_SIZE", "PMI_RANK",
+        "MPI_LOCALNRANKS", "MV2_COMM_WORLD_SIZE", "MV2_COMM_WORLD_RANK", "MV2_COMM_WORLD_LOCAL_SIZE", "PMIX_RANK",
+        "SLURM_STEP_NUM_TASKS", "SLURM_PROCID", "SLURM_STEP_TASKS_PER_NODE", "SLURM_CPUS_PER_TASK"})
     variables.emplace_back(name, set.contains(name) ? std::optional(set.at(name)) : std::nullopt);
   return {launchedRanks(), launchedRank(), ranksOnThisMachine(), launchedCoresPerRank()};
 }

@@ -2,7 +2,8 @@
 //
 //     mpirun -n 2 parallel_write [REPETITIONS]
 //
-// A field of 4096 x 4096 doubles (134 MB). Its columns or its rows are shared out: parts of a rank lie in pieces, or in one.
+// A field of 4096 x 4096 doubles (134 MB). Its columns or its rows are shared out: parts of a rank lie in pieces, or in
+// one.
 
 #include <fcntl.h>
 #include <hdf5.h>

@@ -11,7 +11,8 @@ namespace tushar::benchmark {
 /// measured against.
 class PlainLoop {
  public:
-  explicit PlainLoop(int cells) : n_(cells), h_(1.0 / cells), count_(cells), mean_(cells), pressure_(cells), delta_(cells) {
+  explicit PlainLoop(int cells)
+      : n_(cells), h_(1.0 / cells), count_(cells), mean_(cells), pressure_(cells), delta_(cells) {
     for (int c = 0; c < cells; ++c) {
       const bool left = c < cells / 2;
       const int particles = left ? 8 : 1;
@@ -127,9 +128,9 @@ class PlainLoop {
   int n_;
   double h_;
   std::vector<int> count_, cell_;
-  std::vector<double> mean_, pressure_, delta_;               // per cell
-  std::vector<double> m_, momentum_, a_, v1_;                 // per node
-  std::vector<double> x_, v_, rho_, e_, p_, d_;               // per particle
+  std::vector<double> mean_, pressure_, delta_;  // per cell
+  std::vector<double> m_, momentum_, a_, v1_;    // per node
+  std::vector<double> x_, v_, rho_, e_, p_, d_;  // per particle
 };
 
 }  // namespace tushar::benchmark

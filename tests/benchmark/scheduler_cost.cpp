@@ -23,10 +23,12 @@ class Chain {
       names_.push_back("c.value" + std::to_string(k));
       labels_.emplace_back(names_.back(), "1", "nothing");
     }
-    tasks.perPatch("first", [](const Patch&, CellView<double>) {}, tasks::computes(labels_[0]));
+    tasks.perPatch(
+        "first", [](const Patch&, CellView<double>) {}, tasks::computes(labels_[0]));
     for (std::size_t k = 1; k < static_cast<std::size_t>(length); ++k)
-      tasks.perPatch("task " + std::to_string(k), [](const Patch&, CellView<const double>, CellView<double>) {},
-                     tasks::requiresNew(labels_[k - 1]), tasks::computes(labels_[k]));
+      tasks.perPatch(
+          "task " + std::to_string(k), [](const Patch&, CellView<const double>, CellView<double>) {},
+          tasks::requiresNew(labels_[k - 1]), tasks::computes(labels_[k]));
     wanted = {names_[static_cast<std::size_t>(length) - 1]};
   }
   tasks::TaskList tasks;
@@ -65,7 +67,12 @@ void compile(::benchmark::State& state) {
                            ::benchmark::Counter::kIsIterationInvariantRate | ::benchmark::Counter::kInvert);
 }
 
-BENCHMARK(execute)->Args({100, 1000, 1})->Args({100, 1000, 2})->Args({1000, 100, 1})->Args({1000, 100, 2})->UseRealTime();
+BENCHMARK(execute)
+    ->Args({100, 1000, 1})
+    ->Args({100, 1000, 2})
+    ->Args({1000, 100, 1})
+    ->Args({1000, 100, 2})
+    ->UseRealTime();
 BENCHMARK(compile)->Args({100, 1})->Args({1000, 1})->Args({100, 1000});
 
 }  // namespace

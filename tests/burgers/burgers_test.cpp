@@ -55,7 +55,7 @@ double order(const std::vector<std::string>& overrides) {
 }  // namespace
 
 TEST(Burgers, HasTheFluxOfTheWaveAtTheFace) {
-  EXPECT_EQ(godunovFlux(2, 1), 2);     // to the right
+  EXPECT_EQ(godunovFlux(2, 1), 2);  // to the right
   EXPECT_EQ(godunovFlux(1, 2), 0.5);
   EXPECT_EQ(godunovFlux(-2, -1), 0.5);  // to the left
   EXPECT_EQ(godunovFlux(-1, -2), 2);

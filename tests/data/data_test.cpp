@@ -193,12 +193,14 @@ TEST(ParticleSet, VisitsTheCellsOfABoxThatHoldParticlesInOrder) {
   domain.upper = {5, 4, 3};
   const grid::Level level(domain);
   const ParticleSet set = someCells(level);
-  for (const grid::Box& box : {level.cells(), grid::Box{{{1, 0, 1}}, {{4, 3, 3}}}, grid::Box{{{2, 1, 0}}, {{2, 3, 2}}}}) {
+  for (const grid::Box& box :
+       {level.cells(), grid::Box{{{1, 0, 1}}, {{4, 3, 3}}}, grid::Box{{{2, 1, 0}}, {{2, 3, 2}}}}) {
     std::vector<std::pair<Index3, int>> expected, visited;
     grid::forEach<3>(box, [&](const Index3& cell) {
       if (!set.in(cell).empty()) expected.emplace_back(cell, set.in(cell).first);
     });
-    set.forEachOccupied<3>(box, [&](const Index3& cell, const ParticleRange& range) { visited.emplace_back(cell, range.first); });
+    set.forEachOccupied<3>(
+        box, [&](const Index3& cell, const ParticleRange& range) { visited.emplace_back(cell, range.first); });
     EXPECT_EQ(visited, expected);
   }
 }
@@ -228,9 +230,10 @@ TEST(View, RefusesWhatIsOutsideNamingTheLabel) {
     view[Index<1>{{4}}] = 1;
     FAIL();
   } catch (const AccessError& error) {
-    EXPECT_STREQ(error.what(),
-                 "c.height was used at (4,0,0), outside the box (0,0,0) to (3,0,0) that the task declared; declare more "
-                 "ghosts or stay inside");
+    EXPECT_STREQ(
+        error.what(),
+        "c.height was used at (4,0,0), outside the box (0,0,0) to (3,0,0) that the task declared; declare more "
+        "ghosts or stay inside");
   }
 }
 

@@ -10,7 +10,8 @@ namespace {
 bool areDisjoint(const Slots& slots) {
   for (std::size_t a = 0; a < slots.first.size(); ++a)
     for (std::size_t b = a + 1; b < slots.first.size(); ++b)
-      if (slots.first[a] < slots.first[b] + slots.room[b] && slots.first[b] < slots.first[a] + slots.room[a]) return false;
+      if (slots.first[a] < slots.first[b] + slots.room[b] && slots.first[b] < slots.first[a] + slots.room[a])
+        return false;
   return true;
 }
 

@@ -235,8 +235,9 @@ TEST(ComputeStableTimeStep, NamesTheCellWhosePressureIsLost) {
     box.stableStep(0.5);
     FAIL();
   } catch (const NumericalError& error) {
-    EXPECT_STREQ(error.what(), "c.pressure became -0.4 Pa, but must be finite and greater than 0: cell (270) at x = "
-                               "0.901667 m, density 0.125 kg/m^3");
+    EXPECT_STREQ(error.what(),
+                 "c.pressure became -0.4 Pa, but must be finite and greater than 0: cell (270) at x = "
+                 "0.901667 m, density 0.125 kg/m^3");
     EXPECT_EQ(error.value(), "c.pressure");
     EXPECT_EQ(error.cell(), 270u);
   }

@@ -31,7 +31,8 @@ TEST(ChoosePatches, MakesNoMoreAlongAnAxisThanThereAreCells) {
 
 TEST(ParseLayout, TakesThreeWholeNumbersFromOneOnAndNothingElse) {
   EXPECT_EQ(parseLayout("4x2x1"), (Index3{{4, 2, 1}}));
-  for (const char* nonsense : {"", "4", "4x2", "4x2x", "4x2x0", "4x-2x1", "4x2x1x1", "4 x2x1", "axbxc", "4x2x1.5", "4x2x99999999999"})
+  for (const char* nonsense :
+       {"", "4", "4x2", "4x2x", "4x2x0", "4x-2x1", "4x2x1x1", "4 x2x1", "axbxc", "4x2x1.5", "4x2x99999999999"})
     EXPECT_EQ(parseLayout(nonsense), std::nullopt) << nonsense;
 }
 

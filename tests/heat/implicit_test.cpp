@@ -65,7 +65,8 @@ double errorInTime(double theta, int steps) {
   const std::vector<double> temperature = after(domain, implicitSettings(theta, "sin(pi*x)"), 0.1 / steps, steps);
   double error = 0;
   for (int k = 0; k < cells; ++k)
-    error = std::max(error, std::abs(temperature[std::size_t(k)] - std::exp(-0.1 * rate) * std::sin(M_PI * (k + 0.5) / cells)));
+    error = std::max(
+        error, std::abs(temperature[std::size_t(k)] - std::exp(-0.1 * rate) * std::sin(M_PI * (k + 0.5) / cells)));
   return error;
 }
 
@@ -93,14 +94,16 @@ TEST(ImplicitHeat, IsOfSecondOrderInTimeByCrankNicolson) {
 
 TEST(ImplicitHeat, StaysWithinTheRangeOfTheStartAndTheFacesWithLongSteps) {
   for (const int steps : {1, 2, 10}) {
-    const std::vector<double> temperature = after(betweenOneAndTwo(), implicitSettings(1, spike, jump), longStep(), steps);
+    const std::vector<double> temperature =
+        after(betweenOneAndTwo(), implicitSettings(1, spike, jump), longStep(), steps);
     EXPECT_GT(*std::min_element(temperature.begin(), temperature.end()), 0.001);
     EXPECT_LT(*std::max_element(temperature.begin(), temperature.end()), 1000);
   }
 }
 
 TEST(ImplicitHeat, ReachesTheSteadyStateOfTwoConductivities) {
-  const std::vector<double> temperature = after(betweenOneAndTwo(), implicitSettings(1, spike, jump), 1e4 * longStep(), 40);
+  const std::vector<double> temperature =
+      after(betweenOneAndTwo(), implicitSettings(1, spike, jump), 1e4 * longStep(), 40);
   // The flux is the same everywhere: nearly all of the difference is in the half that conducts badly.
   const double flux = 1 / (0.5 + 0.5e-6);
   for (int k = 0; k < 32; ++k) {

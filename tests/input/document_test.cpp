@@ -98,12 +98,14 @@ TEST(Document, SaysWhereXmlIsMalformed) {
 }
 
 TEST(Document, NamesTheTagThatIsNotClosed) {
-  EXPECT_EQ(problemsOf("<Uintah_specification>\n <Time>\n <!-- <a> --> <b c='</b>'/>\n</Uintah_specification>"),
-            Lines{"s.ups:4:3: found </Uintah_specification> while <Time> of s.ups:2:3 is still open; is its </Time> missing?"});
-  EXPECT_EQ(problemsOf("<Uintah_specification>\n <Time>\n"),
-            Lines{"s.ups:3:1: found the end of the file while <Time> of s.ups:2:3 is still open; is its </Time> missing?"});
-  EXPECT_EQ(problemsOf("<Uintah_specification/></Time>"),
-            Lines{"s.ups:1:26: found </Time>, but no tag is open here"});
+  EXPECT_EQ(
+      problemsOf("<Uintah_specification>\n <Time>\n <!-- <a> --> <b c='</b>'/>\n</Uintah_specification>"),
+      Lines{
+          "s.ups:4:3: found </Uintah_specification> while <Time> of s.ups:2:3 is still open; is its </Time> missing?"});
+  EXPECT_EQ(
+      problemsOf("<Uintah_specification>\n <Time>\n"),
+      Lines{"s.ups:3:1: found the end of the file while <Time> of s.ups:2:3 is still open; is its </Time> missing?"});
+  EXPECT_EQ(problemsOf("<Uintah_specification/></Time>"), Lines{"s.ups:1:26: found </Time>, but no tag is open here"});
 }
 
 TEST(Document, RefusesTagsThatAreNestedTooDeep) {
@@ -111,7 +113,8 @@ TEST(Document, RefusesTagsThatAreNestedTooDeep) {
   for (int k = 0; k < 200000; ++k) text += "<a>";
   for (int k = 0; k < 200000; ++k) text += "</a>";
 
-  EXPECT_EQ(problemsOf(text + "</Uintah_specification>"), Lines{"s.ups:1:321: more than 100 tags stand in each other here"});
+  EXPECT_EQ(problemsOf(text + "</Uintah_specification>"),
+            Lines{"s.ups:1:321: more than 100 tags stand in each other here"});
 }
 
 TEST(Document, SaysThatTheRootIsAnother) {
@@ -188,9 +191,11 @@ TEST_F(Include, InsertsTheWholeFileWithoutASection) {
 
 TEST(Document, MakesThePathOfAFileAbsolute) {
   Diagnostics diagnostics;
-  Document document = Document::parse("<Uintah_specification><a><file> ../t.h5 </file><name>steel</name></a>"
-                                      "<tri><name>../t.h5</name></tri><contact><filename>../t.h5</filename></contact>"
-                                      "</Uintah_specification>", "some/folder/s.ups", diagnostics);
+  Document document = Document::parse(
+      "<Uintah_specification><a><file> ../t.h5 </file><name>steel</name></a>"
+      "<tri><name>../t.h5</name></tri><contact><filename>../t.h5</filename></contact>"
+      "</Uintah_specification>",
+      "some/folder/s.ups", diagnostics);
   const std::string expected = (std::filesystem::current_path() / "some/t.h5").string();
   EXPECT_EQ(document.root().child("tri")->child("name")->text(), expected);
   EXPECT_EQ(document.root().child("contact")->child("filename")->text(), expected);
@@ -222,7 +227,8 @@ TEST_F(Include, FindsAFileThatIsNamedFromAFolderAbove) {
 TEST_F(Include, SaysThatTheFileIsMissing) {
   const Lines lines = problems("<include href='othr.xml'/>");
 
-  EXPECT_EQ(lines, Lines{path_ + ":2:8: cannot include '" + test::temporaryFolder() + "othr.xml': there is no such file"});
+  EXPECT_EQ(lines,
+            Lines{path_ + ":2:8: cannot include '" + test::temporaryFolder() + "othr.xml': there is no such file"});
 }
 
 TEST_F(Include, SaysThatTheSectionIsMissing) {

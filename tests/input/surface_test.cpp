@@ -52,7 +52,8 @@ Triangles sphere(double radius, int parallels) {
   const auto at = [&](int i, int j) {
     const double polar = M_PI * i / parallels, around = 2 * M_PI * (j % meridians) / meridians;
     const double ring = i == 0 || i == parallels ? 0 : std::sin(polar);
-    return Vec3(1 + radius * ring * std::cos(around), 2 + radius * ring * std::sin(around), 3 + radius * std::cos(polar));
+    return Vec3(1 + radius * ring * std::cos(around), 2 + radius * ring * std::sin(around),
+                3 + radius * std::cos(polar));
   };
   Triangles triangles;
   for (int i = 0; i < parallels; ++i)

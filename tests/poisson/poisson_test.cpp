@@ -144,8 +144,8 @@ TEST(Poisson, TakesASourceThatTheSlopesAtTheFacesBalance) {
 }
 
 TEST(Poisson, RefusesASourceThatNothingBalances) {
-  for (const auto& [what, advice] : {refusal<2>(repeated(8), settingsOf("3 + sin(2*pi*x)")),
-                                     refusal<1>(betweenSlopes(8, 1, 1), settingsOf("5"))}) {
+  for (const auto& [what, advice] :
+       {refusal<2>(repeated(8), settingsOf("3 + sin(2*pi*x)")), refusal<1>(betweenSlopes(8, 1, 1), settingsOf("5"))}) {
     EXPECT_NE(what.find("the source over the whole grid is greater by 3 than"), std::string::npos) << what;
     EXPECT_NE(advice.find("smaller by 3 everywhere"), std::string::npos) << advice;
   }
@@ -193,8 +193,9 @@ TEST(Poisson, TellsThatTheSolverGaveUpAndWhatToTry) {
     solved<2>(keptAtOne<2>(12), settings, "0");
     FAIL();
   } catch (const NumericalError& error) {
-    EXPECT_NE(std::string(error.what()).find("Poisson's equation did not converge: more iterations than allowed "
-                                             "(DIVERGED_ITS) in 1 iteration;"),
+    EXPECT_NE(std::string(error.what())
+                  .find("Poisson's equation did not converge: more iterations than allowed "
+                        "(DIVERGED_ITS) in 1 iteration;"),
               std::string::npos);
     EXPECT_NE(error.advice().find("<preconditioner>"), std::string::npos);
   }

@@ -19,7 +19,8 @@ using test::onRanks;
 namespace fs = std::filesystem;
 
 /// Number of steps and fingerprint of a scene on some ranks with so many threads each, told to all of them.
-std::string resultOf(const std::string& scene, std::vector<std::string> sets, const mpi::Communicator& ranks, int threads) {
+std::string resultOf(const std::string& scene, std::vector<std::string> sets, const mpi::Communicator& ranks,
+                     int threads) {
   sets.push_back("DataArchiver/outputInterval=0");
   Problem problem = readScene(scene, sets, catalogue(), {}, test::shareOf(ranks));
   problem.threads = threads;
@@ -28,7 +29,8 @@ std::string resultOf(const std::string& scene, std::vector<std::string> sets, co
   RunOptions options;
   options.quiet = true;
   const Report report = Simulation(std::move(problem), options, std::chrono::steady_clock::now(), ranks).run();
-  return ranks.broadcast(std::to_string(report.steps) + " " + report.fingerprint + " " + std::to_string(report.particles));
+  return ranks.broadcast(std::to_string(report.steps) + " " + report.fingerprint + " " +
+                         std::to_string(report.particles));
 }
 
 /// The number of axes of a scene with several cells.
@@ -41,15 +43,15 @@ std::vector<std::string> layoutsOf(const std::string& scene) {
   const Index3 last[] = {{{64, 1, 1}}, {{8, 8, 1}}, {{4, 4, 4}}};
   const int axes = problem.level->dimension();
   std::vector<std::string> layouts;
-  for (const Index3& patches : {Index3{{1, 1, 1}}, Index3{{2, 1, 1}}, axes == 1 ? Index3{{7, 1, 1}} : Index3{{1, 7, 1}},
-                                last[axes - 1]})
+  for (const Index3& patches :
+       {Index3{{1, 1, 1}}, Index3{{2, 1, 1}}, axes == 1 ? Index3{{7, 1, 1}} : Index3{{1, 7, 1}}, last[axes - 1]})
     layouts.push_back(fmt::format("[{},{},{}]", std::min(patches[0], most[0]), std::min(patches[1], most[1]),
                                   std::min(patches[2], most[2])));
   return layouts;
 }
 
-/// On 2, 3 and 4 ranks, each with another of the layouts and numbers of threads from the `first` on, comes what one rank
-/// and one patch give.
+/// On 2, 3 and 4 ranks, each with another of the layouts and numbers of threads from the `first` on, comes what one
+/// rank and one patch give.
 void expectSame(const std::string& scene, const std::vector<std::string>& layouts, std::vector<std::string> sets,
                 std::size_t first = 0) {
   SCOPED_TRACE(scene);
@@ -104,7 +106,8 @@ TEST(Ranks, GiveTheSameBitsOnEveryScene) {
 }
 
 TEST(Ranks, GiveTheSameBitsWhereParticlesAreRedistributed) {
-  const std::string mode = "MPM/gas_dynamics/redistribute/mode=reseed", tracked = "MPM/gas_dynamics/volume_model=tracked";
+  const std::string mode = "MPM/gas_dynamics/redistribute/mode=reseed",
+                    tracked = "MPM/gas_dynamics/volume_model=tracked";
   expectSame("ups/mpm/sod_redistribute.ups", {"[7,1,1]", "[64,1,1]"}, {"Time/max_Timesteps=40"});
   expectSame("ups/mpm/sod_redistribute.ups", {"[64,1,1]"}, {"Time/max_Timesteps=40", mode, tracked});
 }

@@ -65,21 +65,27 @@ double valueOf(test::Runner& run, const char* reduction) {
 double differingGhosts(const mpi::Communicator& ranks, const Index3& patches, int width, bool periodic) {
   test::Runner run(plane(patches, periodic), 1, ranks);
   TaskList list;
-  list.perPatch("fill", [periodic](const Patch& patch, CellView<double> cells, NodeView<double> nodes) {
-    forEach<2>(patch.cells(), [&](const Index<2>& at) { cells[at] = numberOf(at, periodic); });
-    forEach<2>(patch.nodes(), [&](const Index<2>& at) { nodes[at] = numberOf(at, periodic); });
-  }, computes(number), computes(nodeNumber));
-  list.perPatch("check", [periodic](const Patch&, CellView<const double> cells, NodeView<const double> nodes, Sum& bad) {
-    forEach<2>(cells.box(), [&](const Index<2>& at) { bad.add(cells[at] != numberOf(at, periodic)); });
-    forEach<2>(nodes.box(), [&](const Index<2>& at) { bad.add(nodes[at] != numberOf(at, periodic)); });
-  }, requiresNew(number, width), requiresNew(nodeNumber, width), computes(wrong));
+  list.perPatch(
+      "fill",
+      [periodic](const Patch& patch, CellView<double> cells, NodeView<double> nodes) {
+        forEach<2>(patch.cells(), [&](const Index<2>& at) { cells[at] = numberOf(at, periodic); });
+        forEach<2>(patch.nodes(), [&](const Index<2>& at) { nodes[at] = numberOf(at, periodic); });
+      },
+      computes(number), computes(nodeNumber));
+  list.perPatch(
+      "check",
+      [periodic](const Patch&, CellView<const double> cells, NodeView<const double> nodes, Sum& bad) {
+        forEach<2>(cells.box(), [&](const Index<2>& at) { bad.add(cells[at] != numberOf(at, periodic)); });
+        forEach<2>(nodes.box(), [&](const Index<2>& at) { bad.add(nodes[at] != numberOf(at, periodic)); });
+      },
+      requiresNew(number, width), requiresNew(nodeNumber, width), computes(wrong));
   TaskGraph graph = run.compile(list, {"wrong"});
   run.step(graph);
   return valueOf(run, "wrong");
 }
 
-/// Two particles in each cell, which jump by some cells in each step, on a periodic grid; or on one with ends, where they
-/// stay.
+/// Two particles in each cell, which jump by some cells in each step, on a periodic grid; or on one with ends, where
+/// they stay.
 class Swarm {
  public:
   /// A rank that `fails` does so once, at the start of a step.
@@ -87,21 +93,28 @@ class Swarm {
       : run(plane(patches, jump > 0), 1, ranks), failing(fails) {
     TaskList start, advance;
     start.newParticles("create", create, gas, creates(x), creates(mark));
-    advance.perMaterial("fail", [this](const Patch&, const Material&, ParticleView<const Vec<2>>, Minimum&) {
-      if (std::exchange(failing, false)) throw NumericalError("made to fail", "", "value");
-    }, gas, requiresOld(x), computes(data::recomputeTimeStep));
+    advance.perMaterial(
+        "fail",
+        [this](const Patch&, const Material&, ParticleView<const Vec<2>>, Minimum&) {
+          if (std::exchange(failing, false)) throw NumericalError("made to fail", "", "value");
+        },
+        gas, requiresOld(x), computes(data::recomputeTimeStep));
     advance.perMaterial("inspect the start", inspect, gas, requiresOld(x, 1), requiresOld(data::particleId, 1),
                         requiresOld(mark, 1), computes(wrongBefore), computes(countBefore));
-    advance.perMaterial("move", [jump](const Patch& patch, const Material&, ParticleView<const Vec<2>> from,
-                                       ParticleView<Vec<2>> to) {
-      for (int p = 0; p < from.owned(); ++p)
-        to[p] = from[p] + Vec<2>(jump * patch.level().spacing(0), std::sin(40 * from[p][0]) * jump * patch.level().spacing(1));
-    }, gas, requiresOld(x), computes(x));
+    advance.perMaterial(
+        "move",
+        [jump](const Patch& patch, const Material&, ParticleView<const Vec<2>> from, ParticleView<Vec<2>> to) {
+          for (int p = 0; p < from.owned(); ++p)
+            to[p] = from[p] + Vec<2>(jump * patch.level().spacing(0),
+                                     std::sin(40 * from[p][0]) * jump * patch.level().spacing(1));
+        },
+        gas, requiresOld(x), computes(x));
     advance.relocate(x, gas);
     advance.perMaterial("inspect", inspect, gas, requiresNew(x, 1), requiresNew(data::particleId, 1),
                         requiresNew(mark, 1), computes(wrong), computes(count));
     begin = run.compile(start, {"p.x", "p.mark"});
-    step = run.compile(advance, {"p.x", "p.mark", "wrong", "count", "wrongBefore", "countBefore", "recomputeTimeStep"}, true);
+    step = run.compile(advance, {"p.x", "p.mark", "wrong", "count", "wrongBefore", "countBefore", "recomputeTimeStep"},
+                       true);
     run.step(begin);
   }
   /// Patches change ranks before each step from now on: all to one, or to each another number of them.
@@ -127,9 +140,11 @@ class Swarm {
   void move(int turn) {
     const int ranks = run.level.share().ranks, patches = run.level.patchCount();
     grid::Firsts firsts{0};
-    for (int rank = 1; rank < ranks; ++rank) firsts.push_back(turn % 2 == 0 ? patches : patches * rank * rank / (ranks * ranks));
+    for (int rank = 1; rank < ranks; ++rank)
+      firsts.push_back(turn % 2 == 0 ? patches : patches * rank * rank / (ranks * ranks));
     firsts.push_back(patches);
-    const Luggage luggage{1, {run.table.find("p.x", 0), run.table.find("p.mark", 0), run.table.find(data::particleId.name, 0)}};
+    const Luggage luggage{
+        1, {run.table.find("p.x", 0), run.table.find("p.mark", 0), run.table.find(data::particleId.name, 0)}};
     migrate(run.level, run.warehouse, luggage, firsts);
     run.scheduler.forgetLayout();
   }
@@ -145,8 +160,8 @@ class Swarm {
     });
   }
   /// Particles in a wrong cell, with another's mark or out of order; ghosts stand beyond the grid.
-  static void inspect(const Patch& patch, const Material&, ParticleView<const Vec<2>> at, ParticleView<const ParticleId> ids,
-                      ParticleView<const double> marks, Sum& bad, Sum& all) {
+  static void inspect(const Patch& patch, const Material&, ParticleView<const Vec<2>> at,
+                      ParticleView<const ParticleId> ids, ParticleView<const double> marks, Sum& bad, Sum& all) {
     forEach<2>(at.cells(), [&](const Index<2>& cell) {
       ParticleId before = 0;
       for (const int p : at.in(cell)) {
@@ -169,13 +184,19 @@ template <class Harm>
 std::string failure(const mpi::Communicator& ranks, bool mayRepeat, const Harm& harm) {
   test::Runner run(plane({{4, 3, 1}}, false), 1, ranks);
   TaskList list;
-  list.perPatch("harm", [harm](const Patch& patch, CellView<double> cells, Minimum& factor) {
-    forEach<2>(patch.cells(), [&](const Index<2>& at) { cells[at] = numberOf(at, false); });
-    harm(patch, cells, factor);
-  }, computes(number), computes(data::recomputeTimeStep));
-  list.perPatch("neighbours", [](const Patch&, CellView<const double> cells, Sum& bad) {
-    forEach<2>(cells.box(), [&](const Index<2>& at) { bad.add(cells[at]); });
-  }, requiresNew(number, 1), computes(wrong));
+  list.perPatch(
+      "harm",
+      [harm](const Patch& patch, CellView<double> cells, Minimum& factor) {
+        forEach<2>(patch.cells(), [&](const Index<2>& at) { cells[at] = numberOf(at, false); });
+        harm(patch, cells, factor);
+      },
+      computes(number), computes(data::recomputeTimeStep));
+  list.perPatch(
+      "neighbours",
+      [](const Patch&, CellView<const double> cells, Sum& bad) {
+        forEach<2>(cells.box(), [&](const Index<2>& at) { bad.add(cells[at]); });
+      },
+      requiresNew(number, 1), computes(wrong));
   TaskGraph graph = run.compile(list, {"wrong", "recomputeTimeStep"});
   run.warehouse.grow(0);
   StepInfo at;
@@ -195,7 +216,8 @@ void breakTwo(const Patch& patch, CellView<double> cells, Minimum&) {
 void throwTwo(const Patch& patch, CellView<double>, Minimum&) {
   for (const Index<2>& bad : {Index<2>{{2, 6}}, Index<2>{{9, 2}}})
     if (patch.cells().contains(bad))
-      throw NumericalError("cell " + std::to_string(patch.level().cellNumber(bad)), "", "value", patch.level().cellNumber(bad));
+      throw NumericalError("cell " + std::to_string(patch.level().cellNumber(bad)), "", "value",
+                           patch.level().cellNumber(bad));
 }
 void askAndThrow(const Patch& patch, CellView<double> cells, Minimum& factor) {
   if (patch.cells().contains(Index<2>{{11, 9}})) factor.add(0.4, "far");
@@ -219,11 +241,15 @@ TEST(Ranks, WorkOnPatchesThatNeedNoMessageBeforeThoseThatWaitForOne) {
     test::Runner run(plane({{12, 10, 1}}, false), 1, some);
     std::vector<int> order;
     TaskList list;
-    list.perPatch("fill", [](const Patch& patch, CellView<double> cells) {
-      forEach<2>(patch.cells(), [&](const Index<2>& at) { cells[at] = 1; });
-    }, computes(number));
-    list.perPatch("read", [&order](const Patch& patch, CellView<const double>, Sum&) { order.push_back(patch.id()); },
-                  requiresNew(number, 1), computes(wrong));
+    list.perPatch(
+        "fill",
+        [](const Patch& patch, CellView<double> cells) {
+          forEach<2>(patch.cells(), [&](const Index<2>& at) { cells[at] = 1; });
+        },
+        computes(number));
+    list.perPatch(
+        "read", [&order](const Patch& patch, CellView<const double>, Sum&) { order.push_back(patch.id()); },
+        requiresNew(number, 1), computes(wrong));
     TaskGraph graph = run.compile(list, {"wrong"});
     run.step(graph);
 
@@ -243,7 +269,8 @@ TEST(Ranks, HandParticlesToOneAnother) {
     onRanks(ranks, [](const mpi::Communicator& some) {
       for (const Index3& patches : {Index3{{2, 1, 1}}, {{12, 10, 1}}})
         for (const double jump : {0.3, 5.2})  // the second to ranks that are no neighbours
-          EXPECT_EQ(Swarm(some, patches, jump).after(4), std::pair(0.0, 240.0)) << some.size() << " ranks, jump " << jump;
+          EXPECT_EQ(Swarm(some, patches, jump).after(4), std::pair(0.0, 240.0))
+              << some.size() << " ranks, jump " << jump;
     });
 }
 
@@ -277,10 +304,13 @@ TEST(Ranks, MeasureNoMoreThanTheClockByAnyNumberOfThreads) {
   onRanks(2, [](const mpi::Communicator& some) {
     test::Runner run(plane({{4, 3, 1}}, false), 2, some);
     TaskList list;
-    list.perPatch("wait", [](const Patch&, CellView<double> cells) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-      cells.fill(1);
-    }, computes(number));
+    list.perPatch(
+        "wait",
+        [](const Patch&, CellView<double> cells) {
+          std::this_thread::sleep_for(std::chrono::milliseconds(20));
+          cells.fill(1);
+        },
+        computes(number));
     TaskGraph graph = run.compile(list, {"c.number"});
 
     const auto started = Clock::now();
@@ -310,15 +340,24 @@ TEST(Ranks, TellTheSameOfAFaultOnAnyOfThem) {
 std::pair<double, std::string> readLater(const mpi::Communicator& ranks, bool breaks, bool mayRepeat = true) {
   test::Runner run(plane({{4, 3, 1}}, false), 1, ranks);
   TaskList list;
-  list.perPatch("fill", [](const Patch& patch, NodeView<double> nodes) {
-    forEach<2>(patch.nodes(), [&](const Index<2>& at) { nodes[at] = numberOf(at, false); });
-  }, computes(nodeNumber));
-  list.perPatch("meanwhile", [breaks](const Patch& patch, CellView<double> cells) {
-    cells.fill(breaks && patch.cells().contains(Index<2>{{11, 9}}) ? -1 : 1);
-  }, computes(number));
-  list.perPatch("check", [](const Patch&, CellView<const double>, NodeView<const double> nodes, Sum& bad) {
-    forEach<2>(nodes.box(), [&](const Index<2>& at) { bad.add(nodes[at] != numberOf(at, false)); });
-  }, requiresNew(number), requiresNew(nodeNumber, 1), computes(wrong));
+  list.perPatch(
+      "fill",
+      [](const Patch& patch, NodeView<double> nodes) {
+        forEach<2>(patch.nodes(), [&](const Index<2>& at) { nodes[at] = numberOf(at, false); });
+      },
+      computes(nodeNumber));
+  list.perPatch(
+      "meanwhile",
+      [breaks](const Patch& patch, CellView<double> cells) {
+        cells.fill(breaks && patch.cells().contains(Index<2>{{11, 9}}) ? -1 : 1);
+      },
+      computes(number));
+  list.perPatch(
+      "check",
+      [](const Patch&, CellView<const double>, NodeView<const double> nodes, Sum& bad) {
+        forEach<2>(nodes.box(), [&](const Index<2>& at) { bad.add(nodes[at] != numberOf(at, false)); });
+      },
+      requiresNew(number), requiresNew(nodeNumber, 1), computes(wrong));
   TaskGraph graph = run.compile(list, {"wrong"});
   run.warehouse.grow(0);
   StepInfo at;
@@ -342,7 +381,8 @@ TEST(Ranks, GoOnWithOtherTasksWhileGhostsAreOnTheirWay) {
 }
 
 TEST(Ranks, HearOfAFaultThatCameAfterGhostsWereSent) {
-  const auto asked = readLater(mpi::Communicator::alone(), true), thrown = readLater(mpi::Communicator::alone(), true, false);
+  const auto asked = readLater(mpi::Communicator::alone(), true),
+             thrown = readLater(mpi::Communicator::alone(), true, false);
   EXPECT_EQ(asked.first, 0.5);
   EXPECT_EQ(thrown.first, -1);
   for (const int ranks : {2, 4})

@@ -73,8 +73,10 @@ TEST(RiemannSolution, MeetsRankineHugoniotAcrossEveryShock) {
   for (const RiemannSolution& s : allSolutions()) {
     const RiemannState left{s.starDensityLeft, s.starVelocity, s.starPressure};
     const RiemannState right{s.starDensityRight, s.starVelocity, s.starPressure};
-    if (s.leftWave.kind == WaveKind::shock) expectRankineHugoniot(s.left, left, s.leftWave.head, s.leftGas.gamma), ++shocks;
-    if (s.rightWave.kind == WaveKind::shock) expectRankineHugoniot(s.right, right, s.rightWave.head, s.leftGas.gamma), ++shocks;
+    if (s.leftWave.kind == WaveKind::shock)
+      expectRankineHugoniot(s.left, left, s.leftWave.head, s.leftGas.gamma), ++shocks;
+    if (s.rightWave.kind == WaveKind::shock)
+      expectRankineHugoniot(s.right, right, s.rightWave.head, s.leftGas.gamma), ++shocks;
   }
   EXPECT_GE(shocks, 15);
 }
@@ -89,7 +91,9 @@ TEST(RiemannSolution, KeepsRiemannInvariantAndEntropyInEveryFan) {
       ++fans;
       const double sign = onLeft ? 1 : -1;
       const auto sound = [&](const RiemannState& q) { return std::sqrt(s.leftGas.gamma * q.pressure / q.density); };
-      const auto invariant = [&](const RiemannState& q) { return q.velocity + sign * 2 * sound(q) / (s.leftGas.gamma - 1); };
+      const auto invariant = [&](const RiemannState& q) {
+        return q.velocity + sign * 2 * sound(q) / (s.leftGas.gamma - 1);
+      };
       for (const double part : {0.1, 0.5, 0.9}) {
         const double xi = wave.head + part * (wave.tail - wave.head);
         const RiemannState q = s.sample(xi);

@@ -126,11 +126,11 @@ simulation::Report blast(int d, int n) {
     return fmt::format("[{},{},{}]", along, d > 1 ? along : across, d > 2 ? along : across);
   };
   const double h = 1.2 / n;
-  return run("ups/euler/sedov.ups",
-             {cells(n, d > 1 ? n : 1, d > 2 ? n : 1), "Time/maxTime=0.8", "Grid/Level/Box/upper=" + corner(1.2, 0),
-              "Euler/geom_object[1]/box/max=[1.2,1.2,1.2]", "Euler/geom_object[2]/box/max=" + corner(h, 1.2),
-              fmt::format("Euler/geom_object[2]/pressure={}", 0.4 / std::pow(2 * h, d)),
-              "DataAnalysis/Module/energy=1"});
+  return run(
+      "ups/euler/sedov.ups",
+      {cells(n, d > 1 ? n : 1, d > 2 ? n : 1), "Time/maxTime=0.8", "Grid/Level/Box/upper=" + corner(1.2, 0),
+       "Euler/geom_object[1]/box/max=[1.2,1.2,1.2]", "Euler/geom_object[2]/box/max=" + corner(h, 1.2),
+       fmt::format("Euler/geom_object[2]/pressure={}", 0.4 / std::pow(2 * h, d)), "DataAnalysis/Module/energy=1"});
 }
 
 TEST(SedovScene, HasErrorsThatFallInOneTwoAndThreeDimensions) {
@@ -164,9 +164,10 @@ TEST(DiagonalTubeScene, RefusesWhatTheGridCannotHold) {
   EXPECT_EQ(problemOf(scene, {normal + "[1,1.1,0]"}),
             "normal: along it the grid repeats every 1.34535 m for one axis, but every 1.47988 m for another");
   EXPECT_EQ(problemOf(scene, {normal + "[0,0,0]"}), "normal is [0,0,0], which is no direction");
-  EXPECT_EQ(problemOf(scene, {"DataAnalysis/Module/diaphragm=1"}),
-            "The diaphragm must stand between two mirrors, which are 0.707107 m apart along the tube, but it is 0.707107 "
-            "m from the first.");
+  EXPECT_EQ(
+      problemOf(scene, {"DataAnalysis/Module/diaphragm=1"}),
+      "The diaphragm must stand between two mirrors, which are 0.707107 m apart along the tube, but it is 0.707107 "
+      "m from the first.");
 }
 
 TEST(DiagonalTubeScene, LeavesErrorsOutOnceItsWavesHaveMet) {

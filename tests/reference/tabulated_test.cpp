@@ -87,7 +87,8 @@ std::filesystem::path writeOutput(const std::filesystem::path& path, const std::
 
 TEST(GasTable, IsReadFromAnOutputOfCellsOrOfAMaterial) {
   for (const std::string group : {"cells/", "cells/gas/"}) {
-    const GasTable table = readGasTable(writeOutput(test::temporaryFolder() + "t00001.h5", group), 1.4), expected = plane();
+    const GasTable table = readGasTable(writeOutput(test::temporaryFolder() + "t00001.h5", group), 1.4),
+                   expected = plane();
     EXPECT_EQ(table.time, 0.3);
     EXPECT_EQ(table.cells, expected.cells);
     EXPECT_EQ(table.lower, expected.lower);

@@ -29,15 +29,20 @@ class Spoiled : public Component {
   Spoiled(std::unique_ptr<Component> sound, const Planted& planted) : sound_(std::move(sound)), planted_(planted) {}
 
   void scheduleInitialize(tasks::TaskList& tasks) const override { sound_->scheduleInitialize(tasks); }
-  void scheduleComputeStableTimeStep(tasks::TaskList& tasks) const override { sound_->scheduleComputeStableTimeStep(tasks); }
+  void scheduleComputeStableTimeStep(tasks::TaskList& tasks) const override {
+    sound_->scheduleComputeStableTimeStep(tasks);
+  }
   void scheduleTimeAdvance(tasks::TaskList& tasks) const override {
     sound_->scheduleTimeAdvance(tasks);
     static const std::vector<Gas> materials{{"gas"}};
-    tasks.perMaterial("spoil", [planted = planted_](const grid::Patch&, const Gas&, double time, data::ParticleView<const ParticleId> ids,
-                                  data::ParticleView<double> energy) {
-      for (int p = 0; p < energy.owned(); ++p)
-        if (ids[p] == planted.id && time >= planted.from) energy[p] = planted.value;
-    }, materials, tasks::startTime(), tasks::requiresNew(data::particleId), tasks::modifies(mpm::p::internalEnergy));
+    tasks.perMaterial(
+        "spoil",
+        [planted = planted_](const grid::Patch&, const Gas&, double time, data::ParticleView<const ParticleId> ids,
+                             data::ParticleView<double> energy) {
+          for (int p = 0; p < energy.owned(); ++p)
+            if (ids[p] == planted.id && time >= planted.from) energy[p] = planted.value;
+        },
+        materials, tasks::startTime(), tasks::requiresNew(data::particleId), tasks::modifies(mpm::p::internalEnergy));
   }
   void scheduleDiagnostics(tasks::TaskList& tasks) const override { sound_->scheduleDiagnostics(tasks); }
 
@@ -85,9 +90,11 @@ TEST(Detection, NamesTheValueTheParticleThePlaceAndTheStepOnAnyPatches) {
     const Planted planted{value, static_cast<ParticleId>(cell) << 16, 0.1};
     const std::string number = std::isnan(value) ? "nan" : "-0.5";
     const std::regex expected(
-        "p\\.internalEnergy became " + number + " J/kg from \\S+, but must be at least 0: particle " + std::to_string(planted.id) +
+        "p\\.internalEnergy became " + number + " J/kg from \\S+, but must be at least 0: particle " +
+        std::to_string(planted.id) +
         " in cell \\(\\d+\\) at x = 0\\.\\d+ m; around it: .* in its cell, .* in cell \\(\\d+\\).*; no other of \\d+ "
-        "particles is broken \\(task spoil, patch \\*, material gas, step \\d+, time 0\\.10\\d* s, time step 0\\.00\\d+ s\\); "
+        "particles is broken \\(task spoil, patch \\*, material gas, step \\d+, time 0\\.10\\d* s, time step "
+        "0\\.00\\d+ s\\); "
         "the last whole step, \\d+ at t = 0\\.10\\d* s");
 
     const Report alone = runSpoiled(planted, 1);

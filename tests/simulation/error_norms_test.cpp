@@ -31,7 +31,8 @@ TEST(ErrorNorms, HaveEachItsNumber) {
 
   const ErrorNorms norms = normsOf(error, norm.values());
 
-  EXPECT_EQ(norms.norms, (std::map<std::string, double>{{"L1", 2}, {"L2", std::sqrt(5.0)}, {"max", 3}, {"relative", 0.5}}));
+  EXPECT_EQ(norms.norms,
+            (std::map<std::string, double>{{"L1", 2}, {"L2", std::sqrt(5.0)}, {"max", 3}, {"relative", 0.5}}));
   EXPECT_EQ(unmeasurable({norms}), std::nullopt);
 }
 

@@ -13,10 +13,11 @@ std::vector<output::Array> columns() {
 }
 
 TEST(ParticleExtract, NamesTheColumnsAsUintahDoes) {
-  EXPECT_EQ(extractHeader(columns()),
-            "# Time    X      Y      Z          p.loadCurveID     p.velocity.x      p.velocity.y      p.velocity.z"
-            "     p.stress(0,0)      p.stress(0,1)      p.stress(0,2)     p.stress(1,0)      p.stress(1,1)      p.stress(1,2)"
-            "     p.stress(2,0)      p.stress(2,1)      p.stress(2,2)\n");
+  EXPECT_EQ(
+      extractHeader(columns()),
+      "# Time    X      Y      Z          p.loadCurveID     p.velocity.x      p.velocity.y      p.velocity.z"
+      "     p.stress(0,0)      p.stress(0,1)      p.stress(0,2)     p.stress(1,0)      p.stress(1,1)      p.stress(1,2)"
+      "     p.stress(2,0)      p.stress(2,1)      p.stress(2,2)\n");
 }
 
 TEST(ParticleExtract, WritesTimePlaceAndVariablesOfOneParticle) {

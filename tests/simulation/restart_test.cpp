@@ -21,8 +21,8 @@ namespace {
 
 /// An archive with checkpoints of steps 4 and 6.
 fs::path archiveWithTwo() {
-  Problem problem = readScene(
-      "ups/mpm/sod.ups", {"Time/max_Timesteps=6", "DataArchiver/checkpoint/@timestepInterval=4"}, catalogue());
+  Problem problem = readScene("ups/mpm/sod.ups",
+                              {"Time/max_Timesteps=6", "DataArchiver/checkpoint/@timestepInterval=4"}, catalogue());
   RunOptions options;
   options.quiet = true;
   options.outputFolder = test::temporaryFolder();

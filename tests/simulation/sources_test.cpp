@@ -66,7 +66,8 @@ TEST(PlacesById, AreNoneWithoutParticles) { EXPECT_TRUE(placesById(Parts{{Part{}
 
 TEST(SourceInRuns, GivesTheSameForPiecesThatCutRuns) {
   const std::vector<double> left{1, 2, 5, 6, 9, 10}, right{3, 4, 7, 8, 11, 12};
-  const auto runs = std::make_shared<const Runs>(Runs{{0, 0, 0}, {2, 1, 0}, {4, 0, 2}, {6, 1, 2}, {8, 0, 4}, {10, 1, 4}});
+  const auto runs =
+      std::make_shared<const Runs>(Runs{{0, 0, 0}, {2, 1, 0}, {4, 0, 2}, {6, 1, 2}, {8, 0, 4}, {10, 1, 4}});
   const auto source = sourceInRuns(runs, 12, Parts{{partOf(left), partOf(right)}}, EntryForm(mass));
 
   for (const std::size_t piece : {1, 3, 5, 12})

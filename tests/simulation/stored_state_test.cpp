@@ -27,7 +27,8 @@ const CellLabel<double> heat{"c.heat", "K", "temperature"};
 const ReductionLabel<Sum> total{"Total", "K", "sum of heat"};
 
 /// Three particles in each second cell, fewer and fewer ids up the grid, so that the order is no accident.
-void scatter(const Patch& patch, const Dust& dust, ParticleMaker& maker, std::vector<Vec<2>>& x, std::vector<int>& marks) {
+void scatter(const Patch& patch, const Dust& dust, ParticleMaker& maker, std::vector<Vec<2>>& x,
+             std::vector<int>& marks) {
   forEach<2>(patch.cells(), [&](const Index<2>& cell) {
     if ((cell[0] + cell[1]) % 2 == 1 || dust.name == "coarse") return;
     const std::uint64_t number = patch.level().cellNumber<2>(cell);
@@ -68,7 +69,9 @@ class Weather : public test::Runner {
     warehouse.grow(2);
   }
 
-  std::string print() { return simulation::fingerprint(warehouse, {"c.heat", "g.wind", "p.mark", "p.particleID", "p.x"}, 2); }
+  std::string print() {
+    return simulation::fingerprint(warehouse, {"c.heat", "g.wind", "p.mark", "p.particleID", "p.x"}, 2);
+  }
 
   StateNames names{{"Total", "c.heat", "g.wind", "p.mark", "p.particleID", "p.x"}, {"fine", "coarse"}};
   tasks::TaskGraph start, later;
@@ -139,10 +142,12 @@ TEST(StoredState, RefusesWhatDoesNotFitTheScene) {
   written.names.labels = {"c.heat", "p.particleID", "p.x"};
   fileOf(written);
 
-  EXPECT_EQ(refusalOf(larger, {}), "the checkpoint has 35 numbers at /cells/fine/c.heat, and the scene needs 40; take back "
-                                   "what was changed in the scene since");
-  EXPECT_EQ(refusalOf(same, {"p.mark"}), "the checkpoint has no /particles/fine/p.mark, which the scene needs; take back "
-                                         "what was changed in the scene since");
+  EXPECT_EQ(refusalOf(larger, {}),
+            "the checkpoint has 35 numbers at /cells/fine/c.heat, and the scene needs 40; take back "
+            "what was changed in the scene since");
+  EXPECT_EQ(refusalOf(same, {"p.mark"}),
+            "the checkpoint has no /particles/fine/p.mark, which the scene needs; take back "
+            "what was changed in the scene since");
   EXPECT_EQ(refusalOf(same, {"p.x"}), "");
 }
 

@@ -142,7 +142,7 @@ TEST(TimeControl, RepeatsAStepFromTheSameTimeWithTheFactorAskedFor) {
   time.next({0.25, "CFL"}, never);
 
   EXPECT_EQ(time.repeat({0.5, "density"}), 0.125);
-  EXPECT_EQ(time.repeat({0.99, "density"}), 0.9 * 0.125);  // at least a tenth less
+  EXPECT_EQ(time.repeat({0.99, "density"}), 0.9 * 0.125);     // at least a tenth less
   EXPECT_EQ(time.repeat({0, "density"}), 0.1 * 0.9 * 0.125);  // at most ten times less
   time.advance();
 
@@ -163,10 +163,14 @@ TEST(TimeControl, SaysWhyAStepCannotBeRepeatedAnyMore) {
   limited.repeat({0.5, "density"});
   for (int k = 0; k < 20; ++k) unlimited.repeat({0.5, "density"});
 
-  EXPECT_EQ(whatOf([&] { limited.repeat({0.5, "density"}); }),
+  EXPECT_EQ(whatOf([&] {
+              limited.repeat({0.5, "density"});
+            }),
             "the bound of density would break unless the time step fell to 0.0625 s, below delt_min = 0.1 s (step 1, "
             "time 0 s)");
-  EXPECT_EQ(whatOf([&] { unlimited.repeat({0.5, "density"}); }),
+  EXPECT_EQ(whatOf([&] {
+              unlimited.repeat({0.5, "density"});
+            }),
             "the bound of density would still break with a time step of 2.38419e-07 s, after 20 repeats (step 1, time "
             "0 s)");
 }

@@ -37,8 +37,7 @@ class Roots : public NonlinearProblem {
     return std::all_of(u.begin(), u.end(), [](double value) { return value >= 0; });
   }
   void tangent(Matrix& matrix) override {
-    for (int k = 0; k < 3; ++k)
-      matrix.add({&k, 1}, {&k, 1}, std::vector<double>{2 * u_[static_cast<std::size_t>(k)]});
+    for (int k = 0; k < 3; ++k) matrix.add({&k, 1}, {&k, 1}, std::vector<double>{2 * u_[static_cast<std::size_t>(k)]});
   }
 
  private:
@@ -79,8 +78,8 @@ class Plateau : public NonlinearProblem {
   double u_ = 0;
 };
 
-/// A chain of 26 springs of 1, a force of 1 on the last, and one more unknown that is hardly held: a particle that has just
-/// reached into the next cell touches its node with a slope of 4e-6.
+/// A chain of 26 springs of 1, a force of 1 on the last, and one more unknown that is hardly held: a particle that has
+/// just reached into the next cell touches its node with a slope of 4e-6.
 class Chain : public NonlinearProblem {
  public:
   static constexpr int links = 26;
@@ -121,8 +120,8 @@ NewtonSettings directNewton() {
 }  // namespace
 
 TEST(Solver, SolvesALinearSystemByEveryMethod) {
-  for (const auto& [method, preconditioner] : {std::pair{"cg", "gamg"}, {"cg", "hypre"}, {"gmres", "ilu"},
-                                               {"bcgs", "jacobi"}, {"preonly", "lu"}}) {
+  for (const auto& [method, preconditioner] :
+       {std::pair{"cg", "gamg"}, {"cg", "hypre"}, {"gmres", "ilu"}, {"bcgs", "jacobi"}, {"preonly", "lu"}}) {
     const int count = 40;
     std::vector<double> b(count, 1), x(count, 0);
 
@@ -142,8 +141,8 @@ TEST(Solver, TakesTheSolutionOfMeanZeroWhereAConstantIsFree) {
   std::vector<double> b(count), x(count, 5);
   for (int k = 0; k < count; ++k) b[std::size_t(k)] = 1 + (k < count / 2 ? 1 : -1);  // 1 of it cannot be balanced
 
-  const Outcome outcome = solver().solve(unknowns, {[](Matrix& a) { laplacian(a, 32, true); }, b},
-                                         {"cg", "gamg", 1e-12, 100, ""}, x);
+  const Outcome outcome =
+      solver().solve(unknowns, {[](Matrix& a) { laplacian(a, 32, true); }, b}, {"cg", "gamg", 1e-12, 100, ""}, x);
 
   EXPECT_TRUE(outcome.converged);
   double mean = 0;
@@ -155,25 +154,29 @@ TEST(Solver, TakesTheSolutionOfMeanZeroWhereAConstantIsFree) {
 TEST(Solver, TellsHowASolveFailed) {
   std::vector<double> b(40, 1), x(40, 0);
 
-  const Outcome outcome = solver().solve(row(40), {[](Matrix& a) { laplacian(a, 40, false); }, b},
-                                         {"cg", "none", 1e-12, 3, ""}, x);
+  const Outcome outcome =
+      solver().solve(row(40), {[](Matrix& a) { laplacian(a, 40, false); }, b}, {"cg", "none", 1e-12, 3, ""}, x);
 
   EXPECT_FALSE(outcome.converged);
   EXPECT_EQ(outcome.residuals.size(), 4U);
   EXPECT_TRUE(outcome.worst >= 0 && outcome.worst < 40);
   const std::string sentence = sentenceOf("a row", outcome);
-  EXPECT_EQ(sentence.find("a row did not converge: more iterations than allowed (DIVERGED_ITS) in 3 iterations; residuals "
-                          "6.32, "), 0U) << sentence;
+  EXPECT_EQ(
+      sentence.find("a row did not converge: more iterations than allowed (DIVERGED_ITS) in 3 iterations; residuals "
+                    "6.32, "),
+      0U)
+      << sentence;
 }
 
 TEST(Solver, TellsWhyAPreconditionerFailed) {
   std::vector<double> b(4, 1), x(4, 0);
 
-  const Outcome outcome = solver().solve(row(4), {[](Matrix& a) { laplacian(a, 4, true); }, b},
-                                         {"preonly", "lu", 1e-12, 1, ""}, x);
+  const Outcome outcome =
+      solver().solve(row(4), {[](Matrix& a) { laplacian(a, 4, true); }, b}, {"preonly", "lu", 1e-12, 1, ""}, x);
 
   EXPECT_FALSE(outcome.converged);
-  EXPECT_EQ(outcome.reason, "the preconditioner could not be made, as where the matrix is singular (DIVERGED_PC_FAILED)");
+  EXPECT_EQ(outcome.reason,
+            "the preconditioner could not be made, as where the matrix is singular (DIVERGED_PC_FAILED)");
 }
 
 TEST(Solver, TellsByHowMuchARightHandSideIsUnbalancedWhereAConstantIsFree) {
@@ -181,8 +184,8 @@ TEST(Solver, TellsByHowMuchARightHandSideIsUnbalancedWhereAConstantIsFree) {
   unknowns.constantIsFree = true;
   std::vector<double> b{3, -1, 1, -2}, x(4, 0);
 
-  const Outcome outcome = solver().solve(unknowns, {[](Matrix& a) { laplacian(a, 4, true); }, b},
-                                         {"cg", "jacobi", 1e-12, 100, ""}, x);
+  const Outcome outcome =
+      solver().solve(unknowns, {[](Matrix& a) { laplacian(a, 4, true); }, b}, {"cg", "jacobi", 1e-12, 100, ""}, x);
 
   EXPECT_EQ(outcome.unbalanced, 1);
   EXPECT_EQ(outcome.loads, 7);
@@ -200,7 +203,8 @@ TEST(Solver, PassesOptionsThroughToPetsc) {
 TEST(Solver, GivesTheOptionsOfASolveToNoOther) {
   const auto iterations = [](const char* options) {
     std::vector<double> b(40, 1), x(40, 0);
-    return solver().solve(row(40), {[](Matrix& a) { laplacian(a, 40, false); }, b}, {"cg", "none", 1e-12, 1000, options}, x)
+    return solver()
+        .solve(row(40), {[](Matrix& a) { laplacian(a, 40, false); }, b}, {"cg", "none", 1e-12, 1000, options}, x)
         .krylovIterations;
   };
   const int before = iterations("");
@@ -301,7 +305,8 @@ TEST(Newton, TellsOfTheLinearSolveThatFailed) {
   EXPECT_FALSE(outcome.converged);
   EXPECT_EQ(outcome.reason, "a linear solve failed, more iterations than allowed (DIVERGED_ITS)");
   EXPECT_EQ(outcome.krylovResiduals.size(), 4U);
-  EXPECT_NE(sentenceOf("it", outcome).find("; those of the last linear solve, 3 iterations; residuals "), std::string::npos);
+  EXPECT_NE(sentenceOf("it", outcome).find("; those of the last linear solve, 3 iterations; residuals "),
+            std::string::npos);
 }
 
 TEST(Newton, TellsThatItGaveUp) {

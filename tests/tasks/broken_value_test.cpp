@@ -69,14 +69,21 @@ std::string planted(const grid::Domain& domain, const std::map<ParticleId, doubl
   test::Runner run(domain);
   TaskList start, advance;
   start.newParticles("create", create<D>, gas, creates(x<D>), creates(density));
-  advance.perMaterial("keep", [](const Patch&, const Material&, ParticleView<const Vec<D>> from, ParticleView<Vec<D>> to) {
-    for (int p = 0; p < from.owned(); ++p) to[p] = from[p];
-  }, gas, requiresOld(x<D>), computes(x<D>));
+  advance.perMaterial(
+      "keep",
+      [](const Patch&, const Material&, ParticleView<const Vec<D>> from, ParticleView<Vec<D>> to) {
+        for (int p = 0; p < from.owned(); ++p) to[p] = from[p];
+      },
+      gas, requiresOld(x<D>), computes(x<D>));
   if (relocated) advance.relocate(x<D>, gas);
-  advance.perMaterial("copy", [](const Patch&, const Material&, ParticleView<const Vec<D>> at, ParticleView<double> to) {
-    for (int p = 0; p < at.owned(); ++p) to[p] = 2;
-  }, gas, requiresNew(x<D>), computes(density));
-  const auto plant = [wrong](const Patch&, const Material&, ParticleView<const ParticleId> ids, ParticleView<double> rho) {
+  advance.perMaterial(
+      "copy",
+      [](const Patch&, const Material&, ParticleView<const Vec<D>> at, ParticleView<double> to) {
+        for (int p = 0; p < at.owned(); ++p) to[p] = 2;
+      },
+      gas, requiresNew(x<D>), computes(density));
+  const auto plant = [wrong](const Patch&, const Material&, ParticleView<const ParticleId> ids,
+                             ParticleView<double> rho) {
     for (int p = 0; p < ids.owned(); ++p)
       if (wrong.contains(ids[p])) rho[p] = wrong.at(ids[p]);
   };
@@ -97,11 +104,15 @@ std::string plantedOnGrid(const grid::Domain& domain, const Label& label, const 
   TaskList start, advance;
   const auto fill = [](const Patch&, auto field) { field.fill(1); };
   start.perPatch("fill", fill, computes(label));
-  advance.perPatch("plant", [&](const Patch&, auto field) {
-    field.fill(3);
-    if (field.box().contains(where)) field[where] = value;
-  }, computes(label));
-  TaskGraph begin = run.compile(start, {std::string(label.name)}), step = run.compile(advance, {std::string(label.name)});
+  advance.perPatch(
+      "plant",
+      [&](const Patch&, auto field) {
+        field.fill(3);
+        if (field.box().contains(where)) field[where] = value;
+      },
+      computes(label));
+  TaskGraph begin = run.compile(start, {std::string(label.name)}),
+            step = run.compile(advance, {std::string(label.name)});
   run.step(begin);
   return failure(run, step);
 }
@@ -142,17 +153,19 @@ TEST(Bound, IsKeptByNumbersWhoseSumOverflows) {
 TEST(BrokenValue, SaysWhichParticleWhereWhenAndWhatIsAroundIt) {
   for (const int patches : {1, 2, 7, 8})
     for (const bool relocated : {false, true})
-      EXPECT_EQ(planted<1>(test::domain({{8, 1, 1}}, {{patches, 1, 1}}), {{7, -0.5}, {9, nan}}, relocated),
-                "p.density became -0.5 kg/m^3 from 1.07, but must be greater than 0: particle 7 in cell (3) at x = 0.46875 "
-                "m; around it: 2 in its cell, 2, 2 in cell (2), 2, nan in cell (4); 2 of 16 particles are broken (task "
-                "plant, patch *, material gas, step 7, time 0.5 s)");
+      EXPECT_EQ(
+          planted<1>(test::domain({{8, 1, 1}}, {{patches, 1, 1}}), {{7, -0.5}, {9, nan}}, relocated),
+          "p.density became -0.5 kg/m^3 from 1.07, but must be greater than 0: particle 7 in cell (3) at x = 0.46875 "
+          "m; around it: 2 in its cell, 2, 2 in cell (2), 2, nan in cell (4); 2 of 16 particles are broken (task "
+          "plant, patch *, material gas, step 7, time 0.5 s)");
 }
 
 TEST(BrokenValue, NamesAPlantedParticleOnAnyLayoutInTwoAndThreeDimensions) {
   for (const ParticleId id : {0u, 13u, 40u, 83u}) {
     const std::string reference = planted<2>(test::domain({{7, 6, 1}}), {{id, nan}}, true);
-    EXPECT_NE(reference.find(fmt::format("p.density became nan kg/m^3 from {:.6g}, but must be greater than 0: particle {} in",
-                                         1 + 0.01 * static_cast<double>(id), id)),
+    EXPECT_NE(reference.find(
+                  fmt::format("p.density became nan kg/m^3 from {:.6g}, but must be greater than 0: particle {} in",
+                              1 + 0.01 * static_cast<double>(id), id)),
               std::string::npos)
         << reference;
     for (const Index3& patches : {Index3{{3, 2, 1}}, Index3{{7, 6, 1}}})
@@ -178,20 +191,22 @@ TEST(BrokenValue, SaysWhichCellOrNode) {
                 fmt::format("c.heat became {} J from 1, but must be at least 0: cell (4) at x = 0.9 m; around it: 3 in "
                             "cell (3); no other of 5 cells is broken (task plant, patch *, step 7, time 0.5 s)",
                             value));
-      EXPECT_EQ(plantedOnGrid<1>(tube, mass, Index<1>{{2}}, value),
-                fmt::format("g.mass became {} kg from 1, but must be at least 0: node (2) at x = 0.4 m; around it: 3 in "
-                            "node (1), 3 in node (3); no other of 6 nodes is broken (task plant, patch *, step 7, time "
-                            "0.5 s)",
-                            value));
+      EXPECT_EQ(
+          plantedOnGrid<1>(tube, mass, Index<1>{{2}}, value),
+          fmt::format("g.mass became {} kg from 1, but must be at least 0: node (2) at x = 0.4 m; around it: 3 in "
+                      "node (1), 3 in node (3); no other of 6 nodes is broken (task plant, patch *, step 7, time "
+                      "0.5 s)",
+                      value));
     }
 }
 
 TEST(BrokenValue, SaysWhereInTwoDimensions) {
   for (const Index3& patches : {Index3{{1, 1, 1}}, Index3{{2, 3, 1}}})
-    EXPECT_EQ(plantedOnGrid<2>(test::domain({{5, 3, 1}}, patches), mass, Index<2>{{0, 1}}, nan),
-              "g.mass became nan kg from 1, but must be at least 0: node (0, 1) at x = (0, 0.2) m; around it: 3 in node (1, "
-              "1), 3 in node (0, 0), 3 in node (0, 2); no other of 24 nodes is broken (task plant, patch *, step 7, time "
-              "0.5 s)");
+    EXPECT_EQ(
+        plantedOnGrid<2>(test::domain({{5, 3, 1}}, patches), mass, Index<2>{{0, 1}}, nan),
+        "g.mass became nan kg from 1, but must be at least 0: node (0, 1) at x = (0, 0.2) m; around it: 3 in node (1, "
+        "1), 3 in node (0, 0), 3 in node (0, 2); no other of 24 nodes is broken (task plant, patch *, step 7, time "
+        "0.5 s)");
 }
 
 TEST(BrokenValue, IsFoundInEachMaterialOfATaskForAllOfThem) {
@@ -199,28 +214,36 @@ TEST(BrokenValue, IsFoundInEachMaterialOfATaskForAllOfThem) {
   for (const std::size_t bad : {0u, 1u}) {
     test::Runner run(test::domain({{4, 1, 1}}, {{2, 1, 1}}));
     TaskList list;
-    list.acrossMaterials("mix", [bad](const Patch& patch, const std::vector<Material>&,
-                                      const std::vector<CellView<double>>& fields) {
-      for (const CellView<double>& field : fields) field.fill(3);
-      if (patch.cells().contains(Index<1>{{2}})) fields[bad][Index<1>{{2}}] = -1;
-    }, two, computes(heat));
+    list.acrossMaterials(
+        "mix",
+        [bad](const Patch& patch, const std::vector<Material>&, const std::vector<CellView<double>>& fields) {
+          for (const CellView<double>& field : fields) field.fill(3);
+          if (patch.cells().contains(Index<1>{{2}})) fields[bad][Index<1>{{2}}] = -1;
+        },
+        two, computes(heat));
     TaskGraph graph = run.compile(list, {"c.heat"});
 
-    EXPECT_EQ(failure(run, graph),
-              "c.heat became -1 J, but must be at least 0: cell (2) at x = 0.625 m; around it: 3 in cell (1), 3 in cell (3); "
-              "no other of 4 cells is broken (task mix, patch *, material " + two[bad].name + ", step 7, time 0.5 s)");
+    EXPECT_EQ(
+        failure(run, graph),
+        "c.heat became -1 J, but must be at least 0: cell (2) at x = 0.625 m; around it: 3 in cell (1), 3 in cell (3); "
+        "no other of 4 cells is broken (task mix, patch *, material " +
+            two[bad].name + ", step 7, time 0.5 s)");
   }
 }
 
 TEST(BrokenValue, LooksAtGhostsOfNobody) {
   test::Runner run(test::domain({{8, 1, 1}}, {{2, 1, 1}}));
   TaskList list;
-  list.perPatch("fill", [](const Patch& patch, CellView<double> field) {
-    field.fill(-1);  // ghosts too, which are not the patch's to fill
-    forEach<1>(patch.cells(), [&](const Index<1>& cell) { field[cell] = 1; });
-  }, computes(heat));
-  list.perPatch("read", [](const Patch&, CellView<const double>, NodeView<double> to) { to.fill(0); },
-                requiresNew(heat, 2), computes(mass));
+  list.perPatch(
+      "fill",
+      [](const Patch& patch, CellView<double> field) {
+        field.fill(-1);  // ghosts too, which are not the patch's to fill
+        forEach<1>(patch.cells(), [&](const Index<1>& cell) { field[cell] = 1; });
+      },
+      computes(heat));
+  list.perPatch(
+      "read", [](const Patch&, CellView<const double>, NodeView<double> to) { to.fill(0); }, requiresNew(heat, 2),
+      computes(mass));
   TaskGraph graph = run.compile(list, {"g.mass"});
 
   EXPECT_EQ(failure(run, graph), "");
@@ -229,20 +252,23 @@ TEST(BrokenValue, LooksAtGhostsOfNobody) {
 TEST(BrokenValue, IsFoundInNewParticles) {
   test::Runner run(test::domain({{4, 1, 1}}, {{2, 1, 1}}));
   TaskList start;
-  start.newParticles("create", [](const Patch& patch, const Material&, ParticleMaker& maker, std::vector<Vec<2>>& v,
-                                  std::vector<Vec<1>>& at) {
-    forEach<1>(patch.cells(), [&](const Index<1>& cell) {
-      maker.add(cell, patch.level().cellNumber(cell));
-      at.push_back(patch.level().cellCentre<1>(cell));
-      v.push_back(Vec<2>(0, cell[0] == 2 ? nan : 0));
-    });
-  }, gas, creates(velocity<2>), creates(x<1>));
+  start.newParticles(
+      "create",
+      [](const Patch& patch, const Material&, ParticleMaker& maker, std::vector<Vec<2>>& v, std::vector<Vec<1>>& at) {
+        forEach<1>(patch.cells(), [&](const Index<1>& cell) {
+          maker.add(cell, patch.level().cellNumber(cell));
+          at.push_back(patch.level().cellCentre<1>(cell));
+          v.push_back(Vec<2>(0, cell[0] == 2 ? nan : 0));
+        });
+      },
+      gas, creates(velocity<2>), creates(x<1>));
   TaskGraph begin = run.compile(start, {"p.x", "p.velocity"});
 
-  EXPECT_EQ(failure(run, begin),
-            "p.velocity became (0, nan) m/s, but must be finite: particle 2 in cell (2) at x = 0.625 m; around it: none in "
-            "its cell, (0, 0) in cell (1), (0, 0) in cell (3); no other of 4 particles is broken (task create, patch *, "
-            "material gas, step 7, time 0.5 s)");
+  EXPECT_EQ(
+      failure(run, begin),
+      "p.velocity became (0, nan) m/s, but must be finite: particle 2 in cell (2) at x = 0.625 m; around it: none in "
+      "its cell, (0, 0) in cell (1), (0, 0) in cell (3); no other of 4 particles is broken (task create, patch *, "
+      "material gas, step 7, time 0.5 s)");
 }
 
 }  // namespace tushar::tasks

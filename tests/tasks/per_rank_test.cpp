@@ -16,7 +16,8 @@ using data::Sum;
 using grid::forEach;
 using grid::Patch;
 
-constexpr CellLabel<double> number{"c.number", "1", "number of the cell"}, running{"c.running", "1", "sum up to the cell"};
+constexpr CellLabel<double> number{"c.number", "1", "number of the cell"},
+    running{"c.running", "1", "sum up to the cell"};
 constexpr CellLabel<double> ofMaterial{"c.ofMaterial", "1", "a value of each material"};
 constexpr data::ReductionLabel<Sum> total{"total", "1", "sum"}, calls{"calls", "1", "how often the body ran"};
 
@@ -70,7 +71,8 @@ TEST(PerRank, SeesGhostsOfEachPatchFilled) {
   test::Runner run(test::domain({{8, 1, 1}}, {{4, 1, 1}}));
   TaskList list;
   list.perPatch("fill", fill, computes(number));
-  const auto sumWithGhosts = [](const RankPatches& patches, const std::vector<CellView<const double>>& field, Sum& sum) {
+  const auto sumWithGhosts = [](const RankPatches& patches, const std::vector<CellView<const double>>& field,
+                                Sum& sum) {
     for (std::size_t p = 0; p < patches.size(); ++p)
       forEach<1>(field[p].box(), [&](const Index<1>& cell) { sum.add(field[p][cell]); });
   };
@@ -98,9 +100,12 @@ TEST(PerRank, SeesEveryMaterialOfEveryPatch) {
 TEST(PerRank, IsPlacedOnceAndNamedInErrorsWithoutAPatch) {
   test::Runner run(test::domain({{8, 1, 1}}, {{3, 1, 1}}));
   TaskList list;
-  list.perRank("solve", [](const RankPatches&, const std::vector<CellView<double>>&) {
-    throw NumericalError("the solve failed", "a smaller step");
-  }, computes(number));
+  list.perRank(
+      "solve",
+      [](const RankPatches&, const std::vector<CellView<double>>&) {
+        throw NumericalError("the solve failed", "a smaller step");
+      },
+      computes(number));
   TaskGraph graph = run.compile(list, {"c.number"});
 
   EXPECT_EQ(graph.placements(), (std::vector<Placement>{{0, -1, -1}}));

@@ -44,7 +44,8 @@ void create(const Patch& patch, const Material&, ParticleMaker& maker, std::vect
       const ParticleId id = 3 * patch.level().cellNumber(cell) + k;
       Vec<D> at;
       for (int d = 0; d < D; ++d)
-        at[d] = patch.level().nodePosition(d, cell[d]) + noise(7 * id + static_cast<std::uint64_t>(d)) * patch.level().spacing(d);
+        at[d] = patch.level().nodePosition(d, cell[d]) +
+                noise(7 * id + static_cast<std::uint64_t>(d)) * patch.level().spacing(d);
       maker.add(cell, id);
       position.push_back(at);
       marks.push_back(markOf(id));
@@ -58,7 +59,8 @@ void wander(const Patch& patch, const Material&, ParticleView<const Vec<D>> from
             ParticleView<Vec<D>> to) {
   for (int p = 0; p < from.owned(); ++p)
     for (int d = 0; d < D; ++d) {
-      const double jump = (noise(ids[p] * 31 + static_cast<std::uint64_t>(d) + static_cast<std::uint64_t>(from[p][d] * 1e9)) - 0.5);
+      const double jump =
+          (noise(ids[p] * 31 + static_cast<std::uint64_t>(d) + static_cast<std::uint64_t>(from[p][d] * 1e9)) - 0.5);
       const double end = patch.level().nodePosition(d, patch.level().cells().upper[d]);
       to[p][d] = std::clamp(from[p][d] + 5 * jump * patch.level().spacing(d), 0.0, end);
     }
@@ -66,8 +68,8 @@ void wander(const Patch& patch, const Material&, ParticleView<const Vec<D>> from
 
 /// Counts particles in a wrong cell, out of order, or with another's mark; ghosts included.
 template <int D>
-void inspect(const Patch& patch, const Material&, ParticleView<const Vec<D>> position, ParticleView<const ParticleId> ids,
-             ParticleView<const double> marks, data::Sum& errors) {
+void inspect(const Patch& patch, const Material&, ParticleView<const Vec<D>> position,
+             ParticleView<const ParticleId> ids, ParticleView<const double> marks, data::Sum& errors) {
   forEach<D>(position.cells(), [&](const Index<D>& cell) {
     bool first = true;
     ParticleId before = 0;
@@ -140,9 +142,12 @@ std::string shifted(double shift, bool open, long& dropped) {
   test::Runner run(domain);
   TaskList start, advance;
   start.newParticles("create", create<1>, gas, creates(x<1>), creates(mark));
-  advance.perMaterial("shift", [shift](const Patch&, const Material&, ParticleView<const Vec<1>> from, ParticleView<Vec<1>> to) {
-    for (int p = 0; p < from.owned(); ++p) to[p] = Vec<1>(from[p][0] + shift);
-  }, gas, requiresOld(x<1>), computes(x<1>));
+  advance.perMaterial(
+      "shift",
+      [shift](const Patch&, const Material&, ParticleView<const Vec<1>> from, ParticleView<Vec<1>> to) {
+        for (int p = 0; p < from.owned(); ++p) to[p] = Vec<1>(from[p][0] + shift);
+      },
+      gas, requiresOld(x<1>), computes(x<1>));
   advance.relocate(x<1>, gas);
   TaskGraph begin = run.compile(start, {"p.x"}), step = run.compile(advance, {"p.x"}, true);
   run.step(begin);
@@ -175,7 +180,8 @@ TEST(Relocation, ForgetsTheMovesOfAStepThatFailed) {
   advance.relocate(x<1>, gas);
   looking.perMaterial("inspect", inspect<1>, gas, requiresOld(x<1>), requiresOld(data::particleId), requiresOld(mark),
                       computes(wrong));
-  TaskGraph begin = run.compile(start, {"p.x", "p.mark", "p.particleID"}), step = run.compile(advance, {"p.x", "p.mark"}, true);
+  TaskGraph begin = run.compile(start, {"p.x", "p.mark", "p.particleID"}),
+            step = run.compile(advance, {"p.x", "p.mark"}, true);
   TaskGraph look = run.compile(looking, {"wrong"});
   run.step(begin);
   EXPECT_THROW(run.step(step), NumericalError);
@@ -185,7 +191,9 @@ TEST(Relocation, ForgetsTheMovesOfAStepThatFailed) {
   run.step(look);
 
   EXPECT_EQ(run.warehouse.reductionValues(run.table.find("wrong", -1)).at(0), 0);
-  EXPECT_EQ(run.warehouse.particles(Generation::old, 0, 0).owned() + run.warehouse.particles(Generation::old, 0, 1).owned(), 24);
+  EXPECT_EQ(
+      run.warehouse.particles(Generation::old, 0, 0).owned() + run.warehouse.particles(Generation::old, 0, 1).owned(),
+      24);
 }
 
 TEST(Relocation, DropsAndCountsWhatLeavesThroughAFreeFace) {
@@ -199,13 +207,15 @@ TEST(Relocation, DropsAndCountsWhatLeavesThroughAFreeFace) {
 TEST(Relocation, RefusesToLetParticlesThroughASymmetryPlaneOrToNowhere) {
   long dropped = 0;
 
-  EXPECT_EQ(shifted(0.25, false, dropped),
-            "particle 18 passed through the symmetry plane x+, from x = 0.813757 m to 1.06376 m; patch 1 (task relocate, "
-            "material gas, step 7, time 0.5 s)");
-  EXPECT_EQ(shifted(std::nan(""), false, dropped),
-            "p.x became nan m from 0, but must be finite: particle 0 in cell (0) at x = 0 m; around it: nan, nan in its "
-            "cell, nan, nan, nan in cell (1); 24 of 24 particles are broken; patch 0 (task relocate, material gas, step "
-            "7, time 0.5 s)");
+  EXPECT_EQ(
+      shifted(0.25, false, dropped),
+      "particle 18 passed through the symmetry plane x+, from x = 0.813757 m to 1.06376 m; patch 1 (task relocate, "
+      "material gas, step 7, time 0.5 s)");
+  EXPECT_EQ(
+      shifted(std::nan(""), false, dropped),
+      "p.x became nan m from 0, but must be finite: particle 0 in cell (0) at x = 0 m; around it: nan, nan in its "
+      "cell, nan, nan, nan in cell (1); 24 of 24 particles are broken; patch 0 (task relocate, material gas, step "
+      "7, time 0.5 s)");
 }
 
 }  // namespace tushar::tasks

@@ -37,22 +37,27 @@ class Tube {
   explicit Tube(int patches) : run(domain(patches)) {
     TaskList start, advance;
     start.newParticles("create", create, gas, creates(x), creates(mass));
-    advance.perMaterial("shift", [this](const Patch&, const Material&, ParticleView<const Vec<1>> from,
-                                        ParticleView<const double> m, Sum& sum, ParticleView<Vec<1>> to,
-                                        ParticleView<double> newMass) {
-      for (int p = 0; p < from.owned(); ++p) {
-        to[p] = Vec<1>(from[p][0] + shift);
-        newMass[p] = m[p] - loss;
-        sum.add(m[p]);
-      }
-    }, gas, requiresOld(x), requiresOld(mass), computes(total), computes(x), computes(mass));
+    advance.perMaterial(
+        "shift",
+        [this](const Patch&, const Material&, ParticleView<const Vec<1>> from, ParticleView<const double> m, Sum& sum,
+               ParticleView<Vec<1>> to, ParticleView<double> newMass) {
+          for (int p = 0; p < from.owned(); ++p) {
+            to[p] = Vec<1>(from[p][0] + shift);
+            newMass[p] = m[p] - loss;
+            sum.add(m[p]);
+          }
+        },
+        gas, requiresOld(x), requiresOld(mass), computes(total), computes(x), computes(mass));
     advance.relocate(x, gas);
-    advance.perMaterial("ask", [this](const Patch& patch, const Material&, ParticleView<const Vec<1>>, Minimum& factor) {
-      if (patch.id() == 0) factor.add(ask, "too far");
-    }, gas, requiresNew(x), computes(recomputeTimeStep));
-    advance.perMaterial("last", [](const Patch&, const Material&, ParticleView<const Vec<1>>, Sum& count) {
-      count.add(1);
-    }, gas, requiresNew(x), computes(ran));
+    advance.perMaterial(
+        "ask",
+        [this](const Patch& patch, const Material&, ParticleView<const Vec<1>>, Minimum& factor) {
+          if (patch.id() == 0) factor.add(ask, "too far");
+        },
+        gas, requiresNew(x), computes(recomputeTimeStep));
+    advance.perMaterial(
+        "last", [](const Patch&, const Material&, ParticleView<const Vec<1>>, Sum& count) { count.add(1); }, gas,
+        requiresNew(x), computes(ran));
     begin = run.compile(start, {"p.x", "p.mass"});
     step = run.compile(advance, {"p.x", "p.mass", "TotalMass", "recomputeTimeStep", "ran"}, true);
     run.step(begin);
@@ -166,10 +171,13 @@ TEST(Repeat, IsWhatATaskGetsThatAsksAndBreaksABoundAtOnce) {
   test::Runner run(test::domain({{4, 1, 1}}, {{4, 1, 1}}));
   constexpr data::CellLabel<double> heat{"c.heat", "J", "heat", Bound::positive};
   TaskList advance;
-  advance.perPatch("cool", [](const Patch& patch, data::CellView<double> to, Minimum& factor) {
-    to.fill(patch.id() < 2 ? -1 : 1);
-    if (patch.id() == 3) factor.add(0.7, "heat");
-  }, computes(heat), computes(recomputeTimeStep));
+  advance.perPatch(
+      "cool",
+      [](const Patch& patch, data::CellView<double> to, Minimum& factor) {
+        to.fill(patch.id() < 2 ? -1 : 1);
+        if (patch.id() == 3) factor.add(0.7, "heat");
+      },
+      computes(heat), computes(recomputeTimeStep));
   TaskGraph graph = run.compile(advance, {"c.heat", "recomputeTimeStep"});
   run.warehouse.grow(0);
 

@@ -102,16 +102,20 @@ TEST(Scheduler, SharesTheNodesThatOnePatchOfARankWritesForAll) {
   EXPECT_EQ(differingOwnNodes<2>({{9, 7, 1}}, {{3, 2, 1}}), std::pair(0.0, std::size_t{10 * 8}));
   EXPECT_EQ(differingOwnNodes<3>({{5, 4, 6}}, {{3, 2, 2}}), std::pair(0.0, std::size_t{6 * 5 * 7}));
   EXPECT_EQ(differingOwnNodes<3>({{9, 8, 6}}, {{3, 2, 2}}, 1), std::pair(0.0, std::size_t{12 * 11 * 9}));
-  EXPECT_EQ(differingOwnNodes<2>({{3, 3, 1}}, {{3, 3, 1}}, 1).first, 0) << "patches as thin as the layers beyond the grid";
+  EXPECT_EQ(differingOwnNodes<2>({{3, 3, 1}}, {{3, 3, 1}}, 1).first, 0)
+      << "patches as thin as the layers beyond the grid";
 }
 
 TEST(Scheduler, SumsToTheSameBitsOnAnyThreads) {
   const auto total = [](int threads) {
     test::Runner run(test::domain({{60, 1, 1}}, {{20, 1, 1}}), threads);
     TaskList list;
-    list.perPatch("add", [](const Patch& patch, Sum& sum) {
-      for (int k = 0; k < 100; ++k) sum.add(std::exp(patch.id() * 1.7 + k) * (k % 2 ? -1 : 1));
-    }, computes(wrong));
+    list.perPatch(
+        "add",
+        [](const Patch& patch, Sum& sum) {
+          for (int k = 0; k < 100; ++k) sum.add(std::exp(patch.id() * 1.7 + k) * (k % 2 ? -1 : 1));
+        },
+        computes(wrong));
     TaskGraph graph = run.compile(list, {"wrong"});
     run.step(graph);
     const auto bytes = run.warehouse.reductionBytes(run.table.find("wrong", -1));
@@ -126,9 +130,13 @@ TEST(Scheduler, TellsTheErrorOfTheFirstCellOrElsePatchOnAnyThreads) {
   const auto failure = [](int threads, bool withCells) {
     test::Runner run(test::domain({{60, 1, 1}}, {{20, 1, 1}}), threads);
     TaskList list;
-    list.perPatch("fail", [withCells](const Patch& patch, CellView<double>) {
-      if (patch.id() >= 5) throw NumericalError("x", "", "x", withCells ? 100u - static_cast<unsigned>(patch.id()) : 0u);
-    }, computes(number));
+    list.perPatch(
+        "fail",
+        [withCells](const Patch& patch, CellView<double>) {
+          if (patch.id() >= 5)
+            throw NumericalError("x", "", "x", withCells ? 100u - static_cast<unsigned>(patch.id()) : 0u);
+        },
+        computes(number));
     TaskGraph graph = run.compile(list, {"c.number"});
     try {
       run.step(graph);
@@ -165,9 +173,12 @@ TEST(Scheduler, TellsTaskPatchStepAndTimeOfANumericalErrorAndKeepsTheOldState) {
   test::Runner run(test::domain({{8, 1, 1}}, {{2, 1, 1}}));
   TaskList start, advance;
   start.perPatch("fill", fillCells<1>, computes(number));
-  advance.perPatch("fail", [](const Patch& patch, CellView<const double>, CellView<double>) {
-    if (patch.id() == 1) throw NumericalError("c.number became nan", "less");
-  }, requiresOld(number), computes(number));
+  advance.perPatch(
+      "fail",
+      [](const Patch& patch, CellView<const double>, CellView<double>) {
+        if (patch.id() == 1) throw NumericalError("c.number became nan", "less");
+      },
+      requiresOld(number), computes(number));
   TaskGraph begin = run.compile(start, {"c.number"}), step = run.compile(advance, {"c.number"}, true);
   run.step(begin);
 
@@ -185,8 +196,8 @@ TEST(Scheduler, TellsTaskPatchStepAndTimeOfANumericalErrorAndKeepsTheOldState) {
 TEST(Scheduler, TurnsAnyOtherExceptionIntoATaskError) {
   test::Runner run(test::domain({{8, 1, 1}}));
   TaskList list;
-  list.perPatch("fail", [](const Patch&, CellView<double>) { throw std::out_of_range("no such thing"); },
-                computes(number));
+  list.perPatch(
+      "fail", [](const Patch&, CellView<double>) { throw std::out_of_range("no such thing"); }, computes(number));
   TaskGraph graph = run.compile(list, {"c.number"});
 
   try {
@@ -202,9 +213,12 @@ TEST(Scheduler, RefusesABodyThatLeavesWhatItDeclared) {
   test::Runner run(test::domain({{8, 1, 1}}, {{2, 1, 1}}));
   TaskList list;
   list.perPatch("fill", fillCells<1>, computes(number));
-  list.perPatch("reach", [](const Patch& patch, CellView<const double> field, CellView<double> to) {
-    forEach<1>(patch.cells(), [&](const Index<1>& cell) { to[cell] = field[cell + Index<1>::unit(0)]; });
-  }, requiresNew(number), computes(doubled));
+  list.perPatch(
+      "reach",
+      [](const Patch& patch, CellView<const double> field, CellView<double> to) {
+        forEach<1>(patch.cells(), [&](const Index<1>& cell) { to[cell] = field[cell + Index<1>::unit(0)]; });
+      },
+      requiresNew(number), computes(doubled));
   TaskGraph graph = run.compile(list, {"c.doubled"});
 
   EXPECT_THROW(run.step(graph), TaskError);

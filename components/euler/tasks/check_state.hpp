@@ -80,7 +80,8 @@ void refuseBroken(const Patch& patch, const Gas& gas, const StateViews<D, T>& st
                   const StateViews<D, const double>* before) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     const bool fine = canBe<D>(gas, &state.density[cell], state.momentum[cell].data(), &state.totalEnergy[cell], 1);
-    if (!fine || !(pressureIn(gas, state, cell) + gas.pInfinity > 0)) refuseState<D>(patch.level(), gas, cell, state, before);
+    if (!fine || !(pressureIn(gas, state, cell) + gas.pInfinity > 0))
+      refuseState<D>(patch.level(), gas, cell, state, before);
   });
 }
 

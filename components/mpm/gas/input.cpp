@@ -42,8 +42,9 @@ void refusePlacements(const GasProperties& properties, Diagnostics& diagnostics)
   for (const GasSection& material : properties.mpm.materials)
     for (const GasObjectSection& object : material.objects)
       if (object.placement != Placement::midpoint)
-        diagnostics.error(object.where, "MaterialProperties/MPM/material/geom_object",
-                          "placement: the boxes of <conserving_gas_dynamics> fill the gas; use midpoint, or <gas_dynamics>");
+        diagnostics.error(
+            object.where, "MaterialProperties/MPM/material/geom_object",
+            "placement: the boxes of <conserving_gas_dynamics> fill the gas; use midpoint, or <gas_dynamics>");
 }
 
 /// Several gases at once: by boxes that are never mixed, with the transfer of the default.
@@ -91,7 +92,8 @@ void refuseSolidsOnly(const Element& root, Diagnostics& diagnostics) {
 std::unique_ptr<Component> makeComponent(const Level& level, const MpmSection& method, const std::vector<Gas>& gases) {
   if (method.gas && method.gas->redistribute) paper::checkSeeds(*method.gas->redistribute, level.dimension());
   if (method.gas) return simulation::makeByDimension<paper::GasMpm>(level, *method.gas, gases);
-  return simulation::makeByDimension<conserving::ConservingMpm>(level, conserving::settle(*method.conserving, level.dimension()), gases);
+  return simulation::makeByDimension<conserving::ConservingMpm>(
+      level, conserving::settle(*method.conserving, level.dimension()), gases);
 }
 
 }  // namespace

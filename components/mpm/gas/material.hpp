@@ -41,9 +41,9 @@ struct Relaxation {
 ///
 /// epsilon is e - p_inf / rho: the part of the internal energy e that waves exchange. Of epsilon and P = p + p_inf all
 /// laws are those of an ideal gas. Particles of a gas that is alone carry epsilon as p.internalEnergy: totals of energy
-/// differ by p_inf times the volume, which is that of the grid, as a stiffened gas fills it. Beside other gases, with which
-/// it trades volume, it carries all of e.
-/// Source: F. H. Harlow & A. A. Amsden, Fluid Dynamics, LANL report LA-4700 (1971).
+/// differ by p_inf times the volume, which is that of the grid, as a stiffened gas fills it. Beside other gases, with
+/// which it trades volume, it carries all of e. Source: F. H. Harlow & A. A. Amsden, Fluid Dynamics, LANL report
+/// LA-4700 (1971).
 struct Gas {
   std::string name;
   double gamma = 1.4;    ///< ratio of specific heats

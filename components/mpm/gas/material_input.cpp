@@ -15,20 +15,21 @@ namespace {
 const Schema<GasObjectSection>& objectSchema() {
   static const Schema<GasObjectSection> schema =
       Schema<GasObjectSection>("geom_object", "A body of material at the start.")
-          .custom("shape",
-                  [](GasObjectSection& object, const Element& element, Diagnostics& diagnostics) {
-                    object.where = element.where();
-                    object.shape = input::readGeometry(element, diagnostics);
-                  },
-                  input::geometryNames(), "the body's shape; several are united", input::describeGeometry)
+          .custom(
+              "shape",
+              [](GasObjectSection& object, const Element& element, Diagnostics& diagnostics) {
+                object.where = element.where();
+                object.shape = input::readGeometry(element, diagnostics);
+              },
+              input::geometryNames(), "the body's shape; several are united", input::describeGeometry)
           .required("res", &GasObjectSection::res, "1", "particles per cell along x, y, z", input::between(1, 64))
           .value("velocity", &GasObjectSection::velocity, input::VectorExpression(), "m/s", "velocity at the start",
                  input::WithoutTime())
           .optional("temperature", &GasObjectSection::temperature, "K",
                     "temperature at the start, in place of <pressure>: p = (gamma - 1) rho c_v T", input::positive(),
                     input::WithoutTime())
-          .optional("density", &GasObjectSection::density, "kg/m^3", "density at the start, if not that of the material",
-                    input::positive(), input::WithoutTime())
+          .optional("density", &GasObjectSection::density, "kg/m^3",
+                    "density at the start, if not that of the material", input::positive(), input::WithoutTime())
           .ours()
           .optional("pressure", &GasObjectSection::pressure, "Pa", "pressure at the start", input::positive(),
                     input::WithoutTime())
@@ -112,12 +113,10 @@ input::Expression pressureOf(const GasObjectSection& object, const input::Expres
 }  // namespace
 
 const Schema<GasProperties>& gasProperties() {
-  static const Schema<GasList> list =
-      Schema<GasList>("MPM", "The materials of the Material Point Method.")
-          .list("material", &GasList::materials, materialSchema(), "a material", 1);
+  static const Schema<GasList> list = Schema<GasList>("MPM", "The materials of the Material Point Method.")
+                                          .list("material", &GasList::materials, materialSchema(), "a material", 1);
   static const Schema<GasProperties> schema =
-      Schema<GasProperties>("MaterialProperties", "What there is.")
-          .requiredSection("MPM", &GasProperties::mpm, list);
+      Schema<GasProperties>("MaterialProperties", "What there is.").requiredSection("MPM", &GasProperties::mpm, list);
   return schema;
 }
 

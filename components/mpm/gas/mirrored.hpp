@@ -11,7 +11,8 @@ inline double middleOf(const Level& level, int kernelAxis) {
   const auto& domain = level.domain();
   const int axis = level.axis(kernelAxis);
   const double lower = domain.lower[axis], upper = domain.upper[axis];
-  return upper > lower ? 0.5 * (lower + upper) : lower + 0.5 * level.cells().upper[kernelAxis] * level.spacing(kernelAxis);
+  return upper > lower ? 0.5 * (lower + upper)
+                       : lower + 0.5 * level.cells().upper[kernelAxis] * level.spacing(kernelAxis);
 }
 
 /// How many cells the middle of a cell lies from the middle of the grid; opposite for the mirror image of the cell.

@@ -12,12 +12,13 @@ namespace tushar::mpm {
 /// How many names a cell has for the particles that start in it.
 inline constexpr ParticleId idsOfCell = 1 << 16;
 
-/// The id of the k-th particle that starts in a cell: its cell's number and its place there, so that it does not depend on
-/// the patches. Throws InputError, at `where` in the scene, where the cell has no more names.
+/// The id of the k-th particle that starts in a cell: its cell's number and its place there, so that it does not depend
+/// on the patches. Throws InputError, at `where` in the scene, where the cell has no more names.
 template <int D>
 ParticleId idOf(const Level& level, const Index<D>& cell, ParticleId k, const Location& where) {
   if (k >= idsOfCell)
-    throw InputError({{where, "geom_object", fmt::format("a cell can hold {} particles; bodies fill one with more", idsOfCell)}});
+    throw InputError(
+        {{where, "geom_object", fmt::format("a cell can hold {} particles; bodies fill one with more", idsOfCell)}});
   return level.cellNumber(cell) * idsOfCell + k;
 }
 

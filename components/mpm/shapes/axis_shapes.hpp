@@ -39,8 +39,10 @@ struct GimpAxis {
   [[gnu::always_inline]] static Real fill(const Real& xi, const Real& size, std::array<Real, nodes>& s,
                                           std::array<Real, nodes>& ds) {
     const Real zero{}, first = xi < 0.5 ? zero - 1 : zero;
-    const Real inverse = 1 / size, begin = xi - (first + 1) - 0.5 * size, end = begin + size;  // from the middle node on
-    const Real fromBelow = positive(-end), toBelow = positive(-begin), fromAbove = positive(begin), toAbove = positive(end);
+    const Real inverse = 1 / size, begin = xi - (first + 1) - 0.5 * size,
+               end = begin + size;  // from the middle node on
+    const Real fromBelow = positive(-end), toBelow = positive(-begin), fromAbove = positive(begin),
+               toAbove = positive(end);
     const Real below = inverse * (toBelow - fromBelow), above = inverse * (toAbove - fromAbove);
     const Real meanBelow = 0.5 * (fromBelow + toBelow), meanAbove = 0.5 * (fromAbove + toAbove);
     s = {below * meanBelow, below * (1 - meanBelow) + above * (1 - meanAbove), above * meanAbove};
@@ -49,10 +51,10 @@ struct GimpAxis {
   }
 
  private:
-  // The particle lies within the cells on either side of its middle node, so much of it below and so much above, and the
-  // mean of a straight line is its value in the middle. Nothing here has branches or takes large numbers from each other:
-  // where a particle barely touches a node, S and its slope are small, and the force over the mass that they make is only
-  // right if both are right to the last digits.
+  // The particle lies within the cells on either side of its middle node, so much of it below and so much above, and
+  // the mean of a straight line is its value in the middle. Nothing here has branches or takes large numbers from each
+  // other: where a particle barely touches a node, S and its slope are small, and the force over the mass that they
+  // make is only right if both are right to the last digits.
 
   template <class Real>
   [[gnu::always_inline]] static Real positive(const Real& r) {

@@ -32,8 +32,8 @@ struct CpdiShape {
     static constexpr int corners = 1 << D;
     static constexpr double share = 1.0 / corners;
 
-    /// A corner of the domain: the lower node of its cell, counted from `first`, the tent functions of that cell's nodes,
-    /// and what it has in the gradient (1/m).
+    /// A corner of the domain: the lower node of its cell, counted from `first`, the tent functions of that cell's
+    /// nodes, and what it has in the gradient (1/m).
     struct Corner {
       Index<D> cell;
       std::array<double, corners> weights;

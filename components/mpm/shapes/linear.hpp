@@ -48,7 +48,7 @@ struct Linear {
 /// Where a cell lies, so that its particles find their coordinates within it.
 template <int D>
 struct CellFrame {
-  Vec<D> origin;         ///< its lower corner, m
+  Vec<D> origin;          ///< its lower corner, m
   Vec<D> inverseSpacing;  ///< 1/m
 
   CellFrame(const Level& level, const Index<D>& cell) {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "components/mpm/shapes/linear.hpp"
-#include "core/base/quad.hpp"
 #include "components/mpm/shapes/radial_axis.hpp"
+#include "core/base/quad.hpp"
 
 namespace tushar::mpm {
 
@@ -78,8 +78,8 @@ struct TensorShape {
     void fillRadially(const CellFrame<D>& frame, const Index<D>& cell, const Vec<D>& x, const Extent<D>& extent) {
       const double inverse = frame.inverseSpacing[0];
       std::array<double, Axis::nodes> value, slope;
-      first[0] = cell[0] + RadialAxis<Axis>::fill(x[0] * inverse, frame.origin[0] * inverse, extent.size[0], value, slope,
-                                                     hoop);
+      first[0] = cell[0] +
+                 RadialAxis<Axis>::fill(x[0] * inverse, frame.origin[0] * inverse, extent.size[0], value, slope, hoop);
       for (std::size_t k = 0; k < Axis::nodes; ++k) {
         s[k][0] = value[k];
         ds[k][0] = slope[k] * inverse;
@@ -107,8 +107,7 @@ template <class Stencil, int D = Stencil::dimension>
 double hoopOf(const Stencil& stencil, const Index<D>& node) {
   if constexpr (!Stencil::axisymmetric) return 0;
   double value = stencil.hoop[static_cast<std::size_t>(node[0] - stencil.first[0])];
-  for (int d = 1; d < D; ++d)
-    value *= stencil.s[static_cast<std::size_t>(node[d] - stencil.first[d])][d];
+  for (int d = 1; d < D; ++d) value *= stencil.s[static_cast<std::size_t>(node[d] - stencil.first[d])][d];
   return value;
 }
 

@@ -19,15 +19,17 @@ inline constexpr ParticleLabel<Vec<D>> size{"p.size", "1", "extent at the start,
 inline constexpr ParticleLabel<double> temperature{"p.temperature", "K", "temperature"};
 inline constexpr ParticleLabel<double> temperatureChange{"p.temperatureChange", "K", "by the work of the step"};
 inline constexpr ParticleLabel<double> damage{"p.damage", "1", "damage, 0 where sound"};
-inline constexpr ParticleLabel<double> failureThreshold{"p.epsf", "Pa, 1 or Pa^(1/2)", "what it bears before it is damaged"};
+inline constexpr ParticleLabel<double> failureThreshold{"p.epsf", "Pa, 1 or Pa^(1/2)",
+                                                        "what it bears before it is damaged"};
 inline constexpr ParticleLabel<int> localized{"p.localizedMPM", "1", "1 once it has failed"};
 inline constexpr ParticleLabel<double> failureTime{"p.timeofloc", "s", "when it failed"};
 inline constexpr ParticleLabel<double> color{"p.color", "1", "number that the scene gives to a body"};
 inline constexpr ParticleLabel<double> viscosity{"p.q", "Pa", "artificial viscosity"};
-inline constexpr ParticleLabel<double> strainEnergy{"p.strainEnergy", "J",
-                                                    "strain energy of an elastic particle, or what the step added to it"};
+inline constexpr ParticleLabel<double> strainEnergy{
+    "p.strainEnergy", "J", "strain energy of an elastic particle, or what the step added to it"};
 template <int D>
-inline constexpr ParticleLabel<Vec<D>> smoothVelocity{"p.velocitySSPlus", "m/s", "velocity at the start of a step, by the grid"};
+inline constexpr ParticleLabel<Vec<D>> smoothVelocity{"p.velocitySSPlus", "m/s",
+                                                      "velocity at the start of a step, by the grid"};
 inline constexpr ParticleLabel<Matrix3> affineMoment{"p.affineMoment", "m^2/s",
                                                      "velocity times distance, mean over the nodes around (APIC)"};
 template <int D>
@@ -36,9 +38,11 @@ inline constexpr ParticleLabel<Matrix3> scaleFactor{"p.scalefactor", "m",
                                                     "edges of the particle, one a column, as F has deformed them"};
 /// What has worked on a particle since the start, J: one number for each of total::work.
 using Works = Eigen::Matrix<double, 1, 7, Eigen::DontAlign | Eigen::RowMajor>;
-inline constexpr ParticleLabel<Works> work{"p.work", "J", "work on it since the start: of loads and gravity, of the grid's faces, "
-                                           "of contact, lost to viscosity and damping, to strain, to plastic flow; 1/2 m v^2 "
-                                           "at the start"};
+inline constexpr ParticleLabel<Works> work{
+    "p.work", "J",
+    "work on it since the start: of loads and gravity, of the grid's faces, "
+    "of contact, lost to viscosity and damping, to strain, to plastic flow; 1/2 m v^2 "
+    "at the start"};
 inline constexpr ParticleLabel<double> heatFlux{"p.externalHeatFlux", "W", "heat that loads bring"};
 inline constexpr ParticleLabel<int> loadCurves{"p.loadCurveID", "1",
                                                "number of the load on it, or 0; further ones times 256, 65536"};
@@ -48,19 +52,23 @@ inline constexpr ParticleLabel<int> loadCurves{"p.loadCurveID", "1",
 namespace g {
 using namespace mpm::g;
 inline constexpr NodeLabel<double> volume{"g.volume", "m^3", "volume gathered from particles"};
-inline constexpr NodeLabel<Matrix3> stress{"g.stressFS", "Pa", "Cauchy stress, mean over the volume of the particles around"};
-inline constexpr NodeLabel<NodeRecord> record{"g.record", "SI units", "velocity, mass, force and volume of a step in progress"};
-inline constexpr NodeLabel<NodeRecord> stressRecord{"g.stressRecord", "SI units",
-                                               "velocity and mass that stresses follow, where it is not that of a step"};
-inline constexpr NodeLabel<NodeRecord> smoothRecord{"g.smoothRecord", "SI units", "velocity of p.velocitySSPlus, and mass"};
+inline constexpr NodeLabel<Matrix3> stress{"g.stressFS", "Pa",
+                                           "Cauchy stress, mean over the volume of the particles around"};
+inline constexpr NodeLabel<NodeRecord> record{"g.record", "SI units",
+                                              "velocity, mass, force and volume of a step in progress"};
+inline constexpr NodeLabel<NodeRecord> stressRecord{
+    "g.stressRecord", "SI units", "velocity and mass that stresses follow, where it is not that of a step"};
+inline constexpr NodeLabel<NodeRecord> smoothRecord{"g.smoothRecord", "SI units",
+                                                    "velocity of p.velocitySSPlus, and mass"};
 template <int D>
 inline constexpr NodeLabel<Vec<D>> velocityOfForces{"g.velocityOfForces", "m/s", "velocity after the forces of a step"};
 template <int D>
 inline constexpr NodeLabel<Vec<D>> velocityOfContact{"g.velocityOfContact", "m/s", "the same, after contact"};
 template <int D>
 inline constexpr NodeLabel<Vec<D>> transmittedForce{"g.transmittedForce", "N",
-                                                   "what contact takes for a material that transmits force"};
-inline constexpr NodeLabel<NodeRecord> workRecord{"g.workRecord", "SI units", "mean velocity of a step, and work for a unit of mass"};
+                                                    "what contact takes for a material that transmits force"};
+inline constexpr NodeLabel<NodeRecord> workRecord{"g.workRecord", "SI units",
+                                                  "mean velocity of a step, and work for a unit of mass"};
 template <int D>
 inline constexpr NodeLabel<Vec<D>> massGradient{"g.massGradient", "kg/m", "gradient of the mass, out of the body"};
 template <int D>
@@ -80,8 +88,8 @@ inline constexpr NodeLabel<double> temperatureRate{"g.temperatureRate", "K/s", "
 
 /// Cell variables.
 namespace c {
-inline constexpr CellLabel<double> stableTimeStep{"c.stableTimeStep", "s",
-                                                  "time in which the fastest wave of a particle in the cell crosses it"};
+inline constexpr CellLabel<double> stableTimeStep{
+    "c.stableTimeStep", "s", "time in which the fastest wave of a particle in the cell crosses it"};
 }  // namespace c
 
 /// Totals over all particles.
@@ -92,7 +100,8 @@ inline constexpr ReductionLabel<VectorSum> angularMomentum{"AngularMomentum", "k
 inline constexpr ReductionLabel<Sum> volume{"TotalVolumeDeformed", "m^3", "of all particles, as F has deformed them"};
 inline constexpr ReductionLabel<Sum> thermalEnergy{"ThermalEnergy", "J", "mass times specific heat times temperature"};
 inline constexpr ReductionLabel<VectorSum> rigidReactionForce{
-    "RigidReactionForce", "N", "force that a contact of type rigid or specified holds the others with, against their stresses"};
+    "RigidReactionForce", "N",
+    "force that a contact of type rigid or specified holds the others with, against their stresses"};
 inline constexpr ReductionLabel<Sum> strainEnergy{
     "StrainEnergy", "J", "strain energy of elastic materials and, of others, what the last step added, as in Uintah"};
 /// Sums of the numbers of p.work, in their order.
@@ -101,8 +110,9 @@ inline constexpr std::array<ReductionLabel<Sum>, 7> work{{
     {"BoundaryWork", "J", "of faces of the grid with a given velocity since the start"},
     {"ContactWork", "J", "of contact since the start: of what drives a body; what friction takes is negative"},
     {"DissipatedWork", "J", "taken by artificial viscosity and damping since the start"},
-    {"StrainWork", "J", "of the stresses since the start, less PlasticWork: what is stored, and what models without "
-                        "p.plasticStrain dissipate"},
+    {"StrainWork", "J",
+     "of the stresses since the start, less PlasticWork: what is stored, and what models without "
+     "p.plasticStrain dissipate"},
     {"PlasticWork", "J", "taken by plastic flow since the start, of models that keep p.plasticStrain"},
     {"KineticEnergyAtStart", "J", "of the particles that are still there"},
 }};

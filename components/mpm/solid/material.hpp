@@ -1,8 +1,8 @@
 #pragma once
 
+#include "components/mpm/solid/constitutive/model.hpp"
 #include "components/mpm/solid/damage/damage.hpp"
 #include "components/mpm/solid/damage/erosion.hpp"
-#include "components/mpm/solid/constitutive/model.hpp"
 #include "core/core.hpp"
 #include "core/input/expression.hpp"
 #include "core/input/geometry.hpp"
@@ -19,8 +19,8 @@ struct Body {
   double color = 0;
 };
 
-/// Where the k-th particle of a cell starts, m, rounded as Uintah rounds it: a point on a face of the shape is inside or not
-/// by its last digit.
+/// Where the k-th particle of a cell starts, m, rounded as Uintah rounds it: a point on a face of the shape is inside
+/// or not by its last digit.
 template <int D>
 Vec3 placeOf(const Level& level, const Body& body, const Index<D>& cell, const Index<D>& k) {
   Vec<D> at;

@@ -5,9 +5,9 @@
 #include <map>
 #include <set>
 
+#include "components/mpm/solid/constitutive/all.hpp"
 #include "components/mpm/solid/contact/contact_input.hpp"
 #include "components/mpm/solid/damage/damage_input.hpp"
-#include "components/mpm/solid/constitutive/all.hpp"
 #include "core/input/refuse.hpp"
 
 namespace tushar::mpm::solid {
@@ -73,7 +73,8 @@ const std::vector<std::pair<std::string, std::string>> lackingModels{
 void refuseModel(const Element& tag, const std::string& type, Diagnostics& diagnostics) {
   for (const auto& [name, instead] : lackingModels)
     if (type == name)
-      return diagnostics.error(tag, fmt::format("the model '{}' of Uintah is not available; nearest is {}", name, instead));
+      return diagnostics.error(tag,
+                               fmt::format("the model '{}' of Uintah is not available; nearest is {}", name, instead));
   diagnostics.error(tag, "attribute 'type': " + input::choiceProblem(type, modelNames()));
 }
 
@@ -85,8 +86,7 @@ void readModel(Material& material, const Element& parent, Diagnostics& diagnosti
   forEachModel([&]<class M>(const M&) {
     if (type != M::name) return;
     M model = modelSchema<M>().read(*tag, diagnostics);
-    if constexpr (requires { model.material; })
-      model.material = material.constants();
+    if constexpr (requires { model.material; }) model.material = material.constants();
     material.model = std::make_shared<ModelOf<M>>(model);
   });
   if (!material.model) refuseModel(*tag, type, diagnostics);
@@ -94,20 +94,21 @@ void readModel(Material& material, const Element& parent, Diagnostics& diagnosti
 
 void describeModels(std::ostream& out, int indent) {
   forEachModel([&]<class M>(const M&) {
-    out << std::string(static_cast<std::size_t>(indent), ' ') << "type=\"" << M::name << "\": " << M::schema().sentence()
-        << '\n';
+    out << std::string(static_cast<std::size_t>(indent), ' ') << "type=\"" << M::name
+        << "\": " << M::schema().sentence() << '\n';
     M::schema().describeContents(out, indent + 2);
   });
 }
 
 Schema<Body> bodyTags() {
   return Schema<Body>("geom_object", "A body of material at the start.")
-      .custom("shape",
-              [](Body& body, const Element& element, Diagnostics& diagnostics) {
-                body.where = element.where();
-                body.shape = input::readGeometry(element, diagnostics);
-              },
-              input::geometryNames(), "the body's shape; several are united", input::describeGeometry)
+      .custom(
+          "shape",
+          [](Body& body, const Element& element, Diagnostics& diagnostics) {
+            body.where = element.where();
+            body.shape = input::readGeometry(element, diagnostics);
+          },
+          input::geometryNames(), "the body's shape; several are united", input::describeGeometry)
       .required("res", &Body::particlesPerCell, "1", "particles per cell along x, y, z", input::between(1, 32))
       .value("velocity", &Body::velocity, input::VectorExpression(), "m/s", "velocity at the start")
       .value("temperature", &Body::temperature, input::Expression(293.0), "K", "temperature at the start",
@@ -155,11 +156,14 @@ const Schema<Material>& materialSchema() {
         .value("room_temp", &Material::roomTemperature, 294, "K", "temperature of the constants of damage",
                input::nonNegative())
         .value("is_rigid", &Material::isRigid, false, "1",
-               "explicit steps: its stress exerts no force, and its velocities go by FLIP also with XPIC2; in implicit steps "
+               "explicit steps: its stress exerts no force, and its velocities go by FLIP also with XPIC2; in implicit "
+               "steps "
                "bodies are rigid that a <contact> of type rigid or specified makes its master")
-        .value("is_force_transmitting_material", &Material::transmitsForce, false, "1",
-               "explicit steps: it moves as a rigid whole, by the sum of the loads on it and of what <contact> of type rigid or "
-               "specified, whose master it is, takes from others; gravity, damping and sides of the grid do not act on it")
+        .value(
+            "is_force_transmitting_material", &Material::transmitsForce, false, "1",
+            "explicit steps: it moves as a rigid whole, by the sum of the loads on it and of what <contact> of type "
+            "rigid or "
+            "specified, whose master it is, takes from others; gravity, damping and sides of the grid do not act on it")
         .custom("constitutive_model", readModel, {"constitutive_model"}, "how it answers to being deformed",
                 describeModels)
         .custom("damage_model", readDamage, {"damage_model", "erosion"}, "how it fails, and what it bears then",
@@ -176,7 +180,8 @@ void noteCommonNames(const MaterialProperties::List& list, const Element& elemen
   const auto tags = element.children("material");
   for (std::size_t m = 0; m < list.materials.size(); ++m)
     if (const std::string& name = list.materials[m].name; !name.empty() && !names.insert(name).second)
-      diagnostics.note(tags[m], fmt::format("a second material is called '{0}': this one is saved as '{0}.{1}'", name, m));
+      diagnostics.note(tags[m],
+                       fmt::format("a second material is called '{0}': this one is saved as '{0}.{1}'", name, m));
 }
 
 /// Contacts name materials that there are; numbers too many in <materials> mean nothing, as in Uintah.
@@ -187,7 +192,8 @@ void checkContacts(const MaterialProperties::List& list, const Element& element,
       const auto given = tag.child(name);
       const int number = given ? input::parse<int>(given->text()).value.value_or(0) : 0;
       if (number < 0 || number >= count)
-        diagnostics.error(*given, fmt::format("there is no material {}: they are counted from 0 to {}", number, count - 1));
+        diagnostics.error(*given,
+                          fmt::format("there is no material {}: they are counted from 0 to {}", number, count - 1));
     }
 }
 
@@ -199,18 +205,17 @@ const Schema<MaterialProperties>& propertiesSchema() {
   static const Schema<MaterialProperties::List> list =
       Schema<MaterialProperties::List>("MPM", "The materials of the Material Point Method, and how they touch.")
           .list("material", &MaterialProperties::List::materials, materialSchema(), "a material", 1)
-          .custom("contact",
-                  [](MaterialProperties::List& read, const Element& element, Diagnostics& diagnostics) {
-                    read.contacts = readContacts(element, diagnostics);
-                  },
-                  {"contact"}, "how materials act on each other; several are applied one after the other",
-                  describeContacts)
+          .custom(
+              "contact",
+              [](MaterialProperties::List& read, const Element& element, Diagnostics& diagnostics) {
+                read.contacts = readContacts(element, diagnostics);
+              },
+              {"contact"}, "how materials act on each other; several are applied one after the other", describeContacts)
           .section("thermal_contact", &MaterialProperties::List::thermalContact, thermalContact)
           .check(noteCommonNames)
           .check(checkContacts);
-  static const Schema<MaterialProperties> schema =
-      Schema<MaterialProperties>("MaterialProperties", "What there is.")
-          .requiredSection("MPM", &MaterialProperties::mpm, list);
+  static const Schema<MaterialProperties> schema = Schema<MaterialProperties>("MaterialProperties", "What there is.")
+                                                       .requiredSection("MPM", &MaterialProperties::mpm, list);
   return schema;
 }
 

@@ -17,14 +17,14 @@ enum class StressUpdate {
 /// The `MPM` section: how the method runs.
 struct Method {
   StressUpdate stressUpdate = StressUpdate::last;
-  double picFraction = 0;  ///< of the velocity that particles take from the grid, the rest being FLIP's
-  bool xpic = false;       ///< velocities by XPIC of order 2
-  bool affine = false;     ///< velocities go to the grid by APIC
-  Vec3 gravity = Vec3::Zero();                                ///< m/s^2
-  double damping = 0;                                         ///< artificial_damping_coeff, 1/s
+  double picFraction = 0;       ///< of the velocity that particles take from the grid, the rest being FLIP's
+  bool xpic = false;            ///< velocities by XPIC of order 2
+  bool affine = false;          ///< velocities go to the grid by APIC
+  Vec3 gravity = Vec3::Zero();  ///< m/s^2
+  double damping = 0;           ///< artificial_damping_coeff, 1/s
   std::optional<ArtificialViscosity> viscosity;
-  double minimumMassForAcceleration = 1e-199;                 ///< kg
-  std::optional<double> maximumParticleVelocity;              ///< m/s
+  double minimumMassForAcceleration = 1e-199;     ///< kg
+  std::optional<double> maximumParticleVelocity;  ///< m/s
   int minimumSubcyclesForF = 1;
   Vec3 commonSize = Vec3::Ones();  ///< of all particles at the start, in cells; unless each keeps its own
   std::array<bool, 3> isThin{};    ///< axes x, y, z that the grid leaves out
@@ -35,8 +35,8 @@ struct Method {
   bool velocityGradient = false;   ///< someone wants to know it
   bool sharesVolume = false;       ///< DoPressureStabilization: the particles of a cell change their volume as one
   bool conductsHeat = true;
-  bool contactHeats = false;       ///< do_contact_friction_heating
-  bool thermalContact = false;     ///< materials that share nodes share a temperature
+  bool contactHeats = false;    ///< do_contact_friction_heating
+  bool thermalContact = false;  ///< materials that share nodes share a temperature
 };
 
 }  // namespace tushar::mpm::solid

@@ -63,7 +63,8 @@ void checkHeat(const Problem& problem, const Element& root, Diagnostics& diagnos
     const Material& material = problem.materials[m];
     if (material.specificHeat > 0) continue;
     if (material.model->heats())
-      diagnostics.error(tags[m], "missing tag <specific_heat>: " + std::string(material.model->name()) + " heats by its work");
+      diagnostics.error(tags[m],
+                        "missing tag <specific_heat>: " + std::string(material.model->name()) + " heats by its work");
     else if (material.thermalConductivity > 0 || sharesHeat)
       diagnostics.error(tags[m], "missing tag <specific_heat>: it conducts heat");
   }
@@ -71,7 +72,8 @@ void checkHeat(const Problem& problem, const Element& root, Diagnostics& diagnos
 
 void refuseCellsAround(const Level& level, const Location& where) {
   if (level.dimension() == 3)
-    throw InputError({{where, "MPM/axisymmetric", "x is the radius and y the axis: give z one cell between symmetry planes"}});
+    throw InputError(
+        {{where, "MPM/axisymmetric", "x is the radius and y the axis: give z one cell between symmetry planes"}});
 }
 
 int nodesBeyond(const Element& root) {

@@ -47,14 +47,36 @@ inline const std::vector<std::pair<std::string, std::string>> meaninglessTags{
 };
 
 /// Variables that Uintah's MPM computes, as its scenes save them.
-inline const std::vector<std::string> uintahsLabels{
-    "AccStrainEnergy", "g.surfnorm", "g.normtraction", "g.position", "g.velocity_star", "g.externalforce",
-    "g.externalHeatRate", "g.temperatureStar", "g.thermalContactTemperatureRate", "dispNew", "p.tempPrevious",
-    "p.externalHeatRate", "p.temperatureGradient", "p.currentsize", "frictionalWork", "RigidReactionTorque",
-    "SumTransmittedForce", "particleCount", "BndyTraction_xminus", "BndyTraction_xplus", "BndyTraction_yminus",
-    "BndyTraction_yplus", "BndyTraction_zminus", "BndyTraction_zplus", "BndyContactCellArea_xminus",
-    "BndyContactCellArea_xplus", "BndyContactCellArea_yminus", "BndyContactCellArea_yplus",
-    "BndyContactCellArea_zminus", "BndyContactCellArea_zplus"};
+inline const std::vector<std::string> uintahsLabels{"AccStrainEnergy",
+                                                    "g.surfnorm",
+                                                    "g.normtraction",
+                                                    "g.position",
+                                                    "g.velocity_star",
+                                                    "g.externalforce",
+                                                    "g.externalHeatRate",
+                                                    "g.temperatureStar",
+                                                    "g.thermalContactTemperatureRate",
+                                                    "dispNew",
+                                                    "p.tempPrevious",
+                                                    "p.externalHeatRate",
+                                                    "p.temperatureGradient",
+                                                    "p.currentsize",
+                                                    "frictionalWork",
+                                                    "RigidReactionTorque",
+                                                    "SumTransmittedForce",
+                                                    "particleCount",
+                                                    "BndyTraction_xminus",
+                                                    "BndyTraction_xplus",
+                                                    "BndyTraction_yminus",
+                                                    "BndyTraction_yplus",
+                                                    "BndyTraction_zminus",
+                                                    "BndyTraction_zplus",
+                                                    "BndyContactCellArea_xminus",
+                                                    "BndyContactCellArea_xplus",
+                                                    "BndyContactCellArea_yminus",
+                                                    "BndyContactCellArea_yplus",
+                                                    "BndyContactCellArea_zminus",
+                                                    "BndyContactCellArea_zplus"};
 
 template <class S>
 void addForeignTags(input::Schema<S>& mpm) {

@@ -22,7 +22,8 @@ struct Box3 {
 class GeometryPiece {
  public:
   virtual ~GeometryPiece() = default;
-  /// Whether a body has a particle there, by Uintah's rule: faces belong to the body (but for `Parallelepiped` and `Torus`).
+  /// Whether a body has a particle there, by Uintah's rule: faces belong to the body (but for `Parallelepiped` and
+  /// `Torus`).
   virtual bool contains(const Vec3& point) const = 0;
   /// The same without the upper flat faces: of two pieces that share a face, just one owns a point of it.
   virtual bool owns(const Vec3& point) const { return contains(point); }

@@ -7,9 +7,10 @@
 
 namespace tushar::input {
 
-// `contains` takes faces as Uintah does, with its formulas in its order, so that rounding decides alike: those of boxes,
-// cylinders, cones and spheres belong to them, of a parallelepiped only the far ones, of a torus none; an ellipsoid's
-// reaches 1e-12 (of the sum) beyond it. `owns` leaves out the flat upper faces (max, top, far from p1), as those of cells.
+// `contains` takes faces as Uintah does, with its formulas in its order, so that rounding decides alike: those of
+// boxes, cylinders, cones and spheres belong to them, of a parallelepiped only the far ones, of a torus none; an
+// ellipsoid's reaches 1e-12 (of the sum) beyond it. `owns` leaves out the flat upper faces (max, top, far from p1), as
+// those of cells.
 
 /// min <= p <= max along each axis.
 struct Box : GeometryPiece {

@@ -71,9 +71,10 @@ bool Surface::contains(const Vec3& point) const {
   for (int axis = 0; axis < 3; ++axis)
     if (!(point[axis] >= bounds_.min[axis] && point[axis] <= bounds_.max[axis])) return false;
   const std::vector<int>& ahead = crossing_[binOf(2, point[2]) * bins_ + binOf(1, point[1])];
-  return std::count_if(ahead.begin(), ahead.end(), [&](int t) {
-           return isAhead(point, triangles_[static_cast<std::size_t>(t)]);
-         }) % 2 == 1;
+  return std::count_if(ahead.begin(), ahead.end(),
+                       [&](int t) { return isAhead(point, triangles_[static_cast<std::size_t>(t)]); }) %
+             2 ==
+         1;
 }
 
 std::string whyOpen(const Triangles& triangles) {
@@ -84,9 +85,10 @@ std::string whyOpen(const Triangles& triangles) {
   const auto first = std::find_if(uses.begin(), uses.end(), isOpen);
   if (first == uses.end()) return {};
   const auto& [a, b] = first->first;
-  return fmt::format("{} of its {} edges belong to an odd number of triangles, so that it does not close, such as that from "
-                     "({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g}) m",
-                     std::count_if(uses.begin(), uses.end(), isOpen), uses.size(), a[0], a[1], a[2], b[0], b[1], b[2]);
+  return fmt::format(
+      "{} of its {} edges belong to an odd number of triangles, so that it does not close, such as that from "
+      "({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g}) m",
+      std::count_if(uses.begin(), uses.end(), isOpen), uses.size(), a[0], a[1], a[2], b[0], b[1], b[2]);
 }
 
 }  // namespace tushar::input

@@ -30,16 +30,16 @@ class Surface : public GeometryPiece {
 
   Triangles triangles_;
   Box3 bounds_;
-  std::size_t bins_;                     ///< along y and along z
+  std::size_t bins_;                        ///< along y and along z
   std::vector<std::vector<int>> crossing_;  ///< triangles of each bin of lines along x
 };
 
 /// Why triangles do not close a surface: an edge that not two of them (or four, …) share, in a sentence; else empty.
 std::string whyOpen(const Triangles& triangles);
 
-/// The triangles of a file: STL, as text or binary, where its name ends in `.stl`; else those of NAME.tri, three numbers
-/// of points a line, counted from 0, and the points of NAME.pts, three coordinates a line. A line that is not right, a
-/// file that ends early or that is none gets a sentence with its name at `tag`, and there are none.
+/// The triangles of a file: STL, as text or binary, where its name ends in `.stl`; else those of NAME.tri, three
+/// numbers of points a line, counted from 0, and the points of NAME.pts, three coordinates a line. A line that is not
+/// right, a file that ends early or that is none gets a sentence with its name at `tag`, and there are none.
 Triangles readTriangles(const std::string& path, const Element& tag, Diagnostics& diagnostics);
 
 }  // namespace tushar::input

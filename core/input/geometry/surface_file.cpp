@@ -70,13 +70,15 @@ Read readText(const std::string& text) {
       corner = 0;
     } else if (word == "vertex") {
       Vec3 x;
-      if (read.triangles.empty() || corner == 3) return failed(fmt::format("line {}: a fourth vertex of a facet", number));
+      if (read.triangles.empty() || corner == 3)
+        return failed(fmt::format("line {}: a fourth vertex of a facet", number));
       if (!(words >> x[0] >> x[1] >> x[2]))
         return failed(fmt::format("line {}: expected `vertex x y z`, found '{}'", number, line));
       read.triangles.back()[corner++] = x;
     } else if (word != "solid" && word != "endsolid" && word != "outer" && word != "endloop" && word != "endfacet") {
-      return failed(fmt::format("line {}: found '{}', expected solid, facet, outer loop, vertex, endloop, endfacet or endsolid",
-                                number, word));
+      return failed(
+          fmt::format("line {}: found '{}', expected solid, facet, outer loop, vertex, endloop, endfacet or endsolid",
+                      number, word));
     }
   }
   if (word != "endsolid" || (corner != 3 && !read.triangles.empty())) return failed("it ends before `endsolid`");
@@ -84,7 +86,8 @@ Read readText(const std::string& text) {
 }
 
 Read readStl(const std::string& bytes) {
-  if (bytes.size() >= headerBytes && bytes.size() == headerBytes + facetBytes * countIn(bytes)) return readBinary(bytes);
+  if (bytes.size() >= headerBytes && bytes.size() == headerBytes + facetBytes * countIn(bytes))
+    return readBinary(bytes);
   if (bytes.starts_with("solid")) return readText(bytes);
   if (bytes.size() < headerBytes) return failed("it does not begin with `solid`, and is too short for a binary file");
   return failed(fmt::format("it does not begin with `solid`, and a binary file of {} triangles has {} bytes, not {}",
@@ -148,7 +151,8 @@ Read readFile(const std::string& path) {
 Triangles readTriangles(const std::string& path, const Element& tag, Diagnostics& diagnostics) {
   Read read = readFile(path);
   if (read.problem.empty() && read.triangles.empty()) read.problem = "there are no triangles in it";
-  if (read.problem.empty() && !isSound(read.triangles)) read.problem = "a corner is nowhere: a coordinate is not finite";
+  if (read.problem.empty() && !isSound(read.triangles))
+    read.problem = "a corner is nowhere: a coordinate is not finite";
   if (read.problem.empty()) read.problem = whyOpen(read.triangles);
   if (read.problem.empty()) return read.triangles;
   diagnostics.error(tag, fmt::format("'{}': {}", path, read.problem));

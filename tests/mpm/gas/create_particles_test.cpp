@@ -137,7 +137,8 @@ TEST(CreateParticles, RefusesBodiesThatOverlapNamingThePoint) {
     made(gasOf({{"[0,-1,-1]", "[0.6,2,2]"}, {"[0.5,-1,-1]", "[2,2,2]"}}, 1), 1);
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("both contain the point (0.55, 0.3, 0.2)"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("both contain the point (0.55, 0.3, 0.2)"), std::string::npos)
+        << error.what();
   }
 }
 

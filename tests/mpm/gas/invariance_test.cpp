@@ -24,19 +24,20 @@ struct Half {
 };
 
 const std::string papers = "<gas_dynamics/>";
-const std::vector<std::string> methods{
-    "<conserving_gas_dynamics/>",
-    "<conserving_gas_dynamics><transfer>affine_flip</transfer><remap><every>4</every></remap></conserving_gas_dynamics>",
-    papers};
+const std::vector<std::string> methods{"<conserving_gas_dynamics/>",
+                                       "<conserving_gas_dynamics><transfer>affine_flip</transfer><remap><every>4</"
+                                       "every></remap></conserving_gas_dynamics>",
+                                       papers};
 
-/// A tube from -1 to 1 m with a diaphragm at 0, 64 cells, until t = .3 s; four particles per cell by the paper's method, else one.
+/// A tube from -1 to 1 m with a diaphragm at 0, 64 cells, until t = .3 s; four particles per cell by the paper's
+/// method, else one.
 std::string tube(const Half& left, const Half& right, const Units& units, const std::string& method) {
   const auto body = [&](double from, double to, const Half& gas) {
     return fmt::format(
         "<geom_object><box><min>[{:.17g},0,0]</min><max>[{:.17g},1,1]</max></box><res>[{},1,1]</res>"
         "<velocity>[{:.17g},0,0]</velocity><density>{:.17g}</density><pressure>{:.17g}</pressure></geom_object>",
-        units.length * from, units.length * to, method == papers ? 4 : 1, units.velocity() * gas.velocity, units.density() * gas.density,
-        units.pressure() * gas.pressure);
+        units.length * from, units.length * to, method == papers ? 4 : 1, units.velocity() * gas.velocity,
+        units.density() * gas.density, units.pressure() * gas.pressure);
   };
   return fmt::format(
       "<Uintah_specification><Meta><title>tube</title></Meta><SimulationComponent type='mpm'/>"
@@ -70,7 +71,8 @@ constexpr Half dense{1, 0.75, 1}, thin{0.125, -0.25, 0.1};
 /// Two gases that meet, so that cells hold up to six particles.
 constexpr Half hard{1, 3, 1}, soft{1, -2, 0.01};
 
-/// The greatest difference of two runs, the second in other units: relative to the box, the speed of sound and its square.
+/// The greatest difference of two runs, the second in other units: relative to the box, the speed of sound and its
+/// square.
 double difference(const std::vector<Particle>& one, const std::vector<Particle>& other, const Units& units) {
   EXPECT_EQ(one.size(), other.size());
   const double l = units.length, v = units.velocity();
@@ -90,15 +92,18 @@ double differenceIn(const Units& units, const std::string& method) {
 TEST(Invariance, UnitsThatArePowersOfTwoChangeNoBit) {
   for (const std::string& method : methods)
     for (const int power : {-40, 40})
-      for (const Units& units : {Units{std::ldexp(1, power), 1, 1}, {1, std::ldexp(1, power), 1}, {1, 1, std::ldexp(1, power)}})
-        EXPECT_EQ(differenceIn(units, method), 0) << method << ' ' << units.length << ' ' << units.time << ' ' << units.mass;
+      for (const Units& units :
+           {Units{std::ldexp(1, power), 1, 1}, {1, std::ldexp(1, power), 1}, {1, 1, std::ldexp(1, power)}})
+        EXPECT_EQ(differenceIn(units, method), 0)
+            << method << ' ' << units.length << ' ' << units.time << ' ' << units.mass;
 }
 
 TEST(Invariance, UnitsOf1e12OfAnyKindChangeRoundOffAlone) {
   for (const std::string& method : methods)
     for (const double factor : {1e-12, 1e12})
       for (const Units& units : {Units{factor, 1, 1}, {1, factor, 1}, {1, 1, factor}})
-        EXPECT_LE(differenceIn(units, method), 1e-12) << method << ' ' << units.length << ' ' << units.time << ' ' << units.mass;
+        EXPECT_LE(differenceIn(units, method), 1e-12)
+            << method << ' ' << units.length << ' ' << units.time << ' ' << units.mass;
 }
 
 TEST(Invariance, AMirroredTubeIsTheMirrorImageToTheBit) {

@@ -12,9 +12,9 @@ namespace tushar::mpm::gas {
 namespace {
 
 const std::vector<std::string> methods{
-    "<conserving_gas_dynamics/>",
-    "<conserving_gas_dynamics><remap><every>4</every></remap></conserving_gas_dynamics>",
-    "<conserving_gas_dynamics><transfer>affine_flip</transfer><remap><every>4</every></remap></conserving_gas_dynamics>"};
+    "<conserving_gas_dynamics/>", "<conserving_gas_dynamics><remap><every>4</every></remap></conserving_gas_dynamics>",
+    "<conserving_gas_dynamics><transfer>affine_flip</transfer><remap><every>4</every></remap></"
+    "conserving_gas_dynamics>"};
 
 using Signs = std::array<int, 3>;  ///< -1 along the axes that are mirrored
 
@@ -36,30 +36,36 @@ std::string geomObject(const Body& body, const Signs& signs) {
     std::tie(lower[d], upper[d]) = std::minmax({signs[d] * body.lower[d], signs[d] * body.upper[d]});
     velocity[d] = signs[d] * body.velocity[d];
   }
-  return fmt::format("<geom_object><box><min>[{}]</min><max>[{}]</max></box><res>[1,1,1]</res><velocity>[{}]</velocity>"
-                     "<density>{}</density><pressure>{}</pressure></geom_object>",
-                     fmt::join(lower, ","), fmt::join(upper, ","), fmt::join(velocity, ","), body.density, body.pressure);
+  return fmt::format(
+      "<geom_object><box><min>[{}]</min><max>[{}]</max></box><res>[1,1,1]</res><velocity>[{}]</velocity>"
+      "<density>{}</density><pressure>{}</pressure></geom_object>",
+      fmt::join(lower, ","), fmt::join(upper, ","), fmt::join(velocity, ","), body.density, body.pressure);
 }
 
 /// The same with values that vary within cells.
 std::string varying(const Signs& signs) {
   const std::string x = fmt::format("({}*x)", signs[0]), y = fmt::format("({}*y)", signs[1]);
-  return fmt::format("<geom_object><box><min>[-1,-1,-1]</min><max>[1,1,1]</max></box><res>[1,1,1]</res>"
-                     "<velocity>[{2}*(0.3+0.5*sin(2*{0}-{1})), {3}*(0.2+0.5*cos(3*{0}+{1})), 0]</velocity>"
-                     "<density>1+0.4*sin(3*{0}+1)*cos(2*{1})</density><pressure>1+0.9*sin(5*{0}+2*{1})</pressure></geom_object>",
-                     x, y, signs[0], signs[1]);
+  return fmt::format(
+      "<geom_object><box><min>[-1,-1,-1]</min><max>[1,1,1]</max></box><res>[1,1,1]</res>"
+      "<velocity>[{2}*(0.3+0.5*sin(2*{0}-{1})), {3}*(0.2+0.5*cos(3*{0}+{1})), 0]</velocity>"
+      "<density>1+0.4*sin(3*{0}+1)*cos(2*{1})</density><pressure>1+0.9*sin(5*{0}+2*{1})</pressure></geom_object>",
+      x, y, signs[0], signs[1]);
 }
 
 /// Position, velocity and energy of each particle, turned back and sorted.
 std::vector<std::array<double, 7>> run(const std::string& gas, const std::string& method, const Signs& signs,
                                        const std::string& resolution) {
   GasScene scene(
-      "<Uintah_specification><Meta><title>box</title></Meta><SimulationComponent type='mpm'/><Time><maxTime>.3</maxTime>"
-      "</Time><Grid>" + walls() + "<Level><Box label='box'><lower>[-1,-1,-1]</lower><upper>[1,1,1]</upper><resolution>[" +
-      resolution + "]</resolution></Box></Level></Grid><DataArchiver><filebase>box.uda</filebase></DataArchiver>"
-      "<MPM><time_integrator>explicit</time_integrator>" + method + "</MPM><MaterialProperties><MPM><material name='gas'>"
-      "<constitutive_model type='ideal_gas'><gamma>1.4</gamma></constitutive_model>" + gas +
-      "</material></MPM></MaterialProperties></Uintah_specification>");
+      "<Uintah_specification><Meta><title>box</title></Meta><SimulationComponent "
+      "type='mpm'/><Time><maxTime>.3</maxTime>"
+      "</Time><Grid>" +
+      walls() + "<Level><Box label='box'><lower>[-1,-1,-1]</lower><upper>[1,1,1]</upper><resolution>[" + resolution +
+      "]</resolution></Box></Level></Grid><DataArchiver><filebase>box.uda</filebase></DataArchiver>"
+      "<MPM><time_integrator>explicit</time_integrator>" +
+      method +
+      "</MPM><MaterialProperties><MPM><material name='gas'>"
+      "<constitutive_model type='ideal_gas'><gamma>1.4</gamma></constitutive_model>" +
+      gas + "</material></MPM></MaterialProperties></Uintah_specification>");
   const auto x = scene.values("p.x"), velocity = scene.values("p.velocity"), energy = scene.values("p.internalEnergy");
   std::vector<std::array<double, 7>> particles(energy.size());
   for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -100,7 +106,8 @@ TEST(Mirror, ImageOfAPlaneHasTheMirroredBits) {
 TEST(Mirror, ImageOfABoxHasTheMirroredBits) {
   const auto ours = run(boxOf({1, 1, 1}), methods.front(), {1, 1, 1}, "8,8,8");
   for (const Signs& signs : {Signs{-1, 1, 1}, {1, 1, -1}, {-1, -1, -1}})
-    EXPECT_EQ(ours, run(boxOf(signs), methods.front(), signs, "8,8,8")) << signs[0] << ' ' << signs[1] << ' ' << signs[2];
+    EXPECT_EQ(ours, run(boxOf(signs), methods.front(), signs, "8,8,8"))
+        << signs[0] << ' ' << signs[1] << ' ' << signs[2];
 }
 
 TEST(Mirror, ImageOfAGasThatVariesHasTheMirroredBits) {

@@ -169,14 +169,15 @@ TYPED_TEST(EveryShape, GathersWhatItsNodesSay) {
     for (int lane = 0; lane < 8; ++lane) EXPECT_NEAR(sums.value[lane], value[static_cast<std::size_t>(lane)], roundOff);
     for (int lane = 0; lane < 4; ++lane)
       for (int d = 0; d < D; ++d)
-        EXPECT_NEAR(sums.gradient[static_cast<std::size_t>(d)][lane], gradient(lane, d), 100 * roundOff) << "of order 10";
+        EXPECT_NEAR(sums.gradient[static_cast<std::size_t>(d)][lane], gradient(lane, d), 100 * roundOff)
+            << "of order 10";
   }
 }
 
 template <class Shape>
 class AxisymmetricShape : public testing::Test {};
-using AxisymmetricShapes =
-    testing::Types<AxisymmetricLinearShape<1>, AxisymmetricLinearShape<2>, AxisymmetricGimpShape<1>, AxisymmetricGimpShape<2>>;
+using AxisymmetricShapes = testing::Types<AxisymmetricLinearShape<1>, AxisymmetricLinearShape<2>,
+                                          AxisymmetricGimpShape<1>, AxisymmetricGimpShape<2>>;
 TYPED_TEST_SUITE(AxisymmetricShape, AxisymmetricShapes);
 
 TYPED_TEST(AxisymmetricShape, HasNoStrainInRestAndOneInRadialStretching) {
@@ -222,7 +223,9 @@ TEST(CpdiDomain, IsThatOfGimpForAnUndeformedParticleInOneDimension) {
   const Vec<1> x(level.nodePosition(0, 4) + 0.4 * level.spacing(0));
   Nodes<CubicShape<1>> cpdi, gimp;
   const auto record = [](Nodes<CubicShape<1>>& nodes) {
-    return [&nodes](const Index<1>& node, double s, const Vec<1>& ds) { nodes.at({{node[0] - 3}}) = NodeRecord{Quad{s, ds[0], 0, 0}, Quad{}}; };
+    return [&nodes](const Index<1>& node, double s, const Vec<1>& ds) {
+      nodes.at({{node[0] - 3}}) = NodeRecord{Quad{s, ds[0], 0, 0}, Quad{}};
+    };
   };
   CpdiShape<1>::Stencil(level, cell, x, extent).forEachNode(record(cpdi));
   GimpShape<1>::Stencil(level, cell, x, extent).forEachNode(record(gimp));

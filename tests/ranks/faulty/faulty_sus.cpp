@@ -35,8 +35,10 @@ simulation::Catalogue faultyCatalogue() {
   simulation::Catalogue known = catalogue();
   for (simulation::ComponentKind& kind : known.components) {
     if (kind.name != "heat") continue;
-    kind.read = [read = kind.read](const input::Element& root, input::Diagnostics& diagnostics) -> simulation::MakeComponent {
-      return [make = read(root, diagnostics)](const grid::Level& level) { return std::make_unique<Faulty>(make(level)); };
+    kind.read = [read = kind.read](const input::Element& root,
+                                   input::Diagnostics& diagnostics) -> simulation::MakeComponent {
+      return
+          [make = read(root, diagnostics)](const grid::Level& level) { return std::make_unique<Faulty>(make(level)); };
     };
   }
   return known;

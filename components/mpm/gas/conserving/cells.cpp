@@ -67,8 +67,8 @@ CellState smoothViscosity(double pressure, double density, double soundSpeed, co
     const double j = -(s * difference + (1 - s) * std::max(difference, std::min(0.0, compression.smooth)));
     state.viscosity = density * j * (viscosity.quadratic * j + viscosity.linear * soundSpeed);
   } else if (difference > 0) {
-    const double z = std::clamp(compression.smooth, 0.0, difference) *
-                     std::clamp(compression.nearby / difference, 0.0, 1.0);
+    const double z =
+        std::clamp(compression.smooth, 0.0, difference) * std::clamp(compression.nearby / difference, 0.0, 1.0);
     state.viscosity = -std::min(viscosity.linear * density * soundSpeed * z, 0.4 * pressure);
   }
   return state;

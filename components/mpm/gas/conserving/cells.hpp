@@ -40,9 +40,10 @@ struct Compression {
 CellState shockViscosity(double pressure, double density, double soundSpeed, double difference,
                          const Viscosity& viscosity);
 
-/// q = rho |J| (C_q |J| + C_l c) where the gas is compressed, with J = Delta at shocks and what neighbours do not explain
-/// of it, J_0, where the flow is smooth; s = min(1, 10 max(0, -Delta / c - .05)) leads from one to the other. Where it
-/// expands next to a compressed cell q is negative, at least -0.4 p: it takes the overshoot behind a shock away.
+/// q = rho |J| (C_q |J| + C_l c) where the gas is compressed, with J = Delta at shocks and what neighbours do not
+/// explain of it, J_0, where the flow is smooth; s = min(1, 10 max(0, -Delta / c - .05)) leads from one to the other.
+/// Where it expands next to a compressed cell q is negative, at least -0.4 p: it takes the overshoot behind a shock
+/// away.
 CellState smoothViscosity(double pressure, double density, double soundSpeed, const Compression& compression,
                           const Viscosity& viscosity);
 

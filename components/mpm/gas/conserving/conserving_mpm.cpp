@@ -75,8 +75,8 @@ void ConservingMpm<D>::scheduleStep(TaskList& tasks) const {
                       requiresOld(delT), computes(c::work));
   if (method_.heatConduction > 0)
     tasks.perMaterial("mpm::conductHeat", conserving::conductHeat<D>, materials_, with(method_.heatConduction),
-                      requiresOld(c::mass, 1), requiresOld(c::internalEnergy, 1), requiresOld(c::velocityGradient<D>, 1),
-                      requiresOld(delT), modifies(c::work));
+                      requiresOld(c::mass, 1), requiresOld(c::internalEnergy, 1),
+                      requiresOld(c::velocityGradient<D>, 1), requiresOld(delT), modifies(c::work));
   tasks.perMaterial("mpm::updateParticles", conserving::updateParticles<D, Scheme>, materials_, requiresOld(p::x<D>),
                     requiresOld(p::edges<D>), requiresOld(p::velocity<D>), requiresOld(p::modes<D>),
                     requiresOld(p::internalEnergy), requiresOld(p::affineEnergy), requiresOld(g::velocity<D>, overhang),
@@ -157,10 +157,9 @@ void ConservingMpm<D>::scheduleMixtureState(TaskList& tasks) const {
 template <int D>
 template <class Scheme>
 void ConservingMpm<D>::scheduleComputePressure(TaskList& tasks) const {
-  tasks.perMaterial("mpm::computePressure", conserving::computePressure<D, Scheme>, materials_,
-                    with(method_.viscosity), requiresNew(c::mass), requiresNew(c::internalEnergy),
-                    requiresNew(c::velocityGradient<D>, 1), computes(c::pressure), computes(c::viscosity),
-                    computes(c::shock));
+  tasks.perMaterial("mpm::computePressure", conserving::computePressure<D, Scheme>, materials_, with(method_.viscosity),
+                    requiresNew(c::mass), requiresNew(c::internalEnergy), requiresNew(c::velocityGradient<D>, 1),
+                    computes(c::pressure), computes(c::viscosity), computes(c::shock));
 }
 
 template <int D>

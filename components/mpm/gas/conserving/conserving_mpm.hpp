@@ -9,10 +9,10 @@ namespace tushar::mpm::gas::conserving {
 /// A particle method for gas in D dimensions that conserves mass, momentum and total energy to round-off and keeps
 /// densities and energies positive.
 ///
-/// Particles are boxes of constant mass that tile the gas, so that no cell empties; they carry a multilinear velocity and
-/// the kinetic energy of the motion about its mean (as in the affine particle-in-cell method of Jiang et al., ACM Trans.
-/// Graph. 34 (2015) 51), and touch the grid with their whole box (as in GIMP, Bardenhagen & Kober, CMES 5 (2004) 477).
-/// The grid's state is gathered at the end of a step, so that the next time step may follow from it.
+/// Particles are boxes of constant mass that tile the gas, so that no cell empties; they carry a multilinear velocity
+/// and the kinetic energy of the motion about its mean (as in the affine particle-in-cell method of Jiang et al., ACM
+/// Trans. Graph. 34 (2015) 51), and touch the grid with their whole box (as in GIMP, Bardenhagen & Kober, CMES 5 (2004)
+/// 477). The grid's state is gathered at the end of a step, so that the next time step may follow from it.
 ///
 /// conserving_mpm.cpp is the schedule; the bodies of its tasks are beside it.
 template <int D>

@@ -51,7 +51,8 @@ Contents<D> contentsAt(const Level& level, const Gas& gas, const GasObject& obje
   return held;
 }
 
-/// Sum of `held(offset, volume)` over the points of Gauss & Legendre, 3 per axis, of a box: the same for a mirrored one.
+/// Sum of `held(offset, volume)` over the points of Gauss & Legendre, 3 per axis, of a box: the same for a mirrored
+/// one.
 template <int D, class Held>
 Contents<D> sumOverPoints(const Vec<D>& edges, double volume, const Held& held, Vec<D> offset = Vec<D>::Zero(),
                           int axis = 0) {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "components/mpm/gas/conserving/labels.hpp"
 #include "components/mpm/gas/conserving/grid_sums.hpp"
+#include "components/mpm/gas/conserving/labels.hpp"
 #include "components/mpm/gas/material.hpp"
 #include "components/reference/gas_solution.hpp"
 

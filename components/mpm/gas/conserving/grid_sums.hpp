@@ -15,9 +15,9 @@ struct CarefulSum {
   }
 };
 
-/// N sums at the nodes (More = 1) or cells (More = 0) of a box of cells over what particles bring. What rounding loses is
-/// added as well, so that the order of the particles, which is another in a mirror image, changes nothing but where a sum
-/// lies within some 1e-32 of the middle between two numbers. To be read after `finish()`.
+/// N sums at the nodes (More = 1) or cells (More = 0) of a box of cells over what particles bring. What rounding loses
+/// is added as well, so that the order of the particles, which is another in a mirror image, changes nothing but where
+/// a sum lies within some 1e-32 of the middle between two numbers. To be read after `finish()`.
 template <int D, std::size_t N, int More>
 class GridSums : public GridFields<D, N> {
   using Fields = GridFields<D, N>;
@@ -36,7 +36,8 @@ class GridSums : public GridFields<D, N> {
       if (Fields::areConsecutive(near))
         addRows<D - 1>(field + places[0], footprint, brought[n].data());
       else
-        for (int lane = 0; lane < count; ++lane) addOne<D - 1>(field + places[lane], footprint, brought[n].data(), lane);
+        for (int lane = 0; lane < count; ++lane)
+          addOne<D - 1>(field + places[lane], footprint, brought[n].data(), lane);
     }
   }
   void finish() {

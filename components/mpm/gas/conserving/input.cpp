@@ -27,10 +27,9 @@ const Schema<Section>& sectionSchema() {
           .value("linear", &Viscosity::linear, 0.5, "1", "C_l", input::nonNegative())
           .ours();
   static const Schema<Section> schema =
-      Schema<Section>("conserving_gas_dynamics",
-                                "A gas method that conserves mass, momentum and total energy.")
-          .choice("transfer", &Section::transfer,
-                  {{"apic", Transfer::apic}, {"affine_flip", Transfer::affineFlip}}, Transfer::apic,
+      Schema<Section>("conserving_gas_dynamics", "A gas method that conserves mass, momentum and total energy.")
+          .choice("transfer", &Section::transfer, {{"apic", Transfer::apic}, {"affine_flip", Transfer::affineFlip}},
+                  Transfer::apic,
                   "particles take the grid's velocity, or, where the gas is smooth, its change: of second order")
           .ours()
           .value("cfl", &Section::cfl, 0.5, "1", "dt times the speed of signals over h; affine_flip: dt max(c) / h",
@@ -41,13 +40,16 @@ const Schema<Section>& sectionSchema() {
           .ours()
           .optional("longest_particle", &Section::longestParticle, "1",
                     "length in cells beyond which a particle is halved (2.36 in one dimension with apic, else 1.4); "
-                    "halving costs accuracy", input::between(1, 2.9))
+                    "halving costs accuracy",
+                    input::between(1, 2.9))
           .ours()
           .section("artificial_viscosity", &Section::viscosity, viscosity)
           .ours()
-          .value("artificial_heat_conduction", &Section::heatConduction, 0, "1",
-                 "C_h: heat flows C_h rho h |dv/dx| de/dx h where cells are compressed (Noh 1987); 1 takes wall heating "
-                 "away", input::between(0, 1))
+          .value(
+              "artificial_heat_conduction", &Section::heatConduction, 0, "1",
+              "C_h: heat flows C_h rho h |dv/dx| de/dx h where cells are compressed (Noh 1987); 1 takes wall heating "
+              "away",
+              input::between(0, 1))
           .ours()
           .section("remap", &Section::remap, remapSchema())
           .ours();

@@ -5,7 +5,8 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// The `conserving_gas_dynamics` section of `MPM` as it is written; what is not given follows from the transfer and the dimension.
+/// The `conserving_gas_dynamics` section of `MPM` as it is written; what is not given follows from the transfer and the
+/// dimension.
 struct Section {
   Transfer transfer = Transfer::apic;
   double cfl = 0.5, advectiveCfl = 0.8;

@@ -10,15 +10,14 @@ namespace p {
 using namespace mpm::p;
 template <int D>
 inline constexpr ParticleLabel<Vec<D>> edges{"p.edges", "m", "edge lengths of the box that the particle fills",
-                                               Bound::positive};
+                                             Bound::positive};
 template <int D>
 inline constexpr ParticleLabel<Modes<D>> modes{"p.velocityModes", "1/s",
                                                "velocity gradient within, and its mixed derivatives", Bound::finite};
-inline constexpr ParticleLabel<double> heat{"p.heat", "J/kg", "e - p_inf / rho of a gas beside others; 0 at a pressure of -p_inf",
-                                            Bound::nonNegative};
-inline constexpr ParticleLabel<double> affineEnergy{"p.affineEnergy", "J/kg",
-                                                    "kinetic energy per mass of the motion about the mean velocity",
-                                                    Bound::nonNegative};
+inline constexpr ParticleLabel<double> heat{
+    "p.heat", "J/kg", "e - p_inf / rho of a gas beside others; 0 at a pressure of -p_inf", Bound::nonNegative};
+inline constexpr ParticleLabel<double> affineEnergy{
+    "p.affineEnergy", "J/kg", "kinetic energy per mass of the motion about the mean velocity", Bound::nonNegative};
 }  // namespace p
 
 namespace g {
@@ -29,15 +28,18 @@ inline constexpr NodeLabel<double> relaxation{"g.relaxation", "1",
 
 namespace c {
 using namespace mpm::c;
-inline constexpr CellLabel<double> mass{"c.mass", "kg", "mass of the parts of particles in the cell", Bound::nonNegative};
+inline constexpr CellLabel<double> mass{"c.mass", "kg", "mass of the parts of particles in the cell",
+                                        Bound::nonNegative};
 inline constexpr CellLabel<double> internalEnergy{"c.internalEnergy", "J", "internal energy of those parts",
                                                   Bound::nonNegative};
 inline constexpr CellLabel<double> fill{"c.fill", "1", "volume of the parts of particles in the cell over its own"};
 template <int D>
-inline constexpr CellLabel<Vec<D>> velocity{"c.velocity", "m/s", "momentum over mass of the parts of particles in the cell"};
+inline constexpr CellLabel<Vec<D>> velocity{"c.velocity", "m/s",
+                                            "momentum over mass of the parts of particles in the cell"};
 template <int D>
 inline constexpr CellLabel<Tensor<D>> velocityGradient{"c.velocityGradient", "1/s", "in the middle of the cell"};
-inline constexpr CellLabel<double> pressure{"c.pressure", "Pa", "pressure of the cell, plus p_infinity of a stiffened gas that is alone"};
+inline constexpr CellLabel<double> pressure{"c.pressure", "Pa",
+                                            "pressure of the cell, plus p_infinity of a stiffened gas that is alone"};
 inline constexpr CellLabel<double> viscosity{"c.viscosity", "Pa", "artificial viscosity of the cell", Bound::finite};
 inline constexpr CellLabel<double> shock{"c.shock", "1", "whether a shock runs through the cell: 0 to 1"};
 template <int D>
@@ -49,12 +51,15 @@ inline constexpr CellLabel<double> movedEnergy{"c.movedEnergy", "J", "internal e
 }  // namespace c
 
 /// What limits the time step.
-inline constexpr ReductionLabel<Maximum> signalPastGrid{"SignalPastGrid", "m/s", "signals relative to the grid, fastest"};
+inline constexpr ReductionLabel<Maximum> signalPastGrid{"SignalPastGrid", "m/s",
+                                                        "signals relative to the grid, fastest"};
 inline constexpr ReductionLabel<Maximum> signalPastGas{"SignalPastGas", "m/s", "signals relative to the gas, fastest"};
 
 /// When to remap.
-inline constexpr ReductionLabel<Maximum> cellFill{"CellFill", "1", "volume of particles in a cell over its own, greatest"};
-inline constexpr ReductionLabel<Maximum> remapCount{"RemapCount", "1", "steps since the last remap; 0: remap in this step"};
+inline constexpr ReductionLabel<Maximum> cellFill{"CellFill", "1",
+                                                  "volume of particles in a cell over its own, greatest"};
+inline constexpr ReductionLabel<Maximum> remapCount{"RemapCount", "1",
+                                                    "steps since the last remap; 0: remap in this step"};
 inline constexpr ReductionLabel<Maximum> remapAge{"RemapAge", "1", "steps since the last remap"};
 
 }  // namespace tushar::mpm::gas::conserving

@@ -15,18 +15,16 @@ using NodeViews = std::vector<NodeView<T>>;
 /// Several gases in a cell, each in its share alpha of the volume, at one pressure and velocity, compressed alike. With
 /// G = sum of alpha / (gamma - 1) and S = sum of alpha gamma p_inf / (gamma - 1) their energy per volume is p G + S, so
 /// that a contact at rest or in motion keeps its pressure, and rho c² = (p (1 + G) + S) / G.
-/// Source: G. Allaire, S. Clerc & S. Kokh, J. Comput. Phys. 181 (2002) 577; of G and S alone: R. Abgrall, J. Comput. Phys.
-/// 125 (1996) 150.
+/// Source: G. Allaire, S. Clerc & S. Kokh, J. Comput. Phys. 181 (2002) 577; of G and S alone: R. Abgrall, J. Comput.
+/// Phys. 125 (1996) 150.
 struct Mixture {
-  double density = 0;   ///< kg/m³
-  double energy = 0;    ///< internal, J/m³
-  double softness = 0;  ///< G
-  double stiffness = 0; ///< S, J/m³
+  double density = 0;    ///< kg/m³
+  double energy = 0;     ///< internal, J/m³
+  double softness = 0;   ///< G
+  double stiffness = 0;  ///< S, J/m³
 
   double pressure() const { return (energy - stiffness) / softness; }
-  double soundSpeedSquared() const {
-    return (pressure() * (1 + softness) + stiffness) / (softness * density);
-  }
+  double soundSpeedSquared() const { return (pressure() * (1 + softness) + stiffness) / (softness * density); }
   /// Of a gas at this pressure, per its own volume [J/m³].
   static double energyAt(double pressure, const Gas& gas) {
     return (pressure + gas.gamma * gas.pInfinity) / (gas.gamma - 1);
@@ -66,14 +64,13 @@ struct Cells {
   }
 };
 
-/// epsilon = e - p_inf / rho of each particle, with rho = m / V of its box: negative where the gas is torn, at a pressure
-/// below -p_inf.
+/// epsilon = e - p_inf / rho of each particle, with rho = m / V of its box: negative where the gas is torn, at a
+/// pressure below -p_inf.
 template <int D>
 void computeHeat(const Patch& patch, const Gas& gas, ParticleView<const double> mass, ParticleView<const Vec<D>> edges,
                  ParticleView<const double> internalEnergy, ParticleView<double> heat) {
   const double area = crossSection<D>(patch.level());
-  for (int p = 0; p < mass.owned(); ++p)
-    heat[p] = gas.heat(mass[p] / (edges[p].prod() * area), internalEnergy[p]);
+  for (int p = 0; p < mass.owned(); ++p) heat[p] = gas.heat(mass[p] / (edges[p].prod() * area), internalEnergy[p]);
 }
 
 /// All gases move with one velocity: m_i = sum over the gases, v_i = sum m v / m_i, which each gets.
@@ -95,8 +92,8 @@ void mixAtNodes(const Patch&, const std::vector<Gas>& gases, const NodeViews<dou
   });
 }
 
-/// Throws InputError where the gases leave a part of a cell empty at the start, or overlap: what a mixture's pressure acts
-/// on is all of the grid.
+/// Throws InputError where the gases leave a part of a cell empty at the start, or overlap: what a mixture's pressure
+/// acts on is all of the grid.
 template <int D>
 void checkFill(const Patch& patch, const std::vector<Gas>& gases, const CellViews<double>& fill) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
@@ -104,9 +101,11 @@ void checkFill(const Patch& patch, const std::vector<Gas>& gases, const CellView
     for (const CellView<double>& one : fill) all += one[cell];
     if (std::abs(all - 1) < 1e-9) return;
     const Vec3 middle = patch.level().template expandPoint<D>(patch.level().template cellCentre<D>(cell));
-    throw InputError({{gases.front().where, "MaterialProperties/MPM/material",
-                       fmt::format("several gases must fill the grid without overlap, and they fill {:.6g} of the cell around "
-                                   "({:g}, {:g}, {:g})", all, middle[0], middle[1], middle[2])}});
+    throw InputError(
+        {{gases.front().where, "MaterialProperties/MPM/material",
+          fmt::format("several gases must fill the grid without overlap, and they fill {:.6g} of the cell around "
+                      "({:g}, {:g}, {:g})",
+                      all, middle[0], middle[1], middle[2])}});
   });
 }
 
@@ -122,8 +121,8 @@ void computeMixturePressure(const Patch& patch, const std::vector<Gas>& gases, c
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     const Mixture mixture = cells.at(cell, level.cellVolume());
     const double difference = level.minSpacing() * gradient.front()[cell].trace();
-    const CellState state = shockViscosity(mixture.pressure(), mixture.density,
-                                           std::sqrt(mixture.soundSpeedSquared()), difference, viscosity);
+    const CellState state = shockViscosity(mixture.pressure(), mixture.density, std::sqrt(mixture.soundSpeedSquared()),
+                                           difference, viscosity);
     for (std::size_t k = 0; k < gases.size(); ++k) {
       pressure[k][cell] = state.pressure;
       artificial[k][cell] = state.viscosity;
@@ -166,9 +165,9 @@ class SharedWork {
   double equalised_ = 0;  ///< 0: by volume; 1: at equal pressure
 };
 
-/// f of each gas in a cell, for updateParticles. Where there are several they have the pressure of the mixture afterwards:
-/// IE_k (1 + f_k) = alpha_k V (p' + gamma_k p_inf,k) / (gamma_k - 1), whose sum is IE + W. Where that would take more
-/// than half of the energy of one, they get the work by their volumes, and as much of the rest as would not.
+/// f of each gas in a cell, for updateParticles. Where there are several they have the pressure of the mixture
+/// afterwards: IE_k (1 + f_k) = alpha_k V (p' + gamma_k p_inf,k) / (gamma_k - 1), whose sum is IE + W. Where that would
+/// take more than half of the energy of one, they get the work by their volumes, and as much of the rest as would not.
 template <int D>
 void computeMixtureWork(const Patch& patch, const std::vector<Gas>& gases, const CellViews<const Tensor<D>>& stress,
                         const CellViews<const double>& mass, const CellViews<const double>& internalEnergy,
@@ -177,8 +176,7 @@ void computeMixtureWork(const Patch& patch, const std::vector<Gas>& gases, const
   const Level& level = patch.level();
   const Cells cells{gases, mass, internalEnergy, fill};
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    const double done =
-        workOnCell<D>(level, stress.front()[cell], velocity.front(), acceleration.front(), dt, cell);
+    const double done = workOnCell<D>(level, stress.front()[cell], velocity.front(), acceleration.front(), dt, cell);
     const SharedWork shared(cells, cell, level.cellVolume(), done);
     for (std::size_t k = 0; k < gases.size(); ++k) work[k][cell] = shared(k);
   });
@@ -204,8 +202,8 @@ void measureMixtureSignals(const Patch& patch, const std::vector<Gas>& gases, co
   pastGas.add(inGas);
 }
 
-/// Errors of the means over cells against exact ones: density, velocity (momentum over mass), pressure and internal energy
-/// of the mixture.
+/// Errors of the means over cells against exact ones: density, velocity (momentum over mass), pressure and internal
+/// energy of the mixture.
 template <int D>
 void measureMixtureError(const Patch& patch, const std::vector<Gas>& gases, const reference::GasReference* exact,
                          const reference::Clock* clock, const CellViews<const double>& mass,

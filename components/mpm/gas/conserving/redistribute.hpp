@@ -1,14 +1,14 @@
 #pragma once
 
-#include "components/mpm/gas/conserving/labels.hpp"
 #include "components/mpm/gas/conserving/grid_sums.hpp"
+#include "components/mpm/gas/conserving/labels.hpp"
 #include "components/mpm/gas/conserving/scheme.hpp"
 #include "components/mpm/gas/material.hpp"
 
 namespace tushar::mpm::gas::conserving {
 
-/// Velocity modes are scaled down where their kinetic energy could exceed K_A by more than `spare` of the heat; what a mode
-/// holds on the grid is at most L²/12 + h²/4 along each of its axes.
+/// Velocity modes are scaled down where their kinetic energy could exceed K_A by more than `spare` of the heat; what a
+/// mode holds on the grid is at most L²/12 + h²/4 along each of its axes.
 template <int D>
 void limitModes(const Patch& patch, const Gas&, double spare, ParticleView<const Vec<D>> edges,
                 ParticleView<const double> heat, ParticleView<const double> affineEnergy,
@@ -52,11 +52,11 @@ struct NewBoxes {
 template <int D>
 void splitLong(const Patch& patch, double longestInCells, const Boxes<D>& boxes, NewBoxes<D> fresh);
 
-/// Replaces the particles by one that fills each cell; next to an empty cell only as far as the gas does. Mass, momentum
-/// and energy are those of the parts of particles that lie in the cell; a part has its share of the particle's mass and
-/// energy by van Leer's limited slopes of the cells' (`mass`, `energy`), and the particle's velocity there. The velocity
-/// gradient of a new particle is the regression over its parts, its mixed modes their mean, and the kinetic energy it
-/// cannot hold becomes heat.
+/// Replaces the particles by one that fills each cell; next to an empty cell only as far as the gas does. Mass,
+/// momentum and energy are those of the parts of particles that lie in the cell; a part has its share of the particle's
+/// mass and energy by van Leer's limited slopes of the cells' (`mass`, `energy`), and the particle's velocity there.
+/// The velocity gradient of a new particle is the regression over its parts, its mixed modes their mean, and the
+/// kinetic energy it cannot hold becomes heat.
 template <int D>
 void remap(const Patch& patch, const Boxes<D>& boxes, CellView<const double> mass, CellView<const double> energy,
            NewBoxes<D> fresh);

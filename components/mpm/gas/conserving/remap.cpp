@@ -97,8 +97,8 @@ class Parts {
 /// What a part brings to its cell.
 template <int D>
 void bring(typename CellSums<D>::Fields::Brought& brought, std::size_t place, const Part<D>& part,
-           const LanesVec<D>& dx, const LanesVec<D>& u,
-           const LanesTensor<D>& gradient, const LanesModes<D>& modes, const Lanes& surplus) {
+           const LanesVec<D>& dx, const LanesVec<D>& u, const LanesTensor<D>& gradient, const LanesModes<D>& modes,
+           const Lanes& surplus) {
   using Sums = CellSums<D>;
   const auto put = [&](std::size_t field, const LanesVec<D>& values) {
     for (std::size_t d = 0; d < D; ++d) brought[field + d][place] = part.mass * values[static_cast<int>(d)];
@@ -162,8 +162,8 @@ void cut(const Level& level, const Batch<D>& batch, const Boxes<D>& boxes, const
 template <int D>
 struct Contained {
   Lanes mass, internalEnergy;
-  Lanes within;         ///< kinetic energy per mass about the mean velocity, J/kg
-  LanesVec<D> offset;   ///< of the centre of mass from the middle of the cell, m
+  Lanes within;        ///< kinetic energy per mass about the mean velocity, J/kg
+  LanesVec<D> offset;  ///< of the centre of mass from the middle of the cell, m
   LanesVec<D> velocity;
   LanesModes<D> modes;
 

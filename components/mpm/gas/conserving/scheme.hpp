@@ -14,7 +14,7 @@ enum class Transfer {
 
 /// When particles are replaced by one per cell.
 struct Remap {
-  int every = 4;            ///< steps
+  int every = 4;             ///< steps
   double overfilled = 0.02;  ///< or when a cell holds this share more than its volume
 };
 
@@ -32,7 +32,7 @@ struct ConservingGasDynamics {
 /// What differs between the two transfers, known when the bodies are compiled.
 struct Apic {
   static constexpr Transfer transfer = Transfer::apic;
-  static constexpr double faceTime = 1.0;    ///< faces move with v + faceTime dt a
+  static constexpr double faceTime = 1.0;     ///< faces move with v + faceTime dt a
   static constexpr double spareEnergy = 0.5;  ///< share of e that may make up for missing kinetic energy
 };
 struct AffineFlip {

@@ -7,9 +7,9 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// dt <= 0.4 over the rates at which cells are compressed, -div v, cool by expansion, (gamma - 1) div v, and are stretched
-/// along an axis, |dv_d/dx_d|: no box doubles, no cell loses half its volume or energy. Where there is no gas yet the
-/// rates count half: a front moves into an empty cell by at most .8 of it.
+/// dt <= 0.4 over the rates at which cells are compressed, -div v, cool by expansion, (gamma - 1) div v, and are
+/// stretched along an axis, |dv_d/dx_d|: no box doubles, no cell loses half its volume or energy. Where there is no gas
+/// yet the rates count half: a front moves into an empty cell by at most .8 of it.
 template <int D>
 void limitDeformation(const Patch& patch, const Gas& gas, CellView<const double> mass,
                       CellView<const Tensor<D>> gradient, Minimum& dt) {
@@ -38,10 +38,10 @@ void computeStableTimeStep(const Patch& patch, const Gas& gas, const ConservingG
   limitDeformation<D>(patch, gas, mass, gradient, dt);
 }
 
-/// The greatest speed of signals in a cell relative to its gas [m/s], 1.25 (q + sqrt(q² + c²)) with q = 1.4 |Delta|, Delta
-/// the velocity difference over the cell: shocks are faster than sound. The form is that of D. J. Benson, Comput. Methods
-/// Appl. Mech. Eng. 99 (1992) 235; the factors are such that a gas that moves has hardly more of an error than one at
-/// rest, and one at rest that of |v| + c alone.
+/// The greatest speed of signals in a cell relative to its gas [m/s], 1.25 (q + sqrt(q² + c²)) with q = 1.4 |Delta|,
+/// Delta the velocity difference over the cell: shocks are faster than sound. The form is that of D. J. Benson, Comput.
+/// Methods Appl. Mech. Eng. 99 (1992) 235; the factors are such that a gas that moves has hardly more of an error than
+/// one at rest, and one at rest that of |v| + c alone.
 template <int D>
 double signalInCell(const Level& level, const Tensor<D>& gradient, double soundSpeedSquared) {
   const double q = 1.4 * level.minSpacing() * std::abs(gradient.trace());
@@ -64,8 +64,8 @@ void measureSignals(const Patch& patch, const Gas& gas, ParticleView<const Vec<D
   pastGas.add(fastest);
 }
 
-/// dt = cfl h over the lesser of the two speeds of measureSignals, and limitDeformation. Boxes move with the gas, so that
-/// signals relative to it are what must not run too far; where it moves slowly |v| + c is the closer bound.
+/// dt = cfl h over the lesser of the two speeds of measureSignals, and limitDeformation. Boxes move with the gas, so
+/// that signals relative to it are what must not run too far; where it moves slowly |v| + c is the closer bound.
 template <int D>
 void computeAcousticTimeStep(const Patch& patch, const Gas& gas, const ConservingGasDynamics& method,
                              CellView<const double> mass, CellView<const Tensor<D>> gradient, double pastGrid,

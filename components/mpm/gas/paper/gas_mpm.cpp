@@ -2,15 +2,15 @@
 
 #include "components/mpm/gas/paper/tasks/compute_internal_force.hpp"
 #include "components/mpm/gas/paper/tasks/compute_pressure.hpp"
-#include "components/mpm/gas/tasks/create_particles.hpp"
-#include "components/mpm/gas/tasks/diagnose.hpp"
 #include "components/mpm/gas/paper/tasks/filter_density.hpp"
 #include "components/mpm/gas/paper/tasks/integrate_acceleration.hpp"
 #include "components/mpm/gas/paper/tasks/interpolate_particles_to_grid.hpp"
-#include "components/mpm/gas/tasks/measure_error.hpp"
 #include "components/mpm/gas/paper/tasks/redistribute.hpp"
-#include "components/mpm/gas/tasks/relax_energy.hpp"
 #include "components/mpm/gas/paper/tasks/update_particles.hpp"
+#include "components/mpm/gas/tasks/create_particles.hpp"
+#include "components/mpm/gas/tasks/diagnose.hpp"
+#include "components/mpm/gas/tasks/measure_error.hpp"
+#include "components/mpm/gas/tasks/relax_energy.hpp"
 
 namespace tushar::mpm::gas::paper {
 
@@ -91,11 +91,10 @@ void GasMpm<D>::scheduleRedistribute(TaskList& tasks) const {
   if (conserves())
     tasks.newParticles("mpm::redistribute", redistributeTracked<D>, materials_, with(*method_.redistribute),
                        requiresNew(data::particleId, reach), requiresNew(p::x<D>, reach),
-                       requiresNew(p::velocity<D>, reach), requiresNew(p::mass, reach),
-                       requiresNew(p::density, reach), requiresNew(p::internalEnergy, reach),
-                       requiresNew(p::velocityDivergence, reach), creates(p::x<D>), creates(p::velocity<D>),
-                       creates(p::mass), creates(p::density), creates(p::internalEnergy),
-                       creates(p::velocityDivergence));
+                       requiresNew(p::velocity<D>, reach), requiresNew(p::mass, reach), requiresNew(p::density, reach),
+                       requiresNew(p::internalEnergy, reach), requiresNew(p::velocityDivergence, reach),
+                       creates(p::x<D>), creates(p::velocity<D>), creates(p::mass), creates(p::density),
+                       creates(p::internalEnergy), creates(p::velocityDivergence));
   else
     tasks.newParticles("mpm::redistribute", redistribute<D>, materials_, with(*method_.redistribute),
                        requiresNew(data::particleId, reach), requiresNew(p::x<D>, reach),
@@ -131,8 +130,8 @@ void GasMpm<D>::scheduleDiagnostics(TaskList& tasks) const {
   tasks.perMaterial("mpm::sumEnergy", sumEnergy<D>, materials_, requiresOld(p::mass), requiresOld(p::velocity<D>),
                     requiresOld(p::internalEnergy), computes(total::kineticEnergy), computes(total::internalEnergy),
                     computes(total::energy));
-  tasks.perMaterial("mpm::sumCenterOfMass", sumCenterOfMass<D>, materials_, requiresOld(p::mass),
-                    requiresOld(p::x<D>), computes(total::centerOfMass));
+  tasks.perMaterial("mpm::sumCenterOfMass", sumCenterOfMass<D>, materials_, requiresOld(p::mass), requiresOld(p::x<D>),
+                    computes(total::centerOfMass));
   tasks.perMaterial("mpm::findLeast", findLeast, materials_, requiresOld(p::density), requiresOld(p::internalEnergy),
                     computes(total::leastDensity), computes(total::leastEnergy));
   tasks.perMaterial("mpm::sumEntropy", sumEntropy<D>, materials_, requiresOld(p::mass), requiresOld(p::density),
@@ -143,7 +142,7 @@ void GasMpm<D>::scheduleDiagnostics(TaskList& tasks) const {
 
 template <int D>
 void GasMpm<D>::scheduleMeasureError(TaskList& tasks, const reference::GasReference& exact,
-                                  const reference::Clock& clock) const {
+                                     const reference::Clock& clock) const {
   tasks.perMaterial("mpm::measureParticleError", measureParticleError<D>, materials_, with(&exact), with(&clock),
                     requiresOld(p::x<D>), requiresOld(p::density), requiresOld(p::velocity<D>),
                     requiresOld(p::internalEnergy), computes(reference::particleError.density),

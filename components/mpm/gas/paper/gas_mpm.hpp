@@ -1,8 +1,8 @@
 #pragma once
 
+#include "components/mpm/gas/material.hpp"
 #include "components/mpm/gas/paper/method.hpp"
 #include "components/mpm/labels.hpp"
-#include "components/mpm/gas/material.hpp"
 #include "components/mpm/shapes/linear.hpp"
 #include "components/reference/gas_solution.hpp"
 

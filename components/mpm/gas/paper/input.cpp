@@ -68,10 +68,11 @@ void checkSeeds(const Redistribution& how, int dimension) {
   const int along = how.seededAlongAxis(dimension);
   const int seeds = static_cast<int>(std::pow(along, dimension));
   if (how.mode != Redistribution::Mode::reseed || seeds <= how.maxParticles) return;
-  throw InputError({{how.where, "MPM/gas_dynamics/redistribute",
-                     fmt::format("target_particles: {} in a cell become {}, {} along each of {} axes, and max_particles is "
-                                 "{}; lower the one or raise the other",
-                                 how.targetParticles, seeds, along, dimension, how.maxParticles)}});
+  throw InputError(
+      {{how.where, "MPM/gas_dynamics/redistribute",
+        fmt::format("target_particles: {} in a cell become {}, {} along each of {} axes, and max_particles is "
+                    "{}; lower the one or raise the other",
+                    how.targetParticles, seeds, along, dimension, how.maxParticles)}});
 }
 
 }  // namespace tushar::mpm::gas::paper

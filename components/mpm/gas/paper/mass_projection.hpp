@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
-#include "components/mpm/labels.hpp"
 #include "components/mpm/gas/material.hpp"
+#include "components/mpm/labels.hpp"
 #include "core/simulation/catalogue.hpp"
 
 namespace tushar::mpm::gas::paper {

@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "components/mpm/gas/viscosity.hpp"
 #include "components/mpm/gas/paper/tasks/redistribute.hpp"
+#include "components/mpm/gas/viscosity.hpp"
 
 namespace tushar::mpm::gas::paper {
 

@@ -22,8 +22,10 @@ InputProblem emptyBody(const Level& level, const GasObject& object) {
   const std::string leftOut = level.axesLeftOut(), middle = ", in the middle of the grid along " + leftOut;
   const Index3& each = object.particlesPerCell;
   return {object.where, "geom_object",
-          fmt::format("it has no particle: none of the points where particles start ([{},{},{}] per cell{}) lies inside its "
-                      "shape", each[0], each[1], each[2], leftOut.empty() ? "" : middle)};
+          fmt::format(
+              "it has no particle: none of the points where particles start ([{},{},{}] per cell{}) lies inside its "
+              "shape",
+              each[0], each[1], each[2], leftOut.empty() ? "" : middle)};
 }
 
 void refuseImpossible(const GasObject& object, const Vec3& point, double density, double pressure,
@@ -41,10 +43,11 @@ void refuseImpossible(const GasObject& object, const Vec3& point, double density
     value = velocity.sum();
   }
   if (!what) return;
-  throw InputError({{object.where, "geom_object",
-                     fmt::format("its {} is {:g} at the point ({:g}, {:g}, {:g}); density must be greater than 0, pressure at "
-                                 "least 0, and all must be finite",
-                                 what, value, point[0], point[1], point[2])}});
+  throw InputError(
+      {{object.where, "geom_object",
+        fmt::format("its {} is {:g} at the point ({:g}, {:g}, {:g}); density must be greater than 0, pressure at "
+                    "least 0, and all must be finite",
+                    what, value, point[0], point[1], point[2])}});
 }
 
 }  // namespace tushar::mpm::gas

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "components/mpm/labels.hpp"
 #include "components/mpm/gas/material.hpp"
-#include "components/mpm/particles/ids.hpp"
 #include "components/mpm/gas/mirrored.hpp"
+#include "components/mpm/labels.hpp"
+#include "components/mpm/particles/ids.hpp"
 
 namespace tushar::mpm::gas {
 
@@ -57,9 +57,8 @@ void checkBodies(const Level& level, const Gas& gas) {
     forEach<D>(level.cellsNear(bounds.min, bounds.max), [&](const Index<D>& cell) {
       if (found) return;
       place = before;
-      forEachPlace<D>(level, object, cell, place, [&](const Vec<D>& at) {
-        found = found || object.shape->owns(level.expandPoint<D>(at));
-      });
+      forEachPlace<D>(level, object, cell, place,
+                      [&](const Vec<D>& at) { found = found || object.shape->owns(level.expandPoint<D>(at)); });
     });
     if (!found) problems.push_back(emptyBody(level, object));
     before = place;

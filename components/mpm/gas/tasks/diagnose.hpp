@@ -1,7 +1,7 @@
 #pragma once
 
-#include "components/mpm/labels.hpp"
 #include "components/mpm/gas/material.hpp"
+#include "components/mpm/labels.hpp"
 
 namespace tushar::mpm::gas {
 
@@ -18,8 +18,8 @@ void sumMass(const Patch& patch, const Gas&, ParticleView<const double> mass, Su
 
 /// Momentum of all particles [kg m/s].
 template <int D>
-void sumMomentum(const Patch& patch, const Gas&, ParticleView<const double> mass,
-                 ParticleView<const Vec<D>> velocity, VectorSum& total) {
+void sumMomentum(const Patch& patch, const Gas&, ParticleView<const double> mass, ParticleView<const Vec<D>> velocity,
+                 VectorSum& total) {
   WideSum x(total.x), y(total.y), z(total.z);
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     Vec<D> momentum = Vec<D>::Zero();

@@ -1,13 +1,13 @@
 #pragma once
 
-#include "components/mpm/labels.hpp"
 #include "components/mpm/gas/material.hpp"
+#include "components/mpm/labels.hpp"
 #include "components/reference/gas_solution.hpp"
 
 namespace tushar::mpm::gas {
 
-/// Errors of density, velocity, pressure (without artificial viscosity) and internal energy against the exact values at the
-/// particles.
+/// Errors of density, velocity, pressure (without artificial viscosity) and internal energy against the exact values at
+/// the particles.
 template <int D>
 void measureParticleError(const Patch& patch, const Gas& gas, const reference::GasReference* exact,
                           const reference::Clock* clock, ParticleView<const Vec<D>> x,

@@ -14,10 +14,11 @@ namespace {
 
 /// Whether all that strains is stored, and known from F: then StrainEnergy is exact, however much a step strains.
 bool storesAllStrain(const Problem& problem) {
-  return !problem.start.solution && std::all_of(problem.materials.begin(), problem.materials.end(), [](const Material& material) {
-    const auto name = material.model->name();
-    return !material.isDamageable() && (name == CompNeoHook::name || name == CompMooneyRivlin::name);
-  });
+  return !problem.start.solution &&
+         std::all_of(problem.materials.begin(), problem.materials.end(), [](const Material& material) {
+           const auto name = material.model->name();
+           return !material.isDamageable() && (name == CompNeoHook::name || name == CompMooneyRivlin::name);
+         });
 }
 
 class EnergyBudget : public simulation::Analysis {
@@ -63,7 +64,8 @@ simulation::AnalysisKind energyBudgetKind() {
                                                           const Level&) -> std::unique_ptr<simulation::Analysis> {
       const auto* solids = dynamic_cast<const Solids*>(&component);
       if (!solids || !solids->measuresWork())
-        throw InputError({{where, path, "only solids by explicit time steps have an energy budget; take the module out"}});
+        throw InputError(
+            {{where, path, "only solids by explicit time steps have an energy budget; take the module out"}});
       return std::make_unique<EnergyBudget>(storesAllStrain(solids->problem()));
     };
   };

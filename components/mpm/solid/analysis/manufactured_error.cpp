@@ -52,7 +52,8 @@ std::unique_ptr<simulation::Analysis> make(const Problem& problem, int dimension
 }  // namespace
 
 simulation::AnalysisKind manufacturedErrorKind() {
-  simulation::AnalysisKind kind{"manufacturedError", "errors of particles against the solution of RunMMSProblem", {}, {}};
+  simulation::AnalysisKind kind{
+      "manufacturedError", "errors of particles against the solution of RunMMSProblem", {}, {}};
   kind.describe = [](std::ostream& out) { settingsSchema().describe(out); };
   kind.read = [](const input::Element& module, input::Diagnostics& diagnostics) -> simulation::MakeAnalysis {
     settingsSchema().read(module, diagnostics);
@@ -60,8 +61,9 @@ simulation::AnalysisKind manufacturedErrorKind() {
                                                           const Level& level) -> std::unique_ptr<simulation::Analysis> {
       const auto* solids = dynamic_cast<const Solids*>(&component);
       if (!solids || !solids->problem().start.solution)
-        throw InputError({{where, path, "measures against the solution of <RunMMSProblem> in <MPM>, and there is none; "
-                                        "take the module out"}});
+        throw InputError({{where, path,
+                           "measures against the solution of <RunMMSProblem> in <MPM>, and there is none; "
+                           "take the module out"}});
       return make(solids->problem(), level.dimension());
     };
   };

@@ -13,9 +13,8 @@ simulation::AnalysisKind manufacturedErrorKind();
 /// Lengths of u_p - u(X_p, t) and v_p - v(X_p, t), where X_p = x_p - u_p is where the particle started.
 template <int D>
 void measureManufacturedError(const Patch& patch, const Material& material, const Manufactured* solution,
-                              const double* time, ParticleView<const Vec<D>> x,
-                              ParticleView<const Vec<D>> displacement, ParticleView<const Vec<D>> velocity,
-                              Norm& displacementError, Norm& velocityError) {
+                              const double* time, ParticleView<const Vec<D>> x, ParticleView<const Vec<D>> displacement,
+                              ParticleView<const Vec<D>> velocity, Norm& displacementError, Norm& velocityError) {
   const Level& level = patch.level();
   const Elastic elastic = elasticOf(material);
   for (int p = 0; p < x.owned(); ++p) {

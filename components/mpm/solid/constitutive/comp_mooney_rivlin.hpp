@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "components/mpm/solid/constitutive/constitutive_model.hpp"
-#include "components/mpm/solid/constitutive/tangent.hpp"
 #include "components/mpm/solid/constitutive/strain_invariants.hpp"
+#include "components/mpm/solid/constitutive/tangent.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -21,7 +21,7 @@ struct CompMooneyRivlin {
   static constexpr bool dependsOnDeformationOnly = true;
   static constexpr bool strainEnergyIsRate = false;
 
-  double c1 = 0, c2 = 0;     ///< Pa
+  double c1 = 0, c2 = 0;    ///< Pa
   double poissonRatio = 0;  ///< nu, 1
 
   static const input::Schema<CompMooneyRivlin>& schema() {
@@ -91,7 +91,9 @@ struct CompMooneyRivlin {
   /// dW/dI3
   double slope(double i3) const { return -2 * c3() / (i3 * i3 * i3) + 2 * c4() * (i3 - 1); }
   double c3() const { return 0.5 * c1 + c2; }
-  double c4() const { return 0.5 * (c1 * (5 * poissonRatio - 2) + c2 * (11 * poissonRatio - 5)) / (1 - 2 * poissonRatio); }
+  double c4() const {
+    return 0.5 * (c1 * (5 * poissonRatio - 2) + c2 * (11 * poissonRatio - 5)) / (1 - 2 * poissonRatio);
+  }
 };
 static_assert(ConstitutiveModel<CompMooneyRivlin>);
 

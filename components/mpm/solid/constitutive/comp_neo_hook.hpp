@@ -6,9 +6,9 @@
 
 #include "components/mpm/solid/constitutive/constitutive_model.hpp"
 #include "components/mpm/solid/constitutive/cube_root.hpp"
+#include "components/mpm/solid/constitutive/strain_invariants.hpp"
 #include "components/mpm/solid/constitutive/tangent.hpp"
 #include "components/mpm/solid/constitutive/tensor_lanes.hpp"
-#include "components/mpm/solid/constitutive/strain_invariants.hpp"
 #include "core/input/refuse.hpp"
 
 namespace tushar::mpm::solid {

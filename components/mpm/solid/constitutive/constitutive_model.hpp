@@ -10,8 +10,8 @@
 
 namespace tushar::mpm::solid {
 
-/// Pressure against compression, q = rho (A1 c |D| h + A2 D^2 h^2) where D = tr L < 0; von Neumann & Richtmyer, with the
-/// linear term of Landshoff.
+/// Pressure against compression, q = rho (A1 c |D| h + A2 D^2 h^2) where D = tr L < 0; von Neumann & Richtmyer, with
+/// the linear term of Landshoff.
 struct ArtificialViscosity {
   double linear = 0.2;     ///< A1
   double quadratic = 2.0;  ///< A2
@@ -51,12 +51,14 @@ struct StateVariable {
 /// - optional `bool keepsState() const`: false where the constants make that needless; initialState() then stands in.
 /// - `updateStress`: Cauchy stress at the end of the step, Pa, from that at its begin; brings the State to the end.
 /// - `waveSpeed`: of the fastest elastic wave, m/s, from the density at the start of the run, kg/m^3.
-/// - optional `static constexpr bool dependsOnDeformationOnly = true`: updateStress looks at F alone; then the stress of
-///   a particle need not be kept. Such a model may have `TensorOf<Real> kirchhoffStress(const TensorOf<Real>& f) const`,
-///   J sigma, and `Real waveSpeed(double initialDensity, const TensorOf<Real>& f) const`, templates for a Real that is a
-///   number or Lanes: several particles are then worked on at once.
+/// - optional `static constexpr bool dependsOnDeformationOnly = true`: updateStress looks at F alone; then the stress
+/// of
+///   a particle need not be kept. Such a model may have `TensorOf<Real> kirchhoffStress(const TensorOf<Real>& f)
+///   const`, J sigma, and `Real waveSpeed(double initialDensity, const TensorOf<Real>& f) const`, templates for a Real
+///   that is a number or Lanes: several particles are then worked on at once.
 /// - optional `static constexpr bool feelsVolumeOfEndOnly = true`: updateStress looks at F, F_old and the State, and
-///   F -> s F changes nothing but the mean of J sigma. So is one that dependsOnDeformationOnly. For F-bar in implicit steps.
+///   F -> s F changes nothing but the mean of J sigma. So is one that dependsOnDeformationOnly. For F-bar in implicit
+///   steps.
 /// - optional `static constexpr bool usesTemperature = false`: updateStress never looks at the temperature.
 /// - optional `MaterialConstants material`: filled with those of the model's material.
 /// - optional `double temperatureChange(const Deformation&, const Matrix3& stress, const State&) const`: by the work of
@@ -66,23 +68,24 @@ struct StateVariable {
 /// - optional `static constexpr ArtificialViscosity ownViscosity`: takes the place of the scene's.
 /// - optional `double initialWaveSpeed(double initialDensity) const`: at the start, where it is not waveSpeed of F = I.
 /// - optional `bulkSpeed`, with the arguments of waveSpeed: sqrt(K / density) for the artificial viscosity, m/s.
-/// - optional `Matrix9 nominalTangent(const Deformation&, const Matrix3& oldStress, const State& old) const`: dP/dF, Pa,
+/// - optional `Matrix9 nominalTangent(const Deformation&, const Matrix3& oldStress, const State& old) const`: dP/dF,
+/// Pa,
 ///   at the end of a step whose F changes as a whole, L dt = F F_old^-1 - I; P = J sigma F^-T, row 3 i + J, column
 ///   3 k + L; consistent with what updateStress makes of the state at the begin. For implicit time steps.
 /// - `strainEnergyDensity`: J per m^3 of the volume at the start of the run; a hyperelastic model returns W(F), any
 ///   other what the step adds to it (`strainEnergyIsRate` true).
 template <class Model>
-concept ConstitutiveModel =
-    std::is_trivially_copyable_v<typename Model::State> && std::is_trivially_copyable_v<Model> &&
+concept ConstitutiveModel = std::is_trivially_copyable_v<typename Model::State> &&
+    std::is_trivially_copyable_v<Model> &&
     requires(const Model& model, const Deformation& deformation, const Matrix3& stress, typename Model::State& state,
              const typename Model::State& constState, double density) {
-      { Model::name } -> std::convertible_to<std::string_view>;
-      { Model::strainEnergyIsRate } -> std::convertible_to<bool>;
-      { Model::schema() } -> std::same_as<const input::Schema<Model>&>;
-      { model.initialState() } -> std::same_as<typename Model::State>;
-      { model.updateStress(deformation, stress, state) } -> std::same_as<Matrix3>;
-      { model.waveSpeed(density, deformation, stress, constState) } -> std::same_as<double>;
-      { model.strainEnergyDensity(deformation, stress, stress, constState) } -> std::same_as<double>;
-    };
+  { Model::name } -> std::convertible_to<std::string_view>;
+  { Model::strainEnergyIsRate } -> std::convertible_to<bool>;
+  { Model::schema() } -> std::same_as<const input::Schema<Model>&>;
+  { model.initialState() } -> std::same_as<typename Model::State>;
+  { model.updateStress(deformation, stress, state) } -> std::same_as<Matrix3>;
+  { model.waveSpeed(density, deformation, stress, constState) } -> std::same_as<double>;
+  { model.strainEnergyDensity(deformation, stress, stress, constState) } -> std::same_as<double>;
+};
 
 }  // namespace tushar::mpm::solid

@@ -5,20 +5,20 @@
 #include <cmath>
 
 #include "components/mpm/solid/constitutive/constitutive_model.hpp"
-#include "components/mpm/solid/constitutive/polar.hpp"
-#include "components/mpm/solid/constitutive/tangent.hpp"
 #include "components/mpm/solid/constitutive/plasticity/equation_of_state.hpp"
 #include "components/mpm/solid/constitutive/plasticity/flow.hpp"
 #include "components/mpm/solid/constitutive/plasticity/return_tangent.hpp"
 #include "components/mpm/solid/constitutive/plasticity/shear_and_melting.hpp"
+#include "components/mpm/solid/constitutive/polar.hpp"
+#include "components/mpm/solid/constitutive/tangent.hpp"
 #include "core/input/refuse.hpp"
 #include "core/input/variant.hpp"
 
 namespace tushar::mpm::solid {
 
-/// Metals at large strain and high rate: hypoelastic shear in axes that turn with the material, von Mises' yield surface
-/// with a flow model, radial return, and an equation of state. Simo & Hughes, Computational Inelasticity (1998), sections
-/// 3.3 and 8.2; Uintah's `elastic_plastic` and `elastic_plastic_hp`, which are the same there, too.
+/// Metals at large strain and high rate: hypoelastic shear in axes that turn with the material, von Mises' yield
+/// surface with a flow model, radial return, and an equation of state. Simo & Hughes, Computational Inelasticity
+/// (1998), sections 3.3 and 8.2; Uintah's `elastic_plastic` and `elastic_plastic_hp`, which are the same there, too.
 template <bool isHp>
 struct ElasticPlastic {
   struct State {
@@ -32,15 +32,16 @@ struct ElasticPlastic {
        {"p.plasticStrainRate", "1/s", "its rate in the last step"},
        {"p.strainRate", "1/s", "equivalent strain rate in the last step"},
        {"p.energy", "J/kg", "work of the stresses since the start"}}};
-  static constexpr std::array<StateVariable, 1> absentVariables{{{"p.porosity", "1", "share of pores: there are none"}}};
+  static constexpr std::array<StateVariable, 1> absentVariables{
+      {{"p.porosity", "1", "share of pores: there are none"}}};
   static constexpr std::string_view name = isHp ? "elastic_plastic_hp" : "elastic_plastic";
   static constexpr bool strainEnergyIsRate = true;
 
   MaterialConstants material;
-  double bulkModulus = 0;          ///< K, Pa
-  double shearModulus = 0;         ///< G, Pa
-  double heatedShare = 0.9;        ///< of the plastic work, Taylor & Quinney's coefficient, 1
-  double initialTemperature = 294; ///< T_0 of the equation of state, K
+  double bulkModulus = 0;           ///< K, Pa
+  double shearModulus = 0;          ///< G, Pa
+  double heatedShare = 0.9;         ///< of the plastic work, Taylor & Quinney's coefficient, 1
+  double initialTemperature = 294;  ///< T_0 of the equation of state, K
   FlowModel flow;
   EquationOfState equationOfState;
   ShearModel shear;
@@ -63,8 +64,8 @@ struct ElasticPlastic {
     state.energy += stressWork(d, oldStress, stress) / material.density;
     return stress;
   }
-  /// d tau = J (tr h sigma + W sigma - sigma W + R (ds + dp I) Rᵀ): W the spin that h adds to R, ds and dp the changes of
-  /// deviator and mean stress as the turning observer sees them.
+  /// d tau = J (tr h sigma + W sigma - sigma W + R (ds + dp I) Rᵀ): W the spin that h adds to R, ds and dp the changes
+  /// of deviator and mean stress as the turning observer sees them.
   Matrix9 nominalTangent(const Deformation& d, const Matrix3& oldStress, const State& old) const {
     const Matrix3& f = d.deformationGradient;
     const Corotated step(d, oldStress);
@@ -91,7 +92,8 @@ struct ElasticPlastic {
   double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
     return std::sqrt(bulkModulus * d.deformationGradient.determinant() / initialDensity);
   }
-  double strainEnergyDensity(const Deformation& d, const Matrix3& oldStress, const Matrix3& stress, const State&) const {
+  double strainEnergyDensity(const Deformation& d, const Matrix3& oldStress, const Matrix3& stress,
+                             const State&) const {
     return stressWork(d, oldStress, stress);
   }
   /// By the plastic work, chi sigma_y de_p / (rho c), and by the change of volume.
@@ -121,7 +123,8 @@ struct ElasticPlastic {
     typedTag(tags, "flow_model", &Self::flow, "the yield stress", true);
     typedTag(tags, "equation_of_state", &Self::equationOfState, "the mean stress; default_hyper if left out", false);
     typedTag(tags, "shear_modulus_model", &Self::shear, "the shear modulus; constant_shear if left out", false);
-    typedTag(tags, "melting_temp_model", &Self::melting, "where there is no shear stress; constant_Tm if left out", false);
+    typedTag(tags, "melting_temp_model", &Self::melting, "where there is no shear stress; constant_Tm if left out",
+             false);
     acceptWhatDoesNotMatter(tags);
     return tags;
   }
@@ -139,22 +142,24 @@ struct ElasticPlastic {
                             "frac_nucleation", "meanstrain_nucleation", "stddevstrain_nucleation",
                             "initial_porosity_distrib", "check_TEPLA_failure_criterion", "check_max_stress_failure"})
       tags.ignored(tag, "there is no porosity: the yield surface of von Mises does not feel it");
-    tags.custom("compute_specific_heat",
-                [](ElasticPlastic&, const input::Element& element, input::Diagnostics& diagnostics) {
-                  const auto compute = element.child("compute_specific_heat"), model = element.child("specific_heat_model");
-                  if (!compute || !model || compute->text() == "false") return;
-                  const std::string type = model->attribute("type").value_or("constant_Cp");
-                  if (const std::string problem = input::choiceProblem(type, {"constant_Cp"}); !problem.empty())
-                    diagnostics.error(*model, "type: " + problem + ": give the <specific_heat> of the material");
-                },
-                {"compute_specific_heat", "specific_heat_model"}, "only constant_Cp: the <specific_heat> of the material");
-    tags.custom("plastic_convergence_algo",
-                [](ElasticPlastic&, const input::Element& element, input::Diagnostics& diagnostics) {
-                  const auto given = element.child("plastic_convergence_algo");
-                  if (given && given->text() != "radialReturn")
-                    diagnostics.error(*given, input::choiceProblem(given->text(), {"radialReturn"}));
-                },
-                {"plastic_convergence_algo"}, "only radialReturn");
+    tags.custom(
+        "compute_specific_heat",
+        [](ElasticPlastic&, const input::Element& element, input::Diagnostics& diagnostics) {
+          const auto compute = element.child("compute_specific_heat"), model = element.child("specific_heat_model");
+          if (!compute || !model || compute->text() == "false") return;
+          const std::string type = model->attribute("type").value_or("constant_Cp");
+          if (const std::string problem = input::choiceProblem(type, {"constant_Cp"}); !problem.empty())
+            diagnostics.error(*model, "type: " + problem + ": give the <specific_heat> of the material");
+        },
+        {"compute_specific_heat", "specific_heat_model"}, "only constant_Cp: the <specific_heat> of the material");
+    tags.custom(
+        "plastic_convergence_algo",
+        [](ElasticPlastic&, const input::Element& element, input::Diagnostics& diagnostics) {
+          const auto given = element.child("plastic_convergence_algo");
+          if (given && given->text() != "radialReturn")
+            diagnostics.error(*given, input::choiceProblem(given->text(), {"radialReturn"}));
+        },
+        {"plastic_convergence_algo"}, "only radialReturn");
     refuseTypes(tags, "yield_condition", {"vonMises"}, "the yield surface");
     refuseTypes(tags, "stability_check", {"none", "drucker", "becker", "drucker_becker"},
                 "nothing comes of it: only none where there is an <erosion>");
@@ -163,8 +168,8 @@ struct ElasticPlastic {
 
   Compression compressionOf(double volume, double pressure, double temperature) const {
     Compression compression{pressure, 1 / volume, temperature, material.density / volume};
-    compression.meltTemperature =
-        std::visit([&](const auto& model) { return model.temperature(compression, material.meltTemperature); }, melting);
+    compression.meltTemperature = std::visit(
+        [&](const auto& model) { return model.temperature(compression, material.meltTemperature); }, melting);
     return compression;
   }
   Compression compressionOf(const Deformation& d, const Matrix3& stress) const {
@@ -180,7 +185,8 @@ struct ElasticPlastic {
     return state.temperature > state.meltTemperature || state.shearModulus <= 0;
   }
 
-  /// Takes what is beyond the yield surface from the trial stress deviator; returns the rate of the plastic strain, 1/s.
+  /// Takes what is beyond the yield surface from the trial stress deviator; returns the rate of the plastic strain,
+  /// 1/s.
   double yield(const FlowState& start, double timeStep, Matrix3& stress, State& state) const {
     if (isFluid(start)) {
       stress.setZero();
@@ -197,7 +203,8 @@ struct ElasticPlastic {
         },
         flow);
   }
-  ReturnTangent returnTangent(const Deformation& d, const Matrix3& oldStress, const Corotated& step, State state) const {
+  ReturnTangent returnTangent(const Deformation& d, const Matrix3& oldStress, const Corotated& step,
+                              State state) const {
     state.strainRate = std::sqrt(2.0 / 3.0) * step.strain.norm() / d.timeStep;
     const auto startAt = [&](double swollen) {
       const double volume = swollen * d.deformationGradient.determinant();
@@ -230,8 +237,15 @@ struct ElasticPlastic {
     return tangent;
   }
   VolumeState volumeState(const Deformation& d, double oldMeanStress, double energy) const {
-    return {oldMeanStress, d.velocityGradient.trace() * d.timeStep, d.deformationGradient.determinant(), d.temperature,
-            initialTemperature, energy, bulkModulus, material.density, material.specificHeat};
+    return {oldMeanStress,
+            d.velocityGradient.trace() * d.timeStep,
+            d.deformationGradient.determinant(),
+            d.temperature,
+            initialTemperature,
+            energy,
+            bulkModulus,
+            material.density,
+            material.specificHeat};
   }
   double meanStress(const Deformation& d, double old, double energy) const {
     const VolumeState state = volumeState(d, old, energy);

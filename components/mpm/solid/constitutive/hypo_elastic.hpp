@@ -51,7 +51,8 @@ struct HypoElastic {
     return std::sqrt(bulkModulus * d.deformationGradient.determinant() / initialDensity);
   }
   /// D : (mean stress) J dt
-  double strainEnergyDensity(const Deformation& d, const Matrix3& oldStress, const Matrix3& stress, const State&) const {
+  double strainEnergyDensity(const Deformation& d, const Matrix3& oldStress, const Matrix3& stress,
+                             const State&) const {
     const Matrix3 mean = 0.5 * (oldStress + stress);
     return rateOfDeformation(d).cwiseProduct(mean).sum() * d.deformationGradient.determinant() * d.timeStep;
   }

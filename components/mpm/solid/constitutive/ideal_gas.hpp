@@ -8,8 +8,8 @@
 
 namespace tushar::mpm::solid {
 
-/// An ideal gas, p = (gamma - 1) rho c_v T, heated and cooled by its work: dT = -p dJ / (J rho c_v). Its stress is what p
-/// is above a reference pressure, as in Uintah, whose coefficients of the artificial viscosity it takes, too.
+/// An ideal gas, p = (gamma - 1) rho c_v T, heated and cooled by its work: dT = -p dJ / (J rho c_v). Its stress is what
+/// p is above a reference pressure, as in Uintah, whose coefficients of the artificial viscosity it takes, too.
 struct IdealGas {
   struct State {};
   static constexpr std::string_view name = "ideal_gas";

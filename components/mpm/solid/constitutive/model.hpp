@@ -189,10 +189,12 @@ class ModelOf : public Model {
  private:
   using State = typename M::State;
   static constexpr bool hasState = !std::is_empty_v<State>;
-  static constexpr bool tangential =
-      requires(const M& m, const Deformation& d, const Matrix3& s, const State& state) { m.nominalTangent(d, s, state); };
-  static constexpr bool heating =
-      requires(const M& m, const Deformation& d, const Matrix3& s, const State& state) { m.temperatureChange(d, s, state); };
+  static constexpr bool tangential = requires(const M& m, const Deformation& d, const Matrix3& s, const State& state) {
+    m.nominalTangent(d, s, state);
+  };
+  static constexpr bool heating = requires(const M& m, const Deformation& d, const Matrix3& s, const State& state) {
+    m.temperatureChange(d, s, state);
+  };
   static constexpr bool heatable = requires(const M& m, State& state) { m.addHeat(state, 0.0); };
   static constexpr bool fromDeformation = [] {
     if constexpr (requires { M::dependsOnDeformationOnly; })
@@ -232,8 +234,8 @@ class ModelOf : public Model {
       return waveSpeed;
   }
   static Deformation deformation(const StressPoints& points, int k) {
-    return {points.deformationGradient[k], points.oldDeformationGradient[k], points.velocityGradient[k], points.timeStep,
-            points.temperature ? points.temperature[k] : 0.0};
+    return {points.deformationGradient[k], points.oldDeformationGradient[k], points.velocityGradient[k],
+            points.timeStep, points.temperature ? points.temperature[k] : 0.0};
   }
   static Matrix3 oldStress(const StressPoints& points, int k) {
     return points.oldStress ? points.oldStress[k] : Matrix3(Matrix3::Zero());

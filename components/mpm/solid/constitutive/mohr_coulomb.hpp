@@ -42,12 +42,14 @@ struct MohrCoulomb {
           });
       refuseOtherValues(tags, "Version", {"1", "11", "12"},
                         "stresses return to the nearest point of a surface with corners");
-      for (const char* tag : {"Usetransition", "Usemodul", "Use_softening", "Use_linear", "Use_regular", "UseWaterRetention",
-                              "UseRemould", "Use_friction", "Use_pressure_dependence", "Usetransition1", "Use_dilation"})
+      for (const char* tag :
+           {"Usetransition", "Usemodul", "Use_softening", "Use_linear", "Use_regular", "UseWaterRetention",
+            "UseRemould", "Use_friction", "Use_pressure_dependence", "Usetransition1", "Use_dilation"})
         refuseSwitch(tags, tag, "strength and stiffness are those of <c>, <Phi>, <G> and <K> throughout");
-      for (const char* tag : {"A1", "B1", "W", "beta_rate", "strain_ref", "m_modul", "nuy", "St", "strain_95", "a", "y_ref",
-                              "y", "n", "tFE", "tShear", "n_nonlocalMC", "l_nonlocal", "PhiB", "suction", "SpecVol",
-                              "WR_Param1", "WR_Param2", "WR_Param3", "WR_Param4"})
+      for (const char* tag :
+           {"A1",         "B1",   "W",       "beta_rate", "strain_ref", "m_modul",   "nuy",       "St",
+            "strain_95",  "a",    "y_ref",   "y",         "n",          "tFE",       "tShear",    "n_nonlocalMC",
+            "l_nonlocal", "PhiB", "suction", "SpecVol",   "WR_Param1",  "WR_Param2", "WR_Param3", "WR_Param4"})
         tags.ignored(tag, "belongs to what only stands at false");
       return tags;
     }();
@@ -67,12 +69,14 @@ struct MohrCoulomb {
   double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
     return std::sqrt(bulkModulus * d.deformationGradient.determinant() / initialDensity);
   }
-  double strainEnergyDensity(const Deformation& d, const Matrix3& oldStress, const Matrix3& stress, const State&) const {
+  double strainEnergyDensity(const Deformation& d, const Matrix3& oldStress, const Matrix3& stress,
+                             const State&) const {
     return stressWork(d, oldStress, stress);
   }
   /// How far outside the yield surface a stress is, Pa; not above 0 if it is possible.
   double excess(const Matrix3& stress) const {
-    const Eigen::Vector3d s = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(stress, Eigen::EigenvaluesOnly).eigenvalues();
+    const Eigen::Vector3d s =
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(stress, Eigen::EigenvaluesOnly).eigenvalues();
     return face(s.reverse(), 0, 2);
   }
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "components/mpm/solid/constitutive/constitutive_model.hpp"
-#include "core/base/quad.hpp"
 #include "core/base/lanes.hpp"
+#include "core/base/quad.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -28,7 +28,8 @@ template <class Real>
   TensorOf<Lanes> t;
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k)
-      t(i, k) = Lanes::of([&](int lane) { return tensors[count < Lanes::count ? std::min(lane, count - 1) : lane](i, k); });
+      t(i, k) =
+          Lanes::of([&](int lane) { return tensors[count < Lanes::count ? std::min(lane, count - 1) : lane](i, k); });
   return t;
 }
 

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "components/mpm/solid/constitutive/constitutive_model.hpp"
-#include "components/mpm/solid/constitutive/tangent.hpp"
 #include "components/mpm/solid/constitutive/strain_invariants.hpp"
+#include "components/mpm/solid/constitutive/tangent.hpp"
 #include "core/input/refuse.hpp"
 
 namespace tushar::mpm::solid {
@@ -26,12 +26,12 @@ struct TransIsoHyper {
   static constexpr bool usesTemperature = false;
   static constexpr bool strainEnergyIsRate = false;
 
-  double bulkModulus = 0;               ///< K, Pa
-  double c1 = 0, c2 = 0, c3 = 0;        ///< Pa
-  double c4 = 0;                        ///< 1
-  double c5 = 0;                        ///< Pa
-  double straight = 1;                  ///< l*, 1
-  std::array<double, 3> fibre{1, 0, 0}; ///< a, along x, y, z
+  double bulkModulus = 0;                ///< K, Pa
+  double c1 = 0, c2 = 0, c3 = 0;         ///< Pa
+  double c4 = 0;                         ///< 1
+  double c5 = 0;                         ///< Pa
+  double straight = 1;                   ///< l*, 1
+  std::array<double, 3> fibre{1, 0, 0};  ///< a, along x, y, z
 
   static const input::Schema<TransIsoHyper>& schema() {
     static const input::Schema<TransIsoHyper> schema = makeSchema();
@@ -39,7 +39,8 @@ struct TransIsoHyper {
   }
   State initialState() const { return {1}; }
 
-  /// sigma = (2 dev((c1 + I1 c2) B' - c2 B'²) + g dev(a a) + K ln J I) / J, g = l dW_f/dl, a along the fibre as it is now
+  /// sigma = (2 dev((c1 + I1 c2) B' - c2 B'²) + g dev(a a) + K ln J I) / J, g = l dW_f/dl, a along the fibre as it is
+  /// now
   Matrix3 updateStress(const Deformation& d, const Matrix3&, State& state) const {
     const Point at(*this, d.deformationGradient);
     state.stretch = at.stretch * std::cbrt(at.j);
@@ -74,8 +75,10 @@ struct TransIsoHyper {
   }
   double strainEnergyDensity(const Deformation& d, const Matrix3&, const Matrix3&, const State&) const {
     const StrainInvariants strain(d.deformationGradient);
-    const double logarithm = 0.5 * std::log1p(strain.volume), fibres = fibreEnergy(Point(*this, d.deformationGradient).stretch);
-    return c1 * strain.isochoricFirst() + c2 * strain.isochoricSecond() + fibres + 0.5 * bulkModulus * logarithm * logarithm;
+    const double logarithm = 0.5 * std::log1p(strain.volume),
+                 fibres = fibreEnergy(Point(*this, d.deformationGradient).stretch);
+    return c1 * strain.isochoricFirst() + c2 * strain.isochoricSecond() + fibres +
+           0.5 * bulkModulus * logarithm * logarithm;
   }
 
  private:

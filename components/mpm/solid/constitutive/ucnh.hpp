@@ -7,14 +7,15 @@
 #include <optional>
 
 #include "components/mpm/solid/constitutive/constitutive_model.hpp"
-#include "components/mpm/solid/constitutive/tangent.hpp"
 #include "components/mpm/solid/constitutive/strain_invariants.hpp"
+#include "components/mpm/solid/constitutive/tangent.hpp"
 #include "core/input/refuse.hpp"
 
 namespace tushar::mpm::solid {
 
 /// Neo-Hookean elasticity with J2 flow and linear isotropic hardening at finite strain: Simo & Hughes, Computational
-/// Inelasticity (1998), section 9.3, box 9.1. Uintah's `UCNH` and, plastic unless told otherwise, `comp_neo_hook_plastic`.
+/// Inelasticity (1998), section 9.3, box 9.1. Uintah's `UCNH` and, plastic unless told otherwise,
+/// `comp_neo_hook_plastic`.
 template <bool plasticByDefault>
 struct NeoHookPlastic {
   struct State {
@@ -29,8 +30,8 @@ struct NeoHookPlastic {
   static constexpr bool feelsVolumeOfEndOnly = true;
   static constexpr bool strainEnergyIsRate = false;
 
-  double bulkModulus = 0;                  ///< K, Pa
-  double shearModulus = 0;                 ///< G, Pa
+  double bulkModulus = 0;   ///< K, Pa
+  double shearModulus = 0;  ///< G, Pa
   bool isPlastic = plasticByDefault;
   std::optional<double> yieldStress;       ///< Y, Pa
   std::optional<double> hardeningModulus;  ///< H, Pa
@@ -39,7 +40,8 @@ struct NeoHookPlastic {
   static const input::Schema<NeoHookPlastic>& schema() {
     using Self = NeoHookPlastic;
     static const input::Schema<Self> schema = [] {
-      input::Schema<Self> tags{std::string(name), "Compressible neo-Hookean elasticity, with J2 plasticity if asked for."};
+      input::Schema<Self> tags{std::string(name),
+                               "Compressible neo-Hookean elasticity, with J2 plasticity if asked for."};
       tags.required("bulk_modulus", &Self::bulkModulus, "Pa", "K", input::positive())
           .required("shear_modulus", &Self::shearModulus, "Pa", "G", input::positive())
           .value("usePlasticity", &Self::isPlastic, plasticByDefault, "1", "whether it yields")
@@ -113,17 +115,17 @@ struct NeoHookPlastic {
  private:
   /// What the step would bring if it were elastic, and by how much that is too much.
   struct Trial {
-    Matrix3 elastic;        ///< b, 1
-    Matrix3 stress;         ///< s = G dev b, Pa
-    Matrix3 normal;         ///< s / |s|
-    double size;            ///< |s|, Pa
-    double shear;           ///< mu, Pa
-    double hardening = 0;   ///< H / (3 mu)
-    double excess = 0;      ///< q, by which the return shortens s, Pa
+    Matrix3 elastic;       ///< b, 1
+    Matrix3 stress;        ///< s = G dev b, Pa
+    Matrix3 normal;        ///< s / |s|
+    double size;           ///< |s|, Pa
+    double shear;          ///< mu, Pa
+    double hardening = 0;  ///< H / (3 mu)
+    double excess = 0;     ///< q, by which the return shortens s, Pa
 
     Trial(const NeoHookPlastic& model, const Deformation& d, const State& state) {
-      const Matrix3 step = model.isPlastic ? Matrix3(d.deformationGradient * d.oldDeformationGradient.inverse())
-                                           : d.deformationGradient;
+      const Matrix3 step =
+          model.isPlastic ? Matrix3(d.deformationGradient * d.oldDeformationGradient.inverse()) : d.deformationGradient;
       const double volume = step.determinant();
       elastic = step * step.transpose();
       if (model.isPlastic) elastic = step * matrixOf(state.bElBar) * step.transpose();

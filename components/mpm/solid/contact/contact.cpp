@@ -80,7 +80,8 @@ void sumReaction(const Patch& patch, const Contact& contact, const Acceleration&
     if (!isOwned<D>(patch, node) || !isAt<D>(contact, records, node)) return;
     for (std::size_t m = 0; m < records.size(); ++m) {
       const NodeRecord& record = records[m][node];
-      if (static_cast<int>(m) == contact.master || !contact.concerns(static_cast<int>(m)) || record[lane::mass] == 0) continue;
+      if (static_cast<int>(m) == contact.master || !contact.concerns(static_cast<int>(m)) || record[lane::mass] == 0)
+        continue;
       const Vec<D> before = lanes<D>(record, lane::before), after = lanes<D>(record, lane::velocity);
       const Vec<D> forced = (after - before) / dt - gravity + acceleration.damping * before;
       reaction.add(patch.level().expandDirection<D>(-record[lane::mass] * forced));
@@ -94,11 +95,8 @@ template void moveAsOne<3>(const Patch&, const Contact&, const Records&);
 template void followMaster<1>(const Patch&, const Contact&, double, const Records&);
 template void followMaster<2>(const Patch&, const Contact&, double, const Records&);
 template void followMaster<3>(const Patch&, const Contact&, double, const Records&);
-template void sumReaction<1>(const Patch&, const Contact&, const Acceleration&, double, const Records&,
-                             VectorSum&);
-template void sumReaction<2>(const Patch&, const Contact&, const Acceleration&, double, const Records&,
-                             VectorSum&);
-template void sumReaction<3>(const Patch&, const Contact&, const Acceleration&, double, const Records&,
-                             VectorSum&);
+template void sumReaction<1>(const Patch&, const Contact&, const Acceleration&, double, const Records&, VectorSum&);
+template void sumReaction<2>(const Patch&, const Contact&, const Acceleration&, double, const Records&, VectorSum&);
+template void sumReaction<3>(const Patch&, const Contact&, const Acceleration&, double, const Records&, VectorSum&);
 
 }  // namespace tushar::mpm::solid

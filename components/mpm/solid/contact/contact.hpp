@@ -21,18 +21,19 @@ struct Contact {
   Type type = Type::singleVelocity;
   std::vector<int> materials;  ///< that take part; empty: all
   int master = 0;
-  std::array<bool, 3> direction{false, false, true};  ///< along x, y, z the others follow the master
-  bool directionIsGiven = false;                      ///< by the scene
+  std::array<bool, 3> direction{false, false, true};     ///< along x, y, z the others follow the master
+  bool directionIsGiven = false;                         ///< by the scene
   double stopTime = std::numeric_limits<double>::max();  ///< s
-  Vec3 velocityAfterStop = Vec3::Zero();              ///< m/s
-  std::vector<std::pair<double, Vec3>> profile;       ///< time (s) and the master's velocity (m/s); empty: it is free
+  Vec3 velocityAfterStop = Vec3::Zero();                 ///< m/s
+  std::vector<std::pair<double, Vec3>> profile;  ///< time (s) and the master's velocity (m/s); empty: it is free
 
   bool actsTwice = true;  ///< on the velocities that came from the particles, too
   int excluded = -1;      ///< where this material is, nothing follows a master or moves as one; -1: none
 
   double friction = 0;          ///< coefficient mu
   bool onlyOnApproach = false;  ///< friction: what the stress presses together may part
-  bool normalsInCells = false;  ///< friction: mass gradients are taken per cell, not per m, as axisymmetric ones in Uintah
+  bool normalsInCells =
+      false;  ///< friction: mass gradients are taken per cell, not per m, as axisymmetric ones in Uintah
   bool keepsMomentum = false;   ///< friction: one normal for all, who are pressed where the stresses of all press
   double separationFactor = 0;  ///< friction: farther apart than so many cells they do not touch
   double volumeConstraint = 0;  ///< friction: the share of the volume around a node that must be filled for a contact
@@ -63,8 +64,8 @@ struct Acceleration {
   Vec3 gravity = Vec3::Zero();  ///< m/s^2
   double damping = 0;           ///< 1/s
 };
-/// Where the master is, adds to `reaction` the force (N) that holds the others against their stresses and loads, as Uintah
-/// counts it: - sum m ((v* - v) / dt - g + damping v). The records hold v* and v before the contact.
+/// Where the master is, adds to `reaction` the force (N) that holds the others against their stresses and loads, as
+/// Uintah counts it: - sum m ((v* - v) / dt - g + damping v). The records hold v* and v before the contact.
 template <int D>
 void sumReaction(const Patch& patch, const Contact& contact, const Acceleration& acceleration, double dt,
                  const Records& records, VectorSum& reaction);

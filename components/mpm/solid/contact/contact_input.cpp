@@ -28,16 +28,14 @@ const input::Choices<Kind> kinds{{"null", Kind::none},
                                  {"friction_conserving", Kind::conservingFriction},
                                  {"approach", Kind::approach}};
 const input::Lacking lackingKinds{{"friction_LR", "friction_bard"},
-                           {"friction_LRVar", "friction_bard"},
-                           {"specified_friction", "specified, where nothing slips"},
-                           {"penalty", "friction_bard"},
-                           {"nodal_svf", "single_velocity"},
-                           {"fluid", "single_velocity"}};
+                                  {"friction_LRVar", "friction_bard"},
+                                  {"specified_friction", "specified, where nothing slips"},
+                                  {"penalty", "friction_bard"},
+                                  {"nodal_svf", "single_velocity"},
+                                  {"fluid", "single_velocity"}};
 
 /// Whether bodies slide and part.
-bool slides(Kind kind) {
-  return kind == Kind::friction || kind == Kind::conservingFriction || kind == Kind::approach;
-}
+bool slides(Kind kind) { return kind == Kind::friction || kind == Kind::conservingFriction || kind == Kind::approach; }
 
 /// The tags of every kind of contact, as they are written.
 struct ContactSection {
@@ -70,14 +68,17 @@ const Schema<ContactSection>& contactSchema() {
     requiredChoiceOrRefusal(
         contact, "type", &ContactSection::kind, kinds, lackingKinds,
         "not at all; as one body; they follow a master, which is free or moves as told (two words for it); they part "
-        "freely and slide with friction as in Uintah, which asks each body alone whether its stress presses (two words for it); "
-        "the same, but all have one normal and are pressed where the stresses of all press, which keeps momentum; as in "
+        "freely and slide with friction as in Uintah, which asks each body alone whether its stress presses (two words "
+        "for it); "
+        "the same, but all have one normal and are pressed where the stresses of all press, which keeps momentum; as "
+        "in "
         "Uintah, but only while they approach each other");
     contact.optional("materials", &ContactSection::materials, "1", "numbers of the materials that take part; else all")
-        .optional("direction", &ContactSection::direction, "1",
-                  "rigid, specified: 1 along x, y, z where the others follow the master. Left out: along z, in implicit "
-                  "steps along all",
-                  input::between(0, 1))
+        .optional(
+            "direction", &ContactSection::direction, "1",
+            "rigid, specified: 1 along x, y, z where the others follow the master. Left out: along z, in implicit "
+            "steps along all",
+            input::between(0, 1))
         .value("master_material", &ContactSection::master, 0, "1", "rigid, specified: number of the master",
                input::nonNegative())
         .value("stop_time", &ContactSection::stopTime, std::numeric_limits<double>::max(), "s",
@@ -93,10 +94,11 @@ const Schema<ContactSection>& contactSchema() {
         .value("volume_constraint", &ContactSection::volumeConstraint, 0, "1",
                "friction, approach: share of the volume around a node that bodies must fill to touch there",
                input::nonNegative())
-        .optional("OneOrTwoStep", &ContactSection::steps, "1",
-                  "1: acts on the velocities at the end of a step only; 2: on those at its start, too. Left out: 1 with "
-                  "rigid and specified, else 2; with XPIC2 always 2",
-                  input::between(1, 2))
+        .optional(
+            "OneOrTwoStep", &ContactSection::steps, "1",
+            "1: acts on the velocities at the end of a step only; 2: on those at its start, too. Left out: 1 with "
+            "rigid and specified, else 2; with XPIC2 always 2",
+            input::between(1, 2))
         .optional("ExcludeMaterial", &ContactSection::excluded, "1",
                   "rigid, specified, single_velocity: does not act where this material is", input::nonNegative())
         .ignored("vel_fields", "an old word for materials")
@@ -114,7 +116,8 @@ const Schema<ContactSection>& contactSchema() {
 }
 
 /// The lines `time vx vy vz` of a file that stands beside the scene.
-std::vector<std::pair<double, Vec3>> readProfile(const Element& tag, const std::string& name, Diagnostics& diagnostics) {
+std::vector<std::pair<double, Vec3>> readProfile(const Element& tag, const std::string& name,
+                                                 Diagnostics& diagnostics) {
   const auto path = std::filesystem::path(tag.where().file).parent_path() / name;
   std::ifstream file(path);
   if (!file) {

@@ -52,7 +52,8 @@ template <int D>
 bool isPressed(const Level& level, const Matrix3& stress, const Vec<D>& normal) {
   double traction = 0;
   for (int i = 0; i < D; ++i)
-    for (int j = 0; j < D; ++j) traction += normal[i] * stress(sceneAxis<D>(level, i), sceneAxis<D>(level, j)) * normal[j];
+    for (int j = 0; j < D; ++j)
+      traction += normal[i] * stress(sceneAxis<D>(level, i), sceneAxis<D>(level, j)) * normal[j];
   return traction < -leastTraction;
 }
 

@@ -21,26 +21,29 @@ struct Rubbing {
 };
 
 /// Of a body that is pressed against others or approaches them: it does not pass through, and slides by what friction
-/// with the coefficient mu leaves; Bardenhagen, Guilkey, Roessig, Brackbill, Witzel & Foster, CMES 2 (2001) 509, eq. 13.
+/// with the coefficient mu leaves; Bardenhagen, Guilkey, Roessig, Brackbill, Witzel & Foster, CMES 2 (2001) 509,
+/// eq. 13.
 template <int D>
 Rubbing<D> rubbing(const Touch<D>& touch, double mu);
 
 /// What the surfaces of bodies look like from the nodes, by material.
 template <int D>
 struct Surfaces {
-  const std::vector<NodeView<const Vec<D>>>& massGradient;  ///< sum_p m_p grad S_i: out of the body, kg/m; axisymmetric kg/m^4
-  const std::vector<NodeView<const Vec<D>>>& position;      ///< sum_p S_i m_p x_p, kg m
-  const std::vector<NodeView<const Matrix3>>& stress;       ///< sum_p S_i sigma_p, Pa
-  const std::vector<NodeView<const double>>& volume;        ///< sum_p S_i V_p, and its image's beyond symmetry planes, m^3
+  const std::vector<NodeView<const Vec<D>>>&
+      massGradient;  ///< sum_p m_p grad S_i: out of the body, kg/m; axisymmetric kg/m^4
+  const std::vector<NodeView<const Vec<D>>>& position;  ///< sum_p S_i m_p x_p, kg m
+  const std::vector<NodeView<const Matrix3>>& stress;   ///< sum_p S_i sigma_p, Pa
+  const std::vector<NodeView<const double>>& volume;    ///< sum_p S_i V_p, and its image's beyond symmetry planes, m^3
 };
 
-/// Applies `rubbing` to all materials that take part, where their volumes and distance are as the contact asks. A change
-/// that would strain a cell by more than a half is cut down to that. Adds the heat (J) to `heat`, if there is any.
+/// Applies `rubbing` to all materials that take part, where their volumes and distance are as the contact asks. A
+/// change that would strain a cell by more than a half is cut down to that. Adds the heat (J) to `heat`, if there is
+/// any.
 ///
-/// As in Uintah the normal of a body is half the difference of its mass gradient and of the mean, by mass, of those of all
-/// others, in axisymmetric scenes per cell, and its own stress says whether it is pressed, so that of three bodies, or where
-/// one of two is pressed alone, the sum of momenta changes. Of contacts that keep momentum all have the normal of the one
-/// whose mass changes most, or its opposite, and are pressed where the stresses of all press.
+/// As in Uintah the normal of a body is half the difference of its mass gradient and of the mean, by mass, of those of
+/// all others, in axisymmetric scenes per cell, and its own stress says whether it is pressed, so that of three bodies,
+/// or where one of two is pressed alone, the sum of momenta changes. Of contacts that keep momentum all have the normal
+/// of the one whose mass changes most, or its opposite, and are pressed where the stresses of all press.
 template <int D>
 void rub(const Patch& patch, const Contact& contact, double dt, const Records& records, const Surfaces<D>& surfaces,
          const std::vector<NodeView<double>>& heat);

@@ -56,7 +56,8 @@ void JohnsonCookDamage::grow(const MaterialConstants& material, const DamageStat
   if (harm.damage >= 1) harm.hasFailed = true;
 }
 
-void HancockMackenzieDamage::grow(const MaterialConstants&, const DamageState& state, Matrix3& stress, Harm& harm) const {
+void HancockMackenzieDamage::grow(const MaterialConstants&, const DamageState& state, Matrix3& stress,
+                                  Harm& harm) const {
   const double equivalent = std::sqrt(1.5) * deviator(stress).norm();
   if (state.plasticStrainRate > 0 && equivalent > 0 && stress.trace() > 0)
     harm.damage += state.plasticStrainRate * state.timeStep / 1.65 * std::exp(0.5 * stress.trace() / equivalent);
@@ -78,13 +79,16 @@ Harm ThresholdDamage::initial(double volume, ParticleId id) const {
   const double n = exponent.value_or(distribution == Distribution::weibull ? deviation : 1);
   const double scale = scalesWithVolume ? std::pow(*referenceVolume / volume, 1 / n) : 1;
   switch (distribution) {
-    case Distribution::gauss: return {0, std::abs(mean + deviation * drawNormal(seed, id)) * scale, false};
-    case Distribution::uniform: return {0, (mean + (2 * draw(seed, id, 0) - 1) * deviation) * scale, false};
+    case Distribution::gauss:
+      return {0, std::abs(mean + deviation * drawNormal(seed, id)) * scale, false};
+    case Distribution::uniform:
+      return {0, (mean + (2 * draw(seed, id, 0) - 1) * deviation) * scale, false};
     case Distribution::weibull: {
       const double unit = std::pow(-std::log(draw(seed, id, 0)), 1 / deviation);
       return {0, mean / std::tgamma(1 + 1 / deviation) * unit * scale, false};
     }
-    default: return {0, mean, false};
+    default:
+      return {0, mean, false};
   }
 }
 
@@ -92,7 +96,8 @@ bool ThresholdDamage::isBeyond(const DamageState& state, const Matrix3& stress, 
   if (criterion == Criterion::principalStrain) return greatestStrain(state.deformation) > threshold;
   const Vec3 s = principalValues(stress);
   if (criterion == Criterion::principalStress) return s[2] > threshold;
-  const double angle = frictionAngle * std::numbers::pi / 180, shear = 0.5 * (s[2] - s[0]), middle = 0.5 * (s[2] + s[0]);
+  const double angle = frictionAngle * std::numbers::pi / 180, shear = 0.5 * (s[2] - s[0]),
+               middle = 0.5 * (s[2] + s[0]);
   return s[2] > tensileCutoff * threshold || shear > threshold * std::cos(angle) - middle * std::sin(angle);
 }
 

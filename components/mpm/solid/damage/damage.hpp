@@ -26,7 +26,8 @@ struct Harm {
   bool hasFailed;
 };
 
-/// |mean + deviation n|, n a number of a normal distribution that is drawn by the id, so that it does not depend on patches.
+/// |mean + deviation n|, n a number of a normal distribution that is drawn by the id, so that it does not depend on
+/// patches.
 Harm damagedAtStart(double mean, double deviation, ParticleId id);
 
 /// No damage.
@@ -38,8 +39,8 @@ struct NoDamage {
 };
 
 /// D = sum de_p / e_f, e_f = (D1 + D2 exp(D3 s*)) (1 + D4 ln e*) (1 + D5 T*), s* = mean stress over equivalent stress:
-/// Johnson & Cook, Eng. Fract. Mech. 21 (1985) 31. A particle fails at D = 1. As in Uintah |s*| <= 1.5, and the factor of
-/// the rate is (1 + e*)^D4 below 1/s.
+/// Johnson & Cook, Eng. Fract. Mech. 21 (1985) 31. A particle fails at D = 1. As in Uintah |s*| <= 1.5, and the factor
+/// of the rate is (1 + e*)^D4 below 1/s.
 struct JohnsonCookDamage {
   static constexpr std::string_view name = "johnson_cook";
   double d1 = 0, d2 = 0, d3 = 0, d4 = 0, d5 = 0;
@@ -48,44 +49,48 @@ struct JohnsonCookDamage {
   double leastDamage = 1e-10;  ///< damage below that is none
 
   static const input::Schema<JohnsonCookDamage>& schema();
-  Harm initial(double, ParticleId id) const { return damagedAtStart(initialDamage, startsSpread ? initialDeviation : 0, id); }
+  Harm initial(double, ParticleId id) const {
+    return damagedAtStart(initialDamage, startsSpread ? initialDeviation : 0, id);
+  }
   /// e_f
   double fractureStrain(const MaterialConstants& material, const DamageState& state, const Matrix3& stress) const;
   void grow(const MaterialConstants& material, const DamageState& state, Matrix3& stress, Harm& harm) const;
 };
 
-/// D = sum de_p / e_f, e_f = 1.65 exp(-3/2 mean stress over equivalent stress): Hancock & Mackenzie, J. Mech. Phys. Solids
-/// 24 (1976) 147. As in Uintah it grows in tension only, and is only counted: no particle fails by it.
+/// D = sum de_p / e_f, e_f = 1.65 exp(-3/2 mean stress over equivalent stress): Hancock & Mackenzie, J. Mech. Phys.
+/// Solids 24 (1976) 147. As in Uintah it grows in tension only, and is only counted: no particle fails by it.
 struct HancockMackenzieDamage {
   static constexpr std::string_view name = "hancock_mackenzie";
   double initialDamage = 0, initialDeviation = 0;
   bool startsSpread = false;  ///< damage at the start by a normal distribution
 
   static const input::Schema<HancockMackenzieDamage>& schema();
-  Harm initial(double, ParticleId id) const { return damagedAtStart(initialDamage, startsSpread ? initialDeviation : 0, id); }
+  Harm initial(double, ParticleId id) const {
+    return damagedAtStart(initialDamage, startsSpread ? initialDeviation : 0, id);
+  }
   void grow(const MaterialConstants& material, const DamageState& state, Matrix3& stress, Harm& harm) const;
 };
 
-/// Damage of brittle materials by the root of the energy of the greatest principal strain, r = E^(1/2) e_max, once it is
-/// above a threshold r_0: d = 0.999/D ((1 + D) / (1 + D exp(-C (r - r_0))) - 1) with C = r_0 h (1 + D) ln(1 + D) / (G_f D)
-/// for a particle of size h; the stress that the model gives is multiplied by 1 - d. Models that go on from the stress of
-/// the step before, as hypo_elastic does, are weakened anew in every step, as in Uintah. Leavy, Brannon & Strack, Int. J.
-/// Appl. Ceram. Technol. 7 (2010) 606; Uintah's `Brittle`.
+/// Damage of brittle materials by the root of the energy of the greatest principal strain, r = E^(1/2) e_max, once it
+/// is above a threshold r_0: d = 0.999/D ((1 + D) / (1 + D exp(-C (r - r_0))) - 1) with C = r_0 h (1 + D) ln(1 + D) /
+/// (G_f D) for a particle of size h; the stress that the model gives is multiplied by 1 - d. Models that go on from the
+/// stress of the step before, as hypo_elastic does, are weakened anew in every step, as in Uintah. Leavy, Brannon &
+/// Strack, Int. J. Appl. Ceram. Technol. 7 (2010) 606; Uintah's `Brittle`.
 struct BrittleDamage {
   static constexpr std::string_view name = "Brittle";
-  double threshold = 57;        ///< r_0, Pa^(1/2)
-  double fractureEnergy = 11.2; ///< G_f, J/m^2
-  double shape = 0.1;           ///< D, 1
-  double greatestStep = 0.1;    ///< of d in one step, 1
-  double young = 0;             ///< E, Pa
+  double threshold = 57;         ///< r_0, Pa^(1/2)
+  double fractureEnergy = 11.2;  ///< G_f, J/m^2
+  double shape = 0.1;            ///< D, 1
+  double greatestStep = 0.1;     ///< of d in one step, 1
+  double young = 0;              ///< E, Pa
 
   static const input::Schema<BrittleDamage>& schema();
   Harm initial(double, ParticleId) const { return {0, threshold, false}; }
   void grow(const MaterialConstants&, const DamageState& state, Matrix3& stress, Harm& harm) const;
 };
 
-/// A particle fails at once where its greatest principal stress or strain, or its stress by Mohr and Coulomb, is above a
-/// threshold, which may differ from particle to particle.
+/// A particle fails at once where its greatest principal stress or strain, or its stress by Mohr and Coulomb, is above
+/// a threshold, which may differ from particle to particle.
 struct ThresholdDamage {
   enum class Criterion { principalStress, principalStrain, mohrCoulomb };
   enum class Distribution { constant, gauss, weibull, uniform };
@@ -97,8 +102,8 @@ struct ThresholdDamage {
   bool scalesWithVolume = false;
   std::optional<double> referenceVolume;  ///< m^3
   std::optional<double> exponent;
-  double frictionAngle = 0;   ///< degrees
-  double tensileCutoff = 0;   ///< share of the cohesion
+  double frictionAngle = 0;  ///< degrees
+  double tensileCutoff = 0;  ///< share of the cohesion
   bool localizes = true;
 
   static const input::Schema<ThresholdDamage>& schema();
@@ -110,8 +115,7 @@ struct ThresholdDamage {
   bool isBeyond(const DamageState& state, const Matrix3& stress, double threshold) const;
 };
 
-using Damage =
-    std::variant<NoDamage, JohnsonCookDamage, HancockMackenzieDamage, BrittleDamage, ThresholdDamage>;
+using Damage = std::variant<NoDamage, JohnsonCookDamage, HancockMackenzieDamage, BrittleDamage, ThresholdDamage>;
 
 /// Principal values, the least first.
 inline Vec3 principalValues(const Matrix3& tensor) {

@@ -19,7 +19,8 @@ const Schema<NoDamage>& NoDamage::schema() {
 template <class Self>
 void declareStart(Schema<Self>& tags) {
   tags.value("initial_mean_scalar_damage", &Self::initialDamage, 0, "1", "damage at the start", input::between(0, 1))
-      .value("initial_std_scalar_damage", &Self::initialDeviation, 0, "1", "of gauss: standard deviation", input::nonNegative())
+      .value("initial_std_scalar_damage", &Self::initialDeviation, 0, "1", "of gauss: standard deviation",
+             input::nonNegative())
       .choice("initial_scalar_damage_distrib", &Self::startsSpread, {{"constant", false}, {"gauss", true}}, false,
               "how the damage at the start differs from particle to particle; other numbers than Uintah draws");
 }
@@ -27,13 +28,15 @@ void declareStart(Schema<Self>& tags) {
 const Schema<JohnsonCookDamage>& JohnsonCookDamage::schema() {
   using Self = JohnsonCookDamage;
   static const Schema<Self> schema = [] {
-    Schema<Self> tags("damage_model", "Johnson's and Cook's; a particle fails where p.damage is 1 (in Uintah nothing does).");
+    Schema<Self> tags("damage_model",
+                      "Johnson's and Cook's; a particle fails where p.damage is 1 (in Uintah nothing does).");
     tags.required("D1", &Self::d1, "1", "fracture strain without stress")
         .required("D2", &Self::d2, "1", "factor of exp(D3 s*)")
         .required("D3", &Self::d3, "1", "factor of the triaxiality")
         .required("D4", &Self::d4, "1", "factor of the logarithm of the rate")
         .required("D5", &Self::d5, "1", "factor of the temperature")
-        .value("critical_scalar_damage", &Self::leastDamage, 1e-10, "1", "smaller damage is none", input::nonNegative());
+        .value("critical_scalar_damage", &Self::leastDamage, 1e-10, "1", "smaller damage is none",
+               input::nonNegative());
     declareStart(tags);
     return tags;
   }();
@@ -92,7 +95,8 @@ const Schema<ThresholdDamage>& ThresholdDamage::schema() {
           .choice("scaling", &Self::scalesWithVolume, {{"none", false}, {"kayenta", true}}, false,
                   "small particles bear more: (reference_volume / volume)^(1/exponent)")
           .optional("reference_volume", &Self::referenceVolume, "m^3", "where nothing is scaled", input::positive())
-          .optional("exponent", &Self::exponent, "1", "of the scaling; Weibull's modulus if left out", input::positive())
+          .optional("exponent", &Self::exponent, "1", "of the scaling; Weibull's modulus if left out",
+                    input::positive())
           .value("friction_angle", &Self::frictionAngle, 0, "degrees", "of MohrCoulomb", input::between(0, 89))
           .value("tensile_cutoff_fraction_of_cohesion", &Self::tensileCutoff, 0, "1", "of MohrCoulomb",
                  input::nonNegative())
@@ -135,7 +139,8 @@ void connect(Material& material, const Element& parent, const Element& tag, Diag
   if (isJohnsonCook && material.meltTemperature <= material.roomTemperature)
     diagnostics.error(tag, "johnson_cook: <melt_temp> of the material must be greater than its <room_temp>");
   if (needsRate && material.model && offsetOf(*material.model, "p.plasticStrainRate") < 0)
-    diagnostics.error(tag, tag.attribute("type").value_or("") + " needs the plastic strain of a constitutive model elastic_plastic_hp, found " +
+    diagnostics.error(tag, tag.attribute("type").value_or("") +
+                               " needs the plastic strain of a constitutive model elastic_plastic_hp, found " +
                                std::string(material.model->name()));
   BrittleDamage* brittle = std::get_if<BrittleDamage>(&material.damage);
   if (!brittle) return;
@@ -145,7 +150,8 @@ void connect(Material& material, const Element& parent, const Element& tag, Diag
     return given ? input::parse<double>(given->text()).value : std::nullopt;
   };
   const auto bulk = number("bulk_modulus"), shear = number("shear_modulus");
-  if (!bulk || !shear) return diagnostics.error(tag, "Brittle needs a constitutive model with bulk_modulus and shear_modulus");
+  if (!bulk || !shear)
+    return diagnostics.error(tag, "Brittle needs a constitutive model with bulk_modulus and shear_modulus");
   brittle->young = 9 * *bulk * *shear / (3 * *bulk + *shear);
 }
 
@@ -154,15 +160,19 @@ void refuseStabilityChecks(const Element& parent, const Element& erosion, Diagno
   const auto model = parent.child("constitutive_model");
   const auto check = model ? model->child("stability_check") : std::nullopt;
   if (check && check->attribute("type") != "none")
-    diagnostics.error(*check, fmt::format("<erosion> on line {} would follow a loss of stability, which is not looked for; "
-                                          "give it the type none, and the particles a <damage_model>",
-                                          erosion.where().line));
+    diagnostics.error(*check,
+                      fmt::format("<erosion> on line {} would follow a loss of stability, which is not looked for; "
+                                  "give it the type none, and the particles a <damage_model>",
+                                  erosion.where().line));
 }
 
 /// In Uintah metals fail by porosity, too, unless the scene says otherwise.
-void noteWhatDoesNotFail(const Material& material, const Element& parent, const Element& erosion, Diagnostics& diagnostics) {
+void noteWhatDoesNotFail(const Material& material, const Element& parent, const Element& erosion,
+                         Diagnostics& diagnostics) {
   const auto model = parent.child("constitutive_model");
-  const auto isOff = [&](const char* tag) { return model && model->child(tag) && model->child(tag)->text() == "false"; };
+  const auto isOff = [&](const char* tag) {
+    return model && model->child(tag) && model->child(tag)->text() == "false";
+  };
   if (material.model && offsetOf(*material.model, "p.plasticStrainRate") >= 0 && !isOff("evolve_porosity") &&
       !isOff("check_TEPLA_failure_criterion"))
     diagnostics.note(erosion, "particles fail by the <damage_model> and by melting; Uintah's fail by porosity, too");

@@ -11,14 +11,15 @@ namespace tushar::mpm::solid {
 /// What becomes of a particle that has failed.
 struct Erosion {
   enum class Algorithm {
-    none,           ///< nothing
-    allowNoTension, ///< it bears pressure only
-    zeroStress,     ///< it bears nothing and is not deformed further
-    allowNoShear,   ///< it bears mean stress only
-    preserveStress  ///< it is only marked
+    none,            ///< nothing
+    allowNoTension,  ///< it bears pressure only
+    zeroStress,      ///< it bears nothing and is not deformed further
+    allowNoShear,    ///< it bears mean stress only
+    preserveStress   ///< it is only marked
   };
   Algorithm algorithm = Algorithm::none;
-  double relaxationTime = 1e-99;  ///< in which lost stress of a function of F fades to 1/e, s; others fade anew each step
+  double relaxationTime =
+      1e-99;  ///< in which lost stress of a function of F fades to 1/e, s; others fade anew each step
 
   bool acts() const { return algorithm != Algorithm::none; }
 
@@ -26,10 +27,14 @@ struct Erosion {
   Matrix3 bearable(const Matrix3& stress, double sinceFailure) const {
     const double mean = stress.trace() / 3, faded = std::exp(-sinceFailure / relaxationTime);
     switch (algorithm) {
-      case Algorithm::allowNoTension: return mean > 0 ? Matrix3(faded * stress) : Matrix3(mean * Matrix3::Identity());
-      case Algorithm::zeroStress: return faded * stress;
-      case Algorithm::allowNoShear: return mean * Matrix3::Identity();
-      default: return stress;
+      case Algorithm::allowNoTension:
+        return mean > 0 ? Matrix3(faded * stress) : Matrix3(mean * Matrix3::Identity());
+      case Algorithm::zeroStress:
+        return faded * stress;
+      case Algorithm::allowNoShear:
+        return mean * Matrix3::Identity();
+      default:
+        return stress;
     }
   }
   /// What a failed particle keeps of a step's deformation: its volume only or, without stress, nothing.

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <array>
 
-#include "components/mpm/solid/uintah_words.hpp"
+#include "components/mpm/shapes/cpdi_shape.hpp"
+#include "components/mpm/solid/explicit/solid_mpm.hpp"
 #include "components/mpm/solid/loads/load_input.hpp"
 #include "components/mpm/solid/material_input.hpp"
 #include "components/mpm/solid/scene_input.hpp"
-#include "components/mpm/shapes/cpdi_shape.hpp"
-#include "components/mpm/solid/explicit/solid_mpm.hpp"
+#include "components/mpm/solid/uintah_words.hpp"
 #include "core/simulation/by_dimension.hpp"
 
 namespace tushar::mpm::solid {
@@ -62,7 +62,7 @@ void addDissipation(Schema<MpmSection>& mpm) {
 /// What keeps single particles and nodes from ruling the run.
 void addLimits(Schema<MpmSection>& mpm) {
   mpm.value("minimum_particle_mass", &MpmSection::minimumParticleMass, 3e-15, "kg",
-             "no particle may be as light as that (Uintah takes such out)", input::nonNegative())
+            "no particle may be as light as that (Uintah takes such out)", input::nonNegative())
       .value("minimum_mass_for_acc", &MpmSection::minimumMassForAcceleration, 1e-199, "kg",
              "a node lighter than that is only accelerated by gravity", input::nonNegative())
       .optional("maximum_particle_velocity", &MpmSection::maximumParticleVelocity, "m/s",
@@ -74,10 +74,10 @@ void addLimits(Schema<MpmSection>& mpm) {
 /// When stresses are brought forward, and how velocities go from the grid to the particles.
 void addUpdates(Schema<MpmSection>& mpm) {
   mpm.choice("stress_update", &MpmSection::stressUpdate,
-              {{"usl", StressUpdate::last}, {"musl", StressUpdate::modifiedLast}, {"usf", StressUpdate::first}},
-              StressUpdate::last,
-              "stresses follow the grid's velocity at the end of the step, the particles' new velocity on the grid, or "
-              "the grid's velocity at the start")
+             {{"usl", StressUpdate::last}, {"musl", StressUpdate::modifiedLast}, {"usf", StressUpdate::first}},
+             StressUpdate::last,
+             "stresses follow the grid's velocity at the end of the step, the particles' new velocity on the grid, or "
+             "the grid's velocity at the start")
       .ours()
       .value("XPIC2", &MpmSection::xpic, false, "1", "velocities by extended PIC of order 2")
       .value("pic_fraction", &MpmSection::picFraction, 0, "1",
@@ -91,9 +91,10 @@ void addUpdates(Schema<MpmSection>& mpm) {
 /// The space, what acts from outside, and heat.
 void addSurroundings(Schema<MpmSection>& mpm) {
   mpm.value("axisymmetric", &MpmSection::axisymmetric, false, "1",
-             "x is the radius and y the axis; mass, energy and forces are per radian")
-      .value("DoPressureStabilization", &MpmSection::sharesVolume, false, "1",
-             "the particles of a cell change their volume as one, so that a nearly incompressible body can bend and shear")
+            "x is the radius and y the axis; mass, energy and forces are per radian")
+      .value(
+          "DoPressureStabilization", &MpmSection::sharesVolume, false, "1",
+          "the particles of a cell change their volume as one, so that a nearly incompressible body can bend and shear")
       .value("use_load_curves", &MpmSection::useLoadCurves, false, "1", "the loads of <PhysicalBC> act")
       .value("DoExplicitHeatConduction", &MpmSection::conductsHeat, true, "1", "heat is conducted")
       .value("do_contact_friction_heating", &MpmSection::contactHeats, false, "1",
@@ -126,10 +127,21 @@ void checkUpdates(const MpmSection& read, const Element& element, Diagnostics& d
 }
 
 /// Tags of Uintah's that only implicit steps look at.
-constexpr std::array implicitOnly{"with_gauss_solver", "dynamic", "solver", "Solver", "convergence_criteria_disp",
-    "convergence_criteria_energy", "num_iters_to_decrease_delT", "num_iters_to_increase_delT",
-    "iters_before_timestep_restart", "DoImplicitHeatConduction", "DoTransientImplicitHeatConduction", "DoMechanics",
-    "delT_decrease_factor", "delT_increase_factor", "temperature_solve"};
+constexpr std::array implicitOnly{"with_gauss_solver",
+                                  "dynamic",
+                                  "solver",
+                                  "Solver",
+                                  "convergence_criteria_disp",
+                                  "convergence_criteria_energy",
+                                  "num_iters_to_decrease_delT",
+                                  "num_iters_to_increase_delT",
+                                  "iters_before_timestep_restart",
+                                  "DoImplicitHeatConduction",
+                                  "DoTransientImplicitHeatConduction",
+                                  "DoMechanics",
+                                  "delT_decrease_factor",
+                                  "delT_increase_factor",
+                                  "temperature_solve"};
 
 /// Uintah divides domains that become longer than so many cells; its default is 1e10.
 void refuseShortDomains(MpmSection&, const Element& element, Diagnostics& diagnostics) {
@@ -183,11 +195,16 @@ std::unique_ptr<Component> makeComponent(const Level& level, Interpolator interp
     return interpolator == Interpolator::linear ? makeAxisymmetric.template operator()<AxisymmetricLinearShape>()
                                                 : makeAxisymmetric.template operator()<AxisymmetricGimpShape>();
   switch (interpolator) {
-    case Interpolator::linear: return make.template operator()<LinearShape>();
-    case Interpolator::gimp: return make.template operator()<GimpShape>();
-    case Interpolator::cpdi: return make.template operator()<CpdiShape>();
-    case Interpolator::quadratic: return make.template operator()<QuadraticShape>();
-    default: return make.template operator()<CubicShape>();
+    case Interpolator::linear:
+      return make.template operator()<LinearShape>();
+    case Interpolator::gimp:
+      return make.template operator()<GimpShape>();
+    case Interpolator::cpdi:
+      return make.template operator()<CpdiShape>();
+    case Interpolator::quadratic:
+      return make.template operator()<QuadraticShape>();
+    default:
+      return make.template operator()<CubicShape>();
   }
 }
 

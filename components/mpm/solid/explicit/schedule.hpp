@@ -4,11 +4,6 @@
 #include "components/mpm/solid/explicit/schedule_heat.hpp"
 #include "components/mpm/solid/explicit/solid_mpm.hpp"
 #include "components/mpm/solid/explicit/tasks/affine.hpp"
-#include "components/mpm/solid/tasks/apply_external_loads.hpp"
-#include "components/mpm/solid/tasks/boundary_force.hpp"
-#include "components/mpm/solid/tasks/damage.hpp"
-#include "components/mpm/solid/tasks/diagnose.hpp"
-#include "components/mpm/solid/tasks/displacement.hpp"
 #include "components/mpm/solid/explicit/tasks/exchange_momentum.hpp"
 #include "components/mpm/solid/explicit/tasks/friction.hpp"
 #include "components/mpm/solid/explicit/tasks/integrate_acceleration.hpp"
@@ -16,10 +11,15 @@
 #include "components/mpm/solid/explicit/tasks/interpolate_particles_to_grid.hpp"
 #include "components/mpm/solid/explicit/tasks/interpolate_to_particles_and_update.hpp"
 #include "components/mpm/solid/explicit/tasks/measure_work.hpp"
-#include "components/mpm/solid/tasks/show_grid.hpp"
 #include "components/mpm/solid/explicit/tasks/stable_time_step.hpp"
 #include "components/mpm/solid/explicit/tasks/update_in_parts.hpp"
 #include "components/mpm/solid/explicit/tasks/velocity_updates.hpp"
+#include "components/mpm/solid/tasks/apply_external_loads.hpp"
+#include "components/mpm/solid/tasks/boundary_force.hpp"
+#include "components/mpm/solid/tasks/damage.hpp"
+#include "components/mpm/solid/tasks/diagnose.hpp"
+#include "components/mpm/solid/tasks/displacement.hpp"
+#include "components/mpm/solid/tasks/show_grid.hpp"
 
 // The schedule of SolidMpm: included by the files that instantiate it, one for each kind of shape function.
 
@@ -32,7 +32,8 @@ inline constexpr auto fresh = [](const auto& label, int ghost) { return requires
 template <class Shape>
 SolidMpm<Shape>::SolidMpm(Problem problem) : Solids(std::move(problem)) {
   const auto any = [&](auto&& holds) {
-    return std::any_of(problem_.materials.begin(), problem_.materials.end(), [&](const Material& m) { return holds(*m.model); });
+    return std::any_of(problem_.materials.begin(), problem_.materials.end(),
+                       [&](const Material& m) { return holds(*m.model); });
   };
   is_damageable_ = std::any_of(problem_.materials.begin(), problem_.materials.end(),
                                [](const Material& material) { return material.isDamageable(); });
@@ -49,8 +50,8 @@ void SolidMpm<Shape>::scheduleInitialize(TaskList& tasks) const {
                     computes(c::stableTimeStep));
   if (keeps_stress_)
     tasks.perMaterial("mpm::initializeStress", initializeStress, problem_.materials, with(state_size_),
-                      requiresNew(p::mass), requiresNew(p::deformationMeasure), computes(p::volume), computes(p::stress),
-                      when(state_size_ > 0, computes(state_)));
+                      requiresNew(p::mass), requiresNew(p::deformationMeasure), computes(p::volume),
+                      computes(p::stress), when(state_size_ > 0, computes(state_)));
   if (problem_.method.affine)
     tasks.perMaterial("mpm::initializeAffineMoment", initializeAffineMoment, problem_.materials, requiresNew(p::mass),
                       computes(p::affineMoment));
@@ -196,7 +197,8 @@ void SolidMpm<Shape>::scheduleKeepVelocity(TaskList& tasks, const NodeLabel<Vec<
   tasks.perMaterial("mpm::keepVelocity", keepVelocity<D>, problem_.materials, requiresNew(g::record), computes(kept));
 }
 
-/// Only run where someone saves or reports work, as scheduleStrainWork; `shaped` reads the F that shape functions follow.
+/// Only run where someone saves or reports work, as scheduleStrainWork; `shaped` reads the F that shape functions
+/// follow.
 template <class Shape>
 template <class Reads>
 void SolidMpm<Shape>::scheduleMeasureWork(TaskList& tasks, Reads shaped) const {
@@ -215,8 +217,7 @@ void SolidMpm<Shape>::scheduleStrainWork(TaskList& tasks) const {
                     requiresOld(p::deformationMeasure), requiresNew(p::deformationMeasure),
                     when(keeps_stress_, requiresOld(p::volume)), when(keeps_stress_, requiresOld(p::stress)),
                     when(keeps_stress_, requiresNew(p::volume)), when(keeps_stress_, requiresNew(p::stress)),
-                    when(isViscous(), requiresNew(p::viscosity)),
-                    modifies(p::work));
+                    when(isViscous(), requiresNew(p::viscosity)), modifies(p::work));
   if (keeps_stress_ && state_size_ > 0)
     tasks.perMaterial("mpm::measurePlasticWork", measurePlasticWork, problem_.materials, with(state_size_),
                       requiresOld(state_), requiresNew(state_), requiresNew(p::volume), requiresNew(p::stress),
@@ -234,10 +235,10 @@ void SolidMpm<Shape>::scheduleUpdateParticles(TaskList& tasks) const {
       requiresOld(p::mass), requiresOld(p::deformationMeasure), when(is_thermal_, requiresOld(p::temperature)),
       when(keeps_stress_, requiresOld(p::volume)), when(keeps_stress_, requiresOld(p::stress)),
       when(hasState, requiresOld(state_)), when(is_damageable_, requiresOld(p::localized)), computes(p::x<D>),
-      computes(p::velocity<D>), computes(p::deformationMeasure),
-      when(keeps_stress_, computes(p::volume)), when(keeps_stress_, computes(p::stress)),
-      when(hasState, computes(state_)), when(isViscous(), computes(p::viscosity)),
-      when(problem_.method.strainEnergy, computes(p::strainEnergy)), when(heats_, computes(p::temperatureChange)),
+      computes(p::velocity<D>), computes(p::deformationMeasure), when(keeps_stress_, computes(p::volume)),
+      when(keeps_stress_, computes(p::stress)), when(hasState, computes(state_)),
+      when(isViscous(), computes(p::viscosity)), when(problem_.method.strainEnergy, computes(p::strainEnergy)),
+      when(heats_, computes(p::temperatureChange)),
       when(problem_.method.velocityGradient, computes(p::velocityGradient)), computes(c::stableTimeStep));
   scheduleDamage(tasks);
 }
@@ -256,7 +257,8 @@ void SolidMpm<Shape>::scheduleMoveParticles(TaskList& tasks, Reads shaped) const
   tasks.perMaterial("mpm::interpolateToParticlesAndUpdate", moveParticles<Shape>, problem_.materials,
                     with(problem_.method), requiresOld(delT), requiresNew(g::record, Shape::ghostNodes),
                     requiresOld(p::x<D>), when(keepsSizes(), requiresOld(p::size<D>)), requiresOld(p::velocity<D>),
-                    when(Shape::deforms, shaped(p::deformationMeasure, 0)), computes(p::x<D>), computes(p::velocity<D>));
+                    when(Shape::deforms, shaped(p::deformationMeasure, 0)), computes(p::x<D>),
+                    computes(p::velocity<D>));
 }
 
 /// What replaces FLIP's velocity; `shaped` reads the F that shape functions follow.
@@ -314,16 +316,15 @@ void SolidMpm<Shape>::scheduleComputeStressTensor(TaskList& tasks, const NodeLab
   const auto body = problem_.method.sharesVolume ? computeStressTensor<Shape, Volumes::shared>
                                                  : computeStressTensor<Shape, Volumes::own>;
   tasks.perMaterial(
-      "mpm::computeStressTensor", body, problem_.materials, with(problem_.method),
-      with(state_size_), requiresOld(delT), requiresNew(record, Shape::ghostNodes), requiresOld(p::x<D>),
-      when(keepsSizes(), requiresOld(p::size<D>)), requiresOld(p::velocity<D>), requiresOld(p::mass),
-      requiresOld(p::deformationMeasure), when(is_thermal_, requiresOld(p::temperature)),
-      when(keeps_stress_, requiresOld(p::volume)), when(keeps_stress_, requiresOld(p::stress)),
-      when(hasState, requiresOld(state_)), when(is_damageable_, requiresOld(p::localized)),
-      computes(p::deformationMeasure), when(keeps_stress_, computes(p::volume)),
-      when(keeps_stress_, computes(p::stress)), when(hasState, computes(state_)),
-      when(isViscous(), computes(p::viscosity)), when(problem_.method.strainEnergy, computes(p::strainEnergy)),
-      when(heats_, computes(p::temperatureChange)),
+      "mpm::computeStressTensor", body, problem_.materials, with(problem_.method), with(state_size_), requiresOld(delT),
+      requiresNew(record, Shape::ghostNodes), requiresOld(p::x<D>), when(keepsSizes(), requiresOld(p::size<D>)),
+      requiresOld(p::velocity<D>), requiresOld(p::mass), requiresOld(p::deformationMeasure),
+      when(is_thermal_, requiresOld(p::temperature)), when(keeps_stress_, requiresOld(p::volume)),
+      when(keeps_stress_, requiresOld(p::stress)), when(hasState, requiresOld(state_)),
+      when(is_damageable_, requiresOld(p::localized)), computes(p::deformationMeasure),
+      when(keeps_stress_, computes(p::volume)), when(keeps_stress_, computes(p::stress)),
+      when(hasState, computes(state_)), when(isViscous(), computes(p::viscosity)),
+      when(problem_.method.strainEnergy, computes(p::strainEnergy)), when(heats_, computes(p::temperatureChange)),
       when(problem_.method.velocityGradient, computes(p::velocityGradient)), computes(c::stableTimeStep));
   scheduleDamage(tasks);
 }
@@ -335,17 +336,17 @@ void SolidMpm<Shape>::scheduleDamage(TaskList& tasks) const {
     tasks.perMaterial("mpm::computeDamage", computeDamage, problem_.materials, with(state_size_), startTime(),
                       requiresOld(delT), requiresOld(p::temperature), requiresOld(p::damage),
                       requiresOld(p::failureThreshold), requiresOld(p::localized), requiresOld(p::failureTime),
-                      requiresNew(p::deformationMeasure), requiresNew(p::volume), when(state_size_ > 0, requiresNew(state_)),
-                      modifies(p::stress), computes(p::damage), computes(p::failureThreshold), computes(p::localized),
-                      computes(p::failureTime));
+                      requiresNew(p::deformationMeasure), requiresNew(p::volume),
+                      when(state_size_ > 0, requiresNew(state_)), modifies(p::stress), computes(p::damage),
+                      computes(p::failureThreshold), computes(p::localized), computes(p::failureTime));
 }
 
 template <class Shape>
 void SolidMpm<Shape>::scheduleDiagnostics(TaskList& tasks) const {
   scheduleTotals<D>(tasks, problem_.materials, when(problem_.method.affine, requiresOld(p::affineMoment)));
-  tasks.perMaterial("mpm::computeScaleFactor", computeScaleFactor<D>, problem_.materials, with(problem_.method.commonSize),
-                    when(keepsSizes(), requiresOld(p::size<D>)), requiresOld(p::deformationMeasure),
-                    computes(p::scaleFactor));
+  tasks.perMaterial("mpm::computeScaleFactor", computeScaleFactor<D>, problem_.materials,
+                    with(problem_.method.commonSize), when(keepsSizes(), requiresOld(p::size<D>)),
+                    requiresOld(p::deformationMeasure), computes(p::scaleFactor));
   for (std::size_t k = 0; k < total::work.size(); ++k)
     tasks.perMaterial("mpm::sumWork", sumWork, problem_.materials, with(static_cast<int>(k)), requiresOld(p::work),
                       computes(total::work[k]));
@@ -362,7 +363,8 @@ void SolidMpm<Shape>::scheduleDiagnostics(TaskList& tasks) const {
     scheduleShowOnGrid<Shape>(tasks, problem_.materials, problem_.method.commonSize,
                               when(keepsSizes(), requiresOld(p::size<D>, Shape::reach)), reads(p::volume, Shape::reach),
                               reads(p::stress, Shape::reach));
-    scheduleBoundaryForces<D>(tasks, problem_.materials, problem_.method.isThin, reads(p::volume, 0), reads(p::stress, 0));
+    scheduleBoundaryForces<D>(tasks, problem_.materials, problem_.method.isThin, reads(p::volume, 0),
+                              reads(p::stress, 0));
     tasks.perMaterial("mpm::sumVolume", sumParticles, problem_.materials, reads(p::volume, 0), computes(total::volume));
   };
   if (keeps_stress_)

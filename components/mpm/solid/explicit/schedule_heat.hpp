@@ -21,8 +21,8 @@ void SolidMpm<Shape>::scheduleHeat(TaskList& tasks) const {
                     computes(g::temperatureNoBC), computes(g::temperature));
   const bool heated = problem_.start.loads.hasHeat();
   if (heated)
-    tasks.perMaterial("mpm::applyHeatFlux", applyHeatFlux<D>, problem_.materials, with(problem_.start.loads), startTime(),
-                      requiresOld(p::x<D>), requiresOld(p::loadCurves), computes(p::heatFlux));
+    tasks.perMaterial("mpm::applyHeatFlux", applyHeatFlux<D>, problem_.materials, with(problem_.start.loads),
+                      startTime(), requiresOld(p::x<D>), requiresOld(p::loadCurves), computes(p::heatFlux));
   tasks.perMaterial("mpm::computeInternalHeatRate", computeInternalHeatRate<Shape>, problem_.materials,
                     with(problem_.method.commonSize), requiresOld(p::x<D>, reach),
                     when(keepsSizes(), requiresOld(p::size<D>, reach)), requiresOld(p::deformationMeasure, reach),

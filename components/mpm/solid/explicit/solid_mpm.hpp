@@ -6,8 +6,8 @@
 
 namespace tushar::mpm::solid {
 
-/// The Material Point Method for solids: Sulsky, Chen & Schreyer, Comput. Methods Appl. Mech. Engrg. 118 (1994) 179, step
-/// by step as Uintah takes it, stress last.
+/// The Material Point Method for solids: Sulsky, Chen & Schreyer, Comput. Methods Appl. Mech. Engrg. 118 (1994) 179,
+/// step by step as Uintah takes it, stress last.
 ///
 /// schedule.hpp is the schedule and reads as the method; the bodies of its tasks are in tasks/.
 template <class Shape>
@@ -41,7 +41,8 @@ class SolidMpm : public Solids {
   void scheduleComputeStressTensor(TaskList& tasks, const NodeLabel<NodeRecord>& record) const;
   void scheduleUpdateInCells(TaskList& tasks) const;
   void scheduleComputeSurface(TaskList& tasks) const;
-  void scheduleFriction(TaskList& tasks, const std::string& name, Moment moment, const NodeLabel<NodeRecord>& record) const;
+  void scheduleFriction(TaskList& tasks, const std::string& name, Moment moment,
+                        const NodeLabel<NodeRecord>& record) const;
   void scheduleHeatingFriction(TaskList& tasks) const;
   void scheduleIntegrateAcceleration(TaskList& tasks) const;
   void scheduleContactAtEnd(TaskList& tasks) const;
@@ -57,9 +58,7 @@ class SolidMpm : public Solids {
     return std::any_of(problem_.contacts.begin(), problem_.contacts.end(),
                        [](const Contact& contact) { return contact.type == Contact::Type::friction; });
   }
-  bool rubbingHeats() const {
-    return hasFriction() && problem_.method.contactHeats && problem_.method.conductsHeat;
-  }
+  bool rubbingHeats() const { return hasFriction() && problem_.method.contactHeats && problem_.method.conductsHeat; }
   bool transmitsForce() const {
     return std::any_of(problem_.materials.begin(), problem_.materials.end(),
                        [](const Material& material) { return material.transmitsForce; });
@@ -67,10 +66,10 @@ class SolidMpm : public Solids {
   bool isLoaded() const { return problem_.start.loads.hasForces() || problem_.start.solution || transmitsForce(); }
   bool keepsSizes() const { return Shape::hasSize && problem_.method.keepsSizes; }
 
-  bool keeps_stress_ = false;  ///< some material's stress is not a function of F alone
-  bool is_thermal_ = false;    ///< some material's stress depends on the temperature
-  bool is_damageable_ = false; ///< particles of some material may fail
-  bool heats_ = false;         ///< the work of a step changes the temperature
+  bool keeps_stress_ = false;   ///< some material's stress is not a function of F alone
+  bool is_thermal_ = false;     ///< some material's stress depends on the temperature
+  bool is_damageable_ = false;  ///< particles of some material may fail
+  bool heats_ = false;          ///< the work of a step changes the temperature
 };
 
 }  // namespace tushar::mpm::solid

@@ -1,5 +1,5 @@
-#include "components/mpm/solid/explicit/schedule.hpp"
 #include "components/mpm/shapes/cpdi_shape.hpp"
+#include "components/mpm/solid/explicit/schedule.hpp"
 #include "components/mpm/solid/transfer/cpdi_transfer.hpp"
 
 namespace tushar::mpm::solid {

@@ -8,8 +8,8 @@ namespace tushar::mpm::solid::implicit {
 ///
 ///     (C_i + dt K_ij) T'_j = C_i T_i,  C_i = sum_p S_i m_p c_p,  K_ij = sum_p V_p k_p grad S_i . grad S_j,
 ///
-/// where T_i is the mean of the particles over their heat capacities. Materials have one temperature at a node. A side of
-/// the grid keeps the temperature that the scene gives; no heat goes through any other.
+/// where T_i is the mean of the particles over their heat capacities. Materials have one temperature at a node. A side
+/// of the grid keeps the temperature that the scene gives; no heat goes through any other.
 template <class Shape>
 class NodalHeat {
  public:
@@ -17,7 +17,11 @@ class NodalHeat {
 
   NodalHeat(const RankPatches& patches, const std::vector<Material>& materials, const mpi::Communicator& ranks,
             const Vec3& commonSize, const SolidViews<D>& views, bool resetsGrid = true)
-      : patches_(patches), materials_(materials), common_size_(commonSize), views_(views), resets_grid_(resetsGrid),
+      : patches_(patches),
+        materials_(materials),
+        common_size_(commonSize),
+        views_(views),
+        resets_grid_(resetsGrid),
         nodes_(patches.front()->level(), ranks) {
     forEachPoint([&](const Point&, const auto& stencil) {
       stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>& slope) {
@@ -47,7 +51,9 @@ class NodalHeat {
     return k < 0 ? 0.0 : after_[static_cast<std::size_t>(k)] - before_[static_cast<std::size_t>(k)];
   }
   /// T' of a node, K.
-  double temperature(const Index<D>& node) const { return after_[static_cast<std::size_t>(nodes_(nodes_.imageOf(node).node))]; }
+  double temperature(const Index<D>& node) const {
+    return after_[static_cast<std::size_t>(nodes_(nodes_.imageOf(node).node))];
+  }
   const NodeMap<D>& nodes() const { return nodes_; }
 
  private:
@@ -67,7 +73,8 @@ class NodalHeat {
     for (std::size_t p = 0; p < patches_.size(); ++p)
       for (std::size_t m = 0; m < materials_.size(); ++m) {
         const Extents<Shape> extents(nodes_.level(), common_size_, views_.size[p][m], std::nullopt);
-        forEachStencil<Shape>(*patches_[p], patches_[p]->cells(), views_.x[p][m], extents, [&](int k, const auto& stencil) {
+        forEachStencil<
+            Shape>(*patches_[p], patches_[p]->cells(), views_.x[p][m], extents, [&](int k, const auto& stencil) {
           const double mass = views_.mass[p][m][k], volume = mass / materials_[m].density;
           const Matrix3& f = views_.deformation[p][m][k];
           const Matrix3 carried = resets_grid_ ? Matrix3(Matrix3::Identity()) : Matrix3(f.inverse());
@@ -117,7 +124,8 @@ class NodalHeat {
       stencil.forEachNode([&](const Index<D>& node, double, const Vec<D>& slope) {
         const auto image = nodes_.imageOf(node);
         numbers[n] = nodes_(image.node);
-        slopes[n++] = level.template reduce<D>(Vec3(level.template expandDirection<D>(slope).transpose() * point.carried));
+        slopes[n++] =
+            level.template reduce<D>(Vec3(level.template expandDirection<D>(slope).transpose() * point.carried));
       });
       addPoint(dt * point.volume * point.material.thermalConductivity, numbers, slopes, matrix, right);
     });
@@ -168,10 +176,11 @@ void conductHeat(const RankPatches& patches, const std::vector<Material>& materi
   const solvers::Outcome outcome = heat.solve(dt, setup.how.heat);
   if (!outcome.converged) {
     std::optional<Vec3> worst;
-    if (outcome.worst >= 0) worst = patches.front()->level().template expandPoint<D>(heat.nodes().position(outcome.worst));
-    throw NumericalError(solvers::sentenceOf("the conduction of heat", outcome) +
-                             solvers::worstPlace(ranks, worst, "at the node"),
-                         "a smaller <delt_max>", "g.temperatureRate");
+    if (outcome.worst >= 0)
+      worst = patches.front()->level().template expandPoint<D>(heat.nodes().position(outcome.worst));
+    throw NumericalError(
+        solvers::sentenceOf("the conduction of heat", outcome) + solvers::worstPlace(ranks, worst, "at the node"),
+        "a smaller <delt_max>", "g.temperatureRate");
   }
   for (std::size_t p = 0; p < patches.size(); ++p)
     for (std::size_t m = 0; m < materials.size(); ++m)

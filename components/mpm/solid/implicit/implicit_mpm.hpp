@@ -1,7 +1,7 @@
 #pragma once
 
-#include "components/mpm/solid/implicit/method.hpp"
 #include "components/mpm/shapes/tensor_shape.hpp"
+#include "components/mpm/solid/implicit/method.hpp"
 #include "core/core.hpp"
 
 namespace tushar::mpm::solid::implicit {

@@ -1,10 +1,10 @@
 #include "components/mpm/solid/implicit/input.hpp"
 
-#include "components/mpm/solid/uintah_words.hpp"
 #include "components/mpm/solid/implicit/implicit_mpm.hpp"
-#include "components/mpm/solid/scene_input.hpp"
 #include "components/mpm/solid/loads/load_input.hpp"
 #include "components/mpm/solid/material_input.hpp"
+#include "components/mpm/solid/scene_input.hpp"
+#include "components/mpm/solid/uintah_words.hpp"
 #include "core/simulation/by_dimension.hpp"
 #include "core/solvers/input.hpp"
 
@@ -51,8 +51,8 @@ void declareSteps(Schema<Section>& schema) {
              "and: last change times the residual before it, over the first", input::positive())
       .value("iters_before_timestep_restart", &Section::maxIterations, 25, "1",
              "more of Newton's iterations: the step is repeated with half the time step", input::atLeast(1))
-      .value("num_iters_to_decrease_delT", &Section::decrease, 12, "1", "so many of them make the next time step shorter",
-             input::atLeast(1))
+      .value("num_iters_to_decrease_delT", &Section::decrease, 12, "1",
+             "so many of them make the next time step shorter", input::atLeast(1))
       .value("num_iters_to_increase_delT", &Section::increase, 4, "1", "at most so many make it longer",
              input::nonNegative())
       .value("delT_decrease_factor", &Section::decreaseFactor, 0.6, "1", "how much shorter", input::between(0.1, 1))
@@ -70,11 +70,13 @@ const Schema<Section>& sectionSchema() {
         .value("dynamic", &Section::dynamic, true, "1",
                "Newmark's method; false: no inertia, each step ends in equilibrium");
     mpm.value("do_grid_reset", &Section::resetsGrid, true, "1",
-              "false: the grid goes along with the solid, particles keep their places in it, and p.displacement tells where "
+              "false: the grid goes along with the solid, particles keep their places in it, and p.displacement tells "
+              "where "
               "they are")
         .value("DoPressureStabilization", &Section::sharesVolume, false, "1",
-              "F-bar: the particles of a cell answer to compression as one, against locking where nothing is compressible; "
-              "for comp_neo_hook, comp_mooney_rivlin, UCNH and comp_neo_hook_plastic");
+               "F-bar: the particles of a cell answer to compression as one, against locking where nothing is "
+               "compressible; "
+               "for comp_neo_hook, comp_mooney_rivlin, UCNH and comp_neo_hook_plastic");
     declareSteps(mpm);
     mpm.choice("solver", &Section::solver, {{"petsc", 0}, {"simple", 0}, {"amgx", 0}}, 0,
                "what solves the linear systems: PETSc, under three words")
@@ -92,9 +94,9 @@ const Schema<Section>& sectionSchema() {
         .ignored("maximum_particle_velocity", "no particle is slowed down");
     refuseSwitch(mpm, "artificial_viscosity", "only explicit steps have one");
     refuseSwitch(mpm, "temperature_solve", "nodes take the mean temperature of their particles");
-    for (const char* tag : {"artificial_viscosity_coeff1", "artificial_viscosity_coeff2", "artificial_viscosity_heating",
-                            "minimum_mass_for_acc", "minimum_subcycles_for_F", "XPIC2", "do_contact_friction_heating",
-                            "cpdi_lcrit", "computeColinearNormals"})
+    for (const char* tag : {"artificial_viscosity_coeff1", "artificial_viscosity_coeff2",
+                            "artificial_viscosity_heating", "minimum_mass_for_acc", "minimum_subcycles_for_F", "XPIC2",
+                            "do_contact_friction_heating", "cpdi_lcrit", "computeColinearNormals"})
       mpm.ignored(tag, "as in Uintah, only explicit steps look at it");
     addForeignTags(mpm);
     return mpm;
@@ -135,11 +137,12 @@ bool isMaster(const Problem& problem, int material) {
 void refuseWithoutTangent(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
   for (const Material& material : problem.materials)
     if (!material.model->hasTangent() && !isMaster(problem, material.index))
-      diagnostics.error(root.child("MaterialProperties").value(),
-                        "'" + material.name + "' is " + std::string(material.model->name()) +
-                            ", which has no tangent: implicit time steps need one; take comp_neo_hook, "
-                            "comp_mooney_rivlin, trans_iso_hyper, hypo_elastic, UCNH or elastic_plastic, or make it the "
-                            "master of a <contact> of type rigid or specified");
+      diagnostics.error(
+          root.child("MaterialProperties").value(),
+          "'" + material.name + "' is " + std::string(material.model->name()) +
+              ", which has no tangent: implicit time steps need one; take comp_neo_hook, "
+              "comp_mooney_rivlin, trans_iso_hyper, hypo_elastic, UCNH or elastic_plastic, or make it the "
+              "master of a <contact> of type rigid or specified");
 }
 
 /// Whether a damage model only counts the damage.
@@ -153,8 +156,9 @@ void refuseVolumesOfStates(const Problem& problem, const Element& root, Diagnost
   for (const Material& material : problem.materials)
     if (!material.model->feelsVolumeOfEndOnly() && !isMaster(problem, material.index))
       diagnostics.error(root.child("MPM")->child("DoPressureStabilization").value(),
-                        "with <time_integrator> implicit only for comp_neo_hook, comp_mooney_rivlin, UCNH and comp_neo_hook_plastic; '" + material.name +
-                            "' is " + std::string(material.model->name()));
+                        "with <time_integrator> implicit only for comp_neo_hook, comp_mooney_rivlin, UCNH and "
+                        "comp_neo_hook_plastic; '" +
+                            material.name + "' is " + std::string(material.model->name()));
 }
 
 /// What a scene may ask for that only explicit time steps know.
@@ -162,18 +166,22 @@ void refuseExplicitOnly(const Problem& problem, const Element& root, Diagnostics
   const Element where = root.child("MaterialProperties").value();
   for (const Material& material : problem.materials)
     if (material.erosion.acts() || !onlyCounts(material.damage))
-      diagnostics.error(where, "'" + material.name + "' may come to bear less than its model says: only with "
-                               "<time_integrator> explicit; here <damage_model> hancock_mackenzie and johnson_cook count "
-                               "damage, without <erosion>");
+      diagnostics.error(where,
+                        "'" + material.name +
+                            "' may come to bear less than its model says: only with "
+                            "<time_integrator> explicit; here <damage_model> hancock_mackenzie and johnson_cook count "
+                            "damage, without <erosion>");
   for (const Contact& contact : problem.contacts) {
     if (contact.type == Contact::Type::friction)
-      diagnostics.error(where, "contact: friction only with <time_integrator> explicit; here all materials move as one");
+      diagnostics.error(where,
+                        "contact: friction only with <time_integrator> explicit; here all materials move as one");
     if (contact.excluded >= 0)
       diagnostics.error(where, "contact: ExcludeMaterial only with <time_integrator> explicit");
     for (const Material& material : problem.materials)
       if (contact.type == Contact::Type::specified && !contact.concerns(material.index))
-        diagnostics.error(where, "contact: '" + material.name + "' is not among its <materials>; with <time_integrator> "
-                                 "implicit all materials move as one");
+        diagnostics.error(where, "contact: '" + material.name +
+                                     "' is not among its <materials>; with <time_integrator> "
+                                     "implicit all materials move as one");
   }
   if (problem.start.loads.hasHeat())
     diagnostics.error(root.child("PhysicalBC").value(), "heat_flux: only with <time_integrator> explicit");
@@ -188,12 +196,14 @@ void refuseConditions(const Problem& problem, const Element& root, Diagnostics& 
     for (const Element& condition : face.children("BCType")) {
       const std::string id = condition.attribute("id").value_or("all");
       if (id != "all" && problem.materials.size() > 1)
-        diagnostics.error(condition, "id: found '" + id + "'; with <time_integrator> implicit materials share their nodes, and "
-                                     "a condition holds for all of them");
+        diagnostics.error(condition, "id: found '" + id +
+                                         "'; with <time_integrator> implicit materials share their nodes, and "
+                                         "a condition holds for all of them");
       const auto value = condition.child("value");
       const bool flows = value && input::parse<double>(value->text()).value != 0.0;
       if (condition.attribute("label") == "Temperature" && condition.attribute("var") == "Neumann" && flows)
-        diagnostics.error(condition, "var: Neumann for Temperature only with <time_integrator> explicit, unless its value is 0");
+        diagnostics.error(condition,
+                          "var: Neumann for Temperature only with <time_integrator> explicit, unless its value is 0");
     }
 }
 

@@ -25,9 +25,9 @@ struct PointGroup {
   std::size_t first = 0;  ///< place of the first among all points of the system
   const double *mass = nullptr, *temperature = nullptr;
   const Matrix3 *oldDeformation = nullptr, *oldStress = nullptr;
-  const double* oldState = nullptr;   ///< stateSize numbers each
-  double* newState = nullptr;         ///< the same at the end; null where nobody asks
-  double* strainEnergy = nullptr;     ///< J; null where nobody asks
+  const double* oldState = nullptr;     ///< stateSize numbers each
+  double* newState = nullptr;           ///< the same at the end; null where nobody asks
+  double* strainEnergy = nullptr;       ///< J; null where nobody asks
   double* temperatureChange = nullptr;  ///< K; null where nobody asks
 };
 
@@ -41,8 +41,14 @@ struct PointRun {
 class PointStates {
  public:
   PointStates(std::size_t count, int stateSize, double dt, bool sharesVolume)
-      : deformation(count), stress(count), gradient(count), stretch(count, 1.0), state_size_(stateSize), dt_(dt),
-        shares_volume_(sharesVolume), told_(count) {}
+      : deformation(count),
+        stress(count),
+        gradient(count),
+        stretch(count, 1.0),
+        state_size_(stateSize),
+        dt_(dt),
+        shares_volume_(sharesVolume),
+        told_(count) {}
 
   std::vector<Matrix3> deformation, stress;  ///< F, 1; Cauchy stress, Pa
   std::vector<Matrix3> gradient;             ///< of the displacement in the step, by the position at its begin, 1
@@ -87,8 +93,8 @@ class PointStates {
   }
 
  private:
-  /// F-bar: det(stretch F) is the volume of all points of the run over that at the start of the simulation, so that each
-  /// cell answers to compression as one (de Souza Neto et al., Int. J. Solids Structures 33 (1996) 3277).
+  /// F-bar: det(stretch F) is the volume of all points of the run over that at the start of the simulation, so that
+  /// each cell answers to compression as one (de Souza Neto et al., Int. J. Solids Structures 33 (1996) 3277).
   void shareVolume(const PointRun& run) {
     double start = 0, now = 0;
     const bool shares = sharesVolume(run);

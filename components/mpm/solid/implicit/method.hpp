@@ -8,11 +8,12 @@ namespace tushar::mpm::solid::implicit {
 /// How an implicit step is taken; names and defaults are Uintah's.
 struct ImplicitMethod {
   bool dynamic = true;  ///< Newmark's method; else inertia is left out and each step ends at rest
-  bool resetsGrid = true;     ///< else the grid goes along with the solid: shape functions are those of its places at the start
+  bool resetsGrid =
+      true;  ///< else the grid goes along with the solid: shape functions are those of its places at the start
   bool sharesVolume = false;  ///< F-bar: the particles of a cell are compressed as one, against locking
   solvers::NewtonSettings newton;
   bool conductsHeat = false;
-  solvers::LinearSettings heat;  ///< where heat is conducted
+  solvers::LinearSettings heat;   ///< where heat is conducted
   int iterationsToDecrease = 12;  ///< a step that took so many makes the next one shorter
   int iterationsToIncrease = 4;   ///< a step that took no more makes the next one longer
   double decreaseFactor = 0.6;
@@ -42,8 +43,10 @@ using namespace solid::total;
 inline constexpr ReductionLabel<Maximum> newtonIterations{"NewtonIterations", "1", "of the last step"};
 inline constexpr ReductionLabel<Maximum> newtonResidual{"NewtonResidual", "1",
                                                         "at the end of the last step over the greatest on the way"};
-inline constexpr ReductionLabel<Maximum> krylovIterations{"KrylovIterations", "1", "of all linear solves of the last step"};
-inline constexpr ReductionLabel<Minimum> nextTimeStep{"nextTimeStep", "s", "what Newton's iterations allow the next step"};
+inline constexpr ReductionLabel<Maximum> krylovIterations{"KrylovIterations", "1",
+                                                          "of all linear solves of the last step"};
+inline constexpr ReductionLabel<Minimum> nextTimeStep{"nextTimeStep", "s",
+                                                      "what Newton's iterations allow the next step"};
 }  // namespace total
 
 }  // namespace tushar::mpm::solid::implicit

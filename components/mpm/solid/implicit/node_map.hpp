@@ -12,8 +12,8 @@ namespace tushar::mpm::solid::implicit {
 /// Where nodes of a grid stand in a system of equations: only those that particles touch are in it. A node beyond a
 /// symmetry plane moves as the mirror image of the one inside; one on a periodic face is that on the other side.
 ///
-/// On several ranks a node is of the rank that has the cell above it. A rank knows its own nodes, which it numbers first,
-/// and those of others that its particles touch or that its patches reach.
+/// On several ranks a node is of the rank that has the cell above it. A rank knows its own nodes, which it numbers
+/// first, and those of others that its particles touch or that its patches reach.
 template <int D>
 class NodeMap {
  public:

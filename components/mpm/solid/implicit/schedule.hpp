@@ -9,9 +9,9 @@
 #include "components/mpm/solid/tasks/boundary_force.hpp"
 #include "components/mpm/solid/tasks/damage.hpp"
 #include "components/mpm/solid/tasks/diagnose.hpp"
+#include "components/mpm/solid/tasks/displacement.hpp"
 #include "components/mpm/solid/tasks/heat.hpp"
 #include "components/mpm/solid/tasks/show_grid.hpp"
-#include "components/mpm/solid/tasks/displacement.hpp"
 
 // The schedule of ImplicitMpm: included by the files that instantiate it, one for each kind of shape function.
 
@@ -37,7 +37,8 @@ void ImplicitMpm<Shape>::scheduleInitialize(TaskList& tasks) const {
                       requiresNew(p::volume), computes(p::damage), computes(p::failureThreshold),
                       computes(p::localized), computes(p::failureTime));
   scheduleStartingAcceleration(tasks);
-  tasks.perPatch("impm::allowAnyTimeStep", [](const Patch&, Minimum&) {}, computes(total::nextTimeStep));
+  tasks.perPatch(
+      "impm::allowAnyTimeStep", [](const Patch&, Minimum&) {}, computes(total::nextTimeStep));
 }
 
 template <class Shape>
@@ -52,20 +53,20 @@ void ImplicitMpm<Shape>::scheduleStartingAcceleration(TaskList& tasks) const {
                     startTime(), requiresNew(p::x<D>), requiresNew(p::mass), requiresNew(p::loadCurves),
                     modifies(p::externalForce<D>));
   tasks.perRankAcrossMaterials(
-      "impm::accelerateAtStart", accelerateAtStart<Shape>, problem_.materials, togetherOnRanks(), with(setup), startTime(),
-      requiresNew(p::x<D>), requiresNew(p::size<D>), requiresNew(p::mass), requiresNew(p::velocity<D>),
+      "impm::accelerateAtStart", accelerateAtStart<Shape>, problem_.materials, togetherOnRanks(), with(setup),
+      startTime(), requiresNew(p::x<D>), requiresNew(p::size<D>), requiresNew(p::mass), requiresNew(p::velocity<D>),
       requiresNew(p::externalForce<D>), requiresNew(p::temperature), requiresNew(p::deformationMeasure),
       requiresNew(p::stress), requiresNew(state_), computes(g::newAcceleration<D>));
   tasks.perMaterial("impm::startInMotion", startInMotion<Shape>, problem_.materials, with(setup),
-                    requiresNew(g::newAcceleration<D>, Shape::ghostNodes), requiresNew(p::x<D>), requiresNew(p::size<D>),
-                    computes(p::acceleration<D>));
+                    requiresNew(g::newAcceleration<D>, Shape::ghostNodes), requiresNew(p::x<D>),
+                    requiresNew(p::size<D>), computes(p::acceleration<D>));
 }
 
 template <class Shape>
 void ImplicitMpm<Shape>::scheduleComputeStableTimeStep(TaskList& tasks) const {
-  tasks.perPatch("impm::limitTimeStep",
-                 [](const Patch&, double allowed, Minimum& dt) { dt.add(allowed, "Newton's iterations"); },
-                 requiresOld(total::nextTimeStep), computes(delT));
+  tasks.perPatch(
+      "impm::limitTimeStep", [](const Patch&, double allowed, Minimum& dt) { dt.add(allowed, "Newton's iterations"); },
+      requiresOld(total::nextTimeStep), computes(delT));
   if (how_.dynamic)
     tasks.perMaterial("impm::limitBySpeed", limitBySpeed<D>, problem_.materials, requiresOld(p::velocity<D>),
                       computes(delT));
@@ -78,13 +79,14 @@ void ImplicitMpm<Shape>::scheduleTimeAdvance(TaskList& tasks) const {
                     startTime(), requiresOld(delT), requiresOld(p::x<D>), requiresOld(p::mass),
                     requiresOld(p::loadCurves), computes(p::externalForce<D>));
   tasks.perRankAcrossMaterials(
-      "impm::solve", solveStep<Shape>, problem_.materials, togetherOnRanks(), with(setup), startTime(), requiresOld(delT),
-      requiresOld(p::x<D>), requiresOld(p::size<D>), requiresOld(p::mass), requiresOld(p::velocity<D>),
-      requiresOld(p::acceleration<D>), requiresNew(p::externalForce<D>), requiresOld(p::temperature),
-      requiresOld(p::deformationMeasure), requiresOld(p::stress), requiresOld(state_), computes(g::increment<D>),
-      computes(g::newAcceleration<D>), computes(total::newtonIterations), computes(total::newtonResidual),
-      computes(total::krylovIterations), computes(total::nextTimeStep), computes(solvers::assemblyTime),
-      computes(solvers::preconditionerTime), computes(solvers::solveTime), computes(total::rigidReactionForce));
+      "impm::solve", solveStep<Shape>, problem_.materials, togetherOnRanks(), with(setup), startTime(),
+      requiresOld(delT), requiresOld(p::x<D>), requiresOld(p::size<D>), requiresOld(p::mass),
+      requiresOld(p::velocity<D>), requiresOld(p::acceleration<D>), requiresNew(p::externalForce<D>),
+      requiresOld(p::temperature), requiresOld(p::deformationMeasure), requiresOld(p::stress), requiresOld(state_),
+      computes(g::increment<D>), computes(g::newAcceleration<D>), computes(total::newtonIterations),
+      computes(total::newtonResidual), computes(total::krylovIterations), computes(total::nextTimeStep),
+      computes(solvers::assemblyTime), computes(solvers::preconditionerTime), computes(solvers::solveTime),
+      computes(total::rigidReactionForce));
   scheduleMovement(tasks);
   if (is_damageable_) scheduleDamage(tasks);
   scheduleVelocity(tasks);
@@ -120,8 +122,8 @@ template <class Shape>
 void ImplicitMpm<Shape>::scheduleVelocity(TaskList& tasks) const {
   const ImplicitSetup setup{&problem_, how_, state_size_};
   if (how_.dynamic)
-    tasks.perMaterial("impm::advanceVelocity", advanceVelocity<Shape>, problem_.materials, with(setup), requiresOld(delT),
-                      requiresNew(g::newAcceleration<D>, Shape::ghostNodes), requiresOld(p::x<D>),
+    tasks.perMaterial("impm::advanceVelocity", advanceVelocity<Shape>, problem_.materials, with(setup),
+                      requiresOld(delT), requiresNew(g::newAcceleration<D>, Shape::ghostNodes), requiresOld(p::x<D>),
                       requiresOld(p::size<D>), requiresOld(p::velocity<D>), requiresOld(p::acceleration<D>),
                       computes(p::velocity<D>), computes(p::acceleration<D>));
   else {
@@ -137,19 +139,19 @@ void ImplicitMpm<Shape>::scheduleHeat(TaskList& tasks) const {
   const ImplicitSetup setup{&problem_, how_, state_size_};
   const int reach = Shape::reach;
   tasks.perMaterial("mpm::interpolateTemperatureToGrid", interpolateTemperatureToGrid<Shape>, problem_.materials,
-                    with(problem_.method.commonSize), requiresOld(p::x<D>, reach), when(true, requiresOld(p::size<D>, reach)),
-                    requiresOld(p::deformationMeasure, reach), requiresOld(p::mass, reach),
-                    requiresOld(p::temperature, reach), computes(g::heatCapacity), computes(g::temperatureNoBC),
-                    computes(g::temperature));
+                    with(problem_.method.commonSize), requiresOld(p::x<D>, reach),
+                    when(true, requiresOld(p::size<D>, reach)), requiresOld(p::deformationMeasure, reach),
+                    requiresOld(p::mass, reach), requiresOld(p::temperature, reach), computes(g::heatCapacity),
+                    computes(g::temperatureNoBC), computes(g::temperature));
   if (!how_.conductsHeat) {
     if (heats_)
       tasks.perMaterial("mpm::finalParticleUpdate", heatByWorkOfStep, problem_.materials,
                         requiresNew(p::temperatureChange), requiresOld(p::temperature), computes(p::temperature));
     return;
   }
-  tasks.perRankAcrossMaterials("impm::conductHeat", conductHeat<Shape>, problem_.materials, togetherOnRanks(), with(setup),
-                               requiresOld(delT), requiresOld(p::x<D>), requiresOld(p::size<D>), requiresOld(p::mass),
-                               requiresOld(p::temperature), requiresOld(p::deformationMeasure),
+  tasks.perRankAcrossMaterials("impm::conductHeat", conductHeat<Shape>, problem_.materials, togetherOnRanks(),
+                               with(setup), requiresOld(delT), requiresOld(p::x<D>), requiresOld(p::size<D>),
+                               requiresOld(p::mass), requiresOld(p::temperature), requiresOld(p::deformationMeasure),
                                computes(g::temperatureRate));
   tasks.perMaterial("mpm::updateTemperature", updateTemperature<Shape>, problem_.materials,
                     with(problem_.method.commonSize), requiresOld(p::x<D>), when(true, requiresOld(p::size<D>)),
@@ -164,18 +166,21 @@ void ImplicitMpm<Shape>::scheduleHeat(TaskList& tasks) const {
 template <class Shape>
 void ImplicitMpm<Shape>::scheduleDamage(TaskList& tasks) const {
   tasks.perMaterial("mpm::computeDamage", computeDamage, problem_.materials, with(state_size_), startTime(),
-                    requiresOld(delT), requiresOld(p::temperature), requiresOld(p::damage), requiresOld(p::failureThreshold),
-                    requiresOld(p::localized), requiresOld(p::failureTime), requiresNew(p::deformationMeasure),
-                    requiresNew(p::volume), when(true, requiresNew(state_)), modifies(p::stress), computes(p::damage),
-                    computes(p::failureThreshold), computes(p::localized), computes(p::failureTime));
+                    requiresOld(delT), requiresOld(p::temperature), requiresOld(p::damage),
+                    requiresOld(p::failureThreshold), requiresOld(p::localized), requiresOld(p::failureTime),
+                    requiresNew(p::deformationMeasure), requiresNew(p::volume), when(true, requiresNew(state_)),
+                    modifies(p::stress), computes(p::damage), computes(p::failureThreshold), computes(p::localized),
+                    computes(p::failureTime));
 }
 
 template <class Shape>
 void ImplicitMpm<Shape>::scheduleDiagnostics(TaskList& tasks) const {
   scheduleTotals<D>(tasks, problem_.materials, when(false, requiresOld(p::affineMoment)));
-  tasks.perMaterial("mpm::computeScaleFactor", computeScaleFactor<D>, problem_.materials, with(problem_.method.commonSize),
-                    when(true, requiresOld(p::size<D>)), requiresOld(p::deformationMeasure), computes(p::scaleFactor));
-  tasks.perMaterial("mpm::sumVolume", sumParticles, problem_.materials, requiresOld(p::volume), computes(total::volume));
+  tasks.perMaterial("mpm::computeScaleFactor", computeScaleFactor<D>, problem_.materials,
+                    with(problem_.method.commonSize), when(true, requiresOld(p::size<D>)),
+                    requiresOld(p::deformationMeasure), computes(p::scaleFactor));
+  tasks.perMaterial("mpm::sumVolume", sumParticles, problem_.materials, requiresOld(p::volume),
+                    computes(total::volume));
   for (const auto& view : state_views_) view->schedule(tasks, problem_.materials, state_size_, state_);
   scheduleShowOnGrid<Shape>(tasks, problem_.materials, problem_.method.commonSize,
                             when(true, requiresOld(p::size<D>, Shape::reach)), requiresOld(p::volume, Shape::reach),

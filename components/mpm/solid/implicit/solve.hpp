@@ -37,10 +37,10 @@ std::vector<PointSources<Shape>> sourcesOf(const RankPatches& patches, const std
       group.oldDeformation = valuesOf(v.deformation[p][m]);
       group.oldStress = valuesOf(v.stress[p][m]);
       group.oldState = valuesOf(v.state[p][m]);
-      sources.push_back({group, patches[p],
-                         Extents<Shape>(patches[p]->level(), setup.problem->method.commonSize, v.size[p][m], std::nullopt),
-                         v.x[p][m], valuesOf(v.velocity[p][m]), valuesOf(v.acceleration[p][m]),
-                         valuesOf(v.externalForce[p][m])});
+      sources.push_back(
+          {group, patches[p],
+           Extents<Shape>(patches[p]->level(), setup.problem->method.commonSize, v.size[p][m], std::nullopt), v.x[p][m],
+           valuesOf(v.velocity[p][m]), valuesOf(v.acceleration[p][m]), valuesOf(v.externalForce[p][m])});
     }
   return sources;
 }
@@ -53,10 +53,12 @@ NumericalError failureOf(const solvers::Outcome& outcome, const ImplicitSystem<S
   std::optional<Vec3> worst;
   if (outcome.worst >= 0) worst = nodes.level().template expandPoint<D>(nodes.position(outcome.worst / D));
   const char* linear = outcome.krylovResiduals.empty() ? "" : "more <maxiterations> or ";
-  return {solvers::sentenceOf("Newton's method", outcome) + solvers::worstPlace(nodes.ranks(), worst, "at the node"),
-          fmt::format("a smaller <delt_init> or <delt_max>, slower loads, {}<solver> direct with <preconditioner> lu in "
-                      "<MPM>/<Solver>, or support for a body that is free to move", linear),
-          "g.displacement"};
+  return {
+      solvers::sentenceOf("Newton's method", outcome) + solvers::worstPlace(nodes.ranks(), worst, "at the node"),
+      fmt::format("a smaller <delt_init> or <delt_max>, slower loads, {}<solver> direct with <preconditioner> lu in "
+                  "<MPM>/<Solver>, or support for a body that is free to move",
+                  linear),
+      "g.displacement"};
 }
 
 /// Writes what was solved for to the nodes of a patch.
@@ -103,13 +105,13 @@ RigidBodies<Shape> constrain(ImplicitSystem<Shape>& system, const RankPatches& p
 
 /// The acceleration that Newmark's rule begins with, on the nodes: 0 where faces or rigid bodies hold them.
 template <class Shape, int D = Shape::dimension>
-void accelerateAtStart(const RankPatches& patches, const std::vector<Material>& materials, const mpi::Communicator& ranks,
-                       const ImplicitSetup& setup, double time, const ParticleViews<const Vec<D>>& x,
-                       const ParticleViews<const Vec<D>>& size, const ParticleViews<const double>& mass,
-                       const ParticleViews<const Vec<D>>& velocity, const ParticleViews<const Vec<D>>& externalForce,
-                       const ParticleViews<const double>& temperature, const ParticleViews<const Matrix3>& deformation,
-                       const ParticleViews<const Matrix3>& stress, const ParticleViews<const double>& state,
-                       const NodeViews<Vec<D>>& acceleration) {
+void accelerateAtStart(const RankPatches& patches, const std::vector<Material>& materials,
+                       const mpi::Communicator& ranks, const ImplicitSetup& setup, double time,
+                       const ParticleViews<const Vec<D>>& x, const ParticleViews<const Vec<D>>& size,
+                       const ParticleViews<const double>& mass, const ParticleViews<const Vec<D>>& velocity,
+                       const ParticleViews<const Vec<D>>& externalForce, const ParticleViews<const double>& temperature,
+                       const ParticleViews<const Matrix3>& deformation, const ParticleViews<const Matrix3>& stress,
+                       const ParticleViews<const double>& state, const NodeViews<Vec<D>>& acceleration) {
   constexpr double dt = 1;  // nothing moves, over whatever time
   const SolidViews<D> views{x, size, velocity, velocity, externalForce, mass, temperature, state, deformation, stress};
   ImplicitSystem<Shape> system(patches, ranks, setup.problem->method, setup.how, dt, setup.stateSize,
@@ -132,14 +134,15 @@ template <class Shape, int D = Shape::dimension>
 void solveStep(const RankPatches& patches, const std::vector<Material>& materials, const mpi::Communicator& ranks,
                const ImplicitSetup& setup, double time, double dt, const ParticleViews<const Vec<D>>& x,
                const ParticleViews<const Vec<D>>& size, const ParticleViews<const double>& mass,
-               const ParticleViews<const Vec<D>>& velocity,
-               const ParticleViews<const Vec<D>>& acceleration, const ParticleViews<const Vec<D>>& externalForce,
-               const ParticleViews<const double>& temperature, const ParticleViews<const Matrix3>& deformation,
-               const ParticleViews<const Matrix3>& stress, const ParticleViews<const double>& state,
-               const NodeViews<Vec<D>>& increment, const NodeViews<Vec<D>>& newAcceleration, Maximum& newtonIterations,
-               Maximum& newtonResidual, Maximum& krylovIterations, Minimum& nextTimeStep, Maximum& assembly, Maximum& preconditioner,
+               const ParticleViews<const Vec<D>>& velocity, const ParticleViews<const Vec<D>>& acceleration,
+               const ParticleViews<const Vec<D>>& externalForce, const ParticleViews<const double>& temperature,
+               const ParticleViews<const Matrix3>& deformation, const ParticleViews<const Matrix3>& stress,
+               const ParticleViews<const double>& state, const NodeViews<Vec<D>>& increment,
+               const NodeViews<Vec<D>>& newAcceleration, Maximum& newtonIterations, Maximum& newtonResidual,
+               Maximum& krylovIterations, Minimum& nextTimeStep, Maximum& assembly, Maximum& preconditioner,
                Maximum& solution, VectorSum& rigidReaction) {
-  const SolidViews<D> views{x, size, velocity, acceleration, externalForce, mass, temperature, state, deformation, stress};
+  const SolidViews<D> views{x,    size,        velocity, acceleration, externalForce,
+                            mass, temperature, state,    deformation,  stress};
   ImplicitSystem<Shape> system(patches, ranks, setup.problem->method, setup.how, dt, setup.stateSize,
                                sourcesOf<Shape>(patches, materials, setup, views));
   const auto rigid = constrain(system, patches, materials, ranks, setup, time, dt, views);

@@ -15,15 +15,15 @@ struct PointSources {
   const Patch* patch = nullptr;
   Extents<Shape> extents;
   ParticleView<const Vec<D>> x;
-  const Vec<D> *velocity, *acceleration, *externalForce;  ///< m/s, m/s^2, N
+  const Vec<D>*velocity, *acceleration, *externalForce;  ///< m/s, m/s^2, N
 };
 
 /// The equations of an implicit step: forces balance at each node at the end of the step,
 ///
 ///     r_i = sum_p V0_p P_p F_oldᵀ grad S_i + m_i a_i - f_i - m_i g = 0,
 ///
-/// for the displacement u of the nodes in the step, with P = J sigma F^-T, F = (I + sum_i u_i grad S_i) F_old and S_i at the
-/// positions at its begin, or where the grid goes along with the solid at those of the start, so that grad S =
+/// for the displacement u of the nodes in the step, with P = J sigma F^-T, F = (I + sum_i u_i grad S_i) F_old and S_i
+/// at the positions at its begin, or where the grid goes along with the solid at those of the start, so that grad S =
 /// F_old^-T grad_0 S. By Newmark's rule with beta = 1/4, gamma = 1/2: a = 4 (u/dt - v_old)/dt - a_old.
 /// Guilkey & Weiss, Int. J. Numer. Meth. Engng 57 (2003) 1323.
 template <class Shape>
@@ -48,8 +48,9 @@ class ImplicitSystem : public solvers::NonlinearProblem {
   /// counted as those of a strain of 1.
   bool isNegligible(std::span<const double> u, std::span<const double> r) const override;
 
-  /// What each node is accelerated by when a run starts: (f + m g - sum_p V_p sigma_p grad S) / m, 0 where prescribed, m/s^2.
-  /// Newmark's rule begins with it: without, a load that is there from the start would lose half a step of its momentum.
+  /// What each node is accelerated by when a run starts: (f + m g - sum_p V_p sigma_p grad S) / m, 0 where prescribed,
+  /// m/s^2. Newmark's rule begins with it: without, a load that is there from the start would lose half a step of its
+  /// momentum.
   std::vector<double> startingAcceleration();
 
   /// The forces that hold the nodes of this rank where they are prescribed, along the axes along which they are, N.
@@ -64,7 +65,8 @@ class ImplicitSystem : public solvers::NonlinearProblem {
  private:
   template <class Visit>
   void forEachRun(Visit&& visit) const {
-    for (const Run& run : runs_) visit(sources_[run.source], PointRun{&sources_[run.source].group, run.from, run.count});
+    for (const Run& run : runs_)
+      visit(sources_[run.source], PointRun{&sources_[run.source].group, run.from, run.count});
   }
   static constexpr int touches_ = [] {
     int count = 1;
@@ -81,7 +83,7 @@ class ImplicitSystem : public solvers::NonlinearProblem {
     double mass = 0, volume = 0;  ///< kg, m^3 at the start of the simulation
     double rigidity = 0;          ///< N, sum of the forces of particles at a strain of 1
     Vec<D> velocity = Vec<D>::Zero(), acceleration = Vec<D>::Zero(), force = Vec<D>::Zero();  ///< mass times, at first
-    double support = 0;           ///< N/m, of a weak spring to where the node would go by itself
+    double support = 0;  ///< N/m, of a weak spring to where the node would go by itself
   };
   static constexpr int brought_ = 3 + 3 * D;
 
@@ -124,7 +126,7 @@ class ImplicitSystem : public solvers::NonlinearProblem {
   std::vector<char> prescribed_;
   std::vector<double> prescribed_value_;
   std::vector<double> held_;  ///< what this rank brings to reactions
-  double stiffest_ = 0;  ///< of all particles at the start of the simulation: rho c^2 V / h^2, N/m
+  double stiffest_ = 0;       ///< of all particles at the start of the simulation: rho c^2 V / h^2, N/m
 };
 
 }  // namespace tushar::mpm::solid::implicit

@@ -72,7 +72,8 @@ void ImplicitSystem<Shape>::carrySlopes() {
       NodeTouch<D>* touch = &touch_[(from.group.first + static_cast<std::size_t>(p)) * touches_];
       for (int k = 0; k < touches_; ++k) {
         const Vec<D> slope = touch[k].gradient;
-        touch[k].gradient = level.template reduce<D>(Vec3(level.template expandDirection<D>(slope).transpose() * inverse));
+        touch[k].gradient =
+            level.template reduce<D>(Vec3(level.template expandDirection<D>(slope).transpose() * inverse));
         touch[k].hoop *= inverse(2, 2);
       }
     }
@@ -158,7 +159,8 @@ void ImplicitSystem<Shape>::supportNodes() {
 template <class Shape>
 solvers::Unknowns ImplicitSystem<Shape>::unknowns() const {
   solvers::Unknowns unknowns = map_.unknowns(D);
-  constexpr int width = Shape::Stencil::nodes - 1;  // of one particle; those of a cell reach one further where it is wide
+  constexpr int width =
+      Shape::Stencil::nodes - 1;  // of one particle; those of a cell reach one further where it is wide
   unknowns.entries = map_.neighbours(width > 1 && how_.sharesVolume ? width + 1 : width);
   for (int k = 0; k < map_.owned(); ++k)
     for (int d = 0; d < D; ++d) unknowns.coordinates.push_back(map_.position(k)[d]);
@@ -176,7 +178,8 @@ std::vector<double> ImplicitSystem<Shape>::guess() const {
   std::vector<double> u = prescribed_value_;
   for (int k = 0; k < map_.size(); ++k)
     for (int d = 0; d < D; ++d)
-      if (!isPrescribed(k, d)) u[static_cast<std::size_t>(D * k + d)] = dt_ * node_[static_cast<std::size_t>(k)].velocity[d];
+      if (!isPrescribed(k, d))
+        u[static_cast<std::size_t>(D * k + d)] = dt_ * node_[static_cast<std::size_t>(k)].velocity[d];
   return u;
 }
 
@@ -196,7 +199,8 @@ Matrix3 ImplicitSystem<Shape>::displacementGradient(std::size_t point, std::span
     if (touch[k].node < 0) continue;
     const Vec<D> moved = touch[k].sign.cwiseProduct(displacement(touch[k].node, u));
     for (int i = 0; i < D; ++i)
-      for (int j = 0; j < D; ++j) gradient(sceneAxis<D>(level, i), sceneAxis<D>(level, j)) += moved[i] * touch[k].gradient[j];
+      for (int j = 0; j < D; ++j)
+        gradient(sceneAxis<D>(level, i), sceneAxis<D>(level, j)) += moved[i] * touch[k].gradient[j];
     gradient(2, 2) += touch[k].hoop * moved[0];
   }
   return gradient;
@@ -207,8 +211,8 @@ bool ImplicitSystem<Shape>::residual(std::span<const double> u, std::span<double
   std::fill(r.begin(), r.end(), 0.0);
   for (int k = 0; k < map_.owned(); ++k) {
     const Node& node = node_[static_cast<std::size_t>(k)];
-    Eigen::Map<Vec<D>>(r.data() + D * k) = node.mass * acceleration(k, u) - node.force +
-                                           node.support * (displacement(k, u) - dt_ * node.velocity);
+    Eigen::Map<Vec<D>>(r.data() + D * k) =
+        node.mass * acceleration(k, u) - node.force + node.support * (displacement(k, u) - dt_ * node.velocity);
   }
   const bool admissible = addInternalForces(u, r);
   for (std::size_t k = 0; k < prescribed_.size(); ++k)
@@ -264,7 +268,8 @@ bool ImplicitSystem<Shape>::isNegligible(std::span<const double> u, std::span<co
     const Node& node = node_[static_cast<std::size_t>(k)];
     double forces = node.rigidity + node.force.norm();
     if (how_.dynamic)
-      forces += node.mass * (4 / dt_ * (displacement(k, u).norm() / dt_ + node.velocity.norm()) + node.acceleration.norm());
+      forces +=
+          node.mass * (4 / dt_ * (displacement(k, u).norm() / dt_ + node.velocity.norm()) + node.acceleration.norm());
     const double left = Eigen::Map<const Vec<D>>(r.data() + D * k).norm();
     if (left > 0) largest = std::max(largest, left / forces);
   }
@@ -286,7 +291,8 @@ void ImplicitSystem<Shape>::addInternalForce(const PointRun& run, std::span<doub
       Vec<D> force;
       for (int i = 0; i < D; ++i) {
         force[i] = i == 0 ? touch[k].hoop * stress(2, 2) : 0.0;
-        for (int j = 0; j < D; ++j) force[i] += stress(sceneAxis<D>(level, i), sceneAxis<D>(level, j)) * touch[k].gradient[j];
+        for (int j = 0; j < D; ++j)
+          force[i] += stress(sceneAxis<D>(level, i), sceneAxis<D>(level, j)) * touch[k].gradient[j];
       }
       Eigen::Map<Vec<D>>(r.data() + D * touch[k].node) += touch[k].sign.cwiseProduct(force);
     }

@@ -18,7 +18,8 @@ auto ImplicitSystem<Shape>::strainOf(std::size_t point) const -> Strain {
     if (touch[k].node < 0) continue;
     for (int i = 0; i < D; ++i)
       for (int j = 0; j < D; ++j)
-        strain(3 * sceneAxis<D>(level, i) + sceneAxis<D>(level, j), D * k + i) = touch[k].sign[i] * touch[k].gradient[j];
+        strain(3 * sceneAxis<D>(level, i) + sceneAxis<D>(level, j), D * k + i) =
+            touch[k].sign[i] * touch[k].gradient[j];
     strain(8, D * k) += touch[k].sign[0] * touch[k].hoop;
   }
   return strain;
@@ -52,7 +53,8 @@ auto ImplicitSystem<Shape>::volumeForce(const PointGroup& group, int k, const Ma
   const Vector9 along = tangent * Eigen::Map<const Vector9>(f.data()) / states_.stretch[at];
   const Matrix3 q = (Matrix3(Eigen::Map<const Matrix3>(along.data())) - 2 * nominal) / 3;
   const Matrix3 pushed = q * group.oldDeformation[k].transpose();
-  return group.mass[k] / group.material->density * (strainOf(at).transpose() * Eigen::Map<const Vector9>(pushed.data()));
+  return group.mass[k] / group.material->density *
+         (strainOf(at).transpose() * Eigen::Map<const Vector9>(pushed.data()));
 }
 
 template <class Shape>
@@ -63,7 +65,8 @@ auto ImplicitSystem<Shape>::numbersOf(std::size_t point) const -> std::array<int
 }
 
 template <class Shape>
-void ImplicitSystem<Shape>::addStiffness(const PointGroup& group, int k, Local stiffness, solvers::Matrix& matrix) const {
+void ImplicitSystem<Shape>::addStiffness(const PointGroup& group, int k, Local stiffness,
+                                         solvers::Matrix& matrix) const {
   const std::array<int, touches_> numbers = numbersOf(group.first + static_cast<std::size_t>(k));
   for (int n = 0; n < touches_; ++n)
     for (int d = 0; d < D; ++d) {

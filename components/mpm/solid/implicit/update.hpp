@@ -6,7 +6,8 @@ namespace tushar::mpm::solid::implicit {
 
 /// What a particle takes from a field of the nodes: sum_i S_i f_i and the gradient, in x, y, z.
 template <class Stencil, int D = Stencil::dimension>
-std::pair<Vec<D>, Matrix3> interpolated(const Level& level, const Stencil& stencil, const NodeView<const Vec<D>>& field) {
+std::pair<Vec<D>, Matrix3> interpolated(const Level& level, const Stencil& stencil,
+                                        const NodeView<const Vec<D>>& field) {
   Vec<D> value = Vec<D>::Zero();
   Matrix3 gradient = Matrix3::Zero();
   stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>& slope) {
@@ -25,9 +26,18 @@ void stressOfStep(const Patch& patch, const Material& material, PointStates& sta
                   ParticleView<const double> temperature, ParticleView<const Matrix3> oldDeformation,
                   ParticleView<const Matrix3> oldStress, ParticleView<const double> oldState,
                   ParticleView<Matrix3> deformation, ParticleView<Matrix3> stress, ParticleView<double> state,
-                  ParticleView<double> volume, ParticleView<double> strainEnergy, OptionalView<double> temperatureChange) {
-  PointGroup group{&material,           mass.owned(), 0, valuesOf(mass), valuesOf(temperature), valuesOf(oldDeformation),
-                   valuesOf(oldStress), valuesOf(oldState), valuesOf(state), valuesOf(strainEnergy)};
+                  ParticleView<double> volume, ParticleView<double> strainEnergy,
+                  OptionalView<double> temperatureChange) {
+  PointGroup group{&material,
+                   mass.owned(),
+                   0,
+                   valuesOf(mass),
+                   valuesOf(temperature),
+                   valuesOf(oldDeformation),
+                   valuesOf(oldStress),
+                   valuesOf(oldState),
+                   valuesOf(state),
+                   valuesOf(strainEnergy)};
   if (temperatureChange) group.temperatureChange = valuesOf(*temperatureChange);
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     const data::ParticleRange range = mass.in(cell);
@@ -100,8 +110,8 @@ void advanceVelocity(const Patch& patch, const Material&, const ImplicitSetup& s
   });
 }
 
-/// Without inertia: v_p is how far the particle went over dt, by its place or its displacement; what the next step starts
-/// from.
+/// Without inertia: v_p is how far the particle went over dt, by its place or its displacement; what the next step
+/// starts from.
 template <int D>
 void meanVelocity(const Patch&, const Material&, double dt, ParticleView<const Vec<D>> before,
                   ParticleView<const Vec<D>> after, ParticleView<Vec<D>> velocity, ParticleView<Vec<D>> acceleration) {
@@ -126,7 +136,8 @@ void startInMotion(const Patch& patch, const Material&, const ImplicitSetup& set
   });
 }
 
-/// No particle goes further than .8 of a cell along any axis in the next step; with inertia, where it keeps its velocity.
+/// No particle goes further than .8 of a cell along any axis in the next step; with inertia, where it keeps its
+/// velocity.
 template <int D>
 void limitBySpeed(const Patch& patch, const Material&, ParticleView<const Vec<D>> velocity, Minimum& dt) {
   for (int p = 0; p < velocity.owned(); ++p)

@@ -57,8 +57,8 @@ void forEachParticle(const grid::Level& level, const Body& body, Visit&& visit) 
 double LoadCurve::at(double time) const {
   if (time <= points.front().first) return points.front().second;
   if (time >= points.back().first) return points.back().second;
-  const auto next = std::lower_bound(points.begin(), points.end(), time,
-                                     [](const auto& point, double t) { return point.first < t; });
+  const auto next =
+      std::lower_bound(points.begin(), points.end(), time, [](const auto& point, double t) { return point.first < t; });
   const auto& [t0, load] = *(next - 1);
   return load + (time - t0) / (next->first - t0) * (next->second - load);
 }
@@ -82,31 +82,31 @@ double areaOf(const Surface& surface) {
 
 bool isAlong(const Surface& surface, const Vec3& point, const Vec3& spacing, bool forHeat) {
   return std::visit(
-      Overloaded{[&](const input::Box& box) {
-                   Vec3 more = spacing;
-                   if (!forHeat) more = spacing[thinAxis(box)] * Vec3::Unit(thinAxis(box));
-                   input::Box around;
-                   around.min = box.min - more;
-                   around.max = box.max + more;
-                   return around.contains(point);
-                 },
-                 [&](const input::Cylinder& c) {
-                   const CylinderPlace place(c, point);
-                   const double end = 1.2 * spacing.minCoeff(), side = forHeat ? 0.5 * spacing.norm() : end;
-                   const double height = (c.top - c.bottom).norm();
-                   if (isEnd(c)) return place.height >= -end && place.height <= height + end && place.radius <= c.radius;
-                   return place.height >= 0 && place.height <= height && std::abs(place.radius - c.radius) <= side;
-                 },
-                 [&](const input::Sphere& s) {
-                   return std::abs((point - s.origin).norm() - s.radius) <= spacing.norm();
-                 }},
+      Overloaded{
+          [&](const input::Box& box) {
+            Vec3 more = spacing;
+            if (!forHeat) more = spacing[thinAxis(box)] * Vec3::Unit(thinAxis(box));
+            input::Box around;
+            around.min = box.min - more;
+            around.max = box.max + more;
+            return around.contains(point);
+          },
+          [&](const input::Cylinder& c) {
+            const CylinderPlace place(c, point);
+            const double end = 1.2 * spacing.minCoeff(), side = forHeat ? 0.5 * spacing.norm() : end;
+            const double height = (c.top - c.bottom).norm();
+            if (isEnd(c)) return place.height >= -end && place.height <= height + end && place.radius <= c.radius;
+            return place.height >= 0 && place.height <= height && std::abs(place.radius - c.radius) <= side;
+          },
+          [&](const input::Sphere& s) { return std::abs((point - s.origin).norm() - s.radius) <= spacing.norm(); }},
       surface);
 }
 
 Vec3 normalAt(const Surface& surface, const Vec3& point) {
   return std::visit(Overloaded{[](const input::Box& box) { return Vec3(Vec3::Unit(thinAxis(box))); },
                                [&](const input::Cylinder& c) {
-                                 return isEnd(c) ? Vec3((c.top - c.bottom).normalized()) : CylinderPlace(c, point).outwards;
+                                 return isEnd(c) ? Vec3((c.top - c.bottom).normalized())
+                                                 : CylinderPlace(c, point).outwards;
                                },
                                [&](const input::Sphere& s) { return Vec3((point - s.origin).normalized()); }},
                     surface);

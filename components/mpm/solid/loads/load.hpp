@@ -24,26 +24,26 @@ using Surface = std::variant<input::Box, input::Cylinder, input::Sphere>;
 /// Area of a surface, m^2; per radian where an axisymmetric cylinder says so.
 double areaOf(const Surface& surface);
 /// Whether a particle at `point`, whose neighbours are `spacing` away, lies along a surface. As in Uintah that is: to a
-/// spacing from a box, along its thin axis and for heat along all; from a cylinder to 1.2 of the least spacing, for heat
-/// from its side to half the length of the spacing; to that length from a sphere.
+/// spacing from a box, along its thin axis and for heat along all; from a cylinder to 1.2 of the least spacing, for
+/// heat from its side to half the length of the spacing; to that length from a sphere.
 bool isAlong(const Surface& surface, const Vec3& point, const Vec3& spacing, bool forHeat);
 /// The direction in which a positive load pushes: the thin axis of a box, outwards, or along a cylinder to its top.
 Vec3 normalAt(const Surface& surface, const Vec3& point);
 
-/// A `PhysicalBC/MPM/pressure` or `heat_flux`: what acts on the area is shared evenly among the particles at the surface, but
-/// by their radius on the end of an axisymmetric cylinder.
+/// A `PhysicalBC/MPM/pressure` or `heat_flux`: what acts on the area is shared evenly among the particles at the
+/// surface, but by their radius on the end of an axisymmetric cylinder.
 struct SurfaceLoad {
   enum class Kind { pressure, heatFlux };
 
   Kind kind = Kind::pressure;
   Surface surface;
-  LoadCurve curve;         ///< Pa, or W/m^2
-  int material = -1;       ///< -1: all
-  Location where;          ///< in the scene
-  double particles = 0;    ///< how many shares there are at the surface, set by countParticles
+  LoadCurve curve;       ///< Pa, or W/m^2
+  int material = -1;     ///< -1: all
+  Location where;        ///< in the scene
+  double particles = 0;  ///< how many shares there are at the surface, set by countParticles
 
-  /// Whether a particle of a body is loaded: it is along the surface and some neighbour's place is not in the body. On a
-  /// grid of one cell along z neighbours along z do not count.
+  /// Whether a particle of a body is loaded: it is along the surface and some neighbour's place is not in the body. On
+  /// a grid of one cell along z neighbours along z do not count.
   bool acts(const grid::Level& level, const Body& body, const Vec3& point) const;
   /// Of a pressure, N.
   Vec3 force(const Vec3& point, double time) const;

@@ -58,7 +58,8 @@ void readSurface(SurfaceSection& load, const Element& parent, Diagnostics& diagn
   if (const auto* sphere = dynamic_cast<const input::Sphere*>(piece.get())) load.surface = *sphere;
   if (const auto* box = dynamic_cast<const input::Box*>(piece.get())) load.surface = *box;
   if (!load.surface)
-    diagnostics.error(shapes[0], fmt::format("a load acts on a box, cylinder or sphere, not on a <{}>", shapes[0].name()));
+    diagnostics.error(shapes[0],
+                      fmt::format("a load acts on a box, cylinder or sphere, not on a <{}>", shapes[0].name()));
 }
 
 const Schema<CurveSection>& curveSchema() {
@@ -96,8 +97,8 @@ void checkNumbers(const Element& loads, Diagnostics& diagnostics) {
     ++place;
     const auto curve = load.child("load_curve"), id = curve ? curve->child("id") : std::nullopt;
     if (id && input::parse<int>(id->text()).value != place)
-      diagnostics.error(*id, fmt::format("found '{}', expected {}: loads are counted as they stand in the scene", id->text(),
-                                         place));
+      diagnostics.error(
+          *id, fmt::format("found '{}', expected {}: loads are counted as they stand in the scene", id->text(), place));
   }
 }
 

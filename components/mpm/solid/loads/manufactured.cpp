@@ -91,8 +91,8 @@ class ExpandingRing : public Manufactured {
   static double swing(const Elastic& e, double time) { return std::sin(rate(e) * time); }
 };
 
-/// A ring from R = .75 to 1.25 whose circles turn by alpha = sin(pi c t) h(R), at rest on both sides: large shear without
-/// change of volume. The body force follows from P = G gamma (e_r E_theta + e_theta E_r), gamma = R dalpha/dR.
+/// A ring from R = .75 to 1.25 whose circles turn by alpha = sin(pi c t) h(R), at rest on both sides: large shear
+/// without change of volume. The body force follows from P = G gamma (e_r E_theta + e_theta E_r), gamma = R dalpha/dR.
 class GeneralizedVortex : public Manufactured {
  public:
   Vec3 displacement(const Elastic& e, const Vec3& start, double time) const override {

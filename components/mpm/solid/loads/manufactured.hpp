@@ -3,8 +3,8 @@
 #include <memory>
 #include <string>
 
-#include "core/core.hpp"
 #include "components/mpm/solid/material.hpp"
+#include "core/core.hpp"
 
 namespace tushar::mpm::solid {
 

@@ -6,7 +6,8 @@
 
 namespace tushar::mpm::solid {
 
-/// Calls `onSurface(load)` or `onBody(load)` for each load of a particle, whose numbers are packed as p.loadCurveID says.
+/// Calls `onSurface(load)` or `onBody(load)` for each load of a particle, whose numbers are packed as p.loadCurveID
+/// says.
 template <class OnSurface, class OnBody>
 void forEachLoad(const Loads& loads, int packed, OnSurface&& onSurface, OnBody&& onBody) {
   for (int ids = packed; ids > 0; ids /= 256) {
@@ -21,8 +22,8 @@ void forEachLoad(const Loads& loads, int packed, OnSurface&& onSurface, OnBody&&
 /// The force of loads on each particle at the start of the step.
 template <int D>
 void applyExternalLoads(const Patch& patch, const Material&, const Loads& loads, double time,
-                        ParticleView<const Vec<D>> x, ParticleView<const double> mass, ParticleView<const int> loadCurves,
-                        ParticleView<Vec<D>> externalForce) {
+                        ParticleView<const Vec<D>> x, ParticleView<const double> mass,
+                        ParticleView<const int> loadCurves, ParticleView<Vec<D>> externalForce) {
   const Level& level = patch.level();
   for (int p = 0; p < x.owned(); ++p) {
     externalForce[p] = Vec<D>::Zero();
@@ -54,8 +55,8 @@ void applyHeatFlux(const Patch& patch, const Material&, const Loads& loads, doub
 
 /// The body force of a manufactured solution on each particle at the start of the step.
 template <int D>
-void applyManufacturedForce(const Patch& patch, const Material& material, const Manufactured* solution,
-                            double time, ParticleView<const Vec<D>> x, ParticleView<const Vec<D>> displacement,
+void applyManufacturedForce(const Patch& patch, const Material& material, const Manufactured* solution, double time,
+                            ParticleView<const Vec<D>> x, ParticleView<const Vec<D>> displacement,
                             ParticleView<const double> mass, ParticleView<Vec<D>> externalForce) {
   const Elastic elastic = elasticOf(material);
   for (int p = 0; p < x.owned(); ++p) {

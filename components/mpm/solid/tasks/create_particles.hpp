@@ -22,8 +22,8 @@ struct Start {
   double leastMass = 0;                          ///< that no particle may have, kg
 };
 
-/// The numbers of the loads on a particle, 1 for the first, packed as p.loadCurveID says. Throws InputError where there are
-/// more than three.
+/// The numbers of the loads on a particle, 1 for the first, packed as p.loadCurveID says. Throws InputError where there
+/// are more than three.
 inline int loadsOn(const Level& level, const Start& start, const Material& material, const Body& body,
                    const Vec3& point) {
   int ids = 0, factor = 1, number = 0;
@@ -31,10 +31,11 @@ inline int loadsOn(const Level& level, const Start& start, const Material& mater
     ++number;
     if (!acts) return;
     if (factor > 65536)
-      throw InputError({{body.where, "geom_object",
-                         fmt::format("more than three loads act on the particle at ({:g}, {:g}, {:g}) m; a particle can "
-                                     "bear three",
-                                     point[0], point[1], point[2])}});
+      throw InputError(
+          {{body.where, "geom_object",
+            fmt::format("more than three loads act on the particle at ({:g}, {:g}, {:g}) m; a particle can "
+                        "bear three",
+                        point[0], point[1], point[2])}});
     ids += factor * number;
     factor *= 256;
   };
@@ -64,9 +65,10 @@ struct NewParticles {
     if (start.axisymmetric) volume *= point[0] / (level.cellWidth(2) > 0 ? level.cellWidth(2) : 1.0);
     mass.push_back(material.density * volume);
     if (mass.back() <= start.leastMass)
-      throw InputError({{body.where, "geom_object",
-                         fmt::format("the particle at ({:g}, {:g}, {:g}) m has {:g} kg; <minimum_particle_mass> is {:g} kg",
-                                     point[0], point[1], point[2], mass.back(), start.leastMass)}});
+      throw InputError(
+          {{body.where, "geom_object",
+            fmt::format("the particle at ({:g}, {:g}, {:g}) m has {:g} kg; <minimum_particle_mass> is {:g} kg",
+                        point[0], point[1], point[2], mass.back(), start.leastMass)}});
     temperature.push_back(body.temperature(point));
     color.push_back(body.color);
     loads.push_back(loadsOn(level, start, material, body, place));
@@ -89,8 +91,8 @@ struct NewParticles {
 };
 
 /// Fills each body with its particles, `particlesPerCell` along each axis in the middle of equal parts of a cell, where
-/// the shape contains that point. As in Uintah, bodies may overlap, and of two that share a face on which such points lie
-/// each has particles there.
+/// the shape contains that point. As in Uintah, bodies may overlap, and of two that share a face on which such points
+/// lie each has particles there.
 ///
 /// The id of a particle is its cell's number and its place in the cell, so that it does not depend on the patches.
 template <int D>

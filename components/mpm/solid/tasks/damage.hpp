@@ -40,7 +40,8 @@ inline void computeDamage(const Patch&, const Material& material, int stateSize,
     const DamageState now{deformation[p], volume[p], plasticStrainRate, temperature[p], dt};
     Harm harm{oldDamage[p], oldThreshold[p], oldLocalized[p] != 0};
     std::visit([&](const auto& model) { model.grow(constants, now, stress[p], harm); }, material.damage);
-    if (material.erosion.acts() && material.model->isMolten(deformation[p], stress[p], temperature[p])) harm.hasFailed = true;
+    if (material.erosion.acts() && material.model->isMolten(deformation[p], stress[p], temperature[p]))
+      harm.hasFailed = true;
     damage[p] = harm.damage;
     threshold[p] = harm.threshold;
     localized[p] = harm.hasFailed ? 1 : 0;

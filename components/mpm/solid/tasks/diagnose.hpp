@@ -34,9 +34,9 @@ void sumCenterOfMass(const Patch& patch, const Material&, ParticleView<const dou
 
 /// sum_p m_p x_p x v_p about the origin of x, y, z, and of APIC's B_p: sum_p m_p (B_kj - B_jk) (Jiang & al. 2015).
 template <int D>
-void sumAngularMomentum(const Patch& patch, const Material&, ParticleView<const double> mass, ParticleView<const Vec<D>> x,
-                        ParticleView<const Vec<D>> velocity, const std::optional<ParticleView<const Matrix3>>& affine,
-                        VectorSum& total) {
+void sumAngularMomentum(const Patch& patch, const Material&, ParticleView<const double> mass,
+                        ParticleView<const Vec<D>> x, ParticleView<const Vec<D>> velocity,
+                        const std::optional<ParticleView<const Matrix3>>& affine, VectorSum& total) {
   const Level& level = patch.level();
   for (int p = 0; p < mass.owned(); ++p) {
     Vec3 spin = level.expandPoint<D>(x[p]).cross(level.expandDirection<D>(velocity[p]));
@@ -87,8 +87,8 @@ void scheduleTotals(TaskList& tasks, const std::vector<Material>& materials, Aff
                     computes(total::momentum));
   tasks.perMaterial("mpm::sumCenterOfMass", sumCenterOfMass<D>, materials, requiresOld(p::mass), requiresOld(p::x<D>),
                     computes(total::centerOfMass));
-  tasks.perMaterial("mpm::sumAngularMomentum", sumAngularMomentum<D>, materials, requiresOld(p::mass), requiresOld(p::x<D>),
-                    requiresOld(p::velocity<D>), affine, computes(total::angularMomentum));
+  tasks.perMaterial("mpm::sumAngularMomentum", sumAngularMomentum<D>, materials, requiresOld(p::mass),
+                    requiresOld(p::x<D>), requiresOld(p::velocity<D>), affine, computes(total::angularMomentum));
 }
 
 }  // namespace tushar::mpm::solid

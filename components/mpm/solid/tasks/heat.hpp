@@ -101,8 +101,8 @@ void computeHeatExchange(const Patch&, const std::vector<Material>&,
   });
 }
 
-/// T*_i = T_i + (Q_i / C_i + contact) dt + H_i / C_i with the heat H_i of rubbing, on the sides of the grid as given there,
-/// and the rate that comes of it.
+/// T*_i = T_i + (Q_i / C_i + contact) dt + H_i / C_i with the heat H_i of rubbing, on the sides of the grid as given
+/// there, and the rate that comes of it.
 template <int D>
 void integrateTemperatureRate(const Patch& patch, const Material& material, NodeView<const double> capacity,
                               NodeView<const double> temperatureNoBC, NodeView<const double> temperature,

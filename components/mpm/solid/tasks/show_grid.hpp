@@ -23,7 +23,8 @@ inline void computeStress(const Patch&, const Material& material, ParticleView<c
 }
 
 /// m_i = sum_p S_i m_p,   v_i = sum_p S_i m_p v_p / m_i, f_i = - sum_p V_p sigma_p grad S_i (and - V_p sigma_theta
-/// S_i / r where axisymmetric) and f_i / m_i before any contact or boundary condition; V_i = sum_p S_i V_p,   sigma_i = sum_p S_i V_p sigma_p / V_i. 0 where there is no mass.
+/// S_i / r where axisymmetric) and f_i / m_i before any contact or boundary condition; V_i = sum_p S_i V_p,   sigma_i =
+/// sum_p S_i V_p sigma_p / V_i. 0 where there is no mass.
 template <class Shape, int D = Shape::dimension>
 void showOnGrid(const Patch& patch, const Material&, const Vec3& commonSize, ParticleView<const Vec<D>> x,
                 OptionalView<const Vec<D>> size, ParticleView<const Matrix3> deformation,
@@ -65,11 +66,11 @@ template <class Shape, class Size, class Volume, class Stress>
 void scheduleShowOnGrid(TaskList& tasks, const std::vector<Material>& materials, const Vec3& commonSize, Size size,
                         Volume volume, Stress stress) {
   constexpr int D = Shape::dimension;
-  tasks.perMaterial("mpm::showOnGrid", showOnGrid<Shape>, materials, with(commonSize), requiresOld(p::x<D>, Shape::reach),
-                    size, requiresOld(p::deformationMeasure, Shape::reach), requiresOld(p::mass, Shape::reach),
-                    requiresOld(p::velocity<D>, Shape::reach), volume, stress, computes(g::mass), computes(g::volume),
-                    computes(g::velocity<D>), computes(g::internalForce<D>), computes(g::acceleration<D>),
-                    computes(g::stress));
+  tasks.perMaterial("mpm::showOnGrid", showOnGrid<Shape>, materials, with(commonSize),
+                    requiresOld(p::x<D>, Shape::reach), size, requiresOld(p::deformationMeasure, Shape::reach),
+                    requiresOld(p::mass, Shape::reach), requiresOld(p::velocity<D>, Shape::reach), volume, stress,
+                    computes(g::mass), computes(g::volume), computes(g::velocity<D>), computes(g::internalForce<D>),
+                    computes(g::acceleration<D>), computes(g::stress));
 }
 
 }  // namespace tushar::mpm::solid

@@ -12,9 +12,8 @@ void setSymmetry(const Patch& patch, int material, NodeView<NodeRecord> record) 
     for (const int side : {0, 1}) {
       if (!patch.isAtBoundary(d, side) || !patch.level().isSymmetry(d, side, material)) continue;
       const int face = side == 0 ? patch.cells().lower[d] : patch.cells().upper[d];
-      forEach<D>(patch.faceNodes(d, side).intersect(record.box()), [&](const Index<D>& node) {
-        record[node][lane::velocity + d] = record[node][lane::force + d] = 0;
-      });
+      forEach<D>(patch.faceNodes(d, side).intersect(record.box()),
+                 [&](const Index<D>& node) { record[node][lane::velocity + d] = record[node][lane::force + d] = 0; });
       forEach<D>(patch.nodesBeyond(d, side).intersect(record.box()), [&](const Index<D>& node) {
         Index<D> image = node;
         image[d] = 2 * face - node[d];

@@ -24,9 +24,11 @@ template <int D, class Visit>
 
 /// As for other shapes (see transfer.hpp): each corner brings its share to the nodes of its cell.
 template <class Stencil, int D = Stencil::dimension>
-  requires(Stencil::corners > 0)
-[[gnu::always_inline]] inline void scatter(const Stencil& stencil, const NodeWindow<NodeRecord, D>& nodes, const NodeRecord& value,
-                                           const std::array<Quad, Stencil::dimension>& slope, const Quad& = Quad{}) {
+requires(Stencil::corners > 0)
+    [[gnu::always_inline]] inline void scatter(const Stencil& stencil, const NodeWindow<NodeRecord, D>& nodes,
+                                               const NodeRecord& value,
+                                               const std::array<Quad, Stencil::dimension>& slope,
+                                               const Quad& = Quad{}) {
   const Quad low = Stencil::share * value.low, mean = Stencil::share * value.high;
   for (const auto& corner : stencil.corner) {
     Quad high = mean;
@@ -41,9 +43,10 @@ template <class Stencil, int D = Stencil::dimension>
 
 /// The same for the nodes of a stencil that lie within a box; `origin` is the record of its first node, stored or not.
 template <class Stencil, int D = Stencil::dimension>
-  requires(Stencil::corners > 0)
-inline void scatterWithin(const Stencil& stencil, const Box& box, const NodeWindow<NodeRecord, D>& nodes, const NodeRecord& value,
-                          const std::array<Quad, Stencil::dimension>& slope, const Quad& = Quad{}) {
+requires(Stencil::corners >
+         0) inline void scatterWithin(const Stencil& stencil, const Box& box, const NodeWindow<NodeRecord, D>& nodes,
+                                      const NodeRecord& value, const std::array<Quad, Stencil::dimension>& slope,
+                                      const Quad& = Quad{}) {
   const Quad low = Stencil::share * value.low, mean = Stencil::share * value.high;
   for (const auto& corner : stencil.corner) {
     Quad high = mean;
@@ -65,8 +68,9 @@ inline void scatterWithin(const Stencil& stencil, const Box& box, const NodeWind
 }
 
 template <class Stencil, int D = Stencil::dimension>
-  requires(Stencil::corners > 0)
-[[gnu::always_inline]] inline Gathered<D> gather(const Stencil& stencil, const NodeWindow<const NodeRecord, D>& nodes) {
+requires(Stencil::corners > 0)
+    [[gnu::always_inline]] inline Gathered<D> gather(const Stencil& stencil,
+                                                     const NodeWindow<const NodeRecord, D>& nodes) {
   Gathered<D> sums;
   for (const auto& corner : stencil.corner) {
     const NodeRecord* const cell = nodes.origin + offsetOf(corner, nodes.stride);

@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "components/mpm/solid/labels.hpp"
 #include "components/mpm/shapes/tensor_shape.hpp"
+#include "components/mpm/solid/labels.hpp"
 
 namespace tushar::mpm::solid {
 

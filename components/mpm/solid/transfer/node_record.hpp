@@ -14,8 +14,8 @@ namespace tushar::mpm::solid {
 /// | 4-6 | force | force | velocity v |
 /// | 7 | volume | volume | volume |
 ///
-/// The two halves are named so that the compiler keeps each in a register of its own, and so that a kernel which needs one
-/// of them works on that alone.
+/// The two halves are named so that the compiler keeps each in a register of its own, and so that a kernel which needs
+/// one of them works on that alone.
 struct alignas(64) NodeRecord {
   Quad low, high;
 

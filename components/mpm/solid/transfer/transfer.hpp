@@ -15,7 +15,8 @@ struct NodeWindow {
   std::array<std::ptrdiff_t, D> stride{};  ///< records from one node to the next along each axis
 };
 
-/// The factors of a row of nodes along the first axis, in the lanes: of S, and of its slopes along the second and third.
+/// The factors of a row of nodes along the first axis, in the lanes: of S, and of its slopes along the second and
+/// third.
 using RowFactors = Quad;
 
 /// Calls `visit(offset, factors)` for each row of nodes that a particle touches.
@@ -28,15 +29,15 @@ template <class Stencil, int D, class Visit>
     visit(std::ptrdiff_t{0}, quadOf(1.0));
   } else {
     std::array<Quad, n> second;
-    for (std::size_t j = 0; j < n; ++j)
-      second[j] = __builtin_shufflevector(stencil.s[j], stencil.ds[j], 1, 5, 1, 1);
+    for (std::size_t j = 0; j < n; ++j) second[j] = __builtin_shufflevector(stencil.s[j], stencil.ds[j], 1, 5, 1, 1);
     if constexpr (D == 2) {
       for (std::size_t j = 0; j < n; ++j) visit(static_cast<std::ptrdiff_t>(j) * stride[1], second[j]);
     } else {
       for (std::size_t k = 0; k < n; ++k) {
         const Quad third = __builtin_shufflevector(stencil.s[k], stencil.ds[k], 2, 2, 6, 2);
         for (std::size_t j = 0; j < n; ++j)
-          visit(static_cast<std::ptrdiff_t>(j) * stride[1] + static_cast<std::ptrdiff_t>(k) * stride[2], second[j] * third);
+          visit(static_cast<std::ptrdiff_t>(j) * stride[1] + static_cast<std::ptrdiff_t>(k) * stride[2],
+                second[j] * third);
       }
     }
   }
@@ -68,22 +69,25 @@ struct RowShare {
   }
 };
 
-/// record_i += S_i value, and to its high half sum_d dS_i/dx_d slope_d (+ S_i / r hoop where axisymmetric), for the nodes
-/// i of a stencil.
+/// record_i += S_i value, and to its high half sum_d dS_i/dx_d slope_d (+ S_i / r hoop where axisymmetric), for the
+/// nodes i of a stencil.
 template <class Stencil, int D = Stencil::dimension>
-[[gnu::always_inline]] inline void scatter(const Stencil& stencil, const NodeWindow<NodeRecord, D>& nodes, const NodeRecord& value,
-                                           const std::array<Quad, Stencil::dimension>& slope, const Quad& hoop = Quad{}) {
+[[gnu::always_inline]] inline void scatter(const Stencil& stencil, const NodeWindow<NodeRecord, D>& nodes,
+                                           const NodeRecord& value, const std::array<Quad, Stencil::dimension>& slope,
+                                           const Quad& hoop = Quad{}) {
   forEachRow<Stencil, D>(stencil, nodes.stride, [&](std::ptrdiff_t offset, const RowFactors& f) {
     const RowShare share(f, value, slope, hoop);
-    for (std::size_t i = 0; i < Stencil::nodes; ++i) share.addTo(nodes.origin[offset + static_cast<std::ptrdiff_t>(i)], stencil, i);
+    for (std::size_t i = 0; i < Stencil::nodes; ++i)
+      share.addTo(nodes.origin[offset + static_cast<std::ptrdiff_t>(i)], stencil, i);
   });
 }
 
 /// The same for those nodes of a stencil that lie within a box; `origin` is where the record of the first node would
 /// stand, stored or not.
 template <class Stencil, int D = Stencil::dimension>
-inline void scatterWithin(const Stencil& stencil, const Box& box, const NodeWindow<NodeRecord, D>& nodes, const NodeRecord& value,
-                          const std::array<Quad, Stencil::dimension>& slope, const Quad& hoop = Quad{}) {
+inline void scatterWithin(const Stencil& stencil, const Box& box, const NodeWindow<NodeRecord, D>& nodes,
+                          const NodeRecord& value, const std::array<Quad, Stencil::dimension>& slope,
+                          const Quad& hoop = Quad{}) {
   Index<D> first, end;  // of the nodes within the box, counted from the first of the stencil
   for (int d = 0; d < D; ++d) {
     first[d] = std::max(0, box.lower[d] - stencil.first[d]);
@@ -103,7 +107,8 @@ inline void scatterWithin(const Stencil& stencil, const Box& box, const NodeWind
   });
 }
 
-/// What a particle takes from the nodes: sum_i S_i record_i; of the low halves the gradient and sum_i S_i / r record_i, too.
+/// What a particle takes from the nodes: sum_i S_i record_i; of the low halves the gradient and sum_i S_i / r record_i,
+/// too.
 template <int D>
 struct Gathered {
   NodeRecord value{};

@@ -25,9 +25,19 @@ struct Step {
   Minimum factor;
 
   Step(const BoxCloud<D>& of, double dt)
-      : cloud(of), mass(of.level), relaxation(of.level), velocity(of.level), acceleration(of.level),
-        cellMass(of.level), cellEnergy(of.level), pressure(of.level), viscosity(of.level), shock(of.level),
-        work(of.level), gradient(of.level), stress(of.level) {
+      : cloud(of),
+        mass(of.level),
+        relaxation(of.level),
+        velocity(of.level),
+        acceleration(of.level),
+        cellMass(of.level),
+        cellEnergy(of.level),
+        pressure(of.level),
+        viscosity(of.level),
+        shock(of.level),
+        work(of.level),
+        gradient(of.level),
+        stress(of.level) {
     const Patch& patch = of.patch();
     interpolateParticlesToGrid<D>(patch, of.gas, of.read(of.x), of.read(of.edges), of.read(of.mass), of.read(of.v),
                                   of.read(of.modes), of.read(of.energy), mass.write(), velocity.write(),
@@ -111,7 +121,9 @@ TEST(ConservingStep, GathersAllMassAndReproducesLinearVelocities) {
   forEach<2>(awayFromTheRim, [&](const Index<2>& cell) {
     const Vec<2> corner(cloud.level.nodePosition(0, cell[0]), cloud.level.nodePosition(1, cell[1]));
     EXPECT_NEAR((step.velocity.read()[cell] - mean - slope * corner).norm(), 0, 1e-12);
-    if (cell[0] < 6 && cell[1] < 6) { EXPECT_NEAR((step.gradient.read()[cell] - slope).norm(), 0, 1e-11); }
+    if (cell[0] < 6 && cell[1] < 6) {
+      EXPECT_NEAR((step.gradient.read()[cell] - slope).norm(), 0, 1e-11);
+    }
   });
 }
 
@@ -152,7 +164,8 @@ TEST(Viscosity, OfShocksGrowsWithTheJumpAndIsNoneInExpansion) {
 
 TEST(Viscosity, OfSmoothFlowIsThatOfShocksWhereTheyAreStrongAndNoneWhereNeighboursExplainTheFlow) {
   const Compression strong{-2, -0.1, 2}, smooth{-0.01, 0, 0.01}, fan{0.2, 0.1, -0.2}, behindShock{0.2, 0.1, 1};
-  EXPECT_DOUBLE_EQ(smoothViscosity(1, 1, 1, strong, {1, 0.5}).viscosity, shockViscosity(1, 1, 1, -2, {1, 0.5}).viscosity);
+  EXPECT_DOUBLE_EQ(smoothViscosity(1, 1, 1, strong, {1, 0.5}).viscosity,
+                   shockViscosity(1, 1, 1, -2, {1, 0.5}).viscosity);
   EXPECT_DOUBLE_EQ(smoothViscosity(1, 1, 1, strong, {1, 0.5}).shock, 1);
   EXPECT_DOUBLE_EQ(smoothViscosity(1, 1, 1, smooth, {1, 0.5}).viscosity, 0);
   EXPECT_DOUBLE_EQ(smoothViscosity(1, 1, 1, smooth, {1, 0.5}).shock, 0);

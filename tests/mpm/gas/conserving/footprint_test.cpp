@@ -219,7 +219,8 @@ TEST(GridSums, DoNotDependOnTheOrderOfTheParticles) {
   std::uniform_real_distribution<double> uniform(0, 1);
   std::vector<std::pair<Vec<2>, Vec<2>>> boxes;
   for (int k = 0; k < 200; ++k)
-    boxes.push_back({{0.4 + 0.2 * uniform(generator), 0.2 + 0.2 * uniform(generator)}, {0.125 * uniform(generator), 0.1}});
+    boxes.push_back(
+        {{0.4 + 0.2 * uniform(generator), 0.2 + 0.2 * uniform(generator)}, {0.125 * uniform(generator), 0.1}});
   const auto sumsOf = [&] {
     GridSums<2, 1, 0> sums(level.cells());
     for (const auto& [x, edges] : boxes) {

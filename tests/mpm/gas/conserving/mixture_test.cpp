@@ -26,7 +26,8 @@ struct WaterAndAir {
 
   WaterAndAir(double share, double waterPressure, double airPressure)
       : mass{1000 * share, 50 * (1 - share)},
-        energy{share * Mixture::energyAt(waterPressure, gases[0]), (1 - share) * Mixture::energyAt(airPressure, gases[1])},
+        energy{share * Mixture::energyAt(waterPressure, gases[0]),
+               (1 - share) * Mixture::energyAt(airPressure, gases[1])},
         fill{share, 1 - share} {
     const Box one{{}, Index3::filled(1)};
     for (std::size_t k = 0; k < 2; ++k) {

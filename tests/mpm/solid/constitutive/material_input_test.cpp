@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "components/mpm/solid/material_input.hpp"
 #include "components/mpm/solid/constitutive/all.hpp"
+#include "components/mpm/solid/material_input.hpp"
 #include "tests/input/support.hpp"
 
 namespace tushar::mpm::solid::testing {
@@ -17,8 +17,8 @@ const std::string flow = "<flow_model type='isotropic_hardening'><sigma_Y>2</sig
 
 /// The constitutive model's tags, and those beside it in the material.
 std::string sceneOf(const std::string& type, const std::string& tags, const std::string& beside = "") {
-  return "<MaterialProperties><MPM><material name='a'><density>2</density>\n<constitutive_model type='" + type + "'>" + tags +
-         "</constitutive_model>" + beside + body + "</material></MPM></MaterialProperties>";
+  return "<MaterialProperties><MPM><material name='a'><density>2</density>\n<constitutive_model type='" + type + "'>" +
+         tags + "</constitutive_model>" + beside + body + "</material></MPM></MaterialProperties>";
 }
 std::vector<Material> materialsOf(const std::string& scene) {
   const Document document = input::documentOf(scene);
@@ -41,8 +41,9 @@ void expectProblem(const std::string& scene, const std::string& sentence) {
 }
 
 TEST(MaterialInput, GivesTheModelTheConstantsOfItsMaterial) {
-  const auto materials = materialsOf(sceneOf("elastic_plastic", moduli + flow, "<specific_heat>5</specific_heat>"
-                                                                               "<melt_temp>900</melt_temp>"));
+  const auto materials = materialsOf(sceneOf("elastic_plastic", moduli + flow,
+                                             "<specific_heat>5</specific_heat>"
+                                             "<melt_temp>900</melt_temp>"));
   const auto& model = dynamic_cast<const ModelOf<ElasticPlasticModel>&>(*materials[0].model).model();
   EXPECT_EQ(model.material.density, 2);
   EXPECT_EQ(model.material.specificHeat, 5);
@@ -52,12 +53,14 @@ TEST(MaterialInput, GivesTheModelTheConstantsOfItsMaterial) {
 
 TEST(MaterialInput, MeltsNothingWhereNoTemperatureIsGivenAsUintah) {
   const auto materials = materialsOf(sceneOf("elastic_plastic", moduli + flow, "<specific_heat>5</specific_heat>"));
-  EXPECT_EQ(dynamic_cast<const ModelOf<ElasticPlasticModel>&>(*materials[0].model).model().material.meltTemperature, 295e10);
+  EXPECT_EQ(dynamic_cast<const ModelOf<ElasticPlasticModel>&>(*materials[0].model).model().material.meltTemperature,
+            295e10);
 }
 
 TEST(MaterialInput, KeepsStateOnlyWhereTheConstantsNeedIt) {
-  const std::string yields = "<usePlasticity>true</usePlasticity><yield_stress>1</yield_stress>"
-                             "<hardening_modulus>0</hardening_modulus>";
+  const std::string yields =
+      "<usePlasticity>true</usePlasticity><yield_stress>1</yield_stress>"
+      "<hardening_modulus>0</hardening_modulus>";
   EXPECT_EQ(materialsOf(sceneOf("UCNH", moduli))[0].model->stateSize(), 0);
   EXPECT_EQ(materialsOf(sceneOf("UCNH", moduli + yields))[0].model->stateSize(), 10);
   EXPECT_EQ(offsetOf(*materialsOf(sceneOf("UCNH", moduli + yields))[0].model, "p.bElBar"), 1);
@@ -81,20 +84,24 @@ TEST(MaterialInput, RefusesWhatItDoesNotHave) {
                 "is not available; bodies start without stress");
   expectProblem(sceneOf("elastic_plastic", moduli + flow + "<yield_condition type='gurson'/>"),
                 "attribute 'type': found 'gurson', expected 'vonMises'");
-  expectProblem(sceneOf("elastic_plastic", moduli + flow + "<plastic_convergence_algo>biswajit</plastic_convergence_algo>"),
-                "found 'biswajit', expected 'radialReturn'");
+  expectProblem(
+      sceneOf("elastic_plastic", moduli + flow + "<plastic_convergence_algo>biswajit</plastic_convergence_algo>"),
+      "found 'biswajit', expected 'radialReturn'");
   expectProblem(sceneOf("MohrCoulomb", "<G>1</G><K>1</K><Use_softening>1</Use_softening>"), "is not available");
   expectProblem(sceneOf("MohrCoulomb", "<G>1</G><K>1</K><Phi>10</Phi><Psi>20</Psi>"), "<Psi> is greater than <Phi>");
   EXPECT_EQ(sentencesOf(sceneOf("MohrCoulomb", "<G>1</G><K>1</K><Use_softening>0.0</Use_softening>")), "");
 }
 
 TEST(MaterialInput, ChecksDamageAgainstTheConstitutiveModel) {
-  const std::string johnsonCook = "<damage_model type='johnson_cook'><D1>1</D1><D2>1</D2><D3>1</D3><D4>0</D4><D5>0</D5>";
-  expectProblem(sceneOf("comp_neo_hook", moduli, johnsonCook + "</damage_model>"),
-                "johnson_cook needs the plastic strain of a constitutive model elastic_plastic_hp, found comp_neo_hook");
-  expectProblem(sceneOf("elastic_plastic", moduli + flow, johnsonCook +
-                        "<initial_scalar_damage_distrib>uniform</initial_scalar_damage_distrib></damage_model>"),
-                "found 'uniform', expected 'constant' or 'gauss'");
+  const std::string johnsonCook =
+      "<damage_model type='johnson_cook'><D1>1</D1><D2>1</D2><D3>1</D3><D4>0</D4><D5>0</D5>";
+  expectProblem(
+      sceneOf("comp_neo_hook", moduli, johnsonCook + "</damage_model>"),
+      "johnson_cook needs the plastic strain of a constitutive model elastic_plastic_hp, found comp_neo_hook");
+  expectProblem(
+      sceneOf("elastic_plastic", moduli + flow,
+              johnsonCook + "<initial_scalar_damage_distrib>uniform</initial_scalar_damage_distrib></damage_model>"),
+      "found 'uniform', expected 'constant' or 'gauss'");
   expectProblem(sceneOf("hypo_elastic", "<G>1</G><K>1</K>", "<damage_model type='Brittle'/>"),
                 "Brittle needs a constitutive model with bulk_modulus and shear_modulus");
   expectProblem(sceneOf("elastic_plastic", moduli + flow + "<stability_check type='drucker'/>",
@@ -105,12 +112,15 @@ TEST(MaterialInput, ChecksDamageAgainstTheConstitutiveModel) {
 
 TEST(MaterialInput, ChecksTheThresholdsOfDamage) {
   const auto threshold = [](const std::string& tags) {
-    return sceneOf("comp_neo_hook", moduli, "<damage_model type='Threshold'><failure_criteria>MaximumPrincipalStress"
-                                            "</failure_criteria><failure_mean>1</failure_mean>" + tags + "</damage_model>");
+    return sceneOf("comp_neo_hook", moduli,
+                   "<damage_model type='Threshold'><failure_criteria>MaximumPrincipalStress"
+                   "</failure_criteria><failure_mean>1</failure_mean>" +
+                       tags + "</damage_model>");
   };
   expectProblem(threshold("<failure_distrib>weibull</failure_distrib>"), "failure_distrib weibull needs <failure_std>");
   expectProblem(threshold("<scaling>kayenta</scaling>"), "scaling needs <reference_volume>");
-  expectProblem(threshold("<scaling>kayenta</scaling><reference_volume>1</reference_volume>"), "scaling needs <exponent>");
+  expectProblem(threshold("<scaling>kayenta</scaling><reference_volume>1</reference_volume>"),
+                "scaling needs <exponent>");
   EXPECT_TRUE(materialsOf(threshold(""))[0].isDamageable());
   EXPECT_FALSE(materialsOf(sceneOf("comp_neo_hook", moduli))[0].isDamageable());
 }
@@ -122,10 +132,12 @@ TEST(MaterialInput, TakesTheStiffnessOfBrittleDamageFromTheModel) {
 
 TEST(MaterialInput, TakesTheConstantPartOfTheYieldStressOfZerilliAndArmstrongFromTheGrainsToo) {
   const std::string before = moduli + std::string("<flow_model type='zerilli_armstrong'>");
-  const std::string rest = "<B>1</B><beta_0>1</beta_0><beta_1>1</beta_1><B_0>1</B_0><alpha_0>1</alpha_0>"
-                           "<alpha_1>1</alpha_1><K>1</K><n>1</n></flow_model>";
+  const std::string rest =
+      "<B>1</B><beta_0>1</beta_0><beta_1>1</beta_1><B_0>1</B_0><alpha_0>1</alpha_0>"
+      "<alpha_1>1</alpha_1><K>1</K><n>1</n></flow_model>";
   const auto constantPart = [&](const std::string& tags) {
-    const auto materials = materialsOf(sceneOf("elastic_plastic", before + tags + rest, "<specific_heat>5</specific_heat>"));
+    const auto materials =
+        materialsOf(sceneOf("elastic_plastic", before + tags + rest, "<specific_heat>5</specific_heat>"));
     const auto& model = dynamic_cast<const ModelOf<ElasticPlasticModel>&>(*materials[0].model).model();
     return std::get<ZerilliArmstrong>(model.flow).c0;
   };

@@ -67,8 +67,8 @@ auto derivative(const Function& f, const Matrix3& at, double h = 1e-3) {
       Matrix3 there = at;
       there(k / 3, k % 3) += by;
       const auto value = f(there);
-      return Eigen::Matrix<double, rows, 1>(Eigen::Map<const Eigen::Matrix<double, rows, 1>>(
-          reinterpret_cast<const double*>(&value)));
+      return Eigen::Matrix<double, rows, 1>(
+          Eigen::Map<const Eigen::Matrix<double, rows, 1>>(reinterpret_cast<const double*>(&value)));
     };
     result.col(k) = (8 * (moved(h) - moved(-h)) - (moved(2 * h) - moved(-2 * h))) / (12 * h);
   }

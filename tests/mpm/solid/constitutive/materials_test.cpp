@@ -58,8 +58,9 @@ void expectEnergyOfSmallStrain(const M& model, double bulkModulus, double shearM
   constexpr double size = 1e-7;
   Matrix3 strain;
   strain << 1.0, 0.35, -0.45, 0.35, -0.8, 0.25, -0.45, 0.25, 0.7;
-  const double linear = size * size * (shearModulus * strain.squaredNorm() +
-                                       (bulkModulus / 2 - shearModulus / 3) * strain.trace() * strain.trace());
+  const double linear =
+      size * size *
+      (shearModulus * strain.squaredNorm() + (bulkModulus / 2 - shearModulus / 3) * strain.trace() * strain.trace());
   for (const double angle : {0.0, 0.7}) {
     const MaterialPoint<M> point{model};
     // The next order of the strain, and rounding of F over it: 1e-7 and 1e-9, times factors of the order of 10.
@@ -137,7 +138,8 @@ TEST(ElasticPlastic, ReturnsToTheYieldSurfaceOfEachFlowModel) {
     for (const double strain : {0.05, 0.1, 0.3}) {
       point.advance(generalDeformation(strain));
       const double density = 2 / point.oldDeformation.determinant(), plasticRate = point.oldState.plasticStrainRate;
-      const FlowState state{point.oldState.plasticStrain, point.oldState.strainRate, 300, 3, density, 2000, plasticRate};
+      const FlowState state{
+          point.oldState.plasticStrain, point.oldState.strainRate, 300, 3, density, 2000, plasticRate};
       const double yieldStress = std::visit([&](const auto& model) { return model.flowStress(state); }, flow);
       EXPECT_NEAR(equivalent(point.oldStress), yieldStress, roundOff);
     }
@@ -200,8 +202,8 @@ TEST(MohrCoulomb, ReturnsToFacesEdgesAndApex) {
     for (const double dilation : {0.0, 30.0}) {
       if (dilation > friction) continue;
       const MohrCoulomb model = mohrCoulomb(friction, dilation);
-      const std::vector<Vec3> trials{{1, 0.3, -1}, {1, 0.95, -1}, {1, -0.95, -1}, {-3, -3.1, -12}, {-3, -11.9, -12},
-                                     {0.2, 0.1, -0.5}, {0.05, -0.2, -0.21}};
+      const std::vector<Vec3> trials{{1, 0.3, -1},     {1, 0.95, -1},    {1, -0.95, -1},     {-3, -3.1, -12},
+                                     {-3, -11.9, -12}, {0.2, 0.1, -0.5}, {0.05, -0.2, -0.21}};
       for (const Vec3& principal : trials) {
         const Matrix3 q = rotation(0.8), trial = q * principal.asDiagonal() * q.transpose();
         typename MohrCoulomb::State none;

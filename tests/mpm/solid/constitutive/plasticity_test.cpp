@@ -85,7 +85,8 @@ TEST(JohnsonCook, GivesTheYieldStressOfCopper) {
 
 TEST(JohnsonCook, HardensAsItsYieldStressGrows) {
   const JohnsonCook flow = copper();
-  const double h = 1e-5, slope = (flow.flowStress({0.3 + h, 50, 400, 1}) - flow.flowStress({0.3 - h, 50, 400, 1})) / (2 * h);
+  const double h = 1e-5,
+               slope = (flow.flowStress({0.3 + h, 50, 400, 1}) - flow.flowStress({0.3 - h, 50, 400, 1})) / (2 * h);
   EXPECT_NEAR(flow.hardening({0.3, 50, 400, 1}), slope, 1e-8 * slope);
 }
 
@@ -96,7 +97,8 @@ TEST(SteinbergCochranGuinan, GivesTheYieldStressOfCopper) {
   EXPECT_NEAR(flow.flowStress({0.3, 1, 300, 2 * 47.7e9}), 2 * 364.358e6, 2e4);
   EXPECT_EQ(flow.flowStress({9, 1, 300, 47.7e9}), 640e6);
   const double h = 1e-5;
-  const double slope = (flow.flowStress({0.3 + h, 1, 300, 47.7e9}) - flow.flowStress({0.3 - h, 1, 300, 47.7e9})) / (2 * h);
+  const double slope =
+      (flow.flowStress({0.3 + h, 1, 300, 47.7e9}) - flow.flowStress({0.3 - h, 1, 300, 47.7e9})) / (2 * h);
   EXPECT_NEAR(flow.hardening({0.3, 1, 300, 47.7e9}), slope, 1e-7 * slope);
 }
 

@@ -76,9 +76,8 @@ TEST(NominalTangent, OfElasticPlasticIsConsistentWithEveryFlowModel) {
 
 TEST(NominalTangent, OfElasticPlasticIsConsistentWithEveryEquationOfState) {
   ElasticPlasticHp model = elasticPlastic(IsotropicHardening{0.2, 0.5});
-  for (const EquationOfState& law :
-       {EquationOfState(HyperelasticVolume{}), EquationOfState(MieGruneisen{1.9, 2, 1.5}),
-        EquationOfState(MieGruneisenEnergy{1.9, 2, 1.5, 0.1, 0.1})}) {
+  for (const EquationOfState& law : {EquationOfState(HyperelasticVolume{}), EquationOfState(MieGruneisen{1.9, 2, 1.5}),
+                                     EquationOfState(MieGruneisenEnergy{1.9, 2, 1.5, 0.1, 0.1})}) {
     SCOPED_TRACE(std::visit([](const auto& one) { return std::string(one.name); }, law));
     model.equationOfState = law;
     expectConsistentTangentOfMetal(model);

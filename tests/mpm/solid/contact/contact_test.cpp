@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "components/mpm/solid/contact/friction.hpp"
-#include "components/mpm/solid/constitutive/all.hpp"
 #include "components/mpm/shapes/tensor_shape.hpp"
+#include "components/mpm/solid/constitutive/all.hpp"
+#include "components/mpm/solid/contact/friction.hpp"
 #include "components/mpm/solid/explicit/tasks/exchange_momentum.hpp"
 #include "components/mpm/solid/explicit/tasks/friction.hpp"
 
@@ -14,9 +14,7 @@ namespace {
 // Sums of a few numbers of order 1.
 constexpr double roundOff = 1e-14;
 
-TEST(Rubbing, LeavesBodiesThatPartAlone) {
-  EXPECT_EQ(rubbing<2>({{0, 1}, {1, -1}, false}, 0.5).change.norm(), 0);
-}
+TEST(Rubbing, LeavesBodiesThatPartAlone) { EXPECT_EQ(rubbing<2>({{0, 1}, {1, -1}, false}, 0.5).change.norm(), 0); }
 
 TEST(Rubbing, StopsWhatIsSlowerThanItHolds) {
   const Rubbing<2> rubbed = rubbing<2>({{0, 1}, {0.2, 1}, false}, 0.5);

@@ -179,7 +179,9 @@ TEST(ThresholdDamage, GivesSmallParticlesMoreToBear) {
 TEST(Erosion, LeavesOfTheStressWhatItsAlgorithmSays) {
   using Algorithm = Erosion::Algorithm;
   const Matrix3 tension = diagonal(3, 0, 0), pressure = diagonal(-3, 0, 0);
-  const auto bearable = [](Algorithm algorithm, const Matrix3& stress) { return Erosion{algorithm}.bearable(stress, 1); };
+  const auto bearable = [](Algorithm algorithm, const Matrix3& stress) {
+    return Erosion{algorithm}.bearable(stress, 1);
+  };
   EXPECT_EQ(bearable(Algorithm::none, tension), tension);
   EXPECT_EQ(bearable(Algorithm::preserveStress, tension), tension);
   EXPECT_EQ(bearable(Algorithm::zeroStress, tension).norm(), 0);

@@ -16,7 +16,8 @@ struct Cell {
   data::ParticleSet set;
   std::vector<Vec<2>> x = std::vector<Vec<2>>(4, Vec<2>(0.5, 0.5));
   std::vector<double> mass{1, 2, 3, 4}, volume = std::vector<double>(4);
-  std::vector<Matrix3> deformation{diagonal(1.1, 1, 1), diagonal(0.8, 1, 1), diagonal(1, 1.3, 1.2), diagonal(1, 1, 0.7)};
+  std::vector<Matrix3> deformation{diagonal(1.1, 1, 1), diagonal(0.8, 1, 1), diagonal(1, 1.3, 1.2),
+                                   diagonal(1, 1, 0.7)};
   std::vector<Matrix3> before = deformation, gradient = std::vector<Matrix3>(4, Matrix3::Zero());
   std::vector<int> localized = std::vector<int>(4, 0);
   double dt = 0.1;
@@ -77,7 +78,8 @@ TEST(ShareVolume, LeavesOutParticlesThatHaveFailedOrAreTurnedInsideOut) {
 
   EXPECT_EQ(cell.deformation[2], cell.before[2]);
   EXPECT_EQ(cell.deformation[3], cell.before[3]);
-  for (std::size_t p = 0; p < 2; ++p) EXPECT_NEAR(cell.deformation[p].determinant(), 0.9, roundOff);  // (1.1 + 2 x .8) / 3
+  for (std::size_t p = 0; p < 2; ++p)
+    EXPECT_NEAR(cell.deformation[p].determinant(), 0.9, roundOff);  // (1.1 + 2 x .8) / 3
 }
 
 }  // namespace

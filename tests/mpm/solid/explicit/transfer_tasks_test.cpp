@@ -5,11 +5,11 @@
 #include <random>
 
 #include "components/mpm/shapes/cpdi_shape.hpp"
-#include "components/mpm/solid/transfer/cpdi_transfer.hpp"
 #include "components/mpm/solid/explicit/tasks/affine.hpp"
 #include "components/mpm/solid/explicit/tasks/interpolate_momentum.hpp"
 #include "components/mpm/solid/explicit/tasks/update_in_parts.hpp"
 #include "components/mpm/solid/explicit/tasks/velocity_updates.hpp"
+#include "components/mpm/solid/transfer/cpdi_transfer.hpp"
 
 // The bodies of the transfer tasks on plain fields: no scheduler, no warehouse, no scene.
 

@@ -93,8 +93,8 @@ class Block {
     const auto places = view(x_), velocities = view(velocity_);
     const auto masses = view(mass_), temperatures = view(temperature_);
     const auto deformations = view(deformation_);
-    const SolidViews<D> views{places,       velocities,  velocities, velocities, velocities, masses,
-                              temperatures, masses,      deformations, deformations};
+    const SolidViews<D> views{places, velocities,   velocities, velocities,   velocities,
+                              masses, temperatures, masses,     deformations, deformations};
     const RankPatches patches{&patch};
     NodalHeat<Shape> heat(patches, materials, mpi::Communicator::alone(), Vec3(0.5, 0.5, 0.5), views, resetsGrid);
     EXPECT_TRUE(heat.solve(dt, {"preonly", "lu", 1e-12, 1, ""}).converged);
@@ -124,8 +124,9 @@ class Block {
     how.dynamic = dynamic;
     how.sharesVolume = sharesVolume;
     how.resetsGrid = resetsGrid;
-    return ImplicitSystem<Shape>({&patch}, mpi::Communicator::alone(), method, how, dt, state_size_,
-                                 {{group, &patch, extents, places, velocity_.data(), acceleration_.data(), force_.data()}});
+    return ImplicitSystem<Shape>(
+        {&patch}, mpi::Communicator::alone(), method, how, dt, state_size_,
+        {{group, &patch, extents, places, velocity_.data(), acceleration_.data(), force_.data()}});
   }
 
  private:

@@ -35,9 +35,9 @@ void expectQuadraticConvergence(ImplicitSystem<Shape>& system) {
   EXPECT_GT(lastOrder(outcome.residuals), 1.8) << textOf(outcome.residuals);
 }
 
-/// The force, N, that draws out by a hundredth a square plate of 4 m between rigid ends, half of it by symmetry, which flows
-/// with hardly any change of volume, over that of flow along lines of slip from corner to corner, 2/sqrt(3) Y for each m^2
-/// (R. Hill, The Mathematical Theory of Plasticity, 1950).
+/// The force, N, that draws out by a hundredth a square plate of 4 m between rigid ends, half of it by symmetry, which
+/// flows with hardly any change of volume, over that of flow along lines of slip from corner to corner, 2/sqrt(3) Y for
+/// each m^2 (R. Hill, The Mathematical Theory of Plasticity, 1950).
 double pull(bool sharesVolume) {
   constexpr double yieldStress = 2e3, length = 4;
   auto model = withModuli<CompNeoHookPlastic>(8e7, 2e5);

@@ -41,7 +41,8 @@ class Dense : public solvers::Matrix {
     const auto width = columns.size() * static_cast<std::size_t>(block_);
     for (std::size_t r = 0; r < rows.size() * static_cast<std::size_t>(block_); ++r)
       for (std::size_t c = 0; c < width; ++c) {
-        const int row = rows[r / static_cast<std::size_t>(block_)], column = columns[c / static_cast<std::size_t>(block_)];
+        const int row = rows[r / static_cast<std::size_t>(block_)],
+                  column = columns[c / static_cast<std::size_t>(block_)];
         if (row < 0 || column < 0) continue;
         values(row * block_ + static_cast<int>(r) % block_, column * block_ + static_cast<int>(c) % block_) +=
             numbers[r * width + c];

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "components/mpm/labels.hpp"
 #include "components/mpm/gas/material.hpp"
 #include "components/mpm/gas/mirrored.hpp"
+#include "components/mpm/labels.hpp"
 
 namespace tushar::mpm::gas::paper {
 
@@ -22,8 +22,7 @@ void addPressureForce(const Level& level, const Index<D>& cell, double pressureT
 ///
 /// `force` [N] comes out complete on all nodes of the patch. A cell without particles has no pressure.
 template <class Shape, int D = Shape::dimension>
-void computeInternalForce(const Patch& patch, const Gas&, ParticleView<const double> pressure,
-                          NodeView<Vec<D>> force) {
+void computeInternalForce(const Patch& patch, const Gas&, ParticleView<const double> pressure, NodeView<Vec<D>> force) {
   const Level& level = patch.level();
   force.fill(Vec<D>::Zero());
   forEach<D>(pressure.cells(), [&](const Index<D>& cell) {
@@ -45,8 +44,8 @@ void computeInternalForceOfVolumes(const Patch& patch, const Gas&, ParticleView<
   forEach<D>(pressure.cells(), [&](const Index<D>& cell) {
     const auto particles = pressure.in(cell);
     const auto volume = sumFromBothEnds<double>(particles, [&](int p, double& part) { part += mass[p] / density[p]; });
-    const auto sum = sumFromBothEnds<double>(
-        particles, [&](int p, double& part) { part += pressure[p] * mass[p] / density[p]; });
+    const auto sum =
+        sumFromBothEnds<double>(particles, [&](int p, double& part) { part += pressure[p] * mass[p] / density[p]; });
     if (volume > 0) addPressureForce<Shape>(level, cell, sum / volume * level.cellVolume(), force);
   });
 }

@@ -1,18 +1,18 @@
 #pragma once
 
-#include "components/mpm/labels.hpp"
 #include "components/mpm/gas/material.hpp"
 #include "components/mpm/gas/tasks/fastest_signal.hpp"
 #include "components/mpm/gas/viscosity.hpp"
+#include "components/mpm/labels.hpp"
 
 namespace tushar::mpm::gas::paper {
 
 /// p = (gamma - 1) rho eps + a_v,  a_v = rho (C_q h² d² - C_l h c d) where the gas is compressed (d < 0), else 0:
 /// (16) of Tran, Kim & Berzins. h is the least cell width, d the divergence of the step just done.
 template <int D>
-void computePressure(const Patch& patch, const Gas& gas, const Viscosity& viscosity,
-                     ParticleView<const double> density, ParticleView<const double> internalEnergy,
-                     ParticleView<const double> divergence, ParticleView<double> pressure) {
+void computePressure(const Patch& patch, const Gas& gas, const Viscosity& viscosity, ParticleView<const double> density,
+                     ParticleView<const double> internalEnergy, ParticleView<const double> divergence,
+                     ParticleView<double> pressure) {
   const double h = patch.level().minSpacing();
   for (int p = 0; p < density.owned(); ++p) {
     const double d = std::min(divergence[p], 0.0) * h;

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "components/mpm/labels.hpp"
 #include "components/mpm/gas/material.hpp"
 #include "components/mpm/gas/symmetry.hpp"
+#include "components/mpm/labels.hpp"
 
 namespace tushar::mpm::gas::paper {
 

@@ -149,8 +149,7 @@ void reseed(std::vector<Piece<D>>& pieces, const CellShape<D>& cell, const Gas& 
     piece.volume = before.volume / static_cast<double>(places.size());
     const double density = before.density() + cell.densitySlope.dot(piece.x - middle);
     piece.mass = density * piece.volume;
-    piece.internalEnergy =
-        gas.internalEnergy(density, before.pressure(gas) + cell.pressureSlope.dot(piece.x - middle));
+    piece.internalEnergy = gas.internalEnergy(density, before.pressure(gas) + cell.pressureSlope.dot(piece.x - middle));
     piece.divergence = before.divergence / before.mass;
     internal += piece.mass * piece.internalEnergy;
     pieces.push_back(piece);

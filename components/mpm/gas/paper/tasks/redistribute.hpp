@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "components/mpm/labels.hpp"
 #include "components/mpm/gas/material.hpp"
+#include "components/mpm/labels.hpp"
 
 namespace tushar::mpm::gas::paper {
 
@@ -67,8 +67,8 @@ void reseed(std::vector<Piece<D>>& pieces, const CellShape<D>& cell, const Gas& 
 
 /// Means over the particles of a cell and of its neighbours, limited by minmod: the slopes for `reseed`.
 template <int D>
-void setSlopes(CellShape<D>& cell, const std::vector<Piece<D>>& here, const std::array<std::vector<Piece<D>>, 2 * D>& around,
-               const Gas& gas);
+void setSlopes(CellShape<D>& cell, const std::vector<Piece<D>>& here,
+               const std::array<std::vector<Piece<D>>, 2 * D>& around, const Gas& gas);
 
 /// Redistributes one cell.
 template <int D>
@@ -125,11 +125,11 @@ void redistributePatch(const Patch& patch, const Gas& gas, const Redistribution&
 /// Redistribution for particles that share the volume of their cell: V_p = V_c / N_c.
 template <int D>
 void redistribute(const Patch& patch, const Gas& gas, ParticleMaker& maker, const Redistribution& how,
-                  ParticleView<const ParticleId> ids, ParticleView<const Vec<D>> x,
-                  ParticleView<const Vec<D>> velocity, ParticleView<const double> density,
-                  ParticleView<const double> internalEnergy, ParticleView<const double> divergence,
-                  std::vector<Vec<D>>& newX, std::vector<Vec<D>>& newVelocity, std::vector<double>& newDensity,
-                  std::vector<double>& newInternalEnergy, std::vector<double>& newDivergence) {
+                  ParticleView<const ParticleId> ids, ParticleView<const Vec<D>> x, ParticleView<const Vec<D>> velocity,
+                  ParticleView<const double> density, ParticleView<const double> internalEnergy,
+                  ParticleView<const double> divergence, std::vector<Vec<D>>& newX, std::vector<Vec<D>>& newVelocity,
+                  std::vector<double>& newDensity, std::vector<double>& newInternalEnergy,
+                  std::vector<double>& newDivergence) {
   const auto gather = [&](const Index<D>& cell) {
     std::vector<Piece<D>> pieces;
     if (!x.cells().contains(cell)) return pieces;
@@ -156,8 +156,7 @@ void redistributeTracked(const Patch& patch, const Gas& gas, ParticleMaker& make
     std::vector<Piece<D>> pieces;
     if (!x.cells().contains(cell)) return pieces;
     for (const int p : x.in(cell))
-      pieces.push_back(
-          {ids[p], x[p], velocity[p], mass[p], mass[p] / density[p], internalEnergy[p], divergence[p]});
+      pieces.push_back({ids[p], x[p], velocity[p], mass[p], mass[p] / density[p], internalEnergy[p], divergence[p]});
     return pieces;
   };
   redistributePatch<D>(patch, gas, how, maker, gather,

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "components/mpm/labels.hpp"
 #include "components/mpm/gas/material.hpp"
 #include "components/mpm/gas/mirrored.hpp"
+#include "components/mpm/labels.hpp"
 
 namespace tushar::mpm::gas::paper {
 
@@ -87,8 +87,8 @@ void updateParticlesConserving(const Patch& patch, const Gas&, ParticleView<cons
       for (std::size_t k = 0; k < s.size(); ++k) squares += s[k] * a.values[k].squaredNorm();
       newVelocity[p] = velocity[p] + dt * ap;
       newX[p] = x[p] + dt * v.at(s);
-      newInternalEnergy[p] = internalEnergy[p] - pressure[p] / density[p] * workShare +
-                             0.5 * dt * dt * (squares - ap.squaredNorm());
+      newInternalEnergy[p] =
+          internalEnergy[p] - pressure[p] / density[p] * workShare + 0.5 * dt * dt * (squares - ap.squaredNorm());
       newDensity[p] = density[p] * (1.0 - d * dt);
       divergence[p] = d;
     }

@@ -47,8 +47,8 @@ struct HyperelasticVolume {
 };
 
 /// p = rho_0 C_0² eta (1 - Gamma_0 eta / 2) / (1 - S_alpha eta)² + Gamma_0 rho_0 c_v (T - T_0), eta = 1 - J: the shock
-/// velocity is U = C_0 + S_alpha u; Wilkins, Computer Simulation of Dynamic Phenomena (1999), chapter 3. Today's Uintah has
-/// no word for it.
+/// velocity is U = C_0 + S_alpha u; Wilkins, Computer Simulation of Dynamic Phenomena (1999), chapter 3. Today's Uintah
+/// has no word for it.
 struct MieGruneisen {
   static constexpr std::string_view name = "mie_gruneisen_temperature";
 
@@ -72,14 +72,14 @@ struct MieGruneisen {
   double heating(const VolumeState&) const { return 0; }
 };
 
-/// p = rho_0 C_0² eta (1 - Gamma_0 eta / 2) / (1 - S_alpha eta - S_2 eta² - S_3 eta³)² + Gamma_0 rho_0 e under pressure,
-/// rho_0 C_0² eta + Gamma_0 rho_0 e in tension, eta = 1 - J: Steinberg, UCRL-MA-106439 (1991). The temperature changes
-/// by dT = -T Gamma_0 J tr D dt. This is what Uintah makes of mie_gruneisen.
+/// p = rho_0 C_0² eta (1 - Gamma_0 eta / 2) / (1 - S_alpha eta - S_2 eta² - S_3 eta³)² + Gamma_0 rho_0 e under
+/// pressure, rho_0 C_0² eta + Gamma_0 rho_0 e in tension, eta = 1 - J: Steinberg, UCRL-MA-106439 (1991). The
+/// temperature changes by dT = -T Gamma_0 J tr D dt. This is what Uintah makes of mie_gruneisen.
 struct MieGruneisenEnergy {
   static constexpr std::string_view name = "mie_gruneisen";
 
-  double soundSpeed = 0;      ///< C_0, m/s
-  double gruneisen = 0;       ///< Gamma_0, 1
+  double soundSpeed = 0;          ///< C_0, m/s
+  double gruneisen = 0;           ///< Gamma_0, 1
   double s1 = 0, s2 = 0, s3 = 0;  ///< 1
 
   static const input::Schema<MieGruneisenEnergy>& schema() {

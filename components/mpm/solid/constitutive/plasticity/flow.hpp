@@ -25,7 +25,8 @@ struct IsotropicHardening {
     static const input::Schema<IsotropicHardening> schema =
         input::Schema<IsotropicHardening>("flow_model", "A yield stress that grows with the plastic strain.")
             .required("sigma_Y", &IsotropicHardening::yieldStress, "Pa", "at the start", input::positive())
-            .required("K", &IsotropicHardening::modulus, "Pa", "its growth with the plastic strain", input::nonNegative());
+            .required("K", &IsotropicHardening::modulus, "Pa", "its growth with the plastic strain",
+                      input::nonNegative());
     return schema;
   }
   double flowStress(const FlowState& state) const { return yieldStress + modulus * state.plasticStrain; }
@@ -39,11 +40,11 @@ struct IsotropicHardening {
 struct JohnsonCook {
   static constexpr std::string_view name = "johnson_cook";
 
-  double a = 0, b = 0;               ///< Pa
-  double c = 0, n = 0, m = 0;        ///< 1
-  double referenceRate = 1;          ///< epdot_0, 1/s
-  double roomTemperature = 298;      ///< T_r, K
-  double meltTemperature = 1793;     ///< T_m, K
+  double a = 0, b = 0;            ///< Pa
+  double c = 0, n = 0, m = 0;     ///< 1
+  double referenceRate = 1;       ///< epdot_0, 1/s
+  double roomTemperature = 298;   ///< T_r, K
+  double meltTemperature = 1793;  ///< T_m, K
 
   static const input::Schema<JohnsonCook>& schema() {
     static const input::Schema<JohnsonCook> schema =
@@ -82,8 +83,8 @@ struct JohnsonCook {
 };
 
 /// sigma_y = c_0 + B exp(-beta T) + B_0 e_p^(1/2) exp(-alpha T) + K e_p^n, alpha = alpha_0 - alpha_1 ln rate, beta
-/// likewise: Zerilli & Armstrong, J. Appl. Phys. 61 (1987) 1816. As in Uintah the rate is that of the plastic strain, and at
-/// least 1e-8/s.
+/// likewise: Zerilli & Armstrong, J. Appl. Phys. 61 (1987) 1816. As in Uintah the rate is that of the plastic strain,
+/// and at least 1e-8/s.
 struct ZerilliArmstrong {
   static constexpr std::string_view name = "zerilli_armstrong";
 
@@ -101,7 +102,8 @@ struct ZerilliArmstrong {
             .required("B", &Self::b, "Pa", "part without hardening", input::nonNegative())
             .required("beta_0", &Self::beta0, "1/K", "its fall with the temperature", input::nonNegative())
             .required("beta_1", &Self::beta1, "1/K", "and with the logarithm of the rate", input::nonNegative())
-            .required("B_0", &Self::b0, "Pa", "part that grows with the root of the plastic strain", input::nonNegative())
+            .required("B_0", &Self::b0, "Pa", "part that grows with the root of the plastic strain",
+                      input::nonNegative())
             .required("alpha_0", &Self::alpha0, "1/K", "its fall with the temperature", input::nonNegative())
             .required("alpha_1", &Self::alpha1, "1/K", "and with the logarithm of the rate", input::nonNegative())
             .required("K", &Self::k, "Pa", "factor of e_p^n", input::nonNegative())
@@ -110,7 +112,8 @@ struct ZerilliArmstrong {
   }
   double flowStress(const FlowState& state) const {
     const double ep = state.plasticStrain;
-    return c0 + b * fading(beta0, beta1, state) + b0 * std::sqrt(ep) * fading(alpha0, alpha1, state) + k * std::pow(ep, n);
+    return c0 + b * fading(beta0, beta1, state) + b0 * std::sqrt(ep) * fading(alpha0, alpha1, state) +
+           k * std::pow(ep, n);
   }
 
  private:
@@ -141,10 +144,12 @@ using FlowModel = std::variant<IsotropicHardening, JohnsonCook, MechanicalThresh
 template <class Flow>
 class RadialReturn {
  public:
-  RadialReturn(const Flow& flow, const FlowState& start, double timeStep) : flow_(flow), start_(start), time_step_(timeStep) {}
+  RadialReturn(const Flow& flow, const FlowState& start, double timeStep)
+      : flow_(flow), start_(start), time_step_(timeStep) {}
 
-  /// By how much it shortens the trial stress s: the root q of |s| - q = (2/3)^(1/2) sigma_y, e_p = (2/3)^(1/2) q/(2 G) more
-  /// than at the start, Pa, by Newton's iteration between bounds; Simo & Hughes, Computational Inelasticity (1998), box 3.1.
+  /// By how much it shortens the trial stress s: the root q of |s| - q = (2/3)^(1/2) sigma_y, e_p = (2/3)^(1/2) q/(2 G)
+  /// more than at the start, Pa, by Newton's iteration between bounds; Simo & Hughes, Computational Inelasticity
+  /// (1998), box 3.1.
   double excess(double trialSize) const {
     double low = 0, high = trialSize - root_ * flow_.flowStress(start_), q = high;
     if (high <= 0) return 0;

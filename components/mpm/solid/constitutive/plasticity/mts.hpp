@@ -24,12 +24,12 @@ struct MechanicalThreshold {
   double energyI = 0, energyE = 0;  ///< g_0i, g_0e, 1
   double rateI = 0, rateE = 0;      ///< r_0i, r_0e, 1/s
   double pI = 0, qI = 0, pE = 0, qE = 0;
-  double sigmaI = 0;                ///< Pa
+  double sigmaI = 0;                      ///< Pa
   double a0 = 0, a1 = 0, a2 = 0, a3 = 0;  ///< Pa, Pa, Pa s^(1/2), Pa/K
-  double alpha = 0;                 ///< 1
-  double rateSaturated = 0;         ///< r_es0, 1/s
-  double energySaturated = 0;       ///< g_0es, 1
-  double sigmaSaturated = 0;        ///< sigma_es0, Pa
+  double alpha = 0;                       ///< 1
+  double rateSaturated = 0;               ///< r_es0, 1/s
+  double energySaturated = 0;             ///< g_0es, 1
+  double sigmaSaturated = 0;              ///< sigma_es0, Pa
 
   static const input::Schema<MechanicalThreshold>& schema() {
     static const input::Schema<MechanicalThreshold> schema = makeSchema();
@@ -52,7 +52,8 @@ struct MechanicalThreshold {
     input::Schema<Self> tags("flow_model", "The mechanical threshold stress of Follansbee and Kocks.");
     tags.required("sigma_a", &Self::athermal, "Pa", "part without thermal activation", input::nonNegative())
         .required("mu_0", &Self::shearModulus, "Pa", "shear modulus at 0 K", input::positive())
-        .required("koverbcubed", &Self::boltzmann, "Pa/K", "Boltzmann's constant over Burgers' vector cubed", input::positive())
+        .required("koverbcubed", &Self::boltzmann, "Pa/K", "Boltzmann's constant over Burgers' vector cubed",
+                  input::positive())
         .required("g_0i", &Self::energyI, "1", "activation energy of interstitial obstacles", input::nonNegative())
         .required("g_0e", &Self::energyE, "1", "of dislocations", input::positive())
         .required("edot_0i", &Self::rateI, "1/s", "reference rate of interstitial obstacles", input::nonNegative())
@@ -86,7 +87,8 @@ struct MechanicalThreshold {
     return left > 0 ? std::pow(left, 1 / p) : 0.0;
   }
   double thresholdAt(double plasticStrain, double hardening, double saturated) const {
-    const double step = plasticStrain / 4 * hardening, steepness = 0.5 * alpha / saturated, share = step / std::tanh(alpha);
+    const double step = plasticStrain / 4 * hardening, steepness = 0.5 * alpha / saturated,
+                 share = step / std::tanh(alpha);
     double threshold = 0;
     for (int k = 0; k < 4; ++k) {
       const double before = threshold;

@@ -10,10 +10,10 @@
 
 namespace tushar::mpm::solid {
 
-/// sigma_y = 2 G t, t = t_s + A ln(1 - (1 - exp(-B/A)) exp(-theta e_p / (A (exp(B/A) - 1)))), A = (s_0 - t_y)/p, B = t_s - t_y:
-/// Preston, Tonks & Wallace, J. Appl. Phys. 93 (2003) 211. With x = kappa T/T_m ln(gamma/r), r the rate of the plastic
-/// strain times the time in which a transverse wave crosses an atom, t_s = s_0 - (s_0 - s_inf) erf x and t_y likewise; above
-/// 1000/s at least t_s = s_0 (r/gamma)^beta and t_y = y_1 (r/gamma)^y_2, for strong shocks.
+/// sigma_y = 2 G t, t = t_s + A ln(1 - (1 - exp(-B/A)) exp(-theta e_p / (A (exp(B/A) - 1)))), A = (s_0 - t_y)/p, B =
+/// t_s - t_y: Preston, Tonks & Wallace, J. Appl. Phys. 93 (2003) 211. With x = kappa T/T_m ln(gamma/r), r the rate of
+/// the plastic strain times the time in which a transverse wave crosses an atom, t_s = s_0 - (s_0 - s_inf) erf x and
+/// t_y likewise; above 1000/s at least t_s = s_0 (r/gamma)^beta and t_y = y_1 (r/gamma)^y_2, for strong shocks.
 struct PrestonTonksWallace {
   static constexpr std::string_view name = "preston_tonks_wallace";
 
@@ -34,7 +34,8 @@ struct PrestonTonksWallace {
             .required("yinf", &Self::yInfinite, "1", "and near melting", input::nonNegative())
             .required("y1", &Self::y1, "1", "yield stress of strong shocks", input::nonNegative())
             .required("y2", &Self::y2, "1", "its exponent", input::nonNegative())
-            .required("beta", &Self::beta, "1", "exponent of the saturated stress of strong shocks", input::nonNegative())
+            .required("beta", &Self::beta, "1", "exponent of the saturated stress of strong shocks",
+                      input::nonNegative())
             .required("M", &Self::atomicMass, "u", "mass of an atom", input::positive())
             .ignored("G0", "the <shear_modulus_model> has it")
             .ignored("alpha", "the <shear_modulus_model> has it")

@@ -6,20 +6,21 @@
 
 namespace tushar::mpm::solid {
 
-/// How the stress deviator that a radial return leaves changes with the strain of the step and with the volume. With s the
-/// trial deviator, n = s/|s|, q what the return takes from |s|, and a = (2/3)^(1/2)/(2 G) the plastic strain per q:
+/// How the stress deviator that a radial return leaves changes with the strain of the step and with the volume. With s
+/// the trial deviator, n = s/|s|, q what the return takes from |s|, and a = (2/3)^(1/2)/(2 G) the plastic strain per q:
 ///
 ///     d (s (1 - q/|s|)) = ds (1 - q/|s|) + (q/|s| n : ds - dq) n,   ds = 2 G dev de + 2 dG dev e,
 ///     dq (1 + (2/3)^(1/2) H a) = n : ds - (2/3)^(1/2) (d sigma_y - H a q dG/G),
 ///
-/// where d sigma_y is that at a plastic strain that stays; Simo & Hughes, Computational Inelasticity (1998), section 3.3.
+/// where d sigma_y is that at a plastic strain that stays; Simo & Hughes, Computational Inelasticity (1998),
+/// section 3.3.
 struct ReturnTangent {
-  Matrix3 strain;            ///< e of the step
-  Matrix3 trial;             ///< s, Pa
-  double modulus = 0;        ///< G, Pa
-  double excess = 0;         ///< q, Pa
-  double hardening = 0;      ///< H = d sigma_y / d e_p, Pa
-  double byRate = 0;         ///< d sigma_y / d ln of the strain rate, Pa
+  Matrix3 strain;                                 ///< e of the step
+  Matrix3 trial;                                  ///< s, Pa
+  double modulus = 0;                             ///< G, Pa
+  double excess = 0;                              ///< q, Pa
+  double hardening = 0;                           ///< H = d sigma_y / d e_p, Pa
+  double byRate = 0;                              ///< d sigma_y / d ln of the strain rate, Pa
   double modulusByVolume = 0, yieldByVolume = 0;  ///< dG and d sigma_y over d ln J, Pa
 
   /// For a change of the strain by `de` and of ln J by `volume`, Pa.
@@ -31,7 +32,8 @@ struct ReturnTangent {
     const double grown = ds.cwiseProduct(normal).sum(), squared = strain.squaredNorm();
     const double rate = squared > 0 ? strain.cwiseProduct(de).sum() / squared : 0.0;  // at rest byRate is 0
     const double softened = hardening * perStress * excess * modulusByVolume * volume / modulus;
-    const double dq = (grown - root * (yieldByVolume * volume + byRate * rate - softened)) / (1 + root * hardening * perStress);
+    const double dq =
+        (grown - root * (yieldByVolume * volume + byRate * rate - softened)) / (1 + root * hardening * perStress);
     return (1 - excess / size) * ds + (excess / size * grown - dq) * normal;
   }
 };

@@ -9,23 +9,23 @@
 
 namespace tushar::mpm::solid {
 
-/// sigma_y = (sigma_T + min(sigma_0 (1 + beta (e_p + epsilon_p0))^n, Y_max)) G/mu_0: Steinberg, Cochran & Guinan, J. Appl.
-/// Phys. 51 (1980) 1498. Where C1 and C2 are given, sigma_T is the stress at which dislocations move thermally at the rate
-/// of the plastic strain, 1/rate = exp(2 U_k / (k T) (1 - sigma_T / sigma_P)^2) / C1 + C2 / sigma_T, at most Peierls' stress
-/// sigma_P: Steinberg & Lund, J. Appl. Phys. 65 (1989) 1528. Else it is 0.
+/// sigma_y = (sigma_T + min(sigma_0 (1 + beta (e_p + epsilon_p0))^n, Y_max)) G/mu_0: Steinberg, Cochran & Guinan, J.
+/// Appl. Phys. 51 (1980) 1498. Where C1 and C2 are given, sigma_T is the stress at which dislocations move thermally at
+/// the rate of the plastic strain, 1/rate = exp(2 U_k / (k T) (1 - sigma_T / sigma_P)^2) / C1 + C2 / sigma_T, at most
+/// Peierls' stress sigma_P: Steinberg & Lund, J. Appl. Phys. 65 (1989) 1528. Else it is 0.
 struct SteinbergCochranGuinan {
   static constexpr std::string_view name = "steinberg_cochran_guinan";
 
-  double shearModulus = 0;   ///< mu_0, Pa
-  double yieldStress = 0;    ///< sigma_0, Pa
-  double greatest = 0;       ///< Y_max, Pa
-  double beta = 0, n = 0;    ///< 1
-  double initialStrain = 0;  ///< epsilon_p0, 1
-  double c1 = 0;             ///< 1/s
-  double c2 = 0;             ///< Pa s
-  double kinkEnergy = 0;     ///< U_k, eV
+  double shearModulus = 0;            ///< mu_0, Pa
+  double yieldStress = 0;             ///< sigma_0, Pa
+  double greatest = 0;                ///< Y_max, Pa
+  double beta = 0, n = 0;             ///< 1
+  double initialStrain = 0;           ///< epsilon_p0, 1
+  double c1 = 0;                      ///< 1/s
+  double c2 = 0;                      ///< Pa s
+  double kinkEnergy = 0;              ///< U_k, eV
   double boltzmann = 8.617333262e-5;  ///< k, eV/K
-  double peierls = 0;        ///< sigma_P, Pa
+  double peierls = 0;                 ///< sigma_P, Pa
 
   static const input::Schema<SteinbergCochranGuinan>& schema() {
     using Self = SteinbergCochranGuinan;
@@ -37,18 +37,21 @@ struct SteinbergCochranGuinan {
             .required("beta", &Self::beta, "1", "factor of the plastic strain", input::nonNegative())
             .required("n", &Self::n, "1", "exponent of the hardening", input::nonNegative())
             .value("epsilon_p0", &Self::initialStrain, 0, "1", "plastic strain at the start", input::nonNegative())
-            .value("C1", &Self::c1, 0, "1/s", "rate of thermal activation; 0: the rate does not matter", input::nonNegative())
+            .value("C1", &Self::c1, 0, "1/s", "rate of thermal activation; 0: the rate does not matter",
+                   input::nonNegative())
             .value("C2", &Self::c2, 0, "Pa s", "drag of dislocations", input::nonNegative())
             .value("energy_to_form_kink_pair", &Self::kinkEnergy, 0, "eV", "U_k", input::nonNegative())
             .value("Boltzmann_constant", &Self::boltzmann, 8.617333262e-5, "eV/K", "k", input::positive())
-            .value("Peierls_stress", &Self::peierls, 0, "Pa", "greatest stress of thermal activation", input::nonNegative())
+            .value("Peierls_stress", &Self::peierls, 0, "Pa", "greatest stress of thermal activation",
+                   input::nonNegative())
             .ignored("A", "the <shear_modulus_model> has it")
             .ignored("B", "the <shear_modulus_model> has it")
             .ignored("T_m0", "the <melting_temp_model> has it")
             .ignored("Gamma_0", "the <melting_temp_model> has it")
             .ignored("a", "the <melting_temp_model> has it")
             .check([](const Self& read, const input::Element& element, input::Diagnostics& diagnostics) {
-              if (read.c1 > 0 && read.peierls <= 0) diagnostics.error(element, "where <C1> is given, <Peierls_stress> must be");
+              if (read.c1 > 0 && read.peierls <= 0)
+                diagnostics.error(element, "where <C1> is given, <Peierls_stress> must be");
             });
     return schema;
   }

@@ -10,9 +10,9 @@ namespace tushar::mpm::solid {
 
 /// What the shear modulus and the melting temperature depend on.
 struct Compression {
-  double pressure;     ///< Pa
-  double ratio;        ///< density over that at the start, 1
-  double temperature;  ///< K
+  double pressure;             ///< Pa
+  double ratio;                ///< density over that at the start, 1
+  double temperature;          ///< K
   double density = 0;          ///< kg/m^3
   double meltTemperature = 0;  ///< K; only for the shear modulus
 };
@@ -63,11 +63,13 @@ struct MtsShear {
             .required("T_0", &MtsShear::temperature, "K", "where it begins to fall", input::positive());
     return schema;
   }
-  double modulus(const Compression& c, double) const { return initial - fall / std::expm1(temperature / c.temperature); }
+  double modulus(const Compression& c, double) const {
+    return initial - fall / std::expm1(temperature / c.temperature);
+  }
 };
 
-/// G = ((mu_0 + mu' p/eta^(1/3)) (1 - t) + rho k T / (C m)) / (1 + exp((t - 1) / (zeta (1 - t / (1 + zeta))))), t = T/T_m,
-/// eta = rho/rho_0, and 0 above t = 1 + zeta: Nadal & Le Poac, J. Appl. Phys. 93 (2003) 2472.
+/// G = ((mu_0 + mu' p/eta^(1/3)) (1 - t) + rho k T / (C m)) / (1 + exp((t - 1) / (zeta (1 - t / (1 + zeta))))), t =
+/// T/T_m, eta = rho/rho_0, and 0 above t = 1 + zeta: Nadal & Le Poac, J. Appl. Phys. 93 (2003) 2472.
 struct NpShear {
   static constexpr std::string_view name = "np_shear";
   double initial = 0;     ///< mu_0, Pa

@@ -7,8 +7,8 @@ namespace tushar::mpm::solid {
 
 /// Contact on the velocities that came from the particles.
 template <int D>
-void exMomInterpolated(const Patch& patch, const std::vector<Material>&, const std::vector<Contact>& contacts, double time,
-                       const Records& records) {
+void exMomInterpolated(const Patch& patch, const std::vector<Material>&, const std::vector<Contact>& contacts,
+                       double time, const Records& records) {
   for (const Contact& contact : contacts) {
     if (!contact.actsTwice) continue;
     if (contact.type == Contact::Type::singleVelocity) moveAsOne<D>(patch, contact, records);
@@ -31,8 +31,8 @@ void exMomIntegrated(const Patch& patch, const std::vector<Material>&, const std
 
 /// Contact on the velocities that stresses follow, where those are not of the end of the step.
 template <int D>
-void exMomOfStresses(const Patch& patch, const std::vector<Material>&, const std::vector<Contact>& contacts, double time,
-                     const Records& records) {
+void exMomOfStresses(const Patch& patch, const std::vector<Material>&, const std::vector<Contact>& contacts,
+                     double time, const Records& records) {
   for (const Contact& contact : contacts) {
     if (contact.type == Contact::Type::singleVelocity) moveAsOne<D>(patch, contact, records);
     if (contact.type == Contact::Type::specified) followMaster<D>(patch, contact, time, records);

@@ -5,8 +5,8 @@
 
 namespace tushar::mpm::solid {
 
-/// What friction needs of the surface of a body (see Surfaces) at every node of the patch. Where axisymmetric, the gradient is
-/// that of the density, as in Uintah: mass grows with the radius, and would tilt the normal.
+/// What friction needs of the surface of a body (see Surfaces) at every node of the patch. Where axisymmetric, the
+/// gradient is that of the density, as in Uintah: mass grows with the radius, and would tilt the normal.
 template <class Shape, int D = Shape::dimension>
 void computeSurface(const Patch& patch, const Material& material, const Vec3& commonSize, ParticleView<const Vec<D>> x,
                     OptionalView<const Vec<D>> size, ParticleView<const double> mass,
@@ -48,11 +48,11 @@ void computeSurface(const Patch& patch, const Material& material, const Vec3& co
 
 /// Friction between materials that touch.
 template <int D>
-void applyFriction(const Patch& patch, const std::vector<Material>&, const std::vector<Contact>& contacts, Moment moment,
-                   double dt, const std::vector<NodeView<const Vec<D>>>& massGradient,
+void applyFriction(const Patch& patch, const std::vector<Material>&, const std::vector<Contact>& contacts,
+                   Moment moment, double dt, const std::vector<NodeView<const Vec<D>>>& massGradient,
                    const std::vector<NodeView<const Vec<D>>>& position,
-                   const std::vector<NodeView<const Matrix3>>& stress, const std::vector<NodeView<const double>>& volume,
-                   const Records& records) {
+                   const std::vector<NodeView<const Matrix3>>& stress,
+                   const std::vector<NodeView<const double>>& volume, const Records& records) {
   for (const Contact& contact : contacts)
     if (contact.type == Contact::Type::friction && (contact.actsTwice || moment == Moment::end))
       rub<D>(patch, contact, dt, records, {massGradient, position, stress, volume}, {});
@@ -60,8 +60,8 @@ void applyFriction(const Patch& patch, const std::vector<Material>&, const std::
 
 /// The same at the end of a step, with the heat that it makes, J.
 template <int D>
-void applyHeatingFriction(const Patch& patch, const std::vector<Material>&, const std::vector<Contact>& contacts, double dt,
-                          const std::vector<NodeView<const Vec<D>>>& massGradient,
+void applyHeatingFriction(const Patch& patch, const std::vector<Material>&, const std::vector<Contact>& contacts,
+                          double dt, const std::vector<NodeView<const Vec<D>>>& massGradient,
                           const std::vector<NodeView<const Vec<D>>>& position,
                           const std::vector<NodeView<const Matrix3>>& stress,
                           const std::vector<NodeView<const double>>& volume, const Records& records,

@@ -2,10 +2,10 @@
 
 #include <Eigen/LU>
 
-#include "components/mpm/solid/transfer/node_windows.hpp"
 #include "components/mpm/solid/material.hpp"
 #include "components/mpm/solid/transfer/boundary.hpp"
 #include "components/mpm/solid/transfer/extent.hpp"
+#include "components/mpm/solid/transfer/node_windows.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -37,14 +37,15 @@ void forceMoments(const Material& material, const Sources<Shape>& from, int firs
   }
   if (!from.viscosity) return;
   for (int k = 0; k < count; ++k) {
-    const double volume = from.volume ? from.volume[first + k]
-                                      : from.mass[first + k] / material.density * from.deformation[first + k].determinant();
+    const double volume = from.volume
+                              ? from.volume[first + k]
+                              : from.mass[first + k] / material.density * from.deformation[first + k].determinant();
     moments[k].diagonal().array() -= volume * from.viscosity[first + k];
   }
 }
 
-/// Adds particles of a cell to the nodes around, those of the view's box where `isWithin`, else all: m v and m with S_i,
-/// -V sigma with its gradient.
+/// Adds particles of a cell to the nodes around, those of the view's box where `isWithin`, else all: m v and m with
+/// S_i, -V sigma with its gradient.
 template <class Shape, bool isWithin, int D = Shape::dimension>
 void scatterGroup(const Level& level, const Material& material, const Sources<Shape>& from, const Index<D>& cell,
                   int first, int count, const NodeView<NodeRecord>& record) {
@@ -57,7 +58,7 @@ void scatterGroup(const Level& level, const Material& material, const Sources<Sh
     const typename Shape::Stencil stencil(frame, cell, from.x[p], from.extents[p]);
     const Vec<D> force = from.externalForce ? from.externalForce[p] : Vec<D>(Vec<D>::Zero());
     const NodeRecord value{quadOf<D>(from.mass[p] * from.velocity[p], from.mass[p]),
-                      quadOf<D>(force, from.volume ? from.volume[p] : 0.0)};
+                           quadOf<D>(force, from.volume ? from.volume[p] : 0.0)};
     std::array<Quad, D> slope;
     for (int d = 0; d < D; ++d) {
       Vec<D> traction;
@@ -74,7 +75,8 @@ void scatterGroup(const Level& level, const Material& material, const Sources<Sh
 
 /// Whether a particle touches a node of a box, or nearly.
 template <class Shape, int D = Shape::dimension>
-bool touches(const CellFrame<D>& frame, const Index<D>& cell, const Vec<D>& x, const Extent<D>& extent, const Box& nodes) {
+bool touches(const CellFrame<D>& frame, const Index<D>& cell, const Vec<D>& x, const Extent<D>& extent,
+             const Box& nodes) {
   constexpr double rounding = 1e-6;
   const Vec<D> xi = frame.coordinates(x), support = Shape::support(extent);
   for (int d = 0; d < D; ++d) {
@@ -129,14 +131,16 @@ void scatterParticles(const Patch& patch, const Material& material, bool clearsA
   rows.forEachRow([&](const Index3& first, int end) {
     NodeRecord* node = record.values() + record.stored().offset(first);
     for (int k = first[0]; k < end; ++k, ++node)
-      if ((*node)[lane::mass] > 0) setLanes<D>(*node, lane::velocity, lanes<D>(*node, lane::velocity) / (*node)[lane::mass]);
+      if ((*node)[lane::mass] > 0)
+        setLanes<D>(*node, lane::velocity, lanes<D>(*node, lane::velocity) / (*node)[lane::mass]);
   });
   setSymmetry<D>(patch, material.index, record);
 }
 
 /// m_i = sum_p S_i m_p,   v_i = sum_p S_i m_p v_p / m_i,
-/// f_i = sum_p S_i f_p - V_p (sigma_p - q_p I) grad S_i; where axisymmetric, the hoop stress pulls inwards with S_i / r.
-/// Complete on all own nodes of the patch that are touched; what is not touched is 0 where `clearsAll`, else undefined.
+/// f_i = sum_p S_i f_p - V_p (sigma_p - q_p I) grad S_i; where axisymmetric, the hoop stress pulls inwards with S_i /
+/// r. Complete on all own nodes of the patch that are touched; what is not touched is 0 where `clearsAll`, else
+/// undefined.
 template <class Shape, int D = Shape::dimension>
 void interpolateParticlesToGrid(const Patch& patch, const Material& material, const Vec3& commonSize, bool clearsAll,
                                 ParticleView<const Vec<D>> x, OptionalView<const Vec<D>> size,

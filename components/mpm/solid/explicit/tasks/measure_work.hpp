@@ -2,17 +2,18 @@
 
 #include <Eigen/LU>
 
-#include "components/mpm/solid/labels.hpp"
-#include "components/mpm/solid/method.hpp"
 #include "components/mpm/solid/constitutive/model.hpp"
 #include "components/mpm/solid/explicit/tasks/interpolate_particles_to_grid.hpp"
+#include "components/mpm/solid/labels.hpp"
+#include "components/mpm/solid/method.hpp"
 
 namespace tushar::mpm::solid {
 
 // What works on particles in a step: forces with w = (v + v*)/2 of the nodes, what holds nodes at a velocity with that
-// velocity, and the mean of the stresses before and after with the change of F. What kinetic energy has changed by besides
-// is what the method takes itself: a step of FLIP something of first order in dt (Bardenhagen, J. Comput. Phys. 180 (2002)
-// 383); APIC, PIC and XPIC by the viscosity of their transfer; contact what two bodies lose that come to move as one.
+// velocity, and the mean of the stresses before and after with the change of F. What kinetic energy has changed by
+// besides is what the method takes itself: a step of FLIP something of first order in dt (Bardenhagen, J. Comput. Phys.
+// 180 (2002) 383); APIC, PIC and XPIC by the viscosity of their transfer; contact what two bodies lose that come to
+// move as one.
 
 /// The numbers of p.work, as in total::work.
 namespace works {
@@ -38,9 +39,9 @@ void keepVelocity(const Patch&, const Material&, NodeView<const NodeRecord> reco
 /// w of the nodes, and the work on a unit of their mass: of gravity, of the sides of the grid, of contact, and what
 /// damping takes.
 template <int D>
-void computeNodalWork(const Patch& patch, const Material&, const Method& method, double dt, NodeView<const NodeRecord> record,
-                      NodeView<const Vec<D>> ofForces, const std::optional<NodeView<const Vec<D>>>& ofContact,
-                      NodeView<NodeRecord> work) {
+void computeNodalWork(const Patch& patch, const Material&, const Method& method, double dt,
+                      NodeView<const NodeRecord> record, NodeView<const Vec<D>> ofForces,
+                      const std::optional<NodeView<const Vec<D>>>& ofContact, NodeView<NodeRecord> work) {
   const Vec<D> gravity = patch.level().reduce<D>(method.gravity);
   forEach<D>(work.box(), [&](const Index<D>& node) {
     const Vec<D> before = lanes<D>(record[node], lane::before), after = lanes<D>(record[node], lane::velocity);
@@ -56,9 +57,9 @@ void computeNodalWork(const Patch& patch, const Material&, const Method& method,
 /// Adds the work of a step to that before, but for the stresses'.
 template <class Shape, int D = Shape::dimension>
 void measureWork(const Patch& patch, const Material&, const Vec3& commonSize, double dt, ParticleView<const Vec<D>> x,
-                 OptionalView<const Vec<D>> size, ParticleView<const double> mass, OptionalView<const Matrix3> deformation,
-                 OptionalView<const Vec<D>> externalForce, NodeView<const NodeRecord> nodes, ParticleView<const p::Works> old,
-                 ParticleView<p::Works> work) {
+                 OptionalView<const Vec<D>> size, ParticleView<const double> mass,
+                 OptionalView<const Matrix3> deformation, OptionalView<const Vec<D>> externalForce,
+                 NodeView<const NodeRecord> nodes, ParticleView<const p::Works> old, ParticleView<p::Works> work) {
   const Extents<Shape> extents(patch.level(), commonSize, size, deformation);
   forEachStencil<Shape>(patch, patch.cells(), x, extents, [&](int p, const auto& stencil) {
     const Gathered<D> sums = gather(stencil, windowOf<const NodeRecord>(nodes, stencil));
@@ -73,8 +74,8 @@ void measureWork(const Patch& patch, const Material&, const Vec3& commonSize, do
 }
 
 /// V sigma of particles from `first` on, of those kept or of what follows from F.
-inline void stressMoments(const Material& material, const double* mass, const Matrix3* deformation, const double* volume,
-                          const Matrix3* stress, int first, int count, Matrix3* moments) {
+inline void stressMoments(const Material& material, const double* mass, const Matrix3* deformation,
+                          const double* volume, const Matrix3* stress, int first, int count, Matrix3* moments) {
   if (!stress) material.model->kirchhoffStress(deformation + first, count, moments);
   for (int k = 0; k < count; ++k)
     moments[k] = stress ? Matrix3(volume[first + k] * stress[first + k])
@@ -91,8 +92,8 @@ inline void measureStrainWork(const Patch&, const Material& material, ParticleVi
   std::array<Matrix3, stressGroup> before, after;
   for (int first = 0; first < work.owned(); first += stressGroup) {
     const int count = std::min(stressGroup, work.owned() - first);
-    stressMoments(material, valuesOf(mass), valuesOf(oldDeformation), valuesOf(oldVolume), valuesOf(oldStress), first, count,
-                  before.data());
+    stressMoments(material, valuesOf(mass), valuesOf(oldDeformation), valuesOf(oldVolume), valuesOf(oldStress), first,
+                  count, before.data());
     stressMoments(material, valuesOf(mass), valuesOf(deformation), valuesOf(volume), valuesOf(stress), first, count,
                   after.data());
     for (int k = 0; k < count; ++k) {
@@ -109,10 +110,12 @@ inline void measureStrainWork(const Patch&, const Material& material, ParticleVi
   }
 }
 
-/// Takes from the work of the stresses what plastic flow has taken: V (3/2 s:s)^(1/2) times the change of p.plasticStrain.
-inline void measurePlasticWork(const Patch&, const Material& material, int stateSize, ParticleView<const double> oldState,
-                               ParticleView<const double> state, ParticleView<const double> volume,
-                               ParticleView<const Matrix3> stress, ParticleView<p::Works> work) {
+/// Takes from the work of the stresses what plastic flow has taken: V (3/2 s:s)^(1/2) times the change of
+/// p.plasticStrain.
+inline void measurePlasticWork(const Patch&, const Material& material, int stateSize,
+                               ParticleView<const double> oldState, ParticleView<const double> state,
+                               ParticleView<const double> volume, ParticleView<const Matrix3> stress,
+                               ParticleView<p::Works> work) {
   const int offset = offsetOf(*material.model, "p.plasticStrain");
   if (offset < 0 || work.owned() == 0) return;
   const double *before = &oldState[0] + offset, *after = &state[0] + offset;

@@ -13,15 +13,14 @@ enum class Volumes {
   shared  ///< that of all sound particles of its material in the cell
 };
 
-/// F_p = (J_c / det F_p)^(1/3) F_p with J_c = sum_p V0_p det F_p / sum_p V0_p over the sound particles of a cell (masses go as V0), and
-/// tr L_p to match: their pressure no longer keeps the cell from being sheared or bent (Uintah's DoPressureStabilization;
-/// as F-bar, de Souza Neto et al., Int. J. Solids Structures 33 (1996) 3277, for a cell). A particle that is turned inside
-/// out is left as it is, and out of the sums.
+/// F_p = (J_c / det F_p)^(1/3) F_p with J_c = sum_p V0_p det F_p / sum_p V0_p over the sound particles of a cell
+/// (masses go as V0), and tr L_p to match: their pressure no longer keeps the cell from being sheared or bent (Uintah's
+/// DoPressureStabilization; as F-bar, de Souza Neto et al., Int. J. Solids Structures 33 (1996) 3277, for a cell). A
+/// particle that is turned inside out is left as it is, and out of the sums.
 template <class Shape>
-void shareVolume(double dt, const data::ParticleRange& range, const ParticleStates<Shape>& s, Matrix3* velocityGradient) {
-  const auto bears = [&](int p) {
-    return (!s.localized || !s.localized[p]) && s.deformation[p].determinant() > 0;
-  };
+void shareVolume(double dt, const data::ParticleRange& range, const ParticleStates<Shape>& s,
+                 Matrix3* velocityGradient) {
+  const auto bears = [&](int p) { return (!s.localized || !s.localized[p]) && s.deformation[p].determinant() > 0; };
   double start = 0, now = 0;
   for (const int p : range) {
     if (!bears(p)) continue;

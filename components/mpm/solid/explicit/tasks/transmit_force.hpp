@@ -2,8 +2,8 @@
 
 #include "components/mpm/solid/contact/contact.hpp"
 #include "components/mpm/solid/material.hpp"
-#include "components/mpm/solid/transfer/node_windows.hpp"
 #include "components/mpm/solid/transfer/extent.hpp"
+#include "components/mpm/solid/transfer/node_windows.hpp"
 
 // Materials that transmit force: each moves as one rigid body by the sum of what acts on it, as in Uintah.
 
@@ -20,7 +20,8 @@ void addMomentum(const Contact& contact, const Records& records, double share, N
   });
 }
 
-/// Contact at the end of a step as in exMomIntegrated, and what it takes from the others for a master that transmits force:
+/// Contact at the end of a step as in exMomIntegrated, and what it takes from the others for a master that transmits
+/// force:
 /// - sum m (v* after - v* before) / dt at each node, N.
 template <int D>
 void exMomIntegratedTransmitting(const Patch& patch, const std::vector<Material>& materials,
@@ -73,8 +74,8 @@ void accelerate(ParticleView<const Vec<D>> x, const Vec<D>& change, NodeView<Nod
   });
 }
 
-/// Gives all nodes of a material that transmits force the acceleration (sum of its loads and of what is transmitted) / mass,
-/// whatever holds on the sides of the grid.
+/// Gives all nodes of a material that transmits force the acceleration (sum of its loads and of what is transmitted) /
+/// mass, whatever holds on the sides of the grid.
 template <class Shape, int D = Shape::dimension>
 void computeGridVelocityForFTM(const RankPatches& patches, const std::vector<Material>& materials,
                                const mpi::Communicator& ranks, double dt,

@@ -4,8 +4,8 @@
 
 namespace tushar::mpm::solid {
 
-// The two halves of interpolateToParticlesAndUpdate, for schedules that do not keep them together: stresses first in the
-// step, or last with velocities that went to the grid once more.
+// The two halves of interpolateToParticlesAndUpdate, for schedules that do not keep them together: stresses first in
+// the step, or last with velocities that went to the grid once more.
 
 /// x_p and v_p at the end of the step.
 template <class Shape, int D = Shape::dimension>
@@ -22,13 +22,14 @@ void moveParticles(const Patch& patch, const Material& material, const Method& m
 /// L_p, F_p and the stress with the velocity that the records hold: Uintah's computeStressTensor.
 template <class Shape, Volumes volumes = Volumes::own, int D = Shape::dimension>
 void computeStressTensor(const Patch& patch, const Material& material, const Method& method, int stateSize, double dt,
-                         NodeView<const NodeRecord> record, ParticleView<const Vec<D>> x, OptionalView<const Vec<D>> size,
-                         ParticleView<const Vec<D>> velocity, ParticleView<const double> mass,
-                         ParticleView<const Matrix3> oldDeformation, OptionalView<const double> temperature,
-                         OptionalView<const double> oldVolume, OptionalView<const Matrix3> oldStress,
-                         OptionalView<const double> oldState, OptionalView<const int> localized,
-                         ParticleView<Matrix3> deformation, OptionalView<double> volume, OptionalView<Matrix3> stress,
-                         OptionalView<double> state, OptionalView<double> viscosity, OptionalView<double> strainEnergy,
+                         NodeView<const NodeRecord> record, ParticleView<const Vec<D>> x,
+                         OptionalView<const Vec<D>> size, ParticleView<const Vec<D>> velocity,
+                         ParticleView<const double> mass, ParticleView<const Matrix3> oldDeformation,
+                         OptionalView<const double> temperature, OptionalView<const double> oldVolume,
+                         OptionalView<const Matrix3> oldStress, OptionalView<const double> oldState,
+                         OptionalView<const int> localized, ParticleView<Matrix3> deformation,
+                         OptionalView<double> volume, OptionalView<Matrix3> stress, OptionalView<double> state,
+                         OptionalView<double> viscosity, OptionalView<double> strainEnergy,
                          OptionalView<double> temperatureChange, OptionalView<Matrix3> velocityGradient,
                          CellView<double> stableTimeStep) {
   ParticleStates<Shape> states{Extents<Shape>(patch.level(), method.commonSize, size, oldDeformation), x, velocity};

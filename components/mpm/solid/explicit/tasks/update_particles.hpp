@@ -4,12 +4,12 @@
 
 #include <Eigen/LU>
 
-#include "components/mpm/solid/transfer/node_windows.hpp"
+#include "components/mpm/solid/explicit/tasks/interpolate_particles_to_grid.hpp"
+#include "components/mpm/solid/explicit/tasks/stable_time_step.hpp"
 #include "components/mpm/solid/material.hpp"
 #include "components/mpm/solid/method.hpp"
 #include "components/mpm/solid/transfer/extent.hpp"
-#include "components/mpm/solid/explicit/tasks/interpolate_particles_to_grid.hpp"
-#include "components/mpm/solid/explicit/tasks/stable_time_step.hpp"
+#include "components/mpm/solid/transfer/node_windows.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -26,8 +26,7 @@ inline void deform(const Matrix3& f, const Matrix3& velocityGradient, double dt,
   for (int k = 0; k < n; ++k) {
     const Rows before = rows;
     for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-        rows.row[i] = multiplyAdd(part * velocityGradient(i, j), before.row[j], rows.row[i]);
+      for (int j = 0; j < 3; ++j) rows.row[i] = multiplyAdd(part * velocityGradient(i, j), before.row[j], rows.row[i]);
   }
   rows.copyTo(result);
 }
@@ -41,7 +40,7 @@ struct ParticleStates {
   ParticleView<const Vec<D>> x, velocity;
   const double *mass = nullptr, *temperature = nullptr, *oldVolume = nullptr;
   const Matrix3 *oldDeformation = nullptr, *oldStress = nullptr;
-  Vec<D> *newX = nullptr, *newVelocity = nullptr;
+  Vec<D>*newX = nullptr, *newVelocity = nullptr;
   double *volume = nullptr, *viscosity = nullptr, *strainEnergy = nullptr, *temperatureChange = nullptr;
   Matrix3 *deformation = nullptr, *stress = nullptr, *velocityGradient = nullptr;
   double* state = nullptr;
@@ -50,8 +49,8 @@ struct ParticleStates {
   const int* localized = nullptr;
 };
 
-/// x_p += dt sum_i S_i v*_i,   v_p += sum_i S_i (v*_i - v_i): the FLIP of Brackbill & Ruppel, J. Comput. Phys. 65 (1986)
-/// 314.
+/// x_p += dt sum_i S_i v*_i,   v_p += sum_i S_i (v*_i - v_i): the FLIP of Brackbill & Ruppel, J. Comput. Phys. 65
+/// (1986) 314.
 template <class Shape, int D = Shape::dimension>
 [[gnu::always_inline]] inline void moveParticle(double dt, const Gathered<D>& sums, const ParticleStates<Shape>& s,
                                                 int p) {
@@ -90,12 +89,11 @@ void heatByViscosity(const Material& material, double growth, const ParticleStat
   material.model->addHeat(s.state + p * s.stateSize, heat);
 }
 
-/// Stress, artificial viscosity and strain energy of particles of a cell, where a scene keeps them; tells `rate` of their
-/// waves.
+/// Stress, artificial viscosity and strain energy of particles of a cell, where a scene keeps them; tells `rate` of
+/// their waves.
 template <class Shape, int D = Shape::dimension>
-void updateStress(const Material& material, const Method& method, double dt,
-                  const ParticleStates<Shape>& s, const Matrix3* velocityGradient, int first, int count,
-                  CrossingRate<D>& rate) {
+void updateStress(const Material& material, const Method& method, double dt, const ParticleStates<Shape>& s,
+                  const Matrix3* velocityGradient, int first, int count, CrossingRate<D>& rate) {
   std::array<double, stressGroup> waveSpeed, bulkSpeed, energyDensity;
   StressPoints points;
   points.count = count;
@@ -116,7 +114,8 @@ void updateStress(const Material& material, const Method& method, double dt,
   points.temperatureChange = s.temperatureChange ? s.temperatureChange + first : nullptr;
   points.strainEnergyDensity = s.strainEnergy ? energyDensity.data() : nullptr;
   material.model->updateStress(material.density, points);
-  const ArtificialViscosity own = material.model->ownViscosity().value_or(method.viscosity.value_or(ArtificialViscosity{}));
+  const ArtificialViscosity own =
+      material.model->ownViscosity().value_or(method.viscosity.value_or(ArtificialViscosity{}));
   for (int k = 0; k < count; ++k) rate.add(waveSpeed[static_cast<std::size_t>(k)], s.velocity[first + k]);
   if (!s.viscosity && !s.strainEnergy) return;
   const bool heated = method.viscosityHeats && material.model->takesHeat();
@@ -142,8 +141,9 @@ NumericalError withoutWaveSpeed(const Level& level, const ParticleStates<Shape>&
   int p = range.first;
   while (p + 1 < range.last && isSound(p)) ++p;
   const Vec3 x = level.expandPoint<D>(s.x[p]);
-  return {fmt::format("the wave speed of the particle at ({:g}, {:g}, {:g}) m is no number: det F is {:g}, its speed {:g} m/s",
-                      x[0], x[1], x[2], s.deformation[p].determinant(), s.velocity[p].norm()),
+  return {fmt::format(
+              "the wave speed of the particle at ({:g}, {:g}, {:g}) m is no number: det F is {:g}, its speed {:g} m/s",
+              x[0], x[1], x[2], s.deformation[p].determinant(), s.velocity[p].norm()),
           "", "p.deformationMeasure", level.cellNumber<D>(cell)};
 }
 

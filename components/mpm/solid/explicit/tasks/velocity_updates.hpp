@@ -9,8 +9,8 @@ namespace tushar::mpm::solid {
 /// v_p = (1 - a) v_p^FLIP + a sum_i S_i v*_i: the PIC of Harlow, Meth. Comput. Phys. 3 (1964) 319, where a = 1.
 template <class Shape, int D = Shape::dimension>
 void blendVelocity(const Patch& patch, const Material&, const Method& method, NodeView<const NodeRecord> record,
-                   ParticleView<const Vec<D>> x, OptionalView<const Vec<D>> size, OptionalView<const Matrix3> deformation,
-                   ParticleView<Vec<D>> velocity) {
+                   ParticleView<const Vec<D>> x, OptionalView<const Vec<D>> size,
+                   OptionalView<const Matrix3> deformation, ParticleView<Vec<D>> velocity) {
   const double a = method.picFraction;
   const Extents<Shape> extents(patch.level(), method.commonSize, size, deformation);
   forEachStencil<Shape>(patch, patch.cells(), x, extents, [&](int p, const auto& stencil) {
@@ -45,10 +45,10 @@ void limitVelocity(const Patch&, const Material&, double greatest, ParticleView<
 /// grid that v+ went to: XPIC of order 2, Hammerquist & Nairn, Comput. Methods Appl. Mech. Engng 318 (2017) 724. The
 /// particles have moved by FLIP before; as in Uintah those of a rigid material stay with it.
 template <class Shape, int D = Shape::dimension>
-void applyXpic(const Patch& patch, const Material& material, const Method& method, double dt, NodeView<const NodeRecord> smoothRecord,
-               ParticleView<const Vec<D>> x, OptionalView<const Vec<D>> size, OptionalView<const Matrix3> deformation,
-               ParticleView<const Vec<D>> oldVelocity, ParticleView<const Vec<D>> smooth, ParticleView<Vec<D>> newX,
-               ParticleView<Vec<D>> velocity) {
+void applyXpic(const Patch& patch, const Material& material, const Method& method, double dt,
+               NodeView<const NodeRecord> smoothRecord, ParticleView<const Vec<D>> x, OptionalView<const Vec<D>> size,
+               OptionalView<const Matrix3> deformation, ParticleView<const Vec<D>> oldVelocity,
+               ParticleView<const Vec<D>> smooth, ParticleView<Vec<D>> newX, ParticleView<Vec<D>> velocity) {
   if (material.isRigid) return;
   const Extents<Shape> extents(patch.level(), method.commonSize, size, deformation);
   forEachStencil<Shape>(patch, patch.cells(), x, extents, [&](int p, const auto& stencil) {
