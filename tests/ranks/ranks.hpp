@@ -20,4 +20,19 @@ inline void onRanks(int count, const std::function<void(const mpi::Communicator&
 
 inline grid::Share shareOf(const mpi::Communicator& ranks) { return {ranks.rank(), ranks.size()}; }
 
+/// The number of a cell or node of `plane`, the same for all of its periodic images.
+inline double numberOf(const Index<2>& at, bool periodic) {
+  const auto wrapped = [&](int k, int cells) { return periodic ? (k % cells + cells) % cells : k; };
+  return 1 + wrapped(at[0], 12) + 1000 * wrapped(at[1], 10);
+}
+
+/// A grid of 12 x 10 cells.
+inline grid::Domain plane(const Index3& patches, bool periodic) {
+  grid::Domain domain = test::domain({{12, 10, 1}}, patches);
+  if (periodic) domain.boundaries = {};
+  for (int axis = 0; axis < 2; ++axis) domain.periodic[axis] = periodic ? 1 : 0;
+  for (const int side : {0, 1}) domain.boundaries.face(2, side) = {{"Symmetric", "symmetry", Vec3::Zero()}};
+  return domain;
+}
+
 }  // namespace tushar::test

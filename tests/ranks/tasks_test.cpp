@@ -10,7 +10,7 @@
 #include "core/tasks/migration.hpp"
 #include "tests/ranks/ranks.hpp"
 
-// Ghosts, relocation, reductions and faults over several ranks.
+// Ghosts, relocation and reductions over several ranks.
 
 namespace tushar::tasks {
 
@@ -27,7 +27,9 @@ using data::ParticleView;
 using data::Sum;
 using grid::forEach;
 using grid::Patch;
+using test::numberOf;
 using test::onRanks;
+using test::plane;
 
 constexpr CellLabel<double> number{"c.number", "1", "number of the cell", Bound::positive};
 constexpr NodeLabel<double> nodeNumber{"g.number", "1", "number of the node"};
@@ -42,20 +44,6 @@ struct Material {
   std::string name;
 };
 const std::vector<Material> gas{{"gas"}};
-
-/// Of a cell or node, the same for all periodic images of a grid of 12 x 10 cells.
-double numberOf(const Index<2>& at, bool periodic) {
-  const auto wrapped = [&](int k, int cells) { return periodic ? (k % cells + cells) % cells : k; };
-  return 1 + wrapped(at[0], 12) + 1000 * wrapped(at[1], 10);
-}
-
-grid::Domain plane(const Index3& patches, bool periodic) {
-  grid::Domain domain = test::domain({{12, 10, 1}}, patches);
-  if (periodic) domain.boundaries = {};
-  for (int axis = 0; axis < 2; ++axis) domain.periodic[axis] = periodic ? 1 : 0;
-  for (const int side : {0, 1}) domain.boundaries.face(2, side) = {{"Symmetric", "symmetry", Vec3::Zero()}};
-  return domain;
-}
 
 double valueOf(test::Runner& run, const char* reduction) {
   return run.warehouse.reductionValues(run.table.find(reduction, -1)).at(0);
@@ -179,51 +167,6 @@ class Swarm {
   bool moves = false, failing;
 };
 
-/// What comes of a run in which one task does something to one cell.
-template <class Harm>
-std::string failure(const mpi::Communicator& ranks, bool mayRepeat, const Harm& harm) {
-  test::Runner run(plane({{4, 3, 1}}, false), 1, ranks);
-  TaskList list;
-  list.perPatch(
-      "harm",
-      [harm](const Patch& patch, CellView<double> cells, Minimum& factor) {
-        forEach<2>(patch.cells(), [&](const Index<2>& at) { cells[at] = numberOf(at, false); });
-        harm(patch, cells, factor);
-      },
-      computes(number), computes(data::recomputeTimeStep));
-  list.perPatch(
-      "neighbours",
-      [](const Patch&, CellView<const double> cells, Sum& bad) {
-        forEach<2>(cells.box(), [&](const Index<2>& at) { bad.add(cells[at]); });
-      },
-      requiresNew(number, 1), computes(wrong));
-  TaskGraph graph = run.compile(list, {"wrong", "recomputeTimeStep"});
-  run.warehouse.grow(0);
-  StepInfo at;
-  at.mayRepeat = mayRepeat;
-  try {
-    const auto asked = run.scheduler.run(graph, at);
-    return asked ? std::string(asked->reason.text()) + " " + std::to_string(asked->value) : "";
-  } catch (const NumericalError& error) {
-    return error.what();
-  }
-}
-
-void breakTwo(const Patch& patch, CellView<double> cells, Minimum&) {
-  for (const Index<2>& bad : {Index<2>{{2, 6}}, Index<2>{{9, 2}}})
-    if (patch.cells().contains(bad)) cells[bad] = -1;
-}
-void throwTwo(const Patch& patch, CellView<double>, Minimum&) {
-  for (const Index<2>& bad : {Index<2>{{2, 6}}, Index<2>{{9, 2}}})
-    if (patch.cells().contains(bad))
-      throw NumericalError("cell " + std::to_string(patch.level().cellNumber(bad)), "", "value",
-                           patch.level().cellNumber(bad));
-}
-void askAndThrow(const Patch& patch, CellView<double> cells, Minimum& factor) {
-  if (patch.cells().contains(Index<2>{{11, 9}})) factor.add(0.4, "far");
-  throwTwo(patch, cells, factor);
-}
-
 }  // namespace
 
 TEST(Ranks, FillGhostsFromOneAnother) {
@@ -322,19 +265,6 @@ TEST(Ranks, MeasureNoMoreThanTheClockByAnyNumberOfThreads) {
   });
 }
 
-TEST(Ranks, TellTheSameOfAFaultOnAnyOfThem) {
-  for (const auto& harm : {breakTwo, throwTwo, askAndThrow}) {
-    const std::string alone = failure(mpi::Communicator::alone(), false, harm);
-    const std::string repeated = failure(mpi::Communicator::alone(), true, harm);
-    EXPECT_NE(alone, "");
-    for (const int ranks : {2, 4})
-      onRanks(ranks, [&](const mpi::Communicator& some) {
-        EXPECT_EQ(failure(some, false, harm), alone);
-        EXPECT_EQ(failure(some, true, harm), repeated);
-      });
-  }
-}
-
 /// Ghosts that differ from what their owners have, where other tasks run between the one that computes them and the one
 /// that reads them, and one of these breaks a bound on the last rank.
 std::pair<double, std::string> readLater(const mpi::Communicator& ranks, bool breaks, bool mayRepeat = true) {
@@ -391,18 +321,6 @@ TEST(Ranks, HearOfAFaultThatCameAfterGhostsWereSent) {
       EXPECT_EQ(readLater(some, true, false), thrown);
       EXPECT_EQ(differingGhosts(some, {{4, 3, 1}}, 1, false), 0) << "something was left in the post";
     });
-}
-
-TEST(Ranks, RefuseATaskThatBreaksABoundOnceAndNotAgain) {
-  onRanks(2, [](const mpi::Communicator& some) {
-    bool isBroken = false;
-    const auto breakOnce = [&isBroken](const Patch& patch, CellView<double> cells, Minimum&) {
-      const Index<2> bad{{2, 6}};
-      if (patch.cells().contains(bad) && !std::exchange(isBroken, true)) cells[bad] = -1;
-    };
-
-    EXPECT_THROW(failure(some, false, breakOnce), TaskError);
-  });
 }
 
 TEST(Ranks, RepeatAStepThatStoppedBeforeAllHadSettledTheirGhosts) {
