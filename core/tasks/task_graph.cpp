@@ -94,6 +94,10 @@ MaterialBinding TaskGraph::bindMaterial(std::size_t t, int material, data::Varia
   const Task& task = pruned_.kept[t];
   MaterialBinding binding;
   for (const Access& access : task.accesses) {
+    if (access.kind == AccessKind::leftOut) {
+      binding.accesses.emplace_back();
+      continue;
+    }
     const int number = table.number(*access.label, materialOf(access, material));
     const Generation generation = access.isNew() ? Generation::fresh : Generation::old;
     const Generation set = access.isNew() ? sets_[t] : Generation::old;
