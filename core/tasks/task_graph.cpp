@@ -32,7 +32,7 @@ std::map<std::string, std::pair<const data::Label*, int>, std::less<>> labelsOf(
 /// Whether a patch may be worked on before others have their ghosts: the task leaves alone what they are filled from.
 bool mayStartEarly(const CompiledTask& task, const data::VariableTable& table) {
   const auto isFilled = [&](const Access& access) {
-    return std::any_of(task.fills.begin(), task.fills.end(), [&](const NumberedFill& fill) {
+    return std::any_of(task.fills.begin(), task.fills.end(), [&](const BoundGhostFill& fill) {
       return table[fill.variable].label->name == access.label->name;
     });
   };
