@@ -18,7 +18,7 @@ namespace tushar::mpi {
 using Bytes = std::vector<std::byte>;
 
 /// What a message is about: a rank that waits for one takes no other.
-enum class Tag : int { ghosts, emigrants, patches, output };
+enum class Tag : int { ghosts, migrants, patches, output };
 
 /// Adds `length` bytes to the end.
 inline void append(Bytes& bytes, const void* from, std::size_t length) {

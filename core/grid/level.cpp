@@ -11,14 +11,14 @@ Level::Level(const Domain& domain, Share share) : domain_(domain), share_(share)
   makePatches();
 }
 
-Firsts Level::firsts() const {
-  Firsts firsts;
-  for (int rank = 0; rank <= share_.ranks; ++rank) firsts.push_back(partition_->firstOf(rank));
-  return firsts;
+RankOffsets Level::rankOffsets() const {
+  RankOffsets offsets;
+  for (int rank = 0; rank <= share_.ranks; ++rank) offsets.push_back(partition_->firstOf(rank));
+  return offsets;
 }
 
-void Level::share(Firsts firsts) {
-  partition_.emplace(*curve_, std::move(firsts));
+void Level::share(RankOffsets offsets) {
+  partition_.emplace(*curve_, std::move(offsets));
   makePatches();
 }
 

@@ -76,9 +76,9 @@ class Level {
   /// this rank stand, which have these nodes, too. Each node of a patch is an own node of one of the rank's.
   const Box& ownNodes(int patch) const { return own_nodes_[static_cast<std::size_t>(patch - first_patch_)]; }
   /// Which patches each rank has.
-  Firsts firsts() const;
+  RankOffsets rankOffsets() const;
   /// Gives the patches to the ranks anew. What stands on them is the caller's to move: see tasks::migrate.
-  void share(Firsts firsts);
+  void share(RankOffsets offsets);
   const Domain& domain() const { return domain_; }
 
   /// Cell width along a kernel axis, m.

@@ -8,14 +8,14 @@ namespace tushar::grid {
 // of the patches before it.
 
 int Partition::firstOf(int rank) const {
-  if (!firsts_.empty()) return firsts_[static_cast<std::size_t>(rank)];
+  if (!offsets_.empty()) return offsets_[static_cast<std::size_t>(rank)];
   const auto ranks = static_cast<std::uint64_t>(ranks_), wanted = static_cast<std::uint64_t>(rank);
   return curve_->placeAfter((wanted * curve_->cells() + ranks - 1) / ranks);
 }
 
 int Partition::ownerOf(int place) const {
-  if (!firsts_.empty())
-    return static_cast<int>(std::upper_bound(firsts_.begin(), firsts_.end(), place) - firsts_.begin()) - 1;
+  if (!offsets_.empty())
+    return static_cast<int>(std::upper_bound(offsets_.begin(), offsets_.end(), place) - offsets_.begin()) - 1;
   return static_cast<int>(curve_->cellsBefore(place) * static_cast<std::uint64_t>(ranks_) / curve_->cells());
 }
 

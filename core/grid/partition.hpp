@@ -18,8 +18,8 @@ class Partition {
   /// Shares of as many cells as whole patches allow. Nothing is kept for each rank. The first rank has a patch always.
   Partition(const MortonCurve& curve, int ranks) : curve_(&curve), ranks_(ranks) {}
   /// Shares as they are given, which are kept.
-  Partition(const MortonCurve& curve, Firsts firsts)
-      : curve_(&curve), ranks_(static_cast<int>(firsts.size()) - 1), firsts_(std::move(firsts)) {}
+  Partition(const MortonCurve& curve, RankOffsets offsets)
+      : curve_(&curve), ranks_(static_cast<int>(offsets.size()) - 1), offsets_(std::move(offsets)) {}
 
   /// The place of the first patch of a rank, which is that of the next where it has none.
   int firstOf(int rank) const;
@@ -28,7 +28,7 @@ class Partition {
  private:
   const MortonCurve* curve_;
   int ranks_;
-  Firsts firsts_;  ///< empty: by cells
+  RankOffsets offsets_;  ///< empty: by cells
 };
 
 }  // namespace tushar::grid

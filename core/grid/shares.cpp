@@ -8,36 +8,37 @@ namespace tushar::grid {
 namespace {
 
 /// Gives each rank as much as stays below `most`; the last rank gets what is left.
-Firsts filledUpTo(double most, const std::vector<double>& costs, int ranks) {
-  Firsts firsts{0};
+RankOffsets filledUpTo(double most, const std::vector<double>& costs, int ranks) {
+  RankOffsets offsets{0};
   double share = 0;
   for (std::size_t patch = 0; patch < costs.size(); ++patch) {
-    if (patch > 0 && share + costs[patch] > most && static_cast<int>(firsts.size()) < ranks) {
-      firsts.push_back(static_cast<int>(patch));
+    if (patch > 0 && share + costs[patch] > most && static_cast<int>(offsets.size()) < ranks) {
+      offsets.push_back(static_cast<int>(patch));
       share = 0;
     }
     share += costs[patch];
   }
-  firsts.resize(static_cast<std::size_t>(ranks) + 1, static_cast<int>(costs.size()));
-  return firsts;
+  offsets.resize(static_cast<std::size_t>(ranks) + 1, static_cast<int>(costs.size()));
+  return offsets;
 }
 
 }  // namespace
 
-double greatestShare(const std::vector<double>& costs, const Firsts& firsts) {
+double greatestShare(const std::vector<double>& costs, const RankOffsets& offsets) {
   double greatest = 0;
-  for (std::size_t rank = 0; rank + 1 < firsts.size(); ++rank)
-    greatest = std::max(greatest, std::accumulate(costs.begin() + firsts[rank], costs.begin() + firsts[rank + 1], 0.0));
+  for (std::size_t rank = 0; rank + 1 < offsets.size(); ++rank)
+    greatest =
+        std::max(greatest, std::accumulate(costs.begin() + offsets[rank], costs.begin() + offsets[rank + 1], 0.0));
   return greatest;
 }
 
-Firsts evenShares(const std::vector<double>& costs, int ranks) {
+RankOffsets evenShares(const std::vector<double>& costs, int ranks) {
   constexpr int halvings = 40;
   double most = std::accumulate(costs.begin(), costs.end(), 0.0), least = most / ranks;
-  Firsts best = filledUpTo(most, costs, ranks);
+  RankOffsets best = filledUpTo(most, costs, ranks);
   for (int k = 0; k < halvings && least < most; ++k) {
     const double middle = 0.5 * (least + most);
-    Firsts tried = filledUpTo(middle, costs, ranks);
+    RankOffsets tried = filledUpTo(middle, costs, ranks);
     if (greatestShare(costs, tried) > middle) {
       least = middle;
       continue;

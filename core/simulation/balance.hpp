@@ -32,7 +32,7 @@ class Balance {
   bool isDue() { return ranks_ > 1 && ++steps_ >= next_; }
   /// Other shares, if those of now are to be left: the rank that has most gets a tenth less, and over `costs` (of each
   /// patch of the grid) that saves more than the change takes.
-  std::optional<grid::Firsts> better(const std::vector<double>& costs, const grid::Firsts& now, int step);
+  std::optional<grid::RankOffsets> better(const std::vector<double>& costs, const grid::RankOffsets& now, int step);
   /// The change took so long [s] on the slowest rank.
   void noteChange(double seconds) { change_ = seconds; }
 

@@ -38,7 +38,7 @@ class Messages {
     if (graph.tasks().empty()) return;
     for (const tasks::CompiledTask& task : graph.tasks()) {
       std::set<int> receivers;
-      for (const tasks::NumberedFill& fill : task.fills)
+      for (const tasks::BoundGhostFill& fill : task.fills)
         for (const auto& [rank, copies] : plans_.of(level_, tasks::reachOf(table_, fill)).outgoing) {
           receivers.insert(rank);
           if (!fill.particles) result.bytes += bytesOf(copies, table_[fill.variable].label->bytes);
@@ -59,7 +59,7 @@ class Messages {
     return all;
   }
   void addRelocations(int materials, DryRun& result) {
-    const auto& receivers = plans_.of(level_, {false, tasks::Emigration::neighbourhood}).incoming;
+    const auto& receivers = plans_.of(level_, {false, tasks::ParticleMigration::neighbourhood}).incoming;
     neighbours_.insert(receivers.begin(), receivers.end());
     result.messages += materials * static_cast<int>(receivers.size());
     result.agreements += materials;

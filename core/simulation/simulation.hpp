@@ -19,7 +19,7 @@
 #include "core/simulation/report.hpp"
 #include "core/simulation/restart.hpp"
 #include "core/simulation/stored_state.hpp"
-#include "core/tasks/migration.hpp"
+#include "core/tasks/patch_migration.hpp"
 
 namespace tushar::simulation {
 
@@ -79,7 +79,7 @@ class Simulation {
   void balanceAtStart();
   void balanceIfDue();
   void balance(const std::vector<double>& costs);
-  tasks::Luggage luggage() const;
+  tasks::MigratedVariables migratedVariables() const;
   bool hasEnded() const;
   void saveGlobals();
   /// Whether some analysis looks at particles while the run goes on.

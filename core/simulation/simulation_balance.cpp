@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "core/simulation/simulation.hpp"
-#include "core/tasks/migration.hpp"
+#include "core/tasks/patch_migration.hpp"
 
 // How patches change ranks in a run.
 
@@ -29,11 +29,11 @@ void Simulation::balance(const std::vector<double>& costs) {
   std::vector<double> all(static_cast<std::size_t>(level.patchCount()));
   std::copy(costs.begin(), costs.end(), all.begin() + level.firstPatch());
   ranks_->max(all);
-  const auto firsts = balance_.better(all, level.firsts(), time_.step());
-  if (!firsts) return;
+  const auto offsets = balance_.better(all, level.rankOffsets(), time_.step());
+  if (!offsets) return;
   const auto started = Clock::now();
   const trace::Span span(trace::Kind::message, "give patches to other ranks");
-  tasks::migrate(level, warehouse_, luggage(), *firsts);
+  tasks::migratePatches(level, warehouse_, migratedVariables(), *offsets);
   scheduler_.forgetLayout();
   balance_.noteChange(ranks_->max(since(started)));
   const Rebalancing& change = balance_.report();
@@ -42,14 +42,14 @@ void Simulation::balance(const std::vector<double>& costs) {
                   time_.step(), change.before, change.after));
 }
 
-tasks::Luggage Simulation::luggage() const {
-  tasks::Luggage luggage{static_cast<int>(phases_.materials().size()), {}};
+tasks::MigratedVariables Simulation::migratedVariables() const {
+  tasks::MigratedVariables migrated{static_cast<int>(phases_.materials().size()), {}};
   for (const std::string& name : phases_.lasting())
-    for (int material = -1; material < luggage.materials; ++material)
+    for (int material = -1; material < migrated.materials; ++material)
       if (const int number = table_.find(name, material);
           number >= 0 && table_[number].label->centring != data::Centring::reduction)
-        luggage.variables.push_back(number);
-  return luggage;
+        migrated.variables.push_back(number);
+  return migrated;
 }
 
 }  // namespace tushar::simulation

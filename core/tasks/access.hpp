@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 #include "core/tasks/context.hpp"
@@ -20,11 +21,12 @@ struct FieldAccess<data::FieldLabel<C, T>, Kind> {
   const data::FieldLabel<C, T>* label;
   int ghost = 0;
   bool own = false;
+  bool offered = false;
   int index = -1;  ///< place among the task's accesses
 
   void declare(std::vector<Access>& accesses) {
     index = static_cast<int>(accesses.size());
-    accesses.push_back({label, Kind, ghost, own});
+    accesses.push_back({label, Kind, ghost, own, offered});
   }
 
   static constexpr bool readOnly = Kind == AccessKind::requiresOld || Kind == AccessKind::requiresNew;
@@ -39,11 +41,6 @@ struct FieldAccess<data::FieldLabel<C, T>, Kind> {
       return context.grid<C, Element>(index, *label);
   }
 };
-
-template <class Argument>
-inline constexpr bool isFieldAccess = false;
-template <data::Centring C, class T, AccessKind Kind>
-inline constexpr bool isFieldAccess<FieldAccess<data::FieldLabel<C, T>, Kind>> = true;
 
 template <class R, AccessKind Kind>
 struct FieldAccess<data::ReductionLabel<R>, Kind> {
@@ -69,40 +66,6 @@ struct PlainArgument {
   void declare(std::vector<Access>&) {}
   const T& bind(const TaskContext&) const { return value; }
 };
-
-/// What `bind` makes of each of `contexts`.
-template <class Contexts, class Bind>
-auto bindEach(const Contexts& contexts, Bind bind) {
-  std::vector<std::decay_t<decltype(bind(contexts[0]))>> views;
-  for (const TaskContext& one : contexts) views.push_back(bind(one));
-  return views;
-}
-
-/// What an argument becomes for a task that sees all materials: for labels a view of each material.
-template <class Argument>
-decltype(auto) bindAll(const Argument& argument, const TaskContext& context) {
-  if constexpr (isFieldAccess<Argument>)
-    return bindEach(context.ofMaterials(), [&](const TaskContext& one) { return argument.bind(one); });
-  else
-    return argument.bind(context);
-}
-
-/// What an argument becomes for a task that sees the whole rank: for labels a view of each patch.
-template <class Argument>
-decltype(auto) bindRank(const Argument& argument, const TaskContext& context) {
-  if constexpr (isFieldAccess<Argument>)
-    return bindEach(context.ofPatches(), [&](const TaskContext& patch) { return argument.bind(patch); });
-  else
-    return argument.bind(context);
-}
-/// The same where there are materials: `views[patch][material]`.
-template <class Argument>
-decltype(auto) bindRankAll(const Argument& argument, const TaskContext& context) {
-  if constexpr (isFieldAccess<Argument>)
-    return bindEach(context.ofPatches(), [&](const TaskContext& patch) { return bindAll(argument, patch); });
-  else
-    return argument.bind(context);
-}
 
 /// Hands a task that sees the whole rank the ranks that run it together: all that have patches.
 struct RanksArgument {
@@ -172,10 +135,30 @@ struct OptionalAccess {
   }
   auto bind(const TaskContext& context) const { return on ? std::optional(access.bind(context)) : std::nullopt; }
 };
-/// An access that is only declared where `on`: the body gets a std::optional view.
-template <class Access>
-OptionalAccess<Access> when(bool on, Access access) {
+/// An access that is declared only where `on`: the body gets a std::optional view.
+template <class Label, AccessKind Kind>
+OptionalAccess<FieldAccess<Label, Kind>> when(bool on, FieldAccess<Label, Kind> access) {
+  using Bound = decltype(access.bind(std::declval<const TaskContext&>()));
+  static_assert(!std::is_reference_v<Bound>,
+                "when(...) takes accesses that become views; a reducer or a list of new values cannot be optional");
   return {on, access};
+}
+
+/// An output that a task computes only where something reads it; see `offers`.
+template <class Access>
+struct OfferedAccess {
+  Access access;
+
+  void declare(std::vector<tasks::Access>& accesses) { access.declare(accesses); }
+  auto bind(const TaskContext& context) const {
+    return context.isWanted(access.index) ? std::optional(access.bind(context)) : std::nullopt;
+  }
+};
+/// An output that costs something and that only some scenes want: as `computes` where a later task, another list or the
+/// scene's outputs read it, else not allocated. The body gets a std::optional view.
+template <data::Centring C, class T>
+OfferedAccess<FieldAccess<data::FieldLabel<C, T>, AccessKind::computes>> offers(const data::FieldLabel<C, T>& label) {
+  return {{&label, 0, false, true}};
 }
 
 /// The time at the start of the step, s: a double.
@@ -188,6 +171,59 @@ inline TimeArgument startTime() { return {}; }
 template <class T>
 PlainArgument<T> with(T value) {
   return {std::move(value)};
+}
+
+/// Whether an argument stands for variables of a material on a patch, so that a task that sees several of them gets one
+/// view of each.
+template <class Argument>
+inline constexpr bool isOfMaterialAndPatch = false;
+template <data::Centring C, class T, AccessKind Kind>
+inline constexpr bool isOfMaterialAndPatch<FieldAccess<data::FieldLabel<C, T>, Kind>> = true;
+template <class Access>
+inline constexpr bool isOfMaterialAndPatch<OptionalAccess<Access>> = isOfMaterialAndPatch<Access>;
+template <class Access>
+inline constexpr bool isOfMaterialAndPatch<OfferedAccess<Access>> = isOfMaterialAndPatch<Access>;
+
+/// Whether an argument only makes sense where a task makes particles, or runs once on a rank.
+template <class Argument>
+inline constexpr bool isCreation = false;
+template <class Label>
+inline constexpr bool isCreation<FieldAccess<Label, AccessKind::creates>> = true;
+template <class Argument>
+inline constexpr bool isOfRanks = std::is_same_v<Argument, RanksArgument>;
+
+/// What `bind` makes of each of `contexts`.
+template <class Contexts, class Bind>
+auto bindEach(const Contexts& contexts, Bind bind) {
+  std::vector<std::decay_t<decltype(bind(contexts[0]))>> views;
+  for (const TaskContext& one : contexts) views.push_back(bind(one));
+  return views;
+}
+
+/// What an argument becomes for a task that sees all materials: for labels a view of each material.
+template <class Argument>
+decltype(auto) bindAll(const Argument& argument, const TaskContext& context) {
+  if constexpr (isOfMaterialAndPatch<Argument>)
+    return bindEach(context.ofMaterials(), [&](const TaskContext& one) { return argument.bind(one); });
+  else
+    return argument.bind(context);
+}
+
+/// What an argument becomes for a task that sees the whole rank: for labels a view of each patch.
+template <class Argument>
+decltype(auto) bindRank(const Argument& argument, const TaskContext& context) {
+  if constexpr (isOfMaterialAndPatch<Argument>)
+    return bindEach(context.ofPatches(), [&](const TaskContext& patch) { return argument.bind(patch); });
+  else
+    return argument.bind(context);
+}
+/// What an argument becomes for a task that sees all materials of the whole rank: `views[patch][material]`.
+template <class Argument>
+decltype(auto) bindRankAll(const Argument& argument, const TaskContext& context) {
+  if constexpr (isOfMaterialAndPatch<Argument>)
+    return bindEach(context.ofPatches(), [&](const TaskContext& patch) { return bindAll(argument, patch); });
+  else
+    return argument.bind(context);
 }
 
 }  // namespace tushar::tasks

@@ -14,7 +14,7 @@ namespace tushar::tasks {
 
 /// A declared access of a placed task: which variable, and where its particles stand.
 struct BoundAccess {
-  int variable = -1;
+  int variable = -1;  ///< -1: an offered output that is left out
   data::Generation generation = data::Generation::fresh;
   data::Generation set = data::Generation::old;  ///< the particle set that the values follow
   int ghost = 0;
@@ -42,6 +42,9 @@ class TaskContext {
   /// The ranks that run such a task together.
   const mpi::Communicator& ranks() const { return *ranks_; }
   void setRanks(const mpi::Communicator& ranks) { ranks_ = &ranks; }
+
+  /// Whether an offered output is to be computed.
+  bool isWanted(int access) const { return (*accesses_)[static_cast<std::size_t>(access)].variable >= 0; }
 
   template <class T>
   data::ParticleView<T> particles(int access, const data::Label& label) const {

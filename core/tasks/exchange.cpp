@@ -37,10 +37,10 @@ void shiftPositions(const grid::Level& level, const Index3& shift, double* x, in
   }
 }
 
-/// Adds what a rank is to have for one fill to the message for it.
+/// Appends to a message the values that another rank receives for one ghost fill.
 class Packer {
  public:
-  Packer(Warehouse& warehouse, const NumberedFill& fill, Bytes& message)
+  Packer(Warehouse& warehouse, const BoundGhostFill& fill, Bytes& message)
       : warehouse_(warehouse), fill_(fill), name_(warehouse.table()[fill.variable]), message_(message) {}
 
   void addGrid(const GhostCopy& copy) {
@@ -74,7 +74,7 @@ class Packer {
   }
 
   Warehouse& warehouse_;
-  const NumberedFill& fill_;
+  const BoundGhostFill& fill_;
   const data::VariableName name_;
   Bytes& message_;
 };
@@ -82,14 +82,14 @@ class Packer {
 }  // namespace
 
 /// The messages of the other ranks, read from front to back.
-class Exchange::Letters {
+class Exchange::ReceivedMessages {
  public:
-  void add(int from, Bytes bytes) { letters_[from] = {std::move(bytes), 0}; }
+  void add(int from, Bytes bytes) { messages_[from] = {std::move(bytes), 0}; }
   /// The next `length` bytes of the message from a rank.
   const std::byte* next(int from, std::size_t length) {
-    Letter& letter = letters_.at(from);
-    const std::byte* here = letter.bytes.data() + letter.read;
-    letter.read += length;
+    Message& message = messages_.at(from);
+    const std::byte* here = message.bytes.data() + message.read;
+    message.read += length;
     return here;
   }
   /// Particles of the next cell, of which the first stands at `place`.
@@ -102,14 +102,14 @@ class Exchange::Letters {
   bool readStopped(int from) { return *next(from, 1) != std::byte{0}; }
 
  private:
-  struct Letter {
+  struct Message {
     Bytes bytes;
     std::size_t read = 0;
   };
-  std::map<int, Letter> letters_;
+  std::map<int, Message> messages_;
 };
 
-GhostReach reachOf(const data::VariableTable& table, const NumberedFill& fill) {
+GhostReach reachOf(const data::VariableTable& table, const BoundGhostFill& fill) {
   const auto [label, material] = table[fill.variable];
   return {label->centring == data::Centring::node, fill.particles ? table.reach(material) : table.ghost(fill.variable)};
 }
@@ -118,10 +118,10 @@ bool Exchange::movesNothing() const {
   return warehouse_->level().patchCount() == 1 && !warehouse_->level().isPeriodic();
 }
 
-void Exchange::send(std::span<const NumberedFill> fills, bool hasStopped) {
+void Exchange::send(std::span<const BoundGhostFill> fills, bool hasStopped) {
   fills_ = fills;
   if (movesNothing()) return;
-  noteUnsettled();
+  noteUnresolved();
   if (!warehouse_->ranks().isAlone()) threads_->alone([&] { post(hasStopped); }, trace::Kind::message, "send");
 }
 
@@ -129,7 +129,7 @@ void Exchange::begin(bool hasStopped) {
   has_stopped_ = hasStopped;
   senders_.clear();
   if (movesNothing()) return;
-  for (const NumberedFill& fill : fills_) {
+  for (const BoundGhostFill& fill : fills_) {
     const std::set<int>& incoming = planOf(fill).incoming;
     senders_.insert(incoming.begin(), incoming.end());
   }
@@ -137,18 +137,18 @@ void Exchange::begin(bool hasStopped) {
 }
 
 bool Exchange::finish() {
-  Letters letters;
+  ReceivedMessages messages;
   for (const int rank : senders_) {
     const trace::Span span(trace::Kind::wait, "receive");
-    letters.add(rank, warehouse_->ranks().receive(rank, mpi::Tag::ghosts));
-    has_stopped_ = letters.readStopped(rank) || has_stopped_;
+    messages.add(rank, warehouse_->ranks().receive(rank, mpi::Tag::ghosts));
+    has_stopped_ = messages.readStopped(rank) || has_stopped_;
   }
   outbox_.wait();
-  const bool hasLetters = !senders_.empty();
+  const bool hasMessages = !senders_.empty();
   senders_.clear();
-  if (has_stopped_ || !hasLetters) return !has_stopped_;
+  if (has_stopped_ || !hasMessages) return !has_stopped_;
   const auto unpack = [&] {
-    for (std::size_t k = 0; k < fills_.size(); ++k) fillFromElsewhere(fills_[k], settles_[k], letters);
+    for (std::size_t k = 0; k < fills_.size(); ++k) fillFromElsewhere(fills_[k], resolves_[k], messages);
   };
   threads_->alone(unpack, trace::Kind::message, "unpack");
   return true;
@@ -156,7 +156,7 @@ bool Exchange::finish() {
 
 bool Exchange::isReady(std::size_t place) {
   return std::all_of(fills_.begin(), fills_.end(),
-                     [&](const NumberedFill& fill) { return planOf(fill).isClosed[place]; });
+                     [&](const BoundGhostFill& fill) { return planOf(fill).isLocal[place]; });
 }
 
 template <class Work>
@@ -165,22 +165,22 @@ void Exchange::forEach(const Work& work) {
   const auto workOn = [&](int place) {
     const auto at = static_cast<std::size_t>(place);
     const trace::Span span(trace::Kind::message, "fill ghosts", patches[at].id());
-    for (std::size_t k = 0; k < fills_.size(); ++k) work(fills_[k], settles_[k], patches[at], at);
+    for (std::size_t k = 0; k < fills_.size(); ++k) work(fills_[k], resolves_[k], patches[at], at);
   };
   threads_->forEach(static_cast<int>(patches.size()), workOn, trace::Kind::message);
 }
 
 /// Ghosts of patches of this rank are settled by all patches at once; copies then get their places one after the other.
 void Exchange::fillFromHere() {
-  if (std::find(settles_.begin(), settles_.end(), true) != settles_.end())
-    forEach([&](const NumberedFill& fill, bool settles, const Patch& patch, std::size_t place) {
-      if (settles) settleDirect(fill, patch, planOf(fill).into[place]);
+  if (std::find(resolves_.begin(), resolves_.end(), true) != resolves_.end())
+    forEach([&](const BoundGhostFill& fill, bool resolves, const Patch& patch, std::size_t place) {
+      if (resolves) linkLocalGhosts(fill, patch, planOf(fill).into[place]);
     });
   for (std::size_t k = 0; k < fills_.size(); ++k)
-    if (settles_[k]) settleCopies(fills_[k], nullptr);
-  for (const NumberedFill& fill : fills_)
+    if (resolves_[k]) placeGhostCopies(fills_[k], nullptr);
+  for (const BoundGhostFill& fill : fills_)
     if (fill.particles) reserveCopies(fill);
-  forEach([&](const NumberedFill& fill, bool, const Patch& patch, std::size_t place) {
+  forEach([&](const BoundGhostFill& fill, bool, const Patch& patch, std::size_t place) {
     if (fill.particles) return fillCopies(fill, patch, nullptr);
     for (const GhostCopy& copy : planOf(fill).into[place])
       if (isHere(copy)) copyGrid(fill, copy);
@@ -188,21 +188,21 @@ void Exchange::fillFromHere() {
 }
 
 /// All patches of all ranks have settled a set, or none: what a stopped graph has settled is forgotten.
-void Exchange::noteUnsettled() {
-  settles_.assign(fills_.size(), false);
+void Exchange::noteUnresolved() {
+  resolves_.assign(fills_.size(), false);
   std::set<std::pair<Generation, int>> settled;
   for (std::size_t k = 0; k < fills_.size(); ++k) {
     const int material = warehouse_->table()[fills_[k].variable].material;
     if (!fills_[k].particles || warehouse_->level().patches().empty()) continue;
     const int patch = warehouse_->level().firstPatch();
-    settles_[k] = !warehouse_->particles(fills_[k].set, material, patch).hasGhosts() &&
-                  settled.emplace(fills_[k].set, material).second;
+    resolves_[k] = !warehouse_->particles(fills_[k].set, material, patch).hasGhosts() &&
+                   settled.emplace(fills_[k].set, material).second;
   }
 }
 
 void Exchange::post(bool hasStopped) {
   std::set<int> receivers;
-  for (const NumberedFill& fill : fills_)
+  for (const BoundGhostFill& fill : fills_)
     for (const auto& copies : planOf(fill).outgoing) receivers.insert(copies.first);
   for (const int rank : receivers) {
     Bytes message = outbox_.buffer();
@@ -211,7 +211,7 @@ void Exchange::post(bool hasStopped) {
       const auto copies = planOf(fills_[k]).outgoing.find(rank);
       if (copies == planOf(fills_[k]).outgoing.end()) continue;
       Packer packer(*warehouse_, fills_[k], message);
-      if (settles_[k])
+      if (resolves_[k])
         for (const GhostCopy& copy : copies->second) packer.addCounts(copy);
       for (const GhostCopy& copy : copies->second)
         fills_[k].particles ? packer.addParticles(copy) : packer.addGrid(copy);
@@ -220,7 +220,7 @@ void Exchange::post(bool hasStopped) {
   }
 }
 
-void Exchange::copyGrid(const NumberedFill& fill, const GhostCopy& copy) {
+void Exchange::copyGrid(const BoundGhostFill& fill, const GhostCopy& copy) {
   const std::size_t bytes = warehouse_->table()[fill.variable].label->bytes;
   const Variable from = warehouse_->variable(fill.generation, fill.variable, copy.from);
   const Variable to = warehouse_->variable(fill.generation, fill.variable, copy.to);
@@ -229,15 +229,15 @@ void Exchange::copyGrid(const NumberedFill& fill, const GhostCopy& copy) {
   });
 }
 
-void Exchange::fillFromElsewhere(const NumberedFill& fill, bool settles, Letters& letters) {
-  if (settles) settleCopies(fill, &letters);
+void Exchange::fillFromElsewhere(const BoundGhostFill& fill, bool resolves, ReceivedMessages& messages) {
+  if (resolves) placeGhostCopies(fill, &messages);
   if (fill.particles) reserveCopies(fill);
   const GhostPlan& plan = planOf(fill);
   const std::vector<Patch>& patches = warehouse_->level().patches();
   for (std::size_t place = 0; place < patches.size(); ++place) {
-    if (fill.particles) fillCopies(fill, patches[place], &letters);
+    if (fill.particles) fillCopies(fill, patches[place], &messages);
     for (const GhostCopy& copy : plan.into[place])
-      if (!fill.particles && !isHere(copy)) takeGrid(fill, copy, letters);
+      if (!fill.particles && !isHere(copy)) takeGrid(fill, copy, messages);
   }
 }
 
@@ -245,22 +245,22 @@ void Exchange::shareFaces(int variable) {
   const std::vector<Patch>& patches = warehouse_->level().patches();
   if (patches.size() < 2) return;
   if (faces_.empty()) faces_ = planFaces(warehouse_->level());
-  const NumberedFill fill{variable, Generation::fresh, Generation::fresh, false};
+  const BoundGhostFill fill{variable, Generation::fresh, Generation::fresh, false};
   threads_->forEach(static_cast<int>(patches.size()), [&](int place) {
     for (const GhostCopy& copy : faces_[static_cast<std::size_t>(place)]) copyGrid(fill, copy);
   });
 }
 
-void Exchange::takeGrid(const NumberedFill& fill, const GhostCopy& copy, Letters& letters) {
+void Exchange::takeGrid(const BoundGhostFill& fill, const GhostCopy& copy, ReceivedMessages& messages) {
   const std::size_t bytes = warehouse_->table()[fill.variable].label->bytes;
   const Variable to = warehouse_->variable(fill.generation, fill.variable, copy.to);
   forEachRow(copy.box, bytes, [&](const Index3& first, std::size_t length) {
-    std::memcpy(at(to, first, bytes), letters.next(copy.rank, length), length);
+    std::memcpy(at(to, first, bytes), messages.next(copy.rank, length), length);
   });
 }
 
 /// The set of a patch has the particles around it that other patches of this rank have.
-void Exchange::settleDirect(const NumberedFill& fill, const Patch& patch, const std::vector<GhostCopy>& copies) {
+void Exchange::linkLocalGhosts(const BoundGhostFill& fill, const Patch& patch, const std::vector<GhostCopy>& copies) {
   const int material = warehouse_->table()[fill.variable].material;
   ParticleSet& set = warehouse_->particles(fill.set, material, patch.id());
   for (const GhostCopy& copy : copies)
@@ -270,18 +270,18 @@ void Exchange::settleDirect(const NumberedFill& fill, const Patch& patch, const 
   set.markGhosts();
 }
 
-/// Copies of ghosts have their places: of periodic images on this rank, or of what other ranks tell in their letters.
-void Exchange::settleCopies(const NumberedFill& fill, Letters* letters) {
+/// Copies of ghosts have their places: of periodic images on this rank, or of what other ranks have sent.
+void Exchange::placeGhostCopies(const BoundGhostFill& fill, ReceivedMessages* messages) {
   const int material = warehouse_->table()[fill.variable].material;
   const std::vector<Patch>& patches = warehouse_->level().patches();
   for (std::size_t place = 0; place < patches.size(); ++place) {
     ParticleSet& set = warehouse_->particles(fill.set, material, patches[place].id());
     for (const GhostCopy& copy : planOf(fill).into[place]) {
-      if (isHere(copy) ? letters || copy.shift == Index3{} : !letters) continue;
+      if (isHere(copy) ? messages || copy.shift == Index3{} : !messages) continue;
       int there = 0;  // place in the message, among those of this copy
       grid::forEach<3>(copy.box, [&](const Index3& cell) {
-        const ParticleRange range = letters
-                                        ? letters->nextRange(copy.rank, there)
+        const ParticleRange range = messages
+                                        ? messages->nextRange(copy.rank, there)
                                         : warehouse_->particles(fill.set, material, copy.from).in(cell - copy.shift);
         there = range.last;
         if (range.empty()) return;
@@ -292,21 +292,21 @@ void Exchange::settleCopies(const NumberedFill& fill, Letters* letters) {
   }
 }
 
-void Exchange::reserveCopies(const NumberedFill& fill) {
+void Exchange::reserveCopies(const BoundGhostFill& fill) {
   warehouse_->reserveCopies(fill.generation, fill.variable, fill.set);
 }
 
-/// The copies that a patch has of particles of this rank, or of others from their letters.
-void Exchange::fillCopies(const NumberedFill& fill, const Patch& patch, Letters* letters) {
+/// The copies that a patch has of particles of this rank, or of others from their messages.
+void Exchange::fillCopies(const BoundGhostFill& fill, const Patch& patch, ReceivedMessages* messages) {
   const auto [label, material] = warehouse_->table()[fill.variable];
   const grid::Level& level = warehouse_->level();
   const Variable here = warehouse_->variable(fill.generation, fill.variable, patch.id());
   for (const data::GhostRun& run : warehouse_->particles(fill.set, material, patch.id()).ghostRuns()) {
-    if (level.isMine(run.patch) == (letters != nullptr)) continue;
+    if (level.isMine(run.patch) == (messages != nullptr)) continue;
     const std::size_t length = static_cast<std::size_t>(run.count) * label->bytes;
-    const std::byte* from = letters ? letters->next(level.ownerOf(run.patch), length)
-                                    : warehouse_->variable(fill.generation, fill.variable, run.patch).values +
-                                          static_cast<std::size_t>(run.first) * label->bytes;
+    const std::byte* from = messages ? messages->next(level.ownerOf(run.patch), length)
+                                     : warehouse_->variable(fill.generation, fill.variable, run.patch).values +
+                                           static_cast<std::size_t>(run.first) * label->bytes;
     std::byte* to = here.values + static_cast<std::size_t>(run.to) * label->bytes;
     std::memcpy(to, from, length);
     if (label->name == data::positionName && !(run.shift == Index3{}))

@@ -12,13 +12,13 @@
 namespace tushar::tasks {
 
 /// A fill of ghosts, by number of variable.
-struct NumberedFill {
+struct BoundGhostFill {
   int variable;
   data::Generation generation, set;
   bool particles;
 };
 
-GhostReach reachOf(const data::VariableTable& table, const NumberedFill& fill);
+GhostReach reachOf(const data::VariableTable& table, const BoundGhostFill& fill);
 
 /// Fills the ghosts of every patch from the patches that own them, on this rank or another.
 ///
@@ -35,7 +35,7 @@ class Exchange {
   /// before the next.
   ///
   /// Posts messages. A rank on which a task failed says so in place of its values (`hasStopped`).
-  void send(std::span<const NumberedFill> fills, bool hasStopped);
+  void send(std::span<const BoundGhostFill> fills, bool hasStopped);
   /// Fills what needs no message from other ranks, where no task has failed by then.
   void begin(bool hasStopped);
   /// Waits for the messages of others and fills the rest. False if a rank that this one hears of has stopped: then
@@ -47,32 +47,32 @@ class Exchange {
   bool isReady(std::size_t place);
   /// Patches of this rank take the new values of a node variable that they have but do not own from one another.
   void shareFaces(int variable);
-  /// This rank has other patches from now on.
+  /// To be called when the distribution of patches has changed.
   void forgetLayout() {
     plans_.forget();
     faces_.clear();
   }
 
  private:
-  class Letters;
+  class ReceivedMessages;
 
   bool movesNothing() const;
   void post(bool hasStopped);
   /// What patches of this rank have from one another.
   void fillFromHere();
-  void fillFromElsewhere(const NumberedFill& fill, bool settles, Letters& letters);
-  void copyGrid(const NumberedFill& fill, const GhostCopy& copy);
-  void takeGrid(const NumberedFill& fill, const GhostCopy& copy, Letters& letters);
-  void settleDirect(const NumberedFill& fill, const grid::Patch& patch, const std::vector<GhostCopy>& copies);
-  void settleCopies(const NumberedFill& fill, Letters* letters);
-  void reserveCopies(const NumberedFill& fill);
-  void fillCopies(const NumberedFill& fill, const grid::Patch& patch, Letters* letters);
+  void fillFromElsewhere(const BoundGhostFill& fill, bool resolves, ReceivedMessages& messages);
+  void copyGrid(const BoundGhostFill& fill, const GhostCopy& copy);
+  void takeGrid(const BoundGhostFill& fill, const GhostCopy& copy, ReceivedMessages& messages);
+  void linkLocalGhosts(const BoundGhostFill& fill, const grid::Patch& patch, const std::vector<GhostCopy>& copies);
+  void placeGhostCopies(const BoundGhostFill& fill, ReceivedMessages* messages);
+  void reserveCopies(const BoundGhostFill& fill);
+  void fillCopies(const BoundGhostFill& fill, const grid::Patch& patch, ReceivedMessages* messages);
   bool isHere(const GhostCopy& copy) const { return copy.rank == warehouse_->ranks().rank(); }
-  void noteUnsettled();
-  /// Calls `work(fill, whether it settles ghosts, patch, its place)` on several threads at once.
+  void noteUnresolved();
+  /// Calls `work(fill, whether it resolves ghosts, patch, its place)` on several threads at once.
   template <class Work>
   void forEach(const Work& work);
-  const GhostPlan& planOf(const NumberedFill& fill) {
+  const GhostPlan& planOf(const BoundGhostFill& fill) {
     return plans_.of(warehouse_->level(), reachOf(warehouse_->table(), fill));
   }
 
@@ -82,10 +82,10 @@ class Exchange {
   GhostPlans plans_;
   std::vector<std::vector<GhostCopy>> faces_;  ///< by place of the patch on this rank; settled on first use
   // Of the exchange that was sent:
-  std::span<const NumberedFill> fills_;
+  std::span<const BoundGhostFill> fills_;
   bool has_stopped_ = false;
-  std::set<int> senders_;      ///< ranks whose messages are awaited
-  std::vector<bool> settles_;  ///< by fill: whether it settles which particles are ghosts
+  std::set<int> senders_;       ///< ranks whose messages are awaited
+  std::vector<bool> resolves_;  ///< by fill: whether it resolves which particles are ghosts
 };
 
 }  // namespace tushar::tasks

@@ -49,11 +49,11 @@ class Planner {
     std::set<int> readers;
     for (const Patch& patch : level_.patches()) {
       plan.into.push_back(copiesInto(patch));
-      plan.isClosed.push_back(true);
+      plan.isLocal.push_back(true);
       for (const GhostCopy& copy : plan.into.back()) {
         if (copy.rank == level_.share().rank) continue;
         plan.incoming.insert(copy.rank);
-        plan.isClosed.back() = false;
+        plan.isLocal.back() = false;
       }
       if (level_.share().ranks > 1)
         forEachSource(level_, reach(patch), [&](const Patch& other, const Index3&) {

@@ -21,7 +21,7 @@ struct GhostCopy {
 /// from the geometry: a receiver and a sender list the copies between them in the same order, without a message.
 struct GhostPlan {
   std::vector<std::vector<GhostCopy>> into;        ///< by patch of this rank
-  std::vector<bool> isClosed;                      ///< by patch of this rank: whether it needs no other rank
+  std::vector<bool> isLocal;                       ///< by patch of this rank: whether it needs no other rank
   std::map<int, std::vector<GhostCopy>> outgoing;  ///< by rank that they go to
   std::set<int> incoming;                          ///< ranks that others come from
 };

@@ -6,14 +6,15 @@
 namespace tushar::tasks {
 
 void Outcome::merge(const Outcome& other) {
-  if (task == other.task && kind == Kind::asks && other.kind == Kind::asks) return factor.merge(other.factor);
+  if (task == other.task && kind == Kind::shortensStep && other.kind == Kind::shortensStep)
+    return factor.merge(other.factor);
   const auto order = [](const Outcome& one) {
-    return std::tuple(one.task, one.kind == Kind::asks ? 0 : 1, one.material, one.kind, one.place, one.rank);
+    return std::tuple(one.task, one.kind == Kind::shortensStep ? 0 : 1, one.material, one.kind, one.place, one.rank);
   };
   if (order(other) < order(*this)) *this = other;
 }
 
-NumericalError told(const mpi::Communicator& ranks, const std::optional<NumericalError>& mine, int from) {
+NumericalError broadcastError(const mpi::Communicator& ranks, const std::optional<NumericalError>& mine, int from) {
   const bool isMine = ranks.rank() == from;
   const std::string what = ranks.broadcast(isMine ? std::string(mine->what()) : "", from);
   const std::string advice = ranks.broadcast(isMine ? mine->advice() : "", from);

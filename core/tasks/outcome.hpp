@@ -13,26 +13,26 @@ namespace tushar::tasks {
 /// Where a run of a graph ends before its last task: what the first task in its order came to, on whichever ranks. It
 /// goes into messages as it is.
 ///
-/// A task that asks for a smaller time step comes before one that breaks a bound, since what it computed is not used.
+/// A task that shortens the time step comes before one that breaks a bound, since what it computed is not used.
 struct Outcome {
   /// Of several faults of a task the least counts, so that patches and ranks do not matter: first those that bodies
   /// throw, by cell, then broken bounds, by the place of the variable among those of the task.
-  enum class Kind { asks, throws, breaks };
+  enum class Kind { shortensStep, throws, breaks };
   static constexpr int none = std::numeric_limits<int>::max();
 
   int task = none;  ///< place in the graph
-  Kind kind = Kind::asks;
+  Kind kind = Kind::shortensStep;
   int material = 0;
   std::uint64_t place = 0;  ///< cell, or place of the variable
   int rank = 0;
-  data::Minimum factor{};  ///< of one that asks
+  data::Minimum factor{};  ///< of the time step, where it is to be shortened
   data::Reason value{};    ///< the value that cannot be, or the task
 
   bool isNone() const { return task == none; }
   void merge(const Outcome& other);
 };
 
-/// The error that one rank has, on all of them.
-NumericalError told(const mpi::Communicator& ranks, const std::optional<NumericalError>& mine, int from);
+/// The error of rank `from`, on every rank. Collective.
+NumericalError broadcastError(const mpi::Communicator& ranks, const std::optional<NumericalError>& mine, int from);
 
 }  // namespace tushar::tasks

@@ -56,6 +56,12 @@ std::vector<Task> select(const std::vector<Task>& tasks, const std::vector<bool>
   return selected;
 }
 
+/// Leaves out the offered outputs of a task that nothing reads after it.
+void leaveOutOffers(Task& task, const Names& liveAfter) {
+  for (Access& access : task.accesses)
+    if (access.offered && !liveAfter.contains(access.label->name)) access.kind = AccessKind::leftOut;
+}
+
 /// Particle variables that the list itself does not compute before it relocates, but needs afterwards.
 Names carriedFromState(const std::vector<Task>& tasks, const Sweep& swept) {
   Names carried, produced;
@@ -92,10 +98,12 @@ Pruned prune(const std::vector<Task>& tasks, const Names& wanted, bool repeated)
   }
   result.kept = select(tasks, swept.kept);
   for (std::size_t t = 0; t < tasks.size(); ++t) {
-    if (swept.kept[t])
+    if (swept.kept[t]) {
+      leaveOutOffers(result.kept[result.liveAfter.size()], swept.liveAfter[t]);
       result.liveAfter.push_back(swept.liveAfter[t]);
-    else
+    } else {
       result.leftOut.push_back({tasks[t].name, whyNot(tasks[t])});
+    }
   }
   return result;
 }

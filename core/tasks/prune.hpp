@@ -23,7 +23,8 @@ struct Pruned {
   std::vector<Names> liveAfter;
 };
 
-/// Step 2 of compiling: leaves out each task none of whose results reaches a wanted variable.
+/// Step 2 of compiling: leaves out each task none of whose results reaches a wanted variable, and of the tasks that are
+/// kept each offered output that nothing reads (AccessKind::leftOut).
 ///
 /// `wanted` names what others read at the end of the list: saved variables, the state that other lists require,
 /// reductions. `repeated` lists are run step after step, so what their own tasks require of the old state is wanted

@@ -94,9 +94,9 @@ bool Relocation::find(int material, int position, bool hasStopped) {
   return true;
 }
 
-void Relocation::settle(int material, const std::vector<Carried>& carried, Generation to) {
+void Relocation::apply(int material, const std::vector<Carried>& carried, Generation to) {
   Moves& moves = movesOf(material);
-  moves.emigration.run(carried, moves.goFar);
+  moves.migration.run(carried, moves.goFar);
   receiveAll(moves);
   forEachPatch([&](const Patch& patch) {
     PatchMoves& ofPatch = of(moves, patch.id());
@@ -155,7 +155,7 @@ void Relocation::findMoves(const Patch& patch, const ParticleSet& set, Vec<D>* x
   moves.departed.clear();
   moves.outgoing.clear();
   moves.incoming.clear();
-  moves.strangers.clear();
+  moves.arrivals.clear();
   forgetIncoming(patch, moves);
   moves.escape.reset();
   moves.leaving = 0;
@@ -203,7 +203,7 @@ void Relocation::move(const Patch& from, const Index<D>& fromCell, Vec<D>& x, Pa
 Relocation::Verdict Relocation::gather(Moves& moves, bool hasStopped) {
   const grid::Level& level = warehouse_->level();
   Verdict verdict{hasStopped, false, false, warehouse_->ranks().rank(), {}};
-  moves.emigration.start();
+  moves.migration.start();
   for (const Patch& from : level.patches()) {
     if (hasStopped) break;
     const PatchMoves& ofPatch = of(moves, from.id());
@@ -211,9 +211,9 @@ Relocation::Verdict Relocation::gather(Moves& moves, bool hasStopped) {
     if (ofPatch.escape) verdict.merge({false, true, false, verdict.rank, *ofPatch.escape});
     for (const Outgoing& one : ofPatch.outgoing)
       if (const int patch = level.patchOf(one.cell).id(); !level.isMine(patch))
-        moves.emigration.add(level.ownerOf(patch), {one.id, one.cell, from.id(), one.from});
+        moves.migration.add(level.ownerOf(patch), {one.id, one.cell, from.id(), one.from});
   }
-  verdict.goFar = moves.emigration.goesFar();
+  verdict.goFar = moves.migration.goesFar();
   return verdict;
 }
 
@@ -228,7 +228,7 @@ void Relocation::refuseEscape(int position, const Verdict& verdict) const {
                                               : sentence<3>(position, verdict.escape);
     mine.emplace(what, "", "p.x", verdict.escape.cell);
   }
-  throw told(warehouse_->ranks(), mine, verdict.rank);
+  throw broadcastError(warehouse_->ranks(), mine, verdict.rank);
 }
 
 template <int D>
@@ -253,16 +253,16 @@ std::string Relocation::sentence(int position, const Escape& escape) const {
 
 void Relocation::receiveAll(Moves& moves) {
   const grid::Level& level = warehouse_->level();
-  const auto receiveAt = [&](ParticleId id, const Index3& cell, const Stranger& from) {
+  const auto receiveAt = [&](ParticleId id, const Index3& cell, const Arrival& from) {
     const Patch to = level.patchOf(cell);
     if (!level.isMine(to.id())) return;
     PatchMoves& there = of(moves, to.id());
-    there.strangers.push_back(from);
-    receive(to, cell, {id, -static_cast<int>(there.strangers.size()), -1}, there);
+    there.arrivals.push_back(from);
+    receive(to, cell, {id, -static_cast<int>(there.arrivals.size()), -1}, there);
   };
   for (const Patch& patch : level.patches())
     for (const Outgoing& one : of(moves, patch.id()).outgoing) receiveAt(one.id, one.cell, {patch.id(), one.departed});
-  const std::vector<Emigrant>& arrived = moves.emigration.arrived();
+  const std::vector<MigratingParticle>& arrived = moves.migration.arrived();
   for (std::size_t k = 0; k < arrived.size(); ++k) receiveAt(arrived[k].id, arrived[k].cell, {-1, static_cast<int>(k)});
 }
 

@@ -9,7 +9,7 @@
 
 #include "core/base/threads.hpp"
 #include "core/data/warehouse.hpp"
-#include "core/tasks/emigration.hpp"
+#include "core/tasks/particle_migration.hpp"
 
 namespace tushar::tasks {
 
@@ -30,9 +30,9 @@ class Relocation {
   bool find(int material, int position, bool hasStopped);
   /// Builds the new particle set of a material as found, from the old one; every carried variable then follows it in
   /// generation `to`. What is in that generation already moves within its memory. All ranks run it together.
-  void settle(int material, const std::vector<Carried>& carried, data::Generation to);
+  void apply(int material, const std::vector<Carried>& carried, data::Generation to);
 
-  /// This rank has other patches from now on.
+  /// To be called when the distribution of patches has changed.
   void forgetLayout();
 
   /// A step begins, perhaps for the second time.
@@ -48,11 +48,11 @@ class Relocation {
   /// A particle that comes into a cell, from this patch or another.
   struct Incoming {
     ParticleId id;
-    int from;  ///< place among the departed of the patch; or -1 - its place among the strangers
+    int from;  ///< place among the departed of the patch; or -1 - its place among the arrivals
     int next;  ///< the incoming particle of the same cell with the next greater id, or -1
   };
   /// Where a particle from another patch was.
-  struct Stranger {
+  struct Arrival {
     int patch, place;  ///< place among the departed of that patch; patch -1: among those that came from other ranks
   };
   /// A particle that goes to a cell of another patch.
@@ -89,7 +89,7 @@ class Relocation {
     std::vector<int> departed;       ///< places of the patch's particles that leave their cell, ascending
     std::vector<Outgoing> outgoing;  ///< of these, the ones that go to other patches
     std::vector<Incoming> incoming;  ///< particles that come into a cell of the patch
-    std::vector<Stranger> strangers;
+    std::vector<Arrival> arrivals;
     std::vector<int> firstIncoming;  ///< by cell, or -1
     std::vector<char> isEntered;     ///< by row of cells along the first axis: whether particles come in
     std::vector<Run> runs;           ///< ascending
@@ -106,10 +106,10 @@ class Relocation {
   };
   /// How the particles of a material move.
   struct Moves {
-    explicit Moves(data::Warehouse& warehouse) : emigration(warehouse) {}
+    explicit Moves(data::Warehouse& warehouse) : migration(warehouse) {}
 
     std::vector<PatchMoves> patches;
-    Emigration emigration;
+    ParticleMigration migration;
     bool goFar = false;
     std::size_t departed = 0;  ///< from their cells, on all patches
   };
@@ -119,7 +119,7 @@ class Relocation {
     const std::byte* from;
     std::byte* to;
     const data::Slots *before, *after;
-    const std::byte* emigrants;
+    const std::byte* migrants;
     std::byte* packed;
   };
 

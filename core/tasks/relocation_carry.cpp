@@ -28,7 +28,7 @@ void Relocation::carry(const Carried& carried, std::size_t place, Generation to,
                   .to = warehouse_->memory(to, carried.variable),
                   .before = before.get(),
                   .after = after.get(),
-                  .emigrants = moves.emigration.values(place),
+                  .migrants = moves.migration.values(place),
                   .packed = packed.data()};
   const bool isInPlace = from == move.to;
   const auto placeOf = [&](const Patch& patch) {
@@ -62,10 +62,10 @@ void Relocation::moveOn(const Move& move, std::size_t place, Moves& all) {
     if (source >= 0) {
       from = move.packed + (moves.packed + static_cast<std::size_t>(source)) * move.bytes;
     } else {
-      const Stranger& stranger = moves.strangers[static_cast<std::size_t>(-1 - source)];
-      const auto at = static_cast<std::size_t>(stranger.place);
-      from = stranger.patch < 0 ? move.emigrants + at * move.bytes
-                                : move.packed + (of(all, stranger.patch).packed + at) * move.bytes;
+      const Arrival& arrival = moves.arrivals[static_cast<std::size_t>(-1 - source)];
+      const auto at = static_cast<std::size_t>(arrival.place);
+      from = arrival.patch < 0 ? move.migrants + at * move.bytes
+                               : move.packed + (of(all, arrival.patch).packed + at) * move.bytes;
     }
     std::memcpy(values + static_cast<std::size_t>(entry.to) * move.bytes, from, move.bytes);
   }

@@ -140,9 +140,9 @@ std::optional<data::Minimum> Scheduler::run(TaskGraph& graph, const StepInfo& at
   agree(graph);
   if (outcome_.isNone()) return std::nullopt;
   warehouse_->forgetGhosts();  // ranks that stopped before others have settled fewer
-  if (outcome_.kind == Outcome::Kind::asks) return outcome_.factor;
+  if (outcome_.kind == Outcome::Kind::shortensStep) return outcome_.factor;
   if (at.mayRepeat) return data::Minimum{0.5, outcome_.value};
-  if (outcome_.kind == Outcome::Kind::throws) throw told(warehouse_->ranks(), error_, outcome_.rank);
+  if (outcome_.kind == Outcome::Kind::throws) throw broadcastError(warehouse_->ranks(), error_, outcome_.rank);
   throw whatBroke(graph, at);
 }
 
@@ -176,7 +176,7 @@ void Scheduler::runTask(TaskGraph& graph, int number, const StepInfo& at) {
   task.seconds += seconds(Clock::now() - started);
 }
 
-std::optional<data::Minimum> Scheduler::askedBy(const CompiledTask& task) {
+std::optional<data::Minimum> Scheduler::factorOf(const CompiledTask& task) {
   if (task.recomputeTimeStep < 0) return std::nullopt;
   const auto& factor = warehouse_->reduction<data::Minimum>(task.recomputeTimeStep);
   return factor.value < 1 ? std::optional(factor) : std::nullopt;
@@ -209,8 +209,8 @@ void Scheduler::runWork(CompiledTask& task, const StepInfo& at) {
     else
       runOnPatches(task, m, at);
   shareFaces(task);
-  if (const auto factor = askedBy(task))
-    outcome_.merge({running_, Outcome::Kind::asks, 0, 0, warehouse_->ranks().rank(), *factor, {}});
+  if (const auto factor = factorOf(task))
+    outcome_.merge({running_, Outcome::Kind::shortensStep, 0, 0, warehouse_->ranks().rank(), *factor, {}});
 }
 
 void Scheduler::shareFaces(const CompiledTask& task) {
@@ -227,7 +227,7 @@ void Scheduler::relocate(const CompiledTask& task, const StepInfo& at) {
       located(task, -1, m, at, [&] {
         const int position = binding.accesses.front().variable;
         heard_stop_ = !relocation_.find(m, position, hasStopped()) || heard_stop_;
-        if (!heard_stop_ && !task.isLast) relocation_.settle(m, binding.carried, Generation::fresh);
+        if (!heard_stop_ && !task.isLast) relocation_.apply(m, binding.carried, Generation::fresh);
       });
     } catch (const NumericalError& error) {
       note(task, m, error);
@@ -349,15 +349,15 @@ void Scheduler::free(const CompiledTask& task) {
 void Scheduler::commit(TaskGraph& graph) {
   relocation_.commit();
   for (const int number : graph.results()) warehouse_->makeOld(number);
-  if (!graph.tasks().empty()) settle(graph.tasks().back());
+  if (!graph.tasks().empty()) apply(graph.tasks().back());
   for (const int material : graph.changedSets()) warehouse_->swapSets(material);
 }
 
-void Scheduler::settle(CompiledTask& last) {
+void Scheduler::apply(CompiledTask& last) {
   if (last.task.kind != TaskKind::relocate) return;
   const auto started = Clock::now();
   for (std::size_t m = 0; m < last.materials.size(); ++m)
-    relocation_.settle(static_cast<int>(m), last.materials[m].carried, Generation::old);
+    relocation_.apply(static_cast<int>(m), last.materials[m].carried, Generation::old);
   last.seconds += seconds(Clock::now() - started);
 }
 

@@ -54,7 +54,7 @@ class Scheduler {
   /// What each patch of this rank has cost since this was asked last, in seconds of the clock where all threads work
   /// all the time; nothing is measured on a rank alone.
   std::vector<double> takeCosts();
-  /// This rank has other patches from now on.
+  /// To be called when the distribution of patches has changed.
   void forgetLayout();
 
   Relocation& relocation() { return relocation_; }
@@ -88,9 +88,9 @@ class Scheduler {
   void allocateOutputs(const MaterialBinding& binding);
   void free(const CompiledTask& task);
   /// Makes the moves that the last task of a graph has found, if it is a relocation.
-  void settle(CompiledTask& last);
+  void apply(CompiledTask& last);
 
-  std::optional<data::Minimum> askedBy(const CompiledTask& task);
+  std::optional<data::Minimum> factorOf(const CompiledTask& task);
   void note(const CompiledTask& task, int material, const NumericalError& error);
   /// Notes the first bound that is broken for the materials `first` up to `end`, if one is.
   void noteBroken(const CompiledTask& task, int first, int end);

@@ -17,16 +17,20 @@ enum class AccessKind {
   computes,     ///< writes every value
   modifies,     ///< changes what an earlier task computed
   creates,      ///< writes the values of particles that the task itself makes
+  leftOut,      ///< an offered output that nothing reads: not allocated
 };
 
 /// One declared use of a variable.
 struct Access {
   const data::Label* label;
   AccessKind kind;
-  int ghost = 0;     ///< cells or nodes beyond the patch that are read
-  bool own = false;  ///< of nodes: whether it writes only those that are the patch's own
+  int ghost = 0;         ///< cells or nodes beyond the patch that are read
+  bool own = false;      ///< of nodes: whether it writes only those that are the patch's own
+  bool offered = false;  ///< whether a kept task can do without it
 
-  bool reads() const { return kind != AccessKind::computes && kind != AccessKind::creates; }
+  bool reads() const {
+    return kind == AccessKind::requiresOld || kind == AccessKind::requiresNew || kind == AccessKind::modifies;
+  }
   bool writes() const {
     return kind == AccessKind::computes || kind == AccessKind::modifies || kind == AccessKind::creates;
   }

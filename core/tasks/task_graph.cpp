@@ -32,7 +32,7 @@ std::map<std::string, std::pair<const data::Label*, int>, std::less<>> labelsOf(
 /// Whether a patch may be worked on before others have their ghosts: the task leaves alone what they are filled from.
 bool mayStartEarly(const CompiledTask& task, const data::VariableTable& table) {
   const auto isFilled = [&](const Access& access) {
-    return std::any_of(task.fills.begin(), task.fills.end(), [&](const NumberedFill& fill) {
+    return std::any_of(task.fills.begin(), task.fills.end(), [&](const BoundGhostFill& fill) {
       return table[fill.variable].label->name == access.label->name;
     });
   };
@@ -94,6 +94,10 @@ MaterialBinding TaskGraph::bindMaterial(std::size_t t, int material, data::Varia
   const Task& task = pruned_.kept[t];
   MaterialBinding binding;
   for (const Access& access : task.accesses) {
+    if (access.kind == AccessKind::leftOut) {
+      binding.accesses.emplace_back();
+      continue;
+    }
     const int number = table.number(*access.label, materialOf(access, material));
     const Generation generation = access.isNew() ? Generation::fresh : Generation::old;
     const Generation set = access.isNew() ? sets_[t] : Generation::old;

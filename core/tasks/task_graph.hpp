@@ -21,7 +21,7 @@ struct Output {
   data::Generation set;
 };
 
-/// What of a kept task depends on the material.
+/// The part of a kept task that depends on the material.
 struct MaterialBinding {
   std::vector<BoundAccess> accesses;
   std::vector<Output> outputs;
@@ -35,7 +35,7 @@ struct MaterialBinding {
 struct CompiledTask {
   Task task;
   std::vector<MaterialBinding> materials;  ///< one for a task that belongs to no material
-  std::vector<NumberedFill> fills;         ///< of ghosts, before it runs
+  std::vector<BoundGhostFill> fills;       ///< of ghosts, before it runs
   int sends = -1;  ///< the task whose ghosts are sent to other ranks before this one runs, if one is
   std::vector<int> reductions, readReductions;  ///< that it computes, and reads
   bool mayStartEarly = false;  ///< whether patches that have their ghosts may be worked on while others wait for theirs

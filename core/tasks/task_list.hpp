@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/tasks/access.hpp"
+#include "core/tasks/access_group.hpp"
 
 namespace tushar::tasks {
 
@@ -18,6 +18,7 @@ class TaskList {
   /// Runs `body(patch, arguments...)` on each patch.
   template <class Body, class... Arguments>
   void perPatch(std::string name, Body body, Arguments... arguments) {
+    check<false, false, Arguments...>();
     std::vector<Access> accesses = declare(arguments...);
     add({std::move(name),
          TaskKind::work,
@@ -32,6 +33,7 @@ class TaskList {
   /// and have a `name`. The labels are variables of the material.
   template <class Material, class Body, class... Arguments>
   void perMaterial(std::string name, Body body, const std::vector<Material>& materials, Arguments... arguments) {
+    check<false, false, Arguments...>();
     std::vector<Access> accesses = declare(arguments...);
     add({std::move(name), TaskKind::work, names(materials), std::move(accesses),
          [body, &materials, bound = std::make_tuple(arguments...)](const TaskContext& context) {
@@ -45,6 +47,7 @@ class TaskList {
   /// std::vector of views, one for each material.
   template <class Material, class Body, class... Arguments>
   void acrossMaterials(std::string name, Body body, const std::vector<Material>& materials, Arguments... arguments) {
+    check<false, false, Arguments...>();
     std::vector<Access> accesses = declare(arguments...);
     add({std::move(name), TaskKind::work, names(materials), std::move(accesses),
          [body, &materials, bound = std::make_tuple(arguments...)](const TaskContext& context) {
@@ -58,6 +61,7 @@ class TaskList {
   /// access to a label becomes a std::vector of views, one for each patch.
   template <class Body, class... Arguments>
   void perRank(std::string name, Body body, Arguments... arguments) {
+    check<false, true, Arguments...>();
     std::vector<Access> accesses = declare(arguments...);
     addPerRank({std::move(name),
                 TaskKind::work,
@@ -74,6 +78,7 @@ class TaskList {
   template <class Material, class Body, class... Arguments>
   void perRankAcrossMaterials(std::string name, Body body, const std::vector<Material>& materials,
                               Arguments... arguments) {
+    check<false, true, Arguments...>();
     std::vector<Access> accesses = declare(arguments...);
     addPerRank(
         {std::move(name), TaskKind::work, names(materials), std::move(accesses),
@@ -88,6 +93,7 @@ class TaskList {
   /// Particle variables that are needed afterwards must be among what it `creates`; node and cell variables stay.
   template <class Material, class Body, class... Arguments>
   void newParticles(std::string name, Body body, const std::vector<Material>& materials, Arguments... arguments) {
+    check<true, false, Arguments...>();
     std::vector<Access> accesses = declare(arguments...);
     add({std::move(name), TaskKind::newParticles, names(materials), std::move(accesses),
          [body, &materials, bound = std::make_tuple(arguments...)](const TaskContext& context) {
@@ -114,6 +120,13 @@ class TaskList {
   void addPerRank(Task task) {
     task.perRank = true;
     add(std::move(task));
+  }
+  /// Refuses arguments that mean nothing to a kind of task.
+  template <bool makesParticles, bool isOnRank, class... Arguments>
+  static constexpr void check() {
+    static_assert(makesParticles || !(isCreation<Arguments> || ...), "creates(...) belongs to newParticles");
+    static_assert(isOnRank || !(isOfRanks<Arguments> || ...),
+                  "togetherOnRanks() belongs to perRank and perRankAcrossMaterials");
   }
   template <class... Arguments>
   static std::vector<Access> declare(Arguments&... arguments) {

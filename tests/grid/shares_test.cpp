@@ -30,7 +30,7 @@ TEST(EvenShares, GiveTheBusiestRankAsLittleAsConsecutivePatchesAllow) {
     for (const std::size_t patches : {1U, 2U, 5U, 9U}) {
       std::vector<double> costs;
       for (std::size_t k = 0; k < patches; ++k) costs.push_back(static_cast<double>(random() % 10));
-      const Firsts shares = evenShares(costs, ranks);
+      const RankOffsets shares = evenShares(costs, ranks);
 
       EXPECT_EQ(shares.size(), static_cast<std::size_t>(ranks) + 1);
       EXPECT_EQ(shares.front(), 0);
@@ -41,7 +41,7 @@ TEST(EvenShares, GiveTheBusiestRankAsLittleAsConsecutivePatchesAllow) {
 }
 
 TEST(EvenShares, LeaveTheFirstRankAPatchWhateverItCosts) {
-  EXPECT_EQ(evenShares({9, 1, 1}, 2), (Firsts{0, 1, 3}));
+  EXPECT_EQ(evenShares({9, 1, 1}, 2), (RankOffsets{0, 1, 3}));
   EXPECT_EQ(evenShares({0, 0, 0}, 2)[0], 0);
   EXPECT_GT(evenShares({0, 0, 0}, 2)[1], 0);
 }

@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "core/base/error.hpp"
-#include "core/tasks/migration.hpp"
+#include "core/tasks/patch_migration.hpp"
 #include "tests/ranks/ranks.hpp"
 
 // Ghosts, relocation and reductions over several ranks.
@@ -127,13 +127,13 @@ class Swarm {
  private:
   void move(int turn) {
     const int ranks = run.level.share().ranks, patches = run.level.patchCount();
-    grid::Firsts firsts{0};
+    grid::RankOffsets firsts{0};
     for (int rank = 1; rank < ranks; ++rank)
       firsts.push_back(turn % 2 == 0 ? patches : patches * rank * rank / (ranks * ranks));
     firsts.push_back(patches);
-    const Luggage luggage{
+    const MigratedVariables migrated{
         1, {run.table.find("p.x", 0), run.table.find("p.mark", 0), run.table.find(data::particleId.name, 0)}};
-    migrate(run.level, run.warehouse, luggage, firsts);
+    migratePatches(run.level, run.warehouse, migrated, firsts);
     run.scheduler.forgetLayout();
   }
   static void create(const Patch& patch, const Material&, ParticleMaker& maker, std::vector<Vec<2>>& at,
@@ -234,7 +234,7 @@ TEST(Ranks, UseAsManyThreadsAsTheyHavePatchesFor) {
     EXPECT_EQ(run.scheduler.threads().count(), 4);
 
     for (const int first : {12, 2, 10}) {
-      migrate(run.level, run.warehouse, {}, {0, first, 12});
+      migratePatches(run.level, run.warehouse, {}, {0, first, 12});
       run.scheduler.forgetLayout();
       const int patches = some.isFirst() ? first : 12 - first;
       EXPECT_EQ(run.scheduler.threads().count(), std::clamp(patches, 1, 4)) << patches << " patches";

@@ -4,7 +4,7 @@
 
 namespace tushar::simulation {
 
-using grid::Firsts;
+using grid::RankOffsets;
 
 TEST(Balance, LooksAtTheCostsAfter8And16And32StepsAndThenEvery64) {
   Balance balance(2);
@@ -26,7 +26,7 @@ TEST(Balance, NeverLooksOnOneRank) {
 TEST(Balance, MovesPatchesWhereThatPaysAndReportsIt) {
   Balance balance(2);
 
-  EXPECT_EQ(balance.better({8, 1, 1, 1, 1}, {0, 3, 5}, 40), (Firsts{0, 1, 5}));
+  EXPECT_EQ(balance.better({8, 1, 1, 1, 1}, {0, 3, 5}, 40), (RankOffsets{0, 1, 5}));
   EXPECT_EQ(balance.report().times, 1);
   EXPECT_EQ(balance.report().step, 40);
   EXPECT_DOUBLE_EQ(balance.report().before, 10. / 6);

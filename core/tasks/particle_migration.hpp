@@ -15,7 +15,7 @@ struct Carried {
 };
 
 /// A particle that goes to another rank.
-struct Emigrant {
+struct MigratingParticle {
   ParticleId id;
   Index3 cell;       ///< where it comes
   int patch, place;  ///< where it was
@@ -25,18 +25,18 @@ struct Emigrant {
 ///
 /// A particle may go to any cell of the grid. Ranks expect messages from their neighbours only; where some particle
 /// goes farther, which all ranks agree on before, they expect one from every rank.
-class Emigration {
+class ParticleMigration {
  public:
   /// Ranks with patches as near as this, in cells, are neighbours: few particles go farther in a step.
   static constexpr int neighbourhood = 2;
 
-  explicit Emigration(data::Warehouse& warehouse) : warehouse_(&warehouse), outbox_(warehouse.ranks()) {}
+  explicit ParticleMigration(data::Warehouse& warehouse) : warehouse_(&warehouse), outbox_(warehouse.ranks()) {}
 
-  /// This rank has other patches from now on, and other neighbours.
+  /// To be called when the distribution of patches has changed, and with it the neighbours.
   void forgetLayout();
-  /// A relocation begins: nobody leaves yet.
+  /// Starts a relocation: no particle leaves yet.
   void start();
-  void add(int rank, const Emigrant& particle) { leaving_[rank].push_back(particle); }
+  void add(int rank, const MigratingParticle& particle) { leaving_[rank].push_back(particle); }
   /// Whether a particle goes to a rank that is no neighbour.
   bool goesFar();
 
@@ -44,21 +44,21 @@ class Emigration {
   /// ranks, or where `goFar` is false with the neighbours.
   void run(const std::vector<Carried>& carried, bool goFar);
   /// Those that have come.
-  const std::vector<Emigrant>& arrived() const { return arrived_; }
+  const std::vector<MigratingParticle>& arrived() const { return arrived_; }
   /// Their values of a carried variable, one after the other.
   const std::byte* values(std::size_t carried) const { return values_[carried].data(); }
 
  private:
   const std::vector<int>& neighbours();
-  mpi::Bytes packed(const std::vector<Emigrant>& particles, const std::vector<Carried>& carried);
+  mpi::Bytes packed(const std::vector<MigratingParticle>& particles, const std::vector<Carried>& carried);
   void unpack(const mpi::Bytes& message, const std::vector<Carried>& carried);
 
   data::Warehouse* warehouse_;
   mpi::Outbox outbox_;
-  bool knows_neighbours_ = false;
+  bool has_neighbours_ = false;
   std::vector<int> neighbours_;
-  std::map<int, std::vector<Emigrant>> leaving_;  ///< by rank
-  std::vector<Emigrant> arrived_;
+  std::map<int, std::vector<MigratingParticle>> leaving_;  ///< by rank
+  std::vector<MigratingParticle> arrived_;
   std::vector<mpi::Bytes> values_;  ///< by carried variable
 };
 

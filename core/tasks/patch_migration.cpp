@@ -1,4 +1,4 @@
-#include "core/tasks/migration.hpp"
+#include "core/tasks/patch_migration.hpp"
 
 #include <cstring>
 #include <deque>
@@ -25,13 +25,13 @@ namespace {
 /// there is one.
 class Packer {
  public:
-  Packer(data::Warehouse& warehouse, const Luggage& luggage) : warehouse_(warehouse), luggage_(luggage) {}
+  Packer(data::Warehouse& warehouse, const MigratedVariables& migrated) : warehouse_(warehouse), migrated_(migrated) {}
 
   void add(const std::vector<Patch>& patches, Bytes& to) {
     for (const Patch& patch : patches)
-      for (int material = 0; material < luggage_.materials; ++material) addSet(patch, material, to);
+      for (int material = 0; material < migrated_.materials; ++material) addSet(patch, material, to);
     for (const Patch& patch : patches)
-      for (const int number : luggage_.variables) addVariable(patch, number, to);
+      for (const int number : migrated_.variables) addVariable(patch, number, to);
   }
 
  private:
@@ -63,27 +63,27 @@ class Packer {
   }
 
   data::Warehouse& warehouse_;
-  const Luggage& luggage_;
+  const MigratedVariables& migrated_;
 };
 
 /// Reads what a Packer has written.
 class Unpacker {
  public:
-  Unpacker(data::Warehouse& warehouse, const Luggage& luggage, std::vector<Patch> patches, Bytes message)
+  Unpacker(data::Warehouse& warehouse, const MigratedVariables& migrated, std::vector<Patch> patches, Bytes message)
       : warehouse_(warehouse),
-        luggage_(luggage),
+        migrated_(migrated),
         patches_(std::move(patches)),
         message_(std::move(message)),
         from_(message_.data()) {}
 
   void takeSets() {
     for (const Patch& patch : patches_)
-      for (int material = 0; material < luggage_.materials; ++material) takeSet(patch, material);
+      for (int material = 0; material < migrated_.materials; ++material) takeSet(patch, material);
   }
   /// Once the particles of all patches of the rank have slots.
   void takeVariables() {
     for (const Patch& patch : patches_)
-      for (const int number : luggage_.variables) takeVariable(patch, number);
+      for (const int number : migrated_.variables) takeVariable(patch, number);
   }
 
  private:
@@ -125,7 +125,7 @@ class Unpacker {
   }
 
   data::Warehouse& warehouse_;
-  const Luggage& luggage_;
+  const MigratedVariables& migrated_;
   std::vector<Patch> patches_;
   Bytes message_;
   const std::byte* from_;
@@ -133,9 +133,9 @@ class Unpacker {
 
 /// Calls `visit(rank, first, end)` for each rank that has some of the patches from `first` to `end`.
 template <class Visit>
-void forEachOwner(const grid::Firsts& firsts, int first, int end, Visit&& visit) {
-  for (std::size_t rank = 0; rank + 1 < firsts.size(); ++rank)
-    if (const int from = std::max(first, firsts[rank]), to = std::min(end, firsts[rank + 1]); from < to)
+void forEachOwner(const grid::RankOffsets& offsets, int first, int end, Visit&& visit) {
+  for (std::size_t rank = 0; rank + 1 < offsets.size(); ++rank)
+    if (const int from = std::max(first, offsets[rank]), to = std::min(end, offsets[rank + 1]); from < to)
       visit(static_cast<int>(rank), from, to);
 }
 
@@ -147,26 +147,27 @@ std::vector<Patch> patchesFrom(const grid::Level& level, int first, int end) {
 
 }  // namespace
 
-void migrate(grid::Level& level, data::Warehouse& warehouse, const Luggage& luggage, const grid::Firsts& firsts) {
+void migratePatches(grid::Level& level, data::Warehouse& warehouse, const MigratedVariables& migrated,
+                    const grid::RankOffsets& offsets) {
   const mpi::Communicator& ranks = warehouse.ranks();
   const auto me = static_cast<std::size_t>(ranks.rank());
-  const grid::Firsts before = level.firsts();
+  const grid::RankOffsets before = level.rankOffsets();
   mpi::Outbox outbox(ranks);
   std::map<int, Bytes> parts;
-  forEachOwner(firsts, before[me], before[me + 1], [&](int rank, int first, int end) {
-    Packer(warehouse, luggage).add(patchesFrom(level, first, end), parts[rank]);
+  forEachOwner(offsets, before[me], before[me + 1], [&](int rank, int first, int end) {
+    Packer(warehouse, migrated).add(patchesFrom(level, first, end), parts[rank]);
   });
   for (auto& [rank, bytes] : parts)
     if (rank != ranks.rank()) outbox.send(rank, mpi::Tag::patches, std::move(bytes));
-  level.share(firsts);
-  warehouse.startAnew(luggage.materials);
+  level.share(offsets);
+  warehouse.startAnew(migrated.materials);
   std::deque<Unpacker> unpackers;
-  forEachOwner(before, firsts[me], firsts[me + 1], [&](int rank, int first, int end) {
+  forEachOwner(before, offsets[me], offsets[me + 1], [&](int rank, int first, int end) {
     Bytes bytes = rank == ranks.rank() ? std::move(parts[rank]) : ranks.receive(rank, mpi::Tag::patches);
-    unpackers.emplace_back(warehouse, luggage, patchesFrom(level, first, end), std::move(bytes));
+    unpackers.emplace_back(warehouse, migrated, patchesFrom(level, first, end), std::move(bytes));
     unpackers.back().takeSets();
   });
-  for (int material = 0; material < luggage.materials; ++material)
+  for (int material = 0; material < migrated.materials; ++material)
     warehouse.layOut(Generation::old, material, Generation::old);
   for (Unpacker& unpacker : unpackers) unpacker.takeVariables();
   outbox.wait();

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <tuple>
+
+#include "core/tasks/access.hpp"
+
+// Accesses that a body gets by name, as one struct of views.
+
+namespace tushar::tasks {
+
+/// Stands for a view while a group only declares its accesses.
+template <class View>
+struct Blank {
+  static View make() { return View{}; }
+};
+template <class T>
+struct Blank<T&> {
+  static T& make() {
+    static thread_local T blank{};
+    return blank;
+  }
+};
+template <class T>
+struct Blank<data::ParticleView<T>> {
+  static data::ParticleView<T> make() {
+    static const data::ParticleSet none;
+    return {nullptr, none, grid::Box{}};
+  }
+};
+template <data::Centring C, class T>
+struct Blank<data::GridView<C, T>> {
+  static data::GridView<C, T> make() { return {nullptr, grid::Box{}}; }
+};
+
+/// Declares the accesses that a group names, in their order.
+class DeclareEach {
+ public:
+  explicit DeclareEach(std::vector<Access>& accesses) : accesses_(&accesses) {}
+
+  template <class Argument>
+  decltype(auto) operator()(Argument argument) const {
+    argument.declare(*accesses_);
+    return Blank<decltype(argument.bind(std::declval<const TaskContext&>()))>::make();
+  }
+
+ private:
+  std::vector<Access>* accesses_;
+};
+
+/// Hands out the views of the same accesses, in the same order.
+class BindEach {
+ public:
+  BindEach(const TaskContext& context, int first) : context_(&context), next_(first) {}
+
+  template <class Argument>
+  decltype(auto) operator()(Argument argument) {
+    number(argument);
+    return argument.bind(*context_);
+  }
+
+ private:
+  template <class Label, AccessKind Kind>
+  void number(FieldAccess<Label, Kind>& access) {
+    access.index = next_++;
+  }
+  template <class Field>
+  void number(OptionalAccess<Field>& access) {
+    if (access.on) number(access.access);
+  }
+  template <class Field>
+  void number(OfferedAccess<Field>& access) {
+    number(access.access);
+  }
+
+  const TaskContext* context_;
+  int next_;
+};
+
+/// The argument that `all` makes.
+template <class Group, class... Settings>
+struct GroupArgument {
+  std::tuple<Settings...> settings;
+  int first = 0;  ///< place of its first access among those of the task
+
+  void declare(std::vector<Access>& accesses) {
+    first = static_cast<int>(accesses.size());
+    DeclareEach take(accesses);
+    std::apply([&](const auto&... each) { Group::from(take, each...); }, settings);
+  }
+  Group bind(const TaskContext& context) const {
+    BindEach take(context, first);
+    return std::apply([&](const auto&... each) { return Group::from(take, each...); }, settings);
+  }
+};
+template <class Group, class... Settings>
+inline constexpr bool isOfMaterialAndPatch<GroupArgument<Group, Settings...>> = true;
+
+/// Accesses that the body gets as one `Group`: an aggregate of views whose
+/// `static Group from(auto& take, const Settings&... settings)` says by designated initialisers which access each
+/// member is, `.mass = take(requiresOld(p::mass))`. For bodies that touch more than about eight variables. Groups nest:
+/// `.shape = ShapeArguments::from(take, settings)`. A task that sees several materials or patches gets a
+/// std::vector<Group>.
+template <class Group, class... Settings>
+GroupArgument<Group, Settings...> all(Settings... settings) {
+  return {{std::move(settings)...}};
+}
+
+}  // namespace tushar::tasks

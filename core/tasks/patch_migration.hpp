@@ -1,0 +1,19 @@
+#pragma once
+
+#include "core/data/warehouse.hpp"
+
+namespace tushar::tasks {
+
+/// The variables that a patch takes along from rank to rank: the particles of the materials, and the old values of
+/// variables.
+struct MigratedVariables {
+  int materials = 0;
+  std::vector<int> variables;
+};
+
+/// Gives the patches of the grid to the ranks anew, each with its variables. Ghosts are left to the next exchange; all
+/// else that stands on patches is lost. All ranks that share the grid call it, between two steps.
+void migratePatches(grid::Level& level, data::Warehouse& warehouse, const MigratedVariables& migrated,
+                    const grid::RankOffsets& offsets);
+
+}  // namespace tushar::tasks

@@ -1,0 +1,27 @@
+"""Asks the compiler whether a piece of C++ compiles."""
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+
+from sus import ROOT
+
+
+def include_paths():
+    """Where Eigen's headers are."""
+    found = subprocess.run(["pkg-config", "--cflags", "eigen3"], capture_output=True, text=True)
+    return found.stdout.split() if found.returncode == 0 else ["-I/usr/include/eigen3"]
+
+
+def complaints(code):
+    """What the compiler says of a source file with this text; empty where it compiles."""
+    compiler = os.environ.get("CXX") or shutil.which("c++") or "g++"
+    with tempfile.TemporaryDirectory() as folder:
+        source = pathlib.Path(folder, "piece.cpp")
+        source.write_text(code)
+        done = subprocess.run([compiler, "-std=c++20", "-fsyntax-only", "-Wall", "-Wextra", "-Werror", f"-I{ROOT}",
+                               *include_paths(), str(source)], capture_output=True, text=True)
+    if done.returncode == 0:
+        return ""
+    return done.stderr or f"{compiler} failed"

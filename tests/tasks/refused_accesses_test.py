@@ -1,0 +1,71 @@
+#!/usr/bin/env python3
+"""What a task's arguments must not be does not compile, and the compiler says why."""
+import pathlib
+import sys
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from compiler import complaints
+
+START = """
+#include "core/tasks/task_list.hpp"
+using namespace tushar;
+using namespace tushar::tasks;
+constexpr data::CellLabel<double> density{"c.density", "kg/m^3", "density"}, other{"c.other", "1", "another"};
+constexpr data::ParticleLabel<double> mass{"p.mass", "kg", "mass"};
+constexpr data::ReductionLabel<data::Sum> total{"total", "1", "sum"};
+struct Material { std::string name; };
+struct Group {
+  data::CellView<const double> density;
+  data::CellView<double> other;
+  static Group from(auto& take) { return {%s}; }
+};
+void task(TaskList& list, const std::vector<Material>& materials) {
+  const auto body = [](const auto&...) {};
+  list.perPatch("read", [](const grid::Patch& patch, const Group& group) {
+    grid::forEach<1>(patch.cells(), [&](const Index<1>& cell) { %s; });
+  }, all<Group>());
+  %s;
+  (void)body; (void)materials;
+}
+"""
+
+
+def piece(members=".density = take(requiresNew(::density)), .other = take(computes(::other))",
+          use="group.other[cell] = group.density[cell]", task=""):
+    """A task list that compiles, but for what is given otherwise."""
+    return START % (members, use, task)
+
+
+class RefusedAccesses(unittest.TestCase):
+    def test_what_is_right_compiles(self):
+        self.assertEqual(complaints(piece()), "")
+
+    def test_an_optional_reducer_is_refused(self):
+        said = complaints(piece(task='list.perPatch("sum", body, when(true, computes(total)))'))
+        self.assertIn("a reducer or a list of new values cannot be optional", said)
+
+    def test_new_particles_belong_to_the_task_that_makes_them(self):
+        said = complaints(piece(task='list.perMaterial("make", body, materials, creates(mass))'))
+        self.assertIn("creates(...) belongs to newParticles", said)
+
+    def test_ranks_belong_to_tasks_of_a_rank(self):
+        said = complaints(piece(task='list.perPatch("solve", body, togetherOnRanks())'))
+        self.assertIn("togetherOnRanks() belongs to perRank", said)
+
+    def test_a_group_writes_nothing_that_it_reads(self):
+        self.assertIn("read-only", complaints(piece(use="group.density[cell] = 1")))
+
+    def test_a_group_touches_nothing_that_it_does_not_declare(self):
+        self.assertIn("no member named 'mass'",
+                      complaints(piece(use="(void)group.mass")).replace("\u2018", "'").replace("\u2019", "'"))
+
+    def test_a_group_forgets_no_member(self):
+        self.assertNotEqual(complaints(piece(members=".density = take(requiresNew(::density))")), "")
+
+    def test_a_member_is_what_its_label_is(self):
+        self.assertNotEqual(complaints(piece(members=".density = take(requiresNew(mass)), .other = take(computes(::other))")), "")
+
+
+if __name__ == "__main__":
+    unittest.main()
