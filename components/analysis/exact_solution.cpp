@@ -1,4 +1,4 @@
-#include "core/simulation/exact_solution.hpp"
+#include "components/analysis/exact_solution.hpp"
 
 #include <map>
 #include <optional>
@@ -7,7 +7,7 @@
 #include "core/input/schema.hpp"
 #include "core/tasks/task_list.hpp"
 
-namespace tushar::simulation {
+namespace tushar::analysis {
 
 using data::CellLabel;
 using data::Centring;
@@ -21,6 +21,11 @@ using grid::Patch;
 using input::Diagnostics;
 using input::Element;
 using input::Schema;
+using simulation::Analysis;
+using simulation::AnalysisKind;
+using simulation::Component;
+using simulation::MakeAnalysis;
+using simulation::MeasuredError;
 using tasks::computes;
 using tasks::requiresNew;
 using tasks::requiresOld;
@@ -172,4 +177,4 @@ AnalysisKind exactSolutionKind() {
   return kind;
 }
 
-}  // namespace tushar::simulation
+}  // namespace tushar::analysis

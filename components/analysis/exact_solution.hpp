@@ -2,10 +2,10 @@
 
 #include "core/simulation/catalogue.hpp"
 
-namespace tushar::simulation {
+namespace tushar::analysis {
 
 /// `exactSolution`: errors of a scalar cell or node variable without a material, of the state or of the diagnostics,
 /// against a formula in x, y, z and t.
-AnalysisKind exactSolutionKind();
+simulation::AnalysisKind exactSolutionKind();
 
-}  // namespace tushar::simulation
+}  // namespace tushar::analysis

@@ -1,4 +1,4 @@
-#include "core/simulation/particle_extract.hpp"
+#include "components/analysis/particle_extract.hpp"
 
 #include <fmt/format.h>
 
@@ -10,12 +10,17 @@
 #include "core/data/label.hpp"
 #include "core/input/schema.hpp"
 
-namespace tushar::simulation {
+namespace tushar::analysis {
 
 using input::Diagnostics;
 using input::Element;
 using input::Schema;
 using output::Array;
+using simulation::Analysis;
+using simulation::AnalysisKind;
+using simulation::Component;
+using simulation::MakeAnalysis;
+using simulation::SaveRequest;
 
 namespace {
 
@@ -187,4 +192,4 @@ AnalysisKind particleExtractKind() {
   return kind;
 }
 
-}  // namespace tushar::simulation
+}  // namespace tushar::analysis

@@ -1,10 +1,10 @@
-#include "core/simulation/collect.hpp"
+#include "core/collect/collect.hpp"
 
 #include <cstring>
 
-#include "core/simulation/rows.hpp"
+#include "core/collect/rows.hpp"
 
-namespace tushar::simulation {
+namespace tushar::collect {
 
 using data::Generation;
 using data::Variable;
@@ -70,4 +70,4 @@ Parts collectGrid(data::Warehouse& warehouse, Generation generation, int variabl
   return parts;
 }
 
-}  // namespace tushar::simulation
+}  // namespace tushar::collect

@@ -6,7 +6,7 @@
 #include "core/base/mpi.hpp"
 #include "core/data/warehouse.hpp"
 
-namespace tushar::simulation {
+namespace tushar::collect {
 
 /// Where the values of a variable on one patch are.
 struct Part {
@@ -58,4 +58,4 @@ Parts collectParticles(data::Warehouse& warehouse, data::Generation generation, 
 /// The cells or nodes of a variable within a box. All ranks call it.
 Parts collectGrid(data::Warehouse& warehouse, data::Generation generation, int variable, const grid::Box& all);
 
-}  // namespace tushar::simulation
+}  // namespace tushar::collect

@@ -1,4 +1,4 @@
-#include "core/simulation/gather.hpp"
+#include "core/collect/gather.hpp"
 
 #include <fmt/format.h>
 #include <xxhash.h>
@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <memory>
 
-#include "core/simulation/collect.hpp"
+#include "core/collect/collect.hpp"
 
-namespace tushar::simulation {
+namespace tushar::collect {
 
 using data::Centring;
 using data::Generation;
@@ -125,4 +125,4 @@ long particleCount(data::Warehouse& warehouse, int materials) {
   return warehouse.ranks().sum(count);
 }
 
-}  // namespace tushar::simulation
+}  // namespace tushar::collect

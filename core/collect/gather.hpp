@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "core/collect/sources.hpp"
 #include "core/data/warehouse.hpp"
 #include "core/output/snapshot.hpp"
-#include "core/simulation/sources.hpp"
 
-namespace tushar::simulation {
+namespace tushar::collect {
 
 /// Gathers variables over the whole grid on the first rank, in an order that no layout changes: particles by id, nodes
 /// and cells with x fastest. Vectors come out in x, y, z. All ranks ask for the same, while the state is as it is.
@@ -46,4 +46,4 @@ std::string fingerprint(data::Warehouse& warehouse, const std::vector<std::strin
 /// Number of particles of all materials, on all ranks, which all ask.
 long particleCount(data::Warehouse& warehouse, int materials);
 
-}  // namespace tushar::simulation
+}  // namespace tushar::collect

@@ -1,11 +1,11 @@
-#include "core/simulation/particle_order.hpp"
+#include "core/collect/particle_order.hpp"
 
 #include <algorithm>
 #include <cstring>
 
-#include "core/simulation/collect.hpp"
+#include "core/collect/collect.hpp"
 
-namespace tushar::simulation {
+namespace tushar::collect {
 
 using data::Generation;
 using data::ParticleRange;
@@ -90,4 +90,4 @@ void ParticleOrder::install() {
   warehouse_->layOut(Generation::old, material_, Generation::old);
 }
 
-}  // namespace tushar::simulation
+}  // namespace tushar::collect

@@ -3,11 +3,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/collect/rows.hpp"
+#include "core/collect/sources.hpp"
 #include "core/data/warehouse.hpp"
-#include "core/simulation/rows.hpp"
-#include "core/simulation/sources.hpp"
 
-namespace tushar::simulation {
+namespace tushar::collect {
 
 /// The order (cell, id) of the old particles of a material over the whole grid, which no layout changes, and where each
 /// patch has them.
@@ -29,7 +29,7 @@ class ParticleOrder {
   template <class Visit>
   void forEachRun(const grid::Patch& patch, Visit&& visit) const {
     const data::ParticleSet& set = warehouse_->particles(data::Generation::old, material_, patch.id());
-    simulation::forEachRow(patch.cells(), [&](const Index3& first) {
+    collect::forEachRow(patch.cells(), [&](const Index3& first) {
       const std::size_t* start = startOf(first);
       const std::size_t count = start[patch.cells().extent(0)] - start[0];
       if (count > 0) visit(start[0], static_cast<std::size_t>(set.row(first)->first), count);
@@ -45,4 +45,4 @@ class ParticleOrder {
   std::vector<std::size_t> starts_{0};  ///< place of the first particle of each cell, then of the end
 };
 
-}  // namespace tushar::simulation
+}  // namespace tushar::collect

@@ -2,7 +2,7 @@
 
 #include "core/grid/box.hpp"
 
-namespace tushar::simulation {
+namespace tushar::collect {
 
 /// Calls `visit(first cell or node)` for each row of a box along the first axis.
 template <class Visit>
@@ -10,4 +10,4 @@ void forEachRow(const grid::Box& box, Visit&& visit) {
   grid::forEach<3>(box.rowStarts(), visit);
 }
 
-}  // namespace tushar::simulation
+}  // namespace tushar::collect

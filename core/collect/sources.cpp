@@ -1,13 +1,13 @@
-#include "core/simulation/sources.hpp"
+#include "core/collect/sources.hpp"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>
 
-#include "core/simulation/rows.hpp"
+#include "core/collect/rows.hpp"
 
-namespace tushar::simulation {
+namespace tushar::collect {
 
 using grid::Box;
 using grid::Level;
@@ -205,4 +205,4 @@ std::shared_ptr<const output::Source> sourceAt(std::shared_ptr<const std::vector
   return std::make_shared<AtPlaces>(std::move(places), std::move(parts), form);
 }
 
-}  // namespace tushar::simulation
+}  // namespace tushar::collect

@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
+#include "core/collect/collect.hpp"
 #include "core/output/snapshot.hpp"
-#include "core/simulation/collect.hpp"
 
-namespace tushar::simulation {
+namespace tushar::collect {
 
 /// Entries that stand one after the other on a patch as in the order of the whole grid, up to the next run.
 struct Run {
@@ -63,4 +63,4 @@ std::shared_ptr<const output::Source> sourceInRuns(std::shared_ptr<const Runs> r
 std::shared_ptr<const output::Source> sourceAt(std::shared_ptr<const std::vector<Place>> places, Parts parts,
                                                const EntryForm& form);
 
-}  // namespace tushar::simulation
+}  // namespace tushar::collect

@@ -1,4 +1,4 @@
-#include "core/simulation/stored_state.hpp"
+#include "core/collect/stored_state.hpp"
 
 #include <fmt/format.h>
 
@@ -6,11 +6,11 @@
 #include <cstring>
 
 #include "core/base/error.hpp"
+#include "core/collect/collect.hpp"
+#include "core/collect/particle_order.hpp"
 #include "core/output/archive_files.hpp"
-#include "core/simulation/collect.hpp"
-#include "core/simulation/particle_order.hpp"
 
-namespace tushar::simulation {
+namespace tushar::collect {
 
 using data::Centring;
 using data::Generation;
@@ -267,4 +267,4 @@ void readState(const output::Hdf5Input& file, data::Warehouse& warehouse, const 
   StateReader(file, warehouse, names, required).run();
 }
 
-}  // namespace tushar::simulation
+}  // namespace tushar::collect

@@ -7,7 +7,7 @@
 #include "core/output/archive_hdf5.hpp"
 #include "core/output/archive_hdf5_input.hpp"
 
-namespace tushar::simulation {
+namespace tushar::collect {
 
 /// Which variables make up a state: those of these names, of no material and of each of these.
 struct StateNames {
@@ -29,4 +29,4 @@ void writeState(output::Hdf5File* file, data::Warehouse& warehouse, const StateN
 void readState(const output::Hdf5Input& file, data::Warehouse& warehouse, const StateNames& names,
                const std::vector<std::string>& required);
 
-}  // namespace tushar::simulation
+}  // namespace tushar::collect

@@ -1,11 +1,11 @@
-#include "core/simulation/error_norms.hpp"
+#include "core/report/error_norms.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
 #include <cmath>
 
-namespace tushar::simulation {
+namespace tushar::report {
 
 namespace {
 
@@ -43,4 +43,4 @@ std::optional<std::string> unmeasurable(const std::vector<ErrorNorms>& errors) {
   return std::nullopt;
 }
 
-}  // namespace tushar::simulation
+}  // namespace tushar::report

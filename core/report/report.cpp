@@ -1,4 +1,4 @@
-#include "core/simulation/report.hpp"
+#include "core/report/report.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-namespace tushar::simulation {
+namespace tushar::report {
 
 namespace {
 
@@ -206,4 +206,4 @@ std::string toText(const Report& report) {
   return text;
 }
 
-}  // namespace tushar::simulation
+}  // namespace tushar::report

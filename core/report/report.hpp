@@ -6,11 +6,10 @@
 #include <vector>
 
 #include "core/base/memory.hpp"
-#include "core/simulation/balance.hpp"
-#include "core/simulation/time_use.hpp"
+#include "core/report/time_use.hpp"
 #include "core/tasks/prune.hpp"
 
-namespace tushar::simulation {
+namespace tushar::report {
 
 /// Norms of one error; NaN where a norm has no meaning.
 struct ErrorNorms {
@@ -36,6 +35,13 @@ struct EnergyBudget {
   double unaccounted() const;
   /// The greatest amount: what `unaccounted` is small or great against.
   double greatest() const;
+};
+
+/// The patches that have changed ranks in a run.
+struct Rebalancing {
+  int times = 0;
+  int step = 0;                  ///< after which they did so last
+  double before = 1, after = 1;  ///< costs of the rank that has most over the mean, then
 };
 
 /// Wall time of a task over the whole run.
@@ -78,4 +84,4 @@ std::string toJson(const Report& report);
 /// As a table for a terminal.
 std::string toText(const Report& report);
 
-}  // namespace tushar::simulation
+}  // namespace tushar::report

@@ -1,8 +1,8 @@
-#include "core/simulation/time_use.hpp"
+#include "core/report/time_use.hpp"
 
 #include <algorithm>
 
-namespace tushar::simulation {
+namespace tushar::report {
 
 TimeUse::TimeUse(const Threads::Use& before, const Threads& threads, double wall, double outputSeconds,
                  const mpi::Communicator& ranks) {
@@ -19,4 +19,4 @@ TimeUse::TimeUse(const Threads::Use& before, const Threads& threads, double wall
   if (task + message > 0) imbalance = count * longest / (task + message);
 }
 
-}  // namespace tushar::simulation
+}  // namespace tushar::report

@@ -3,7 +3,7 @@
 #include "core/base/mpi.hpp"
 #include "core/base/threads.hpp"
 
-namespace tushar::simulation {
+namespace tushar::report {
 
 /// Where the time of the threads went, s of all threads of all ranks together.
 struct TimeUse {
@@ -20,4 +20,4 @@ struct TimeUse {
           const mpi::Communicator& ranks);
 };
 
-}  // namespace tushar::simulation
+}  // namespace tushar::report

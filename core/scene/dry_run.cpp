@@ -1,4 +1,4 @@
-#include "core/simulation/dry_run.hpp"
+#include "core/scene/dry_run.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -7,10 +7,11 @@
 #include <fstream>
 #include <set>
 
-#include "core/simulation/scene.hpp"
+#include "core/scene/scene.hpp"
+#include "core/simulation/phases.hpp"
 #include "core/tasks/exchange.hpp"
 
-namespace tushar::simulation {
+namespace tushar::scene {
 
 namespace {
 
@@ -73,14 +74,14 @@ class Messages {
 
 }  // namespace
 
-DryRun dryRun(const std::string& scene, const std::vector<std::string>& overrides, const Catalogue& catalogue,
-              const grid::Workers& workers) {
+DryRun dryRun(const std::string& scene, const std::vector<std::string>& overrides,
+              const simulation::Catalogue& catalogue, const grid::Workers& workers) {
   const int rank = rankInTheMiddle(*readScene(scene, overrides, catalogue, workers, {0, workers.ranks}).level);
   const double memoryBefore = residentMegabytes(), timeBefore = processorSeconds();
-  const Problem problem = readScene(scene, overrides, catalogue, workers, {rank, workers.ranks});
+  const simulation::Problem problem = readScene(scene, overrides, catalogue, workers, {rank, workers.ranks});
   const grid::Level& level = *problem.level;
   data::VariableTable table;
-  Phases phases(*problem.component, problem.analyses);
+  simulation::Phases phases(*problem.component, problem.analyses);
   phases.compile(problem.analyses, problem.archive.saves, level, table);
   DryRun result;
   result.agreements = 1;  // on whether to stop
@@ -109,4 +110,4 @@ std::string toText(const DryRun& result) {
       result.neighbours, 1e-3 * result.bytes, result.agreements, 1e3 * result.seconds, result.megabytes);
 }
 
-}  // namespace tushar::simulation
+}  // namespace tushar::scene

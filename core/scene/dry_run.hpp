@@ -6,7 +6,7 @@
 #include "core/grid/choose_patches.hpp"
 #include "core/simulation/catalogue.hpp"
 
-namespace tushar::simulation {
+namespace tushar::scene {
 
 /// What one of many ranks would have to do in a step, and what it takes to find that out: graph and messages are
 /// compiled as in a run, but no other rank is there and no variable has memory.
@@ -23,10 +23,10 @@ struct DryRun {
 };
 
 /// Reads a scene as that of `workers.ranks` ranks would that has the middle of the grid. Throws what readScene throws.
-DryRun dryRun(const std::string& scene, const std::vector<std::string>& overrides, const Catalogue& catalogue,
-              const grid::Workers& workers);
+DryRun dryRun(const std::string& scene, const std::vector<std::string>& overrides,
+              const simulation::Catalogue& catalogue, const grid::Workers& workers);
 
 /// As lines for a terminal.
 std::string toText(const DryRun& result);
 
-}  // namespace tushar::simulation
+}  // namespace tushar::scene

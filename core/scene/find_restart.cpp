@@ -1,4 +1,4 @@
-#include "core/simulation/restart.hpp"
+#include "core/scene/find_restart.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,7 +11,7 @@
 #include "core/output/checkpoint_manifest.hpp"
 #include "core/output/checkpoint_store.hpp"
 
-namespace tushar::simulation {
+namespace tushar::scene {
 
 namespace fs = std::filesystem;
 
@@ -66,10 +66,8 @@ int lastWhole(const output::CheckpointStore& store, std::vector<std::string>& no
 
 }  // namespace
 
-fs::path Restart::state() const { return output::CheckpointStore(archive, 1).folder(step) / stateFile; }
-
-Restart findRestart(const std::string& uda, std::optional<int> step) {
-  Restart restart{folderOf(uda), 0, {}};
+simulation::Restart findRestart(const std::string& uda, std::optional<int> step) {
+  simulation::Restart restart{folderOf(uda), 0, {}};
   const output::CheckpointStore store(restart.archive, 1);
   if (store.steps().empty())
     refuse(uda, "there are no checkpoints; a scene asks for them by <checkpoint .../> in its DataArchiver");
@@ -81,4 +79,4 @@ Restart findRestart(const std::string& uda, std::optional<int> step) {
   return restart;
 }
 
-}  // namespace tushar::simulation
+}  // namespace tushar::scene

@@ -1,4 +1,4 @@
-#include "core/simulation/scene.hpp"
+#include "core/scene/scene.hpp"
 
 #include <fmt/format.h>
 
@@ -7,12 +7,27 @@
 #include <set>
 
 #include "core/input/schema.hpp"
+#include "core/simulation/phases.hpp"
 
-namespace tushar::simulation {
+namespace tushar::scene {
 
 using input::Diagnostics;
 using input::Document;
 using input::Element;
+using simulation::Analysis;
+using simulation::AnalysisKind;
+using simulation::ArchiveSettings;
+using simulation::BoundaryLabel;
+using simulation::Catalogue;
+using simulation::Component;
+using simulation::ComponentKind;
+using simulation::MakeAnalysis;
+using simulation::MakeComponent;
+using simulation::MeasuredError;
+using simulation::Phases;
+using simulation::Problem;
+using simulation::SaveRequest;
+using simulation::TimeSettings;
 
 namespace {
 
@@ -158,7 +173,7 @@ std::vector<std::unique_ptr<Analysis>> makeModules(const std::vector<ReadModule>
 /// Refuses intervals that the times of a run could not tell apart.
 void checkIntervals(const TimeSettings& time, const ArchiveSettings& archive, const Element& section,
                     Diagnostics& diagnostics) {
-  const double least = timeResolution * std::max(std::abs(time.initTime), std::abs(time.maxTime));
+  const double least = simulation::timeResolution * std::max(std::abs(time.initTime), std::abs(time.maxTime));
   const auto check = [&](double interval, const Element& element, const std::string& what) {
     if (interval > 0 && interval <= least)
       diagnostics.error(element,
@@ -251,4 +266,4 @@ void describeSharedSections(std::ostream& out) {
   describeGrid(out);
 }
 
-}  // namespace tushar::simulation
+}  // namespace tushar::scene

@@ -5,13 +5,14 @@
 
 #include "core/grid/choose_patches.hpp"
 #include "core/input/schema.hpp"
-#include "core/simulation/scene.hpp"
+#include "core/scene/scene.hpp"
 
-namespace tushar::simulation {
+namespace tushar::scene {
 
 using input::Diagnostics;
 using input::Element;
 using input::Schema;
+using simulation::BoundaryLabel;
 
 namespace {
 
@@ -282,4 +283,4 @@ grid::Domain readGrid(const Element& section, const std::vector<BoundaryLabel>& 
 
 void describeGrid(std::ostream& out) { gridSchema().describe(out); }
 
-}  // namespace tushar::simulation
+}  // namespace tushar::scene

@@ -2,13 +2,17 @@
 
 #include "core/input/schema.hpp"
 #include "core/input/values.hpp"
-#include "core/simulation/scene.hpp"
+#include "core/scene/scene.hpp"
 
-namespace tushar::simulation {
+namespace tushar::scene {
 
 using input::Diagnostics;
 using input::Element;
 using input::Schema;
+using simulation::ArchiveSettings;
+using simulation::CheckpointSettings;
+using simulation::SaveRequest;
+using simulation::TimeSettings;
 
 namespace {
 
@@ -191,4 +195,4 @@ ArchiveSettings readArchive(const Element& section, Diagnostics& diagnostics) {
 void describeTime(std::ostream& out) { timeSchema().describe(out); }
 void describeArchive(std::ostream& out) { archiveSchema().describe(out); }
 
-}  // namespace tushar::simulation
+}  // namespace tushar::scene

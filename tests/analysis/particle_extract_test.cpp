@@ -1,8 +1,8 @@
-#include "core/simulation/particle_extract.hpp"
+#include "components/analysis/particle_extract.hpp"
 
 #include <gtest/gtest.h>
 
-namespace tushar::simulation {
+namespace tushar::analysis {
 namespace {
 
 std::vector<output::Array> columns() {
@@ -30,4 +30,4 @@ TEST(ParticleExtract, WritesTimePlaceAndVariablesOfOneParticle) {
 }
 
 }  // namespace
-}  // namespace tushar::simulation
+}  // namespace tushar::analysis

@@ -1,11 +1,11 @@
-#include "core/simulation/sources.hpp"
+#include "core/collect/sources.hpp"
 
 #include <gtest/gtest.h>
 
 #include "core/core.hpp"
 #include "tests/support/levels.hpp"
 
-namespace tushar::simulation {
+namespace tushar::collect {
 
 namespace {
 
@@ -103,4 +103,4 @@ TEST(EntryForm, WidensPositionsToTheMiddleOfTheAxisLeftOut) {
   EXPECT_EQ(readBy(*v, 1, 3), (std::vector<double>{0.3, 0.4, 0, 0.1, 0.2, 0}));
 }
 
-}  // namespace tushar::simulation
+}  // namespace tushar::collect

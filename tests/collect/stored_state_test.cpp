@@ -1,4 +1,4 @@
-#include "core/simulation/stored_state.hpp"
+#include "core/collect/stored_state.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,12 +6,12 @@
 #include <sstream>
 
 #include "core/base/error.hpp"
+#include "core/collect/gather.hpp"
 #include "core/core.hpp"
-#include "core/simulation/gather.hpp"
 #include "tests/support/run.hpp"
 #include "tests/support/temporary.hpp"
 
-namespace tushar::simulation {
+namespace tushar::collect {
 
 namespace {
 
@@ -69,9 +69,7 @@ class Weather : public test::Runner {
     warehouse.grow(2);
   }
 
-  std::string print() {
-    return simulation::fingerprint(warehouse, {"c.heat", "g.wind", "p.mark", "p.particleID", "p.x"}, 2);
-  }
+  std::string print() { return fingerprint(warehouse, {"c.heat", "g.wind", "p.mark", "p.particleID", "p.x"}, 2); }
 
   StateNames names{{"Total", "c.heat", "g.wind", "p.mark", "p.particleID", "p.x"}, {"fine", "coarse"}};
   tasks::TaskGraph start, later;
@@ -151,4 +149,4 @@ TEST(StoredState, RefusesWhatDoesNotFitTheScene) {
   EXPECT_EQ(refusalOf(same, {"p.x"}), "");
 }
 
-}  // namespace tushar::simulation
+}  // namespace tushar::collect

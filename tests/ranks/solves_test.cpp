@@ -4,7 +4,8 @@
 #include <limits>
 
 #include "components/components.hpp"
-#include "core/simulation/scene.hpp"
+#include "core/scene/scene.hpp"
+#include "core/simulation/simulation.hpp"
 #include "tests/ranks/ranks.hpp"
 
 // Scenes with a solve over the whole grid, on several ranks: the same answer, though not the same bits, since every

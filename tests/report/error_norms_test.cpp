@@ -1,4 +1,4 @@
-#include "core/simulation/error_norms.hpp"
+#include "core/report/error_norms.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include "core/data/reduction.hpp"
 
-namespace tushar::simulation {
+namespace tushar::report {
 
 namespace {
 
@@ -65,4 +65,4 @@ TEST(ErrorNorms, ThatAreNotFiniteAreNamed) {
   }
 }
 
-}  // namespace tushar::simulation
+}  // namespace tushar::report

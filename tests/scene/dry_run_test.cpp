@@ -1,10 +1,10 @@
-#include "core/simulation/dry_run.hpp"
+#include "core/scene/dry_run.hpp"
 
 #include <gtest/gtest.h>
 
 #include "components/components.hpp"
 
-namespace tushar::simulation {
+namespace tushar::scene {
 
 namespace {
 
@@ -64,4 +64,4 @@ TEST(DryRun, HasNoMessagesOnOneRank) {
   EXPECT_EQ(alone.messages, 0);
 }
 
-}  // namespace tushar::simulation
+}  // namespace tushar::scene

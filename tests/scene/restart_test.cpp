@@ -1,4 +1,4 @@
-#include "core/simulation/restart.hpp"
+#include "core/scene/find_restart.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,12 +10,17 @@
 #include "components/components.hpp"
 #include "core/base/error.hpp"
 #include "core/output/checkpoint_manifest.hpp"
-#include "core/simulation/scene.hpp"
+#include "core/scene/scene.hpp"
+#include "core/simulation/simulation.hpp"
 #include "tests/support/temporary.hpp"
 
-namespace tushar::simulation {
+namespace tushar::scene {
 
 namespace fs = std::filesystem;
+using simulation::Problem;
+using simulation::Restart;
+using simulation::RunOptions;
+using simulation::Simulation;
 
 namespace {
 
@@ -107,4 +112,4 @@ TEST(Restart, RefusesADamagedCheckpointThatIsAskedForAndSaysWhichThereAre) {
   }
 }
 
-}  // namespace tushar::simulation
+}  // namespace tushar::scene

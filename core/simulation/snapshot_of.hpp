@@ -1,0 +1,15 @@
+#pragma once
+
+#include <vector>
+
+#include "core/output/snapshot.hpp"
+#include "core/simulation/run_state.hpp"
+
+namespace tushar::simulation {
+
+/// The state of a run as it is now, from all ranks: the particles of every material with p.x, and the variables that
+/// are asked for. The first rank has the values, which stay where they are and are good while the state is as it is.
+/// Every rank calls it.
+output::Snapshot snapshotOf(RunState& run, const std::vector<SaveRequest>& requests);
+
+}  // namespace tushar::simulation
