@@ -26,7 +26,7 @@ output::Snapshot positions(const RunState& run, Gather& gather) {
   return snapshot;
 }
 
-void addField(const RunState& run, const SaveRequest& save, Gather& gather, output::Snapshot& snapshot) {
+void addField(RunState& run, const SaveRequest& save, Gather& gather, output::Snapshot& snapshot) {
   for (int m = -1; m < run.materials(); ++m) {
     const int number = run.table.find(save.label, m);
     const std::string material = m < 0 ? "" : run.phases.materials()[static_cast<std::size_t>(m)];
