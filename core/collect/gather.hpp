@@ -21,7 +21,7 @@ class Gather {
   /// The values of a variable of a generation; none if it is not held, and on every rank but the first. They are in
   /// memory.
   output::Array array(data::Generation generation, int variable);
-  /// The same with the values still where they are: they are good while the state is as it is.
+  /// The values of a variable without a copy: they stay where they are, and are good while the state is as it is.
   output::Array stream(data::Generation generation, int variable);
 
  private:

@@ -76,7 +76,7 @@ class StateWalk {
       if (number >= 0 && table_[number].label->centring == centring) visit(number, pathOf(centring, name, material));
     }
   }
-  /// The same for all variables on cells and nodes.
+  /// Calls `visit(number, path)` for each variable on cells and nodes.
   template <class Visit>
   void forEachField(Visit&& visit) const {
     for (int m = -1; m < materials(); ++m)

@@ -23,14 +23,14 @@ struct CheckpointTarget {
   long dropped = 0;            ///< particles that have left the grid, on all ranks
 };
 
-/// Writes the state of a run as it is now. Every rank calls it; the first hands over the target, the others null.
+/// Writes the state of a run as it is now. All ranks call it: rank 0 with the target, the others with null.
 void writeCheckpoint(RunState& run, const CheckpointTarget* target);
 
-/// Makes the checkpoint that a run goes on from its state: the variables, step and time, dropped particles and totals
-/// at the start. Throws InputError for one of another format, component or grid. Every rank calls it.
+/// Restores a run from the checkpoint named in its problem: the variables, step and time, dropped particles, and totals
+/// at the start. Throws InputError for a checkpoint of another format, step, component or grid. All ranks call it.
 void readCheckpoint(RunState& run);
 
-/// How far the archive was when the checkpoint that a run goes on from was written; the run has read it.
+/// How far the archive was when the checkpoint of a restarted run was written; the run has read the checkpoint.
 output::ArchivePoint archivePointOf(const RunState& run);
 
 }  // namespace tushar::simulation

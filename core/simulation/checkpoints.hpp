@@ -8,21 +8,21 @@
 
 namespace tushar::simulation {
 
-/// The checkpoints of a run, in the folder of its archive: when they are due, and which was the last. Every rank calls
-/// what it calls on them.
+/// The checkpoints of a run, in the folder of its archive: when they are due, and which was the last. All ranks make
+/// the same calls.
 class Checkpoints {
  public:
   Checkpoints(RunState& run, Outputs& outputs);
 
-  /// Makes the checkpoint that the run goes on from its state. Throws InputError for one that does not fit the scene.
+  /// Reads the checkpoint from which the run continues. Throws InputError for one that does not fit the scene.
   void resume();
-  /// The one at the start, where the scene asks for checkpoints.
+  /// Writes a checkpoint of the start, if the scene asks for checkpoints.
   void writeFirst();
-  /// The one at the end: where the scene asks for checkpoints, or the run was cut short and has an archive.
+  /// Writes a checkpoint of the end, if the run has an archive and was cut short, or the scene asks for checkpoints.
   void writeLast();
-  /// Whether one is due after the last step.
+  /// Whether a checkpoint is due after the last step.
   bool isDue() const;
-  /// Writes one, unless this step has one.
+  /// Writes a checkpoint, unless this step has one.
   void write();
 
   /// Wall time spent writing, s.
@@ -31,7 +31,7 @@ class Checkpoints {
  private:
   RunState& run_;
   Outputs& outputs_;
-  std::optional<CheckpointControl> control_;  ///< none where the scene asks for none
+  std::optional<CheckpointControl> control_;  ///< empty if the scene asks for none
   int last_ = -1;                             ///< step of the last that was written or read
   double seconds_ = 0;
 };

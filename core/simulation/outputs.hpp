@@ -11,36 +11,36 @@
 
 namespace tushar::simulation {
 
-/// What a run saves in the folder of its archive: outputs, globals, and the samples of analysis modules. Every rank
-/// calls what it calls on them; the first writes.
+/// The archive of a run, and what is saved in its folder: outputs, globals, and the samples of analysis modules. All
+/// ranks make the same calls; rank 0 writes.
 class Outputs {
  public:
   /// A new archive will be made in this folder; empty: the current one.
   Outputs(RunState& run, std::filesystem::path parent);
 
-  /// Locks the folder of the run that this one goes on from. Throws FileError if another process has it.
+  /// Locks the folder of the run that this one continues. Throws FileError if another process has locked it.
   void lockArchive();
-  /// Makes an archive where the scene asks for outputs, globals or checkpoints, or goes on in that of the run before,
-  /// whose checkpoint has been read. Throws FileError.
+  /// Makes an archive, if the scene asks for outputs, globals, samples or checkpoints. A restarted run, which has read
+  /// its checkpoint, continues the archive of the run before. Throws FileError.
   void open();
-  /// The globals and, where the scene asks for it, the output of the start.
+  /// Saves the globals and, if the scene asks for it, an output of the start.
   void saveStart();
-  /// The globals and the samples that are due after a step.
+  /// Saves the globals, and the samples that are due, after a step.
   void saveGlobals();
-  /// The output that is due after a step, if any.
+  /// Writes an output after a step, if one is due.
   void saveIfDue();
-  /// Writes an output, where the scene asks for any and this step has none.
+  /// Writes an output, if the scene asks for any and this step has none.
   void save();
-  /// Brings what is kept in memory to the archive.
+  /// Writes what the archive keeps in memory.
   void flush();
 
-  /// The output times up to now have been passed in the run before.
+  /// Passes the output times up to now.
   void passMilestones() { times_.pass(run_.time.time()); }
-  /// The next output time, s; infinity where the scene gives no interval.
+  /// The next output time, s; infinity if the scene gives no interval.
   double nextTime() const { return times_.next(); }
-  /// The folder of the archive; empty where there is none.
+  /// The folder of the archive; empty if there is none.
   const std::string& folder() const { return folder_; }
-  /// The archive; null where there is none, and on every rank but the first.
+  /// The archive; null if there is none, and on all ranks but rank 0.
   output::Archive* archive() const { return archive_.get(); }
   /// Wall time spent collecting and writing, s.
   double seconds() const { return seconds_; }
@@ -49,7 +49,7 @@ class Outputs {
   void makeArchive(const output::ArchiveOptions& how);
   void reopenArchive(const output::ArchiveOptions& how);
   bool isDue() const;
-  /// Whether some analysis module looks at particles while the run goes on.
+  /// Whether some analysis module samples particles during the run.
   bool samples() const;
   void sample(Analysis& analysis);
   void appendGlobals();
@@ -57,7 +57,7 @@ class Outputs {
   RunState& run_;
   std::filesystem::path parent_;
   std::optional<output::FolderLock> lock_;    ///< on the archive's folder
-  std::unique_ptr<output::Archive> archive_;  ///< of the first rank
+  std::unique_ptr<output::Archive> archive_;  ///< on rank 0
   std::string folder_;
   Milestones times_;
   int last_ = -1;       ///< step of the last output

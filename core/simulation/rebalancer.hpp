@@ -8,7 +8,7 @@
 
 namespace tushar::simulation {
 
-/// Moves the patches of a run to other ranks where Balance decides so. Every rank calls what it calls on it.
+/// Moves the patches of a run to other ranks when Balance decides so. All ranks make the same calls.
 class Rebalancer {
  public:
   explicit Rebalancer(RunState& run) : run_(run), balance_(run.ranks.size()) {}

@@ -6,20 +6,20 @@
 
 namespace tushar::simulation {
 
-/// Measures a run as it goes, and its state at the end. Every rank calls what it calls on it. Wall times of outputs are
-/// those since the process started, s.
+/// Measures a run while it lasts, and its state at the end. All ranks make the same calls. `outputSeconds` is the wall
+/// time spent on outputs since the process started, s.
 class RunReport {
  public:
   explicit RunReport(RunState& run) : run_(run) {}
 
-  /// The run is about to enter the time loop, so long after the process started.
+  /// The start-up is over.
   void noteStartUp(double outputSeconds) { start_up_ = run_.clock.now() - outputSeconds; }
   void beginLoop(double outputSeconds);
   /// A step has been taken.
   void noteStep();
   void endLoop(double outputSeconds);
 
-  /// The report, but for how the run ended, its outputs, and the patches that changed ranks.
+  /// The report, except how the run ended, its outputs, and the patches that changed ranks.
   report::Report make();
 
  private:

@@ -27,7 +27,7 @@ struct RunState {
   int materials() const { return static_cast<int>(phases.materials().size()); }
   /// Runs diagnostics on the state as it is now.
   void diagnose(tasks::TaskGraph& graph);
-  /// The numbers of a reduction; none where it has no value, or no task computes it.
+  /// The numbers of a reduction; empty if it has no value yet, or no task computes it.
   std::vector<double> reduction(std::string_view label) const;
   /// The totals of the state as it is now, by a graph that computes them.
   Totals measureTotals(tasks::TaskGraph& graph);

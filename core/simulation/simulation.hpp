@@ -14,13 +14,13 @@
 
 namespace tushar::simulation {
 
-/// A run: it initialises or goes on from a checkpoint, steps through time, saves what is asked for, and reports. Where
-/// several ranks share it, the first writes and reports for all.
+/// The time loop of a run, which starts from the scene or from a checkpoint, over its outputs, checkpoints and report.
+/// Rank 0 writes and reports for all ranks.
 class Simulation {
  public:
   /// Compiles the task graphs. `startedAt` is when the process started. Throws what Phases throws.
   Simulation(Problem problem, const RunOptions& options, Clock::time_point startedAt);
-  /// Runs on one of the ranks that share the grid. Every rank makes one, and calls what it calls on it.
+  /// Runs on one of the ranks that share the grid. All ranks make one, and make the same calls.
   Simulation(Problem problem, const RunOptions& options, Clock::time_point startedAt, const mpi::Communicator& ranks);
 
   const Phases& phases() const { return run_.phases; }
@@ -39,14 +39,14 @@ class Simulation {
   void initialize();
   void loop();
   void step();
-  /// Moves the state on by a time step, which is repeated with a shorter one where a task asks for it.
+  /// Advances the state by a time step, which is repeated with a shorter one if a task asks for it.
   void advance();
   bool hasEnded() const;
   std::string whyEnded() const;
   NumericalError advised(const NumericalError& error) const;
-  /// The old state is that of the last whole step: writes it and a checkpoint, where the scene saves anything.
+  /// Writes an output and a checkpoint of the old state, that of the last whole step, if the run has an archive.
   void saveLastGood();
-  /// Of outputs and checkpoints, s.
+  /// Wall time of outputs and checkpoints, s.
   double outputSeconds() const { return outputs_.seconds() + checkpoints_.seconds(); }
   report::Report makeReport();
 
