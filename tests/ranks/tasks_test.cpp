@@ -127,13 +127,13 @@ class Swarm {
  private:
   void move(int turn) {
     const int ranks = run.level.share().ranks, patches = run.level.patchCount();
-    grid::RankOffsets firsts{0};
+    grid::RankOffsets offsets{0};
     for (int rank = 1; rank < ranks; ++rank)
-      firsts.push_back(turn % 2 == 0 ? patches : patches * rank * rank / (ranks * ranks));
-    firsts.push_back(patches);
+      offsets.push_back(turn % 2 == 0 ? patches : patches * rank * rank / (ranks * ranks));
+    offsets.push_back(patches);
     const MigratedVariables migrated{
         1, {run.table.find("p.x", 0), run.table.find("p.mark", 0), run.table.find(data::particleId.name, 0)}};
-    migratePatches(run.level, run.warehouse, migrated, firsts);
+    migratePatches(run.level, run.warehouse, migrated, offsets);
     run.scheduler.forgetLayout();
   }
   static void create(const Patch& patch, const Material&, ParticleMaker& maker, std::vector<Vec<2>>& at,
