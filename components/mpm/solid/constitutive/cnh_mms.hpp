@@ -13,10 +13,10 @@ namespace tushar::mpm::solid {
 /// Source: Kamojjala, Brannon, Sadeghirad & Guilkey, Eng. Comput. 31 (2015) 193.
 struct CnhMms {
   struct State {};
+  using Capabilities =
+      CapabilityList<capability::DependsOnDeformationOnly, capability::IgnoresTemperature, capability::NominalTangent>;
   static constexpr std::string_view name = "cnh_mms";
   static constexpr bool strainEnergyIsRate = false;
-  static constexpr bool usesTemperature = false;
-  static constexpr bool dependsOnDeformationOnly = true;
 
   double bulkModulus = 0;   ///< K, Pa
   double shearModulus = 0;  ///< G, Pa

@@ -16,9 +16,9 @@ namespace tushar::mpm::solid {
 /// C3 = C1/2 + C2,   C4 = (C1 (5 nu - 2) + C2 (11 nu - 5)) / (2 - 4 nu).
 struct CompMooneyRivlin {
   struct State {};
+  using Capabilities = CapabilityList<capability::DependsOnDeformationOnly, capability::IgnoresTemperature,
+                                      capability::NominalTangent, capability::BulkSpeed, capability::InitialWaveSpeed>;
   static constexpr std::string_view name = "comp_mooney_rivlin";
-  static constexpr bool usesTemperature = false;
-  static constexpr bool dependsOnDeformationOnly = true;
   static constexpr bool strainEnergyIsRate = false;
 
   double c1 = 0, c2 = 0;    ///< Pa

@@ -27,6 +27,9 @@ struct ElasticPlastic {
     double strainRate;         ///< 1/s
     double energy;             ///< J/kg
   };
+  using Capabilities = CapabilityList<capability::AbsentVariables, capability::ConstantsOfMaterial,
+                                      capability::NominalTangent, capability::BulkSpeed, capability::InitialWaveSpeed,
+                                      capability::TemperatureChange, capability::ViscousHeat, capability::Melting>;
   static constexpr std::array<StateVariable, 4> stateVariables{
       {{"p.plasticStrain", "1", "equivalent plastic strain"},
        {"p.plasticStrainRate", "1/s", "its rate in the last step"},
@@ -105,7 +108,7 @@ struct ElasticPlastic {
     const double work = equivalent * state.plasticStrainRate * d.timeStep;
     return byVolume + heatedShare * work * j / (material.density * material.specificHeat);
   }
-  void addHeat(State& state, double heat) const { state.energy += heat; }
+  void addViscousHeat(State& state, double heat) const { state.energy += heat; }
   bool isMolten(const Matrix3& deformation, const Matrix3& stress, double temperature) const {
     return temperature > compressionOf(deformation.determinant(), -stress.trace() / 3, temperature).meltTemperature;
   }

@@ -12,6 +12,8 @@ namespace tushar::mpm::solid {
 /// p is above a reference pressure, as in Uintah, whose coefficients of the artificial viscosity it takes, too.
 struct IdealGas {
   struct State {};
+  using Capabilities =
+      CapabilityList<capability::ConstantsOfMaterial, capability::OwnViscosity, capability::TemperatureChange>;
   static constexpr std::string_view name = "ideal_gas";
   static constexpr bool strainEnergyIsRate = true;
   static constexpr ArtificialViscosity ownViscosity{0, 6.25};

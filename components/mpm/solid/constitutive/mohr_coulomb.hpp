@@ -18,8 +18,8 @@ namespace tushar::mpm::solid {
 /// section 8.2. It turns with the material; that of Uintah's does not.
 struct MohrCoulomb {
   struct State {};
+  using Capabilities = CapabilityList<capability::IgnoresTemperature, capability::BulkSpeed>;
   static constexpr std::string_view name = "MohrCoulomb";
-  static constexpr bool usesTemperature = false;
   static constexpr bool strainEnergyIsRate = true;
 
   double shearModulus = 0;   ///< G, Pa

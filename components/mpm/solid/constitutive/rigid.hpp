@@ -9,9 +9,9 @@ namespace tushar::mpm::solid {
 /// A material without stress, for bodies whose motion a contact prescribes.
 struct Rigid {
   struct State {};
+  using Capabilities =
+      CapabilityList<capability::DependsOnDeformationOnly, capability::IgnoresTemperature, capability::OwnViscosity>;
   static constexpr std::string_view name = "rigid";
-  static constexpr bool usesTemperature = false;
-  static constexpr bool dependsOnDeformationOnly = true;
   static constexpr bool strainEnergyIsRate = false;
   static constexpr ArtificialViscosity ownViscosity{0, 0};
 

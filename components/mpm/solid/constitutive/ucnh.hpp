@@ -22,12 +22,12 @@ struct NeoHookPlastic {
     double plasticStrain;  ///< alpha, equivalent plastic strain, 1
     Tensor bElBar;         ///< J^(-2/3) F_e F_eᵀ, but for its volume, 1
   };
+  using Capabilities = CapabilityList<capability::OptionalState, capability::IgnoresTemperature, capability::FBar,
+                                      capability::NominalTangent, capability::BulkSpeed>;
   static constexpr std::array<StateVariable, 2> stateVariables{
       {{"p.plasticStrain", "1", "equivalent plastic strain"},
        {"p.bElBar", "1", "elastic part of the left Cauchy-Green tensor, without its volume", 9}}};
   static constexpr std::string_view name = plasticByDefault ? "comp_neo_hook_plastic" : "UCNH";
-  static constexpr bool usesTemperature = false;
-  static constexpr bool feelsVolumeOfEndOnly = true;
   static constexpr bool strainEnergyIsRate = false;
 
   double bulkModulus = 0;   ///< K, Pa

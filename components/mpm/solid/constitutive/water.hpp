@@ -12,8 +12,9 @@ namespace tushar::mpm::solid {
 /// Acad. Sci. 30 (1944) 244, without his division of K by gamma, as in Uintah.
 struct Water {
   struct State {};
+  using Capabilities =
+      CapabilityList<capability::IgnoresTemperature, capability::BulkSpeed, capability::InitialWaveSpeed>;
   static constexpr std::string_view name = "water";
-  static constexpr bool usesTemperature = false;
   static constexpr bool strainEnergyIsRate = true;
 
   double bulkModulus = 0;  ///< K, Pa
