@@ -56,17 +56,20 @@ struct Vectorized {
   };
   template <class M>
   static consteval bool check() {
+    constexpr bool isNamed = offers<M, Vectorized>;
+    constexpr bool isAbsent = requires { &Both<M, Name>::kirchhoffStress; };
+    static_assert(isNamed || isAbsent,
+                  "a member kirchhoffStress is used only by a model that names capability::Vectorized");
+    constexpr bool isFunctionOfF = offers<M, DependsOnDeformationOnly>;
+    static_assert(!isNamed || isFunctionOfF, "capability::Vectorized needs capability::DependsOnDeformationOnly");
+    constexpr bool hasStress = requires { Member<M, TensorOf<Lanes>, const TensorOf<Lanes>&>{&M::kirchhoffStress}; };
     static_assert(
-        offers<M, Vectorized> || requires { &Both<M, Name>::kirchhoffStress; },
-        "a member kirchhoffStress is used only by a model that names capability::Vectorized");
-    static_assert(!offers<M, Vectorized> || offers<M, DependsOnDeformationOnly>,
-                  "capability::Vectorized needs capability::DependsOnDeformationOnly");
-    static_assert(
-        !offers<M, Vectorized> || requires { Member<M, TensorOf<Lanes>, const TensorOf<Lanes>&>{&M::kirchhoffStress}; },
+        !isNamed || hasStress,
         "capability::Vectorized needs the public member `template <class Real> TensorOf<Real> kirchhoffStress(const "
         "TensorOf<Real>& f) const`");
+    constexpr bool hasSpeed = requires { Member<M, Lanes, double, const TensorOf<Lanes>&>{&M::waveSpeed}; };
     static_assert(
-        !offers<M, Vectorized> || requires { Member<M, Lanes, double, const TensorOf<Lanes>&>{&M::waveSpeed}; },
+        !isNamed || hasSpeed,
         "capability::Vectorized needs the public member `template <class Real> Real waveSpeed(double initialDensity, "
         "const TensorOf<Real>& f) const`");
     return true;
@@ -81,14 +84,15 @@ struct NominalTangent {
   };
   template <class M>
   static consteval bool check() {
+    constexpr bool isNamed = offers<M, NominalTangent>;
+    constexpr bool isAbsent = requires { &Both<M, Name>::nominalTangent; };
+    static_assert(isNamed || isAbsent,
+                  "a member nominalTangent is used only by a model that names capability::NominalTangent");
+    constexpr bool fits = requires {
+      Member<M, Matrix9, const Deformation&, const Matrix3&, const typename M::State&>{&M::nominalTangent};
+    };
     static_assert(
-        offers<M, NominalTangent> || requires { &Both<M, Name>::nominalTangent; },
-        "a member nominalTangent is used only by a model that names capability::NominalTangent");
-    static_assert(
-        !offers<M, NominalTangent> ||
-            requires {
-              Member<M, Matrix9, const Deformation&, const Matrix3&, const typename M::State&>{&M::nominalTangent};
-            },
+        !isNamed || fits,
         "capability::NominalTangent needs the public member `Matrix9 nominalTangent(const Deformation&, const Matrix3& "
         "oldStress, const State& old) const`");
     return true;
@@ -105,14 +109,14 @@ struct BulkSpeed {
   };
   template <class M>
   static consteval bool check() {
+    constexpr bool isNamed = offers<M, BulkSpeed>;
+    constexpr bool isAbsent = requires { &Both<M, Name>::bulkSpeed; };
+    static_assert(isNamed || isAbsent, "a member bulkSpeed is used only by a model that names capability::BulkSpeed");
+    constexpr bool fits = requires {
+      Member<M, double, double, const Deformation&, const Matrix3&, const typename M::State&>{&M::bulkSpeed};
+    };
     static_assert(
-        offers<M, BulkSpeed> || requires { &Both<M, Name>::bulkSpeed; },
-        "a member bulkSpeed is used only by a model that names capability::BulkSpeed");
-    static_assert(
-        !offers<M, BulkSpeed> ||
-            requires {
-              Member<M, double, double, const Deformation&, const Matrix3&, const typename M::State&>{&M::bulkSpeed};
-            },
+        !isNamed || fits,
         "capability::BulkSpeed needs the public member `double bulkSpeed(double initialDensity, const Deformation&, "
         "const Matrix3& stress, const State&) const`");
     return true;
@@ -127,13 +131,14 @@ struct InitialWaveSpeed {
   };
   template <class M>
   static consteval bool check() {
-    static_assert(
-        offers<M, InitialWaveSpeed> || requires { &Both<M, Name>::initialWaveSpeed; },
-        "a member initialWaveSpeed is used only by a model that names capability::InitialWaveSpeed");
-    static_assert(
-        !offers<M, InitialWaveSpeed> || requires { Member<M, double, double>{&M::initialWaveSpeed}; },
-        "capability::InitialWaveSpeed needs the public member `double initialWaveSpeed(double "
-        "initialDensity) const`");
+    constexpr bool isNamed = offers<M, InitialWaveSpeed>;
+    constexpr bool isAbsent = requires { &Both<M, Name>::initialWaveSpeed; };
+    static_assert(isNamed || isAbsent,
+                  "a member initialWaveSpeed is used only by a model that names capability::InitialWaveSpeed");
+    constexpr bool fits = requires { Member<M, double, double>{&M::initialWaveSpeed}; };
+    static_assert(!isNamed || fits,
+                  "capability::InitialWaveSpeed needs the public member `double initialWaveSpeed(double "
+                  "initialDensity) const`");
     return true;
   }
 };
@@ -145,14 +150,15 @@ struct OwnViscosity {
   };
   template <class M>
   static consteval bool check() {
+    constexpr bool isNamed = offers<M, OwnViscosity>;
+    constexpr bool isAbsent = requires { &Both<M, Name>::ownViscosity; };
+    static_assert(isNamed || isAbsent,
+                  "a member ownViscosity is used only by a model that names capability::OwnViscosity");
+    constexpr bool fits = requires {
+      { &M::ownViscosity } -> std::same_as<const ArtificialViscosity*>;
+    };
     static_assert(
-        offers<M, OwnViscosity> || requires { &Both<M, Name>::ownViscosity; },
-        "a member ownViscosity is used only by a model that names capability::OwnViscosity");
-    static_assert(
-        !offers<M, OwnViscosity> ||
-            requires {
-              { &M::ownViscosity } -> std::same_as<const ArtificialViscosity*>;
-            },
+        !isNamed || fits,
         "capability::OwnViscosity needs the public member `static constexpr ArtificialViscosity ownViscosity`");
     return true;
   }
@@ -168,15 +174,15 @@ struct ConstantsOfMaterial {
   };
   template <class M>
   static consteval bool check() {
-    static_assert(
-        offers<M, ConstantsOfMaterial> || requires { &Both<M, Name>::material; },
-        "a member material is filled only for a model that names capability::ConstantsOfMaterial");
-    static_assert(
-        !offers<M, ConstantsOfMaterial> ||
-            requires {
-              { &M::material } -> std::same_as<MaterialConstants M::*>;
-            },
-        "capability::ConstantsOfMaterial needs the public member `MaterialConstants material`");
+    constexpr bool isNamed = offers<M, ConstantsOfMaterial>;
+    constexpr bool isAbsent = requires { &Both<M, Name>::material; };
+    static_assert(isNamed || isAbsent,
+                  "a member material is filled only for a model that names capability::ConstantsOfMaterial");
+    constexpr bool fits = requires {
+      { &M::material } -> std::same_as<MaterialConstants M::*>;
+    };
+    static_assert(!isNamed || fits,
+                  "capability::ConstantsOfMaterial needs the public member `MaterialConstants material`");
     return true;
   }
 };
@@ -189,14 +195,15 @@ struct TemperatureChange {
   };
   template <class M>
   static consteval bool check() {
+    constexpr bool isNamed = offers<M, TemperatureChange>;
+    constexpr bool isAbsent = requires { &Both<M, Name>::temperatureChange; };
+    static_assert(isNamed || isAbsent,
+                  "a member temperatureChange is used only by a model that names capability::TemperatureChange");
+    constexpr bool fits = requires {
+      Member<M, double, const Deformation&, const Matrix3&, const typename M::State&>{&M::temperatureChange};
+    };
     static_assert(
-        offers<M, TemperatureChange> || requires { &Both<M, Name>::temperatureChange; },
-        "a member temperatureChange is used only by a model that names capability::TemperatureChange");
-    static_assert(
-        !offers<M, TemperatureChange> ||
-            requires {
-              Member<M, double, const Deformation&, const Matrix3&, const typename M::State&>{&M::temperatureChange};
-            },
+        !isNamed || fits,
         "capability::TemperatureChange needs the public member `double temperatureChange(const Deformation&, const "
         "Matrix3& stress, const State& state) const`");
     return true;
@@ -210,12 +217,13 @@ struct ViscousHeat {
   };
   template <class M>
   static consteval bool check() {
-    static_assert(
-        offers<M, ViscousHeat> || requires { &Both<M, Name>::addViscousHeat; },
-        "a member addViscousHeat is used only by a model that names capability::ViscousHeat");
-    static_assert(
-        !offers<M, ViscousHeat> || requires { Member<M, void, typename M::State&, double>{&M::addViscousHeat}; },
-        "capability::ViscousHeat needs the public member `void addViscousHeat(State&, double heat) const`");
+    constexpr bool isNamed = offers<M, ViscousHeat>;
+    constexpr bool isAbsent = requires { &Both<M, Name>::addViscousHeat; };
+    static_assert(isNamed || isAbsent,
+                  "a member addViscousHeat is used only by a model that names capability::ViscousHeat");
+    constexpr bool fits = requires { Member<M, void, typename M::State&, double>{&M::addViscousHeat}; };
+    static_assert(!isNamed || fits,
+                  "capability::ViscousHeat needs the public member `void addViscousHeat(State&, double heat) const`");
     return true;
   }
 };
@@ -228,11 +236,12 @@ struct Melting {
   };
   template <class M>
   static consteval bool check() {
+    constexpr bool isNamed = offers<M, Melting>;
+    constexpr bool isAbsent = requires { &Both<M, Name>::isMolten; };
+    static_assert(isNamed || isAbsent, "a member isMolten is used only by a model that names capability::Melting");
+    constexpr bool fits = requires { Member<M, bool, const Matrix3&, const Matrix3&, double>{&M::isMolten}; };
     static_assert(
-        offers<M, Melting> || requires { &Both<M, Name>::isMolten; },
-        "a member isMolten is used only by a model that names capability::Melting");
-    static_assert(
-        !offers<M, Melting> || requires { Member<M, bool, const Matrix3&, const Matrix3&, double>{&M::isMolten}; },
+        !isNamed || fits,
         "capability::Melting needs the public member `bool isMolten(const Matrix3& deformationGradient, const Matrix3& "
         "stress, double temperature) const`");
     return true;
@@ -249,12 +258,12 @@ struct OptionalState {
   };
   template <class M>
   static consteval bool check() {
-    static_assert(
-        offers<M, OptionalState> || requires { &Both<M, Name>::keepsState; },
-        "a member keepsState is used only by a model that names capability::OptionalState");
-    static_assert(
-        !offers<M, OptionalState> || requires { Member<M, bool>{&M::keepsState}; },
-        "capability::OptionalState needs the public member `bool keepsState() const`");
+    constexpr bool isNamed = offers<M, OptionalState>;
+    constexpr bool isAbsent = requires { &Both<M, Name>::keepsState; };
+    static_assert(isNamed || isAbsent,
+                  "a member keepsState is used only by a model that names capability::OptionalState");
+    constexpr bool fits = requires { Member<M, bool>{&M::keepsState}; };
+    static_assert(!isNamed || fits, "capability::OptionalState needs the public member `bool keepsState() const`");
     return true;
   }
 };
@@ -266,13 +275,14 @@ struct AbsentVariables {
   };
   template <class M>
   static consteval bool check() {
-    static_assert(
-        offers<M, AbsentVariables> || requires { &Both<M, Name>::absentVariables; },
-        "a member absentVariables is used only by a model that names capability::AbsentVariables");
-    static_assert(
-        !offers<M, AbsentVariables> || requires { requires isListOfVariables<decltype(&M::absentVariables)>; },
-        "capability::AbsentVariables needs the public member `static constexpr std::array<StateVariable, N> "
-        "absentVariables`");
+    constexpr bool isNamed = offers<M, AbsentVariables>;
+    constexpr bool isAbsent = requires { &Both<M, Name>::absentVariables; };
+    static_assert(isNamed || isAbsent,
+                  "a member absentVariables is used only by a model that names capability::AbsentVariables");
+    constexpr bool fits = requires { requires isListOfVariables<decltype(&M::absentVariables)>; };
+    static_assert(!isNamed || fits,
+                  "capability::AbsentVariables needs the public member `static constexpr std::array<StateVariable, N> "
+                  "absentVariables`");
     return true;
   }
 };
