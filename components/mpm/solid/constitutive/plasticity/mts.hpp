@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "components/mpm/solid/constitutive/plasticity/flow_state.hpp"
+#include "components/mpm/solid/constitutive/plasticity/flow_rule.hpp"
 #include "core/input/refuse.hpp"
 
 namespace tushar::mpm::solid {
@@ -16,6 +16,7 @@ namespace tushar::mpm::solid {
 /// Follansbee & Kocks, Acta Metall. 36 (1988) 81; Goto et al., Metall. Mater. Trans. A 31 (2000) 1985.
 /// sigma_e comes by four implicit midpoint steps, as in Uintah.
 struct MechanicalThreshold {
+  using Capabilities = CapabilityList<>;
   static constexpr std::string_view name = "mts_model";
 
   double athermal = 0;              ///< sigma_a, Pa
@@ -104,5 +105,6 @@ struct MechanicalThreshold {
     return threshold;
   }
 };
+static_assert(FlowRule<MechanicalThreshold>);
 
 }  // namespace tushar::mpm::solid

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "components/mpm/solid/constitutive/plasticity/flow_state.hpp"
+#include "components/mpm/solid/constitutive/plasticity/flow_rule.hpp"
 #include "core/input/schema.hpp"
 
 namespace tushar::mpm::solid {
@@ -14,6 +14,7 @@ namespace tushar::mpm::solid {
 /// the rate of the plastic strain, 1/rate = exp(2 U_k / (k T) (1 - sigma_T / sigma_P)^2) / C1 + C2 / sigma_T, at most
 /// Peierls' stress sigma_P: Steinberg & Lund, J. Appl. Phys. 65 (1989) 1528. Else it is 0.
 struct SteinbergCochranGuinan {
+  using Capabilities = CapabilityList<capability::Hardening, capability::PlasticRate>;
   static constexpr std::string_view name = "steinberg_cochran_guinan";
 
   double shearModulus = 0;            ///< mu_0, Pa
@@ -80,5 +81,6 @@ struct SteinbergCochranGuinan {
     return high;
   }
 };
+static_assert(FlowRule<SteinbergCochranGuinan>);
 
 }  // namespace tushar::mpm::solid
