@@ -54,7 +54,7 @@ struct CnhMms {
   double waveSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
     return std::sqrt((bulkModulus + 4.0 / 3.0 * shearModulus) * d.deformationGradient.determinant() / initialDensity);
   }
-  /// None, as in Uintah, so that StrainEnergy compares.
+  /// 0 as in Uintah, so that StrainEnergy can be compared.
   double strainEnergyDensity(const Deformation&, const Matrix3&, const Matrix3&, const State&) const { return 0; }
 };
 static_assert(ConstitutiveModel<CnhMms>);

@@ -18,7 +18,7 @@ namespace tushar::mpm::solid {
 /// l dW_f/dl = 0 for l < 1, c3 (exp(c4 (l - 1)) - 1) for l < l*, c5 l + c6 above, c6 such that it has no jump.
 struct TransIsoHyper {
   struct State {
-    double stretch;  ///< of the fibres, 1
+    double stretch;  ///< stretch of the fibres, 1
   };
   using Capabilities = CapabilityList<capability::AbsentVariables, capability::IgnoresTemperature,
                                       capability::NominalTangent, capability::BulkSpeed, capability::InitialWaveSpeed>;
@@ -40,8 +40,8 @@ struct TransIsoHyper {
   }
   State initialState() const { return {1}; }
 
-  /// sigma = (2 dev((c1 + I1 c2) B' - c2 B'²) + g dev(a a) + K ln J I) / J, g = l dW_f/dl, a along the fibre as it is
-  /// now
+  /// sigma = (2 dev((c1 + I1 c2) B' - c2 B'²) + g dev(a a) + K ln J I) / J, g = l dW_f/dl, a along the
+  /// deformed fibre
   Matrix3 updateStress(const Deformation& d, const Matrix3&, State& state) const {
     const Point at(*this, d.deformationGradient);
     state.stretch = at.stretch * std::cbrt(at.j);

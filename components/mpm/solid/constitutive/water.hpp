@@ -36,7 +36,7 @@ struct Water {
     stress.diagonal().array() -= bulkModulus * (stiffening(d) - 1);
     return stress;
   }
-  /// Uintah leaves gamma out at the start.
+  /// Without gamma, as in Uintah.
   double initialWaveSpeed(double initialDensity) const { return std::sqrt(bulkModulus / initialDensity); }
   /// c² = dp/drho
   double waveSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
@@ -46,7 +46,7 @@ struct Water {
   double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
     return std::sqrt(bulkModulus * d.deformationGradient.determinant() / initialDensity);
   }
-  /// None, as in Uintah, so that StrainEnergy compares.
+  /// 0 as in Uintah, so that StrainEnergy can be compared.
   double strainEnergyDensity(const Deformation&, const Matrix3&, const Matrix3&, const State&) const { return 0; }
 
  private:

@@ -153,9 +153,9 @@ class RadialReturn {
   RadialReturn(const Flow& flow, const FlowState& start, double timeStep)
       : flow_(flow), start_(start), time_step_(timeStep) {}
 
-  /// By how much it shortens the trial stress s: the root q of |s| - q = (2/3)^(1/2) sigma_y, e_p = (2/3)^(1/2) q/(2 G)
-  /// more than at the start, Pa, by Newton's iteration between bounds; Simo & Hughes, Computational Inelasticity
-  /// (1998), box 3.1.
+  /// Length by which the return shortens the trial stress s: the root q of |s| - q = (2/3)^(1/2) sigma_y, e_p =
+  /// (2/3)^(1/2) q/(2 G) more than at the start, Pa, by Newton's iteration between bounds; Simo & Hughes, Computational
+  /// Inelasticity (1998), box 3.1.
   double excess(double trialSize) const {
     double low = 0, high = trialSize - root_ * flow_.flowStress(start_), q = high;
     if (high <= 0) return 0;
@@ -169,14 +169,14 @@ class RadialReturn {
     }
     return q;
   }
-  /// At the end of a step that shortens the trial stress by q.
+  /// State at the end of a step whose return shortens the trial stress by q, Pa.
   FlowState after(double q) const {
     FlowState state = start_;
     state.plasticStrain += perStress() * q;
     state.plasticStrainRate = perStress() * q / time_step_;
     return state;
   }
-  /// d sigma_y / d e_p where the step's plastic strain changes with e_p, Pa.
+  /// d sigma_y / d e_p, Pa, with the plastic strain rate of the step a function of e_p.
   double hardening(const FlowState& state) const {
     if constexpr (offers<Flow, capability::Hardening>)
       if (!dependsOnPlasticRate()) return flow_.hardening(state);
@@ -189,7 +189,7 @@ class RadialReturn {
     };
     return (at(h) - at(-h)) / (2 * h);
   }
-  /// Plastic strain per stress, (2/3)^(1/2) / (2 G), 1/Pa.
+  /// Plastic strain per q, (2/3)^(1/2) / (2 G), 1/Pa.
   double perStress() const { return root_ / (2 * start_.shearModulus); }
 
  private:
