@@ -76,8 +76,8 @@ struct Vectorized {
   }
 };
 
-/// dP/dF, Pa, of P = J sigma F^-T at the end of a step in which L dt = F F_old^-1 - I; row 3 i + J, column 3 k + L.
-/// It must be the derivative of updateStress. Implicit time steps need it.
+/// dP/dF, Pa, of P = J sigma F^-T at the end of a step in which L dt = F F_old^-1 - I; row 3 i + J, column 3 k + L. It
+/// must be the derivative of what updateStress makes of the state at the start of the step. Implicit steps need it.
 struct NominalTangent {
   struct Name {
     int nominalTangent;

@@ -12,8 +12,8 @@ struct CapabilityList {
   template <class Capability>
   static constexpr bool contains = (std::same_as<Capability, Names> || ...);
 
-  /// Stops compilation, with a sentence, where the capabilities that T names and its members disagree. `*this` holds
-  /// all capabilities that a type of this kind may name.
+  /// True, or compilation stops with a sentence that says where the members of T and the capabilities that it names
+  /// disagree. The list itself holds all capabilities that a type of this kind may name.
   template <class T>
   static consteval bool check() {
     static_assert(T::Capabilities::areAmong(CapabilityList()),
@@ -35,7 +35,7 @@ inline constexpr bool offers = T::Capabilities::template contains<Capability>;
 template <class T, class Name>
 struct Both : T, Name {};
 
-/// A const member function.
+/// Pointer to a const member function of T. Member<T, ...>{&T::f} compiles only if f has exactly this signature.
 template <class T, class Result, class... Arguments>
 using Member = Result (T::*)(Arguments...) const;
 

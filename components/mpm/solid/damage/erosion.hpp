@@ -18,8 +18,9 @@ struct Erosion {
     preserveStress   ///< all stress: the particle is only marked
   };
   Algorithm algorithm = Algorithm::none;
-  double relaxationTime =
-      1e-99;  ///< decay time of the lost stress, s, for models that depend on F only; others decay again each step
+  /// Decay time of the lost stress, s. It is exact for stresses that are functions of F; those that a model increments
+  /// decay anew in each step.
+  double relaxationTime = 1e-99;
 
   bool acts() const { return algorithm != Algorithm::none; }
 

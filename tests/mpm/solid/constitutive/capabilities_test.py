@@ -52,6 +52,19 @@ SLIPS = {
                           "Capabilities must hold capabilities of this kind of model only"),
 }
 
+# A flow model whose optional member is misspelt.
+FLOW = """
+struct MisspeltFlow {
+  using Capabilities = CapabilityList<capability::Hardening>;
+  static constexpr std::string_view name = "flow";
+  static const input::Schema<MisspeltFlow>& schema();
+  double flowStress(const FlowState&) const { return 1; }
+  double hardning(const FlowState&) const { return 0; }
+};
+static_assert(FlowRule<MisspeltFlow>);
+"""
+FLOW_SENTENCE = "capability::Hardening needs the public member `double hardening(const FlowState&) const`"
+
 
 def compile_text(files):
     """Exit code of the compiler, and what it says, for main.cpp; the other files stand before those of the project."""
@@ -88,17 +101,19 @@ const ModelOf<BlatzKo> model{{BlatzKo()}};
     def test_a_slip_is_refused_with_a_sentence(self):
         includes = "\n".join(line for line in MODEL.splitlines() if line.startswith("#include"))
         body = MODEL[MODEL.index("namespace"):]
-        text = includes
+        text = f'{includes}\n#include "{FOLDER}/plasticity/flow_rule.hpp"\n'
         for name, (changes, _) in SLIPS.items():
             changed = body
             for before, after in changes.items():
                 self.assertIn(before, body)
                 changed = changed.replace(before, after)
             text += "\n" + changed.replace("BlatzKo", name)
+        text += "namespace tushar::mpm::solid {" + FLOW + "}"
         code, said = compile_text({"main.cpp": text})
         self.assertNotEqual(code, 0)
-        self.assertEqual(self.sentences(said).keys(), SLIPS.keys(), said)
-        for name, (_, sentence) in SLIPS.items():
+        expected = {name: sentence for name, (_, sentence) in SLIPS.items()} | {"MisspeltFlow": FLOW_SENTENCE}
+        self.assertEqual(self.sentences(said).keys(), expected.keys(), said)
+        for name, sentence in expected.items():
             with self.subTest(name):
                 self.assertEqual(len(self.sentences(said)[name]), 1, said)
                 self.assertIn(sentence, self.sentences(said)[name][0])
@@ -114,7 +129,7 @@ const ModelOf<BlatzKo> model{{BlatzKo()}};
         """Of each model, the assertions that fail in the functions that are instantiated for it."""
         found, model = {}, None
         for line in said.splitlines():
-            if instantiated := re.search(r"In instantiation of .*\[with (?:M|T) = (?:\w+::)*(\w+)[;\]]", line):
+            if instantiated := re.search(r"In instantiation of .*\[with (?:M|T|Flow) = (?:\w+::)*(\w+)[;\]]", line):
                 model = instantiated[1]
             if sentence := re.search(r"error: static assertion failed: (.*)", line):
                 found.setdefault(model, []).append(sentence[1])
