@@ -9,11 +9,11 @@
 
 namespace tushar::mpm {
 
-/// How many names a cell has for the particles that start in it.
+/// Number of particle ids per cell.
 inline constexpr ParticleId idsOfCell = 1 << 16;
 
-/// The id of the k-th particle that starts in a cell: its cell's number and its place there, so that it does not depend
-/// on the patches. Throws InputError, at `where` in the scene, where the cell has no more names.
+/// The id of the k-th particle that starts in a cell, from the number of the cell and k, so that it does not depend on
+/// the patches. Throws InputError, at `where` in the scene, if k exceeds the ids of the cell.
 template <int D>
 ParticleId idOf(const Level& level, const Index<D>& cell, ParticleId k, const Location& where) {
   if (k >= idsOfCell)
@@ -22,7 +22,7 @@ ParticleId idOf(const Level& level, const Index<D>& cell, ParticleId k, const Lo
   return level.cellNumber(cell) * idsOfCell + k;
 }
 
-/// The id of a new particle: it depends on its parent's id and place only, so it is the same on every layout.
+/// The id of a new particle, from the id and position of its parent only, so that it is the same on every layout.
 inline ParticleId derivedId(ParticleId parent, double place) {
   constexpr ParticleId derived = ParticleId{1} << 63;
   return mixed(parent ^ mixed(std::bit_cast<std::uint64_t>(place))) | derived;

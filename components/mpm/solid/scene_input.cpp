@@ -62,7 +62,7 @@ void checkHeat(const Problem& problem, const Element& root, Diagnostics& diagnos
   for (std::size_t m = 0; m < tags.size(); ++m) {
     const Material& material = problem.materials[m];
     if (material.specificHeat > 0) continue;
-    if (material.model->heats())
+    if (material.model->changesTemperature())
       diagnostics.error(tags[m],
                         "missing tag <specific_heat>: " + std::string(material.model->name()) + " heats by its work");
     else if (material.thermalConductivity > 0 || sharesHeat)

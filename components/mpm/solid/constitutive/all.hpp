@@ -16,7 +16,7 @@
 
 namespace tushar::mpm::solid {
 
-/// Every constitutive model that a scene can pick: THE table, one line each.
+/// Every constitutive model that a scene can choose, one line each.
 using AllModels = std::tuple<CnhMms,               //
                              CompMooneyRivlin,     //
                              CompNeoHook,          //

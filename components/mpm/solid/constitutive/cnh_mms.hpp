@@ -13,10 +13,10 @@ namespace tushar::mpm::solid {
 /// Source: Kamojjala, Brannon, Sadeghirad & Guilkey, Eng. Comput. 31 (2015) 193.
 struct CnhMms {
   struct State {};
+  using Capabilities =
+      CapabilityList<capability::DependsOnDeformationOnly, capability::IgnoresTemperature, capability::NominalTangent>;
   static constexpr std::string_view name = "cnh_mms";
   static constexpr bool strainEnergyIsRate = false;
-  static constexpr bool usesTemperature = false;
-  static constexpr bool dependsOnDeformationOnly = true;
 
   double bulkModulus = 0;   ///< K, Pa
   double shearModulus = 0;  ///< G, Pa
@@ -54,7 +54,7 @@ struct CnhMms {
   double waveSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
     return std::sqrt((bulkModulus + 4.0 / 3.0 * shearModulus) * d.deformationGradient.determinant() / initialDensity);
   }
-  /// None, as in Uintah, so that StrainEnergy compares.
+  /// 0 as in Uintah, so that StrainEnergy can be compared.
   double strainEnergyDensity(const Deformation&, const Matrix3&, const Matrix3&, const State&) const { return 0; }
 };
 static_assert(ConstitutiveModel<CnhMms>);

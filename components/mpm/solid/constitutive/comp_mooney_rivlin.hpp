@@ -16,9 +16,9 @@ namespace tushar::mpm::solid {
 /// C3 = C1/2 + C2,   C4 = (C1 (5 nu - 2) + C2 (11 nu - 5)) / (2 - 4 nu).
 struct CompMooneyRivlin {
   struct State {};
+  using Capabilities = CapabilityList<capability::DependsOnDeformationOnly, capability::IgnoresTemperature,
+                                      capability::NominalTangent, capability::BulkSpeed, capability::InitialWaveSpeed>;
   static constexpr std::string_view name = "comp_mooney_rivlin";
-  static constexpr bool usesTemperature = false;
-  static constexpr bool dependsOnDeformationOnly = true;
   static constexpr bool strainEnergyIsRate = false;
 
   double c1 = 0, c2 = 0;    ///< Pa
@@ -55,11 +55,11 @@ struct CompMooneyRivlin {
       return Matrix3(2 * change);
     });
   }
-  /// At the start Uintah takes the wave of the linear material: 2 mu (1 - nu) / (1 - 2 nu), mu = 2 (C1 + C2).
+  /// Of the linear material, as in Uintah: 2 mu (1 - nu) / (1 - 2 nu), mu = 2 (C1 + C2).
   double initialWaveSpeed(double initialDensity) const {
     return std::sqrt(4 * (c1 + c2) * (1 - poissonRatio) / ((1 - 2 * poissonRatio) * initialDensity));
   }
-  /// The bound that Uintah takes.
+  /// Uintah's bound.
   double waveSpeed(double initialDensity, const Deformation& d, const Matrix3& stress, const State&) const {
     const Invariants i(d.deformationGradient);
     const double least = stress.diagonal().minCoeff();
@@ -70,7 +70,7 @@ struct CompMooneyRivlin {
   double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
     return std::sqrt(4 * (c1 + c2 * Invariants(d.deformationGradient).second) / initialDensity);
   }
-  /// W as above, where c3 (1/I3² - 1) takes away what is linear in the strain.
+  /// W as above, where c3 (1/I3² - 1) cancels the terms linear in the strain.
   double strainEnergyDensity(const Deformation& d, const Matrix3&, const Matrix3&, const State&) const {
     const StrainInvariants strain(d.deformationGradient);
     const double v = strain.volume, i3 = 1 + v;

@@ -17,9 +17,9 @@ namespace tushar::mpm::solid {
 /// W = K/2 ((J² - 1)/2 - ln J) + G/2 (J^(-2/3) tr(F Fᵀ) - 3).
 struct CompNeoHook {
   struct State {};
+  using Capabilities = CapabilityList<capability::DependsOnDeformationOnly, capability::IgnoresTemperature,
+                                      capability::Vectorized, capability::NominalTangent, capability::BulkSpeed>;
   static constexpr std::string_view name = "comp_neo_hook";
-  static constexpr bool usesTemperature = false;
-  static constexpr bool dependsOnDeformationOnly = true;
   static constexpr bool strainEnergyIsRate = false;
 
   double bulkModulus = 0;   ///< K, Pa

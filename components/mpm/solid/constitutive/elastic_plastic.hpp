@@ -18,7 +18,8 @@ namespace tushar::mpm::solid {
 
 /// Metals at large strain and high rate: hypoelastic shear in axes that turn with the material, von Mises' yield
 /// surface with a flow model, radial return, and an equation of state. Simo & Hughes, Computational Inelasticity
-/// (1998), sections 3.3 and 8.2; Uintah's `elastic_plastic` and `elastic_plastic_hp`, which are the same there, too.
+/// (1998), sections 3.3 and 8.2; Uintah's `elastic_plastic` and `elastic_plastic_hp`, which do not differ in Uintah
+/// either.
 template <bool isHp>
 struct ElasticPlastic {
   struct State {
@@ -27,6 +28,9 @@ struct ElasticPlastic {
     double strainRate;         ///< 1/s
     double energy;             ///< J/kg
   };
+  using Capabilities = CapabilityList<capability::AbsentVariables, capability::ConstantsOfMaterial,
+                                      capability::NominalTangent, capability::BulkSpeed, capability::InitialWaveSpeed,
+                                      capability::TemperatureChange, capability::ViscousHeat, capability::Melting>;
   static constexpr std::array<StateVariable, 4> stateVariables{
       {{"p.plasticStrain", "1", "equivalent plastic strain"},
        {"p.plasticStrainRate", "1/s", "its rate in the last step"},
@@ -65,7 +69,7 @@ struct ElasticPlastic {
     return stress;
   }
   /// d tau = J (tr h sigma + W sigma - sigma W + R (ds + dp I) Rᵀ): W the spin that h adds to R, ds and dp the changes
-  /// of deviator and mean stress as the turning observer sees them.
+  /// of deviator and mean stress in the axes that rotate with the material.
   Matrix9 nominalTangent(const Deformation& d, const Matrix3& oldStress, const State& old) const {
     const Matrix3& f = d.deformationGradient;
     const Corotated step(d, oldStress);
@@ -96,7 +100,7 @@ struct ElasticPlastic {
                              const State&) const {
     return stressWork(d, oldStress, stress);
   }
-  /// By the plastic work, chi sigma_y de_p / (rho c), and by the change of volume.
+  /// From plastic work, chi sigma_y de_p / (rho c), and from the volume change.
   double temperatureChange(const Deformation& d, const Matrix3& stress, const State& state) const {
     const double equivalent = std::sqrt(1.5) * deviator(stress).norm(), j = d.deformationGradient.determinant();
     const VolumeState volume = volumeState(d, 0, 0);
@@ -105,7 +109,7 @@ struct ElasticPlastic {
     const double work = equivalent * state.plasticStrainRate * d.timeStep;
     return byVolume + heatedShare * work * j / (material.density * material.specificHeat);
   }
-  void addHeat(State& state, double heat) const { state.energy += heat; }
+  void addViscousHeat(State& state, double heat) const { state.energy += heat; }
   bool isMolten(const Matrix3& deformation, const Matrix3& stress, double temperature) const {
     return temperature > compressionOf(deformation.determinant(), -stress.trace() / 3, temperature).meltTemperature;
   }
@@ -128,7 +132,7 @@ struct ElasticPlastic {
     acceptWhatDoesNotMatter(tags);
     return tags;
   }
-  /// Tags of Uintah's without effect on a run with radial return, and choices of which one is there.
+  /// Accepts tags of Uintah that have no effect with radial return, and choices of which one is available.
   static void acceptWhatDoesNotMatter(input::Schema<ElasticPlastic>& tags) {
     tags.ignored("tolerance", "the return is exact to round-off")
         .ignored("coeff_thermal_expansion", "the equation of state knows of the temperature")
@@ -185,8 +189,7 @@ struct ElasticPlastic {
     return state.temperature > state.meltTemperature || state.shearModulus <= 0;
   }
 
-  /// Takes what is beyond the yield surface from the trial stress deviator; returns the rate of the plastic strain,
-  /// 1/s.
+  /// Returns the trial stress deviator to the yield surface; the result is the rate of the plastic strain, 1/s.
   double yield(const FlowState& start, double timeStep, Matrix3& stress, State& state) const {
     if (isFluid(start)) {
       stress.setZero();
@@ -251,7 +254,7 @@ struct ElasticPlastic {
     const VolumeState state = volumeState(d, old, energy);
     return std::visit([&](const auto& model) { return model.meanStress(state); }, equationOfState);
   }
-  /// d mean stress over the change of the dilatation of the step, and over d ln J, Pa.
+  /// Derivatives of the mean stress by the dilatation of the step and by ln J, Pa.
   std::pair<double, double> meanStressSlopes(const Deformation& d, double old, double energy) const {
     const auto at = [&](double dilated, double swollen) {
       VolumeState state = volumeState(d, old, energy);

@@ -13,8 +13,9 @@ namespace tushar::mpm::solid {
 /// there is no objective rate, so the stress does not turn with the material.
 struct HypoElastic {
   struct State {};
+  using Capabilities =
+      CapabilityList<capability::IgnoresTemperature, capability::NominalTangent, capability::BulkSpeed>;
   static constexpr std::string_view name = "hypo_elastic";
-  static constexpr bool usesTemperature = false;
   static constexpr bool strainEnergyIsRate = true;
 
   double bulkModulus = 0;   ///< K, Pa

@@ -8,10 +8,12 @@
 
 namespace tushar::mpm::solid {
 
-/// An ideal gas, p = (gamma - 1) rho c_v T, heated and cooled by its work: dT = -p dJ / (J rho c_v). Its stress is what
-/// p is above a reference pressure, as in Uintah, whose coefficients of the artificial viscosity it takes, too.
+/// An ideal gas, p = (gamma - 1) rho c_v T, heated and cooled by its work: dT = -p dJ / (J rho c_v). Its stress is
+/// (p_ref - p) I. The reference pressure and the coefficients of the artificial viscosity are those of Uintah.
 struct IdealGas {
   struct State {};
+  using Capabilities =
+      CapabilityList<capability::ConstantsOfMaterial, capability::OwnViscosity, capability::TemperatureChange>;
   static constexpr std::string_view name = "ideal_gas";
   static constexpr bool strainEnergyIsRate = true;
   static constexpr ArtificialViscosity ownViscosity{0, 6.25};
@@ -42,7 +44,7 @@ struct IdealGas {
     const double growth = d.deformationGradient.determinant() / d.oldDeformationGradient.determinant() - 1;
     return -(ratio - 1) * d.temperature * growth;
   }
-  /// None, as in Uintah, so that StrainEnergy compares.
+  /// 0 as in Uintah, so that StrainEnergy can be compared.
   double strainEnergyDensity(const Deformation&, const Matrix3&, const Matrix3&, const State&) const { return 0; }
 
  private:

@@ -12,27 +12,27 @@
 
 namespace tushar::mpm::solid {
 
-/// Most particles that a constitutive model is given at once.
+/// Largest number of particles in one call of a constitutive model.
 inline constexpr int stressGroup = 64;
 
-/// Particles one after another in memory, whose stress is to be brought to the end of a step.
+/// Particles one after another in memory, and the results that a caller wants for them at the end of a step.
 struct StressPoints {
   int count = 0;
   double timeStep = 0;  ///< s
   const Matrix3* oldDeformationGradient = nullptr;
   const Matrix3* deformationGradient = nullptr;
   const Matrix3* velocityGradient = nullptr;  ///< 1/s
-  const double* temperature = nullptr;        ///< K; null where no model asks
-  const Matrix3* oldStress = nullptr;         ///< Pa; null where the stress is not kept
-  Matrix3* stress = nullptr;                  ///< Pa; null where nobody asks
-  double* state = nullptr;                    ///< of stateStride numbers a particle: before and after
+  const double* temperature = nullptr;        ///< K; null if every model ignores it
+  const Matrix3* oldStress = nullptr;         ///< Pa; null if particles do not keep it
+  Matrix3* stress = nullptr;                  ///< Pa; null if not wanted
+  double* state = nullptr;                    ///< in and out; stateStride numbers for each particle
   int stateStride = 0;
   double* waveSpeed = nullptr;            ///< m/s
-  double* bulkSpeed = nullptr;            ///< m/s; null where nobody asks
-  double* temperatureChange = nullptr;    ///< K; null where nobody asks
-  double* strainEnergyDensity = nullptr;  ///< J/m^3 of the volume at the start; null where nobody asks
+  double* bulkSpeed = nullptr;            ///< m/s; null if not wanted
+  double* temperatureChange = nullptr;    ///< K; null if not wanted
+  double* strainEnergyDensity = nullptr;  ///< J/m^3 of the volume at the start of the run; null if not wanted
 
-  bool asksForWaveSpeedOnly() const { return !stress && !bulkSpeed && !temperatureChange && !strainEnergyDensity; }
+  bool wantsWaveSpeedOnly() const { return !stress && !bulkSpeed && !temperatureChange && !strainEnergyDensity; }
 };
 
 /// A constitutive model behind one virtual call per group of particles.
@@ -40,41 +40,41 @@ class Model {
  public:
   virtual ~Model() = default;
   virtual std::string_view name() const = 0;
-  /// Numbers that a particle keeps for the model.
+  /// Number of doubles in the State of a particle.
   virtual int stateSize() const = 0;
   virtual std::vector<StateVariable> stateVariables() const = 0;
-  /// Variables that Uintah has, and that are always 0 here.
+  /// See capability::AbsentVariables.
   virtual std::vector<StateVariable> absentVariables() const = 0;
   virtual void initialize(double* state) const = 0;
   virtual bool usesTemperature() const = 0;
-  /// Whether the stress is a function of F alone: nothing but F needs to be kept then.
+  /// See capability::DependsOnDeformationOnly.
   virtual bool dependsOnDeformationOnly() const = 0;
-  /// Whether the volume may be another than that of F, and only the pressure follows.
-  virtual bool feelsVolumeOfEndOnly() const = 0;
+  /// See capability::FBar.
+  virtual bool supportsFBar() const = 0;
 
   /// Whether the work of a step changes the temperature.
-  virtual bool heats() const = 0;
-  /// Whether the artificial viscosity heats the material.
-  virtual bool takesHeat() const = 0;
-  /// Tells the state of a particle of the heat of the artificial viscosity, J/kg; only where takesHeat().
-  virtual void addHeat(double* state, double heat) const = 0;
-  /// Whether a point with F, a stress (Pa) and a temperature (K) is above what melts it; never where nothing melts.
+  virtual bool changesTemperature() const = 0;
+  /// See capability::ViscousHeat.
+  virtual bool hasViscousHeat() const = 0;
+  /// Adds the heat of the artificial viscosity, J/kg, to the state of a particle; only if hasViscousHeat().
+  virtual void addViscousHeat(double* state, double heat) const = 0;
+  /// Whether a point with F, a stress (Pa) and a temperature (K) is molten; false for models without Melting.
   virtual bool isMolten(const Matrix3& deformation, const Matrix3& stress, double temperature) const = 0;
-  /// Coefficients that the model has instead of the scene's.
+  /// Coefficients that replace those of the scene.
   virtual std::optional<ArtificialViscosity> ownViscosity() const = 0;
 
-  /// Of the fastest wave at the start, m/s.
+  /// Speed of the fastest wave at the start of the run, m/s.
   virtual double initialWaveSpeed(double initialDensity, double temperature) const = 0;
   virtual void updateStress(double initialDensity, const StressPoints& points) const = 0;
-  /// Whether nominalTangent is there.
+  /// See capability::NominalTangent.
   virtual bool hasTangent() const = 0;
-  /// dP/dF of each point, Pa, whose state is that at the begin; see ConstitutiveModel. Only where hasTangent().
+  /// dP/dF of each point, Pa, from the state at the start of the step; only if hasTangent().
   virtual void nominalTangent(const StressPoints& points, Matrix9* tangent) const = 0;
-  /// J sigma of `count` deformation gradients, Pa; only where the stress depends on F alone.
+  /// J sigma of `count` deformation gradients, Pa; only if dependsOnDeformationOnly().
   virtual void kirchhoffStress(const Matrix3* deformationGradient, int count, Matrix3* stress) const = 0;
 };
 
-/// Where a state variable stands among the numbers of a particle; -1 if the model has none of that name.
+/// Index of a state variable among the doubles of a particle; -1 if the model has none of that name.
 inline int offsetOf(const Model& model, std::string_view label) {
   int offset = 0;
   for (const StateVariable& variable : model.stateVariables()) {
@@ -84,6 +84,7 @@ inline int offsetOf(const Model& model, std::string_view label) {
   return -1;
 }
 
+/// A constitutive model as a Model; what it can do is decided at compile time.
 template <ConstitutiveModel M>
 class ModelOf : public Model {
  public:
@@ -99,50 +100,40 @@ class ModelOf : public Model {
     return {};
   }
   std::vector<StateVariable> absentVariables() const override {
-    if constexpr (requires { M::absentVariables; }) return {M::absentVariables.begin(), M::absentVariables.end()};
+    if constexpr (offers<M, capability::AbsentVariables>) return {M::absentVariables.begin(), M::absentVariables.end()};
     return {};
   }
   void initialize(double* state) const override {
     if (keepsState()) store(model_.initialState(), state);
   }
-  bool usesTemperature() const override {
-    if constexpr (requires { M::usesTemperature; })
-      return M::usesTemperature;
-    else
-      return true;
-  }
+  bool usesTemperature() const override { return !offers<M, capability::IgnoresTemperature>; }
   bool dependsOnDeformationOnly() const override { return fromDeformation; }
-  bool feelsVolumeOfEndOnly() const override {
-    if constexpr (requires { M::feelsVolumeOfEndOnly; })
-      return M::feelsVolumeOfEndOnly;
-    else
-      return fromDeformation;
-  }
-  bool heats() const override { return heating; }
-  bool takesHeat() const override { return heatable; }
-  void addHeat(double* numbers, double heat) const override {
-    if constexpr (heatable) {
+  bool supportsFBar() const override { return fromDeformation || offers<M, capability::FBar>; }
+  bool changesTemperature() const override { return offers<M, capability::TemperatureChange>; }
+  bool hasViscousHeat() const override { return offers<M, capability::ViscousHeat>; }
+  void addViscousHeat(double* numbers, double heat) const override {
+    if constexpr (offers<M, capability::ViscousHeat>) {
       State state = load(numbers);
-      model_.addHeat(state, heat);
+      model_.addViscousHeat(state, heat);
       store(state, numbers);
     }
   }
   bool isMolten(const Matrix3& deformation, const Matrix3& stress, double temperature) const override {
-    if constexpr (requires { model_.isMolten(deformation, stress, temperature); })
+    if constexpr (offers<M, capability::Melting>)
       return model_.isMolten(deformation, stress, temperature);
     else
       return false;
   }
   std::optional<ArtificialViscosity> ownViscosity() const override {
-    if constexpr (requires { M::ownViscosity; })
+    if constexpr (offers<M, capability::OwnViscosity>)
       return M::ownViscosity;
     else
       return std::nullopt;
   }
 
   void updateStress(double initialDensity, const StressPoints& points) const override {
-    if constexpr (severalAtOnce)
-      if (points.asksForWaveSpeedOnly()) return findWaveSpeeds(initialDensity, points);
+    if constexpr (offers<M, capability::Vectorized>)
+      if (points.wantsWaveSpeedOnly()) return findWaveSpeeds(initialDensity, points);
     for (int k = 0; k < points.count; ++k) {
       const Deformation d = deformation(points, k);
       double* const numbers = points.state + k * points.stateStride;
@@ -156,7 +147,7 @@ class ModelOf : public Model {
   }
 
   double initialWaveSpeed(double initialDensity, double temperature) const override {
-    if constexpr (requires { model_.initialWaveSpeed(initialDensity); }) {
+    if constexpr (offers<M, capability::InitialWaveSpeed>) {
       return model_.initialWaveSpeed(initialDensity);
     } else {
       const Deformation d{Matrix3::Identity(), Matrix3::Identity(), Matrix3::Zero(), 0, temperature};
@@ -166,16 +157,16 @@ class ModelOf : public Model {
     }
   }
 
-  bool hasTangent() const override { return tangential; }
+  bool hasTangent() const override { return offers<M, capability::NominalTangent>; }
   void nominalTangent(const StressPoints& points, Matrix9* tangent) const override {
-    if constexpr (tangential)
+    if constexpr (offers<M, capability::NominalTangent>)
       for (int k = 0; k < points.count; ++k)
         tangent[k] = model_.nominalTangent(deformation(points, k), oldStress(points, k),
                                            load(points.state + k * points.stateStride));
   }
 
   void kirchhoffStress(const Matrix3* f, int count, Matrix3* stress) const override {
-    if constexpr (severalAtOnce) {
+    if constexpr (offers<M, capability::Vectorized>) {
       for (int k = 0; k < count; k += Lanes::count)
         storeLanes(model_.kirchhoffStress(lanesOf(f + k, count - k)), stress + k, count - k);
     } else if constexpr (fromDeformation) {
@@ -189,24 +180,7 @@ class ModelOf : public Model {
  private:
   using State = typename M::State;
   static constexpr bool hasState = !std::is_empty_v<State>;
-  static constexpr bool tangential = requires(const M& m, const Deformation& d, const Matrix3& s, const State& state) {
-    m.nominalTangent(d, s, state);
-  };
-  static constexpr bool heating = requires(const M& m, const Deformation& d, const Matrix3& s, const State& state) {
-    m.temperatureChange(d, s, state);
-  };
-  static constexpr bool heatable = requires(const M& m, State& state) { m.addHeat(state, 0.0); };
-  static constexpr bool fromDeformation = [] {
-    if constexpr (requires { M::dependsOnDeformationOnly; })
-      return M::dependsOnDeformationOnly;
-    else
-      return false;
-  }();
-
-  static constexpr bool severalAtOnce = requires(const M& m, const TensorOf<Lanes>& f) {
-    m.kirchhoffStress(f);
-    m.waveSpeed(1.0, f);
-  };
+  static constexpr bool fromDeformation = offers<M, capability::DependsOnDeformationOnly>;
 
   void findWaveSpeeds(double initialDensity, const StressPoints& points) const {
     for (int k = 0; k < points.count; k += Lanes::count) {
@@ -221,14 +195,15 @@ class ModelOf : public Model {
     if (points.bulkSpeed) points.bulkSpeed[k] = bulkSpeed(initialDensity, d, after, state, waveSpeed);
     if (points.temperatureChange) {
       points.temperatureChange[k] = 0;
-      if constexpr (heating) points.temperatureChange[k] = model_.temperatureChange(d, after, state);
+      if constexpr (offers<M, capability::TemperatureChange>)
+        points.temperatureChange[k] = model_.temperatureChange(d, after, state);
     }
     if (points.strainEnergyDensity) points.strainEnergyDensity[k] = model_.strainEnergyDensity(d, before, after, state);
   }
-  /// Speed for the artificial viscosity: of the model where it gives one, else that of its fastest wave.
+  /// Wave speed for the artificial viscosity, m/s: see capability::BulkSpeed.
   double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3& stress, const State& state,
                    double waveSpeed) const {
-    if constexpr (requires { model_.bulkSpeed(initialDensity, d, stress, state); })
+    if constexpr (offers<M, capability::BulkSpeed>)
       return model_.bulkSpeed(initialDensity, d, stress, state);
     else
       return waveSpeed;
@@ -241,7 +216,7 @@ class ModelOf : public Model {
     return points.oldStress ? points.oldStress[k] : Matrix3(Matrix3::Zero());
   }
   bool keepsState() const {
-    if constexpr (requires { model_.keepsState(); })
+    if constexpr (offers<M, capability::OptionalState>)
       return model_.keepsState();
     else
       return hasState;

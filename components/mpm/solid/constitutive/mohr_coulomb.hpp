@@ -15,11 +15,11 @@ namespace tushar::mpm::solid {
 /// Linear elasticity with the yield surface of Mohr and Coulomb, (s1 - s3) + (s1 + s3) sin phi = 2 c cos phi with the
 /// principal stresses s1 >= s2 >= s3, tension positive; flow by the same with the angle psi of dilation. The stress
 /// returns to a face, an edge or the apex: de Souza Neto, Perić & Owen, Computational Methods for Plasticity (2008),
-/// section 8.2. It turns with the material; that of Uintah's does not.
+/// section 8.2. The stress rotates with the material; Uintah's does not.
 struct MohrCoulomb {
   struct State {};
+  using Capabilities = CapabilityList<capability::IgnoresTemperature, capability::BulkSpeed>;
   static constexpr std::string_view name = "MohrCoulomb";
-  static constexpr bool usesTemperature = false;
   static constexpr bool strainEnergyIsRate = true;
 
   double shearModulus = 0;   ///< G, Pa
@@ -73,7 +73,7 @@ struct MohrCoulomb {
                              const State&) const {
     return stressWork(d, oldStress, stress);
   }
-  /// How far outside the yield surface a stress is, Pa; not above 0 if it is possible.
+  /// Distance of a stress outside the yield surface, Pa; at most 0 if it is admissible.
   double excess(const Matrix3& stress) const {
     const Eigen::Vector3d s =
         Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(stress, Eigen::EigenvaluesOnly).eigenvalues();
@@ -87,7 +87,7 @@ struct MohrCoulomb {
   static double sine(double degrees) { return std::sin(degrees * std::numbers::pi / 180); }
   double strength() const { return 2 * cohesion * std::cos(frictionAngle * std::numbers::pi / 180); }
 
-  /// Normal of the face on which the i-th and the j-th principal stress decide.
+  /// Normal of the yield face of the i-th and the j-th principal stress.
   static Principal normal(int i, int j, double angle) {
     Principal n = Principal::Zero();
     n[i] = 1 + sine(angle);
@@ -95,7 +95,7 @@ struct MohrCoulomb {
     return n;
   }
   double face(const Principal& s, int i, int j) const { return normal(i, j, frictionAngle).dot(s) - strength(); }
-  /// The stress that flow across a face takes away.
+  /// Stress per unit of plastic flow across a face, Pa.
   Principal correction(int i, int j) const {
     const Principal flow = normal(i, j, dilationAngle);
     return 2 * shearModulus * flow + lambda() * flow.sum() * Principal::Ones();
@@ -123,7 +123,7 @@ struct MohrCoulomb {
     }
     return strength() / (2 * sine(frictionAngle)) * Principal::Ones();
   }
-  /// To where the face (0, 2) meets the face (i, j).
+  /// Return to the edge between the faces (0, 2) and (i, j).
   Principal returnedToEdge(const Principal& s, int i, int j) const {
     const Principal a = normal(0, 2, frictionAngle), b = normal(i, j, frictionAngle);
     const Principal awayA = correction(0, 2), awayB = correction(i, j);

@@ -29,12 +29,12 @@ inline Matrix3 spinOf(const Matrix3& h, const Matrix3& stretch) {
   return spin;
 }
 
-/// A step as seen by an observer who turns with the material, so that rates of stress are those of Green & Naghdi.
+/// A step in axes that rotate with the material, so that stress rates are those of Green & Naghdi.
 struct Corotated {
-  Matrix3 before;  ///< rotation at the begin of the step
-  Matrix3 after;   ///< and at its end
+  Matrix3 before;  ///< rotation at the start of the step
+  Matrix3 after;   ///< rotation at the end of the step
   Matrix3 strain;  ///< D dt, 1
-  Matrix3 stress;  ///< at the begin, Pa
+  Matrix3 stress;  ///< at the start of the step, in the rotated axes, Pa
 
   Corotated(const Deformation& d, const Matrix3& oldStress)
       : before(rotationOf(d.oldDeformationGradient)), after(rotationOf(d.deformationGradient)) {
@@ -42,9 +42,9 @@ struct Corotated {
     strain = seen(rate);
     stress = seen(oldStress);
   }
-  /// What the turning observer sees of a tensor at the begin of the step.
+  /// Components in the rotated axes of a tensor at the start of the step.
   Matrix3 seen(const Matrix3& tensor) const { return before.transpose() * tensor * before; }
-  /// What the resting observer sees at the end of the step.
+  /// Components in fixed axes, at the end of the step, of a tensor in the rotated axes.
   Matrix3 turned(const Matrix3& tensor) const { return after * tensor * after.transpose(); }
 };
 

@@ -9,9 +9,9 @@ namespace tushar::mpm::solid {
 /// A material without stress, for bodies whose motion a contact prescribes.
 struct Rigid {
   struct State {};
+  using Capabilities =
+      CapabilityList<capability::DependsOnDeformationOnly, capability::IgnoresTemperature, capability::OwnViscosity>;
   static constexpr std::string_view name = "rigid";
-  static constexpr bool usesTemperature = false;
-  static constexpr bool dependsOnDeformationOnly = true;
   static constexpr bool strainEnergyIsRate = false;
   static constexpr ArtificialViscosity ownViscosity{0, 0};
 
@@ -29,7 +29,7 @@ struct Rigid {
   }
   State initialState() const { return {}; }
   Matrix3 updateStress(const Deformation&, const Matrix3&, State&) const { return Matrix3::Zero(); }
-  /// A wave so slow that other materials decide on the time step.
+  /// So slow that other materials limit the time step.
   double waveSpeed(double, const Deformation&, const Matrix3&, const State&) const { return 1e-10; }
   double strainEnergyDensity(const Deformation&, const Matrix3&, const Matrix3&, const State&) const { return 0; }
 };

@@ -7,10 +7,9 @@
 
 namespace tushar::mpm::solid {
 
-/// Invariants of b = F Fᵀ less those of I. An energy W of small strains e, written with them, keeps all but a part
-/// 1e-16/e of itself, however the body is turned: the parts that are linear in e, which cancel, have been taken out
-/// before. With G = b - I, g = (tr²G - tr G²)/2, r = J^(2/3) and d = r - 1: J² - 1 = tr G + g + det G = 3 d + 3 d² +
-/// d³.
+/// Invariants of b = F Fᵀ minus those of I. An energy W of small strains e, written with them, has a relative error of
+/// 1e-16/e only, whatever the rotation: the terms linear in e, which cancel, are eliminated analytically. With G = b -
+/// I, g = (tr²G - tr G²)/2, r = J^(2/3) and d = r - 1: J² - 1 = tr G + g + det G = 3 d + 3 d² + d³.
 struct StrainInvariants {
   double second;  ///< g
   double third;   ///< det G

@@ -23,7 +23,7 @@ template <class Real>
   return b;
 }
 
-/// Up to Lanes::count tensors that lie one after another, at most `count` of them: what is missing repeats the last.
+/// The next Lanes::count of `count` tensors in a row; missing ones repeat the last.
 [[gnu::always_inline]] inline TensorOf<Lanes> lanesOf(const Matrix3* tensors, int count) {
   TensorOf<Lanes> t;
   for (int i = 0; i < 3; ++i)
@@ -33,14 +33,14 @@ template <class Real>
   return t;
 }
 
-/// The first tensors of the lanes, at most `count`, one after another.
+/// Stores the first `count` tensors of the lanes, at most Lanes::count, in a row.
 [[gnu::always_inline]] inline void storeLanes(const TensorOf<Lanes>& t, Matrix3* tensors, int count) {
   for (int lane = 0; lane < std::min(count, Lanes::count); ++lane)
     for (int i = 0; i < 3; ++i)
       for (int k = 0; k < 3; ++k) tensors[lane](i, k) = t(i, k)[lane];
 }
 
-/// The rows of a tensor; lane 3 is anything.
+/// The rows of a tensor; lane 3 is undefined.
 struct Rows {
   Quad row[3];
 

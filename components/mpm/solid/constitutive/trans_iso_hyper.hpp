@@ -18,12 +18,13 @@ namespace tushar::mpm::solid {
 /// l dW_f/dl = 0 for l < 1, c3 (exp(c4 (l - 1)) - 1) for l < l*, c5 l + c6 above, c6 such that it has no jump.
 struct TransIsoHyper {
   struct State {
-    double stretch;  ///< of the fibres, 1
+    double stretch;  ///< stretch of the fibres, 1
   };
+  using Capabilities = CapabilityList<capability::AbsentVariables, capability::IgnoresTemperature,
+                                      capability::NominalTangent, capability::BulkSpeed, capability::InitialWaveSpeed>;
   static constexpr std::array<StateVariable, 1> stateVariables{{{"p.stretch", "1", "stretch of the fibres"}}};
   static constexpr std::array<StateVariable, 1> absentVariables{{{"p.fail", "1", "0: nothing fails"}}};
   static constexpr std::string_view name = "trans_iso_hyper";
-  static constexpr bool usesTemperature = false;
   static constexpr bool strainEnergyIsRate = false;
 
   double bulkModulus = 0;                ///< K, Pa
@@ -39,17 +40,17 @@ struct TransIsoHyper {
   }
   State initialState() const { return {1}; }
 
-  /// sigma = (2 dev((c1 + I1 c2) B' - c2 B'²) + g dev(a a) + K ln J I) / J, g = l dW_f/dl, a along the fibre as it is
-  /// now
+  /// sigma = (2 dev((c1 + I1 c2) B' - c2 B'²) + g dev(a a) + K ln J I) / J, g = l dW_f/dl, a along the
+  /// deformed fibre
   Matrix3 updateStress(const Deformation& d, const Matrix3&, State& state) const {
     const Point at(*this, d.deformationGradient);
     state.stretch = at.stretch * std::cbrt(at.j);
-    return kirchhoffStress(at) / at.j;
+    return kirchhoffStressOf(at) / at.j;
   }
   Matrix9 nominalTangent(const Deformation& d, const Matrix3&, const State&) const {
     const Point at(*this, d.deformationGradient);
     const double g = fibreForce(at.stretch), slope = fibreSlope(at.stretch);
-    return solid::nominalTangent(d.deformationGradient, kirchhoffStress(at), [&](const Matrix3& h) {
+    return solid::nominalTangent(d.deformationGradient, kirchhoffStressOf(at), [&](const Matrix3& h) {
       const Matrix3 hb = h * at.b, db = hb + hb.transpose() - 2.0 / 3.0 * h.trace() * at.b, bdb = at.b * db;
       const Matrix3 matrix = c2 * db.trace() * at.b + (c1 + at.first * c2) * db - c2 * (bdb + bdb.transpose());
       const Matrix3 turned = h * at.fibres, along = turned + turned.transpose();  // d(a aᵀ) = along - 2 (a . h a) a aᵀ
@@ -124,7 +125,7 @@ struct TransIsoHyper {
     read.fibre = {(*value.value)[0], (*value.value)[1], (*value.value)[2]};
   }
 
-  Matrix3 kirchhoffStress(const Point& at) const {
+  Matrix3 kirchhoffStressOf(const Point& at) const {
     const Matrix3 matrix = (c1 + at.first * c2) * at.b - c2 * at.b * at.b;
     Matrix3 stress = deviator(2 * matrix + fibreForce(at.stretch) * at.fibres);
     stress.diagonal().array() += bulkModulus * std::log(at.j);

@@ -14,20 +14,20 @@
 namespace tushar::mpm::solid {
 
 /// Neo-Hookean elasticity with J2 flow and linear isotropic hardening at finite strain: Simo & Hughes, Computational
-/// Inelasticity (1998), section 9.3, box 9.1. Uintah's `UCNH` and, plastic unless told otherwise,
-/// `comp_neo_hook_plastic`.
+/// Inelasticity (1998), section 9.3, box 9.1. Uintah's `UCNH` and `comp_neo_hook_plastic`,
+/// which is plastic by default.
 template <bool plasticByDefault>
 struct NeoHookPlastic {
   struct State {
     double plasticStrain;  ///< alpha, equivalent plastic strain, 1
-    Tensor bElBar;         ///< J^(-2/3) F_e F_eᵀ, but for its volume, 1
+    Tensor bElBar;         ///< J^(-2/3) F_e F_eᵀ: elastic and isochoric, 1
   };
+  using Capabilities = CapabilityList<capability::OptionalState, capability::IgnoresTemperature, capability::FBar,
+                                      capability::NominalTangent, capability::BulkSpeed>;
   static constexpr std::array<StateVariable, 2> stateVariables{
       {{"p.plasticStrain", "1", "equivalent plastic strain"},
        {"p.bElBar", "1", "elastic part of the left Cauchy-Green tensor, without its volume", 9}}};
   static constexpr std::string_view name = plasticByDefault ? "comp_neo_hook_plastic" : "UCNH";
-  static constexpr bool usesTemperature = false;
-  static constexpr bool feelsVolumeOfEndOnly = true;
   static constexpr bool strainEnergyIsRate = false;
 
   double bulkModulus = 0;   ///< K, Pa
@@ -113,7 +113,7 @@ struct NeoHookPlastic {
   }
 
  private:
-  /// What the step would bring if it were elastic, and by how much that is too much.
+  /// The elastic trial state, and how far it lies outside the yield surface.
   struct Trial {
     Matrix3 elastic;       ///< b, 1
     Matrix3 stress;        ///< s = G dev b, Pa

@@ -12,8 +12,9 @@ namespace tushar::mpm::solid {
 /// Acad. Sci. 30 (1944) 244, without his division of K by gamma, as in Uintah.
 struct Water {
   struct State {};
+  using Capabilities =
+      CapabilityList<capability::IgnoresTemperature, capability::BulkSpeed, capability::InitialWaveSpeed>;
   static constexpr std::string_view name = "water";
-  static constexpr bool usesTemperature = false;
   static constexpr bool strainEnergyIsRate = true;
 
   double bulkModulus = 0;  ///< K, Pa
@@ -35,7 +36,7 @@ struct Water {
     stress.diagonal().array() -= bulkModulus * (stiffening(d) - 1);
     return stress;
   }
-  /// Uintah leaves gamma out at the start.
+  /// Without gamma, as in Uintah.
   double initialWaveSpeed(double initialDensity) const { return std::sqrt(bulkModulus / initialDensity); }
   /// c² = dp/drho
   double waveSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
@@ -45,7 +46,7 @@ struct Water {
   double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
     return std::sqrt(bulkModulus * d.deformationGradient.determinant() / initialDensity);
   }
-  /// None, as in Uintah, so that StrainEnergy compares.
+  /// 0 as in Uintah, so that StrainEnergy can be compared.
   double strainEnergyDensity(const Deformation&, const Matrix3&, const Matrix3&, const State&) const { return 0; }
 
  private:

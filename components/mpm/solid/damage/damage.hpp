@@ -10,32 +10,31 @@
 
 namespace tushar::mpm::solid {
 
-/// What damage depends on, of one particle at the end of a step.
-struct DamageState {
-  const Matrix3& deformation;
-  double volume;             ///< m^3
-  double plasticStrainRate;  ///< 1/s
-  double temperature;        ///< K
-  double timeStep;           ///< s
+/// Arguments of the growth of damage: one particle at the end of a step.
+struct DamageConditions {
+  const Matrix3& deformation;  ///< F, 1
+  double volume;               ///< m^3
+  double plasticStrainRate;    ///< 1/s
+  double temperature;          ///< K
+  double timeStep;             ///< s
 };
 
-/// What damage has done to a particle.
-struct Harm {
-  double damage;     ///< 0 where it is sound
-  double threshold;  ///< what it may still bear: a stress, a strain or the root of an energy
+/// Damage of one particle.
+struct DamageState {
+  double damage;     ///< 1; 0 if it is intact
+  double threshold;  ///< at which damage grows: a stress, a strain or the root of an energy
   bool hasFailed;
 };
 
-/// |mean + deviation n|, n a number of a normal distribution that is drawn by the id, so that it does not depend on
-/// patches.
-Harm damagedAtStart(double mean, double deviation, ParticleId id);
+/// An initial damage of |mean + deviation n|, where n = drawnNormal(0, id).
+DamageState damagedAtStart(double mean, double deviation, ParticleId id);
 
 /// No damage.
 struct NoDamage {
   static constexpr std::string_view name = "none";
   static const input::Schema<NoDamage>& schema();
-  Harm initial(double, ParticleId) const { return {0, 0, false}; }
-  void grow(const MaterialConstants&, const DamageState&, Matrix3&, Harm&) const {}
+  DamageState initial(double, ParticleId) const { return {0, 0, false}; }
+  void grow(const MaterialConstants&, const DamageConditions&, Matrix3&, DamageState&) const {}
 };
 
 /// D = sum de_p / e_f, e_f = (D1 + D2 exp(D3 s*)) (1 + D4 ln e*) (1 + D5 T*), s* = mean stress over equivalent stress:
@@ -46,51 +45,54 @@ struct JohnsonCookDamage {
   double d1 = 0, d2 = 0, d3 = 0, d4 = 0, d5 = 0;
   double initialDamage = 0, initialDeviation = 0;
   bool startsSpread = false;   ///< damage at the start by a normal distribution
-  double leastDamage = 1e-10;  ///< damage below that is none
+  double leastDamage = 1e-10;  ///< smaller damage is set to 0
 
   static const input::Schema<JohnsonCookDamage>& schema();
-  Harm initial(double, ParticleId id) const {
+  DamageState initial(double, ParticleId id) const {
     return damagedAtStart(initialDamage, startsSpread ? initialDeviation : 0, id);
   }
-  /// e_f
-  double fractureStrain(const MaterialConstants& material, const DamageState& state, const Matrix3& stress) const;
-  void grow(const MaterialConstants& material, const DamageState& state, Matrix3& stress, Harm& harm) const;
+  /// e_f, 1
+  double fractureStrain(const MaterialConstants& material, const DamageConditions& conditions,
+                        const Matrix3& stress) const;
+  void grow(const MaterialConstants& material, const DamageConditions& conditions, Matrix3& stress,
+            DamageState& state) const;
 };
 
 /// D = sum de_p / e_f, e_f = 1.65 exp(-3/2 mean stress over equivalent stress): Hancock & Mackenzie, J. Mech. Phys.
-/// Solids 24 (1976) 147. As in Uintah it grows in tension only, and is only counted: no particle fails by it.
+/// Solids 24 (1976) 147. As in Uintah it grows in tension only, and no particle fails by it.
 struct HancockMackenzieDamage {
   static constexpr std::string_view name = "hancock_mackenzie";
   double initialDamage = 0, initialDeviation = 0;
   bool startsSpread = false;  ///< damage at the start by a normal distribution
 
   static const input::Schema<HancockMackenzieDamage>& schema();
-  Harm initial(double, ParticleId id) const {
+  DamageState initial(double, ParticleId id) const {
     return damagedAtStart(initialDamage, startsSpread ? initialDeviation : 0, id);
   }
-  void grow(const MaterialConstants& material, const DamageState& state, Matrix3& stress, Harm& harm) const;
+  void grow(const MaterialConstants& material, const DamageConditions& conditions, Matrix3& stress,
+            DamageState& state) const;
 };
 
 /// Damage of brittle materials by the root of the energy of the greatest principal strain, r = E^(1/2) e_max, once it
 /// is above a threshold r_0: d = 0.999/D ((1 + D) / (1 + D exp(-C (r - r_0))) - 1) with C = r_0 h (1 + D) ln(1 + D) /
-/// (G_f D) for a particle of size h; the stress that the model gives is multiplied by 1 - d. Models that go on from the
-/// stress of the step before, as hypo_elastic does, are weakened anew in every step, as in Uintah. Leavy, Brannon &
+/// (G_f D) for a particle of size h; the stress of the model is multiplied by 1 - d. A model that increments the
+/// stress of the previous step, such as hypo_elastic, is weakened again in every step, as in Uintah. Leavy, Brannon &
 /// Strack, Int. J. Appl. Ceram. Technol. 7 (2010) 606; Uintah's `Brittle`.
 struct BrittleDamage {
   static constexpr std::string_view name = "Brittle";
   double threshold = 57;         ///< r_0, Pa^(1/2)
   double fractureEnergy = 11.2;  ///< G_f, J/m^2
   double shape = 0.1;            ///< D, 1
-  double greatestStep = 0.1;     ///< of d in one step, 1
+  double greatestStep = 0.1;     ///< largest growth of d in one step, 1
   double young = 0;              ///< E, Pa
 
   static const input::Schema<BrittleDamage>& schema();
-  Harm initial(double, ParticleId) const { return {0, threshold, false}; }
-  void grow(const MaterialConstants&, const DamageState& state, Matrix3& stress, Harm& harm) const;
+  DamageState initial(double, ParticleId) const { return {0, threshold, false}; }
+  void grow(const MaterialConstants&, const DamageConditions& conditions, Matrix3& stress, DamageState& state) const;
 };
 
-/// A particle fails at once where its greatest principal stress or strain, or its stress by Mohr and Coulomb, is above
-/// a threshold, which may differ from particle to particle.
+/// A particle fails at once if its greatest principal stress or strain, or its stress by Mohr and Coulomb, exceeds a
+/// threshold, which may differ from particle to particle.
 struct ThresholdDamage {
   enum class Criterion { principalStress, principalStrain, mohrCoulomb };
   enum class Distribution { constant, gauss, weibull, uniform };
@@ -107,12 +109,12 @@ struct ThresholdDamage {
   bool localizes = true;
 
   static const input::Schema<ThresholdDamage>& schema();
-  /// The threshold of a particle, drawn by its id, so that it does not depend on patches.
-  Harm initial(double volume, ParticleId id) const;
-  void grow(const MaterialConstants&, const DamageState& state, Matrix3& stress, Harm& harm) const;
+  /// The threshold of a particle, from numbers drawn() by its id.
+  DamageState initial(double volume, ParticleId id) const;
+  void grow(const MaterialConstants&, const DamageConditions& conditions, Matrix3& stress, DamageState& state) const;
 
  private:
-  bool isBeyond(const DamageState& state, const Matrix3& stress, double threshold) const;
+  bool isBeyond(const DamageConditions& conditions, const Matrix3& stress, double threshold) const;
 };
 
 using Damage = std::variant<NoDamage, JohnsonCookDamage, HancockMackenzieDamage, BrittleDamage, ThresholdDamage>;

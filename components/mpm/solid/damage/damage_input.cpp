@@ -15,7 +15,7 @@ const Schema<NoDamage>& NoDamage::schema() {
   return schema;
 }
 
-/// How damaged particles are at the start.
+/// The tags for the initial damage.
 template <class Self>
 void declareStart(Schema<Self>& tags) {
   tags.value("initial_mean_scalar_damage", &Self::initialDamage, 0, "1", "damage at the start", input::between(0, 1))
@@ -132,7 +132,7 @@ const Schema<Erosion>& erosionSchema() {
   return schema;
 }
 
-/// What a damage model takes from the constitutive model.
+/// Checks a damage model against the constitutive model, and takes its elastic constants.
 void connect(Material& material, const Element& parent, const Element& tag, Diagnostics& diagnostics) {
   const bool isJohnsonCook = std::holds_alternative<JohnsonCookDamage>(material.damage);
   const bool needsRate = isJohnsonCook || std::holds_alternative<HancockMackenzieDamage>(material.damage);
@@ -155,7 +155,7 @@ void connect(Material& material, const Element& parent, const Element& tag, Diag
   brittle->young = 9 * *bulk * *shear / (3 * *bulk + *shear);
 }
 
-/// In Uintah a particle may fail by the loss of stability, if erosion follows.
+/// Refuses stability checks with erosion: in Uintah particles fail by them.
 void refuseStabilityChecks(const Element& parent, const Element& erosion, Diagnostics& diagnostics) {
   const auto model = parent.child("constitutive_model");
   const auto check = model ? model->child("stability_check") : std::nullopt;
@@ -166,7 +166,7 @@ void refuseStabilityChecks(const Element& parent, const Element& erosion, Diagno
                                   erosion.where().line));
 }
 
-/// In Uintah metals fail by porosity, too, unless the scene says otherwise.
+/// Notes that porosity is missing: in Uintah metals fail by it by default.
 void noteWhatDoesNotFail(const Material& material, const Element& parent, const Element& erosion,
                          Diagnostics& diagnostics) {
   const auto model = parent.child("constitutive_model");

@@ -5,7 +5,8 @@
 
 namespace tushar::mpm::solid {
 
-/// The tags `damage_model` and `erosion` of a material, whose model has been read.
+/// Reads the tags `damage_model` and `erosion` of a material whose constitutive model has been read. Problems go to
+/// `diagnostics`.
 void readDamage(Material& material, const input::Element& parent, input::Diagnostics& diagnostics);
 void describeDamage(std::ostream& out, int indent);
 

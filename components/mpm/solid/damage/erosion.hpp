@@ -8,22 +8,23 @@
 
 namespace tushar::mpm::solid {
 
-/// What becomes of a particle that has failed.
+/// Treatment of failed particles.
 struct Erosion {
   enum class Algorithm {
-    none,            ///< nothing
-    allowNoTension,  ///< it bears pressure only
-    zeroStress,      ///< it bears nothing and is not deformed further
-    allowNoShear,    ///< it bears mean stress only
-    preserveStress   ///< it is only marked
+    none,            ///< no change
+    allowNoTension,  ///< pressure only
+    zeroStress,      ///< no stress, and no further deformation
+    allowNoShear,    ///< mean stress only
+    preserveStress   ///< all stress: the particle is only marked
   };
   Algorithm algorithm = Algorithm::none;
-  double relaxationTime =
-      1e-99;  ///< in which lost stress of a function of F fades to 1/e, s; others fade anew each step
+  /// Decay time of the lost stress, s. It is exact for stresses that are functions of F; those that a model increments
+  /// decay anew in each step.
+  double relaxationTime = 1e-99;
 
   bool acts() const { return algorithm != Algorithm::none; }
 
-  /// The stress that a particle which failed some seconds ago still bears, Pa.
+  /// Remaining stress of a particle, Pa; `sinceFailure` in s.
   Matrix3 bearable(const Matrix3& stress, double sinceFailure) const {
     const double mean = stress.trace() / 3, faded = std::exp(-sinceFailure / relaxationTime);
     switch (algorithm) {
@@ -37,7 +38,7 @@ struct Erosion {
         return stress;
     }
   }
-  /// What a failed particle keeps of a step's deformation: its volume only or, without stress, nothing.
+  /// Reduces the deformation of a step to its volume change or, without stress, to nothing.
   void restrain(const Matrix3& oldDeformation, Matrix3& deformation, Matrix3& velocityGradient) const {
     if (algorithm == Algorithm::zeroStress) {
       deformation = oldDeformation;

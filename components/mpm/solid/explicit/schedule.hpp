@@ -39,7 +39,7 @@ SolidMpm<Shape>::SolidMpm(Problem problem) : Solids(std::move(problem)) {
                                [](const Material& material) { return material.isDamageable(); });
   keeps_stress_ = is_damageable_ || any([](const Model& model) { return !model.dependsOnDeformationOnly(); });
   is_thermal_ = any([](const Model& model) { return model.usesTemperature(); });
-  heats_ = any([](const Model& model) { return model.heats(); });
+  heats_ = any([](const Model& model) { return model.changesTemperature(); });
 }
 
 template <class Shape>

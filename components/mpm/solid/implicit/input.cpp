@@ -154,7 +154,7 @@ bool onlyCounts(const Damage& damage) {
 /// F-bar changes the F that a stress follows from; what goes by the rate would need more than that.
 void refuseVolumesOfStates(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
   for (const Material& material : problem.materials)
-    if (!material.model->feelsVolumeOfEndOnly() && !isMaster(problem, material.index))
+    if (!material.model->supportsFBar() && !isMaster(problem, material.index))
       diagnostics.error(root.child("MPM")->child("DoPressureStabilization").value(),
                         "with <time_integrator> implicit only for comp_neo_hook, comp_mooney_rivlin, UCNH and "
                         "comp_neo_hook_plastic; '" +

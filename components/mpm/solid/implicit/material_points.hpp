@@ -55,9 +55,7 @@ class PointStates {
   std::vector<double> stretch;               ///< what the model is told of is stretch F, 1
 
   /// Whether the points of a run are told of their common change of volume: of models that can be told.
-  bool sharesVolume(const PointRun& run) const {
-    return shares_volume_ && run.group->material->model->feelsVolumeOfEndOnly();
-  }
+  bool sharesVolume(const PointRun& run) const { return shares_volume_ && run.group->material->model->supportsFBar(); }
   /// F = (I + gradient) F_old of a run. False where a point would be turned inside out or crushed to a tenth.
   bool deform(const PointRun& run) {
     for (int k = run.from; k < run.from + run.count; ++k) {

@@ -22,7 +22,7 @@ ImplicitMpm<Shape>::ImplicitMpm(Problem problem, ImplicitMethod how)
     : Solids(std::move(problem), 1),
       how_(std::move(how)),
       heats_(std::any_of(problem_.materials.begin(), problem_.materials.end(),
-                         [](const Material& material) { return material.model->heats(); })),
+                         [](const Material& material) { return material.model->changesTemperature(); })),
       is_damageable_(std::any_of(problem_.materials.begin(), problem_.materials.end(),
                                  [](const Material& material) { return material.isDamageable(); })) {}
 

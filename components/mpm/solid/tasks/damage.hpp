@@ -11,9 +11,10 @@ inline void initializeDamage(const Patch&, const Material& material, ParticleVie
                              ParticleView<double> threshold, ParticleView<int> localized,
                              ParticleView<double> failureTime) {
   for (int p = 0; p < damage.owned(); ++p) {
-    const Harm harm = std::visit([&](const auto& model) { return model.initial(volume[p], id[p]); }, material.damage);
-    damage[p] = harm.damage;
-    threshold[p] = harm.threshold;
+    const DamageState start =
+        std::visit([&](const auto& model) { return model.initial(volume[p], id[p]); }, material.damage);
+    damage[p] = start.damage;
+    threshold[p] = start.threshold;
     localized[p] = 0;
     failureTime[p] = -1e99;
   }
@@ -37,16 +38,16 @@ inline void computeDamage(const Patch&, const Material& material, int stateSize,
   const MaterialConstants constants = material.constants();
   for (int p = 0; p < stress.owned(); ++p) {
     const double plasticStrainRate = rate < 0 ? 0.0 : (&(*state)[0])[p * stateSize + rate];
-    const DamageState now{deformation[p], volume[p], plasticStrainRate, temperature[p], dt};
-    Harm harm{oldDamage[p], oldThreshold[p], oldLocalized[p] != 0};
-    std::visit([&](const auto& model) { model.grow(constants, now, stress[p], harm); }, material.damage);
+    const DamageConditions conditions{deformation[p], volume[p], plasticStrainRate, temperature[p], dt};
+    DamageState now{oldDamage[p], oldThreshold[p], oldLocalized[p] != 0};
+    std::visit([&](const auto& model) { model.grow(constants, conditions, stress[p], now); }, material.damage);
     if (material.erosion.acts() && material.model->isMolten(deformation[p], stress[p], temperature[p]))
-      harm.hasFailed = true;
-    damage[p] = harm.damage;
-    threshold[p] = harm.threshold;
-    localized[p] = harm.hasFailed ? 1 : 0;
-    failureTime[p] = harm.hasFailed && !oldLocalized[p] ? time : oldFailureTime[p];
-    if (harm.hasFailed) stress[p] = material.erosion.bearable(stress[p], time - failureTime[p]);
+      now.hasFailed = true;
+    damage[p] = now.damage;
+    threshold[p] = now.threshold;
+    localized[p] = now.hasFailed ? 1 : 0;
+    failureTime[p] = now.hasFailed && !oldLocalized[p] ? time : oldFailureTime[p];
+    if (now.hasFailed) stress[p] = material.erosion.bearable(stress[p], time - failureTime[p]);
   }
 }
 

@@ -28,7 +28,7 @@ TEST(NominalTangent, IsTheDerivativeOfTheStressOfHyperelasticModels) {
   expectConsistentTangent(MaterialPoint<TransIsoHyper>{fibres}, f.inverse());
 }
 
-TEST(NominalTangent, OfHypoElasticCountsTheStressAtTheBeginOfTheStep) {
+TEST(NominalTangent, OfHypoElasticCountsTheStressAtTheStartOfTheStep) {
   MaterialPoint<HypoElastic> point{withModuli<HypoElastic>()};
   point.advance(generalDeformation(0.1));
   expectConsistentTangent(point, generalDeformation(0.2));

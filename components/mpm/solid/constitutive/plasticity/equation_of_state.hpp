@@ -8,7 +8,7 @@
 
 namespace tushar::mpm::solid {
 
-/// What the mean stress depends on.
+/// Arguments of an equation of state.
 struct VolumeState {
   double oldMeanStress;       ///< Pa, tension positive
   double dilatation;          ///< tr D dt, 1
@@ -30,7 +30,7 @@ struct HypoelasticVolume {
     return schema;
   }
   double meanStress(const VolumeState& s) const { return s.oldMeanStress + s.bulkModulus * s.dilatation; }
-  /// Change of the temperature by the step's change of volume, K.
+  /// Temperature change by the volume change of the step, K.
   double heating(const VolumeState&) const { return 0; }
 };
 
@@ -47,8 +47,8 @@ struct HyperelasticVolume {
 };
 
 /// p = rho_0 C_0² eta (1 - Gamma_0 eta / 2) / (1 - S_alpha eta)² + Gamma_0 rho_0 c_v (T - T_0), eta = 1 - J: the shock
-/// velocity is U = C_0 + S_alpha u; Wilkins, Computer Simulation of Dynamic Phenomena (1999), chapter 3. Today's Uintah
-/// has no word for it.
+/// velocity is U = C_0 + S_alpha u; Wilkins, Computer Simulation of Dynamic Phenomena (1999), chapter 3. Uintah has
+/// no such model today.
 struct MieGruneisen {
   static constexpr std::string_view name = "mie_gruneisen_temperature";
 
@@ -74,7 +74,7 @@ struct MieGruneisen {
 
 /// p = rho_0 C_0² eta (1 - Gamma_0 eta / 2) / (1 - S_alpha eta - S_2 eta² - S_3 eta³)² + Gamma_0 rho_0 e under
 /// pressure, rho_0 C_0² eta + Gamma_0 rho_0 e in tension, eta = 1 - J: Steinberg, UCRL-MA-106439 (1991). The
-/// temperature changes by dT = -T Gamma_0 J tr D dt. This is what Uintah makes of mie_gruneisen.
+/// temperature changes by dT = -T Gamma_0 J tr D dt. Uintah's `mie_gruneisen`.
 struct MieGruneisenEnergy {
   static constexpr std::string_view name = "mie_gruneisen";
 
@@ -105,7 +105,7 @@ struct MieGruneisenEnergy {
   double heating(const VolumeState& s) const { return -s.temperature * gruneisen * s.volume * s.dilatation; }
 };
 
-/// The first holds where a scene names none, as in Uintah.
+/// The first is the default, as in Uintah.
 using EquationOfState = std::variant<HyperelasticVolume, HypoelasticVolume, MieGruneisen, MieGruneisenEnergy>;
 
 }  // namespace tushar::mpm::solid

@@ -16,6 +16,7 @@ namespace tushar::mpm::solid {
 
 /// sigma_y = sigma_Y + K e_p
 struct IsotropicHardening {
+  using Capabilities = CapabilityList<capability::Hardening>;
   static constexpr std::string_view name = "isotropic_hardening";
 
   double yieldStress = 0;  ///< sigma_Y, Pa
@@ -33,11 +34,13 @@ struct IsotropicHardening {
   /// d sigma_y / d e_p
   double hardening(const FlowState&) const { return modulus; }
 };
+static_assert(FlowRule<IsotropicHardening>);
 
 /// sigma_y = (A + B e_p^n) (1 + C ln e*) (1 - T*^m), e* = rate / epdot_0, T* = (T - T_r) / (T_m - T_r): Johnson & Cook,
 /// Proc. 7th Int. Symp. on Ballistics (1983) 541. Below epdot_0 the factor of the rate is (1 + e*)^C, below T_r that of
 /// the temperature 1 - T*, above T_m nothing, as in Uintah.
 struct JohnsonCook {
+  using Capabilities = CapabilityList<capability::Hardening>;
   static constexpr std::string_view name = "johnson_cook";
 
   double a = 0, b = 0;            ///< Pa
@@ -81,11 +84,13 @@ struct JohnsonCook {
     return t < 0 ? 1 - t : 1 - std::pow(t, m);
   }
 };
+static_assert(FlowRule<JohnsonCook>);
 
 /// sigma_y = c_0 + B exp(-beta T) + B_0 e_p^(1/2) exp(-alpha T) + K e_p^n, alpha = alpha_0 - alpha_1 ln rate, beta
 /// likewise: Zerilli & Armstrong, J. Appl. Phys. 61 (1987) 1816. As in Uintah the rate is that of the plastic strain,
 /// and at least 1e-8/s.
 struct ZerilliArmstrong {
+  using Capabilities = CapabilityList<>;
   static constexpr std::string_view name = "zerilli_armstrong";
 
   double c0 = 0, b = 0, b0 = 0, k = 0;  ///< Pa
@@ -136,20 +141,21 @@ struct ZerilliArmstrong {
     return std::exp(-(byTemperature - byRate * logarithm) * state.temperature);
   }
 };
+static_assert(FlowRule<ZerilliArmstrong>);
 
 using FlowModel = std::variant<IsotropicHardening, JohnsonCook, MechanicalThreshold, PrestonTonksWallace,
                                SteinbergCochranGuinan, ZerilliArmstrong>;
 
 /// A radial return to the yield surface of a flow model, in a step of `timeStep` s.
-template <class Flow>
+template <FlowRule Flow>
 class RadialReturn {
  public:
   RadialReturn(const Flow& flow, const FlowState& start, double timeStep)
       : flow_(flow), start_(start), time_step_(timeStep) {}
 
-  /// By how much it shortens the trial stress s: the root q of |s| - q = (2/3)^(1/2) sigma_y, e_p = (2/3)^(1/2) q/(2 G)
-  /// more than at the start, Pa, by Newton's iteration between bounds; Simo & Hughes, Computational Inelasticity
-  /// (1998), box 3.1.
+  /// Length by which the return shortens the trial stress s: the root q of |s| - q = (2/3)^(1/2) sigma_y, e_p =
+  /// (2/3)^(1/2) q/(2 G) more than at the start, Pa, by Newton's iteration between bounds; Simo & Hughes, Computational
+  /// Inelasticity (1998), box 3.1.
   double excess(double trialSize) const {
     double low = 0, high = trialSize - root_ * flow_.flowStress(start_), q = high;
     if (high <= 0) return 0;
@@ -163,16 +169,16 @@ class RadialReturn {
     }
     return q;
   }
-  /// At the end of a step that shortens the trial stress by q.
+  /// State at the end of a step whose return shortens the trial stress by q, Pa.
   FlowState after(double q) const {
     FlowState state = start_;
     state.plasticStrain += perStress() * q;
     state.plasticStrainRate = perStress() * q / time_step_;
     return state;
   }
-  /// d sigma_y / d e_p where the step's plastic strain changes with e_p, Pa.
+  /// d sigma_y / d e_p, Pa, with the plastic strain rate of the step a function of e_p.
   double hardening(const FlowState& state) const {
-    if constexpr (requires { flow_.hardening(state); })
+    if constexpr (offers<Flow, capability::Hardening>)
       if (!dependsOnPlasticRate()) return flow_.hardening(state);
     const double h = 1e-5 * std::max(state.plasticStrain - start_.plasticStrain, 1e-6);
     const auto at = [&](double more) {
@@ -183,12 +189,12 @@ class RadialReturn {
     };
     return (at(h) - at(-h)) / (2 * h);
   }
-  /// Plastic strain per stress, (2/3)^(1/2) / (2 G), 1/Pa.
+  /// Plastic strain per q, (2/3)^(1/2) / (2 G), 1/Pa.
   double perStress() const { return root_ / (2 * start_.shearModulus); }
 
  private:
   bool dependsOnPlasticRate() const {
-    if constexpr (requires { flow_.dependsOnPlasticRate(); }) return flow_.dependsOnPlasticRate();
+    if constexpr (offers<Flow, capability::PlasticRate>) return flow_.dependsOnPlasticRate();
     return false;
   }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "components/mpm/solid/constitutive/plasticity/flow_state.hpp"
+#include "components/mpm/solid/constitutive/plasticity/flow_rule.hpp"
 #include "core/input/refuse.hpp"
 
 namespace tushar::mpm::solid {
@@ -14,8 +14,9 @@ namespace tushar::mpm::solid {
 /// d sigma_e / d e_p = theta_0 (1 - tanh(alpha sigma_e/sigma_es) / tanh(alpha)),
 /// theta_0 = a_0 + a_1 ln r + a_2 r^(1/2) - a_3 T, sigma_es = sigma_es0 (r/r_es0)^(k T / (g_0es b^3 G)):
 /// Follansbee & Kocks, Acta Metall. 36 (1988) 81; Goto et al., Metall. Mater. Trans. A 31 (2000) 1985.
-/// sigma_e comes by four implicit midpoint steps, as in Uintah.
+/// Four implicit midpoint steps give sigma_e, as in Uintah.
 struct MechanicalThreshold {
+  using Capabilities = CapabilityList<>;
   static constexpr std::string_view name = "mts_model";
 
   double athermal = 0;              ///< sigma_a, Pa
@@ -104,5 +105,6 @@ struct MechanicalThreshold {
     return threshold;
   }
 };
+static_assert(FlowRule<MechanicalThreshold>);
 
 }  // namespace tushar::mpm::solid

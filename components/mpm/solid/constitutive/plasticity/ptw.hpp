@@ -5,7 +5,7 @@
 #include <numbers>
 #include <string_view>
 
-#include "components/mpm/solid/constitutive/plasticity/flow_state.hpp"
+#include "components/mpm/solid/constitutive/plasticity/flow_rule.hpp"
 #include "core/input/schema.hpp"
 
 namespace tushar::mpm::solid {
@@ -15,6 +15,7 @@ namespace tushar::mpm::solid {
 /// the plastic strain times the time in which a transverse wave crosses an atom, t_s = s_0 - (s_0 - s_inf) erf x and
 /// t_y likewise; above 1000/s at least t_s = s_0 (r/gamma)^beta and t_y = y_1 (r/gamma)^y_2, for strong shocks.
 struct PrestonTonksWallace {
+  using Capabilities = CapabilityList<>;
   static constexpr std::string_view name = "preston_tonks_wallace";
 
   double theta = 0, p = 0, s0 = 0, sInfinite = 0, kappa = 0, gamma = 0, y0 = 0, yInfinite = 0, y1 = 0, y2 = 0, beta = 0;
@@ -72,5 +73,6 @@ struct PrestonTonksWallace {
     return yield + a * (range + std::log(std::exp(-range - hardening) - std::expm1(-hardening)));
   }
 };
+static_assert(FlowRule<PrestonTonksWallace>);
 
 }  // namespace tushar::mpm::solid

@@ -6,13 +6,14 @@
 
 namespace tushar::mpm::solid {
 
-/// How the stress deviator that a radial return leaves changes with the strain of the step and with the volume. With s
-/// the trial deviator, n = s/|s|, q what the return takes from |s|, and a = (2/3)^(1/2)/(2 G) the plastic strain per q:
+/// Derivative of the stress deviator after a radial return with respect to the strain of the step and the volume. With
+/// s the trial deviator, n = s/|s|, q what the return takes from |s|, and a = (2/3)^(1/2)/(2 G) the plastic strain per
+/// q:
 ///
 ///     d (s (1 - q/|s|)) = ds (1 - q/|s|) + (q/|s| n : ds - dq) n,   ds = 2 G dev de + 2 dG dev e,
 ///     dq (1 + (2/3)^(1/2) H a) = n : ds - (2/3)^(1/2) (d sigma_y - H a q dG/G),
 ///
-/// where d sigma_y is that at a plastic strain that stays; Simo & Hughes, Computational Inelasticity (1998),
+/// where d sigma_y is taken at constant plastic strain; Simo & Hughes, Computational Inelasticity (1998),
 /// section 3.3.
 struct ReturnTangent {
   Matrix3 strain;                                 ///< e of the step
@@ -23,7 +24,7 @@ struct ReturnTangent {
   double byRate = 0;                              ///< d sigma_y / d ln of the strain rate, Pa
   double modulusByVolume = 0, yieldByVolume = 0;  ///< dG and d sigma_y over d ln J, Pa
 
-  /// For a change of the strain by `de` and of ln J by `volume`, Pa.
+  /// Change of the deviator, Pa, if the strain changes by `de` and ln J by `volume`.
   Matrix3 change(const Matrix3& de, double volume) const {
     const Matrix3 ds = 2 * modulus * deviator(de) + 2 * modulusByVolume * volume * deviator(strain);
     if (excess <= 0) return ds;

@@ -4,16 +4,17 @@
 #include <cmath>
 #include <string_view>
 
-#include "components/mpm/solid/constitutive/plasticity/flow_state.hpp"
+#include "components/mpm/solid/constitutive/plasticity/flow_rule.hpp"
 #include "core/input/schema.hpp"
 
 namespace tushar::mpm::solid {
 
 /// sigma_y = (sigma_T + min(sigma_0 (1 + beta (e_p + epsilon_p0))^n, Y_max)) G/mu_0: Steinberg, Cochran & Guinan, J.
-/// Appl. Phys. 51 (1980) 1498. Where C1 and C2 are given, sigma_T is the stress at which dislocations move thermally at
-/// the rate of the plastic strain, 1/rate = exp(2 U_k / (k T) (1 - sigma_T / sigma_P)^2) / C1 + C2 / sigma_T, at most
-/// Peierls' stress sigma_P: Steinberg & Lund, J. Appl. Phys. 65 (1989) 1528. Else it is 0.
+/// Appl. Phys. 51 (1980) 1498. If C1 and C2 are given, sigma_T is the stress at which thermally activated dislocations
+/// move at the rate of the plastic strain, 1/rate = exp(2 U_k / (k T) (1 - sigma_T / sigma_P)^2) / C1 + C2 / sigma_T,
+/// at most Peierls' stress sigma_P: Steinberg & Lund, J. Appl. Phys. 65 (1989) 1528. Otherwise it is 0.
 struct SteinbergCochranGuinan {
+  using Capabilities = CapabilityList<capability::Hardening, capability::PlasticRate>;
   static constexpr std::string_view name = "steinberg_cochran_guinan";
 
   double shearModulus = 0;            ///< mu_0, Pa
@@ -59,7 +60,7 @@ struct SteinbergCochranGuinan {
     return (thermal(state) + std::min(hardened(state), greatest)) * state.shearModulus / shearModulus;
   }
   bool dependsOnPlasticRate() const { return c1 > 0; }
-  /// At a rate that stays.
+  /// At a constant rate.
   double hardening(const FlowState& state) const {
     if (hardened(state) >= greatest) return 0;
     return beta * n * hardened(state) / base(state) * state.shearModulus / shearModulus;
@@ -68,7 +69,7 @@ struct SteinbergCochranGuinan {
  private:
   double base(const FlowState& state) const { return 1 + beta * (state.plasticStrain + initialStrain); }
   double hardened(const FlowState& state) const { return yieldStress * std::pow(base(state), n); }
-  /// sigma_T by bisection: the rate grows with it.
+  /// sigma_T, Pa, by bisection: the rate increases with sigma_T.
   double thermal(const FlowState& state) const {
     if (c1 == 0 || state.plasticStrainRate <= 0) return 0;
     double low = 0, high = peierls;
@@ -80,5 +81,6 @@ struct SteinbergCochranGuinan {
     return high;
   }
 };
+static_assert(FlowRule<SteinbergCochranGuinan>);
 
 }  // namespace tushar::mpm::solid

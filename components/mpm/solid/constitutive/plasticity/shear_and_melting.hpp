@@ -8,7 +8,7 @@
 
 namespace tushar::mpm::solid {
 
-/// What the shear modulus and the melting temperature depend on.
+/// Arguments of shear and melting models.
 struct Compression {
   double pressure;             ///< Pa
   double ratio;                ///< density over that at the start, 1

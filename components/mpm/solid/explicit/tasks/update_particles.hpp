@@ -86,7 +86,7 @@ template <class Shape>
 void heatByViscosity(const Material& material, double growth, const ParticleStates<Shape>& s, int p) {
   const double heat = -s.viscosity[p] * growth;
   if (s.temperatureChange) s.temperatureChange[p] += heat / material.specificHeat;
-  material.model->addHeat(s.state + p * s.stateSize, heat);
+  material.model->addViscousHeat(s.state + p * s.stateSize, heat);
 }
 
 /// Stress, artificial viscosity and strain energy of particles of a cell, where a scene keeps them; tells `rate` of
@@ -118,7 +118,7 @@ void updateStress(const Material& material, const Method& method, double dt, con
       material.model->ownViscosity().value_or(method.viscosity.value_or(ArtificialViscosity{}));
   for (int k = 0; k < count; ++k) rate.add(waveSpeed[static_cast<std::size_t>(k)], s.velocity[first + k]);
   if (!s.viscosity && !s.strainEnergy) return;
-  const bool heated = method.viscosityHeats && material.model->takesHeat();
+  const bool heated = method.viscosityHeats && material.model->hasViscousHeat();
   for (int k = 0; k < count; ++k) {
     const int p = first + k;
     const auto at = static_cast<std::size_t>(k);

@@ -1,0 +1,295 @@
+#pragma once
+
+#include <array>
+#include <type_traits>
+
+#include "components/mpm/solid/constitutive/capability_list.hpp"
+#include "components/mpm/solid/constitutive/model_types.hpp"
+#include "core/base/lanes.hpp"
+
+/// What a constitutive model can do beyond the members of every model. A model that names a capability must have its
+/// member, with that signature; a model that has the member must name the capability. Anything else does not compile.
+namespace tushar::mpm::solid::capability {
+
+template <class Variables>
+inline constexpr bool isListOfVariables = false;
+template <std::size_t N>
+inline constexpr bool isListOfVariables<const std::array<StateVariable, N>*> = true;
+
+// Properties without a member.
+
+/// The stress at the end of a step is a function of F at the end alone, so that no particle keeps its stress. Offer it
+/// for elastic models in total form without a State.
+struct DependsOnDeformationOnly {
+  template <class M>
+  static consteval bool check() {
+    static_assert(!offers<M, DependsOnDeformationOnly> || std::is_empty_v<typename M::State>,
+                  "capability::DependsOnDeformationOnly needs an empty State");
+    return true;
+  }
+};
+
+/// No member function reads the temperature, which is 0 K for them unless another material of the scene needs it.
+struct IgnoresTemperature {
+  template <class M>
+  static consteval bool check() {
+    return true;
+  }
+};
+
+/// F-bar in implicit time steps: updateStress reads F, F_old and the State, and F -> s F changes nothing but the mean
+/// of J sigma. Every model that DependsOnDeformationOnly supports it without naming it.
+struct FBar {
+  template <class M>
+  static consteval bool check() {
+    return true;
+  }
+};
+
+// Stress and its tangent.
+
+/// J sigma, Pa, and the wave speed, m/s, of several particles at once, with the arithmetic of one: templates for a Real
+/// that is double or Lanes. Offer it where explicit steps spend their time in the stress.
+struct Vectorized {
+  struct Name {
+    int kirchhoffStress;
+  };
+  template <class M>
+  static consteval bool check() {
+    constexpr bool isNamed = offers<M, Vectorized>;
+    constexpr bool isAbsent = requires { &Both<M, Name>::kirchhoffStress; };
+    static_assert(isNamed || isAbsent,
+                  "a member kirchhoffStress is used only by a model that names capability::Vectorized");
+    constexpr bool isFunctionOfF = offers<M, DependsOnDeformationOnly>;
+    static_assert(!isNamed || isFunctionOfF, "capability::Vectorized needs capability::DependsOnDeformationOnly");
+    constexpr bool hasStress = requires { Member<M, TensorOf<Lanes>, const TensorOf<Lanes>&>{&M::kirchhoffStress}; };
+    static_assert(
+        !isNamed || hasStress,
+        "capability::Vectorized needs the public member `template <class Real> TensorOf<Real> kirchhoffStress(const "
+        "TensorOf<Real>& f) const`");
+    constexpr bool hasSpeed = requires { Member<M, Lanes, double, const TensorOf<Lanes>&>{&M::waveSpeed}; };
+    static_assert(
+        !isNamed || hasSpeed,
+        "capability::Vectorized needs the public member `template <class Real> Real waveSpeed(double initialDensity, "
+        "const TensorOf<Real>& f) const`");
+    return true;
+  }
+};
+
+/// dP/dF, Pa, of P = J sigma F^-T at the end of a step in which L dt = F F_old^-1 - I; row 3 i + J, column 3 k + L. It
+/// must be the derivative of what updateStress makes of the state at the start of the step. Implicit steps need it.
+struct NominalTangent {
+  struct Name {
+    int nominalTangent;
+  };
+  template <class M>
+  static consteval bool check() {
+    constexpr bool isNamed = offers<M, NominalTangent>;
+    constexpr bool isAbsent = requires { &Both<M, Name>::nominalTangent; };
+    static_assert(isNamed || isAbsent,
+                  "a member nominalTangent is used only by a model that names capability::NominalTangent");
+    constexpr bool fits = requires {
+      Member<M, Matrix9, const Deformation&, const Matrix3&, const typename M::State&>{&M::nominalTangent};
+    };
+    static_assert(
+        !isNamed || fits,
+        "capability::NominalTangent needs the public member `Matrix9 nominalTangent(const Deformation&, const Matrix3& "
+        "oldStress, const State& old) const`");
+    return true;
+  }
+};
+
+// Wave speeds.
+
+/// c_b = sqrt(K / rho), m/s, for the artificial viscosity; without it waveSpeed stands in. Offer it for solids, whose
+/// shear stiffness makes the fastest wave faster than the bulk wave.
+struct BulkSpeed {
+  struct Name {
+    int bulkSpeed;
+  };
+  template <class M>
+  static consteval bool check() {
+    constexpr bool isNamed = offers<M, BulkSpeed>;
+    constexpr bool isAbsent = requires { &Both<M, Name>::bulkSpeed; };
+    static_assert(isNamed || isAbsent, "a member bulkSpeed is used only by a model that names capability::BulkSpeed");
+    constexpr bool fits = requires {
+      Member<M, double, double, const Deformation&, const Matrix3&, const typename M::State&>{&M::bulkSpeed};
+    };
+    static_assert(
+        !isNamed || fits,
+        "capability::BulkSpeed needs the public member `double bulkSpeed(double initialDensity, const Deformation&, "
+        "const Matrix3& stress, const State&) const`");
+    return true;
+  }
+};
+
+/// Speed of the fastest wave for the first time step, m/s; without it waveSpeed at F = I stands in. Offer it where
+/// Uintah's first time step comes from another formula.
+struct InitialWaveSpeed {
+  struct Name {
+    int initialWaveSpeed;
+  };
+  template <class M>
+  static consteval bool check() {
+    constexpr bool isNamed = offers<M, InitialWaveSpeed>;
+    constexpr bool isAbsent = requires { &Both<M, Name>::initialWaveSpeed; };
+    static_assert(isNamed || isAbsent,
+                  "a member initialWaveSpeed is used only by a model that names capability::InitialWaveSpeed");
+    constexpr bool fits = requires { Member<M, double, double>{&M::initialWaveSpeed}; };
+    static_assert(!isNamed || fits,
+                  "capability::InitialWaveSpeed needs the public member `double initialWaveSpeed(double "
+                  "initialDensity) const`");
+    return true;
+  }
+};
+
+/// Coefficients of the artificial viscosity in place of those of the scene.
+struct OwnViscosity {
+  struct Name {
+    int ownViscosity;
+  };
+  template <class M>
+  static consteval bool check() {
+    constexpr bool isNamed = offers<M, OwnViscosity>;
+    constexpr bool isAbsent = requires { &Both<M, Name>::ownViscosity; };
+    static_assert(isNamed || isAbsent,
+                  "a member ownViscosity is used only by a model that names capability::OwnViscosity");
+    constexpr bool fits = requires {
+      { &M::ownViscosity } -> std::same_as<const ArtificialViscosity*>;
+    };
+    static_assert(
+        !isNamed || fits,
+        "capability::OwnViscosity needs the public member `static constexpr ArtificialViscosity ownViscosity`");
+    return true;
+  }
+};
+
+// Heat.
+
+/// Constants of the material beside those of the model, filled in after the model has been read. Offer it where the
+/// model needs the density, the specific heat or the melting temperature.
+struct ConstantsOfMaterial {
+  struct Name {
+    int material;
+  };
+  template <class M>
+  static consteval bool check() {
+    constexpr bool isNamed = offers<M, ConstantsOfMaterial>;
+    constexpr bool isAbsent = requires { &Both<M, Name>::material; };
+    static_assert(isNamed || isAbsent,
+                  "a member material is filled only for a model that names capability::ConstantsOfMaterial");
+    constexpr bool fits = requires {
+      { &M::material } -> std::same_as<MaterialConstants M::*>;
+    };
+    static_assert(!isNamed || fits,
+                  "capability::ConstantsOfMaterial needs the public member `MaterialConstants material`");
+    return true;
+  }
+};
+
+/// Change of the temperature by the work of the step, K; `stress` and `state` are those at its end. Offer it for
+/// materials that plastic work or compression heats.
+struct TemperatureChange {
+  struct Name {
+    int temperatureChange;
+  };
+  template <class M>
+  static consteval bool check() {
+    constexpr bool isNamed = offers<M, TemperatureChange>;
+    constexpr bool isAbsent = requires { &Both<M, Name>::temperatureChange; };
+    static_assert(isNamed || isAbsent,
+                  "a member temperatureChange is used only by a model that names capability::TemperatureChange");
+    constexpr bool fits = requires {
+      Member<M, double, const Deformation&, const Matrix3&, const typename M::State&>{&M::temperatureChange};
+    };
+    static_assert(
+        !isNamed || fits,
+        "capability::TemperatureChange needs the public member `double temperatureChange(const Deformation&, const "
+        "Matrix3& stress, const State& state) const`");
+    return true;
+  }
+};
+
+/// Adds the heat of the artificial viscosity, J/kg, to the State. Without it the viscosity heats nothing, as in Uintah.
+struct ViscousHeat {
+  struct Name {
+    int addViscousHeat;
+  };
+  template <class M>
+  static consteval bool check() {
+    constexpr bool isNamed = offers<M, ViscousHeat>;
+    constexpr bool isAbsent = requires { &Both<M, Name>::addViscousHeat; };
+    static_assert(isNamed || isAbsent,
+                  "a member addViscousHeat is used only by a model that names capability::ViscousHeat");
+    constexpr bool fits = requires { Member<M, void, typename M::State&, double>{&M::addViscousHeat}; };
+    static_assert(!isNamed || fits,
+                  "capability::ViscousHeat needs the public member `void addViscousHeat(State&, double heat) const`");
+    return true;
+  }
+};
+
+/// Whether a point with F, a stress (Pa) and a temperature (K) is molten: it fails then where the scene has an
+/// <erosion>.
+struct Melting {
+  struct Name {
+    int isMolten;
+  };
+  template <class M>
+  static consteval bool check() {
+    constexpr bool isNamed = offers<M, Melting>;
+    constexpr bool isAbsent = requires { &Both<M, Name>::isMolten; };
+    static_assert(isNamed || isAbsent, "a member isMolten is used only by a model that names capability::Melting");
+    constexpr bool fits = requires { Member<M, bool, const Matrix3&, const Matrix3&, double>{&M::isMolten}; };
+    static_assert(
+        !isNamed || fits,
+        "capability::Melting needs the public member `bool isMolten(const Matrix3& deformationGradient, const Matrix3& "
+        "stress, double temperature) const`");
+    return true;
+  }
+};
+
+// Internal variables.
+
+/// Whether the particles keep a State, which depends on the constants of the model; where not, initialState() stands
+/// in. Offer it where plasticity can be switched off.
+struct OptionalState {
+  struct Name {
+    int keepsState;
+  };
+  template <class M>
+  static consteval bool check() {
+    constexpr bool isNamed = offers<M, OptionalState>;
+    constexpr bool isAbsent = requires { &Both<M, Name>::keepsState; };
+    static_assert(isNamed || isAbsent,
+                  "a member keepsState is used only by a model that names capability::OptionalState");
+    constexpr bool fits = requires { Member<M, bool>{&M::keepsState}; };
+    static_assert(!isNamed || fits, "capability::OptionalState needs the public member `bool keepsState() const`");
+    return true;
+  }
+};
+
+/// Variables of Uintah's model of the same name that are always 0 here, for scenes that save them.
+struct AbsentVariables {
+  struct Name {
+    int absentVariables;
+  };
+  template <class M>
+  static consteval bool check() {
+    constexpr bool isNamed = offers<M, AbsentVariables>;
+    constexpr bool isAbsent = requires { &Both<M, Name>::absentVariables; };
+    static_assert(isNamed || isAbsent,
+                  "a member absentVariables is used only by a model that names capability::AbsentVariables");
+    constexpr bool fits = requires { requires isListOfVariables<decltype(&M::absentVariables)>; };
+    static_assert(!isNamed || fits,
+                  "capability::AbsentVariables needs the public member `static constexpr std::array<StateVariable, N> "
+                  "absentVariables`");
+    return true;
+  }
+};
+
+/// Every capability that a constitutive model can name.
+using OfModels = CapabilityList<DependsOnDeformationOnly, IgnoresTemperature, FBar, Vectorized, NominalTangent,
+                                BulkSpeed, InitialWaveSpeed, OwnViscosity, ConstantsOfMaterial, TemperatureChange,
+                                ViscousHeat, Melting, OptionalState, AbsentVariables>;
+
+}  // namespace tushar::mpm::solid::capability

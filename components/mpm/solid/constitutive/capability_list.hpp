@@ -1,0 +1,42 @@
+#pragma once
+
+#include <concepts>
+
+namespace tushar::mpm::solid {
+
+/// The optional abilities of a type, as types of namespace capability. A type lists its own as `T::Capabilities`.
+///
+/// A capability has a member template `check<T>()`, whose assertions compare what T names with what T has.
+template <class... Names>
+struct CapabilityList {
+  template <class Capability>
+  static constexpr bool contains = (std::same_as<Capability, Names> || ...);
+
+  /// True, or compilation stops with a sentence that says where the members of T and the capabilities that it names
+  /// disagree. The list itself holds all capabilities that a type of this kind may name.
+  template <class T>
+  static consteval bool check() {
+    static_assert(T::Capabilities::areAmong(CapabilityList()),
+                  "Capabilities must hold capabilities of this kind of model only: they stand in namespace capability");
+    return (Names::template check<T>() && ...);
+  }
+  template <class... Others>
+  static consteval bool areAmong(CapabilityList<Others...>) {
+    return (CapabilityList<Others...>::template contains<Names> && ...);
+  }
+};
+
+/// Whether T names a capability.
+template <class T, class Capability>
+inline constexpr bool offers = T::Capabilities::template contains<Capability>;
+
+/// A name that T and `Name` both have is ambiguous here: `requires { &Both<T, Name>::x; }` is true exactly where T has
+/// no member x, of whatever type and access.
+template <class T, class Name>
+struct Both : T, Name {};
+
+/// Pointer to a const member function of T. Member<T, ...>{&T::f} compiles only if f has exactly this signature.
+template <class T, class Result, class... Arguments>
+using Member = Result (T::*)(Arguments...) const;
+
+}  // namespace tushar::mpm::solid

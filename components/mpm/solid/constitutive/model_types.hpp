@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string_view>
+
+#include "components/mpm/solid/tensor.hpp"
+
+namespace tushar::mpm::solid {
+
+/// Pressure against compression, q = rho (A1 c |D| h + A2 D^2 h^2) where D = tr L < 0; von Neumann & Richtmyer, with
+/// the linear term of Landshoff.
+struct ArtificialViscosity {
+  double linear = 0.2;     ///< A1
+  double quadratic = 2.0;  ///< A2
+};
+
+/// Constants that a scene gives for a material beside those of its constitutive model.
+struct MaterialConstants {
+  double density = 0;            ///< at the start of the run, kg/m^3
+  double specificHeat = 0;       ///< J/(kg K)
+  double meltTemperature = 295;  ///< K
+  double roomTemperature = 294;  ///< K
+};
+
+/// The deformation of one material point in one time step.
+struct Deformation {
+  Matrix3 deformationGradient;     ///< F at the end of the step, 1
+  Matrix3 oldDeformationGradient;  ///< F at the start of the step, 1
+  Matrix3 velocityGradient;        ///< L = dv_i/dx_j in the step, 1/s
+  double timeStep;                 ///< s
+  double temperature;              ///< K
+};
+
+/// A variable of a model's State, which a scene may save by its label.
+struct StateVariable {
+  std::string_view label;  ///< as in Uintah: `p.plasticStrain`
+  std::string_view unit;
+  std::string_view description;
+  int components = 1;  ///< 1, or 9 for a Tensor
+};
+
+}  // namespace tushar::mpm::solid

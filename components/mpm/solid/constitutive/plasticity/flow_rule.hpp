@@ -1,0 +1,94 @@
+#pragma once
+
+#include <concepts>
+#include <string_view>
+#include <type_traits>
+
+#include "components/mpm/solid/constitutive/capability_list.hpp"
+#include "core/input/schema.hpp"
+
+namespace tushar::mpm::solid {
+
+/// State of a material point that its yield stress depends on.
+struct FlowState {
+  double plasticStrain;          ///< equivalent plastic strain, 1
+  double strainRate;             ///< equivalent strain rate, 1/s
+  double temperature;            ///< K
+  double shearModulus;           ///< Pa
+  double density = 0;            ///< kg/m^3
+  double meltTemperature = 0;    ///< K
+  double plasticStrainRate = 0;  ///< mean of the step, 1/s
+};
+
+namespace capability {
+
+/// d sigma_y / d e_p at a constant rate, Pa; without it finite differences stand in.
+struct Hardening {
+  struct Name {
+    int hardening;
+  };
+  template <class Flow>
+  static consteval bool check() {
+    constexpr bool isNamed = offers<Flow, Hardening>;
+    constexpr bool isAbsent = requires { &Both<Flow, Name>::hardening; };
+    static_assert(isNamed || isAbsent,
+                  "a member hardening is used only by a flow model that names capability::Hardening");
+    constexpr bool fits = requires { Member<Flow, double, const FlowState&>{&Flow::hardening}; };
+    static_assert(!isNamed || fits,
+                  "capability::Hardening needs the public member `double hardening(const FlowState&) const`");
+    return true;
+  }
+};
+
+/// Whether the yield stress depends on FlowState::plasticStrainRate, which then changes with the plastic strain of the
+/// step. Offer it beside Hardening where the constants of the model decide.
+struct PlasticRate {
+  struct Name {
+    int dependsOnPlasticRate;
+  };
+  template <class Flow>
+  static consteval bool check() {
+    constexpr bool isNamed = offers<Flow, PlasticRate>;
+    constexpr bool isAbsent = requires { &Both<Flow, Name>::dependsOnPlasticRate; };
+    static_assert(isNamed || isAbsent,
+                  "a member dependsOnPlasticRate is used only by a flow model that names capability::PlasticRate");
+    constexpr bool fits = requires { Member<Flow, bool>{&Flow::dependsOnPlasticRate}; };
+    static_assert(!isNamed || fits,
+                  "capability::PlasticRate needs the public member `bool dependsOnPlasticRate() const`");
+    return true;
+  }
+};
+
+/// Every capability that a flow model can name.
+using OfFlowModels = CapabilityList<Hardening, PlasticRate>;
+
+}  // namespace capability
+
+/// True, or compilation stops with a sentence that says what is missing in Flow.
+template <class Flow>
+consteval bool isFlowRule() {
+  static_assert(
+      requires {
+        { Flow::name } -> std::convertible_to<std::string_view>;
+      },
+      "a flow model needs `static constexpr std::string_view name`: its type in a scene");
+  static_assert(
+      requires {
+        { Flow::schema() } -> std::same_as<const input::Schema<Flow>&>;
+      },
+      "a flow model needs `static const input::Schema<Flow>& schema()` for its own type Flow");
+  static_assert(
+      requires { Member<Flow, double, const FlowState&>{&Flow::flowStress}; },
+      "a flow model needs `double flowStress(const FlowState&) const`");
+  constexpr bool hasCapabilities = requires { typename Flow::Capabilities; };
+  static_assert(hasCapabilities, "a flow model needs `using Capabilities = CapabilityList<...>`");
+  if constexpr (hasCapabilities) return capability::OfFlowModels::check<Flow>();
+  return true;
+}
+
+/// A yield stress, flowStress, Pa. A flow model is one struct and one line in FlowModel of flow.hpp. Use the concept to
+/// assert: a type that is no flow model stops compilation with a sentence.
+template <class Flow>
+concept FlowRule = isFlowRule<Flow>();
+
+}  // namespace tushar::mpm::solid

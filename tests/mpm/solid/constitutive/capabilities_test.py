@@ -1,0 +1,140 @@
+#!/usr/bin/env python3
+"""The model of the README compiles from one file and one line; a slip in it is refused with a sentence."""
+import pathlib
+import re
+import subprocess
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[4]
+FOLDER = pathlib.Path("components/mpm/solid/constitutive")
+MODEL, LINE = re.findall(r"```cpp\n(.*?)```", (ROOT / FOLDER / "README.md").read_text(), re.S)
+
+# name of the model: (text of the example: what stands there instead, sentence of the compiler)
+SLIPS = {
+    "Misspelt": ({" bulkSpeed(": " bulkspeed("},
+                 "capability::BulkSpeed needs the public member `double bulkSpeed(double initialDensity, const "
+                 "Deformation&, const Matrix3& stress, const State&) const`"),
+    "WithoutConst": ({" bulkSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const":
+                      " bulkSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&)"},
+                     "capability::BulkSpeed needs the public member `double bulkSpeed("),
+    "OtherArguments": ({" bulkSpeed(double initialDensity, const Deformation& d,":
+                        " bulkSpeed(const Deformation& d, double initialDensity,"},
+                       "capability::BulkSpeed needs the public member `double bulkSpeed("),
+    "Hidden": ({"  double bulkSpeed(": " private:\n  double bulkSpeed(",
+                "  double strainEnergyDensity(": " public:\n  double strainEnergyDensity("},
+               "capability::BulkSpeed needs the public member `double bulkSpeed("),
+    "Unnamed": ({",\n                                      capability::BulkSpeed>": ">"},
+                "a member bulkSpeed is used only by a model that names capability::BulkSpeed"),
+    "UnnamedTemplate": ({"State initialState": "template <class Real> TensorOf<Real> kirchhoffStress(const "
+                         "TensorOf<Real>& f) const { return f; }\n  State initialState"},
+                        "a member kirchhoffStress is used only by a model that names capability::Vectorized"),
+    "UnnamedPrivateData": ({" private:\n": " private:\n  MaterialConstants material;\n"},
+                           "a member material is filled only for a model that names capability::ConstantsOfMaterial"),
+    "HalfVectorized": ({"capability::BulkSpeed>": "capability::BulkSpeed, capability::Vectorized>",
+                        "State initialState": "template <class Real> TensorOf<Real> kirchhoffStress(const "
+                        "TensorOf<Real>& f) const { return f; }\n  State initialState"},
+                       "capability::Vectorized needs the public member `template <class Real> Real waveSpeed("),
+    "HeatByValue": ({"capability::BulkSpeed>": "capability::BulkSpeed, capability::ViscousHeat>",
+                     "State initialState": "void addViscousHeat(State, double) const {}\n  State initialState"},
+                    "capability::ViscousHeat needs the public member `void addViscousHeat(State&, double heat) const`"),
+    "MisspeltRequired": ({" waveSpeed(": " wavespeed("}, "a constitutive model needs `double waveSpeed("),
+    "WithoutVariables": ({"struct State {};": "struct State { double alpha; };",
+                          "<capability::DependsOnDeformationOnly, ": "<"},
+                         "a State that is not empty needs `static constexpr std::array<StateVariable, N> stateVariables`"),
+    "TooFewVariables": ({"struct State {};": "struct State { double alpha, beta; };\n  static constexpr std::array"
+                         "<StateVariable, 1> stateVariables{{{\"p.alpha\", \"1\", \"\"}}};",
+                         "<capability::DependsOnDeformationOnly, ": "<"},
+                        "stateVariables must name every double and every Tensor of the State"),
+    "WithoutCapabilities": ({"using Capabilities": "using Capabilites"},
+                            "a constitutive model needs `using Capabilities = CapabilityList<...>`"),
+    "ForeignCapability": ({"capability::BulkSpeed>": "capability::BulkSpeed, std::array<int, 2>>"},
+                          "Capabilities must hold capabilities of this kind of model only"),
+}
+
+# A flow model whose optional member is misspelt.
+FLOW = """
+struct MisspeltFlow {
+  using Capabilities = CapabilityList<capability::Hardening>;
+  static constexpr std::string_view name = "flow";
+  static const input::Schema<MisspeltFlow>& schema();
+  double flowStress(const FlowState&) const { return 1; }
+  double hardning(const FlowState&) const { return 0; }
+};
+static_assert(FlowRule<MisspeltFlow>);
+"""
+FLOW_SENTENCE = "capability::Hardening needs the public member `double hardening(const FlowState&) const`"
+
+
+def compile_text(files):
+    """Exit code of the compiler, and what it says, for main.cpp; the other files stand before those of the project."""
+    eigen = subprocess.run(["pkg-config", "--cflags", "eigen3"], capture_output=True, text=True, check=True).stdout.split()
+    with tempfile.TemporaryDirectory() as folder:
+        for path, text in files.items():
+            file = pathlib.Path(folder) / path
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_text(text)
+        done = subprocess.run(["c++", "-std=c++20", "-fsyntax-only", "-Wall", "-Wextra", "-Wshadow", "-Wno-psabi",
+                               f"-I{folder}", f"-I{ROOT}", *(word.replace("-I", "-isystem") for word in eigen),
+                               f"{folder}/main.cpp"], capture_output=True, text=True)
+    return done.returncode, done.stderr
+
+
+class Capabilities(unittest.TestCase):
+    maxDiff = None
+
+    def test_a_model_is_one_file_and_one_line(self):
+        table = (ROOT / FOLDER / "all.hpp").read_text()
+        models = table.index("std::tuple<") + len("std::tuple<")
+        code, said = compile_text({
+            FOLDER / "all.hpp": f'#include "{FOLDER}/blatz_ko.hpp"\n{table[:models]}{LINE}{table[models:]}',
+            FOLDER / "blatz_ko.hpp": MODEL,
+            "main.cpp": f"""
+#include "{FOLDER}/all.hpp"
+#include "{FOLDER}/model.hpp"
+using namespace tushar::mpm::solid;
+static_assert(std::is_same_v<std::tuple_element_t<0, AllModels>, BlatzKo>);
+const ModelOf<BlatzKo> model{{BlatzKo()}};
+"""})
+        self.assertEqual((code, said), (0, ""))
+
+    def test_a_slip_is_refused_with_a_sentence(self):
+        includes = "\n".join(line for line in MODEL.splitlines() if line.startswith("#include"))
+        body = MODEL[MODEL.index("namespace"):]
+        text = f'{includes}\n#include "{FOLDER}/plasticity/flow_rule.hpp"\n'
+        for name, (changes, _) in SLIPS.items():
+            changed = body
+            for before, after in changes.items():
+                self.assertIn(before, body)
+                changed = changed.replace(before, after)
+            text += "\n" + changed.replace("BlatzKo", name)
+        text += "namespace tushar::mpm::solid {" + FLOW + "}"
+        code, said = compile_text({"main.cpp": text})
+        self.assertNotEqual(code, 0)
+        expected = {name: sentence for name, (_, sentence) in SLIPS.items()} | {"MisspeltFlow": FLOW_SENTENCE}
+        self.assertEqual(self.sentences(said).keys(), expected.keys(), said)
+        for name, sentence in expected.items():
+            with self.subTest(name):
+                self.assertEqual(len(self.sentences(said)[name]), 1, said)
+                self.assertIn(sentence, self.sentences(said)[name][0])
+
+    def test_a_capability_that_does_not_exist_is_refused(self):
+        changed = MODEL.replace("#pragma once", "").replace("capability::BulkSpeed", "capability::BulkSped")
+        code, said = compile_text({"main.cpp": changed})
+        self.assertNotEqual(code, 0)
+        self.assertIn("BulkSped", said)
+
+    @staticmethod
+    def sentences(said):
+        """Of each model, the assertions that fail in the functions that are instantiated for it."""
+        found, model = {}, None
+        for line in said.splitlines():
+            if instantiated := re.search(r"In instantiation of .*\[with (?:M|T|Flow) = (?:\w+::)*(\w+)[;\]]", line):
+                model = instantiated[1]
+            if sentence := re.search(r"error: static assertion failed: (.*)", line):
+                found.setdefault(model, []).append(sentence[1])
+        return found
+
+
+if __name__ == "__main__":
+    unittest.main()
