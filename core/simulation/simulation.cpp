@@ -135,8 +135,10 @@ void Simulation::initialize() {
 
 void Simulation::step() {
   warehouse_.beginStep();
+  const int delT = table_.number(data::delT, -1);
+  warehouse_.resetReduction(delT);
   scheduler_.run(phases_.stableTimeStep, {time_.step() + 1, time_.time()});
-  auto& dt = warehouse_.reduction<data::Minimum>(table_.number(data::delT, -1));
+  auto& dt = warehouse_.reduction<data::Minimum>(delT);
   dt.value = time_.next(dt, outputs_.next());
   const auto tryStep = [&] {
     return scheduler_.run(phases_.timeAdvance,
