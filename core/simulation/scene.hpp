@@ -25,7 +25,7 @@ TimeSettings readTime(const input::Element& section, input::Diagnostics& diagnos
 /// The `DataArchiver` section.
 ArchiveSettings readArchive(const input::Element& section, input::Diagnostics& diagnostics);
 /// The `Grid` section; `boundaryLabels` are those that the component understands.
-grid::Domain readGrid(const input::Element& section, const std::vector<BoundaryLabel>& boundaryLabels,
+grid::Domain readGrid(const input::Element& section, const std::vector<grid::BoundaryVariable>& boundaryLabels,
                       const grid::Workers& workers, input::Diagnostics& diagnostics);
 
 void describeTime(std::ostream& out);
