@@ -10,6 +10,9 @@ namespace c {
 inline constexpr CellLabel<double> u{"c.u", "m/s", "mean of u over the cell"};
 inline constexpr CellLabel<double> predicted{"c.predictedU", "m/s", "u after a step of Euler's method"};
 }  // namespace c
+namespace boundary {
+inline constexpr BoundaryLabel<double> velocity{"Velocity"};
+}
 inline constexpr ReductionLabel<Sum> totalMomentum{"TotalMomentum", "m^4/s", "integral of u"};
 inline constexpr ReductionLabel<Sum> totalEnergy{"TotalEnergy", "m^5/s^2", "integral of u^2 / 2"};
 
