@@ -77,7 +77,7 @@ void correct(const Patch& patch, const Settings& settings, CellView<const double
 template <int D>
 void sumTotals(const Patch& patch, CellView<const double> u, Sum& momentum, Sum& energy);
 
-/// What sus knows of this component.
+/// The entry of this component in the table of sus.
 simulation::ComponentKind kind();
 
 }  // namespace tushar::burgers

@@ -55,7 +55,7 @@ void solve(const RankPatches& patches, const mpi::Communicator& ranks, const Set
            const std::vector<CellView<const double>>& oldPhi, const std::vector<CellView<double>>& phi,
            Maximum& iterationsTaken, Maximum& residualLeft, Maximum& assembly, Maximum& setup, Maximum& solution);
 
-/// What sus knows of this component.
+/// The entry of this component in the table of sus.
 simulation::ComponentKind kind();
 
 }  // namespace tushar::poisson
