@@ -6,6 +6,7 @@
 #include "components/burgers/burgers_wave.hpp"
 #include "components/euler/input.hpp"
 #include "components/heat/heat.hpp"
+#include "components/implicit_heat/implicit_heat.hpp"
 #include "components/mpm/gas/paper/mass_projection.hpp"
 #include "components/mpm/mpm.hpp"
 #include "components/mpm/solid/analysis/energy_budget.hpp"
@@ -22,6 +23,7 @@ simulation::Catalogue catalogue() {
           burgers::kind(),
           euler::kind(),
           heat::kind(),
+          implicit_heat::kind(),
           mpm::kind(),
           mpm::solid::implicit::implicitKind(),
           poisson::kind(),

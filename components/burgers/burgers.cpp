@@ -1,7 +1,7 @@
 #include "components/burgers/burgers.hpp"
 
-#include "components/euler/limiters.hpp"
 #include "core/input/schema.hpp"
+#include "core/numerics/limiters.hpp"
 #include "core/simulation/by_dimension.hpp"
 
 namespace tushar::burgers {
@@ -14,10 +14,10 @@ double noSlope(double, double) { return 0; }
 
 /// u in a cell of which all but coordinate `d` are in the grid; beyond an end of it, what comes in or goes out there.
 template <int D>
-double valueAt(const Patch& patch, CellView<const double> u, Index<D> cell, int d) {
+double valueAt(const Patch& patch, const BoundarySides<double>& sides, CellView<const double> u, Index<D> cell, int d) {
   if (patch.cellsWithin(kReach).contains(cell)) return u[cell];
   const int side = cell[d] < 0 ? 0 : 1;
-  if (const auto* condition = patch.level().boundary(d, side, "Velocity")) return condition->value[0];
+  if (const auto& given = sides(d, side)) return given->value;
   cell[d] = std::clamp(cell[d], 0, patch.level().cells().upper[d] - 1);
   return u[cell];
 }
@@ -31,8 +31,8 @@ double faceFlux(const std::array<double, 4>& u, Slope slope, double viscosityOve
 
 /// L(u) in a cell.
 template <int D>
-double rateOfChange(const Patch& patch, const Settings& settings, Slope slope, CellView<const double> u,
-                    const Index<D>& cell) {
+double rateOfChange(const Patch& patch, const Settings& settings, Slope slope, const BoundarySides<double>& sides,
+                    CellView<const double> u, const Index<D>& cell) {
   double rate = 0;
   for (int d = 0; d < D; ++d) {
     const double perSpacing = patch.level().inverseSpacing(d);
@@ -40,7 +40,7 @@ double rateOfChange(const Patch& patch, const Settings& settings, Slope slope, C
     for (int k = -kReach; k <= kReach; ++k) {
       Index<D> at = cell;
       at[d] += k;
-      row[static_cast<std::size_t>(k + kReach)] = valueAt<D>(patch, u, at, d);
+      row[static_cast<std::size_t>(k + kReach)] = valueAt<D>(patch, sides, u, at, d);
     }
     const double in = faceFlux({row[0], row[1], row[2], row[3]}, slope, settings.viscosity * perSpacing);
     const double out = faceFlux({row[1], row[2], row[3], row[4]}, slope, settings.viscosity * perSpacing);
@@ -52,8 +52,8 @@ double rateOfChange(const Patch& patch, const Settings& settings, Slope slope, C
 }  // namespace
 
 Slope slopeOf(int limiter) {
-  return std::array<Slope, 4>{noSlope, euler::Minmod::slope, euler::VanLeer::slope,
-                              euler::Mc::slope}[static_cast<std::size_t>(limiter)];
+  return std::array<Slope, 4>{noSlope, numerics::Minmod::slope, numerics::VanLeer::slope,
+                              numerics::Mc::slope}[static_cast<std::size_t>(limiter)];
 }
 
 double godunovFlux(double left, double right) {
@@ -113,8 +113,9 @@ template <int D>
 void predict(const Patch& patch, const Settings& settings, CellView<const double> u, double dt,
              CellView<double> predicted) {
   const Slope slope = slopeOf(settings.limiter);
+  const BoundarySides<double> sides = patch.level().sides(boundary::velocity);
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    predicted[cell] = u[cell] + dt * rateOfChange<D>(patch, settings, slope, u, cell);
+    predicted[cell] = u[cell] + dt * rateOfChange<D>(patch, settings, slope, sides, u, cell);
   });
 }
 
@@ -122,8 +123,10 @@ template <int D>
 void correct(const Patch& patch, const Settings& settings, CellView<const double> u, CellView<const double> predicted,
              double dt, CellView<double> newU) {
   const Slope slope = slopeOf(settings.limiter);
+  const BoundarySides<double> sides = patch.level().sides(boundary::velocity);
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    newU[cell] = 0.5 * (u[cell] + predicted[cell] + dt * rateOfChange<D>(patch, settings, slope, predicted, cell));
+    newU[cell] =
+        0.5 * (u[cell] + predicted[cell] + dt * rateOfChange<D>(patch, settings, slope, sides, predicted, cell));
   });
 }
 
@@ -154,7 +157,7 @@ const input::Schema<Settings>& schema() {
 
 simulation::ComponentKind kind() {
   return simulation::kindWithSection<Burgers>("burgers", "Burgers' equation by finite volumes", schema(),
-                                              {{"Velocity"}, {"Symmetric"}});
+                                              {boundary::velocity, grid::symmetric});
 }
 
 template class Burgers<1>;

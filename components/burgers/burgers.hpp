@@ -10,6 +10,9 @@ namespace c {
 inline constexpr CellLabel<double> u{"c.u", "m/s", "mean of u over the cell"};
 inline constexpr CellLabel<double> predicted{"c.predictedU", "m/s", "u after a step of Euler's method"};
 }  // namespace c
+namespace boundary {
+inline constexpr BoundaryLabel<double> velocity{"Velocity"};
+}
 inline constexpr ReductionLabel<Sum> totalMomentum{"TotalMomentum", "m^4/s", "integral of u"};
 inline constexpr ReductionLabel<Sum> totalEnergy{"TotalEnergy", "m^5/s^2", "integral of u^2 / 2"};
 
@@ -74,7 +77,7 @@ void correct(const Patch& patch, const Settings& settings, CellView<const double
 template <int D>
 void sumTotals(const Patch& patch, CellView<const double> u, Sum& momentum, Sum& energy);
 
-/// What sus knows of this component.
+/// The entry of this component in the table of sus.
 simulation::ComponentKind kind();
 
 }  // namespace tushar::burgers

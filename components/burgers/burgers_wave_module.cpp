@@ -69,12 +69,12 @@ BurgersWave waveOf(const Burgers<1>& burgers, const Level& level) {
   problem.upper = level.nodePosition(0, level.cells().upper[0]);
   problem.periodic = level.isPeriodic(0);
   for (const int side : {0, 1})
-    if (const auto* condition = level.boundary(0, side, "Velocity"))
+    if (const auto given = level.boundary(0, side, boundary::velocity))
       if (const double end = problem.velocity(side == 0 ? problem.lower : problem.upper);
-          std::abs(condition->value[0] - end) > 1e-9 * std::max(1.0, std::abs(end)))
+          std::abs(given->value - end) > 1e-9 * std::max(1.0, std::abs(end)))
         throw std::invalid_argument(fmt::format(
             "{:g} m/s comes in at an end of the grid where u is {:g} m/s at the start; there is no exact solution",
-            condition->value[0], end));
+            given->value, end));
   return BurgersWave(std::move(problem));
 }
 

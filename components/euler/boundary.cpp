@@ -18,9 +18,9 @@ GhostRule<D> ghostRule(const Level& level, int axis, int side) {
     rule.factor[k] = 0;
     rule.value[k] = value;
   };
-  if (const auto* density = level.boundary(axis, side, "Density")) prescribe(kDensity, density->value[0]);
-  if (const auto* pressure = level.boundary(axis, side, "Pressure")) prescribe(kPressure<D>, pressure->value[0]);
-  if (const auto* velocity = level.boundary(axis, side, "Velocity")) {
+  if (const auto density = level.boundary(axis, side, boundary::density)) prescribe(kDensity, density->value);
+  if (const auto pressure = level.boundary(axis, side, boundary::pressure)) prescribe(kPressure<D>, pressure->value);
+  if (const auto velocity = level.boundary(axis, side, boundary::velocity)) {
     const Vec<D> v = level.reduce<D>(velocity->value);
     for (int k = 0; k < D; ++k) prescribe(kVelocity(k), v[k]);
   }

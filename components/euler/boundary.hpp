@@ -1,5 +1,6 @@
 #pragma once
 
+#include "components/euler/labels.hpp"
 #include "components/euler/rows.hpp"
 
 namespace tushar::euler {

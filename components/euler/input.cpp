@@ -92,18 +92,18 @@ void checkBoundaries(const Element& root, double pInfinity, Diagnostics& diagnos
     for (const Element& condition : face.children("BCType")) {
       const std::string label = condition.attribute("label").value_or(""),
                         var = condition.attribute("var").value_or("");
-      if (label != "Symmetric" && var != "Dirichlet")
+      if (label != grid::symmetric.name && var != nameOf(BoundaryKind::dirichlet))
         diagnostics.error(condition, fmt::format("var: found '{}', expected 'Dirichlet' for {} of gas that flows in; a "
                                                  "face with no condition lets gas out",
                                                  var, label));
       const auto text = condition.child("value");
       const auto value = text ? input::parse<double>(text->text()) : input::parse<double>("1");
-      const auto limit = [&](const std::string& of, double least, const std::string& unit) {
-        if (label == of && value && !input::satisfies(*value, input::greaterThan(least)))
+      const auto limit = [&](const grid::BoundaryVariable& of, double least, const std::string& unit) {
+        if (label == of.name && value && !input::satisfies(*value, input::greaterThan(least)))
           diagnostics.error(condition, "value: " + input::violation(text->text(), input::greaterThan(least), unit));
       };
-      limit("Density", 0, "kg/m^3");
-      limit("Pressure", 0 - pInfinity, "Pa");
+      limit(boundary::density, 0, "kg/m^3");
+      limit(boundary::pressure, 0 - pInfinity, "Pa");
     }
 }
 
@@ -114,7 +114,7 @@ simulation::ComponentKind kind() {
   kind.name = "euler";
   kind.sentence = "finite-volume gas dynamics: Godunov's method and MUSCL-Hancock";
   kind.sections = {"Euler"};
-  kind.boundaryLabels = {{"Symmetric"}, {"Density"}, {"Velocity", true}, {"Pressure"}};
+  kind.boundaryLabels = {grid::symmetric, boundary::density, boundary::velocity, boundary::pressure};
   kind.describe = [](std::ostream& out) { schema().describe(out); };
   kind.read = [](const Element& root, Diagnostics& diagnostics) -> simulation::MakeComponent {
     const std::size_t before = diagnostics.size();

@@ -16,6 +16,13 @@ inline constexpr CellLabel<Vec<D>> velocity{"c.velocity", "m/s", "velocity"};
 inline constexpr CellLabel<double> internalEnergy{"c.internalEnergy", "J/kg", "internal energy per mass"};
 }  // namespace c
 
+/// What gas that flows in through a side of the grid has.
+namespace boundary {
+inline constexpr BoundaryLabel<double> density{"Density"};
+inline constexpr BoundaryLabel<Vec3> velocity{"Velocity"};
+inline constexpr BoundaryLabel<double> pressure{"Pressure"};
+}  // namespace boundary
+
 /// Totals over all cells.
 namespace total {
 inline constexpr ReductionLabel<Sum> mass{"TotalMass", "kg", "mass in all cells"};

@@ -7,15 +7,6 @@
 
 namespace tushar::euler {
 
-/// Calls `visit(first, count)` for each row of the box along the first axis.
-template <int D, class Visit>
-void forEachRow(const Box& box, Visit&& visit) {
-  Box starts = box;
-  starts.upper[0] = starts.lower[0] + 1;
-  if (box.empty()) return;
-  forEach<D>(starts, [&](const Index<D>& first) { visit(first, box.extent(0)); });
-}
-
 /// Where a row of `count` cells of a view begins; both of its ends are checked where views are.
 template <int D, class T>
 T* rowOf(const CellView<T>& view, Index<D> first, int count) {

@@ -1,18 +1,20 @@
 #pragma once
 
 #include "core/core.hpp"
-#include "core/input/diagnostics.hpp"
 #include "core/input/expression.hpp"
+#include "core/numerics/checked_formula.hpp"
+#include "core/numerics/diffusion.hpp"
 #include "core/simulation/catalogue.hpp"
-#include "core/solvers/report.hpp"
 
 namespace tushar::heat {
 
 namespace c {
 inline constexpr CellLabel<double> temperature{"c.temperature", "K", "temperature", Bound::finite};
 }
+namespace boundary {
+inline constexpr BoundaryLabel<double> temperature{"Temperature"};
+}
 inline constexpr ReductionLabel<Sum> totalEnergy{"TotalEnergy", "J", "heat in all cells, from 0 K"};
-inline constexpr ReductionLabel<Maximum> iterations{"KrylovIterations", "1", "iterations of the linear solve"};
 
 /// The `Heat` section.
 struct Settings {
@@ -22,13 +24,11 @@ struct Settings {
   double specificHeat = 1;              ///< c, J/(kg K)
   double cfl = 0.9;                     ///< part of the greatest stable time step
   input::Expression temperature{0.0};   ///< at the start, K
-  double theta = 0;                     ///< part of the new temperature in the flux; 0: explicit in time
-  solvers::LinearSettings solver;       ///< where theta is not 0
 
   double capacity() const { return density * specificHeat; }  ///< rho c, J/(m³ K)
 };
 
-/// Heat conduction, rho c dT/dt = div(k grad T), explicit or implicit in time, centred in space, in D dimensions.
+/// Heat conduction, rho c dT/dt = div(k grad T), explicit in time, centred in space, in D dimensions.
 ///
 /// At a face with `Temperature` Dirichlet the value [K] is kept, with Neumann the outward derivative [K/m]; any other
 /// face is insulated. The smallest complete component: copy it with tools/new_component.
@@ -50,24 +50,46 @@ class Heat : public Component {
 /// T at the middle of each cell, from the scene's formula. Throws InputError where that is not finite, or k not greater
 /// than 0.
 template <int D>
-void initialize(const Patch& patch, const Settings& settings, CellView<double> temperature);
+void initialize(const Patch& patch, const Settings& settings, CellView<double> temperature) {
+  const numerics::CheckedFormula start{settings.temperature, settings.where, "Heat/temperature", "K"};
+  const numerics::CheckedFormula k{settings.conductivity, settings.where, "Heat/thermal_conductivity", "W/(m K)"};
+  const Level& level = patch.level();
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    const Vec3 middle = level.expandPoint<D>(level.cellCentre<D>(cell));
+    temperature[cell] = start.finiteAt(middle);
+    k.positiveAt(middle);
+  });
+}
 
 /// dt = cfl rho c / max(sum over the cell's faces of k / h_d²), for one k everywhere the limit of von Neumann: no cell
 /// overshoots its neighbours.
 template <int D>
-void computeStableTimeStep(const Patch& patch, const Settings& settings, Minimum& dt);
+void computeStableTimeStep(const Patch& patch, const Settings& settings, Minimum& dt) {
+  const numerics::Diffusion<D> diffusion(patch.level(), settings.conductivity, boundary::temperature);
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    dt.add(settings.cfl * settings.capacity() / diffusion.rate(cell), "conduction");
+  });
+}
 
-/// T' = T + dt sum_d (k_{i-1/2} (T_{i-1} - T_i) + k_{i+1/2} (T_{i+1} - T_i)) / (rho c h_d²); k at faces is the harmonic
-/// mean of both cells, so that the flux is right where k jumps (Patankar, Numerical Heat Transfer and Fluid Flow, 4.2).
+/// T' = T + dt sum_d (k_{i-1/2} (T_{i-1} - T_i) + k_{i+1/2} (T_{i+1} - T_i)) / (rho c h_d²), k at faces as in
+/// Diffusion.
 template <int D>
 void conduct(const Patch& patch, const Settings& settings, CellView<const double> temperature, double dt,
-             CellView<double> newTemperature);
+             CellView<double> newTemperature) {
+  const numerics::Diffusion<D> diffusion(patch.level(), settings.conductivity, boundary::temperature);
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    newTemperature[cell] = temperature[cell] + dt / settings.capacity() * diffusion(temperature, cell);
+  });
+}
 
 /// Heat in the patch's cells [J].
 template <int D>
-void sumEnergy(const Patch& patch, const Settings& settings, CellView<const double> temperature, Sum& energy);
+void sumEnergy(const Patch& patch, const Settings& settings, CellView<const double> temperature, Sum& energy) {
+  const double capacity = settings.capacity() * patch.level().cellVolume();
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) { energy.add(capacity * temperature[cell]); });
+}
 
-/// What sus knows of this component.
+/// The entry of this component in the table of sus.
 simulation::ComponentKind kind();
 
 }  // namespace tushar::heat

@@ -1,5 +1,6 @@
 #include "components/mpm/mpm.hpp"
 
+#include "components/mpm/boundary_labels.hpp"
 #include "components/mpm/gas/input.hpp"
 #include "components/mpm/solid/explicit/input.hpp"
 #include "components/mpm/solid/implicit/input.hpp"
@@ -12,7 +13,7 @@ simulation::ComponentKind kind() {
   kind.name = "mpm";
   kind.sentence = "the Material Point Method: solids, and gas dynamics of Tran, Kim & Berzins";
   kind.sections = {"MPM", "MaterialProperties", "PhysicalConstants", "PhysicalBC"};
-  kind.boundaryLabels = {{"Symmetric"}, {"Velocity", true, true}, {"Temperature", false, true}};
+  kind.boundaryLabels = {grid::symmetric, boundary::velocity.evenOnPlanes(), boundary::temperature.evenOnPlanes()};
   kind.describe = [](std::ostream& out) {
     solid::describe(out);
     out << "Where <MPM> has <gas_dynamics> or <conserving_gas_dynamics>, instead:\n";

@@ -1,7 +1,8 @@
 #include "components/poisson/poisson.hpp"
 
-#include "components/poisson/balance.hpp"
 #include "core/input/schema.hpp"
+#include "core/numerics/cell_system.hpp"
+#include "core/numerics/checked_formula.hpp"
 #include "core/simulation/by_dimension.hpp"
 #include "core/solvers/input.hpp"
 
@@ -10,13 +11,6 @@ namespace tushar::poisson {
 template <int D>
 void Poisson<D>::scheduleInitialize(TaskList& tasks) const {
   tasks.perPatch("poisson::initialize", initialize<D>, with(settings_), computes(c::phi));
-}
-
-/// A solve takes any time step.
-template <int D>
-void Poisson<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
-  tasks.perPatch(
-      "poisson::computeStableTimeStep", [](const Patch&, Minimum&) {}, computes(delT));
 }
 
 template <int D>
@@ -28,15 +22,10 @@ void Poisson<D>::scheduleTimeAdvance(TaskList& tasks) const {
 
 template <int D>
 void initialize(const Patch& patch, const Settings& settings, CellView<double> phi) {
+  const numerics::CheckedFormula k{settings.coefficient, settings.where, "Poisson/coefficient", ""};
   const Level& level = patch.level();
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    const Vec3 middle = level.expandPoint<D>(level.cellCentre<D>(cell));
-    const double k = settings.coefficient(middle);
-    if (!(k > 0 && std::isfinite(k)))
-      throw InputError(
-          {{settings.where, "Poisson/coefficient",
-            fmt::format("it is {:g} at ({:g}, {:g}, {:g}), and must be finite and greater than 0 everywhere", k,
-                        middle[0], middle[1], middle[2])}});
+    k.positiveAt(level.expandPoint<D>(level.cellCentre<D>(cell)));
     phi[cell] = 0;
   });
 }
@@ -46,8 +35,8 @@ namespace {
 bool keepsValueSomewhere(const Level& level) {
   for (int d = 0; d < level.dimension(); ++d)
     for (const int side : {0, 1})
-      if (const auto* condition = level.isPeriodic(d) ? nullptr : level.boundary(d, side, "Phi"))
-        if (condition->kind == "Dirichlet") return true;
+      if (const auto given = level.boundary(d, side, boundary::phi); given && !level.isPeriodic(d))
+        if (given->isDirichlet()) return true;
   return false;
 }
 
@@ -73,31 +62,20 @@ void solve(const RankPatches& patches, const mpi::Communicator& ranks, const Set
            const std::vector<CellView<const double>>& oldPhi, const std::vector<CellView<double>>& phi,
            Maximum& iterationsTaken, Maximum& residualLeft, Maximum& assembly, Maximum& setup, Maximum& solution) {
   const Level& level = patches.front()->level();
-  const solvers::CellNumbering number(level);
-  solvers::Unknowns unknowns = cellUnknowns<D>(number, ranks);
-  unknowns.constantIsFree = !keepsValueSomewhere(level);
-  std::vector<double> right(unknowns.entries.size()), x(right.size());
-  const auto place = [&](const Index<D>& cell) { return static_cast<std::size_t>(number(cell)); };
+  const numerics::Diffusion<D> diffusion(level, settings.coefficient, boundary::phi);
   // The negative of the balance is positive definite.
-  const auto assemble = [&](solvers::Matrix& matrix) {
-    forEachCell<D>(patches, [&](std::size_t, const Index<D>& cell) {
-      Balance<D> balance = balanceOf<D>(level, settings.coefficient, "Phi", cell);
-      for (double& weight : balance.weights) weight = -weight;
-      const std::vector<int> columns = balance.columns(number);
-      matrix.add({columns.data(), 1}, columns, {balance.weights.data(), balance.count});
-      const double f = settings.source(level.expandPoint<D>(level.cellCentre<D>(cell)), time + dt);
-      right[place(cell)] = balance.constant - level.cellVolume() * f;
-    });
+  const auto equationOf = [&](std::size_t, const Index<D>& cell) {
+    numerics::Balance<D> balance = diffusion.balance(cell);
+    for (double& weight : balance.weights) weight = -weight;
+    const double f = settings.source(level.expandPoint<D>(level.cellCentre<D>(cell)), time + dt);
+    return numerics::CellEquation<D>{balance, balance.constant - level.cellVolume() * f};
   };
-  forEachCell<D>(patches, [&](std::size_t p, const Index<D>& cell) { x[place(cell)] = oldPhi[p][cell]; });
-  const solvers::Outcome outcome = solvers::solver().solve(unknowns, {assemble, right}, settings.solver, x);
+  numerics::CellSystem<D> system(patches, ranks);
+  if (!keepsValueSomewhere(level)) system.freeConstant();
+  const solvers::Outcome outcome = system.solve(settings.solver, oldPhi, equationOf);
   refuseImbalance(level, outcome, settings.solver.tolerance);
-  if (!outcome.converged)
-    throw NumericalError(
-        solvers::sentenceOf("Poisson's equation", outcome) +
-            solvers::worstPlace(ranks, poisson::placeOf<D>(patches, number, outcome.worst), "in the cell"),
-        "another <preconditioner>, a larger <tolerance> or more <maxiterations> in <Poisson>/<Solver>", "c.phi");
-  forEachCell<D>(patches, [&](std::size_t p, const Index<D>& cell) { phi[p][cell] = x[place(cell)]; });
+  system.requireConvergence(outcome, "Poisson's equation", "Poisson", "c.phi");
+  system.take(phi);
   iterationsTaken.add(outcome.krylovIterations);
   solvers::addTimes(outcome, assembly, setup, solution);
   if (!outcome.residuals.empty() && outcome.residuals.front() > 0)
@@ -123,8 +101,9 @@ const input::Schema<Settings>& schema() {
 }  // namespace
 
 simulation::ComponentKind kind() {
-  return simulation::kindWithSection<Poisson>(
-      "poisson", "Poisson's equation; the smallest component with a global solve", schema(), {{"Phi"}, {"Symmetric"}});
+  return simulation::kindWithSection<Poisson>("poisson",
+                                              "Poisson's equation; the smallest component with a global solve",
+                                              schema(), {boundary::phi, grid::symmetric});
 }
 
 template class Poisson<1>;

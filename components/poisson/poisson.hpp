@@ -10,6 +10,9 @@ namespace tushar::poisson {
 namespace c {
 inline constexpr CellLabel<double> phi{"c.phi", "1", "solution", Bound::finite};
 }
+namespace boundary {
+inline constexpr BoundaryLabel<double> phi{"Phi"};
+}
 inline constexpr ReductionLabel<Maximum> iterations{"KrylovIterations", "1", "iterations of the linear solve"};
 inline constexpr ReductionLabel<Maximum> finalResidual{"KrylovResidual", "1",
                                                        "residual at the end over that at the start"};
@@ -36,7 +39,6 @@ class Poisson : public Component {
   explicit Poisson(Settings settings) : settings_(std::move(settings)) {}
 
   void scheduleInitialize(TaskList& tasks) const override;
-  void scheduleComputeStableTimeStep(TaskList& tasks) const override;
   void scheduleTimeAdvance(TaskList& tasks) const override;
 
  private:
@@ -53,7 +55,7 @@ void solve(const RankPatches& patches, const mpi::Communicator& ranks, const Set
            const std::vector<CellView<const double>>& oldPhi, const std::vector<CellView<double>>& phi,
            Maximum& iterationsTaken, Maximum& residualLeft, Maximum& assembly, Maximum& setup, Maximum& solution);
 
-/// What sus knows of this component.
+/// The entry of this component in the table of sus.
 simulation::ComponentKind kind();
 
 }  // namespace tushar::poisson

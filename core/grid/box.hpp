@@ -98,4 +98,11 @@ inline void forEach(const Box& box, Visit&& visit) {
   }
 }
 
+/// Calls `visit(first, count)` for each row of `count` cells or nodes of the box along the first axis, in the order of
+/// forEach.
+template <int D, class Visit>
+inline void forEachRow(const Box& box, Visit&& visit) {
+  if (!box.empty()) forEach<D>(box.rowStarts(), [&](const Index<D>& first) { visit(first, box.extent(0)); });
+}
+
 }  // namespace tushar::grid

@@ -25,11 +25,11 @@ void Level::share(RankOffsets offsets) {
 void Level::chooseAxes() {
   const auto isPlane = [&](int axis, int side) {
     const auto& conditions = domain_.boundaries.face(axis, side);
-    const auto has = [&](const char* kind) {
+    const auto has = [&](BoundaryKind kind) {
       return std::any_of(conditions.begin(), conditions.end(),
                          [&](const BoundaryCondition& c) { return c.kind == kind; });
     };
-    return has("symmetry") && !has("Dirichlet");
+    return has(BoundaryKind::symmetry) && !has(BoundaryKind::dirichlet);
   };
   for (int axis = 0; axis < 3; ++axis) {
     const double extent = domain_.upper[axis] - domain_.lower[axis];
@@ -180,7 +180,8 @@ std::vector<Index3> Level::imagesOverlapping(const Box& cells) const {
   return shifts;
 }
 
-const BoundaryCondition* Level::boundary(int kernelAxis, int side, const std::string& variable, int material) const {
+const BoundaryCondition* Level::condition(int kernelAxis, int side, const BoundaryVariable& variable,
+                                          int material) const {
   for (const BoundaryCondition& condition : domain_.boundaries.face(axis(kernelAxis), side))
     if (condition.variable == variable && (condition.material < 0 || condition.material == material)) return &condition;
   return nullptr;

@@ -167,7 +167,20 @@ class Level {
 
   /// The condition for a variable of a material on a face of the grid (`side` 0: lower, 1: upper), if the scene gives
   /// one.
-  const BoundaryCondition* boundary(int kernelAxis, int side, const std::string& variable, int material = 0) const;
+  template <class T>
+  std::optional<BoundaryValue<T>> boundary(int kernelAxis, int side, const BoundaryLabel<T>& variable,
+                                           int material = 0) const {
+    const BoundaryCondition* found = condition(kernelAxis, side, variable, material);
+    return found ? std::optional(BoundaryValue<T>::of(*found)) : std::nullopt;
+  }
+  /// The conditions for a variable on all faces, for kernels that visit the cells of a patch.
+  template <class T>
+  BoundarySides<T> sides(const BoundaryLabel<T>& variable, int material = 0) const {
+    BoundarySides<T> sides;
+    for (int d = 0; d < dimension(); ++d)
+      for (const int side : {0, 1}) sides(d, side) = boundary(d, side, variable, material);
+    return sides;
+  }
   bool isPeriodic(int kernelAxis) const { return domain_.periodic[axis(kernelAxis)] != 0; }
   bool isPeriodic() const { return is_periodic_; }
   /// How far apart the images of a point are along a kernel axis, m.
@@ -175,10 +188,11 @@ class Level {
     return nodePosition(kernelAxis, cells_.upper[kernelAxis]) - nodePosition(kernelAxis, 0);
   }
   bool isSymmetry(int kernelAxis, int side, int material = 0) const {
-    return boundary(kernelAxis, side, "Symmetric", material) != nullptr;
+    return condition(kernelAxis, side, symmetric, material) != nullptr;
   }
 
  private:
+  const BoundaryCondition* condition(int kernelAxis, int side, const BoundaryVariable& variable, int material) const;
   void chooseAxes();
   Box clip(const Box& box, const Box& grid) const;
   void cutIntoPatches();

@@ -239,7 +239,7 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   }
   grid::Domain domain;
   if (const auto grid = section(root, "Grid", true, diagnostics))
-    domain = readGrid(*grid, kind ? kind->boundaryLabels : std::vector<BoundaryLabel>{}, workers, diagnostics);
+    domain = readGrid(*grid, kind ? kind->boundaryLabels : std::vector<grid::BoundaryVariable>{}, workers, diagnostics);
   if (kind && kind->nodesBeyond) domain.nodesBeyond = kind->nodesBeyond(root);
   MakeComponent makeComponent;
   if (kind) makeComponent = kind->read(root, diagnostics);

@@ -26,7 +26,7 @@ simulation::TimeSettings readTime(const input::Element& section, input::Diagnost
 /// The `DataArchiver` section.
 simulation::ArchiveSettings readArchive(const input::Element& section, input::Diagnostics& diagnostics);
 /// The `Grid` section; `boundaryLabels` are those that the component understands.
-grid::Domain readGrid(const input::Element& section, const std::vector<simulation::BoundaryLabel>& boundaryLabels,
+grid::Domain readGrid(const input::Element& section, const std::vector<grid::BoundaryVariable>& boundaryLabels,
                       const grid::Workers& workers, input::Diagnostics& diagnostics);
 
 void describeTime(std::ostream& out);

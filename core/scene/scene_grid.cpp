@@ -19,7 +19,14 @@ namespace {
 /// More cells than this cannot be numbered by an int.
 constexpr double mostCells = 2147483647.0;
 
-const std::vector<std::string> conditionKinds{"symmetry", "Dirichlet", "Neumann"};
+const std::vector<std::string> conditionKinds(grid::boundaryKindNames.begin(), grid::boundaryKindNames.end());
+
+/// Of one of `conditionKinds`.
+grid::BoundaryKind kindOf(const std::string& var) {
+  return static_cast<grid::BoundaryKind>(std::find(conditionKinds.begin(), conditionKinds.end(), var) -
+                                         conditionKinds.begin());
+}
+bool isSymmetry(const std::string& var) { return var == nameOf(grid::BoundaryKind::symmetry); }
 
 struct GridBox {
   std::string label;
@@ -113,7 +120,7 @@ const Schema<ConditionSection>& conditionSchema() {
           .check([](const ConditionSection& condition, const Element& element, Diagnostics& diagnostics) {
             if (const std::string problem = input::choiceProblem(condition.var, conditionKinds); !problem.empty())
               diagnostics.error(element, "var: " + problem);
-            else if (condition.var != "symmetry" && !condition.value)
+            else if (!isSymmetry(condition.var) && !condition.value)
               diagnostics.error(element, "a " + condition.var + " condition needs a <value>");
             if (const auto number = input::parse<int>(condition.id); condition.id != "all" && !(number && *number >= 0))
               diagnostics.error(element,
@@ -154,48 +161,49 @@ Vec3 conditionValue(const ConditionSection& condition, bool isVector, const Elem
 
 /// Why a condition contradicts itself or, on a plane of symmetry, the plane; or nothing.
 std::string contradiction(const grid::BoundaryCondition& condition, bool onOddPlane) {
-  const bool symmetry = condition.kind == "symmetry";
-  if (symmetry != (condition.variable == "Symmetric"))
+  const bool symmetry = condition.kind == grid::BoundaryKind::symmetry;
+  if (symmetry != (condition.variable == grid::symmetric))
     return fmt::format("found label '{}' with var '{}'; 'Symmetric' goes with 'symmetry', and with nothing else",
-                       condition.variable, condition.kind);
-  if (!symmetry && onOddPlane && (condition.kind == "Dirichlet" || condition.value != Vec3::Zero()))
+                       condition.variable.name, nameOf(condition.kind));
+  if (!symmetry && onOddPlane && (condition.kind == grid::BoundaryKind::dirichlet || condition.value != Vec3::Zero()))
     return "this face is a plane of symmetry: beside it only a Neumann condition of 0 is right";
   return {};
 }
 
 /// Whether a value may be given on a plane of symmetry: the images of its vector have the same where it lies in the
 /// plane.
-bool fitsPlane(const BoundaryLabel& label, const grid::BoundaryCondition& condition, int axis) {
-  return label.isEven && condition.kind == "Dirichlet" && (!label.isVector || condition.value[axis] == 0);
+bool fitsPlane(const grid::BoundaryVariable& label, const grid::BoundaryCondition& condition, int axis) {
+  return label.isEven && condition.kind == grid::BoundaryKind::dirichlet &&
+         (!label.isVector || condition.value[axis] == 0);
 }
 
 /// Those of a side across `axis`.
 void readConditions(const std::vector<ConditionSection>& given, const std::vector<Element>& tags, int axis,
-                    const std::vector<BoundaryLabel>& labels, std::vector<grid::BoundaryCondition>& conditions,
+                    const std::vector<grid::BoundaryVariable>& labels, std::vector<grid::BoundaryCondition>& conditions,
                     Diagnostics& diagnostics) {
-  const bool onPlane = std::any_of(given.begin(), given.end(), [](const auto& one) { return one.var == "symmetry"; });
+  const bool onPlane = std::any_of(given.begin(), given.end(), [](const auto& one) { return isSymmetry(one.var); });
   std::map<std::string, Location> seen;
   for (std::size_t k = 0; k < given.size() && k < tags.size(); ++k) {
-    const BoundaryLabel* label = findKind(labels, given[k].label);
+    const grid::BoundaryVariable* label = findKind(labels, given[k].label);
     if (!label && !labels.empty())
       diagnostics.error(tags[k], "label: " + input::choiceProblem(given[k].label, namesOf(labels)));
     if (!label || !input::choiceProblem(given[k].var, conditionKinds).empty()) continue;
-    const bool isPlane = given[k].var == "symmetry";
+    const bool isPlane = isSymmetry(given[k].var);
     if (isPlane && given[k].value) diagnostics.note(tags[k], "<value> does nothing on a plane of symmetry");
     conditions.push_back(
-        {label->name, given[k].var,
+        {*label, kindOf(given[k].var),
          isPlane ? Vec3(Vec3::Zero()) : conditionValue(given[k], label->isVector, tags[k], diagnostics),
          input::parse<int>(given[k].id).value.value_or(-1)});
     const bool onOddPlane = onPlane && !fitsPlane(*label, conditions.back(), axis);
     if (const std::string problem = contradiction(conditions.back(), onOddPlane); !problem.empty())
       diagnostics.error(tags[k], problem);
-    if (const auto [first, isNew] = seen.emplace(label->name + given[k].id, tags[k].where()); !isNew)
+    if (const auto [first, isNew] = seen.emplace(given[k].label + given[k].id, tags[k].where()); !isNew)
       diagnostics.error(tags[k], fmt::format("{} has a condition on this face already, at {}; keep one", label->name,
                                              first->second.text()));
   }
 }
 
-void readFaces(const Element& section, const FacesSection& faces, const std::vector<BoundaryLabel>& labels,
+void readFaces(const Element& section, const FacesSection& faces, const std::vector<grid::BoundaryVariable>& labels,
                grid::Domain& domain, Diagnostics& diagnostics) {
   const auto group = section.child("BoundaryConditions");
   if (!group) return;
@@ -258,7 +266,7 @@ void checkPeriodic(const Element& section, const grid::Domain& domain, Diagnosti
 
 }  // namespace
 
-grid::Domain readGrid(const Element& section, const std::vector<BoundaryLabel>& boundaryLabels,
+grid::Domain readGrid(const Element& section, const std::vector<grid::BoundaryVariable>& boundaryLabels,
                       const grid::Workers& workers, Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.size();
   const GridSection read = gridSchema().read(section, diagnostics);

@@ -35,7 +35,7 @@ S readSection(const input::Element& root, const input::Schema<S>& schema, input:
 /// A component of as many dimensions as the grid has axes that is made of the settings of its one section.
 template <template <int> class C, class S>
 ComponentKind kindWithSection(std::string name, std::string sentence, const input::Schema<S>& schema,
-                              std::vector<BoundaryLabel> boundaryLabels) {
+                              std::vector<grid::BoundaryVariable> boundaryLabels) {
   ComponentKind kind;
   kind.name = std::move(name);
   kind.sentence = std::move(sentence);

@@ -15,19 +15,12 @@ namespace tushar::simulation {
 /// Builds a component on a grid, from what was read of the scene before.
 using MakeComponent = std::function<std::unique_ptr<Component>(const grid::Level&)>;
 
-/// A variable that a component has boundary conditions for.
-struct BoundaryLabel {
-  std::string name;
-  bool isVector = false;  ///< whether its value is one
-  bool isEven = false;    ///< may be given on a plane of symmetry; a vector where it lies in the plane
-};
-
 /// A component that sus knows: one line of the table in components/components.cpp.
 struct ComponentKind {
-  std::string name;                           ///< the `type` of SimulationComponent
-  std::string sentence;                       ///< what it is
-  std::vector<std::string> sections;          ///< tags below the root that it reads
-  std::vector<BoundaryLabel> boundaryLabels;  ///< labels of boundary conditions that it understands
+  std::string name;                                    ///< the `type` of SimulationComponent
+  std::string sentence;                                ///< what it is
+  std::vector<std::string> sections;                   ///< tags below the root that it reads
+  std::vector<grid::BoundaryVariable> boundaryLabels;  ///< that it has conditions for
   /// Reads its sections from the root of the scene; every problem goes to the diagnostics.
   std::function<MakeComponent(const input::Element& root, input::Diagnostics&)> read;
   std::function<void(std::ostream&)> describe;  ///< its manual
@@ -62,7 +55,7 @@ const Kind* findKind(const std::vector<Kind>& kinds, std::string_view name) {
 template <class Kind>
 std::vector<std::string> namesOf(const std::vector<Kind>& kinds) {
   std::vector<std::string> names;
-  for (const Kind& kind : kinds) names.push_back(kind.name);
+  for (const Kind& kind : kinds) names.emplace_back(kind.name);
   return names;
 }
 

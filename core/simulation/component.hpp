@@ -16,8 +16,9 @@ class Component {
 
   /// The state at the start of a run: `computes` and `newParticles` tasks.
   virtual void scheduleInitialize(tasks::TaskList& tasks) const = 0;
-  /// From the old state, lower `delT` to what the next step may take.
-  virtual void scheduleComputeStableTimeStep(tasks::TaskList& tasks) const = 0;
+  /// From the old state, lower `delT` to what the next step may take. A method that is stable with any step adds no
+  /// task: then `Time` alone limits the steps.
+  virtual void scheduleComputeStableTimeStep(tasks::TaskList&) const {}
   /// One step, from the old state to a new one.
   virtual void scheduleTimeAdvance(tasks::TaskList& tasks) const = 0;
   /// What a user can try when a value breaks its bound: continues `try `.

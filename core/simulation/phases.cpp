@@ -41,6 +41,11 @@ std::vector<std::string> namesOfState(Names needed, const Names& decided, const 
   return {needed.begin(), needed.end()};
 }
 
+/// The time step, which every step has, and what tasks compute along with it.
+Names decidedBefore(const std::vector<tasks::Task>& stableTimeStep) {
+  return united(producedBy(stableTimeStep), {std::string(data::delT.name)});
+}
+
 }  // namespace
 
 Phases::Phases(const Component& component, const std::vector<std::unique_ptr<Analysis>>& analyses) {
@@ -56,7 +61,7 @@ Phases::Phases(const Component& component, const std::vector<std::unique_ptr<Ana
 void Phases::validateAll() const {
   const Lists& lists = lists_;
   const Names state = producedBy(lists.initialize.tasks());
-  const Names withDelT = united(state, producedBy(lists.stableTimeStep.tasks()));
+  const Names withDelT = united(state, decidedBefore(lists.stableTimeStep.tasks()));
   tasks::validate(lists.initialize.tasks(), {});
   tasks::validate(lists.stableTimeStep.tasks(), state);
   tasks::validate(lists.timeAdvance.tasks(), withDelT);
@@ -183,7 +188,7 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   for (const std::string& global : saved_globals_)
     if (!diagnosed.contains(global)) savedState.insert(global);
 
-  const Names decided = producedBy(lists.stableTimeStep.tasks());
+  const Names decided = decidedBefore(lists.stableTimeStep.tasks());
   Names wanted = requiredOfState(lists.timeAdvance.tasks());
   std::erase_if(wanted, [&](const std::string& name) { return !decided.contains(name); });
   Pruned stable = prune(lists.stableTimeStep.tasks(), united(wanted, {std::string(data::delT.name)}), false);
@@ -209,6 +214,7 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   everyOutput = tasks::TaskGraph("diagnostics of every output", std::move(output), level, table);
   startTotals = tasks::TaskGraph("totals of the start", std::move(begin), level, table);
   report = tasks::TaskGraph("diagnostics of the report", std::move(end), level, table);
+  table.number(data::delT, -1);
 }
 
 void Phases::printSchedule(std::ostream& out) const {

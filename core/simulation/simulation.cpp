@@ -100,8 +100,10 @@ void Simulation::advance() {
   TimeControl& time = run_.time;
   tasks::TaskGraph& graph = run_.phases.timeAdvance;
   run_.warehouse.beginStep();
+  const int delT = run_.table.number(data::delT, -1);
+  run_.warehouse.resetReduction(delT);
   run_.scheduler.run(run_.phases.stableTimeStep, {time.step() + 1, time.time()});
-  auto& dt = run_.warehouse.reduction<data::Minimum>(run_.table.number(data::delT, -1));
+  auto& dt = run_.warehouse.reduction<data::Minimum>(delT);
   dt.value = time.next(dt, outputs_.nextTime());
   const auto tryStep = [&] {
     return run_.scheduler.run(graph, {time.step() + 1, time.time(), dt.value, time.repeats(), time.mayHalve()});

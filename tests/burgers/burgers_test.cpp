@@ -82,7 +82,7 @@ TEST(Burgers, SmoothsByItsViscosity) {
 
 TEST(Burgers, TakesInWhatAFaceGives) {
   grid::Domain domain = line(4);
-  domain.boundaries.face(0, 0).push_back({"Velocity", "Dirichlet", Vec3(3, 0, 0)});
+  domain.boundaries.face(0, 0).push_back({boundary::velocity, BoundaryKind::dirichlet, Vec3(3, 0, 0)});
   const std::vector<double> after = predicted(domain, {1, 1, 1, 1}, 0.01, firstOrder());
   EXPECT_NEAR(after[0], 1 + 0.01 * 4 * (4.5 - 0.5), 1e-15);
   EXPECT_NEAR(after[1], 1, 1e-15);

@@ -26,7 +26,9 @@ void expectSame(const GasBox<D>& a, const GasBox<D>& b) {
   EXPECT_EQ(a.momentum, b.momentum);
 }
 
-grid::BoundaryCondition inflow(const char* variable, const Vec3& value) { return {variable, "Dirichlet", value}; }
+grid::BoundaryCondition inflow(const grid::BoundaryVariable& variable, const Vec3& value) {
+  return {variable, BoundaryKind::dirichlet, value};
+}
 
 }  // namespace
 
@@ -151,8 +153,8 @@ TEST(Advance, OfAPlaneWaveInTwoDimensionsIsThatInOneToTheLastBit) {
 
 TEST(Advance, TakesInWhatFlowsThroughAFace) {
   grid::Domain domain = openBox(1, 50);
-  domain.boundaries.face(0, 0) = {inflow("Density", {2, 0, 0}), inflow("Velocity", {3, 0, 0}),
-                                  inflow("Pressure", {1, 0, 0})};
+  domain.boundaries.face(0, 0) = {inflow(boundary::density, {2, 0, 0}), inflow(boundary::velocity, {3, 0, 0}),
+                                  inflow(boundary::pressure, {1, 0, 0})};
   GasBox<1> box(domain, [](const Vec<1>&) { return gasAt(1, 3, 1); });  // supersonic: the inflow alone decides
   const double before = box.mass(), dt = box.stableStep(0.5);
   box.step(dt);
@@ -163,7 +165,7 @@ TEST(Advance, TakesInWhatFlowsThroughAFace) {
 
 TEST(Advance, ContinuesWhatAFaceDoesNotPrescribe) {
   grid::Domain domain = openBox(1, 50);
-  domain.boundaries.face(0, 0) = {inflow("Velocity", {0.5, 0, 0})};
+  domain.boundaries.face(0, 0) = {inflow(boundary::velocity, {0.5, 0, 0})};
   GasBox<1> box(domain, [](const Vec<1>&) { return gasAt(1.3, 0.5, 2); });
   const GasBox<1> before(domain, [](const Vec<1>&) { return gasAt(1.3, 0.5, 2); });
   box.step(box.stableStep(0.8));

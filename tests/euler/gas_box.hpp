@@ -14,7 +14,8 @@ inline grid::Domain closedBox(int dimension, int cells) {
   grid::Domain domain;
   for (int axis = 0; axis < 3; ++axis) {
     domain.resolution[axis] = axis < dimension ? cells : 1;
-    for (int side = 0; side < 2; ++side) domain.boundaries.face(axis, side).push_back({"Symmetric", "symmetry", {}});
+    for (int side = 0; side < 2; ++side)
+      domain.boundaries.face(axis, side).push_back({grid::symmetric, BoundaryKind::symmetry});
   }
   return domain;
 }

@@ -20,7 +20,7 @@ grid::Domain slab(int cells, bool cold) {
     domain.resolution[d] = cells;
     domain.patches[d] = 2;
     for (const int side : {0, 1})
-      if (cold) domain.boundaries.face(d, side).push_back({"Temperature", "Dirichlet", Vec3::Zero()});
+      if (cold) domain.boundaries.face(d, side).push_back({boundary::temperature, BoundaryKind::dirichlet});
   }
   return domain;
 }
@@ -100,7 +100,7 @@ TEST(Heat, MovesATemperatureByTheDifferenceOfItsNeighbours) {
 TEST(Heat, LetsANeumannFaceGiveHeat) {
   grid::Domain domain = slab<1>(4, false);
   domain.patches = {{1, 1, 1}};
-  domain.boundaries.face(0, 1).push_back({"Temperature", "Neumann", Vec3(3, 0, 0)});
+  domain.boundaries.face(0, 1).push_back({boundary::temperature, BoundaryKind::neumann, Vec3(3, 0, 0)});
 
   const std::vector<double> after = conducted(domain, {0, 0, 0, 0}, 0.01);
 

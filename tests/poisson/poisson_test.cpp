@@ -24,8 +24,8 @@ grid::Domain box(int cells) {
   return domain;
 }
 
-void condition(grid::Domain& domain, int axis, int side, const char* kind, double value) {
-  domain.boundaries.face(axis, side).push_back({"Phi", kind, Vec3(value, 0, 0)});
+void condition(grid::Domain& domain, int axis, int side, BoundaryKind kind, double value) {
+  domain.boundaries.face(axis, side).push_back({boundary::phi, kind, Vec3(value, 0, 0)});
 }
 
 Settings settingsOf(const std::string& source, const std::string& coefficient = "1") {
@@ -79,15 +79,15 @@ double order(int cells, const Make& make, const Settings& settings, const std::s
 
 grid::Domain oneDimension(int cells) {
   grid::Domain domain = box<1>(cells);
-  condition(domain, 0, 0, "Dirichlet", 2);
-  condition(domain, 0, 1, "Neumann", 1 - M_PI);
+  condition(domain, 0, 0, BoundaryKind::dirichlet, 2);
+  condition(domain, 0, 1, BoundaryKind::neumann, 1 - M_PI);
   return domain;
 }
 template <int D>
 grid::Domain keptAtOne(int cells) {
   grid::Domain domain = box<D>(cells);
   for (int d = 0; d < D; ++d)
-    for (const int side : {0, 1}) condition(domain, d, side, "Dirichlet", 1);
+    for (const int side : {0, 1}) condition(domain, d, side, BoundaryKind::dirichlet, 1);
   return domain;
 }
 grid::Domain repeated(int cells) {
@@ -99,8 +99,8 @@ grid::Domain repeated(int cells) {
 /// The outward derivative is kept at both ends.
 grid::Domain betweenSlopes(int cells, double lower, double upper) {
   grid::Domain domain = box<1>(cells);
-  condition(domain, 0, 0, "Neumann", lower);
-  condition(domain, 0, 1, "Neumann", upper);
+  condition(domain, 0, 0, BoundaryKind::neumann, lower);
+  condition(domain, 0, 1, BoundaryKind::neumann, upper);
   return domain;
 }
 
@@ -178,8 +178,8 @@ TEST(Poisson, GivesTheSameBitsOnAnyPatches) {
 TEST(Poisson, KeepsTheFluxOverAJumpOfTheCoefficient) {
   // phi is piecewise linear: k phi' = 1 on both sides of the jump at .5.
   grid::Domain domain = box<1>(8);
-  condition(domain, 0, 0, "Dirichlet", 0);
-  condition(domain, 0, 1, "Dirichlet", 0.5 + 0.5e-6);
+  condition(domain, 0, 0, BoundaryKind::dirichlet, 0);
+  condition(domain, 0, 1, BoundaryKind::dirichlet, 0.5 + 0.5e-6);
   Settings settings = settingsOf("0", "x < 0.5 ? 1 : 1e6");
   settings.solver = {"preonly", "lu", 1e-10, 1, ""};  // leaves rounding times 1e6
   EXPECT_LT(solved<1>(domain, settings, "x < 0.5 ? x : 0.5 + (x - 0.5)*1e-6").error, 1e-10);

@@ -31,7 +31,7 @@ inline grid::Domain plane(const Index3& patches, bool periodic) {
   grid::Domain domain = test::domain({{12, 10, 1}}, patches);
   if (periodic) domain.boundaries = {};
   for (int axis = 0; axis < 2; ++axis) domain.periodic[axis] = periodic ? 1 : 0;
-  for (const int side : {0, 1}) domain.boundaries.face(2, side) = {{"Symmetric", "symmetry", Vec3::Zero()}};
+  for (const int side : {0, 1}) domain.boundaries.face(2, side) = {{grid::symmetric, grid::BoundaryKind::symmetry}};
   return domain;
 }
 

@@ -7,7 +7,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 # A folder includes itself and those before it.
-ORDER = ["core/base", "core/input", "core/grid", "core/data", "core/tasks", "core/solvers", "core/output",
+ORDER = ["core/base", "core/input", "core/grid", "core/data", "core/tasks", "core/solvers", "core/numerics", "core/output",
          "core/collect", "core/report", "core/simulation", "core/scene", "core", "components", "tools"]
 INCLUDE = re.compile(r'^\s*#include\s+[<"]([^>"]+)[>"]', re.MULTILINE)
 FOREIGN = {"mpi.h": r"core/base/mpi.*", "core/base/mpi_native.hpp": r"core/base/mpi.*|core/solvers/petsc.*",
@@ -61,6 +61,15 @@ class Structure(unittest.TestCase):
                    "tools"}
         found = {path.split("/")[0] for path in listed.stdout.splitlines() if not path.startswith(".")}
         self.assertEqual(found - allowed, set())
+
+    def test_a_component_includes_no_other_except_reference(self):
+        wrong = []
+        for path, text in sources():
+            own = re.match(r"components/(\w+)/", path)
+            others = [name for name in INCLUDE.findall(text) if own and name.startswith("components/")
+                      and name.split("/")[1] not in (own[1], "reference")]
+            wrong += [f"{path} includes {name}" for name in others]
+        self.assertEqual(wrong, [])
 
 
 if __name__ == "__main__":

@@ -11,7 +11,8 @@ inline grid::Domain domain(const Index3& resolution, const Index3& patches = {{1
   domain.resolution = resolution;
   domain.patches = patches;
   for (int axis = 0; axis < 3; ++axis)
-    for (const int side : {0, 1}) domain.boundaries.face(axis, side).push_back({"Symmetric", "symmetry", Vec3::Zero()});
+    for (const int side : {0, 1})
+      domain.boundaries.face(axis, side).push_back({grid::symmetric, grid::BoundaryKind::symmetry});
   return domain;
 }
 

@@ -1,10 +1,10 @@
 #pragma once
 
 #include "components/euler/boundary.hpp"
-#include "components/euler/limiters.hpp"
 #include "components/euler/tasks/advance.hpp"
 #include "components/euler/tasks/check_state.hpp"
 #include "components/euler/tasks/row_kernels.hpp"
+#include "core/numerics/limiters.hpp"
 
 namespace tushar::euler {
 
@@ -159,9 +159,9 @@ void advance(const Patch& patch, const Gas& gas, CellView<const double> density,
 template <int D, class Flux>
 Advance<D> chooseShape(const Method& method) {
   if (method.reconstruction == Reconstruction::firstOrder) return advance<D, Flux, Constant>;
-  if (method.limiter == Limiter::minmod) return advance<D, Flux, Sloped<Minmod>>;
-  if (method.limiter == Limiter::vanLeer) return advance<D, Flux, Sloped<VanLeer>>;
-  return advance<D, Flux, Sloped<Mc>>;
+  if (method.limiter == Limiter::minmod) return advance<D, Flux, Sloped<numerics::Minmod>>;
+  if (method.limiter == Limiter::vanLeer) return advance<D, Flux, Sloped<numerics::VanLeer>>;
+  return advance<D, Flux, Sloped<numerics::Mc>>;
 }
 
 template <int D>

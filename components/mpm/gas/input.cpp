@@ -1,5 +1,6 @@
 #include "components/mpm/gas/input.hpp"
 
+#include "components/mpm/boundary_labels.hpp"
 #include "components/mpm/gas/conserving/conserving_mpm.hpp"
 #include "components/mpm/gas/conserving/input.hpp"
 #include "components/mpm/gas/material_input.hpp"
@@ -85,7 +86,8 @@ void refuseSolidsOnly(const Element& root, Diagnostics& diagnostics) {
   if (!conditions) return;
   for (const Element& face : conditions->children("Face"))
     for (const Element& condition : face.children("BCType"))
-      if (const auto label = condition.attribute("label"); label && (*label == "Velocity" || *label == "Temperature"))
+      if (const auto label = condition.attribute("label");
+          label && (*label == boundary::velocity.name || *label == boundary::temperature.name))
         diagnostics.error(condition, "label: found '" + *label + "', expected 'Symmetric': a gas takes no other");
 }
 

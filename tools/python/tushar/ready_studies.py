@@ -51,6 +51,7 @@ def shapes(scene):
     return lines + [Method(name, scene, (setting,)) for name, setting in transfers.items()]
 
 
+IMPLICIT_HEAT = ("SimulationComponent/@type=implicit_heat",)
 STATIC = ("MPM/time_integrator=implicit", "MPM/dynamic=false", "Time/timestep_multiplier=1")
 SPARSE = ("MPM/Solver/solver=direct", "MPM/Solver/preconditioner=lu")
 
@@ -76,8 +77,9 @@ READY = {
                    "displacement.particle.L1"),
     "solid_cube": (shapes("ups/solid/axis_aligned.ups"), {"resolution": ["4", "8", "16", "32"]},
                    "displacement.particle.L1"),
-    "heat_implicit": ([Method("backward Euler", "ups/heat/sine.ups", ("Heat/time_integrator=backward_euler",)),
-                       Method("Crank-Nicolson", "ups/heat/sine.ups", ("Heat/time_integrator=crank_nicolson",)),
+    "heat_implicit": ([Method("backward Euler", "ups/heat/sine.ups", IMPLICIT_HEAT),
+                       Method("Crank-Nicolson", "ups/heat/sine.ups",
+                              (*IMPLICIT_HEAT, "Heat/time_integrator=crank_nicolson")),
                        Method("explicit", "ups/heat/sine.ups")],
                       {"dt": ["1e-1", "1e-2", "1e-3", "1e-4", "1e-5"]}, "temperature.cell.L1"),
     "rest_cylinder": (at_rest("ups/solid/thick_cylinder.ups", "MPM/artificial_damping_coeff=6000"),

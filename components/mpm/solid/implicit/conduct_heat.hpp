@@ -1,5 +1,6 @@
 #pragma once
 
+#include "components/mpm/boundary_labels.hpp"
 #include "components/mpm/solid/implicit/rigid_body.hpp"
 
 namespace tushar::mpm::solid::implicit {
@@ -96,22 +97,23 @@ class NodalHeat {
     solvers::addUp(nodes_.unknowns(2), sums);
     for (std::size_t k = 0; k < sums.size(); k += 2) least_ = std::max(least_, sums[k]);
     least_ = 1e-12 * nodes_.ranks().max(least_);
+    const grid::BoundarySides<double> sides = nodes_.level().sides(boundary::temperature);
     for (int k = 0; k < nodes_.size(); ++k) {
       const double capacity = sums[static_cast<std::size_t>(2 * k)], heat = sums[static_cast<std::size_t>(2 * k) + 1];
       capacity_.push_back(capacity);
       before_.push_back(capacity > 0 ? heat / capacity : 0.0);
-      given_.push_back(givenAt(nodes_.node(k)));
+      given_.push_back(givenAt(nodes_.node(k), sides));
     }
   }
   /// What a side of the grid keeps at a node, K.
-  std::optional<double> givenAt(const Index<D>& node) const {
+  std::optional<double> givenAt(const Index<D>& node, const grid::BoundarySides<double>& sides) const {
     const Level& level = nodes_.level();
     for (int d = 0; d < D; ++d)
       for (const int side : {0, 1}) {
         const int face = side == 0 ? 0 : level.cells().extent(d);
         if (level.isPeriodic(d) || (side == 0 ? node[d] > face : node[d] < face)) continue;
-        const grid::BoundaryCondition* condition = level.boundary(d, side, "Temperature");
-        if (condition && condition->kind == "Dirichlet") return condition->value[0];
+        const auto& given = sides(d, side);
+        if (given && given->isDirichlet()) return given->value;
       }
     return std::nullopt;
   }

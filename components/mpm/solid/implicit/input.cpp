@@ -1,5 +1,6 @@
 #include "components/mpm/solid/implicit/input.hpp"
 
+#include "components/mpm/boundary_labels.hpp"
 #include "components/mpm/solid/implicit/implicit_mpm.hpp"
 #include "components/mpm/solid/loads/load_input.hpp"
 #include "components/mpm/solid/material_input.hpp"
@@ -201,7 +202,8 @@ void refuseConditions(const Problem& problem, const Element& root, Diagnostics& 
                                          "a condition holds for all of them");
       const auto value = condition.child("value");
       const bool flows = value && input::parse<double>(value->text()).value != 0.0;
-      if (condition.attribute("label") == "Temperature" && condition.attribute("var") == "Neumann" && flows)
+      if (condition.attribute("label") == boundary::temperature.name &&
+          condition.attribute("var") == nameOf(grid::BoundaryKind::neumann) && flows)
         diagnostics.error(condition,
                           "var: Neumann for Temperature only with <time_integrator> explicit, unless its value is 0");
     }
@@ -266,7 +268,7 @@ simulation::ComponentKind implicitKind() {
   kind.name = "impm";
   kind.sentence = "the Material Point Method for solids, with implicit time steps";
   kind.sections = {"MPM", "MaterialProperties", "PhysicalConstants", "PhysicalBC"};
-  kind.boundaryLabels = {{"Symmetric"}, {"Velocity", true}, {"Temperature"}};
+  kind.boundaryLabels = {grid::symmetric, boundary::velocity, boundary::temperature};
   kind.describe = [](std::ostream& out) {
     sectionSchema().describe(out);
     constantsSchema().describe(out);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "components/mpm/boundary_labels.hpp"
 #include "components/mpm/solid/implicit/rigid_body.hpp"
 
 namespace tushar::mpm::solid::implicit {
@@ -8,15 +9,16 @@ namespace tushar::mpm::solid::implicit {
 template <class Shape, int D = Shape::dimension>
 void prescribeFaces(ImplicitSystem<Shape>& system, double dt) {
   const Level& level = system.nodes().level();
+  const grid::BoundarySides<Vec3> sides = level.sides(boundary::velocity);
   for (int k = 0; k < system.nodes().size(); ++k)
     for (int d = 0; d < D; ++d)
       for (const int side : {0, 1}) {
         const int at = system.nodes().node(k)[d], face = side == 0 ? 0 : level.cells().extent(d);
         if (level.isPeriodic(d) || (side == 0 ? at > face : at < face)) continue;
         if (level.isSymmetry(d, side) && at == face) system.prescribe(k, d, 0);
-        const grid::BoundaryCondition* condition = level.boundary(d, side, "Velocity");
-        if (!condition || condition->kind != "Dirichlet") continue;
-        const Vec<D> velocity = level.reduce<D>(condition->value);
+        const auto& given = sides(d, side);
+        if (!given || !given->isDirichlet()) continue;
+        const Vec<D> velocity = level.reduce<D>(given->value);
         for (int e = 0; e < D; ++e) system.prescribe(k, e, dt * velocity[e]);
       }
 }

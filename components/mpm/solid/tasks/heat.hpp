@@ -1,5 +1,6 @@
 #pragma once
 
+#include "components/mpm/boundary_labels.hpp"
 #include "components/mpm/solid/material.hpp"
 #include "components/mpm/solid/transfer/extent.hpp"
 
@@ -10,13 +11,13 @@ template <int D>
 void setTemperature(const Patch& patch, int material, NodeView<double> field) {
   for (int d = 0; d < D; ++d)
     for (const int side : {0, 1}) {
-      const grid::BoundaryCondition* condition = patch.level().boundary(d, side, "Temperature", material);
-      if (!condition || !patch.isAtBoundary(d, side)) continue;
+      const auto given = patch.level().boundary(d, side, boundary::temperature, material);
+      if (!given || !patch.isAtBoundary(d, side)) continue;
       const Index<D> inwards = side == 0 ? Index<D>::unit(d) : Index<D>{} - Index<D>::unit(d);
-      const double value = condition->value[0], drop = value * patch.level().spacing(d);
+      const double value = given->value, drop = value * patch.level().spacing(d);
       for (const Box& nodes : {patch.faceNodes(d, side), patch.nodesBeyond(d, side)})
         forEach<D>(nodes, [&](const Index<D>& node) {
-          field[node] = condition->kind == "Dirichlet" ? value : field[node + inwards] - drop;
+          field[node] = given->isDirichlet() ? value : field[node + inwards] - drop;
         });
     }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "components/mpm/boundary_labels.hpp"
 #include "components/mpm/solid/transfer/node_windows.hpp"
 
 namespace tushar::mpm::solid {
@@ -30,9 +31,9 @@ template <int D>
 void setVelocity(const Patch& patch, int material, const TouchedRows<D>& rows, NodeView<NodeRecord> record) {
   for (int d = 0; d < D; ++d)
     for (const int side : {0, 1}) {
-      const grid::BoundaryCondition* condition = patch.level().boundary(d, side, "Velocity", material);
-      if (!condition || condition->kind != "Dirichlet" || !patch.isAtBoundary(d, side)) continue;
-      const Vec<D> value = patch.level().reduce<D>(condition->value);
+      const auto given = patch.level().boundary(d, side, boundary::velocity, material);
+      if (!given || !given->isDirichlet() || !patch.isAtBoundary(d, side)) continue;
+      const Vec<D> value = patch.level().reduce<D>(given->value);
       for (const Box& nodes : {patch.faceNodes(d, side), patch.nodesBeyond(d, side)})
         rows.forEachRow(nodes, [&](const Index3& first, int end) {
           NodeRecord* node = record.values() + record.stored().offset(first);

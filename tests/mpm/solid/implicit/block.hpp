@@ -30,7 +30,8 @@ inline grid::Domain domainAround(const Index3& filled) {
     if (filled[axis] == 0) continue;
     domain.resolution[axis] = filled[axis] + 2;
     domain.upper[axis] = filled[axis] + 2;
-    for (const int side : {0, 1}) domain.boundaries.face(axis, side).push_back({"Symmetric", "symmetry", Vec3::Zero()});
+    for (const int side : {0, 1})
+      domain.boundaries.face(axis, side).push_back({grid::symmetric, grid::BoundaryKind::symmetry});
   }
   domain.nodesBeyond = 1;
   return domain;

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "components/heat/heat.hpp"
+#include "components/implicit_heat/implicit_heat.hpp"
 #include "tests/support/run.hpp"
 
 // Heat conduction with a global solve in each step.
 
-namespace tushar::heat {
+namespace tushar::implicit_heat {
 
 namespace {
 
@@ -21,7 +21,7 @@ grid::Domain slab(int cells) {
 }
 
 void keep(grid::Domain& domain, int side, double temperature) {
-  domain.boundaries.face(0, side).push_back({"Temperature", "Dirichlet", Vec3(temperature, 0, 0)});
+  domain.boundaries.face(0, side).push_back({boundary::temperature, BoundaryKind::dirichlet, Vec3(temperature, 0, 0)});
 }
 
 Settings implicitSettings(double theta, const char* temperature, const char* conductivity = "1") {
@@ -36,7 +36,7 @@ Settings implicitSettings(double theta, const char* temperature, const char* con
 /// T in the cells after `steps` steps of `dt`.
 std::vector<double> after(const grid::Domain& domain, const Settings& settings, double dt, int steps) {
   test::Runner run(domain);
-  const Heat<1> heat(settings);
+  const ImplicitHeat<1> heat(settings);
   TaskList start, advance;
   heat.scheduleInitialize(start);
   heat.scheduleTimeAdvance(advance);
@@ -128,4 +128,4 @@ TEST(ImplicitHeat, KeepsItsHeatInAnInsulatedBox) {
   EXPECT_NEAR(sum, 8 * 0.5, 1e-12);
 }
 
-}  // namespace tushar::heat
+}  // namespace tushar::implicit_heat

@@ -1,0 +1,100 @@
+#include "components/implicit_heat/implicit_heat.hpp"
+
+#include "core/input/schema.hpp"
+#include "core/numerics/cell_system.hpp"
+#include "core/numerics/checked_formula.hpp"
+#include "core/simulation/by_dimension.hpp"
+#include "core/solvers/input.hpp"
+
+namespace tushar::implicit_heat {
+
+template <int D>
+void ImplicitHeat<D>::scheduleInitialize(TaskList& tasks) const {
+  tasks.perPatch("implicit_heat::initialize", initialize<D>, with(settings_), computes(c::temperature));
+}
+
+template <int D>
+void ImplicitHeat<D>::scheduleTimeAdvance(TaskList& tasks) const {
+  tasks.perRank("implicit_heat::conduct", conduct<D>, togetherOnRanks(), with(settings_), requiresOld(delT),
+                requiresOld(c::temperature, 1), computes(c::temperature), computes(iterations),
+                computes(solvers::assemblyTime), computes(solvers::preconditionerTime), computes(solvers::solveTime));
+}
+
+template <int D>
+void ImplicitHeat<D>::scheduleDiagnostics(TaskList& tasks) const {
+  tasks.perPatch("implicit_heat::sumEnergy", sumEnergy<D>, with(settings_), requiresOld(c::temperature),
+                 computes(totalEnergy));
+}
+
+template <int D>
+void initialize(const Patch& patch, const Settings& settings, CellView<double> temperature) {
+  const numerics::CheckedFormula start{settings.temperature, settings.where, "Heat/temperature", "K"};
+  const numerics::CheckedFormula k{settings.conductivity, settings.where, "Heat/thermal_conductivity", "W/(m K)"};
+  const Level& level = patch.level();
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    const Vec3 middle = level.expandPoint<D>(level.cellCentre<D>(cell));
+    temperature[cell] = start.finiteAt(middle);
+    k.positiveAt(middle);
+  });
+}
+
+template <int D>
+void conduct(const RankPatches& patches, const mpi::Communicator& ranks, const Settings& settings, double dt,
+             const std::vector<CellView<const double>>& temperature,
+             const std::vector<CellView<double>>& newTemperature, Maximum& iterationsTaken, Maximum& assembly,
+             Maximum& setup, Maximum& solution) {
+  const Level& level = patches.front()->level();
+  const double theta = settings.theta, capacity = settings.capacity() * level.cellVolume() / dt;
+  const numerics::Diffusion<D> diffusion(level, settings.conductivity, boundary::temperature);
+  const auto equationOf = [&](std::size_t p, const Index<D>& cell) {
+    numerics::Balance<D> balance = diffusion.balance(cell);
+    const double before = theta < 1 ? (1 - theta) * balance(temperature[p]) : 0.0;
+    const double right = capacity * temperature[p][cell] + before + theta * balance.constant;
+    for (double& weight : balance.weights) weight *= -theta;
+    balance.weights[0] += capacity;
+    return numerics::CellEquation<D>{balance, right};
+  };
+  numerics::CellSystem<D> system(patches, ranks);
+  const solvers::Outcome outcome = system.solve(settings.solver, temperature, equationOf);
+  system.requireConvergence(outcome, "the conduction of heat", "Heat", "c.temperature", ", or a smaller <delt_max>");
+  system.take(newTemperature);
+  iterationsTaken.add(outcome.krylovIterations);
+  solvers::addTimes(outcome, assembly, setup, solution);
+}
+
+template <int D>
+void sumEnergy(const Patch& patch, const Settings& settings, CellView<const double> temperature, Sum& energy) {
+  const double capacity = settings.capacity() * patch.level().cellVolume();
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) { energy.add(capacity * temperature[cell]); });
+}
+
+namespace {
+
+const input::Schema<Settings>& schema() {
+  static const input::Schema<Settings> schema =
+      input::Schema<Settings>("Heat", "Heat conduction, implicit in time.")
+          .location(&Settings::where)
+          .value("thermal_conductivity", &Settings::conductivity, input::Expression(1.0), "W/(m K)", "k",
+                 input::WithoutTime(), input::positive())
+          .value("density", &Settings::density, 1, "kg/m^3", "rho", input::positive())
+          .value("specific_heat", &Settings::specificHeat, 1, "J/(kg K)", "c", input::positive())
+          .choice("time_integrator", &Settings::theta, {{"backward_euler", 1}, {"crank_nicolson", 0.5}}, 1,
+                  "how time advances; the steps are those of <Time>")
+          .section("Solver", &Settings::solver, solvers::linearSchema(), "the linear solve of each step")
+          .ignored("cfl", "implicit steps have no limit; it serves <SimulationComponent type=\"heat\"/>")
+          .required("temperature", &Settings::temperature, "K", "T at the start", input::WithoutTime());
+  return schema;
+}
+
+}  // namespace
+
+simulation::ComponentKind kind() {
+  return simulation::kindWithSection<ImplicitHeat>("implicit_heat", "heat conduction, implicit: stable with any step",
+                                                   schema(), {boundary::temperature, grid::symmetric});
+}
+
+template class ImplicitHeat<1>;
+template class ImplicitHeat<2>;
+template class ImplicitHeat<3>;
+
+}  // namespace tushar::implicit_heat

@@ -1,0 +1,73 @@
+#pragma once
+
+#include "core/core.hpp"
+#include "core/input/expression.hpp"
+#include "core/simulation/catalogue.hpp"
+#include "core/solvers/report.hpp"
+
+namespace tushar::implicit_heat {
+
+namespace c {
+inline constexpr CellLabel<double> temperature{"c.temperature", "K", "temperature", Bound::finite};
+}
+namespace boundary {
+inline constexpr BoundaryLabel<double> temperature{"Temperature"};
+}
+inline constexpr ReductionLabel<Sum> totalEnergy{"TotalEnergy", "J", "heat in all cells, from 0 K"};
+inline constexpr ReductionLabel<Maximum> iterations{"KrylovIterations", "1", "iterations of the linear solve"};
+
+/// The `Heat` section, for implicit steps.
+struct Settings {
+  Location where;                       ///< in the scene
+  input::Expression conductivity{1.0};  ///< k, W/(m K)
+  double density = 1;                   ///< rho, kg/m³
+  double specificHeat = 1;              ///< c, J/(kg K)
+  input::Expression temperature{0.0};   ///< at the start, K
+  double theta = 1;                     ///< part of the new temperature in the flux
+  solvers::LinearSettings solver;
+
+  double capacity() const { return density * specificHeat; }  ///< rho c, J/(m³ K)
+};
+
+/// Heat conduction, rho c dT/dt = div(k grad T), implicit in time, centred in space, in D dimensions: stable with any
+/// time step.
+///
+/// At a face with `Temperature` Dirichlet the value [K] is kept, with Neumann the outward derivative [K/m]; any other
+/// face is insulated.
+template <int D>
+class ImplicitHeat : public Component {
+ public:
+  explicit ImplicitHeat(Settings settings) : settings_(std::move(settings)) {}
+
+  void scheduleInitialize(TaskList& tasks) const override;
+  void scheduleTimeAdvance(TaskList& tasks) const override;
+  void scheduleDiagnostics(TaskList& tasks) const override;
+  std::string advice() const override { return "a <temperature> that is finite everywhere, or a smaller <delt_max>"; }
+
+ private:
+  Settings settings_;
+};
+
+/// T at the middle of each cell, from the scene's formula. Throws InputError where that is not finite, or k not greater
+/// than 0.
+template <int D>
+void initialize(const Patch& patch, const Settings& settings, CellView<double> temperature);
+
+/// rho c (T' - T) / dt = theta div(k grad T') + (1 - theta) div(k grad T), a linear system for T' in all cells.
+/// theta = 1: backward Euler, of first order in time, and no T' is outside the range of T and the faces; theta = 1/2:
+/// Crank & Nicolson, Proc. Camb. Phil. Soc. 43 (1947) 50, of second order. Both are stable for any dt.
+/// Throws NumericalError if the solver gives up.
+template <int D>
+void conduct(const RankPatches& patches, const mpi::Communicator& ranks, const Settings& settings, double dt,
+             const std::vector<CellView<const double>>& temperature,
+             const std::vector<CellView<double>>& newTemperature, Maximum& iterationsTaken, Maximum& assembly,
+             Maximum& setup, Maximum& solution);
+
+/// Heat in the patch's cells [J].
+template <int D>
+void sumEnergy(const Patch& patch, const Settings& settings, CellView<const double> temperature, Sum& energy);
+
+/// The entry of this component in the table of sus.
+simulation::ComponentKind kind();
+
+}  // namespace tushar::implicit_heat

@@ -1,0 +1,125 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "core/data/views.hpp"
+#include "core/grid/level.hpp"
+#include "core/input/expression.hpp"
+
+namespace tushar::numerics {
+
+/// The mean of two coefficients at the face between their cells that keeps the flux right where they jump (Patankar,
+/// Numerical Heat Transfer and Fluid Flow, 4.2).
+inline double harmonicMean(double a, double b) { return 2 * a * b / (a + b); }
+
+/// A linear function of the values in a cell and those next to it: sum_n weight_n phi_n + constant.
+template <int D>
+struct Balance {
+  static constexpr std::size_t most = 2 * D + 1;
+
+  std::array<Index<D>, most> cells{};  ///< the cell itself first; of the grid or their periodic images
+  std::array<double, most> weights{};
+  std::size_t count = 1;
+  double constant = 0;
+
+  /// With the values of a field that has a ghost cell.
+  double operator()(const data::CellView<const double>& phi) const {
+    double sum = constant;
+    for (std::size_t k = 0; k < count; ++k) sum += weights[k] * phi[cells[k]];
+    return sum;
+  }
+};
+
+/// div(k grad phi) by finite volumes, centred: of second order. At a side of the grid with a Dirichlet condition phi is
+/// given, with a Neumann condition its outward derivative; through any other goes no flux. Between cells k is the
+/// harmonic mean.
+template <int D>
+class Diffusion {
+ public:
+  /// `k` is a formula in space, and greater than 0.
+  Diffusion(const grid::Level& level, const input::Expression& k, const grid::BoundaryLabel<double>& phi)
+      : level_(level), k_(k), sides_(level.sides(phi)) {}
+
+  /// div(k grad phi) in a cell, for explicit steps. At a side of the grid k is that of the cell. The view has a ghost
+  /// cell.
+  double operator()(const data::CellView<const double>& phi, const Index<D>& cell) const {
+    double sum = 0;
+    forEachFace(cell, [&](int d, int side, const Index<D>& next, bool isInside) {
+      const double other = isInside ? phi[next] : mirrored(phi[cell], d, side);
+      sum += atFace(cell, next, isInside) * (other - phi[cell]) / (level_.spacing(d) * level_.spacing(d));
+    });
+    return sum;
+  }
+  /// The sum over the faces of a cell of k / h²: an explicit step of at most one over it lets no cell overshoot.
+  double rate(const Index<D>& cell) const {
+    double sum = 0;
+    forEachFace(cell, [&](int d, int, const Index<D>& next, bool isInside) {
+      sum += atFace(cell, next, isInside) / (level_.spacing(d) * level_.spacing(d));
+    });
+    return sum;
+  }
+  /// The integral of div(k grad phi) over a cell, for linear systems: the sum over its faces of A k (phi_n - phi) / h.
+  /// At a side of the grid k is that of the side.
+  Balance<D> balance(const Index<D>& cell) const {
+    const double own = inCell(cell);
+    Balance<D> balance;
+    balance.cells[0] = cell;
+    forEachFace(cell, [&](int d, int side, const Index<D>& next, bool isInside) {
+      if (!isInside) return addSide(d, side, balance);
+      const double weight =
+          harmonicMean(own, inCell(next)) * level_.cellVolume() / (level_.spacing(d) * level_.spacing(d));
+      balance.cells[balance.count] = next;
+      balance.weights[balance.count++] = weight;
+      balance.weights[0] -= weight;
+    });
+    return balance;
+  }
+
+ private:
+  /// Calls `visit(axis, side, next cell, whether that is of the grid or an image of its cells)`.
+  template <class Visit>
+  void forEachFace(const Index<D>& cell, Visit&& visit) const {
+    for (int d = 0; d < D; ++d)
+      for (const int side : {0, 1}) {
+        const Index<D> next = side == 0 ? cell - Index<D>::unit(d) : cell + Index<D>::unit(d);
+        visit(d, side, next, level_.isPeriodic(d) || (next[d] >= 0 && next[d] < level_.cells().upper[d]));
+      }
+  }
+  /// k in the middle of a cell of the grid or of its periodic images.
+  double inCell(const Index<D>& cell) const {
+    return k_(level_.template expandPoint<D>(level_.template cellCentre<D>(level_.template wrapped<D>(cell))));
+  }
+  double atFace(const Index<D>& cell, const Index<D>& next, bool isInside) const {
+    const double own = inCell(cell);
+    return k_.isConstant() || !isInside ? own : harmonicMean(own, inCell(next));
+  }
+  /// phi beyond a side of the grid, such that the condition holds on the side.
+  double mirrored(double phi, int d, int side) const {
+    const auto& given = sides_(d, side);
+    if (!given) return phi;
+    return given->isDirichlet() ? 2 * given->value - phi : phi + level_.spacing(d) * given->value;
+  }
+  /// Adds k A (value - phi) / (h/2) for a given value, k A times a given derivative.
+  void addSide(int d, int side, Balance<D>& balance) const {
+    const auto& given = sides_(d, side);
+    if (!given) return;
+    Vec<D> x = level_.template cellCentre<D>(balance.cells[0]);
+    x[d] = level_.nodePosition(d, side == 0 ? 0 : level_.cells().upper[d]);
+    const double k = k_(level_.template expandPoint<D>(x));
+    const double area = level_.cellVolume() / level_.spacing(d);
+    if (!given->isDirichlet()) {
+      balance.constant += k * area * given->value;
+      return;
+    }
+    const double weight = 2 * k * area / level_.spacing(d);
+    balance.weights[0] -= weight;
+    balance.constant += weight * given->value;
+  }
+
+  const grid::Level& level_;
+  const input::Expression& k_;
+  grid::BoundarySides<double> sides_;
+};
+
+}  // namespace tushar::numerics
