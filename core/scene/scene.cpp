@@ -17,7 +17,6 @@ using input::Element;
 using simulation::Analysis;
 using simulation::AnalysisKind;
 using simulation::ArchiveSettings;
-using simulation::BoundaryLabel;
 using simulation::Catalogue;
 using simulation::Component;
 using simulation::ComponentKind;

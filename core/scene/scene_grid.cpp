@@ -12,7 +12,8 @@ namespace tushar::scene {
 using input::Diagnostics;
 using input::Element;
 using input::Schema;
-using simulation::BoundaryLabel;
+using simulation::findKind;
+using simulation::namesOf;
 
 namespace {
 
