@@ -31,8 +31,6 @@ struct Method {
   bool keepsSizes = false;         ///< each particle keeps its size
   double meanWidth = 0;            ///< of a cell over x, y, z, m: the length of the artificial viscosity
   bool viscosityHeats = false;     ///< artificial_viscosity_heating
-  bool strainEnergy = false;       ///< someone wants to know it
-  bool velocityGradient = false;   ///< someone wants to know it
   bool sharesVolume = false;       ///< DoPressureStabilization: the particles of a cell change their volume as one
   bool conductsHeat = true;
   bool contactHeats = false;    ///< do_contact_friction_heating

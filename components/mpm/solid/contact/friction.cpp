@@ -8,7 +8,7 @@ namespace {
 
 /// Below it a traction is round-off, Pa.
 constexpr double leastTraction = 1e-12;
-/// Of what changes less the normal is not made one of length 1, kg/m.
+/// Mass gradients below it are not made normals of length 1, kg/m.
 constexpr double leastGradient = 1e-15;
 /// Below it a share of the mass at a node is what rounding has left of a body.
 constexpr double leastShare = 1e-14;
@@ -30,11 +30,11 @@ Gathering<D> gatherBodies(const Contact& contact, const Records& records, const 
     if (!contact.concerns(static_cast<int>(m))) continue;
     const NodeRecord& record = records[m][node];
     all.momentum += record[lane::mass] * lanes<D>(record, lane::velocity);
-    all.position += surfaces.position[m][node];
+    all.position += surfaces[m].position[node];
     all.mass += record[lane::mass];
-    all.volume += surfaces.volume[m][node];
-    if (surfaces.massGradient[m][node].squaredNorm() <= all.normal.squaredNorm()) continue;
-    all.normal = surfaces.massGradient[m][node];
+    all.volume += surfaces[m].volume[node];
+    if (surfaces[m].massGradient[node].squaredNorm() <= all.normal.squaredNorm()) continue;
+    all.normal = surfaces[m].massGradient[node];
     all.steepest = m;
   }
   if (all.normal.squaredNorm() > 0) all.normal.normalize();
@@ -65,10 +65,10 @@ Vec<D> normalOf(const Level& level, const Contact& contact, const Records& recor
   double mass = 0;
   for (std::size_t n = 0; n < records.size(); ++n) {
     if (n == m) continue;
-    others += records[n][node][lane::mass] * surfaces.massGradient[n][node];
+    others += records[n][node][lane::mass] * surfaces[n].massGradient[node];
     mass += records[n][node][lane::mass];
   }
-  Vec<D> normal = 0.5 * (surfaces.massGradient[m][node] - (mass > 0 ? Vec<D>(others / mass) : others));
+  Vec<D> normal = 0.5 * (surfaces[m].massGradient[node] - (mass > 0 ? Vec<D>(others / mass) : others));
   for (int d = 0; d < D && contact.normalsInCells; ++d) normal[d] *= level.spacing(d);
   const double size = normal.norm();
   return size > leastGradient ? Vec<D>(normal / size) : normal;
@@ -79,7 +79,7 @@ template <int D>
 bool arePressed(const Level& level, const Contact& contact, const Records& records, const Surfaces<D>& surfaces,
                 const Gathering<D>& all, const Index<D>& node) {
   for (std::size_t m = 0; m < records.size(); ++m)
-    if (isThere<D>(contact, records, all.mass, m, node) && !isPressed<D>(level, surfaces.stress[m][node], all.normal))
+    if (isThere<D>(contact, records, all.mass, m, node) && !isPressed<D>(level, surfaces[m].stress[node], all.normal))
       return false;
   return true;
 }
@@ -102,7 +102,7 @@ double strainLimit(const Level& level, const Vec<D>& change, double dt, double m
 }  // namespace
 
 template <int D>
-Rubbing<D> rubbing(const Touch<D>& touch, double mu) {
+FrictionImpulse<D> frictionImpulse(const Touch<D>& touch, double mu) {
   const double approach = touch.velocity.dot(touch.normal);
   if (!touch.isPressed && approach <= 0) return {};
   const Vec<D> slip = touch.velocity - approach * touch.normal;
@@ -112,8 +112,8 @@ Rubbing<D> rubbing(const Touch<D>& touch, double mu) {
 }
 
 template <int D>
-void rub(const Patch& patch, const Contact& contact, double dt, const Records& records, const Surfaces<D>& surfaces,
-         const std::vector<NodeView<double>>& heat) {
+void applyFriction(const Patch& patch, const Contact& contact, double dt, const Records& records,
+                   const Surfaces<D>& surfaces, const FrictionHeats& heat) {
   const Level& level = patch.level();
   const double reach = contact.separationFactor * std::cbrt(level.cellVolume());
   const double leastVolume = contact.volumeConstraint * level.cellVolume();
@@ -126,29 +126,29 @@ void rub(const Patch& patch, const Contact& contact, double dt, const Records& r
       NodeRecord& record = records[m][node];
       const double mass = record[lane::mass], others = all.mass - mass;
       if (!isThere<D>(contact, records, all.mass, m, node) || others < leastShare * all.mass) continue;
-      if (separation<D>(all, surfaces.position[m][node], mass) >= reach) continue;
+      if (separation<D>(all, surfaces[m].position[node], mass) >= reach) continue;
       const Vec<D> v = lanes<D>(record, lane::velocity);
       Touch<D> touch{normalOf<D>(level, contact, records, surfaces, m, node), v - all.momentum / all.mass, together};
       if (contact.keepsMomentum)
         touch.normal = m == all.steepest ? all.normal : Vec<D>(-all.normal);
       else if (!contact.onlyOnApproach)
-        touch.isPressed = isPressed<D>(level, surfaces.stress[m][node], touch.normal);
-      const Rubbing<D> rubbed = rubbing<D>(touch, contact.friction);
-      const double share = strainLimit<D>(level, rubbed.change, dt, mass / others);
-      setLanes<D>(record, lane::velocity, v + share * rubbed.change);
-      if (!heat.empty()) heat[m][node] += share * mass * rubbed.heat;
+        touch.isPressed = isPressed<D>(level, surfaces[m].stress[node], touch.normal);
+      const FrictionImpulse<D> impulse = frictionImpulse<D>(touch, contact.friction);
+      const double share = strainLimit<D>(level, impulse.change, dt, mass / others);
+      setLanes<D>(record, lane::velocity, v + share * impulse.change);
+      if (heat[m]) (*heat[m])[node] += share * mass * impulse.heat;
     }
   });
 }
 
-template Rubbing<1> rubbing<1>(const Touch<1>&, double);
-template Rubbing<2> rubbing<2>(const Touch<2>&, double);
-template Rubbing<3> rubbing<3>(const Touch<3>&, double);
-template void rub<1>(const Patch&, const Contact&, double, const Records&, const Surfaces<1>&,
-                     const std::vector<NodeView<double>>&);
-template void rub<2>(const Patch&, const Contact&, double, const Records&, const Surfaces<2>&,
-                     const std::vector<NodeView<double>>&);
-template void rub<3>(const Patch&, const Contact&, double, const Records&, const Surfaces<3>&,
-                     const std::vector<NodeView<double>>&);
+template FrictionImpulse<1> frictionImpulse<1>(const Touch<1>&, double);
+template FrictionImpulse<2> frictionImpulse<2>(const Touch<2>&, double);
+template FrictionImpulse<3> frictionImpulse<3>(const Touch<3>&, double);
+template void applyFriction<1>(const Patch&, const Contact&, double, const Records&, const Surfaces<1>&,
+                               const FrictionHeats&);
+template void applyFriction<2>(const Patch&, const Contact&, double, const Records&, const Surfaces<2>&,
+                               const FrictionHeats&);
+template void applyFriction<3>(const Patch&, const Contact&, double, const Records&, const Surfaces<3>&,
+                               const FrictionHeats&);
 
 }  // namespace tushar::mpm::solid

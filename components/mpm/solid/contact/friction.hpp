@@ -1,7 +1,7 @@
 #pragma once
 
-#include "components/mpm/solid/constitutive/constitutive_model.hpp"
 #include "components/mpm/solid/contact/contact.hpp"
+#include "components/mpm/solid/labels.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -13,39 +13,47 @@ struct Touch {
   bool isPressed;   ///< the stress presses on the surface
 };
 
-/// What a contact does to a body at a node.
+/// What friction does to a body at a node.
 template <int D>
-struct Rubbing {
+struct FrictionImpulse {
   Vec<D> change = Vec<D>::Zero();  ///< of the velocity, m/s
   double heat = 0;                 ///< kinetic energy that friction takes, J/kg
 };
 
-/// Of a body that is pressed against others or approaches them: it does not pass through, and slides by what friction
-/// with the coefficient mu leaves; Bardenhagen, Guilkey, Roessig, Brackbill, Witzel & Foster, CMES 2 (2001) 509,
-/// eq. 13.
+/// A body that is pressed against others or approaches them does not pass through, and slides by what friction with the
+/// coefficient mu leaves; Bardenhagen, Guilkey, Roessig, Brackbill, Witzel & Foster, CMES 2 (2001) 509, eq. 13.
 template <int D>
-Rubbing<D> rubbing(const Touch<D>& touch, double mu);
+FrictionImpulse<D> frictionImpulse(const Touch<D>& touch, double mu);
 
-/// What the surfaces of bodies look like from the nodes, by material.
+/// The surface of a body, as the nodes see it.
 template <int D>
-struct Surfaces {
-  const std::vector<NodeView<const Vec<D>>>&
-      massGradient;  ///< sum_p m_p grad S_i: out of the body, kg/m; axisymmetric kg/m^4
-  const std::vector<NodeView<const Vec<D>>>& position;  ///< sum_p S_i m_p x_p, kg m
-  const std::vector<NodeView<const Matrix3>>& stress;   ///< sum_p S_i sigma_p, Pa
-  const std::vector<NodeView<const double>>& volume;    ///< sum_p S_i V_p, and its image's beyond symmetry planes, m^3
+struct ContactSurface {
+  NodeView<const Vec<D>> massGradient;  ///< sum_p m_p grad S_i: out of the body, kg/m; axisymmetric kg/m^4
+  NodeView<const Vec<D>> position;      ///< sum_p S_i m_p x_p, kg m
+  NodeView<const Matrix3> stress;       ///< sum_p S_i sigma_p, Pa
+  NodeView<const double> volume;        ///< sum_p S_i V_p, and its image's beyond symmetry planes, m^3
+
+  static ContactSurface from(auto& take) {
+    return {.massGradient = take(requiresNew(g::massGradient<D>)),
+            .position = take(requiresNew(g::massPosition<D>)),
+            .stress = take(requiresNew(g::surfaceStress)),
+            .volume = take(requiresNew(g::surfaceVolume))};
+  }
 };
+/// Those of all materials, and the heat (J) that friction makes at their nodes, where a scene has it.
+template <int D>
+using Surfaces = std::vector<ContactSurface<D>>;
+using FrictionHeats = std::vector<std::optional<NodeView<double>>>;
 
-/// Applies `rubbing` to all materials that take part, where their volumes and distance are as the contact asks. A
-/// change that would strain a cell by more than a half is cut down to that. Adds the heat (J) to `heat`, if there is
-/// any.
+/// Applies the impulses of friction to all materials that take part, where their volumes and distance are as the
+/// contact says. A change that would strain a cell by more than a half is cut down to that. Adds the heat to `heat`.
 ///
 /// As in Uintah the normal of a body is half the difference of its mass gradient and of the mean, by mass, of those of
 /// all others, in axisymmetric scenes per cell, and its own stress says whether it is pressed, so that of three bodies,
 /// or where one of two is pressed alone, the sum of momenta changes. Of contacts that keep momentum all have the normal
 /// of the one whose mass changes most, or its opposite, and are pressed where the stresses of all press.
 template <int D>
-void rub(const Patch& patch, const Contact& contact, double dt, const Records& records, const Surfaces<D>& surfaces,
-         const std::vector<NodeView<double>>& heat);
+void applyFriction(const Patch& patch, const Contact& contact, double dt, const Records& records,
+                   const Surfaces<D>& surfaces, const FrictionHeats& heat);
 
 }  // namespace tushar::mpm::solid

@@ -208,22 +208,6 @@ std::unique_ptr<Component> makeComponent(const Level& level, Interpolator interp
   }
 }
 
-/// Whether the scene saves a variable.
-bool isSaved(const Element& root, const std::string& label) {
-  const auto archiver = root.child("DataArchiver");
-  if (!archiver) return false;
-  const auto saves = archiver->children("save");
-  return std::any_of(saves.begin(), saves.end(), [&](const Element& save) { return save.attribute("label") == label; });
-}
-
-/// Whether the report is to say where energy went.
-bool hasEnergyBudget(const Element& root) {
-  const auto analysis = root.child("DataAnalysis");
-  const auto modules = analysis ? analysis->children("Module") : std::vector<Element>{};
-  return std::any_of(modules.begin(), modules.end(),
-                     [](const Element& module) { return module.attribute("name") == "energyBudget"; });
-}
-
 Method settle(const MpmSection& read, const PhysicalConstants& constants) {
   Method method;
   method.gravity = constants.gravity;
@@ -267,13 +251,10 @@ simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostic
   const MaterialProperties properties = simulation::readSection(root, propertiesSchema(), diagnostics);
   if (diagnostics.size() > before) return {};
   Problem problem{method, properties.mpm.materials, properties.mpm.contacts, {}};
-  problem.method.strainEnergy =
-      isSaved(root, "StrainEnergy") || isSaved(root, "p.strainEnergy") || hasEnergyBudget(root);
   for (Contact& contact : problem.contacts) {
     contact.actsTwice = contact.actsTwice || read.xpic;
     contact.normalsInCells = read.axisymmetric;
   }
-  problem.method.velocityGradient = isSaved(root, "p.velGrad");
   problem.method.thermalContact = properties.mpm.thermalContact.has_value();
   problem.start = {read.axisymmetric, readLoads(root, read.useLoadCurves, diagnostics),
                    makeManufactured(read.manufactured)};

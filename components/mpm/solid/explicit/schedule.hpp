@@ -7,7 +7,6 @@
 #include "components/mpm/solid/explicit/tasks/exchange_momentum.hpp"
 #include "components/mpm/solid/explicit/tasks/friction.hpp"
 #include "components/mpm/solid/explicit/tasks/integrate_acceleration.hpp"
-#include "components/mpm/solid/explicit/tasks/interpolate_momentum.hpp"
 #include "components/mpm/solid/explicit/tasks/interpolate_particles_to_grid.hpp"
 #include "components/mpm/solid/explicit/tasks/interpolate_to_particles_and_update.hpp"
 #include "components/mpm/solid/explicit/tasks/measure_work.hpp"
@@ -25,7 +24,7 @@
 
 namespace tushar::mpm::solid {
 
-/// What a task may be given to read variables with: as they were at the start of the step, or as the step has them.
+/// Reads variables as they were at the start of the step, or as the step has them.
 inline constexpr auto old = [](const auto& label, int ghost) { return requiresOld(label, ghost); };
 inline constexpr auto fresh = [](const auto& label, int ghost) { return requiresNew(label, ghost); };
 
@@ -131,49 +130,35 @@ template <class Shape>
 template <class Reads>
 void SolidMpm<Shape>::scheduleInterpolateParticlesToGrid(TaskList& tasks, Reads stressed) const {
   const int reach = Shape::reach;
-  tasks.perMaterial("mpm::interpolateParticlesToGrid", interpolateParticlesToGrid<Shape>, problem_.materials,
-                    with(problem_.method.commonSize), with(!problem_.contacts.empty()), requiresOld(p::x<D>, reach),
-                    when(keepsSizes(), requiresOld(p::size<D>, reach)), requiresOld(p::mass, reach),
-                    requiresOld(p::velocity<D>, reach),
-                    when(!keeps_stress_ || Shape::deforms, stressed(p::deformationMeasure, reach)),
-                    when(keeps_stress_, stressed(p::volume, reach)), when(keeps_stress_, stressed(p::stress, reach)),
-                    when(isViscous(), stressed(p::viscosity, reach)),
-                    when(isLoaded(), requiresNew(p::externalForce<D>, reach)), computesOwn(g::record));
+  tasks.perMaterial(
+      "mpm::interpolateParticlesToGrid", interpolateParticlesToGrid<Shape>, problem_.materials,
+      with(problem_.method.commonSize), with(!problem_.contacts.empty()),
+      all<MomentumSources<Shape>>(keepsSizes(), requiresOld(p::velocity<D>, reach),
+                                  when(!keeps_stress_ || Shape::deforms, stressed(p::deformationMeasure, reach))),
+      all<ForceSources<Shape>>(keeps(), stressed), computesOwn(g::record));
   if constexpr (!Shape::deforms && !Shape::axisymmetric)
     if (problem_.method.affine)
-      tasks.perMaterial("mpm::addAffineVelocity", addAffineVelocity<Shape>, problem_.materials, with(problem_.method),
-                        requiresOld(p::x<D>, reach), when(keepsSizes(), requiresOld(p::size<D>, reach)),
+      tasks.perMaterial("mpm::addAffineVelocity", addAffineVelocity<Shape>, problem_.materials,
+                        with(problem_.method.commonSize), all<Placed<Shape>>(keepsSizes(), reach),
                         requiresOld(p::mass, reach), requiresOld(p::affineMoment, reach), modifies(g::record));
   if (!problem_.contacts.empty())
-    tasks.acrossMaterials("mpm::exMomInterpolated", exMomInterpolated<D>, problem_.materials, with(problem_.contacts),
-                          startTime(), modifies(g::record));
+    tasks.acrossMaterials("mpm::exMomInterpolated", exchangeMomentum<D>, problem_.materials, with(problem_.contacts),
+                          with(Moment::start), startTime(), modifies(g::record));
   if (hasFriction()) scheduleFriction(tasks, "mpm::frictionInterpolated", Moment::start, g::record);
 }
 
 template <class Shape>
 void SolidMpm<Shape>::scheduleComputeSurface(TaskList& tasks) const {
-  const int reach = Shape::reach;
   tasks.perMaterial("mpm::computeSurface", computeSurface<Shape>, problem_.materials, with(problem_.method.commonSize),
-                    requiresOld(p::x<D>, reach), when(keepsSizes(), requiresOld(p::size<D>, reach)),
-                    requiresOld(p::mass, reach), requiresOld(p::deformationMeasure, reach),
-                    when(keeps_stress_, requiresOld(p::stress, reach)), computes(g::massGradient<D>),
-                    computes(g::massPosition<D>), computes(g::surfaceStress), computes(g::surfaceVolume));
+                    all<SurfaceSources<Shape>>(keeps()));
 }
 
 template <class Shape>
 void SolidMpm<Shape>::scheduleFriction(TaskList& tasks, const std::string& name, Moment moment,
-                                       const NodeLabel<NodeRecord>& record) const {
-  tasks.acrossMaterials(name, applyFriction<D>, problem_.materials, with(problem_.contacts), with(moment),
-                        requiresOld(delT), requiresNew(g::massGradient<D>), requiresNew(g::massPosition<D>),
-                        requiresNew(g::surfaceStress), requiresNew(g::surfaceVolume), modifies(record));
-}
-/// At the end of the step.
-template <class Shape>
-void SolidMpm<Shape>::scheduleHeatingFriction(TaskList& tasks) const {
-  tasks.acrossMaterials("mpm::frictionIntegrated", applyHeatingFriction<D>, problem_.materials, with(problem_.contacts),
-                        requiresOld(delT), requiresNew(g::massGradient<D>), requiresNew(g::massPosition<D>),
-                        requiresNew(g::surfaceStress), requiresNew(g::surfaceVolume), modifies(g::record),
-                        computes(g::frictionHeat));
+                                       const NodeLabel<NodeRecord>& record, bool heats) const {
+  tasks.acrossMaterials(name, exchangeByFriction<D>, problem_.materials, with(problem_.contacts), with(moment),
+                        requiresOld(delT), all<ContactSurface<D>>(), modifies(record),
+                        when(heats, computes(g::frictionHeat)));
 }
 
 template <class Shape>
@@ -182,10 +167,7 @@ void SolidMpm<Shape>::scheduleIntegrateAcceleration(TaskList& tasks) const {
                     with(problem_.method), requiresOld(p::x<D>, Shape::reach), requiresOld(delT), modifies(g::record));
   scheduleKeepVelocity(tasks, g::velocityOfForces<D>);
   scheduleContactAtEnd(tasks);
-  if (rubbingHeats())
-    scheduleHeatingFriction(tasks);
-  else if (hasFriction())
-    scheduleFriction(tasks, "mpm::frictionIntegrated", Moment::end, g::record);
+  if (hasFriction()) scheduleFriction(tasks, "mpm::frictionIntegrated", Moment::end, g::record, rubbingHeats());
   scheduleKeepVelocity(tasks, g::velocityOfContact<D>);
   tasks.perMaterial("mpm::setGridBoundaryConditions", setGridBoundaryConditions<Shape>, problem_.materials,
                     requiresOld(p::x<D>, Shape::reach), modifies(g::record));
@@ -206,18 +188,12 @@ void SolidMpm<Shape>::scheduleMeasureWork(TaskList& tasks, Reads shaped) const {
                     requiresOld(delT), requiresNew(g::record), requiresNew(g::velocityOfForces<D>),
                     when(!problem_.contacts.empty(), requiresNew(g::velocityOfContact<D>)), computes(g::workRecord));
   tasks.perMaterial("mpm::measureWork", measureWork<Shape>, problem_.materials, with(problem_.method.commonSize),
-                    requiresOld(delT), requiresOld(p::x<D>), when(keepsSizes(), requiresOld(p::size<D>)),
-                    requiresOld(p::mass), when(Shape::deforms, shaped(p::deformationMeasure, 0)),
-                    when(isLoaded(), requiresNew(p::externalForce<D>)), requiresNew(g::workRecord, Shape::ghostNodes),
-                    requiresOld(p::work), computes(p::work));
+                    requiresOld(delT), all<ParticleWork<Shape>>(keeps(), shapedBy(shaped)));
 }
 template <class Shape>
 void SolidMpm<Shape>::scheduleStrainWork(TaskList& tasks) const {
-  tasks.perMaterial("mpm::measureStrainWork", measureStrainWork, problem_.materials, requiresOld(p::mass),
-                    requiresOld(p::deformationMeasure), requiresNew(p::deformationMeasure),
-                    when(keeps_stress_, requiresOld(p::volume)), when(keeps_stress_, requiresOld(p::stress)),
-                    when(keeps_stress_, requiresNew(p::volume)), when(keeps_stress_, requiresNew(p::stress)),
-                    when(isViscous(), requiresNew(p::viscosity)), modifies(p::work));
+  tasks.perMaterial("mpm::measureStrainWork", measureStrainWork, problem_.materials,
+                    all<StrainWork>(keeps(), old, fresh));
   if (keeps_stress_ && state_size_ > 0)
     tasks.perMaterial("mpm::measurePlasticWork", measurePlasticWork, problem_.materials, with(state_size_),
                       requiresOld(state_), requiresNew(state_), requiresNew(p::volume), requiresNew(p::stress),
@@ -227,19 +203,8 @@ void SolidMpm<Shape>::scheduleStrainWork(TaskList& tasks) const {
 /// With the gradients and the stresses: Uintah's computeParticleGradients and computeStressTensor.
 template <class Shape>
 void SolidMpm<Shape>::scheduleUpdateParticles(TaskList& tasks) const {
-  const bool hasState = state_size_ > 0;
-  tasks.perMaterial(
-      "mpm::interpolateToParticlesAndUpdate", interpolateToParticlesAndUpdate<Shape>, problem_.materials,
-      with(problem_.method), with(state_size_), requiresOld(delT), requiresNew(g::record, Shape::ghostNodes),
-      requiresOld(p::x<D>), when(keepsSizes(), requiresOld(p::size<D>)), requiresOld(p::velocity<D>),
-      requiresOld(p::mass), requiresOld(p::deformationMeasure), when(is_thermal_, requiresOld(p::temperature)),
-      when(keeps_stress_, requiresOld(p::volume)), when(keeps_stress_, requiresOld(p::stress)),
-      when(hasState, requiresOld(state_)), when(is_damageable_, requiresOld(p::localized)), computes(p::x<D>),
-      computes(p::velocity<D>), computes(p::deformationMeasure), when(keeps_stress_, computes(p::volume)),
-      when(keeps_stress_, computes(p::stress)), when(hasState, computes(state_)),
-      when(isViscous(), computes(p::viscosity)), when(problem_.method.strainEnergy, computes(p::strainEnergy)),
-      when(heats_, computes(p::temperatureChange)),
-      when(problem_.method.velocityGradient, computes(p::velocityGradient)), computes(c::stableTimeStep));
+  tasks.perMaterial("mpm::interpolateToParticlesAndUpdate", interpolateToParticlesAndUpdate<Shape>, problem_.materials,
+                    with(problem_.method), requiresOld(delT), all<ParticleUpdate<Shape>>(keeps()));
   scheduleDamage(tasks);
 }
 
@@ -255,40 +220,35 @@ template <class Shape>
 template <class Reads>
 void SolidMpm<Shape>::scheduleMoveParticles(TaskList& tasks, Reads shaped) const {
   tasks.perMaterial("mpm::interpolateToParticlesAndUpdate", moveParticles<Shape>, problem_.materials,
-                    with(problem_.method), requiresOld(delT), requiresNew(g::record, Shape::ghostNodes),
-                    requiresOld(p::x<D>), when(keepsSizes(), requiresOld(p::size<D>)), requiresOld(p::velocity<D>),
-                    when(Shape::deforms, shaped(p::deformationMeasure, 0)), computes(p::x<D>),
-                    computes(p::velocity<D>));
+                    with(problem_.method.commonSize), requiresOld(delT),
+                    all<MotionUpdate<Shape>>(keepsSizes(), shapedBy(shaped)));
 }
 
 /// What replaces FLIP's velocity; `shaped` reads the F that shape functions follow.
 template <class Shape>
 template <class Reads>
 void SolidMpm<Shape>::scheduleVelocityUpdate(TaskList& tasks, Reads shaped) const {
-  const auto shape = when(Shape::deforms, shaped(p::deformationMeasure, 0));
-  const auto sizes = when(keepsSizes(), requiresOld(p::size<D>));
+  const auto particles = all<Placed<Shape>>(keepsSizes(), 0, shapedBy(shaped));
   const auto record = requiresNew(g::record, Shape::ghostNodes);
   const auto& [materials, method] = std::tie(problem_.materials, problem_.method);
   if (method.picFraction > 0)
-    tasks.perMaterial("mpm::blendVelocity", blendVelocity<Shape>, materials, with(method), record, requiresOld(p::x<D>),
-                      sizes, shape, modifies(p::velocity<D>));
+    tasks.perMaterial("mpm::blendVelocity", blendVelocity<Shape>, materials, with(method), record, particles,
+                      modifies(p::velocity<D>));
   if (method.xpic) {
     const int reach = Shape::reach;
-    tasks.perMaterial("mpm::computeSSPlusVp", computeSSPlusVp<Shape>, materials, with(method), record,
-                      requiresOld(p::x<D>), sizes, shape, computes(p::smoothVelocity<D>));
-    tasks.perMaterial("mpm::computeSPlusSSPlusVp", interpolateMomentum<Shape>, materials, with(method.commonSize),
-                      requiresOld(p::x<D>, reach), when(keepsSizes(), requiresOld(p::size<D>, reach)),
-                      requiresOld(p::mass, reach), when(Shape::deforms, shaped(p::deformationMeasure, reach)),
-                      requiresNew(p::smoothVelocity<D>, reach), computesOwn(g::smoothRecord));
-    tasks.perMaterial("mpm::applyXpic", applyXpic<Shape>, materials, with(method), requiresOld(delT),
-                      requiresNew(g::smoothRecord, Shape::ghostNodes), requiresOld(p::x<D>), sizes, shape,
-                      requiresOld(p::velocity<D>), requiresNew(p::smoothVelocity<D>), modifies(p::x<D>),
-                      modifies(p::velocity<D>));
+    tasks.perMaterial("mpm::computeSSPlusVp", computeSSPlusVp<Shape>, materials, with(method.commonSize), record,
+                      particles, computes(p::smoothVelocity<D>));
+    tasks.perMaterial(
+        "mpm::computeSPlusSSPlusVp", interpolateMomentum<Shape>, materials, with(method.commonSize),
+        all<MomentumSources<Shape>>(keepsSizes(), requiresNew(p::smoothVelocity<D>, reach), shapedBy(shaped, reach)),
+        computesOwn(g::smoothRecord));
+    tasks.perMaterial("mpm::applyXpic", applyXpic<Shape>, materials, with(method.commonSize), requiresOld(delT),
+                      all<XpicUpdate<Shape>>(keepsSizes(), shapedBy(shaped)));
   }
   if constexpr (!Shape::deforms && !Shape::axisymmetric)
     if (method.affine)
-      tasks.perMaterial("mpm::updateAffineMoment", updateAffineMoment<Shape>, materials, with(method), record,
-                        requiresOld(p::x<D>), sizes, computes(p::affineMoment));
+      tasks.perMaterial("mpm::updateAffineMoment", updateAffineMoment<Shape>, materials, with(method.commonSize),
+                        record, particles, computes(p::affineMoment));
 }
 
 /// The velocity that stresses follow, where that is not the one of the motion; `moving` reads that of the particles.
@@ -297,13 +257,12 @@ template <class Reads>
 void SolidMpm<Shape>::scheduleInterpolateMomentum(TaskList& tasks, Reads moving) const {
   const int reach = Shape::reach;
   tasks.perMaterial("mpm::interpolateMomentum", interpolateMomentum<Shape>, problem_.materials,
-                    with(problem_.method.commonSize), requiresOld(p::x<D>, reach),
-                    when(keepsSizes(), requiresOld(p::size<D>, reach)), requiresOld(p::mass, reach),
-                    when(Shape::deforms, requiresOld(p::deformationMeasure, reach)), moving(p::velocity<D>, reach),
+                    with(problem_.method.commonSize),
+                    all<MomentumSources<Shape>>(keepsSizes(), moving(p::velocity<D>, reach), shapedBy(old, reach)),
                     computesOwn(g::stressRecord));
   if (!problem_.contacts.empty())
-    tasks.acrossMaterials("mpm::exMomOfStresses", exMomOfStresses<D>, problem_.materials, with(problem_.contacts),
-                          startTime(), modifies(g::stressRecord));
+    tasks.acrossMaterials("mpm::exMomOfStresses", exchangeMomentum<D>, problem_.materials, with(problem_.contacts),
+                          with(Moment::end), startTime(), modifies(g::stressRecord));
   if (hasFriction()) scheduleFriction(tasks, "mpm::frictionOfStresses", Moment::end, g::stressRecord);
   tasks.perMaterial("mpm::setGridBoundaryConditionsOfStresses", setGridBoundaryConditions<Shape>, problem_.materials,
                     requiresOld(p::x<D>, reach), modifies(g::stressRecord));
@@ -312,20 +271,10 @@ void SolidMpm<Shape>::scheduleInterpolateMomentum(TaskList& tasks, Reads moving)
 /// F and the stress, apart from the motion, with the velocity of `record`.
 template <class Shape>
 void SolidMpm<Shape>::scheduleComputeStressTensor(TaskList& tasks, const NodeLabel<NodeRecord>& record) const {
-  const bool hasState = state_size_ > 0;
   const auto body = problem_.method.sharesVolume ? computeStressTensor<Shape, Volumes::shared>
                                                  : computeStressTensor<Shape, Volumes::own>;
-  tasks.perMaterial(
-      "mpm::computeStressTensor", body, problem_.materials, with(problem_.method), with(state_size_), requiresOld(delT),
-      requiresNew(record, Shape::ghostNodes), requiresOld(p::x<D>), when(keepsSizes(), requiresOld(p::size<D>)),
-      requiresOld(p::velocity<D>), requiresOld(p::mass), requiresOld(p::deformationMeasure),
-      when(is_thermal_, requiresOld(p::temperature)), when(keeps_stress_, requiresOld(p::volume)),
-      when(keeps_stress_, requiresOld(p::stress)), when(hasState, requiresOld(state_)),
-      when(is_damageable_, requiresOld(p::localized)), computes(p::deformationMeasure),
-      when(keeps_stress_, computes(p::volume)), when(keeps_stress_, computes(p::stress)),
-      when(hasState, computes(state_)), when(isViscous(), computes(p::viscosity)),
-      when(problem_.method.strainEnergy, computes(p::strainEnergy)), when(heats_, computes(p::temperatureChange)),
-      when(problem_.method.velocityGradient, computes(p::velocityGradient)), computes(c::stableTimeStep));
+  tasks.perMaterial("mpm::computeStressTensor", body, problem_.materials, with(problem_.method), requiresOld(delT),
+                    all<StateUpdate<Shape>>(keeps(), &record));
   scheduleDamage(tasks);
 }
 

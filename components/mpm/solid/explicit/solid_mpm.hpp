@@ -1,6 +1,7 @@
 #pragma once
 
 #include "components/mpm/shapes/tensor_shape.hpp"
+#include "components/mpm/solid/explicit/keeps.hpp"
 #include "components/mpm/solid/problem.hpp"
 #include "core/core.hpp"
 
@@ -41,9 +42,8 @@ class SolidMpm : public Solids {
   void scheduleComputeStressTensor(TaskList& tasks, const NodeLabel<NodeRecord>& record) const;
   void scheduleUpdateInCells(TaskList& tasks) const;
   void scheduleComputeSurface(TaskList& tasks) const;
-  void scheduleFriction(TaskList& tasks, const std::string& name, Moment moment,
-                        const NodeLabel<NodeRecord>& record) const;
-  void scheduleHeatingFriction(TaskList& tasks) const;
+  void scheduleFriction(TaskList& tasks, const std::string& name, Moment moment, const NodeLabel<NodeRecord>& record,
+                        bool heats = false) const;
   void scheduleIntegrateAcceleration(TaskList& tasks) const;
   void scheduleContactAtEnd(TaskList& tasks) const;
   void scheduleTransmittedForce(TaskList& tasks) const;
@@ -65,6 +65,22 @@ class SolidMpm : public Solids {
   }
   bool isLoaded() const { return problem_.start.loads.hasForces() || problem_.start.solution || transmitsForce(); }
   bool keepsSizes() const { return Shape::hasSize && problem_.method.keepsSizes; }
+  Keeps keeps() const {
+    return {.sizes = keepsSizes(),
+            .stress = keeps_stress_,
+            .temperature = is_thermal_,
+            .temperatureChange = heats_,
+            .failure = is_damageable_,
+            .viscosity = isViscous(),
+            .externalForce = isLoaded(),
+            .stateSize = state_size_,
+            .state = &state_};
+  }
+  /// The F that shape functions follow, where they do; `reads` says of which moment.
+  template <class Reads>
+  static auto shapedBy(Reads reads, int ghost = 0) {
+    return when(Shape::deforms, reads(p::deformationMeasure, ghost));
+  }
 
   bool keeps_stress_ = false;   ///< some material's stress is not a function of F alone
   bool is_thermal_ = false;     ///< some material's stress depends on the temperature

@@ -14,22 +14,24 @@ namespace {
 // Sums of a few numbers of order 1.
 constexpr double roundOff = 1e-14;
 
-TEST(Rubbing, LeavesBodiesThatPartAlone) { EXPECT_EQ(rubbing<2>({{0, 1}, {1, -1}, false}, 0.5).change.norm(), 0); }
-
-TEST(Rubbing, StopsWhatIsSlowerThanItHolds) {
-  const Rubbing<2> rubbed = rubbing<2>({{0, 1}, {0.2, 1}, false}, 0.5);
-  EXPECT_LT((rubbed.change + Vec<2>(0.2, 1)).norm(), roundOff) << "mu |v_n| = .5 is more than the slip of .2";
-  EXPECT_EQ(rubbed.heat, 0) << "what sticks does not rub";
+TEST(FrictionImpulse, LeavesBodiesThatPartAlone) {
+  EXPECT_EQ(frictionImpulse<2>({{0, 1}, {1, -1}, false}, 0.5).change.norm(), 0);
 }
 
-TEST(Rubbing, SlowsFasterSlipByMuTimesTheApproach) {
-  const Rubbing<2> rubbed = rubbing<2>({{0, 1}, {2, 1}, false}, 0.5);
-  EXPECT_LT((rubbed.change - Vec<2>(-0.5, -1)).norm(), roundOff);
-  EXPECT_NEAR(rubbed.heat, 0.5 * 1.5, roundOff) << "the impulse of friction times the slip that it leaves";
+TEST(FrictionImpulse, StopsWhatIsSlowerThanItHolds) {
+  const FrictionImpulse<2> impulse = frictionImpulse<2>({{0, 1}, {0.2, 1}, false}, 0.5);
+  EXPECT_LT((impulse.change + Vec<2>(0.2, 1)).norm(), roundOff) << "mu |v_n| = .5 is more than the slip of .2";
+  EXPECT_EQ(impulse.heat, 0) << "what sticks does not rub";
 }
 
-TEST(Rubbing, HoldsPressedBodiesTogether) {
-  EXPECT_LT((rubbing<2>({{0, 1}, {0, -1}, true}, 0.5).change - Vec<2>(0, 1)).norm(), roundOff);
+TEST(FrictionImpulse, SlowsFasterSlipByMuTimesTheApproach) {
+  const FrictionImpulse<2> impulse = frictionImpulse<2>({{0, 1}, {2, 1}, false}, 0.5);
+  EXPECT_LT((impulse.change - Vec<2>(-0.5, -1)).norm(), roundOff);
+  EXPECT_NEAR(impulse.heat, 0.5 * 1.5, roundOff) << "the impulse of friction times the slip that it leaves";
+}
+
+TEST(FrictionImpulse, HoldsPressedBodiesTogether) {
+  EXPECT_LT((frictionImpulse<2>({{0, 1}, {0, -1}, true}, 0.5).change - Vec<2>(0, 1)).norm(), roundOff);
 }
 
 /// Two bodies at the only inner node of a grid: one above, one below, of unit mass each.
@@ -67,19 +69,18 @@ struct TwoBodies {
     for (auto& one : records) all.emplace_back(one.data(), nodes);
     return all;
   }
-  void rub() {
+  void slide() {
     Records views;
-    std::vector<NodeView<const Vec<2>>> gradients, positions;
-    std::vector<NodeView<const Matrix3>> stresses;
-    std::vector<NodeView<const double>> volumes;
+    Surfaces<2> surfaces;
     for (const std::size_t m : {std::size_t{0}, std::size_t{1}}) {
       views.emplace_back(records[m].data(), nodes);
-      gradients.emplace_back(massGradient[m].data(), nodes);
-      positions.emplace_back(position[m].data(), nodes);
-      stresses.emplace_back(stress[m].data(), nodes);
-      volumes.emplace_back(volume[m].data(), nodes);
+      surfaces.push_back({.massGradient = {massGradient[m].data(), nodes},
+                          .position = {position[m].data(), nodes},
+                          .stress = {stress[m].data(), nodes},
+                          .volume = {volume[m].data(), nodes}});
     }
-    solid::rub<2>(level.patches().front(), contact, 1e-3, views, {gradients, positions, stresses, volumes}, {});
+    const FrictionHeats noHeat(surfaces.size());
+    applyFriction<2>(level.patches().front(), contact, 1e-3, views, surfaces, noHeat);
   }
 
   Level level;
@@ -96,10 +97,10 @@ TEST(SingleVelocity, ActsAtTheStartOfAStepUnlessItIsToldToActOnce) {
   bodies.contact.type = Contact::Type::singleVelocity;
   bodies.move(0, {0, -1});
   bodies.contact.actsTwice = false;
-  exMomInterpolated<2>(bodies.level.patches().front(), {}, {bodies.contact}, 0, bodies.views());
+  exchangeMomentum<2>(bodies.level.patches().front(), {}, {bodies.contact}, Moment::start, 0, bodies.views());
   EXPECT_EQ(bodies.velocity(0), Vec<2>(0, -1));
   bodies.contact.actsTwice = true;
-  exMomInterpolated<2>(bodies.level.patches().front(), {}, {bodies.contact}, 0, bodies.views());
+  exchangeMomentum<2>(bodies.level.patches().front(), {}, {bodies.contact}, Moment::start, 0, bodies.views());
   EXPECT_EQ(bodies.velocity(0), Vec<2>(0, -0.5));
   EXPECT_EQ(bodies.velocity(1), Vec<2>(0, -0.5));
 }
@@ -109,7 +110,7 @@ TEST(SingleVelocity, DoesNotActWhereAMaterialExcludesIt) {
   bodies.contact.type = Contact::Type::singleVelocity;
   bodies.contact.excluded = 1;
   bodies.move(0, {0, -1});
-  exMomInterpolated<2>(bodies.level.patches().front(), {}, {bodies.contact}, 0, bodies.views());
+  exchangeMomentum<2>(bodies.level.patches().front(), {}, {bodies.contact}, Moment::start, 0, bodies.views());
   EXPECT_EQ(bodies.velocity(0), Vec<2>(0, -1));
 }
 
@@ -118,7 +119,7 @@ TEST(Friction, LetsBodiesNeitherPassNorLoseMomentum) {
   bodies.contact.friction = 0.25;
   bodies.move(0, {3, -1});
   bodies.move(1, {1, 1});
-  bodies.rub();
+  bodies.slide();
   EXPECT_LT((bodies.velocity(0) - Vec<2>(2.75, 0)).norm(), roundOff);
   EXPECT_LT((bodies.velocity(1) - Vec<2>(1.25, 0)).norm(), roundOff);
 }
@@ -128,7 +129,7 @@ TEST(Friction, TakesTheNormalOfTheBodyWhoseMassChangesMostToKeepMomentum) {
   bodies.contact.keepsMomentum = true;
   bodies.at(bodies.massGradient[1]) = Vec<2>(0.5, 0.5);  // the corner of the other
   bodies.move(0, {1, -1});
-  bodies.rub();
+  bodies.slide();
   EXPECT_LT((bodies.velocity(0) - Vec<2>(1, -0.5)).norm(), roundOff) << "without friction nothing changes along it";
 }
 
@@ -136,7 +137,7 @@ TEST(Friction, TakesHalfTheDifferenceOfMassGradientsForANormal) {
   TwoBodies bodies;
   bodies.at(bodies.massGradient[1]) = Vec<2>(2, 2);  // of (0, -2) and this: (-1, -2)
   bodies.move(0, {0, -1});
-  bodies.rub();
+  bodies.slide();
   EXPECT_LT((bodies.velocity(0) - Vec<2>(0.2, -0.6)).norm(), roundOff);
   EXPECT_LT((bodies.velocity(1) - Vec<2>(-0.2, -0.4)).norm(), roundOff);
 }
@@ -149,7 +150,7 @@ TEST(Friction, TakesNormalsPerCellWhereItIsToldTo) {
   bodies.at(bodies.massGradient[0]) = Vec<2>(-3, -1);
   bodies.at(bodies.massGradient[1]) = Vec<2>(3, 1);
   bodies.move(0, {-1, -1});
-  bodies.rub();
+  bodies.slide();
   EXPECT_LT((bodies.velocity(0) - Vec<2>(-0.5, -0.5)).norm(), roundOff) << "straight through";
 }
 
@@ -159,7 +160,7 @@ TEST(Friction, HoldsABodyThatIsPressedAloneUnlessItKeepsMomentum) {
     bodies.contact.keepsMomentum = keepsMomentum;
     bodies.move(0, {0, 1});
     bodies.at(bodies.stress[0])(1, 1) = -1;
-    bodies.rub();
+    bodies.slide();
     EXPECT_LT((bodies.velocity(0) - Vec<2>(0, keepsMomentum ? 1 : 0.5)).norm(), roundOff);
     EXPECT_LT(bodies.velocity(1).norm(), roundOff);
   }
@@ -168,10 +169,10 @@ TEST(Friction, HoldsABodyThatIsPressedAloneUnlessItKeepsMomentum) {
 TEST(Friction, LetsBodiesPartUnlessTheyArePressed) {
   TwoBodies bodies;
   bodies.move(0, {0, 1});
-  bodies.rub();
+  bodies.slide();
   EXPECT_EQ(bodies.velocity(0), Vec<2>(0, 1));
   for (const int m : {0, 1}) bodies.at(bodies.stress[static_cast<std::size_t>(m)])(1, 1) = -1;
-  bodies.rub();
+  bodies.slide();
   EXPECT_LT((bodies.velocity(0) - Vec<2>(0, 0.5)).norm(), roundOff);
 }
 
@@ -180,7 +181,7 @@ TEST(Friction, LetsPressedBodiesPartWhereOnlyApproachCounts) {
   bodies.contact.onlyOnApproach = true;
   for (const int m : {0, 1}) bodies.at(bodies.stress[static_cast<std::size_t>(m)])(1, 1) = -1;
   bodies.move(0, {0, 1});
-  bodies.rub();
+  bodies.slide();
   EXPECT_EQ(bodies.velocity(0), Vec<2>(0, 1));
 }
 
@@ -188,7 +189,7 @@ TEST(Friction, DoesNotActBetweenBodiesThatAreFarApart) {
   TwoBodies bodies;
   bodies.contact.separationFactor = 0.4;  // of a cell of 1 m; the bodies are 0.5 m apart
   bodies.move(0, {0, -1});
-  bodies.rub();
+  bodies.slide();
   EXPECT_EQ(bodies.velocity(0), Vec<2>(0, -1));
 }
 
@@ -196,7 +197,7 @@ TEST(Friction, DoesNotActWhereTheVolumeIsNotFilled) {
   TwoBodies bodies;
   bodies.contact.volumeConstraint = 0.7;  // 0.6 of the cell are filled
   bodies.move(0, {0, -1});
-  bodies.rub();
+  bodies.slide();
   EXPECT_EQ(bodies.velocity(0), Vec<2>(0, -1));
 }
 
@@ -215,10 +216,16 @@ TEST(Surface, PointsOutOfTheBody) {
   std::vector<Matrix3> nodalStress(level.nodes().size());
   std::vector<double> volume(level.nodes().size());
   const Box nodes = level.nodes(), cells = level.cells();
-  computeSurface<LinearShape<2>>(level.patches().front(), material, Vec3::Ones(), {x.data(), set, cells}, {},
-                                 {mass.data(), set, cells}, {deformation.data(), set, cells},
-                                 ParticleView<const Matrix3>{stress.data(), set, cells}, {gradient.data(), nodes},
-                                 {position.data(), nodes}, {nodalStress.data(), nodes}, {volume.data(), nodes});
+  computeSurface<LinearShape<2>>(level.patches().front(), material, Vec3::Ones(),
+                                 {.x = {x.data(), set, cells},
+                                  .size = {},
+                                  .mass = {mass.data(), set, cells},
+                                  .deformation = {deformation.data(), set, cells},
+                                  .particleStress = ParticleView<const Matrix3>{stress.data(), set, cells},
+                                  .massGradient = {gradient.data(), nodes},
+                                  .position = {position.data(), nodes},
+                                  .stress = {nodalStress.data(), nodes},
+                                  .volume = {volume.data(), nodes}});
   const std::size_t corner = nodes.offset(Index3{{1, 1, 0}});
   EXPECT_LT((gradient[corner] - Vec<2>(3 * 0.25, 3 * 0.5)).norm(), roundOff);
   EXPECT_NEAR(volume[corner], 1.5 * 0.5 * 0.25, roundOff);

@@ -14,7 +14,6 @@ constexpr double roundOff = 1e-14;  // of a dozen operations on numbers of order
 struct Cell {
   Level level{domain()};
   data::ParticleSet set;
-  std::vector<Vec<2>> x = std::vector<Vec<2>>(4, Vec<2>(0.5, 0.5));
   std::vector<double> mass{1, 2, 3, 4}, volume = std::vector<double>(4);
   std::vector<Matrix3> deformation{diagonal(1.1, 1, 1), diagonal(0.8, 1, 1), diagonal(1, 1.3, 1.2),
                                    diagonal(1, 1, 0.7)};
@@ -33,14 +32,29 @@ struct Cell {
   void share() {
     set.reset(level.patches().front(), 0);
     set.setOwned(4);
-    const ParticleView<const Vec<2>> view{x.data(), set, level.cells()};
-    ParticleStates<Shape> states{Extents<Shape>(level, Vec3::Ones(), {}, {}), view, view};
+    const ParticleView<const Vec<2>> none{nullptr, set, level.cells()};
     for (std::size_t p = 0; p < 4; ++p) volume[p] = mass[p] * before[p].determinant();
-    states.mass = mass.data();
-    states.volume = volume.data();
-    states.deformation = deformation.data();
-    states.localized = localized.data();
-    shareVolume<Shape>(dt, {0, 4}, states, gradient.data());
+    const StateUpdate<Shape> update{.record = {nullptr, level.nodes()},
+                                    .x = none,
+                                    .size = {},
+                                    .velocity = none,
+                                    .mass = {mass.data(), set, level.cells()},
+                                    .oldDeformation = {before.data(), set, level.cells()},
+                                    .temperature = {},
+                                    .oldVolume = {},
+                                    .oldStress = {},
+                                    .oldState = {},
+                                    .localized = ParticleView<const int>{localized.data(), set, level.cells()},
+                                    .deformation = {deformation.data(), set, level.cells()},
+                                    .volume = ParticleView<double>{volume.data(), set, level.cells()},
+                                    .stress = {},
+                                    .state = {},
+                                    .viscosity = {},
+                                    .strainEnergy = {},
+                                    .temperatureChange = {},
+                                    .velocityGradient = {},
+                                    .stableTimeStep = {nullptr, level.cells()}};
+    shareVolume<Shape>(dt, {0, 4}, update, gradient.data());
   }
 };
 

@@ -6,7 +6,7 @@
 
 #include "components/mpm/shapes/cpdi_shape.hpp"
 #include "components/mpm/solid/explicit/tasks/affine.hpp"
-#include "components/mpm/solid/explicit/tasks/interpolate_momentum.hpp"
+#include "components/mpm/solid/explicit/tasks/interpolate_particles_to_grid.hpp"
 #include "components/mpm/solid/explicit/tasks/update_in_parts.hpp"
 #include "components/mpm/solid/explicit/tasks/velocity_updates.hpp"
 #include "components/mpm/solid/transfer/cpdi_transfer.hpp"
@@ -86,15 +86,17 @@ struct Cloud {
   NodeView<NodeRecord> nodes() { return {records.data(), level.nodes()}; }
   NodeView<const NodeRecord> nodes() const { return {records.data(), level.nodes()}; }
 
+  Placed<Shape> placed() const { return {.x = read(x), .size = {}, .deformation = read(deformation)}; }
+
   void toGrid(bool withStress) {
-    const OptionalView<const Matrix3> sigma = withStress ? std::optional(read(stress)) : std::nullopt;
-    const OptionalView<const double> volumes = withStress ? std::optional(read(volume)) : std::nullopt;
+    const MomentumSources<Shape> from{
+        .x = read(x), .size = {}, .mass = read(mass), .velocity = read(v), .deformation = read(deformation)};
     if (withStress)
-      interpolateParticlesToGrid<Shape>(patch(), material, method.commonSize, true, read(x), {}, read(mass), read(v),
-                                        read(deformation), volumes, sigma, {}, {}, nodes());
+      interpolateParticlesToGrid<Shape>(
+          patch(), material, method.commonSize, true, from,
+          {.volume = read(volume), .stress = read(stress), .viscosity = {}, .externalForce = {}}, nodes());
     else
-      interpolateMomentum<Shape>(patch(), material, method.commonSize, read(x), {}, read(mass), read(deformation),
-                                 read(v), nodes());
+      interpolateMomentum<Shape>(patch(), material, method.commonSize, from, nodes());
   }
   /// Calls `visit(position, record)` for each node.
   template <class Visit>
@@ -160,10 +162,13 @@ TYPED_TEST(Transfer, GivesAUniformVelocityBackAsItWas) {
   for (NodeRecord& record : cloud.records) setLanes<D>(record, lane::before, lanes<D>(record, lane::velocity));
   std::vector<Vec<D>> x, v, smooth;
   const auto& c = cloud;
-  moveParticles<TypeParam>(c.patch(), c.material, c.method, 0.01, c.nodes(), c.read(c.x), {}, c.read(c.v),
-                           c.read(c.deformation), c.write(x), c.write(v));
-  computeSSPlusVp<TypeParam>(c.patch(), c.material, c.method, c.nodes(), c.read(c.x), {}, c.read(c.deformation),
-                             c.write(smooth));
+  moveParticles<TypeParam>(c.patch(), c.material, c.method.commonSize, 0.01,
+                           {.record = c.nodes(),
+                            .particles = c.placed(),
+                            .velocity = c.read(c.v),
+                            .newX = c.write(x),
+                            .newVelocity = c.write(v)});
+  computeSSPlusVp<TypeParam>(c.patch(), c.material, c.method.commonSize, c.nodes(), c.placed(), c.write(smooth));
   for (std::size_t p = 0; p < x.size(); ++p) {
     EXPECT_LT((x[p] - c.x[p] - 0.01 * common).norm(), roundOff);
     EXPECT_LT((v[p] - common).norm(), roundOff);
@@ -206,9 +211,9 @@ TEST(Blend, TakesTheGridsVelocityByItsShare) {
   std::vector<Vec<2>> pic = cloud.v, half = cloud.v;
   const auto& c = cloud;
   cloud.method.picFraction = 1;
-  blendVelocity<GimpShape<2>>(c.patch(), c.material, c.method, c.nodes(), c.read(c.x), {}, {}, c.write(pic));
+  blendVelocity<GimpShape<2>>(c.patch(), c.material, c.method, c.nodes(), c.placed(), c.write(pic));
   cloud.method.picFraction = 0.5;
-  blendVelocity<GimpShape<2>>(c.patch(), c.material, c.method, c.nodes(), c.read(c.x), {}, {}, c.write(half));
+  blendVelocity<GimpShape<2>>(c.patch(), c.material, c.method, c.nodes(), c.placed(), c.write(half));
   for (std::size_t p = 0; p < pic.size(); ++p) EXPECT_LT((half[p] - 0.5 * (pic[p] + c.v[p])).norm(), roundOff);
 }
 
@@ -237,7 +242,7 @@ TYPED_TEST(Affine, KeepsAngularMomentumToTheGridAndBack) {
   };
   const Vec3 before = spin(c.v, c.moment);
   cloud.toGrid(false);
-  addAffineVelocity<TypeParam>(c.patch(), c.material, c.method, c.read(c.x), {}, c.read(c.mass), c.read(c.moment),
+  addAffineVelocity<TypeParam>(c.patch(), c.material, c.method.commonSize, c.placed(), c.read(c.mass), c.read(c.moment),
                                cloud.nodes());
   Vec3 onGrid = Vec3::Zero();
   cloud.forEachNode([&](const Vec3& x, const NodeRecord& record) {
@@ -246,8 +251,8 @@ TYPED_TEST(Affine, KeepsAngularMomentumToTheGridAndBack) {
   std::vector<Vec<D>> v = c.v;
   std::vector<Matrix3> b;
   cloud.method.picFraction = 1;
-  blendVelocity<TypeParam>(c.patch(), c.material, c.method, c.nodes(), c.read(c.x), {}, {}, c.write(v));
-  updateAffineMoment<TypeParam>(c.patch(), c.material, c.method, c.nodes(), c.read(c.x), {}, c.write(b));
+  blendVelocity<TypeParam>(c.patch(), c.material, c.method, c.nodes(), c.placed(), c.write(v));
+  updateAffineMoment<TypeParam>(c.patch(), c.material, c.method.commonSize, c.nodes(), c.placed(), c.write(b));
   EXPECT_LT((onGrid - before).norm(), roundOff * 10) << "sums of order 10";
   EXPECT_LT((spin(v, b) - before).norm(), roundOff * 10);
 }

@@ -1,9 +1,8 @@
 #pragma once
 
 #include "components/mpm/solid/material.hpp"
-#include "components/mpm/solid/method.hpp"
 #include "components/mpm/solid/transfer/boundary.hpp"
-#include "components/mpm/solid/transfer/extent.hpp"
+#include "components/mpm/solid/transfer/placed.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -28,12 +27,12 @@ void setAffineFactors(const std::array<Quad, N>& s, int axis, double firstNode, 
 
 /// v_i += sum_p S_i m_p B_p D_p^(-1) (x_i - x_p) / m_i
 template <class Shape, int D = Shape::dimension>
-void addAffineVelocity(const Patch& patch, const Material& material, const Method& method, ParticleView<const Vec<D>> x,
-                       OptionalView<const Vec<D>> size, ParticleView<const double> mass,
+void addAffineVelocity(const Patch& patch, const Material& material, const Vec3& commonSize,
+                       const Placed<Shape>& particles, ParticleView<const double> mass,
                        ParticleView<const Matrix3> moment, NodeView<NodeRecord> record) {
   const Level& level = patch.level();
-  const Extents<Shape> extents(level, method.commonSize, size, {});
-  forEachStencil<Shape>(patch, x.cells(), x, extents, [&](int p, auto stencil) {
+  const auto& x = particles.x;
+  forEachStencil<Shape>(patch, x.cells(), particles, commonSize, [&](int p, auto stencil) {
     for (int d = 0; d < D; ++d)
       setAffineFactors(stencil.s, d, level.nodePosition(d, stencil.first[d]), level.spacing(d), x[p][d], stencil.ds);
     stencil.forEachNode([&](const Index<D>& node, double, const Vec<D>& factors) {
@@ -49,15 +48,14 @@ void addAffineVelocity(const Patch& patch, const Material& material, const Metho
 
 /// B_p = sum_i S_i v*_i (x_i - x_p)^T, m^2/s
 template <class Shape, int D = Shape::dimension>
-void updateAffineMoment(const Patch& patch, const Material&, const Method& method, NodeView<const NodeRecord> record,
-                        ParticleView<const Vec<D>> x, OptionalView<const Vec<D>> size, ParticleView<Matrix3> moment) {
+void updateAffineMoment(const Patch& patch, const Material&, const Vec3& commonSize, NodeView<const NodeRecord> record,
+                        const Placed<Shape>& particles, ParticleView<Matrix3> moment) {
   const Level& level = patch.level();
-  const Extents<Shape> extents(level, method.commonSize, size, {});
-  forEachStencil<Shape>(patch, patch.cells(), x, extents, [&](int p, const auto& stencil) {
+  forEachStencil<Shape>(patch, patch.cells(), particles, commonSize, [&](int p, const auto& stencil) {
     moment[p].setZero();
     stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>&) {
       Vec<D> away;
-      for (int d = 0; d < D; ++d) away[d] = level.nodePosition(d, node[d]) - x[p][d];
+      for (int d = 0; d < D; ++d) away[d] = level.nodePosition(d, node[d]) - particles.x[p][d];
       moment[p].template topLeftCorner<D, D>() += s * lanes<D>(record[node], lane::velocity) * away.transpose();
     });
   });

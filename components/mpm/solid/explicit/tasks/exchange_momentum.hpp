@@ -5,37 +5,54 @@
 
 namespace tushar::mpm::solid {
 
-/// Contact on the velocities that came from the particles.
+/// A contact without slip, on the velocities that the records hold.
 template <int D>
-void exMomInterpolated(const Patch& patch, const std::vector<Material>&, const std::vector<Contact>& contacts,
-                       double time, const Records& records) {
-  for (const Contact& contact : contacts) {
-    if (!contact.actsTwice) continue;
-    if (contact.type == Contact::Type::singleVelocity) moveAsOne<D>(patch, contact, records);
-    if (contact.type == Contact::Type::specified) followMaster<D>(patch, contact, time, records);
-  }
+void moveTogether(const Patch& patch, const Contact& contact, double time, const Records& records) {
+  if (contact.type == Contact::Type::singleVelocity) moveAsOne<D>(patch, contact, records);
+  if (contact.type == Contact::Type::specified) followMaster<D>(patch, contact, time, records);
 }
 
-/// Contact on the velocities at the end of the step.
+/// Contacts without slip, on velocities of the start of a step or of its end: Uintah's exMomInterpolated.
 template <int D>
-void exMomIntegrated(const Patch& patch, const std::vector<Material>&, const std::vector<Contact>& contacts,
-                     const Acceleration& acceleration, double time, double dt, const Records& records,
-                     VectorSum& reaction) {
-  for (const Contact& contact : contacts) {
-    if (contact.type == Contact::Type::singleVelocity) moveAsOne<D>(patch, contact, records);
-    if (contact.type != Contact::Type::specified) continue;
-    sumReaction<D>(patch, contact, acceleration, dt, records, reaction);
-    followMaster<D>(patch, contact, time, records);
-  }
+void exchangeMomentum(const Patch& patch, const std::vector<Material>&, const std::vector<Contact>& contacts,
+                      Moment moment, double time, const Records& records) {
+  for (const Contact& contact : contacts)
+    if (contact.actsTwice || moment == Moment::end) moveTogether<D>(patch, contact, time, records);
 }
 
-/// Contact on the velocities that stresses follow, where those are not of the end of the step.
+/// A force on the nodes, N, of each material; none where no material transmits force.
 template <int D>
-void exMomOfStresses(const Patch& patch, const std::vector<Material>&, const std::vector<Contact>& contacts,
-                     double time, const Records& records) {
+using TransmittedForces = std::vector<std::optional<NodeView<Vec<D>>>>;
+
+/// Adds `share` of the momentum that the materials of a contact have at the nodes where its master is, kg m/s.
+template <int D>
+void addMomentum(const Contact& contact, const Records& records, double share, NodeView<Vec<D>> sum) {
+  forEach<D>(sum.box(), [&](const Index<D>& node) {
+    if (records[static_cast<std::size_t>(contact.master)][node][lane::mass] == 0) return;
+    for (std::size_t m = 0; m < records.size(); ++m)
+      if (const NodeRecord& record = records[m][node]; contact.concerns(static_cast<int>(m)) && record[lane::mass] != 0)
+        sum[node] += share * record[lane::mass] * lanes<D>(record, lane::velocity);
+  });
+}
+
+/// Contacts without slip on the velocities at the end of the step, Uintah's exMomIntegrated: adds the force of rigid
+/// and specified ones to `reaction`, and for a master that transmits force what it takes from the others,
+/// - sum m (v* after - v* before) / dt at each node, N, to `transmitted`.
+template <int D>
+void exchangeMomentumAtEnd(const Patch& patch, const std::vector<Material>& materials,
+                           const std::vector<Contact>& contacts, const Acceleration& acceleration, double time,
+                           double dt, const Records& records, VectorSum& reaction,
+                           const TransmittedForces<D>& transmitted) {
+  for (const auto& force : transmitted)
+    if (force) force->fill(Vec<D>::Zero());
   for (const Contact& contact : contacts) {
-    if (contact.type == Contact::Type::singleVelocity) moveAsOne<D>(patch, contact, records);
-    if (contact.type == Contact::Type::specified) followMaster<D>(patch, contact, time, records);
+    const bool isSpecified = contact.type == Contact::Type::specified;
+    const auto master = static_cast<std::size_t>(contact.master);
+    const bool transmits = isSpecified && materials[master].transmitsForce;
+    if (transmits) addMomentum<D>(contact, records, 1 / dt, *transmitted[master]);
+    if (isSpecified) sumReaction<D>(patch, contact, acceleration, dt, records, reaction);
+    moveTogether<D>(patch, contact, time, records);
+    if (transmits) addMomentum<D>(contact, records, -1 / dt, *transmitted[master]);
   }
 }
 

@@ -1,42 +1,43 @@
 #pragma once
 
+#include <Eigen/LU>
+
 #include "components/mpm/solid/contact/friction.hpp"
-#include "components/mpm/solid/explicit/tasks/interpolate_particles_to_grid.hpp"
+#include "components/mpm/solid/explicit/keeps.hpp"
+#include "components/mpm/solid/transfer/extent.hpp"
+#include "components/mpm/solid/transfer/stress_source.hpp"
 
 namespace tushar::mpm::solid {
 
-/// What friction needs of the surface of a body (see Surfaces) at every node of the patch. Where axisymmetric, the
-/// gradient is that of the density, as in Uintah: mass grows with the radius, and would tilt the normal.
+/// What computeSurface reads and writes.
 template <class Shape, int D = Shape::dimension>
-void computeSurface(const Patch& patch, const Material& material, const Vec3& commonSize, ParticleView<const Vec<D>> x,
-                    OptionalView<const Vec<D>> size, ParticleView<const double> mass,
-                    ParticleView<const Matrix3> deformation, OptionalView<const Matrix3> particleStress,
-                    NodeView<Vec<D>> massGradient, NodeView<Vec<D>> position, NodeView<Matrix3> stress,
-                    NodeView<double> volume) {
-  massGradient.fill(Vec<D>::Zero());
-  position.fill(Vec<D>::Zero());
-  stress.fill(Matrix3::Zero());
-  volume.fill(0.0);
-  const Box& box = position.box();
-  const Extents<Shape> extents(patch.level(), commonSize, size, deformation);
-  forEachStencil<Shape>(patch, x.cells(), x, extents, [&](int p, const auto& stencil) {
-    const double j = deformation[p].determinant(), v = mass[p] / material.density * j;
-    const double weight = Shape::axisymmetric ? mass[p] / v : mass[p];
-    Matrix3 sigma = Matrix3::Zero();
-    if (particleStress) {
-      sigma = (*particleStress)[p];
-    } else {
-      material.model->kirchhoffStress(&deformation[p], 1, &sigma);
-      sigma /= j;
-    }
-    stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>& gradient) {
-      if (!box.contains(node)) return;
-      massGradient[node] += weight * gradient;
-      position[node] += s * mass[p] * x[p];
-      stress[node] += s * sigma;
-      volume[node] += s * v;
-    });
-  });
+struct SurfaceSources {
+  ParticleView<const Vec<D>> x;
+  OptionalView<const Vec<D>> size;
+  ParticleView<const double> mass;
+  ParticleView<const Matrix3> deformation;
+  OptionalView<const Matrix3> particleStress;  ///< where it is not a function of F alone
+  NodeView<Vec<D>> massGradient, position;
+  NodeView<Matrix3> stress;
+  NodeView<double> volume;
+
+  static SurfaceSources from(auto& take, const Keeps& keeps) {
+    return {.x = take(requiresOld(p::x<D>, Shape::reach)),
+            .size = take(when(keeps.sizes, requiresOld(p::size<D>, Shape::reach))),
+            .mass = take(requiresOld(p::mass, Shape::reach)),
+            .deformation = take(requiresOld(p::deformationMeasure, Shape::reach)),
+            .particleStress = take(when(keeps.stress, requiresOld(p::stress, Shape::reach))),
+            .massGradient = take(computes(g::massGradient<D>)),
+            .position = take(computes(g::massPosition<D>)),
+            .stress = take(computes(g::surfaceStress)),
+            .volume = take(computes(g::surfaceVolume))};
+  }
+};
+
+/// Beyond a symmetry plane a body goes on: no gradient points through the plane, and the volume counts twice.
+template <int D>
+void mirrorSurface(const Patch& patch, const Material& material, NodeView<Vec<D>> massGradient,
+                   NodeView<double> volume) {
   for (int d = 0; d < D; ++d)
     for (const int side : {0, 1})
       if (patch.isAtBoundary(d, side) && patch.level().isSymmetry(d, side, material.index))
@@ -46,30 +47,46 @@ void computeSurface(const Patch& patch, const Material& material, const Vec3& co
         });
 }
 
-/// Friction between materials that touch.
-template <int D>
-void applyFriction(const Patch& patch, const std::vector<Material>&, const std::vector<Contact>& contacts,
-                   Moment moment, double dt, const std::vector<NodeView<const Vec<D>>>& massGradient,
-                   const std::vector<NodeView<const Vec<D>>>& position,
-                   const std::vector<NodeView<const Matrix3>>& stress,
-                   const std::vector<NodeView<const double>>& volume, const Records& records) {
-  for (const Contact& contact : contacts)
-    if (contact.type == Contact::Type::friction && (contact.actsTwice || moment == Moment::end))
-      rub<D>(patch, contact, dt, records, {massGradient, position, stress, volume}, {});
+/// The surface of a body for friction (see ContactSurface) at every node of the patch. Where axisymmetric, the gradient
+/// is that of the density, as in Uintah: mass grows with the radius, and would tilt the normal.
+template <class Shape, int D = Shape::dimension>
+void computeSurface(const Patch& patch, const Material& material, const Vec3& commonSize,
+                    const SurfaceSources<Shape>& u) {
+  u.massGradient.fill(Vec<D>::Zero());
+  u.position.fill(Vec<D>::Zero());
+  u.stress.fill(Matrix3::Zero());
+  u.volume.fill(0.0);
+  const Box& box = u.position.box();
+  const Extents<Shape> extents(patch.level(), commonSize, u.size, u.deformation);
+  forEachStencil<Shape>(patch, u.x.cells(), u.x, extents, [&](int p, const auto& stencil) {
+    const double mass = u.mass[p], v = mass / material.density * u.deformation[p].determinant();
+    const double weight = Shape::axisymmetric ? mass / v : mass;
+    Matrix3 sigma = Matrix3::Zero();
+    if (u.particleStress)
+      sigma = (*u.particleStress)[p];
+    else
+      cauchyStress(material, &u.deformation[p], 1, &sigma);
+    stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>& gradient) {
+      if (!box.contains(node)) return;
+      u.massGradient[node] += weight * gradient;
+      u.position[node] += s * mass * u.x[p];
+      u.stress[node] += s * sigma;
+      u.volume[node] += s * v;
+    });
+  });
+  mirrorSurface<D>(patch, material, u.massGradient, u.volume);
 }
 
-/// The same at the end of a step, with the heat that it makes, J.
+/// Friction between materials that touch, and the heat that it makes, J, where a scene has it.
 template <int D>
-void applyHeatingFriction(const Patch& patch, const std::vector<Material>&, const std::vector<Contact>& contacts,
-                          double dt, const std::vector<NodeView<const Vec<D>>>& massGradient,
-                          const std::vector<NodeView<const Vec<D>>>& position,
-                          const std::vector<NodeView<const Matrix3>>& stress,
-                          const std::vector<NodeView<const double>>& volume, const Records& records,
-                          const std::vector<NodeView<double>>& heat) {
-  for (NodeView<double> ofMaterial : heat) ofMaterial.fill(0.0);
+void exchangeByFriction(const Patch& patch, const std::vector<Material>&, const std::vector<Contact>& contacts,
+                        Moment moment, double dt, const Surfaces<D>& surfaces, const Records& records,
+                        const FrictionHeats& heat) {
+  for (const auto& ofMaterial : heat)
+    if (ofMaterial) ofMaterial->fill(0.0);
   for (const Contact& contact : contacts)
-    if (contact.type == Contact::Type::friction)
-      rub<D>(patch, contact, dt, records, {massGradient, position, stress, volume}, heat);
+    if (contact.type == Contact::Type::friction && (contact.actsTwice || moment == Moment::end))
+      applyFriction<D>(patch, contact, dt, records, surfaces, heat);
 }
 
 }  // namespace tushar::mpm::solid

@@ -2,119 +2,169 @@
 
 #include <Eigen/LU>
 
-#include "components/mpm/solid/material.hpp"
+#include "components/mpm/solid/explicit/keeps.hpp"
 #include "components/mpm/solid/transfer/boundary.hpp"
 #include "components/mpm/solid/transfer/extent.hpp"
 #include "components/mpm/solid/transfer/node_windows.hpp"
+#include "components/mpm/solid/transfer/stress_source.hpp"
 
 namespace tushar::mpm::solid {
 
-/// What a particle brings to the nodes.
-template <class Shape>
-struct Sources {
-  static constexpr int D = Shape::dimension;
+/// Mass and momentum of particles, as far as shape functions reach.
+template <class Shape, int D = Shape::dimension>
+struct MomentumSources {
+  ParticleView<const Vec<D>> x;
+  OptionalView<const Vec<D>> size;
+  ParticleView<const double> mass;
+  ParticleView<const Vec<D>> velocity;
+  OptionalView<const Matrix3> deformation;  ///< F, where shape functions or stresses follow it
 
-  Extents<Shape> extents;
-  ParticleView<const Vec<D>> x, velocity;
-  const double *mass, *volume, *viscosity;  ///< volume and viscosity null where there is none
-  const Matrix3 *stress, *deformation;      ///< one of them; where both are null, there is no force
-  const Vec<D>* externalForce;              ///< or null
+  /// `velocity` and `deformation` are accesses of those two.
+  static MomentumSources from(auto& take, bool keepsSizes, auto velocity, auto deformation) {
+    return {.x = take(requiresOld(p::x<D>, Shape::reach)),
+            .size = take(when(keepsSizes, requiresOld(p::size<D>, Shape::reach))),
+            .mass = take(requiresOld(p::mass, Shape::reach)),
+            .velocity = take(velocity),
+            .deformation = take(deformation)};
+  }
 };
 
-/// V (sigma - q I) of up to stressGroup particles from `first` on.
+/// What particles exert forces by, besides F.
+template <class Shape, int D = Shape::dimension>
+struct ForceSources {
+  OptionalView<const double> volume;
+  OptionalView<const Matrix3> stress;  ///< where it is not a function of F alone
+  OptionalView<const double> viscosity;
+  OptionalView<const Vec<D>> externalForce;
+
+  /// `stressed` reads what follows the stress: as it was at the start of the step, or as the step has it.
+  static ForceSources from(auto& take, const Keeps& keeps, auto stressed) {
+    return {.volume = take(when(keeps.stress, stressed(p::volume, Shape::reach))),
+            .stress = take(when(keeps.stress, stressed(p::stress, Shape::reach))),
+            .viscosity = take(when(keeps.viscosity, stressed(p::viscosity, Shape::reach))),
+            .externalForce = take(when(keeps.externalForce, requiresNew(p::externalForce<D>, Shape::reach)))};
+  }
+};
+
+/// V (sigma - q I) of up to stressGroup particles from `first` on, N m; 0 without `forces`.
 template <class Shape>
-void forceMoments(const Material& material, const Sources<Shape>& from, int first, int count, Matrix3* moments) {
-  if (material.isRigid || (!from.stress && !from.deformation)) {
+void forceMoments(const Material& material, const MomentumSources<Shape>& from, const ForceSources<Shape>* forces,
+                  int first, int count, Matrix3* moments) {
+  if (material.isRigid || !forces) {
     std::fill_n(moments, count, Matrix3(Matrix3::Zero()));
     return;
   }
-  if (from.stress)
-    for (int k = 0; k < count; ++k) moments[k] = from.volume[first + k] * from.stress[first + k];
-  else {
-    material.model->kirchhoffStress(from.deformation + first, count, moments);
-    const double inverseDensity = 1 / material.density;
-    for (int k = 0; k < count; ++k) moments[k] *= from.mass[first + k] * inverseDensity;
-  }
-  if (!from.viscosity) return;
+  const double* mass = valuesOf(from.mass);
+  const StressSource source{.stress = valuesOf(forces->stress),
+                            .volume = valuesOf(forces->volume),
+                            .deformation = valuesOf(from.deformation)};
+  const double inverseDensity = 1 / material.density;
+  stressMoments(
+      material, source, first, count, [&](int p) { return mass[p] * inverseDensity; }, moments);
+  if (!forces->viscosity) return;
+  const double* viscosity = valuesOf(forces->viscosity);
   for (int k = 0; k < count; ++k) {
-    const double volume = from.volume
-                              ? from.volume[first + k]
-                              : from.mass[first + k] / material.density * from.deformation[first + k].determinant();
-    moments[k].diagonal().array() -= volume * from.viscosity[first + k];
+    const double volume = source.volume
+                              ? source.volume[first + k]
+                              : mass[first + k] / material.density * source.deformation[first + k].determinant();
+    moments[k].diagonal().array() -= volume * viscosity[first + k];
   }
 }
 
-/// Adds particles of a cell to the nodes around, those of the view's box where `isWithin`, else all: m v and m with
-/// S_i, -V sigma with its gradient.
-template <class Shape, bool isWithin, int D = Shape::dimension>
-void scatterGroup(const Level& level, const Material& material, const Sources<Shape>& from, const Index<D>& cell,
-                  int first, int count, const NodeView<NodeRecord>& record) {
-  std::array<Matrix3, stressGroup> moments;
-  forceMoments(material, from, first, count, moments.data());
-  const CellFrame<D> frame(level, cell);
-  for (int k = 0; k < count; ++k) {
-    const int p = first + k;
-    const Matrix3& moment = moments[static_cast<std::size_t>(k)];
-    const typename Shape::Stencil stencil(frame, cell, from.x[p], from.extents[p]);
-    const Vec<D> force = from.externalForce ? from.externalForce[p] : Vec<D>(Vec<D>::Zero());
-    const NodeRecord value{quadOf<D>(from.mass[p] * from.velocity[p], from.mass[p]),
-                           quadOf<D>(force, from.volume ? from.volume[p] : 0.0)};
+/// Brings the particles of a material to the nodes around them; `forces` is null for mass and momentum alone.
+template <class Shape>
+class Scatter {
+ public:
+  static constexpr int D = Shape::dimension;
+
+  Scatter(const Level& level, const Material& material, const Vec3& commonSize, const MomentumSources<Shape>& from,
+          const ForceSources<Shape>* forces, const NodeView<NodeRecord>& record)
+      : level_(level),
+        material_(material),
+        extents_(level, commonSize, from.size, from.deformation),
+        from_(from),
+        forces_(forces),
+        volume_(forces ? valuesOf(forces->volume) : nullptr),
+        external_force_(forces ? valuesOf(forces->externalForce) : nullptr),
+        record_(record) {}
+
+  /// The particles of a cell of the patch.
+  void addCell(const Index<D>& cell, const data::ParticleRange& range) const {
+    for (int at = range.first; at < range.last; at += stressGroup)
+      addGroup<false>(cell, at, std::min(stressGroup, range.last - at));
+  }
+  /// The particles of a ghost cell: those that touch the patch's own nodes.
+  void addGhostCell(const Index<D>& cell, const data::ParticleRange& range) const {
+    const CellFrame<D> frame(level_, cell);
+    for (int first = range.first; first < range.last;) {
+      while (first < range.last && !touchesOwn(frame, cell, first)) ++first;
+      int end = first;
+      while (end < range.last && end - first < stressGroup && touchesOwn(frame, cell, end)) ++end;
+      if (first < end) addGroup<true>(cell, first, end - first);
+      first = end;
+    }
+  }
+
+ private:
+  /// Whether a particle touches a node of the view's box, or nearly.
+  bool touchesOwn(const CellFrame<D>& frame, const Index<D>& cell, int p) const {
+    constexpr double rounding = 1e-6;
+    const Box& nodes = record_.box();
+    const Vec<D> xi = frame.coordinates(from_.x[p]), support = Shape::support(extents_[p]);
+    for (int d = 0; d < D; ++d) {
+      const double at = cell[d] + xi[d], reach = support[d] + rounding;
+      if (at + reach <= nodes.lower[d] || at - reach >= nodes.upper[d] - 1) return false;
+    }
+    return true;
+  }
+  /// Adds particles of a cell to the nodes around, those of the view's box where `isWithin`, else all: m v and m with
+  /// S_i, -V sigma with its gradient.
+  template <bool isWithin>
+  void addGroup(const Index<D>& cell, int first, int count) const {
+    std::array<Matrix3, stressGroup> moments;
+    forceMoments<Shape>(material_, from_, forces_, first, count, moments.data());
+    const CellFrame<D> frame(level_, cell);
+    for (int k = 0; k < count; ++k) {
+      const int p = first + k;
+      const typename Shape::Stencil stencil(frame, cell, from_.x[p], extents_[p]);
+      const Vec<D> force = external_force_ ? external_force_[p] : Vec<D>(Vec<D>::Zero());
+      const NodeRecord value{quadOf<D>(from_.mass[p] * from_.velocity[p], from_.mass[p]),
+                             quadOf<D>(force, volume_ ? volume_[p] : 0.0)};
+      const Matrix3& moment = moments[static_cast<std::size_t>(k)];
+      const std::array<Quad, D> slope = slopes(moment);
+      const Quad hoop{-moment(2, 2), 0, 0, 0};
+      if constexpr (isWithin)
+        scatterWithin(stencil, record_.box(), windowFrom(record_, stencil.first), value, slope, hoop);
+      else
+        scatter(stencil, windowOf<NodeRecord>(record_, stencil), value, slope, hoop);
+    }
+  }
+  /// -V sigma by its columns along the axes of the kernel.
+  [[gnu::always_inline]] std::array<Quad, D> slopes(const Matrix3& moment) const {
     std::array<Quad, D> slope;
     for (int d = 0; d < D; ++d) {
       Vec<D> traction;
-      for (int i = 0; i < D; ++i) traction[i] = -moment(sceneAxis<D>(level, i), sceneAxis<D>(level, d));
+      for (int i = 0; i < D; ++i) traction[i] = -moment(sceneAxis<D>(level_, i), sceneAxis<D>(level_, d));
       slope[static_cast<std::size_t>(d)] = quadOf<D>(traction, 0);
     }
-    const Quad hoop{-moment(2, 2), 0, 0, 0};
-    if constexpr (isWithin)
-      scatterWithin(stencil, record.box(), windowFrom(record, stencil.first), value, slope, hoop);
-    else
-      scatter(stencil, windowOf<NodeRecord>(record, stencil), value, slope, hoop);
+    return slope;
   }
-}
 
-/// Whether a particle touches a node of a box, or nearly.
-template <class Shape, int D = Shape::dimension>
-bool touches(const CellFrame<D>& frame, const Index<D>& cell, const Vec<D>& x, const Extent<D>& extent,
-             const Box& nodes) {
-  constexpr double rounding = 1e-6;
-  const Vec<D> xi = frame.coordinates(x), support = Shape::support(extent);
-  for (int d = 0; d < D; ++d) {
-    const double at = cell[d] + xi[d], reach = support[d] + rounding;
-    if (at + reach <= nodes.lower[d] || at - reach >= nodes.upper[d] - 1) return false;
-  }
-  return true;
-}
+  const Level& level_;
+  const Material& material_;
+  Extents<Shape> extents_;
+  const MomentumSources<Shape>& from_;
+  const ForceSources<Shape>* forces_;
+  const double* volume_;
+  const Vec<D>* external_force_;
+  NodeView<NodeRecord> record_;
+};
 
-/// The particles of a cell of the patch.
+/// Velocities, masses and forces on the patch's own nodes: complete on all that are touched; what is not touched is 0
+/// where `clearsAll`, else undefined.
 template <class Shape, int D = Shape::dimension>
-void scatterCell(const Level& level, const Material& material, const Sources<Shape>& from, const Index<D>& cell,
-                 const data::ParticleRange& range, const NodeView<NodeRecord>& record) {
-  for (int at = range.first; at < range.last; at += stressGroup)
-    scatterGroup<Shape, false>(level, material, from, cell, at, std::min(stressGroup, range.last - at), record);
-}
-
-/// The particles of a ghost cell: those that touch the patch's own nodes.
-template <class Shape, int D = Shape::dimension>
-void scatterGhosts(const Level& level, const Material& material, const Sources<Shape>& from, const Index<D>& cell,
-                   const data::ParticleRange& range, const NodeView<NodeRecord>& record) {
-  const CellFrame<D> frame(level, cell);
-  const auto isNear = [&](int p) { return touches<Shape>(frame, cell, from.x[p], from.extents[p], record.box()); };
-  for (int first = range.first; first < range.last;) {
-    while (first < range.last && !isNear(first)) ++first;
-    int end = first;
-    while (end < range.last && end - first < stressGroup && isNear(end)) ++end;
-    if (first < end) scatterGroup<Shape, true>(level, material, from, cell, first, end - first, record);
-    first = end;
-  }
-}
-
-/// What particles bring to the patch's own nodes: complete on all that are touched; what is not touched is 0 where
-/// `clearsAll`, else undefined.
-template <class Shape, int D = Shape::dimension>
-void scatterParticles(const Patch& patch, const Material& material, bool clearsAll, const Sources<Shape>& from,
-                      NodeView<NodeRecord> record) {
-  const ParticleView<const Vec<D>> x = from.x;
+void scatterParticles(const Patch& patch, const Material& material, bool clearsAll, ParticleView<const Vec<D>> x,
+                      const Scatter<Shape>& scatter, NodeView<NodeRecord> record) {
   const TouchedRows<D> rows(x, x.cells(), Shape::ghostNodes, record.box());
   if (clearsAll)
     record.fill(NodeRecord{});
@@ -124,9 +174,9 @@ void scatterParticles(const Patch& patch, const Material& material, bool clearsA
     });
   x.template forEachOccupied<D>(x.cells(), [&](const Index<D>& cell, const data::ParticleRange& range) {
     if (patch.cells().contains(cell))
-      scatterCell<Shape>(patch.level(), material, from, cell, range, record);
+      scatter.addCell(cell, range);
     else
-      scatterGhosts<Shape>(patch.level(), material, from, cell, range, record);
+      scatter.addGhostCell(cell, range);
   });
   rows.forEachRow([&](const Index3& first, int end) {
     NodeRecord* node = record.values() + record.stored().offset(first);
@@ -141,24 +191,20 @@ void scatterParticles(const Patch& patch, const Material& material, bool clearsA
 /// f_i = sum_p S_i f_p - V_p (sigma_p - q_p I) grad S_i; where axisymmetric, the hoop stress pulls inwards with S_i /
 /// r. Complete on all own nodes of the patch that are touched; what is not touched is 0 where `clearsAll`, else
 /// undefined.
-template <class Shape, int D = Shape::dimension>
+template <class Shape>
 void interpolateParticlesToGrid(const Patch& patch, const Material& material, const Vec3& commonSize, bool clearsAll,
-                                ParticleView<const Vec<D>> x, OptionalView<const Vec<D>> size,
-                                ParticleView<const double> mass, ParticleView<const Vec<D>> velocity,
-                                OptionalView<const Matrix3> deformation, OptionalView<const double> volume,
-                                OptionalView<const Matrix3> stress, OptionalView<const double> viscosity,
-                                OptionalView<const Vec<D>> externalForce, NodeView<NodeRecord> record) {
-  const Level& level = patch.level();
-  const Sources<Shape> from{Extents<Shape>(level, commonSize, size, deformation),
-                            x,
-                            velocity,
-                            valuesOf(mass),
-                            valuesOf(volume),
-                            valuesOf(viscosity),
-                            valuesOf(stress),
-                            valuesOf(deformation),
-                            valuesOf(externalForce)};
-  scatterParticles<Shape>(patch, material, clearsAll, from, record);
+                                const MomentumSources<Shape>& from, const ForceSources<Shape>& forces,
+                                NodeView<NodeRecord> record) {
+  const Scatter<Shape> scatter(patch.level(), material, commonSize, from, &forces, record);
+  scatterParticles<Shape>(patch, material, clearsAll, from.x, scatter, record);
+}
+
+/// m_i = sum_p S_i m_p,   v_i = sum_p S_i m_p v_p / m_i of any velocity of the particles, without forces.
+template <class Shape>
+void interpolateMomentum(const Patch& patch, const Material& material, const Vec3& commonSize,
+                         const MomentumSources<Shape>& from, NodeView<NodeRecord> record) {
+  const Scatter<Shape> scatter(patch.level(), material, commonSize, from, nullptr, record);
+  scatterParticles<Shape>(patch, material, true, from.x, scatter, record);
 }
 
 }  // namespace tushar::mpm::solid

@@ -4,45 +4,27 @@
 
 namespace tushar::mpm::solid {
 
-/// updateParticles as a task: Uintah's interpolateToParticlesAndUpdate, computeParticleGradients and
-/// computeStressTensor in one pass over the particles.
+/// What brings particles to the end of a step.
 template <class Shape, int D = Shape::dimension>
-void interpolateToParticlesAndUpdate(const Patch& patch, const Material& material, const Method& method, int stateSize,
-                                     double dt, NodeView<const NodeRecord> record, ParticleView<const Vec<D>> x,
-                                     OptionalView<const Vec<D>> size, ParticleView<const Vec<D>> velocity,
-                                     ParticleView<const double> mass, ParticleView<const Matrix3> oldDeformation,
-                                     OptionalView<const double> temperature, OptionalView<const double> oldVolume,
-                                     OptionalView<const Matrix3> oldStress, OptionalView<const double> oldState,
-                                     OptionalView<const int> localized, ParticleView<Vec<D>> newX,
-                                     ParticleView<Vec<D>> newVelocity, ParticleView<Matrix3> deformation,
-                                     OptionalView<double> volume, OptionalView<Matrix3> stress,
-                                     OptionalView<double> state, OptionalView<double> viscosity,
-                                     OptionalView<double> strainEnergy, OptionalView<double> temperatureChange,
-                                     OptionalView<Matrix3> velocityGradient, CellView<double> stableTimeStep) {
-  const ParticleStates<Shape> states{
-      Extents<Shape>(patch.level(), method.commonSize, size, oldDeformation),
-      x,
-      velocity,
-      valuesOf(mass),
-      valuesOf(temperature),
-      valuesOf(oldVolume),
-      valuesOf(oldDeformation),
-      valuesOf(oldStress),
-      valuesOf(newX),
-      valuesOf(newVelocity),
-      valuesOf(volume),
-      valuesOf(viscosity),
-      valuesOf(strainEnergy),
-      valuesOf(temperatureChange),
-      valuesOf(deformation),
-      valuesOf(stress),
-      valuesOf(velocityGradient),
-      valuesOf(state),
-      valuesOf(oldState),
-      stateSize,
-      valuesOf(localized),
-  };
-  updateParticles<Shape>(patch, material, method, dt, record, states, stableTimeStep);
+struct ParticleUpdate {
+  ParticleView<Vec<D>> newX, newVelocity;
+  StateUpdate<Shape> state;
+
+  static ParticleUpdate from(auto& take, const Keeps& keeps) {
+    return {.newX = take(computes(p::x<D>)),
+            .newVelocity = take(computes(p::velocity<D>)),
+            .state = StateUpdate<Shape>::from(take, keeps, &g::record)};
+  }
+};
+
+/// x, v, F and the stress in one pass over the particles: Uintah's interpolateToParticlesAndUpdate,
+/// computeParticleGradients and computeStressTensor.
+template <class Shape, int D = Shape::dimension>
+void interpolateToParticlesAndUpdate(const Patch& patch, const Material& material, const Method& method, double dt,
+                                     const ParticleUpdate<Shape>& u) {
+  updateParticles<Shape, Volumes::own>(patch, material, method, dt, u.state, [&](int p, const Gathered<D>& sums) {
+    moveParticle<D>(dt, sums, u.state.x[p], u.state.velocity[p], u.newX[p], u.newVelocity[p]);
+  });
 }
 
 }  // namespace tushar::mpm::solid

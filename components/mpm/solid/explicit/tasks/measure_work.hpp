@@ -2,16 +2,17 @@
 
 #include <Eigen/LU>
 
-#include "components/mpm/solid/constitutive/model.hpp"
-#include "components/mpm/solid/explicit/tasks/interpolate_particles_to_grid.hpp"
-#include "components/mpm/solid/labels.hpp"
+#include "components/mpm/solid/explicit/keeps.hpp"
 #include "components/mpm/solid/method.hpp"
+#include "components/mpm/solid/transfer/node_windows.hpp"
+#include "components/mpm/solid/transfer/placed.hpp"
+#include "components/mpm/solid/transfer/stress_source.hpp"
 
 namespace tushar::mpm::solid {
 
 // What works on particles in a step: forces with w = (v + v*)/2 of the nodes, what holds nodes at a velocity with that
-// velocity, and the mean of the stresses before and after with the change of F. What kinetic energy has changed by
-// besides is what the method takes itself: a step of FLIP something of first order in dt (Bardenhagen, J. Comput. Phys.
+// velocity, and the mean of the stresses before and after with the change of F. The method itself takes the rest of the
+// change of kinetic energy: a step of FLIP something of first order in dt (Bardenhagen, J. Comput. Phys.
 // 180 (2002) 383); APIC, PIC and XPIC by the viscosity of their transfer; contact what two bodies lose that come to
 // move as one.
 
@@ -54,58 +55,96 @@ void computeNodalWork(const Patch& patch, const Material&, const Method& method,
   });
 }
 
-/// Adds the work of a step to that before, but for the stresses'.
+/// What measureWork reads and writes.
 template <class Shape, int D = Shape::dimension>
-void measureWork(const Patch& patch, const Material&, const Vec3& commonSize, double dt, ParticleView<const Vec<D>> x,
-                 OptionalView<const Vec<D>> size, ParticleView<const double> mass,
-                 OptionalView<const Matrix3> deformation, OptionalView<const Vec<D>> externalForce,
-                 NodeView<const NodeRecord> nodes, ParticleView<const p::Works> old, ParticleView<p::Works> work) {
-  const Extents<Shape> extents(patch.level(), commonSize, size, deformation);
-  forEachStencil<Shape>(patch, patch.cells(), x, extents, [&](int p, const auto& stencil) {
-    const Gathered<D> sums = gather(stencil, windowOf<const NodeRecord>(nodes, stencil));
-    p::Works& w = work[p];
-    w = old[p];
-    w[works::external] += mass[p] * sums.value[4];
-    if (externalForce) w[works::external] += dt * (*externalForce)[p].dot(lanes<D>(sums.value, lane::velocity));
-    w[works::boundary] += mass[p] * sums.value[5];
-    w[works::contact] += mass[p] * sums.value[6];
-    w[works::dissipated] += mass[p] * sums.value[7];
+struct ParticleWork {
+  Placed<Shape> particles;
+  ParticleView<const double> mass;
+  OptionalView<const Vec<D>> externalForce;
+  NodeView<const NodeRecord> nodes;  ///< w, and the work for a unit of mass
+  ParticleView<const p::Works> old;
+  ParticleView<p::Works> work;
+
+  /// `deformation` is an access of F.
+  static ParticleWork from(auto& take, const Keeps& keeps, auto deformation) {
+    return {.particles = Placed<Shape>::from(take, keeps.sizes, 0, deformation),
+            .mass = take(requiresOld(p::mass)),
+            .externalForce = take(when(keeps.externalForce, requiresNew(p::externalForce<D>))),
+            .nodes = take(requiresNew(g::workRecord, Shape::ghostNodes)),
+            .old = take(requiresOld(p::work)),
+            .work = take(computes(p::work))};
+  }
+};
+
+/// Accumulates the work of a step, except that of the stresses.
+template <class Shape, int D = Shape::dimension>
+void measureWork(const Patch& patch, const Material&, const Vec3& commonSize, double dt, const ParticleWork<Shape>& u) {
+  forEachStencil<Shape>(patch, patch.cells(), u.particles, commonSize, [&](int p, const auto& stencil) {
+    const Gathered<D> sums = gather(stencil, windowOf<const NodeRecord>(u.nodes, stencil));
+    p::Works& w = u.work[p];
+    const double mass = u.mass[p];
+    w = u.old[p];
+    w[works::external] += mass * sums.value[4];
+    if (u.externalForce) w[works::external] += dt * (*u.externalForce)[p].dot(lanes<D>(sums.value, lane::velocity));
+    w[works::boundary] += mass * sums.value[5];
+    w[works::contact] += mass * sums.value[6];
+    w[works::dissipated] += mass * sums.value[7];
   });
 }
 
-/// V sigma of particles from `first` on, of those kept or of what follows from F.
-inline void stressMoments(const Material& material, const double* mass, const Matrix3* deformation,
-                          const double* volume, const Matrix3* stress, int first, int count, Matrix3* moments) {
-  if (!stress) material.model->kirchhoffStress(deformation + first, count, moments);
-  for (int k = 0; k < count; ++k)
-    moments[k] = stress ? Matrix3(volume[first + k] * stress[first + k])
-                        : Matrix3(mass[first + k] / material.density * moments[k]);
-}
+/// F and the stress of particles, at the start of a step or at its end.
+struct Stressed {
+  ParticleView<const Matrix3> deformation;
+  OptionalView<const double> volume;
+  OptionalView<const Matrix3> stress;  ///< where it is not a function of F alone
+
+  static Stressed from(auto& take, bool keepsStress, auto reads) {
+    return {.deformation = take(reads(p::deformationMeasure, 0)),
+            .volume = take(when(keepsStress, reads(p::volume, 0))),
+            .stress = take(when(keepsStress, reads(p::stress, 0)))};
+  }
+  StressSource source() const {
+    return {.stress = valuesOf(stress), .volume = valuesOf(volume), .deformation = valuesOf(deformation)};
+  }
+};
+
+/// What measureStrainWork reads and writes.
+struct StrainWork {
+  ParticleView<const double> mass;
+  Stressed before, after;
+  OptionalView<const double> viscosity;
+  ParticleView<p::Works> work;
+
+  /// `old` and `fresh` read a variable at the start of the step and as the step has it.
+  static StrainWork from(auto& take, const Keeps& keeps, auto old, auto fresh) {
+    return {.mass = take(requiresOld(p::mass)),
+            .before = Stressed::from(take, keeps.stress, old),
+            .after = Stressed::from(take, keeps.stress, fresh),
+            .viscosity = take(when(keeps.viscosity, requiresNew(p::viscosity))),
+            .work = take(modifies(p::work))};
+  }
+};
 
 /// Adds the work of the stresses, V0 (P_old + P_new)/2 : (F_new - F_old) with V0 P = V sigma F^-T, and that of the
 /// artificial viscosity, -V q ln(J_new / J_old).
-inline void measureStrainWork(const Patch&, const Material& material, ParticleView<const double> mass,
-                              ParticleView<const Matrix3> oldDeformation, ParticleView<const Matrix3> deformation,
-                              OptionalView<const double> oldVolume, OptionalView<const Matrix3> oldStress,
-                              OptionalView<const double> volume, OptionalView<const Matrix3> stress,
-                              OptionalView<const double> viscosity, ParticleView<p::Works> work) {
+inline void measureStrainWork(const Patch&, const Material& material, const StrainWork& u) {
   std::array<Matrix3, stressGroup> before, after;
-  for (int first = 0; first < work.owned(); first += stressGroup) {
-    const int count = std::min(stressGroup, work.owned() - first);
-    stressMoments(material, valuesOf(mass), valuesOf(oldDeformation), valuesOf(oldVolume), valuesOf(oldStress), first,
-                  count, before.data());
-    stressMoments(material, valuesOf(mass), valuesOf(deformation), valuesOf(volume), valuesOf(stress), first, count,
-                  after.data());
+  const auto startVolume = [&](int p) { return u.mass[p] / material.density; };
+  for (int first = 0; first < u.work.owned(); first += stressGroup) {
+    const int count = std::min(stressGroup, u.work.owned() - first);
+    stressMoments(material, u.before.source(), first, count, startVolume, before.data());
+    stressMoments(material, u.after.source(), first, count, startVolume, after.data());
     for (int k = 0; k < count; ++k) {
       const int p = first + k;
       const auto at = static_cast<std::size_t>(k);
-      const Matrix3 forth = deformation[p] * oldDeformation[p].inverse(), back = forth.inverse();
+      const Matrix3& f = u.after.deformation[p];
+      const Matrix3 forth = f * u.before.deformation[p].inverse(), back = forth.inverse();
       const Matrix3 unit = Matrix3::Identity();
-      work[p][works::strain] +=
+      u.work[p][works::strain] +=
           0.5 * (before[at].cwiseProduct(forth - unit).sum() + after[at].cwiseProduct(unit - back).sum());
-      if (!viscosity) continue;
-      const double now = mass[p] / material.density * deformation[p].determinant();
-      work[p][works::dissipated] -= now * (*viscosity)[p] * std::log(forth.determinant());
+      if (!u.viscosity) continue;
+      const double now = u.mass[p] / material.density * f.determinant();
+      u.work[p][works::dissipated] -= now * (*u.viscosity)[p] * std::log(forth.determinant());
     }
   }
 }

@@ -9,35 +9,6 @@
 
 namespace tushar::mpm::solid {
 
-/// Adds `share` of the momentum that the materials of a contact have at the nodes where its master is, kg m/s.
-template <int D>
-void addMomentum(const Contact& contact, const Records& records, double share, NodeView<Vec<D>> sum) {
-  forEach<D>(sum.box(), [&](const Index<D>& node) {
-    if (records[static_cast<std::size_t>(contact.master)][node][lane::mass] == 0) return;
-    for (std::size_t m = 0; m < records.size(); ++m)
-      if (const NodeRecord& record = records[m][node]; contact.concerns(static_cast<int>(m)) && record[lane::mass] != 0)
-        sum[node] += share * record[lane::mass] * lanes<D>(record, lane::velocity);
-  });
-}
-
-/// Contact at the end of a step as in exMomIntegrated, and what it takes from the others for a master that transmits
-/// force:
-/// - sum m (v* after - v* before) / dt at each node, N.
-template <int D>
-void exMomIntegratedTransmitting(const Patch& patch, const std::vector<Material>& materials,
-                                 const std::vector<Contact>& contacts, const Acceleration& acceleration, double time,
-                                 double dt, const Records& records, VectorSum& reaction,
-                                 const std::vector<NodeView<Vec<D>>>& transmitted) {
-  for (NodeView<Vec<D>> force : transmitted) force.fill(Vec<D>::Zero());
-  for (const Contact& contact : contacts) {
-    const auto master = static_cast<std::size_t>(contact.master);
-    const bool transmits = contact.type == Contact::Type::specified && materials[master].transmitsForce;
-    if (transmits) addMomentum<D>(contact, records, 1 / dt, transmitted[master]);
-    exMomIntegrated<D>(patch, materials, {contact}, acceleration, time, dt, records, reaction);
-    if (transmits) addMomentum<D>(contact, records, -1 / dt, transmitted[master]);
-  }
-}
-
 /// The mass (kg) and the force (N) of a material on the patches of a rank.
 struct Pull {
   Sum mass;
@@ -50,16 +21,33 @@ struct Pull {
   Vec3 acceleration() const { return Vec3(force.x.total(), force.y.total(), force.z.total()) / mass.total(); }
 };
 
-/// Adds what acts on a material within a patch.
-template <int D>
-void addPull(const Patch& patch, ParticleView<const double> mass, ParticleView<const Vec<D>> externalForce,
-             NodeView<const Vec<D>> transmitted, Pull& pull) {
-  for (int p = 0; p < mass.owned(); ++p) {
-    pull.mass.add(mass[p]);
-    pull.force.add(patch.level().expandDirection<D>(externalForce[p]));
+/// What moves a material on a patch as a rigid body.
+template <class Shape, int D = Shape::dimension>
+struct RigidMotion {
+  ParticleView<const Vec<D>> x;
+  ParticleView<const double> mass;
+  ParticleView<const Vec<D>> externalForce;
+  NodeView<const Vec<D>> transmitted;
+  NodeView<NodeRecord> record;
+
+  static RigidMotion from(auto& take) {
+    return {.x = take(requiresOld(p::x<D>, Shape::reach)),
+            .mass = take(requiresOld(p::mass)),
+            .externalForce = take(requiresNew(p::externalForce<D>)),
+            .transmitted = take(requiresNew(g::transmittedForce<D>)),
+            .record = take(modifies(g::record))};
   }
-  forEach<D>(transmitted.box().intersect(patch.level().nodesOfCells()), [&](const Index<D>& node) {
-    if (isOwned<D>(patch, node)) pull.force.add(patch.level().expandDirection<D>(transmitted[node]));
+};
+
+/// Adds the loads on a material within a patch, and the forces that contact transmits to it.
+template <class Shape, int D = Shape::dimension>
+void addPull(const Patch& patch, const RigidMotion<Shape>& u, Pull& pull) {
+  for (int p = 0; p < u.mass.owned(); ++p) {
+    pull.mass.add(u.mass[p]);
+    pull.force.add(patch.level().expandDirection<D>(u.externalForce[p]));
+  }
+  forEach<D>(u.transmitted.box().intersect(patch.level().nodesOfCells()), [&](const Index<D>& node) {
+    if (isOwned<D>(patch, node)) pull.force.add(patch.level().expandDirection<D>(u.transmitted[node]));
   });
 }
 
@@ -75,24 +63,20 @@ void accelerate(ParticleView<const Vec<D>> x, const Vec<D>& change, NodeView<Nod
 }
 
 /// Gives all nodes of a material that transmits force the acceleration (sum of its loads and of what is transmitted) /
-/// mass, whatever holds on the sides of the grid.
+/// mass, whatever holds on the sides of the grid. `motions[patch][material]`.
 template <class Shape, int D = Shape::dimension>
 void computeGridVelocityForFTM(const RankPatches& patches, const std::vector<Material>& materials,
                                const mpi::Communicator& ranks, double dt,
-                               const std::vector<std::vector<ParticleView<const Vec<D>>>>& x,
-                               const std::vector<std::vector<ParticleView<const double>>>& mass,
-                               const std::vector<std::vector<ParticleView<const Vec<D>>>>& externalForce,
-                               const std::vector<std::vector<NodeView<const Vec<D>>>>& transmitted,
-                               const std::vector<std::vector<NodeView<NodeRecord>>>& records) {
+                               const std::vector<std::vector<RigidMotion<Shape>>>& motions) {
   for (std::size_t m = 0; m < materials.size(); ++m) {
     if (!materials[m].transmitsForce) continue;
     Pull pull;
-    for (std::size_t p = 0; p < patches.size(); ++p)
-      addPull<D>(*patches[p], mass[p][m], externalForce[p][m], transmitted[p][m], pull);
+    for (std::size_t p = 0; p < patches.size(); ++p) addPull<Shape>(*patches[p], motions[p][m], pull);
     ranks.merge(pull);
     if (!(pull.mass.total() > 0)) continue;
     for (std::size_t p = 0; p < patches.size(); ++p)
-      accelerate<Shape>(x[p][m], patches[p]->level().template reduce<D>(pull.acceleration() * dt), records[p][m]);
+      accelerate<Shape>(motions[p][m].x, patches[p]->level().template reduce<D>(pull.acceleration() * dt),
+                        motions[p][m].record);
   }
 }
 

@@ -1,58 +1,46 @@
 #pragma once
 
-#include "components/mpm/solid/explicit/tasks/share_volume.hpp"
+#include "components/mpm/solid/explicit/tasks/update_particles.hpp"
+#include "components/mpm/solid/transfer/placed.hpp"
 
 namespace tushar::mpm::solid {
 
 // The two halves of interpolateToParticlesAndUpdate, for schedules that do not keep them together: stresses first in
 // the step, or last with velocities that went to the grid once more.
 
+/// What brings x and v to the end of a step.
+template <class Shape, int D = Shape::dimension>
+struct MotionUpdate {
+  NodeView<const NodeRecord> record;
+  Placed<Shape> particles;
+  ParticleView<const Vec<D>> velocity;
+  ParticleView<Vec<D>> newX, newVelocity;
+
+  /// `deformation` is an access of F.
+  static MotionUpdate from(auto& take, bool keepsSizes, auto deformation) {
+    return {.record = take(requiresNew(g::record, Shape::ghostNodes)),
+            .particles = Placed<Shape>::from(take, keepsSizes, 0, deformation),
+            .velocity = take(requiresOld(p::velocity<D>)),
+            .newX = take(computes(p::x<D>)),
+            .newVelocity = take(computes(p::velocity<D>))};
+  }
+};
+
 /// x_p and v_p at the end of the step.
 template <class Shape, int D = Shape::dimension>
-void moveParticles(const Patch& patch, const Material& material, const Method& method, double dt,
-                   NodeView<const NodeRecord> record, ParticleView<const Vec<D>> x, OptionalView<const Vec<D>> size,
-                   ParticleView<const Vec<D>> velocity, OptionalView<const Matrix3> deformation,
-                   ParticleView<Vec<D>> newX, ParticleView<Vec<D>> newVelocity) {
-  ParticleStates<Shape> states{Extents<Shape>(patch.level(), method.commonSize, size, deformation), x, velocity};
-  states.newX = valuesOf(newX);
-  states.newVelocity = valuesOf(newVelocity);
-  updateParticles<Shape, Update::motion>(patch, material, method, dt, record, states, {});
+void moveParticles(const Patch& patch, const Material&, const Vec3& commonSize, double dt,
+                   const MotionUpdate<Shape>& u) {
+  forEachStencil<Shape>(patch, patch.cells(), u.particles, commonSize, [&](int p, const auto& stencil) {
+    const Gathered<D> sums = gather(stencil, windowOf<const NodeRecord>(u.record, stencil));
+    moveParticle<D>(dt, sums, u.particles.x[p], u.velocity[p], u.newX[p], u.newVelocity[p]);
+  });
 }
 
 /// L_p, F_p and the stress with the velocity that the records hold: Uintah's computeStressTensor.
 template <class Shape, Volumes volumes = Volumes::own, int D = Shape::dimension>
-void computeStressTensor(const Patch& patch, const Material& material, const Method& method, int stateSize, double dt,
-                         NodeView<const NodeRecord> record, ParticleView<const Vec<D>> x,
-                         OptionalView<const Vec<D>> size, ParticleView<const Vec<D>> velocity,
-                         ParticleView<const double> mass, ParticleView<const Matrix3> oldDeformation,
-                         OptionalView<const double> temperature, OptionalView<const double> oldVolume,
-                         OptionalView<const Matrix3> oldStress, OptionalView<const double> oldState,
-                         OptionalView<const int> localized, ParticleView<Matrix3> deformation,
-                         OptionalView<double> volume, OptionalView<Matrix3> stress, OptionalView<double> state,
-                         OptionalView<double> viscosity, OptionalView<double> strainEnergy,
-                         OptionalView<double> temperatureChange, OptionalView<Matrix3> velocityGradient,
-                         CellView<double> stableTimeStep) {
-  ParticleStates<Shape> states{Extents<Shape>(patch.level(), method.commonSize, size, oldDeformation), x, velocity};
-  states.mass = valuesOf(mass);
-  states.temperature = valuesOf(temperature);
-  states.oldVolume = valuesOf(oldVolume);
-  states.oldDeformation = valuesOf(oldDeformation);
-  states.oldStress = valuesOf(oldStress);
-  states.volume = valuesOf(volume);
-  states.viscosity = valuesOf(viscosity);
-  states.strainEnergy = valuesOf(strainEnergy);
-  states.temperatureChange = valuesOf(temperatureChange);
-  states.deformation = valuesOf(deformation);
-  states.stress = valuesOf(stress);
-  states.velocityGradient = valuesOf(velocityGradient);
-  states.state = valuesOf(state);
-  states.oldState = valuesOf(oldState);
-  states.stateSize = stateSize;
-  states.localized = valuesOf(localized);
-  if constexpr (volumes == Volumes::own)
-    updateParticles<Shape, Update::stress>(patch, material, method, dt, record, states, stableTimeStep);
-  else
-    updateCells<Shape>(patch, material, method, dt, record, states, stableTimeStep);
+void computeStressTensor(const Patch& patch, const Material& material, const Method& method, double dt,
+                         const StateUpdate<Shape>& u) {
+  updateParticles<Shape, volumes>(patch, material, method, dt, u, [](int, const Gathered<D>&) {});
 }
 
 }  // namespace tushar::mpm::solid

@@ -4,11 +4,13 @@
 
 #include <Eigen/LU>
 
-#include "components/mpm/solid/explicit/tasks/interpolate_particles_to_grid.hpp"
+#include <vector>
+
+#include "components/mpm/solid/explicit/tasks/share_volume.hpp"
 #include "components/mpm/solid/explicit/tasks/stable_time_step.hpp"
+#include "components/mpm/solid/explicit/tasks/state_update.hpp"
 #include "components/mpm/solid/material.hpp"
 #include "components/mpm/solid/method.hpp"
-#include "components/mpm/solid/transfer/extent.hpp"
 #include "components/mpm/solid/transfer/node_windows.hpp"
 
 namespace tushar::mpm::solid {
@@ -31,39 +33,21 @@ inline void deform(const Matrix3& f, const Matrix3& velocityGradient, double dt,
   rows.copyTo(result);
 }
 
-/// What particles are at the start of a step and at its end. Null where a scene has none.
-template <class Shape>
-struct ParticleStates {
-  static constexpr int D = Shape::dimension;
-
-  Extents<Shape> extents;
-  ParticleView<const Vec<D>> x, velocity;
-  const double *mass = nullptr, *temperature = nullptr, *oldVolume = nullptr;
-  const Matrix3 *oldDeformation = nullptr, *oldStress = nullptr;
-  Vec<D>*newX = nullptr, *newVelocity = nullptr;
-  double *volume = nullptr, *viscosity = nullptr, *strainEnergy = nullptr, *temperatureChange = nullptr;
-  Matrix3 *deformation = nullptr, *stress = nullptr, *velocityGradient = nullptr;
-  double* state = nullptr;
-  const double* oldState = nullptr;
-  int stateSize = 0;
-  const int* localized = nullptr;
-};
-
 /// x_p += dt sum_i S_i v*_i,   v_p += sum_i S_i (v*_i - v_i): the FLIP of Brackbill & Ruppel, J. Comput. Phys. 65
 /// (1986) 314.
-template <class Shape, int D = Shape::dimension>
-[[gnu::always_inline]] inline void moveParticle(double dt, const Gathered<D>& sums, const ParticleStates<Shape>& s,
-                                                int p) {
+template <int D>
+[[gnu::always_inline]] inline void moveParticle(double dt, const Gathered<D>& sums, const Vec<D>& x,
+                                                const Vec<D>& velocity, Vec<D>& newX, Vec<D>& newVelocity) {
   const Vec<D> after = lanes<D>(sums.value, lane::velocity), before = lanes<D>(sums.value, lane::before);
-  s.newX[p] = s.x[p] + dt * after;
-  s.newVelocity[p] = s.velocity[p] + (after - before);
+  newX = x + dt * after;
+  newVelocity = velocity + (after - before);
 }
 
 /// L_p = sum_i v*_i grad S_i (and L_theta = sum_i v*_r S_i / r where axisymmetric),   F_p = (I + L_p dt) F_p.
 template <class Shape, int D = Shape::dimension>
 [[gnu::always_inline]] inline void deformParticle(const Level& level, const Method& method, double dt,
                                                   const Gathered<D>& sums, const Erosion& erosion,
-                                                  const ParticleStates<Shape>& s, int p, Matrix3& velocityGradient) {
+                                                  const StateUpdate<Shape>& u, int p, Matrix3& velocityGradient) {
   if constexpr (D < 3) velocityGradient.setZero();
   if constexpr (Shape::axisymmetric) velocityGradient(2, 2) = sums.hoop[lane::velocity];
   Quad squares = sums.hoop * sums.hoop;
@@ -74,116 +58,143 @@ template <class Shape, int D = Shape::dimension>
     for (int j = 0; j < D; ++j)
       velocityGradient(sceneAxis<D>(level, i), sceneAxis<D>(level, j)) =
           sums.gradient[static_cast<std::size_t>(j)][lane::velocity + i];
-  deform(s.oldDeformation[p], velocityGradient, dt, subcyclesForF(square * dt * dt, method.minimumSubcyclesForF),
-         s.deformation[p]);
-  if (s.localized && s.localized[p]) erosion.restrain(s.oldDeformation[p], s.deformation[p], velocityGradient);
-  if (s.volume) s.volume[p] = s.oldVolume[p] * (s.deformation[p].determinant() / s.oldDeformation[p].determinant());
-  if (s.velocityGradient) s.velocityGradient[p] = velocityGradient;
+  const Matrix3& before = u.oldDeformation[p];
+  Matrix3& now = u.deformation[p];
+  deform(before, velocityGradient, dt, subcyclesForF(square * dt * dt, method.minimumSubcyclesForF), now);
+  if (u.localized && (*u.localized)[p]) erosion.restrain(before, now, velocityGradient);
+  if (u.volume) (*u.volume)[p] = (*u.oldVolume)[p] * (now.determinant() / before.determinant());
+  if (u.velocityGradient) (*u.velocityGradient)[p] = velocityGradient;
+}
+
+/// What a constitutive model says of up to stressGroup particles besides their stress.
+struct StressResults {
+  std::array<double, stressGroup> waveSpeed, bulkSpeed;  ///< m/s
+  std::array<double, stressGroup> energyDensity;         ///< J/m^3 of the volume at the start
+};
+
+/// Particles `first` and those after it as a constitutive model takes them. `velocityGradient` is that of the first.
+template <class Shape>
+StressPoints stressPoints(const StateUpdate<Shape>& u, double dt, const Matrix3* velocityGradient, int first, int count,
+                          StressResults& results) {
+  const auto of = [&](const auto& view) { return view ? valuesOf(view) + first : nullptr; };
+  return {.count = count,
+          .timeStep = dt,
+          .oldDeformationGradient = u.oldDeformation.values() + first,
+          .deformationGradient = u.deformation.values() + first,
+          .velocityGradient = velocityGradient,
+          .temperature = of(u.temperature),
+          .oldStress = of(u.oldStress),
+          .stress = of(u.stress),
+          .state = u.state ? valuesOf(u.state) + first * u.stateSize : nullptr,
+          .stateStride = u.stateSize,
+          .waveSpeed = results.waveSpeed.data(),
+          .bulkSpeed = u.viscosity ? results.bulkSpeed.data() : nullptr,
+          .temperatureChange = of(u.temperatureChange),
+          .strainEnergyDensity = u.strainEnergy ? results.energyDensity.data() : nullptr};
 }
 
 /// The artificial viscosity's work on a volume per mass that grows by so much, m^3/kg.
 template <class Shape>
-void heatByViscosity(const Material& material, double growth, const ParticleStates<Shape>& s, int p) {
-  const double heat = -s.viscosity[p] * growth;
-  if (s.temperatureChange) s.temperatureChange[p] += heat / material.specificHeat;
-  material.model->addViscousHeat(s.state + p * s.stateSize, heat);
+void heatByViscosity(const Material& material, double growth, const StateUpdate<Shape>& u, int p) {
+  const double heat = -(*u.viscosity)[p] * growth;
+  if (u.temperatureChange) (*u.temperatureChange)[p] += heat / material.specificHeat;
+  material.model->addViscousHeat(valuesOf(u.state) + p * u.stateSize, heat);
 }
 
-/// Stress, artificial viscosity and strain energy of particles of a cell, where a scene keeps them; tells `rate` of
-/// their waves.
-template <class Shape, int D = Shape::dimension>
-void updateStress(const Material& material, const Method& method, double dt, const ParticleStates<Shape>& s,
-                  const Matrix3* velocityGradient, int first, int count, CrossingRate<D>& rate) {
-  std::array<double, stressGroup> waveSpeed, bulkSpeed, energyDensity;
-  StressPoints points;
-  points.count = count;
-  points.timeStep = dt;
-  points.oldDeformationGradient = s.oldDeformation + first;
-  points.deformationGradient = s.deformation + first;
-  points.velocityGradient = velocityGradient;
-  points.temperature = s.temperature ? s.temperature + first : nullptr;
-  points.oldStress = s.oldStress ? s.oldStress + first : nullptr;
-  points.stress = s.stress ? s.stress + first : nullptr;
-  points.stateStride = s.stateSize;
-  if (s.state) {
-    points.state = s.state + first * s.stateSize;
-    std::copy_n(s.oldState + first * s.stateSize, count * s.stateSize, points.state);
-  }
-  points.waveSpeed = waveSpeed.data();
-  points.bulkSpeed = s.viscosity ? bulkSpeed.data() : nullptr;
-  points.temperatureChange = s.temperatureChange ? s.temperatureChange + first : nullptr;
-  points.strainEnergyDensity = s.strainEnergy ? energyDensity.data() : nullptr;
-  material.model->updateStress(material.density, points);
+/// The artificial viscosity of particles from `first` on, and its heat; their velocity gradients and the speeds of
+/// their bulk waves (m/s) start at the first.
+template <class Shape>
+void updateViscosity(const Material& material, const Method& method, double dt, const StateUpdate<Shape>& u,
+                     const Matrix3* velocityGradient, const double* bulkSpeed, int first, int count) {
   const ArtificialViscosity own =
       material.model->ownViscosity().value_or(method.viscosity.value_or(ArtificialViscosity{}));
-  for (int k = 0; k < count; ++k) rate.add(waveSpeed[static_cast<std::size_t>(k)], s.velocity[first + k]);
-  if (!s.viscosity && !s.strainEnergy) return;
   const bool heated = method.viscosityHeats && material.model->hasViscousHeat();
+  double* const viscosity = valuesOf(u.viscosity);
   for (int k = 0; k < count; ++k) {
     const int p = first + k;
-    const auto at = static_cast<std::size_t>(k);
-    if (s.viscosity) {
-      const double jump = std::max(-velocityGradient[k].trace(), 0.0) * method.meanWidth;
-      const double density = material.density / s.deformation[p].determinant();
-      s.viscosity[p] = density * jump * (own.linear * bulkSpeed[at] + own.quadratic * jump);
-      if (heated) heatByViscosity(material, velocityGradient[k].trace() * dt / density, s, p);
-    }
-    const bool bears = !s.localized || !s.localized[p];
-    if (s.strainEnergy) s.strainEnergy[p] = bears ? energyDensity[at] * s.mass[p] / material.density : 0.0;
+    const double jump = std::max(-velocityGradient[k].trace(), 0.0) * method.meanWidth;
+    const double density = material.density / u.deformation[p].determinant();
+    viscosity[p] = density * jump * (own.linear * bulkSpeed[k] + own.quadratic * jump);
+    if (heated) heatByViscosity(material, velocityGradient[k].trace() * dt / density, u, p);
   }
 }
 
-/// Of the particles of a cell the first that moves or is deformed so that waves in it have no speed.
+/// Strain energy of particles from `first` on, from its density (J/m^3 of the volume at the start): none is left in
+/// what has failed.
+template <class Shape>
+void updateStrainEnergy(const Material& material, const StateUpdate<Shape>& u, const double* density, int first,
+                        int count) {
+  double* const energy = valuesOf(u.strainEnergy);
+  const int* const localized = valuesOf(u.localized);
+  for (int k = 0; k < count; ++k) {
+    const int p = first + k;
+    const bool bears = !localized || !localized[p];
+    energy[p] = bears ? density[k] * u.mass[p] / material.density : 0.0;
+  }
+}
+
+/// Stress, artificial viscosity and strain energy of particles of a cell, where a scene keeps them; adds their waves to
+/// `rate`.
 template <class Shape, int D = Shape::dimension>
-NumericalError withoutWaveSpeed(const Level& level, const ParticleStates<Shape>& s, const Index<D>& cell,
+void updateStress(const Material& material, const Method& method, double dt, const StateUpdate<Shape>& u,
+                  const Matrix3* velocityGradient, int first, int count, CrossingRate<D>& rate) {
+  if (u.state)
+    std::copy_n(valuesOf(u.oldState) + first * u.stateSize, count * u.stateSize,
+                valuesOf(u.state) + first * u.stateSize);
+  StressResults results;
+  material.model->updateStress(material.density, stressPoints(u, dt, velocityGradient, first, count, results));
+  for (int k = 0; k < count; ++k) rate.add(results.waveSpeed[static_cast<std::size_t>(k)], u.velocity[first + k]);
+  if (u.viscosity) updateViscosity(material, method, dt, u, velocityGradient, results.bulkSpeed.data(), first, count);
+  if (u.strainEnergy) updateStrainEnergy(material, u, results.energyDensity.data(), first, count);
+}
+
+/// The error for the first particle of a cell that has no wave speed: it moves at no number or is turned inside out.
+template <class Shape, int D = Shape::dimension>
+NumericalError withoutWaveSpeed(const Level& level, const StateUpdate<Shape>& u, const Index<D>& cell,
                                 const data::ParticleRange& range) {
-  const auto isSound = [&](int p) { return s.velocity[p].allFinite() && s.deformation[p].determinant() > 0; };
+  const auto isSound = [&](int p) { return u.velocity[p].allFinite() && u.deformation[p].determinant() > 0; };
   int p = range.first;
   while (p + 1 < range.last && isSound(p)) ++p;
-  const Vec3 x = level.expandPoint<D>(s.x[p]);
+  const Vec3 x = level.expandPoint<D>(u.x[p]);
   return {fmt::format(
               "the wave speed of the particle at ({:g}, {:g}, {:g}) m is no number: det F is {:g}, its speed {:g} m/s",
-              x[0], x[1], x[2], s.deformation[p].determinant(), s.velocity[p].norm()),
+              x[0], x[1], x[2], u.deformation[p].determinant(), u.velocity[p].norm()),
           "", "p.deformationMeasure", level.cellNumber<D>(cell)};
 }
 
-/// What updateParticles does.
-enum class Update {
-  motion,  ///< positions and velocities
-  stress,  ///< deformation gradients, stresses, and how long a step each cell may take
-  all
-};
-
-/// Brings the patch's own particles to the end of the step. Throws NumericalError where a wave has no speed.
-template <class Shape, Update what = Update::all, int D = Shape::dimension>
+/// F, the stress and what goes with it at the end of the step, of the patch's own particles, and how long a step each
+/// cell may take. Calls `move(p, sums)` for what each particle gathers from the grid. Throws NumericalError where a
+/// wave has no speed.
+template <class Shape, Volumes volumes, class Move, int D = Shape::dimension>
 void updateParticles(const Patch& patch, const Material& material, const Method& method, double dt,
-                     NodeView<const NodeRecord> record, const ParticleStates<Shape>& s,
-                     const std::optional<CellView<double>>& stableTimeStep) {
+                     const StateUpdate<Shape>& u, Move&& move) {
   const Level& level = patch.level();
+  const Extents<Shape> extents(level, method.commonSize, u.size, u.oldDeformation);
   const CrossingRate<D> none(level);
-  std::array<Matrix3, stressGroup> velocityGradient;
-  if constexpr (what != Update::motion) stableTimeStep->fill(none.time());
-  s.x.template forEachOccupied<D>(patch.cells(), [&](const Index<D>& cell, const data::ParticleRange& range) {
+  std::vector<Matrix3> gradients(stressGroup);
+  u.stableTimeStep.fill(none.time());
+  u.x.template forEachOccupied<D>(patch.cells(), [&](const Index<D>& cell, const data::ParticleRange& range) {
     CrossingRate<D> rate = none;
     const CellFrame<D> frame(level, cell);
-    for (int first = range.first; first < range.last; first += stressGroup) {
-      const int count = std::min(stressGroup, range.last - first);
+    const int together = volumes == Volumes::shared ? range.size() : stressGroup;
+    if constexpr (volumes == Volumes::shared) gradients.resize(static_cast<std::size_t>(together));
+    Matrix3* const velocityGradient = gradients.data();
+    for (int first = range.first; first < range.last; first += together) {
+      const int count = std::min(together, range.last - first);
       for (int k = 0; k < count; ++k) {
         const int p = first + k;
-        const typename Shape::Stencil stencil(frame, cell, s.x[p], s.extents[p]);
-        const Gathered<D> sums = gather(stencil, windowOf<const NodeRecord>(record, stencil));
-        if constexpr (what != Update::stress) moveParticle<Shape>(dt, sums, s, p);
-        if constexpr (what != Update::motion)
-          deformParticle<Shape>(level, method, dt, sums, material.erosion, s, p,
-                                velocityGradient[static_cast<std::size_t>(k)]);
+        const typename Shape::Stencil stencil(frame, cell, u.x[p], extents[p]);
+        const Gathered<D> sums = gather(stencil, windowOf<const NodeRecord>(u.record, stencil));
+        move(p, sums);
+        deformParticle<Shape>(level, method, dt, sums, material.erosion, u, p, velocityGradient[k]);
       }
-      if constexpr (what != Update::motion)
-        updateStress<Shape>(material, method, dt, s, velocityGradient.data(), first, count, rate);
+      if constexpr (volumes == Volumes::shared) shareVolume<Shape>(dt, range, u, velocityGradient);
+      for (int k = 0; k < count; k += stressGroup)
+        updateStress<Shape>(material, method, dt, u, velocityGradient + k, first + k, std::min(stressGroup, count - k),
+                            rate);
     }
-    if constexpr (what != Update::motion) {
-      if (!rate.isKnown()) throw withoutWaveSpeed<Shape>(level, s, cell, range);
-      (*stableTimeStep)[cell] = rate.time();
-    }
+    if (!rate.isKnown()) throw withoutWaveSpeed<Shape>(level, u, cell, range);
+    u.stableTimeStep[cell] = rate.time();
   });
 }
 

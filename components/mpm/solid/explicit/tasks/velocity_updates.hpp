@@ -1,6 +1,9 @@
 #pragma once
 
-#include "components/mpm/solid/explicit/tasks/update_particles.hpp"
+#include "components/mpm/solid/material.hpp"
+#include "components/mpm/solid/method.hpp"
+#include "components/mpm/solid/transfer/node_windows.hpp"
+#include "components/mpm/solid/transfer/placed.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -9,11 +12,9 @@ namespace tushar::mpm::solid {
 /// v_p = (1 - a) v_p^FLIP + a sum_i S_i v*_i: the PIC of Harlow, Meth. Comput. Phys. 3 (1964) 319, where a = 1.
 template <class Shape, int D = Shape::dimension>
 void blendVelocity(const Patch& patch, const Material&, const Method& method, NodeView<const NodeRecord> record,
-                   ParticleView<const Vec<D>> x, OptionalView<const Vec<D>> size,
-                   OptionalView<const Matrix3> deformation, ParticleView<Vec<D>> velocity) {
+                   const Placed<Shape>& particles, ParticleView<Vec<D>> velocity) {
   const double a = method.picFraction;
-  const Extents<Shape> extents(patch.level(), method.commonSize, size, deformation);
-  forEachStencil<Shape>(patch, patch.cells(), x, extents, [&](int p, const auto& stencil) {
+  forEachStencil<Shape>(patch, patch.cells(), particles, method.commonSize, [&](int p, const auto& stencil) {
     const Gathered<D> sums = gather(stencil, windowOf<const NodeRecord>(record, stencil));
     velocity[p] = (1 - a) * velocity[p] + a * lanes<D>(sums.value, lane::velocity);
   });
@@ -21,11 +22,9 @@ void blendVelocity(const Patch& patch, const Material&, const Method& method, No
 
 /// v+_p = sum_i S_i v_i, the velocity at the start of the step seen through the grid.
 template <class Shape, int D = Shape::dimension>
-void computeSSPlusVp(const Patch& patch, const Material&, const Method& method, NodeView<const NodeRecord> record,
-                     ParticleView<const Vec<D>> x, OptionalView<const Vec<D>> size,
-                     OptionalView<const Matrix3> deformation, ParticleView<Vec<D>> smooth) {
-  const Extents<Shape> extents(patch.level(), method.commonSize, size, deformation);
-  forEachStencil<Shape>(patch, patch.cells(), x, extents, [&](int p, const auto& stencil) {
+void computeSSPlusVp(const Patch& patch, const Material&, const Vec3& commonSize, NodeView<const NodeRecord> record,
+                     const Placed<Shape>& particles, ParticleView<Vec<D>> smooth) {
+  forEachStencil<Shape>(patch, patch.cells(), particles, commonSize, [&](int p, const auto& stencil) {
     const Gathered<D> sums = gather(stencil, windowOf<const NodeRecord>(record, stencil));
     smooth[p] = lanes<D>(sums.value, lane::before);
   });
@@ -41,21 +40,37 @@ void limitVelocity(const Patch&, const Material&, double greatest, ParticleView<
   }
 }
 
+/// What XPIC changes of particles that have moved by FLIP.
+template <class Shape, int D = Shape::dimension>
+struct XpicUpdate {
+  NodeView<const NodeRecord> smoothRecord;
+  Placed<Shape> particles;
+  ParticleView<const Vec<D>> oldVelocity, smooth;
+  ParticleView<Vec<D>> newX, velocity;
+
+  /// `deformation` is an access of F.
+  static XpicUpdate from(auto& take, bool keepsSizes, auto deformation) {
+    return {.smoothRecord = take(requiresNew(g::smoothRecord, Shape::ghostNodes)),
+            .particles = Placed<Shape>::from(take, keepsSizes, 0, deformation),
+            .oldVelocity = take(requiresOld(p::velocity<D>)),
+            .smooth = take(requiresNew(p::smoothVelocity<D>)),
+            .newX = take(modifies(p::x<D>)),
+            .velocity = take(modifies(p::velocity<D>))};
+  }
+};
+
 /// v_p = 2 v+_p - v++_p + a dt,   x_p += (v* - (v_p + a dt - 2 v+_p + v++_p) / 2) dt with v++_p = sum_i S_i v+_i of the
 /// grid that v+ went to: XPIC of order 2, Hammerquist & Nairn, Comput. Methods Appl. Mech. Engng 318 (2017) 724. The
 /// particles have moved by FLIP before; as in Uintah those of a rigid material stay with it.
 template <class Shape, int D = Shape::dimension>
-void applyXpic(const Patch& patch, const Material& material, const Method& method, double dt,
-               NodeView<const NodeRecord> smoothRecord, ParticleView<const Vec<D>> x, OptionalView<const Vec<D>> size,
-               OptionalView<const Matrix3> deformation, ParticleView<const Vec<D>> oldVelocity,
-               ParticleView<const Vec<D>> smooth, ParticleView<Vec<D>> newX, ParticleView<Vec<D>> velocity) {
+void applyXpic(const Patch& patch, const Material& material, const Vec3& commonSize, double dt,
+               const XpicUpdate<Shape>& u) {
   if (material.isRigid) return;
-  const Extents<Shape> extents(patch.level(), method.commonSize, size, deformation);
-  forEachStencil<Shape>(patch, patch.cells(), x, extents, [&](int p, const auto& stencil) {
-    const Gathered<D> sums = gather(stencil, windowOf<const NodeRecord>(smoothRecord, stencil));
-    const Vec<D> smoother = lanes<D>(sums.value, lane::velocity), correction = smoother - 2 * smooth[p];
-    newX[p] -= 0.5 * dt * (velocity[p] + correction);
-    velocity[p] -= oldVelocity[p] + correction;
+  forEachStencil<Shape>(patch, patch.cells(), u.particles, commonSize, [&](int p, const auto& stencil) {
+    const Gathered<D> sums = gather(stencil, windowOf<const NodeRecord>(u.smoothRecord, stencil));
+    const Vec<D> smoother = lanes<D>(sums.value, lane::velocity), correction = smoother - 2 * u.smooth[p];
+    u.newX[p] -= 0.5 * dt * (u.velocity[p] + correction);
+    u.velocity[p] -= u.oldVelocity[p] + correction;
   });
 }
 

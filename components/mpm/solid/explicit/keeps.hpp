@@ -1,0 +1,22 @@
+#pragma once
+
+#include "components/mpm/solid/labels.hpp"
+
+namespace tushar::mpm::solid {
+
+/// Which particle variables a scene has besides those of every scene: known once its materials are.
+struct Keeps {
+  bool sizes = false;                            ///< p.size: particles do not all start with one size
+  bool stress = false;                           ///< p.stress and p.volume: some stress is not a function of F alone
+  bool temperature = false;                      ///< p.temperature: some stress depends on it
+  bool temperatureChange = false;                ///< the work of a step changes the temperature
+  bool failure = false;                          ///< p.localizedMPM: particles may fail
+  bool viscosity = false;                        ///< p.q: artificial viscosity
+  bool externalForce = false;                    ///< p.externalforce: loads act
+  int stateSize = 0;                             ///< numbers of each particle in `state`; 0: there is no such variable
+  const ParticleLabel<double>* state = nullptr;  ///< p.modelState; outlives the tasks
+
+  bool hasState() const { return stateSize > 0; }
+};
+
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "components/mpm/solid/explicit/keeps.hpp"
+#include "components/mpm/solid/transfer/extent.hpp"
+#include "components/mpm/solid/transfer/node_record.hpp"
+
+namespace tushar::mpm::solid {
+
+/// What brings F, the stress and what goes with it to the end of a step.
+template <class Shape, int D = Shape::dimension>
+struct StateUpdate {
+  NodeView<const NodeRecord> record;  ///< with the velocity that F follows
+
+  // At the start of the step.
+  ParticleView<const Vec<D>> x;
+  OptionalView<const Vec<D>> size;
+  ParticleView<const Vec<D>> velocity;
+  ParticleView<const double> mass;
+  ParticleView<const Matrix3> oldDeformation;
+  OptionalView<const double> temperature, oldVolume;
+  OptionalView<const Matrix3> oldStress;
+  OptionalView<const double> oldState;
+  OptionalView<const int> localized;
+
+  // At its end.
+  ParticleView<Matrix3> deformation;
+  OptionalView<double> volume;
+  OptionalView<Matrix3> stress;
+  OptionalView<double> state, viscosity, strainEnergy, temperatureChange;
+  OptionalView<Matrix3> velocityGradient;
+  CellView<double> stableTimeStep;
+
+  int stateSize = 0;  ///< numbers of a particle in `state`
+
+  static StateUpdate from(auto& take, const Keeps& keeps, const NodeLabel<NodeRecord>* record) {
+    return {.record = take(requiresNew(*record, Shape::ghostNodes)),
+            .x = take(requiresOld(p::x<D>)),
+            .size = take(when(keeps.sizes, requiresOld(p::size<D>))),
+            .velocity = take(requiresOld(p::velocity<D>)),
+            .mass = take(requiresOld(p::mass)),
+            .oldDeformation = take(requiresOld(p::deformationMeasure)),
+            .temperature = take(when(keeps.temperature, requiresOld(p::temperature))),
+            .oldVolume = take(when(keeps.stress, requiresOld(p::volume))),
+            .oldStress = take(when(keeps.stress, requiresOld(p::stress))),
+            .oldState = take(when(keeps.hasState(), requiresOld(*keeps.state))),
+            .localized = take(when(keeps.failure, requiresOld(p::localized))),
+            .deformation = take(computes(p::deformationMeasure)),
+            .volume = take(when(keeps.stress, computes(p::volume))),
+            .stress = take(when(keeps.stress, computes(p::stress))),
+            .state = take(when(keeps.hasState(), computes(*keeps.state))),
+            .viscosity = take(when(keeps.viscosity, computes(p::viscosity))),
+            .strainEnergy = take(offers(p::strainEnergy)),
+            .temperatureChange = take(when(keeps.temperatureChange, computes(p::temperatureChange))),
+            .velocityGradient = take(offers(p::velocityGradient)),
+            .stableTimeStep = take(computes(c::stableTimeStep)),
+            .stateSize = keeps.stateSize};
+  }
+};
+
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/LU>
+
+#include "components/mpm/solid/material.hpp"
+
+namespace tushar::mpm::solid {
+
+/// Stresses of particles that follow each other in memory: those that they keep, else those of F.
+struct StressSource {
+  const Matrix3* stress = nullptr;       ///< Pa; null where it is a function of F alone
+  const double* volume = nullptr;        ///< m^3; not null where `stress` is not
+  const Matrix3* deformation = nullptr;  ///< F, 1; not null where `stress` is
+};
+
+/// V sigma (N m) of `count` particles from `first` on; `startVolume(p)` is V0, m^3, for stresses of F.
+template <class StartVolume>
+void stressMoments(const Material& material, const StressSource& from, int first, int count, StartVolume&& startVolume,
+                   Matrix3* moments) {
+  if (from.stress) {
+    for (int k = 0; k < count; ++k) moments[k] = from.volume[first + k] * from.stress[first + k];
+    return;
+  }
+  material.model->kirchhoffStress(from.deformation + first, count, moments);
+  for (int k = 0; k < count; ++k) moments[k] *= startVolume(first + k);
+}
+
+/// sigma (Pa) of `count` particles whose stress is a function of F alone.
+inline void cauchyStress(const Material& material, const Matrix3* deformation, int count, Matrix3* stress) {
+  material.model->kirchhoffStress(deformation, count, stress);
+  for (int k = 0; k < count; ++k) stress[k] /= deformation[k].determinant();
+}
+
+}  // namespace tushar::mpm::solid
