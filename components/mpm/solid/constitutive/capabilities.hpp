@@ -23,7 +23,7 @@ inline constexpr bool isListOfVariables<const std::array<StateVariable, N>*> = t
 struct DependsOnDeformationOnly {
   template <class M>
   static consteval bool check() {
-    static_assert(!offers<M, DependsOnDeformationOnly> || std::is_empty_v<typename M::State>,
+    static_assert(!providesCapability<M, DependsOnDeformationOnly> || std::is_empty_v<typename M::State>,
                   "capability::DependsOnDeformationOnly needs an empty State");
     return true;
   }
@@ -56,11 +56,11 @@ struct Vectorized {
   };
   template <class M>
   static consteval bool check() {
-    constexpr bool isNamed = offers<M, Vectorized>;
+    constexpr bool isNamed = providesCapability<M, Vectorized>;
     constexpr bool isAbsent = requires { &Both<M, Name>::kirchhoffStress; };
     static_assert(isNamed || isAbsent,
                   "a member kirchhoffStress is used only by a model that names capability::Vectorized");
-    constexpr bool isFunctionOfF = offers<M, DependsOnDeformationOnly>;
+    constexpr bool isFunctionOfF = providesCapability<M, DependsOnDeformationOnly>;
     static_assert(!isNamed || isFunctionOfF, "capability::Vectorized needs capability::DependsOnDeformationOnly");
     constexpr bool hasStress = requires { Member<M, TensorOf<Lanes>, const TensorOf<Lanes>&>{&M::kirchhoffStress}; };
     static_assert(
@@ -84,7 +84,7 @@ struct NominalTangent {
   };
   template <class M>
   static consteval bool check() {
-    constexpr bool isNamed = offers<M, NominalTangent>;
+    constexpr bool isNamed = providesCapability<M, NominalTangent>;
     constexpr bool isAbsent = requires { &Both<M, Name>::nominalTangent; };
     static_assert(isNamed || isAbsent,
                   "a member nominalTangent is used only by a model that names capability::NominalTangent");
@@ -109,7 +109,7 @@ struct BulkSpeed {
   };
   template <class M>
   static consteval bool check() {
-    constexpr bool isNamed = offers<M, BulkSpeed>;
+    constexpr bool isNamed = providesCapability<M, BulkSpeed>;
     constexpr bool isAbsent = requires { &Both<M, Name>::bulkSpeed; };
     static_assert(isNamed || isAbsent, "a member bulkSpeed is used only by a model that names capability::BulkSpeed");
     constexpr bool fits = requires {
@@ -131,7 +131,7 @@ struct InitialWaveSpeed {
   };
   template <class M>
   static consteval bool check() {
-    constexpr bool isNamed = offers<M, InitialWaveSpeed>;
+    constexpr bool isNamed = providesCapability<M, InitialWaveSpeed>;
     constexpr bool isAbsent = requires { &Both<M, Name>::initialWaveSpeed; };
     static_assert(isNamed || isAbsent,
                   "a member initialWaveSpeed is used only by a model that names capability::InitialWaveSpeed");
@@ -150,7 +150,7 @@ struct OwnViscosity {
   };
   template <class M>
   static consteval bool check() {
-    constexpr bool isNamed = offers<M, OwnViscosity>;
+    constexpr bool isNamed = providesCapability<M, OwnViscosity>;
     constexpr bool isAbsent = requires { &Both<M, Name>::ownViscosity; };
     static_assert(isNamed || isAbsent,
                   "a member ownViscosity is used only by a model that names capability::OwnViscosity");
@@ -174,7 +174,7 @@ struct ConstantsOfMaterial {
   };
   template <class M>
   static consteval bool check() {
-    constexpr bool isNamed = offers<M, ConstantsOfMaterial>;
+    constexpr bool isNamed = providesCapability<M, ConstantsOfMaterial>;
     constexpr bool isAbsent = requires { &Both<M, Name>::material; };
     static_assert(isNamed || isAbsent,
                   "a member material is filled only for a model that names capability::ConstantsOfMaterial");
@@ -195,7 +195,7 @@ struct TemperatureChange {
   };
   template <class M>
   static consteval bool check() {
-    constexpr bool isNamed = offers<M, TemperatureChange>;
+    constexpr bool isNamed = providesCapability<M, TemperatureChange>;
     constexpr bool isAbsent = requires { &Both<M, Name>::temperatureChange; };
     static_assert(isNamed || isAbsent,
                   "a member temperatureChange is used only by a model that names capability::TemperatureChange");
@@ -217,7 +217,7 @@ struct ViscousHeat {
   };
   template <class M>
   static consteval bool check() {
-    constexpr bool isNamed = offers<M, ViscousHeat>;
+    constexpr bool isNamed = providesCapability<M, ViscousHeat>;
     constexpr bool isAbsent = requires { &Both<M, Name>::addViscousHeat; };
     static_assert(isNamed || isAbsent,
                   "a member addViscousHeat is used only by a model that names capability::ViscousHeat");
@@ -236,7 +236,7 @@ struct Melting {
   };
   template <class M>
   static consteval bool check() {
-    constexpr bool isNamed = offers<M, Melting>;
+    constexpr bool isNamed = providesCapability<M, Melting>;
     constexpr bool isAbsent = requires { &Both<M, Name>::isMolten; };
     static_assert(isNamed || isAbsent, "a member isMolten is used only by a model that names capability::Melting");
     constexpr bool fits = requires { Member<M, bool, const Matrix3&, const Matrix3&, double>{&M::isMolten}; };
@@ -258,7 +258,7 @@ struct OptionalState {
   };
   template <class M>
   static consteval bool check() {
-    constexpr bool isNamed = offers<M, OptionalState>;
+    constexpr bool isNamed = providesCapability<M, OptionalState>;
     constexpr bool isAbsent = requires { &Both<M, Name>::keepsState; };
     static_assert(isNamed || isAbsent,
                   "a member keepsState is used only by a model that names capability::OptionalState");
@@ -275,7 +275,7 @@ struct AbsentVariables {
   };
   template <class M>
   static consteval bool check() {
-    constexpr bool isNamed = offers<M, AbsentVariables>;
+    constexpr bool isNamed = providesCapability<M, AbsentVariables>;
     constexpr bool isAbsent = requires { &Both<M, Name>::absentVariables; };
     static_assert(isNamed || isAbsent,
                   "a member absentVariables is used only by a model that names capability::AbsentVariables");

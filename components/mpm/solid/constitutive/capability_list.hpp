@@ -28,7 +28,7 @@ struct CapabilityList {
 
 /// Whether T names a capability.
 template <class T, class Capability>
-inline constexpr bool offers = T::Capabilities::template contains<Capability>;
+inline constexpr bool providesCapability = T::Capabilities::template contains<Capability>;
 
 /// A name that T and `Name` both have is ambiguous here: `requires { &Both<T, Name>::x; }` is true exactly where T has
 /// no member x, of whatever type and access.

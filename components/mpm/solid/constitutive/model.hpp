@@ -100,39 +100,39 @@ class ModelOf : public Model {
     return {};
   }
   std::vector<StateVariable> absentVariables() const override {
-    if constexpr (offers<M, capability::AbsentVariables>) return {M::absentVariables.begin(), M::absentVariables.end()};
+    if constexpr (providesCapability<M, capability::AbsentVariables>) return {M::absentVariables.begin(), M::absentVariables.end()};
     return {};
   }
   void initialize(double* state) const override {
     if (keepsState()) store(model_.initialState(), state);
   }
-  bool usesTemperature() const override { return !offers<M, capability::IgnoresTemperature>; }
+  bool usesTemperature() const override { return !providesCapability<M, capability::IgnoresTemperature>; }
   bool dependsOnDeformationOnly() const override { return fromDeformation; }
-  bool supportsFBar() const override { return fromDeformation || offers<M, capability::FBar>; }
-  bool changesTemperature() const override { return offers<M, capability::TemperatureChange>; }
-  bool hasViscousHeat() const override { return offers<M, capability::ViscousHeat>; }
+  bool supportsFBar() const override { return fromDeformation || providesCapability<M, capability::FBar>; }
+  bool changesTemperature() const override { return providesCapability<M, capability::TemperatureChange>; }
+  bool hasViscousHeat() const override { return providesCapability<M, capability::ViscousHeat>; }
   void addViscousHeat(double* numbers, double heat) const override {
-    if constexpr (offers<M, capability::ViscousHeat>) {
+    if constexpr (providesCapability<M, capability::ViscousHeat>) {
       State state = load(numbers);
       model_.addViscousHeat(state, heat);
       store(state, numbers);
     }
   }
   bool isMolten(const Matrix3& deformation, const Matrix3& stress, double temperature) const override {
-    if constexpr (offers<M, capability::Melting>)
+    if constexpr (providesCapability<M, capability::Melting>)
       return model_.isMolten(deformation, stress, temperature);
     else
       return false;
   }
   std::optional<ArtificialViscosity> ownViscosity() const override {
-    if constexpr (offers<M, capability::OwnViscosity>)
+    if constexpr (providesCapability<M, capability::OwnViscosity>)
       return M::ownViscosity;
     else
       return std::nullopt;
   }
 
   void updateStress(double initialDensity, const StressPoints& points) const override {
-    if constexpr (offers<M, capability::Vectorized>)
+    if constexpr (providesCapability<M, capability::Vectorized>)
       if (points.wantsWaveSpeedOnly()) return findWaveSpeeds(initialDensity, points);
     for (int k = 0; k < points.count; ++k) {
       const Deformation d = deformation(points, k);
@@ -147,7 +147,7 @@ class ModelOf : public Model {
   }
 
   double initialWaveSpeed(double initialDensity, double temperature) const override {
-    if constexpr (offers<M, capability::InitialWaveSpeed>) {
+    if constexpr (providesCapability<M, capability::InitialWaveSpeed>) {
       return model_.initialWaveSpeed(initialDensity);
     } else {
       const Deformation d{Matrix3::Identity(), Matrix3::Identity(), Matrix3::Zero(), 0, temperature};
@@ -157,16 +157,16 @@ class ModelOf : public Model {
     }
   }
 
-  bool hasTangent() const override { return offers<M, capability::NominalTangent>; }
+  bool hasTangent() const override { return providesCapability<M, capability::NominalTangent>; }
   void nominalTangent(const StressPoints& points, Matrix9* tangent) const override {
-    if constexpr (offers<M, capability::NominalTangent>)
+    if constexpr (providesCapability<M, capability::NominalTangent>)
       for (int k = 0; k < points.count; ++k)
         tangent[k] = model_.nominalTangent(deformation(points, k), oldStress(points, k),
                                            load(points.state + k * points.stateStride));
   }
 
   void kirchhoffStress(const Matrix3* f, int count, Matrix3* stress) const override {
-    if constexpr (offers<M, capability::Vectorized>) {
+    if constexpr (providesCapability<M, capability::Vectorized>) {
       for (int k = 0; k < count; k += Lanes::count)
         storeLanes(model_.kirchhoffStress(lanesOf(f + k, count - k)), stress + k, count - k);
     } else if constexpr (fromDeformation) {
@@ -180,7 +180,7 @@ class ModelOf : public Model {
  private:
   using State = typename M::State;
   static constexpr bool hasState = !std::is_empty_v<State>;
-  static constexpr bool fromDeformation = offers<M, capability::DependsOnDeformationOnly>;
+  static constexpr bool fromDeformation = providesCapability<M, capability::DependsOnDeformationOnly>;
 
   void findWaveSpeeds(double initialDensity, const StressPoints& points) const {
     for (int k = 0; k < points.count; k += Lanes::count) {
@@ -195,7 +195,7 @@ class ModelOf : public Model {
     if (points.bulkSpeed) points.bulkSpeed[k] = bulkSpeed(initialDensity, d, after, state, waveSpeed);
     if (points.temperatureChange) {
       points.temperatureChange[k] = 0;
-      if constexpr (offers<M, capability::TemperatureChange>)
+      if constexpr (providesCapability<M, capability::TemperatureChange>)
         points.temperatureChange[k] = model_.temperatureChange(d, after, state);
     }
     if (points.strainEnergyDensity) points.strainEnergyDensity[k] = model_.strainEnergyDensity(d, before, after, state);
@@ -203,7 +203,7 @@ class ModelOf : public Model {
   /// Wave speed for the artificial viscosity, m/s: see capability::BulkSpeed.
   double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3& stress, const State& state,
                    double waveSpeed) const {
-    if constexpr (offers<M, capability::BulkSpeed>)
+    if constexpr (providesCapability<M, capability::BulkSpeed>)
       return model_.bulkSpeed(initialDensity, d, stress, state);
     else
       return waveSpeed;
@@ -216,7 +216,7 @@ class ModelOf : public Model {
     return points.oldStress ? points.oldStress[k] : Matrix3(Matrix3::Zero());
   }
   bool keepsState() const {
-    if constexpr (offers<M, capability::OptionalState>)
+    if constexpr (providesCapability<M, capability::OptionalState>)
       return model_.keepsState();
     else
       return hasState;

@@ -178,7 +178,7 @@ class RadialReturn {
   }
   /// d sigma_y / d e_p, Pa, with the plastic strain rate of the step a function of e_p.
   double hardening(const FlowState& state) const {
-    if constexpr (offers<Flow, capability::Hardening>)
+    if constexpr (providesCapability<Flow, capability::Hardening>)
       if (!dependsOnPlasticRate()) return flow_.hardening(state);
     const double h = 1e-5 * std::max(state.plasticStrain - start_.plasticStrain, 1e-6);
     const auto at = [&](double more) {
@@ -194,7 +194,7 @@ class RadialReturn {
 
  private:
   bool dependsOnPlasticRate() const {
-    if constexpr (offers<Flow, capability::PlasticRate>) return flow_.dependsOnPlasticRate();
+    if constexpr (providesCapability<Flow, capability::PlasticRate>) return flow_.dependsOnPlasticRate();
     return false;
   }
 

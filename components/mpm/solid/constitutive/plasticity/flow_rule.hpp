@@ -29,7 +29,7 @@ struct Hardening {
   };
   template <class Flow>
   static consteval bool check() {
-    constexpr bool isNamed = offers<Flow, Hardening>;
+    constexpr bool isNamed = providesCapability<Flow, Hardening>;
     constexpr bool isAbsent = requires { &Both<Flow, Name>::hardening; };
     static_assert(isNamed || isAbsent,
                   "a member hardening is used only by a flow model that names capability::Hardening");
@@ -48,7 +48,7 @@ struct PlasticRate {
   };
   template <class Flow>
   static consteval bool check() {
-    constexpr bool isNamed = offers<Flow, PlasticRate>;
+    constexpr bool isNamed = providesCapability<Flow, PlasticRate>;
     constexpr bool isAbsent = requires { &Both<Flow, Name>::dependsOnPlasticRate; };
     static_assert(isNamed || isAbsent,
                   "a member dependsOnPlasticRate is used only by a flow model that names capability::PlasticRate");
