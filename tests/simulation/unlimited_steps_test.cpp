@@ -3,7 +3,7 @@
 #include <map>
 
 #include "components/components.hpp"
-#include "core/simulation/scene.hpp"
+#include "core/scene/scene.hpp"
 
 // A component without a limit on its time step adds no task for it: the steps are those of <Time>.
 
