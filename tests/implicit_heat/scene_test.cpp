@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "components/components.hpp"
-#include "core/simulation/scene.hpp"
+#include "core/scene/scene.hpp"
 
 // Which component reads the section <Heat>.
 
@@ -12,7 +12,7 @@ namespace {
 /// What is wrong with the scene of a sine of temperature, with some of its values overridden; empty if nothing is.
 std::string problemWith(const std::vector<std::string>& overrides) {
   try {
-    simulation::readScene("ups/heat/sine.ups", overrides, catalogue());
+    scene::readScene("ups/heat/sine.ups", overrides, catalogue());
   } catch (const InputError& error) {
     return error.problems().size() == 1 ? error.problems()[0].sentence : std::string(error.what());
   }

@@ -3,7 +3,8 @@
 #include <map>
 
 #include "components/components.hpp"
-#include "core/simulation/scene.hpp"
+#include "core/scene/scene.hpp"
+#include "core/simulation/simulation.hpp"
 
 // A component without a limit on its time step adds no task for it: the steps are those of <Time>.
 
@@ -23,8 +24,8 @@ class Unlimited : public Component {
   std::unique_ptr<Component> limited_;
 };
 
-Report run(const std::vector<std::string>& overrides) {
-  Problem problem = readScene("ups/heat/sine.ups", overrides, catalogue());
+report::Report run(const std::vector<std::string>& overrides) {
+  Problem problem = scene::readScene("ups/heat/sine.ups", overrides, catalogue());
   problem.component = std::make_unique<Unlimited>(std::move(problem.component));
   problem.archive.saves.clear();
   problem.analyses.clear();
@@ -36,7 +37,7 @@ Report run(const std::vector<std::string>& overrides) {
 }  // namespace
 
 TEST(UnlimitedSteps, AreThoseOfTheScene) {
-  const Report report = run({"Time/delt_init=1e-5", "Time/delt_max=1e-4", "Time/maxTime=1e-3"});
+  const report::Report report = run({"Time/delt_init=1e-5", "Time/delt_max=1e-4", "Time/maxTime=1e-3"});
 
   const std::map<std::string, int> limits(report.limits.begin(), report.limits.end());
   EXPECT_EQ(limits, (std::map<std::string, int>{{"delt_init", 1}, {"delt_max", 9}, {"end_at_max_time_exactly", 1}}));
@@ -44,7 +45,7 @@ TEST(UnlimitedSteps, AreThoseOfTheScene) {
 }
 
 TEST(UnlimitedSteps, TakeOneToTheEndIfTheSceneHasNoLimit) {
-  const Report report = run({"Time/maxTime=1e-3"});
+  const report::Report report = run({"Time/maxTime=1e-3"});
 
   EXPECT_EQ(report.steps, 1);
   EXPECT_EQ(report.time, 1e-3);
