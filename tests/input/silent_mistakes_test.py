@@ -9,6 +9,11 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from sus import ROOT, run
 
 
+def exact_solution(label):
+    """A module that measures against 0, with the end of the section of modules."""
+    return f'<Module name="exactSolution"><label>{label}</label><value>0</value></Module></DataAnalysis>'
+
+
 class SilentMistakes(unittest.TestCase):
     def assert_refused(self, result, *sentences):
         self.assertEqual(result.code, 3, result.err)
@@ -47,19 +52,17 @@ class SilentMistakes(unittest.TestCase):
                             f"{label}: found 'c.temp', expected 'c.temperature'")
         self.assert_edited_is_refused("ups/heat/sine.ups", "c.temperature</label>", "p.x</label>",
                                       f"SCENE:49:8: {label}: found 'p.x', expected 'c.temperature'")
-        exact = '<Module name="exactSolution"><label>LABEL</label><value>0</value></Module></DataAnalysis>'
-        self.assert_edited_is_refused("ups/euler/sod.ups", "</DataAnalysis>", exact.replace("LABEL", "c.momentum"),
+        self.assert_edited_is_refused("ups/euler/sod.ups", "</DataAnalysis>", exact_solution("c.momentum"),
                                       "found 'c.momentum', expected 'c.density', 'c.internalEnergy', 'c.pressure' or "
                                       "'c.totalEnergy'")
-        self.assert_edited_is_refused("ups/mpm/sod.ups", "</DataAnalysis>", exact.replace("LABEL", "g.mass"),
+        self.assert_edited_is_refused("ups/mpm/sod.ups", "</DataAnalysis>", exact_solution("g.mass"),
                                       "this component has no scalar variable of cells or nodes without a material")
 
     def test_errors_measured_twice(self):
-        module = '<Module name="exactSolution"><label>LABEL</label><value>0</value></Module></DataAnalysis>'
-        self.assert_edited_is_refused("ups/heat/sine.ups", "</DataAnalysis>", module.replace("LABEL", "c.temperature"),
+        self.assert_edited_is_refused("ups/heat/sine.ups", "</DataAnalysis>", exact_solution("c.temperature"),
                                       "SCENE:52:4: DataAnalysis/Module: the errors of 'temperature, cell' are measured "
                                       "by a module above already; keep one")
-        self.assert_edited_is_refused("ups/euler/sod.ups", "</DataAnalysis>", module.replace("LABEL", "c.density"),
+        self.assert_edited_is_refused("ups/euler/sod.ups", "</DataAnalysis>", exact_solution("c.density"),
                                       "the errors of 'density, cell' are measured by a module above already")
         again = (ROOT / "ups/euler/sod.ups").read_text()
         again = again[again.index("  <Module"):again.index("</Module>") + 9]
