@@ -40,7 +40,7 @@ double rateOfChange(const Patch& patch, const Settings& settings, Slope slope, C
     for (int k = -kReach; k <= kReach; ++k) {
       Index<D> at = cell;
       at[d] += k;
-      row[static_cast<std::size_t>(k + kReach)] = valueAt<D>(patch, u, at, d);
+      row[k + kReach] = valueAt<D>(patch, u, at, d);
     }
     const double in = faceFlux({row[0], row[1], row[2], row[3]}, slope, settings.viscosity * perSpacing);
     const double out = faceFlux({row[1], row[2], row[3], row[4]}, slope, settings.viscosity * perSpacing);
@@ -52,8 +52,7 @@ double rateOfChange(const Patch& patch, const Settings& settings, Slope slope, C
 }  // namespace
 
 Slope slopeOf(int limiter) {
-  return std::array<Slope, 4>{noSlope, euler::Minmod::slope, euler::VanLeer::slope,
-                              euler::Mc::slope}[static_cast<std::size_t>(limiter)];
+  return std::array<Slope, 4>{noSlope, euler::Minmod::slope, euler::VanLeer::slope, euler::Mc::slope}[limiter];
 }
 
 double godunovFlux(double left, double right) {

@@ -98,7 +98,7 @@ solvers::Unknowns cellUnknowns(const solvers::CellNumbering& number, const mpi::
   unknowns.ranks = &ranks;
   unknowns.owned = number.owned();
   unknowns.ghosts = number.ghosts();
-  unknowns.entries.assign(static_cast<std::size_t>(number.owned()), Balance<D>::most);
+  unknowns.entries.assign(number.owned(), Balance<D>::most);
   return unknowns;
 }
 

@@ -298,7 +298,7 @@ class Schema : public SchemaBase {
       const std::string problem = choiceProblem(text, words);
       if (!problem.empty()) return problem;
       const auto found = std::find(words.begin(), words.end(), text) - words.begin();
-      store(member, object, E(choices[static_cast<std::size_t>(found)].second));
+      store(member, object, E(choices[found].second));
       return std::string();
     };
     return entry;
