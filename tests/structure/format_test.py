@@ -20,6 +20,8 @@ def clang_format_version():
 
 
 class Format(unittest.TestCase):
+    maxDiff = None
+
     def test_tools_format_would_change_nothing(self):
         version = clang_format_version()
         if version != 14:

@@ -21,6 +21,8 @@ def lengths():
 
 
 class Functions(unittest.TestCase):
+    maxDiff = None
+
     def setUp(self):
         if not tree.has_ctags():
             self.skipTest("needs Universal Ctags (Debian: universal-ctags)")

@@ -42,6 +42,8 @@ def names(comment):
 
 
 class Names(unittest.TestCase):
+    maxDiff = None
+
     def test_every_name_in_a_comment_stands_in_the_code(self):
         known = words_of_the_code()
         stale = [f"{path}:{line}: {name}" for path in tree.cpp_files() for line, comment in blocks(tree.read(path))

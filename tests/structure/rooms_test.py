@@ -57,6 +57,8 @@ def circle(graph):
 
 
 class Rooms(unittest.TestCase):
+    maxDiff = None
+
     @classmethod
     def setUpClass(cls):
         cls.includes = {path: tree.includes(path) for path in tree.cpp_files(ROOMS)}

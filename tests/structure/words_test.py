@@ -27,6 +27,8 @@ def unwanted(text):
 
 
 class Words(unittest.TestCase):
+    maxDiff = None
+
     def test_none_stands_in_core_components_and_tools(self):
         found = [f"{path}:{line}: {what}" for path in tree.cpp_files(("core", "components", "tools"))
                  for line, what in unwanted(tree.read(path))]
