@@ -40,7 +40,7 @@ double rateOfChange(const Patch& patch, const Settings& settings, Slope slope, c
     for (int k = -kReach; k <= kReach; ++k) {
       Index<D> at = cell;
       at[d] += k;
-      row[static_cast<std::size_t>(k + kReach)] = valueAt<D>(patch, sides, u, at, d);
+      row[k + kReach] = valueAt<D>(patch, sides, u, at, d);
     }
     const double in = faceFlux({row[0], row[1], row[2], row[3]}, slope, settings.viscosity * perSpacing);
     const double out = faceFlux({row[1], row[2], row[3], row[4]}, slope, settings.viscosity * perSpacing);
@@ -53,7 +53,7 @@ double rateOfChange(const Patch& patch, const Settings& settings, Slope slope, c
 
 Slope slopeOf(int limiter) {
   return std::array<Slope, 4>{noSlope, numerics::Minmod::slope, numerics::VanLeer::slope,
-                              numerics::Mc::slope}[static_cast<std::size_t>(limiter)];
+                              numerics::Mc::slope}[limiter];
 }
 
 double godunovFlux(double left, double right) {

@@ -60,11 +60,10 @@ double BurgersWave::profile(double y) const {
 double BurgersWave::integralAt(long node) const {
   if (problem_.periodic) {
     const long turns = node >= 0 ? node / kSteps : -((kSteps - 1 - node) / kSteps);
-    return static_cast<double>(turns) * integrals_.back() + integrals_[static_cast<std::size_t>(node - turns * kSteps)];
+    return static_cast<double>(turns) * integrals_.back() + integrals_[node - turns * kSteps];
   }
   const long inside = std::clamp(node, 0L, kSteps);
-  return integrals_[static_cast<std::size_t>(inside)] +
-         static_cast<double>(node - inside) * step_ * profile(place(node));
+  return integrals_[inside] + static_cast<double>(node - inside) * step_ * profile(place(node));
 }
 
 long BurgersWave::nodeBelow(double y) const { return static_cast<long>(std::floor((y - problem_.lower) / step_)); }

@@ -39,8 +39,7 @@ template <int D>
 GhostRules<D> ghostRules(const Level& level) {
   GhostRules<D> rules;
   for (int d = 0; d < D; ++d)
-    for (int side = 0; side < 2; ++side)
-      rules[static_cast<std::size_t>(d)][static_cast<std::size_t>(side)] = ghostRule<D>(level, d, side);
+    for (int side = 0; side < 2; ++side) rules[d][side] = ghostRule<D>(level, d, side);
   return rules;
 }
 
@@ -54,7 +53,7 @@ void fillBeyondGrid(const Level& level, const GhostRules<D>& rules, Rows<D>& row
       Box beyond = known;
       beyond.lower[d] = side == 0 ? rows.box().lower[d] : grid.upper[d];
       beyond.upper[d] = side == 0 ? 0 : rows.box().upper[d];
-      const GhostRule<D>& rule = rules[static_cast<std::size_t>(d)][side];
+      const GhostRule<D>& rule = rules[d][side];
       forEach<D>(beyond, [&](const Index<D>& cell) {
         Index<D> source = cell;
         source[d] = sourceOf(cell[d], grid.upper[d], rule.mirrored);

@@ -14,7 +14,7 @@ struct GhostRule {
 
 /// The rules of both sides of each axis.
 template <int D>
-using GhostRules = std::array<std::array<GhostRule<D>, 2>, static_cast<std::size_t>(D)>;
+using GhostRules = std::array<std::array<GhostRule<D>, 2>, D>;
 
 /// From the scene's conditions: Symmetric is a wall, with Density, Velocity or Pressure gas of these values flows in;
 /// whatever is not given continues with no gradient, so that a side without conditions is an outflow.

@@ -9,13 +9,13 @@ namespace tushar::euler {
 /// What a cell holds in D dimensions, as numbers that loops over rows keep in registers. Primitive: density [kg/m³],
 /// velocity along each axis [m/s], pressure [Pa]. Conserved, and fluxes: density, momentum, total energy per volume.
 template <int D>
-using State = std::array<double, static_cast<std::size_t>(D) + 2>;
+using State = std::array<double, D + 2>;
 
 /// Places in a State: density, component `axis` of velocity or momentum, pressure or total energy.
 inline constexpr std::size_t kDensity = 0;
-constexpr std::size_t kVelocity(int axis) { return static_cast<std::size_t>(axis) + 1; }
+constexpr std::size_t kVelocity(int axis) { return axis + 1; }
 template <int D>
-inline constexpr std::size_t kPressure = static_cast<std::size_t>(D) + 1;
+inline constexpr std::size_t kPressure = D + 1;
 
 /// A stiffened gas: p = (gamma - 1) rho e - gamma p_inf; with p_inf = 0 an ideal gas.
 ///

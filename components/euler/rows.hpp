@@ -41,7 +41,7 @@ void forEachBlock(const Box& box, Visit&& visit) {
 template <int D>
 class Rows {
  public:
-  static constexpr std::size_t numbers = static_cast<std::size_t>(D) + 2;
+  static constexpr std::size_t numbers = D + 2;
   using Pointers = std::array<double*, numbers>;
 
   /// Room for boxes of up to `cells` cells.
@@ -54,7 +54,7 @@ class Rows {
   }
   const Box& box() const { return box_; }
   /// Distance in memory of neighbours along an axis.
-  std::ptrdiff_t stride(int axis) const { return stride_[static_cast<std::size_t>(axis)]; }
+  std::ptrdiff_t stride(int axis) const { return stride_[axis]; }
 
   /// The numbers of a cell; those of the next cell of its row follow.
   Pointers at(const Index<D>& cell) {

@@ -11,20 +11,15 @@
 
 namespace tushar::reference {
 
-using input::Diagnostics;
-using input::Element;
-using input::Schema;
-using simulation::AnalysisKind;
-
 namespace {
 
 struct State {
   double density = 0, pressure = 0, velocity = 0;
   std::optional<double> gamma, pInfinity;
 };
-const Schema<State>& stateSchema() {
-  static const Schema<State> schema =
-      Schema<State>("left", "A uniform gas.")
+const input::Schema<State>& stateSchema() {
+  static const input::Schema<State> schema =
+      input::Schema<State>("left", "A uniform gas.")
           .required("density", &State::density, "kg/m^3", "rho", input::nonNegative())
           .required("pressure", &State::pressure, "Pa", "p", input::nonNegative())
           .value("velocity", &State::velocity, 0, "m/s", "u along the normal")
@@ -41,30 +36,26 @@ struct RiemannSection : GasTags {
   Vec3 normal = Vec3::UnitX();
   std::optional<double> mirror;
 };
-const Schema<RiemannSection>& riemannSchema() {
-  static const Schema<RiemannSection> schema = [] {
-    Schema<RiemannSection> declared("Module", "Errors against the exact solution of a shock tube (Toro, ch. 4).");
-    declareGasTags(declared, "exactRiemann");
-    declared
-        .value("p_infinity", memberOf<RiemannSection>(&GasTags::pInfinity), 0, "Pa", "stiffness of the gas",
-               input::nonNegative())
-        .ours()
-        .requiredSection("left", &RiemannSection::left, stateSchema(), "the gas below the diaphragm")
-        .ours()
-        .requiredSection("right", &RiemannSection::right, stateSchema(), "the gas above it")
-        .ours()
-        .value("normal", &RiemannSection::normal, Vec3::UnitX(), "1", "direction of the tube, of any length")
-        .ours()
-        .value("diaphragm", &RiemannSection::diaphragm, 0.5, "m", "the two meet where normal . x is this at t = 0")
-        .ours()
-        .optional("mirror", &RiemannSection::mirror, "m",
-                  "the tube is mirrored where normal . x is this, and again half a period of the grid further on")
-        .ours()
-        .check([](const RiemannSection& read, const Element& element, Diagnostics& diagnostics) {
-          if (read.normal.isZero(0)) diagnostics.error(element, "normal is [0,0,0], which is no direction");
-        });
-    return declared;
-  }();
+const input::Schema<RiemannSection>& riemannSchema() {
+  static const input::Schema<RiemannSection> schema =
+      gasSchema<RiemannSection>("exactRiemann", "Errors against the exact solution of a shock tube (Toro, ch. 4).")
+          .value("p_infinity", memberOf<RiemannSection>(&GasTags::pInfinity), 0, "Pa", "stiffness of the gas",
+                 input::nonNegative())
+          .ours()
+          .requiredSection("left", &RiemannSection::left, stateSchema(), "the gas below the diaphragm")
+          .ours()
+          .requiredSection("right", &RiemannSection::right, stateSchema(), "the gas above it")
+          .ours()
+          .value("normal", &RiemannSection::normal, Vec3::UnitX(), "1", "direction of the tube, of any length")
+          .ours()
+          .value("diaphragm", &RiemannSection::diaphragm, 0.5, "m", "the two meet where normal . x is this at t = 0")
+          .ours()
+          .optional("mirror", &RiemannSection::mirror, "m",
+                    "the tube is mirrored where normal . x is this, and again half a period of the grid further on")
+          .ours()
+          .check([](const RiemannSection& read, const input::Element& element, input::Diagnostics& diagnostics) {
+            if (read.normal.isZero(0)) diagnostics.error(element, "normal is [0,0,0], which is no direction");
+          });
   return schema;
 }
 
@@ -121,18 +112,13 @@ ReferencePointer tubeOn(const grid::Level& level, const RiemannSection& read) {
 
 }  // namespace
 
-AnalysisKind exactRiemannKind() {
-  AnalysisKind kind{"exactRiemann", "errors against the exact solution of a shock tube", {}, {}};
-  kind.describe = [](std::ostream& out) { riemannSchema().describe(out); };
-  kind.read = [](const Element& module, Diagnostics& diagnostics) {
-    return readModule(
-        riemannSchema(), module, diagnostics,
-        [](const RiemannSection& read, const grid::Level& level) { return tubeOn(level, read); },
-        [](const RiemannSection& read) {
-          return std::vector{gasOf(read.left, read), gasOf(read.right, read)};
-        });
-  };
-  return kind;
+simulation::AnalysisKind exactRiemannKind() {
+  return gasModule(
+      "exactRiemann", "errors against the exact solution of a shock tube", riemannSchema,
+      [](const RiemannSection& read, const grid::Level& level) { return tubeOn(level, read); },
+      [](const RiemannSection& read) {
+        return std::vector{gasOf(read.left, read), gasOf(read.right, read)};
+      });
 }
 
 }  // namespace tushar::reference

@@ -2,6 +2,8 @@
 
 #include <memory>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "components/reference/module_tags.hpp"
 #include "components/reference/riemann_solution.hpp"
@@ -18,25 +20,25 @@ using ReferencePointer = std::shared_ptr<const GasReference>;
 simulation::MakeAnalysis measureAgainst(std::function<ReferencePointer(const grid::Level&)> build, const GasTags& tags,
                                         const std::vector<GasLaw>& gases, const input::Element& module);
 
-/// Reads a module (S: GasTags and more) whose exact solution on a grid is `build(read, level)`, of the gases
-/// `gasesOf(read)`.
-template <class S, class Build, class GasesOf>
-simulation::MakeAnalysis readModule(const input::Schema<S>& schema, const input::Element& module,
-                                    input::Diagnostics& diagnostics, const Build& build, const GasesOf& gasesOf) {
-  const std::size_t before = diagnostics.size();
-  const S read = schema.read(module, diagnostics);
-  if (diagnostics.size() > before) return {};
-  return measureAgainst([read, build](const grid::Level& level) { return ReferencePointer(build(read, level)); }, read,
-                        gasesOf(read), module);
-}
+/// The gas of a solution that has one alone: that of the tags.
+inline std::vector<GasLaw> gasOfTags(const GasTags& read) { return {{read.gamma, read.pInfinity}}; }
 
-/// The same of one gas, that of the tags.
-template <class S, class Build>
-simulation::MakeAnalysis readModule(const input::Schema<S>& schema, const input::Element& module,
-                                    input::Diagnostics& diagnostics, const Build& build) {
-  return readModule(schema, module, diagnostics, build, [](const S& read) {
-    return std::vector{GasLaw{read.gamma, read.pInfinity}};
-  });
+/// The module `name`: measures against the solution `build(read, level)` for the gases `gasesOf(read)`. `schema()`, of
+/// an S derived from GasTags, reads it and lives as long as the program.
+template <class S, class Build, class GasesOf = decltype(&gasOfTags)>
+simulation::AnalysisKind gasModule(std::string name, std::string sentence, const input::Schema<S>& (*schema)(),
+                                   Build build, GasesOf gasesOf = gasOfTags) {
+  simulation::AnalysisKind kind{std::move(name), std::move(sentence), {}, {}};
+  kind.describe = [schema](std::ostream& out) { schema().describe(out); };
+  kind.read = [schema, build, gasesOf](const input::Element& module,
+                                       input::Diagnostics& diagnostics) -> simulation::MakeAnalysis {
+    const std::size_t before = diagnostics.size();
+    const S read = schema().read(module, diagnostics);
+    if (diagnostics.size() > before) return {};
+    return measureAgainst([read, build](const grid::Level& level) { return ReferencePointer(build(read, level)); },
+                          read, gasesOf(read), module);
+  };
+  return kind;
 }
 
 }  // namespace tushar::reference

@@ -4,52 +4,36 @@
 
 namespace tushar::reference {
 
-using input::Diagnostics;
-using input::Element;
-using input::Schema;
-using simulation::AnalysisKind;
-
 namespace {
 
 struct VortexSection : VortexTags {
   double density = 1, pressure = 1, strength = 5, radius = 1;
 };
-const Schema<VortexSection>& vortexSchema() {
-  static const Schema<VortexSection> schema = [] {
-    Schema<VortexSection> declared("Module", "Errors against a smooth vortex that a uniform flow carries along (Shu).");
-    declareVortexTags(declared, "isentropicVortex");
-    declared.value("density", &VortexSection::density, 1, "kg/m^3", "density far away", input::positive())
-        .ours()
-        .value("pressure", &VortexSection::pressure, 1, "Pa", "pressure far away", input::positive())
-        .ours()
-        .value("strength", &VortexSection::strength, 5, "m/s", "beta: 2 pi times the greatest speed around the centre")
-        .ours()
-        .value("radius", &VortexSection::radius, 1, "m", "where that speed is reached", input::positive())
-        .ours();
-    return declared;
-  }();
+const input::Schema<VortexSection>& isentropicSchema() {
+  static const input::Schema<VortexSection> schema =
+      vortexSchema<VortexSection>("isentropicVortex",
+                                  "Errors against a smooth vortex that a uniform flow carries along (Shu).")
+          .value("density", &VortexSection::density, 1, "kg/m^3", "density far away", input::positive())
+          .ours()
+          .value("pressure", &VortexSection::pressure, 1, "Pa", "pressure far away", input::positive())
+          .ours()
+          .value("strength", &VortexSection::strength, 5, "m/s",
+                 "beta: 2 pi times the greatest speed around the centre")
+          .ours()
+          .value("radius", &VortexSection::radius, 1, "m", "where that speed is reached", input::positive())
+          .ours();
   return schema;
 }
 
 }  // namespace
 
-AnalysisKind isentropicVortexKind() {
-  AnalysisKind kind{"isentropicVortex", "errors against a smooth vortex in a uniform flow", {}, {}};
-  kind.describe = [](std::ostream& out) { vortexSchema().describe(out); };
-  kind.read = [](const Element& module, Diagnostics& diagnostics) {
-    return readModule(vortexSchema(), module, diagnostics, [](const VortexSection& read, const grid::Level& level) {
-      IsentropicVortexProblem problem;
-      problem.density = read.density;
-      problem.pressure = read.pressure;
-      problem.gamma = read.gamma;
-      problem.strength = read.strength;
-      problem.radius = read.radius;
-      problem.axis = read.axis;
-      problem.frame = frameOf(read, level);
-      return std::make_shared<IsentropicVortex>(problem);
-    });
-  };
-  return kind;
+simulation::AnalysisKind isentropicVortexKind() {
+  return gasModule("isentropicVortex", "errors against a smooth vortex in a uniform flow", isentropicSchema,
+                   [](const VortexSection& read, const grid::Level& level) {
+                     auto problem = vortexProblem<IsentropicVortexProblem>(read, level);
+                     problem.strength = read.strength;
+                     return std::make_shared<IsentropicVortex>(problem);
+                   });
 }
 
 }  // namespace tushar::reference

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "components/reference/moving_frame.hpp"
 #include "components/reference/within.hpp"
@@ -27,10 +28,11 @@ T S::*memberOf(T Base::*member) {
   return member;
 }
 
-/// Declares them as tags of the module `name`; S is derived from GasTags.
+/// The schema of the module `name` with those tags; S is derived from GasTags.
 template <class S>
-void declareGasTags(input::Schema<S>& schema, const std::string& name, double gamma = 1.4) {
-  schema.requiredAttribute("name", memberOf<S>(&GasTags::name), "1", name)
+input::Schema<S> gasSchema(const std::string& name, std::string sentence, double gamma = 1.4) {
+  return input::Schema<S>("Module", std::move(sentence))
+      .requiredAttribute("name", memberOf<S>(&GasTags::name), "1", name)
       .value("gamma", memberOf<S>(&GasTags::gamma), gamma, "1", "ratio of specific heats", input::greaterThan(1))
       .ours()
       .section("within", memberOf<S>(&GasTags::within), regionSchema())
@@ -43,11 +45,11 @@ struct VortexTags : GasTags {
   Vec3 centre = Vec3::Zero(), velocity = Vec3::Zero();
 };
 
-/// Declares them as tags of the module `name`; S is derived from VortexTags.
+/// The schema of the module `name` with those tags; S is derived from VortexTags.
 template <class S>
-void declareVortexTags(input::Schema<S>& schema, const std::string& name) {
-  declareGasTags(schema, name);
-  schema.required("centre", memberOf<S>(&VortexTags::centre), "m", "where the vortex is at t = 0")
+input::Schema<S> vortexSchema(const std::string& name, std::string sentence) {
+  return gasSchema<S>(name, std::move(sentence))
+      .required("centre", memberOf<S>(&VortexTags::centre), "m", "where the vortex is at t = 0")
       .ours()
       .value("velocity", memberOf<S>(&VortexTags::velocity), Vec3::Zero(), "m/s", "of the flow that carries it along")
       .ours()
@@ -59,6 +61,19 @@ void declareVortexTags(input::Schema<S>& schema, const std::string& name) {
 /// Where the vortex goes on a grid, which may repeat. Throws std::invalid_argument where the plane in which it turns is
 /// not in the grid.
 MovingFrame frameOf(const VortexTags& tags, const grid::Level& level);
+
+/// What the problems of all vortices have in common, from the tags of S.
+template <class Problem, class S>
+Problem vortexProblem(const S& read, const grid::Level& level) {
+  Problem problem;
+  problem.density = read.density;
+  problem.pressure = read.pressure;
+  problem.gamma = read.gamma;
+  problem.radius = read.radius;
+  problem.axis = read.axis;
+  problem.frame = frameOf(read, level);
+  return problem;
+}
 
 /// 1 along the axes of the grid, 0 along those left out.
 Vec3 axesOf(const grid::Level& level);

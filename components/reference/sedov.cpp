@@ -81,7 +81,7 @@ double Sedov::pressureShape(double logLambda, const Shape& shape) const {
 double Sedov::findAlpha() const {
   const double gamma = problem_.gamma, d = dimension();
   const auto density = [&](int k) {
-    const Shape& shape = nodes_[static_cast<std::size_t>(k)].value;
+    const Shape& shape = nodes_[k].value;
     const double logLambda = k * step_, w = (1 + std::exp(shape.y)) / gamma;
     const double kinetic = 0.5 * w * w * std::exp(2 * logLambda + shape.density);
     return (kinetic + pressureShape(logLambda, shape) / (gamma - 1)) * std::exp(d * logLambda);

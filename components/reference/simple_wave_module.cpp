@@ -4,11 +4,6 @@
 
 namespace tushar::reference {
 
-using input::Diagnostics;
-using input::Element;
-using input::Schema;
-using simulation::AnalysisKind;
-
 namespace {
 
 struct WaveSection : GasTags {
@@ -16,44 +11,38 @@ struct WaveSection : GasTags {
   double density = 1, soundSpeed = 1;
   double lower = 0, upper = 1;
 };
-const Schema<WaveSection>& waveSchema() {
-  static const Schema<WaveSection> schema = [] {
-    Schema<WaveSection> declared("Module", "Errors against a simple wave that runs to the right into gas at rest.");
-    declareGasTags(declared, "simpleWave");
-    declared.required("velocity", &WaveSection::velocity, "m/s", "velocity at t = 0, a formula in x")
-        .ours()
-        .value("density", &WaveSection::density, 1, "kg/m^3", "density at rest", input::positive())
-        .ours()
-        .value("sound_speed", &WaveSection::soundSpeed, 1, "m/s", "speed of sound at rest", input::positive())
-        .ours()
-        .value("lower", &WaveSection::lower, 0, "m", "where the profile begins")
-        .ours()
-        .value("upper", &WaveSection::upper, 1, "m", "where the profile ends")
-        .ours();
-    return declared;
-  }();
+const input::Schema<WaveSection>& waveSchema() {
+  static const input::Schema<WaveSection> schema =
+      gasSchema<WaveSection>("simpleWave", "Errors against a simple wave that runs to the right into gas at rest.")
+          .required("velocity", &WaveSection::velocity, "m/s", "velocity at t = 0, a formula in x")
+          .ours()
+          .value("density", &WaveSection::density, 1, "kg/m^3", "density at rest", input::positive())
+          .ours()
+          .value("sound_speed", &WaveSection::soundSpeed, 1, "m/s", "speed of sound at rest", input::positive())
+          .ours()
+          .value("lower", &WaveSection::lower, 0, "m", "where the profile begins")
+          .ours()
+          .value("upper", &WaveSection::upper, 1, "m", "where the profile ends")
+          .ours();
   return schema;
 }
 
 }  // namespace
 
-AnalysisKind simpleWaveKind() {
-  AnalysisKind kind{"simpleWave", "errors against a right-running simple wave", {}, {}};
-  kind.describe = [](std::ostream& out) { waveSchema().describe(out); };
-  kind.read = [](const Element& module, Diagnostics& diagnostics) {
-    return readModule(waveSchema(), module, diagnostics, [](const WaveSection& read, const grid::Level& level) {
-      if (axesOf(level)[0] == 0) throw std::invalid_argument("the wave runs along x, but this grid has no x");
-      SimpleWaveProblem problem;
-      problem.velocity = [velocity = read.velocity](double x) { return velocity(Vec3(x, 0, 0)); };
-      problem.density = read.density;
-      problem.soundSpeed = read.soundSpeed;
-      problem.gamma = read.gamma;
-      problem.lower = read.lower;
-      problem.upper = read.upper;
-      return std::make_shared<SimpleWave>(problem);
-    });
-  };
-  return kind;
+simulation::AnalysisKind simpleWaveKind() {
+  return gasModule("simpleWave", "errors against a right-running simple wave", waveSchema,
+                   [](const WaveSection& read, const grid::Level& level) {
+                     if (axesOf(level)[0] == 0)
+                       throw std::invalid_argument("the wave runs along x, but this grid has no x");
+                     SimpleWaveProblem problem;
+                     problem.velocity = [velocity = read.velocity](double x) { return velocity(Vec3(x, 0, 0)); };
+                     problem.density = read.density;
+                     problem.soundSpeed = read.soundSpeed;
+                     problem.gamma = read.gamma;
+                     problem.lower = read.lower;
+                     problem.upper = read.upper;
+                     return std::make_shared<SimpleWave>(problem);
+                   });
 }
 
 }  // namespace tushar::reference

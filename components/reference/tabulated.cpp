@@ -61,7 +61,7 @@ Tabulated::Tabulated(GasTable table) : table_(std::move(table)) {
   for (int d = 0; d < 3; ++d) {
     if (table_.cells[d] < 1 || !(table_.upper[d] > table_.lower[d]))
       throw std::invalid_argument(fmt::format("A table of a gas has no cells along {}.", "xyz"[d]));
-    count *= static_cast<std::size_t>(table_.cells[d]);
+    count *= table_.cells[d];
     spacing_[d] = (table_.upper[d] - table_.lower[d]) / table_.cells[d];
   }
   if (count != table_.means.size())
@@ -104,8 +104,7 @@ GasState Tabulated::sum(const std::vector<Share>& x, const std::vector<Share>& y
   for (const Share& k : z)
     for (const Share& j : y)
       for (const Share& i : x) {
-        const auto row = static_cast<std::size_t>(k.cell) * static_cast<std::size_t>(table_.cells[1]) +
-                         static_cast<std::size_t>(j.cell);
+        const auto row = static_cast<std::size_t>(k.cell) * static_cast<std::size_t>(table_.cells[1]) + j.cell;
         const auto cell = row * static_cast<std::size_t>(table_.cells[0]) + static_cast<std::size_t>(i.cell);
         total += k.part * j.part * i.part * toFields(table_.means[cell]);
       }

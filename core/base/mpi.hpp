@@ -34,8 +34,8 @@ class FailedElsewhere : public std::runtime_error {
 
 /// The ranks that run a simulation together, seen from one of them.
 ///
-/// All but send, receive and hasMessage are collective: every rank calls them, in the same order. With one rank they
-/// return at once, and MPI is not needed.
+/// All but `receive` are collective: every rank calls them, in the same order. With one rank they return at once, and
+/// MPI is not needed.
 class Communicator {
  public:
   struct Native;

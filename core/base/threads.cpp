@@ -63,10 +63,7 @@ int allowedThreads() {
 
 class Threads::Pool {
  public:
-  explicit Pool(int count)
-      : limit_(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(count)),
-        arena_(count),
-        busy_(static_cast<std::size_t>(count)) {}
+  explicit Pool(int count) : limit_(tbb::global_control::max_allowed_parallelism, count), arena_(count), busy_(count) {}
 
   /// The time that all threads together have worked on the loop.
   template <class Work>
@@ -92,7 +89,7 @@ class Threads::Pool {
     Clock::time_point until;
     Clock::duration time{};
   };
-  Busy& myBusy() { return busy_[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())]; }
+  Busy& myBusy() { return busy_[tbb::this_task_arena::current_thread_index()]; }
 
   template <class Work>
   void runPart(const tbb::blocked_range<int>& part, const Work& work) {

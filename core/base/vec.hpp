@@ -30,8 +30,8 @@ template <int D>
 struct Index {
   std::array<int, D> at{};
 
-  constexpr int& operator[](int axis) { return at[static_cast<std::size_t>(axis)]; }
-  constexpr int operator[](int axis) const { return at[static_cast<std::size_t>(axis)]; }
+  constexpr int& operator[](int axis) { return at[axis]; }
+  constexpr int operator[](int axis) const { return at[axis]; }
   friend constexpr bool operator==(const Index&, const Index&) = default;
 
   friend constexpr Index operator+(Index a, const Index& b) {

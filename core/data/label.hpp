@@ -75,7 +75,7 @@ struct FieldLabel : Label {
   /// Keeps `count` values of T for each particle, node or cell.
   constexpr void setCount(int count) {
     components = count * Stored<T>::components;
-    bytes = static_cast<std::size_t>(count) * sizeof(T);
+    bytes = count * sizeof(T);
   }
   /// What the names of such labels start with, as in Uintah: p. for particles, g. for grid nodes, c. for cells.
   static constexpr std::string_view prefix() {

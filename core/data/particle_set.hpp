@@ -121,14 +121,14 @@ class ParticleSet {
     std::ptrdiff_t at = cell[0] - cells_.lower[0];
     if constexpr (D > 1) at += std::ptrdiff_t{cell[1] - cells_.lower[1]} * stride_[1];
     if constexpr (D > 2) at += std::ptrdiff_t{cell[2] - cells_.lower[2]} * stride_[2];
-    return static_cast<std::size_t>(at);
+    return at;
   }
   template <int D>
   std::size_t rowOf(const Index<D>& cell) const {
     std::ptrdiff_t row = 0;
     if constexpr (D > 1) row += cell[1] - cells_.lower[1];
     if constexpr (D > 2) row += std::ptrdiff_t{cell[2] - cells_.lower[2]} * cells_.extent(1);
-    return static_cast<std::size_t>(row);
+    return row;
   }
 
   /// Takes the particles out of the cells of a row, but for those of `kept`.

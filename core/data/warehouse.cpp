@@ -61,7 +61,7 @@ void Warehouse::startAnew(int materials) {
 }
 
 ReductionSlot& Warehouse::slot(int number) {
-  auto& slot = reductions_[static_cast<std::size_t>(number)];
+  auto& slot = reductions_[number];
   if (!slot) {
     slot = (*table_)[number].label->makeReduction();
     takeRestored(number);
@@ -70,32 +70,32 @@ ReductionSlot& Warehouse::slot(int number) {
 }
 
 void Warehouse::resetReduction(int number) {
-  if (auto& slot = reductions_[static_cast<std::size_t>(number)])
+  if (auto& slot = reductions_[number])
     slot->reset();
   else
     restored_.erase(number);
 }
 
 std::vector<double> Warehouse::reductionValues(int number) const {
-  const auto& slot = reductions_[static_cast<std::size_t>(number)];
+  const auto& slot = reductions_[number];
   return slot ? slot->values() : std::vector<double>{};
 }
 
 std::span<const std::byte> Warehouse::reductionBytes(int number) const {
-  if (const auto& slot = reductions_[static_cast<std::size_t>(number)]) return slot->bytes();
+  if (const auto& slot = reductions_[number]) return slot->bytes();
   const auto restored = restored_.find(number);
   return restored == restored_.end() ? std::span<const std::byte>{} : std::span<const std::byte>(restored->second);
 }
 
 void Warehouse::restoreReduction(int number, std::vector<std::byte> bytes) {
   restored_[number] = std::move(bytes);
-  if (reductions_[static_cast<std::size_t>(number)]) takeRestored(number);
+  if (reductions_[number]) takeRestored(number);
 }
 
 void Warehouse::takeRestored(int number) {
   const auto restored = restored_.find(number);
   if (restored == restored_.end()) return;
-  const std::span<std::byte> bytes = reductions_[static_cast<std::size_t>(number)]->bytes();
+  const std::span<std::byte> bytes = reductions_[number]->bytes();
   if (bytes.size() != restored->second.size())
     throw AccessError(fmt::format("{} was restored from another type", (*table_)[number].label->name));
   std::copy(restored->second.begin(), restored->second.end(), bytes.begin());
@@ -149,7 +149,7 @@ void Warehouse::free(Generation generation, int number) {
 void Warehouse::layOut(Generation generation, int material, Generation base) {
   std::vector<std::size_t> counts;
   for (const grid::Patch& patch : level_->patches())
-    counts.push_back(static_cast<std::size_t>(particles(generation, material, patch.id()).owned()));
+    counts.push_back(particles(generation, material, patch.id()).owned());
   Layout& where = layout(generation, material);
   where.slots = slotsThatFit(layout(base, material).slots, counts);
   where.mostCopies = std::max(where.mostCopies, layout(base, material).mostCopies);
@@ -172,7 +172,7 @@ Buffer Warehouse::follow(Generation generation, int number, Generation set) {
 }
 
 const SharedSlots& Warehouse::slots(Generation generation, int number) const {
-  return (generation == Generation::old ? old_ : fresh_).storages[static_cast<std::size_t>(number)].slots;
+  return (generation == Generation::old ? old_ : fresh_).storages[number].slots;
 }
 
 int Warehouse::distance(Generation set, int material, int from, int to) {
@@ -183,7 +183,7 @@ int Warehouse::distance(Generation set, int material, int from, int to) {
 int Warehouse::placeCopies(Generation set, int material, int patch, int count) {
   Layout& where = layout(set, material);
   const std::size_t first = where.slots->end + where.copies;
-  where.copies += static_cast<std::size_t>(count);
+  where.copies += count;
   where.mostCopies = std::max(where.mostCopies, where.copies);
   return static_cast<int>(first) - static_cast<int>(where.slots->first[placeOf(patch)]);
 }

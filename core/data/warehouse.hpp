@@ -34,17 +34,15 @@ class VariableTable {
   int number(const Label& label, int material);
   /// The number, or -1 where no task ever named the variable.
   int find(std::string_view name, int material) const;
-  const VariableName& operator[](int number) const { return names_[static_cast<std::size_t>(number)]; }
+  const VariableName& operator[](int number) const { return names_[number]; }
   int size() const { return static_cast<int>(names_.size()); }
 
   /// Some task reads the variable `ghost` cells or nodes beyond its patch.
   void widen(int number, int ghost);
   /// How far beyond its patch a variable is ever read.
-  int ghost(int number) const { return ghosts_[static_cast<std::size_t>(number)]; }
+  int ghost(int number) const { return ghosts_[number]; }
   /// How far beyond its patch any particle variable of a material is ever read.
-  int reach(int material) const {
-    return material < static_cast<int>(reaches_.size()) ? reaches_[static_cast<std::size_t>(material)] : 0;
-  }
+  int reach(int material) const { return material < static_cast<int>(reaches_.size()) ? reaches_[material] : 0; }
 
  private:
   static std::string key(std::string_view name, int material);
@@ -101,7 +99,7 @@ class Warehouse {
   /// What a patch adds to a reduction.
   template <class R>
   R& partOfReduction(int number, int patch) {
-    return static_cast<TypedReduction<R>&>(slot(number)).part(static_cast<std::size_t>(patch - level_->firstPatch()));
+    return static_cast<TypedReduction<R>&>(slot(number)).part(patch - level_->firstPatch());
   }
   void resetReduction(int number);
   /// A reduction whatever its type; made on first use, which must not be by several threads at once.
@@ -181,13 +179,9 @@ class Warehouse {
   };
 
   State& state(Generation generation) { return generation == Generation::old ? old_ : fresh_; }
-  Storage& storage(Generation generation, int number) {
-    return state(generation).storages[static_cast<std::size_t>(number)];
-  }
-  Layout& layout(Generation generation, int material) {
-    return state(generation).layouts[static_cast<std::size_t>(material)];
-  }
-  std::size_t placeOf(int patch) const { return static_cast<std::size_t>(patch - level_->firstPatch()); }
+  Storage& storage(Generation generation, int number) { return state(generation).storages[number]; }
+  Layout& layout(Generation generation, int material) { return state(generation).layouts[material]; }
+  std::size_t placeOf(int patch) const { return patch - level_->firstPatch(); }
   std::size_t place(int number, int patch) const {
     return static_cast<std::size_t>(number) * level_->patches().size() + placeOf(patch);
   }

@@ -82,10 +82,8 @@ class BoundarySides {
 struct BoundaryConditions {
   std::array<std::vector<BoundaryCondition>, 6> faces;
 
-  std::vector<BoundaryCondition>& face(int axis, int side) { return faces[static_cast<std::size_t>(2 * axis + side)]; }
-  const std::vector<BoundaryCondition>& face(int axis, int side) const {
-    return faces[static_cast<std::size_t>(2 * axis + side)];
-  }
+  std::vector<BoundaryCondition>& face(int axis, int side) { return faces[2 * axis + side]; }
+  const std::vector<BoundaryCondition>& face(int axis, int side) const { return faces[2 * axis + side]; }
 };
 
 }  // namespace tushar::grid

@@ -46,7 +46,7 @@ class Level {
 
   int dimension() const { return static_cast<int>(axes_.size()); }
   /// The scene's axis (0 for x, 1 for y, 2 for z) behind a kernel axis.
-  int axis(int kernelAxis) const { return axes_[static_cast<std::size_t>(kernelAxis)]; }
+  int axis(int kernelAxis) const { return axes_[kernelAxis]; }
 
   /// Every cell of the grid; lower is always 0.
   const Box& cells() const { return cells_; }
@@ -74,7 +74,7 @@ class Level {
   const Share& share() const { return share_; }
   /// Nodes of one of this rank's patches that are its own: all but those on an upper face behind which only patches of
   /// this rank stand, which have these nodes, too. Each node of a patch is an own node of one of the rank's.
-  const Box& ownNodes(int patch) const { return own_nodes_[static_cast<std::size_t>(patch - first_patch_)]; }
+  const Box& ownNodes(int patch) const { return own_nodes_[patch - first_patch_]; }
   /// Which patches each rank has.
   RankOffsets rankOffsets() const;
   /// Gives the patches to the ranks anew. What stands on them is the caller's to move: see tasks::migrate.
@@ -82,9 +82,9 @@ class Level {
   const Domain& domain() const { return domain_; }
 
   /// Cell width along a kernel axis, m.
-  double spacing(int kernelAxis) const { return spacing_[static_cast<std::size_t>(kernelAxis)]; }
+  double spacing(int kernelAxis) const { return spacing_[kernelAxis]; }
   /// One over the cell width, 1/m: a division saved wherever kernels go from metres to cells.
-  double inverseSpacing(int kernelAxis) const { return inverse_spacing_[static_cast<std::size_t>(kernelAxis)]; }
+  double inverseSpacing(int kernelAxis) const { return inverse_spacing_[kernelAxis]; }
   /// Cell width along an axis of the scene, m; 0 where the grid has no extent.
   double cellWidth(int axis) const { return (domain_.upper[axis] - domain_.lower[axis]) / domain_.resolution[axis]; }
   /// The least cell width, m.
@@ -92,9 +92,7 @@ class Level {
   /// Volume of a cell, m³; an axis without extent counts as 1 m.
   double cellVolume() const { return cellVolume_; }
   /// Position of a node along a kernel axis, m.
-  double nodePosition(int kernelAxis, int node) const {
-    return lower_[static_cast<std::size_t>(kernelAxis)] + node * spacing(kernelAxis);
-  }
+  double nodePosition(int kernelAxis, int node) const { return lower_[kernelAxis] + node * spacing(kernelAxis); }
 
   /// The middle of a cell, m.
   template <int D>

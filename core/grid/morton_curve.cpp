@@ -6,7 +6,7 @@ namespace tushar::grid {
 
 MortonCurve::MortonCurve(Cuts cuts) : cuts_(std::move(cuts)) {
   for (int d = 0; d < 3; ++d) {
-    all_.upper[d] = static_cast<int>(cuts_[static_cast<std::size_t>(d)].size()) - 1;
+    all_.upper[d] = static_cast<int>(cuts_[d].size()) - 1;
     bits_ = std::max(bits_, static_cast<int>(std::bit_width(static_cast<unsigned>(all_.upper[d] - 1))));
   }
 }
@@ -14,9 +14,8 @@ MortonCurve::MortonCurve(Cuts cuts) : cuts_(std::move(cuts)) {
 std::uint64_t MortonCurve::cellsOf(const Box& blocks) const {
   std::uint64_t cells = 1;
   for (int d = 0; d < 3; ++d) {
-    const auto& cuts = cuts_[static_cast<std::size_t>(d)];
-    cells *= static_cast<std::uint64_t>(cuts[static_cast<std::size_t>(blocks.upper[d])] -
-                                        cuts[static_cast<std::size_t>(blocks.lower[d])]);
+    const auto& cuts = cuts_[d];
+    cells *= static_cast<std::uint64_t>(cuts[blocks.upper[d]] - cuts[blocks.lower[d]]);
   }
   return cells;
 }
@@ -60,7 +59,7 @@ Index3 MortonCurve::blockAt(int place) const {
 Box MortonCurve::cellsAt(const Index3& block) const {
   Box cells;
   for (int d = 0; d < 3; ++d) {
-    const int* cut = &cuts_[static_cast<std::size_t>(d)][static_cast<std::size_t>(block[d])];
+    const int* cut = &cuts_[d][block[d]];
     cells.lower[d] = cut[0];
     cells.upper[d] = cut[1];
   }
@@ -94,7 +93,7 @@ int MortonCurve::placeAfter(std::uint64_t cells) const {
 }
 
 int MortonCurve::blockAlong(int axis, int cell) const {
-  const auto& cuts = cuts_[static_cast<std::size_t>(axis)];
+  const auto& cuts = cuts_[axis];
   return static_cast<int>(std::upper_bound(cuts.begin(), cuts.end() - 1, cell) - cuts.begin() - 1);
 }
 

@@ -8,7 +8,7 @@ namespace tushar::grid {
 // of the patches before it.
 
 int Partition::firstOf(int rank) const {
-  if (!offsets_.empty()) return offsets_[static_cast<std::size_t>(rank)];
+  if (!offsets_.empty()) return offsets_[rank];
   const auto ranks = static_cast<std::uint64_t>(ranks_), wanted = static_cast<std::uint64_t>(rank);
   return curve_->placeAfter((wanted * curve_->cells() + ranks - 1) / ranks);
 }

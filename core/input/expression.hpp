@@ -59,7 +59,7 @@ class VectorExpression {
   bool isConstant() const;
   bool dependsOnTime() const;
   /// `axis` is 0, 1 or 2.
-  const Expression& operator[](int axis) const { return components_[static_cast<std::size_t>(axis)]; }
+  const Expression& operator[](int axis) const { return components_[axis]; }
   std::string text() const;
 
  private:

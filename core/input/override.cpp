@@ -117,7 +117,7 @@ Node* follow(Node& parent, const OverrideStep& step, const Location& where, Diag
     diagnostics.error(where, {}, problem);
     return nullptr;
   }
-  const std::size_t chosen = step.index > 0 ? static_cast<std::size_t>(step.index) - 1 : 0;
+  const std::size_t chosen = step.index > 0 ? step.index - 1 : 0;
   return chosen < found.size() ? found[chosen] : &create(parent, step.name, where);
 }
 

@@ -170,13 +170,13 @@ class Schema : public SchemaBase {
   }
 
   /// A tag (with all that is in it) that is accepted and means nothing here; `sentence` says why.
-  Schema& ignored(std::string name, std::string sentence) { return put(ignoredEntry(name, sentence)); }
-  Schema& ignoredAttribute(std::string name, std::string sentence) {
+  Schema& ignored(const std::string& name, const std::string& sentence) { return put(ignoredEntry(name, sentence)); }
+  Schema& ignoredAttribute(const std::string& name, const std::string& sentence) {
     return put(attribute(ignoredEntry(name, sentence)));
   }
 
   /// An attribute with text that something other than this schema reads.
-  Schema& foreignAttribute(std::string name, std::string sentence) {
+  Schema& foreignAttribute(const std::string& name, const std::string& sentence) {
     SchemaEntry entry = ignoredEntry(name, sentence);
     entry.type = typeName<std::string>;
     return put(attribute(std::move(entry)));
@@ -184,8 +184,8 @@ class Schema : public SchemaBase {
 
   /// Reads what declarations cannot say. `read` is called once with the element of *this* schema, whether or not any
   /// of the tags that it `takes` over (`name` itself if none are listed) is given.
-  Schema& custom(std::string name, std::function<void(S&, const Element&, Diagnostics&)> read,
-                 std::vector<std::string> takes, std::string sentence,
+  Schema& custom(const std::string& name, std::function<void(S&, const Element&, Diagnostics&)> read,
+                 std::vector<std::string> takes, const std::string& sentence,
                  std::function<void(std::ostream&, int)> describeBelow = {}) {
     SchemaEntry entry = named(name, sentence);
     entry.form = SchemaEntry::Form::custom;
@@ -298,7 +298,7 @@ class Schema : public SchemaBase {
       const std::string problem = choiceProblem(text, words);
       if (!problem.empty()) return problem;
       const auto found = std::find(words.begin(), words.end(), text) - words.begin();
-      store(member, object, E(choices[static_cast<std::size_t>(found)].second));
+      store(member, object, E(choices[found].second));
       return std::string();
     };
     return entry;

@@ -127,7 +127,7 @@ std::string facts(const SchemaEntry& entry) {
 }
 
 void describeEntry(const SchemaEntry& entry, std::ostream& out, int indent) {
-  std::string line = std::string(static_cast<std::size_t>(indent), ' ') + title(entry);
+  std::string line = std::string(indent, ' ') + title(entry);
   if (!facts(entry).empty()) line += " — " + facts(entry);
   if (!entry.sentence.empty()) line += ": " + entry.sentence;
   out << line << (entry.ours ? " [Tushar's own]" : "") << '\n';
@@ -157,7 +157,7 @@ std::vector<std::string> SchemaBase::attributeNames() const {
 }
 
 void SchemaBase::describe(std::ostream& out, int indent) const {
-  out << std::string(static_cast<std::size_t>(indent), ' ') << '<' << name_ << ">: " << sentence_ << '\n';
+  out << std::string(indent, ' ') << '<' << name_ << ">: " << sentence_ << '\n';
   describeContents(out, indent + 2);
 }
 

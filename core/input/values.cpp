@@ -78,7 +78,7 @@ Parsed<Triple> parseTriple(std::string_view text, std::string_view what) {
   if (!values) return Parsed<Triple>::wrong(values.problem);
   if ((*values).size() != 3) return Parsed<Triple>::wrong(expected(trimmed(text), what));
   Triple triple;
-  for (int d = 0; d < 3; ++d) triple[d] = (*values)[static_cast<std::size_t>(d)];
+  for (int d = 0; d < 3; ++d) triple[d] = (*values)[d];
   return Parsed<Triple>::ok(triple);
 }
 

@@ -35,8 +35,7 @@ class TypedTag<std::variant<Ts...>> {
   }
   template <class T>
   static void describeOne(std::ostream& out, int indent) {
-    out << std::string(static_cast<std::size_t>(indent), ' ') << "type=\"" << T::name
-        << "\": " << T::schema().sentence() << '\n';
+    out << std::string(indent, ' ') << "type=\"" << T::name << "\": " << T::schema().sentence() << '\n';
     T::schema().describeContents(out, indent + 2);
   }
 };

@@ -53,7 +53,7 @@ std::string readAll(const std::string& path, std::string& text) {
   std::ifstream file(path, std::ios::binary);
   std::array<char, 65536> chunk;
   while (file.read(chunk.data(), chunk.size()) || file.gcount() > 0) {
-    text.append(chunk.data(), static_cast<std::size_t>(file.gcount()));
+    text.append(chunk.data(), file.gcount());
   }
   if (file.is_open() && !file.bad()) return {};
   return "it cannot be read: " + std::generic_category().message(errno ? errno : EIO);

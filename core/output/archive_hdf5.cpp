@@ -107,8 +107,7 @@ void Hdf5File::dataset(const std::string& name, const Array& array, std::vector<
   std::visit(
       [&](const auto& values) {
         using Number = typename std::decay_t<decltype(values)>::value_type;
-        assert(static_cast<hsize_t>(H5Sget_simple_extent_npoints(space)) ==
-               array.entries() * static_cast<std::size_t>(array.components));
+        assert(static_cast<hsize_t>(H5Sget_simple_extent_npoints(space)) == array.entries() * array.components);
         const Handle data(
             H5Dcreate2(file_, name.c_str(), fileType(Number{}, double_as_float_), space, links, creation, H5P_DEFAULT),
             H5Dclose);
@@ -135,7 +134,7 @@ void Hdf5File::writePieces(Id data, const Array& array, const Shape& shape, cons
   piece_.resize(std::max<std::size_t>(piece_.size(), volume(most) * sizeof(Number)));
   for (std::size_t read = 0; read < array.entries();) {
     for (std::size_t k = 0; k < shape.size(); ++k) extent[k] = std::min(most[k], shape[k] - first[k]);
-    const std::size_t entries = volume(extent) / static_cast<std::size_t>(array.components);
+    const std::size_t entries = volume(extent) / array.components;
     array.source->read(read, entries, piece_.data());
     const Handle memory = vectorSpace(volume(extent));
     H5Sselect_hyperslab(space, H5S_SELECT_SET, first.data(), nullptr, extent.data(), nullptr);

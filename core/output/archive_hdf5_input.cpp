@@ -78,7 +78,7 @@ Array::Values Hdf5Input::dataset(const std::string& name) const {
   std::visit(
       [&](auto& values) {
         using Number = typename std::decay_t<decltype(values)>::value_type;
-        values.resize(static_cast<std::size_t>(numbers));
+        values.resize(numbers);
         checked(H5Dread(data, memoryType(Number{}), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), name + " of");
       },
       read);

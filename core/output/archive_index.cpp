@@ -87,29 +87,20 @@ std::string ArchiveIndex::text() const {
   pugi::xml_node variables = root.append_child("variables");
   for (const auto& [name, variable] : variables_) {
     pugi::xml_node node = variables.append_child("variable");
-    set(node, "name", name);
-    set(node, "centring", variable.centring);
-    set(node, "type", variable.type);
-    set(node, "components", variable.components);
-    set(node, "unit", variable.unit);
-    set(node, "description", variable.description);
+    set(node, "name", name, "centring", variable.centring, "type", variable.type, "components", variable.components,
+        "unit", variable.unit, "description", variable.description);
     if (!variable.materials.empty()) set(node, "materials", fmt::format("{}", fmt::join(variable.materials, ", ")));
   }
   pugi::xml_node globals = root.append_child("globals");
   for (const auto& [name, global] : globals_) {
     pugi::xml_node node = globals.append_child("global");
-    set(node, "name", name);
-    set(node, "href", global.file);
-    set(node, "components", global.components);
-    set(node, "unit", global.unit);
-    set(node, "description", global.description);
+    set(node, "name", name, "href", global.file, "components", global.components, "unit", global.unit, "description",
+        global.description);
   }
   pugi::xml_node outputs = root.append_child("timesteps");
   for (const auto& [step, output] : outputs_) {
     pugi::xml_node node = outputs.append_child("timestep");
-    set(node, "href", outputName(step));
-    set(node, "time", output.time);
-    set(node, "delT", output.delT);
+    set(node, "href", outputName(step), "time", output.time, "delT", output.delT);
     node.text() = step;
   }
   return textOf(document);

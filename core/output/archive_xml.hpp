@@ -8,10 +8,11 @@
 
 namespace tushar::output {
 
-/// Sets an attribute; numbers are written so that they read back exactly.
-template <class Value>
-void set(pugi::xml_node node, const char* name, const Value& value) {
+/// Sets attributes, name by value; numbers are written so that they read back exactly.
+template <class Value, class... More>
+void set(pugi::xml_node node, const char* name, const Value& value, const More&... more) {
   node.append_attribute(name) = fmt::format("{}", value).c_str();
+  if constexpr (sizeof...(more) > 0) set(node, more...);
 }
 
 /// The document as text.

@@ -33,7 +33,7 @@ std::optional<XXH64_hash_t> hashOf(const fs::path& file) {
   XXH64_reset(state.get(), 0);
   std::vector<char> piece(1 << 20);
   while (in.read(piece.data(), static_cast<std::streamsize>(piece.size())) || in.gcount() > 0)
-    XXH64_update(state.get(), piece.data(), static_cast<std::size_t>(in.gcount()));
+    XXH64_update(state.get(), piece.data(), in.gcount());
   return in.bad() ? std::nullopt : std::optional(XXH64_digest(state.get()));
 }
 

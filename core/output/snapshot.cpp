@@ -7,7 +7,7 @@ void load(Array& array) {
   const std::size_t entries = array.entries();
   std::visit(
       [&](auto& values) {
-        values.resize(entries * static_cast<std::size_t>(array.components));
+        values.resize(entries * array.components);
         array.source->read(0, entries, reinterpret_cast<std::byte*>(values.data()));
       },
       array.values);

@@ -34,7 +34,7 @@ struct Array {
   std::size_t entries() const {
     if (source) return source->entries();
     const std::size_t numbers = std::visit([](const auto& all) { return all.size(); }, values);
-    return numbers / static_cast<std::size_t>(components);
+    return numbers / components;
   }
 };
 

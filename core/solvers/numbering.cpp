@@ -24,7 +24,7 @@ void CellNumbering::numberGhosts(const grid::Patch& patch, const std::vector<int
         const int number = owned_ + static_cast<int>(ghosts_.size());
         if (!numbers_.emplace(level_->cellNumber<3>(cell), number).second) return;
         const grid::Patch other = level_->patchOf(cell);
-        ghosts_.push_back(firstOf[static_cast<std::size_t>(other.id())] + static_cast<int>(other.cells().offset(cell)));
+        ghosts_.push_back(firstOf[other.id()] + static_cast<int>(other.cells().offset(cell)));
       });
     }
 }

@@ -14,13 +14,13 @@ std::vector<OwnedVec> motionsOver(Vec s, MatNullSpace space) {
   const Vec* given = nullptr;
   check(MatNullSpaceGetVecs(space, &hasConstant, &count, &given));
   const PetscInt constants = hasConstant ? 1 : 0;
-  std::vector<OwnedVec> motions(static_cast<std::size_t>(constants + count));
+  std::vector<OwnedVec> motions(constants + count);
   for (std::size_t k = 0; k < motions.size(); ++k) {
     check(VecDuplicate(s, motions[k].address()));
     if (hasConstant && k == 0)
       check(VecSet(motions[k], 1));
     else
-      check(VecCopy(given[k - static_cast<std::size_t>(constants)], motions[k]));
+      check(VecCopy(given[k - constants], motions[k]));
     check(VecPointwiseDivide(motions[k], motions[k], s));
     for (std::size_t before = 0; before < k; ++before) {
       PetscScalar along = 0;

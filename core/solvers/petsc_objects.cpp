@@ -68,7 +68,7 @@ PetscMatrix::PetscMatrix(const Unknowns& unknowns) : ranks_(mpi::handleOf(*unkno
 void PetscMatrix::numberBlocks(const Unknowns& unknowns) {
   PetscInt first = 0;
   check(MatGetOwnershipRange(matrix_, &first, nullptr));
-  std::vector<PetscInt> numbers(static_cast<std::size_t>(unknowns.owned));
+  std::vector<PetscInt> numbers(unknowns.owned);
   std::iota(numbers.begin(), numbers.end(), first / unknowns.block);
   numbers.insert(numbers.end(), unknowns.ghosts.begin(), unknowns.ghosts.end());
   OwnedNumbering numbering;
@@ -111,8 +111,7 @@ PetscVector::PetscVector(const Unknowns& unknowns, std::span<double> values) {
 }
 
 GhostedVector::GhostedVector(const Unknowns& unknowns)
-    : values_(static_cast<std::size_t>(unknowns.block) *
-              (static_cast<std::size_t>(unknowns.owned) + unknowns.ghosts.size())) {
+    : values_(static_cast<std::size_t>(unknowns.block) * (unknowns.owned + unknowns.ghosts.size())) {
   check(VecCreateGhostBlockWithArray(mpi::handleOf(*unknowns.ranks), unknowns.block, unknowns.block * unknowns.owned,
                                      PETSC_DETERMINE, static_cast<PetscInt>(unknowns.ghosts.size()),
                                      unknowns.ghosts.data(), values_.data(), vector_.address()));

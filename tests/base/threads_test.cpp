@@ -38,8 +38,8 @@ TEST(Threads, CallTheLoopOnceForEachNumber) {
   for (const int count : counts) {
     Threads threads(count);
     for (const int times : {0, 1, 2, 7, 1000}) {
-      std::vector<std::atomic<int>> calls(static_cast<std::size_t>(times));
-      threads.forEach(times, [&](int k) { ++calls[static_cast<std::size_t>(k)]; });
+      std::vector<std::atomic<int>> calls(times);
+      threads.forEach(times, [&](int k) { ++calls[k]; });
       for (const std::atomic<int>& called : calls) EXPECT_EQ(called, 1) << count << " threads, " << times << " times";
     }
   }

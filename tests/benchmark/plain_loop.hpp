@@ -103,19 +103,19 @@ class PlainLoop {
     std::fill(count_.begin(), count_.end(), 0);
     for (std::size_t p = 0; p < x_.size(); ++p) {
       cell_[p] = std::min(static_cast<int>(x_[p] / h_), n_ - 1);
-      ++count_[static_cast<std::size_t>(cell_[p])];
+      ++count_[cell_[p]];
     }
   }
 
   void filter() {
     std::fill(mean_.begin(), mean_.end(), 0.0);
-    for (std::size_t p = 0; p < x_.size(); ++p) mean_[static_cast<std::size_t>(cell_[p])] += rho_[p];
+    for (std::size_t p = 0; p < x_.size(); ++p) mean_[cell_[p]] += rho_[p];
     for (std::size_t c = 0; c < mean_.size(); ++c) mean_[c] /= std::max(count_[c], 1);
     for (std::size_t c = 1; c + 1 < mean_.size(); ++c) {
       const double l = mean_[c - 1], m = mean_[c], r = mean_[c + 1];
       delta_[c] = l > 0 && r > 0 && (l - m) * (r - m) > 0 ? (l - 2 * m + r) / 3 : 0;
     }
-    for (std::size_t p = 0; p < x_.size(); ++p) rho_[p] += delta_[static_cast<std::size_t>(cell_[p])];
+    for (std::size_t p = 0; p < x_.size(); ++p) rho_[p] += delta_[cell_[p]];
   }
 
   void press() {

@@ -29,7 +29,7 @@ class Chain {
       tasks.perPatch(
           "task " + std::to_string(k), [](const Patch&, CellView<const double>, CellView<double>) {},
           tasks::requiresNew(labels_[k - 1]), tasks::computes(labels_[k]));
-    wanted = {names_[static_cast<std::size_t>(length) - 1]};
+    wanted = {names_[length - 1]};
   }
   tasks::TaskList tasks;
   tasks::Names wanted;

@@ -189,8 +189,7 @@ TEST(Advance, IsOfSecondOrderOnASmoothWave) {
         openBox(1, cells), [&](const Vec<1>& x) { return gasAt(wave(x[0]), 1, 1); }, method);
     box.run(0.2, 0.8);
     double error = 0;
-    for (int i = 0; i < cells; ++i)
-      error += std::abs(box.density[static_cast<std::size_t>(i)] - wave((i + 0.5) / cells - 0.2));
+    for (int i = 0; i < cells; ++i) error += std::abs(box.density[i] - wave((i + 0.5) / cells - 0.2));
     return error / cells;
   };
   for (const Limiter limiter : {Limiter::vanLeer, Limiter::mc}) {

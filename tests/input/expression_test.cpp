@@ -75,12 +75,9 @@ TEST(Expression, IsEvaluatedBySeveralThreadsAtOnce) {
   Threads threads(4);
   std::vector<double> found(10000);
 
-  threads.forEach(static_cast<int>(found.size()), [&](int k) {
-    found[static_cast<std::size_t>(k)] = formula({k * 0.1, 2, 0}, k);
-  });
+  threads.forEach(static_cast<int>(found.size()), [&](int k) { found[k] = formula({k * 0.1, 2, 0}, k); });
 
-  for (int k = 0; k < static_cast<int>(found.size()); ++k)
-    ASSERT_EQ(found[static_cast<std::size_t>(k)], std::sin(k * 0.1) + 2.0 * k);
+  for (int k = 0; k < static_cast<int>(found.size()); ++k) ASSERT_EQ(found[k], std::sin(k * 0.1) + 2.0 * k);
 }
 
 TEST(VectorExpression, SplitsAtTheOuterCommas) {

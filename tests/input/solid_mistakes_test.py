@@ -8,11 +8,13 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from sus import ROOT, run
 
-BEAM, BILLET, CYLINDER, SPALL = (f"ups/solid/{name}.ups" for name in ("implicit_cantilever", "billet", "thick_cylinder", "spall"))
+BEAM, BILLET, CYLINDER, SPALL = (f"ups/solid/{name}.ups" for name in ("implicit_cantilever", "billet", "thick_cylinder",
+                                                                      "spall"))
 CONDITIONS, GEOMETRY = "</BoundaryConditions>", "<geom_object>"
 TEMPERATURE = '<Face side="x+"><BCType id="ID" label="Temperature" var="KIND"><value>VALUE</value></BCType></Face>'
 HEAT = """<PhysicalBC><MPM><heat_flux><geom_object><box><min>[1,.4,0]</min><max>[1,.6,.05]</max></box></geom_object>
-          <load_curve><time_point><time>0</time><load>1</load></time_point></load_curve></heat_flux></MPM></PhysicalBC><Grid>"""
+          <load_curve><time_point><time>0</time><load>1</load></time_point></load_curve></heat_flux></MPM></PhysicalBC>
+          <Grid>"""
 
 
 def heat_flow(kind, value):
@@ -25,7 +27,8 @@ RUBBER = '''<constitutive_model type="comp_neo_hook">
 METAL = '<constitutive_model type="elastic_plastic"><bulk_modulus>1</bulk_modulus><shear_modulus>1</shear_modulus>'
 HARDENS = '<flow_model type="isotropic_hardening"><sigma_Y>1</sigma_Y><K>1</K></flow_model>'
 MTS = '<flow_model type="mts_model">' + "".join(f"<{tag}>{number}</{tag}>" for tag, number in (
-    ("sigma_a", 1), ("mu_0", 1), ("koverbcubed", 1), ("g_0i", 0), ("g_0e", 1), ("edot_0i", 1), ("edot_0e", 1), ("p_i", 1),
+    ("sigma_a", 1), ("mu_0", 1), ("koverbcubed", 1), ("g_0i", 0), ("g_0e", 1), ("edot_0i", 1), ("edot_0e", 1),
+    ("p_i", 1),
     ("q_i", 1), ("p_e", 1), ("q_e", 1), ("sigma_i", 1), ("a_0", 1), ("a_1", 1), ("a_2", 1), ("a_3", 1), ("alpha", 1),
     ("edot_es0", 1), ("g_0es", 1), ("sigma_es0", 1))) + "</flow_model>"
 
@@ -42,17 +45,20 @@ REFUSED = {
          "artificial_viscosity: is not available; only explicit steps have one"),
     "a condition of one material of several in implicit steps":
         (BILLET, ('id="all" label="Symmetric" var="symmetry"/></Face>\n      <Face side="y-">',
-                  'id="1" label="Velocity" var="Dirichlet"><value>[0,0,0]</value></BCType></Face>\n      <Face side="y-">'),
+                  'id="1" label="Velocity" var="Dirichlet"><value>[0,0,0]</value></BCType></Face>\n      <Face '
+                  'side="y-">'),
          "id: found '1'; with <time_integrator> implicit materials share their nodes",
          "MPM/time_integrator=implicit", "MPM/artificial_viscosity=false"),
     "a contact of some materials in implicit steps":
-        (BILLET, ("<materials>[0,1]</materials>", "<materials>[0]</materials>"), "'billet' is not among its <materials>",
+        (BILLET, ("<materials>[0,1]</materials>", "<materials>[0]</materials>"),
+         "'billet' is not among its <materials>",
          "MPM/time_integrator=implicit", "MPM/artificial_viscosity=false"),
     "a direct solver that solves nothing":
         (BEAM, ("<preconditioner>lu", "<preconditioner>gamg"),
          "preconditioner: found 'gamg', but with <solver> direct it solves the system: take lu or cholesky"),
     "steps that Uintah would take again":
-        (BILLET, ("<MPM>\n    <time", "<MPM>\n    <restartOnLargeNodalVelocity>true</restartOnLargeNodalVelocity>\n    <time"),
+        (BILLET, ("<MPM>\n    <time", "<MPM>\n    <restartOnLargeNodalVelocity>true</restartOnLargeNodalVelocity>\n    "
+                                      "<time"),
          "restartOnLargeNodalVelocity: is not available; recompute_timestep in <Time> repeats a step that fails"),
     "temperatures of nodes by least squares":
         (BEAM, ("<dynamic>", "<temperature_solve>true</temperature_solve><dynamic>"),
@@ -79,10 +85,13 @@ REFUSED = {
         (BEAM, ('<material name="rubber">', '<material name="rubber"><is_rigid>true</is_rigid>'),
          "is_rigid: needs a <contact> of type rigid or specified, whose master the material is"),
     "volumes that are shared by what goes by rates":
-        (BEAM, (RUBBER, '<constitutive_model type="hypo_elastic"><G>1</G><K>1</K>'), "DoPressureStabilization: with <time_integrator> implicit only "
-         "for comp_neo_hook, comp_mooney_rivlin, UCNH and comp_neo_hook_plastic; 'rubber' is", "MPM/DoPressureStabilization=true"),
+        (BEAM, (RUBBER, '<constitutive_model type="hypo_elastic"><G>1</G><K>1</K>'),
+         "DoPressureStabilization: with <time_integrator> implicit only "
+         "for comp_neo_hook, comp_mooney_rivlin, UCNH and comp_neo_hook_plastic; 'rubber' is",
+         "MPM/DoPressureStabilization=true"),
     "an energy budget of implicit steps":
-        (BEAM, ("<dynamic>", " <dynamic>"), "only solids by explicit time steps have an energy budget; take the module out",
+        (BEAM, ("<dynamic>", " <dynamic>"), "only solids by explicit time steps have an energy budget; take the module "
+                                            "out",
          "DataAnalysis/Module/@name=energyBudget"),
     "the heat of a viscosity that is not there":
         (SPALL, ("<artificial_viscosity>true", "<artificial_viscosity>false"),
@@ -94,7 +103,8 @@ REFUSED = {
     "obstacles without an energy":
         (BEAM, (RUBBER, METAL + MTS), "g_0i, edot_0i and q_i must be greater than 0 where p_i is"),
     "friction in implicit steps":
-        (BILLET, ("<type>rigid</type>", "<type>friction</type><mu>.1</mu>"), "contact: friction only with <time_integrator> "
+        (BILLET, ("<type>rigid</type>", "<type>friction</type><mu>.1</mu>"),
+         "contact: friction only with <time_integrator> "
          "explicit; here all materials move as one", "MPM/time_integrator=implicit", "MPM/artificial_viscosity=false"),
     "fibres with viscosity":
         (BEAM, ('type="comp_neo_hook"', 'type="visco_trans_iso_hyper"'), "trans_iso_hyper, without viscosity"),
@@ -108,7 +118,8 @@ REFUSED = {
         (CYLINDER, ("<radius>0.5</radius></cylinder>\n        </geom_object>", "<radius>0.3</radius></cylinder>\n"
                     "        </geom_object>"), ":43:8: PhysicalBC/MPM: no particle of a body lies along the surface"),
     "a load on a material that is not there":
-        (CYLINDER, ("<id>1</id>", "<id>1</id><material>4</material>"), "there is no material 4: they are counted from 0 to 0"),
+        (CYLINDER, ("<id>1</id>", "<id>1</id><material>4</material>"),
+         "there is no material 4: they are counted from 0 to 0"),
     "particles lighter than may be":
         (BILLET, ("<artificial_viscosity>", "<minimum_particle_mass>1</minimum_particle_mass><artificial_viscosity>"),
          "<minimum_particle_mass> is 1 kg"),

@@ -16,7 +16,7 @@ const std::vector<std::array<int, 3>> faces{{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4,
                                             {2, 3, 7}, {2, 7, 6}, {1, 2, 6}, {1, 6, 5}, {3, 0, 4}, {3, 4, 7}};
 
 Triangles cube() {
-  const auto at = [](int corner) { return corners[static_cast<std::size_t>(corner)]; };
+  const auto at = [](int corner) { return corners[corner]; };
   Triangles triangles;
   for (const auto& [a, b, c] : faces) triangles.push_back({at(a), at(b), at(c)});
   return triangles;

@@ -20,7 +20,7 @@ struct Dataset {
 };
 
 std::vector<hsize_t> shapeOf(hid_t space) {
-  std::vector<hsize_t> shape(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space)));
+  std::vector<hsize_t> shape(H5Sget_simple_extent_ndims(space));
   H5Sget_simple_extent_dims(space, shape.data(), nullptr);
   return shape;
 }
@@ -39,7 +39,7 @@ class Reader {
     const hid_t data = H5Dopen2(file_, name.c_str(), H5P_DEFAULT);
     const hid_t space = H5Dget_space(data), type = H5Dget_type(data), creation = H5Dget_create_plist(data);
     Dataset read{shapeOf(space), {}, H5Tget_size(type), H5Pget_layout(creation) == H5D_CHUNKED};
-    read.values.resize(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+    read.values.resize(H5Sget_simple_extent_npoints(space));
     H5Dread(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, read.values.data());
     H5Pclose(creation);
     H5Tclose(type);
@@ -51,7 +51,7 @@ class Reader {
   std::vector<double> numbers(const std::string& object, const char* name) const {
     const hid_t attribute = H5Aopen_by_name(file_, object.c_str(), name, H5P_DEFAULT, H5P_DEFAULT);
     const hid_t space = H5Aget_space(attribute);
-    std::vector<double> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+    std::vector<double> values(H5Sget_simple_extent_npoints(space));
     H5Aread(attribute, H5T_NATIVE_DOUBLE, values.data());
     H5Sclose(space);
     H5Aclose(attribute);

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <sstream>
 
 #include "core/base/error.hpp"
 #include "core/output/checkpoint_manifest.hpp"
@@ -14,12 +13,6 @@ namespace tushar::output {
 namespace fs = std::filesystem;
 
 namespace {
-
-std::string read(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
 
 void write(const fs::path& file, const std::string& text) { std::ofstream(file) << text; }
 

@@ -4,6 +4,8 @@
 
 #include <atomic>
 #include <filesystem>
+#include <fstream>
+#include <sstream>
 #include <string>
 
 #include "core/output/snapshot.hpp"
@@ -29,9 +31,16 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
+/// All that stands in a file.
+inline std::string read(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
 /// A real array whose value at number k is first + k.
 inline Array counting(const std::string& label, int components, std::size_t entries, double first) {
-  std::vector<double> values(entries * static_cast<std::size_t>(components));
+  std::vector<double> values(entries * components);
   for (std::size_t k = 0; k < values.size(); ++k) values[k] = first + static_cast<double>(k);
   return {label, "m/s", "numbers from " + std::to_string(first), components, values};
 }

@@ -4,8 +4,9 @@
     python3 tests/output/xdmf_test.py sod.uda/sod.xdmf
     SUS=build/dev/sus python3 tests/output/xdmf_test.py        # runs ups/mpm/sod.ups first
 
-Needs h5py, numpy and a VTK with the XDMF reader, or all is skipped: `pip install vtk h5py`, or Debian's python3-paraview
-with python3-h5py. Debian's python3-vtk9 comes without that reader, and cannot be installed beside python3-paraview.
+Needs h5py, numpy and a VTK with the XDMF reader, or all is skipped: `pip install vtk h5py`, or Debian's
+python3-paraview with python3-h5py. Debian's python3-vtk9 comes without that reader, and cannot be installed beside
+python3-paraview.
 """
 import glob
 import os

@@ -73,8 +73,7 @@ TEST(Communicator, LetsTheFirstRankActAndTheOthersKnowThatItFailed) {
 
 TEST(Communicator, BroadcastsTextsAndGathersThem) {
   EXPECT_EQ(allRanks().broadcast(allRanks().rank() == 2 ? std::string("two") : std::string(), 2), "two");
-  EXPECT_EQ(allRanks().gather(std::string(static_cast<std::size_t>(allRanks().rank()), 'x')),
-            (std::vector<std::string>{"", "x", "xx", "xxx"}));
+  EXPECT_EQ(allRanks().gather(std::string(allRanks().rank(), 'x')), (std::vector<std::string>{"", "x", "xx", "xxx"}));
 }
 
 }  // namespace tushar::mpi

@@ -68,7 +68,7 @@ void expectSame(const std::string& scene, const std::vector<std::string>& layout
   expected = test::allRanks().broadcast(expected);
   for (int count = 2; count <= test::allRanks().size(); ++count)
     onRanks(count, [&](const mpi::Communicator& ranks) {
-      const std::size_t turn = first + static_cast<std::size_t>(count);
+      const std::size_t turn = first + count;
       const std::string& layout = layouts[turn % layouts.size()];
       const int threads = std::array{1, 2, 4}[turn % 3];
       EXPECT_EQ(resultOf(scene, withLayout(layout), ranks, threads), expected)

@@ -36,7 +36,7 @@ inline double difference(const GasState& a, const GasState& b) { return (toField
 /// Mean over a box by n^3 midpoints (one along an axis without extent).
 inline GasState midpointMean(const GasReference& gas, const Vec3& lower, const Vec3& upper, double t, int n) {
   std::array<int, 3> count;
-  for (int d = 0; d < 3; ++d) count[static_cast<std::size_t>(d)] = upper[d] > lower[d] ? n : 1;
+  for (int d = 0; d < 3; ++d) count[d] = upper[d] > lower[d] ? n : 1;
   Fields sum = Fields::Zero();
   for (int i = 0; i < count[0]; ++i)
     for (int j = 0; j < count[1]; ++j)

@@ -21,7 +21,8 @@ def tube(scene, objects, grid, axis, *sets):
     cells, lengths = grid
     result = run(scene, "Grid/Level/Box/resolution=" + turned(cells, axis),
                  "Grid/Level/Box/upper=" + turned(lengths, axis),
-                 f"{objects}[1]/box/max=" + turned((.5, 1, 1), axis), f"{objects}[2]/box/min=" + turned((.5, 0, 0), axis),
+                 f"{objects}[1]/box/max=" + turned((.5, 1, 1), axis),
+                 f"{objects}[2]/box/min=" + turned((.5, 0, 0), axis),
                  "DataAnalysis/Module/normal=" + turned((1, 0, 0), axis),
                  *(item if isinstance(item, str) else item[0] + turned(item[1], axis) for item in sets))
     assert result.code == 0, result.err

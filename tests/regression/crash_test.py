@@ -63,7 +63,8 @@ class Crash(unittest.TestCase):
                                (truncate, f"state.h5 has 4096 bytes, and had {size}"),
                                (lambda folder: (folder / "state.h5").unlink(), "state.h5 is missing"),
                                (lambda folder: (folder / "manifest").unlink(), "manifest is missing"),
-                               (lambda folder: (folder / "manifest").write_text(""), "the content of manifest has changed")):
+                               (lambda folder: (folder / "manifest").write_text(""),
+                                "the content of manifest has changed")):
             errors, report = self.damaged(harm)
             self.assertEqual(errors, f"sus: the checkpoint {last.resolve()} is damaged: {sentence}\n"
                                      "sus: goes on from the checkpoint of step 200\n")
@@ -105,9 +106,11 @@ class Crash(unittest.TestCase):
             self.assertEqual((found, len(errors.strip().splitlines())), (code, 1), errors)
 
         assert_refused(here.path / "none.uda", "there is no such folder; -restart takes the .uda folder of a run")
-        assert_refused(SOD, "this is no folder; -restart takes the .uda folder of a run (without -restart, sus runs a scene)")
+        assert_refused(SOD, "this is no folder; -restart takes the .uda folder of a run (without -restart, sus runs a "
+                            "scene)")
         assert_refused(here.path, "this is no .uda folder: it has neither index.xml nor checkpoints")
-        assert_refused(bare.uda, "there are no checkpoints; a scene asks for them by <checkpoint .../> in its DataArchiver")
+        assert_refused(bare.uda, "there are no checkpoints; a scene asks for them by <checkpoint .../> in its "
+                                 "DataArchiver")
         assert_refused(here.uda, "there is no checkpoint of step 50; there are those of steps 0, 100, 200, 218",
                        options=("-t", "50"))
         assert_refused(here.uda, "the checkpoint has another grid than the scene; patches may change, cells may not",
@@ -120,7 +123,8 @@ class Crash(unittest.TestCase):
         assert_refused(here.uda, "the checkpoint is of component 'mpm', and the scene has 'heat'")
         (here.uda / "input.xml").write_text(scene)
         (here.uda / "checkpoints/t00200").rename(here.uda / "checkpoints/t00150")
-        assert_refused(here.uda, "the checkpoint is of step 200; give its folder the name t00200", options=("-t", "150"))
+        assert_refused(here.uda, "the checkpoint is of step 200; give its folder the name t00200",
+                       options=("-t", "150"))
 
     def test_two_runs_never_write_to_one_folder(self):
         run = subprocess.Popen(self.here.command([SOD, "--output", self.here.path],
@@ -130,7 +134,8 @@ class Crash(unittest.TestCase):
         code, errors, _ = self.here.restart()
         run.kill()
         run.wait()
-        self.assertEqual((code, errors), (1, f"sus: another run is writing to '{self.here.uda.resolve()}'; wait for its "
+        self.assertEqual((code, errors), (1, f"sus: another run is writing to '{self.here.uda.resolve()}'; wait for "
+                                             f"its "
                                              "end, or end it\n"))
         self.assertEqual(self.here.restart("Time/max_Timesteps=1")[0], 0)
 

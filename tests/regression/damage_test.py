@@ -35,7 +35,8 @@ class Damage(unittest.TestCase):
         cls.files.append(pathlib.Path("checkpoints/LATEST"))
 
     def go_on(self, file, content, ranks=1):
-        """Restarts with other content of a file; whether the damage was told. Whatever happens, the bits are the same."""
+        """Restarts with other content of a file; whether it reports the damage. The bits are the same
+        whatever happens."""
         here = Folder(ranks=ranks)
         self.addCleanup(here.cleanup)
         shutil.copytree(self.cut.path, here.path, symlinks=True, dirs_exist_ok=True)
@@ -43,7 +44,8 @@ class Damage(unittest.TestCase):
         code, errors, report = here.restart("Time/max_Timesteps=1000")
         here.cleanup()
         self.assertEqual((code, report and report["fingerprint"]), (0, self.fingerprint), errors)
-        told = re.search(r"sus: the checkpoint \S+t00215 is damaged: .*\nsus: goes on from the checkpoint of step 210\n", errors)
+        told = re.search(r"sus: the checkpoint \S+t00215 is damaged: .*\n"
+                         r"sus: goes on from the checkpoint of step 210\n", errors)
         self.assertTrue(told or errors == "", errors)
         return bool(told)
 

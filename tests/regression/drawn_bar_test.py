@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""A cube of copper, drawn out by implicit steps to nearly twice its length, against the closed form: it flows and heats."""
+"""A cube of copper, drawn out by implicit steps to nearly twice its length, against the closed form: it flows and
+heats."""
 import math
 import pathlib
 import sys
@@ -88,8 +89,8 @@ def yield_stress(strain, rate, temperature):
 
 
 def drawn(end, steps=20000):
-    """Plastic strain and temperature at a time: the true strain is ln(1 + v t/L_0), less that of the stress; a share of .9 of the
-    work stays as heat."""
+    """Plastic strain and temperature at a time: the true strain is ln(1 + v t/L_0), less that of the stress; a share of
+    .9 of the work stays as heat."""
     plastic, temperature, speed = 0, 296, .1
     for k in range(steps):
         time = (k + 1) * end / steps
@@ -108,7 +109,8 @@ class DrawnBar(unittest.TestCase):
             scene = pathlib.Path(folder, "bar.ups")
             scene.write_text(SCENE)
             state = last_state(scene, "p.plasticStrain", "p.temperature", material="bar",
-                               sets=(f"Time/delt_init={step}", f"Time/delt_max={step}", f"Time/max_Timesteps={round(9.1 / step)}"))
+                               sets=(f"Time/delt_init={step}", f"Time/delt_max={step}",
+                                     f"Time/max_Timesteps={round(9.1 / step)}"))
         return state["p.plasticStrain [1]"][0], state["p.temperature [K]"][0]
 
     def test_flows_and_heats_as_its_closed_form(self):

@@ -10,9 +10,11 @@ from sus import run
 from uda import Folder
 
 BUDGET = "DataAnalysis/Module/@name=energyBudget"
-BAR, CYLINDER, BILLET, DISCS = (f"ups/solid/{name}.ups" for name in ("bar_vibration", "thick_cylinder", "billet", "two_discs"))
+BAR, CYLINDER, BILLET, DISCS = (f"ups/solid/{name}.ups" for name in ("bar_vibration", "thick_cylinder", "billet",
+                                                                     "two_discs"))
 NAMES = {"start": "kinetic energy at the start", "loads": "work of loads and gravity", "contact": "work of contact",
-         "faces": "work of faces of the grid", "kinetic": "kinetic energy", "strain": "strain", "plastic": "plastic flow",
+         "faces": "work of faces of the grid", "kinetic": "kinetic energy", "strain": "strain",
+         "plastic": "plastic flow",
          "lost": "viscosity and damping"}
 # Its right end goes inwards with 1 cm/s, and all between with it.
 DRIVEN = ("Grid/BoundaryConditions/Face[2]/BCType/value=[-0.01,0,0]", "Time/maxTime=.05",
@@ -30,7 +32,8 @@ class EnergyBudget(unittest.TestCase):
         return amounts, energies["unaccounted"]
 
     def assert_halves_with_the_time_step(self, sets, present):
-        left = [self.amounts_of(BAR, *sets, f"Time/timestep_multiplier={factor}", present=present)[1] for factor in (.2, .1)]
+        left = [self.amounts_of(BAR, *sets, f"Time/timestep_multiplier={factor}", present=present)[1]
+                for factor in (.2, .1)]
         self.assertAlmostEqual(left[0] / left[1], 2, delta=.2)
 
     def test_a_free_bar_keeps_its_energy_to_first_order_in_the_time_step(self):
@@ -51,13 +54,14 @@ class EnergyBudget(unittest.TestCase):
     def test_a_pressure_does_the_work_that_a_cylinder_stores(self):
         amounts, left = self.amounts_of(CYLINDER, present=("loads", "kinetic", "strain"))
         self.assertLess(abs(left), 1e-4 * amounts["loads"])
-        worked = globals_of(CYLINDER, "StrainWork", sets=("DataArchiver/save[1]/@label=StrainWork",))["StrainWork"][-1][1]
+        worked = globals_of(CYLINDER, "StrainWork", sets=("DataArchiver/save[1]/@label=StrainWork",
+                                                          ))["StrainWork"][-1][1]
         # Strain energy by W(F), the work of the stresses step by step: they differ by less than the strain, squared.
         self.assertAlmostEqual(worked / amounts["strain"], 1, delta=1e-6)
 
     def test_discs_that_collide_store_what_they_lose(self):
         amounts, left = self.amounts_of(DISCS, present=("start", "contact", "kinetic", "strain"))
-        self.assertLess(abs(amounts["contact"]), 1e-12 * amounts["start"])  # no body does more work than the other takes
+        self.assertLess(abs(amounts["contact"]), 1e-12 * amounts["start"])  # what one body gives the other takes
         self.assertLess(abs(left), .01 * amounts["start"])
 
     def test_a_die_does_the_work_that_flow_and_strain_take(self):
@@ -68,7 +72,8 @@ class EnergyBudget(unittest.TestCase):
 
     def test_is_the_same_to_the_last_bit_on_any_patches_and_after_a_restart(self):
         steps = "Time/max_Timesteps=40"
-        reports = [run(BILLET, BUDGET, steps, f"Grid/Level/Box/patches={layout}", options=("--quiet", "-nthreads", threads)).report
+        reports = [run(BILLET, BUDGET, steps, f"Grid/Level/Box/patches={layout}",
+                       options=("--quiet", "-nthreads", threads)).report
                    for layout, threads in (("[1,1,1]", "1"), ("[3,2,1]", "2"))]
         folder = Folder()
         self.addCleanup(folder.cleanup)
@@ -88,7 +93,8 @@ class EnergyBudget(unittest.TestCase):
         self.assertIn("a module above keeps the energy budget already; keep one", result.err)
 
     def test_what_is_summed_can_be_saved(self):
-        sets = ("Time/max_Timesteps=50", "DataArchiver/save[1]/@label=ContactWork", "DataArchiver/save[2]/@label=PlasticWork")
+        sets = ("Time/max_Timesteps=50", "DataArchiver/save[1]/@label=ContactWork",
+                "DataArchiver/save[2]/@label=PlasticWork")
         works = globals_of(BILLET, "ContactWork", "PlasticWork", sets=sets)
         self.assertEqual(works["ContactWork"][0], [0, 0])
         energies = run(BILLET, BUDGET, "Time/max_Timesteps=50").report["energies"]

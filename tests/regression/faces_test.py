@@ -28,7 +28,8 @@ class Faces(SceneTest):
 
     def test_a_cell_in_the_middle_of_a_shock_tube_has_the_upper_state(self):
         with tempfile.TemporaryDirectory() as folder:
-            archive = archive_of("ups/euler/sod.ups", folder, "Grid/Level/Box/resolution=[5,1,1]", "Time/max_Timesteps=1")
+            archive = archive_of("ups/euler/sod.ups", folder, "Grid/Level/Box/resolution=[5,1,1]",
+                                 "Time/max_Timesteps=1")
             density = columns(archive, "c.density", time=1e-9)["c.density [kg/m^3]"]
         self.assertEqual(list(density), [1, 1, .125, .125, .125])
 

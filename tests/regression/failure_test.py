@@ -50,7 +50,8 @@ class Failure(unittest.TestCase):
         self.assertIn('"ended": "failed"', pathlib.Path(self.folder, "again.json").read_text())
 
     def test_a_step_is_repeated_where_the_scene_asks_for_it(self):
-        done = run(without_redistribution(self.folder), "--output", self.folder, "--set", "Time/recompute_timestep=true")
+        done = run(without_redistribution(self.folder), "--output", self.folder, "--set",
+                   "Time/recompute_timestep=true")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertRegex(done.stdout, r"time step ruled by CFL \d+, .*p.density \d+; \d+ repeated with a smaller one")
 

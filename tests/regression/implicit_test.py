@@ -41,7 +41,8 @@ def energies_of(scene, sets):
 
 def explicit(text):
     """The same scene by explicit steps with a damping that brings it to rest."""
-    text = re.sub(r"<dynamic>.*</Solver>", "<artificial_damping_coeff>6</artificial_damping_coeff>", text, flags=re.DOTALL)
+    text = re.sub(r"<dynamic>.*</Solver>", "<artificial_damping_coeff>6</artificial_damping_coeff>", text,
+                  flags=re.DOTALL)
     text = text.replace('type="impm"', 'type="mpm"').replace(">implicit<", ">explicit<")
     text = re.sub(r".*(Newton|Krylov)Iterations.*\n", "", text)
     return text.replace("<delt_init>1</delt_init>", "<timestep_multiplier>0.5</timestep_multiplier>")
@@ -62,7 +63,8 @@ class Implicit(SceneTest):
             </pressure></MPM></PhysicalBC><MPM><use_load_curves>true</use_load_curves>"""
         scene = self.scene(free((ROOT / BEAM).read_text()).replace("<MPM>", pressed, 1))
         dt, force = .1, (-30 * .2 * .05, -.1 * 10)
-        rows = globals_of(scene, "TotalMomentum", "CenterOfMassPosition", sets=(f"Time/delt_init={dt}", f"Time/delt_max={dt}",
+        rows = globals_of(scene, "TotalMomentum", "CenterOfMassPosition",
+                          sets=(f"Time/delt_init={dt}", f"Time/delt_max={dt}",
                                                                                 "Time/maxTime=.3"))
         for k, (momentum, moment) in enumerate(zip(rows["TotalMomentum"], rows["CenterOfMassPosition"])):
             for axis in (0, 1):  # of 10 kg, in the middle at (.5, .5); rounding and what Newton's method leaves
@@ -95,7 +97,8 @@ class Implicit(SceneTest):
         scene, coarse = "ups/solid/thick_cylinder.ups", ("Grid/Level/Box/resolution=[30,1,1]",)
         swinging = energies_of(scene, coarse)
         loaded = [energy for time, energy in swinging if time > .031]  # the load grows until .03 s
-        at_rest = energies_of(scene, (*coarse, "MPM/time_integrator=implicit", "MPM/dynamic=false", "Time/delt_init=0.01",
+        at_rest = energies_of(scene, (*coarse, "MPM/time_integrator=implicit", "MPM/dynamic=false",
+                                      "Time/delt_init=0.01",
                                       "Time/delt_max=0.01", "Time/timestep_multiplier=1"))
         self.assertAlmostEqual(at_rest[-1][1] / (sum(loaded) / len(loaded)), 1, delta=.005)
         self.assertLess(len(at_rest), len(swinging) / 1000)
@@ -168,22 +171,25 @@ class Implicit(SceneTest):
         self.assertEqual(report["fingerprint"], whole["fingerprint"])
 
     def test_what_is_left_of_the_residual_can_be_saved(self):
-        left, = last_of(BEAM, ["NewtonResidual"], ("DataArchiver/save[3]/@label=NewtonResidual", "Time/max_Timesteps=1"))
+        left, = last_of(BEAM, ["NewtonResidual"], ("DataArchiver/save[3]/@label=NewtonResidual",
+                                                   "Time/max_Timesteps=1"))
         self.assertTrue(0 < left[0] < 1e-9, left)
 
     def test_a_failed_solve_tells_history_place_and_what_to_try(self):
         result = run(BEAM, "MPM/iters_before_timestep_restart=1", "Time/delt_min=0.9")
         self.assertEqual(result.code, 4)
-        self.assertRegex(result.err, r"Newton's method did not converge: more iterations than allowed \(DIVERGED_MAX_IT\) "
-                                     r"in 1 iteration; residuals \S+, \S+; the greatest residual is at the node at \(")
+        self.assertRegex(result.err, r"Newton's method did not converge: more iterations than allowed "
+                                     r"\(DIVERGED_MAX_IT\) in 1 iteration; residuals \S+, \S+; the greatest residual "
+                                     r"is at the node at \(")
         self.assertIn("try a smaller <delt_init>", result.err)
 
     def test_a_failed_linear_solve_tells_its_own_history_too(self):
         result = run(BEAM, "MPM/Solver/solver=gmres", "MPM/Solver/preconditioner=jacobi", "MPM/Solver/maxiterations=3",
                      "Time/delt_min=0.9")
         self.assertEqual(result.code, 4)
-        self.assertRegex(result.err, r"Newton's method did not converge: a linear solve failed, more iterations than allowed "
-                                     r"\(DIVERGED_ITS\) in .*; those of the last linear solve, 3 iterations; residuals \S+, ")
+        self.assertRegex(result.err, r"Newton's method did not converge: a linear solve failed, more iterations than "
+                                     r"allowed \(DIVERGED_ITS\) in .*; those of the last linear solve, 3 iterations; "
+                                     r"residuals \S+, ")
         self.assertIn("more <maxiterations>", result.err)
 
     def test_a_tag_in_solver_leaves_the_defaults_of_the_others(self):
@@ -198,10 +204,12 @@ class Implicit(SceneTest):
         path = self.scene((ROOT / BEAM).read_text().replace(implicit, implicit + "<axisymmetric>true</axisymmetric>"))
         result = run(path, "Grid/Level/Box/resolution=[25,15,2]")
         self.assertEqual(result.code, 3)
-        self.assertIn("MPM/axisymmetric: x is the radius and y the axis: give z one cell between symmetry planes", result.err)
+        self.assertIn("MPM/axisymmetric: x is the radius and y the axis: give z one cell between symmetry planes",
+                      result.err)
 
     def test_a_step_that_fails_is_halved(self):
-        result = run(BEAM, "MPM/iters_before_timestep_restart=2", "Time/max_Timesteps=1", "PhysicalConstants/gravity=[0,-50,0]",
+        result = run(BEAM, "MPM/iters_before_timestep_restart=2", "Time/max_Timesteps=1",
+                     "PhysicalConstants/gravity=[0,-50,0]",
                      "MPM/dynamic=true")
         self.assertEqual(result.code, 0, result.err)
         self.assertGreater(result.report["retries"], 0)

@@ -46,7 +46,8 @@ class Interrupt(unittest.TestCase):
         large = "Grid/Level/Box/resolution=[100,100,25]"
         for options, apart in (((), 0.5), (("-check",), 0.5), ((), 0)):
             with tempfile.TemporaryDirectory() as folder:
-                run = subprocess.Popen([SUS, "ups/mpm/vortex_3d.ups", "--output", folder, "--quiet", "--set", large, *options],
+                run = subprocess.Popen([SUS, "ups/mpm/vortex_3d.ups", "--output", folder, "--quiet", "--set", large,
+                                        *options],
                                        stdout=subprocess.DEVNULL)
                 time.sleep(0.5)
                 run.send_signal(signal.SIGTERM)

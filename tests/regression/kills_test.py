@@ -23,7 +23,8 @@ PATIENCE = 1200  # seconds after which a job hangs, even on a machine with much 
 
 
 def children(pid):
-    return [int(child) for child in subprocess.run(["pgrep", "-P", str(pid)], capture_output=True, text=True).stdout.split()]
+    return [int(child) for child in subprocess.run(["pgrep", "-P", str(pid)], capture_output=True,
+                                                   text=True).stdout.split()]
 
 
 class Kills(unittest.TestCase):
@@ -37,8 +38,8 @@ class Kills(unittest.TestCase):
         return here
 
     def killed(self, here, words, sets):
-        """Starts a job, kills one of its processes (or all) at a random instant after its first checkpoint, and waits for
-        its end. Whether the job was killed before it was done."""
+        """Starts a job, kills one of its processes (or all) at a random instant after its first checkpoint, and waits
+        for         its end. Whether the job was killed before it was done."""
         job = subprocess.Popen(here.command(words, sets), cwd=ROOT, stderr=subprocess.DEVNULL)
         while not list(here.path.glob("*.uda/checkpoints/LATEST")) and job.poll() is None:
             time.sleep(0.002)

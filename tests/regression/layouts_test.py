@@ -29,7 +29,8 @@ def cells_of(scene):
 
 
 def layouts_of(cells):
-    """Layouts for a grid, with no more patches along an axis than cells; one where a symmetry plane leaves an axis out."""
+    """Layouts for a grid, with no more patches along an axis than cells; one where a symmetry plane leaves an axis
+    out."""
     axes = [axis for axis in range(3) if cells[axis] > 1] or [0]
     for patches in LAYOUTS[len(axes)]:
         layout = [1, 1, 1]
@@ -82,7 +83,8 @@ class Layouts(unittest.TestCase):
         for placement in ("jittered", "random"):
             sets = [f"MaterialProperties/MPM/material/geom_object/placement={placement}",
                     "MaterialProperties/MPM/material/geom_object/seed=5"]
-            self.assert_same("ups/mpm/smooth_wave.ups", ["[1,1,1]", "[7,1,1]", "[64,1,1]"], "Time/max_Timesteps=20", *sets)
+            self.assert_same("ups/mpm/smooth_wave.ups", ["[1,1,1]", "[7,1,1]", "[64,1,1]"], "Time/max_Timesteps=20",
+                             *sets)
             self.assert_same("ups/mpm/smooth_wave.ups", ["[1,1,1]", "[3,2,1]"], "Time/max_Timesteps=5", *PLANE, *sets)
 
     def test_two_dimensions(self):

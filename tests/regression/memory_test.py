@@ -10,8 +10,8 @@ from sus import run
 
 FEW, MANY = 50, 400
 MOST = 1.05  # times the memory after few steps
-# Bytes of pages that a program of 20 MB touches late. Where variables grow at all, they do by a multiple of this: a single
-# buffer of a thousand particles that is lost in each step makes 8 MB.
+# Bytes of pages that a program of 20 MB touches late. Where variables grow at all, they do by a multiple of this: a
+# single buffer of a thousand particles that is lost in each step makes 8 MB.
 TOUCHED_LATE = 2e6
 
 BOX = "Grid/Level/Box"
@@ -46,7 +46,8 @@ CASES = {
 
 
 # On three ranks: one of each component and kind of particles in each number of dimensions that it has.
-ON_THREE_RANKS = ("burgers", "heat", "euler in 3-D", "gas in 1-D", "gas in 3-D", "conserving gas in 2-D", "conserving gas in 3-D",
+ON_THREE_RANKS = ("burgers", "heat", "euler in 3-D", "gas in 1-D", "gas in 3-D", "conserving gas in 2-D",
+                  "conserving gas in 3-D",
                   "solids in 1-D", "solids in 2-D", "solids in 3-D, GIMP")
 
 

@@ -72,8 +72,10 @@ class Restart(unittest.TestCase):
     def test_transfers_with_remap_on_a_periodic_grid(self):
         method = "MPM/conserving_gas_dynamics/"
         for transfer in ("apic", "affine_flip"):
-            sets = (f"{method}transfer={transfer}", f"{method}remap/overfilled=1e-4", "Grid/Level/Box/resolution=[16,16,1]")
-            self.assert_same("ups/mpm/vortex.ups", *sets, cut=14, until="Time/max_Timesteps=25", before="[3,3,1]", after="[2,1,1]")
+            sets = (f"{method}transfer={transfer}", f"{method}remap/overfilled=1e-4",
+                    "Grid/Level/Box/resolution=[16,16,1]")
+            self.assert_same("ups/mpm/vortex.ups", *sets, cut=14, until="Time/max_Timesteps=25", before="[3,3,1]",
+                             after="[2,1,1]")
 
     def test_particles_that_leave_the_grid_stay_counted(self):
         folder = self.folder()

@@ -11,13 +11,15 @@ from sus import ROOT, run
 BARS = (ROOT / "ups/solid/two_material_contact.ups").read_text()
 HAMMER = BARS.replace('<material name="flyer">', '<material name="flyer"><is_force_transmitting_material>true'
                       '</is_force_transmitting_material>')
-HAMMER = HAMMER.replace("friction_conserving</type>", "rigid</type><direction>[1,1,1]</direction>").replace("<mu>0</mu>", "")
+HAMMER = HAMMER.replace("friction_conserving</type>", "rigid</type><direction>[1,1,1]</direction>")
+HAMMER = HAMMER.replace("<mu>0</mu>", "")
 PUSH = """<PhysicalBC><MPM><pressure>
   <geom_object><box><min>[0.199,0,0]</min><max>[0.201,0.1,0.1]</max></box></geom_object>
   <load_curve><id>1</id><material>0</material><time_point><time>0</time><load>3000</load></time_point>
     <time_point><time>1</time><load>3000</load></time_point></load_curve>
 </pressure></MPM></PhysicalBC><Grid>"""
-PUSHED = HAMMER.replace("<Grid>", PUSH).replace("<time_integrator>", "<use_load_curves>true</use_load_curves><time_integrator>")
+PUSHED = HAMMER.replace("<Grid>", PUSH).replace("<time_integrator>",
+                                                "<use_load_curves>true</use_load_curves><time_integrator>")
 
 
 class Scenes(SceneTest):
@@ -58,7 +60,8 @@ class Rigid(Scenes):
     def test_its_stress_exerts_no_force(self):
         stretched = BARS.replace("<velocity>[1,0,0]", "<velocity>[0.5*x-0.5,0,0]").replace("[1.2,0,0]</min><max>[3.2",
                                                                                            "[2.2,0,0]</min><max>[3.2")
-        for text, keeps in ((stretched, False), (stretched.replace('name="flyer">', 'name="flyer"><is_rigid>true</is_rigid>'), True)):
+        for text, keeps in ((stretched, False), (stretched.replace('name="flyer">',
+                                                                   'name="flyer"><is_rigid>true</is_rigid>'), True)):
             energies = [line[1] for line in self.lines(text, "KineticEnergy", until=.01)]
             self.assertEqual(abs(energies[-1] / energies[0] - 1) < 1e-12, keeps)
 

@@ -2,7 +2,8 @@
 """Golden schedules: what each scene runs, reads and writes, and what it leaves out; those of ups/stability run what
 others run.
 
-After a wanted change, and for a new scene: python3 tests/regression/schedules_test.py --write, and look at the difference.
+After a wanted change, and for a new scene: python3 tests/regression/schedules_test.py --write, and look at the
+difference.
 """
 import pathlib
 import subprocess

@@ -15,7 +15,8 @@ PLAIN_SHAPES = ("linear", "gimp", "3rdorderBS", "4thorderBS")
 
 def observed_order(scene, coarse, fine, *sets):
     """The order of the displacement's mean error between two numbers of cells."""
-    errors = [run(scene, f"Grid/Level/Box/resolution=[{n},{n},1]", *sets).report["errors"]["displacement"]["particle"]["L1"]
+    errors = [run(scene, f"Grid/Level/Box/resolution=[{n},{n},1]",
+                  *sets).report["errors"]["displacement"]["particle"]["L1"]
               for n in (coarse, fine)]
     return math.log(errors[0] / errors[1]) / math.log(fine / coarse)
 
@@ -41,7 +42,8 @@ def curvature(times, values):
     """The second derivative of the parabola that fits best."""
     mean, half = sum(times) / len(times), max(times) - min(times)
     u = [(t - mean) / half for t in times]
-    rows = [[sum(x**(i + j) for x in u) for j in range(3)] + [sum(v * x**i for x, v in zip(u, values))] for i in range(3)]
+    rows = [[sum(x**(i + j) for x in u) for j in range(3)] + [sum(v * x**i for x, v in zip(u, values))]
+            for i in range(3)]
     for i in range(3):
         for k in range(i + 1, 3):
             rows[k] = [a - rows[k][i] / rows[i][i] * b for a, b in zip(rows[k], rows[i])]
@@ -89,7 +91,8 @@ class Bodies(unittest.TestCase):
 
     def test_a_cantilever_sinks_as_the_elastica(self):
         fields = last_state("ups/solid/cantilever.ups", "p.x", "p.displacement")
-        rows = list(zip(fields["x [m]"], fields["y [m]"], fields["p.displacement.x [m]"], fields["p.displacement.y [m]"]))
+        rows = list(zip(fields["x [m]"], fields["y [m]"], fields["p.displacement.x [m]"],
+                        fields["p.displacement.y [m]"]))
         length = max(x - u for x, y, u, v in rows)
         end = [(x, y) for x, y, u, v in rows if x - u > length - 1e-9 and abs(y - v - .25) < .05]
         x, y = (sum(values) / len(end) for values in zip(*end))
@@ -121,8 +124,10 @@ class Bodies(unittest.TestCase):
         self.assertLess(speed, 1000)
 
     def test_taylors_bar_ends_as_long_and_wide_as_others_found(self):
-        fields = last_state("ups/solid/taylor_bar.ups", "p.x", "p.displacement", sets=("Grid/Level/Box/resolution=[12,42,1]",))
-        rows = list(zip(fields["x [m]"], fields["y [m]"], fields["p.displacement.x [m]"], fields["p.displacement.y [m]"]))
+        fields = last_state("ups/solid/taylor_bar.ups", "p.x", "p.displacement",
+                            sets=("Grid/Level/Box/resolution=[12,42,1]",))
+        rows = list(zip(fields["x [m]"], fields["y [m]"], fields["p.displacement.x [m]"],
+                        fields["p.displacement.y [m]"]))
         axis = sorted(y for x, y, u, v in rows if x - u < 3e-4)
         foot = sorted(x for x, y, u, v in rows if y - v < 3e-4)
         # Cells twice as wide as the scene's, which gives 21.47 and 7.19 mm, err by some 1 and 6 %.
@@ -191,8 +196,10 @@ class Tube(unittest.TestCase):
     def test_gives_the_same_bits_with_every_shape_and_stress_update_on_any_patches(self):
         for way in (("MPM/stress_update=musl",), ("MPM/stress_update=usf",), ("MPM/interpolator=gimp",)):
             with self.subTest(way=way):
-                prints = {run("ups/solid/rubber_tube.ups", *way, "Time/max_Timesteps=200", "DataAnalysis/Module/@name=energyBudget",
-                              f"Grid/Level/Box/patches={layout}").report["fingerprint"] for layout in ("[1,1,1]", "[5,1,1]")}
+                prints = {run("ups/solid/rubber_tube.ups", *way, "Time/max_Timesteps=200",
+                              "DataAnalysis/Module/@name=energyBudget",
+                              f"Grid/Level/Box/patches={layout}").report["fingerprint"]
+                          for layout in ("[1,1,1]", "[5,1,1]")}
                 self.assertEqual(len(prints), 1)
 
 
@@ -238,7 +245,8 @@ class SameBits(unittest.TestCase):
                 ("MPM/apic=false", "MPM/stress_update=usf"), ("MPM/apic=false", "MPM/XPIC2=true"), ()]
         for way in ways:
             with self.subTest(way=way):
-                prints = {run("ups/solid/spinning_disc.ups", f"Grid/Level/Box/patches={layout}", "Time/max_Timesteps=30",
+                prints = {run("ups/solid/spinning_disc.ups", f"Grid/Level/Box/patches={layout}",
+                              "Time/max_Timesteps=30",
                               *way).report["fingerprint"] for layout in ("[1,1,1]", "[2,3,1]")}
                 self.assertEqual(len(prints), 1)
 

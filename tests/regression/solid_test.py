@@ -34,7 +34,8 @@ class Solids(unittest.TestCase):
 
     def test_a_shock_runs_through_an_ideal_gas_as_in_uintah(self):
         values = globals_of(RIEMANN, "KineticEnergy", "TotalMomentum", "TotalMass", until=".0002535")
-        for name, expected in (("KineticEnergy", .0693037), ("TotalMomentum", .000574665), ("TotalMass", 1.618140244e-05)):
+        for name, expected in (("KineticEnergy", .0693037), ("TotalMomentum", .000574665),
+                               ("TotalMass", 1.618140244e-05)):
             time, value = min(values[name], key=lambda line: abs(line[0] - .000253067))[:2]
             self.assertAlmostEqual(time, .000253067, delta=1e-9)
             self.assertAlmostEqual(value / expected, 1, delta=1e-5, msg=name)  # the digits that are given
@@ -50,7 +51,8 @@ class Solids(unittest.TestCase):
         fields = fields_of(SPALL, "p.x", "p.stress", until="0.6e-6")
         between = [stress for x, stress in zip(fields["x [m]"], fields["p.stress.xx [Pa]"]) if .0012 < x < .004]
         expected = 8930 * (3940 + 1.489 * 150) * 150
-        self.assertAlmostEqual(-sum(between) / len(between) / expected, 1, delta=.01)  # the strength is a fiftieth of it
+        self.assertAlmostEqual(-sum(between) / len(between) / expected, 1,
+                               delta=.01)  # the strength is a fiftieth of it
 
     def test_yielding_and_failing_bodies_give_the_same_bits_on_any_patches_and_after_a_restart(self):
         for scene, layouts, steps in ((TAYLOR, ("[1,1,1]", "[3,4,1]"), 40), (SPALL, ("[1,1,1]", "[7,1,1]"), 190),

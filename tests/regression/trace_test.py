@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""A trace is a file that Chrome and Perfetto read: named spans, nested on each thread, of tasks, messages and outputs."""
+"""A trace is a file that Chrome and Perfetto read: named spans, nested on each thread, of tasks, messages and
+outputs."""
 import json
 import pathlib
 import sys
@@ -17,7 +18,8 @@ class Trace(unittest.TestCase):
         folder = Folder()
         cls.addClassCleanup(folder.cleanup)
         path = folder.path / "trace.json"
-        code, err, cls.report = folder.finish([SCENE[0], "--output", folder.path, "-nthreads", "2", "--trace", path], SCENE[1:])
+        code, err, cls.report = folder.finish([SCENE[0], "--output", folder.path, "-nthreads", "2", "--trace", path],
+                                              SCENE[1:])
         assert code == 0, err
         cls.spans = [event for event in json.loads(path.read_text())["traceEvents"] if event["ph"] == "X"]
 
@@ -47,7 +49,8 @@ class Trace(unittest.TestCase):
     def test_spans_of_a_thread_are_nested(self):
         for thread in {span["tid"] for span in self.spans}:
             open_until = []
-            spans = [(round(1000 * span["ts"]), round(1000 * span["dur"])) for span in self.spans if span["tid"] == thread]
+            spans = [(round(1000 * span["ts"]), round(1000 * span["dur"]))
+                     for span in self.spans if span["tid"] == thread]
             for start, length in sorted(spans, key=lambda span: (span[0], -span[1])):
                 while open_until and open_until[-1] <= start:
                     open_until.pop()

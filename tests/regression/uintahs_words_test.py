@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Words of Uintah's scenes that stand for what is here under another word, or for nothing: such scenes run unchanged."""
+"""Words of Uintah's scenes that stand for what is here under another word, or for nothing: such scenes run
+unchanged."""
 import pathlib
 import sys
 import tempfile
@@ -9,7 +10,8 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from solids import columns, globals_of, archive_of
 from sus import ROOT, run
 
-DISCS, BEAM, BILLET, SPALL = (f"ups/solid/{name}.ups" for name in ("two_discs", "implicit_cantilever", "billet", "spall"))
+DISCS, BEAM, BILLET, SPALL = (f"ups/solid/{name}.ups" for name in ("two_discs", "implicit_cantilever", "billet",
+                                                                   "spall"))
 FEW = ("Time/max_Timesteps=3",)
 FLAGS = """<cpdi_lcrit>1e10</cpdi_lcrit><minimum_mass_for_acc>1e-20</minimum_mass_for_acc><XPIC2>false</XPIC2>
   <artificial_viscosity_coeff1>.3</artificial_viscosity_coeff1><refine_particles>false</refine_particles>
@@ -49,10 +51,13 @@ RUN = {
     "a side without conditions": (BILLET, "</BoundaryConditions>", '<Face side="y+"/></BoundaryConditions>'),
     "a component in capitals": (DISCS, 'type="mpm"', 'type="MPM"'),
     "no title": (DISCS, "Two discs collide", ""),
-    "no greatest step": (BILLET, "</Time>", "<delt_max>0</delt_max><override_restart_delt>0</override_restart_delt></Time>"),
+    "no greatest step": (BILLET, "</Time>",
+                         "<delt_max>0</delt_max><override_restart_delt>0</override_restart_delt></Time>"),
     "a density of a body": (DISCS, "<geom_object>", '<geom_object name="one"><density>1</density>', 1),
-    "variables that nobody computes here": (DISCS, "<save ", '<save label="AccStrainEnergy"/><save label="g.surfnorm"/><save ', 1),
-    "a body without particles": (DISCS, "</geom_object>", "</geom_object><geom_object><null/><res>[1,1,1]</res></geom_object>", 1),
+    "variables that nobody computes here": (DISCS, "<save ", '<save label="AccStrainEnergy"/><save '
+                                                             'label="g.surfnorm"/><save ', 1),
+    "a body without particles": (DISCS, "</geom_object>",
+                                 "</geom_object><geom_object><null/><res>[1,1,1]</res></geom_object>", 1),
 }
 
 
@@ -99,7 +104,8 @@ class UintahsWords(unittest.TestCase):
             with tempfile.TemporaryDirectory() as folder:
                 path = pathlib.Path(folder, "scene.ups")
                 saves = "".join(f'<save label="p.mass" material="{material}"/>' for material in order)
-                path.write_text((ROOT / BILLET).read_text().replace('<save label="p.x"/>', '<save label="p.x"/>' + saves))
+                path.write_text((ROOT / BILLET).read_text().replace('<save label="p.x"/>',
+                                                                    '<save label="p.x"/>' + saves))
                 archive = archive_of(path, folder, *FEW)
                 for material in ("billet", "die"):
                     self.assertGreater(len(columns(archive, "p.mass", material=material)["p.mass [kg]"]), 0)
@@ -124,7 +130,8 @@ class UintahsWords(unittest.TestCase):
         self.assertEqual({round(edge, 12) for edge in edges["p.scalefactor.xy [m]"]}, {0})
 
     def test_the_volume_of_all_particles_is_that_of_the_bodies(self):
-        volumes = globals_of(DISCS, "TotalVolumeDeformed", sets=(*FEW, "DataArchiver/save[1]/@label=TotalVolumeDeformed"))
+        volumes = globals_of(DISCS, "TotalVolumeDeformed", sets=(*FEW,
+                                                                 "DataArchiver/save[1]/@label=TotalVolumeDeformed"))
         time, volume = volumes["TotalVolumeDeformed"][0]
         self.assertEqual(time, 0)
         self.assertAlmostEqual(volume, 13 / 1000, delta=1e-12)  # the mass that the scene names, over the density

@@ -33,8 +33,9 @@ class Loading(unittest.TestCase):
     def test_options_on_the_command_line_reach_petsc(self):
         result = run("ups/poisson/sine.ups", options=("--quiet", "-petsc", "-ksp_max_it 1"))
         self.assertEqual(result.code, 4)
-        self.assertRegex(result.err, r"Poisson's equation did not converge: more iterations than allowed \(DIVERGED_ITS\) in "
-                                     r"1 iteration; residuals \S+, \S+; the greatest residual is in the cell at \(")
+        self.assertRegex(result.err, r"Poisson's equation did not converge: more iterations than allowed "
+                                     r"\(DIVERGED_ITS\) in 1 iteration; residuals \S+, \S+; the greatest residual is "
+                                     r"in the cell at \(")
 
     def test_options_that_no_solve_looks_at_are_named_at_the_end(self):
         result = run("ups/poisson/sine.ups", "Poisson/Solver/petsc=-ksp_mxa_it 5",
@@ -49,7 +50,8 @@ class Loading(unittest.TestCase):
 
     def test_options_that_one_solve_of_several_looks_at_are_not_named(self):
         options = ("--quiet", "-petsc", "-snes_rtol 1e-5 -ksp_gmres_modifiedgramschmidt")
-        result = run("ups/solid/implicit_cantilever.ups", "MPM/DoImplicitHeatConduction=true", "MPM/Solver/solver=gmres",
+        result = run("ups/solid/implicit_cantilever.ups", "MPM/DoImplicitHeatConduction=true",
+                     "MPM/Solver/solver=gmres",
                      "MPM/Solver/preconditioner=ilu", "Time/max_Timesteps=1",
                      "MaterialProperties/MPM/material/specific_heat=1", options=options)
         self.assertEqual(result.code, 0, result.err)

@@ -50,7 +50,7 @@ TEST(CellNumbering, GivesGhostsTheNumbersOfTheirOwners) {
     for (const auto& [among, cell] : cellOf) {
       const int ghost = number(cell) - number.owned();
       if (ghost < 0) continue;
-      EXPECT_EQ(number.ghosts()[static_cast<std::size_t>(ghost)], among);
+      EXPECT_EQ(number.ghosts()[ghost], among);
     }
     for (const grid::Patch& patch : level->patches())
       grid::forEach<2>(patch.cells(), [&](const Index<2>& cell) {

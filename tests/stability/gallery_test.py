@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The short gallery: the default method keeps what it promises in every case; the paper's fails as it must, in a sentence."""
+"""The short gallery: the default method keeps what it promises in every case; the paper's fails as it must, in a
+sentence."""
 import pathlib
 import re
 import subprocess
@@ -17,9 +18,9 @@ from tushar.program import run_scene
 from tushar.stability import Gallery, is_stable, judge, scene_of, write_scene
 
 FATAL = ("toro_2", "toro_4", "toro_5", "leblanc", "ratio_1e6")  # for the paper's method
-SENTENCE = re.compile(r"p\.(?:density|internalEnergy) became -\S+ \S+ from \S+, but must be (?:greater than|at least) 0: "
-                      r"particle \d+ in cell \(\d+\) at x = \S+ m; around it: .*; .* (?:is|are) broken \(task \S+, patch 0, "
-                      r"material gas, step (\d+), time \S+ s, time step \S+ s\)")
+SENTENCE = re.compile(r"p\.(?:density|internalEnergy) became -\S+ \S+ from \S+, but must be (?:greater than|at least) "
+                      r"0: particle \d+ in cell \(\d+\) at x = \S+ m; around it: .*; .* (?:is|are) broken \(task \S+, "
+                      r"patch 0, material gas, step (\d+), time \S+ s, time step \S+ s\)")
 
 
 def case_of(name):

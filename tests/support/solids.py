@@ -27,7 +27,8 @@ def globals_of(scene, *names, sets=(), until=None):
             command += ["--set", override]
         subprocess.run(command, cwd=ROOT, check=True)
         archive = next(pathlib.Path(folder).glob("*.uda.*"))
-        return {name: [[float(word) for word in line.split()] for line in (archive / f"{name}.dat").read_text().splitlines()
+        return {name: [[float(word) for word in line.split()]
+                       for line in (archive / f"{name}.dat").read_text().splitlines()
                        if not line.startswith("#")] for name in names}
 
 

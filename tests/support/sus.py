@@ -8,8 +8,8 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SUS = str(pathlib.Path(os.environ.get("SUS", ROOT / "build/dev/sus")).resolve())
 FAULTY_SUS = str(pathlib.Path(os.environ.get("FAULTY_SUS", ROOT / "build/dev/tests/faulty_sus")).resolve())
-# Open MPI refuses root and more ranks than cores unless told otherwise. Ranks that wait leave their core to others: tests
-# share the machine.
+# Open MPI refuses root and more ranks than cores unless told otherwise. Ranks that wait leave their core to others:
+# tests share the machine.
 os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_mpi_yield_when_idle="1")
 
 

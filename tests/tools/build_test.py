@@ -28,7 +28,8 @@ class Build(unittest.TestCase):
         return done.stderr, done.returncode
 
     def test_says_nothing_where_nothing_is_to_be_built(self):
-        self.assertEqual(self.build("echo '[0/2] Re-checking globbed directories...'; echo 'ninja: no work to do.'"), ("", 0))
+        self.assertEqual(self.build("echo '[0/2] Re-checking globbed directories...'; echo 'ninja: no work to do.'"),
+                         ("", 0))
 
     def test_says_once_that_it_builds(self):
         self.assertEqual(self.build("echo '[1/3] Building CXX object a.o'; echo '[2/3] Building CXX object b.o'; "

@@ -25,7 +25,8 @@ SETS = ["Time/maxTime=0.05", "DataArchiver/outputInterval=0"]
 
 def coarsen(*arguments):
     """Exit code and what a run of the tool says."""
-    done = subprocess.run([sys.executable, ROOT / "tools/coarsen", *map(str, arguments)], capture_output=True, text=True)
+    done = subprocess.run([sys.executable, ROOT / "tools/coarsen", *map(str, arguments)], capture_output=True,
+                          text=True)
     return done.returncode, done.stdout + done.stderr
 
 
@@ -72,7 +73,8 @@ class Coarsen(unittest.TestCase):
         self.assertEqual(coarsen(self.folder.name, "--by", 2, "--out", self.table)[0], 1)
 
     def errors(self, cells, table):
-        result = run(SCENE, *SETS, f"Grid/Level/Box/resolution=[{cells},{cells},1]", f"DataAnalysis/Module/file={table}")
+        result = run(SCENE, *SETS, f"Grid/Level/Box/resolution=[{cells},{cells},1]",
+                     f"DataAnalysis/Module/file={table}")
         self.assertEqual(result.code, 0, result.err)
         return result.report["errors"]
 

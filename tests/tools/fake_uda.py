@@ -37,10 +37,12 @@ def sod(x, time):
 
 def write_index(folder, variables, globals_, outputs, title):
     """variables: (name, centring, components, unit, materials); globals_: (name, unit); outputs: (step, time)."""
-    lines = "".join(f'  <variable name="{name}" centring="{centring}" type="double" components="{components}" unit="{unit}" '
-                    f'description="the {name}"' + (f' materials="{materials}"' if materials else "") + " />\n"
+    lines = "".join(f'  <variable name="{name}" centring="{centring}" type="double" components="{components}" '
+                    f'unit="{unit}" description="the {name}"' + (f' materials="{materials}"' if materials else "") +
+                    " />\n"
                     for name, centring, components, unit, materials in variables)
-    more = "".join(f'  <global name="{name}" href="{name}.dat" components="1" unit="{unit}" description="the {name}" />\n'
+    more = "".join(f'  <global name="{name}" href="{name}.dat" components="1" unit="{unit}" description="the {name}" '
+                   f'/>\n'
                    for name, unit in globals_)
     times = "".join(f'  <timestep href="t{step:05}.h5" time="{time}" delT="0.001">{step}</timestep>\n'
                     for step, time in outputs)
@@ -98,7 +100,8 @@ def make_sod(where, name="sod", count=400, noise=0.0, leave_out=()):
 def make_heat(where, cells=(50, 1, 1), dimension=1, name="heat"):
     """A cell field, warm in the middle, and a node field; returns the path of the link."""
     folder = make_folder(where, name)
-    write_index(folder, [("c.temperature", "cell", 1, "K", ""), ("g.mass", "node", 1, "kg", "")], [], [(0, 0.0), (10, 1.0)],
+    write_index(folder, [("c.temperature", "cell", 1, "K", ""), ("g.mass", "node", 1, "kg", "")], [],
+                [(0, 0.0), (10, 1.0)],
                 "Heat")
     for step, time in ((0, 0.0), (10, 1.0)):
         with open_output(folder, step, time, cells, [1 / n for n in cells], dimension) as file:

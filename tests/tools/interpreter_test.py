@@ -50,7 +50,8 @@ class Interpreter(unittest.TestCase):
         done = self.run_with(self.add_python("poor", "/nowhere"))
         self.assertEqual(done.returncode, 1)
         self.assertEqual(done.stderr.count("\n"), 1)
-        self.assertIn("python3-no_such_library (Debian, Ubuntu) or run 'python3 -m pip install no_such_library'", done.stderr)
+        self.assertIn("python3-no_such_library (Debian, Ubuntu) or run 'python3 -m pip install no_such_library'",
+                      done.stderr)
 
     def test_starts_again_only_once(self):
         # This Python has the library in a first look, and no more when the tool runs with it.

@@ -34,7 +34,8 @@ class Projection(unittest.TestCase):
         self.assertLess(most[0], 1e-3)
         self.assertTrue(all(.3 < ratio < 1 for ratio in most[1:]))
         svg = self.out.read_text()
-        for words in ("midpoints: at most", "jittered: at most", "random: at most", "after a run to t = 0.3 s: at most"):
+        for words in ("midpoints: at most", "jittered: at most", "random: at most",
+                      "after a run to t = 0.3 s: at most"):
             self.assertIn(words, svg)
 
     def test_says_what_a_scene_lacks(self):

@@ -83,7 +83,8 @@ class Study(unittest.TestCase):
         for arguments, sentence in ((("sodd",), "'sodd' is neither a scene (.ups) nor a ready study: sod"),
                                     ((), "nothing to run"),
                                     (("ups/mpm/sod.ups", "--error", "density.face.L1", "--vary", "resolution=20"),
-                                     "there is no error 'density.face.L1': at 'face' there is only particle, cell, node")):
+                                     "there is no error 'density.face.L1': at 'face' "
+                                     "there is only particle, cell, node")):
             done = study(self.folder.name, *arguments, "--repeat", "1", out="wrong")
             self.assertEqual(done.returncode, 1)
             self.assertIn("study: ", done.stderr)
@@ -93,7 +94,8 @@ class Study(unittest.TestCase):
 
 class Figures(unittest.TestCase):
     def test_the_time_of_a_task_is_its_median_and_the_rest_is_between(self):
-        reports = [{"wall": {"loop": loop, "tasks": {"a": a, "b": b}}} for loop, a, b in ((10, 2, 3), (20, 9, 4), (12, 3, 5))]
+        reports = [{"wall": {"loop": loop, "tasks": {"a": a, "b": b}}} for loop, a,
+                   b in ((10, 2, 3), (20, 9, 4), (12, 3, 5))]
         self.assertEqual(time_by_task(reports), {"a": 3, "b": 4, "between tasks": 5})
 
     def test_short_names_find_their_place_in_any_scene(self):

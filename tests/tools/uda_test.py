@@ -91,7 +91,8 @@ class Library(WithArchives):
 
     def test_names_what_is_there_when_a_name_is_wrong(self):
         uda = Uda(self.sod)
-        with self.assertRaisesRegex(UdaError, r"no particle variable 'p.densty' \(did you mean 'p.density'\?\); there is"):
+        with self.assertRaisesRegex(UdaError, r"no particle variable 'p.densty' \(did you mean 'p.density'\?\); there "
+                                              r"is"):
             uda.particles("p.densty")
         with self.assertRaisesRegex(UdaError, r"no material 'Gas' \(did you mean 'gas'\?\)"):
             uda.particles("p.density", "Gas")

@@ -30,7 +30,7 @@ struct Work {
   }
   static std::size_t roomFor(const Box& cells, int reach) {
     std::size_t room = 1;
-    for (int d = 0; d < D; ++d) room *= static_cast<std::size_t>(std::min(cells.extent(d), kBlock<D>[d]) + 2 * reach);
+    for (int d = 0; d < D; ++d) room *= std::min(cells.extent(d), kBlock<D>[d]) + 2 * reach;
     return room;
   }
   void hold(const Box& box) {
@@ -75,7 +75,7 @@ void predict(const Gas& gas, const Level& level, const Box& box, double dt, Work
     if constexpr (D > 1) reconstruct<D, Limited, 1>(gas, first, count, ratio(1), work);
     if constexpr (D > 2) reconstruct<D, Limited, 2>(gas, first, count, ratio(2), work);
     const Pointers<D> change = work.flux.at(first);
-    work.least.assign(static_cast<std::size_t>(count), 1.0);
+    work.least.assign(count, 1.0);
     for (std::size_t d = 0; d < D; ++d)
       for (Rows<D>* values : {&work.lower[d], &work.upper[d]})
         changeRow<D>(gas, change, count, values->at(first), work.least.data());

@@ -12,9 +12,9 @@ void computeStableTimeStep(const Patch& patch, const Gas& gas, double cfl, CellV
   constexpr int chunk = 256, lanes = 8;
   std::array<double, chunk> rate{};
   std::array<double, lanes> greatest{};
-  std::array<double, static_cast<std::size_t>(D)> perWidth;
+  std::array<double, D> perWidth;
   double widths = 0;
-  for (int d = 0; d < D; ++d) widths += perWidth[static_cast<std::size_t>(d)] = patch.level().inverseSpacing(d);
+  for (int d = 0; d < D; ++d) widths += perWidth[d] = patch.level().inverseSpacing(d);
   forEachRow<D>(patch.cells(), [&](Index<D> first, int cells) {
     for (int done = 0; done < cells; done += chunk, first[0] += chunk) {
       const int count = std::min(chunk, cells - done);
@@ -26,15 +26,15 @@ void computeStableTimeStep(const Patch& patch, const Gas& gas, double cfl, CellV
         double squared = 0, sum = 0;
         for (int d = 0; d < D; ++d) {
           squared += m[i * D + d] * m[i * D + d];
-          sum += std::abs(m[i * D + d]) * perWidth[static_cast<std::size_t>(d)];
+          sum += std::abs(m[i * D + d]) * perWidth[d];
         }
         const double p = gas.pressure(energy[i] - 0.5 * squared * inverse) + gas.pInfinity;
         const double least = rho[i] < p ? rho[i] : p;
         bad = least > 0 ? bad : 1.0;
-        rate[static_cast<std::size_t>(i)] = sum * inverse + std::sqrt(gas.gamma * p * inverse) * widths;
+        rate[i] = sum * inverse + std::sqrt(gas.gamma * p * inverse) * widths;
       }
       if (bad != 0) refuseBroken<D, const double>(patch, gas, {density, momentum, totalEnergy}, nullptr);
-      for (int i = count; i < chunk; ++i) rate[static_cast<std::size_t>(i)] = 0;
+      for (int i = count; i < chunk; ++i) rate[i] = 0;
       for (std::size_t i = 0; i < chunk; i += lanes)
         for (std::size_t k = 0; k < lanes; ++k) greatest[k] = rate[i + k] > greatest[k] ? rate[i + k] : greatest[k];
     }

@@ -71,10 +71,7 @@ bool Surface::contains(const Vec3& point) const {
   for (int axis = 0; axis < 3; ++axis)
     if (!(point[axis] >= bounds_.min[axis] && point[axis] <= bounds_.max[axis])) return false;
   const std::vector<int>& ahead = crossing_[binOf(2, point[2]) * bins_ + binOf(1, point[1])];
-  return std::count_if(ahead.begin(), ahead.end(),
-                       [&](int t) { return isAhead(point, triangles_[static_cast<std::size_t>(t)]); }) %
-             2 ==
-         1;
+  return std::count_if(ahead.begin(), ahead.end(), [&](int t) { return isAhead(point, triangles_[t]); }) % 2 == 1;
 }
 
 std::string whyOpen(const Triangles& triangles) {

@@ -129,7 +129,7 @@ Read joinPoints(const std::string& points, const std::string& corners) {
       if (numbers[k] < 0 || numbers[k] >= static_cast<long>(places.size()))
         return failed(fmt::format(".tri: there is no point {}: they are counted from 0 to {}", numbers[k],
                                   static_cast<long>(places.size()) - 1));
-      const auto& at = places[static_cast<std::size_t>(numbers[k])];
+      const auto& at = places[numbers[k]];
       triangle[k] = Vec3(at[0], at[1], at[2]);
     }
   }

@@ -37,7 +37,7 @@ struct Somewhere {
       const int kind = way(random);
       cell[d] = kind < 2 ? 0 : kind < 4 ? cells - 1 : std::uniform_int_distribution<int>(0, cells - 1)(random);
       const std::array<double, 6> places{uniform(random), 0, 1, 1e-9, 1 - 1e-9, 0.5};
-      x[d] = level.nodePosition(d, cell[d]) + places[static_cast<std::size_t>(way(random))] * level.spacing(d);
+      x[d] = level.nodePosition(d, cell[d]) + places[way(random)] * level.spacing(d);
       extent.size[d] = 0.1 + 0.9 * uniform(random);
       for (int e = 0; e < D; ++e)
         extent.halfEdges(e, d) = 0.5 * extent.size[d] * ((e == d) + 0.3 * (uniform(random) - 0.5));
@@ -113,13 +113,13 @@ struct Nodes {
   Nodes() {
     std::ptrdiff_t stride = 1;
     for (std::size_t d = 0; d < D; ++d, stride *= n) window.stride[d] = stride;
-    records.assign(static_cast<std::size_t>(stride), NodeRecord{});
+    records.assign(stride, NodeRecord{});
     window.origin = records.data();
   }
   NodeRecord& at(const Index<D>& offset) {
     std::ptrdiff_t k = 0;
-    for (int d = 0; d < D; ++d) k += offset[d] * window.stride[static_cast<std::size_t>(d)];
-    return records[static_cast<std::size_t>(k)];
+    for (int d = 0; d < D; ++d) k += offset[d] * window.stride[d];
+    return records[k];
   }
 };
 
@@ -139,7 +139,7 @@ TYPED_TEST(EveryShape, ScattersWhatItsNodesSay) {
       const NodeRecord& record = nodes.at(node - stencil.first);
       for (int lane = 0; lane < 8; ++lane) {
         double expected = s * value[lane];
-        for (int d = 0; d < D && lane >= 4; ++d) expected += gradient[d] * slope[static_cast<std::size_t>(d)][lane - 4];
+        for (int d = 0; d < D && lane >= 4; ++d) expected += gradient[d] * slope[d][lane - 4];
         EXPECT_NEAR(record[lane], expected, 100 * roundOff) << "sums of order 100";
       }
     });
@@ -161,16 +161,15 @@ TYPED_TEST(EveryShape, GathersWhatItsNodesSay) {
     Eigen::Matrix<double, 4, D> gradient = Eigen::Matrix<double, 4, D>::Zero();
     stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>& ds) {
       const NodeRecord& record = nodes.at(node - stencil.first);
-      for (int lane = 0; lane < 8; ++lane) value[static_cast<std::size_t>(lane)] += s * record[lane];
+      for (int lane = 0; lane < 8; ++lane) value[lane] += s * record[lane];
       for (int lane = 0; lane < 4; ++lane)
         for (int d = 0; d < D; ++d) gradient(lane, d) += record[lane] * ds[d];
     });
     const Gathered<D> sums = gather(stencil, NodeWindow<const NodeRecord, D>{nodes.window.origin, nodes.window.stride});
-    for (int lane = 0; lane < 8; ++lane) EXPECT_NEAR(sums.value[lane], value[static_cast<std::size_t>(lane)], roundOff);
+    for (int lane = 0; lane < 8; ++lane) EXPECT_NEAR(sums.value[lane], value[lane], roundOff);
     for (int lane = 0; lane < 4; ++lane)
       for (int d = 0; d < D; ++d)
-        EXPECT_NEAR(sums.gradient[static_cast<std::size_t>(d)][lane], gradient(lane, d), 100 * roundOff)
-            << "of order 10";
+        EXPECT_NEAR(sums.gradient[d][lane], gradient(lane, d), 100 * roundOff) << "of order 10";
   }
 }
 
@@ -193,7 +192,7 @@ TYPED_TEST(AxisymmetricShape, HasNoStrainInRestAndOneInRadialStretching) {
     for (int d = 0; d < D; ++d) EXPECT_LT(std::abs(sums.gradient[d]) * level.spacing(d), roundOff);
     double hoop = 0;
     for (int i = 0; i < TypeParam::Stencil::nodes; ++i)
-      hoop += stencil.hoop[static_cast<std::size_t>(i)] * level.nodePosition(0, stencil.first[0] + i);
+      hoop += stencil.hoop[i] * level.nodePosition(0, stencil.first[0] + i);
     EXPECT_NEAR(hoop, 1, 10 * roundOff) << "v_r = r: the hoop strain rate is 1";
     EXPECT_NEAR(sums.positionGradient(0, 0), 1, 10 * roundOff);
   }

@@ -6,8 +6,8 @@ import re
 
 @dataclasses.dataclass(frozen=True)
 class Change:
-    """`change.NAME[k]=VALUE`: the k-th number of a global, the first if left out, and what its change should be; without
-    a value as in the first run of the study."""
+    """`change.NAME[k]=VALUE`: the k-th number of a global, the first if left out, and what its change should be;
+    without a value as in the first run of the study."""
     name: str
     component: int = 0
     value: float = None

@@ -64,7 +64,8 @@ class Figure:
         if gas:
             for label, _, name in GAS if self.grid.dimension == 1 else ():
                 if label not in gas:
-                    self.notes.append(f'no {name}: the scene does not save it; add <save label="{label}"/> to DataArchiver')
+                    self.notes.append(f'no {name}: the scene does not save it; add <save label="{label}"/> to '
+                                      f'DataArchiver')
             return gas if self.grid.dimension == 1 else gas[:1]
         fields = [v.name for v in self.uda.variables.values() if v.centring in ("cell", "node")]
         others = [v.name for v in saved if v.components == 1 and v.name != "p.particleID"] or names
@@ -158,7 +159,8 @@ class Figure:
         lower, upper = self.grid.lower, self.grid.lower + self.grid.spacing * self.grid.cells
         pad = self.grid.spacing / 2 if variable.centring == "node" else np.zeros(3)
         box = (lower[across] - pad[across], upper[across] + pad[across], lower[up] - pad[up], upper[up] + pad[up])
-        drawn = panel.imshow(values, origin="lower", extent=box, cmap="viridis", interpolation="nearest", aspect="equal")
+        drawn = panel.imshow(values, origin="lower", extent=box, cmap="viridis", interpolation="nearest",
+                             aspect="equal")
         panel.set_xlim(self._range(across))
         panel.set_ylim(self._range(up))
         self._finish_map(panel, drawn, variable, name)

@@ -51,6 +51,6 @@ def _has(python, modules):
 
 def _advice(missing, modules):
     packages = " ".join("python3-" + module for module in modules)
-    return (f"This tool needs the Python {'library' if len(missing) == 1 else 'libraries'} {' and '.join(missing)}, which "
-            f"no Python found here has: install {packages} (Debian, Ubuntu) or run 'python3 -m pip install "
+    return (f"This tool needs the Python {'library' if len(missing) == 1 else 'libraries'} {' and '.join(missing)}, "
+            f"which no Python found here has: install {packages} (Debian, Ubuntu) or run 'python3 -m pip install "
             f"{' '.join(modules)}'.")

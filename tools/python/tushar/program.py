@@ -18,7 +18,8 @@ class SceneError(Exception):
 
 
 def run_scene(sus, scene, sets, folder):
-    """Runs a scene with overrides, its files in `folder`: the report. `failure` is a sentence for one that died, else empty."""
+    """Runs a scene with overrides, its files in `folder`: the report. `failure` is a sentence for one that died, else
+    empty."""
     path = pathlib.Path(folder, "report.json")
     command = [str(sus), str(scene_path(scene)), "--quiet", "--json", str(path), "--output", str(folder)]
     for override in sets:

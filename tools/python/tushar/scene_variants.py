@@ -31,7 +31,8 @@ def override(root, text):
 def save(root, *labels):
     """Makes the scene keep no fields, and these totals of every step."""
     archiver = root.find("DataArchiver")
-    for tag in ("outputInterval", "outputTimestepInterval", "outputInitTimestep", "outputLastTimestep", "checkpoint", "save"):
+    for tag in ("outputInterval", "outputTimestepInterval", "outputInitTimestep", "outputLastTimestep", "checkpoint",
+                "save"):
         for element in archiver.findall(tag):
             archiver.remove(element)
     for label in labels:

@@ -18,7 +18,8 @@ def resolution(scene, value):
     """`N` cells along x, and along the other axes in the scene's proportion; `[nx,ny,nz]` as it stands."""
     if not value.startswith("["):
         cells = cells_of(scene)
-        value = "[" + ",".join(str(max(1, round(count * int(value) / cells[0]))) if count > 1 else "1" for count in cells) + "]"
+        value = "[" + ",".join(str(max(1, round(count * int(value) / cells[0]))) if count > 1 else "1"
+                               for count in cells) + "]"
     return [f"Grid/Level/Box/resolution={value}"]
 
 

@@ -110,7 +110,8 @@ class Gallery:
 
 
 def error_of(case, errors):
-    """Where a case's error stands in a report: that of particles is, where a method has none, the norm L2 over cells."""
+    """Where a case's error stands in a report: that of particles is, where a method has none, the norm L2 over
+    cells."""
     variable, where, norm = case.error.split(".")
     has_it = where != "particle" or where in errors.get(variable, {})
     return case.error if has_it else f"{variable}.cell.L2"
@@ -180,7 +181,8 @@ def write_markdown(rows, command, path):
     for row in rows:
         cells = [row["case"], row["method"], ", ".join(row["verdict"]), number(row.get("error")),
                  number(row.get("least_density")), number(row.get("least_energy")), number(row.get("mass"), ".1e"),
-                 number(row.get("momentum"), ".1e"), number(row.get("energy"), ".1e"), number(row.get("entropy"), ".1e"),
+                 number(row.get("momentum"), ".1e"), number(row.get("energy"), ".1e"),
+                 number(row.get("entropy"), ".1e"),
                  number(row.get("entropy_fall"), ".1e"), row["steps"],
                  row.get("retries", ""), number(row.get("seconds"), ".2g"), number(row.get("largest_factor"))]
         lines.append("| " + " | ".join(map(str, cells)) + " |")

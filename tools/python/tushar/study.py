@@ -117,7 +117,8 @@ class Study:
     def _change(self, case, folder):
         measured = self.change.measured(folder)
         if measured is None:
-            raise StudyError(f"{case.method.scene} does not save {self.change.name}, or it has no number {self.change.component}")
+            raise StudyError(f"{case.method.scene} does not save {self.change.name}, or it has no number "
+                             f"{self.change.component}")
         return measured
 
     def _save(self):

@@ -39,7 +39,8 @@ def _against(lines, column, label, error):
     figure, (axes, key) = plt.subplots(2, 1, figsize=(6.6, sum(tall)), height_ratios=tall, layout="constrained")
     for number, (name, line) in enumerate(lines.items()):
         axes.loglog([row[column] for row in line], [row["error"] for row in line], color=COLOURS[number % len(COLOURS)],
-                    marker=MARKERS[number % len(MARKERS)], linestyle="-" if number < len(COLOURS) else "--", markersize=5,
+                    marker=MARKERS[number % len(MARKERS)], linestyle="-" if number < len(COLOURS) else "--",
+                    markersize=5,
                     linewidth=1.4, label=name)
     if column == "h":
         for order in (1, 2):
@@ -80,7 +81,8 @@ def _time_by_task(lines):
             width = 1e9 * seconds / (row["steps"] * row["cells"])
             axes.barh(at, width, left=left, color=colours[task], height=0.85)
             left += width
-        axes.annotate(f"{1e3 * row['seconds']:.3g} ms", (left, at), xytext=(4, 0), textcoords="offset points", va="center",
+        axes.annotate(f"{1e3 * row['seconds']:.3g} ms", (left, at), xytext=(4, 0), textcoords="offset points",
+                      va="center",
                       fontsize=8)
     axes.set_yticks(heights, [_name_of_bar(method, row) for method, row in bars], fontsize=8)
     axes.invert_yaxis()
@@ -88,14 +90,16 @@ def _time_by_task(lines):
     axes.set_xlabel("time per step and cell [ns]; at the end of each bar the whole time loop")
     axes.grid(False, axis="y")
     key.axis("off")
-    key.legend([plt.Rectangle((0, 0), 1, 1, color=colour) for colour in colours.values()], colours, loc="center", ncols=3,
+    key.legend([plt.Rectangle((0, 0), 1, 1, color=colour) for colour in colours.values()], colours, loc="center",
+               ncols=3,
                fontsize=8)
     return figure
 
 
 def _colours_of_tasks(bars):
     """Task -> colour, the same in all bars; grey for what is no task."""
-    names = [task for task in dict.fromkeys(task for _, row in bars for task in row["tasks"]) if task != "between tasks"]
+    names = [task for task in dict.fromkeys(task for _, row in bars for task in row["tasks"])
+             if task != "between tasks"]
     palette = plt.get_cmap("tab20").colors + plt.get_cmap("tab20b").colors
     return {name: palette[number % len(palette)] for number, name in enumerate(names)} | {"between tasks": "#cbd5e0"}
 

@@ -129,7 +129,8 @@ class Uda:
         """The HDF5 file of an output, to be used in `with`."""
         count = len(self._files)
         if not -count <= index < count:
-            raise UdaError(f"no output {index}: '{self.folder}' has {count}" + (", 0 to %d" % (count - 1) if count else ""))
+            raise UdaError(f"no output {index}: '{self.folder}' has {count}" +
+                           (", 0 to %d" % (count - 1) if count else ""))
         try:
             return h5py.File(self._files[index], "r")
         except OSError as error:
@@ -157,8 +158,8 @@ class Uda:
         return np.concatenate(parts)
 
     def field(self, label, material=None, index=-1):
-        """Values of the cells or nodes, shape (z, y, x) for scalars, (z, y, x, components) else. A field that belongs to
-        materials needs the name of one if there are several."""
+        """Values of the cells or nodes, shape (z, y, x) for scalars, (z, y, x, components) else. A field that belongs
+        to materials needs the name of one if there are several."""
         variable = self._check_label(label, ("cell", "node"))
         if material:
             check_name("material", material, variable.materials)

@@ -268,7 +268,7 @@ void limitCooling(const Batch<D>& batch, const Lanes& work, const Lanes& energy,
 ///   (E2) new affine energy  K_A = 1/2 sum over a of I_a |u_a|²;  apic: (<|y|²> - |u_0|²) / 2
 ///   (E3) new e = e (1 + sum o_c f_c) + K_A,old - K_old + <beta (2 - beta) |r|²> / 2 + (<|y|²> - |u_0|²) / 2 - K_A
 /// so that the kinetic energy that a transfer loses becomes heat. Each face moves with the mean of its normal velocity
-/// v + dt a / 2 (apic: v + dt a). A step that limitEdge or limitCooling refuse is to be repeated with `factor` times
+/// v + dt a / 2 (apic: v + dt a). A step that limitEdges or limitCooling refuses is to be repeated with `factor` times
 /// dt.
 template <int D, class Scheme>
 void updateParticles(const Patch& patch, const Gas&, ParticleView<const Vec<D>> x, ParticleView<const Vec<D>> edges,

@@ -6,6 +6,7 @@
 #include "components/mpm/gas/conserving/redistribute.hpp"
 #include "components/mpm/gas/conserving/transfer.hpp"
 #include "tests/support/levels.hpp"
+#include "tests/support/particles.hpp"
 
 namespace tushar::mpm::gas::conserving {
 
@@ -27,16 +28,14 @@ inline grid::Domain freeDomain(const Index3& resolution) {
 
 /// A box of random size with random values about the middle of every cell of a grid with free sides.
 template <int D>
-struct BoxCloud {
-  Level level;
-  data::ParticleSet set;
+struct BoxCloud : test::Particles {
   std::vector<ParticleId> ids;
   std::vector<Vec<D>> x, edges, v;
   std::vector<Modes<D>> modes;
   std::vector<double> mass, energy, affine;
   Gas gas;
 
-  explicit BoxCloud(const Index3& resolution) : level(freeDomain(resolution)) {
+  explicit BoxCloud(const Index3& resolution) : Particles(freeDomain(resolution)) {
     std::mt19937 generator(7);
     std::uniform_real_distribution<double> uniform(0, 1);
     gas.name = "gas";
@@ -62,16 +61,6 @@ struct BoxCloud {
       set.at(cell) = {place, place + 1};
     });
     set.setOwned(static_cast<int>(x.size()));
-  }
-  const Patch& patch() const { return level.patches().front(); }
-  template <class T>
-  ParticleView<const T> read(const std::vector<T>& values) const {
-    return {values.data(), set, level.cells()};
-  }
-  template <class T>
-  ParticleView<T> write(std::vector<T>& values) const {
-    values.resize(x.size());
-    return {values.data(), set, level.cells()};
   }
   conserving::Boxes<D> boxes() const {
     return {read(ids), read(x), read(edges), read(mass), read(v), read(modes), read(energy), read(affine)};

@@ -38,7 +38,7 @@ void addParts(const Level& level, const Batch<2>& batch, const LanesVec<2>& cent
 /// Sum of the first `count` values.
 double sumOf(const auto& values, int count) {
   double sum = 0;
-  for (int k = 0; k < count; ++k) sum += values[static_cast<std::size_t>(k)][0];
+  for (int k = 0; k < count; ++k) sum += values[k][0];
   return sum;
 }
 

@@ -94,7 +94,7 @@ TEST(Remap, ReproducesALinearVelocityOfAUniformGas) {
 
 TEST(Remap, LeavesAnEmptyCellEmpty) {
   BoxCloud<1> cloud(Index3{{9, 1, 1}});
-  for (int p = 3; p < 6; ++p) cloud.edges[static_cast<std::size_t>(p)] *= 0.3;
+  for (int p = 3; p < 6; ++p) cloud.edges[p] *= 0.3;
   cloud.x[4][0] = cloud.level.nodePosition(0, 4) + 0.01;
   cloud.x[3][0] = cloud.level.nodePosition(0, 3) + 0.01;
   cloud.set.at(Index<1>{{4}}) = {4, 4};

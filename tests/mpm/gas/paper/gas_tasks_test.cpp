@@ -11,6 +11,7 @@
 #include "components/mpm/gas/paper/tasks/redistribute.hpp"
 #include "components/mpm/gas/paper/tasks/update_particles.hpp"
 #include "tests/support/levels.hpp"
+#include "tests/support/particles.hpp"
 
 // The bodies of the gas method's tasks on plain fields: no scheduler, no warehouse, no scene.
 
@@ -20,14 +21,12 @@ namespace {
 
 /// Particles at random places of every cell of a grid, with random values.
 template <int D>
-struct Cloud {
-  Level level;
-  data::ParticleSet set;
+struct Cloud : test::Particles {
   std::vector<Vec<D>> x, v;
   std::vector<double> mass, density, energy, pressure;
   Gas gas;
 
-  explicit Cloud(const Index3& resolution, int perCell = 3) : level(test::domain(resolution)) {
+  explicit Cloud(const Index3& resolution, int perCell = 3) : Particles(test::domain(resolution)) {
     std::mt19937 generator(42);
     std::uniform_real_distribution<double> uniform(0.01, 0.99);
     gas.name = "gas";
@@ -50,16 +49,6 @@ struct Cloud {
       set.at(cell) = {first, static_cast<int>(x.size())};
     });
     set.setOwned(static_cast<int>(x.size()));
-  }
-  const Patch& patch() const { return level.patches().front(); }
-  template <class T>
-  ParticleView<const T> read(const std::vector<T>& values) const {
-    return {values.data(), set, level.cells()};
-  }
-  template <class T>
-  ParticleView<T> write(std::vector<T>& values) const {
-    values.resize(x.size());
-    return {values.data(), set, level.cells()};
   }
   template <class T>
   NodeView<T> nodes(std::vector<T>& values) const {
@@ -106,14 +95,14 @@ void expectLinearReproduction(const Index3& resolution) {
   forEach<D>(cloud.level.cells(), [&](const Index<D>& cell) {
     const CellMiddle<D> middle(cloud.level, cell);
     for (const int p : cloud.set.in(cell)) {
-      const Vec<D>& at = cloud.x[static_cast<std::size_t>(p)];
+      const Vec<D>& at = cloud.x[p];
       const auto s = middle.weights(at);
       double sum = 0;
       Vec<D> mean = Vec<D>::Zero(), gradients = Vec<D>::Zero();
       for (int k = 0; k < Linear<D>::nodes; ++k) {
-        sum += s[static_cast<std::size_t>(k)];
+        sum += s[k];
         for (int d = 0; d < D; ++d) {
-          mean[d] += s[static_cast<std::size_t>(k)] * cloud.level.nodePosition(d, Linear<D>::node(cell, k)[d]);
+          mean[d] += s[k] * cloud.level.nodePosition(d, Linear<D>::node(cell, k)[d]);
           gradients[d] += Linear<D>::centreGradient(cloud.level, k, d);
         }
       }
@@ -358,7 +347,7 @@ TEST(Redistribute, SeedsACellAnewWithItsSlopesAndTheSameSums) {
   expectConserved(before, pieces);
   EXPECT_LT(pieces[0].density(), pieces[3].density());
   EXPECT_LT(pieces[0].velocity[0], pieces[3].velocity[0]);
-  for (int k = 0; k < 4; ++k) EXPECT_NEAR(pieces[static_cast<std::size_t>(k)].x[0], (k + 0.5) / 4, 1e-15);
+  for (int k = 0; k < 4; ++k) EXPECT_NEAR(pieces[k].x[0], (k + 0.5) / 4, 1e-15);
 }
 
 }  // namespace tushar::mpm::gas::paper

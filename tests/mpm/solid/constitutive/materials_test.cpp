@@ -86,8 +86,8 @@ TEST(Model, WorksOnSeveralParticlesAsOnEachAlone) {
   for (int count = 1; count <= 9; ++count) {
     model.kirchhoffStress(f.data(), count, together.data());
     for (int k = 0; k < count; ++k) {
-      model.kirchhoffStress(&f[static_cast<std::size_t>(k)], 1, &alone[static_cast<std::size_t>(k)]);
-      EXPECT_EQ(together[static_cast<std::size_t>(k)], alone[static_cast<std::size_t>(k)]) << k << " of " << count;
+      model.kirchhoffStress(&f[k], 1, &alone[k]);
+      EXPECT_EQ(together[k], alone[k]) << k << " of " << count;
     }
   }
   EXPECT_LT((alone[8] - model.model().kirchhoffStress(f[8])).norm(), 1e-14 * alone[8].norm());

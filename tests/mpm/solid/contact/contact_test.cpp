@@ -62,8 +62,8 @@ struct TwoBodies {
   T& at(std::vector<T>& field) const {
     return field[nodes.offset(Index3{{1, 1, 0}})];
   }
-  void move(int body, const Vec<2>& v) { setLanes<2>(at(records[static_cast<std::size_t>(body)]), lane::velocity, v); }
-  Vec<2> velocity(int body) { return lanes<2>(at(records[static_cast<std::size_t>(body)]), lane::velocity); }
+  void move(int body, const Vec<2>& v) { setLanes<2>(at(records[body]), lane::velocity, v); }
+  Vec<2> velocity(int body) { return lanes<2>(at(records[body]), lane::velocity); }
   Records views() {
     Records all;
     for (auto& one : records) all.emplace_back(one.data(), nodes);
@@ -171,7 +171,7 @@ TEST(Friction, LetsBodiesPartUnlessTheyArePressed) {
   bodies.move(0, {0, 1});
   bodies.slide();
   EXPECT_EQ(bodies.velocity(0), Vec<2>(0, 1));
-  for (const int m : {0, 1}) bodies.at(bodies.stress[static_cast<std::size_t>(m)])(1, 1) = -1;
+  for (const int m : {0, 1}) bodies.at(bodies.stress[m])(1, 1) = -1;
   bodies.slide();
   EXPECT_LT((bodies.velocity(0) - Vec<2>(0, 0.5)).norm(), roundOff);
 }
@@ -179,7 +179,7 @@ TEST(Friction, LetsBodiesPartUnlessTheyArePressed) {
 TEST(Friction, LetsPressedBodiesPartWhereOnlyApproachCounts) {
   TwoBodies bodies;
   bodies.contact.onlyOnApproach = true;
-  for (const int m : {0, 1}) bodies.at(bodies.stress[static_cast<std::size_t>(m)])(1, 1) = -1;
+  for (const int m : {0, 1}) bodies.at(bodies.stress[m])(1, 1) = -1;
   bodies.move(0, {0, 1});
   bodies.slide();
   EXPECT_EQ(bodies.velocity(0), Vec<2>(0, 1));

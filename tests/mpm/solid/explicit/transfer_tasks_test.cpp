@@ -10,6 +10,7 @@
 #include "components/mpm/solid/explicit/tasks/update_in_parts.hpp"
 #include "components/mpm/solid/explicit/tasks/velocity_updates.hpp"
 #include "components/mpm/solid/transfer/cpdi_transfer.hpp"
+#include "tests/support/particles.hpp"
 
 // The bodies of the transfer tasks on plain fields: no scheduler, no warehouse, no scene.
 
@@ -21,11 +22,9 @@ constexpr double roundOff = 1e-12;
 
 /// Particles at random places of the inner cells of a grid without walls, with random values.
 template <class Shape>
-struct Cloud {
+struct Cloud : test::Particles {
   static constexpr int D = Shape::dimension;
 
-  Level level{domain()};
-  data::ParticleSet set;
   Material material;
   Method method;
   std::vector<Vec<D>> x, v;
@@ -42,7 +41,7 @@ struct Cloud {
     return domain;
   }
 
-  Cloud() {
+  Cloud() : Particles(domain()) {
     material.density = 1;
     method.commonSize = {0.5, 0.5, 0.5};
     set.reset(patch(), Shape::reach);
@@ -72,16 +71,6 @@ struct Cloud {
     stress.push_back(any + any.transpose());
     deformation.push_back(Matrix3::Identity() + 0.2 * any);
     moment.push_back(any * level.spacing(0));
-  }
-  const Patch& patch() const { return level.patches().front(); }
-  template <class T>
-  ParticleView<const T> read(const std::vector<T>& values) const {
-    return {values.data(), set, level.cells()};
-  }
-  template <class T>
-  ParticleView<T> write(std::vector<T>& values) const {
-    values.resize(x.size());
-    return {values.data(), set, level.cells()};
   }
   NodeView<NodeRecord> nodes() { return {records.data(), level.nodes()}; }
   NodeView<const NodeRecord> nodes() const { return {records.data(), level.nodes()}; }

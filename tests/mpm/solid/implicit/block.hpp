@@ -75,7 +75,7 @@ class Block {
   const Level& level() const { return level_; }
   /// Takes out the last particles, of one cell.
   void removeLast(int count) {
-    x_.resize(x_.size() - static_cast<std::size_t>(count));
+    x_.resize(x_.size() - count);
     const Index<D> cell = level_.template cellOf<D>(x_.back());
     set_.at(cell).last -= count;
     set_.setOwned(static_cast<int>(x_.size()));
@@ -146,8 +146,8 @@ class Block {
     deformation_.push_back(Matrix3::Identity());
     deformation_.back()(0, 0) = stretched;
     stress_.push_back(Matrix3::Zero());
-    state_.resize(state_.size() + static_cast<std::size_t>(state_size_));
-    material_.model->initialize(&state_[state_.size() - static_cast<std::size_t>(state_size_)]);
+    state_.resize(state_.size() + state_size_);
+    material_.model->initialize(&state_[state_.size() - state_size_]);
   }
 
   Level level_;

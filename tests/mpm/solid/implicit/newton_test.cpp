@@ -54,7 +54,7 @@ double pull(bool sharesVolume) {
   EXPECT_TRUE(solvers::solver().solve(system.unknowns(), system, direct(), u).converged);
   double force = 0;
   for (int k = 0; k < system.nodes().size(); ++k)
-    if (system.nodes().node(k)[0] == length) force += system.reactions()[static_cast<std::size_t>(2 * k)];
+    if (system.nodes().node(k)[0] == length) force += system.reactions()[2 * k];
   return force / (2 / std::sqrt(3.0) * yieldStress * length / 2);
 }
 
@@ -127,7 +127,7 @@ TEST(Newton, GoesOnUntilOnlyRoundingIsLeftOfALoad) {
   EXPECT_TRUE(system.isNegligible(u, r));
   // A hundred times the strain that counts as rounding, in one cell.
   for (int k = 0; k < system.nodes().size(); ++k)
-    if (system.nodes().node(k) == Index<2>{{2, 1}}) u[static_cast<std::size_t>(2 * k)] += 1e-12;
+    if (system.nodes().node(k) == Index<2>{{2, 1}}) u[2 * k] += 1e-12;
   EXPECT_TRUE(system.residual(u, r));
   EXPECT_FALSE(system.isNegligible(u, r));
 }

@@ -38,8 +38,8 @@ class Dense : public solvers::Matrix {
  public:
   Dense(int nodes, int block) : values(Eigen::MatrixXd::Zero(nodes * block, nodes * block)), block_(block) {}
   void add(std::span<const int> rows, std::span<const int> columns, std::span<const double> numbers) override {
-    const auto width = columns.size() * static_cast<std::size_t>(block_);
-    for (std::size_t r = 0; r < rows.size() * static_cast<std::size_t>(block_); ++r)
+    const auto width = columns.size() * block_;
+    for (std::size_t r = 0; r < rows.size() * block_; ++r)
       for (std::size_t c = 0; c < width; ++c) {
         const int row = rows[r / static_cast<std::size_t>(block_)],
                   column = columns[c / static_cast<std::size_t>(block_)];
@@ -61,7 +61,7 @@ double errorOfTangent(ImplicitSystem<Shape> system, double size) {
   const int nodes = system.nodes().size();
   std::mt19937 random(1);
   std::uniform_real_distribution<double> drawn(-size, size);
-  std::vector<double> u(static_cast<std::size_t>(nodes * D)), above(u.size()), below(u.size()), r(u.size());
+  std::vector<double> u(nodes * D), above(u.size()), below(u.size()), r(u.size());
   for (double& value : u) value = drawn(random);
   EXPECT_TRUE(system.residual(u, r));
   Dense matrix(nodes, D);
@@ -155,7 +155,7 @@ TEST(HoopOf, GivesTheStrainOfAnExpansionWhereverTheParticleIsAlongTheAxis) {
 TEST(ImplicitSystem, HasNoForceWhereNothingIsDeformed) {
   Block<GimpShape<2>> block(modelOf(rubber()), {{2, 2, 1}});
   ImplicitSystem<GimpShape<2>> system = block.system(false);
-  std::vector<double> u(static_cast<std::size_t>(2 * system.nodes().size()), 0.0), r(u.size());
+  std::vector<double> u(2 * system.nodes().size(), 0.0), r(u.size());
   EXPECT_TRUE(system.residual(u, r));
   for (const double value : r) EXPECT_NEAR(value, 0, 1e-9);  // rounding of 8e5 Pa m
 }

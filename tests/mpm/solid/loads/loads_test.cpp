@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "components/mpm/solid/tasks/apply_external_loads.hpp"
+#include "tests/support/particles.hpp"
 
 // What loads do to particles, on plain fields.
 
@@ -8,25 +9,19 @@ namespace tushar::mpm::solid {
 namespace {
 
 /// A square of one cell with two particles, of 2 and 3 kg.
-struct TwoParticles {
+struct TwoParticles : test::Particles {
   static grid::Domain domain() {
     grid::Domain domain;
     domain.upper = {1, 1, 0};
     domain.resolution = {{1, 1, 0}};
     return domain;
   }
-  TwoParticles() {
+  TwoParticles() : Particles(domain()) {
     set.reset(level.patches().front(), 1);
     set.at(Index3{{0, 0, 0}}) = {0, 2};
     set.setOwned(2);
   }
-  template <class T>
-  ParticleView<const T> read(const std::vector<T>& values) const {
-    return {values.data(), set, level.cells()};
-  }
 
-  Level level{domain()};
-  data::ParticleSet set;
   Material material;
   std::vector<Vec<2>> x{{0.25, 0.5}, {0.75, 0.5}};
   std::vector<double> mass{2, 3};

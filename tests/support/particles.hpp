@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "core/core.hpp"
+
+namespace tushar::test {
+
+/// The particles of a grid of one patch, and views of values of them.
+struct Particles {
+  Level level;
+  data::ParticleSet set;
+
+  explicit Particles(const grid::Domain& domain) : level(domain) {}
+  const Patch& patch() const { return level.patches().front(); }
+  template <class T>
+  ParticleView<const T> read(const std::vector<T>& values) const {
+    return {values.data(), set, level.cells()};
+  }
+  /// One value for each particle.
+  template <class T>
+  ParticleView<T> write(std::vector<T>& values) const {
+    values.resize(set.owned());
+    return {values.data(), set, level.cells()};
+  }
+};
+
+}  // namespace tushar::test
