@@ -6,7 +6,7 @@
 #include <regex>
 
 #include "components/components.hpp"
-#include "components/mpm/labels.hpp"
+#include "components/mpm/gas/labels.hpp"
 #include "core/simulation/scene.hpp"
 #include "tests/support/temporary.hpp"
 
@@ -42,7 +42,8 @@ class Spoiled : public Component {
           for (int p = 0; p < energy.owned(); ++p)
             if (ids[p] == planted.id && time >= planted.from) energy[p] = planted.value;
         },
-        materials, tasks::startTime(), tasks::requiresNew(data::particleId), tasks::modifies(mpm::p::internalEnergy));
+        materials, tasks::startTime(), tasks::requiresNew(data::particleId),
+        tasks::modifies(mpm::gas::p::internalEnergy));
   }
   void scheduleDiagnostics(tasks::TaskList& tasks) const override { sound_->scheduleDiagnostics(tasks); }
 

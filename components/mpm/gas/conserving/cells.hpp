@@ -3,8 +3,8 @@
 #include "components/mpm/gas/conserving/labels.hpp"
 #include "components/mpm/gas/conserving/scheme.hpp"
 #include "components/mpm/gas/material.hpp"
-#include "components/mpm/gas/mirrored.hpp"
-#include "components/mpm/gas/symmetry.hpp"
+#include "components/mpm/gas/mirror_symmetry.hpp"
+#include "components/mpm/gas/symmetry_planes.hpp"
 
 namespace tushar::mpm::gas::conserving {
 

@@ -5,7 +5,7 @@
 
 #include "components/mpm/gas/conserving/batch.hpp"
 #include "components/mpm/gas/conserving/modes.hpp"
-#include "components/mpm/gas/mirrored.hpp"
+#include "components/mpm/gas/mirror_symmetry.hpp"
 
 namespace tushar::mpm::gas::conserving {
 

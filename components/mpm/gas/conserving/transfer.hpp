@@ -5,7 +5,7 @@
 #include "components/mpm/gas/conserving/labels.hpp"
 #include "components/mpm/gas/conserving/scheme.hpp"
 #include "components/mpm/gas/material.hpp"
-#include "components/mpm/gas/symmetry.hpp"
+#include "components/mpm/gas/symmetry_planes.hpp"
 
 namespace tushar::mpm::gas::conserving {
 

@@ -113,7 +113,7 @@ CellProjection projectCell(const std::vector<PlacedDensity>& particles, const st
   CellProjection cell;
   for (const std::size_t node : {0, 1}) {
     const double slope = node == 0 ? -1 : 1;  // of S_i, times h
-    const auto shape = [&](double place) { return node == 0 ? 1 - place : place; };
+    const auto shape = [&](double place) { return Linear<1>::weights(Vec<1>(place))[node]; };
     double integral = 0, square = 0, sum = 0;
     for (std::size_t k = 1; k < line.size(); ++k) {
       const PlacedDensity &a = line[k - 1], &b = line[k];

@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
+#include "components/mpm/gas/labels.hpp"
 #include "components/mpm/gas/material.hpp"
-#include "components/mpm/labels.hpp"
 #include "core/simulation/catalogue.hpp"
 
 namespace tushar::mpm::gas::paper {
@@ -18,6 +18,7 @@ namespace tushar::mpm::gas::paper {
 simulation::AnalysisKind massProjectionKind();
 
 namespace g {
+using namespace gas::g;
 inline constexpr NodeLabel<double> massProjectionError{
     "g.massProjectionError", "kg", "E_m^i: integral of shape function times density, less the mass from particles"};
 inline constexpr NodeLabel<double> massProjectionBound{"g.massProjectionBound", "kg", "what |E_m^i| cannot exceed"};

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "components/mpm/gas/labels.hpp"
 #include "components/mpm/gas/material.hpp"
-#include "components/mpm/gas/mirrored.hpp"
-#include "components/mpm/labels.hpp"
+#include "components/mpm/gas/mirror_symmetry.hpp"
 #include "components/mpm/particles/ids.hpp"
 
 namespace tushar::mpm::gas {

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "components/mpm/gas/labels.hpp"
 #include "components/mpm/gas/material.hpp"
-#include "components/mpm/labels.hpp"
 
 namespace tushar::mpm::gas {
 
