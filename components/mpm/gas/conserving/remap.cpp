@@ -122,7 +122,7 @@ void bring(typename CellSums<D>::Fields::Brought& brought, std::size_t place, co
 
 /// Sends the parts of a batch of particles to their cells.
 template <int D>
-void cut(const Level& level, const Batch<D>& batch, const Boxes<D>& boxes, const Contents<D>& contents,
+void cut(const Level& level, const Batch<D>& batch, const OldBoxes<D>& boxes, const Contents<D>& contents,
          typename CellSums<D>::Fields& sums) {
   const LanesVec<D> centre = load(boxes.x, batch), edges = load(boxes.edges, batch), v = load(boxes.velocity, batch);
   const LanesModes<D> modes = load(boxes.modes, batch);
@@ -222,9 +222,10 @@ struct NewBox {
   }
 };
 
+/// The particle of a cell: what its parts hold together, in the box `NewBox`.
 template <int D>
-void addParticle(const Level& level, CellView<const double> mass, const Index<D>& cell, const Contained<D>& contained,
-                 int lane, NewBoxes<D>& fresh) {
+GasBox<D> boxOf(const Level& level, CellView<const double> mass, const Index<D>& cell, const Contained<D>& contained,
+                int lane) {
   Vec<D> v, offset;
   Modes<D> modes;
   for (int d = 0; d < D; ++d) {
@@ -234,39 +235,38 @@ void addParticle(const Level& level, CellView<const double> mass, const Index<D>
   }
   const NewBox<D> box(level, mass, cell, offset);
   const double within = contained.within[lane], affine = std::min(within, modalEnergy<D>(modes, box.inertia));
-  fresh.maker.add(cell, level.cellNumber(cell) * idsOfCell);
-  fresh.x.push_back(box.centre);
-  fresh.edges.push_back(box.edges);
-  fresh.mass.push_back(contained.mass[lane]);
-  fresh.velocity.push_back(v);
-  fresh.modes.push_back(modes);
-  fresh.internalEnergy.push_back(contained.internalEnergy[lane] + (within - affine));
-  fresh.affineEnergy.push_back(affine);
+  return {.id = level.cellNumber(cell) * idsOfCell,
+          .x = box.centre,
+          .edges = box.edges,
+          .mass = contained.mass[lane],
+          .velocity = v,
+          .modes = modes,
+          .internalEnergy = contained.internalEnergy[lane] + (within - affine),
+          .affineEnergy = affine};
 }
 
 }  // namespace
 
 template <int D>
-void remap(const Patch& patch, const Boxes<D>& boxes, CellView<const double> mass, CellView<const double> energy,
-           NewBoxes<D> fresh) {
+void remap(const Patch& patch, const OldBoxes<D>& old, CellView<const double> mass, CellView<const double> energy,
+           ParticleMaker& maker, const NewBoxes<D>& fresh) {
   const Level& level = patch.level();
-  Contents<D> contents(boxes.x.cells());
+  Contents<D> contents(old.x.cells());
   contents.copy(0, mass);
   contents.copy(1, energy);
-  typename CellSums<D>::Fields sums(boxes.x.cells());
-  forEachBatch<D>(boxes.x.cells(), boxes.x,
-                  [&](const Batch<D>& batch) { cut<D>(level, batch, boxes, contents, sums); });
+  typename CellSums<D>::Fields sums(old.x.cells());
+  forEachBatch<D>(old.x.cells(), old.x, [&](const Batch<D>& batch) { cut<D>(level, batch, old, contents, sums); });
   sums.finish();
   forEach<D>(patch.cells(), [&](Index<D> cell) {
     if ((cell[0] - patch.cells().lower[0]) % Lanes::count != 0) return;
     const Contained<D> contained(sums, cell);
     for (int lane = 0; lane < Lanes::count && cell[0] < patch.cells().upper[0]; ++lane, ++cell[0])
-      if (contained.mass[lane] > 0) addParticle<D>(level, mass, cell, contained, lane, fresh);
+      if (contained.mass[lane] > 0) fresh.add(maker, cell, boxOf<D>(level, mass, cell, contained, lane));
   });
 }
 
-template void remap<1>(const Patch&, const Boxes<1>&, CellView<const double>, CellView<const double>, NewBoxes<1>);
-template void remap<2>(const Patch&, const Boxes<2>&, CellView<const double>, CellView<const double>, NewBoxes<2>);
-template void remap<3>(const Patch&, const Boxes<3>&, CellView<const double>, CellView<const double>, NewBoxes<3>);
+template void remap<1>(const Patch&, const OldBoxes<1>&, CellView<const double>, CellView<const double>, ParticleMaker&, const NewBoxes<1>&);
+template void remap<2>(const Patch&, const OldBoxes<2>&, CellView<const double>, CellView<const double>, ParticleMaker&, const NewBoxes<2>&);
+template void remap<3>(const Patch&, const OldBoxes<3>&, CellView<const double>, CellView<const double>, ParticleMaker&, const NewBoxes<3>&);
 
 }  // namespace tushar::mpm::gas::conserving
