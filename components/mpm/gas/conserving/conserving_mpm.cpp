@@ -16,7 +16,7 @@ namespace tushar::mpm::gas::conserving {
 
 namespace {
 
-/// How a group reads labels that tasks need both of the state at the start of the step and of a later one.
+/// How a group reads its labels: at the start of the step, or as an earlier task of the list computed them.
 constexpr auto atStart = [](const auto& label) { return requiresOld(label); };
 constexpr auto asComputed = [](const auto& label) { return requiresNew(label); };
 
@@ -40,11 +40,11 @@ void ConservingMpm<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
                       requiresOld(p::velocity<D>), requiresOld(p::internalEnergy), requiresOld(c::mass),
                       requiresOld(c::velocityGradient<D>), computes(delT));
   if (method_.remap)
-    tasks.perPatch("mpm::countSteps", countSteps, with(*method_.remap), requiresOld(remapAge),
-                   requiresOld(cellFill), computes(remapCount));
+    tasks.perPatch("mpm::countSteps", countSteps, with(*method_.remap), requiresOld(remapAge), requiresOld(cellFill),
+                   computes(remapCount));
 }
 
-/// Particles move with the grid's state, which is then gathered anew. E1-E3 are in transfer.hpp.
+/// A step: forces and work on the grid, (E1)-(E3) for the particles, and the grid's state gathered anew.
 template <int D>
 void ConservingMpm<D>::scheduleTimeAdvance(TaskList& tasks) const {
   if (method_.transfer == Transfer::apic)
@@ -63,8 +63,8 @@ void ConservingMpm<D>::scheduleStep(TaskList& tasks) const {
   tasks.perMaterial("mpm::computeStress", computeStress<D, Scheme>, materials_, requiresOld(c::pressure),
                     requiresOld(c::viscosity), requiresOld(c::velocityGradient<D>), requiresOld(delT),
                     computes(c::stress<D>));
-  tasks.perMaterial("mpm::computeInternalForce", computeAcceleration<D>, materials_,
-                    requiresNew(c::stress<D>, 1), requiresOld(g::mass), computes(g::acceleration<D>));
+  tasks.perMaterial("mpm::computeInternalForce", computeAcceleration<D>, materials_, requiresNew(c::stress<D>, 1),
+                    requiresOld(g::mass), computes(g::acceleration<D>));
   tasks.perMaterial("mpm::computeRelaxation", computeRelaxation<D>, materials_, requiresOld(c::shock, 1),
                     computes(g::relaxation));
   if (isMixture())
@@ -105,8 +105,8 @@ template <int D>
 void ConservingMpm<D>::scheduleGridState(TaskList& tasks, bool isStart) const {
   const double spare = method_.transfer == Transfer::apic ? Apic::spareEnergy : AffineFlip::spareEnergy;
   if (isMixture())
-    tasks.perMaterial("mpm::computeHeat", computeHeat<D>, materials_, requiresNew(p::mass),
-                      requiresNew(p::edges<D>), requiresNew(p::internalEnergy), computes(p::heat));
+    tasks.perMaterial("mpm::computeHeat", computeHeat<D>, materials_, requiresNew(p::mass), requiresNew(p::edges<D>),
+                      requiresNew(p::internalEnergy), computes(p::heat));
   tasks.perMaterial("mpm::limitModes", limitModes<D>, materials_, with(spare), requiresNew(p::edges<D>),
                     requiresNew(isMixture() ? p::heat : p::internalEnergy), requiresNew(p::affineEnergy),
                     modifies(p::modes<D>));
@@ -116,13 +116,11 @@ void ConservingMpm<D>::scheduleGridState(TaskList& tasks, bool isStart) const {
   else
     tasks.perMaterial("mpm::interpolateParticlesToGrid", interpolateParticlesToGrid<D>, materials_,
                       all<ParticlesToGrid<D>>());
-  if (isMixture() && isStart)
-    tasks.acrossMaterials("mpm::checkFill", checkFill<D>, materials_, modifies(c::fill));
+  if (isMixture() && isStart) tasks.acrossMaterials("mpm::checkFill", checkFill<D>, materials_, modifies(c::fill));
   if (isMixture())
-    tasks.acrossMaterials("mpm::mixAtNodes", mixAtNodes<D>, materials_, modifies(g::mass),
-                          modifies(g::velocity<D>));
-  tasks.perMaterial("mpm::computeVelocityGradient", computeVelocityGradient<D>, materials_,
-                    requiresNew(g::velocity<D>), computes(c::velocityGradient<D>));
+    tasks.acrossMaterials("mpm::mixAtNodes", mixAtNodes<D>, materials_, modifies(g::mass), modifies(g::velocity<D>));
+  tasks.perMaterial("mpm::computeVelocityGradient", computeVelocityGradient<D>, materials_, requiresNew(g::velocity<D>),
+                    computes(c::velocityGradient<D>));
   if (isMixture()) return scheduleMixtureState(tasks);
   if (method_.transfer != Transfer::apic) return scheduleComputePressure<AffineFlip>(tasks);
   scheduleComputePressure<Apic>(tasks);
@@ -155,9 +153,9 @@ void ConservingMpm<D>::scheduleDiagnostics(TaskList& tasks) const {
   tasks.perMaterial("mpm::sumMass", sumMass<D>, materials_, requiresOld(p::mass), computes(total::mass));
   tasks.perMaterial("mpm::sumMomentum", sumMomentum<D>, materials_, requiresOld(p::mass), requiresOld(p::velocity<D>),
                     computes(total::momentum));
-  tasks.perMaterial("mpm::sumEnergy", sumEnergy<D>, materials_, requiresOld(p::mass),
-                    requiresOld(p::velocity<D>), requiresOld(p::internalEnergy), requiresOld(p::affineEnergy),
-                    computes(total::kineticEnergy), computes(total::internalEnergy), computes(total::energy));
+  tasks.perMaterial("mpm::sumEnergy", sumEnergy<D>, materials_, requiresOld(p::mass), requiresOld(p::velocity<D>),
+                    requiresOld(p::internalEnergy), requiresOld(p::affineEnergy), computes(total::kineticEnergy),
+                    computes(total::internalEnergy), computes(total::energy));
   tasks.perMaterial("mpm::sumCenterOfMass", sumCenterOfMass<D>, materials_, requiresOld(p::mass), requiresOld(p::x<D>),
                     computes(total::centerOfMass));
   tasks.perMaterial("mpm::computeDensity", computeDensity<D>, materials_, requiresOld(p::mass),
@@ -169,8 +167,8 @@ void ConservingMpm<D>::scheduleDiagnostics(TaskList& tasks) const {
                     requiresOld(p::internalEnergy), computes(total::entropy));
   tasks.perMaterial("mpm::computeCellDensity", computeCellDensity<D>, materials_, requiresOld(c::mass),
                     computes(c::density));
-  tasks.perMaterial("mpm::computeCellVelocity", computeCellVelocity<D>, materials_,
-                    requiresOld(p::x<D>, overhang), requiresOld(p::edges<D>, overhang), requiresOld(p::mass, overhang),
+  tasks.perMaterial("mpm::computeCellVelocity", computeCellVelocity<D>, materials_, requiresOld(p::x<D>, overhang),
+                    requiresOld(p::edges<D>, overhang), requiresOld(p::mass, overhang),
                     requiresOld(p::velocity<D>, overhang), requiresOld(p::modes<D>, overhang), requiresOld(c::mass),
                     computes(c::velocity<D>));
 }
@@ -183,9 +181,9 @@ void ConservingMpm<D>::scheduleMeasureError(TaskList& tasks, const reference::Ga
                     requiresOld(p::internalEnergy), all<ErrorNorms>(&reference::particleError));
   if (isMixture())
     tasks.acrossMaterials("mpm::measureCellError", measureMixtureError<D>, materials_, with(&exact), with(&clock),
-                          all<GasInCells>(atStart), requiresNew(c::velocity<D>),
-                          computes(reference::cellError.density), computes(reference::cellError.velocity),
-                          computes(reference::cellError.pressure), computes(reference::cellError.energy));
+                          all<GasInCells>(atStart), requiresNew(c::velocity<D>), computes(reference::cellError.density),
+                          computes(reference::cellError.velocity), computes(reference::cellError.pressure),
+                          computes(reference::cellError.energy));
   else
     tasks.perMaterial("mpm::measureCellError", measureCellError<D>, materials_, with(&exact), with(&clock),
                       requiresOld(c::mass), requiresNew(c::velocity<D>), requiresOld(c::internalEnergy),

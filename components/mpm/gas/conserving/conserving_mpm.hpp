@@ -18,7 +18,7 @@ namespace tushar::mpm::gas::conserving {
 /// A step takes the grid from the state at its start to the accelerations a_i of the nodes, and the work f_c on the
 /// gas in each cell by exactly these forces (cells.hpp). Then particles get from the grid (transfer.hpp)
 ///   (E1) new velocity modes: moments of the nodal velocities over the box,
-///   (E2) new K_A: the kinetic energy of these modes,
+///   (E2) new K_A: the kinetic energy of the motion about the mean,
 ///   (E3) new e: e (1 + sum_c o_c f_c), and all the kinetic energy that (E1) and (E2) lose.
 /// The grid's state is gathered from the particles at the end of a step, so that the next time step can follow from it.
 ///

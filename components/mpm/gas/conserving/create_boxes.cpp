@@ -17,7 +17,7 @@ const GasObject& objectAt(const Gas& gas, const Vec3& point) {
   return gas.objects.front();
 }
 
-/// What a box holds, as integrals over it.
+/// Integrals over a box.
 template <int D>
 struct Contents {
   double mass = 0, energy = 0;
@@ -33,7 +33,7 @@ struct Contents {
   }
 };
 
-/// What a volume [m³] of the gas holds at `offset` from `x`.
+/// The integrands at `offset` from `x`, times a volume [m³].
 template <int D>
 Contents<D> contentsAt(const Level& level, const Gas& gas, const GasObject& object, const Vec<D>& x,
                        const Vec<D>& offset, double volume) {
@@ -51,8 +51,7 @@ Contents<D> contentsAt(const Level& level, const Gas& gas, const GasObject& obje
   return held;
 }
 
-/// Sum of `held(offset, volume)` over the points of Gauss & Legendre, 3 per axis, of a box: the same for a mirrored
-/// one.
+/// Sum of `held(offset, volume)` over the Gauss-Legendre points, 3 per axis, of a box; the same for a mirrored one.
 template <int D, class Held>
 Contents<D> sumOverPoints(const Vec<D>& edges, double volume, const Held& held, Vec<D> offset = Vec<D>::Zero(),
                           int axis = 0) {
@@ -76,8 +75,8 @@ Contents<D> integrate(const Level& level, const Gas& gas, const GasObject& objec
   });
 }
 
-/// A stiffened gas presses on all around it with p + p_inf. Throws InputError where nothing would press back: on a grid
-/// with a free side, and, if it is alone, where `boxes` leave a part of the patch empty.
+/// A stiffened gas exerts p + p_inf on its surroundings. Throws InputError where nothing balances it: on a grid with a
+/// free side, and, if it is the only gas, where `boxes` leave a part of the patch empty.
 template <int D>
 void refuseLooseness(const Patch& patch, const Gas& gas, const std::vector<Vec<D>>& boxes) {
   if (gas.pInfinity == 0) return;
@@ -125,8 +124,7 @@ void createBoxes(const Patch& patch, const Gas& gas, ParticleMaker& maker, const
     for (std::size_t a = 1; a < products.size(); ++a)
       modes.col(static_cast<int>(a) - 1) = held.moments.col(static_cast<int>(a) - 1) / (held.mass * products[a]);
     boxes.affineEnergy[k] = modalEnergy<D>(modes, inertia);
-    boxes.internalEnergy[k] =
-        held.energy / held.mass - 0.5 * boxes.velocity[k].squaredNorm() - boxes.affineEnergy[k];
+    boxes.internalEnergy[k] = held.energy / held.mass - 0.5 * boxes.velocity[k].squaredNorm() - boxes.affineEnergy[k];
   }
   refuseLooseness<D>(patch, gas, boxes.edges);
 }

@@ -5,7 +5,7 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// Variables of the conserving gas method alone.
+/// Variables of the conserving gas method.
 namespace p {
 using namespace gas::p;
 template <int D>
@@ -50,7 +50,7 @@ inline constexpr CellLabel<double> movedMass{"c.movedMass", "kg", "mass in the c
 inline constexpr CellLabel<double> movedEnergy{"c.movedEnergy", "J", "internal energy in the cell before the remap"};
 }  // namespace c
 
-/// What limits the time step.
+/// Limits of the time step.
 inline constexpr ReductionLabel<Maximum> signalPastGrid{"SignalPastGrid", "m/s",
                                                         "signals relative to the grid, fastest"};
 inline constexpr ReductionLabel<Maximum> signalPastGas{"SignalPastGas", "m/s", "signals relative to the gas, fastest"};

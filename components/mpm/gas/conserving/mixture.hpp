@@ -6,7 +6,7 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// A view of each gas.
+/// One view for each gas.
 template <class T>
 using CellViews = std::vector<CellView<T>>;
 template <class T>
@@ -15,7 +15,7 @@ using NodeViews = std::vector<NodeView<T>>;
 /// Several gases in a cell, each in its share alpha of the volume, at one pressure and velocity, compressed alike. With
 /// G = sum of alpha / (gamma - 1) and S = sum of alpha gamma p_inf / (gamma - 1), their energy per volume is p G + S.
 /// So a contact at rest or in motion keeps its pressure, and rho c² = (p (1 + G) + S) / G.
-/// Source: G. Allaire, S. Clerc & S. Kokh, J. Comput. Phys. 181 (2002) 577; of G and S alone: R. Abgrall, J. Comput.
+/// Source: G. Allaire, S. Clerc & S. Kokh, J. Comput. Phys. 181 (2002) 577; for G and S alone: R. Abgrall, J. Comput.
 /// Phys. 125 (1996) 150.
 struct Mixture {
   double density = 0;    ///< kg/m³
@@ -25,7 +25,7 @@ struct Mixture {
 
   double pressure() const { return (energy - stiffness) / softness; }
   double soundSpeedSquared() const { return (pressure() * (1 + softness) + stiffness) / (softness * density); }
-  /// Of a gas at this pressure, per its own volume [J/m³].
+  /// Internal energy of a gas at this pressure, per volume of the gas [J/m³].
   static double energyAt(double pressure, const Gas& gas) {
     return (pressure + gas.gamma * gas.pInfinity) / (gas.gamma - 1);
   }
@@ -46,9 +46,9 @@ struct GasInCells {
 /// What all gases hold in the cells of a patch.
 struct Cells {
   const std::vector<Gas>& gases;
-  const std::vector<GasInCells>& held;  ///< by each of them
+  const std::vector<GasInCells>& held;  ///< one for each gas
 
-  /// Share of a gas in the volume that all fill together.
+  /// Volume of a gas over that of all gases in the cell.
   template <class Index>
   double share(std::size_t gas, const Index& cell) const {
     double all = 0;
@@ -83,7 +83,7 @@ void computeHeat(const Patch& patch, const Gas& gas, ParticleView<const double> 
   for (int p = 0; p < mass.owned(); ++p) heat[p] = gas.heat(mass[p] / (edges[p].prod() * area), internalEnergy[p]);
 }
 
-/// All gases move with one velocity: m_i = sum over the gases, v_i = sum m v / m_i, which each gets.
+/// All gases move with one velocity: m_i = sum over the gases, v_i = sum m v / m_i, assigned to each gas.
 template <int D>
 void mixAtNodes(const Patch&, const std::vector<Gas>& gases, const NodeViews<double>& mass,
                 const NodeViews<Vec<D>>& velocity) {
@@ -119,7 +119,7 @@ void checkFill(const Patch& patch, const std::vector<Gas>& gases, const CellView
   });
 }
 
-/// p of the mixture and q by shockViscosity, which each gas gets; the sensor of shocks is 1.
+/// Assigns p of the mixture and q by shockViscosity to each gas; the sensor of shocks is 1.
 template <int D>
 void computeMixturePressure(const Patch& patch, const std::vector<Gas>& gases, const Viscosity& viscosity,
                             const std::vector<GasInCells>& held, const CellViews<const Tensor<D>>& gradient,
@@ -176,7 +176,7 @@ class SharedWork {
 
 /// f of each gas in a cell, for updateParticles. Several gases have the pressure p' of the mixture afterwards:
 /// IE_k (1 + f_k) = alpha_k V (p' + gamma_k p_inf,k) / (gamma_k - 1), whose sum is IE + W. Where this would take more
-/// than half of the energy of one gas, they share the work by volume, and go only as far towards p' as takes half.
+/// than half of the energy of one gas, they share the work by volume and approach p' only until half is taken.
 template <int D>
 void computeMixtureWork(const Patch& patch, const std::vector<Gas>& gases, const CellViews<const Tensor<D>>& stress,
                         const std::vector<GasInCells>& held, const NodeViews<const Vec<D>>& velocity,

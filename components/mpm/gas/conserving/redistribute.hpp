@@ -24,18 +24,18 @@ void limitModes(const Patch& patch, const Gas&, double spare, ParticleView<const
   }
 }
 
-/// Halves particles longer than `longestInCells` cells along an axis: children at a quarter of the length to both sides
-/// of the centre with velocities v -+ L B_d / 4, whose kinetic energy is taken from K_A, then from e. A child may lie in
-/// the next cell: each patch makes the children that lie in its own cells, of its own particles and of its ghosts.
+/// Halves particles longer than `longestInCells` cells along an axis: children a quarter of the length L to either side
+/// of the centre with velocities v -+ L B_d / 4, whose kinetic energy is taken from K_A, then from e. A child may lie
+/// in the next cell: each patch makes the children that lie in its own cells, of its own particles and of its ghosts.
 template <int D>
 void splitLong(const Patch& patch, double longestInCells, const OldBoxes<D>& old, ParticleMaker& maker,
                const NewBoxes<D>& fresh);
 
-/// Replaces the particles by one that fills each cell; next to an empty cell only as far as the gas does. Mass,
-/// momentum and energy are those of the parts of particles that lie in the cell; a part has its share of the particle's
-/// mass and energy by van Leer's limited slopes of the cells' (`mass`, `energy`), and the particle's velocity there.
-/// The velocity gradient of a new particle is the regression over its parts, its mixed modes their mean, and the
-/// kinetic energy it cannot hold becomes heat.
+/// Replaces the particles by one per cell, which fills the cell; next to an empty cell only as far as the gas does.
+/// Mass, momentum and energy are those of the parts of particles that lie in the cell. The share of a part in the
+/// particle's mass and energy follows van Leer's limited slopes of the cells' (`mass`, `energy`); it has the particle's
+/// velocity there. The velocity gradient of a new particle is the regression over its parts, its mixed modes their
+/// mean, and the kinetic energy it cannot hold becomes heat.
 template <int D>
 void remap(const Patch& patch, const OldBoxes<D>& old, CellView<const double> mass, CellView<const double> energy,
            ParticleMaker& maker, const NewBoxes<D>& fresh);
@@ -58,7 +58,8 @@ void redistributeOrRemap(const Patch& patch, const Gas&, ParticleMaker& maker, d
     splitLong<D>(patch, longestInCells, old, maker, fresh);
 }
 
-/// Counts the steps since the last remap. 0: one is due in this step, after `every` steps or because a cell is overfull.
+/// Counts the steps since the last remap. 0: one is due in this step, after `every` steps or because a cell is
+/// overfull.
 inline void countSteps(const Patch&, const Remap& remap, double age, double fill, Maximum& count) {
   count.add(age + 1 >= remap.every || fill > 1 + remap.overfilled ? 0.0 : age + 1);
 }

@@ -22,15 +22,15 @@ struct CellSums {
   using Fields = GridSums<D, count, 0>;
 };
 
-/// Whether a mode is one of several axes.
+/// Whether a mode depends on several axes.
 constexpr bool isMixed(std::size_t a) { return (a & (a - 1)) != 0; }
 
 /// The cells' mass and internal energy.
 template <int D>
 using Contents = GridFields<D, 2>;
 
-/// Van Leer's limited slopes of a cell variable over the value itself, 1/m; 0 at the rim of the grid. Such that boxes
-/// of these edges keep at least a fifth of the mean everywhere.
+/// Van Leer's limited slopes of a cell variable over the value itself, 1/m; 0 at the rim of the grid. They are scaled
+/// so that in boxes of these edges the variable is at least a fifth of its mean everywhere.
 template <int D>
 LanesVec<D> relativeSlopes(const Level& level, const Contents<D>& contents, std::size_t field, const Batch<D>& batch,
                            const LanesVec<D>& edges) {
@@ -51,7 +51,7 @@ LanesVec<D> relativeSlopes(const Level& level, const Contents<D>& contents, std:
   return select(swing > 0.8, 0.8 / swing, 1) * slopes;
 }
 
-/// The parts of particles in a cell each.
+/// The parts of the particles of a batch in one cell each.
 template <int D>
 struct Part {
   LanesVec<D> x, edges;  ///< centre and edge lengths
@@ -62,7 +62,7 @@ struct Part {
 template <int D>
 class Parts {
  public:
-  /// Relative slopes of density and internal energy say how unlike the parts are.
+  /// `density` and `energy` are relative slopes: mass and internal energy of the parts follow them.
   Parts(const Footprint<D>& footprint, const LanesVec<D>& centre, const LanesVec<D>& density,
         const LanesVec<D>& energy) {
     footprint.forEachPart([&](const Index<D>& k, const Lanes& share) {
@@ -84,7 +84,7 @@ class Parts {
   }
   /// The part in a cell of the footprint.
   Part<D>& at(const Index<D>& k) { return parts_[Footprint<D>::number(k)]; }
-  /// Sum of a value of each part.
+  /// Sum of `value(part)` over the parts.
   template <class Value>
   Lanes sum(const Footprint<D>& footprint, Value&& value) {
     return footprint.sumOverParts([&](const Index<D>& k, const Lanes&) { return value(at(k)); });
@@ -94,7 +94,7 @@ class Parts {
   std::array<Part<D>, Footprint<D>::places> parts_;
 };
 
-/// What a part brings to its cell.
+/// Sets the terms of a part in the sums of its cell.
 template <int D>
 void bring(typename CellSums<D>::Fields::Brought& brought, std::size_t place, const Part<D>& part,
            const LanesVec<D>& dx, const LanesVec<D>& u, const LanesTensor<D>& gradient, const LanesModes<D>& modes,
@@ -120,7 +120,7 @@ void bring(typename CellSums<D>::Fields::Brought& brought, std::size_t place, co
   }
 }
 
-/// Sends the parts of a batch of particles to their cells.
+/// Cuts a batch of particles at the faces of cells and adds the parts to the sums.
 template <int D>
 void cut(const Level& level, const Batch<D>& batch, const OldBoxes<D>& boxes, const Contents<D>& contents,
          typename CellSums<D>::Fields& sums) {
@@ -158,7 +158,7 @@ void cut(const Level& level, const Batch<D>& batch, const OldBoxes<D>& boxes, co
   sums.add(footprint, batch.count, brought);
 }
 
-/// What lies in the cells of a row side by side.
+/// The contents of consecutive cells of a row, one per lane.
 template <int D>
 struct Contained {
   Lanes mass, internalEnergy;
@@ -194,8 +194,8 @@ struct Contained {
   }
 };
 
-/// The box of a new particle: its cell, but where the next cell is empty only as far as the gas reaches, so that gas
-/// does not spread into a vacuum by a cell with every remap. No thinner than a tenth of the cell.
+/// The box of a new particle: its cell or, next to an empty cell, the part of it that the gas reaches, so that gas does
+/// not spread into a vacuum by a cell with every remap. At least a tenth of the cell wide.
 template <int D>
 struct NewBox {
   Vec<D> centre, edges;
@@ -265,8 +265,11 @@ void remap(const Patch& patch, const OldBoxes<D>& old, CellView<const double> ma
   });
 }
 
-template void remap<1>(const Patch&, const OldBoxes<1>&, CellView<const double>, CellView<const double>, ParticleMaker&, const NewBoxes<1>&);
-template void remap<2>(const Patch&, const OldBoxes<2>&, CellView<const double>, CellView<const double>, ParticleMaker&, const NewBoxes<2>&);
-template void remap<3>(const Patch&, const OldBoxes<3>&, CellView<const double>, CellView<const double>, ParticleMaker&, const NewBoxes<3>&);
+template void remap<1>(const Patch&, const OldBoxes<1>&, CellView<const double>, CellView<const double>, ParticleMaker&,
+                       const NewBoxes<1>&);
+template void remap<2>(const Patch&, const OldBoxes<2>&, CellView<const double>, CellView<const double>, ParticleMaker&,
+                       const NewBoxes<2>&);
+template void remap<3>(const Patch&, const OldBoxes<3>&, CellView<const double>, CellView<const double>, ParticleMaker&,
+                       const NewBoxes<3>&);
 
 }  // namespace tushar::mpm::gas::conserving

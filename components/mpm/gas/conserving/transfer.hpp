@@ -18,7 +18,7 @@ typename Footprint<D>::template Field<D - 1> fieldOf(const LanesVec<D>& velocity
   return field;
 }
 
-/// Mass and momentum at nodes; mass, internal energy and volume in cells: sums over the boxes that overlap them.
+/// Sums over boxes: mass and momentum at nodes; mass, internal energy and volume in cells.
 template <int D>
 struct Gathering {
   GridSums<D, 1 + D, 1> nodes;
@@ -123,13 +123,13 @@ void interpolateAndMeasureFill(const Patch& patch, const Gas&, const ParticlesTo
   });
 }
 
-/// Sums of (E1)-(E3) of updateParticles over the nodes on a line (Axis = 0), on a plane, or of the whole footprint (Axis
-/// = D - 1), with the weights along these axes.
+/// Sums of (E1)-(E3) of updateParticles over the nodes on a line (Axis = 0), on a plane, or of the whole footprint
+/// (Axis = D - 1), with the weights along these axes.
 template <int D, int Axis>
 struct Gathered {
   std::array<LanesVec<D>, (1 << (Axis + 1))> moments;  ///< y phi_a
-  std::array<LanesVec<D>, Axis + 1> lower, upper;      ///< velocity with which the faces across each axis move, m/s
-  LanesVec<D> moving = LanesVec<D>::Zero();            ///< the same velocity over all of it
+  std::array<LanesVec<D>, Axis + 1> lower, upper;      ///< velocity of the faces across each axis, m/s
+  LanesVec<D> moving = LanesVec<D>::Zero();            ///< mean of that velocity over the nodes, m/s
   Lanes slipEnergy = 0;                                ///< beta (2 - beta) |r|² / 2, J/kg
   Lanes square = 0;                                    ///< |y|², J/kg
 
@@ -151,7 +151,7 @@ struct Gathered {
   }
 };
 
-/// The fields that particles are updated from: v and dt a at nodes along each axis, beta at nodes, f in cells.
+/// Grid fields that update particles: v and dt a at nodes along each axis, beta at nodes, f in cells.
 template <int D>
 struct Motion : GridFields<D, 2 * D + 2> {
   static constexpr std::size_t change = D, relaxation = 2 * D, work = 2 * D + 1;
@@ -327,7 +327,8 @@ void updateParticles(const Patch& patch, const Gas&, const ParticleUpdate<D>& up
     const LanesModes<D> u = load(update.modes, batch);
     const Reader<D> read{motion, {motion, footprint.first(), batch.count}};
     Index<D> at;
-    const auto taken = gatherFromNodes<D, Scheme, D - 1>(footprint, at, read, fieldOf<D>(load(update.velocity, batch), u));
+    const auto taken =
+        gatherFromNodes<D, Scheme, D - 1>(footprint, at, read, fieldOf<D>(load(update.velocity, batch), u));
     const LanesVec<D> mean = taken.moments[0], inertia = footprint.inertia();
     const auto products = productsOver(inertia);
     LanesModes<D> fresh = LanesModes<D>::Zero();

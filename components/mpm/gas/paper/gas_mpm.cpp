@@ -31,8 +31,8 @@ void GasMpm<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
 }
 
 /// A step from t_n to t_n+1, with the equations of the paper. `requiresOld` is the state at t_n, `requiresNew` what the
-/// step has computed. The paper gives particles their masses at the start of a step, here they get them at the end of
-/// the step before, which is the same.
+/// step has computed. The paper assigns particle masses at the start of a step, this list at its end, to the same
+/// effect.
 template <int D>
 void GasMpm<D>::scheduleTimeAdvance(TaskList& tasks) const {
   scheduleInterpolateParticlesToGrid(tasks);                // (6)-(8)    m_i, v_i of t_n

@@ -29,11 +29,4 @@ class ShapeFunctions {
   Vec<D> inverse_spacing_;  ///< 1/m
 };
 
-/// Calls `visit(k, node)` for the nodes of a cell that lie in a box; k numbers them as in Linear.
-template <int D, class Visit>
-void forEachNodeOf(const Index<D>& cell, const Box& box, Visit&& visit) {
-  for (int k = 0; k < Linear<D>::nodes; ++k)
-    if (const Index<D> node = Linear<D>::node(cell, k); box.contains(node)) visit(k, node);
-}
-
 }  // namespace tushar::mpm::gas::paper

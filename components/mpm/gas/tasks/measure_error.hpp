@@ -67,7 +67,7 @@ void measureCellError(const Patch& patch, const Gas& gas, const reference::GasRe
 }
 
 /// Error of the nodal density m_i / V_i against the exact density at the node; V_i is the integral of S_i over the
-/// grid. Each node is counted once: by the patch whose cell begins there, the last ones by the patch at the rim.
+/// grid. Each node is counted once: by the patch of the cell above it or, on the upper boundary, of the cell below it.
 template <int D>
 void measureNodeError(const Patch& patch, const Gas&, const reference::GasReference* exact,
                       const reference::Clock* clock, NodeView<const double> mass, Norm& error) {

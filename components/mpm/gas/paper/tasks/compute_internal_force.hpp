@@ -9,9 +9,11 @@ namespace tushar::mpm::gas::paper {
 /// Adds the term of one cell in (9), P_c V_c grad S_i in the middle of the cell, to the force on its nodes.
 template <int D>
 void addPressureForce(const Level& level, const Index<D>& cell, double pressureTimesVolume, NodeView<Vec<D>> force) {
-  forEachNodeOf<D>(cell, force.box(), [&](int k, const Index<D>& node) {
+  for (int k = 0; k < Linear<D>::nodes; ++k) {
+    const Index<D> node = Linear<D>::node(cell, k);
+    if (!force.box().contains(node)) continue;
     for (int d = 0; d < D; ++d) force[node][d] += pressureTimesVolume * Linear<D>::centreGradient(level, k, d);
-  });
+  }
 }
 
 /// F_i = sum over the cells c around node i of P_c V_c grad S_i(middle of c),   P_c = 1/N_c sum over p in c of p_p:

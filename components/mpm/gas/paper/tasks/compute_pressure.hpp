@@ -46,7 +46,7 @@ void shareCellVolume(const Patch& patch, const Gas&, ParticleView<const double> 
   });
 }
 
-/// dt = cfl h / max_p(|v_p| + c_p), h the least cell width: stricter than (17) of Tran, Kim & Berzins, dt dv/dx << 1.
+/// dt = cfl h / max_p(|v_p| + c_p), h the least cell width: keeps dt dv/dx small, (17) of Tran, Kim & Berzins.
 template <int D>
 void computeStableTimeStep(const Patch& patch, const Gas& gas, double cfl, ParticleView<const Vec<D>> velocity,
                            ParticleView<const double> internalEnergy, Minimum& dt) {

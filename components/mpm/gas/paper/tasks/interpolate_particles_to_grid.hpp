@@ -44,10 +44,12 @@ void interpolateParticlesToGrid(const Patch& patch, const Gas&, ParticleView<con
         sum.momentum[k] += m * particleVelocity[p];
       }
     });
-    forEachNodeOf<D>(cell, mass.box(), [&](int k, const Index<D>& node) {
+    for (int k = 0; k < Linear<D>::nodes; ++k) {
+      const Index<D> node = Linear<D>::node(cell, k);
+      if (!mass.box().contains(node)) continue;
       mass[node] += sums.mass[static_cast<std::size_t>(k)];
       velocity[node] += sums.momentum[static_cast<std::size_t>(k)];
-    });
+    }
   });
   forEach<D>(mass.box(), [&](const Index<D>& node) {
     if (mass[node] > 0) velocity[node] /= mass[node];
@@ -66,8 +68,9 @@ void interpolateMassToGrid(const Patch& patch, const Gas&, ParticleView<const Ve
       const auto s = shape.at(x[p]);
       for (std::size_t k = 0; k < s.size(); ++k) sums[k] += s[k] * particleMass[p];
     }
-    forEachNodeOf<D>(cell, mass.box(),
-                     [&](int k, const Index<D>& node) { mass[node] += sums[static_cast<std::size_t>(k)]; });
+    for (int k = 0; k < Linear<D>::nodes; ++k)
+      if (const Index<D> node = Linear<D>::node(cell, k); mass.box().contains(node))
+        mass[node] += sums[static_cast<std::size_t>(k)];
   });
 }
 
