@@ -2,6 +2,8 @@
 
 #include "core/core.hpp"
 
+// Variables of every method here; gas/labels.hpp and solid/labels.hpp add their own.
+
 namespace tushar::mpm {
 
 /// Particle variables.
@@ -12,12 +14,6 @@ template <int D>
 inline constexpr ParticleLabel<Vec<D>> velocity{"p.velocity", "m/s", "velocity"};
 inline constexpr ParticleLabel<double> mass{"p.mass", "kg", "mass"};
 inline constexpr ParticleLabel<double> volume{"p.volume", "m^3", "volume, mass over density"};
-inline constexpr ParticleLabel<double> density{"p.density", "kg/m^3", "mass density", Bound::positive};
-inline constexpr ParticleLabel<double> internalEnergy{"p.internalEnergy", "J/kg", "internal energy per mass",
-                                                      Bound::nonNegative};
-inline constexpr ParticleLabel<double> pressure{"p.pressure", "Pa", "pressure, artificial viscosity included"};
-inline constexpr ParticleLabel<double> velocityDivergence{"p.velocityDivergence", "1/s",
-                                                          "divergence of the velocity in the cell of the last step"};
 }  // namespace p
 
 /// Node variables.
@@ -30,28 +26,13 @@ inline constexpr NodeLabel<Vec<D>> internalForce{"g.internalforce", "N", "force 
 template <int D>
 inline constexpr NodeLabel<Vec<D>> acceleration{"g.acceleration", "m/s^2",
                                                 "by the stresses alone: internal force over mass"};
-template <int D>
-inline constexpr NodeLabel<Vec<D>> velocityStar{"g.velocity_star", "m/s", "velocity at the end of the step",
-                                                Bound::finite};
 }  // namespace g
-
-/// Cell variables.
-namespace c {
-inline constexpr CellLabel<double> density{"c.density", "kg/m^3", "mean density of the particles in the cell"};
-}  // namespace c
 
 /// Totals over all particles.
 namespace total {
 inline constexpr ReductionLabel<Sum> mass{"TotalMass", "kg", "mass of all particles"};
 inline constexpr ReductionLabel<VectorSum> momentum{"TotalMomentum", "kg m/s", "momentum of all particles"};
 inline constexpr ReductionLabel<Sum> kineticEnergy{"KineticEnergy", "J", "kinetic energy of all particles"};
-inline constexpr ReductionLabel<Sum> internalEnergy{"InternalEnergy", "J", "internal energy of all particles"};
-inline constexpr ReductionLabel<Sum> energy{"TotalEnergy", "J", "kinetic and internal energy of all particles"};
-inline constexpr ReductionLabel<Minimum> leastDensity{"LeastDensity", "kg/m^3", "least density of any particle"};
-inline constexpr ReductionLabel<Minimum> leastEnergy{"LeastInternalEnergy", "J/kg",
-                                                     "least internal energy of any particle"};
-inline constexpr ReductionLabel<Sum> entropy{"TotalEntropy", "kg",
-                                             "entropy of all particles over c_v, but for a constant"};
 inline constexpr ReductionLabel<VectorSum> centerOfMass{"CenterOfMassPosition", "kg m",
                                                         "sum of mass times position, as in Uintah"};
 }  // namespace total

@@ -6,7 +6,7 @@
 #include <regex>
 
 #include "components/components.hpp"
-#include "components/mpm/labels.hpp"
+#include "components/mpm/gas/labels.hpp"
 #include "core/scene/find_restart.hpp"
 #include "core/scene/scene.hpp"
 #include "core/simulation/simulation.hpp"
@@ -48,7 +48,8 @@ class Spoiled : public Component {
           for (int p = 0; p < energy.owned(); ++p)
             if (ids[p] == planted.id && time >= planted.from) energy[p] = planted.value;
         },
-        materials, tasks::startTime(), tasks::requiresNew(data::particleId), tasks::modifies(mpm::p::internalEnergy));
+        materials, tasks::startTime(), tasks::requiresNew(data::particleId),
+        tasks::modifies(mpm::gas::p::internalEnergy));
   }
   void scheduleDiagnostics(tasks::TaskList& tasks) const override { sound_->scheduleDiagnostics(tasks); }
 

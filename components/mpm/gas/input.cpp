@@ -38,7 +38,7 @@ const Schema<MpmSection>& mpmSchema() {
   return schema;
 }
 
-/// The particles of the conserving method fill their cells: they cannot stand just anywhere.
+/// Refuses placements other than midpoint: the particles of the conserving method tile their cells.
 void refusePlacements(const GasProperties& properties, Diagnostics& diagnostics) {
   for (const GasSection& material : properties.mpm.materials)
     for (const GasObjectSection& object : material.objects)
@@ -48,7 +48,7 @@ void refusePlacements(const GasProperties& properties, Diagnostics& diagnostics)
             "placement: the boxes of <conserving_gas_dynamics> fill the gas; use midpoint, or <gas_dynamics>");
 }
 
-/// Several gases at once: by boxes that are never mixed, with the transfer of the default.
+/// Refuses several gases where the method does not support them: it takes boxes that are not remapped, and `apic`.
 void refuseMixtures(const MpmSection& method, const GasProperties& properties, Diagnostics& diagnostics) {
   const std::vector<GasSection>& materials = properties.mpm.materials;
   if (materials.size() < 2) return;
@@ -69,7 +69,7 @@ void refuseMixtures(const MpmSection& method, const GasProperties& properties, D
   }
 }
 
-/// The paper's method knows the ideal gas alone.
+/// Refuses stiffened gases: the paper's method is for ideal gases.
 void refuseStiffness(const GasProperties& properties, Diagnostics& diagnostics) {
   for (const GasSection& material : properties.mpm.materials)
     if (material.model.type == GasType::stiffened)
@@ -77,7 +77,7 @@ void refuseStiffness(const GasProperties& properties, Diagnostics& diagnostics) 
                         "type: <gas_dynamics> takes an ideal_gas alone; use <conserving_gas_dynamics>");
 }
 
-/// What only scenes of solids may say.
+/// Refuses sections that only scenes of solids may have.
 void refuseSolidsOnly(const Element& root, Diagnostics& diagnostics) {
   if (const auto constants = root.child("PhysicalConstants"))
     diagnostics.error(*constants, "a gas knows no <PhysicalConstants>: nothing acts on it but its pressure");

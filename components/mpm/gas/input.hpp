@@ -7,13 +7,13 @@
 
 namespace tushar::mpm::gas {
 
-/// Whether a scene asks for a gas.
+/// Whether a scene has a gas method.
 bool isGas(const input::Element& root);
 
 /// Reads a scene of gases; every problem goes to the diagnostics.
 simulation::MakeComponent readScene(const input::Element& root, input::Diagnostics& diagnostics);
 
-/// The manual.
+/// Prints the reference of all tags.
 void describe(std::ostream& out);
 
 }  // namespace tushar::mpm::gas

@@ -28,27 +28,27 @@ struct GasObject {
   input::Expression pressure;          ///< Pa
   input::VectorExpression velocity;    ///< m/s
   Placement placement = Placement::midpoint;
-  int seed = 0;  ///< of the places that are drawn
+  int seed = 0;  ///< of random positions
 };
 
-/// A source of heat, de/dt = -rate (e - internalEnergy): radiation or a wall that keep a gas near one temperature.
+/// A source of heat, de/dt = -rate (e - internalEnergy): radiation or a wall that keeps a gas near one temperature.
 struct Relaxation {
   double rate = 0;            ///< 1/s
-  double internalEnergy = 0;  ///< J/kg, what the gas goes to
+  double internalEnergy = 0;  ///< J/kg, in the limit
 };
 
 /// A stiffened gas: p = (gamma - 1) rho epsilon - p_inf; with p_inf = 0 an ideal gas, (3) of Tran, Kim & Berzins.
 ///
-/// epsilon is e - p_inf / rho: the part of the internal energy e that waves exchange. Of epsilon and P = p + p_inf all
-/// laws are those of an ideal gas. Particles of a gas that is alone carry epsilon as p.internalEnergy: totals of energy
-/// differ by p_inf times the volume, which is that of the grid, as a stiffened gas fills it. Beside other gases, with
-/// which it trades volume, it carries all of e. Source: F. H. Harlow & A. A. Amsden, Fluid Dynamics, LANL report
+/// epsilon is e - p_inf / rho: the part of the internal energy e that waves exchange. In terms of epsilon and P = p +
+/// p_inf all laws are those of an ideal gas. Particles of a single gas carry epsilon as p.internalEnergy: totals of
+/// energy then lack p_inf times the volume of the grid, which a stiffened gas fills. In a mixture, where gases exchange
+/// volume, particles carry all of e. Source: F. H. Harlow & A. A. Amsden, Fluid Dynamics, LANL report
 /// LA-4700 (1971).
 struct Gas {
   std::string name;
   double gamma = 1.4;    ///< ratio of specific heats
   double pInfinity = 0;  ///< Pa
-  double carried = 0;    ///< what of p_inf is in the energy that particles carry, Pa: 0 or all
+  double carried = 0;    ///< part of p_inf in the energy that particles carry, Pa: 0 or all
   Location where;        ///< of the constitutive model, in the scene
   std::vector<GasObject> objects;
   std::optional<Relaxation> relaxation;
@@ -57,7 +57,7 @@ struct Gas {
   double heat(double rho, double energy) const { return energy - carried / rho; }
   /// p [Pa] of density rho [kg/m³] and the energy that particles carry [J/kg].
   double pressure(double rho, double energy) const { return (gamma - 1) * rho * heat(rho, energy) - pInfinity; }
-  /// What particles carry [J/kg] at density rho [kg/m³] and p [Pa].
+  /// The energy that particles carry [J/kg] at density rho [kg/m³] and p [Pa].
   double internalEnergy(double rho, double p) const { return (p + pInfinity) / ((gamma - 1) * rho) + carried / rho; }
   /// e [J/kg] of density rho [kg/m³] and the energy that particles carry [J/kg].
   double fullEnergy(double rho, double energy) const { return energy + (pInfinity - carried) / rho; }
@@ -65,7 +65,7 @@ struct Gas {
   double soundSpeedSquared(double epsilon) const { return gamma * (gamma - 1) * epsilon; }
 };
 
-/// What the flow of gases answers to; none where heat from outside decides, too.
+/// The laws that the flow of gases follows; none if a gas has a source of heat.
 inline std::vector<reference::GasLaw> lawsOf(const std::vector<Gas>& gases) {
   std::vector<reference::GasLaw> laws;
   for (const Gas& gas : gases) {

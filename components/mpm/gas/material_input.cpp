@@ -101,7 +101,7 @@ const Schema<GasSection>& materialSchema() {
   return schema;
 }
 
-/// The pressure of a body, from its temperature where it gives that: (gamma - 1) rho c_v T - p_inf.
+/// The pressure of a body: as given, or (gamma - 1) rho c_v T - p_inf of its temperature.
 input::Expression pressureOf(const GasObjectSection& object, const input::Expression& density,
                              const GasModelSection& model) {
   if (object.pressure) return *object.pressure;

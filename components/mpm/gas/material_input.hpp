@@ -40,15 +40,15 @@ struct GasList {
   std::vector<GasSection> materials;
 };
 
-/// The section of that name.
+/// The section `MaterialProperties`.
 struct GasProperties {
   GasList mpm;
 };
 
-/// How `MaterialProperties` is read in scenes of gases.
+/// The schema of `MaterialProperties` in scenes of gases.
 const input::Schema<GasProperties>& gasProperties();
 
-/// The gas of a material; one that is not alone trades volume with others.
+/// The gas of a material. `isAlone`: it does not exchange volume with other gases.
 Gas makeGas(const GasSection& material, bool isAlone);
 
 }  // namespace tushar::mpm::gas

@@ -8,13 +8,16 @@ namespace tushar::mpm {
 
 /// Multilinear shape functions: a particle in a cell touches the 2^D nodes of the cell.
 ///
-/// S_i(x) = product over the axes of max(0, 1 - |x - x_i| / h); (6) of Tran, Kim & Berzins.
+///   S_i(x) = product over the axes of max(0, 1 - |x - x_i| / h)
+///
+/// They are the S_i of (6) of Tran, Kim & Berzins.
 template <int D>
 struct Linear {
-  static constexpr int dimension = D;
   static constexpr int nodes = 1 << D;
   /// Cells beyond a patch whose particles touch its nodes.
   static constexpr int reach = 1;
+  /// One number for each node of a cell, in the order of `node`.
+  using Weights = std::array<double, nodes>;
 
   /// Node k of a cell: bit d of k says whether it is the upper one along axis d.
   static constexpr Index<D> node(Index<D> cell, int k) {
@@ -22,21 +25,24 @@ struct Linear {
     return cell;
   }
 
-  /// S_k for each node of the cell, from coordinates `xi` in [0,1] within it.
-  static std::array<double, nodes> weights(const Vec<D>& xi) {
-    std::array<double, nodes> w;
-    w[0] = 1.0 - xi[0];
-    w[1] = xi[0];
+  /// S_i of each node of a cell at a point x in it. Along each axis `lower` and `upper` are the factors 1 - |x - x_i| /
+  /// h of the lower and of the upper nodes; their sum is 1.
+  static Weights weights(const Vec<D>& lower, const Vec<D>& upper) {
+    Weights s;
+    s[0] = lower[0];
+    s[1] = upper[0];
     for (int d = 1; d < D; ++d) {
       const int half = 1 << d;
       for (int k = 0; k < half; ++k) {
         const auto low = static_cast<std::size_t>(k), high = static_cast<std::size_t>(k + half);
-        w[high] = w[low] * xi[d];
-        w[low] *= 1.0 - xi[d];
+        s[high] = s[low] * upper[d];
+        s[low] *= lower[d];
       }
     }
-    return w;
+    return s;
   }
+  /// S_i of each node of a cell at the coordinates `xi` in [0,1] within it.
+  static Weights weights(const Vec<D>& xi) { return weights(Vec<D>::Ones() - xi, xi); }
 
   /// dS_k/dx_d in the middle of the cell, 1/m.
   static double centreGradient(const Level& level, int k, int d) {

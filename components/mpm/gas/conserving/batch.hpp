@@ -7,7 +7,7 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// A vector of each particle of a batch.
+/// One vector for each particle of a batch.
 template <int D>
 using LanesVec = Eigen::Matrix<Lanes, D, 1, Eigen::DontAlign>;
 /// The velocity modes of each particle of a batch, as in Modes.

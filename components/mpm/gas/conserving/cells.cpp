@@ -6,7 +6,7 @@ namespace tushar::mpm::gas::conserving {
 
 namespace {
 
-/// Harmonic mean, 0 of values with different signs.
+/// Harmonic mean; 0 if the signs differ.
 double harmonicMean(double a, double b) { return a * b > 0 ? 2 * a * b / (a + b) : 0.0; }
 
 /// 0 where a velocity difference is below .05 c, 1 from .15 c on.
@@ -15,7 +15,7 @@ double sensor(double difference, double soundSpeed) {
   return std::clamp(10 * (difference / soundSpeed - 0.05), 0.0, 1.0);
 }
 
-/// A cell and its neighbours, from the velocity gradients.
+/// The compression of a cell and its neighbours, from the velocity gradients.
 template <int D>
 Compression compressionOf(const Level& level, CellView<const Tensor<D>> gradient, const Index<D>& cell) {
   const double h = level.minSpacing();

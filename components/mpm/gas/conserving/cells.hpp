@@ -3,8 +3,8 @@
 #include "components/mpm/gas/conserving/labels.hpp"
 #include "components/mpm/gas/conserving/scheme.hpp"
 #include "components/mpm/gas/material.hpp"
-#include "components/mpm/gas/mirrored.hpp"
-#include "components/mpm/gas/symmetry.hpp"
+#include "components/mpm/gas/mirror_symmetry.hpp"
+#include "components/mpm/gas/symmetry_planes.hpp"
 
 namespace tushar::mpm::gas::conserving {
 
@@ -28,11 +28,11 @@ struct CellState {
   double pressure = 0, viscosity = 0, shock = 1;
 };
 
-/// What computePressure knows of a cell and its neighbours along the axes. Velocity differences over a cell are the
-/// derivative times the least cell width h, Delta is the sum of those along the axes [m/s].
+/// How a cell and its neighbours along the axes are compressed. The velocity difference over a cell along an axis is
+/// the derivative times the least cell width h; Delta is the sum of these differences over the axes [m/s].
 struct Compression {
   double difference = 0;  ///< Delta of the cell
-  double smooth = 0;      ///< J_0: Delta less what neighbours explain, van Leer's harmonic means of the differences
+  double smooth = 0;      ///< J_0: Delta less van Leer's harmonic means with the differences of neighbours
   double nearby = 0;      ///< greatest -Delta of the neighbours
 };
 
@@ -40,10 +40,9 @@ struct Compression {
 CellState shockViscosity(double pressure, double density, double soundSpeed, double difference,
                          const Viscosity& viscosity);
 
-/// q = rho |J| (C_q |J| + C_l c) where the gas is compressed, with J = Delta at shocks and what neighbours do not
-/// explain of it, J_0, where the flow is smooth; s = min(1, 10 max(0, -Delta / c - .05)) leads from one to the other.
-/// Where it expands next to a compressed cell q is negative, at least -0.4 p: it takes the overshoot behind a shock
-/// away.
+/// q = rho |J| (C_q |J| + C_l c) where the gas is compressed, with J = Delta at shocks and J = J_0 where the flow is
+/// smooth; s = min(1, 10 max(0, -Delta / c - .05)) blends the two. Where the gas expands next to a compressed cell, q
+/// is negative, at least -0.4 p: this removes the overshoot behind a shock.
 CellState smoothViscosity(double pressure, double density, double soundSpeed, const Compression& compression,
                           const Viscosity& viscosity);
 
@@ -54,14 +53,15 @@ void computePressure(const Patch& patch, const Gas& gas, const Viscosity& viscos
                      CellView<const double> internalEnergy, CellView<const Tensor<D>> gradient,
                      CellView<double> pressure, CellView<double> artificial, CellView<double> shock);
 
-/// P cof(I + dt/2 grad v): the stress on the faces of a cell as they stand half a step later; P = p + q for apic, which
-/// leaves the faces as they are, and p clamp(1 - gamma dt div v / 2, .3, 2) + q, p half a step later, for affineFlip.
+/// The stress on the faces of a cell [Pa]. apic: p + q. affineFlip: P cof(I + dt/2 grad v), on the faces as they stand
+/// half a step later, with P = p clamp(1 - gamma dt div v / 2, .3, 2) + q, the pressure half a step later.
 template <int D, class Scheme>
 void computeStress(const Patch& patch, const Gas& gas, CellView<const double> pressure,
                    CellView<const double> artificial, CellView<const Tensor<D>> gradient, double dt,
                    CellView<Tensor<D>> stress);
 
-/// a_i = sum over the cells around of V_c T_c grad N_i / m_i; symmetry planes and nodes without mass stay.
+/// a_i = sum over the cells c around node i of V_c T_c grad S_i / m_i; 0 across symmetry planes and at nodes without
+/// mass.
 template <int D>
 void computeAcceleration(const Patch& patch, const Gas&, CellView<const Tensor<D>> stress, NodeView<const double> mass,
                          NodeView<Vec<D>> acceleration) {

@@ -14,33 +14,37 @@
 
 namespace tushar::mpm::gas::conserving {
 
-using conserving::AffineFlip;
-using conserving::Apic;
+namespace {
+
+/// How a group reads its labels: at the start of the step, or as an earlier task of the list computed them.
+constexpr auto atStart = [](const auto& label) { return requiresOld(label); };
+constexpr auto asComputed = [](const auto& label) { return requiresNew(label); };
+
+}  // namespace
 
 template <int D>
 void ConservingMpm<D>::scheduleInitialize(TaskList& tasks) const {
-  tasks.newParticles("mpm::createParticles", conserving::createBoxes<D>, materials_, creates(p::x<D>),
-                     creates(p::edges<D>), creates(p::mass), creates(p::velocity<D>), creates(p::modes<D>),
-                     creates(p::internalEnergy), creates(p::affineEnergy));
-  if (method_.remap) tasks.perPatch("mpm::countSteps", conserving::keepCount, with(0.0), computes(remapAge));
+  tasks.newParticles("mpm::createParticles", createBoxes<D>, materials_, all<NewBoxes<D>>());
+  if (method_.remap) tasks.perPatch("mpm::countSteps", keepCount, with(0.0), computes(remapAge));
   scheduleGridState(tasks, true);
 }
 
 template <int D>
 void ConservingMpm<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
   if (method_.transfer == Transfer::apic)
-    tasks.perMaterial("mpm::computeStableTimeStep", conserving::computeAcousticTimeStep<D>, materials_, with(method_),
+    tasks.perMaterial("mpm::computeStableTimeStep", computeAcousticTimeStep<D>, materials_, with(method_),
                       requiresOld(c::mass), requiresOld(c::velocityGradient<D>), requiresOld(signalPastGrid),
                       requiresOld(signalPastGas), computes(delT));
   else
-    tasks.perMaterial("mpm::computeStableTimeStep", conserving::computeStableTimeStep<D>, materials_, with(method_),
+    tasks.perMaterial("mpm::computeStableTimeStep", computeStableTimeStep<D>, materials_, with(method_),
                       requiresOld(p::velocity<D>), requiresOld(p::internalEnergy), requiresOld(c::mass),
                       requiresOld(c::velocityGradient<D>), computes(delT));
   if (method_.remap)
-    tasks.perPatch("mpm::countSteps", conserving::countSteps, with(*method_.remap), requiresOld(remapAge),
-                   requiresOld(cellFill), computes(remapCount));
+    tasks.perPatch("mpm::countSteps", countSteps, with(*method_.remap), requiresOld(remapAge), requiresOld(cellFill),
+                   computes(remapCount));
 }
 
+/// A step: forces and work on the grid, (E1)-(E3) for the particles, and the grid's state gathered anew.
 template <int D>
 void ConservingMpm<D>::scheduleTimeAdvance(TaskList& tasks) const {
   if (method_.transfer == Transfer::apic)
@@ -56,108 +60,89 @@ void ConservingMpm<D>::scheduleTimeAdvance(TaskList& tasks) const {
 template <int D>
 template <class Scheme>
 void ConservingMpm<D>::scheduleStep(TaskList& tasks) const {
-  constexpr int overhang = Footprint<D>::overhang;
-  tasks.perMaterial("mpm::computeStress", conserving::computeStress<D, Scheme>, materials_, requiresOld(c::pressure),
+  tasks.perMaterial("mpm::computeStress", computeStress<D, Scheme>, materials_, requiresOld(c::pressure),
                     requiresOld(c::viscosity), requiresOld(c::velocityGradient<D>), requiresOld(delT),
                     computes(c::stress<D>));
-  tasks.perMaterial("mpm::computeInternalForce", conserving::computeAcceleration<D>, materials_,
-                    requiresNew(c::stress<D>, 1), requiresOld(g::mass), computes(g::acceleration<D>));
-  tasks.perMaterial("mpm::computeRelaxation", conserving::computeRelaxation<D>, materials_, requiresOld(c::shock, 1),
+  tasks.perMaterial("mpm::computeInternalForce", computeAcceleration<D>, materials_, requiresNew(c::stress<D>, 1),
+                    requiresOld(g::mass), computes(g::acceleration<D>));
+  tasks.perMaterial("mpm::computeRelaxation", computeRelaxation<D>, materials_, requiresOld(c::shock, 1),
                     computes(g::relaxation));
   if (isMixture())
-    tasks.acrossMaterials("mpm::computeWork", conserving::computeMixtureWork<D>, materials_, requiresNew(c::stress<D>),
-                          requiresOld(c::mass), requiresOld(c::internalEnergy), requiresOld(c::fill),
-                          requiresOld(g::velocity<D>), requiresNew(g::acceleration<D>), requiresOld(delT),
-                          computes(c::work));
+    tasks.acrossMaterials("mpm::computeWork", computeMixtureWork<D>, materials_, requiresNew(c::stress<D>),
+                          all<GasInCells>(atStart), requiresOld(g::velocity<D>), requiresNew(g::acceleration<D>),
+                          requiresOld(delT), computes(c::work));
   else
-    tasks.perMaterial("mpm::computeWork", conserving::computeWork<D>, materials_, requiresNew(c::stress<D>),
+    tasks.perMaterial("mpm::computeWork", computeWork<D>, materials_, requiresNew(c::stress<D>),
                       requiresOld(c::internalEnergy), requiresOld(g::velocity<D>), requiresNew(g::acceleration<D>),
                       requiresOld(delT), computes(c::work));
   if (method_.heatConduction > 0)
-    tasks.perMaterial("mpm::conductHeat", conserving::conductHeat<D>, materials_, with(method_.heatConduction),
+    tasks.perMaterial("mpm::conductHeat", conductHeat<D>, materials_, with(method_.heatConduction),
                       requiresOld(c::mass, 1), requiresOld(c::internalEnergy, 1),
                       requiresOld(c::velocityGradient<D>, 1), requiresOld(delT), modifies(c::work));
-  tasks.perMaterial("mpm::updateParticles", conserving::updateParticles<D, Scheme>, materials_, requiresOld(p::x<D>),
-                    requiresOld(p::edges<D>), requiresOld(p::velocity<D>), requiresOld(p::modes<D>),
-                    requiresOld(p::internalEnergy), requiresOld(p::affineEnergy), requiresOld(g::velocity<D>, overhang),
-                    requiresNew(g::acceleration<D>, overhang), requiresNew(g::relaxation, overhang),
-                    requiresNew(c::work, overhang), requiresOld(delT), computes(p::x<D>), computes(p::edges<D>),
-                    computes(p::velocity<D>), computes(p::modes<D>), computes(p::internalEnergy),
-                    computes(p::affineEnergy), computes(recomputeTimeStep));
+  tasks.perMaterial("mpm::updateParticles", updateParticles<D, Scheme>, materials_, all<ParticleUpdate<D>>(),
+                    requiresOld(delT), computes(recomputeTimeStep));
 }
 
 template <int D>
 void ConservingMpm<D>::scheduleRedistribute(TaskList& tasks) const {
   constexpr int overhang = Footprint<D>::overhang;
-  const auto schedule = [&](auto body, auto... more) {
-    tasks.newParticles("mpm::redistribute", body, materials_, with(method_.longestParticle),
-                       requiresNew(data::particleId, overhang), requiresNew(p::x<D>, overhang),
-                       requiresNew(p::edges<D>, overhang), requiresNew(p::mass, overhang),
-                       requiresNew(p::velocity<D>, overhang), requiresNew(p::modes<D>, overhang),
-                       requiresNew(p::internalEnergy, overhang), requiresNew(p::affineEnergy, overhang), more...,
-                       creates(p::x<D>), creates(p::edges<D>), creates(p::mass), creates(p::velocity<D>),
-                       creates(p::modes<D>), creates(p::internalEnergy), creates(p::affineEnergy));
-  };
-  if (!method_.remap) return schedule(conserving::redistribute<D>);
-  tasks.perMaterial("mpm::gatherInCells", conserving::gatherInCells<D>, materials_, requiresNew(p::x<D>, overhang),
+  if (!method_.remap) {
+    tasks.newParticles("mpm::redistribute", redistribute<D>, materials_, with(method_.longestParticle),
+                       all<OldBoxes<D>>(overhang), all<NewBoxes<D>>());
+    return;
+  }
+  tasks.perMaterial("mpm::gatherInCells", gatherInCells<D>, materials_, requiresNew(p::x<D>, overhang),
                     requiresNew(p::edges<D>, overhang), requiresNew(p::mass, overhang),
                     requiresNew(p::internalEnergy, overhang), requiresOld(remapCount), computes(c::movedMass),
                     computes(c::movedEnergy));
-  schedule(conserving::redistributeOrRemap<D>, requiresNew(c::movedMass, overhang + 1),
-           requiresNew(c::movedEnergy, overhang + 1), requiresOld(remapCount));
-  tasks.perPatch("mpm::countSteps", conserving::keepCount, requiresOld(remapCount), computes(remapAge));
+  tasks.newParticles("mpm::redistribute", redistributeOrRemap<D>, materials_, with(method_.longestParticle),
+                     all<OldBoxes<D>>(overhang), requiresNew(c::movedMass, overhang + 1),
+                     requiresNew(c::movedEnergy, overhang + 1), requiresOld(remapCount), all<NewBoxes<D>>());
+  tasks.perPatch("mpm::countSteps", keepCount, requiresOld(remapCount), computes(remapAge));
 }
 
 template <int D>
 void ConservingMpm<D>::scheduleGridState(TaskList& tasks, bool isStart) const {
-  constexpr int reach = Footprint<D>::reach;
   const double spare = method_.transfer == Transfer::apic ? Apic::spareEnergy : AffineFlip::spareEnergy;
   if (isMixture())
-    tasks.perMaterial("mpm::computeHeat", conserving::computeHeat<D>, materials_, requiresNew(p::mass),
-                      requiresNew(p::edges<D>), requiresNew(p::internalEnergy), computes(p::heat));
-  tasks.perMaterial("mpm::limitModes", conserving::limitModes<D>, materials_, with(spare), requiresNew(p::edges<D>),
+    tasks.perMaterial("mpm::computeHeat", computeHeat<D>, materials_, requiresNew(p::mass), requiresNew(p::edges<D>),
+                      requiresNew(p::internalEnergy), computes(p::heat));
+  tasks.perMaterial("mpm::limitModes", limitModes<D>, materials_, with(spare), requiresNew(p::edges<D>),
                     requiresNew(isMixture() ? p::heat : p::internalEnergy), requiresNew(p::affineEnergy),
                     modifies(p::modes<D>));
-  const auto schedule = [&](auto body, auto... more) {
-    tasks.perMaterial("mpm::interpolateParticlesToGrid", body, materials_, requiresNew(p::x<D>, reach),
-                      requiresNew(p::edges<D>, reach), requiresNew(p::mass, reach), requiresNew(p::velocity<D>, reach),
-                      requiresNew(p::modes<D>, reach), requiresNew(p::internalEnergy, reach), computes(g::mass),
-                      computes(g::velocity<D>), computes(c::mass), computes(c::internalEnergy), more...);
-  };
   if (method_.remap || isMixture())
-    schedule(conserving::interpolateAndMeasureFill<D>, computes(c::fill), computes(cellFill));
+    tasks.perMaterial("mpm::interpolateParticlesToGrid", interpolateAndMeasureFill<D>, materials_,
+                      all<ParticlesToGrid<D>>(), computes(c::fill), computes(cellFill));
   else
-    schedule(conserving::interpolateParticlesToGrid<D>);
-  if (isMixture() && isStart)
-    tasks.acrossMaterials("mpm::checkFill", conserving::checkFill<D>, materials_, modifies(c::fill));
+    tasks.perMaterial("mpm::interpolateParticlesToGrid", interpolateParticlesToGrid<D>, materials_,
+                      all<ParticlesToGrid<D>>());
+  if (isMixture() && isStart) tasks.acrossMaterials("mpm::checkFill", checkFill<D>, materials_, modifies(c::fill));
   if (isMixture())
-    tasks.acrossMaterials("mpm::mixAtNodes", conserving::mixAtNodes<D>, materials_, modifies(g::mass),
-                          modifies(g::velocity<D>));
-  tasks.perMaterial("mpm::computeVelocityGradient", conserving::computeVelocityGradient<D>, materials_,
-                    requiresNew(g::velocity<D>), computes(c::velocityGradient<D>));
+    tasks.acrossMaterials("mpm::mixAtNodes", mixAtNodes<D>, materials_, modifies(g::mass), modifies(g::velocity<D>));
+  tasks.perMaterial("mpm::computeVelocityGradient", computeVelocityGradient<D>, materials_, requiresNew(g::velocity<D>),
+                    computes(c::velocityGradient<D>));
   if (isMixture()) return scheduleMixtureState(tasks);
   if (method_.transfer != Transfer::apic) return scheduleComputePressure<AffineFlip>(tasks);
   scheduleComputePressure<Apic>(tasks);
-  tasks.perMaterial("mpm::measureSignals", conserving::measureSignals<D>, materials_, requiresNew(p::velocity<D>),
+  tasks.perMaterial("mpm::measureSignals", measureSignals<D>, materials_, requiresNew(p::velocity<D>),
                     requiresNew(p::internalEnergy), requiresNew(c::mass), requiresNew(c::internalEnergy),
                     requiresNew(c::velocityGradient<D>), computes(signalPastGrid), computes(signalPastGas));
 }
 
 template <int D>
 void ConservingMpm<D>::scheduleMixtureState(TaskList& tasks) const {
-  tasks.acrossMaterials("mpm::computePressure", conserving::computeMixturePressure<D>, materials_,
-                        with(method_.viscosity), requiresNew(c::mass), requiresNew(c::internalEnergy),
-                        requiresNew(c::fill), requiresNew(c::velocityGradient<D>), computes(c::pressure),
+  tasks.acrossMaterials("mpm::computePressure", computeMixturePressure<D>, materials_, with(method_.viscosity),
+                        all<GasInCells>(asComputed), requiresNew(c::velocityGradient<D>), computes(c::pressure),
                         computes(c::viscosity), computes(c::shock));
-  tasks.acrossMaterials("mpm::measureSignals", conserving::measureMixtureSignals<D>, materials_, requiresNew(c::mass),
-                        requiresNew(c::internalEnergy), requiresNew(c::fill), requiresNew(c::velocityGradient<D>),
-                        requiresNew(g::velocity<D>), computes(signalPastGrid), computes(signalPastGas));
+  tasks.acrossMaterials("mpm::measureSignals", measureMixtureSignals<D>, materials_, all<GasInCells>(asComputed),
+                        requiresNew(c::velocityGradient<D>), requiresNew(g::velocity<D>), computes(signalPastGrid),
+                        computes(signalPastGas));
 }
 
 template <int D>
 template <class Scheme>
 void ConservingMpm<D>::scheduleComputePressure(TaskList& tasks) const {
-  tasks.perMaterial("mpm::computePressure", conserving::computePressure<D, Scheme>, materials_, with(method_.viscosity),
+  tasks.perMaterial("mpm::computePressure", computePressure<D, Scheme>, materials_, with(method_.viscosity),
                     requiresNew(c::mass), requiresNew(c::internalEnergy), requiresNew(c::velocityGradient<D>, 1),
                     computes(c::pressure), computes(c::viscosity), computes(c::shock));
 }
@@ -168,22 +153,22 @@ void ConservingMpm<D>::scheduleDiagnostics(TaskList& tasks) const {
   tasks.perMaterial("mpm::sumMass", sumMass<D>, materials_, requiresOld(p::mass), computes(total::mass));
   tasks.perMaterial("mpm::sumMomentum", sumMomentum<D>, materials_, requiresOld(p::mass), requiresOld(p::velocity<D>),
                     computes(total::momentum));
-  tasks.perMaterial("mpm::sumEnergy", conserving::sumEnergy<D>, materials_, requiresOld(p::mass),
-                    requiresOld(p::velocity<D>), requiresOld(p::internalEnergy), requiresOld(p::affineEnergy),
-                    computes(total::kineticEnergy), computes(total::internalEnergy), computes(total::energy));
+  tasks.perMaterial("mpm::sumEnergy", sumEnergy<D>, materials_, requiresOld(p::mass), requiresOld(p::velocity<D>),
+                    requiresOld(p::internalEnergy), requiresOld(p::affineEnergy), computes(total::kineticEnergy),
+                    computes(total::internalEnergy), computes(total::energy));
   tasks.perMaterial("mpm::sumCenterOfMass", sumCenterOfMass<D>, materials_, requiresOld(p::mass), requiresOld(p::x<D>),
                     computes(total::centerOfMass));
-  tasks.perMaterial("mpm::computeDensity", conserving::computeDensity<D>, materials_, requiresOld(p::mass),
+  tasks.perMaterial("mpm::computeDensity", computeDensity<D>, materials_, requiresOld(p::mass),
                     requiresOld(p::edges<D>), requiresOld(p::internalEnergy), computes(p::density),
                     computes(p::pressure), computes(p::volume));
   tasks.perMaterial("mpm::findLeast", findLeast, materials_, requiresNew(p::density), requiresOld(p::internalEnergy),
                     computes(total::leastDensity), computes(total::leastEnergy));
   tasks.perMaterial("mpm::sumEntropy", sumEntropy<D>, materials_, requiresOld(p::mass), requiresNew(p::density),
                     requiresOld(p::internalEnergy), computes(total::entropy));
-  tasks.perMaterial("mpm::computeCellDensity", conserving::computeCellDensity<D>, materials_, requiresOld(c::mass),
+  tasks.perMaterial("mpm::computeCellDensity", computeCellDensity<D>, materials_, requiresOld(c::mass),
                     computes(c::density));
-  tasks.perMaterial("mpm::computeCellVelocity", conserving::computeCellVelocity<D>, materials_,
-                    requiresOld(p::x<D>, overhang), requiresOld(p::edges<D>, overhang), requiresOld(p::mass, overhang),
+  tasks.perMaterial("mpm::computeCellVelocity", computeCellVelocity<D>, materials_, requiresOld(p::x<D>, overhang),
+                    requiresOld(p::edges<D>, overhang), requiresOld(p::mass, overhang),
                     requiresOld(p::velocity<D>, overhang), requiresOld(p::modes<D>, overhang), requiresOld(c::mass),
                     computes(c::velocity<D>));
 }
@@ -193,20 +178,16 @@ void ConservingMpm<D>::scheduleMeasureError(TaskList& tasks, const reference::Ga
                                             const reference::Clock& clock) const {
   tasks.perMaterial("mpm::measureParticleError", measureParticleError<D>, materials_, with(&exact), with(&clock),
                     requiresOld(p::x<D>), requiresNew(p::density), requiresOld(p::velocity<D>),
-                    requiresOld(p::internalEnergy), computes(reference::particleError.density),
-                    computes(reference::particleError.velocity), computes(reference::particleError.pressure),
-                    computes(reference::particleError.energy));
+                    requiresOld(p::internalEnergy), all<ErrorNorms>(&reference::particleError));
   if (isMixture())
-    tasks.acrossMaterials("mpm::measureCellError", conserving::measureMixtureError<D>, materials_, with(&exact),
-                          with(&clock), requiresOld(c::mass), requiresNew(c::velocity<D>),
-                          requiresOld(c::internalEnergy), requiresOld(c::fill), computes(reference::cellError.density),
+    tasks.acrossMaterials("mpm::measureCellError", measureMixtureError<D>, materials_, with(&exact), with(&clock),
+                          all<GasInCells>(atStart), requiresNew(c::velocity<D>), computes(reference::cellError.density),
                           computes(reference::cellError.velocity), computes(reference::cellError.pressure),
                           computes(reference::cellError.energy));
   else
-    tasks.perMaterial("mpm::measureCellError", conserving::measureCellError<D>, materials_, with(&exact), with(&clock),
+    tasks.perMaterial("mpm::measureCellError", measureCellError<D>, materials_, with(&exact), with(&clock),
                       requiresOld(c::mass), requiresNew(c::velocity<D>), requiresOld(c::internalEnergy),
-                      computes(reference::cellError.density), computes(reference::cellError.velocity),
-                      computes(reference::cellError.pressure), computes(reference::cellError.energy));
+                      all<ErrorNorms>(&reference::cellError));
   tasks.perMaterial("mpm::measureNodeError", measureNodeError<D>, materials_, with(&exact), with(&clock),
                     requiresOld(g::mass), computes(reference::nodeError));
 }

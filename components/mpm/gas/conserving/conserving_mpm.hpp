@@ -9,10 +9,18 @@ namespace tushar::mpm::gas::conserving {
 /// A particle method for gas in D dimensions that conserves mass, momentum and total energy to round-off and keeps
 /// densities and energies positive.
 ///
-/// Particles are boxes of constant mass that tile the gas, so that no cell empties; they carry a multilinear velocity
-/// and the kinetic energy of the motion about its mean (as in the affine particle-in-cell method of Jiang et al., ACM
-/// Trans. Graph. 34 (2015) 51), and touch the grid with their whole box (as in GIMP, Bardenhagen & Kober, CMES 5 (2004)
-/// 477). The grid's state is gathered at the end of a step, so that the next time step may follow from it.
+/// Particles are boxes of constant mass that tile the gas, so that no cell empties. A particle carries a multilinear
+/// velocity field (its mean and its modes), internal energy e, and the kinetic energy K_A of the motion about the mean,
+/// as in the affine particle-in-cell method of Jiang et al., ACM Trans. Graph. 34 (2015) 51. It touches the grid with
+/// its whole box, as in GIMP, Bardenhagen & Kober, CMES 5 (2004) 477: w_i is the mean of the shape function of node i
+/// over the box, o_c the share of the box in cell c (footprint.hpp).
+///
+/// A step takes the grid from the state at its start to the accelerations a_i of the nodes, and the work f_c on the
+/// gas in each cell by exactly these forces (cells.hpp). Then particles get from the grid (transfer.hpp)
+///   (E1) new velocity modes: moments of the nodal velocities over the box,
+///   (E2) new K_A: the kinetic energy of the motion about the mean,
+///   (E3) new e: e (1 + sum_c o_c f_c), and all the kinetic energy that (E1) and (E2) lose.
+/// The grid's state is gathered from the particles at the end of a step, so that the next time step can follow from it.
 ///
 /// conserving_mpm.cpp is the schedule; the bodies of its tasks are beside it.
 template <int D>
@@ -35,7 +43,7 @@ class ConservingMpm : public Component, public reference::GasSolution {
   void scheduleStep(TaskList& tasks) const;
   template <class Scheme>
   void scheduleComputePressure(TaskList& tasks) const;
-  /// Of the gases of a mixture, which share pressure and velocity.
+  /// Adds pressure and signal speeds of a mixture of gases, which share pressure and velocity.
   void scheduleMixtureState(TaskList& tasks) const;
   void scheduleRedistribute(TaskList& tasks) const;
   void scheduleGridState(TaskList& tasks, bool isStart = false) const;

@@ -17,7 +17,7 @@ const GasObject& objectAt(const Gas& gas, const Vec3& point) {
   return gas.objects.front();
 }
 
-/// What a box holds, as integrals over it.
+/// Integrals over a box.
 template <int D>
 struct Contents {
   double mass = 0, energy = 0;
@@ -33,7 +33,7 @@ struct Contents {
   }
 };
 
-/// What a volume [m³] of the gas holds at `offset` from `x`.
+/// The integrands at `offset` from `x`, times a volume [m³].
 template <int D>
 Contents<D> contentsAt(const Level& level, const Gas& gas, const GasObject& object, const Vec<D>& x,
                        const Vec<D>& offset, double volume) {
@@ -51,8 +51,7 @@ Contents<D> contentsAt(const Level& level, const Gas& gas, const GasObject& obje
   return held;
 }
 
-/// Sum of `held(offset, volume)` over the points of Gauss & Legendre, 3 per axis, of a box: the same for a mirrored
-/// one.
+/// Sum of `held(offset, volume)` over the Gauss-Legendre points, 3 per axis, of a box; the same for a mirrored one.
 template <int D, class Held>
 Contents<D> sumOverPoints(const Vec<D>& edges, double volume, const Held& held, Vec<D> offset = Vec<D>::Zero(),
                           int axis = 0) {
@@ -76,8 +75,8 @@ Contents<D> integrate(const Level& level, const Gas& gas, const GasObject& objec
   });
 }
 
-/// A stiffened gas presses on all around it with p + p_inf. Throws InputError where nothing would press back: on a grid
-/// with a free side, and, if it is alone, where `boxes` leave a part of the patch empty.
+/// A stiffened gas exerts p + p_inf on its surroundings. Throws InputError where nothing balances it: on a grid with a
+/// free side, and, if it is the only gas, where `boxes` leave a part of the patch empty.
 template <int D>
 void refuseLooseness(const Patch& patch, const Gas& gas, const std::vector<Vec<D>>& boxes) {
   if (gas.pInfinity == 0) return;
@@ -101,44 +100,37 @@ void refuseLooseness(const Patch& patch, const Gas& gas, const std::vector<Vec<D
 }  // namespace
 
 template <int D>
-void createBoxes(const Patch& patch, const Gas& gas, ParticleMaker& maker, std::vector<Vec<D>>& x,
-                 std::vector<Vec<D>>& edges, std::vector<double>& mass, std::vector<Vec<D>>& velocity,
-                 std::vector<Modes<D>>& modes, std::vector<double>& internalEnergy, std::vector<double>& affineEnergy) {
+void createBoxes(const Patch& patch, const Gas& gas, ParticleMaker& maker, const NewBoxes<D>& boxes) {
   const Level& level = patch.level();
   std::vector<double> density;
-  createParticles<D>(patch, gas, maker, x, velocity, density, internalEnergy);
-  for (std::size_t k = 0; k < x.size(); ++k) {
-    const GasObject& object = objectAt(gas, level.expandPoint<D>(x[k]));
-    Vec<D> box, inertia;
+  createParticles<D>(patch, gas, maker, boxes.x, boxes.velocity, density, boxes.internalEnergy);
+  for (std::size_t k = 0; k < boxes.x.size(); ++k) {
+    const GasObject& object = objectAt(gas, level.expandPoint<D>(boxes.x[k]));
+    Vec<D> edges, inertia;
     for (int d = 0; d < D; ++d) {
-      box[d] = level.spacing(d) / object.particlesPerCell[level.axis(d)];
-      inertia[d] = box[d] * box[d] / 12;
+      edges[d] = level.spacing(d) / object.particlesPerCell[level.axis(d)];
+      inertia[d] = edges[d] * edges[d] / 12;
     }
-    edges.push_back(box);
-    mass.push_back(density[k] * box.prod() * crossSection<D>(level));
-    modes.push_back(Modes<D>::Zero());
-    affineEnergy.push_back(0);
+    boxes.edges.push_back(edges);
+    boxes.mass.push_back(density[k] * edges.prod() * crossSection<D>(level));
+    boxes.modes.push_back(Modes<D>::Zero());
+    boxes.affineEnergy.push_back(0);
     if (isUniform(object)) continue;
-    const Contents<D> held = integrate<D>(level, gas, object, x[k], box);
-    mass[k] = held.mass;
-    velocity[k] = held.momentum / held.mass;
+    const Contents<D> held = integrate<D>(level, gas, object, boxes.x[k], edges);
+    boxes.mass[k] = held.mass;
+    boxes.velocity[k] = held.momentum / held.mass;
     const auto products = productsOver(inertia);
+    Modes<D>& modes = boxes.modes[k];
     for (std::size_t a = 1; a < products.size(); ++a)
-      modes[k].col(static_cast<int>(a) - 1) = held.moments.col(static_cast<int>(a) - 1) / (held.mass * products[a]);
-    affineEnergy[k] = modalEnergy<D>(modes[k], inertia);
-    internalEnergy[k] = held.energy / held.mass - 0.5 * velocity[k].squaredNorm() - affineEnergy[k];
+      modes.col(static_cast<int>(a) - 1) = held.moments.col(static_cast<int>(a) - 1) / (held.mass * products[a]);
+    boxes.affineEnergy[k] = modalEnergy<D>(modes, inertia);
+    boxes.internalEnergy[k] = held.energy / held.mass - 0.5 * boxes.velocity[k].squaredNorm() - boxes.affineEnergy[k];
   }
-  refuseLooseness<D>(patch, gas, edges);
+  refuseLooseness<D>(patch, gas, boxes.edges);
 }
 
-template void createBoxes<1>(const Patch&, const Gas&, ParticleMaker&, std::vector<Vec<1>>&, std::vector<Vec<1>>&,
-                             std::vector<double>&, std::vector<Vec<1>>&, std::vector<Modes<1>>&, std::vector<double>&,
-                             std::vector<double>&);
-template void createBoxes<2>(const Patch&, const Gas&, ParticleMaker&, std::vector<Vec<2>>&, std::vector<Vec<2>>&,
-                             std::vector<double>&, std::vector<Vec<2>>&, std::vector<Modes<2>>&, std::vector<double>&,
-                             std::vector<double>&);
-template void createBoxes<3>(const Patch&, const Gas&, ParticleMaker&, std::vector<Vec<3>>&, std::vector<Vec<3>>&,
-                             std::vector<double>&, std::vector<Vec<3>>&, std::vector<Modes<3>>&, std::vector<double>&,
-                             std::vector<double>&);
+template void createBoxes<1>(const Patch&, const Gas&, ParticleMaker&, const NewBoxes<1>&);
+template void createBoxes<2>(const Patch&, const Gas&, ParticleMaker&, const NewBoxes<2>&);
+template void createBoxes<3>(const Patch&, const Gas&, ParticleMaker&, const NewBoxes<3>&);
 
 }  // namespace tushar::mpm::gas::conserving

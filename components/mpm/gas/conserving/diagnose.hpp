@@ -3,7 +3,7 @@
 #include "components/mpm/gas/conserving/grid_sums.hpp"
 #include "components/mpm/gas/conserving/labels.hpp"
 #include "components/mpm/gas/material.hpp"
-#include "components/reference/gas_solution.hpp"
+#include "components/mpm/gas/tasks/measure_error.hpp"
 
 namespace tushar::mpm::gas::conserving {
 
@@ -88,17 +88,17 @@ void computeCellDensity(const Patch& patch, const Gas&, CellView<const double> m
 template <int D>
 void measureCellError(const Patch& patch, const Gas& gas, const reference::GasReference* exact,
                       const reference::Clock* clock, CellView<const double> mass, CellView<const Vec<D>> velocity,
-                      CellView<const double> internalEnergy, Norm& density, Norm& u, Norm& pressure, Norm& energy) {
+                      CellView<const double> internalEnergy, const ErrorNorms& errors) {
   const Level& level = patch.level();
   const double volume = level.cellVolume();
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     if (!exact->covers(level.expandPoint<D>(level.cellCentre<D>(cell)), clock->time)) return;
     const double m = mass[cell], ie = internalEnergy[cell];
-    const reference::GasState state = reference::cellMean<D>(*exact, level, cell, clock->time);
-    density.add(m / volume - state.density, state.density);
-    u.add((level.expandDirection<D>(velocity[cell]) - state.velocity).norm(), state.velocity.norm());
-    pressure.add((gas.gamma - 1) * ie / volume - gas.pInfinity - state.pressure, state.pressure);
-    energy.add((m > 0 ? gas.fullEnergy(m / volume, ie / m) : 0) - state.energy, state.energy);
+    errors.add({.density = m / volume,
+                .velocity = level.expandDirection<D>(velocity[cell]),
+                .pressure = (gas.gamma - 1) * ie / volume - gas.pInfinity,
+                .energy = m > 0 ? gas.fullEnergy(m / volume, ie / m) : 0},
+               reference::cellMean<D>(*exact, level, cell, clock->time));
   });
 }
 

@@ -5,33 +5,33 @@
 
 #include "components/mpm/gas/conserving/batch.hpp"
 #include "components/mpm/gas/conserving/modes.hpp"
-#include "components/mpm/gas/mirrored.hpp"
+#include "components/mpm/gas/mirror_symmetry.hpp"
 
 namespace tushar::mpm::gas::conserving {
 
-/// What intervals of a line of cells touch, one interval per lane.
+/// The cells and nodes of a line that intervals touch, one interval per lane.
 ///
 /// Weights are means of the linear shape functions over the interval, w_i = 1/L integral S_i dx; parts are the shares
-/// of the interval that lie in each cell. Ends nearer to a node than 1e-12 h count as on it. Nodes and cells that an
-/// interval does not reach have weight and part 0; what reaches further than `Overhang` counts to the outermost cell.
+/// of the interval that lie in each cell. An end nearer to a node than 1e-12 h is moved onto it. Nodes and cells that
+/// an interval does not reach have weight and part 0; what lies beyond `Overhang` cells counts to the outermost cell.
 ///
-/// All is measured from the middle of the cell that the centre lies in, so that the mirror image of an interval has the
-/// mirrored numbers, to the bit.
+/// All distances are measured from the middle of the cell that holds the centre, so that the mirror image of an
+/// interval has the mirrored numbers, to the bit.
 template <int Overhang>
 struct Span {
-  static constexpr int most = 2 * Overhang + 1;  ///< cells that intervals of one register may overlap
+  static constexpr int most = 2 * Overhang + 1;  ///< cells that the intervals of one batch may overlap
 
   LaneIntegers first;                            ///< cell, and node below it
-  int below = 0;                                 ///< cells before that of the centre that any of the intervals overlaps
-  int cells = 1;                                 ///< of all
+  int below = 0;                                 ///< cells below that of the centre that some interval overlaps
+  int cells = 1;                                 ///< that some interval overlaps
   std::array<Lanes, most> part;                  ///< by cell; they sum to 1
   std::array<Lanes, most + 1> weight;            ///< by node; they sum to 1
-  std::array<Lanes, most + 1> arm;               ///< of nodes from the centre, m
-  std::array<Lanes, most + 1> atLower, atUpper;  ///< shares of nodes in the value at the ends
+  std::array<Lanes, most + 1> arm;               ///< distances of nodes from the centre, m
+  std::array<Lanes, most + 1> atLower, atUpper;  ///< weights of nodes in the values at the ends
   Lanes inertia;                                 ///< sum of weight times arm², m²
   Lanes lower, upper;                            ///< ends, m
 
-  /// Along kernel axis `d`; `cell` is that of the centre. What reaches beyond the grid is cut off.
+  /// Intervals along kernel axis `d`; `cell` is that of the centre. They are cut off at the boundary of the grid.
   Span(const Level& level, int d, const LaneIntegers& cell, const Lanes& centre, const Lanes& length) {
     const double h = level.spacing(d), inverse = level.inverseSpacing(d), last = level.cells().upper[d] - 1;
     const Lanes number = widen(cell), origin = middleOf(level, d) + h * fromMiddle(level, d, number);
@@ -59,8 +59,8 @@ struct Span {
   Lanes upperOf(int k) const { return min(upper, centre() + arm[static_cast<std::size_t>(k) + 1]); }
   Lanes middle(int k) const { return 0.5 * (lowerOf(k) + upperOf(k)); }
 
-  /// Sum over the nodes of what `add(k, sum)` adds for node k: those on either side of the middle by themselves, from
-  /// the inside out, so that the mirror image has the same sum.
+  /// Sum over the nodes; `add(k, sum)` adds the term of node k. Either side of the middle is summed by itself, from the
+  /// inside out, so that the mirror image has the same sum.
   template <class Sum, class Add>
   [[gnu::always_inline]] Sum sumOverNodes(Add&& add) const {
     Sum lowerSide{}, upperSide{};
@@ -69,7 +69,7 @@ struct Span {
     lowerSide += upperSide;
     return lowerSide;
   }
-  /// The same over the cells, that of the centre last.
+  /// Sum over the cells, in the mirror-symmetric order of sumOverNodes; that of the centre is added last.
   template <class Add>
   [[gnu::always_inline]] Lanes sumOverCells(Add&& add) const {
     Lanes lowerSide = 0, upperSide = 0;
@@ -86,7 +86,7 @@ struct Span {
     const Lanes node = nearbyint(x - 0.5) + 0.5;
     return select(abs(x - node) < 1e-12, node, x);
   }
-  /// Shares out the interval from `from` to `to`, in cells from the middle of that of its centre.
+  /// Computes parts and weights of the interval from `from` to `to`, in cells from the middle of its centre's cell.
   void distribute(const Lanes& from, const Lanes& to) {
     const Lanes scale = 1 / (to - from);
     Lanes start = -0.5 - below, end = start, carried = 0;
@@ -120,16 +120,16 @@ struct Span {
   }
 };
 
-/// What particles that fill boxes touch, one per lane: the product of their spans.
+/// The cells and nodes that boxes touch, one box per lane: the product of their spans.
 template <int D>
 struct Footprint {
-  /// How many cells away from that of its centre a particle may reach: boxes of less than 2 h, on a line of 3 h.
+  /// Cells that a box may reach beyond that of its centre: boxes are shorter than 2 h, in one dimension than 3 h.
   static constexpr int overhang = D == 1 ? 2 : 1;
   /// Cells beyond a patch whose particles may touch its nodes.
   static constexpr int reach = overhang + 1;
   /// Cells along an axis that boxes of one batch may overlap.
   static constexpr int most = Span<overhang>::most;
-  /// Cells along an axis that no particle may be longer than.
+  /// Upper limit of the length of a box, in cells.
   static constexpr double longest = D == 1 ? 3 : 2;
 
   std::array<Span<overhang>, D> along;
@@ -143,20 +143,20 @@ struct Footprint {
     return all;
   }
 
-  /// The first cell of each, and the node below it.
+  /// The first cell of each box, which has the number of the node below it.
   std::array<LaneIntegers, D> first() const {
     std::array<LaneIntegers, D> all;
     for (std::size_t d = 0; d < D; ++d) all[d] = along[d].first;
     return all;
   }
 
-  /// Sum of `value(k, part)` over the places of the footprint that a cell may have; the same for the mirror image.
+  /// Sum of `value(k, part)` over the cells k of the footprint; the same for the mirror image.
   template <class Value>
   Lanes sumOverParts(Value&& value) const {
     Index<D> k;
     return sumAlong<D - 1>(k, Lanes(1), value);
   }
-  /// Calls `visit(k, part)` for each place of the footprint that a cell may have.
+  /// Calls `visit(k, part)` for each cell k of the footprint.
   template <class Visit>
   void forEachPart(Visit&& visit) const {
     Index<D> k;
@@ -166,8 +166,7 @@ struct Footprint {
   template <int Axis>
   using Field = std::array<LanesVec<D>, (1 << (Axis + 1))>;
 
-  /// Calls `visit(k, w, f)` for each place of the footprint that a node may have, with the weights and the fields
-  /// there.
+  /// Calls `visit(k, w, f)` for each node k of the footprint, with its weights and the fields there.
   template <class Visit>
   void forEachWeight(const Field<D - 1>& field, Visit&& visit) const {
     Index<D> k;
@@ -182,7 +181,7 @@ struct Footprint {
     return result;
   }
 
-  /// Places that nodes or cells may have in a footprint, numbered with the first axis fastest.
+  /// Nodes or cells of a footprint are numbered with the first axis fastest.
   static constexpr int stride(int axis) { return axis == 0 ? 1 : (most + 1) * stride(axis - 1); }
   static constexpr std::size_t places = D == 1   ? most + 1
                                         : D == 2 ? (most + 1) * (most + 1)

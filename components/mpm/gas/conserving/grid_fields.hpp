@@ -6,8 +6,8 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// N fields at the nodes or cells that the particles of a box of cells may touch, each by itself in memory and 0 at
-/// first; wide enough for any footprint, so that no index needs to be checked against an end.
+/// N fields at the nodes or cells that the particles of a box of cells may touch, initially 0. Each field is contiguous
+/// in memory, and wide enough for any footprint, so that no index needs a bounds check.
 template <int D, std::size_t N>
 class GridFields {
  public:
@@ -39,7 +39,7 @@ class GridFields {
     bool consecutive_ = true;  ///< each lies beside the one of the lane before
   };
 
-  /// A field at the nodes or cells that are `k` further.
+  /// A field at the nodes or cells offset by `k`.
   Lanes read(std::size_t field, const Near& near, const Index<D>& k) const {
     const double* values = values_.data() + field * size_ + offset(k);
     if (near.consecutive_) return Lanes::at(values + near.place_[0]);
@@ -49,7 +49,7 @@ class GridFields {
   Lanes readRow(std::size_t field, const Index<D>& index) const { return Lanes::at(&at(field, index)); }
 
  protected:
-  /// Of fields that are sums: where they are, and how far apart neighbours along an axis are.
+  /// Memory layout, for fields that are sums.
   double* values(std::size_t field) { return values_.data() + field * size_; }
   std::size_t size() const { return size_; }
   int stride(int axis) const { return stride_[axis]; }

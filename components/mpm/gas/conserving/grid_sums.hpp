@@ -4,7 +4,7 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// A sum and what its additions have lost to rounding.
+/// A sum and the rounding error of its additions.
 template <class Number>
 struct CarefulSum {
   Number sum, lost;
@@ -15,9 +15,9 @@ struct CarefulSum {
   }
 };
 
-/// N sums at the nodes (More = 1) or cells (More = 0) of a box of cells over what particles bring. What rounding loses
-/// is added as well, so that the order of the particles, which is another in a mirror image, changes nothing but where
-/// a sum lies within some 1e-32 of the middle between two numbers. To be read after `finish()`.
+/// N sums over particles at the nodes (More = 1) or cells (More = 0) of a box of cells. Rounding errors are summed and
+/// added at the end, so that a sum does not depend on the order of the particles, which a mirror image changes, unless
+/// it lies within about 1e-32 of the midpoint of two numbers. `finish()` completes the sums.
 template <int D, std::size_t N, int More>
 class GridSums : public GridFields<D, N> {
   using Fields = GridFields<D, N>;
@@ -27,7 +27,7 @@ class GridSums : public GridFields<D, N> {
 
   explicit GridSums(const Box& cells) : Fields(cells), lost_(N * this->size()) {}
 
-  /// Adds to the places of the footprints of a batch. Lanes not in use bring 0.
+  /// Adds to the nodes or cells of the footprints of a batch. Lanes not in use add 0.
   void add(const Footprint<D>& footprint, int count, const Brought& brought) {
     const typename Fields::Near near(*this, footprint.first(), count);
     const LaneIntegers& places = Fields::placesOf(near);
@@ -46,14 +46,14 @@ class GridSums : public GridFields<D, N> {
   }
 
  private:
-  /// Where a sum and what it has lost are.
+  /// Pointers to a sum and to its rounding error.
   struct Pair {
     double *sum, *lost;
 
     Pair operator+(int by) const { return {sum + by, lost + by}; }
   };
 
-  /// Adds what one lane brings.
+  /// Adds the values of one lane.
   template <int Axis>
   void addOne(Pair field, const Footprint<D>& footprint, const Lanes* brought, int lane) {
     const int end = footprint.along[Axis].cells + More;
@@ -68,7 +68,7 @@ class GridSums : public GridFields<D, N> {
       }
     }
   }
-  /// Adds what consecutive particles bring.
+  /// Adds the values of particles in consecutive cells of a row.
   template <int Axis>
   void addRows(Pair field, const Footprint<D>& footprint, const Lanes* brought) {
     const int end = footprint.along[Axis].cells + More;

@@ -5,8 +5,8 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// The `conserving_gas_dynamics` section of `MPM` as it is written; what is not given follows from the transfer and the
-/// dimension.
+/// The `conserving_gas_dynamics` section of `MPM` as it is written. Defaults of what is missing depend on the transfer
+/// and the dimension.
 struct Section {
   Transfer transfer = Transfer::apic;
   double cfl = 0.5, advectiveCfl = 0.8;
@@ -17,7 +17,7 @@ struct Section {
 };
 const input::Schema<Section>& sectionSchema();
 
-/// The method of a grid of so many dimensions.
+/// The method on a grid of that dimension, defaults filled in.
 ConservingGasDynamics settle(const Section& read, int dimension);
 
 }  // namespace tushar::mpm::gas::conserving

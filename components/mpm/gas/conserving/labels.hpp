@@ -1,13 +1,13 @@
 #pragma once
 
 #include "components/mpm/gas/conserving/modes.hpp"
-#include "components/mpm/labels.hpp"
+#include "components/mpm/gas/labels.hpp"
 
 namespace tushar::mpm::gas::conserving {
 
-/// Variables of the conserving gas method alone.
+/// Variables of the conserving gas method.
 namespace p {
-using namespace mpm::p;
+using namespace gas::p;
 template <int D>
 inline constexpr ParticleLabel<Vec<D>> edges{"p.edges", "m", "edge lengths of the box that the particle fills",
                                              Bound::positive};
@@ -21,13 +21,13 @@ inline constexpr ParticleLabel<double> affineEnergy{
 }  // namespace p
 
 namespace g {
-using namespace mpm::g;
+using namespace gas::g;
 inline constexpr NodeLabel<double> relaxation{"g.relaxation", "1",
                                               "share of the velocity that particles take from the node as it is"};
 }  // namespace g
 
 namespace c {
-using namespace mpm::c;
+using namespace gas::c;
 inline constexpr CellLabel<double> mass{"c.mass", "kg", "mass of the parts of particles in the cell",
                                         Bound::nonNegative};
 inline constexpr CellLabel<double> internalEnergy{"c.internalEnergy", "J", "internal energy of those parts",
@@ -50,7 +50,7 @@ inline constexpr CellLabel<double> movedMass{"c.movedMass", "kg", "mass in the c
 inline constexpr CellLabel<double> movedEnergy{"c.movedEnergy", "J", "internal energy in the cell before the remap"};
 }  // namespace c
 
-/// What limits the time step.
+/// Limits of the time step.
 inline constexpr ReductionLabel<Maximum> signalPastGrid{"SignalPastGrid", "m/s",
                                                         "signals relative to the grid, fastest"};
 inline constexpr ReductionLabel<Maximum> signalPastGas{"SignalPastGas", "m/s", "signals relative to the gas, fastest"};

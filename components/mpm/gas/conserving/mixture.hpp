@@ -6,16 +6,16 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// A view of each gas.
+/// One view for each gas.
 template <class T>
 using CellViews = std::vector<CellView<T>>;
 template <class T>
 using NodeViews = std::vector<NodeView<T>>;
 
 /// Several gases in a cell, each in its share alpha of the volume, at one pressure and velocity, compressed alike. With
-/// G = sum of alpha / (gamma - 1) and S = sum of alpha gamma p_inf / (gamma - 1) their energy per volume is p G + S, so
-/// that a contact at rest or in motion keeps its pressure, and rho c² = (p (1 + G) + S) / G.
-/// Source: G. Allaire, S. Clerc & S. Kokh, J. Comput. Phys. 181 (2002) 577; of G and S alone: R. Abgrall, J. Comput.
+/// G = sum of alpha / (gamma - 1) and S = sum of alpha gamma p_inf / (gamma - 1), their energy per volume is p G + S.
+/// So a contact at rest or in motion keeps its pressure, and rho c² = (p (1 + G) + S) / G.
+/// Source: G. Allaire, S. Clerc & S. Kokh, J. Comput. Phys. 181 (2002) 577; for G and S alone: R. Abgrall, J. Comput.
 /// Phys. 125 (1996) 150.
 struct Mixture {
   double density = 0;    ///< kg/m³
@@ -25,33 +25,43 @@ struct Mixture {
 
   double pressure() const { return (energy - stiffness) / softness; }
   double soundSpeedSquared() const { return (pressure() * (1 + softness) + stiffness) / (softness * density); }
-  /// Of a gas at this pressure, per its own volume [J/m³].
+  /// Internal energy of a gas at this pressure, per volume of the gas [J/m³].
   static double energyAt(double pressure, const Gas& gas) {
     return (pressure + gas.gamma * gas.pInfinity) / (gas.gamma - 1);
   }
 };
 
-/// What the gases hold in cells.
+/// What one gas holds in the cells of a patch.
+struct GasInCells {
+  CellView<const double> mass;            ///< kg
+  CellView<const double> internalEnergy;  ///< J
+  CellView<const double> fill;            ///< share of the cell's volume
+
+  /// `read` is requiresOld or requiresNew, as a function of a label.
+  static GasInCells from(auto& take, const auto& read) {
+    return {.mass = take(read(c::mass)), .internalEnergy = take(read(c::internalEnergy)), .fill = take(read(c::fill))};
+  }
+};
+
+/// What all gases hold in the cells of a patch.
 struct Cells {
   const std::vector<Gas>& gases;
-  const CellViews<const double>& mass;
-  const CellViews<const double>& internalEnergy;
-  const CellViews<const double>& fill;
+  const std::vector<GasInCells>& held;  ///< one for each gas
 
-  /// Share of a gas in the volume that all fill together.
+  /// Volume of a gas over that of all gases in the cell.
   template <class Index>
   double share(std::size_t gas, const Index& cell) const {
     double all = 0;
-    for (const CellView<const double>& one : fill) all += one[cell];
-    return fill[gas][cell] / all;
+    for (const GasInCells& one : held) all += one.fill[cell];
+    return held[gas].fill[cell] / all;
   }
   template <class Index>
   Mixture at(const Index& cell, double volume) const {
     Mixture mixture;
     for (std::size_t k = 0; k < gases.size(); ++k) {
       const double alpha = share(k, cell), softness = alpha / (gases[k].gamma - 1);
-      mixture.density += mass[k][cell] / volume;
-      mixture.energy += internalEnergy[k][cell] / volume;
+      mixture.density += held[k].mass[cell] / volume;
+      mixture.energy += held[k].internalEnergy[cell] / volume;
       mixture.softness += softness;
       mixture.stiffness += softness * gases[k].gamma * gases[k].pInfinity;
     }
@@ -60,7 +70,7 @@ struct Cells {
   /// Whether more than one gas is in a cell.
   template <class Index>
   bool isMixed(const Index& cell) const {
-    return std::count_if(mass.begin(), mass.end(), [&](const auto& one) { return one[cell] > 0; }) > 1;
+    return std::count_if(held.begin(), held.end(), [&](const GasInCells& one) { return one.mass[cell] > 0; }) > 1;
   }
 };
 
@@ -73,7 +83,7 @@ void computeHeat(const Patch& patch, const Gas& gas, ParticleView<const double> 
   for (int p = 0; p < mass.owned(); ++p) heat[p] = gas.heat(mass[p] / (edges[p].prod() * area), internalEnergy[p]);
 }
 
-/// All gases move with one velocity: m_i = sum over the gases, v_i = sum m v / m_i, which each gets.
+/// All gases move with one velocity: m_i = sum over the gases, v_i = sum m v / m_i, assigned to each gas.
 template <int D>
 void mixAtNodes(const Patch&, const std::vector<Gas>& gases, const NodeViews<double>& mass,
                 const NodeViews<Vec<D>>& velocity) {
@@ -92,8 +102,8 @@ void mixAtNodes(const Patch&, const std::vector<Gas>& gases, const NodeViews<dou
   });
 }
 
-/// Throws InputError where the gases leave a part of a cell empty at the start, or overlap: what a mixture's pressure
-/// acts on is all of the grid.
+/// Throws InputError where the gases leave a part of a cell empty at the start, or overlap: the pressure of a mixture
+/// acts on all of the grid.
 template <int D>
 void checkFill(const Patch& patch, const std::vector<Gas>& gases, const CellViews<double>& fill) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
@@ -109,15 +119,14 @@ void checkFill(const Patch& patch, const std::vector<Gas>& gases, const CellView
   });
 }
 
-/// p of the mixture and q by shockViscosity, which each gas gets; the sensor of shocks is 1.
+/// Assigns p of the mixture and q by shockViscosity to each gas; the sensor of shocks is 1.
 template <int D>
 void computeMixturePressure(const Patch& patch, const std::vector<Gas>& gases, const Viscosity& viscosity,
-                            const CellViews<const double>& mass, const CellViews<const double>& internalEnergy,
-                            const CellViews<const double>& fill, const CellViews<const Tensor<D>>& gradient,
+                            const std::vector<GasInCells>& held, const CellViews<const Tensor<D>>& gradient,
                             const CellViews<double>& pressure, const CellViews<double>& artificial,
                             const CellViews<double>& shock) {
   const Level& level = patch.level();
-  const Cells cells{gases, mass, internalEnergy, fill};
+  const Cells cells{gases, held};
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     const Mixture mixture = cells.at(cell, level.cellVolume());
     const double difference = level.minSpacing() * gradient.front()[cell].trace();
@@ -131,7 +140,7 @@ void computeMixturePressure(const Patch& patch, const std::vector<Gas>& gases, c
   });
 }
 
-/// What the gases of a cell get of the work on it, `done` [J], as relative changes of their internal energies.
+/// How the gases of a cell share the work `done` [J] on it: the relative change of the internal energy of each.
 template <class Index>
 class SharedWork {
  public:
@@ -151,7 +160,7 @@ class SharedWork {
   }
 
  private:
-  double energyOf(std::size_t gas) const { return cells_.internalEnergy[gas][cell_]; }
+  double energyOf(std::size_t gas) const { return cells_.held[gas].internalEnergy[cell_]; }
   double byVolume(std::size_t gas) const { return cells_.share(gas, cell_) * done_ / energyOf(gas); }
   double atEqualPressure(std::size_t gas) const {
     const double goal = cells_.share(gas, cell_) * volume_ * Mixture::energyAt(after_.pressure(), cells_.gases[gas]);
@@ -165,16 +174,15 @@ class SharedWork {
   double equalised_ = 0;  ///< 0: by volume; 1: at equal pressure
 };
 
-/// f of each gas in a cell, for updateParticles. Where there are several they have the pressure of the mixture
-/// afterwards: IE_k (1 + f_k) = alpha_k V (p' + gamma_k p_inf,k) / (gamma_k - 1), whose sum is IE + W. Where that would
-/// take more than half of the energy of one, they get the work by their volumes, and as much of the rest as would not.
+/// f of each gas in a cell, for updateParticles. Several gases have the pressure p' of the mixture afterwards:
+/// IE_k (1 + f_k) = alpha_k V (p' + gamma_k p_inf,k) / (gamma_k - 1), whose sum is IE + W. Where this would take more
+/// than half of the energy of one gas, they share the work by volume and approach p' only until half is taken.
 template <int D>
 void computeMixtureWork(const Patch& patch, const std::vector<Gas>& gases, const CellViews<const Tensor<D>>& stress,
-                        const CellViews<const double>& mass, const CellViews<const double>& internalEnergy,
-                        const CellViews<const double>& fill, const NodeViews<const Vec<D>>& velocity,
+                        const std::vector<GasInCells>& held, const NodeViews<const Vec<D>>& velocity,
                         const NodeViews<const Vec<D>>& acceleration, double dt, const CellViews<double>& work) {
   const Level& level = patch.level();
-  const Cells cells{gases, mass, internalEnergy, fill};
+  const Cells cells{gases, held};
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     const double done = workOnCell<D>(level, stress.front()[cell], velocity.front(), acceleration.front(), dt, cell);
     const SharedWork shared(cells, cell, level.cellVolume(), done);
@@ -184,11 +192,10 @@ void computeMixtureWork(const Patch& patch, const std::vector<Gas>& gases, const
 
 /// measureSignals of a mixture: |v| + c from its nodes' velocities, and signals relative to the gas.
 template <int D>
-void measureMixtureSignals(const Patch& patch, const std::vector<Gas>& gases, const CellViews<const double>& mass,
-                           const CellViews<const double>& internalEnergy, const CellViews<const double>& fill,
+void measureMixtureSignals(const Patch& patch, const std::vector<Gas>& gases, const std::vector<GasInCells>& held,
                            const CellViews<const Tensor<D>>& gradient, const NodeViews<const Vec<D>>& velocity,
                            Maximum& pastGrid, Maximum& pastGas) {
-  const Cells cells{gases, mass, internalEnergy, fill};
+  const Cells cells{gases, held};
   double onGrid = 0, inGas = 0;
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     const double cSquared = cells.at(cell, patch.level().cellVolume()).soundSpeedSquared();
@@ -206,21 +213,23 @@ void measureMixtureSignals(const Patch& patch, const std::vector<Gas>& gases, co
 /// energy of the mixture.
 template <int D>
 void measureMixtureError(const Patch& patch, const std::vector<Gas>& gases, const reference::GasReference* exact,
-                         const reference::Clock* clock, const CellViews<const double>& mass,
-                         const CellViews<const Vec<D>>& velocity, const CellViews<const double>& internalEnergy,
-                         const CellViews<const double>& fill, Norm& density, Norm& u, Norm& pressure, Norm& energy) {
+                         const reference::Clock* clock, const std::vector<GasInCells>& held,
+                         const CellViews<const Vec<D>>& velocity, Norm& density, Norm& u, Norm& pressure,
+                         Norm& energy) {
   const Level& level = patch.level();
-  const Cells cells{gases, mass, internalEnergy, fill};
+  const Cells cells{gases, held};
+  const ErrorNorms errors{.density = density, .velocity = u, .pressure = pressure, .energy = energy};
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     if (!exact->covers(level.expandPoint<D>(level.cellCentre<D>(cell)), clock->time)) return;
     const Mixture mixture = cells.at(cell, level.cellVolume());
     Vec<D> momentum = Vec<D>::Zero();
-    for (std::size_t k = 0; k < gases.size(); ++k) momentum += mass[k][cell] / level.cellVolume() * velocity[k][cell];
-    const reference::GasState state = reference::cellMean<D>(*exact, level, cell, clock->time);
-    density.add(mixture.density - state.density, state.density);
-    u.add((level.expandDirection<D>(momentum / mixture.density) - state.velocity).norm(), state.velocity.norm());
-    pressure.add(mixture.pressure() - state.pressure, state.pressure);
-    energy.add(mixture.energy / mixture.density - state.energy, state.energy);
+    for (std::size_t k = 0; k < gases.size(); ++k)
+      momentum += held[k].mass[cell] / level.cellVolume() * velocity[k][cell];
+    errors.add({.density = mixture.density,
+                .velocity = level.expandDirection<D>(momentum / mixture.density),
+                .pressure = mixture.pressure(),
+                .energy = mixture.energy / mixture.density},
+               reference::cellMean<D>(*exact, level, cell, clock->time));
   });
 }
 

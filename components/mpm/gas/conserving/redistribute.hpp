@@ -1,14 +1,14 @@
 #pragma once
 
+#include "components/mpm/gas/conserving/boxes.hpp"
 #include "components/mpm/gas/conserving/grid_sums.hpp"
-#include "components/mpm/gas/conserving/labels.hpp"
 #include "components/mpm/gas/conserving/scheme.hpp"
 #include "components/mpm/gas/material.hpp"
 
 namespace tushar::mpm::gas::conserving {
 
-/// Velocity modes are scaled down where their kinetic energy could exceed K_A by more than `spare` of the heat; what a
-/// mode holds on the grid is at most L²/12 + h²/4 along each of its axes.
+/// Scales velocity modes down where their kinetic energy could exceed K_A by more than `spare` of the heat. The mean
+/// square of x_d - centre_d, as the grid sees a box of length L, is at most L²/12 + h²/4.
 template <int D>
 void limitModes(const Patch& patch, const Gas&, double spare, ParticleView<const Vec<D>> edges,
                 ParticleView<const double> heat, ParticleView<const double> affineEnergy,
@@ -24,76 +24,41 @@ void limitModes(const Patch& patch, const Gas&, double spare, ParticleView<const
   }
 }
 
-/// Particles as a redistribution reads them.
+/// Halves particles longer than `longestInCells` cells along an axis: children a quarter of the length L to either side
+/// of the centre with velocities v -+ L B_d / 4, whose kinetic energy is taken from K_A, then from e. A child may lie
+/// in the next cell: each patch makes the children that lie in its own cells, of its own particles and of its ghosts.
 template <int D>
-struct Boxes {
-  ParticleView<const ParticleId> ids;
-  ParticleView<const Vec<D>> x, edges;
-  ParticleView<const double> mass;
-  ParticleView<const Vec<D>> velocity;
-  ParticleView<const Modes<D>> modes;
-  ParticleView<const double> internalEnergy, affineEnergy;
-};
+void splitLong(const Patch& patch, double longestInCells, const OldBoxes<D>& old, ParticleMaker& maker,
+               const NewBoxes<D>& fresh);
 
-/// Particles as a redistribution makes them.
+/// Replaces the particles by one per cell, which fills the cell; next to an empty cell only as far as the gas does.
+/// Mass, momentum and energy are those of the parts of particles that lie in the cell. The share of a part in the
+/// particle's mass and energy follows van Leer's limited slopes of the cells' (`mass`, `energy`); it has the particle's
+/// velocity there. The velocity gradient of a new particle is the regression over its parts, its mixed modes their
+/// mean, and the kinetic energy it cannot hold becomes heat.
 template <int D>
-struct NewBoxes {
-  ParticleMaker& maker;
-  std::vector<Vec<D>>&x, &edges;
-  std::vector<double>& mass;
-  std::vector<Vec<D>>& velocity;
-  std::vector<Modes<D>>& modes;
-  std::vector<double>&internalEnergy, &affineEnergy;
-};
-
-/// Halves particles longer than `longestInCells` cells along an axis: children at a quarter of the length to both sides
-/// of the centre with velocities v -+ L B_d / 4, whose kinetic energy comes from K_A, then from e. A child may lie in
-/// the next cell: each patch makes the children that lie in its own cells, of its own particles and of its ghosts.
-template <int D>
-void splitLong(const Patch& patch, double longestInCells, const Boxes<D>& boxes, NewBoxes<D> fresh);
-
-/// Replaces the particles by one that fills each cell; next to an empty cell only as far as the gas does. Mass,
-/// momentum and energy are those of the parts of particles that lie in the cell; a part has its share of the particle's
-/// mass and energy by van Leer's limited slopes of the cells' (`mass`, `energy`), and the particle's velocity there.
-/// The velocity gradient of a new particle is the regression over its parts, its mixed modes their mean, and the
-/// kinetic energy it cannot hold becomes heat.
-template <int D>
-void remap(const Patch& patch, const Boxes<D>& boxes, CellView<const double> mass, CellView<const double> energy,
-           NewBoxes<D> fresh);
+void remap(const Patch& patch, const OldBoxes<D>& old, CellView<const double> mass, CellView<const double> energy,
+           ParticleMaker& maker, const NewBoxes<D>& fresh);
 
 /// splitLong as a task.
 template <int D>
-void redistribute(const Patch& patch, const Gas&, ParticleMaker& maker, double longestInCells,
-                  ParticleView<const ParticleId> ids, ParticleView<const Vec<D>> x, ParticleView<const Vec<D>> edges,
-                  ParticleView<const double> mass, ParticleView<const Vec<D>> velocity,
-                  ParticleView<const Modes<D>> modes, ParticleView<const double> internalEnergy,
-                  ParticleView<const double> affineEnergy, std::vector<Vec<D>>& newX, std::vector<Vec<D>>& newEdges,
-                  std::vector<double>& newMass, std::vector<Vec<D>>& newVelocity, std::vector<Modes<D>>& newModes,
-                  std::vector<double>& newInternalEnergy, std::vector<double>& newAffineEnergy) {
-  splitLong<D>(patch, longestInCells, {ids, x, edges, mass, velocity, modes, internalEnergy, affineEnergy},
-               {maker, newX, newEdges, newMass, newVelocity, newModes, newInternalEnergy, newAffineEnergy});
+void redistribute(const Patch& patch, const Gas&, ParticleMaker& maker, double longestInCells, const OldBoxes<D>& old,
+                  const NewBoxes<D>& fresh) {
+  splitLong<D>(patch, longestInCells, old, maker, fresh);
 }
 
 /// remap in the steps in which `count` is 0, splitLong in the others.
 template <int D>
 void redistributeOrRemap(const Patch& patch, const Gas&, ParticleMaker& maker, double longestInCells,
-                         ParticleView<const ParticleId> ids, ParticleView<const Vec<D>> x,
-                         ParticleView<const Vec<D>> edges, ParticleView<const double> mass,
-                         ParticleView<const Vec<D>> velocity, ParticleView<const Modes<D>> modes,
-                         ParticleView<const double> internalEnergy, ParticleView<const double> affineEnergy,
-                         CellView<const double> cellMass, CellView<const double> cellEnergy, double count,
-                         std::vector<Vec<D>>& newX, std::vector<Vec<D>>& newEdges, std::vector<double>& newMass,
-                         std::vector<Vec<D>>& newVelocity, std::vector<Modes<D>>& newModes,
-                         std::vector<double>& newInternalEnergy, std::vector<double>& newAffineEnergy) {
-  const Boxes<D> boxes{ids, x, edges, mass, velocity, modes, internalEnergy, affineEnergy};
-  NewBoxes<D> fresh{maker, newX, newEdges, newMass, newVelocity, newModes, newInternalEnergy, newAffineEnergy};
+                         const OldBoxes<D>& old, CellView<const double> cellMass, CellView<const double> cellEnergy,
+                         double count, const NewBoxes<D>& fresh) {
   if (count == 0)
-    remap<D>(patch, boxes, cellMass, cellEnergy, fresh);
+    remap<D>(patch, old, cellMass, cellEnergy, maker, fresh);
   else
-    splitLong<D>(patch, longestInCells, boxes, fresh);
+    splitLong<D>(patch, longestInCells, old, maker, fresh);
 }
 
-/// Counts the steps since the last remap: 0 where one is due in this step, after `every` steps or once a cell is
+/// Counts the steps since the last remap. 0: one is due in this step, after `every` steps or because a cell is
 /// overfull.
 inline void countSteps(const Patch&, const Remap& remap, double age, double fill, Maximum& count) {
   count.add(age + 1 >= remap.every || fill > 1 + remap.overfilled ? 0.0 : age + 1);

@@ -22,15 +22,15 @@ struct CellSums {
   using Fields = GridSums<D, count, 0>;
 };
 
-/// Whether a mode is one of several axes.
+/// Whether a mode depends on several axes.
 constexpr bool isMixed(std::size_t a) { return (a & (a - 1)) != 0; }
 
 /// The cells' mass and internal energy.
 template <int D>
 using Contents = GridFields<D, 2>;
 
-/// Van Leer's limited slopes of a cell variable over the value itself, 1/m; 0 at the rim of the grid. Such that boxes
-/// of these edges keep at least a fifth of the mean everywhere.
+/// Van Leer's limited slopes of a cell variable over the value itself, 1/m; 0 at the rim of the grid. They are scaled
+/// so that in boxes of these edges the variable is at least a fifth of its mean everywhere.
 template <int D>
 LanesVec<D> relativeSlopes(const Level& level, const Contents<D>& contents, std::size_t field, const Batch<D>& batch,
                            const LanesVec<D>& edges) {
@@ -51,7 +51,7 @@ LanesVec<D> relativeSlopes(const Level& level, const Contents<D>& contents, std:
   return select(swing > 0.8, 0.8 / swing, 1) * slopes;
 }
 
-/// The parts of particles in a cell each.
+/// The parts of the particles of a batch in one cell each.
 template <int D>
 struct Part {
   LanesVec<D> x, edges;  ///< centre and edge lengths
@@ -62,7 +62,7 @@ struct Part {
 template <int D>
 class Parts {
  public:
-  /// Relative slopes of density and internal energy say how unlike the parts are.
+  /// `density` and `energy` are relative slopes: mass and internal energy of the parts follow them.
   Parts(const Footprint<D>& footprint, const LanesVec<D>& centre, const LanesVec<D>& density,
         const LanesVec<D>& energy) {
     footprint.forEachPart([&](const Index<D>& k, const Lanes& share) {
@@ -84,7 +84,7 @@ class Parts {
   }
   /// The part in a cell of the footprint.
   Part<D>& at(const Index<D>& k) { return parts_[Footprint<D>::number(k)]; }
-  /// Sum of a value of each part.
+  /// Sum of `value(part)` over the parts.
   template <class Value>
   Lanes sum(const Footprint<D>& footprint, Value&& value) {
     return footprint.sumOverParts([&](const Index<D>& k, const Lanes&) { return value(at(k)); });
@@ -94,7 +94,7 @@ class Parts {
   std::array<Part<D>, Footprint<D>::places> parts_;
 };
 
-/// What a part brings to its cell.
+/// Sets the terms of a part in the sums of its cell.
 template <int D>
 void bring(typename CellSums<D>::Fields::Brought& brought, std::size_t place, const Part<D>& part,
            const LanesVec<D>& dx, const LanesVec<D>& u, const LanesTensor<D>& gradient, const LanesModes<D>& modes,
@@ -120,9 +120,9 @@ void bring(typename CellSums<D>::Fields::Brought& brought, std::size_t place, co
   }
 }
 
-/// Sends the parts of a batch of particles to their cells.
+/// Cuts a batch of particles at the faces of cells and adds the parts to the sums.
 template <int D>
-void cut(const Level& level, const Batch<D>& batch, const Boxes<D>& boxes, const Contents<D>& contents,
+void cut(const Level& level, const Batch<D>& batch, const OldBoxes<D>& boxes, const Contents<D>& contents,
          typename CellSums<D>::Fields& sums) {
   const LanesVec<D> centre = load(boxes.x, batch), edges = load(boxes.edges, batch), v = load(boxes.velocity, batch);
   const LanesModes<D> modes = load(boxes.modes, batch);
@@ -158,7 +158,7 @@ void cut(const Level& level, const Batch<D>& batch, const Boxes<D>& boxes, const
   sums.add(footprint, batch.count, brought);
 }
 
-/// What lies in the cells of a row side by side.
+/// The contents of consecutive cells of a row, one per lane.
 template <int D>
 struct Contained {
   Lanes mass, internalEnergy;
@@ -194,8 +194,8 @@ struct Contained {
   }
 };
 
-/// The box of a new particle: its cell, but where the next cell is empty only as far as the gas reaches, so that gas
-/// does not spread into a vacuum by a cell with every remap. No thinner than a tenth of the cell.
+/// The box of a new particle: its cell or, next to an empty cell, the part of it that the gas reaches, so that gas does
+/// not spread into a vacuum by a cell with every remap. At least a tenth of the cell wide.
 template <int D>
 struct NewBox {
   Vec<D> centre, edges;
@@ -222,9 +222,10 @@ struct NewBox {
   }
 };
 
+/// The particle of a cell: what its parts hold together, in the box `NewBox`.
 template <int D>
-void addParticle(const Level& level, CellView<const double> mass, const Index<D>& cell, const Contained<D>& contained,
-                 int lane, NewBoxes<D>& fresh) {
+GasBox<D> boxOf(const Level& level, CellView<const double> mass, const Index<D>& cell, const Contained<D>& contained,
+                int lane) {
   Vec<D> v, offset;
   Modes<D> modes;
   for (int d = 0; d < D; ++d) {
@@ -234,39 +235,41 @@ void addParticle(const Level& level, CellView<const double> mass, const Index<D>
   }
   const NewBox<D> box(level, mass, cell, offset);
   const double within = contained.within[lane], affine = std::min(within, modalEnergy<D>(modes, box.inertia));
-  fresh.maker.add(cell, level.cellNumber(cell) * idsOfCell);
-  fresh.x.push_back(box.centre);
-  fresh.edges.push_back(box.edges);
-  fresh.mass.push_back(contained.mass[lane]);
-  fresh.velocity.push_back(v);
-  fresh.modes.push_back(modes);
-  fresh.internalEnergy.push_back(contained.internalEnergy[lane] + (within - affine));
-  fresh.affineEnergy.push_back(affine);
+  return {.id = level.cellNumber(cell) * idsOfCell,
+          .x = box.centre,
+          .edges = box.edges,
+          .mass = contained.mass[lane],
+          .velocity = v,
+          .modes = modes,
+          .internalEnergy = contained.internalEnergy[lane] + (within - affine),
+          .affineEnergy = affine};
 }
 
 }  // namespace
 
 template <int D>
-void remap(const Patch& patch, const Boxes<D>& boxes, CellView<const double> mass, CellView<const double> energy,
-           NewBoxes<D> fresh) {
+void remap(const Patch& patch, const OldBoxes<D>& old, CellView<const double> mass, CellView<const double> energy,
+           ParticleMaker& maker, const NewBoxes<D>& fresh) {
   const Level& level = patch.level();
-  Contents<D> contents(boxes.x.cells());
+  Contents<D> contents(old.x.cells());
   contents.copy(0, mass);
   contents.copy(1, energy);
-  typename CellSums<D>::Fields sums(boxes.x.cells());
-  forEachBatch<D>(boxes.x.cells(), boxes.x,
-                  [&](const Batch<D>& batch) { cut<D>(level, batch, boxes, contents, sums); });
+  typename CellSums<D>::Fields sums(old.x.cells());
+  forEachBatch<D>(old.x.cells(), old.x, [&](const Batch<D>& batch) { cut<D>(level, batch, old, contents, sums); });
   sums.finish();
   forEach<D>(patch.cells(), [&](Index<D> cell) {
     if ((cell[0] - patch.cells().lower[0]) % Lanes::count != 0) return;
     const Contained<D> contained(sums, cell);
     for (int lane = 0; lane < Lanes::count && cell[0] < patch.cells().upper[0]; ++lane, ++cell[0])
-      if (contained.mass[lane] > 0) addParticle<D>(level, mass, cell, contained, lane, fresh);
+      if (contained.mass[lane] > 0) fresh.add(maker, cell, boxOf<D>(level, mass, cell, contained, lane));
   });
 }
 
-template void remap<1>(const Patch&, const Boxes<1>&, CellView<const double>, CellView<const double>, NewBoxes<1>);
-template void remap<2>(const Patch&, const Boxes<2>&, CellView<const double>, CellView<const double>, NewBoxes<2>);
-template void remap<3>(const Patch&, const Boxes<3>&, CellView<const double>, CellView<const double>, NewBoxes<3>);
+template void remap<1>(const Patch&, const OldBoxes<1>&, CellView<const double>, CellView<const double>, ParticleMaker&,
+                       const NewBoxes<1>&);
+template void remap<2>(const Patch&, const OldBoxes<2>&, CellView<const double>, CellView<const double>, ParticleMaker&,
+                       const NewBoxes<2>&);
+template void remap<3>(const Patch&, const OldBoxes<3>&, CellView<const double>, CellView<const double>, ParticleMaker&,
+                       const NewBoxes<3>&);
 
 }  // namespace tushar::mpm::gas::conserving

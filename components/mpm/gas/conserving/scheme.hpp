@@ -6,16 +6,16 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// How particles get their velocity back from the grid.
+/// How particles take their velocity from the grid's.
 enum class Transfer {
-  apic,       ///< all of it, with its gradient: Jiang et al., ACM Trans. Graph. 34 (2015) 51
-  affineFlip  ///< its change, where the gas is smooth; all of it at shocks
+  apic,       ///< it replaces theirs, with its gradient: Jiang et al., ACM Trans. Graph. 34 (2015) 51
+  affineFlip  ///< its change is added to theirs where the gas is smooth; as apic at shocks
 };
 
 /// When particles are replaced by one per cell.
 struct Remap {
   int every = 4;             ///< steps
-  double overfilled = 0.02;  ///< or when a cell holds this share more than its volume
+  double overfilled = 0.02;  ///< or when gas fills a cell by more than 1 + this share of its volume
 };
 
 /// The `conserving_gas_dynamics` section.
@@ -29,7 +29,7 @@ struct ConservingGasDynamics {
   std::optional<Remap> remap;
 };
 
-/// What differs between the two transfers, known when the bodies are compiled.
+/// Compile-time differences between the two transfers.
 struct Apic {
   static constexpr Transfer transfer = Transfer::apic;
   static constexpr double faceTime = 1.0;     ///< faces move with v + faceTime dt a

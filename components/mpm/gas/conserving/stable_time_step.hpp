@@ -8,8 +8,8 @@
 namespace tushar::mpm::gas::conserving {
 
 /// dt <= 0.4 over the rates at which cells are compressed, -div v, cool by expansion, (gamma - 1) div v, and are
-/// stretched along an axis, |dv_d/dx_d|: no box doubles, no cell loses half its volume or energy. Where there is no gas
-/// yet the rates count half: a front moves into an empty cell by at most .8 of it.
+/// stretched along an axis, |dv_d/dx_d|: no box doubles its length, no cell loses half its volume or energy. In cells
+/// without gas the rates count half: a front moves by at most .8 of the width of an empty cell.
 template <int D>
 void limitDeformation(const Patch& patch, const Gas& gas, CellView<const double> mass,
                       CellView<const Tensor<D>> gradient, Minimum& dt) {
@@ -40,8 +40,8 @@ void computeStableTimeStep(const Patch& patch, const Gas& gas, const ConservingG
 
 /// The greatest speed of signals in a cell relative to its gas [m/s], 1.25 (q + sqrt(q² + c²)) with q = 1.4 |Delta|,
 /// Delta the velocity difference over the cell: shocks are faster than sound. The form is that of D. J. Benson, Comput.
-/// Methods Appl. Mech. Eng. 99 (1992) 235; the factors are such that a gas that moves has hardly more of an error than
-/// one at rest, and one at rest that of |v| + c alone.
+/// Methods Appl. Mech. Eng. 99 (1992) 235; with these factors a moving gas has hardly a greater error than one at rest,
+/// and one at rest has that of |v| + c alone.
 template <int D>
 double signalInCell(const Level& level, const Tensor<D>& gradient, double soundSpeedSquared) {
   const double q = 1.4 * level.minSpacing() * std::abs(gradient.trace());
@@ -65,7 +65,7 @@ void measureSignals(const Patch& patch, const Gas& gas, ParticleView<const Vec<D
 }
 
 /// dt = cfl h over the lesser of the two speeds of measureSignals, and limitDeformation. Boxes move with the gas, so
-/// that signals relative to it are what must not run too far; where it moves slowly |v| + c is the closer bound.
+/// only signals relative to the gas need a limit; where the gas is slow, |v| + c is the sharper bound.
 template <int D>
 void computeAcousticTimeStep(const Patch& patch, const Gas& gas, const ConservingGasDynamics& method,
                              CellView<const double> mass, CellView<const Tensor<D>> gradient, double pastGrid,

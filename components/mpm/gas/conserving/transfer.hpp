@@ -5,7 +5,7 @@
 #include "components/mpm/gas/conserving/labels.hpp"
 #include "components/mpm/gas/conserving/scheme.hpp"
 #include "components/mpm/gas/material.hpp"
-#include "components/mpm/gas/symmetry.hpp"
+#include "components/mpm/gas/symmetry_planes.hpp"
 
 namespace tushar::mpm::gas::conserving {
 
@@ -18,7 +18,7 @@ typename Footprint<D>::template Field<D - 1> fieldOf(const LanesVec<D>& velocity
   return field;
 }
 
-/// Mass and momentum at nodes; mass, internal energy and volume in cells: sums over the boxes that overlap them.
+/// Sums over boxes: mass and momentum at nodes; mass, internal energy and volume in cells.
 template <int D>
 struct Gathering {
   GridSums<D, 1 + D, 1> nodes;
@@ -50,73 +50,86 @@ struct Gathering {
   }
 };
 
+/// Particles, and the state of the grid that is gathered from them.
+template <int D>
+struct ParticlesToGrid {
+  ParticleView<const Vec<D>> x, edges;
+  ParticleView<const double> mass;
+  ParticleView<const Vec<D>> velocity;
+  ParticleView<const Modes<D>> modes;
+  ParticleView<const double> internalEnergy;
+  NodeView<double> nodeMass;
+  NodeView<Vec<D>> nodeVelocity;
+  CellView<double> cellMass, cellInternalEnergy;
+
+  static ParticlesToGrid from(auto& take) {
+    constexpr int reach = Footprint<D>::reach;
+    return {.x = take(requiresNew(p::x<D>, reach)),
+            .edges = take(requiresNew(p::edges<D>, reach)),
+            .mass = take(requiresNew(p::mass, reach)),
+            .velocity = take(requiresNew(p::velocity<D>, reach)),
+            .modes = take(requiresNew(p::modes<D>, reach)),
+            .internalEnergy = take(requiresNew(p::internalEnergy, reach)),
+            .nodeMass = take(computes(g::mass)),
+            .nodeVelocity = take(computes(g::velocity<D>)),
+            .cellMass = take(computes(c::mass)),
+            .cellInternalEnergy = take(computes(c::internalEnergy))};
+  }
+};
+
 /// m_i = sum w m,   v_i = sum w m u(x_i) / m_i on the patch's nodes,   M_c = sum o m,   IE_c = sum o m e in its cells;
 /// w and o as in Footprint, u the velocity of the particle's modes. Symmetry planes: no normal velocity.
-/// `visitFill(cell, volume)` is told the volume of the boxes in each cell.
+/// Calls `visitFill(cell, volume)` with the volume of the boxes in each cell.
 template <int D, class Visit>
-void gatherOnGrid(const Patch& patch, ParticleView<const Vec<D>> x, ParticleView<const Vec<D>> edges,
-                  ParticleView<const double> mass, ParticleView<const Vec<D>> velocity,
-                  ParticleView<const Modes<D>> modes, ParticleView<const double> internalEnergy,
-                  NodeView<double> nodeMass, NodeView<Vec<D>> nodeVelocity, CellView<double> cellMass,
-                  CellView<double> cellInternalEnergy, Visit&& visitFill) {
-  Gathering<D> sums(x.cells());
-  forEachBatch<D>(x.cells(), x, [&](const Batch<D>& batch) {
-    const LanesVec<D> size = load(edges, batch);
-    const Footprint<D> footprint(patch.level(), batch, load(x, batch), size);
-    const Lanes m = batch.only(load(mass, batch));
-    sums.add(batch, footprint, m, m * load(internalEnergy, batch), batch.only(size.prod()),
-             fieldOf<D>(load(velocity, batch), load(modes, batch)));
+void gatherOnGrid(const Patch& patch, const ParticlesToGrid<D>& t, Visit&& visitFill) {
+  Gathering<D> sums(t.x.cells());
+  forEachBatch<D>(t.x.cells(), t.x, [&](const Batch<D>& batch) {
+    const LanesVec<D> size = load(t.edges, batch);
+    const Footprint<D> footprint(patch.level(), batch, load(t.x, batch), size);
+    const Lanes m = batch.only(load(t.mass, batch));
+    sums.add(batch, footprint, m, m * load(t.internalEnergy, batch), batch.only(size.prod()),
+             fieldOf<D>(load(t.velocity, batch), load(t.modes, batch)));
   });
   sums.finish();
-  forEach<D>(cellMass.box(), [&](const Index<D>& cell) {
-    cellMass[cell] = sums.cells.at(0, cell);
-    cellInternalEnergy[cell] = sums.cells.at(1, cell);
+  forEach<D>(t.cellMass.box(), [&](const Index<D>& cell) {
+    t.cellMass[cell] = sums.cells.at(0, cell);
+    t.cellInternalEnergy[cell] = sums.cells.at(1, cell);
     visitFill(cell, sums.cells.at(2, cell));
   });
-  forEach<D>(nodeMass.box(), [&](const Index<D>& node) {
+  forEach<D>(t.nodeMass.box(), [&](const Index<D>& node) {
     const double m = sums.nodes.at(0, node), inverse = m > 0 ? 1 / m : 0;
-    nodeMass[node] = m;
-    for (std::size_t d = 0; d < D; ++d) nodeVelocity[node][static_cast<int>(d)] = inverse * sums.nodes.at(d + 1, node);
+    t.nodeMass[node] = m;
+    for (std::size_t d = 0; d < D; ++d)
+      t.nodeVelocity[node][static_cast<int>(d)] = inverse * sums.nodes.at(d + 1, node);
   });
-  stopAtSymmetryPlanes<D>(patch, nodeVelocity);
+  stopAtSymmetryPlanes<D>(patch, t.nodeVelocity);
 }
 
 /// gatherOnGrid alone.
 template <int D>
-void interpolateParticlesToGrid(const Patch& patch, const Gas&, ParticleView<const Vec<D>> x,
-                                ParticleView<const Vec<D>> edges, ParticleView<const double> mass,
-                                ParticleView<const Vec<D>> velocity, ParticleView<const Modes<D>> modes,
-                                ParticleView<const double> internalEnergy, NodeView<double> nodeMass,
-                                NodeView<Vec<D>> nodeVelocity, CellView<double> cellMass,
-                                CellView<double> cellInternalEnergy) {
-  gatherOnGrid<D>(patch, x, edges, mass, velocity, modes, internalEnergy, nodeMass, nodeVelocity, cellMass,
-                  cellInternalEnergy, [](const Index<D>&, double) {});
+void interpolateParticlesToGrid(const Patch& patch, const Gas&, const ParticlesToGrid<D>& transfer) {
+  gatherOnGrid<D>(patch, transfer, [](const Index<D>&, double) {});
 }
 
 /// gatherOnGrid, and the volume of the boxes in each cell over the cell's own: 1 where they tile the gas.
 template <int D>
-void interpolateAndMeasureFill(const Patch& patch, const Gas&, ParticleView<const Vec<D>> x,
-                               ParticleView<const Vec<D>> edges, ParticleView<const double> mass,
-                               ParticleView<const Vec<D>> velocity, ParticleView<const Modes<D>> modes,
-                               ParticleView<const double> internalEnergy, NodeView<double> nodeMass,
-                               NodeView<Vec<D>> nodeVelocity, CellView<double> cellMass,
-                               CellView<double> cellInternalEnergy, CellView<double> fill, Maximum& greatest) {
+void interpolateAndMeasureFill(const Patch& patch, const Gas&, const ParticlesToGrid<D>& transfer,
+                               CellView<double> fill, Maximum& greatest) {
   double inverse = 1;
   for (int d = 0; d < D; ++d) inverse *= patch.level().inverseSpacing(d);
-  gatherOnGrid<D>(patch, x, edges, mass, velocity, modes, internalEnergy, nodeMass, nodeVelocity, cellMass,
-                  cellInternalEnergy, [&](const Index<D>& cell, double volume) {
-                    fill[cell] = volume * inverse;
-                    greatest.add(fill[cell]);
-                  });
+  gatherOnGrid<D>(patch, transfer, [&](const Index<D>& cell, double volume) {
+    fill[cell] = volume * inverse;
+    greatest.add(fill[cell]);
+  });
 }
 
-/// What particles take from the nodes on a line (Axis = 0), a plane, or all of their footprint (Axis = D - 1): sums
-/// with the weights along these axes; (E1)-(E3) of updateParticles.
+/// Sums of (E1)-(E3) of updateParticles over the nodes on a line (Axis = 0), on a plane, or of the whole footprint
+/// (Axis = D - 1), with the weights along these axes.
 template <int D, int Axis>
 struct Gathered {
   std::array<LanesVec<D>, (1 << (Axis + 1))> moments;  ///< y phi_a
-  std::array<LanesVec<D>, Axis + 1> lower, upper;      ///< velocity with which the faces across each axis move, m/s
-  LanesVec<D> moving = LanesVec<D>::Zero();            ///< the same velocity over all of it
+  std::array<LanesVec<D>, Axis + 1> lower, upper;      ///< velocity of the faces across each axis, m/s
+  LanesVec<D> moving = LanesVec<D>::Zero();            ///< mean of that velocity over the nodes, m/s
   Lanes slipEnergy = 0;                                ///< beta (2 - beta) |r|² / 2, J/kg
   Lanes square = 0;                                    ///< |y|², J/kg
 
@@ -138,25 +151,61 @@ struct Gathered {
   }
 };
 
-/// The fields that particles are updated from: v and dt a at nodes along each axis, beta at nodes, f in cells.
+/// Grid fields that update particles: v and dt a at nodes along each axis, beta at nodes, f in cells.
 template <int D>
 struct Motion : GridFields<D, 2 * D + 2> {
   static constexpr std::size_t change = D, relaxation = 2 * D, work = 2 * D + 1;
   using GridFields<D, 2 * D + 2>::GridFields;
 };
 
+/// What updateParticles reads and writes.
 template <int D>
-Motion<D> motionOn(const Patch& patch, NodeView<const Vec<D>> velocity, NodeView<const Vec<D>> acceleration,
-                   NodeView<const double> relaxation, CellView<const double> work, double dt) {
+struct ParticleUpdate {
+  // Particles at the start of the step.
+  ParticleView<const Vec<D>> x, edges, velocity;
+  ParticleView<const Modes<D>> modes;
+  ParticleView<const double> internalEnergy, affineEnergy;
+  // The grid.
+  NodeView<const Vec<D>> nodeVelocity, acceleration;
+  NodeView<const double> relaxation;
+  CellView<const double> work;
+  // Particles at the end of the step.
+  ParticleView<Vec<D>> newX, newEdges, newVelocity;
+  ParticleView<Modes<D>> newModes;
+  ParticleView<double> newInternalEnergy, newAffineEnergy;
+
+  static ParticleUpdate from(auto& take) {
+    constexpr int overhang = Footprint<D>::overhang;
+    return {.x = take(requiresOld(p::x<D>)),
+            .edges = take(requiresOld(p::edges<D>)),
+            .velocity = take(requiresOld(p::velocity<D>)),
+            .modes = take(requiresOld(p::modes<D>)),
+            .internalEnergy = take(requiresOld(p::internalEnergy)),
+            .affineEnergy = take(requiresOld(p::affineEnergy)),
+            .nodeVelocity = take(requiresOld(g::velocity<D>, overhang)),
+            .acceleration = take(requiresNew(g::acceleration<D>, overhang)),
+            .relaxation = take(requiresNew(g::relaxation, overhang)),
+            .work = take(requiresNew(c::work, overhang)),
+            .newX = take(computes(p::x<D>)),
+            .newEdges = take(computes(p::edges<D>)),
+            .newVelocity = take(computes(p::velocity<D>)),
+            .newModes = take(computes(p::modes<D>)),
+            .newInternalEnergy = take(computes(p::internalEnergy)),
+            .newAffineEnergy = take(computes(p::affineEnergy))};
+  }
+};
+
+template <int D>
+Motion<D> motionOn(const Patch& patch, const ParticleUpdate<D>& update, double dt) {
   Motion<D> motion(patch.cells());
-  forEach<D>(velocity.box(), [&](const Index<D>& node) {
+  forEach<D>(update.nodeVelocity.box(), [&](const Index<D>& node) {
     for (int d = 0; d < D; ++d) {
-      motion.at(static_cast<std::size_t>(d), node) = velocity[node][d];
-      motion.at(Motion<D>::change + static_cast<std::size_t>(d), node) = dt * acceleration[node][d];
+      motion.at(static_cast<std::size_t>(d), node) = update.nodeVelocity[node][d];
+      motion.at(Motion<D>::change + static_cast<std::size_t>(d), node) = dt * update.acceleration[node][d];
     }
   });
-  motion.copy(Motion<D>::relaxation, relaxation);
-  motion.copy(Motion<D>::work, work);
+  motion.copy(Motion<D>::relaxation, update.relaxation);
+  motion.copy(Motion<D>::work, update.work);
   return motion;
 }
 
@@ -239,7 +288,7 @@ Lanes workOn(const Footprint<D>& footprint, const Reader<D>& read) {
   return footprint.sumOverParts([&](const Index<D>& k, const Lanes& part) { return part * read(Motion<D>::work, k); });
 }
 
-/// Asks for a smaller time step where a box would shrink to less than .4 of its length or become longer than `most`.
+/// Demands a smaller time step where a box would shrink to less than .4 of its length or become longer than `most`.
 template <int D>
 void limitEdges(const Batch<D>& batch, const Lanes& before, const Lanes& after, double most, Minimum& factor) {
   if (all((after > 0.4 * before) & (after < most), batch.count)) return;
@@ -250,7 +299,7 @@ void limitEdges(const Batch<D>& batch, const Lanes& before, const Lanes& after, 
   }
 }
 
-/// Asks for a smaller time step where work would take more than .8 of the internal energy, or the new one be negative.
+/// Demands a smaller time step where work would take more than .8 of the internal energy, or make it negative.
 template <int D>
 void limitCooling(const Batch<D>& batch, const Lanes& work, const Lanes& energy, Minimum& factor) {
   if (all((work > -0.8) & (energy >= 0), batch.count)) return;
@@ -268,25 +317,18 @@ void limitCooling(const Batch<D>& batch, const Lanes& work, const Lanes& energy,
 ///   (E2) new affine energy  K_A = 1/2 sum over a of I_a |u_a|²;  apic: (<|y|²> - |u_0|²) / 2
 ///   (E3) new e = e (1 + sum o_c f_c) + K_A,old - K_old + <beta (2 - beta) |r|²> / 2 + (<|y|²> - |u_0|²) / 2 - K_A
 /// so that the kinetic energy that a transfer loses becomes heat. Each face moves with the mean of its normal velocity
-/// v + dt a / 2 (apic: v + dt a). A step that limitEdges or limitCooling refuses is to be repeated with `factor` times
-/// dt.
+/// v + dt a / 2 (apic: v + dt a). A step that limitEdges or limitCooling refuses is repeated with `factor` times dt.
 template <int D, class Scheme>
-void updateParticles(const Patch& patch, const Gas&, ParticleView<const Vec<D>> x, ParticleView<const Vec<D>> edges,
-                     ParticleView<const Vec<D>> velocity, ParticleView<const Modes<D>> modes,
-                     ParticleView<const double> internalEnergy, ParticleView<const double> affineEnergy,
-                     NodeView<const Vec<D>> nodeVelocity, NodeView<const Vec<D>> acceleration,
-                     NodeView<const double> relaxation, CellView<const double> work, double dt,
-                     ParticleView<Vec<D>> newX, ParticleView<Vec<D>> newEdges, ParticleView<Vec<D>> newVelocity,
-                     ParticleView<Modes<D>> newModes, ParticleView<double> newInternalEnergy,
-                     ParticleView<double> newAffineEnergy, Minimum& factor) {
+void updateParticles(const Patch& patch, const Gas&, const ParticleUpdate<D>& update, double dt, Minimum& factor) {
   constexpr bool apic = Scheme::transfer == Transfer::apic;
-  const Motion<D> motion = motionOn<D>(patch, nodeVelocity, acceleration, relaxation, work, dt);
-  forEachBatch<D>(patch.cells(), x, [&](const Batch<D>& batch) {
-    const Footprint<D> footprint(patch.level(), batch, load(x, batch), load(edges, batch));
-    const LanesModes<D> u = load(modes, batch);
+  const Motion<D> motion = motionOn<D>(patch, update, dt);
+  forEachBatch<D>(patch.cells(), update.x, [&](const Batch<D>& batch) {
+    const Footprint<D> footprint(patch.level(), batch, load(update.x, batch), load(update.edges, batch));
+    const LanesModes<D> u = load(update.modes, batch);
     const Reader<D> read{motion, {motion, footprint.first(), batch.count}};
     Index<D> at;
-    const auto taken = gatherFromNodes<D, Scheme, D - 1>(footprint, at, read, fieldOf<D>(load(velocity, batch), u));
+    const auto taken =
+        gatherFromNodes<D, Scheme, D - 1>(footprint, at, read, fieldOf<D>(load(update.velocity, batch), u));
     const LanesVec<D> mean = taken.moments[0], inertia = footprint.inertia();
     const auto products = productsOver(inertia);
     LanesModes<D> fresh = LanesModes<D>::Zero();
@@ -305,16 +347,16 @@ void updateParticles(const Patch& patch, const Gas&, ParticleView<const Vec<D>> 
         fresh.col(static_cast<int>(a) - 1) = taken.moments[a] / products[a];
     const Lanes within = max(0.0, 0.5 * (taken.square - mean.squaredNorm()));
     const Lanes affine = apic ? within : min(within, modalEnergy<D>(fresh, inertia));
-    store(centre, newX, batch);
-    store(size, newEdges, batch);
-    store(mean, newVelocity, batch);
-    store(fresh, newModes, batch);
-    store(affine, newAffineEnergy, batch);
+    store(centre, update.newX, batch);
+    store(size, update.newEdges, batch);
+    store(mean, update.newVelocity, batch);
+    store(fresh, update.newModes, batch);
+    store(affine, update.newAffineEnergy, batch);
     const Lanes done = workOn(footprint, read);
-    const Lanes energy = load(internalEnergy, batch) * (1 + done) + load(affineEnergy, batch) -
+    const Lanes energy = load(update.internalEnergy, batch) * (1 + done) + load(update.affineEnergy, batch) -
                          modalEnergy<D>(u, inertia) + taken.slipEnergy + (within - affine);
     limitCooling(batch, done, energy, factor);
-    store(energy, newInternalEnergy, batch);
+    store(energy, update.newInternalEnergy, batch);
   });
 }
 

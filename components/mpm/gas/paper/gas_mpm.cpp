@@ -14,13 +14,14 @@
 
 namespace tushar::mpm::gas::paper {
 
+/// The state at t_0, complete with p_p and m_p: a step reads both from its start.
 template <int D>
 void GasMpm<D>::scheduleInitialize(TaskList& tasks) const {
   tasks.newParticles("mpm::createParticles", createParticles<D>, materials_, creates(p::x<D>), creates(p::velocity<D>),
                      creates(p::density), creates(p::internalEnergy));
   tasks.perMaterial("mpm::computePressure", computeInitialPressure<D>, materials_, requiresNew(p::density),
                     requiresNew(p::internalEnergy), computes(p::pressure));
-  tasks.perMaterial("mpm::shareCellVolume", shareCellVolume<D>, materials_, requiresNew(p::density), computes(p::mass));
+  scheduleShareCellVolume(tasks);
 }
 
 template <int D>
@@ -29,37 +30,45 @@ void GasMpm<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
                     requiresOld(p::velocity<D>), requiresOld(p::internalEnergy), computes(delT));
 }
 
+/// A step from t_n to t_n+1, with the equations of the paper. `requiresOld` is the state at t_n, `requiresNew` what the
+/// step has computed. The paper assigns particle masses at the start of a step, this list at its end, to the same
+/// effect.
 template <int D>
 void GasMpm<D>::scheduleTimeAdvance(TaskList& tasks) const {
-  scheduleInterpolateParticlesToGrid(tasks);
-  scheduleComputeInternalForce(tasks);
-  scheduleComputeAndIntegrateAcceleration(tasks);
-  scheduleUpdateParticles(tasks);
-  scheduleRelaxEnergy(tasks, materials_);
-  tasks.relocate(p::x<D>, materials_);
-  if (method_.redistribute) scheduleRedistribute(tasks);
-  if (method_.densityFilter) scheduleFilterDensity(tasks);
-  scheduleComputePressure(tasks);
+  scheduleInterpolateParticlesToGrid(tasks);                // (6)-(8)    m_i, v_i of t_n
+  scheduleComputeInternalForce(tasks);                      // (9)        F_i from p_p of t_n
+  scheduleComputeAndIntegrateAcceleration(tasks);           // (10)-(11)  a_i of t_n, v_i of t_n+1
+  scheduleUpdateParticles(tasks);                           // (12)-(15)  v_p, x_p, eps_p, rho_p of t_n+1
+  scheduleRelaxEnergy(tasks, materials_);                   //            a source of heat, where the scene has one
+  tasks.relocate(p::x<D>, materials_);                      //            particles move to their new cells
+  if (method_.redistribute) scheduleRedistribute(tasks);    //            particles of crowded and of sparse cells
+  if (method_.densityFilter) scheduleFilterDensity(tasks);  // (18)       rho_p, smoothed where it has an extremum
+  scheduleComputePressure(tasks);                           // (16)       p_p of t_n+1
+  if (!conserves()) scheduleShareCellVolume(tasks);         // (4)-(5)    m_p of t_n+1
 }
 
+/// (6)-(8)
 template <int D>
 void GasMpm<D>::scheduleInterpolateParticlesToGrid(TaskList& tasks) const {
-  tasks.perMaterial("mpm::interpolateParticlesToGrid", interpolateParticlesToGrid<Shape>, materials_,
-                    requiresOld(p::x<D>, Shape::reach), requiresOld(p::mass, Shape::reach),
-                    requiresOld(p::velocity<D>, Shape::reach), computes(g::mass), computes(g::velocity<D>));
+  tasks.perMaterial("mpm::interpolateParticlesToGrid", interpolateParticlesToGrid<D>, materials_,
+                    requiresOld(p::x<D>, reach), requiresOld(p::mass, reach), requiresOld(p::velocity<D>, reach),
+                    computes(g::mass), computes(g::velocity<D>));
 }
 
+/// (9). The pressure p_p is that of the state at t_n, at which the step before ended with (16): the paper's (11) calls
+/// the acceleration that follows from it a_i^n.
 template <int D>
 void GasMpm<D>::scheduleComputeInternalForce(TaskList& tasks) const {
   if (conserves())
-    tasks.perMaterial("mpm::computeInternalForce", computeInternalForceOfVolumes<Shape>, materials_,
-                      requiresOld(p::pressure, Shape::reach), requiresOld(p::mass, Shape::reach),
-                      requiresOld(p::density, Shape::reach), computes(g::internalForce<D>));
+    tasks.perMaterial("mpm::computeInternalForce", computeInternalForceOfVolumes<D>, materials_,
+                      requiresOld(p::pressure, reach), requiresOld(p::mass, reach), requiresOld(p::density, reach),
+                      computes(g::internalForce<D>));
   else
-    tasks.perMaterial("mpm::computeInternalForce", computeInternalForce<Shape>, materials_,
-                      requiresOld(p::pressure, Shape::reach), computes(g::internalForce<D>));
+    tasks.perMaterial("mpm::computeInternalForce", computeInternalForce<D>, materials_, requiresOld(p::pressure, reach),
+                      computes(g::internalForce<D>));
 }
 
+/// (10)-(11), and the boundary conditions of a_i and of v_i at t_n+1.
 template <int D>
 void GasMpm<D>::scheduleComputeAndIntegrateAcceleration(TaskList& tasks) const {
   tasks.perMaterial("mpm::computeAndIntegrateAcceleration", computeAndIntegrateAcceleration<D>, materials_,
@@ -69,41 +78,21 @@ void GasMpm<D>::scheduleComputeAndIntegrateAcceleration(TaskList& tasks) const {
                     modifies(g::acceleration<D>), modifies(g::velocityStar<D>));
 }
 
+/// (12)-(15)
 template <int D>
 void GasMpm<D>::scheduleUpdateParticles(TaskList& tasks) const {
-  if (conserves())
-    tasks.perMaterial("mpm::updateParticles", updateParticlesConserving<Shape>, materials_, requiresOld(p::x<D>),
-                      requiresOld(p::velocity<D>), requiresOld(p::mass), requiresOld(p::density),
-                      requiresOld(p::internalEnergy), requiresOld(p::pressure), requiresNew(g::acceleration<D>),
-                      requiresNew(g::velocityStar<D>), requiresOld(delT), computes(p::x<D>), computes(p::velocity<D>),
-                      computes(p::density), computes(p::internalEnergy), computes(p::velocityDivergence));
-  else
-    tasks.perMaterial("mpm::updateParticles", updateParticles<Shape>, materials_, requiresOld(p::x<D>),
-                      requiresOld(p::velocity<D>), requiresOld(p::density), requiresOld(p::internalEnergy),
-                      requiresOld(p::pressure), requiresNew(g::acceleration<D>), requiresNew(g::velocityStar<D>),
-                      requiresOld(delT), computes(p::x<D>), computes(p::velocity<D>), computes(p::density),
-                      computes(p::internalEnergy), computes(p::velocityDivergence));
+  tasks.perMaterial("mpm::updateParticles", conserves() ? updateParticlesConserving<D> : updateParticles<D>, materials_,
+                    all<ParticleUpdate<D>>(conserves()), requiresOld(delT));
 }
 
 template <int D>
 void GasMpm<D>::scheduleRedistribute(TaskList& tasks) const {
-  const int reach = method_.redistribute->mode == Redistribution::Mode::reseed ? 1 : 0;
-  if (conserves())
-    tasks.newParticles("mpm::redistribute", redistributeTracked<D>, materials_, with(*method_.redistribute),
-                       requiresNew(data::particleId, reach), requiresNew(p::x<D>, reach),
-                       requiresNew(p::velocity<D>, reach), requiresNew(p::mass, reach), requiresNew(p::density, reach),
-                       requiresNew(p::internalEnergy, reach), requiresNew(p::velocityDivergence, reach),
-                       creates(p::x<D>), creates(p::velocity<D>), creates(p::mass), creates(p::density),
-                       creates(p::internalEnergy), creates(p::velocityDivergence));
-  else
-    tasks.newParticles("mpm::redistribute", redistribute<D>, materials_, with(*method_.redistribute),
-                       requiresNew(data::particleId, reach), requiresNew(p::x<D>, reach),
-                       requiresNew(p::velocity<D>, reach), requiresNew(p::density, reach),
-                       requiresNew(p::internalEnergy, reach), requiresNew(p::velocityDivergence, reach),
-                       creates(p::x<D>), creates(p::velocity<D>), creates(p::density), creates(p::internalEnergy),
-                       creates(p::velocityDivergence));
+  const int ghost = method_.redistribute->mode == Redistribution::Mode::reseed ? 1 : 0;
+  tasks.newParticles("mpm::redistribute", redistribute<D>, materials_, with(*method_.redistribute),
+                     all<OldParticles<D>>(conserves(), ghost), all<NewParticles<D>>(conserves()));
 }
 
+/// (18), of densities
 template <int D>
 void GasMpm<D>::scheduleFilterDensity(TaskList& tasks) const {
   tasks.perMaterial("mpm::averageDensity", averageDensity<D>, materials_, requiresNew(p::density),
@@ -112,14 +101,18 @@ void GasMpm<D>::scheduleFilterDensity(TaskList& tasks) const {
                     modifies(p::density));
 }
 
+/// (16)
 template <int D>
 void GasMpm<D>::scheduleComputePressure(TaskList& tasks) const {
   tasks.perMaterial("mpm::computePressure", computePressure<D>, materials_, with(method_.viscosity),
                     requiresNew(p::density), requiresNew(p::internalEnergy), requiresNew(p::velocityDivergence),
                     computes(p::pressure));
-  if (!conserves())
-    tasks.perMaterial("mpm::shareCellVolume", shareCellVolume<D>, materials_, requiresNew(p::density),
-                      computes(p::mass));
+}
+
+/// (4)-(5)
+template <int D>
+void GasMpm<D>::scheduleShareCellVolume(TaskList& tasks) const {
+  tasks.perMaterial("mpm::shareCellVolume", shareCellVolume<D>, materials_, requiresNew(p::density), computes(p::mass));
 }
 
 template <int D>
@@ -145,15 +138,12 @@ void GasMpm<D>::scheduleMeasureError(TaskList& tasks, const reference::GasRefere
                                      const reference::Clock& clock) const {
   tasks.perMaterial("mpm::measureParticleError", measureParticleError<D>, materials_, with(&exact), with(&clock),
                     requiresOld(p::x<D>), requiresOld(p::density), requiresOld(p::velocity<D>),
-                    requiresOld(p::internalEnergy), computes(reference::particleError.density),
-                    computes(reference::particleError.velocity), computes(reference::particleError.pressure),
-                    computes(reference::particleError.energy));
+                    requiresOld(p::internalEnergy), all<ErrorNorms>(&reference::particleError));
   tasks.perMaterial("mpm::measureCellError", measureCellError<D>, materials_, with(&exact), with(&clock),
                     requiresOld(p::density), requiresOld(p::velocity<D>), requiresOld(p::internalEnergy),
-                    computes(reference::cellError.density), computes(reference::cellError.velocity),
-                    computes(reference::cellError.pressure), computes(reference::cellError.energy));
-  tasks.perMaterial("mpm::projectMass", interpolateMassToGrid<Shape>, materials_, requiresOld(p::x<D>, Shape::reach),
-                    requiresOld(p::mass, Shape::reach), computes(g::mass));
+                    all<ErrorNorms>(&reference::cellError));
+  tasks.perMaterial("mpm::projectMass", interpolateMassToGrid<D>, materials_, requiresOld(p::x<D>, reach),
+                    requiresOld(p::mass, reach), computes(g::mass));
   tasks.perMaterial("mpm::measureNodeError", measureNodeError<D>, materials_, with(&exact), with(&clock),
                     requiresNew(g::mass), computes(reference::nodeError));
 }

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "components/mpm/gas/labels.hpp"
 #include "components/mpm/gas/material.hpp"
 #include "components/mpm/gas/paper/method.hpp"
-#include "components/mpm/labels.hpp"
 #include "components/mpm/shapes/linear.hpp"
 #include "components/reference/gas_solution.hpp"
 
@@ -10,7 +10,8 @@ namespace tushar::mpm::gas::paper {
 
 /// The Material Point Method of Tran, Kim & Berzins for gas dynamics in D dimensions.
 ///
-/// mpm.cpp is the schedule and reads as the method; the bodies of its tasks are in tasks/.
+/// gas_mpm.cpp is the schedule: task by task with the numbers of the paper's equations. The bodies of the tasks are in
+/// tasks/.
 template <int D>
 class GasMpm : public Component, public reference::GasSolution {
  public:
@@ -31,8 +32,10 @@ class GasMpm : public Component, public reference::GasSolution {
                             const reference::Clock& clock) const override;
 
  private:
-  using Shape = Linear<D>;
+  /// Cells beyond a patch whose particles touch its nodes.
+  static constexpr int reach = Linear<D>::reach;
 
+  /// Whether particles keep their mass, so that mass and energy are conserved, instead of (4)-(5).
   bool conserves() const { return method_.volumeModel == VolumeModel::tracked; }
   void scheduleInterpolateParticlesToGrid(TaskList& tasks) const;
   void scheduleComputeInternalForce(TaskList& tasks) const;
@@ -41,6 +44,7 @@ class GasMpm : public Component, public reference::GasSolution {
   void scheduleRedistribute(TaskList& tasks) const;
   void scheduleFilterDensity(TaskList& tasks) const;
   void scheduleComputePressure(TaskList& tasks) const;
+  void scheduleShareCellVolume(TaskList& tasks) const;
 
   GasDynamics method_;
   std::vector<Gas> materials_;

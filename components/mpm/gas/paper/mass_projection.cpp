@@ -13,15 +13,15 @@ namespace tushar::mpm::gas::paper {
 
 namespace {
 
-/// Cells beyond a patch whose particles are seen: the one across a face, and the one that its density leads to.
+/// Ghost cells: the one across a face, and the next, whose particles define the density in the former.
 constexpr int reach = 2;
 
-/// Exact for the cubic through the values at both ends and in the middle.
+/// Simpson's rule from the values at both ends and in the middle: exact for cubics.
 double simpson(double width, double first, double middle, double last) {
   return width / 6 * (first + 4 * middle + last);
 }
 
-/// The particles of a cell sorted by place, seen from cell `from`; none of a cell that is not on the grid.
+/// The particles of a cell sorted by place, which is measured from cell `from`; none for a cell outside the grid.
 std::vector<PlacedDensity> particlesOf(int cell, int from, const Level& level, ParticleView<const Vec<1>> x,
                                        ParticleView<const double> density) {
   std::vector<PlacedDensity> particles;
@@ -33,14 +33,14 @@ std::vector<PlacedDensity> particlesOf(int cell, int from, const Level& level, P
   return particles;
 }
 
-/// The density on a face, between a particle within and one beyond; that of the one within where there is no other.
+/// The density on a face between a particle within and one beyond; without one beyond, that of the particle within.
 double densityAt(double face, const std::optional<PlacedDensity>& beyond, const PlacedDensity& within) {
   if (!beyond || beyond->place == within.place) return within.density;
   const double part = (face - within.place) / (beyond->place - within.place);
   return within.density + part * (beyond->density - within.density);
 }
 
-/// What a cell has to do with its nodes; nothing of a cell without particles.
+/// The contribution of a cell to its nodes; none for a cell without particles.
 std::optional<CellProjection> projectionOf(int cell, const Level& level, ParticleView<const Vec<1>> x,
                                            ParticleView<const double> density) {
   const std::vector<PlacedDensity> here = particlesOf(cell, cell, level, x, density);
@@ -85,7 +85,7 @@ const input::Schema<Settings>& schema() {
   return schema;
 }
 
-/// Why the module has nothing to measure, or nothing.
+/// Why the module cannot measure this run; empty if it can.
 std::string misfit(const GasMpm<1>* mpm, const Level& level) {
   if (level.dimension() > 1)
     return fmt::format("works in one dimension, as its theorem does, and this grid has {}; take the module out",
@@ -113,7 +113,7 @@ CellProjection projectCell(const std::vector<PlacedDensity>& particles, const st
   CellProjection cell;
   for (const std::size_t node : {0, 1}) {
     const double slope = node == 0 ? -1 : 1;  // of S_i, times h
-    const auto shape = [&](double place) { return node == 0 ? 1 - place : place; };
+    const auto shape = [&](double place) { return Linear<1>::weights(Vec<1>(place))[node]; };
     double integral = 0, square = 0, sum = 0;
     for (std::size_t k = 1; k < line.size(); ++k) {
       const PlacedDensity &a = line[k - 1], &b = line[k];

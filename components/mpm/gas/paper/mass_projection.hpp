@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
+#include "components/mpm/gas/labels.hpp"
 #include "components/mpm/gas/material.hpp"
-#include "components/mpm/labels.hpp"
 #include "core/simulation/catalogue.hpp"
 
 namespace tushar::mpm::gas::paper {
@@ -12,12 +12,13 @@ namespace tushar::mpm::gas::paper {
 /// `massProjection`: how far the nodal mass m_i is from the integral of S_i rho, and the bound on it: (19)-(23) of
 /// Tran, Kim & Berzins. In one dimension, for `gas_dynamics` with `volume_model` cell_share.
 ///
-/// The density that the particles stand for is taken to be rho(x) = straight lines from particle to particle, constant
-/// beyond the last one beside an empty cell: so rho(x_p) = rho_p, which (19) asks for, at any time and without an
-/// exact solution. What particle densities themselves are wrong by is therefore no part of E_m^i.
+/// rho(x) is taken to be piecewise linear between the particles, and constant beyond the last one before an empty cell:
+/// so rho(x_p) = rho_p, as (19) requires, at any time and without an exact solution. E_m^i therefore excludes the error
+/// of the particle densities themselves.
 simulation::AnalysisKind massProjectionKind();
 
 namespace g {
+using namespace gas::g;
 inline constexpr NodeLabel<double> massProjectionError{
     "g.massProjectionError", "kg", "E_m^i: integral of shape function times density, less the mass from particles"};
 inline constexpr NodeLabel<double> massProjectionBound{"g.massProjectionBound", "kg", "what |E_m^i| cannot exceed"};
@@ -39,14 +40,14 @@ struct PlacedDensity {
 /// sqrt(1 / (12 N²) + 1/N sum_k (z_k - (2k-1)/(2N))²), (20) with z in [0,1]; Hickernell, Math. Comp. 67 (1998) 299.
 double discrepancy(const std::vector<PlacedDensity>& particles);
 
-/// What a cell has to do with the error of its lower and its upper node, over its volume [kg/m³].
+/// The contribution of a cell to the errors of its lower and its upper node, over its volume [kg/m³].
 struct CellProjection {
   std::array<double, 2> error{};  ///< one bracket of (22)
   std::array<double, 2> bound{};  ///< one term of (23); |d(rho S_i)/dx| at xi is its root mean square over the cell
 };
 
-/// Of a cell whose particles, sorted by place, are `particles`, at least one. `line` is the density along the cell:
-/// straight between its points, from place 0 to place 1.
+/// The contribution of a cell with at least one particle; `particles` are sorted by place. `line` is the density along
+/// the cell: piecewise linear between its points, from place 0 to place 1.
 CellProjection projectCell(const std::vector<PlacedDensity>& particles, const std::vector<PlacedDensity>& line);
 
 /// E_m^i and its bound at the nodes [kg], the greatest |E_m^i| over the cell volume [kg/m³] and over its bound. A node

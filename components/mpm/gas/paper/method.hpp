@@ -7,9 +7,9 @@
 
 namespace tushar::mpm::gas::paper {
 
-/// What volume, and so what mass, a particle stands for.
+/// The volume, and so the mass, that a particle represents.
 enum class VolumeModel {
-  cellShare,  ///< V_c / N_c anew in each step, as in the paper: neither mass nor energy is conserved
+  cellShare,  ///< V_c / N_c, (5) of the paper, in each step: neither mass nor energy is conserved
   tracked,    ///< its own: mass is constant, volume is mass over density; mass and total energy are conserved
 };
 

@@ -1,35 +1,35 @@
 #pragma once
 
+#include "components/mpm/gas/labels.hpp"
 #include "components/mpm/gas/material.hpp"
-#include "components/mpm/gas/mirrored.hpp"
-#include "components/mpm/labels.hpp"
+#include "components/mpm/gas/mirror_symmetry.hpp"
 #include "components/mpm/particles/ids.hpp"
 
 namespace tushar::mpm::gas {
 
-/// Throws InputError if another body of the gas claims the point, too.
+/// Throws InputError if another body of the gas also contains the point.
 void refuseOverlap(const Gas& gas, const GasObject& object, const Vec3& point);
 
-/// Says that a body has no particle on the grid.
+/// The message for a body without a particle on the grid.
 InputProblem emptyBody(const Level& level, const GasObject& object);
 
-/// Throws InputError unless density is positive, pressure not negative, and all of the state finite.
+/// Throws InputError unless the density is positive, the pressure not negative, and the whole state finite.
 void refuseImpossible(const GasObject& object, const Vec3& point, double density, double pressure,
                       const Vec3& velocity);
 
-/// A number in (0, 1) that follows from its arguments alone: the same on any patches, in any order of drawing.
-/// `place` counts the particles that a cell might hold.
+/// A random number in (0, 1) that depends on its arguments alone: neither on the patches nor on the order of calls.
+/// `place` numbers the particles that a cell could hold.
 double drawn(int seed, std::uint64_t cellNumber, int place, int axis);
 
-/// Where the particle of part k of `parts` along an axis stands in its cell: -1/2 is the lower face, 1/2 the upper.
-/// `draw()` gives a number in (0, 1).
+/// The coordinate of the particle in part k of `parts` along an axis of its cell: -1/2 is the lower face, 1/2 the
+/// upper. `draw()` returns a random number in (0, 1).
 template <class Draw>
 double placeInCell(Placement placement, int k, int parts, const Draw& draw) {
   if (placement == Placement::random) return draw() - 0.5;
   return (k - 0.5 * (parts - 1) + (placement == Placement::jittered ? draw() - 0.5 : 0.0)) / parts;
 }
 
-/// Calls `visit(x)` for each place [m] where a particle of the object would start in a cell; `place` counts them.
+/// Calls `visit(x)` for each position [m] where a particle of the object would start in a cell; `place` counts them.
 template <int D, class Visit>
 void forEachPlace(const Level& level, const GasObject& object, const Index<D>& cell, int& place, const Visit& visit) {
   Box places{{}, Index3::filled(1)};
@@ -46,7 +46,7 @@ void forEachPlace(const Level& level, const GasObject& object, const Index<D>& c
   });
 }
 
-/// Throws InputError for bodies that have no particle on the whole grid.
+/// Throws InputError for bodies without a particle on the whole grid.
 template <int D>
 void checkBodies(const Level& level, const Gas& gas) {
   std::vector<InputProblem> problems;
@@ -67,11 +67,11 @@ void checkBodies(const Level& level, const Gas& gas) {
 }
 
 /// Fills each body with its particles: `particlesPerCell` along each axis, in the middle of equal parts of the cell,
-/// x_p = (c + (k + 1/2) / N) h, or where the body's `placement` puts them, if its shape owns that point. They
-/// start with the body's state there.
+/// x_p = (c + (k + 1/2) / N) h, or where the body's `placement` puts them, if its shape owns that point. They have the
+/// body's state at that point.
 ///
 /// The id of a particle is its cell's number and its place in the cell, so that it does not depend on the patches.
-/// Throws InputError where two bodies claim the same point, and for a body without a particle on the grid.
+/// Throws InputError where two bodies contain the same point, and for a body without a particle on the grid.
 template <int D>
 void createParticles(const Patch& patch, const Gas& gas, ParticleMaker& maker, std::vector<Vec<D>>& x,
                      std::vector<Vec<D>>& velocity, std::vector<double>& density, std::vector<double>& internalEnergy) {

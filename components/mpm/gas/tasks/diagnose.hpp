@@ -1,7 +1,7 @@
 #pragma once
 
+#include "components/mpm/gas/labels.hpp"
 #include "components/mpm/gas/material.hpp"
-#include "components/mpm/labels.hpp"
 
 namespace tushar::mpm::gas {
 
@@ -64,7 +64,7 @@ inline void findLeast(const Patch&, const Gas&, ParticleView<const double> densi
   }
 }
 
-/// Sum of m (ln epsilon - (gamma - 1) ln rho) [kg]: entropy over c_v, but for a constant that the units decide.
+/// Sum of m (ln epsilon - (gamma - 1) ln rho) [kg]: entropy over c_v, up to a constant that depends on units.
 template <int D>
 void sumEntropy(const Patch& patch, const Gas& gas, ParticleView<const double> mass, ParticleView<const double> density,
                 ParticleView<const double> internalEnergy, Sum& entropy) {

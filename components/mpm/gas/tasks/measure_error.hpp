@@ -1,10 +1,29 @@
 #pragma once
 
+#include "components/mpm/gas/labels.hpp"
 #include "components/mpm/gas/material.hpp"
-#include "components/mpm/labels.hpp"
 #include "components/reference/gas_solution.hpp"
 
 namespace tushar::mpm::gas {
+
+/// Errors of a gas against exact values: one norm per field.
+struct ErrorNorms {
+  Norm &density, &velocity, &pressure, &energy;
+
+  static ErrorNorms from(auto& take, const reference::GasErrorLabels* labels) {
+    return {.density = take(computes(labels->density)),
+            .velocity = take(computes(labels->velocity)),
+            .pressure = take(computes(labels->pressure)),
+            .energy = take(computes(labels->energy))};
+  }
+
+  void add(const reference::GasState& found, const reference::GasState& exact) const {
+    density.add(found.density - exact.density, exact.density);
+    velocity.add((found.velocity - exact.velocity).norm(), exact.velocity.norm());
+    pressure.add(found.pressure - exact.pressure, exact.pressure);
+    energy.add(found.energy - exact.energy, exact.energy);
+  }
+};
 
 /// Errors of density, velocity, pressure (without artificial viscosity) and internal energy against the exact values at
 /// the particles.
@@ -12,17 +31,16 @@ template <int D>
 void measureParticleError(const Patch& patch, const Gas& gas, const reference::GasReference* exact,
                           const reference::Clock* clock, ParticleView<const Vec<D>> x,
                           ParticleView<const double> density, ParticleView<const Vec<D>> velocity,
-                          ParticleView<const double> internalEnergyPerMass, Norm& rho, Norm& u, Norm& pressure,
-                          Norm& energy) {
+                          ParticleView<const double> internalEnergy, const ErrorNorms& errors) {
   const Level& level = patch.level();
   for (int p = 0; p < density.owned(); ++p) {
     const Vec3 place = level.expandPoint<D>(x[p]);
     if (!exact->covers(place, clock->time)) continue;
-    const reference::GasState state = exact->at(place, clock->time);
-    rho.add(density[p] - state.density, state.density);
-    u.add((level.expandDirection<D>(velocity[p]) - state.velocity).norm(), state.velocity.norm());
-    pressure.add(gas.pressure(density[p], internalEnergyPerMass[p]) - state.pressure, state.pressure);
-    energy.add(gas.fullEnergy(density[p], internalEnergyPerMass[p]) - state.energy, state.energy);
+    errors.add({.density = density[p],
+                .velocity = level.expandDirection<D>(velocity[p]),
+                .pressure = gas.pressure(density[p], internalEnergy[p]),
+                .energy = gas.fullEnergy(density[p], internalEnergy[p])},
+               exact->at(place, clock->time));
   }
 }
 
@@ -30,29 +48,26 @@ void measureParticleError(const Patch& patch, const Gas& gas, const reference::G
 template <int D>
 void measureCellError(const Patch& patch, const Gas& gas, const reference::GasReference* exact,
                       const reference::Clock* clock, ParticleView<const double> density,
-                      ParticleView<const Vec<D>> velocity, ParticleView<const double> internalEnergyPerMass, Norm& rho,
-                      Norm& u, Norm& pressure, Norm& energy) {
+                      ParticleView<const Vec<D>> velocity, ParticleView<const double> internalEnergy,
+                      const ErrorNorms& errors) {
   const Level& level = patch.level();
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     if (!exact->covers(level.expandPoint<D>(level.cellCentre<D>(cell)), clock->time)) return;
-    reference::GasState mean{0, Vec3::Zero(), 0, 0};
+    reference::GasState mean;
     for (const int p : density.in(cell)) {
       mean.density += density[p];
       mean.velocity += level.expandDirection<D>(velocity[p]);
-      mean.pressure += gas.pressure(density[p], internalEnergyPerMass[p]);
-      mean.energy += internalEnergyPerMass[p];
+      mean.pressure += gas.pressure(density[p], internalEnergy[p]);
+      mean.energy += internalEnergy[p];
     }
     const double count = std::max(density.in(cell).size(), 1);
-    const reference::GasState state = reference::cellMean<D>(*exact, level, cell, clock->time);
-    rho.add(mean.density / count - state.density, state.density);
-    u.add((mean.velocity / count - state.velocity).norm(), state.velocity.norm());
-    pressure.add(mean.pressure / count - state.pressure, state.pressure);
-    energy.add(mean.energy / count - state.energy, state.energy);
+    mean = {mean.density / count, mean.velocity / count, mean.pressure / count, mean.energy / count};
+    errors.add(mean, reference::cellMean<D>(*exact, level, cell, clock->time));
   });
 }
 
 /// Error of the nodal density m_i / V_i against the exact density at the node; V_i is the integral of S_i over the
-/// grid. Each node is counted once: by the patch whose cell begins there, the last ones by the patch at the rim.
+/// grid. Each node is counted once: by the patch of the cell above it or, on the upper boundary, of the cell below it.
 template <int D>
 void measureNodeError(const Patch& patch, const Gas&, const reference::GasReference* exact,
                       const reference::Clock* clock, NodeView<const double> mass, Norm& error) {

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "components/mpm/gas/labels.hpp"
 #include "components/mpm/gas/material.hpp"
-#include "components/mpm/labels.hpp"
 
 namespace tushar::mpm::gas {
 
@@ -12,7 +12,7 @@ inline void relaxEnergy(const Patch&, const Gas& gas, double dt, ParticleView<do
   for (int p = 0; p < internalEnergy.owned(); ++p) internalEnergy[p] += share * (goal - internalEnergy[p]);
 }
 
-/// Adds relaxEnergy to a list, after particles have been updated, if a gas relaxes at all.
+/// Adds relaxEnergy to a list, after the update of the particles, if some gas relaxes.
 inline void scheduleRelaxEnergy(TaskList& tasks, const std::vector<Gas>& materials) {
   const auto relaxes = [](const Gas& gas) { return gas.relaxation.has_value(); };
   if (std::none_of(materials.begin(), materials.end(), relaxes)) return;

@@ -62,8 +62,15 @@ struct BoxCloud : test::Particles {
     });
     set.setOwned(static_cast<int>(x.size()));
   }
-  conserving::Boxes<D> boxes() const {
-    return {read(ids), read(x), read(edges), read(mass), read(v), read(modes), read(energy), read(affine)};
+  OldBoxes<D> boxes() const {
+    return {.ids = read(ids),
+            .x = read(x),
+            .edges = read(edges),
+            .mass = read(mass),
+            .velocity = read(v),
+            .modes = read(modes),
+            .internalEnergy = read(energy),
+            .affineEnergy = read(affine)};
   }
 };
 

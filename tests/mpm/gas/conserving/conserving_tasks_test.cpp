@@ -39,9 +39,17 @@ struct Step {
         gradient(of.level),
         stress(of.level) {
     const Patch& patch = of.patch();
-    interpolateParticlesToGrid<D>(patch, of.gas, of.read(of.x), of.read(of.edges), of.read(of.mass), of.read(of.v),
-                                  of.read(of.modes), of.read(of.energy), mass.write(), velocity.write(),
-                                  cellMass.write(), cellEnergy.write());
+    interpolateParticlesToGrid<D>(patch, of.gas,
+                                  {.x = of.read(of.x),
+                                   .edges = of.read(of.edges),
+                                   .mass = of.read(of.mass),
+                                   .velocity = of.read(of.v),
+                                   .modes = of.read(of.modes),
+                                   .internalEnergy = of.read(of.energy),
+                                   .nodeMass = mass.write(),
+                                   .nodeVelocity = velocity.write(),
+                                   .cellMass = cellMass.write(),
+                                   .cellInternalEnergy = cellEnergy.write()});
     computeVelocityGradient<D>(patch, of.gas, velocity.read(), gradient.write());
     computePressure<D, Scheme>(patch, of.gas, {1, 0.5}, cellMass.read(), cellEnergy.read(), gradient.read(),
                                pressure.write(), viscosity.write(), shock.write());
@@ -53,11 +61,24 @@ struct Step {
     update(dt);
   }
   void update(double dt) {
-    updateParticles<D, Scheme>(cloud.patch(), cloud.gas, cloud.read(cloud.x), cloud.read(cloud.edges),
-                               cloud.read(cloud.v), cloud.read(cloud.modes), cloud.read(cloud.energy),
-                               cloud.read(cloud.affine), velocity.read(), acceleration.read(), relaxation.read(),
-                               work.read(), dt, cloud.write(x), cloud.write(edges), cloud.write(v), cloud.write(modes),
-                               cloud.write(energy), cloud.write(affine), factor);
+    updateParticles<D, Scheme>(cloud.patch(), cloud.gas,
+                               {.x = cloud.read(cloud.x),
+                                .edges = cloud.read(cloud.edges),
+                                .velocity = cloud.read(cloud.v),
+                                .modes = cloud.read(cloud.modes),
+                                .internalEnergy = cloud.read(cloud.energy),
+                                .affineEnergy = cloud.read(cloud.affine),
+                                .nodeVelocity = velocity.read(),
+                                .acceleration = acceleration.read(),
+                                .relaxation = relaxation.read(),
+                                .work = work.read(),
+                                .newX = cloud.write(x),
+                                .newEdges = cloud.write(edges),
+                                .newVelocity = cloud.write(v),
+                                .newModes = cloud.write(modes),
+                                .newInternalEnergy = cloud.write(energy),
+                                .newAffineEnergy = cloud.write(affine)},
+                               dt, factor);
   }
 };
 

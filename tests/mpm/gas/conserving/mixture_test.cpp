@@ -21,8 +21,8 @@ struct WaterAndAir {
   static constexpr double volume = 1;
   const std::vector<Gas> gases{gasOf(4.4, 6e8), gasOf(1.4, 0)};
   std::array<double, 2> mass, energy, fill;
-  CellViews<const double> massViews, energyViews, fillViews;
-  const Cells cells{gases, massViews, energyViews, fillViews};
+  std::vector<GasInCells> held;
+  const Cells cells{gases, held};
 
   WaterAndAir(double share, double waterPressure, double airPressure)
       : mass{1000 * share, 50 * (1 - share)},
@@ -30,11 +30,8 @@ struct WaterAndAir {
                (1 - share) * Mixture::energyAt(airPressure, gases[1])},
         fill{share, 1 - share} {
     const Box one{{}, Index3::filled(1)};
-    for (std::size_t k = 0; k < 2; ++k) {
-      massViews.emplace_back(&mass[k], one);
-      energyViews.emplace_back(&energy[k], one);
-      fillViews.emplace_back(&fill[k], one);
-    }
+    for (std::size_t k = 0; k < 2; ++k)
+      held.push_back({.mass = {&mass[k], one}, .internalEnergy = {&energy[k], one}, .fill = {&fill[k], one}});
   }
   WaterAndAir(const WaterAndAir&) = delete;
   WaterAndAir& operator=(const WaterAndAir&) = delete;

@@ -17,7 +17,15 @@ struct Made {
   std::vector<Modes<D>> modes;
   std::vector<double> mass, energy, affine;
 
-  NewBoxes<D> fresh() { return {maker, x, edges, mass, v, modes, energy, affine}; }
+  NewBoxes<D> fresh() {
+    return {.x = x,
+            .edges = edges,
+            .mass = mass,
+            .velocity = v,
+            .modes = modes,
+            .internalEnergy = energy,
+            .affineEnergy = affine};
+  }
 };
 
 template <int D>
@@ -25,7 +33,7 @@ void remapAll(const BoxCloud<D>& cloud, Made<D>& made) {
   CellValues<double> mass(cloud.level), energy(cloud.level);
   gatherInCells<D>(cloud.patch(), cloud.gas, cloud.read(cloud.x), cloud.read(cloud.edges), cloud.read(cloud.mass),
                    cloud.read(cloud.energy), 0.0, mass.write(), energy.write());
-  remap<D>(cloud.patch(), cloud.boxes(), mass.read(), energy.read(), made.fresh());
+  remap<D>(cloud.patch(), cloud.boxes(), mass.read(), energy.read(), made.maker, made.fresh());
 }
 
 template <int D>
@@ -127,7 +135,7 @@ TEST(SplitLong, HalvesAlongEachLongAxisAndKeepsAll) {
   BoxCloud<2> cloud(Index3{{7, 6, 1}});
   cloud.edges[20] = Vec<2>(1.9 * cloud.level.spacing(0), 1.6 * cloud.level.spacing(1));
   Made<2> made;
-  splitLong<2>(cloud.patch(), 1.4, cloud.boxes(), made.fresh());
+  splitLong<2>(cloud.patch(), 1.4, cloud.boxes(), made.maker, made.fresh());
 
   expectSameTotals(cloud, made);
   EXPECT_EQ(made.x.size(), cloud.x.size() + 3);
@@ -137,7 +145,7 @@ TEST(SplitLong, HalvesAlongEachLongAxisAndKeepsAll) {
 TEST(SplitLong, KeepsAllParticlesWhereNoneIsLong) {
   const BoxCloud<2> cloud(Index3{{7, 6, 1}});
   Made<2> made;
-  splitLong<2>(cloud.patch(), 1.4, cloud.boxes(), made.fresh());
+  splitLong<2>(cloud.patch(), 1.4, cloud.boxes(), made.maker, made.fresh());
 
   EXPECT_TRUE(made.x.empty());
 }

@@ -73,19 +73,28 @@ double energyDrift(const Index3& resolution) {
   std::vector<double> mass, density, energy, divergence;
   std::vector<Vec<D>> velocity, force, acceleration, star, x, v;
   const double dt = 0.002;
-  using Shape = Linear<D>;
-  interpolateParticlesToGrid<Shape>(cloud.patch(), cloud.gas, cloud.read(cloud.x), cloud.read(cloud.mass),
-                                    cloud.read(cloud.v), cloud.nodes(mass), cloud.nodes(velocity));
-  computeInternalForceOfVolumes<Shape>(cloud.patch(), cloud.gas, cloud.read(cloud.pressure), cloud.read(cloud.mass),
-                                       cloud.read(cloud.density), cloud.nodes(force));
+  interpolateParticlesToGrid<D>(cloud.patch(), cloud.gas, cloud.read(cloud.x), cloud.read(cloud.mass),
+                                cloud.read(cloud.v), cloud.nodes(mass), cloud.nodes(velocity));
+  computeInternalForceOfVolumes<D>(cloud.patch(), cloud.gas, cloud.read(cloud.pressure), cloud.read(cloud.mass),
+                                   cloud.read(cloud.density), cloud.nodes(force));
   computeAndIntegrateAcceleration<D>(cloud.patch(), cloud.gas, cloud.readNodes(mass), cloud.readNodes(force),
                                      cloud.readNodes(velocity), dt, cloud.nodes(acceleration), cloud.nodes(star));
   setGridBoundaryConditions<D>(cloud.patch(), cloud.gas, cloud.nodes(acceleration), cloud.nodes(star));
-  updateParticlesConserving<Shape>(cloud.patch(), cloud.gas, cloud.read(cloud.x), cloud.read(cloud.v),
-                                   cloud.read(cloud.mass), cloud.read(cloud.density), cloud.read(cloud.energy),
-                                   cloud.read(cloud.pressure), cloud.readNodes(acceleration), cloud.readNodes(star), dt,
-                                   cloud.write(x), cloud.write(v), cloud.write(density), cloud.write(energy),
-                                   cloud.write(divergence));
+  updateParticlesConserving<D>(cloud.patch(), cloud.gas,
+                               {.x = cloud.read(cloud.x),
+                                .velocity = cloud.read(cloud.v),
+                                .mass = cloud.read(cloud.mass),
+                                .density = cloud.read(cloud.density),
+                                .internalEnergy = cloud.read(cloud.energy),
+                                .pressure = cloud.read(cloud.pressure),
+                                .acceleration = cloud.readNodes(acceleration),
+                                .velocityStar = cloud.readNodes(star),
+                                .newX = cloud.write(x),
+                                .newVelocity = cloud.write(v),
+                                .newDensity = cloud.write(density),
+                                .newInternalEnergy = cloud.write(energy),
+                                .divergence = cloud.write(divergence)},
+                               dt);
   return cloud.total(energy, v) / cloud.total(cloud.energy, cloud.v) - 1;
 }
 
@@ -93,10 +102,10 @@ template <int D>
 void expectLinearReproduction(const Index3& resolution) {
   const Cloud<D> cloud(resolution);
   forEach<D>(cloud.level.cells(), [&](const Index<D>& cell) {
-    const CellMiddle<D> middle(cloud.level, cell);
+    const ShapeFunctions<D> shape(cloud.level, cell);
     for (const int p : cloud.set.in(cell)) {
       const Vec<D>& at = cloud.x[p];
-      const auto s = middle.weights(at);
+      const auto s = shape.at(at);
       double sum = 0;
       Vec<D> mean = Vec<D>::Zero(), gradients = Vec<D>::Zero();
       for (int k = 0; k < Linear<D>::nodes; ++k) {
@@ -173,8 +182,8 @@ TEST(InterpolateParticlesToGrid, KeepsMassAndMomentum) {
   std::vector<double> mass;
   std::vector<Vec<2>> velocity;
 
-  interpolateParticlesToGrid<Linear<2>>(cloud.patch(), cloud.gas, cloud.read(cloud.x), cloud.read(cloud.mass),
-                                        cloud.read(cloud.v), cloud.nodes(mass), cloud.nodes(velocity));
+  interpolateParticlesToGrid<2>(cloud.patch(), cloud.gas, cloud.read(cloud.x), cloud.read(cloud.mass),
+                                cloud.read(cloud.v), cloud.nodes(mass), cloud.nodes(velocity));
 
   double onNodes = 0, onParticles = 0;
   Vec<2> momentum = Vec<2>::Zero();
@@ -196,7 +205,7 @@ TEST(ComputeInternalForce, IsTheDifferenceOfTheCellsMeanPressuresInOneDimension)
   const double area = cloud.level.cellVolume() / cloud.level.spacing(0);
   std::vector<Vec<1>> force;
 
-  computeInternalForce<Linear<1>>(cloud.patch(), cloud.gas, cloud.read(pressure), cloud.nodes(force));
+  computeInternalForce<1>(cloud.patch(), cloud.gas, cloud.read(pressure), cloud.nodes(force));
 
   EXPECT_NEAR(force[1][0], (2 - 15) * area, 1e-14);
   EXPECT_NEAR(force[2][0], (15 - 5) * area, 1e-14);
@@ -208,7 +217,7 @@ TEST(ComputeInternalForce, VanishesInsideAUniformPressureInThreeDimensions) {
   std::vector<Vec<3>> force;
   const NodeView<Vec<3>> view = cloud.nodes(force);
 
-  computeInternalForce<Linear<3>>(cloud.patch(), cloud.gas, cloud.read(pressure), view);
+  computeInternalForce<3>(cloud.patch(), cloud.gas, cloud.read(pressure), view);
 
   forEach<3>(Box{{{1, 1, 1}}, {{4, 3, 3}}}, [&](const Index3& node) { EXPECT_LT(view[node].norm(), 1e-15); });
 }
@@ -219,10 +228,21 @@ TEST(UpdateParticles, FollowsEquations12To15) {
   std::vector<double> density, energy, divergence;
   const double dt = 0.01, h = 0.5, s = cloud.x[0][0] / h;
 
-  updateParticles<Linear<1>>(cloud.patch(), cloud.gas, cloud.read(cloud.x), cloud.read(cloud.v),
-                             cloud.read(cloud.density), cloud.read(cloud.energy), cloud.read(cloud.pressure),
-                             cloud.readNodes(a), cloud.readNodes(star), dt, cloud.write(x), cloud.write(v),
-                             cloud.write(density), cloud.write(energy), cloud.write(divergence));
+  updateParticles<1>(cloud.patch(), cloud.gas,
+                     {.x = cloud.read(cloud.x),
+                      .velocity = cloud.read(cloud.v),
+                      .mass = {},
+                      .density = cloud.read(cloud.density),
+                      .internalEnergy = cloud.read(cloud.energy),
+                      .pressure = cloud.read(cloud.pressure),
+                      .acceleration = cloud.readNodes(a),
+                      .velocityStar = cloud.readNodes(star),
+                      .newX = cloud.write(x),
+                      .newVelocity = cloud.write(v),
+                      .newDensity = cloud.write(density),
+                      .newInternalEnergy = cloud.write(energy),
+                      .divergence = cloud.write(divergence)},
+                     dt);
 
   const double d = (0.7 - 0.5) / h;
   EXPECT_NEAR(v[0][0], cloud.v[0][0] + dt * ((1 - s) * 1 + s * 2), 1e-15);

@@ -1,14 +1,16 @@
 #pragma once
 
+#include "components/mpm/gas/labels.hpp"
 #include "components/mpm/gas/material.hpp"
 #include "components/mpm/gas/tasks/fastest_signal.hpp"
 #include "components/mpm/gas/viscosity.hpp"
-#include "components/mpm/labels.hpp"
 
 namespace tushar::mpm::gas::paper {
 
-/// p = (gamma - 1) rho eps + a_v,  a_v = rho (C_q h² d² - C_l h c d) where the gas is compressed (d < 0), else 0:
-/// (16) of Tran, Kim & Berzins. h is the least cell width, d the divergence of the step just done.
+/// p = (gamma - 1) rho eps + a_v                                 (16) of Tran, Kim & Berzins
+///
+/// with a_v = rho (C_q h² d² - C_l h c d) where the gas is compressed (d < 0), else 0 [Pa]. h is the least cell width,
+/// c the speed of sound, d the divergence of (14)-(15) in the step just done.
 template <int D>
 void computePressure(const Patch& patch, const Gas& gas, const Viscosity& viscosity, ParticleView<const double> density,
                      ParticleView<const double> internalEnergy, ParticleView<const double> divergence,
@@ -22,15 +24,18 @@ void computePressure(const Patch& patch, const Gas& gas, const Viscosity& viscos
   }
 }
 
-/// p = (gamma - 1) rho eps: at the start nothing is compressed.
+/// p = (gamma - 1) rho eps: (3), which is (16) without viscosity. At the start of a run nothing is compressed.
 template <int D>
 void computeInitialPressure(const Patch&, const Gas& gas, ParticleView<const double> density,
                             ParticleView<const double> internalEnergy, ParticleView<double> pressure) {
   for (int p = 0; p < density.owned(); ++p) pressure[p] = gas.pressure(density[p], internalEnergy[p]);
 }
 
-/// m_p = rho_p V_p with V_p = V_c / N_c: the particles of a cell share its volume equally; (4)-(5) of Tran, Kim &
-/// Berzins. Mass is not conserved: it changes whenever a particle crosses a face.
+/// m_p = rho_p V_p                                               (4)
+/// V_p = V_c / N_c                                               (5) of Tran, Kim & Berzins
+///
+/// The N_c particles of a cell share its volume V_c equally. Mass is not conserved: it changes when a particle crosses
+/// a face.
 template <int D>
 void shareCellVolume(const Patch& patch, const Gas&, ParticleView<const double> density, ParticleView<double> mass) {
   const double volume = patch.level().cellVolume();
@@ -41,7 +46,7 @@ void shareCellVolume(const Patch& patch, const Gas&, ParticleView<const double> 
   });
 }
 
-/// dt = cfl h / fastestSignal; h is the least cell width.
+/// dt = cfl h / max_p(|v_p| + c_p), h the least cell width: keeps dt dv/dx small, (17) of Tran, Kim & Berzins.
 template <int D>
 void computeStableTimeStep(const Patch& patch, const Gas& gas, double cfl, ParticleView<const Vec<D>> velocity,
                            ParticleView<const double> internalEnergy, Minimum& dt) {

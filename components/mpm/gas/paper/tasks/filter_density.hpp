@@ -1,8 +1,8 @@
 #pragma once
 
+#include "components/mpm/gas/labels.hpp"
 #include "components/mpm/gas/material.hpp"
-#include "components/mpm/gas/mirrored.hpp"
-#include "components/mpm/labels.hpp"
+#include "components/mpm/gas/mirror_symmetry.hpp"
 
 namespace tushar::mpm::gas::paper {
 
@@ -10,16 +10,18 @@ namespace tushar::mpm::gas::paper {
 template <int D>
 void averageDensity(const Patch& patch, const Gas&, ParticleView<const double> density, CellView<double> mean) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    const auto sum = sumFromBothEnds<double>(density.in(cell), [&](int p, double& part) { part += density[p]; });
+    const auto sum = sumOverParticles<double>(density.in(cell), [&](int p, double& part) { part += density[p]; });
     mean[cell] = sum / std::max(density.in(cell).size(), 1);
   });
 }
 
-/// (18) of Tran, Kim & Berzins in its density form: where the mean density of a cell is an extremum along an axis,
-/// (r_{c-1} - r_c)(r_{c+1} - r_c) > 0, every particle of the cell gets (r_{c-1} - 2 r_c + r_{c+1}) / 3 more, so that
-/// the mean becomes that of the three cells. All cells at once; cells at the rim of the grid and next to empty ones
-/// stay. An extremum that is as sharp along k axes becomes the mean of its 2k + 1 cells, so that it is never overshot;
-/// one that is sharp along one axis only, and mere round-off along the others, is treated as in one dimension.
+/// (18) of Tran, Kim & Berzins, applied to density; nodal velocities are not filtered. Where the mean density r_c of a
+/// cell is an extremum along an axis, (r_{c-1} - r_c)(r_{c+1} - r_c) > 0, the density of each of its particles grows by
+/// (r_{c-1} - 2 r_c + r_{c+1}) / 3, so that r_c becomes the mean of the three cells.
+///
+/// All cells are filtered at once, except those at the rim of the grid or next to an empty cell. An extremum equally
+/// sharp along k axes becomes the mean of its 2k + 1 cells and never overshoots; one that is sharp along one axis, and
+/// mere round-off along the others, is filtered as in one dimension.
 template <int D>
 void filterDensity(const Patch& patch, const Gas&, CellView<const double> mean, ParticleView<double> density) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {

@@ -1,12 +1,15 @@
 #pragma once
 
+#include "components/mpm/gas/labels.hpp"
 #include "components/mpm/gas/material.hpp"
-#include "components/mpm/gas/symmetry.hpp"
-#include "components/mpm/labels.hpp"
+#include "components/mpm/gas/symmetry_planes.hpp"
 
 namespace tushar::mpm::gas::paper {
 
-/// a_i = F_i / m_i,   v*_i = v_i + a_i dt      (10)-(11) of Tran, Kim & Berzins. A node without mass does not move.
+/// a_i = F_i / m_i                                               (10)
+/// v*_i = v_i + a_i dt                                           (11) of Tran, Kim & Berzins
+///
+/// v* is v^{n+1} of the paper. A node without mass does not move.
 template <int D>
 void computeAndIntegrateAcceleration(const Patch&, const Gas&, NodeView<const double> mass,
                                      NodeView<const Vec<D>> force, NodeView<const Vec<D>> velocity, double dt,
@@ -19,7 +22,7 @@ void computeAndIntegrateAcceleration(const Patch&, const Gas&, NodeView<const do
   });
 }
 
-/// At a symmetry plane nothing moves through it: the normal components of v*_i and a_i are 0.
+/// Nothing moves through a symmetry plane: the normal components of v*_i and a_i are 0 there.
 template <int D>
 void setGridBoundaryConditions(const Patch& patch, const Gas&, NodeView<Vec<D>> acceleration,
                                NodeView<Vec<D>> velocityStar) {

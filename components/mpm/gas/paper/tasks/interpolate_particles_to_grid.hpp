@@ -1,19 +1,19 @@
 #pragma once
 
+#include "components/mpm/gas/labels.hpp"
 #include "components/mpm/gas/material.hpp"
-#include "components/mpm/gas/mirrored.hpp"
-#include "components/mpm/labels.hpp"
+#include "components/mpm/gas/paper/shape_functions.hpp"
 
 namespace tushar::mpm::gas::paper {
 
-/// What particles of a cell bring to its nodes: mass [kg] and momentum [kg m/s].
-template <class Shape>
-struct NodeShares {
-  std::array<double, Shape::nodes> mass{};
-  std::array<Vec<Shape::dimension>, Shape::nodes> momentum;
+/// What the particles of one cell add to its nodes: mass of (6) [kg] and momentum of (7) [kg m/s].
+template <int D>
+struct NodalSums {
+  std::array<double, Linear<D>::nodes> mass{};
+  std::array<Vec<D>, Linear<D>::nodes> momentum;
 
-  NodeShares() { momentum.fill(Vec<Shape::dimension>::Zero()); }
-  NodeShares& operator+=(const NodeShares& other) {
+  NodalSums() { momentum.fill(Vec<D>::Zero()); }
+  NodalSums& operator+=(const NodalSums& other) {
     for (std::size_t k = 0; k < mass.size(); ++k) {
       mass[k] += other.mass[k];
       momentum[k] += other.momentum[k];
@@ -22,31 +22,33 @@ struct NodeShares {
   }
 };
 
-/// m_i = sum_p S_i(x_p) m_p,   v_i = sum_p S_i(x_p) m_p v_p / m_i      (6)-(8) of Tran, Kim & Berzins.
+/// m_i = sum_p S_ip m_p                 (6)
+/// P_i = sum_p S_ip m_p v_p             (7)
+/// v_i = P_i / m_i                      (8) of Tran, Kim & Berzins, with m_p = rho_p V_p
 ///
-/// `mass` [kg] and `velocity` [m/s] come out complete on all nodes of the patch: ghost particles contribute. A node
-/// that no particle touches has mass 0 and velocity 0.
-template <class Shape, int D = Shape::dimension>
+/// `mass` [kg] and `velocity` [m/s] are complete on all nodes of the patch: ghost particles contribute. A node that no
+/// particle touches has mass 0 and velocity 0.
+template <int D>
 void interpolateParticlesToGrid(const Patch& patch, const Gas&, ParticleView<const Vec<D>> x,
                                 ParticleView<const double> particleMass, ParticleView<const Vec<D>> particleVelocity,
                                 NodeView<double> mass, NodeView<Vec<D>> velocity) {
   mass.fill(0.0);
-  velocity.fill(Vec<D>::Zero());
+  velocity.fill(Vec<D>::Zero());  // P_i, until it is divided by m_i
   forEach<D>(x.cells(), [&](const Index<D>& cell) {
-    const CellMiddle<D> middle(patch.level(), cell);
-    const auto brought = sumFromBothEnds<NodeShares<Shape>>(x.in(cell), [&](int p, NodeShares<Shape>& sum) {
-      const auto s = middle.weights(x[p]);
+    const ShapeFunctions<D> shape(patch.level(), cell);
+    const auto sums = sumOverParticles<NodalSums<D>>(x.in(cell), [&](int p, NodalSums<D>& sum) {
+      const auto s = shape.at(x[p]);
       for (std::size_t k = 0; k < s.size(); ++k) {
-        const double share = s[k] * particleMass[p];
-        sum.mass[k] += share;
-        sum.momentum[k] += share * particleVelocity[p];
+        const double m = s[k] * particleMass[p];
+        sum.mass[k] += m;
+        sum.momentum[k] += m * particleVelocity[p];
       }
     });
-    for (int k = 0; k < Shape::nodes; ++k) {
-      const Index<D> node = Shape::node(cell, k);
+    for (int k = 0; k < Linear<D>::nodes; ++k) {
+      const Index<D> node = Linear<D>::node(cell, k);
       if (!mass.box().contains(node)) continue;
-      mass[node] += brought.mass[static_cast<std::size_t>(k)];
-      velocity[node] += brought.momentum[static_cast<std::size_t>(k)];
+      mass[node] += sums.mass[static_cast<std::size_t>(k)];
+      velocity[node] += sums.momentum[static_cast<std::size_t>(k)];
     }
   });
   forEach<D>(mass.box(), [&](const Index<D>& node) {
@@ -54,21 +56,21 @@ void interpolateParticlesToGrid(const Patch& patch, const Gas&, ParticleView<con
   });
 }
 
-/// m_i alone: what the mass projection of a state is, for those who look at it.
-template <class Shape, int D = Shape::dimension>
+/// m_i = sum_p S_ip m_p alone: the projection of the mass of a state, as diagnostics compare it with exact densities.
+template <int D>
 void interpolateMassToGrid(const Patch& patch, const Gas&, ParticleView<const Vec<D>> x,
                            ParticleView<const double> particleMass, NodeView<double> mass) {
   mass.fill(0.0);
   forEach<D>(x.cells(), [&](const Index<D>& cell) {
-    const CellMiddle<D> middle(patch.level(), cell);
-    std::array<double, Shape::nodes> m{};
+    const ShapeFunctions<D> shape(patch.level(), cell);
+    typename Linear<D>::Weights sums{};
     for (const int p : x.in(cell)) {
-      const auto s = middle.weights(x[p]);
-      for (std::size_t k = 0; k < s.size(); ++k) m[k] += s[k] * particleMass[p];
+      const auto s = shape.at(x[p]);
+      for (std::size_t k = 0; k < s.size(); ++k) sums[k] += s[k] * particleMass[p];
     }
-    for (int k = 0; k < Shape::nodes; ++k)
-      if (const Index<D> node = Shape::node(cell, k); mass.box().contains(node))
-        mass[node] += m[static_cast<std::size_t>(k)];
+    for (int k = 0; k < Linear<D>::nodes; ++k)
+      if (const Index<D> node = Linear<D>::node(cell, k); mass.box().contains(node))
+        mass[node] += sums[static_cast<std::size_t>(k)];
   });
 }
 

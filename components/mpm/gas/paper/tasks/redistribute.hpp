@@ -1,9 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "components/mpm/gas/labels.hpp"
 #include "components/mpm/gas/material.hpp"
-#include "components/mpm/labels.hpp"
 
 namespace tushar::mpm::gas::paper {
 
@@ -27,7 +28,7 @@ struct Redistribution {
   }
 };
 
-/// A particle with all that redistribution needs to know of it.
+/// A particle as redistribution sees it.
 template <int D>
 struct Piece {
   ParticleId id = 0;
@@ -37,15 +38,23 @@ struct Piece {
   double density() const { return mass / volume; }
 };
 
-/// A cell's place, and for `reseed` the slopes of its mean density, velocity and pressure along each axis, per metre.
+/// Where a cell lies, and for `reseed` the slopes of its mean density, velocity and pressure along each axis, per
+/// metre.
 template <int D>
 struct CellShape {
-  Vec<D> lower, spacing;
-  double volume = 0;
+  Vec<D> lower, spacing;  ///< lower corner and widths, m
+  double volume = 0;      ///< m³
   Vec<D> densitySlope = Vec<D>::Zero(), pressureSlope = Vec<D>::Zero();
   std::array<Vec<D>, D> velocitySlope;  ///< of each velocity component
 
   CellShape() { velocitySlope.fill(Vec<D>::Zero()); }
+  CellShape(const Level& level, const Index<D>& cell) : CellShape() {
+    volume = level.cellVolume();
+    for (int d = 0; d < D; ++d) {
+      lower[d] = level.nodePosition(d, cell[d]);
+      spacing[d] = level.spacing(d);
+    }
+  }
 };
 
 /// Halves pieces larger than V_c / (2 N_min), in the order of their ids, until there are N_min: equal mass and volume
@@ -54,14 +63,14 @@ struct CellShape {
 template <int D>
 void split(std::vector<Piece<D>>& pieces, const CellShape<D>& cell, int minParticles);
 
-/// Joins the two nearest pieces until there are N_max: position and velocity weighted with mass, volume summed; the
-/// kinetic energy m1 m2 |v1 - v2|² / (2 (m1 + m2)) that this takes becomes heat.
+/// Joins the two nearest pieces until there are N_max: positions and velocities are averaged with their masses, volumes
+/// added; the kinetic energy m1 m2 |v1 - v2|² / (2 (m1 + m2)) that this loses becomes heat.
 template <int D>
 void merge(std::vector<Piece<D>>& pieces, int maxParticles);
 
 /// Puts n^D pieces of equal volume at the midpoints of the cell with the cell's slopes of density, velocity (about
-/// the centre of mass, scaled so that kinetic energy does not grow) and pressure. What kinetic energy is lost becomes
-/// heat. Mass, momentum and total energy stay.
+/// the centre of mass, scaled so that kinetic energy does not grow) and pressure. Lost kinetic energy becomes heat.
+/// Mass, momentum and total energy are conserved.
 template <int D>
 void reseed(std::vector<Piece<D>>& pieces, const CellShape<D>& cell, const Gas& gas, int alongAxis);
 
@@ -75,92 +84,90 @@ template <int D>
 void redistributeCell(std::vector<Piece<D>>& pieces, const CellShape<D>& cell, const Gas& gas,
                       const Redistribution& how);
 
-/// The values of new particles.
+/// The particles that redistribution reads.
 template <int D>
-struct PieceColumns {
-  std::vector<Vec<D>>*x, *velocity;
-  std::vector<double>*mass, *density, *internalEnergy, *divergence;  ///< mass: null where it is not a variable
+struct OldParticles {
+  ParticleView<const ParticleId> ids;
+  ParticleView<const Vec<D>> x, velocity;
+  std::optional<ParticleView<const double>> mass;  ///< where particles keep it
+  ParticleView<const double> density, internalEnergy, divergence;
 
-  void add(const Piece<D>& piece) const {
-    x->push_back(piece.x);
-    velocity->push_back(piece.velocity);
-    if (mass) mass->push_back(piece.mass);
-    density->push_back(piece.density());
-    internalEnergy->push_back(piece.internalEnergy);
-    divergence->push_back(piece.divergence);
+  static OldParticles from(auto& take, bool keepsMass, int ghost) {
+    return {.ids = take(requiresNew(data::particleId, ghost)),
+            .x = take(requiresNew(p::x<D>, ghost)),
+            .velocity = take(requiresNew(p::velocity<D>, ghost)),
+            .mass = take(when(keepsMass, requiresNew(p::mass, ghost))),
+            .density = take(requiresNew(p::density, ghost)),
+            .internalEnergy = take(requiresNew(p::internalEnergy, ghost)),
+            .divergence = take(requiresNew(p::velocityDivergence, ghost))};
+  }
+
+  /// The particles of a cell of volume `cellVolume`; none of a cell outside the grid. A particle has the volume m_p /
+  /// rho_p where it keeps its mass, else an equal share of the cell's, (5) of Tran, Kim & Berzins.
+  std::vector<Piece<D>> in(const Index<D>& cell, double cellVolume) const {
+    std::vector<Piece<D>> pieces;
+    if (!x.cells().contains(cell)) return pieces;
+    const double share = cellVolume / std::max(x.in(cell).size(), 1);
+    for (const int p : x.in(cell)) {
+      const double m = mass ? (*mass)[p] : density[p] * share, volume = mass ? m / density[p] : share;
+      pieces.push_back({ids[p], x[p], velocity[p], m, volume, internalEnergy[p], divergence[p]});
+    }
+    return pieces;
   }
 };
 
-/// Redistributes all cells of a patch; `gather(cell)` gives the pieces of a cell, ghost cells included.
-template <int D, class Gather>
-void redistributePatch(const Patch& patch, const Gas& gas, const Redistribution& how, ParticleMaker& maker,
-                       const Gather& gather, const PieceColumns<D>& columns) {
-  const Level& level = patch.level();
-  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    std::vector<Piece<D>> pieces = gather(cell);
-    CellShape<D> shape;
-    shape.volume = level.cellVolume();
-    for (int d = 0; d < D; ++d) {
-      shape.lower[d] = level.nodePosition(d, cell[d]);
-      shape.spacing[d] = level.spacing(d);
-    }
-    const int count = static_cast<int>(pieces.size());
-    const bool outside = count < how.minParticles || count > how.maxParticles;
-    if (outside && how.mode == Redistribution::Mode::reseed) {
-      std::array<std::vector<Piece<D>>, 2 * D> around;
-      for (int d = 0; d < D; ++d) {
-        around[static_cast<std::size_t>(2 * d)] = gather(cell - Index<D>::unit(d));
-        around[static_cast<std::size_t>(2 * d + 1)] = gather(cell + Index<D>::unit(d));
-      }
-      setSlopes<D>(shape, pieces, around, gas);
-    }
-    if (outside) redistributeCell<D>(pieces, shape, gas, how);
-    for (const Piece<D>& piece : pieces) {
-      maker.add(cell, piece.id);
-      columns.add(piece);
-    }
-  });
-}
+/// The values of the particles that redistribution makes.
+template <int D>
+struct NewParticles {
+  std::vector<Vec<D>>&x, &velocity;
+  std::vector<double>* mass;  ///< null where particles do not keep it
+  std::vector<double>&density, &internalEnergy, &divergence;
 
-/// Redistribution for particles that share the volume of their cell: V_p = V_c / N_c.
+  static NewParticles from(auto& take, bool keepsMass) {
+    return {.x = take(creates(p::x<D>)),
+            .velocity = take(creates(p::velocity<D>)),
+            .mass = keepsMass ? &take(creates(p::mass)) : nullptr,
+            .density = take(creates(p::density)),
+            .internalEnergy = take(creates(p::internalEnergy)),
+            .divergence = take(creates(p::velocityDivergence))};
+  }
+
+  void add(const Piece<D>& piece) const {
+    x.push_back(piece.x);
+    velocity.push_back(piece.velocity);
+    if (mass) mass->push_back(piece.mass);
+    density.push_back(piece.density());
+    internalEnergy.push_back(piece.internalEnergy);
+    divergence.push_back(piece.divergence);
+  }
+};
+
+/// Redistributes the cells of a patch that hold too few or too many particles.
 template <int D>
 void redistribute(const Patch& patch, const Gas& gas, ParticleMaker& maker, const Redistribution& how,
-                  ParticleView<const ParticleId> ids, ParticleView<const Vec<D>> x, ParticleView<const Vec<D>> velocity,
-                  ParticleView<const double> density, ParticleView<const double> internalEnergy,
-                  ParticleView<const double> divergence, std::vector<Vec<D>>& newX, std::vector<Vec<D>>& newVelocity,
-                  std::vector<double>& newDensity, std::vector<double>& newInternalEnergy,
-                  std::vector<double>& newDivergence) {
-  const auto gather = [&](const Index<D>& cell) {
-    std::vector<Piece<D>> pieces;
-    if (!x.cells().contains(cell)) return pieces;
-    const double volume = patch.level().cellVolume() / std::max(x.in(cell).size(), 1);
-    for (const int p : x.in(cell))
-      pieces.push_back({ids[p], x[p], velocity[p], density[p] * volume, volume, internalEnergy[p], divergence[p]});
-    return pieces;
-  };
-  redistributePatch<D>(patch, gas, how, maker, gather,
-                       {&newX, &newVelocity, nullptr, &newDensity, &newInternalEnergy, &newDivergence});
-}
-
-/// Redistribution for particles that carry their mass: V_p = m_p / rho_p.
-template <int D>
-void redistributeTracked(const Patch& patch, const Gas& gas, ParticleMaker& maker, const Redistribution& how,
-                         ParticleView<const ParticleId> ids, ParticleView<const Vec<D>> x,
-                         ParticleView<const Vec<D>> velocity, ParticleView<const double> mass,
-                         ParticleView<const double> density, ParticleView<const double> internalEnergy,
-                         ParticleView<const double> divergence, std::vector<Vec<D>>& newX,
-                         std::vector<Vec<D>>& newVelocity, std::vector<double>& newMass,
-                         std::vector<double>& newDensity, std::vector<double>& newInternalEnergy,
-                         std::vector<double>& newDivergence) {
-  const auto gather = [&](const Index<D>& cell) {
-    std::vector<Piece<D>> pieces;
-    if (!x.cells().contains(cell)) return pieces;
-    for (const int p : x.in(cell))
-      pieces.push_back({ids[p], x[p], velocity[p], mass[p], mass[p] / density[p], internalEnergy[p], divergence[p]});
-    return pieces;
-  };
-  redistributePatch<D>(patch, gas, how, maker, gather,
-                       {&newX, &newVelocity, &newMass, &newDensity, &newInternalEnergy, &newDivergence});
+                  const OldParticles<D>& old, const NewParticles<D>& fresh) {
+  const Level& level = patch.level();
+  const double volume = level.cellVolume();
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    std::vector<Piece<D>> pieces = old.in(cell, volume);
+    const int count = static_cast<int>(pieces.size());
+    if (count < how.minParticles || count > how.maxParticles) {
+      CellShape<D> shape(level, cell);
+      if (how.mode == Redistribution::Mode::reseed) {
+        std::array<std::vector<Piece<D>>, 2 * D> around;
+        for (int d = 0; d < D; ++d) {
+          around[static_cast<std::size_t>(2 * d)] = old.in(cell - Index<D>::unit(d), volume);
+          around[static_cast<std::size_t>(2 * d + 1)] = old.in(cell + Index<D>::unit(d), volume);
+        }
+        setSlopes<D>(shape, pieces, around, gas);
+      }
+      redistributeCell<D>(pieces, shape, gas, how);
+    }
+    for (const Piece<D>& piece : pieces) {
+      maker.add(cell, piece.id);
+      fresh.add(piece);
+    }
+  });
 }
 
 }  // namespace tushar::mpm::gas::paper

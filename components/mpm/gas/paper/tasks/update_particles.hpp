@@ -1,96 +1,124 @@
 #pragma once
 
+#include "components/mpm/gas/labels.hpp"
 #include "components/mpm/gas/material.hpp"
-#include "components/mpm/gas/mirrored.hpp"
-#include "components/mpm/labels.hpp"
+#include "components/mpm/gas/paper/shape_functions.hpp"
 
 namespace tushar::mpm::gas::paper {
 
-/// The values of a node variable at the nodes of a cell, and what a particle in the cell makes of them.
-template <class Shape, int D = Shape::dimension>
+/// A vector field f at the nodes of one cell.
+template <int D>
 struct CellNodes {
-  std::array<Vec<D>, Shape::nodes> values;
+  std::array<Vec<D>, Linear<D>::nodes> values;
 
   CellNodes(NodeView<const Vec<D>> field, const Index<D>& cell) {
-    for (int k = 0; k < Shape::nodes; ++k) values[static_cast<std::size_t>(k)] = field[Shape::node(cell, k)];
+    for (int k = 0; k < Linear<D>::nodes; ++k) values[static_cast<std::size_t>(k)] = field[Linear<D>::node(cell, k)];
   }
-  /// sum_i S_i f_i
-  Vec<D> at(const std::array<double, Shape::nodes>& s) const {
+  /// sum_i S_ip f_i
+  Vec<D> at(const typename Linear<D>::Weights& s) const {
     Vec<D> sum = s[0] * values[0];
     for (std::size_t k = 1; k < s.size(); ++k) sum += s[k] * values[k];
     return sum;
   }
-  /// Divergence in the middle of the cell.
+  /// sum_i f_i . grad S_i in the middle of the cell: the divergence of f there.
   double divergence(const Level& level) const {
     double sum = 0;
-    for (int k = 0; k < Shape::nodes; ++k)
-      for (int d = 0; d < D; ++d) sum += values[static_cast<std::size_t>(k)][d] * Shape::centreGradient(level, k, d);
+    for (int k = 0; k < Linear<D>::nodes; ++k)
+      for (int d = 0; d < D; ++d)
+        sum += values[static_cast<std::size_t>(k)][d] * Linear<D>::centreGradient(level, k, d);
     return sum;
   }
 };
 
-/// v_p += dt sum_i S_i a_i,   x_p += dt sum_i S_i v*_i                                  (12)-(13)
-/// eps_p -= (p_p / rho_p) d dt,   rho_p *= 1 - d dt,   d = div v* in the particle's cell   (14)-(15)
-/// of Tran, Kim & Berzins, with S at the old position and p, rho of the old state. Only the patch's own particles.
-template <class Shape, int D = Shape::dimension>
-void updateParticles(const Patch& patch, const Gas&, ParticleView<const Vec<D>> x, ParticleView<const Vec<D>> velocity,
-                     ParticleView<const double> density, ParticleView<const double> internalEnergy,
-                     ParticleView<const double> pressure, NodeView<const Vec<D>> acceleration,
-                     NodeView<const Vec<D>> velocityStar, double dt, ParticleView<Vec<D>> newX,
-                     ParticleView<Vec<D>> newVelocity, ParticleView<double> newDensity,
-                     ParticleView<double> newInternalEnergy, ParticleView<double> divergence) {
-  forEach<D>(x.cells(), [&](const Index<D>& cell) {
-    const data::ParticleRange particles = x.in(cell);
+/// What updateParticles reads and writes.
+template <int D>
+struct ParticleUpdate {
+  // Particles at t_n.
+  ParticleView<const Vec<D>> x, velocity;
+  std::optional<ParticleView<const double>> mass;  ///< where particles keep it
+  ParticleView<const double> density, internalEnergy, pressure;
+  // The grid.
+  NodeView<const Vec<D>> acceleration;  ///< a_i at t_n
+  NodeView<const Vec<D>> velocityStar;  ///< v_i at t_n+1
+  // Particles at t_n+1.
+  ParticleView<Vec<D>> newX, newVelocity;
+  ParticleView<double> newDensity, newInternalEnergy;
+  ParticleView<double> divergence;  ///< dv/dx of (14)-(15)
+
+  static ParticleUpdate from(auto& take, bool keepsMass) {
+    return {.x = take(requiresOld(p::x<D>)),
+            .velocity = take(requiresOld(p::velocity<D>)),
+            .mass = take(when(keepsMass, requiresOld(p::mass))),
+            .density = take(requiresOld(p::density)),
+            .internalEnergy = take(requiresOld(p::internalEnergy)),
+            .pressure = take(requiresOld(p::pressure)),
+            .acceleration = take(requiresNew(g::acceleration<D>)),
+            .velocityStar = take(requiresNew(g::velocityStar<D>)),
+            .newX = take(computes(p::x<D>)),
+            .newVelocity = take(computes(p::velocity<D>)),
+            .newDensity = take(computes(p::density)),
+            .newInternalEnergy = take(computes(p::internalEnergy)),
+            .divergence = take(computes(p::velocityDivergence))};
+  }
+};
+
+/// v_p += dt sum_i S_ip a_i                                      (12)
+/// x_p += dt sum_i S_ip v_i,   v_i of t_n+1                      (13)
+/// eps_p -= p_p / rho_p d dt                                     (14)
+/// rho_p *= 1 - d dt                                             (15) of Tran, Kim & Berzins
+///
+/// S_ip, p_p and rho_p are those of t_n; d, dv/dx in the paper, is the divergence of v_i of t_n+1 in the middle of the
+/// cell that holds the particle at t_n. Only the patch's own particles are updated.
+template <int D>
+void updateParticles(const Patch& patch, const Gas&, ParticleUpdate<D> u, double dt) {
+  forEach<D>(u.x.cells(), [&](const Index<D>& cell) {
+    const data::ParticleRange particles = u.x.in(cell);
     if (particles.empty()) return;
-    const CellMiddle<D> middle(patch.level(), cell);
-    const CellNodes<Shape> a(acceleration, cell), v(velocityStar, cell);
+    const ShapeFunctions<D> shape(patch.level(), cell);
+    const CellNodes<D> a(u.acceleration, cell), v(u.velocityStar, cell);
     const double d = v.divergence(patch.level());
     for (const int p : particles) {
-      const auto s = middle.weights(x[p]);
-      newVelocity[p] = velocity[p] + dt * a.at(s);
-      newX[p] = x[p] + dt * v.at(s);
-      divergence[p] = d;
+      const auto s = shape.at(u.x[p]);
+      u.newVelocity[p] = u.velocity[p] + dt * a.at(s);
+      u.newX[p] = u.x[p] + dt * v.at(s);
+      u.divergence[p] = d;
     }
   });
-  for (int p = 0; p < x.owned(); ++p) {
-    newInternalEnergy[p] = internalEnergy[p] - pressure[p] / density[p] * divergence[p] * dt;
-    newDensity[p] = density[p] * (1.0 - divergence[p] * dt);
+  for (int p = 0; p < u.x.owned(); ++p) {
+    u.newInternalEnergy[p] = u.internalEnergy[p] - u.pressure[p] / u.density[p] * u.divergence[p] * dt;
+    u.newDensity[p] = u.density[p] * (1.0 - u.divergence[p] * dt);
   }
 }
 
-/// The same with total energy conserved to round-off, for particles of constant mass.
+/// (12), (13) and (15) for particles that keep their mass, with (14) such that total energy is conserved to round-off.
 ///
-/// The work of the pressure of a cell, -P_c V_c div(v½) dt with v½ = v* - a dt/2, goes to its particles in proportion
-/// to p_p times their volume m_p / rho_p; the kinetic energy that (12) loses, dt²/2 (sum_i S_i a_i² - |sum_i S_i a_i|²)
-/// per mass and never negative, becomes heat. Density follows (15).
-template <class Shape, int D = Shape::dimension>
-void updateParticlesConserving(const Patch& patch, const Gas&, ParticleView<const Vec<D>> x,
-                               ParticleView<const Vec<D>> velocity, ParticleView<const double> mass,
-                               ParticleView<const double> density, ParticleView<const double> internalEnergy,
-                               ParticleView<const double> pressure, NodeView<const Vec<D>> acceleration,
-                               NodeView<const Vec<D>> velocityStar, double dt, ParticleView<Vec<D>> newX,
-                               ParticleView<Vec<D>> newVelocity, ParticleView<double> newDensity,
-                               ParticleView<double> newInternalEnergy, ParticleView<double> divergence) {
+/// The work of the pressure of a cell, -P_c V_c div(v_half) dt with v_half = v* - a dt/2, goes to its particles in
+/// proportion to p_p times their volume m_p / rho_p; the kinetic energy that (12) loses,
+/// dt²/2 (sum_i S_ip a_i² - |sum_i S_ip a_i|²) per mass and never negative, becomes heat.
+template <int D>
+void updateParticlesConserving(const Patch& patch, const Gas&, ParticleUpdate<D> u, double dt) {
   const Level& level = patch.level();
-  forEach<D>(x.cells(), [&](const Index<D>& cell) {
-    const data::ParticleRange particles = x.in(cell);
+  const ParticleView<const double> mass = *u.mass;
+  forEach<D>(u.x.cells(), [&](const Index<D>& cell) {
+    const data::ParticleRange particles = u.x.in(cell);
     if (particles.empty()) return;
-    const auto volume = sumFromBothEnds<double>(particles, [&](int p, double& part) { part += mass[p] / density[p]; });
-    const CellMiddle<D> middle(level, cell);
-    const CellNodes<Shape> a(acceleration, cell), v(velocityStar, cell);
+    const auto volume =
+        sumOverParticles<double>(particles, [&](int p, double& part) { part += mass[p] / u.density[p]; });
+    const ShapeFunctions<D> shape(level, cell);
+    const CellNodes<D> a(u.acceleration, cell), v(u.velocityStar, cell);
     const double d = v.divergence(level), halfway = d - 0.5 * dt * a.divergence(level);
     const double workShare = halfway * dt * level.cellVolume() / volume;
     for (const int p : particles) {
-      const auto s = middle.weights(x[p]);
+      const auto s = shape.at(u.x[p]);
       const Vec<D> ap = a.at(s);
       double squares = 0;
       for (std::size_t k = 0; k < s.size(); ++k) squares += s[k] * a.values[k].squaredNorm();
-      newVelocity[p] = velocity[p] + dt * ap;
-      newX[p] = x[p] + dt * v.at(s);
-      newInternalEnergy[p] =
-          internalEnergy[p] - pressure[p] / density[p] * workShare + 0.5 * dt * dt * (squares - ap.squaredNorm());
-      newDensity[p] = density[p] * (1.0 - d * dt);
-      divergence[p] = d;
+      u.newVelocity[p] = u.velocity[p] + dt * ap;
+      u.newX[p] = u.x[p] + dt * v.at(s);
+      u.newInternalEnergy[p] =
+          u.internalEnergy[p] - u.pressure[p] / u.density[p] * workShare + 0.5 * dt * dt * (squares - ap.squaredNorm());
+      u.newDensity[p] = u.density[p] * (1.0 - d * dt);
+      u.divergence[p] = d;
     }
   });
 }

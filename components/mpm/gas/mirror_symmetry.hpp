@@ -2,7 +2,9 @@
 
 #include "components/mpm/shapes/linear.hpp"
 
-// What the gas methods compute so that the mirror image of a scene has the mirrored bits.
+// Mirror symmetry to the bit: the mirror image of a scene has the mirror image of its result. Floating-point sums
+// depend on their order, so sums over particles and nodes take both sides alike; and positions are measured from the
+// middle of a cell and of the grid, because distances from a lower corner round differently in the mirror image.
 
 namespace tushar::mpm::gas {
 
@@ -28,35 +30,7 @@ inline double positionInCell(const Level& level, int kernelAxis, int cell, doubl
   return middleOf(level, kernelAxis) + cells * level.spacing(kernelAxis);
 }
 
-/// Where a cell lies, so that its particles find what its nodes have for them.
-template <int D>
-class CellMiddle {
- public:
-  CellMiddle(const Level& level, const Index<D>& cell) {
-    for (int d = 0; d < D; ++d) {
-      middle_[d] = positionInCell(level, d, cell[d], 0);
-      inverseSpacing_[d] = level.inverseSpacing(d);
-    }
-  }
-  /// S_k(x) for each node of the cell, numbered as in Linear.
-  std::array<double, Linear<D>::nodes> weights(const Vec<D>& x) const {
-    const Vec<D> xi = (x - middle_).cwiseProduct(inverseSpacing_);
-    std::array<double, Linear<D>::nodes> w{1.0};
-    for (int d = 0; d < D; ++d)
-      for (int k = 0; k < 1 << d; ++k) {
-        const auto low = static_cast<std::size_t>(k), high = static_cast<std::size_t>(k + (1 << d));
-        w[high] = w[low] * (0.5 + xi[d]);
-        w[low] *= 0.5 - xi[d];
-      }
-    return w;
-  }
-
- private:
-  Vec<D> middle_;          ///< m
-  Vec<D> inverseSpacing_;  ///< 1/m
-};
-
-/// grad S_k in the middle of a cell, 1/m.
+/// The gradient of the shape function of node k in the middle of a cell, 1/m.
 template <int D>
 Vec<D> centreGradient(const Level& level, int k) {
   Vec<D> gradient;
@@ -64,8 +38,8 @@ Vec<D> centreGradient(const Level& level, int k) {
   return gradient;
 }
 
-/// Sum of `term(k)` over the nodes k of a cell, or the cells around a node: neighbours along the first axis with each
-/// other, then along the next.
+/// Sum of `term(k)` over the nodes k of a cell, or over the cells k around a node. Neighbours along the first axis are
+/// added first, then those along the next, so that a mirror image only exchanges the two terms of an addition.
 template <int D, class Term>
 auto sumOverCorners(Term&& term, int k = 0) {
   if constexpr (D == 0) {
@@ -77,10 +51,11 @@ auto sumOverCorners(Term&& term, int k = 0) {
   }
 }
 
-/// Sum of what `add(p, sum)` adds for the particles of a cell: from both ends of their order inwards, each half by
-/// itself; on a line the mirror image has them in reverse order.
+/// Sum over the particles p of a cell; `add(p, sum)` adds the term of p. The terms are added from both ends of the
+/// cell's list inwards, each half by itself: in the mirror image of a line the list is reversed, which only exchanges
+/// the halves.
 template <class Sum, class Add>
-Sum sumFromBothEnds(const data::ParticleRange& particles, Add&& add) {
+Sum sumOverParticles(const data::ParticleRange& particles, Add&& add) {
   Sum front{}, back{};
   int first = particles.first, last = particles.last - 1;
   for (; first < last; ++first, --last) {

@@ -4,7 +4,7 @@
 
 namespace tushar::mpm::gas {
 
-/// At a symmetry plane nothing moves through it: sets the normal component of a node field to 0 there.
+/// Nothing moves through a symmetry plane: sets the normal component of a node field to 0 there.
 template <int D>
 void stopAtSymmetryPlanes(const Patch& patch, NodeView<Vec<D>> field) {
   for (int d = 0; d < D; ++d)

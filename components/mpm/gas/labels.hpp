@@ -1,0 +1,43 @@
+#pragma once
+
+#include "components/mpm/labels.hpp"
+
+namespace tushar::mpm::gas {
+
+/// Particle variables.
+namespace p {
+using namespace mpm::p;
+inline constexpr ParticleLabel<double> density{"p.density", "kg/m^3", "mass density", Bound::positive};
+inline constexpr ParticleLabel<double> internalEnergy{"p.internalEnergy", "J/kg", "internal energy per mass",
+                                                      Bound::nonNegative};
+inline constexpr ParticleLabel<double> pressure{"p.pressure", "Pa", "pressure, artificial viscosity included"};
+inline constexpr ParticleLabel<double> velocityDivergence{"p.velocityDivergence", "1/s",
+                                                          "divergence of the velocity in the cell of the last step"};
+}  // namespace p
+
+/// Node variables.
+namespace g {
+using namespace mpm::g;
+template <int D>
+inline constexpr NodeLabel<Vec<D>> velocityStar{"g.velocity_star", "m/s", "velocity at the end of the step",
+                                                Bound::finite};
+}  // namespace g
+
+/// Cell variables.
+namespace c {
+inline constexpr CellLabel<double> density{"c.density", "kg/m^3", "mean density of the particles in the cell"};
+}  // namespace c
+
+/// Totals over all particles.
+namespace total {
+using namespace mpm::total;
+inline constexpr ReductionLabel<Sum> internalEnergy{"InternalEnergy", "J", "internal energy of all particles"};
+inline constexpr ReductionLabel<Sum> energy{"TotalEnergy", "J", "kinetic and internal energy of all particles"};
+inline constexpr ReductionLabel<Minimum> leastDensity{"LeastDensity", "kg/m^3", "least density of any particle"};
+inline constexpr ReductionLabel<Minimum> leastEnergy{"LeastInternalEnergy", "J/kg",
+                                                     "least internal energy of any particle"};
+inline constexpr ReductionLabel<Sum> entropy{"TotalEntropy", "kg",
+                                             "entropy of all particles over c_v, but for a constant"};
+}  // namespace total
+
+}  // namespace tushar::mpm::gas
