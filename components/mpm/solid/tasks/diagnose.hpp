@@ -4,6 +4,7 @@
 
 #include "components/mpm/solid/labels.hpp"
 #include "components/mpm/solid/material.hpp"
+#include "components/mpm/solid/method.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -73,9 +74,9 @@ void computeScaleFactor(const Patch& patch, const Material&, const Vec3& commonS
   }
 }
 
-/// The totals that can be saved; `affine` reads APIC's moment.
-template <int D, class Affine>
-void scheduleTotals(TaskList& tasks, const std::vector<Material>& materials, Affine affine) {
+/// The totals of the particles, and what each of them fills of space: a scene may save any of them.
+template <int D>
+void scheduleTotals(TaskList& tasks, const std::vector<Material>& materials, const Method& method, bool keepsSizes) {
   tasks.perMaterial("mpm::sumMass", sumParticles, materials, requiresOld(p::mass), computes(total::mass));
   tasks.perMaterial("mpm::sumStrainEnergy", sumParticles, materials, requiresOld(p::strainEnergy),
                     computes(total::strainEnergy));
@@ -88,7 +89,11 @@ void scheduleTotals(TaskList& tasks, const std::vector<Material>& materials, Aff
   tasks.perMaterial("mpm::sumCenterOfMass", sumCenterOfMass<D>, materials, requiresOld(p::mass), requiresOld(p::x<D>),
                     computes(total::centerOfMass));
   tasks.perMaterial("mpm::sumAngularMomentum", sumAngularMomentum<D>, materials, requiresOld(p::mass),
-                    requiresOld(p::x<D>), requiresOld(p::velocity<D>), affine, computes(total::angularMomentum));
+                    requiresOld(p::x<D>), requiresOld(p::velocity<D>),
+                    when(method.affine, requiresOld(p::affineMoment)), computes(total::angularMomentum));
+  tasks.perMaterial("mpm::computeScaleFactor", computeScaleFactor<D>, materials, with(method.commonSize),
+                    when(keepsSizes, requiresOld(p::size<D>)), requiresOld(p::deformationMeasure),
+                    computes(p::scaleFactor));
 }
 
 }  // namespace tushar::mpm::solid
