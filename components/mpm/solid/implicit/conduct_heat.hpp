@@ -1,6 +1,7 @@
 #pragma once
 
-#include "components/mpm/solid/implicit/rigid_body.hpp"
+#include "components/mpm/solid/implicit/node_map.hpp"
+#include "components/mpm/solid/implicit/particles.hpp"
 
 namespace tushar::mpm::solid::implicit {
 
@@ -16,11 +17,11 @@ class NodalHeat {
   static constexpr int D = Shape::dimension;
 
   NodalHeat(const RankPatches& patches, const std::vector<Material>& materials, const mpi::Communicator& ranks,
-            const Vec3& commonSize, const SolidViews<D>& views, bool resetsGrid = true)
+            const Vec3& commonSize, const OfRank<HeatedParticles<Shape>>& particles, bool resetsGrid = true)
       : patches_(patches),
         materials_(materials),
         common_size_(commonSize),
-        views_(views),
+        particles_(particles),
         resets_grid_(resetsGrid),
         nodes_(patches.front()->level(), ranks) {
     forEachPoint([&](const Point&, const auto& stencil) {
@@ -45,7 +46,7 @@ class NodalHeat {
     solvers::addUp(nodes_.unknowns(1), after_);
     return outcome;
   }
-  /// T' - T of a node, K; 0 where there is nothing.
+  /// T' - T of a node, K; 0 at nodes without particles.
   double change(const Index<D>& node) const {
     const int k = nodes_(nodes_.imageOf(node).node);
     return k < 0 ? 0.0 : after_[static_cast<std::size_t>(k)] - before_[static_cast<std::size_t>(k)];
@@ -65,21 +66,21 @@ class NodalHeat {
   struct Point {
     const Material& material;
     double mass, temperature, volume;  ///< kg, K, m^3
-    Matrix3 carried;                   ///< grad S by grad S of the grid, transposed
+    Matrix3 carried;                   ///< A in grad S = A^T grad_0 S: F^-1, or I where the grid is reset
   };
 
   template <class Visit>
   void forEachPoint(Visit&& visit) const {
     for (std::size_t p = 0; p < patches_.size(); ++p)
       for (std::size_t m = 0; m < materials_.size(); ++m) {
-        const Extents<Shape> extents(nodes_.level(), common_size_, views_.size[p][m], std::nullopt);
-        forEachStencil<
-            Shape>(*patches_[p], patches_[p]->cells(), views_.x[p][m], extents, [&](int k, const auto& stencil) {
-          const double mass = views_.mass[p][m][k], volume = mass / materials_[m].density;
-          const Matrix3& f = views_.deformation[p][m][k];
-          const Matrix3 carried = resets_grid_ ? Matrix3(Matrix3::Identity()) : Matrix3(f.inverse());
-          visit(Point{materials_[m], mass, views_.temperature[p][m][k], volume * f.determinant(), carried}, stencil);
-        });
+        const HeatedParticles<Shape>& heated = particles_[p][m];
+        forEachStencil(
+            *patches_[p], patches_[p]->cells(), heated.placed, common_size_, [&](int k, const auto& stencil) {
+              const double mass = heated.mass[k], volume = mass / materials_[m].density;
+              const Matrix3& f = heated.deformation[k];
+              const Matrix3 carried = resets_grid_ ? Matrix3(Matrix3::Identity()) : Matrix3(f.inverse());
+              visit(Point{materials_[m], mass, heated.temperature[k], volume * f.determinant(), carried}, stencil);
+            });
       }
   }
   void gather() {
@@ -137,7 +138,8 @@ class NodalHeat {
     }
     solvers::addUp(nodes_.unknowns(1), right);
   }
-  /// Rows and columns of what is given are left out; what they do to others goes to the right-hand side.
+  /// Leaves out the rows and columns of nodes with a given temperature; the right-hand side takes their effect on
+  /// other nodes.
   void addPoint(double factor, const std::array<int, touches_>& numbers, const std::array<Vec<D>, touches_>& slopes,
                 solvers::Matrix& matrix, std::vector<double>& right) const {
     std::array<double, touches_ * touches_> block{};
@@ -156,23 +158,20 @@ class NodalHeat {
   const RankPatches& patches_;
   const std::vector<Material>& materials_;
   Vec3 common_size_;
-  const SolidViews<D>& views_;
+  const OfRank<HeatedParticles<Shape>>& particles_;
   bool resets_grid_;
   NodeMap<D> nodes_;
   std::vector<double> capacity_, before_, after_;  ///< J/K, K, K
-  double least_ = 0;                               ///< J/K, of a node that particles touch by their slopes alone
+  double least_ = 0;                               ///< J/K, for nodes that particles touch by gradients alone
   std::vector<std::optional<double>> given_;       ///< K
 };
 
-/// The rate at which all nodes warm up in the step. Throws NumericalError if the solver gives up.
+/// The rate of change of the nodal temperatures in the step. Throws NumericalError if the solver fails.
 template <class Shape, int D = Shape::dimension>
 void conductHeat(const RankPatches& patches, const std::vector<Material>& materials, const mpi::Communicator& ranks,
-                 const ImplicitSetup& setup, double dt, const ParticleViews<const Vec<D>>& x,
-                 const ParticleViews<const Vec<D>>& size, const ParticleViews<const double>& mass,
-                 const ParticleViews<const double>& temperature, const ParticleViews<const Matrix3>& deformation,
-                 const NodeViews<double>& rate) {
-  const SolidViews<D> views{x, size, x, x, x, mass, temperature, mass, deformation, deformation};
-  NodalHeat<Shape> heat(patches, materials, ranks, setup.problem->method.commonSize, views, setup.how.resetsGrid);
+                 const ImplicitSetup& setup, double dt, const OfRank<HeatedParticles<Shape>>& particles,
+                 const OfRank<NodeView<double>>& rate) {
+  NodalHeat<Shape> heat(patches, materials, ranks, setup.problem->method.commonSize, particles, setup.how.resetsGrid);
   const solvers::Outcome outcome = heat.solve(dt, setup.how.heat);
   if (!outcome.converged) {
     std::optional<Vec3> worst;

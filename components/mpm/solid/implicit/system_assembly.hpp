@@ -96,7 +96,7 @@ void ImplicitSystem<Shape>::findRuns() {
 
 template <class Shape>
 void ImplicitSystem<Shape>::gatherNodes() {
-  std::vector<double> sums(static_cast<std::size_t>(brought_ * map_.size()), 0.0);
+  std::vector<double> sums(static_cast<std::size_t>(sums_ * map_.size()), 0.0);
   forEachRun([&](const PointSources<Shape>& from, const PointRun& run) {
     const Material& material = *from.group.material;
     for (int p = run.from; p < run.from + run.count; ++p) {
@@ -105,18 +105,19 @@ void ImplicitSystem<Shape>::gatherNodes() {
       const double modulus = c * c + from.group.oldStress[p].norm() / material.density;  // over the density
       for (int k = 0; k < touches_; ++k) {
         if (touch[k].node < 0) continue;
-        Eigen::Map<Eigen::Matrix<double, brought_, 1>> sum(sums.data() + brought_ * touch[k].node);
+        Eigen::Map<Eigen::Matrix<double, sums_, 1>> sum(sums.data() + sums_ * touch[k].node);
         const double mass = touch[k].s * from.group.mass[p];
         sum[0] += mass;
         sum[1] += mass / material.density;
         sum[2] += from.group.mass[p] * modulus * (touch[k].gradient.norm() + std::abs(touch[k].hoop));
         sum.template segment<D>(3) += mass * touch[k].sign.cwiseProduct(from.velocity[p]);
-        sum.template segment<D>(3 + D) += mass * touch[k].sign.cwiseProduct(from.acceleration[p]);
+        if (from.acceleration)
+          sum.template segment<D>(3 + D) += mass * touch[k].sign.cwiseProduct(from.acceleration[p]);
         sum.template segment<D>(3 + 2 * D) += touch[k].s * touch[k].sign.cwiseProduct(from.externalForce[p]);
       }
     }
   });
-  solvers::addUp(map_.unknowns(brought_), sums);
+  solvers::addUp(map_.unknowns(sums_), sums);
   shareNodes(sums);
 }
 
@@ -124,7 +125,7 @@ template <class Shape>
 void ImplicitSystem<Shape>::shareNodes(const std::vector<double>& sums) {
   const Vec<D> gravity = map_.level().template reduce<D>(method_.gravity);
   for (int k = 0; k < map_.size(); ++k) {
-    const Eigen::Map<const Eigen::Matrix<double, brought_, 1>> sum(sums.data() + brought_ * k);
+    const Eigen::Map<const Eigen::Matrix<double, sums_, 1>> sum(sums.data() + sums_ * k);
     Node& node = node_.emplace_back();
     node.mass = sum[0];
     node.volume = sum[1];
@@ -149,7 +150,7 @@ void ImplicitSystem<Shape>::measureStiffness() {
   stiffest_ = map_.ranks().max(stiffest_) / (h * h);
 }
 
-/// A node with a millionth of a cell's matter around it may have no stiffness to speak of along some axis.
+/// A node with less than a millionth of a cell's volume of material may have almost no stiffness along some axis.
 template <class Shape>
 void ImplicitSystem<Shape>::supportNodes() {
   for (Node& node : node_)
@@ -160,7 +161,7 @@ template <class Shape>
 solvers::Unknowns ImplicitSystem<Shape>::unknowns() const {
   solvers::Unknowns unknowns = map_.unknowns(D);
   constexpr int width =
-      Shape::Stencil::nodes - 1;  // of one particle; those of a cell reach one further where it is wide
+      Shape::Stencil::nodes - 1;  // for one particle; all of a cell reach one node further if it is more than 1
   unknowns.entries = map_.neighbours(width > 1 && how_.sharesVolume ? width + 1 : width);
   for (int k = 0; k < map_.owned(); ++k)
     for (int d = 0; d < D; ++d) unknowns.coordinates.push_back(map_.position(k)[d]);
@@ -220,7 +221,7 @@ bool ImplicitSystem<Shape>::residual(std::span<const double> u, std::span<double
   return admissible;
 }
 
-/// False where a point would be turned inside out.
+/// False if a point would be turned inside out.
 template <class Shape>
 bool ImplicitSystem<Shape>::addInternalForces(std::span<const double> u, std::span<double> r) {
   bool admissible = true;

@@ -43,7 +43,7 @@ auto ImplicitSystem<Shape>::volumeRow(std::size_t point) const -> Rows {
   return strainOf(point).transpose() * Eigen::Map<const Vector9>(inverse.data());
 }
 
-/// What a point adds to the forces of nodes for a unit change of ln det(stretch F) at its own F, N: V0 Bᵀ q F_oldᵀ with
+/// The nodal forces of a point for a unit change of ln det(stretch F) at its own F, N: V0 Bᵀ q F_oldᵀ with
 /// q = (dP/dF F / stretch - 2 P) / 3.
 template <class Shape>
 auto ImplicitSystem<Shape>::volumeForce(const PointGroup& group, int k, const Matrix9& tangent) const -> Rows {
@@ -95,7 +95,7 @@ void ImplicitSystem<Shape>::addRunStiffness(const PointRun& run, solvers::Matrix
   if (shares) addSharedStiffness(run, forces, matrix);
 }
 
-/// The common change of volume of a run, which every one of its points answers to.
+/// The stiffness of the points of a run against their common change of volume.
 template <class Shape>
 void ImplicitSystem<Shape>::addSharedStiffness(const PointRun& run, const std::vector<Rows>& forces,
                                                solvers::Matrix& matrix) const {
@@ -131,7 +131,7 @@ void ImplicitSystem<Shape>::addSharedStiffness(const PointRun& run, const std::v
   }
 }
 
-/// Inertia, weak springs, and the rows of what is prescribed, as stiff as the rest.
+/// Inertia, weak springs, and a diagonal as stiff as the rest for prescribed displacements.
 template <class Shape>
 void ImplicitSystem<Shape>::addDiagonals(solvers::Matrix& matrix) const {
   for (int k = 0; k < map_.owned(); ++k) {
