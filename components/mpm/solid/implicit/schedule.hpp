@@ -94,7 +94,7 @@ template <class Shape>
 void ImplicitMpm<Shape>::scheduleVelocity(TaskList& tasks) const {
   if (how_.dynamic)
     tasks.perMaterial("impm::advanceVelocity", advanceVelocity<Shape>, problem_.materials,
-                      with(problem_.method.commonSize), requiresOld(delT), all<Acceleration<Shape>>());
+                      with(problem_.method.commonSize), requiresOld(delT), all<NewmarkUpdate<Shape>>());
   else {
     const auto& place = how_.resetsGrid ? p::x<D> : p::displacement<D>;
     tasks.perMaterial("impm::meanVelocity", meanVelocity<D>, problem_.materials, requiresOld(delT), requiresOld(place),

@@ -153,7 +153,8 @@ struct SolveTotals {
             .rigidReaction = take(computes(total::rigidReactionForce))};
   }
 };
-/// SolveTotals as an argument of a task on a rank: they belong to no patch and no material, so there is one group.
+/// SolveTotals as an argument of a task that sees the whole rank: totals belong to no patch and no material, so the
+/// body gets one group.
 struct SolveTotalsArgument : tasks::GroupArgument<SolveTotals> {};
 
 /// Solves for the displacement of all nodes in the step, by Newton's method. All materials that are not rigid bodies

@@ -92,32 +92,32 @@ void moveAndStress(const Patch& patch, const Material& material, const ImplicitS
   const Vec3& commonSize = setup.problem->method.commonSize;
   forEachStencil(patch, patch.cells(), m.placed, commonSize, [&](int p, const auto& stencil) {
     const auto [moved, gradient] = interpolated(patch.level(), stencil, m.increment);
-    Matrix3& ofStep = states.gradient[static_cast<std::size_t>(p)];
+    Matrix3& step = states.gradient[static_cast<std::size_t>(p)];
     if (m.displacement) {
       m.newX[p] = x[p];
       (*m.displacement)[p] = (*m.oldDisplacement)[p] + moved;
-      ofStep = gradient * m.oldDeformation[p].inverse();
+      step = gradient * m.oldDeformation[p].inverse();
     } else {
       m.newX[p] = x[p] + moved;
-      ofStep = gradient;
+      step = gradient;
     }
   });
   stressOfStep(patch, material, states, m);
 }
 
-/// Particles that Newmark's rule accelerates.
+/// Particles whose velocity follows Newmark's rule.
 template <class Shape, int D = Shape::dimension>
-struct Acceleration {
-  NodeView<const Vec<D>> nodal;
+struct NewmarkUpdate {
+  NodeView<const Vec<D>> nodalAcceleration;
   Placed<Shape> placed;
-  ParticleView<const Vec<D>> oldVelocity, old;
+  ParticleView<const Vec<D>> oldVelocity, oldAcceleration;
   ParticleView<Vec<D>> velocity, acceleration;
 
-  static Acceleration from(auto& take) {
-    return {.nodal = take(requiresNew(g::newAcceleration<D>, Shape::ghostNodes)),
+  static NewmarkUpdate from(auto& take) {
+    return {.nodalAcceleration = take(requiresNew(g::newAcceleration<D>, Shape::ghostNodes)),
             .placed = Placed<Shape>::from(take, keepsSizes),
             .oldVelocity = take(requiresOld(p::velocity<D>)),
-            .old = take(requiresOld(p::acceleration<D>)),
+            .oldAcceleration = take(requiresOld(p::acceleration<D>)),
             .velocity = take(computes(p::velocity<D>)),
             .acceleration = take(computes(p::acceleration<D>))};
   }
@@ -126,10 +126,10 @@ struct Acceleration {
 /// Newmark: v_p += dt/2 (a_p + a'_p) with a'_p = sum_i S_i a_i.
 template <class Shape, int D = Shape::dimension>
 void advanceVelocity(const Patch& patch, const Material&, const Vec3& commonSize, double dt,
-                     const Acceleration<Shape>& a) {
-  forEachStencil(patch, patch.cells(), a.placed, commonSize, [&](int p, const auto& stencil) {
-    a.acceleration[p] = interpolated(patch.level(), stencil, a.nodal).first;
-    a.velocity[p] = a.oldVelocity[p] + dt / 2 * (a.old[p] + a.acceleration[p]);
+                     const NewmarkUpdate<Shape>& u) {
+  forEachStencil(patch, patch.cells(), u.placed, commonSize, [&](int p, const auto& stencil) {
+    u.acceleration[p] = interpolated(patch.level(), stencil, u.nodalAcceleration).first;
+    u.velocity[p] = u.oldVelocity[p] + dt / 2 * (u.oldAcceleration[p] + u.acceleration[p]);
   });
 }
 

@@ -102,34 +102,28 @@ struct NewParticles {
   }
 };
 
-/// Fills each body with its particles, `particlesPerCell` along each axis in the middle of equal parts of a cell, where
-/// the shape contains that point. As in Uintah, bodies may overlap, and of two that share a face on which such points
-/// lie each has particles there.
+/// Fills each body with its particles, `particlesPerCell` along each axis in the middle of equal parts of a cell, if
+/// the shape contains that point. As in Uintah, bodies may overlap, and two bodies that share a face with such points
+/// both have particles there.
 ///
-/// The id of a particle is its cell's number and its place in the cell, so that it does not depend on the patches.
+/// The id of a particle is made of the number of its cell and its place in the cell: it does not depend on the patches.
 template <int D>
 void actuallyInitialize(const Patch& patch, const Material& material, ParticleMaker& maker, const Start& start,
                         const NewParticles<D>& particles) {
   const Level& level = patch.level();
   if (patch.id() == 0) refuseIdle(start.loads.surfaces);
-  // A displaced particle may start in another cell than the one that made it, and so on another patch.
+  // A displaced particle may start in another cell than the one that made it, hence on another patch.
   const double farthest = start.solution ? start.solution->farthestAtStart() : 0.0;
   const int around = static_cast<int>(std::ceil(farthest / level.minSpacing()));
   forEach<D>(patch.cellsWithin(around), [&](const Index<D>& cell) {
     ParticleId inCell = 0;
     for (const Body& body : material.bodies) {
-      Box places{{}, Index3::filled(1)};
       Vec<D> extent;
-      for (int d = 0; d < D; ++d) {
-        places.upper[d] = body.particlesPerCell[level.axis(d)];
-        extent[d] = 1.0 / places.upper[d];
-      }
-      forEach<D>(places, [&](const Index<D>& k) {
+      for (int d = 0; d < D; ++d) extent[d] = 1.0 / body.particlesPerCell[level.axis(d)];
+      forEachParticleIn<D>(level, body, cell, [&](const Index<D>& k, const Vec3& place) {
         Vec<D> at;
         for (int d = 0; d < D; ++d)
           at[d] = level.nodePosition(d, 0) + (cell[d] + (k[d] + 0.5) * extent[d]) * level.spacing(d);
-        const Vec3 place = placeOf<D>(level, body, cell, k);
-        if (!body.shape->contains(place)) return;
         const ParticleId id = idOf<D>(level, cell, inCell++, body.where);
         Index<D> home = cell;
         if (start.solution) {

@@ -8,7 +8,7 @@
 
 namespace tushar::mpm::solid {
 
-/// The sum of a number of every particle.
+/// The sum of a particle variable.
 inline void sumParticles(const Patch&, const Material&, ParticleView<const double> values, Sum& total) {
   WideSum sum(total);
   for (int p = 0; p < values.owned(); ++p) sum.add(values[p]);
@@ -21,12 +21,13 @@ inline void sumThermalEnergy(const Patch&, const Material& material, ParticleVie
   for (int p = 0; p < mass.owned(); ++p) sum.add(mass[p] * material.specificHeat * temperature[p]);
 }
 
-/// Mass of all particles times their velocity, or their position.
+/// sum_p m_p v_p, kg m/s.
 template <int D>
 void sumMomentum(const Patch& patch, const Material&, ParticleView<const double> mass,
                  ParticleView<const Vec<D>> velocity, VectorSum& total) {
   for (int p = 0; p < mass.owned(); ++p) total.add(mass[p] * patch.level().expandDirection<D>(velocity[p]));
 }
+/// sum_p m_p x_p, kg m.
 template <int D>
 void sumCenterOfMass(const Patch& patch, const Material&, ParticleView<const double> mass, ParticleView<const Vec<D>> x,
                      VectorSum& total) {
@@ -60,7 +61,7 @@ void sumKineticEnergy(const Patch&, const Material&, ParticleView<const double> 
   for (int p = 0; p < mass.owned(); ++p) sum.add(0.5 * mass[p] * velocity[p].squaredNorm());
 }
 
-/// F times the edges that the particle had at the start: what it fills of space.
+/// The edges of a particle: F times those at the start, m.
 template <int D>
 void computeScaleFactor(const Patch& patch, const Material&, const Vec3& commonSize,
                         const std::optional<ParticleView<const Vec<D>>>& size, ParticleView<const Matrix3> deformation,
@@ -74,7 +75,7 @@ void computeScaleFactor(const Patch& patch, const Material&, const Vec3& commonS
   }
 }
 
-/// The totals of the particles, and what each of them fills of space: a scene may save any of them.
+/// Totals over the particles, and their edges.
 template <int D>
 void scheduleTotals(TaskList& tasks, const std::vector<Material>& materials, const Method& method, bool keepsSizes) {
   tasks.perMaterial("mpm::sumMass", sumParticles, materials, requiresOld(p::mass), computes(total::mass));

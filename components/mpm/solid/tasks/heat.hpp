@@ -39,7 +39,7 @@ struct HeatToNodes {
   }
 };
 
-/// C_i = sum_p S_i m_p c_v,   T_i = sum_p S_i m_p c_v T_p / C_i; 0 where there is no mass.
+/// C_i = sum_p S_i m_p c_v,   T_i = sum_p S_i m_p c_v T_p / C_i; 0 at nodes without mass.
 template <class Shape, int D = Shape::dimension>
 void interpolateTemperatureToGrid(const Patch& patch, const Material& material, const Vec3& commonSize,
                                   const HeatToNodes<Shape>& h) {
@@ -87,7 +87,7 @@ struct HeatFlow {
   }
 };
 
-/// Q_i = sum_p S_i H_p - V_p k grad S_i . grad T_p with the heat H_p of loads, if there are any
+/// Q_i = sum_p S_i H_p - V_p k grad S_i . grad T_p, with the heat H_p of loads if there are any, W
 template <class Shape, int D = Shape::dimension>
 void computeInternalHeatRate(const Patch& patch, const Material& material, const Vec3& commonSize,
                              const HeatFlow<Shape>& h) {
@@ -106,7 +106,7 @@ void computeInternalHeatRate(const Patch& patch, const Material& material, const
   });
 }
 
-/// Materials that share a node take one temperature there, the mean over their heat capacities.
+/// Materials at a node exchange heat until they have one temperature, the mean weighted by their heat capacities.
 template <int D>
 void computeHeatExchange(const Patch&, const std::vector<Material>&,
                          const std::vector<NodeView<const double>>& capacity,

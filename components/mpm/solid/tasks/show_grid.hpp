@@ -10,11 +10,12 @@ namespace tushar::mpm::solid {
 
 // The state of the particles on the grid, as outputs that only some scenes save: no step reads it.
 
-/// V_p = m_p J / density, and sigma_p where the stress is a function of F alone.
+/// V_p = m_p J / density
 inline void computeVolume(const Patch&, const Material& material, ParticleView<const double> mass,
                           ParticleView<const Matrix3> deformation, ParticleView<double> volume) {
   for (int p = 0; p < mass.owned(); ++p) volume[p] = mass[p] / material.density * deformation[p].determinant();
 }
+/// sigma_p, Pa, if the stress is a function of F alone.
 inline void computeStress(const Patch&, const Material& material, ParticleView<const Matrix3> deformation,
                           ParticleView<Matrix3> stress) {
   if (deformation.owned() == 0) return;
@@ -22,7 +23,7 @@ inline void computeStress(const Patch&, const Material& material, ParticleView<c
   for (int p = 0; p < deformation.owned(); ++p) stress[p] /= deformation[p].determinant();
 }
 
-/// Particles, and what the grid shows of them.
+/// Particles, and their state on the grid.
 template <class Shape, int D = Shape::dimension>
 struct GridPicture {
   Placed<Shape> particles;
@@ -34,7 +35,7 @@ struct GridPicture {
   NodeView<Vec<D>> velocity, force, acceleration;
   NodeView<Matrix3> stress;
 
-  /// `volume` and `stress` read those of particles, as far as shape functions reach.
+  /// `volume` and `stress` read those of particles, with the ghost cells that shape functions reach.
   static GridPicture from(auto& take, bool keepsSizes, auto volume, auto stress) {
     constexpr int reach = Shape::reach;
     return {.particles = Placed<Shape>::from(take, keepsSizes, reach, requiresOld(p::deformationMeasure, reach)),
@@ -53,7 +54,7 @@ struct GridPicture {
 
 /// m_i = sum_p S_i m_p,   v_i = sum_p S_i m_p v_p / m_i, f_i = - sum_p V_p sigma_p grad S_i (and - V_p sigma_theta
 /// S_i / r where axisymmetric) and f_i / m_i before any contact or boundary condition; V_i = sum_p S_i V_p,   sigma_i =
-/// sum_p S_i V_p sigma_p / V_i. 0 where there is no mass.
+/// sum_p S_i V_p sigma_p / V_i. 0 at nodes without mass.
 template <class Shape, int D = Shape::dimension>
 void showOnGrid(const Patch& patch, const Material&, const Vec3& commonSize, const GridPicture<Shape>& picture) {
   picture.mass.fill(0.0);
@@ -85,7 +86,7 @@ void showOnGrid(const Patch& patch, const Material&, const Vec3& commonSize, con
   });
 }
 
-/// `volume` and `stress` read those of particles, as far as shape functions reach.
+/// `volume` and `stress` read those of particles, with the ghost cells that shape functions reach.
 template <class Shape, class Volume, class Stress>
 void scheduleShowOnGrid(TaskList& tasks, const std::vector<Material>& materials, const Vec3& commonSize,
                         bool keepsSizes, Volume volume, Stress stress) {
