@@ -10,7 +10,7 @@ namespace tushar::mpm::solid::implicit {
 ///     (C_i + dt K_ij) T'_j = C_i T_i,  C_i = sum_p S_i m_p c_p,  K_ij = sum_p V_p k_p grad S_i . grad S_j,
 ///
 /// where T_i is the mean of the particles over their heat capacities. Materials have one temperature at a node. A side
-/// of the grid keeps the temperature that the scene gives; no heat goes through any other.
+/// of the grid keeps the temperature that the scene gives; without one it is insulated.
 template <class Shape>
 class NodalHeat {
  public:
@@ -104,7 +104,7 @@ class NodalHeat {
       given_.push_back(givenAt(nodes_.node(k)));
     }
   }
-  /// What a side of the grid keeps at a node, K.
+  /// The temperature that a side of the grid prescribes at a node, K.
   std::optional<double> givenAt(const Index<D>& node) const {
     const Level& level = nodes_.level();
     for (int d = 0; d < D; ++d)

@@ -39,7 +39,7 @@ struct SolidParticles {
   ParticleView<const Matrix3> deformation, stress;
   ParticleView<const double> state;  ///< internal variables of the constitutive model
 
-  /// `when`: InStep or AtStart.
+  /// `When` is InStep or AtStart.
   template <class When>
   static SolidParticles from(auto& take, When, const ParticleLabel<double>* state) {
     return {

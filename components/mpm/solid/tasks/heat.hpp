@@ -142,7 +142,7 @@ struct NodalHeating {
 };
 
 /// T*_i = T_i + (Q_i / C_i + contact) dt + H_i / C_i with the heat H_i of friction, or the given temperature on sides
-/// of the grid that have one; and dT_i/dt = (T*_i - T_i) / dt.
+/// of the grid that have one; and dT_i/dt, K/s, by which T*_i differs from T_i before boundary conditions.
 template <int D>
 void integrateTemperatureRate(const Patch& patch, const Material& material, const NodalHeating& h, double dt) {
   forEach<D>(h.capacity.box(), [&](const Index<D>& node) {
