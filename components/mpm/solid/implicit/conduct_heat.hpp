@@ -39,22 +39,20 @@ class NodalHeat {
     after_ = before_;
     std::vector<double> right(after_.size(), 0.0);
     const auto assemble = [&](solvers::Matrix& matrix) { this->assemble(dt, matrix, right); };
-    const auto owned = static_cast<std::size_t>(nodes_.owned());
+    const int owned = nodes_.owned();
     solvers::Outcome outcome = solvers::solver().solve(unknowns, {assemble, std::span(right).first(owned)}, settings,
                                                        std::span(after_).first(owned));
-    std::fill(after_.begin() + nodes_.owned(), after_.end(), 0.0);
+    std::fill(after_.begin() + owned, after_.end(), 0.0);
     solvers::addUp(nodes_.unknowns(1), after_);
     return outcome;
   }
   /// T' - T of a node, K; 0 at nodes without particles.
   double change(const Index<D>& node) const {
     const int k = nodes_(nodes_.imageOf(node).node);
-    return k < 0 ? 0.0 : after_[static_cast<std::size_t>(k)] - before_[static_cast<std::size_t>(k)];
+    return k < 0 ? 0.0 : after_[k] - before_[k];
   }
   /// T' of a node, K.
-  double temperature(const Index<D>& node) const {
-    return after_[static_cast<std::size_t>(nodes_(nodes_.imageOf(node).node))];
-  }
+  double temperature(const Index<D>& node) const { return after_[nodes_(nodes_.imageOf(node).node)]; }
   const NodeMap<D>& nodes() const { return nodes_; }
 
  private:
@@ -84,21 +82,21 @@ class NodalHeat {
       }
   }
   void gather() {
-    std::vector<double> sums(static_cast<std::size_t>(2 * nodes_.size()), 0.0);
+    std::vector<double> sums(2 * nodes_.size(), 0.0);
     forEachPoint([&](const Point& point, const auto& stencil) {
       stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>&) {
         const int k = nodes_(nodes_.imageOf(node).node);
         if (k < 0) return;
         const double capacity = s * point.mass * point.material.specificHeat;
-        sums[static_cast<std::size_t>(2 * k)] += capacity;
-        sums[static_cast<std::size_t>(2 * k) + 1] += capacity * point.temperature;
+        sums[2 * k] += capacity;
+        sums[2 * k + 1] += capacity * point.temperature;
       });
     });
     solvers::addUp(nodes_.unknowns(2), sums);
     for (std::size_t k = 0; k < sums.size(); k += 2) least_ = std::max(least_, sums[k]);
     least_ = 1e-12 * nodes_.ranks().max(least_);
     for (int k = 0; k < nodes_.size(); ++k) {
-      const double capacity = sums[static_cast<std::size_t>(2 * k)], heat = sums[static_cast<std::size_t>(2 * k) + 1];
+      const double capacity = sums[2 * k], heat = sums[2 * k + 1];
       capacity_.push_back(capacity);
       before_.push_back(capacity > 0 ? heat / capacity : 0.0);
       given_.push_back(givenAt(nodes_.node(k)));
@@ -131,10 +129,9 @@ class NodalHeat {
       addPoint(dt * point.volume * point.material.thermalConductivity, numbers, slopes, matrix, right);
     });
     for (int k = 0; k < nodes_.owned(); ++k) {
-      const auto at = static_cast<std::size_t>(k);
-      const double diagonal = std::max(capacity_[at], least_);
+      const double diagonal = std::max(capacity_[k], least_);
       matrix.add({&k, 1}, {&k, 1}, {&diagonal, 1});
-      right[at] += diagonal * given_[at].value_or(before_[at]);
+      right[k] += diagonal * given_[k].value_or(before_[k]);
     }
     solvers::addUp(nodes_.unknowns(1), right);
   }
@@ -145,10 +142,10 @@ class NodalHeat {
     std::array<double, touches_ * touches_> block{};
     for (std::size_t i = 0; i < touches_; ++i)
       for (std::size_t j = 0; j < touches_; ++j) {
-        if (numbers[i] < 0 || numbers[j] < 0 || given_[static_cast<std::size_t>(numbers[i])]) continue;
+        if (numbers[i] < 0 || numbers[j] < 0 || given_[numbers[i]]) continue;
         const double value = factor * slopes[i].dot(slopes[j]);
-        if (const auto& given = given_[static_cast<std::size_t>(numbers[j])])
-          right[static_cast<std::size_t>(numbers[i])] -= value * *given;
+        if (const auto& given = given_[numbers[j]])
+          right[numbers[i]] -= value * *given;
         else
           block[i * touches_ + j] = value;
       }

@@ -61,7 +61,7 @@ class PointStates {
   /// F = (I + gradient) F_old of a run. False if a point would be turned inside out or crushed to a tenth.
   bool deform(const PointRun& run) {
     for (int k = run.from; k < run.from + run.count; ++k) {
-      const std::size_t at = run.group->first + static_cast<std::size_t>(k);
+      const std::size_t at = run.group->first + k;
       const Matrix3 step = Matrix3::Identity() + gradient[at];
       if (!(step.determinant() > 0.1)) return false;
       deformation[at] = step * run.group->oldDeformation[k];
@@ -78,17 +78,16 @@ class PointStates {
       group.material->model->updateStress(group.material->density, points);
       if (group.newState) std::copy_n(points.state, points.count * state_size_, group.newState + from * state_size_);
       for (int k = 0; k < points.count && group.strainEnergy; ++k)
-        group.strainEnergy[from + k] =
-            energyDensity[static_cast<std::size_t>(k)] * group.mass[from + k] / group.material->density;
+        group.strainEnergy[from + k] = energyDensity[k] * group.mass[from + k] / group.material->density;
     });
   }
   /// Calls `visit(k, tangent)` with dP/dF of the k-th point of the group.
   template <class Visit>
   void forEachTangent(const PointRun& run, Visit&& visit) {
-    std::vector<Matrix9> tangents(static_cast<std::size_t>(std::min(stressGroup, run.count)));
+    std::vector<Matrix9> tangents(std::min(stressGroup, run.count));
     forEachChunk(run, [&](int from, StressPoints& points) {
       run.group->material->model->nominalTangent(points, tangents.data());
-      for (int k = 0; k < points.count; ++k) visit(from + k, tangents[static_cast<std::size_t>(k)]);
+      for (int k = 0; k < points.count; ++k) visit(from + k, tangents[k]);
     });
   }
 
@@ -101,10 +100,10 @@ class PointStates {
     for (int k = run.from; k < run.from + run.count && shares; ++k) {
       const double volume = run.group->mass[k] / run.group->material->density;
       start += volume;
-      now += volume * deformation[run.group->first + static_cast<std::size_t>(k)].determinant();
+      now += volume * deformation[run.group->first + k].determinant();
     }
     for (int k = run.from; k < run.from + run.count; ++k) {
-      const std::size_t at = run.group->first + static_cast<std::size_t>(k);
+      const std::size_t at = run.group->first + k;
       if (shares) stretch[at] = std::cbrt(now / start / deformation[at].determinant());
       f_bar_[at] = stretch[at] * deformation[at];
     }
@@ -116,16 +115,15 @@ class PointStates {
     const PointGroup& group = *run.group;
     std::array<Matrix3, stressGroup> rate;
     std::array<double, stressGroup> waveSpeed;
-    std::vector<double> state(static_cast<std::size_t>(std::min(stressGroup, run.count) * state_size_));
+    std::vector<double> state(std::min(stressGroup, run.count) * state_size_);
     for (int from = run.from; from < run.from + run.count; from += stressGroup) {
-      const std::size_t at = group.first + static_cast<std::size_t>(from);
+      const std::size_t at = group.first + from;
       StressPoints points;
       points.count = std::min(stressGroup, run.from + run.count - from);
       points.timeStep = dt_;
       points.oldDeformationGradient = group.oldDeformation + from;
       points.deformationGradient = &f_bar_[at];
-      for (int k = 0; k < points.count; ++k)
-        rate[static_cast<std::size_t>(k)] = gradient[at + static_cast<std::size_t>(k)] / dt_;
+      for (int k = 0; k < points.count; ++k) rate[k] = gradient[at + k] / dt_;
       points.velocityGradient = rate.data();
       points.temperature = group.temperature + from;
       points.oldStress = group.oldStress + from;

@@ -59,7 +59,7 @@ class NodeMap {
   int owned() const { return owned_; }
   /// The number of a node; -1 if this rank does not keep it.
   int operator()(const Index<D>& node) const { return box_.contains(node) ? numbers_[place(node)] : -1; }
-  const Index<D>& node(int number) const { return nodes_[static_cast<std::size_t>(number)]; }
+  const Index<D>& node(int number) const { return nodes_[number]; }
   /// Unknowns of `block` numbers for each node.
   solvers::Unknowns unknowns(int block) const {
     solvers::Unknowns unknowns;
@@ -123,11 +123,11 @@ class NodeMap {
   /// Numbers the rank's own nodes, then the ghosts, each in lexicographic order.
   void numberOwners() {
     const int mine = level_->share().rank;
-    std::vector<int> counts(static_cast<std::size_t>(level_->share().ranks) + 1, 0), ownerOfGhost;
+    std::vector<int> counts(level_->share().ranks + 1, 0), ownerOfGhost;
     std::vector<Index<D>> ghosts;
     forEach<D>(box_, [&](const Index<D>& node) {
       if ((known_[place(node)] & isTouched) == 0) return;
-      const int owner = ownerOf(node), among = counts[static_cast<std::size_t>(owner) + 1]++;
+      const int owner = ownerOf(node), among = counts[owner + 1]++;
       if (owner == mine) {
         numbers_[place(node)] = among;
         nodes_.push_back(node);
@@ -141,7 +141,7 @@ class NodeMap {
     std::partial_sum(counts.begin(), counts.end(), counts.begin());
     for (std::size_t k = 0; k < ghosts.size(); ++k) {
       numbers_[place(ghosts[k])] = owned_ + static_cast<int>(k);
-      ghosts_[k] += counts[static_cast<std::size_t>(ownerOfGhost[k])];
+      ghosts_[k] += counts[ownerOfGhost[k]];
       nodes_.push_back(ghosts[k]);
     }
   }

@@ -15,16 +15,16 @@ class RigidBody {
     const auto forEachTouch = [&](auto&& visit) { forEachShare(patches, setup, material, particles, visit); };
     forEachTouch([&](const Index<D>& node, double, const Vec<D>&) { nodes_.touch(node); });
     nodes_.number(patches, Shape::ghostNodes + 1);
-    std::vector<double> sums(static_cast<std::size_t>(nodes_.size() * (D + 1)), 0.0);  // mass, momentum of each node
+    std::vector<double> sums(nodes_.size() * (D + 1), 0.0);  // mass, momentum of each node
     forEachTouch([&](const Index<D>& node, double mass, const Vec<D>& velocity) {
-      double* sum = &sums[static_cast<std::size_t>(nodes_(node) * (D + 1))];
+      double* sum = &sums[nodes_(node) * (D + 1)];
       sum[0] += mass;
       Eigen::Map<Vec<D>>(sum + 1) += mass * velocity;
     });
     solvers::addUp(nodes_.unknowns(D + 1), sums);
     const auto given = contact_->prescribedVelocity(time + dt / 2);
     for (int k = 0; k < nodes_.size(); ++k) {
-      const double* sum = &sums[static_cast<std::size_t>(k * (D + 1))];
+      const double* sum = &sums[k * (D + 1)];
       moved_.push_back(given ? Vec<D>(dt * level_->reduce<D>(*given))
                              : Vec<D>(dt / sum[0] * Eigen::Map<const Vec<D>>(sum + 1)));
     }
@@ -35,7 +35,7 @@ class RigidBody {
     const auto image = nodes_.imageOf(node);
     const int number = nodes_(image.node);
     if (number < 0) return std::nullopt;
-    return Vec<D>(image.sign.cwiseProduct(moved_[static_cast<std::size_t>(number)]));
+    return Vec<D>(image.sign.cwiseProduct(moved_[number]));
   }
   /// Adds the forces with which the body holds the solid along the contact's `direction`, at the nodes of this rank.
   void addReaction(const ImplicitSystem<Shape>& system, VectorSum& reaction) const {
@@ -44,7 +44,7 @@ class RigidBody {
       if (!(*this)(system.nodes().node(k))) continue;
       Vec<D> force = Eigen::Map<const Vec<D>>(forces.data() + D * k);
       for (int d = 0; d < D; ++d)
-        if (!contact_->direction[static_cast<std::size_t>(level_->axis(d))]) force[d] = 0;
+        if (!contact_->direction[level_->axis(d)]) force[d] = 0;
       reaction.add(level_->template expandDirection<D>(force));
     }
   }
@@ -53,7 +53,7 @@ class RigidBody {
     for (int k = 0; k < system.nodes().size(); ++k)
       if (const auto moved = (*this)(system.nodes().node(k)))
         for (int d = 0; d < D; ++d)
-          if (contact_->direction[static_cast<std::size_t>(level_->axis(d))]) system.prescribe(k, d, (*moved)[d]);
+          if (contact_->direction[level_->axis(d)]) system.prescribe(k, d, (*moved)[d]);
   }
 
  private:
@@ -63,7 +63,7 @@ class RigidBody {
                     const OfRank<SolidParticles<Shape>>& particles, Visit&& visit) const {
     const Vec3& commonSize = setup.problem->method.commonSize;
     for (std::size_t p = 0; p < patches.size(); ++p) {
-      const SolidParticles<Shape>& body = particles[p][static_cast<std::size_t>(material)];
+      const SolidParticles<Shape>& body = particles[p][material];
       forEachStencil(*patches[p], patches[p]->cells(), body.placed, commonSize, [&](int k, const auto& stencil) {
         stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>&) {
           const auto image = nodes_.imageOf(node);

@@ -108,7 +108,7 @@ class ImplicitSystem : public solvers::NonlinearProblem {
   Rows volumeForce(const PointGroup& group, int k, const Matrix9& tangent) const;
   void addSharedStiffness(const PointRun& run, const std::vector<Rows>& forces, solvers::Matrix& matrix) const;
   void addDiagonals(solvers::Matrix& matrix) const;
-  bool isPrescribed(int node, int d) const { return prescribed_[static_cast<std::size_t>(D * node + d)] != 0; }
+  bool isPrescribed(int node, int d) const { return prescribed_[D * node + d] != 0; }
 
   Method method_;
   ImplicitMethod how_;

@@ -75,8 +75,8 @@ void stressOfStep(const Patch& patch, const Material& material, PointStates& sta
     states.updateStress(run);
   });
   for (int p = 0; p < m.mass.owned(); ++p) {
-    m.deformation[p] = states.deformation[static_cast<std::size_t>(p)];
-    m.stress[p] = states.stress[static_cast<std::size_t>(p)];
+    m.deformation[p] = states.deformation[p];
+    m.stress[p] = states.stress[p];
     m.volume[p] = m.mass[p] / material.density * m.deformation[p].determinant();
   }
 }
@@ -88,11 +88,11 @@ void moveAndStress(const Patch& patch, const Material& material, const ImplicitS
                    const Movement<Shape>& m) {
   const ParticleView<const Vec<D>>& x = m.placed.x;
   if (x.owned() == 0) return;
-  PointStates states(static_cast<std::size_t>(x.owned()), setup.stateSize, dt, setup.how.sharesVolume);
+  PointStates states(x.owned(), setup.stateSize, dt, setup.how.sharesVolume);
   const Vec3& commonSize = setup.problem->method.commonSize;
   forEachStencil(patch, patch.cells(), m.placed, commonSize, [&](int p, const auto& stencil) {
     const auto [moved, gradient] = interpolated(patch.level(), stencil, m.increment);
-    Matrix3& step = states.gradient[static_cast<std::size_t>(p)];
+    Matrix3& step = states.gradient[p];
     if (m.displacement) {
       m.newX[p] = x[p];
       (*m.displacement)[p] = (*m.oldDisplacement)[p] + moved;

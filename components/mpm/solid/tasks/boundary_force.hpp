@@ -38,14 +38,13 @@ template <int D, class Volume, class Stress>
 void scheduleBoundaryForces(TaskList& tasks, const std::vector<Material>& materials, const std::array<bool, 3>& isThin,
                             Volume volume, Stress stress) {
   for (int face = 0; face < 6; ++face) {
-    const auto k = static_cast<std::size_t>(face);
-    if (isThin[k / 2])
+    if (isThin[face / 2])
       tasks.perMaterial("mpm::measureThinBoundary", measureThinBoundary, materials, with(face), volume, stress,
-                        computes(total::boundaryForce[k]), computes(total::contactArea[k]));
+                        computes(total::boundaryForce[face]), computes(total::contactArea[face]));
     else
       tasks.perMaterial("mpm::measureBoundary", measureBoundary<D>, materials, with(face),
-                        requiresNew(g::internalForce<D>), requiresNew(g::volume), computes(total::boundaryForce[k]),
-                        computes(total::contactArea[k]));
+                        requiresNew(g::internalForce<D>), requiresNew(g::volume), computes(total::boundaryForce[face]),
+                        computes(total::contactArea[face]));
   }
 }
 
