@@ -31,6 +31,18 @@ Vec3 placeOf(const Level& level, const Body& body, const Index<D>& cell, const I
   return level.expandPoint<D>(at);
 }
 
+/// Calls `visit(k, point)` for each particle of a body that starts in a cell: `k` is its place in the cell, `point` its
+/// position, m, as placeOf rounds it.
+template <int D, class Visit>
+void forEachParticleIn(const Level& level, const Body& body, const Index<D>& cell, Visit&& visit) {
+  Box places{{}, Index3::filled(1)};
+  for (int d = 0; d < D; ++d) places.upper[d] = body.particlesPerCell[level.axis(d)];
+  forEach<D>(places, [&](const Index<D>& k) {
+    const Vec3 point = placeOf<D>(level, body, cell, k);
+    if (body.shape->contains(point)) visit(k, point);
+  });
+}
+
 /// A material: how it answers to being deformed, and the bodies made of it.
 struct Material {
   std::string name;

@@ -47,19 +47,13 @@ void SolidMpm<Shape>::scheduleInitialize(TaskList& tasks) const {
   tasks.perMaterial("mpm::computeInitialTimeStep", computeInitialTimeStep<D>, problem_.materials,
                     requiresNew(p::velocity<D>), requiresNew(p::temperature), requiresNew(p::deformationMeasure),
                     computes(c::stableTimeStep));
-  if (keeps_stress_)
-    tasks.perMaterial("mpm::initializeStress", initializeStress, problem_.materials, with(state_size_),
-                      requiresNew(p::mass), requiresNew(p::deformationMeasure), computes(p::volume),
-                      computes(p::stress), when(state_size_ > 0, computes(state_)));
+  if (keeps_stress_) scheduleInitialStress(tasks, problem_.materials, state_);
   if (problem_.method.affine)
     tasks.perMaterial("mpm::initializeAffineMoment", initializeAffineMoment, problem_.materials, requiresNew(p::mass),
                       computes(p::affineMoment));
   tasks.perMaterial("mpm::startWork", startWork<D>, problem_.materials, requiresNew(p::mass),
                     requiresNew(p::velocity<D>), computes(p::work));
-  if (is_damageable_)
-    tasks.perMaterial("mpm::initializeDamage", initializeDamage, problem_.materials, requiresNew(data::particleId),
-                      requiresNew(p::volume), computes(p::damage), computes(p::failureThreshold),
-                      computes(p::localized), computes(p::failureTime));
+  if (is_damageable_) scheduleInitialDamage(tasks, problem_.materials);
 }
 
 template <class Shape>
@@ -97,7 +91,7 @@ void SolidMpm<Shape>::scheduleTimeAdvance(TaskList& tasks) const {
     tasks.perMaterial("mpm::limitVelocity", limitVelocity<D>, problem_.materials,
                       with(*problem_.method.maximumParticleVelocity), requiresOld(p::velocity<D>),
                       modifies(p::velocity<D>));
-  scheduleHeating(tasks);
+  if (heats_) scheduleHeatOfWork(tasks, problem_.materials, problem_.method.conductsHeat);
   scheduleStrainWork(tasks);
   tasks.perMaterial("mpm::addDisplacement", addDisplacement<D>, problem_.materials, requiresOld(p::x<D>),
                     requiresNew(p::x<D>), requiresOld(p::displacement<D>), computes(p::displacement<D>));
@@ -278,24 +272,14 @@ void SolidMpm<Shape>::scheduleComputeStressTensor(TaskList& tasks, const NodeLab
   scheduleDamage(tasks);
 }
 
-/// What the stress has left of a particle.
 template <class Shape>
 void SolidMpm<Shape>::scheduleDamage(TaskList& tasks) const {
-  if (is_damageable_)
-    tasks.perMaterial("mpm::computeDamage", computeDamage, problem_.materials, with(state_size_), startTime(),
-                      requiresOld(delT), requiresOld(p::temperature), requiresOld(p::damage),
-                      requiresOld(p::failureThreshold), requiresOld(p::localized), requiresOld(p::failureTime),
-                      requiresNew(p::deformationMeasure), requiresNew(p::volume),
-                      when(state_size_ > 0, requiresNew(state_)), modifies(p::stress), computes(p::damage),
-                      computes(p::failureThreshold), computes(p::localized), computes(p::failureTime));
+  if (is_damageable_) solid::scheduleDamage(tasks, problem_.materials, state_);
 }
 
 template <class Shape>
 void SolidMpm<Shape>::scheduleDiagnostics(TaskList& tasks) const {
-  scheduleTotals<D>(tasks, problem_.materials, when(problem_.method.affine, requiresOld(p::affineMoment)));
-  tasks.perMaterial("mpm::computeScaleFactor", computeScaleFactor<D>, problem_.materials,
-                    with(problem_.method.commonSize), when(keepsSizes(), requiresOld(p::size<D>)),
-                    requiresOld(p::deformationMeasure), computes(p::scaleFactor));
+  scheduleTotals<D>(tasks, problem_.materials, problem_.method, keepsSizes());
   for (std::size_t k = 0; k < total::work.size(); ++k)
     tasks.perMaterial("mpm::sumWork", sumWork, problem_.materials, with(static_cast<int>(k)), requiresOld(p::work),
                       computes(total::work[k]));
@@ -309,9 +293,8 @@ void SolidMpm<Shape>::scheduleDiagnostics(TaskList& tasks) const {
                       computes(p::stress));
   }
   const auto show = [&](auto reads) {
-    scheduleShowOnGrid<Shape>(tasks, problem_.materials, problem_.method.commonSize,
-                              when(keepsSizes(), requiresOld(p::size<D>, Shape::reach)), reads(p::volume, Shape::reach),
-                              reads(p::stress, Shape::reach));
+    scheduleShowOnGrid<Shape>(tasks, problem_.materials, problem_.method.commonSize, keepsSizes(),
+                              reads(p::volume, Shape::reach), reads(p::stress, Shape::reach));
     scheduleBoundaryForces<D>(tasks, problem_.materials, problem_.method.isThin, reads(p::volume, 0),
                               reads(p::stress, 0));
     tasks.perMaterial("mpm::sumVolume", sumParticles, problem_.materials, reads(p::volume, 0), computes(total::volume));

@@ -51,7 +51,6 @@ class SolidMpm : public Solids {
   void scheduleUpdateParticles(TaskList& tasks) const;
   void scheduleHeat(TaskList& tasks) const;
   void scheduleDamage(TaskList& tasks) const;
-  void scheduleHeating(TaskList& tasks) const;
 
   bool isViscous() const { return problem_.method.viscosity.has_value(); }
   bool hasFriction() const {

@@ -1,7 +1,8 @@
 #pragma once
 
 #include "components/mpm/boundary_labels.hpp"
-#include "components/mpm/solid/implicit/rigid_body.hpp"
+#include "components/mpm/solid/implicit/node_map.hpp"
+#include "components/mpm/solid/implicit/particles.hpp"
 
 namespace tushar::mpm::solid::implicit {
 
@@ -10,18 +11,18 @@ namespace tushar::mpm::solid::implicit {
 ///     (C_i + dt K_ij) T'_j = C_i T_i,  C_i = sum_p S_i m_p c_p,  K_ij = sum_p V_p k_p grad S_i . grad S_j,
 ///
 /// where T_i is the mean of the particles over their heat capacities. Materials have one temperature at a node. A side
-/// of the grid keeps the temperature that the scene gives; no heat goes through any other.
+/// of the grid keeps the temperature that the scene gives; without one it is insulated.
 template <class Shape>
 class NodalHeat {
  public:
   static constexpr int D = Shape::dimension;
 
   NodalHeat(const RankPatches& patches, const std::vector<Material>& materials, const mpi::Communicator& ranks,
-            const Vec3& commonSize, const SolidViews<D>& views, bool resetsGrid = true)
+            const Vec3& commonSize, const OfRank<HeatedParticles<Shape>>& particles, bool resetsGrid = true)
       : patches_(patches),
         materials_(materials),
         common_size_(commonSize),
-        views_(views),
+        particles_(particles),
         resets_grid_(resetsGrid),
         nodes_(patches.front()->level(), ranks) {
     forEachPoint([&](const Point&, const auto& stencil) {
@@ -39,22 +40,20 @@ class NodalHeat {
     after_ = before_;
     std::vector<double> right(after_.size(), 0.0);
     const auto assemble = [&](solvers::Matrix& matrix) { this->assemble(dt, matrix, right); };
-    const auto owned = static_cast<std::size_t>(nodes_.owned());
+    const int owned = nodes_.owned();
     solvers::Outcome outcome = solvers::solver().solve(unknowns, {assemble, std::span(right).first(owned)}, settings,
                                                        std::span(after_).first(owned));
-    std::fill(after_.begin() + nodes_.owned(), after_.end(), 0.0);
+    std::fill(after_.begin() + owned, after_.end(), 0.0);
     solvers::addUp(nodes_.unknowns(1), after_);
     return outcome;
   }
-  /// T' - T of a node, K; 0 where there is nothing.
+  /// T' - T of a node, K; 0 at nodes without particles.
   double change(const Index<D>& node) const {
     const int k = nodes_(nodes_.imageOf(node).node);
-    return k < 0 ? 0.0 : after_[static_cast<std::size_t>(k)] - before_[static_cast<std::size_t>(k)];
+    return k < 0 ? 0.0 : after_[k] - before_[k];
   }
   /// T' of a node, K.
-  double temperature(const Index<D>& node) const {
-    return after_[static_cast<std::size_t>(nodes_(nodes_.imageOf(node).node))];
-  }
+  double temperature(const Index<D>& node) const { return after_[nodes_(nodes_.imageOf(node).node)]; }
   const NodeMap<D>& nodes() const { return nodes_; }
 
  private:
@@ -66,32 +65,32 @@ class NodalHeat {
   struct Point {
     const Material& material;
     double mass, temperature, volume;  ///< kg, K, m^3
-    Matrix3 carried;                   ///< grad S by grad S of the grid, transposed
+    Matrix3 carried;                   ///< A in grad S = A^T grad_0 S: F^-1, or I where the grid is reset
   };
 
   template <class Visit>
   void forEachPoint(Visit&& visit) const {
     for (std::size_t p = 0; p < patches_.size(); ++p)
       for (std::size_t m = 0; m < materials_.size(); ++m) {
-        const Extents<Shape> extents(nodes_.level(), common_size_, views_.size[p][m], std::nullopt);
-        forEachStencil<
-            Shape>(*patches_[p], patches_[p]->cells(), views_.x[p][m], extents, [&](int k, const auto& stencil) {
-          const double mass = views_.mass[p][m][k], volume = mass / materials_[m].density;
-          const Matrix3& f = views_.deformation[p][m][k];
-          const Matrix3 carried = resets_grid_ ? Matrix3(Matrix3::Identity()) : Matrix3(f.inverse());
-          visit(Point{materials_[m], mass, views_.temperature[p][m][k], volume * f.determinant(), carried}, stencil);
-        });
+        const HeatedParticles<Shape>& heated = particles_[p][m];
+        forEachStencil(
+            *patches_[p], patches_[p]->cells(), heated.placed, common_size_, [&](int k, const auto& stencil) {
+              const double mass = heated.mass[k], volume = mass / materials_[m].density;
+              const Matrix3& f = heated.deformation[k];
+              const Matrix3 carried = resets_grid_ ? Matrix3(Matrix3::Identity()) : Matrix3(f.inverse());
+              visit(Point{materials_[m], mass, heated.temperature[k], volume * f.determinant(), carried}, stencil);
+            });
       }
   }
   void gather() {
-    std::vector<double> sums(static_cast<std::size_t>(2 * nodes_.size()), 0.0);
+    std::vector<double> sums(2 * nodes_.size(), 0.0);
     forEachPoint([&](const Point& point, const auto& stencil) {
       stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>&) {
         const int k = nodes_(nodes_.imageOf(node).node);
         if (k < 0) return;
         const double capacity = s * point.mass * point.material.specificHeat;
-        sums[static_cast<std::size_t>(2 * k)] += capacity;
-        sums[static_cast<std::size_t>(2 * k) + 1] += capacity * point.temperature;
+        sums[2 * k] += capacity;
+        sums[2 * k + 1] += capacity * point.temperature;
       });
     });
     solvers::addUp(nodes_.unknowns(2), sums);
@@ -99,13 +98,13 @@ class NodalHeat {
     least_ = 1e-12 * nodes_.ranks().max(least_);
     const grid::BoundarySides<double> sides = nodes_.level().sides(boundary::temperature);
     for (int k = 0; k < nodes_.size(); ++k) {
-      const double capacity = sums[static_cast<std::size_t>(2 * k)], heat = sums[static_cast<std::size_t>(2 * k) + 1];
+      const double capacity = sums[2 * k], heat = sums[2 * k + 1];
       capacity_.push_back(capacity);
       before_.push_back(capacity > 0 ? heat / capacity : 0.0);
       given_.push_back(givenAt(nodes_.node(k), sides));
     }
   }
-  /// What a side of the grid keeps at a node, K.
+  /// The temperature that a side of the grid prescribes at a node, K.
   std::optional<double> givenAt(const Index<D>& node, const grid::BoundarySides<double>& sides) const {
     const Level& level = nodes_.level();
     for (int d = 0; d < D; ++d)
@@ -132,23 +131,23 @@ class NodalHeat {
       addPoint(dt * point.volume * point.material.thermalConductivity, numbers, slopes, matrix, right);
     });
     for (int k = 0; k < nodes_.owned(); ++k) {
-      const auto at = static_cast<std::size_t>(k);
-      const double diagonal = std::max(capacity_[at], least_);
+      const double diagonal = std::max(capacity_[k], least_);
       matrix.add({&k, 1}, {&k, 1}, {&diagonal, 1});
-      right[at] += diagonal * given_[at].value_or(before_[at]);
+      right[k] += diagonal * given_[k].value_or(before_[k]);
     }
     solvers::addUp(nodes_.unknowns(1), right);
   }
-  /// Rows and columns of what is given are left out; what they do to others goes to the right-hand side.
+  /// Leaves out the rows and columns of nodes with a given temperature; the right-hand side takes their effect on
+  /// other nodes.
   void addPoint(double factor, const std::array<int, touches_>& numbers, const std::array<Vec<D>, touches_>& slopes,
                 solvers::Matrix& matrix, std::vector<double>& right) const {
     std::array<double, touches_ * touches_> block{};
     for (std::size_t i = 0; i < touches_; ++i)
       for (std::size_t j = 0; j < touches_; ++j) {
-        if (numbers[i] < 0 || numbers[j] < 0 || given_[static_cast<std::size_t>(numbers[i])]) continue;
+        if (numbers[i] < 0 || numbers[j] < 0 || given_[numbers[i]]) continue;
         const double value = factor * slopes[i].dot(slopes[j]);
-        if (const auto& given = given_[static_cast<std::size_t>(numbers[j])])
-          right[static_cast<std::size_t>(numbers[i])] -= value * *given;
+        if (const auto& given = given_[numbers[j]])
+          right[numbers[i]] -= value * *given;
         else
           block[i * touches_ + j] = value;
       }
@@ -158,23 +157,20 @@ class NodalHeat {
   const RankPatches& patches_;
   const std::vector<Material>& materials_;
   Vec3 common_size_;
-  const SolidViews<D>& views_;
+  const OfRank<HeatedParticles<Shape>>& particles_;
   bool resets_grid_;
   NodeMap<D> nodes_;
   std::vector<double> capacity_, before_, after_;  ///< J/K, K, K
-  double least_ = 0;                               ///< J/K, of a node that particles touch by their slopes alone
+  double least_ = 0;                               ///< J/K, for nodes that particles touch by gradients alone
   std::vector<std::optional<double>> given_;       ///< K
 };
 
-/// The rate at which all nodes warm up in the step. Throws NumericalError if the solver gives up.
+/// The rate of change of the nodal temperatures in the step. Throws NumericalError if the solver fails.
 template <class Shape, int D = Shape::dimension>
 void conductHeat(const RankPatches& patches, const std::vector<Material>& materials, const mpi::Communicator& ranks,
-                 const ImplicitSetup& setup, double dt, const ParticleViews<const Vec<D>>& x,
-                 const ParticleViews<const Vec<D>>& size, const ParticleViews<const double>& mass,
-                 const ParticleViews<const double>& temperature, const ParticleViews<const Matrix3>& deformation,
-                 const NodeViews<double>& rate) {
-  const SolidViews<D> views{x, size, x, x, x, mass, temperature, mass, deformation, deformation};
-  NodalHeat<Shape> heat(patches, materials, ranks, setup.problem->method.commonSize, views, setup.how.resetsGrid);
+                 const ImplicitSetup& setup, double dt, const OfRank<HeatedParticles<Shape>>& particles,
+                 const OfRank<NodeView<double>>& rate) {
+  NodalHeat<Shape> heat(patches, materials, ranks, setup.problem->method.commonSize, particles, setup.how.resetsGrid);
   const solvers::Outcome outcome = heat.solve(dt, setup.how.heat);
   if (!outcome.converged) {
     std::optional<Vec3> worst;

@@ -26,11 +26,12 @@ class ImplicitMpm : public Solids {
   void scheduleMovement(TaskList& tasks) const;
   void scheduleVelocity(TaskList& tasks) const;
   void scheduleHeat(TaskList& tasks) const;
-  void scheduleDamage(TaskList& tasks) const;
+
+  ImplicitSetup setup() const { return {&problem_, how_, state_size_}; }
 
   ImplicitMethod how_;
-  bool heats_;          ///< whether the work of a step changes the temperature of any material
-  bool is_damageable_;  ///< whether damage of any material is counted
+  bool heats_;          ///< the work of a step changes the temperature of some material
+  bool is_damageable_;  ///< some material counts damage
 };
 
 }  // namespace tushar::mpm::solid::implicit

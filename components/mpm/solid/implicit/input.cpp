@@ -17,7 +17,7 @@ using input::Schema;
 
 namespace {
 
-/// The `MPM` section of impm.
+/// The `MPM` section with implicit time steps.
 struct Section {
   int integrator = 0, solver = 0, transient = 0;
   bool gimp = false, useLoadCurves = false, withColor = false, axisymmetric = false;
@@ -105,13 +105,13 @@ const Schema<Section>& sectionSchema() {
   return schema;
 }
 
-/// A contact whose scene does not say along which axes: implicit steps follow the master along all of them.
+/// Without a <direction>, a contact follows its master along all axes.
 void settleDirections(std::vector<Contact>& contacts) {
   for (Contact& contact : contacts)
     if (!contact.directionIsGiven) contact.direction = {true, true, true};
 }
 
-/// A material that says is_rigid, if it is one, is the master of the contacts that have one.
+/// A material with <is_rigid> is the master of all contacts of type rigid and specified.
 void settleMasters(const Element& root, std::vector<Contact>& contacts, Diagnostics& diagnostics) {
   const std::vector<Element> materials = root.child("MaterialProperties")->child("MPM")->children("material");
   const auto isSpecified = [](const Contact& contact) { return contact.type == Contact::Type::specified; };
@@ -134,7 +134,7 @@ bool isMaster(const Problem& problem, int material) {
   });
 }
 
-/// Implicit steps need the tangent of every material that is deformed: all but the masters of contacts.
+/// Implicit steps need the tangent of every material except the masters of contacts, which do not deform.
 void refuseWithoutTangent(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
   for (const Material& material : problem.materials)
     if (!material.model->hasTangent() && !isMaster(problem, material.index))
@@ -146,13 +146,13 @@ void refuseWithoutTangent(const Problem& problem, const Element& root, Diagnosti
               "master of a <contact> of type rigid or specified");
 }
 
-/// Whether a damage model only counts the damage.
+/// Whether a damage model counts damage without weakening the material.
 bool onlyCounts(const Damage& damage) {
   return std::holds_alternative<NoDamage>(damage) || std::holds_alternative<HancockMackenzieDamage>(damage) ||
          std::holds_alternative<JohnsonCookDamage>(damage);
 }
 
-/// F-bar changes the F that a stress follows from; what goes by the rate would need more than that.
+/// F-bar changes the F from which the stress follows; rate models would also need a changed velocity gradient.
 void refuseVolumesOfStates(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
   for (const Material& material : problem.materials)
     if (!material.model->supportsFBar() && !isMaster(problem, material.index))
@@ -162,7 +162,7 @@ void refuseVolumesOfStates(const Problem& problem, const Element& root, Diagnost
                             material.name + "' is " + std::string(material.model->name()));
 }
 
-/// What a scene may ask for that only explicit time steps know.
+/// Features that only explicit time steps have.
 void refuseExplicitOnly(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
   const Element where = root.child("MaterialProperties").value();
   for (const Material& material : problem.materials)
@@ -188,7 +188,7 @@ void refuseExplicitOnly(const Problem& problem, const Element& root, Diagnostics
     diagnostics.error(root.child("PhysicalBC").value(), "heat_flux: only with <time_integrator> explicit");
 }
 
-/// Conditions of faces that implicit steps would pass over: those of one material of several, and a flow of heat.
+/// Boundary conditions that implicit steps would ignore: those of one material out of several, and a heat flux.
 void refuseConditions(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
   const auto grid = root.child("Grid");
   const auto conditions = grid ? grid->child("BoundaryConditions") : std::nullopt;

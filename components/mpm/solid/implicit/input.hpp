@@ -4,12 +4,12 @@
 
 namespace tushar::mpm::solid::implicit {
 
-/// Whether <MPM> asks for implicit time steps.
+/// Whether the <MPM> section of a scene has implicit time steps.
 bool isImplicit(const input::Element& root);
 /// Reads a scene of solids with implicit time steps; every problem goes to the diagnostics.
 simulation::MakeComponent readScene(const input::Element& root, input::Diagnostics& diagnostics);
 
-/// What sus knows of solids with implicit time steps.
+/// The component of solids with implicit time steps, for sus.
 simulation::ComponentKind implicitKind();
 
 }  // namespace tushar::mpm::solid::implicit

@@ -10,7 +10,7 @@
 
 namespace tushar::mpm::solid::implicit {
 
-/// A node that a particle touches: S_i, its gradient (1/m) and S_i / r (1/m) where axisymmetric.
+/// A node that a particle touches: S_i, its gradient (1/m) and, if axisymmetric, S_i / r (1/m).
 template <int D>
 struct NodeTouch {
   int node = -1;  ///< number in the system; -1: none
@@ -18,7 +18,7 @@ struct NodeTouch {
   Vec<D> gradient, sign;  ///< the sign with which the node moves the particle along each axis
 };
 
-/// The particles of a material on a patch, one after another in memory, and what they keep through Newton's iterations.
+/// The particles of a material on a patch, contiguous in memory, with their state before the step.
 struct PointGroup {
   const Material* material = nullptr;
   int count = 0;
@@ -26,18 +26,18 @@ struct PointGroup {
   const double *mass = nullptr, *temperature = nullptr;
   const Matrix3 *oldDeformation = nullptr, *oldStress = nullptr;
   const double* oldState = nullptr;     ///< stateSize numbers each
-  double* newState = nullptr;           ///< the same at the end; null where nobody asks
-  double* strainEnergy = nullptr;       ///< J; null where nobody asks
-  double* temperatureChange = nullptr;  ///< K; null where nobody asks
+  double* newState = nullptr;           ///< stateSize numbers each, at the end of the step; null: not wanted
+  double* strainEnergy = nullptr;       ///< J; null: not wanted
+  double* temperatureChange = nullptr;  ///< K; null: not wanted
 };
 
-/// Particles of a group that follow each other in memory: those of a cell.
+/// The particles of a group in one cell, contiguous in memory.
 struct PointRun {
   const PointGroup* group;
   int from, count;
 };
 
-/// Brings deformation gradients and stresses to the end of a step.
+/// Updates deformation gradients and stresses to the end of a step.
 class PointStates {
  public:
   PointStates(std::size_t count, int stateSize, double dt, bool sharesVolume)
@@ -48,18 +48,20 @@ class PointStates {
         state_size_(stateSize),
         dt_(dt),
         shares_volume_(sharesVolume),
-        told_(count) {}
+        f_bar_(count) {}
 
   std::vector<Matrix3> deformation, stress;  ///< F, 1; Cauchy stress, Pa
-  std::vector<Matrix3> gradient;             ///< of the displacement in the step, by the position at its begin, 1
-  std::vector<double> stretch;               ///< what the model is told of is stretch F, 1
+  std::vector<Matrix3> gradient;             ///< of the displacement in the step, by the position at its start, 1
+  std::vector<double> stretch;               ///< the model gets F-bar = stretch F, 1
 
-  /// Whether the points of a run are told of their common change of volume: of models that can be told.
-  bool sharesVolume(const PointRun& run) const { return shares_volume_ && run.group->material->model->supportsFBar(); }
-  /// F = (I + gradient) F_old of a run. False where a point would be turned inside out or crushed to a tenth.
+  /// Whether F-bar applies to the points of a run: only for models that support it.
+  bool sharesVolume(const PointRun& run) const {
+    return shares_volume_ && run.group->material->model->supportsFBar();
+  }
+  /// F = (I + gradient) F_old of a run. False if a point would be turned inside out or crushed to a tenth.
   bool deform(const PointRun& run) {
     for (int k = run.from; k < run.from + run.count; ++k) {
-      const std::size_t at = run.group->first + static_cast<std::size_t>(k);
+      const std::size_t at = run.group->first + k;
       const Matrix3 step = Matrix3::Identity() + gradient[at];
       if (!(step.determinant() > 0.1)) return false;
       deformation[at] = step * run.group->oldDeformation[k];
@@ -76,53 +78,52 @@ class PointStates {
       group.material->model->updateStress(group.material->density, points);
       if (group.newState) std::copy_n(points.state, points.count * state_size_, group.newState + from * state_size_);
       for (int k = 0; k < points.count && group.strainEnergy; ++k)
-        group.strainEnergy[from + k] =
-            energyDensity[static_cast<std::size_t>(k)] * group.mass[from + k] / group.material->density;
+        group.strainEnergy[from + k] = energyDensity[k] * group.mass[from + k] / group.material->density;
     });
   }
   /// Calls `visit(k, tangent)` with dP/dF of the k-th point of the group.
   template <class Visit>
   void forEachTangent(const PointRun& run, Visit&& visit) {
-    std::vector<Matrix9> tangents(static_cast<std::size_t>(std::min(stressGroup, run.count)));
+    std::vector<Matrix9> tangents(std::min(stressGroup, run.count));
     forEachChunk(run, [&](int from, StressPoints& points) {
       run.group->material->model->nominalTangent(points, tangents.data());
-      for (int k = 0; k < points.count; ++k) visit(from + k, tangents[static_cast<std::size_t>(k)]);
+      for (int k = 0; k < points.count; ++k) visit(from + k, tangents[k]);
     });
   }
 
  private:
   /// F-bar: det(stretch F) is the volume of all points of the run over that at the start of the simulation, so that
-  /// each cell answers to compression as one (de Souza Neto et al., Int. J. Solids Structures 33 (1996) 3277).
+  /// each cell is compressed as one (de Souza Neto et al., Int. J. Solids Structures 33 (1996) 3277).
   void shareVolume(const PointRun& run) {
     double start = 0, now = 0;
     const bool shares = sharesVolume(run);
     for (int k = run.from; k < run.from + run.count && shares; ++k) {
       const double volume = run.group->mass[k] / run.group->material->density;
       start += volume;
-      now += volume * deformation[run.group->first + static_cast<std::size_t>(k)].determinant();
+      now += volume * deformation[run.group->first + k].determinant();
     }
     for (int k = run.from; k < run.from + run.count; ++k) {
-      const std::size_t at = run.group->first + static_cast<std::size_t>(k);
+      const std::size_t at = run.group->first + k;
       if (shares) stretch[at] = std::cbrt(now / start / deformation[at].determinant());
-      told_[at] = stretch[at] * deformation[at];
+      f_bar_[at] = stretch[at] * deformation[at];
     }
   }
-  /// Calls `work(k, points)` for up to stressGroup points at once, k the first; their state is that at the begin.
+  /// Calls `work(k, points)` for up to stressGroup points at once, k the first, with their state at the start of the
+  /// step.
   template <class Work>
   void forEachChunk(const PointRun& run, Work&& work) {
     const PointGroup& group = *run.group;
     std::array<Matrix3, stressGroup> rate;
     std::array<double, stressGroup> waveSpeed;
-    std::vector<double> state(static_cast<std::size_t>(std::min(stressGroup, run.count) * state_size_));
+    std::vector<double> state(std::min(stressGroup, run.count) * state_size_);
     for (int from = run.from; from < run.from + run.count; from += stressGroup) {
-      const std::size_t at = group.first + static_cast<std::size_t>(from);
+      const std::size_t at = group.first + from;
       StressPoints points;
       points.count = std::min(stressGroup, run.from + run.count - from);
       points.timeStep = dt_;
       points.oldDeformationGradient = group.oldDeformation + from;
-      points.deformationGradient = &told_[at];
-      for (int k = 0; k < points.count; ++k)
-        rate[static_cast<std::size_t>(k)] = gradient[at + static_cast<std::size_t>(k)] / dt_;
+      points.deformationGradient = &f_bar_[at];
+      for (int k = 0; k < points.count; ++k) rate[k] = gradient[at + k] / dt_;
       points.velocityGradient = rate.data();
       points.temperature = group.temperature + from;
       points.oldStress = group.oldStress + from;
@@ -138,7 +139,7 @@ class PointStates {
   int state_size_;
   double dt_;
   bool shares_volume_;
-  std::vector<Matrix3> told_;
+  std::vector<Matrix3> f_bar_;
 };
 
 }  // namespace tushar::mpm::solid::implicit

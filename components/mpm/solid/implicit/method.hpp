@@ -7,9 +7,8 @@ namespace tushar::mpm::solid::implicit {
 
 /// How an implicit step is taken; names and defaults are Uintah's.
 struct ImplicitMethod {
-  bool dynamic = true;  ///< Newmark's method; else inertia is left out and each step ends at rest
-  bool resetsGrid =
-      true;  ///< else the grid goes along with the solid: shape functions are those of its places at the start
+  bool dynamic = true;        ///< Newmark's method; else without inertia, and each step ends at rest
+  bool resetsGrid = true;     ///< else the grid moves with the solid: shape functions at the starting positions
   bool sharesVolume = false;  ///< F-bar: the particles of a cell are compressed as one, against locking
   solvers::NewtonSettings newton;
   bool conductsHeat = false;
@@ -19,10 +18,24 @@ struct ImplicitMethod {
   double decreaseFactor = 0.6;
   double increaseFactor = 2;
 
-  /// What the next step may be after one of `dt` [s] that took so many iterations, s.
+  /// The next time step, s, at most, after one of `dt` [s] that took so many iterations.
   double nextTimeStep(double dt, int iterations) const {
     if (iterations >= iterationsToDecrease) return decreaseFactor * dt;
     return iterations <= iterationsToIncrease ? increaseFactor * dt : dt;
+  }
+};
+
+/// The settings that all steps of a run share.
+struct ImplicitSetup {
+  const Problem* problem = nullptr;
+  ImplicitMethod how;
+  int stateSize = 1;  ///< internal variables of a particle
+
+  /// The contact that makes a material a rigid body, or null.
+  const Contact* rigidContact(int material) const {
+    for (const Contact& contact : problem->contacts)
+      if (contact.type == Contact::Type::specified && contact.master == material) return &contact;
+    return nullptr;
   }
 };
 

@@ -9,11 +9,11 @@
 
 namespace tushar::mpm::solid::implicit {
 
-/// Where nodes of a grid stand in a system of equations: only those that particles touch are in it. A node beyond a
-/// symmetry plane moves as the mirror image of the one inside; one on a periodic face is that on the other side.
+/// Numbers of grid nodes in a system of equations, which contains only the nodes that particles touch. A node beyond a
+/// symmetry plane moves as the mirror image of the one inside; a node on a periodic face is the one on the other side.
 ///
-/// On several ranks a node is of the rank that has the cell above it. A rank knows its own nodes, which it numbers
-/// first, and those of others that its particles touch or that its patches reach.
+/// The rank that owns the cell above a node owns the node. A rank numbers its own nodes first, then those of other
+/// ranks that its particles touch or that lie near its patches.
 template <int D>
 class NodeMap {
  public:
@@ -43,7 +43,7 @@ class NodeMap {
     return image;
   }
   void touch(const Index<D>& node) { known_[place(node)] = isTouched | isNear; }
-  /// Numbers all nodes that any rank has touched; those within `reach` of the patches are known here.
+  /// Numbers all nodes that any rank has touched; this rank keeps those within `reach` of its patches.
   void number(const RankPatches& patches, int reach) {
     for (const Patch* patch : patches)
       forEach<D>(patch->nodesWithin(reach), [&](const Index<D>& node) {
@@ -54,12 +54,12 @@ class NodeMap {
     numberOwners();
   }
 
-  /// Nodes that are known here.
+  /// Number of nodes that this rank keeps.
   int size() const { return static_cast<int>(nodes_.size()); }
   int owned() const { return owned_; }
-  /// The number of a node, -1 for one that is not known.
+  /// The number of a node; -1 if this rank does not keep it.
   int operator()(const Index<D>& node) const { return box_.contains(node) ? numbers_[place(node)] : -1; }
-  const Index<D>& node(int number) const { return nodes_[static_cast<std::size_t>(number)]; }
+  const Index<D>& node(int number) const { return nodes_[number]; }
   /// Unknowns of `block` numbers for each node.
   solvers::Unknowns unknowns(int block) const {
     solvers::Unknowns unknowns;
@@ -106,7 +106,7 @@ class NodeMap {
     for (int d = 0; d < D; ++d) wide[d] = node[d];
     return box_.offset(wide);
   }
-  /// Every rank learns what any has touched.
+  /// Gives every rank the nodes that any rank has touched.
   void shareTouched() {
     std::vector<unsigned char> touched(known_);
     ranks_->merge(std::as_writable_bytes(std::span(touched)), [&](const std::byte* from, std::byte* into) {
@@ -120,14 +120,14 @@ class NodeMap {
     for (int d = 0; d < D; ++d) cell[d] = std::clamp(node[d], 0, level_->cells().extent(d) - 1);
     return level_->ownerOf(level_->patchOf(cell).id());
   }
-  /// Lexicographic on each rank: its own nodes, then the ghosts.
+  /// Numbers the rank's own nodes, then the ghosts, each in lexicographic order.
   void numberOwners() {
     const int mine = level_->share().rank;
-    std::vector<int> counts(static_cast<std::size_t>(level_->share().ranks) + 1, 0), ownerOfGhost;
+    std::vector<int> counts(level_->share().ranks + 1, 0), ownerOfGhost;
     std::vector<Index<D>> ghosts;
     forEach<D>(box_, [&](const Index<D>& node) {
       if ((known_[place(node)] & isTouched) == 0) return;
-      const int owner = ownerOf(node), among = counts[static_cast<std::size_t>(owner) + 1]++;
+      const int owner = ownerOf(node), among = counts[owner + 1]++;
       if (owner == mine) {
         numbers_[place(node)] = among;
         nodes_.push_back(node);
@@ -141,7 +141,7 @@ class NodeMap {
     std::partial_sum(counts.begin(), counts.end(), counts.begin());
     for (std::size_t k = 0; k < ghosts.size(); ++k) {
       numbers_[place(ghosts[k])] = owned_ + static_cast<int>(k);
-      ghosts_[k] += counts[static_cast<std::size_t>(ownerOfGhost[k])];
+      ghosts_[k] += counts[ownerOfGhost[k]];
       nodes_.push_back(ghosts[k]);
     }
   }

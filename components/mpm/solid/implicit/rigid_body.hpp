@@ -1,100 +1,73 @@
 #pragma once
 
+#include "components/mpm/solid/implicit/particles.hpp"
 #include "components/mpm/solid/implicit/system.hpp"
 
 namespace tushar::mpm::solid::implicit {
 
-/// A variable of particles, by patch and material.
-template <class T>
-using ParticleViews = std::vector<std::vector<ParticleView<T>>>;
-template <class T>
-using NodeViews = std::vector<std::vector<NodeView<T>>>;
-
-/// What the solve of a step is told about particles at its begin.
-template <int D>
-struct SolidViews {
-  const ParticleViews<const Vec<D>>&x, &size, &velocity, &acceleration, &externalForce;
-  const ParticleViews<const double>&mass, &temperature, &state;
-  const ParticleViews<const Matrix3>&deformation, &stress;
-};
-
-/// What every step of a run has in common.
-struct ImplicitSetup {
-  const Problem* problem = nullptr;
-  ImplicitMethod how;
-  int stateSize = 1;  ///< numbers of a particle's model
-
-  /// The contact that makes a material a rigid body, or null.
-  const Contact* rigidContact(int material) const {
-    for (const Contact& contact : problem->contacts)
-      if (contact.type == Contact::Type::specified && contact.master == material) return &contact;
-    return nullptr;
-  }
-};
-
-/// A rigid body on the grid: the nodes that it touches, and how far they go in the step.
+/// A rigid body on the grid: the nodes that it touches, and their displacement in the step.
 template <class Shape, int D = Shape::dimension>
 class RigidBody {
  public:
   RigidBody(const RankPatches& patches, const mpi::Communicator& ranks, const ImplicitSetup& setup, int material,
-            double time, double dt, const SolidViews<D>& views)
+            double time, double dt, const OfRank<SolidParticles<Shape>>& particles)
       : level_(&patches.front()->level()), nodes_(*level_, ranks), contact_(setup.rigidContact(material)) {
-    const auto forEachTouch = [&](auto&& visit) { forEachShare(patches, setup, material, views, visit); };
+    const auto forEachTouch = [&](auto&& visit) { forEachShare(patches, setup, material, particles, visit); };
     forEachTouch([&](const Index<D>& node, double, const Vec<D>&) { nodes_.touch(node); });
     nodes_.number(patches, Shape::ghostNodes + 1);
-    std::vector<double> sums(static_cast<std::size_t>(nodes_.size() * (D + 1)), 0.0);  // mass, momentum of each node
+    std::vector<double> sums(nodes_.size() * (D + 1), 0.0);  // mass, momentum of each node
     forEachTouch([&](const Index<D>& node, double mass, const Vec<D>& velocity) {
-      double* sum = &sums[static_cast<std::size_t>(nodes_(node) * (D + 1))];
+      double* sum = &sums[nodes_(node) * (D + 1)];
       sum[0] += mass;
       Eigen::Map<Vec<D>>(sum + 1) += mass * velocity;
     });
     solvers::addUp(nodes_.unknowns(D + 1), sums);
     const auto given = contact_->prescribedVelocity(time + dt / 2);
     for (int k = 0; k < nodes_.size(); ++k) {
-      const double* sum = &sums[static_cast<std::size_t>(k * (D + 1))];
+      const double* sum = &sums[k * (D + 1)];
       moved_.push_back(given ? Vec<D>(dt * level_->reduce<D>(*given))
                              : Vec<D>(dt / sum[0] * Eigen::Map<const Vec<D>>(sum + 1)));
     }
   }
 
-  /// Displacement of a node in the step, m; none where the body is not.
+  /// Displacement of a node in the step, m; none for nodes that the body does not touch.
   std::optional<Vec<D>> operator()(const Index<D>& node) const {
     const auto image = nodes_.imageOf(node);
     const int number = nodes_(image.node);
     if (number < 0) return std::nullopt;
-    return Vec<D>(image.sign.cwiseProduct(moved_[static_cast<std::size_t>(number)]));
+    return Vec<D>(image.sign.cwiseProduct(moved_[number]));
   }
-  /// Adds the forces with which the body holds the solid along the contact's `direction`, of the nodes of this rank.
+  /// Adds the forces with which the body holds the solid along the contact's `direction`, at the nodes of this rank.
   void addReaction(const ImplicitSystem<Shape>& system, VectorSum& reaction) const {
     const std::vector<double> forces = system.reactions();
     for (int k = 0; k < system.nodes().owned(); ++k) {
       if (!(*this)(system.nodes().node(k))) continue;
       Vec<D> force = Eigen::Map<const Vec<D>>(forces.data() + D * k);
       for (int d = 0; d < D; ++d)
-        if (!contact_->direction[static_cast<std::size_t>(level_->axis(d))]) force[d] = 0;
+        if (!contact_->direction[level_->axis(d)]) force[d] = 0;
       reaction.add(level_->template expandDirection<D>(force));
     }
   }
-  /// The solid goes along with the body where both are.
+  /// The solid moves with the body at the nodes that both touch.
   void prescribe(ImplicitSystem<Shape>& system) const {
     for (int k = 0; k < system.nodes().size(); ++k)
       if (const auto moved = (*this)(system.nodes().node(k)))
         for (int d = 0; d < D; ++d)
-          if (contact_->direction[static_cast<std::size_t>(level_->axis(d))]) system.prescribe(k, d, (*moved)[d]);
+          if (contact_->direction[level_->axis(d)]) system.prescribe(k, d, (*moved)[d]);
   }
 
  private:
-  /// Calls `visit(node, mass, velocity)` for each node that a particle of the body gives a part of its mass to.
+  /// Calls `visit(node, mass, velocity)` for each particle of the body and each node that gets part of its mass.
   template <class Visit>
-  void forEachShare(const RankPatches& patches, const ImplicitSetup& setup, int material, const SolidViews<D>& views,
-                    Visit&& visit) const {
-    const auto m = static_cast<std::size_t>(material);
+  void forEachShare(const RankPatches& patches, const ImplicitSetup& setup, int material,
+                    const OfRank<SolidParticles<Shape>>& particles, Visit&& visit) const {
+    const Vec3& commonSize = setup.problem->method.commonSize;
     for (std::size_t p = 0; p < patches.size(); ++p) {
-      const Extents<Shape> extents(*level_, setup.problem->method.commonSize, views.size[p][m], std::nullopt);
-      forEachStencil<Shape>(*patches[p], patches[p]->cells(), views.x[p][m], extents, [&](int k, const auto& stencil) {
+      const SolidParticles<Shape>& body = particles[p][material];
+      forEachStencil(*patches[p], patches[p]->cells(), body.placed, commonSize, [&](int k, const auto& stencil) {
         stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>&) {
           const auto image = nodes_.imageOf(node);
-          if (s > 0) visit(image.node, s * views.mass[p][m][k], image.sign.cwiseProduct(views.velocity[p][m][k]));
+          if (s > 0) visit(image.node, s * body.mass[k], image.sign.cwiseProduct(body.velocity[k]));
         });
       });
     }

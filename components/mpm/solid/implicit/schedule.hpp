@@ -29,13 +29,8 @@ ImplicitMpm<Shape>::ImplicitMpm(Problem problem, ImplicitMethod how)
 template <class Shape>
 void ImplicitMpm<Shape>::scheduleInitialize(TaskList& tasks) const {
   scheduleActuallyInitialize<D>(tasks, problem_.materials, problem_.start);
-  tasks.perMaterial("mpm::initializeStress", initializeStress, problem_.materials, with(state_size_),
-                    requiresNew(p::mass), requiresNew(p::deformationMeasure), computes(p::volume), computes(p::stress),
-                    when(true, computes(state_)));
-  if (is_damageable_)
-    tasks.perMaterial("mpm::initializeDamage", initializeDamage, problem_.materials, requiresNew(data::particleId),
-                      requiresNew(p::volume), computes(p::damage), computes(p::failureThreshold),
-                      computes(p::localized), computes(p::failureTime));
+  scheduleInitialStress(tasks, problem_.materials, state_);
+  if (is_damageable_) scheduleInitialDamage(tasks, problem_.materials);
   scheduleStartingAcceleration(tasks);
   tasks.perPatch(
       "impm::allowAnyTimeStep", [](const Patch&, Minimum&) {}, computes(total::nextTimeStep));
@@ -48,16 +43,13 @@ void ImplicitMpm<Shape>::scheduleStartingAcceleration(TaskList& tasks) const {
                       computes(p::acceleration<D>));
     return;
   }
-  const ImplicitSetup setup{&problem_, how_, state_size_};
   tasks.perMaterial("mpm::applyExternalLoads", applyExternalLoads<D>, problem_.materials, with(problem_.start.loads),
                     startTime(), requiresNew(p::x<D>), requiresNew(p::mass), requiresNew(p::loadCurves),
                     modifies(p::externalForce<D>));
-  tasks.perRankAcrossMaterials(
-      "impm::accelerateAtStart", accelerateAtStart<Shape>, problem_.materials, togetherOnRanks(), with(setup),
-      startTime(), requiresNew(p::x<D>), requiresNew(p::size<D>), requiresNew(p::mass), requiresNew(p::velocity<D>),
-      requiresNew(p::externalForce<D>), requiresNew(p::temperature), requiresNew(p::deformationMeasure),
-      requiresNew(p::stress), requiresNew(state_), computes(g::newAcceleration<D>));
-  tasks.perMaterial("impm::startInMotion", startInMotion<Shape>, problem_.materials, with(setup),
+  tasks.perRankAcrossMaterials("impm::accelerateAtStart", accelerateAtStart<Shape>, problem_.materials,
+                               togetherOnRanks(), with(setup()), startTime(),
+                               all<SolidParticles<Shape>>(AtStart(), &state_), computes(g::newAcceleration<D>));
+  tasks.perMaterial("impm::startInMotion", startInMotion<Shape>, problem_.materials, with(problem_.method.commonSize),
                     requiresNew(g::newAcceleration<D>, Shape::ghostNodes), requiresNew(p::x<D>),
                     requiresNew(p::size<D>), computes(p::acceleration<D>));
 }
@@ -74,21 +66,14 @@ void ImplicitMpm<Shape>::scheduleComputeStableTimeStep(TaskList& tasks) const {
 
 template <class Shape>
 void ImplicitMpm<Shape>::scheduleTimeAdvance(TaskList& tasks) const {
-  const ImplicitSetup setup{&problem_, how_, state_size_};
   tasks.perMaterial("mpm::applyExternalLoads", applyLoadsAtEnd<D>, problem_.materials, with(problem_.start.loads),
                     startTime(), requiresOld(delT), requiresOld(p::x<D>), requiresOld(p::mass),
                     requiresOld(p::loadCurves), computes(p::externalForce<D>));
-  tasks.perRankAcrossMaterials(
-      "impm::solve", solveStep<Shape>, problem_.materials, togetherOnRanks(), with(setup), startTime(),
-      requiresOld(delT), requiresOld(p::x<D>), requiresOld(p::size<D>), requiresOld(p::mass),
-      requiresOld(p::velocity<D>), requiresOld(p::acceleration<D>), requiresNew(p::externalForce<D>),
-      requiresOld(p::temperature), requiresOld(p::deformationMeasure), requiresOld(p::stress), requiresOld(state_),
-      computes(g::increment<D>), computes(g::newAcceleration<D>), computes(total::newtonIterations),
-      computes(total::newtonResidual), computes(total::krylovIterations), computes(total::nextTimeStep),
-      computes(solvers::assemblyTime), computes(solvers::preconditionerTime), computes(solvers::solveTime),
-      computes(total::rigidReactionForce));
+  tasks.perRankAcrossMaterials("impm::solve", solveStep<Shape>, problem_.materials, togetherOnRanks(), with(setup()),
+                               startTime(), requiresOld(delT), all<SolidParticles<Shape>>(InStep(), &state_),
+                               all<NodalMotion<D>>(), SolveTotalsArgument());
   scheduleMovement(tasks);
-  if (is_damageable_) scheduleDamage(tasks);
+  if (is_damageable_) scheduleDamage(tasks, problem_.materials, state_);
   scheduleVelocity(tasks);
   scheduleHeat(tasks);
   if (how_.resetsGrid)
@@ -97,35 +82,19 @@ void ImplicitMpm<Shape>::scheduleTimeAdvance(TaskList& tasks) const {
   tasks.relocate(p::x<D>, problem_.materials);
 }
 
-/// What the displacement of the nodes makes of the particles.
+/// Moves and deforms the particles with the nodes.
 template <class Shape>
 void ImplicitMpm<Shape>::scheduleMovement(TaskList& tasks) const {
-  const ImplicitSetup setup{&problem_, how_, state_size_};
-  if (how_.resetsGrid)
-    tasks.perMaterial("impm::moveAndStress", moveAndStress<Shape>, problem_.materials, with(setup), requiresOld(delT),
-                      requiresNew(g::increment<D>, Shape::ghostNodes), requiresOld(p::x<D>), requiresOld(p::size<D>),
-                      requiresOld(p::mass), requiresOld(p::temperature), requiresOld(p::deformationMeasure),
-                      requiresOld(p::stress), requiresOld(state_), computes(p::x<D>), computes(p::deformationMeasure),
-                      computes(p::stress), computes(state_), computes(p::volume), computes(p::strainEnergy),
-                      when(heats_, computes(p::temperatureChange)));
-  else
-    tasks.perMaterial("impm::stressInPlace", stressInPlace<Shape>, problem_.materials, with(setup), requiresOld(delT),
-                      requiresNew(g::increment<D>, Shape::ghostNodes), requiresOld(p::x<D>), requiresOld(p::size<D>),
-                      requiresOld(p::mass), requiresOld(p::temperature), requiresOld(p::deformationMeasure),
-                      requiresOld(p::stress), requiresOld(state_), requiresOld(p::displacement<D>), computes(p::x<D>),
-                      computes(p::displacement<D>), computes(p::deformationMeasure), computes(p::stress),
-                      computes(state_), computes(p::volume), computes(p::strainEnergy),
-                      when(heats_, computes(p::temperatureChange)));
+  tasks.perMaterial(how_.resetsGrid ? "impm::moveAndStress" : "impm::stressInPlace", moveAndStress<Shape>,
+                    problem_.materials, with(setup()), requiresOld(delT),
+                    all<Movement<Shape>>(how_.resetsGrid, heats_, &state_));
 }
 
 template <class Shape>
 void ImplicitMpm<Shape>::scheduleVelocity(TaskList& tasks) const {
-  const ImplicitSetup setup{&problem_, how_, state_size_};
   if (how_.dynamic)
-    tasks.perMaterial("impm::advanceVelocity", advanceVelocity<Shape>, problem_.materials, with(setup),
-                      requiresOld(delT), requiresNew(g::newAcceleration<D>, Shape::ghostNodes), requiresOld(p::x<D>),
-                      requiresOld(p::size<D>), requiresOld(p::velocity<D>), requiresOld(p::acceleration<D>),
-                      computes(p::velocity<D>), computes(p::acceleration<D>));
+    tasks.perMaterial("impm::advanceVelocity", advanceVelocity<Shape>, problem_.materials,
+                      with(problem_.method.commonSize), requiresOld(delT), all<NewmarkUpdate<Shape>>());
   else {
     const auto& place = how_.resetsGrid ? p::x<D> : p::displacement<D>;
     tasks.perMaterial("impm::meanVelocity", meanVelocity<D>, problem_.materials, requiresOld(delT), requiresOld(place),
@@ -133,58 +102,28 @@ void ImplicitMpm<Shape>::scheduleVelocity(TaskList& tasks) const {
   }
 }
 
-/// What a scene may save of the temperature on the nodes, conduction, and the heat of the step's work.
+/// The temperature on the nodes, which a scene may save, conduction, and the heat of the step's work.
 template <class Shape>
 void ImplicitMpm<Shape>::scheduleHeat(TaskList& tasks) const {
-  const ImplicitSetup setup{&problem_, how_, state_size_};
-  const int reach = Shape::reach;
-  tasks.perMaterial("mpm::interpolateTemperatureToGrid", interpolateTemperatureToGrid<Shape>, problem_.materials,
-                    with(problem_.method.commonSize), requiresOld(p::x<D>, reach),
-                    when(true, requiresOld(p::size<D>, reach)), requiresOld(p::deformationMeasure, reach),
-                    requiresOld(p::mass, reach), requiresOld(p::temperature, reach), computes(g::heatCapacity),
-                    computes(g::temperatureNoBC), computes(g::temperature));
-  if (!how_.conductsHeat) {
-    if (heats_)
-      tasks.perMaterial("mpm::finalParticleUpdate", heatByWorkOfStep, problem_.materials,
-                        requiresNew(p::temperatureChange), requiresOld(p::temperature), computes(p::temperature));
-    return;
+  const Vec3& commonSize = problem_.method.commonSize;
+  scheduleNodalTemperature<Shape>(tasks, problem_.materials, commonSize, keepsSizes);
+  if (how_.conductsHeat) {
+    tasks.perRankAcrossMaterials("impm::conductHeat", conductHeat<Shape>, problem_.materials, togetherOnRanks(),
+                                 with(setup()), requiresOld(delT), all<HeatedParticles<Shape>>(),
+                                 computes(g::temperatureRate));
+    scheduleTemperatureUpdate<Shape>(tasks, problem_.materials, commonSize, keepsSizes);
   }
-  tasks.perRankAcrossMaterials("impm::conductHeat", conductHeat<Shape>, problem_.materials, togetherOnRanks(),
-                               with(setup), requiresOld(delT), requiresOld(p::x<D>), requiresOld(p::size<D>),
-                               requiresOld(p::mass), requiresOld(p::temperature), requiresOld(p::deformationMeasure),
-                               computes(g::temperatureRate));
-  tasks.perMaterial("mpm::updateTemperature", updateTemperature<Shape>, problem_.materials,
-                    with(problem_.method.commonSize), requiresOld(p::x<D>), when(true, requiresOld(p::size<D>)),
-                    requiresOld(p::deformationMeasure), requiresOld(p::temperature),
-                    requiresNew(g::temperatureRate, Shape::ghostNodes), requiresOld(delT), computes(p::temperature));
-  if (heats_)
-    tasks.perMaterial("mpm::finalParticleUpdate", addWorkOfStep, problem_.materials, requiresNew(p::temperatureChange),
-                      modifies(p::temperature));
-}
-
-/// Damage that is only counted.
-template <class Shape>
-void ImplicitMpm<Shape>::scheduleDamage(TaskList& tasks) const {
-  tasks.perMaterial("mpm::computeDamage", computeDamage, problem_.materials, with(state_size_), startTime(),
-                    requiresOld(delT), requiresOld(p::temperature), requiresOld(p::damage),
-                    requiresOld(p::failureThreshold), requiresOld(p::localized), requiresOld(p::failureTime),
-                    requiresNew(p::deformationMeasure), requiresNew(p::volume), when(true, requiresNew(state_)),
-                    modifies(p::stress), computes(p::damage), computes(p::failureThreshold), computes(p::localized),
-                    computes(p::failureTime));
+  if (heats_) scheduleHeatOfWork(tasks, problem_.materials, how_.conductsHeat);
 }
 
 template <class Shape>
 void ImplicitMpm<Shape>::scheduleDiagnostics(TaskList& tasks) const {
-  scheduleTotals<D>(tasks, problem_.materials, when(false, requiresOld(p::affineMoment)));
-  tasks.perMaterial("mpm::computeScaleFactor", computeScaleFactor<D>, problem_.materials,
-                    with(problem_.method.commonSize), when(true, requiresOld(p::size<D>)),
-                    requiresOld(p::deformationMeasure), computes(p::scaleFactor));
+  scheduleTotals<D>(tasks, problem_.materials, problem_.method, keepsSizes);
   tasks.perMaterial("mpm::sumVolume", sumParticles, problem_.materials, requiresOld(p::volume),
                     computes(total::volume));
   for (const auto& view : state_views_) view->schedule(tasks, problem_.materials, state_size_, state_);
-  scheduleShowOnGrid<Shape>(tasks, problem_.materials, problem_.method.commonSize,
-                            when(true, requiresOld(p::size<D>, Shape::reach)), requiresOld(p::volume, Shape::reach),
-                            requiresOld(p::stress, Shape::reach));
+  scheduleShowOnGrid<Shape>(tasks, problem_.materials, problem_.method.commonSize, keepsSizes,
+                            requiresOld(p::volume, Shape::reach), requiresOld(p::stress, Shape::reach));
   scheduleBoundaryForces<D>(tasks, problem_.materials, problem_.method.isThin, requiresOld(p::volume),
                             requiresOld(p::stress));
 }

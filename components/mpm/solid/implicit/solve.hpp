@@ -23,31 +23,33 @@ void prescribeFaces(ImplicitSystem<Shape>& system, double dt) {
       }
 }
 
-/// The particles of everything that is not rigid.
-template <class Shape, int D = Shape::dimension>
+/// The particles of all materials that are not rigid bodies.
+template <class Shape>
 std::vector<PointSources<Shape>> sourcesOf(const RankPatches& patches, const std::vector<Material>& materials,
-                                           const ImplicitSetup& setup, const SolidViews<D>& v) {
+                                           const ImplicitSetup& setup, const OfRank<SolidParticles<Shape>>& particles) {
   std::vector<PointSources<Shape>> sources;
   for (std::size_t p = 0; p < patches.size(); ++p)
     for (std::size_t m = 0; m < materials.size(); ++m) {
-      if (setup.rigidContact(static_cast<int>(m)) || v.x[p][m].owned() == 0) continue;
-      PointGroup group;
-      group.material = &materials[m];
-      group.count = v.x[p][m].owned();
-      group.mass = valuesOf(v.mass[p][m]);
-      group.temperature = valuesOf(v.temperature[p][m]);
-      group.oldDeformation = valuesOf(v.deformation[p][m]);
-      group.oldStress = valuesOf(v.stress[p][m]);
-      group.oldState = valuesOf(v.state[p][m]);
-      sources.push_back(
-          {group, patches[p],
-           Extents<Shape>(patches[p]->level(), setup.problem->method.commonSize, v.size[p][m], std::nullopt), v.x[p][m],
-           valuesOf(v.velocity[p][m]), valuesOf(v.acceleration[p][m]), valuesOf(v.externalForce[p][m])});
+      const SolidParticles<Shape>& solid = particles[p][m];
+      if (setup.rigidContact(static_cast<int>(m)) || solid.mass.owned() == 0) continue;
+      sources.push_back({.group = {.material = &materials[m],
+                                   .count = solid.mass.owned(),
+                                   .mass = valuesOf(solid.mass),
+                                   .temperature = valuesOf(solid.temperature),
+                                   .oldDeformation = valuesOf(solid.deformation),
+                                   .oldStress = valuesOf(solid.stress),
+                                   .oldState = valuesOf(solid.state)},
+                         .patch = patches[p],
+                         .extents = solid.placed.extents(patches[p]->level(), setup.problem->method.commonSize),
+                         .x = solid.placed.x,
+                         .velocity = valuesOf(solid.velocity),
+                         .acceleration = valuesOf(solid.acceleration),
+                         .externalForce = valuesOf(solid.externalForce)});
     }
   return sources;
 }
 
-/// What Newton's method could not do, where it was worst, and what to try.
+/// Why Newton's method failed, where the residual was greatest, and what to try.
 template <class Shape>
 NumericalError failureOf(const solvers::Outcome& outcome, const ImplicitSystem<Shape>& system) {
   constexpr int D = Shape::dimension;
@@ -63,62 +65,67 @@ NumericalError failureOf(const solvers::Outcome& outcome, const ImplicitSystem<S
       "g.displacement"};
 }
 
-/// Writes what was solved for to the nodes of a patch.
+/// The motion of the nodes in a step.
+template <int D>
+struct NodalMotion {
+  NodeView<Vec<D>> increment, acceleration;
+
+  static NodalMotion from(auto& take) {
+    return {.increment = take(computes(g::increment<D>)), .acceleration = take(computes(g::newAcceleration<D>))};
+  }
+};
+
+/// Writes the solution to the nodes of a patch.
 template <class Shape, int D = Shape::dimension>
 void writeNodes(const Patch& patch, const ImplicitSystem<Shape>& system, std::span<const double> u,
-                const NodeView<Vec<D>>& increment, const NodeView<Vec<D>>& acceleration) {
+                const NodalMotion<D>& motion) {
   forEach<D>(patch.nodes(), [&](const Index<D>& node) {
     const auto image = system.nodes().imageOf(node);
     const int number = system.nodes()(image.node);
-    increment[node] = acceleration[node] = Vec<D>::Zero();
+    motion.increment[node] = motion.acceleration[node] = Vec<D>::Zero();
     if (number < 0) return;
-    increment[node] = image.sign.cwiseProduct(system.displacement(number, u));
-    acceleration[node] = image.sign.cwiseProduct(system.acceleration(number, u));
+    motion.increment[node] = image.sign.cwiseProduct(system.displacement(number, u));
+    motion.acceleration[node] = image.sign.cwiseProduct(system.acceleration(number, u));
   });
 }
 
 template <class Shape, int D = Shape::dimension>
-void writeNodes(const Patch& patch, const RigidBody<Shape>& body, const NodeView<Vec<D>>& increment,
-                const NodeView<Vec<D>>& acceleration) {
+void writeNodes(const Patch& patch, const RigidBody<Shape>& body, const NodalMotion<D>& motion) {
   forEach<D>(patch.nodes(), [&](const Index<D>& node) {
-    increment[node] = body(node).value_or(Vec<D>::Zero());
-    acceleration[node] = Vec<D>::Zero();
+    motion.increment[node] = body(node).value_or(Vec<D>::Zero());
+    motion.acceleration[node] = Vec<D>::Zero();
   });
 }
 
-/// The rigid body of each material that is one.
+/// The rigid bodies, by material; none for materials that deform.
 template <class Shape>
 using RigidBodies = std::vector<std::optional<RigidBody<Shape>>>;
 
-/// Prescribes what faces and rigid bodies do to the solid in the step.
-template <class Shape, int D = Shape::dimension>
+/// Prescribes the displacements in the step at faces and rigid bodies.
+template <class Shape>
 RigidBodies<Shape> constrain(ImplicitSystem<Shape>& system, const RankPatches& patches,
                              const std::vector<Material>& materials, const mpi::Communicator& ranks,
-                             const ImplicitSetup& setup, double time, double dt, const SolidViews<D>& views) {
+                             const ImplicitSetup& setup, double time, double dt,
+                             const OfRank<SolidParticles<Shape>>& particles) {
   prescribeFaces(system, dt);
   RigidBodies<Shape> rigid(materials.size());
   for (std::size_t m = 0; m < materials.size(); ++m)
     if (setup.rigidContact(static_cast<int>(m))) {
-      rigid[m].emplace(patches, ranks, setup, static_cast<int>(m), time, dt, views);
+      rigid[m].emplace(patches, ranks, setup, static_cast<int>(m), time, dt, particles);
       rigid[m]->prescribe(system);
     }
   return rigid;
 }
 
-/// The acceleration that Newmark's rule begins with, on the nodes: 0 where faces or rigid bodies hold them.
+/// The acceleration of the nodes with which Newmark's rule starts: 0 where faces or rigid bodies hold them.
 template <class Shape, int D = Shape::dimension>
 void accelerateAtStart(const RankPatches& patches, const std::vector<Material>& materials,
                        const mpi::Communicator& ranks, const ImplicitSetup& setup, double time,
-                       const ParticleViews<const Vec<D>>& x, const ParticleViews<const Vec<D>>& size,
-                       const ParticleViews<const double>& mass, const ParticleViews<const Vec<D>>& velocity,
-                       const ParticleViews<const Vec<D>>& externalForce, const ParticleViews<const double>& temperature,
-                       const ParticleViews<const Matrix3>& deformation, const ParticleViews<const Matrix3>& stress,
-                       const ParticleViews<const double>& state, const NodeViews<Vec<D>>& acceleration) {
+                       const OfRank<SolidParticles<Shape>>& particles, const OfRank<NodeView<Vec<D>>>& acceleration) {
   constexpr double dt = 1;  // nothing moves, over whatever time
-  const SolidViews<D> views{x, size, velocity, velocity, externalForce, mass, temperature, state, deformation, stress};
   ImplicitSystem<Shape> system(patches, ranks, setup.problem->method, setup.how, dt, setup.stateSize,
-                               sourcesOf<Shape>(patches, materials, setup, views));
-  const auto rigid = constrain(system, patches, materials, ranks, setup, time, dt, views);
+                               sourcesOf(patches, materials, setup, particles));
+  const auto rigid = constrain(system, patches, materials, ranks, setup, time, dt, particles);
   const std::vector<double> starting = system.startingAcceleration();
   for (std::size_t p = 0; p < patches.size(); ++p)
     for (std::size_t m = 0; m < materials.size(); ++m)
@@ -130,41 +137,54 @@ void accelerateAtStart(const RankPatches& patches, const std::vector<Material>& 
       });
 }
 
-/// Solves for the displacement of all nodes in the step, by Newton's method. All materials move in one field, but those
-/// that a contact makes rigid bodies. Throws NumericalError where Newton's method gives up.
+/// The totals of the solve of a step.
+struct SolveTotals {
+  Maximum &newtonIterations, &newtonResidual, &krylovIterations;
+  Minimum& nextTimeStep;
+  Maximum &assembly, &preconditioner, &solution;
+  VectorSum& rigidReaction;
+
+  static SolveTotals from(auto& take) {
+    return {.newtonIterations = take(computes(total::newtonIterations)),
+            .newtonResidual = take(computes(total::newtonResidual)),
+            .krylovIterations = take(computes(total::krylovIterations)),
+            .nextTimeStep = take(computes(total::nextTimeStep)),
+            .assembly = take(computes(solvers::assemblyTime)),
+            .preconditioner = take(computes(solvers::preconditionerTime)),
+            .solution = take(computes(solvers::solveTime)),
+            .rigidReaction = take(computes(total::rigidReactionForce))};
+  }
+};
+/// SolveTotals as an argument of a task that sees the whole rank: totals belong to no patch and no material, so the
+/// body gets one group.
+struct SolveTotalsArgument : tasks::GroupArgument<SolveTotals> {};
+
+/// Solves for the displacement of all nodes in the step, by Newton's method. All materials that are not rigid bodies
+/// move in one field. Throws NumericalError if Newton's method fails.
 template <class Shape, int D = Shape::dimension>
 void solveStep(const RankPatches& patches, const std::vector<Material>& materials, const mpi::Communicator& ranks,
-               const ImplicitSetup& setup, double time, double dt, const ParticleViews<const Vec<D>>& x,
-               const ParticleViews<const Vec<D>>& size, const ParticleViews<const double>& mass,
-               const ParticleViews<const Vec<D>>& velocity, const ParticleViews<const Vec<D>>& acceleration,
-               const ParticleViews<const Vec<D>>& externalForce, const ParticleViews<const double>& temperature,
-               const ParticleViews<const Matrix3>& deformation, const ParticleViews<const Matrix3>& stress,
-               const ParticleViews<const double>& state, const NodeViews<Vec<D>>& increment,
-               const NodeViews<Vec<D>>& newAcceleration, Maximum& newtonIterations, Maximum& newtonResidual,
-               Maximum& krylovIterations, Minimum& nextTimeStep, Maximum& assembly, Maximum& preconditioner,
-               Maximum& solution, VectorSum& rigidReaction) {
-  const SolidViews<D> views{x,    size,        velocity, acceleration, externalForce,
-                            mass, temperature, state,    deformation,  stress};
+               const ImplicitSetup& setup, double time, double dt, const OfRank<SolidParticles<Shape>>& particles,
+               const OfRank<NodalMotion<D>>& motion, const SolveTotals& totals) {
   ImplicitSystem<Shape> system(patches, ranks, setup.problem->method, setup.how, dt, setup.stateSize,
-                               sourcesOf<Shape>(patches, materials, setup, views));
-  const auto rigid = constrain(system, patches, materials, ranks, setup, time, dt, views);
+                               sourcesOf(patches, materials, setup, particles));
+  const auto rigid = constrain(system, patches, materials, ranks, setup, time, dt, particles);
   std::vector<double> u = system.guess();
   const solvers::Outcome outcome = solvers::solver().solve(system.unknowns(), system, setup.how.newton, u);
   if (!outcome.converged) throw failureOf(outcome, system);
   for (std::size_t p = 0; p < patches.size(); ++p)
     for (std::size_t m = 0; m < materials.size(); ++m) {
       if (rigid[m])
-        writeNodes(*patches[p], *rigid[m], increment[p][m], newAcceleration[p][m]);
+        writeNodes(*patches[p], *rigid[m], motion[p][m]);
       else
-        writeNodes(*patches[p], system, u, increment[p][m], newAcceleration[p][m]);
+        writeNodes(*patches[p], system, u, motion[p][m]);
     }
   for (const auto& body : rigid)
-    if (body) body->addReaction(system, rigidReaction);
-  newtonIterations.add(outcome.newtonIterations);
-  newtonResidual.add(solvers::remainderOf(outcome));
-  krylovIterations.add(outcome.krylovIterations);
-  solvers::addTimes(outcome, assembly, preconditioner, solution);
-  nextTimeStep.add(setup.how.nextTimeStep(dt, outcome.newtonIterations), "Newton's iterations");
+    if (body) body->addReaction(system, totals.rigidReaction);
+  totals.newtonIterations.add(outcome.newtonIterations);
+  totals.newtonResidual.add(solvers::remainderOf(outcome));
+  totals.krylovIterations.add(outcome.krylovIterations);
+  solvers::addTimes(outcome, totals.assembly, totals.preconditioner, totals.solution);
+  totals.nextTimeStep.add(setup.how.nextTimeStep(dt, outcome.newtonIterations), "Newton's iterations");
 }
 
 }  // namespace tushar::mpm::solid::implicit

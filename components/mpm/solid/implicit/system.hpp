@@ -6,7 +6,7 @@
 
 namespace tushar::mpm::solid::implicit {
 
-/// What particles bring to an implicit step, besides what PointGroup says.
+/// Particles of an implicit step: positions, shape functions, motion and loads, apart from their state in PointGroup.
 template <class Shape>
 struct PointSources {
   static constexpr int D = Shape::dimension;
@@ -15,48 +15,49 @@ struct PointSources {
   const Patch* patch = nullptr;
   Extents<Shape> extents;
   ParticleView<const Vec<D>> x;
-  const Vec<D>*velocity, *acceleration, *externalForce;  ///< m/s, m/s^2, N
+  const Vec<D>* velocity = nullptr;       ///< m/s
+  const Vec<D>* acceleration = nullptr;   ///< m/s^2; null where a run starts: 0
+  const Vec<D>* externalForce = nullptr;  ///< N
 };
 
-/// The equations of an implicit step: forces balance at each node at the end of the step,
+/// The equations of an implicit step: at its end the forces at each node balance,
 ///
 ///     r_i = sum_p V0_p P_p F_oldᵀ grad S_i + m_i a_i - f_i - m_i g = 0,
 ///
 /// for the displacement u of the nodes in the step, with P = J sigma F^-T, F = (I + sum_i u_i grad S_i) F_old and S_i
-/// at the positions at its begin, or where the grid goes along with the solid at those of the start, so that grad S =
-/// F_old^-T grad_0 S. By Newmark's rule with beta = 1/4, gamma = 1/2: a = 4 (u/dt - v_old)/dt - a_old.
-/// Guilkey & Weiss, Int. J. Numer. Meth. Engng 57 (2003) 1323.
+/// at the particle positions at the start of the step; where the grid moves with the solid, at those at the start of
+/// the run, so that grad S = F_old^-T grad_0 S. By Newmark's rule with beta = 1/4, gamma = 1/2: a = 4 (u/dt - v_old)/dt
+/// - a_old. Guilkey & Weiss, Int. J. Numer. Meth. Engng 57 (2003) 1323.
 template <class Shape>
 class ImplicitSystem : public solvers::NonlinearProblem {
  public:
   static constexpr int D = Shape::dimension;
 
-  /// `patches` are those of this rank; all `ranks` make the system together.
+  /// The particles of `patches`, all of this rank; the `ranks` form one system.
   ImplicitSystem(const RankPatches& patches, const mpi::Communicator& ranks, const Method& method,
                  const ImplicitMethod& how, double dt, int stateSize, std::vector<PointSources<Shape>> sources);
 
   const NodeMap<D>& nodes() const { return map_; }
   solvers::Unknowns unknowns() const;
-  /// The node's displacement along an axis is `value`, m.
+  /// Sets the displacement of a node along an axis to `value`, m.
   void prescribe(int node, int d, double value);
-  /// Where every node would be with its velocity, m; prescribed values as they are.
+  /// The displacement of each node at its velocity, m, or the prescribed one.
   std::vector<double> guess() const;
 
   bool residual(std::span<const double> u, std::span<double> r) override;
   void tangent(solvers::Matrix& matrix) override;
-  /// Whether no node has more of a residual than 1e-14 of the forces that it is the sum of, the stresses of particles
-  /// counted as those of a strain of 1.
+  /// Whether the residual of every node is at most 1e-14 of the forces that it sums, where the stress of each particle
+  /// counts as that of a strain of 1.
   bool isNegligible(std::span<const double> u, std::span<const double> r) const override;
 
-  /// What each node is accelerated by when a run starts: (f + m g - sum_p V_p sigma_p grad S) / m, 0 where prescribed,
-  /// m/s^2. Newmark's rule begins with it: without, a load that is there from the start would lose half a step of its
-  /// momentum.
+  /// The acceleration of each node when a run starts: (f + m g - sum_p V_p sigma_p grad S) / m, 0 where prescribed,
+  /// m/s^2. Newmark's rule needs it: a load that acts from the start would otherwise lose half a step of its momentum.
   std::vector<double> startingAcceleration();
 
-  /// The forces that hold the nodes of this rank where they are prescribed, along the axes along which they are, N.
+  /// The forces at the nodes of this rank that keep their prescribed displacements, N; 0 along free axes.
   std::vector<double> reactions() const;
 
-  /// Of a node, from its displacement in the step, m/s^2; 0 where inertia is left out.
+  /// Acceleration of a node by its displacement in the step, m/s^2; 0 without inertia.
   Vec<D> acceleration(int node, std::span<const double> u) const;
   Vec<D> displacement(int node, std::span<const double> u) const {
     return Eigen::Map<const Vec<D>>(u.data() + D * node);
@@ -78,14 +79,14 @@ class ImplicitSystem : public solvers::NonlinearProblem {
   using Local = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, touches_ * D, touches_ * D>;
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, touches_ * D, 1>;
 
-  /// What the particles bring to a node of the system, in the order of the numbers in which it is summed.
+  /// Sums over the particles at a node of the system, in the order in which gatherNodes packs them.
   struct Node {
     double mass = 0, volume = 0;  ///< kg, m^3 at the start of the simulation
     double rigidity = 0;          ///< N, sum of the forces of particles at a strain of 1
-    Vec<D> velocity = Vec<D>::Zero(), acceleration = Vec<D>::Zero(), force = Vec<D>::Zero();  ///< mass times, at first
-    double support = 0;  ///< N/m, of a weak spring to where the node would go by itself
+    Vec<D> velocity = Vec<D>::Zero(), acceleration = Vec<D>::Zero(), force = Vec<D>::Zero();  ///< m/s, m/s^2, N
+    double support = 0;  ///< N/m, of a weak spring to the position that the node reaches at its velocity
   };
-  static constexpr int brought_ = 3 + 3 * D;
+  static constexpr int sums_ = 3 + 3 * D;
 
   void findRuns();
   void findNodes(const RankPatches& patches);
@@ -107,7 +108,7 @@ class ImplicitSystem : public solvers::NonlinearProblem {
   Rows volumeForce(const PointGroup& group, int k, const Matrix9& tangent) const;
   void addSharedStiffness(const PointRun& run, const std::vector<Rows>& forces, solvers::Matrix& matrix) const;
   void addDiagonals(solvers::Matrix& matrix) const;
-  bool isPrescribed(int node, int d) const { return prescribed_[static_cast<std::size_t>(D * node + d)] != 0; }
+  bool isPrescribed(int node, int d) const { return prescribed_[D * node + d] != 0; }
 
   Method method_;
   ImplicitMethod how_;
@@ -119,14 +120,14 @@ class ImplicitSystem : public solvers::NonlinearProblem {
     std::size_t source;
     int from, count;
   };
-  std::vector<Run> runs_;  ///< cell by cell, in the order of every sum, which does not depend on the patches
+  std::vector<Run> runs_;  ///< cell by cell: the order of every sum, whatever the patches
   std::vector<NodeTouch<D>> touch_;
   PointStates states_;
   std::vector<Node> node_;
   std::vector<char> prescribed_;
   std::vector<double> prescribed_value_;
-  std::vector<double> held_;  ///< what this rank brings to reactions
-  double stiffest_ = 0;       ///< of all particles at the start of the simulation: rho c^2 V / h^2, N/m
+  std::vector<double> held_;  ///< the part of this rank in reactions, N
+  double stiffest_ = 0;       ///< greatest rho c^2 V / h^2 of all particles at the start of the simulation, N/m
 };
 
 }  // namespace tushar::mpm::solid::implicit

@@ -12,7 +12,7 @@ namespace tushar::mpm::solid::implicit {
 template <class Shape>
 std::size_t countPoints(const std::vector<PointSources<Shape>>& sources) {
   std::size_t count = 0;
-  for (const PointSources<Shape>& from : sources) count += static_cast<std::size_t>(from.group.count);
+  for (const PointSources<Shape>& from : sources) count += from.group.count;
   return count;
 }
 
@@ -45,7 +45,7 @@ void ImplicitSystem<Shape>::findNodes(const RankPatches& patches) {
   for (PointSources<Shape>& from : sources_) {
     from.group.first = first;
     forEachStencil<Shape>(*from.patch, from.patch->cells(), from.x, from.extents, [&](int p, const auto& stencil) {
-      std::size_t at = (first + static_cast<std::size_t>(p)) * touches_;
+      std::size_t at = (first + p) * touches_;
       stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>& gradient) {
         const auto image = map_.imageOf(node);
         NodeTouch<D>& touch = touch_[at];
@@ -55,7 +55,7 @@ void ImplicitSystem<Shape>::findNodes(const RankPatches& patches) {
         images[at++] = image.node;
       });
     });
-    first += static_cast<std::size_t>(from.group.count);
+    first += from.group.count;
   }
   map_.number(patches, Shape::ghostNodes + 1);
   for (std::size_t k = 0; k < touch_.size(); ++k)
@@ -69,7 +69,7 @@ void ImplicitSystem<Shape>::carrySlopes() {
   for (const PointSources<Shape>& from : sources_)
     for (int p = 0; p < from.group.count; ++p) {
       const Matrix3 inverse = from.group.oldDeformation[p].inverse();
-      NodeTouch<D>* touch = &touch_[(from.group.first + static_cast<std::size_t>(p)) * touches_];
+      NodeTouch<D>* touch = &touch_[(from.group.first + p) * touches_];
       for (int k = 0; k < touches_; ++k) {
         const Vec<D> slope = touch[k].gradient;
         touch[k].gradient =
@@ -96,27 +96,28 @@ void ImplicitSystem<Shape>::findRuns() {
 
 template <class Shape>
 void ImplicitSystem<Shape>::gatherNodes() {
-  std::vector<double> sums(static_cast<std::size_t>(brought_ * map_.size()), 0.0);
+  std::vector<double> sums(sums_ * map_.size(), 0.0);
   forEachRun([&](const PointSources<Shape>& from, const PointRun& run) {
     const Material& material = *from.group.material;
     for (int p = run.from; p < run.from + run.count; ++p) {
-      const NodeTouch<D>* touch = touchesOf(from.group.first + static_cast<std::size_t>(p));
+      const NodeTouch<D>* touch = touchesOf(from.group.first + p);
       const double c = material.model->initialWaveSpeed(material.density, from.group.temperature[p]);
       const double modulus = c * c + from.group.oldStress[p].norm() / material.density;  // over the density
       for (int k = 0; k < touches_; ++k) {
         if (touch[k].node < 0) continue;
-        Eigen::Map<Eigen::Matrix<double, brought_, 1>> sum(sums.data() + brought_ * touch[k].node);
+        Eigen::Map<Eigen::Matrix<double, sums_, 1>> sum(sums.data() + sums_ * touch[k].node);
         const double mass = touch[k].s * from.group.mass[p];
         sum[0] += mass;
         sum[1] += mass / material.density;
         sum[2] += from.group.mass[p] * modulus * (touch[k].gradient.norm() + std::abs(touch[k].hoop));
         sum.template segment<D>(3) += mass * touch[k].sign.cwiseProduct(from.velocity[p]);
-        sum.template segment<D>(3 + D) += mass * touch[k].sign.cwiseProduct(from.acceleration[p]);
+        if (from.acceleration)
+          sum.template segment<D>(3 + D) += mass * touch[k].sign.cwiseProduct(from.acceleration[p]);
         sum.template segment<D>(3 + 2 * D) += touch[k].s * touch[k].sign.cwiseProduct(from.externalForce[p]);
       }
     }
   });
-  solvers::addUp(map_.unknowns(brought_), sums);
+  solvers::addUp(map_.unknowns(sums_), sums);
   shareNodes(sums);
 }
 
@@ -124,7 +125,7 @@ template <class Shape>
 void ImplicitSystem<Shape>::shareNodes(const std::vector<double>& sums) {
   const Vec<D> gravity = map_.level().template reduce<D>(method_.gravity);
   for (int k = 0; k < map_.size(); ++k) {
-    const Eigen::Map<const Eigen::Matrix<double, brought_, 1>> sum(sums.data() + brought_ * k);
+    const Eigen::Map<const Eigen::Matrix<double, sums_, 1>> sum(sums.data() + sums_ * k);
     Node& node = node_.emplace_back();
     node.mass = sum[0];
     node.volume = sum[1];
@@ -149,7 +150,7 @@ void ImplicitSystem<Shape>::measureStiffness() {
   stiffest_ = map_.ranks().max(stiffest_) / (h * h);
 }
 
-/// A node with a millionth of a cell's matter around it may have no stiffness to speak of along some axis.
+/// A node with less than a millionth of a cell's volume of material may have almost no stiffness along some axis.
 template <class Shape>
 void ImplicitSystem<Shape>::supportNodes() {
   for (Node& node : node_)
@@ -160,7 +161,7 @@ template <class Shape>
 solvers::Unknowns ImplicitSystem<Shape>::unknowns() const {
   solvers::Unknowns unknowns = map_.unknowns(D);
   constexpr int width =
-      Shape::Stencil::nodes - 1;  // of one particle; those of a cell reach one further where it is wide
+      Shape::Stencil::nodes - 1;  // for one particle; all of a cell reach one node further if it is more than 1
   unknowns.entries = map_.neighbours(width > 1 && how_.sharesVolume ? width + 1 : width);
   for (int k = 0; k < map_.owned(); ++k)
     for (int d = 0; d < D; ++d) unknowns.coordinates.push_back(map_.position(k)[d]);
@@ -169,8 +170,8 @@ solvers::Unknowns ImplicitSystem<Shape>::unknowns() const {
 
 template <class Shape>
 void ImplicitSystem<Shape>::prescribe(int node, int d, double value) {
-  prescribed_[static_cast<std::size_t>(D * node + d)] = 1;
-  prescribed_value_[static_cast<std::size_t>(D * node + d)] = value;
+  prescribed_[D * node + d] = 1;
+  prescribed_value_[D * node + d] = value;
 }
 
 template <class Shape>
@@ -178,15 +179,14 @@ std::vector<double> ImplicitSystem<Shape>::guess() const {
   std::vector<double> u = prescribed_value_;
   for (int k = 0; k < map_.size(); ++k)
     for (int d = 0; d < D; ++d)
-      if (!isPrescribed(k, d))
-        u[static_cast<std::size_t>(D * k + d)] = dt_ * node_[static_cast<std::size_t>(k)].velocity[d];
+      if (!isPrescribed(k, d)) u[D * k + d] = dt_ * node_[k].velocity[d];
   return u;
 }
 
 template <class Shape>
 auto ImplicitSystem<Shape>::acceleration(int node, std::span<const double> u) const -> Vec<D> {
   if (!how_.dynamic) return Vec<D>::Zero();
-  const Node& n = node_[static_cast<std::size_t>(node)];
+  const Node& n = node_[node];
   return 4 / dt_ * (displacement(node, u) / dt_ - n.velocity) - n.acceleration;
 }
 
@@ -210,7 +210,7 @@ template <class Shape>
 bool ImplicitSystem<Shape>::residual(std::span<const double> u, std::span<double> r) {
   std::fill(r.begin(), r.end(), 0.0);
   for (int k = 0; k < map_.owned(); ++k) {
-    const Node& node = node_[static_cast<std::size_t>(k)];
+    const Node& node = node_[k];
     Eigen::Map<Vec<D>>(r.data() + D * k) =
         node.mass * acceleration(k, u) - node.force + node.support * (displacement(k, u) - dt_ * node.velocity);
   }
@@ -220,13 +220,13 @@ bool ImplicitSystem<Shape>::residual(std::span<const double> u, std::span<double
   return admissible;
 }
 
-/// False where a point would be turned inside out.
+/// False if a point would be turned inside out.
 template <class Shape>
 bool ImplicitSystem<Shape>::addInternalForces(std::span<const double> u, std::span<double> r) {
   bool admissible = true;
   forEachRun([&](const PointSources<Shape>&, const PointRun& run) {
     for (int k = run.from; k < run.from + run.count; ++k) {
-      const std::size_t at = run.group->first + static_cast<std::size_t>(k);
+      const std::size_t at = run.group->first + k;
       states_.gradient[at] = displacementGradient(at, u);
     }
     admissible = admissible && states_.deform(run);
@@ -244,7 +244,7 @@ std::vector<double> ImplicitSystem<Shape>::startingAcceleration() {
   addInternalForces(still, sums);
   solvers::addUp(map_.unknowns(D), sums);
   for (int k = 0; k < map_.size(); ++k) {
-    const Node& node = node_[static_cast<std::size_t>(k)];
+    const Node& node = node_[k];
     Eigen::Map<Vec<D>> sum(sums.data() + D * k);
     sum = node.mass > 0 ? Vec<D>((node.force - sum) / node.mass) : Vec<D>::Zero();
     for (int d = 0; d < D; ++d)
@@ -257,7 +257,7 @@ template <class Shape>
 std::vector<double> ImplicitSystem<Shape>::reactions() const {
   std::vector<double> sums = held_;
   solvers::addUp(map_.unknowns(D), sums);
-  sums.resize(static_cast<std::size_t>(D * map_.owned()));
+  sums.resize(D * map_.owned());
   return sums;
 }
 
@@ -265,7 +265,7 @@ template <class Shape>
 bool ImplicitSystem<Shape>::isNegligible(std::span<const double> u, std::span<const double> r) const {
   double largest = 0;
   for (int k = 0; k < map_.owned(); ++k) {
-    const Node& node = node_[static_cast<std::size_t>(k)];
+    const Node& node = node_[k];
     double forces = node.rigidity + node.force.norm();
     if (how_.dynamic)
       forces +=
@@ -281,7 +281,7 @@ void ImplicitSystem<Shape>::addInternalForce(const PointRun& run, std::span<doub
   const Level& level = map_.level();
   const PointGroup& group = *run.group;
   for (int p = run.from; p < run.from + run.count; ++p) {
-    const std::size_t at = group.first + static_cast<std::size_t>(p);
+    const std::size_t at = group.first + p;
     const Matrix3 step = Matrix3::Identity() + states_.gradient[at];
     const double volume = group.mass[p] / group.material->density * states_.deformation[at].determinant();
     const Matrix3 stress = volume * states_.stress[at] * step.inverse().transpose();

@@ -32,7 +32,7 @@ auto ImplicitSystem<Shape>::stiffnessOf(const PointGroup& group, int k, const Ma
   Matrix9 half, whole;
   for (int c = 0; c < 3; ++c) half.middleCols<3>(3 * c) = tangent.middleCols<3>(3 * c) * f.transpose();
   for (int c = 0; c < 3; ++c) whole.middleRows<3>(3 * c) = f * half.middleRows<3>(3 * c);
-  const Strain strain = strainOf(group.first + static_cast<std::size_t>(k));
+  const Strain strain = strainOf(group.first + k);
   return group.mass[k] / group.material->density * (strain.transpose() * (whole * strain));
 }
 
@@ -43,11 +43,11 @@ auto ImplicitSystem<Shape>::volumeRow(std::size_t point) const -> Rows {
   return strainOf(point).transpose() * Eigen::Map<const Vector9>(inverse.data());
 }
 
-/// What a point adds to the forces of nodes for a unit change of ln det(stretch F) at its own F, N: V0 Bᵀ q F_oldᵀ with
+/// The nodal forces of a point for a unit change of ln det(stretch F) at its own F, N: V0 Bᵀ q F_oldᵀ with
 /// q = (dP/dF F / stretch - 2 P) / 3.
 template <class Shape>
 auto ImplicitSystem<Shape>::volumeForce(const PointGroup& group, int k, const Matrix9& tangent) const -> Rows {
-  const std::size_t at = group.first + static_cast<std::size_t>(k);
+  const std::size_t at = group.first + k;
   const Matrix3& f = states_.deformation[at];
   const Matrix3 nominal = f.determinant() * states_.stress[at] * f.inverse().transpose();
   const Vector9 along = tangent * Eigen::Map<const Vector9>(f.data()) / states_.stretch[at];
@@ -60,17 +60,17 @@ auto ImplicitSystem<Shape>::volumeForce(const PointGroup& group, int k, const Ma
 template <class Shape>
 auto ImplicitSystem<Shape>::numbersOf(std::size_t point) const -> std::array<int, touches_> {
   std::array<int, touches_> numbers;
-  for (int n = 0; n < touches_; ++n) numbers[static_cast<std::size_t>(n)] = touchesOf(point)[n].node;
+  for (int n = 0; n < touches_; ++n) numbers[n] = touchesOf(point)[n].node;
   return numbers;
 }
 
 template <class Shape>
 void ImplicitSystem<Shape>::addStiffness(const PointGroup& group, int k, Local stiffness,
                                          solvers::Matrix& matrix) const {
-  const std::array<int, touches_> numbers = numbersOf(group.first + static_cast<std::size_t>(k));
+  const std::array<int, touches_> numbers = numbersOf(group.first + k);
   for (int n = 0; n < touches_; ++n)
     for (int d = 0; d < D; ++d) {
-      const int node = numbers[static_cast<std::size_t>(n)];
+      const int node = numbers[n];
       if (node < 0 || !isPrescribed(node, d)) continue;
       stiffness.row(D * n + d).setZero();
       stiffness.col(D * n + d).setZero();
@@ -84,7 +84,7 @@ void ImplicitSystem<Shape>::addRunStiffness(const PointRun& run, solvers::Matrix
   const bool shares = states_.sharesVolume(run);
   std::vector<Rows> forces;
   states_.forEachTangent(run, [&](int k, const Matrix9& tangent) {
-    const std::size_t at = group.first + static_cast<std::size_t>(k);
+    const std::size_t at = group.first + k;
     Local stiffness = stiffnessOf(group, k, tangent) / states_.stretch[at];
     if (shares) {
       forces.push_back(volumeForce(group, k, tangent));
@@ -95,7 +95,7 @@ void ImplicitSystem<Shape>::addRunStiffness(const PointRun& run, solvers::Matrix
   if (shares) addSharedStiffness(run, forces, matrix);
 }
 
-/// The common change of volume of a run, which every one of its points answers to.
+/// The stiffness of the points of a run against their common change of volume.
 template <class Shape>
 void ImplicitSystem<Shape>::addSharedStiffness(const PointRun& run, const std::vector<Rows>& forces,
                                                solvers::Matrix& matrix) const {
@@ -103,7 +103,7 @@ void ImplicitSystem<Shape>::addSharedStiffness(const PointRun& run, const std::v
   std::map<int, Vec<D>> common;
   double whole = 0;
   for (int k = run.from; k < run.from + run.count; ++k) {
-    const std::size_t at = group.first + static_cast<std::size_t>(k);
+    const std::size_t at = group.first + k;
     const double volume = group.mass[k] * states_.deformation[at].determinant();
     const Rows row = volumeRow(at);
     whole += volume;
@@ -119,11 +119,11 @@ void ImplicitSystem<Shape>::addSharedStiffness(const PointRun& run, const std::v
   }
   std::vector<double> block;
   for (int k = run.from; k < run.from + run.count; ++k) {
-    const std::array<int, touches_> rows = numbersOf(group.first + static_cast<std::size_t>(k));
-    const Rows& force = forces[static_cast<std::size_t>(k - run.from)];
+    const std::array<int, touches_> rows = numbersOf(group.first + k);
+    const Rows& force = forces[k - run.from];
     block.clear();
     for (int i = 0; i < touches_ * D; ++i) {
-      const int node = rows[static_cast<std::size_t>(i / D)];
+      const int node = rows[i / D];
       const bool free = node >= 0 && !isPrescribed(node, i % D);
       for (const double value : change) block.push_back(free ? force[i] * value : 0.0);
     }
@@ -131,13 +131,13 @@ void ImplicitSystem<Shape>::addSharedStiffness(const PointRun& run, const std::v
   }
 }
 
-/// Inertia, weak springs, and the rows of what is prescribed, as stiff as the rest.
+/// Inertia, weak springs, and a diagonal as stiff as the rest for prescribed displacements.
 template <class Shape>
 void ImplicitSystem<Shape>::addDiagonals(solvers::Matrix& matrix) const {
   for (int k = 0; k < map_.owned(); ++k) {
     Eigen::Matrix<double, D, D> block;  // diagonal: the order of rows and columns does not matter
     block.setZero();
-    const Node& node = node_[static_cast<std::size_t>(k)];
+    const Node& node = node_[k];
     const double free = node.support + (how_.dynamic ? 4 * node.mass / (dt_ * dt_) : 0.0);
     for (int d = 0; d < D; ++d) block(d, d) = isPrescribed(k, d) ? stiffest_ : free;
     matrix.add({&k, 1}, {&k, 1}, {block.data(), D * D});

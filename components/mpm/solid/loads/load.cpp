@@ -25,7 +25,7 @@ int thinAxis(const input::Box& box) {
 
 bool isEnd(const input::Cylinder& cylinder) { return cylinder.cylinderEnd || cylinder.axisymmetricEnd; }
 
-/// Height above the bottom and distance from the axis.
+/// A point seen from a cylinder: height above the bottom, distance and direction from the axis.
 struct CylinderPlace {
   double height, radius;
   Vec3 outwards;
@@ -39,16 +39,11 @@ struct CylinderPlace {
   }
 };
 
-/// Calls `visit(point)` for every place of a particle of a body.
+/// Calls `visit(point)` for the position of each particle of a body, m.
 template <int D, class Visit>
 void forEachParticle(const grid::Level& level, const Body& body, Visit&& visit) {
-  grid::Box places{{}, Index3::filled(1)};
-  for (int d = 0; d < D; ++d) places.upper[d] = body.particlesPerCell[level.axis(d)];
   grid::forEach<D>(level.cells(), [&](const Index<D>& cell) {
-    grid::forEach<D>(places, [&](const Index<D>& k) {
-      const Vec3 point = placeOf<D>(level, body, cell, k);
-      if (body.shape->contains(point)) visit(point);
-    });
+    forEachParticleIn<D>(level, body, cell, [&](const Index<D>&, const Vec3& point) { visit(point); });
   });
 }
 

@@ -17,21 +17,21 @@ struct LoadCurve {
   double at(double time) const;
 };
 
-/// A side of a body on which a pressure acts: a box that is thin along one axis, or the curved or the end face of a
+/// The part of a body's surface on which a load acts: a box that is thin along one axis, the side or an end of a
 /// cylinder, or a sphere.
 using Surface = std::variant<input::Box, input::Cylinder, input::Sphere>;
 
-/// Area of a surface, m^2; per radian where an axisymmetric cylinder says so.
+/// Area of a surface, m^2; per radian for the side or end of an axisymmetric cylinder.
 double areaOf(const Surface& surface);
-/// Whether a particle at `point`, whose neighbours are `spacing` away, lies along a surface. As in Uintah that is: to a
-/// spacing from a box, along its thin axis and for heat along all; from a cylinder to 1.2 of the least spacing, for
-/// heat from its side to half the length of the spacing; to that length from a sphere.
+/// Whether a particle at `point`, whose neighbours are `spacing` away, lies along a surface, by Uintah's distances:
+/// from a box one spacing, along its thin axis or for heat along all axes; from a cylinder 1.2 of the least spacing, or
+/// for heat from its side half the length of the spacing vector; from a sphere that whole length.
 bool isAlong(const Surface& surface, const Vec3& point, const Vec3& spacing, bool forHeat);
 /// The direction in which a positive load pushes: the thin axis of a box, outwards, or along a cylinder to its top.
 Vec3 normalAt(const Surface& surface, const Vec3& point);
 
-/// A `PhysicalBC/MPM/pressure` or `heat_flux`: what acts on the area is shared evenly among the particles at the
-/// surface, but by their radius on the end of an axisymmetric cylinder.
+/// A `PhysicalBC/MPM/pressure` or `heat_flux`: the particles at the surface share the force or heat of the whole area
+/// evenly, or on the end of an axisymmetric cylinder by their radius.
 struct SurfaceLoad {
   enum class Kind { pressure, heatFlux };
 
@@ -40,20 +40,20 @@ struct SurfaceLoad {
   LoadCurve curve;       ///< Pa, or W/m^2
   int material = -1;     ///< -1: all
   Location where;        ///< in the scene
-  double particles = 0;  ///< how many shares there are at the surface, set by countParticles
+  double particles = 0;  ///< sum of the weights of the particles at the surface, set by countParticles
 
-  /// Whether a particle of a body is loaded: it is along the surface and some neighbour's place is not in the body. On
-  /// a grid of one cell along z neighbours along z do not count.
+  /// Whether a particle of a body is loaded: it lies along the surface, and at least one neighbouring particle would be
+  /// outside the body. On a grid of one cell along z neighbours along z do not count.
   bool acts(const grid::Level& level, const Body& body, const Vec3& point) const;
-  /// Of a pressure, N.
+  /// Force of a pressure on a particle, N.
   Vec3 force(const Vec3& point, double time) const;
-  /// What a particle gets, N or W.
+  /// Force or heat of a particle, N or W.
   double share(const Vec3& point, double time) const;
-  /// Its weight among those at the surface: 1, or its radius (m).
+  /// Weight of a particle among those at the surface: 1, or its radius, m.
   double weight(const Vec3& point) const;
 };
 
-/// A `PhysicalBC/MPM/force`: a force per mass on the particles that start in a box, or next to it.
+/// A `PhysicalBC/MPM/force`: a force per mass on the particles that start in a box or at most their spacing beyond it.
 struct BodyLoad {
   Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();  ///< m
   Vec3 forceDensity = Vec3::Zero();                 ///< N/kg
@@ -75,7 +75,7 @@ struct Loads {
 /// The distance between the particles of a body along x, y, z, m.
 Vec3 particleSpacing(const grid::Level& level, const Body& body);
 
-/// Counts the particles at the surface of each load.
+/// Sums the weights of the particles at the surface of each load into SurfaceLoad::particles.
 void countParticles(const grid::Level& level, const std::vector<Material>& materials, std::vector<SurfaceLoad>& loads);
 /// Throws InputError for the loads whose surface has no particle.
 void refuseIdle(const std::vector<SurfaceLoad>& loads);

@@ -34,7 +34,7 @@ struct PhysicalBC {
   LoadsSection mpm;
 };
 
-/// A box of a load may be flat, which a body's may not.
+/// The box of a load; unlike that of a body it may be flat.
 const Schema<input::Box>& boxSchema() {
   static const Schema<input::Box> schema = Schema<input::Box>("box", "A flat or thin box.")
                                                .foreignAttribute("label", "its name")
@@ -90,7 +90,7 @@ Schema<SurfaceSection> surfaceSchema(const std::string& name, const std::string&
       .ignored("res", "particles are counted");
 }
 
-/// A load curve's number is the place of its load: Uintah takes the one for the other.
+/// The number of a load curve must be the position of its load in the scene, because Uintah uses one for the other.
 void checkNumbers(const Element& loads, Diagnostics& diagnostics) {
   int place = 0;
   for (const Element& load : loads.children()) {

@@ -4,10 +4,10 @@
 
 namespace tushar::mpm::solid {
 
-/// The loads of the `PhysicalBC` section, if the scene has one; those with a load curve only where `usesCurves`.
+/// The loads of the `PhysicalBC` section, if the scene has one; loads with a load curve only if `usesCurves`.
 Loads readLoads(const input::Element& root, bool usesCurves, input::Diagnostics& diagnostics);
 
-/// The manual.
+/// Prints the manual of the `PhysicalBC` section.
 void describeLoads(std::ostream& out);
 
 }  // namespace tushar::mpm::solid

@@ -15,11 +15,11 @@ struct Elastic {
   double density;        ///< at the start, kg/m^3
 };
 
-/// Those of a material whose model is cnh_mms.
+/// The constants of a material whose model is cnh_mms.
 Elastic elasticOf(const Material& material);
 
-/// A motion that someone made up, and the body force under which a neo-Hookean solid moves like that: against it errors
-/// can be measured. Kamojjala, Brannon, Sadeghirad & Guilkey, Eng. Comput. 31 (2015) 193.
+/// A manufactured solution: a prescribed motion, and the body force under which a neo-Hookean solid moves like that, to
+/// measure errors against. Kamojjala, Brannon, Sadeghirad & Guilkey, Eng. Comput. 31 (2015) 193.
 class Manufactured {
  public:
   virtual ~Manufactured() = default;
@@ -33,7 +33,7 @@ class Manufactured {
   virtual Vec3 bodyForce(const Elastic& elastic, const Vec3& start, double time) const = 0;
 };
 
-/// AxisAligned, ExpandingRing or GeneralizedVortex; null for any other word.
+/// AxisAligned, ExpandingRing or GeneralizedVortex; null for any other name.
 std::shared_ptr<const Manufactured> makeManufactured(const std::string& name);
 
 }  // namespace tushar::mpm::solid

@@ -6,8 +6,8 @@
 
 namespace tushar::mpm::solid {
 
-/// Calls `onSurface(load)` or `onBody(load)` for each load of a particle, whose numbers are packed as p.loadCurveID
-/// says.
+/// Calls `onSurface(load)` or `onBody(load)` for each load of a particle; `packed` holds their numbers as p.loadCurveID
+/// does.
 template <class OnSurface, class OnBody>
 void forEachLoad(const Loads& loads, int packed, OnSurface&& onSurface, OnBody&& onBody) {
   for (int ids = packed; ids > 0; ids /= 256) {
@@ -37,7 +37,7 @@ void applyExternalLoads(const Patch& patch, const Material&, const Loads& loads,
   }
 }
 
-/// The heat that loads bring to each particle at the start of the step, W.
+/// The heat of loads on each particle at the start of the step, W.
 template <int D>
 void applyHeatFlux(const Patch& patch, const Material&, const Loads& loads, double time, ParticleView<const Vec<D>> x,
                    ParticleView<const int> loadCurves, ParticleView<double> heatFlux) {

@@ -7,7 +7,7 @@
 namespace tushar::mpm::solid {
 
 /// The force of a body on a side of the grid, - sum_i f_i over its nodes, and the area that the body covers there,
-/// 2 sum_i V_i / h, of what the grid shows (see showOnGrid); an axis that is left out has no such nodes.
+/// 2 sum_i V_i / h, with the f_i and V_i of showOnGrid; an axis that the grid leaves out has no such nodes.
 template <int D>
 void measureBoundary(const Patch& patch, const Material&, int face, NodeView<const Vec<D>> force,
                      NodeView<const double> volume, VectorSum& total, Sum& area) {
@@ -22,7 +22,7 @@ void measureBoundary(const Patch& patch, const Material&, int face, NodeView<con
   }
 }
 
-/// The same on both sides of an axis that is left out: the stress of every particle acts across.
+/// Force and area on a side of an axis that the grid leaves out: the stress of every particle acts across.
 inline void measureThinBoundary(const Patch& patch, const Material&, int face, ParticleView<const double> volume,
                                 ParticleView<const Matrix3> stress, VectorSum& total, Sum& area) {
   const double width = patch.level().cellWidth(face / 2), sign = face % 2 == 0 ? -1.0 : 1.0;
@@ -33,19 +33,18 @@ inline void measureThinBoundary(const Patch& patch, const Material&, int face, P
   }
 }
 
-/// Of every side of the scene; `volume` and `stress` read those of particles.
+/// Forces and areas on all six sides of the scene; `volume` and `stress` read those of particles.
 template <int D, class Volume, class Stress>
 void scheduleBoundaryForces(TaskList& tasks, const std::vector<Material>& materials, const std::array<bool, 3>& isThin,
                             Volume volume, Stress stress) {
   for (int face = 0; face < 6; ++face) {
-    const auto k = static_cast<std::size_t>(face);
-    if (isThin[k / 2])
+    if (isThin[face / 2])
       tasks.perMaterial("mpm::measureThinBoundary", measureThinBoundary, materials, with(face), volume, stress,
-                        computes(total::boundaryForce[k]), computes(total::contactArea[k]));
+                        computes(total::boundaryForce[face]), computes(total::contactArea[face]));
     else
       tasks.perMaterial("mpm::measureBoundary", measureBoundary<D>, materials, with(face),
-                        requiresNew(g::internalForce<D>), requiresNew(g::volume), computes(total::boundaryForce[k]),
-                        computes(total::contactArea[k]));
+                        requiresNew(g::internalForce<D>), requiresNew(g::volume), computes(total::boundaryForce[face]),
+                        computes(total::contactArea[face]));
   }
 }
 

@@ -13,13 +13,13 @@
 
 namespace tushar::mpm::solid {
 
-/// What the particles of a scene start with besides their bodies.
+/// How the particles of a scene start, apart from their bodies.
 struct Start {
   bool axisymmetric = false;
   Loads loads;
-  std::shared_ptr<const Manufactured> solution;  ///< null: there is none
+  std::shared_ptr<const Manufactured> solution;  ///< null: none
   bool domainsDeform = false;                    ///< by F, so that p.size stays as it was before any deformation
-  double leastMass = 0;                          ///< that no particle may have, kg
+  double leastMass = 0;                          ///< every particle must have more, kg
 };
 
 /// The numbers of the loads on a particle, 1 for the first, packed as p.loadCurveID says. Throws InputError where there
@@ -46,16 +46,28 @@ inline int loadsOn(const Level& level, const Start& start, const Material& mater
   return ids;
 }
 
-/// The columns of the particles that are made.
+/// The values of new particles, one list for each variable.
 template <int D>
 struct NewParticles {
   std::vector<Vec<D>>&x, &velocity, &displacement, &size;
   std::vector<double>&mass, &temperature, &color;
   std::vector<int>& loads;
 
-  /// At `at`, m; where Uintah's rounding has it, `place` says whether loads act there.
+  static NewParticles from(auto& take) {
+    return {.x = take(creates(p::x<D>)),
+            .velocity = take(creates(p::velocity<D>)),
+            .displacement = take(creates(p::displacement<D>)),
+            .size = take(creates(p::size<D>)),
+            .mass = take(creates(p::mass)),
+            .temperature = take(creates(p::temperature)),
+            .color = take(creates(p::color)),
+            .loads = take(creates(p::loadCurves))};
+  }
+
+  /// Adds a particle at `at`, m. `place` is the same point rounded as Uintah rounds it: loads act there or not. Throws
+  /// InputError where its mass is not above the scene's least.
   void add(const Level& level, const Start& start, const Material& material, const Body& body, const Vec3& place,
-           const Vec<D>& at, const Vec<D>& extent) {
+           const Vec<D>& at, const Vec<D>& extent) const {
     const Vec3 point = level.expandPoint<D>(at);
     x.push_back(at);
     velocity.push_back(level.reduce<D>(body.velocity(point)));
@@ -77,7 +89,7 @@ struct NewParticles {
 
  private:
   /// Moves the last particle to where the manufactured solution has it at time 0.
-  void deform(const Level& level, const Start& start, const Material& material, const Vec3& point) {
+  void deform(const Level& level, const Start& start, const Material& material, const Vec3& point) const {
     const Manufactured& solution = *start.solution;
     const Elastic elastic = elasticOf(material);
     displacement.back() = level.reduce<D>(solution.displacement(elastic, point, 0));
@@ -90,37 +102,28 @@ struct NewParticles {
   }
 };
 
-/// Fills each body with its particles, `particlesPerCell` along each axis in the middle of equal parts of a cell, where
-/// the shape contains that point. As in Uintah, bodies may overlap, and of two that share a face on which such points
-/// lie each has particles there.
+/// Fills each body with its particles, `particlesPerCell` along each axis in the middle of equal parts of a cell, if
+/// the shape contains that point. As in Uintah, bodies may overlap, and two bodies that share a face with such points
+/// both have particles there.
 ///
-/// The id of a particle is its cell's number and its place in the cell, so that it does not depend on the patches.
+/// The id of a particle is made of the number of its cell and its place in the cell: it does not depend on the patches.
 template <int D>
 void actuallyInitialize(const Patch& patch, const Material& material, ParticleMaker& maker, const Start& start,
-                        std::vector<Vec<D>>& x, std::vector<Vec<D>>& velocity, std::vector<Vec<D>>& displacement,
-                        std::vector<Vec<D>>& size, std::vector<double>& mass, std::vector<double>& temperature,
-                        std::vector<double>& color, std::vector<int>& loads) {
+                        const NewParticles<D>& particles) {
   const Level& level = patch.level();
   if (patch.id() == 0) refuseIdle(start.loads.surfaces);
-  NewParticles<D> particles{x, velocity, displacement, size, mass, temperature, color, loads};
-  // A displaced particle may start in another cell than the one that made it, and so on another patch.
+  // A displaced particle may start in another cell than the one that made it, hence on another patch.
   const double farthest = start.solution ? start.solution->farthestAtStart() : 0.0;
   const int around = static_cast<int>(std::ceil(farthest / level.minSpacing()));
   forEach<D>(patch.cellsWithin(around), [&](const Index<D>& cell) {
     ParticleId inCell = 0;
     for (const Body& body : material.bodies) {
-      Box places{{}, Index3::filled(1)};
       Vec<D> extent;
-      for (int d = 0; d < D; ++d) {
-        places.upper[d] = body.particlesPerCell[level.axis(d)];
-        extent[d] = 1.0 / places.upper[d];
-      }
-      forEach<D>(places, [&](const Index<D>& k) {
+      for (int d = 0; d < D; ++d) extent[d] = 1.0 / body.particlesPerCell[level.axis(d)];
+      forEachParticleIn<D>(level, body, cell, [&](const Index<D>& k, const Vec3& place) {
         Vec<D> at;
         for (int d = 0; d < D; ++d)
           at[d] = level.nodePosition(d, 0) + (cell[d] + (k[d] + 0.5) * extent[d]) * level.spacing(d);
-        const Vec3 place = placeOf<D>(level, body, cell, k);
-        if (!body.shape->contains(place)) return;
         const ParticleId id = idOf<D>(level, cell, inCell++, body.where);
         Index<D> home = cell;
         if (start.solution) {
@@ -135,7 +138,7 @@ void actuallyInitialize(const Patch& patch, const Material& material, ParticleMa
   });
 }
 
-/// What is zero on every particle at the start.
+/// A variable is zero on every particle at the start.
 template <class T>
 void startAtZero(const Patch&, const Material&, ParticleView<const double> mass, ParticleView<T> values) {
   for (int p = 0; p < mass.owned(); ++p)
@@ -157,7 +160,7 @@ void startDeformation(const Patch& patch, const Material& material, const Start&
       deformation[p].setIdentity();
 }
 
-/// What particles of materials whose stress depends on more than F keep besides.
+/// Volume, stress and internal variables of particles at the start.
 inline void initializeStress(const Patch&, const Material& material, int stateSize, ParticleView<const double> mass,
                              ParticleView<const Matrix3> deformation, ParticleView<double> volume,
                              ParticleView<Matrix3> stress, std::optional<ParticleView<double>> state) {
@@ -168,11 +171,17 @@ inline void initializeStress(const Patch&, const Material& material, int stateSi
   }
 }
 
+/// `state` holds the internal variables of the constitutive models.
+inline void scheduleInitialStress(TaskList& tasks, const std::vector<Material>& materials,
+                                  const ParticleLabel<double>& state) {
+  tasks.perMaterial("mpm::initializeStress", initializeStress, materials, with(state.components), requiresNew(p::mass),
+                    requiresNew(p::deformationMeasure), computes(p::volume), computes(p::stress),
+                    when(state.components > 0, computes(state)));
+}
+
 template <int D>
 void scheduleActuallyInitialize(TaskList& tasks, const std::vector<Material>& materials, const Start& start) {
-  tasks.newParticles("mpm::actuallyInitialize", actuallyInitialize<D>, materials, with(start), creates(p::x<D>),
-                     creates(p::velocity<D>), creates(p::displacement<D>), creates(p::size<D>), creates(p::mass),
-                     creates(p::temperature), creates(p::color), creates(p::loadCurves));
+  tasks.newParticles("mpm::actuallyInitialize", actuallyInitialize<D>, materials, with(start), all<NewParticles<D>>());
   tasks.perMaterial("mpm::initializeDeformation", startDeformation<D>, materials, with(start), requiresNew(p::x<D>),
                     when(start.solution != nullptr, requiresNew(p::displacement<D>)), computes(p::deformationMeasure));
   const auto atZero = [&]<class T>(const ParticleLabel<T>& label) {

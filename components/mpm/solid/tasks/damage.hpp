@@ -2,6 +2,7 @@
 
 #include "components/mpm/solid/labels.hpp"
 #include "components/mpm/solid/material.hpp"
+#include "components/mpm/solid/transfer/extent.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -20,35 +21,73 @@ inline void initializeDamage(const Patch&, const Material& material, ParticleVie
   }
 }
 
-/// Nothing has failed where nothing can.
+inline void scheduleInitialDamage(TaskList& tasks, const std::vector<Material>& materials) {
+  tasks.perMaterial("mpm::initializeDamage", initializeDamage, materials, requiresNew(data::particleId),
+                    requiresNew(p::volume), computes(p::damage), computes(p::failureThreshold), computes(p::localized),
+                    computes(p::failureTime));
+}
+
+/// Without a damage model no particle is localized.
 inline void showSound(const Patch&, const Material&, ParticleView<const double> mass, ParticleView<int> localized) {
   for (int p = 0; p < mass.owned(); ++p) localized[p] = 0;
 }
 
-/// Damage at the end of the step, and what damaged and failed particles bear of the stress. Uintah's computeBasicDamage
-/// and updateErosionParameter.
+/// The particles whose damage grows in a step.
+struct DamageGrowth {
+  ParticleView<const double> temperature, oldDamage, oldThreshold;
+  ParticleView<const int> oldLocalized;
+  ParticleView<const double> oldFailureTime;
+  ParticleView<const Matrix3> deformation;  ///< at the end of the step, as all below
+  ParticleView<const double> volume;
+  OptionalView<const double> state;  ///< internal variables, if any model keeps some
+  ParticleView<Matrix3> stress;
+  ParticleView<double> damage, threshold;
+  ParticleView<int> localized;
+  ParticleView<double> failureTime;
+
+  static DamageGrowth from(auto& take, const ParticleLabel<double>* state) {
+    return {.temperature = take(requiresOld(p::temperature)),
+            .oldDamage = take(requiresOld(p::damage)),
+            .oldThreshold = take(requiresOld(p::failureThreshold)),
+            .oldLocalized = take(requiresOld(p::localized)),
+            .oldFailureTime = take(requiresOld(p::failureTime)),
+            .deformation = take(requiresNew(p::deformationMeasure)),
+            .volume = take(requiresNew(p::volume)),
+            .state = take(when(state->components > 0, requiresNew(*state))),
+            .stress = take(modifies(p::stress)),
+            .damage = take(computes(p::damage)),
+            .threshold = take(computes(p::failureThreshold)),
+            .localized = take(computes(p::localized)),
+            .failureTime = take(computes(p::failureTime))};
+  }
+};
+
+/// Damage at the end of the step, and the stress that damaged and failed particles still bear. Uintah's
+/// computeBasicDamage and updateErosionParameter.
 inline void computeDamage(const Patch&, const Material& material, int stateSize, double time, double dt,
-                          ParticleView<const double> temperature, ParticleView<const double> oldDamage,
-                          ParticleView<const double> oldThreshold, ParticleView<const int> oldLocalized,
-                          ParticleView<const double> oldFailureTime, ParticleView<const Matrix3> deformation,
-                          ParticleView<const double> volume, std::optional<ParticleView<const double>> state,
-                          ParticleView<Matrix3> stress, ParticleView<double> damage, ParticleView<double> threshold,
-                          ParticleView<int> localized, ParticleView<double> failureTime) {
+                          const DamageGrowth& d) {
   const int rate = offsetOf(*material.model, "p.plasticStrainRate");
   const MaterialConstants constants = material.constants();
-  for (int p = 0; p < stress.owned(); ++p) {
-    const double plasticStrainRate = rate < 0 ? 0.0 : (&(*state)[0])[p * stateSize + rate];
-    const DamageConditions conditions{deformation[p], volume[p], plasticStrainRate, temperature[p], dt};
-    DamageState now{oldDamage[p], oldThreshold[p], oldLocalized[p] != 0};
-    std::visit([&](const auto& model) { model.grow(constants, conditions, stress[p], now); }, material.damage);
-    if (material.erosion.acts() && material.model->isMolten(deformation[p], stress[p], temperature[p]))
+  for (int p = 0; p < d.stress.owned(); ++p) {
+    const double plasticStrainRate = rate < 0 ? 0.0 : (&(*d.state)[0])[p * stateSize + rate];
+    const DamageConditions conditions{d.deformation[p], d.volume[p], plasticStrainRate, d.temperature[p], dt};
+    DamageState now{d.oldDamage[p], d.oldThreshold[p], d.oldLocalized[p] != 0};
+    std::visit([&](const auto& model) { model.grow(constants, conditions, d.stress[p], now); }, material.damage);
+    if (material.erosion.acts() && material.model->isMolten(d.deformation[p], d.stress[p], d.temperature[p]))
       now.hasFailed = true;
-    damage[p] = now.damage;
-    threshold[p] = now.threshold;
-    localized[p] = now.hasFailed ? 1 : 0;
-    failureTime[p] = now.hasFailed && !oldLocalized[p] ? time : oldFailureTime[p];
-    if (now.hasFailed) stress[p] = material.erosion.bearable(stress[p], time - failureTime[p]);
+    d.damage[p] = now.damage;
+    d.threshold[p] = now.threshold;
+    d.localized[p] = now.hasFailed ? 1 : 0;
+    d.failureTime[p] = now.hasFailed && !d.oldLocalized[p] ? time : d.oldFailureTime[p];
+    if (now.hasFailed) d.stress[p] = material.erosion.bearable(d.stress[p], time - d.failureTime[p]);
   }
+}
+
+/// `state` holds the internal variables of the constitutive models.
+inline void scheduleDamage(TaskList& tasks, const std::vector<Material>& materials,
+                           const ParticleLabel<double>& state) {
+  tasks.perMaterial("mpm::computeDamage", computeDamage, materials, with(state.components), startTime(),
+                    requiresOld(delT), all<DamageGrowth>(&state));
 }
 
 }  // namespace tushar::mpm::solid

@@ -4,10 +4,11 @@
 
 #include "components/mpm/solid/labels.hpp"
 #include "components/mpm/solid/material.hpp"
+#include "components/mpm/solid/method.hpp"
 
 namespace tushar::mpm::solid {
 
-/// The sum of a number of every particle.
+/// The sum of a particle variable.
 inline void sumParticles(const Patch&, const Material&, ParticleView<const double> values, Sum& total) {
   WideSum sum(total);
   for (int p = 0; p < values.owned(); ++p) sum.add(values[p]);
@@ -20,12 +21,13 @@ inline void sumThermalEnergy(const Patch&, const Material& material, ParticleVie
   for (int p = 0; p < mass.owned(); ++p) sum.add(mass[p] * material.specificHeat * temperature[p]);
 }
 
-/// Mass of all particles times their velocity, or their position.
+/// sum_p m_p v_p, kg m/s.
 template <int D>
 void sumMomentum(const Patch& patch, const Material&, ParticleView<const double> mass,
                  ParticleView<const Vec<D>> velocity, VectorSum& total) {
   for (int p = 0; p < mass.owned(); ++p) total.add(mass[p] * patch.level().expandDirection<D>(velocity[p]));
 }
+/// sum_p m_p x_p, kg m.
 template <int D>
 void sumCenterOfMass(const Patch& patch, const Material&, ParticleView<const double> mass, ParticleView<const Vec<D>> x,
                      VectorSum& total) {
@@ -59,7 +61,7 @@ void sumKineticEnergy(const Patch&, const Material&, ParticleView<const double> 
   for (int p = 0; p < mass.owned(); ++p) sum.add(0.5 * mass[p] * velocity[p].squaredNorm());
 }
 
-/// F times the edges that the particle had at the start: what it fills of space.
+/// The edges of a particle: F times those at the start, m.
 template <int D>
 void computeScaleFactor(const Patch& patch, const Material&, const Vec3& commonSize,
                         const std::optional<ParticleView<const Vec<D>>>& size, ParticleView<const Matrix3> deformation,
@@ -73,9 +75,9 @@ void computeScaleFactor(const Patch& patch, const Material&, const Vec3& commonS
   }
 }
 
-/// The totals that can be saved; `affine` reads APIC's moment.
-template <int D, class Affine>
-void scheduleTotals(TaskList& tasks, const std::vector<Material>& materials, Affine affine) {
+/// Totals over the particles, and their edges.
+template <int D>
+void scheduleTotals(TaskList& tasks, const std::vector<Material>& materials, const Method& method, bool keepsSizes) {
   tasks.perMaterial("mpm::sumMass", sumParticles, materials, requiresOld(p::mass), computes(total::mass));
   tasks.perMaterial("mpm::sumStrainEnergy", sumParticles, materials, requiresOld(p::strainEnergy),
                     computes(total::strainEnergy));
@@ -88,7 +90,11 @@ void scheduleTotals(TaskList& tasks, const std::vector<Material>& materials, Aff
   tasks.perMaterial("mpm::sumCenterOfMass", sumCenterOfMass<D>, materials, requiresOld(p::mass), requiresOld(p::x<D>),
                     computes(total::centerOfMass));
   tasks.perMaterial("mpm::sumAngularMomentum", sumAngularMomentum<D>, materials, requiresOld(p::mass),
-                    requiresOld(p::x<D>), requiresOld(p::velocity<D>), affine, computes(total::angularMomentum));
+                    requiresOld(p::x<D>), requiresOld(p::velocity<D>),
+                    when(method.affine, requiresOld(p::affineMoment)), computes(total::angularMomentum));
+  tasks.perMaterial("mpm::computeScaleFactor", computeScaleFactor<D>, materials, with(method.commonSize),
+                    when(keepsSizes, requiresOld(p::size<D>)), requiresOld(p::deformationMeasure),
+                    computes(p::scaleFactor));
 }
 
 }  // namespace tushar::mpm::solid

@@ -4,7 +4,7 @@
 
 namespace tushar::mpm::solid {
 
-/// The displacement since the start.
+/// The displacement of particles since the start: u_p += x'_p - x_p.
 template <int D>
 void addDisplacement(const Patch&, const Material&, ParticleView<const Vec<D>> x, ParticleView<const Vec<D>> newX,
                      ParticleView<const Vec<D>> displacement, ParticleView<Vec<D>> newDisplacement) {

@@ -2,7 +2,7 @@
 
 #include "components/mpm/boundary_labels.hpp"
 #include "components/mpm/solid/material.hpp"
-#include "components/mpm/solid/transfer/extent.hpp"
+#include "components/mpm/solid/transfer/placed.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -22,70 +22,92 @@ void setTemperature(const Patch& patch, int material, NodeView<double> field) {
     }
 }
 
-/// Where the particles of a material are, and what its shape functions ask of them.
+/// Particles that give their heat to the nodes.
 template <class Shape>
-struct Places {
-  const Patch& patch;
-  ParticleView<const Vec<Shape::dimension>> x;
-  Extents<Shape> extents;
+struct HeatToNodes {
+  Placed<Shape> particles;
+  ParticleView<const double> mass, particleTemperature;
+  NodeView<double> capacity, temperatureNoBC, temperature;
 
-  /// Calls `visit(p, stencil)` for each particle of `cells`.
-  template <class Visit>
-  void forEachStencil(const Box& cells, Visit&& visit) const {
-    solid::forEachStencil<Shape>(patch, cells, x, extents, visit);
+  static HeatToNodes from(auto& take, bool keepsSizes) {
+    constexpr int reach = Shape::reach;
+    return {.particles = Placed<Shape>::from(take, keepsSizes, reach, requiresOld(p::deformationMeasure, reach)),
+            .mass = take(requiresOld(p::mass, reach)),
+            .particleTemperature = take(requiresOld(p::temperature, reach)),
+            .capacity = take(computes(g::heatCapacity)),
+            .temperatureNoBC = take(computes(g::temperatureNoBC)),
+            .temperature = take(computes(g::temperature))};
   }
 };
 
-/// C_i = sum_p S_i m_p c_v,   T_i = sum_p S_i m_p c_v T_p / C_i; 0 where there is no mass.
+/// C_i = sum_p S_i m_p c_v,   T_i = sum_p S_i m_p c_v T_p / C_i; 0 at nodes without mass.
 template <class Shape, int D = Shape::dimension>
 void interpolateTemperatureToGrid(const Patch& patch, const Material& material, const Vec3& commonSize,
-                                  ParticleView<const Vec<D>> x, OptionalView<const Vec<D>> size,
-                                  ParticleView<const Matrix3> deformation, ParticleView<const double> mass,
-                                  ParticleView<const double> particleTemperature, NodeView<double> capacity,
-                                  NodeView<double> temperatureNoBC, NodeView<double> temperature) {
-  capacity.fill(0.0);
-  temperatureNoBC.fill(0.0);
-  const Box& box = capacity.box();
-  const Places<Shape> places{patch, x, Extents<Shape>(patch.level(), commonSize, size, deformation)};
-  places.forEachStencil(x.cells(), [&](int p, const auto& stencil) {
-    const double heat = mass[p] * material.specificHeat;
+                                  const HeatToNodes<Shape>& h) {
+  h.capacity.fill(0.0);
+  h.temperatureNoBC.fill(0.0);
+  const Box& box = h.capacity.box();
+  forEachStencil(patch, h.particles.x.cells(), h.particles, commonSize, [&](int p, const auto& stencil) {
+    const double heat = h.mass[p] * material.specificHeat;
     stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>&) {
       if (!box.contains(node)) return;
-      capacity[node] += s * heat;
-      temperatureNoBC[node] += s * heat * particleTemperature[p];
+      h.capacity[node] += s * heat;
+      h.temperatureNoBC[node] += s * heat * h.particleTemperature[p];
     });
   });
   forEach<D>(box, [&](const Index<D>& node) {
-    if (capacity[node] > 0) temperatureNoBC[node] /= capacity[node];
-    temperature[node] = temperatureNoBC[node];
+    if (h.capacity[node] > 0) h.temperatureNoBC[node] /= h.capacity[node];
+    h.temperature[node] = h.temperatureNoBC[node];
   });
-  setTemperature<D>(patch, material.index, temperature);
+  setTemperature<D>(patch, material.index, h.temperature);
 }
 
-/// Q_i = sum_p S_i H_p - V_p k grad S_i . grad T_p with the heat H_p of loads, if there are any
+template <class Shape>
+void scheduleNodalTemperature(TaskList& tasks, const std::vector<Material>& materials, const Vec3& commonSize,
+                              bool keepsSizes) {
+  tasks.perMaterial("mpm::interpolateTemperatureToGrid", interpolateTemperatureToGrid<Shape>, materials,
+                    with(commonSize), all<HeatToNodes<Shape>>(keepsSizes));
+}
+
+/// Particles that conduct heat to the nodes, and take up that of loads.
+template <class Shape>
+struct HeatFlow {
+  Placed<Shape> particles;
+  ParticleView<const double> mass;
+  OptionalView<const double> heatFlux;  ///< W, where loads bring heat
+  NodeView<const double> temperature;
+  NodeView<double> heatRate;
+
+  static HeatFlow from(auto& take, bool keepsSizes, bool isHeated) {
+    constexpr int reach = Shape::reach;
+    return {.particles = Placed<Shape>::from(take, keepsSizes, reach, requiresOld(p::deformationMeasure, reach)),
+            .mass = take(requiresOld(p::mass, reach)),
+            .heatFlux = take(when(isHeated, requiresNew(p::heatFlux, reach))),
+            .temperature = take(requiresNew(g::temperature, reach + Shape::ghostNodes)),
+            .heatRate = take(computes(g::heatRate))};
+  }
+};
+
+/// Q_i = sum_p S_i H_p - V_p k grad S_i . grad T_p, with the heat H_p of loads if there are any, W
 template <class Shape, int D = Shape::dimension>
 void computeInternalHeatRate(const Patch& patch, const Material& material, const Vec3& commonSize,
-                             ParticleView<const Vec<D>> x, OptionalView<const Vec<D>> size,
-                             ParticleView<const Matrix3> deformation, ParticleView<const double> mass,
-                             OptionalView<const double> heatFlux, NodeView<const double> temperature,
-                             NodeView<double> heatRate) {
-  heatRate.fill(0.0);
-  const Box& box = heatRate.box();
-  if (material.thermalConductivity == 0 && !heatFlux) return;
-  const Places<Shape> places{patch, x, Extents<Shape>(patch.level(), commonSize, size, deformation)};
-  places.forEachStencil(x.cells(), [&](int p, const auto& stencil) {
+                             const HeatFlow<Shape>& h) {
+  h.heatRate.fill(0.0);
+  const Box& box = h.heatRate.box();
+  if (material.thermalConductivity == 0 && !h.heatFlux) return;
+  forEachStencil(patch, h.particles.x.cells(), h.particles, commonSize, [&](int p, const auto& stencil) {
     Vec<D> slope = Vec<D>::Zero();
     stencil.forEachNode(
-        [&](const Index<D>& node, double, const Vec<D>& gradient) { slope += temperature[node] * gradient; });
-    const double volume = mass[p] / material.density * deformation[p].determinant();
+        [&](const Index<D>& node, double, const Vec<D>& gradient) { slope += h.temperature[node] * gradient; });
+    const double volume = h.mass[p] / material.density * (*h.particles.deformation)[p].determinant();
     slope *= -material.thermalConductivity * volume;
     stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>& gradient) {
-      if (box.contains(node)) heatRate[node] += gradient.dot(slope) + (heatFlux ? s * (*heatFlux)[p] : 0.0);
+      if (box.contains(node)) h.heatRate[node] += gradient.dot(slope) + (h.heatFlux ? s * (*h.heatFlux)[p] : 0.0);
     });
   });
 }
 
-/// Materials that share a node take one temperature there, the mean over their heat capacities.
+/// Materials at a node exchange heat until they have one temperature, the mean weighted by their heat capacities.
 template <int D>
 void computeHeatExchange(const Patch&, const std::vector<Material>&,
                          const std::vector<NodeView<const double>>& capacity,
@@ -102,46 +124,92 @@ void computeHeatExchange(const Patch&, const std::vector<Material>&,
   });
 }
 
-/// T*_i = T_i + (Q_i / C_i + contact) dt + H_i / C_i with the heat H_i of rubbing, on the sides of the grid as given
-/// there, and the rate that comes of it.
+/// The heat of a step at the nodes.
+struct NodalHeating {
+  NodeView<const double> capacity, temperatureNoBC, temperature, heatRate;
+  std::optional<NodeView<const double>> contactRate;   ///< K/s, where materials in contact exchange heat
+  std::optional<NodeView<const double>> frictionHeat;  ///< J, where friction heats
+  NodeView<double> rate;
+
+  static NodalHeating from(auto& take, bool hasContact, bool hasFriction) {
+    return {.capacity = take(requiresNew(g::heatCapacity)),
+            .temperatureNoBC = take(requiresNew(g::temperatureNoBC)),
+            .temperature = take(requiresNew(g::temperature)),
+            .heatRate = take(requiresNew(g::heatRate)),
+            .contactRate = take(when(hasContact, requiresNew(g::contactTemperatureRate))),
+            .frictionHeat = take(when(hasFriction, requiresNew(g::frictionHeat))),
+            .rate = take(computes(g::temperatureRate))};
+  }
+};
+
+/// T*_i = T_i + (Q_i / C_i + contact) dt + H_i / C_i with the heat H_i of friction, or the given temperature on sides
+/// of the grid that have one; and dT_i/dt, K/s, by which T*_i differs from T_i before boundary conditions.
 template <int D>
-void integrateTemperatureRate(const Patch& patch, const Material& material, NodeView<const double> capacity,
-                              NodeView<const double> temperatureNoBC, NodeView<const double> temperature,
-                              NodeView<const double> heatRate, std::optional<NodeView<const double>> contactRate,
-                              std::optional<NodeView<const double>> frictionHeat, double dt, NodeView<double> rate) {
-  forEach<D>(capacity.box(), [&](const Index<D>& node) {
-    double change = capacity[node] > 0 ? heatRate[node] / capacity[node] : 0.0;
-    if (contactRate) change += (*contactRate)[node];
-    if (frictionHeat && capacity[node] > 0) change += (*frictionHeat)[node] / (capacity[node] * dt);
-    rate[node] = temperature[node] + change * dt;
+void integrateTemperatureRate(const Patch& patch, const Material& material, const NodalHeating& h, double dt) {
+  forEach<D>(h.capacity.box(), [&](const Index<D>& node) {
+    double change = h.capacity[node] > 0 ? h.heatRate[node] / h.capacity[node] : 0.0;
+    if (h.contactRate) change += (*h.contactRate)[node];
+    if (h.frictionHeat && h.capacity[node] > 0) change += (*h.frictionHeat)[node] / (h.capacity[node] * dt);
+    h.rate[node] = h.temperature[node] + change * dt;
   });
-  setTemperature<D>(patch, material.index, rate);
-  forEach<D>(capacity.box(), [&](const Index<D>& node) { rate[node] = (rate[node] - temperatureNoBC[node]) / dt; });
+  setTemperature<D>(patch, material.index, h.rate);
+  forEach<D>(h.capacity.box(),
+             [&](const Index<D>& node) { h.rate[node] = (h.rate[node] - h.temperatureNoBC[node]) / dt; });
 }
+
+/// Particles that take their temperature from the nodes.
+template <class Shape>
+struct HeatToParticles {
+  Placed<Shape> particles;
+  ParticleView<const double> temperature;
+  NodeView<const double> rate;
+  ParticleView<double> newTemperature;
+
+  static HeatToParticles from(auto& take, bool keepsSizes) {
+    return {.particles = Placed<Shape>::from(take, keepsSizes, 0, requiresOld(p::deformationMeasure)),
+            .temperature = take(requiresOld(p::temperature)),
+            .rate = take(requiresNew(g::temperatureRate, Shape::ghostNodes)),
+            .newTemperature = take(computes(p::temperature))};
+  }
+};
 
 /// T_p += dt sum_i S_i dT_i/dt
 template <class Shape, int D = Shape::dimension>
-void updateTemperature(const Patch& patch, const Material&, const Vec3& commonSize, ParticleView<const Vec<D>> x,
-                       OptionalView<const Vec<D>> size, ParticleView<const Matrix3> deformation,
-                       ParticleView<const double> temperature, NodeView<const double> rate, double dt,
-                       ParticleView<double> newTemperature) {
-  const Places<Shape> places{patch, x, Extents<Shape>(patch.level(), commonSize, size, deformation)};
-  places.forEachStencil(patch.cells(), [&](int p, const auto& stencil) {
+void updateTemperature(const Patch& patch, const Material&, const Vec3& commonSize, const HeatToParticles<Shape>& h,
+                       double dt) {
+  forEachStencil(patch, patch.cells(), h.particles, commonSize, [&](int p, const auto& stencil) {
     double change = 0;
-    stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>&) { change += s * rate[node]; });
-    newTemperature[p] = temperature[p] + dt * change;
+    stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>&) { change += s * h.rate[node]; });
+    h.newTemperature[p] = h.temperature[p] + dt * change;
   });
 }
 
-/// Adds what the work of the step does to the temperature, where heat is conducted, too.
+template <class Shape>
+void scheduleTemperatureUpdate(TaskList& tasks, const std::vector<Material>& materials, const Vec3& commonSize,
+                               bool keepsSizes) {
+  tasks.perMaterial("mpm::updateTemperature", updateTemperature<Shape>, materials, with(commonSize),
+                    all<HeatToParticles<Shape>>(keepsSizes), requiresOld(delT));
+}
+
+/// T_p changes by the work of the step, after conduction.
 inline void addWorkOfStep(const Patch&, const Material&, ParticleView<const double> change,
                           ParticleView<double> temperature) {
   for (int p = 0; p < change.owned(); ++p) temperature[p] += change[p];
 }
-/// The same where nothing else changes the temperature.
+/// T_p changes by the work of the step alone.
 inline void heatByWorkOfStep(const Patch&, const Material&, ParticleView<const double> change,
                              ParticleView<const double> oldTemperature, ParticleView<double> temperature) {
   for (int p = 0; p < change.owned(); ++p) temperature[p] = oldTemperature[p] + change[p];
+}
+
+/// The work of the step heats the particles; where heat is conducted, that has been done before.
+inline void scheduleHeatOfWork(TaskList& tasks, const std::vector<Material>& materials, bool conductsHeat) {
+  if (conductsHeat)
+    tasks.perMaterial("mpm::finalParticleUpdate", addWorkOfStep, materials, requiresNew(p::temperatureChange),
+                      modifies(p::temperature));
+  else
+    tasks.perMaterial("mpm::finalParticleUpdate", heatByWorkOfStep, materials, requiresNew(p::temperatureChange),
+                      requiresOld(p::temperature), computes(p::temperature));
 }
 
 }  // namespace tushar::mpm::solid

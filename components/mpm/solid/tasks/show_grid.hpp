@@ -4,17 +4,18 @@
 
 #include "components/mpm/solid/labels.hpp"
 #include "components/mpm/solid/material.hpp"
-#include "components/mpm/solid/transfer/extent.hpp"
+#include "components/mpm/solid/transfer/placed.hpp"
 
 namespace tushar::mpm::solid {
 
-// What a state looks like on the grid, for those who save it: not part of a step.
+// The state of the particles on the grid, as outputs that only some scenes save: no step reads it.
 
-/// V_p = m_p J / density, and sigma_p where the stress is a function of F alone.
+/// V_p = m_p J / density
 inline void computeVolume(const Patch&, const Material& material, ParticleView<const double> mass,
                           ParticleView<const Matrix3> deformation, ParticleView<double> volume) {
   for (int p = 0; p < mass.owned(); ++p) volume[p] = mass[p] / material.density * deformation[p].determinant();
 }
+/// sigma_p, Pa, if the stress is a function of F alone.
 inline void computeStress(const Patch&, const Material& material, ParticleView<const Matrix3> deformation,
                           ParticleView<Matrix3> stress) {
   if (deformation.owned() == 0) return;
@@ -22,55 +23,75 @@ inline void computeStress(const Patch&, const Material& material, ParticleView<c
   for (int p = 0; p < deformation.owned(); ++p) stress[p] /= deformation[p].determinant();
 }
 
+/// Particles, and their state on the grid.
+template <class Shape, int D = Shape::dimension>
+struct GridPicture {
+  Placed<Shape> particles;
+  ParticleView<const double> particleMass;
+  ParticleView<const Vec<D>> particleVelocity;
+  ParticleView<const double> particleVolume;
+  ParticleView<const Matrix3> particleStress;
+  NodeView<double> mass, volume;
+  NodeView<Vec<D>> velocity, force, acceleration;
+  NodeView<Matrix3> stress;
+
+  /// `volume` and `stress` read those of particles, with the ghost cells that shape functions reach.
+  static GridPicture from(auto& take, bool keepsSizes, auto volume, auto stress) {
+    constexpr int reach = Shape::reach;
+    return {.particles = Placed<Shape>::from(take, keepsSizes, reach, requiresOld(p::deformationMeasure, reach)),
+            .particleMass = take(requiresOld(p::mass, reach)),
+            .particleVelocity = take(requiresOld(p::velocity<D>, reach)),
+            .particleVolume = take(volume),
+            .particleStress = take(stress),
+            .mass = take(computes(g::mass)),
+            .volume = take(computes(g::volume)),
+            .velocity = take(computes(g::velocity<D>)),
+            .force = take(computes(g::internalForce<D>)),
+            .acceleration = take(computes(g::acceleration<D>)),
+            .stress = take(computes(g::stress))};
+  }
+};
+
 /// m_i = sum_p S_i m_p,   v_i = sum_p S_i m_p v_p / m_i, f_i = - sum_p V_p sigma_p grad S_i (and - V_p sigma_theta
 /// S_i / r where axisymmetric) and f_i / m_i before any contact or boundary condition; V_i = sum_p S_i V_p,   sigma_i =
-/// sum_p S_i V_p sigma_p / V_i. 0 where there is no mass.
+/// sum_p S_i V_p sigma_p / V_i. 0 at nodes without mass.
 template <class Shape, int D = Shape::dimension>
-void showOnGrid(const Patch& patch, const Material&, const Vec3& commonSize, ParticleView<const Vec<D>> x,
-                OptionalView<const Vec<D>> size, ParticleView<const Matrix3> deformation,
-                ParticleView<const double> particleMass, ParticleView<const Vec<D>> particleVelocity,
-                ParticleView<const double> particleVolume, ParticleView<const Matrix3> particleStress,
-                NodeView<double> mass, NodeView<double> volume, NodeView<Vec<D>> velocity, NodeView<Vec<D>> force,
-                NodeView<Vec<D>> acceleration, NodeView<Matrix3> stress) {
-  mass.fill(0.0);
-  volume.fill(0.0);
-  velocity.fill(Vec<D>::Zero());
-  force.fill(Vec<D>::Zero());
-  stress.fill(Matrix3::Zero());
-  const Box& box = mass.box();
+void showOnGrid(const Patch& patch, const Material&, const Vec3& commonSize, const GridPicture<Shape>& picture) {
+  picture.mass.fill(0.0);
+  picture.volume.fill(0.0);
+  picture.velocity.fill(Vec<D>::Zero());
+  picture.force.fill(Vec<D>::Zero());
+  picture.stress.fill(Matrix3::Zero());
+  const Box& box = picture.mass.box();
   const Level& level = patch.level();
-  const Extents<Shape> extents(level, commonSize, size, deformation);
-  forEachStencil<Shape>(patch, x.cells(), x, extents, [&](int p, const auto& stencil) {
-    const Matrix3 moment = particleVolume[p] * particleStress[p];
+  forEachStencil(patch, picture.particles.x.cells(), picture.particles, commonSize, [&](int p, const auto& stencil) {
+    const Matrix3 moment = picture.particleVolume[p] * picture.particleStress[p];
     stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>& gradient) {
       if (!box.contains(node)) return;
-      mass[node] += s * particleMass[p];
-      volume[node] += s * particleVolume[p];
-      velocity[node] += s * particleMass[p] * particleVelocity[p];
-      stress[node] += s * moment;
+      picture.mass[node] += s * picture.particleMass[p];
+      picture.volume[node] += s * picture.particleVolume[p];
+      picture.velocity[node] += s * picture.particleMass[p] * picture.particleVelocity[p];
+      picture.stress[node] += s * moment;
       for (int i = 0; i < D; ++i)
         for (int d = 0; d < D; ++d)
-          force[node][i] -= moment(sceneAxis<D>(level, i), sceneAxis<D>(level, d)) * gradient[d];
-      if constexpr (Shape::axisymmetric) force[node][0] -= moment(2, 2) * hoopOf(stencil, node);
+          picture.force[node][i] -= moment(sceneAxis<D>(level, i), sceneAxis<D>(level, d)) * gradient[d];
+      if constexpr (Shape::axisymmetric) picture.force[node][0] -= moment(2, 2) * hoopOf(stencil, node);
     });
   });
   forEach<D>(box, [&](const Index<D>& node) {
-    if (mass[node] > 0) velocity[node] /= mass[node];
-    if (volume[node] > 0) stress[node] /= volume[node];
-    acceleration[node] = mass[node] > 0 ? Vec<D>(force[node] / mass[node]) : Vec<D>(Vec<D>::Zero());
+    if (picture.mass[node] > 0) picture.velocity[node] /= picture.mass[node];
+    if (picture.volume[node] > 0) picture.stress[node] /= picture.volume[node];
+    picture.acceleration[node] =
+        picture.mass[node] > 0 ? Vec<D>(picture.force[node] / picture.mass[node]) : Vec<D>(Vec<D>::Zero());
   });
 }
 
-/// `size`, `volume` and `stress` read those of particles, as far as shape functions reach.
-template <class Shape, class Size, class Volume, class Stress>
-void scheduleShowOnGrid(TaskList& tasks, const std::vector<Material>& materials, const Vec3& commonSize, Size size,
-                        Volume volume, Stress stress) {
-  constexpr int D = Shape::dimension;
+/// `volume` and `stress` read those of particles, with the ghost cells that shape functions reach.
+template <class Shape, class Volume, class Stress>
+void scheduleShowOnGrid(TaskList& tasks, const std::vector<Material>& materials, const Vec3& commonSize,
+                        bool keepsSizes, Volume volume, Stress stress) {
   tasks.perMaterial("mpm::showOnGrid", showOnGrid<Shape>, materials, with(commonSize),
-                    requiresOld(p::x<D>, Shape::reach), size, requiresOld(p::deformationMeasure, Shape::reach),
-                    requiresOld(p::mass, Shape::reach), requiresOld(p::velocity<D>, Shape::reach), volume, stress,
-                    computes(g::mass), computes(g::volume), computes(g::velocity<D>), computes(g::internalForce<D>),
-                    computes(g::acceleration<D>), computes(g::stress));
+                    all<GridPicture<Shape>>(keepsSizes, volume, stress));
 }
 
 }  // namespace tushar::mpm::solid

@@ -23,7 +23,7 @@ void showState(const Patch&, const Material& material, std::string_view name, in
   }
 }
 
-/// A state variable of constitutive models as a label of its own, computed only where someone saves it.
+/// A state variable of constitutive models as a label of its own, computed only if a scene saves it.
 class StateView {
  public:
   virtual ~StateView() = default;
@@ -45,7 +45,7 @@ class StateViewOf : public StateView {
   ParticleLabel<T> label_;
 };
 
-/// Every state variable of the materials, once, and those that are always 0.
+/// The state variables of all materials, each once, and Uintah's that are always 0 here.
 inline std::vector<std::shared_ptr<const StateView>> stateViews(const std::vector<Material>& materials) {
   std::vector<std::shared_ptr<const StateView>> views;
   std::set<std::string_view> known;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "components/mpm/solid/implicit/conduct_heat.hpp"
+#include "components/mpm/solid/implicit/system.hpp"
 #include "tests/mpm/solid/constitutive/example_models.hpp"
 #include "tests/support/levels.hpp"
 
@@ -82,22 +83,18 @@ class Block {
   }
 
   std::vector<double>& temperature() { return temperature_; }
-  /// Of the grid where the particle at x is, after a step of heat conduction: k = 1 W/(m K), c = 1 J/(kg K).
+  /// Temperature of the grid at the particle at x, K, after a step of heat conduction: k = 1 W/(m K), c = 1 J/(kg K).
   double temperatureAfter(double dt, const Vec<D>& x) {
     std::vector<Material> materials{material_};
     materials[0].thermalConductivity = materials[0].specificHeat = 1;
     const Patch& patch = level_.patches().front();
-    const auto view = [&](auto& values) {
-      using T = std::decay_t<decltype(values[0])>;
-      return ParticleViews<const T>{{ParticleView<const T>(values.data(), set_, patch.cells())}};
-    };
-    const auto places = view(x_), velocities = view(velocity_);
-    const auto masses = view(mass_), temperatures = view(temperature_);
-    const auto deformations = view(deformation_);
-    const SolidViews<D> views{places, velocities,   velocities, velocities,   velocities,
-                              masses, temperatures, masses,     deformations, deformations};
+    const HeatedParticles<Shape> heated{.placed = {.x = view(x_), .size = std::nullopt, .deformation = std::nullopt},
+                                        .mass = view(mass_),
+                                        .temperature = view(temperature_),
+                                        .deformation = view(deformation_)};
+    const OfRank<HeatedParticles<Shape>> particles{{heated}};
     const RankPatches patches{&patch};
-    NodalHeat<Shape> heat(patches, materials, mpi::Communicator::alone(), Vec3(0.5, 0.5, 0.5), views, resetsGrid);
+    NodalHeat<Shape> heat(patches, materials, mpi::Communicator::alone(), Vec3(0.5, 0.5, 0.5), particles, resetsGrid);
     EXPECT_TRUE(heat.solve(dt, {"preonly", "lu", 1e-12, 1, ""}).converged);
     for (std::size_t p = 0; p < x_.size(); ++p) {
       if (x_[p] != x) continue;
@@ -110,27 +107,33 @@ class Block {
   }
 
   ImplicitSystem<Shape> system(bool dynamic, double dt = 0.01) {
-    PointGroup group;
-    group.material = &material_;
-    group.count = static_cast<int>(x_.size());
-    group.mass = mass_.data();
-    group.temperature = temperature_.data();
-    group.oldDeformation = deformation_.data();
-    group.oldStress = stress_.data();
-    group.oldState = state_.data();
     const Patch& patch = level_.patches().front();
-    const ParticleView<const Vec<D>> places(x_.data(), set_, patch.cells());
-    const Extents<Shape> extents(level_, Vec3(0.5, 0.5, 0.5), std::nullopt, std::nullopt);
+    const PointSources<Shape> sources{
+        .group = {.material = &material_,
+                  .count = static_cast<int>(x_.size()),
+                  .mass = mass_.data(),
+                  .temperature = temperature_.data(),
+                  .oldDeformation = deformation_.data(),
+                  .oldStress = stress_.data(),
+                  .oldState = state_.data()},
+        .patch = &patch,
+        .extents = Extents<Shape>(level_, Vec3(0.5, 0.5, 0.5), std::nullopt, std::nullopt),
+        .x = view(x_),
+        .velocity = velocity_.data(),
+        .acceleration = acceleration_.data(),
+        .externalForce = force_.data()};
     ImplicitMethod how;
     how.dynamic = dynamic;
     how.sharesVolume = sharesVolume;
     how.resetsGrid = resetsGrid;
-    return ImplicitSystem<Shape>(
-        {&patch}, mpi::Communicator::alone(), method, how, dt, state_size_,
-        {{group, &patch, extents, places, velocity_.data(), acceleration_.data(), force_.data()}});
+    return ImplicitSystem<Shape>({&patch}, mpi::Communicator::alone(), method, how, dt, state_size_, {sources});
   }
 
  private:
+  template <class T>
+  ParticleView<const T> view(const std::vector<T>& values) const {
+    return {values.data(), set_, level_.patches().front().cells()};
+  }
   static Index3 restricted(const Index3& filled) {
     Index3 cells;
     for (int d = 0; d < D; ++d) cells[d] = filled[d];

@@ -163,21 +163,21 @@ TEST(Newton, SolvesWithACellThatHoldsAParticleAtItsEdgeOnly) {
 TEST(RigidMotions, HelpMultigridWithASolid) {
   Block<LinearShape<3>> block(modelOf(rubber()), {{16, 4, 4}});
   block.method.gravity = {0, 0, -1e-3};
-  const auto iterations = [&](bool told) {
+  const auto iterations = [&](bool givesPositions) {
     ImplicitSystem<LinearShape<3>> system = block.system(false);
     clamp(system);
     std::vector<double> u = system.guess();
     solvers::Unknowns unknowns = system.unknowns();
-    if (!told) unknowns.coordinates.clear();
+    if (!givesPositions) unknowns.coordinates.clear();
     solvers::NewtonSettings settings;
     settings.linear = {"gmres", "gamg", 1e-8, 1000, ""};
     const solvers::Outcome outcome = solvers::solver().solve(unknowns, system, settings, u);
     EXPECT_TRUE(outcome.converged) << outcome.reason;
     return double(outcome.krylovIterations) / outcome.newtonIterations;
   };
-  const double told = iterations(true), untold = iterations(false);
-  std::cout << "iterations of gmres with GAMG: " << told << ", without rigid motions " << untold << '\n';
-  EXPECT_LT(told, untold / 2);
+  const double with = iterations(true), without = iterations(false);
+  std::cout << "iterations of gmres with GAMG: " << with << ", without rigid motions " << without << '\n';
+  EXPECT_LT(with, without / 2);
 }
 
 }  // namespace tushar::mpm::solid::implicit

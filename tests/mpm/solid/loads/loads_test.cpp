@@ -3,7 +3,7 @@
 #include "components/mpm/solid/tasks/apply_external_loads.hpp"
 #include "tests/support/particles.hpp"
 
-// What loads do to particles, on plain fields.
+// Loads on particles, on plain fields.
 
 namespace tushar::mpm::solid {
 namespace {

@@ -1,0 +1,73 @@
+#pragma once
+
+#include "components/mpm/solid/implicit/method.hpp"
+#include "components/mpm/solid/transfer/placed.hpp"
+
+// The particles that the solves of an implicit step read.
+
+namespace tushar::mpm::solid::implicit {
+
+/// Accesses of a task to all materials on all patches of a rank: groups[patch][material].
+template <class Group>
+using OfRank = std::vector<std::vector<Group>>;
+
+/// Every particle keeps its size in p.size.
+inline constexpr bool keepsSizes = true;
+
+/// The solve of a step reads the state at its start.
+struct InStep {
+  static constexpr bool hasAcceleration = true;
+  static auto read(const auto& label) { return requiresOld(label); }
+};
+/// The solve that starts a run reads the state that earlier tasks of the same phase made, without accelerations.
+struct AtStart {
+  static constexpr bool hasAcceleration = false;
+  static auto read(const auto& label) { return requiresNew(label); }
+};
+
+/// Particles of solids and rigid bodies before a step.
+template <class Shape, int D = Shape::dimension>
+struct SolidParticles {
+  static_assert(!Shape::deforms, "implicit steps have no shape functions that follow F");
+
+  Placed<Shape> placed;
+  ParticleView<const double> mass;
+  ParticleView<const Vec<D>> velocity;
+  OptionalView<const Vec<D>> acceleration;  ///< none where a run starts
+  ParticleView<const Vec<D>> externalForce;
+  ParticleView<const double> temperature;
+  ParticleView<const Matrix3> deformation, stress;
+  ParticleView<const double> state;  ///< internal variables of the constitutive model
+
+  /// `When` is InStep or AtStart.
+  template <class When>
+  static SolidParticles from(auto& take, When, const ParticleLabel<double>* state) {
+    return {
+        .placed = {.x = take(When::read(p::x<D>)), .size = take(When::read(p::size<D>)), .deformation = std::nullopt},
+        .mass = take(When::read(p::mass)),
+        .velocity = take(When::read(p::velocity<D>)),
+        .acceleration = take(when(When::hasAcceleration, requiresOld(p::acceleration<D>))),
+        .externalForce = take(requiresNew(p::externalForce<D>)),
+        .temperature = take(When::read(p::temperature)),
+        .deformation = take(When::read(p::deformationMeasure)),
+        .stress = take(When::read(p::stress)),
+        .state = take(When::read(*state))};
+  }
+};
+
+/// Particles that conduct heat.
+template <class Shape>
+struct HeatedParticles {
+  Placed<Shape> placed;
+  ParticleView<const double> mass, temperature;
+  ParticleView<const Matrix3> deformation;
+
+  static HeatedParticles from(auto& take) {
+    return {.placed = Placed<Shape>::from(take, keepsSizes),
+            .mass = take(requiresOld(p::mass)),
+            .temperature = take(requiresOld(p::temperature)),
+            .deformation = take(requiresOld(p::deformationMeasure))};
+  }
+};
+
+}  // namespace tushar::mpm::solid::implicit
