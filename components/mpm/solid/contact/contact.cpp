@@ -28,7 +28,7 @@ bool isExcluded(const Contact& contact, const Records& records, const Index<D>& 
   return contact.excluded >= 0 && records[static_cast<std::size_t>(contact.excluded)][node][lane::mass] != 0;
 }
 
-/// Whether a contact acts at a node: its master is there, and nobody who excludes it.
+/// Whether a contact acts at a node: its master is there, and no material that excludes it.
 template <int D>
 bool isAt(const Contact& contact, const Records& records, const Index<D>& node) {
   return records[static_cast<std::size_t>(contact.master)][node][lane::mass] != 0 &&

@@ -173,8 +173,7 @@ void SolidMpm<Shape>::scheduleKeepVelocity(TaskList& tasks, const NodeLabel<Vec<
   tasks.perMaterial("mpm::keepVelocity", keepVelocity<D>, problem_.materials, requiresNew(g::record), computes(kept));
 }
 
-/// Only run where someone saves or reports work, as scheduleStrainWork; `shaped` reads the F that shape functions
-/// follow.
+/// Runs only if work is saved or reported, as scheduleStrainWork; `shaped` reads the F that shape functions follow.
 template <class Shape>
 template <class Reads>
 void SolidMpm<Shape>::scheduleMeasureWork(TaskList& tasks, Reads shaped) const {

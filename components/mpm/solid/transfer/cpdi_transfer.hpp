@@ -41,7 +41,7 @@ requires(Stencil::corners > 0)
   }
 }
 
-/// The same for the nodes of a stencil that lie within a box; `origin` is the record of its first node, stored or not.
+/// scatter to the nodes of a stencil that lie within a box; `origin` is the record of its first node, stored or not.
 template <class Stencil, int D = Stencil::dimension>
 requires(Stencil::corners >
          0) inline void scatterWithin(const Stencil& stencil, const Box& box, const NodeWindow<NodeRecord, D>& nodes,

@@ -30,7 +30,7 @@ T* valuesOf(const OptionalView<T>& view) {
   return view ? valuesOf(*view) : nullptr;
 }
 
-/// What shape functions ask of the particles of a material: their extent, one for all or each its own, and F.
+/// Extents of the particles of a material for shape functions: one size for all or each its own, deformed by F.
 template <class Shape>
 class Extents {
  public:

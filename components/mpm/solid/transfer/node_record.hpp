@@ -20,7 +20,7 @@ struct alignas(64) NodeRecord {
   Quad low, high;
 
   double operator[](int lane) const { return lane < 4 ? low[lane] : high[lane - 4]; }
-  /// Of a record in memory.
+  /// Refers to a lane of a record in memory.
   double& operator[](int lane) { return reinterpret_cast<double*>(this)[lane]; }
 };
 

@@ -8,7 +8,7 @@ namespace tushar::mpm::solid {
 template <int D>
 class TouchedRows {
  public:
-  /// Of particles in cells `around`, each of which touches the nodes of its cell and `ghost` beyond, within `nodes`.
+  /// Rows within `nodes` that particles in cells `around` touch: the nodes of their cells and `ghost` beyond.
   template <class View>
   TouchedRows(const View& particles, const Box& around, int ghost, const Box& nodes) : nodes_(nodes) {
     rows_ = nodes;
@@ -32,7 +32,7 @@ class TouchedRows {
     });
   }
 
-  /// The same for what lies within a box.
+  /// Visits the parts of the rows that lie within a box.
   template <class Visit>
   void forEachRow(const Box& within, Visit&& visit) const {
     Box rows = within.intersect(nodes_);

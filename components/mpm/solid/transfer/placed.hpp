@@ -15,7 +15,7 @@ struct Placed {
   static Placed from(auto& take, bool keepsSizes, int ghost = 0) {
     return from(take, keepsSizes, ghost, when(Shape::deforms, requiresOld(p::deformationMeasure, ghost)));
   }
-  /// The same, with F by an access of the caller's, `when(on, access)`.
+  /// With F by an access of the caller's, `when(on, access)`.
   static Placed from(auto& take, bool keepsSizes, int ghost, auto deformation) {
     return {.x = take(requiresOld(p::x<D>, ghost)),
             .size = take(when(keepsSizes, requiresOld(p::size<D>, ghost))),

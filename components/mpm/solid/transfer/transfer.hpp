@@ -82,7 +82,7 @@ template <class Stencil, int D = Stencil::dimension>
   });
 }
 
-/// The same for those nodes of a stencil that lie within a box; `origin` is where the record of the first node would
+/// scatter to those nodes of a stencil that lie within a box; `origin` is where the record of the first node would
 /// stand, stored or not.
 template <class Stencil, int D = Stencil::dimension>
 inline void scatterWithin(const Stencil& stencil, const Box& box, const NodeWindow<NodeRecord, D>& nodes,

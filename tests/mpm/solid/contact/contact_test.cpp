@@ -21,7 +21,7 @@ TEST(FrictionImpulse, LeavesBodiesThatPartAlone) {
 TEST(FrictionImpulse, StopsWhatIsSlowerThanItHolds) {
   const FrictionImpulse<2> impulse = frictionImpulse<2>({{0, 1}, {0.2, 1}, false}, 0.5);
   EXPECT_LT((impulse.change + Vec<2>(0.2, 1)).norm(), roundOff) << "mu |v_n| = .5 is more than the slip of .2";
-  EXPECT_EQ(impulse.heat, 0) << "what sticks does not rub";
+  EXPECT_EQ(impulse.heat, 0) << "what sticks makes no heat";
 }
 
 TEST(FrictionImpulse, SlowsFasterSlipByMuTimesTheApproach) {
@@ -92,7 +92,7 @@ struct TwoBodies {
   std::array<std::vector<double>, 2> volume;
 };
 
-TEST(SingleVelocity, ActsAtTheStartOfAStepUnlessItIsToldToActOnce) {
+TEST(SingleVelocity, ActsAtTheStartOfAStepUnlessItActsOnce) {
   TwoBodies bodies;
   bodies.contact.type = Contact::Type::singleVelocity;
   bodies.move(0, {0, -1});
@@ -142,7 +142,7 @@ TEST(Friction, TakesHalfTheDifferenceOfMassGradientsForANormal) {
   EXPECT_LT((bodies.velocity(1) - Vec<2>(-0.2, -0.4)).norm(), roundOff);
 }
 
-TEST(Friction, TakesNormalsPerCellWhereItIsToldTo) {
+TEST(Friction, TakesNormalsPerCellIfItSaysSo) {
   grid::Domain domain = TwoBodies::domain();
   domain.upper = {2, 6, 0};  // cells of 1 by 3 m
   TwoBodies bodies(domain);

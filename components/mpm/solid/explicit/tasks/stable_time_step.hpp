@@ -7,7 +7,7 @@
 
 namespace tushar::mpm::solid {
 
-/// How many cells a wave crosses in a second: the most of all that it is told of, and no number if one is none.
+/// How many cells the fastest of some waves crosses in a second; not a number if the speed of one is not.
 template <int D>
 class CrossingRate {
  public:
@@ -22,7 +22,7 @@ class CrossingRate {
     rate_ = greater(rate_, c * inverse_width_);
     for (int d = 0; d < D; ++d) rate_ = greater(rate_, (c + std::abs(v[d])) * inverse_spacing_[d]);
   }
-  /// Time in which the fastest crosses a cell, s; infinite where there are none.
+  /// Time in which the fastest crosses a cell, s; infinite without waves.
   double time() const { return 1 / rate_; }
   bool isKnown() const { return rate_ == rate_; }
 
@@ -33,7 +33,7 @@ class CrossingRate {
   Vec<D> inverse_spacing_;
 };
 
-/// Of the state at the start, with the speed of a wave where the density is that of F.
+/// The time step that the state at the start allows, with wave speeds at the density of F.
 template <int D>
 void computeInitialTimeStep(const Patch& patch, const Material& material, ParticleView<const Vec<D>> velocity,
                             ParticleView<const double> temperature, ParticleView<const Matrix3> deformation,
@@ -48,7 +48,7 @@ void computeInitialTimeStep(const Patch& patch, const Material& material, Partic
   });
 }
 
-/// The least over all cells.
+/// The smallest of all cells.
 template <int D>
 void computeStableTimeStep(const Patch& patch, const Material&, CellView<const double> stableTimeStep,
                            data::Minimum& dt) {
