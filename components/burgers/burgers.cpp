@@ -52,8 +52,7 @@ double rateOfChange(const Patch& patch, const Settings& settings, Slope slope, c
 }  // namespace
 
 Slope slopeOf(int limiter) {
-  return std::array<Slope, 4>{noSlope, numerics::Minmod::slope, numerics::VanLeer::slope,
-                              numerics::Mc::slope}[limiter];
+  return std::array<Slope, 4>{noSlope, numerics::Minmod::slope, numerics::VanLeer::slope, numerics::Mc::slope}[limiter];
 }
 
 double godunovFlux(double left, double right) {

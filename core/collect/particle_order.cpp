@@ -27,7 +27,7 @@ ParticleOrder::ParticleOrder(data::Warehouse& warehouse, int material) : warehou
         countsOf(patch, [&](const Index3&, std::int32_t count) { mpi::append(bytes, &count, sizeof(count)); });
       },
       [&](const Patch& patch, const std::byte* from) {
-        const std::size_t length = static_cast<std::size_t>(patch.cells().extent(0)) * sizeof(std::int32_t);
+        const std::size_t length = patch.cells().extent(0) * sizeof(std::int32_t);
         std::size_t read = 0;
         forEachRow(patch.cells(), [&](const Index3& first) {
           std::memcpy(&perCell[cells.offset(first)], from + read, length);

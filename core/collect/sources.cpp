@@ -178,8 +178,7 @@ void EntryForm::widen(const EntryAt& entryAt, std::size_t count, std::byte* to) 
     const std::byte* from = entryAt(k);
     std::memcpy(to, rest_, sizeof(rest_));
     for (int d = 0; d < axes_; ++d)
-      std::memcpy(to + static_cast<std::size_t>(axis_[d]) * sizeof(double),
-                  from + static_cast<std::size_t>(d) * sizeof(double), sizeof(double));
+      std::memcpy(to + static_cast<std::size_t>(axis_[d]) * sizeof(double), from + d * sizeof(double), sizeof(double));
   }
 }
 

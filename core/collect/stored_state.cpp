@@ -97,7 +97,7 @@ class StateWalk {
  private:
   std::string pathOf(Centring centring, const std::string& name, int material) const {
     std::string path = folderOf(centring);
-    if (material >= 0) path += output::groupName(names_.materials[static_cast<std::size_t>(material)], material) + "/";
+    if (material >= 0) path += output::groupName(names_.materials[material], material) + "/";
     return path + output::nameInPath(name);
   }
 

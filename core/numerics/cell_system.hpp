@@ -30,7 +30,7 @@ class CellSystem {
     unknowns_.ranks = &ranks;
     unknowns_.owned = number_.owned();
     unknowns_.ghosts = number_.ghosts();
-    unknowns_.entries.assign(static_cast<std::size_t>(number_.owned()), Balance<D>::most);
+    unknowns_.entries.assign(number_.owned(), Balance<D>::most);
   }
 
   /// A constant added to the solution makes another one: that of mean 0 is taken.

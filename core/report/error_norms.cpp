@@ -19,7 +19,7 @@ bool isOfNothing(const std::vector<double>& values) {
 
 double valueOf(const std::string& norm, const std::vector<double>& values) {
   if (values.size() == 1) return values[0];
-  return values[static_cast<std::size_t>(std::find(order.begin(), order.end() - 1, norm) - order.begin())];
+  return values[std::find(order.begin(), order.end() - 1, norm) - order.begin()];
 }
 
 }  // namespace

@@ -212,7 +212,7 @@ void readFaces(const Element& section, const FacesSection& faces, const std::vec
   std::map<std::string, Location> seen;
   for (std::size_t f = 0; f < faces.faces.size() && f < elements.size(); ++f) {
     readConditions(faces.faces[f].conditions, elements[f].children("BCType"), faces.faces[f].face / 2, labels,
-                   domain.boundaries.faces[static_cast<std::size_t>(faces.faces[f].face)], diagnostics);
+                   domain.boundaries.faces[faces.faces[f].face], diagnostics);
     const std::string side = elements[f].attribute("side").value_or("");
     if (const auto [first, isNew] = seen.emplace(side, elements[f].where()); !isNew)
       diagnostics.error(elements[f],

@@ -102,7 +102,7 @@ std::vector<SaveRequest> Phases::named(const std::vector<SaveRequest>& saves) co
       continue;
     }
     for (const int number : numbers) {
-      save.material = materials_[static_cast<std::size_t>(number)];
+      save.material = materials_[number];
       all.push_back(save);
     }
   }

@@ -26,7 +26,7 @@ void Rebalancer::balanceIfDue() {
 
 void Rebalancer::balance(const std::vector<double>& costs) {
   grid::Level& level = *run_.problem.level;
-  std::vector<double> all(static_cast<std::size_t>(level.patchCount()));
+  std::vector<double> all(level.patchCount());
   std::copy(costs.begin(), costs.end(), all.begin() + level.firstPatch());
   run_.ranks.max(all);
   const auto offsets = balance_.better(all, level.rankOffsets(), run_.time.step());

@@ -29,14 +29,14 @@ output::Snapshot positions(const RunState& run, Gather& gather) {
 void addField(RunState& run, const SaveRequest& save, Gather& gather, output::Snapshot& snapshot) {
   for (int m = -1; m < run.materials(); ++m) {
     const int number = run.table.find(save.label, m);
-    const std::string material = m < 0 ? "" : run.phases.materials()[static_cast<std::size_t>(m)];
+    const std::string material = m < 0 ? "" : run.phases.materials()[m];
     if (number < 0 || save.label == data::positionName || (!save.material.empty() && save.material != material))
       continue;
     const data::Label& label = *run.table[number].label;
     const bool derived = !run.warehouse.isHeld(Generation::old, number);
     output::Array array = gather.stream(derived ? Generation::fresh : Generation::old, number);
     if (label.centring == Centring::particle)
-      snapshot.particles[static_cast<std::size_t>(m)].arrays.push_back(std::move(array));
+      snapshot.particles[m].arrays.push_back(std::move(array));
     else if (array.entries() > 0)
       snapshot.fields.push_back({label.centring == Centring::node ? output::Centring::node : output::Centring::cell,
                                  material, m, std::move(array)});

@@ -224,7 +224,7 @@ class Search {
     const char* what = nodes ? "node" : "cell";
     std::array<double, 3> x{};
     for (int d = 0; d < level_.dimension(); ++d)
-      x[static_cast<std::size_t>(d)] = level_.nodePosition(d, found_.at[d]) + (nodes ? 0 : 0.5 * level_.spacing(d));
+      x[d] = level_.nodePosition(d, found_.at[d]) + (nodes ? 0 : 0.5 * level_.spacing(d));
     std::string text = fmt::format("{}: {} at x = {} m; around it:", became(said(gridBefore())),
                                    nameOf(level_, found_.at, what), textOf(x.data(), level_.dimension()));
     for (int d = 0; d < level_.dimension(); ++d)

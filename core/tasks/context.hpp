@@ -44,11 +44,11 @@ class TaskContext {
   void setRanks(const mpi::Communicator& ranks) { ranks_ = &ranks; }
 
   /// Whether an offered output is to be computed.
-  bool isWanted(int access) const { return (*accesses_)[static_cast<std::size_t>(access)].variable >= 0; }
+  bool isWanted(int access) const { return (*accesses_)[access].variable >= 0; }
 
   template <class T>
   data::ParticleView<T> particles(int access, const data::Label& label) const {
-    const BoundAccess& bound = (*accesses_)[static_cast<std::size_t>(access)];
+    const BoundAccess& bound = (*accesses_)[access];
     const data::Variable variable = warehouse_->variable(bound.generation, bound.variable, patch_->id());
     const data::ParticleSet& set = warehouse_->particles(bound.set, material_, patch_->id());
     const grid::Box cells = bound.ghost > 0 ? patch_->cellsWithin(bound.ghost) : patch_->cells();
@@ -57,7 +57,7 @@ class TaskContext {
 
   template <data::Centring C, class T>
   data::GridView<C, T> grid(int access, const data::Label& label) const {
-    const BoundAccess& bound = (*accesses_)[static_cast<std::size_t>(access)];
+    const BoundAccess& bound = (*accesses_)[access];
     const data::Variable variable = warehouse_->variable(bound.generation, bound.variable, patch_->id());
     return {reinterpret_cast<T*>(variable.values), variable.stored, boxOf<C>(bound), &label};
   }
@@ -65,12 +65,12 @@ class TaskContext {
   /// What is known of a reduction.
   template <class R>
   const R& reduction(int access) const {
-    return warehouse_->reduction<R>((*accesses_)[static_cast<std::size_t>(access)].variable);
+    return warehouse_->reduction<R>((*accesses_)[access].variable);
   }
   /// What the patch adds to it.
   template <class R>
   R& partOfReduction(int access) const {
-    return warehouse_->partOfReduction<R>((*accesses_)[static_cast<std::size_t>(access)].variable, patch_->id());
+    return warehouse_->partOfReduction<R>((*accesses_)[access].variable, patch_->id());
   }
 
   template <class T>

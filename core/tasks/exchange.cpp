@@ -247,7 +247,7 @@ void Exchange::shareFaces(int variable) {
   if (faces_.empty()) faces_ = planFaces(warehouse_->level());
   const BoundGhostFill fill{variable, Generation::fresh, Generation::fresh, false};
   threads_->forEach(static_cast<int>(patches.size()), [&](int place) {
-    for (const GhostCopy& copy : faces_[static_cast<std::size_t>(place)]) copyGrid(fill, copy);
+    for (const GhostCopy& copy : faces_[place]) copyGrid(fill, copy);
   });
 }
 

@@ -42,7 +42,7 @@ class ParticleMaker {
   /// The values of a created label.
   template <class T>
   std::vector<T>& column(int access) {
-    auto& column = columns_[static_cast<std::size_t>(access)];
+    auto& column = columns_[access];
     if (!column) column = std::make_unique<Column<T>>();
     return static_cast<Column<T>&>(*column).values;
   }

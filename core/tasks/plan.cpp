@@ -35,7 +35,7 @@ class Needs {
 
  private:
   void visit(int t, const Task& task) {
-    const Generation set = sets_[static_cast<std::size_t>(t)];
+    const Generation set = sets_[t];
     for (const Access& access : task.accesses)
       if (access.reads() && access.ghost > 0) need(t, task, access, set);
     for (const Access& access : task.accesses)
@@ -69,7 +69,7 @@ std::vector<Stage> plan(const std::vector<Task>& tasks) {
   std::stable_sort(open.begin(), open.end(), [](const Need& a, const Need& b) { return a.reader < b.reader; });
   while (!open.empty()) {
     const int at = open.front().reader;
-    Stage& stage = stages[static_cast<std::size_t>(at)];
+    Stage& stage = stages[at];
     std::erase_if(open, [&](const Need& need) {
       if (need.ready >= at) return false;
       stage.fills.push_back(need.fill);

@@ -69,8 +69,8 @@ void Relocation::forgetLayout() { moves_.clear(); }
 
 Relocation::Moves& Relocation::movesOf(int material) {
   while (moves_.size() <= static_cast<std::size_t>(material)) moves_.emplace_back(*warehouse_);
-  Moves& moves = moves_[static_cast<std::size_t>(material)];
-  moves.patches.resize(static_cast<std::size_t>(warehouse_->patches()));
+  Moves& moves = moves_[material];
+  moves.patches.resize(warehouse_->patches());
   return moves;
 }
 
@@ -184,7 +184,7 @@ template <int D>
 void Relocation::move(const Patch& from, const Index<D>& fromCell, Vec<D>& x, ParticleId id, int departed,
                       PatchMoves& moves) {
   const grid::Level& level = warehouse_->level();
-  const int place = moves.departed[static_cast<std::size_t>(departed)];
+  const int place = moves.departed[departed];
   if (level.isPeriodic()) wrap<D>(level, x);
   const Index<D> cell = level.cellOf<D>(x);
   if (!level.cells().contains(cell)) {
@@ -270,8 +270,7 @@ void Relocation::receive(const Patch& patch, const Index3& cell, const Incoming&
   const int added = static_cast<int>(moves.incoming.size());
   moves.incoming.push_back(particle);
   int* link = &moves.firstIncoming[patch.cells().offset(cell)];
-  while (*link >= 0 && moves.incoming[static_cast<std::size_t>(*link)].id < particle.id)
-    link = &moves.incoming[static_cast<std::size_t>(*link)].next;
+  while (*link >= 0 && moves.incoming[*link].id < particle.id) link = &moves.incoming[*link].next;
   moves.incoming.back().next = *link;
   *link = added;
   moves.isEntered[patch.cells().rowOf(cell)] = true;
@@ -334,14 +333,14 @@ void Relocation::mergeCell(PatchMoves& moves, const ParticleRange& before, int f
   int waiting = firstIncoming;
   const auto letInOne = [&] {
     moves.entries.push_back({moves.count++, waiting});
-    waiting = moves.incoming[static_cast<std::size_t>(waiting)].next;
+    waiting = moves.incoming[waiting].next;
   };
   for (int p = before.first; p < before.last; ++p) {
     if (nextDeparted < moves.departed.size() && moves.departed[nextDeparted] == p) {
       ++nextDeparted;
       continue;
     }
-    while (waiting >= 0 && moves.incoming[static_cast<std::size_t>(waiting)].id < ids[p]) letInOne();
+    while (waiting >= 0 && moves.incoming[waiting].id < ids[p]) letInOne();
     keep(moves, p, 1);
   }
   while (waiting >= 0) letInOne();

@@ -127,15 +127,13 @@ class Relocation {
   void forEachPatch(const Work& work) {
     const std::vector<grid::Patch>& patches = warehouse_->level().patches();
     threads_->forEach(static_cast<int>(patches.size()), [&](int k) {
-      const grid::Patch& patch = patches[static_cast<std::size_t>(k)];
+      const grid::Patch& patch = patches[k];
       const trace::Span span(trace::Kind::task, "relocate", patch.id());
       work(patch);
     });
   }
   Moves& movesOf(int material);
-  PatchMoves& of(Moves& moves, int patch) {
-    return moves.patches[static_cast<std::size_t>(patch - warehouse_->level().firstPatch())];
-  }
+  PatchMoves& of(Moves& moves, int patch) { return moves.patches[patch - warehouse_->level().firstPatch()]; }
   static void forgetIncoming(const grid::Patch& patch, PatchMoves& moves);
   template <int D>
   void findMoves(int material, int position, int id);

@@ -57,12 +57,12 @@ void Relocation::moveOn(const Move& move, std::size_t place, Moves& all) {
   std::byte* values = move.to + move.after->first[place] * move.bytes;
   moveRuns(moves.runs, move.from + move.before->first[place] * move.bytes, values, move.bytes);
   for (const Entry& entry : moves.entries) {
-    const int source = moves.incoming[static_cast<std::size_t>(entry.incoming)].from;
+    const int source = moves.incoming[entry.incoming].from;
     const std::byte* from = nullptr;
     if (source >= 0) {
       from = move.packed + (moves.packed + static_cast<std::size_t>(source)) * move.bytes;
     } else {
-      const Arrival& arrival = moves.arrivals[static_cast<std::size_t>(-1 - source)];
+      const Arrival& arrival = moves.arrivals[-1 - source];
       const auto at = static_cast<std::size_t>(arrival.place);
       from = arrival.patch < 0 ? move.migrants + at * move.bytes
                                : move.packed + (of(all, arrival.patch).packed + at) * move.bytes;

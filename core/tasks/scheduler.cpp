@@ -60,7 +60,7 @@ class FirstRefusal {
 std::string placeOf(const CompiledTask& task, int patch, int material, const StepInfo& at) {
   std::string text = "task " + task.task.name;
   if (patch >= 0) text += fmt::format(", patch {}", patch);
-  if (material >= 0) text += ", material " + task.task.materials[static_cast<std::size_t>(material)];
+  if (material >= 0) text += ", material " + task.task.materials[material];
   text += fmt::format(", step {}, time {:.6g} s", at.step, at.time);
   if (at.delT > 0) text += fmt::format(", time step {:.6g} s", at.delT);
   if (at.repeats > 0) text += fmt::format(" after {} repeats", at.repeats);
@@ -87,8 +87,7 @@ void Scheduler::forEachPatch(CompiledTask& task, const Work& work) {
   for (std::size_t place = 0; place < static_cast<std::size_t>(patches); ++place)
     (exchange_.isReady(place) ? early : late).push_back(place);
   const auto workOnAll = [&](const std::vector<std::size_t>& places) {
-    threads_.forEach(static_cast<int>(places.size()),
-                     [&](int k) { workOn(places[static_cast<std::size_t>(k)], task, work); });
+    threads_.forEach(static_cast<int>(places.size()), [&](int k) { workOn(places[k], task, work); });
   };
   workOnAll(early);
   if (finishExchange(task)) workOnAll(late);
@@ -133,7 +132,7 @@ std::optional<data::Minimum> Scheduler::run(TaskGraph& graph, const StepInfo& at
   for (int t = 0; t < end_; ++t) {
     runTask(graph, t, at);
     if (!hasStopped())
-      free(graph.tasks()[static_cast<std::size_t>(t)]);
+      free(graph.tasks()[t]);
     else if (warehouse_->ranks().isAlone())
       break;
   }
@@ -157,11 +156,10 @@ void Scheduler::start(const TaskGraph& graph, int end) {
 }
 
 void Scheduler::runTask(TaskGraph& graph, int number, const StepInfo& at) {
-  CompiledTask& task = graph.tasks()[static_cast<std::size_t>(number)];
+  CompiledTask& task = graph.tasks()[number];
   running_ = number;
   auto started = Clock::now();
-  if (task.sends >= 0 && task.sends < end_)
-    exchange_.send(graph.tasks()[static_cast<std::size_t>(task.sends)].fills, hasStopped());
+  if (task.sends >= 0 && task.sends < end_) exchange_.send(graph.tasks()[task.sends].fills, hasStopped());
   if (!task.fills.empty()) {
     exchange_.begin(hasStopped());
     if (!task.mayStartEarly || hasStopped()) heard_stop_ = !exchange_.finish() || heard_stop_;
@@ -305,8 +303,7 @@ void Scheduler::runAcrossMaterials(CompiledTask& task, const grid::Patch& patch,
 
 void Scheduler::runPlaced(CompiledTask& task, const grid::Patch& patch, int material, const StepInfo& at) {
   ParticleMaker* maker = nullptr;
-  if (task.task.kind == TaskKind::newParticles)
-    maker = &makers_[static_cast<std::size_t>(patch.id() - warehouse_->level().firstPatch())];
+  if (task.task.kind == TaskKind::newParticles) maker = &makers_[patch.id() - warehouse_->level().firstPatch()];
   located(task, patch.id(), material, at, [&] {
     task.task.body(TaskContext(*warehouse_, patch, material, task.of(material).accesses, at.time, maker));
   });
@@ -318,8 +315,8 @@ void Scheduler::install(const CompiledTask& task, int material, const StepInfo& 
   ParticleInstaller installer(*warehouse_, material, makers_);
   const auto onPatches = [&](const ParticleInstaller::Work& work) {
     threads_.forEach(static_cast<int>(patches.size()), [&](int k) {
-      const grid::Patch& patch = patches[static_cast<std::size_t>(k)];
-      located(task, patch.id(), material, at, [&] { work(patch, makers_[static_cast<std::size_t>(k)]); });
+      const grid::Patch& patch = patches[k];
+      located(task, patch.id(), material, at, [&] { work(patch, makers_[k]); });
     });
   };
   installer.makeSets(onPatches);

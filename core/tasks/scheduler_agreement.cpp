@@ -67,11 +67,11 @@ NumericalError Scheduler::whatBroke(TaskGraph& graph, const StepInfo& at) {
   if (!warehouse_->ranks().isAlone()) {
     start(graph, outcome.task + 1);
     for (int t = 0; t < end_; ++t) {
-      if (t > 0) free(graph.tasks()[static_cast<std::size_t>(t - 1)]);
+      if (t > 0) free(graph.tasks()[t - 1]);
       runTask(graph, t, at);
     }
   }
-  const CompiledTask& task = graph.tasks()[static_cast<std::size_t>(outcome.task)];
+  const CompiledTask& task = graph.tasks()[outcome.task];
   const auto broken = firstBroken(*warehouse_, task.of(outcome.material).bounded);
   if (!broken)
     throw TaskError(

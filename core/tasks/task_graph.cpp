@@ -58,7 +58,7 @@ TaskGraph::TaskGraph(std::string name, Pruned pruned, const grid::Level& level, 
   for (std::size_t t = 0; t < pruned_.kept.size(); ++t) bind(t, table);
   const std::vector<Stage> stages = plan(pruned_.kept);
   for (std::size_t t = 0; t < stages.size(); ++t) {
-    if (!stages[t].fills.empty()) tasks_[static_cast<std::size_t>(stages[t].ready + 1)].sends = static_cast<int>(t);
+    if (!stages[t].fills.empty()) tasks_[stages[t].ready + 1].sends = static_cast<int>(t);
     for (const GhostFill& fill : stages[t].fills)
       for (int m = fill.perMaterial ? 0 : -1; m < (fill.perMaterial ? materials_ : 0); ++m)
         tasks_[t].fills.push_back(

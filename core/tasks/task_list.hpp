@@ -37,7 +37,7 @@ class TaskList {
     std::vector<Access> accesses = declare(arguments...);
     add({std::move(name), TaskKind::work, names(materials), std::move(accesses),
          [body, &materials, bound = std::make_tuple(arguments...)](const TaskContext& context) {
-           const Material& material = materials[static_cast<std::size_t>(context.material())];
+           const Material& material = materials[context.material()];
            std::apply([&](const auto&... argument) { body(context.patch(), material, argument.bind(context)...); },
                       bound);
          }});
@@ -97,7 +97,7 @@ class TaskList {
     std::vector<Access> accesses = declare(arguments...);
     add({std::move(name), TaskKind::newParticles, names(materials), std::move(accesses),
          [body, &materials, bound = std::make_tuple(arguments...)](const TaskContext& context) {
-           const Material& material = materials[static_cast<std::size_t>(context.material())];
+           const Material& material = materials[context.material()];
            std::apply(
                [&](const auto&... argument) {
                  body(context.patch(), material, context.maker(), argument.bind(context)...);

@@ -54,8 +54,8 @@ struct CpdiShape {
       for (int c = 0; c < corners; ++c) {
         Vec<D> sign;
         for (int d = 0; d < D; ++d) sign[d] = (c >> d) & 1 ? 1 : -1;
-        place(corner[static_cast<std::size_t>(c)], xi + half * sign);
-        corner[static_cast<std::size_t>(c)].slope = slopes * sign;
+        place(corner[c], xi + half * sign);
+        corner[c].slope = slopes * sign;
       }
     }
 
@@ -70,8 +70,8 @@ struct CpdiShape {
         for (const Corner& at : corner) {
           const int k = nodeOfCell(node, at.cell);
           if (k < 0) continue;
-          value += share * at.weights[static_cast<std::size_t>(k)];
-          gradient += at.weights[static_cast<std::size_t>(k)] * at.slope;
+          value += share * at.weights[k];
+          gradient += at.weights[k] * at.slope;
         }
         if (value != 0) visit(first + node, value, gradient);
       });

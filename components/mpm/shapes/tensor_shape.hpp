@@ -106,8 +106,8 @@ using AxisymmetricGimpShape = TensorShape<D, GimpAxis, true>;
 template <class Stencil, int D = Stencil::dimension>
 double hoopOf(const Stencil& stencil, const Index<D>& node) {
   if constexpr (!Stencil::axisymmetric) return 0;
-  double value = stencil.hoop[static_cast<std::size_t>(node[0] - stencil.first[0])];
-  for (int d = 1; d < D; ++d) value *= stencil.s[static_cast<std::size_t>(node[d] - stencil.first[d])][d];
+  double value = stencil.hoop[node[0] - stencil.first[0]];
+  for (int d = 1; d < D; ++d) value *= stencil.s[node[d] - stencil.first[d]][d];
   return value;
 }
 

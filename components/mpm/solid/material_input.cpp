@@ -94,8 +94,7 @@ void readModel(Material& material, const Element& parent, Diagnostics& diagnosti
 
 void describeModels(std::ostream& out, int indent) {
   forEachModel([&]<class M>(const M&) {
-    out << std::string(static_cast<std::size_t>(indent), ' ') << "type=\"" << M::name
-        << "\": " << M::schema().sentence() << '\n';
+    out << std::string(indent, ' ') << "type=\"" << M::name << "\": " << M::schema().sentence() << '\n';
     M::schema().describeContents(out, indent + 2);
   });
 }

@@ -44,7 +44,7 @@ void settleParticles(const Level& level, Problem& problem) {
   }
   problem.method.meanWidth = widths / axes;
   problem.method.isThin = {true, true, true};
-  for (int d = 0; d < level.dimension(); ++d) problem.method.isThin[static_cast<std::size_t>(level.axis(d))] = false;
+  for (int d = 0; d < level.dimension(); ++d) problem.method.isThin[level.axis(d)] = false;
 }
 
 void nameMaterials(std::vector<Material>& materials) {

@@ -23,7 +23,7 @@ struct Batch {
 
   void add(int particle, const Index<D>& in) {
     place[count] = particle;
-    for (int d = 0; d < D; ++d) cell[static_cast<std::size_t>(d)][count] = in[d];
+    for (int d = 0; d < D; ++d) cell[d][count] = in[d];
     ++count;
   }
   void fillUp() {

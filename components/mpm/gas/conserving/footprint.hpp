@@ -55,8 +55,8 @@ struct Span {
   int nodes() const { return cells + 1; }
   Lanes length() const { return upper - lower; }
   /// Ends and middle of the part in the k-th cell, m.
-  Lanes lowerOf(int k) const { return max(lower, centre() + arm[static_cast<std::size_t>(k)]); }
-  Lanes upperOf(int k) const { return min(upper, centre() + arm[static_cast<std::size_t>(k) + 1]); }
+  Lanes lowerOf(int k) const { return max(lower, centre() + arm[k]); }
+  Lanes upperOf(int k) const { return min(upper, centre() + arm[k + 1]); }
   Lanes middle(int k) const { return 0.5 * (lowerOf(k) + upperOf(k)); }
 
   /// Sum over the nodes; `add(k, sum)` adds the term of node k. Either side of the middle is summed by itself, from the
@@ -139,7 +139,7 @@ struct Footprint {
 
   LanesVec<D> inertia() const {
     LanesVec<D> all;
-    for (int d = 0; d < D; ++d) all[d] = along[static_cast<std::size_t>(d)].inertia;
+    for (int d = 0; d < D; ++d) all[d] = along[d].inertia;
     return all;
   }
 
@@ -203,7 +203,7 @@ struct Footprint {
     const auto& span = along[Axis];
     return span.sumOverCells([&](int at, Lanes& sum) {
       k[Axis] = at;
-      const Lanes share = part * span.part[static_cast<std::size_t>(at)];
+      const Lanes share = part * span.part[at];
       if constexpr (Axis == 0)
         sum += value(k, share);
       else
@@ -215,7 +215,7 @@ struct Footprint {
   void parts(Index<D>& k, const Lanes& part, Visit& visit) const {
     const auto& span = along[Axis];
     for (k[Axis] = 0; k[Axis] < span.cells; ++k[Axis]) {
-      const Lanes share = part * span.part[static_cast<std::size_t>(k[Axis])];
+      const Lanes share = part * span.part[k[Axis]];
       if constexpr (Axis == 0)
         visit(k, share);
       else

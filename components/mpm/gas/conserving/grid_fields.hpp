@@ -69,7 +69,7 @@ class GridFields {
   }
   LaneIntegers places(const std::array<LaneIntegers, D>& index) const {
     LaneIntegers at = index[0] - box_.lower[0];
-    for (int d = 1; d < D; ++d) at += (index[static_cast<std::size_t>(d)] - box_.lower[d]) * stride_[d];
+    for (int d = 1; d < D; ++d) at += (index[d] - box_.lower[d]) * stride_[d];
     return at;
   }
 

@@ -43,7 +43,7 @@ LanesVec<D> relativeSlopes(const Level& level, const Contents<D>& contents, std:
     const Lanes slope = 2 * level.inverseSpacing(d) * (rise * fall) / ((rise + fall) * value);
     slopes[d] = select(rise * fall > 0, slope, 0);
     if (level.isPeriodic(d)) continue;
-    const Lanes cell = widen(batch.cell[static_cast<std::size_t>(d)]);
+    const Lanes cell = widen(batch.cell[d]);
     slopes[d] = select(cell > 0, select(cell < level.cells().upper[d] - 1, slopes[d], 0), 0);
   }
   Lanes swing = 0;
@@ -68,7 +68,7 @@ class Parts {
     footprint.forEachPart([&](const Index<D>& k, const Lanes& share) {
       Part<D>& part = at(k);
       for (int d = 0; d < D; ++d) {
-        const auto& span = footprint.along[static_cast<std::size_t>(d)];
+        const auto& span = footprint.along[d];
         part.x[d] = span.middle(k[d]);
         part.edges[d] = span.upperOf(k[d]) - span.lowerOf(k[d]);
       }
@@ -147,7 +147,7 @@ void cut(const Level& level, const Batch<D>& batch, const OldBoxes<D>& boxes, co
     Part<D>& part = parts.at(k);
     LanesVec<D> middle;
     for (int d = 0; d < D; ++d) {
-      const Lanes cell = widen(footprint.along[static_cast<std::size_t>(d)].first + k[d]);
+      const Lanes cell = widen(footprint.along[d].first + k[d]);
       middle[d] = middleOf(level, d) + level.spacing(d) * fromMiddle(level, d, cell);
     }
     const LanesVec<D> u = v + gradient * (part.x - centroid);

@@ -151,10 +151,10 @@ void measureMassProjection(const Patch& patch, const Gas&, ParticleView<const Ve
     for (const int side : {0, 1}) {  // the node is the upper one of the cell below it, and the lower one of that above
       const Index<1> cell{{node[0] - 1 + side}};
       if (!seen.contains(cell)) continue;
-      const auto& projection = cells[static_cast<std::size_t>(cell[0] - seen.lower[0])];
+      const auto& projection = cells[cell[0] - seen.lower[0]];
       if (!projection) return;
-      e += projection->error[static_cast<std::size_t>(1 - side)];
-      b += projection->bound[static_cast<std::size_t>(1 - side)];
+      e += projection->error[1 - side];
+      b += projection->bound[1 - side];
     }
     error[node] = e * level.cellVolume();
     bound[node] = b * level.cellVolume();

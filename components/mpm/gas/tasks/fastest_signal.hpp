@@ -13,8 +13,7 @@ double fastestSignal(const Gas& gas, ParticleView<const Vec<D>> velocity, Partic
   for (int first = 0; first < velocity.owned(); first += chunk) {
     const int count = std::min(chunk, velocity.owned() - first);
     for (int k = 0; k < count; ++k)
-      speed[static_cast<std::size_t>(k)] =
-          length(velocity[first + k]) + std::sqrt(gas.soundSpeedSquared(internalEnergy[first + k]));
+      speed[k] = length(velocity[first + k]) + std::sqrt(gas.soundSpeedSquared(internalEnergy[first + k]));
     greatest = std::max(greatest, Eigen::Map<const Eigen::ArrayXd>(speed.data(), count).maxCoeff());
   }
   return greatest;

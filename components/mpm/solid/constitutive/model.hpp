@@ -100,7 +100,8 @@ class ModelOf : public Model {
     return {};
   }
   std::vector<StateVariable> absentVariables() const override {
-    if constexpr (providesCapability<M, capability::AbsentVariables>) return {M::absentVariables.begin(), M::absentVariables.end()};
+    if constexpr (providesCapability<M, capability::AbsentVariables>)
+      return {M::absentVariables.begin(), M::absentVariables.end()};
     return {};
   }
   void initialize(double* state) const override {

@@ -21,7 +21,7 @@ Matrix9 nominalTangent(const Matrix3& f, const Matrix3& kirchhoffStress, Change&
       Matrix3 h = Matrix3::Zero();
       h(k, l) = 1;
       const Matrix3 changed = change(h) - kirchhoffStress * h.transpose();
-      along[static_cast<std::size_t>(l)] = changed * inverse.transpose();
+      along[l] = changed * inverse.transpose();
     }
     for (int l = 0; l < 3; ++l) {
       const Matrix3 column = inverse(l, 0) * along[0] + inverse(l, 1) * along[1] + inverse(l, 2) * along[2];

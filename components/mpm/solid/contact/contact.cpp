@@ -25,14 +25,13 @@ namespace {
 /// Whether the material that keeps a contact from acting is at a node.
 template <int D>
 bool isExcluded(const Contact& contact, const Records& records, const Index<D>& node) {
-  return contact.excluded >= 0 && records[static_cast<std::size_t>(contact.excluded)][node][lane::mass] != 0;
+  return contact.excluded >= 0 && records[contact.excluded][node][lane::mass] != 0;
 }
 
 /// Whether a contact acts at a node: its master is there, and no material that excludes it.
 template <int D>
 bool isAt(const Contact& contact, const Records& records, const Index<D>& node) {
-  return records[static_cast<std::size_t>(contact.master)][node][lane::mass] != 0 &&
-         !isExcluded<D>(contact, records, node);
+  return records[contact.master][node][lane::mass] != 0 && !isExcluded<D>(contact, records, node);
 }
 
 }  // namespace
@@ -66,8 +65,7 @@ void followMaster(const Patch& patch, const Contact& contact, double time, const
     for (std::size_t m = 0; m < records.size(); ++m) {
       if (m == master || !contact.concerns(static_cast<int>(m))) continue;
       for (int d = 0; d < D; ++d)
-        if (contact.direction[static_cast<std::size_t>(patch.level().axis(d))])
-          records[m][node][lane::velocity + d] = velocity[d];
+        if (contact.direction[patch.level().axis(d)]) records[m][node][lane::velocity + d] = velocity[d];
     }
   });
 }

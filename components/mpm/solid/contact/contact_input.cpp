@@ -153,8 +153,7 @@ Contact settle(const ContactSection& read, const Element& tag, Diagnostics& diag
   contact.materials = read.materials.value_or(std::vector<int>{});
   contact.master = read.master;
   contact.directionIsGiven = read.direction.has_value();
-  for (int axis = 0; axis < 3 && read.direction; ++axis)
-    contact.direction[static_cast<std::size_t>(axis)] = (*read.direction)[axis] != 0;
+  for (int axis = 0; axis < 3 && read.direction; ++axis) contact.direction[axis] = (*read.direction)[axis] != 0;
   contact.stopTime = read.stopTime;
   contact.velocityAfterStop = read.velocityAfterStop;
   if (!read.profileFile.empty()) contact.profile = readProfile(tag, read.profileFile, diagnostics);

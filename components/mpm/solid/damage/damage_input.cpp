@@ -194,7 +194,7 @@ void readDamage(Material& material, const Element& parent, Diagnostics& diagnost
 
 void describeDamage(std::ostream& out, int indent) {
   input::TypedTag<Damage>::describe(out, indent);
-  out << std::string(static_cast<std::size_t>(indent), ' ') << "<erosion>: " << erosionSchema().sentence() << '\n';
+  out << std::string(indent, ' ') << "<erosion>: " << erosionSchema().sentence() << '\n';
   erosionSchema().describeContents(out, indent + 2);
 }
 

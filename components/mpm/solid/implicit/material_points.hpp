@@ -55,9 +55,7 @@ class PointStates {
   std::vector<double> stretch;               ///< the model gets F-bar = stretch F, 1
 
   /// Whether F-bar applies to the points of a run: only for models that support it.
-  bool sharesVolume(const PointRun& run) const {
-    return shares_volume_ && run.group->material->model->supportsFBar();
-  }
+  bool sharesVolume(const PointRun& run) const { return shares_volume_ && run.group->material->model->supportsFBar(); }
   /// F = (I + gradient) F_old of a run. False if a point would be turned inside out or crushed to a tenth.
   bool deform(const PointRun& run) {
     for (int k = run.from; k < run.from + run.count; ++k) {

@@ -74,7 +74,7 @@ NodeWindow<Record, D> windowFrom(const NodeView<Record>& records, const Index<D>
   NodeWindow<Record, D> window;
   std::ptrdiff_t at = 0, stride = 1;
   for (int d = 0; d < D; ++d) {
-    window.stride[static_cast<std::size_t>(d)] = stride;
+    window.stride[d] = stride;
     at += (first[d] - stored.lower[d]) * stride;
     stride *= stored.extent(d);
   }

@@ -47,8 +47,8 @@ void interpolateParticlesToGrid(const Patch& patch, const Gas&, ParticleView<con
     for (int k = 0; k < Linear<D>::nodes; ++k) {
       const Index<D> node = Linear<D>::node(cell, k);
       if (!mass.box().contains(node)) continue;
-      mass[node] += sums.mass[static_cast<std::size_t>(k)];
-      velocity[node] += sums.momentum[static_cast<std::size_t>(k)];
+      mass[node] += sums.mass[k];
+      velocity[node] += sums.momentum[k];
     }
   });
   forEach<D>(mass.box(), [&](const Index<D>& node) {
@@ -69,8 +69,7 @@ void interpolateMassToGrid(const Patch& patch, const Gas&, ParticleView<const Ve
       for (std::size_t k = 0; k < s.size(); ++k) sums[k] += s[k] * particleMass[p];
     }
     for (int k = 0; k < Linear<D>::nodes; ++k)
-      if (const Index<D> node = Linear<D>::node(cell, k); mass.box().contains(node))
-        mass[node] += sums[static_cast<std::size_t>(k)];
+      if (const Index<D> node = Linear<D>::node(cell, k); mass.box().contains(node)) mass[node] += sums[k];
   });
 }
 

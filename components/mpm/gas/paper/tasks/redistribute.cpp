@@ -68,7 +68,7 @@ void shearPieces(std::vector<Piece<D>>& pieces, const CellShape<D>& cell, const 
   for (const Piece<D>& piece : pieces) centre += piece.mass / before.mass * piece.x;
   const auto gradient = [&](const Piece<D>& piece) {
     Vec<D> dv;
-    for (int i = 0; i < D; ++i) dv[i] = cell.velocitySlope[static_cast<std::size_t>(i)].dot(piece.x - centre);
+    for (int i = 0; i < D; ++i) dv[i] = cell.velocitySlope[i].dot(piece.x - centre);
     return dv;
   };
   double sheared = 0;
@@ -119,15 +119,14 @@ void setSlopes(CellShape<D>& cell, const std::vector<Piece<D>>& here,
   if (here.empty()) return;
   const Totals<D> middle(here);
   for (int d = 0; d < D; ++d) {
-    const auto &below = around[static_cast<std::size_t>(2 * d)], &above = around[static_cast<std::size_t>(2 * d + 1)];
+    const auto &below = around[2 * d], &above = around[2 * d + 1];
     if (below.empty() || above.empty()) continue;
     const Totals<D> left(below), right(above);
     const auto slope = [&](double l, double m, double r) { return minmod(m - l, r - m) / cell.spacing[d]; };
     cell.densitySlope[d] = slope(left.density(), middle.density(), right.density()) / D;
     cell.pressureSlope[d] = slope(left.pressure(gas), middle.pressure(gas), right.pressure(gas)) / D;
     for (int i = 0; i < D; ++i)
-      cell.velocitySlope[static_cast<std::size_t>(i)][d] =
-          slope(left.velocity()[i], middle.velocity()[i], right.velocity()[i]);
+      cell.velocitySlope[i][d] = slope(left.velocity()[i], middle.velocity()[i], right.velocity()[i]);
   }
 }
 

@@ -156,8 +156,8 @@ void redistribute(const Patch& patch, const Gas& gas, ParticleMaker& maker, cons
       if (how.mode == Redistribution::Mode::reseed) {
         std::array<std::vector<Piece<D>>, 2 * D> around;
         for (int d = 0; d < D; ++d) {
-          around[static_cast<std::size_t>(2 * d)] = old.in(cell - Index<D>::unit(d), volume);
-          around[static_cast<std::size_t>(2 * d + 1)] = old.in(cell + Index<D>::unit(d), volume);
+          around[2 * d] = old.in(cell - Index<D>::unit(d), volume);
+          around[2 * d + 1] = old.in(cell + Index<D>::unit(d), volume);
         }
         setSlopes<D>(shape, pieces, around, gas);
       }

@@ -12,7 +12,7 @@ struct CellNodes {
   std::array<Vec<D>, Linear<D>::nodes> values;
 
   CellNodes(NodeView<const Vec<D>> field, const Index<D>& cell) {
-    for (int k = 0; k < Linear<D>::nodes; ++k) values[static_cast<std::size_t>(k)] = field[Linear<D>::node(cell, k)];
+    for (int k = 0; k < Linear<D>::nodes; ++k) values[k] = field[Linear<D>::node(cell, k)];
   }
   /// sum_i S_ip f_i
   Vec<D> at(const typename Linear<D>::Weights& s) const {
@@ -24,8 +24,7 @@ struct CellNodes {
   double divergence(const Level& level) const {
     double sum = 0;
     for (int k = 0; k < Linear<D>::nodes; ++k)
-      for (int d = 0; d < D; ++d)
-        sum += values[static_cast<std::size_t>(k)][d] * Linear<D>::centreGradient(level, k, d);
+      for (int d = 0; d < D; ++d) sum += values[k][d] * Linear<D>::centreGradient(level, k, d);
     return sum;
   }
 };

@@ -28,7 +28,7 @@ using TransmittedForces = std::vector<std::optional<NodeView<Vec<D>>>>;
 template <int D>
 void addMomentum(const Contact& contact, const Records& records, double share, NodeView<Vec<D>> sum) {
   forEach<D>(sum.box(), [&](const Index<D>& node) {
-    if (records[static_cast<std::size_t>(contact.master)][node][lane::mass] == 0) return;
+    if (records[contact.master][node][lane::mass] == 0) return;
     for (std::size_t m = 0; m < records.size(); ++m)
       if (const NodeRecord& record = records[m][node]; contact.concerns(static_cast<int>(m)) && record[lane::mass] != 0)
         sum[node] += share * record[lane::mass] * lanes<D>(record, lane::velocity);

@@ -130,7 +130,7 @@ class Scatter {
       const Vec<D> force = external_force_ ? external_force_[p] : Vec<D>(Vec<D>::Zero());
       const NodeRecord value{quadOf<D>(from_.mass[p] * from_.velocity[p], from_.mass[p]),
                              quadOf<D>(force, volume_ ? volume_[p] : 0.0)};
-      const Matrix3& moment = moments[static_cast<std::size_t>(k)];
+      const Matrix3& moment = moments[k];
       const std::array<Quad, D> slope = slopes(moment);
       const Quad hoop{-moment(2, 2), 0, 0, 0};
       if constexpr (isWithin)
@@ -145,7 +145,7 @@ class Scatter {
     for (int d = 0; d < D; ++d) {
       Vec<D> traction;
       for (int i = 0; i < D; ++i) traction[i] = -moment(sceneAxis<D>(level_, i), sceneAxis<D>(level_, d));
-      slope[static_cast<std::size_t>(d)] = quadOf<D>(traction, 0);
+      slope[d] = quadOf<D>(traction, 0);
     }
     return slope;
   }

@@ -56,8 +56,7 @@ template <class Shape, int D = Shape::dimension>
   for (int i = 1; i < D; ++i) square += squares[i];
   for (int i = 0; i < D; ++i)
     for (int j = 0; j < D; ++j)
-      velocityGradient(sceneAxis<D>(level, i), sceneAxis<D>(level, j)) =
-          sums.gradient[static_cast<std::size_t>(j)][lane::velocity + i];
+      velocityGradient(sceneAxis<D>(level, i), sceneAxis<D>(level, j)) = sums.gradient[j][lane::velocity + i];
   const Matrix3& before = u.oldDeformation[p];
   Matrix3& now = u.deformation[p];
   deform(before, velocityGradient, dt, subcyclesForF(square * dt * dt, method.minimumSubcyclesForF), now);
@@ -143,7 +142,7 @@ void updateStress(const Material& material, const Method& method, double dt, con
                 valuesOf(u.state) + first * u.stateSize);
   StressResults results;
   material.model->updateStress(material.density, stressPoints(u, dt, velocityGradient, first, count, results));
-  for (int k = 0; k < count; ++k) rate.add(results.waveSpeed[static_cast<std::size_t>(k)], u.velocity[first + k]);
+  for (int k = 0; k < count; ++k) rate.add(results.waveSpeed[k], u.velocity[first + k]);
   if (u.viscosity) updateViscosity(material, method, dt, u, velocityGradient, results.bulkSpeed.data(), first, count);
   if (u.strainEnergy) updateStrainEnergy(material, u, results.energyDensity.data(), first, count);
 }
@@ -177,7 +176,7 @@ void updateParticles(const Patch& patch, const Material& material, const Method&
     CrossingRate<D> rate = none;
     const CellFrame<D> frame(level, cell);
     const int together = volumes == Volumes::shared ? range.size() : stressGroup;
-    if constexpr (volumes == Volumes::shared) gradients.resize(static_cast<std::size_t>(together));
+    if constexpr (volumes == Volumes::shared) gradients.resize(together);
     Matrix3* const velocityGradient = gradients.data();
     for (int first = range.first; first < range.last; first += together) {
       const int count = std::min(together, range.last - first);
