@@ -52,6 +52,7 @@ using tasks::requiresOld;
 using tasks::startTime;
 using tasks::TaskList;
 using tasks::togetherOnRanks;
+using tasks::totals;
 using tasks::when;
 using tasks::with;
 

@@ -52,8 +52,7 @@ void Euler<D>::scheduleMeasureError(TaskList& tasks, const reference::GasReferen
                                     const reference::Clock& clock) const {
   tasks.perPatch("euler::measureCellError", measureCellError<D>, with(settings_.gas), with(&exact), with(&clock),
                  requiresOld(c::density), requiresOld(c::momentum<D>), requiresOld(c::totalEnergy),
-                 computes(reference::cellError.density), computes(reference::cellError.velocity),
-                 computes(reference::cellError.pressure), computes(reference::cellError.energy));
+                 all<reference::ErrorNorms>(&reference::cellError));
 }
 
 template class Euler<1>;

@@ -16,8 +16,7 @@ void Poisson<D>::scheduleInitialize(TaskList& tasks) const {
 template <int D>
 void Poisson<D>::scheduleTimeAdvance(TaskList& tasks) const {
   tasks.perRank("poisson::solve", solve<D>, togetherOnRanks(), with(settings_), startTime(), requiresOld(delT),
-                requiresOld(c::phi), computes(c::phi), computes(iterations), computes(finalResidual),
-                computes(assemblyTime), computes(preconditionerTime), computes(solveTime));
+                requiresOld(c::phi), computes(c::phi), totals<SolveTotals>());
 }
 
 template <int D>
@@ -60,7 +59,7 @@ void refuseImbalance(const Level& level, const solvers::Outcome& outcome, double
 template <int D>
 void solve(const RankPatches& patches, const mpi::Communicator& ranks, const Settings& settings, double time, double dt,
            const std::vector<CellView<const double>>& oldPhi, const std::vector<CellView<double>>& phi,
-           Maximum& iterationsTaken, Maximum& residualLeft, Maximum& assembly, Maximum& setup, Maximum& solution) {
+           const SolveTotals& totals) {
   const Level& level = patches.front()->level();
   const numerics::Diffusion<D> diffusion(level, settings.coefficient, boundary::phi);
   // The negative of the balance is positive definite.
@@ -76,10 +75,10 @@ void solve(const RankPatches& patches, const mpi::Communicator& ranks, const Set
   refuseImbalance(level, outcome, settings.solver.tolerance);
   system.requireConvergence(outcome, "Poisson's equation", "Poisson", "c.phi");
   system.take(phi);
-  iterationsTaken.add(outcome.krylovIterations);
-  solvers::addTimes(outcome, assembly, setup, solution);
+  totals.iterations.add(outcome.krylovIterations);
+  solvers::addTimes(outcome, totals.assembly, totals.preconditioner, totals.solution);
   if (!outcome.residuals.empty() && outcome.residuals.front() > 0)
-    residualLeft.add(outcome.residuals.back() / outcome.residuals.front());
+    totals.finalResidual.add(outcome.residuals.back() / outcome.residuals.front());
 }
 
 namespace {

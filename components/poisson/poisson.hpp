@@ -16,9 +16,6 @@ inline constexpr BoundaryLabel<double> phi{"Phi"};
 inline constexpr ReductionLabel<Maximum> iterations{"KrylovIterations", "1", "iterations of the linear solve"};
 inline constexpr ReductionLabel<Maximum> finalResidual{"KrylovResidual", "1",
                                                        "residual at the end over that at the start"};
-using solvers::assemblyTime;
-using solvers::preconditionerTime;
-using solvers::solveTime;
 
 /// The `Poisson` section.
 struct Settings {
@@ -49,11 +46,24 @@ class Poisson : public Component {
 template <int D>
 void initialize(const Patch& patch, const Settings& settings, CellView<double> phi);
 
+/// How the last solve went.
+struct SolveTotals {
+  Maximum &iterations, &finalResidual, &assembly, &preconditioner, &solution;
+
+  static SolveTotals from(auto& take) {
+    return {.iterations = take(computes(poisson::iterations)),
+            .finalResidual = take(computes(poisson::finalResidual)),
+            .assembly = take(computes(solvers::assemblyTime)),
+            .preconditioner = take(computes(solvers::preconditionerTime)),
+            .solution = take(computes(solvers::solveTime))};
+  }
+};
+
 /// Solves for phi in the cells of all patches, from the old one. Throws NumericalError if the solver gives up.
 template <int D>
 void solve(const RankPatches& patches, const mpi::Communicator& ranks, const Settings& settings, double time, double dt,
            const std::vector<CellView<const double>>& oldPhi, const std::vector<CellView<double>>& phi,
-           Maximum& iterationsTaken, Maximum& residualLeft, Maximum& assembly, Maximum& setup, Maximum& solution);
+           const SolveTotals& totals);
 
 /// The entry of this component in the table of sus.
 simulation::ComponentKind kind();

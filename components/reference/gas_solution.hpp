@@ -32,6 +32,25 @@ inline constexpr GasErrorLabels cellError{{"CellError.density", "kg/m^3", "error
                                           {"CellError.pressure", "Pa", "error of the mean pressure of cells"},
                                           {"CellError.energy", "J/kg", "error of the mean internal energy of cells"}};
 
+/// Errors of a gas against exact values: one norm per field.
+struct ErrorNorms {
+  Norm &density, &velocity, &pressure, &energy;
+
+  static ErrorNorms from(auto& take, const GasErrorLabels* labels) {
+    return {.density = take(computes(labels->density)),
+            .velocity = take(computes(labels->velocity)),
+            .pressure = take(computes(labels->pressure)),
+            .energy = take(computes(labels->energy))};
+  }
+
+  void add(const GasState& found, const GasState& exact) const {
+    density.add(found.density - exact.density, exact.density);
+    velocity.add((found.velocity - exact.velocity).norm(), exact.velocity.norm());
+    pressure.add(found.pressure - exact.pressure, exact.pressure);
+    energy.add(found.energy - exact.energy, exact.energy);
+  }
+};
+
 /// max_i |m_i / V_i - rho_exact(x_i)| over the nodes.
 inline constexpr ReductionLabel<Norm> nodeError{"NodeError.density", "kg/m^3",
                                                 "error of nodal mass over nodal volume against the exact density"};

@@ -77,7 +77,7 @@ class Level {
   const Box& ownNodes(int patch) const { return own_nodes_[patch - first_patch_]; }
   /// Which patches each rank has.
   RankOffsets rankOffsets() const;
-  /// Gives the patches to the ranks anew. What stands on them is the caller's to move: see tasks::migrate.
+  /// Gives the patches to the ranks anew. What stands on them is the caller's to move: see tasks::migratePatches.
   void share(RankOffsets offsets);
   const Domain& domain() const { return domain_; }
 

@@ -32,6 +32,26 @@ Names united(Names a, const Names& b) {
   return a;
 }
 
+using Totals = std::vector<std::pair<std::string, std::string>>;
+/// What is conserved and the total that says how much of it there is, of those that are diagnosed.
+Totals totalsAmong(const Names& diagnosed) {
+  Totals totals;
+  for (const auto& [quantity, label] :
+       {std::pair{"mass", "TotalMass"}, {"momentum", "TotalMomentum"}, {"energy", "TotalEnergy"}})
+    if (diagnosed.contains(label)) totals.emplace_back(quantity, label);
+  return totals;
+}
+
+/// The reductions that analyses give to the report.
+Names measuredBy(const std::vector<std::unique_ptr<Analysis>>& analyses) {
+  Names names;
+  for (const auto& analysis : analyses) {
+    for (const MeasuredError& error : analysis->errors()) names.emplace(error.label->name);
+    for (const EnergyTerm& term : analysis->energies()) names.emplace(term.label->name);
+  }
+  return names;
+}
+
 /// What is needed of a step for the next, less what is decided anew before each, and with the particles' names where
 /// there are particles.
 std::vector<std::string> namesOfState(Names needed, const Names& decided, const Names& computed) {
@@ -170,16 +190,10 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   const Lists& lists = lists_;
   const Names diagnosed = producedBy(lists.diagnostics.tasks());
   const Names stepped = united(producedBy(lists.initialize.tasks()), producedBy(lists.timeAdvance.tasks()));
+  totals_ = totalsAmong(diagnosed);
   Names totals, derived, savedState;
-  for (const auto& [what, label] :
-       {std::pair{"mass", "TotalMass"}, {"momentum", "TotalMomentum"}, {"energy", "TotalEnergy"}})
-    if (diagnosed.contains(label)) totals_.emplace_back(what, label);
   for (const auto& total : totals_) totals.insert(total.second);
-  Names reported = totals;
-  for (const auto& analysis : analyses) {
-    for (const MeasuredError& error : analysis->errors()) reported.emplace(error.label->name);
-    for (const EnergyTerm& term : analysis->energies()) reported.emplace(term.label->name);
-  }
+  const Names reported = united(totals, measuredBy(analyses));
   for (const SaveRequest& save : saved_fields_)
     (stepped.contains(save.label) ? savedState : derived).insert(save.label);
   Names everyStepWants(saved_globals_.begin(), saved_globals_.end());

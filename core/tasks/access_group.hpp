@@ -95,14 +95,28 @@ struct GroupArgument {
 template <class Group, class... Settings>
 inline constexpr bool isOfMaterialAndPatch<GroupArgument<Group, Settings...>> = true;
 
+/// The argument that `totals` makes.
+template <class Group, class... Settings>
+struct TotalsArgument : GroupArgument<Group, Settings...> {};
+
 /// Accesses that the body gets as one `Group`: an aggregate of views whose
 /// `static Group from(auto& take, const Settings&... settings)` says by designated initialisers which access each
 /// member is, `.mass = take(requiresOld(p::mass))`. For bodies that touch more than about eight variables. Groups nest:
-/// `.shape = ShapeArguments::from(take, settings)`. A task that sees several materials or patches gets a
+/// `.particles = Placed<Shape>::from(take, settings)`. A task that sees several materials or patches gets a
 /// std::vector<Group>.
+/// An access keeps the address of its label, so a label among the settings is passed by pointer.
 template <class Group, class... Settings>
 GroupArgument<Group, Settings...> all(Settings... settings) {
+  static_assert(!(std::is_base_of_v<data::Label, Settings> || ...), "pass a label to all<Group>(...) by pointer");
   return {{std::move(settings)...}};
+}
+
+/// Reducers that the body gets as one `Group` of references. Totals belong to no patch and no material: the body gets
+/// one group whichever of them its task sees.
+template <class Group, class... Settings>
+TotalsArgument<Group, Settings...> totals(Settings... settings) {
+  static_assert(!(std::is_base_of_v<data::Label, Settings> || ...), "pass a label to totals<Group>(...) by pointer");
+  return {{{std::move(settings)...}}};
 }
 
 }  // namespace tushar::tasks

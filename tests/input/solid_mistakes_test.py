@@ -77,7 +77,8 @@ REFUSED = {
     "a text in thermal contact":
         (BILLET, ("<contact>", "<thermal_contact>foo</thermal_contact><contact>"), "text 'foo' in <thermal_contact>"),
     "two thermal contacts":
-        (BILLET, ("<contact>", "<thermal_contact/><thermal_contact/><contact>"), "tag <thermal_contact> is given twice"),
+        (BILLET, ("<contact>", "<thermal_contact/><thermal_contact/><contact>"),
+         "tag <thermal_contact> is given twice"),
     "a surface of Mohr and Coulomb without corners":
         (BEAM, (RUBBER, '<constitutive_model type="MohrCoulomb"><G>1</G><K>1</K><Version>3</Version>'),
          "Version: found '3', expected 1, 11, 12: stresses return to the nearest point of a surface with corners"),

@@ -64,7 +64,8 @@ class RefusedAccesses(unittest.TestCase):
         self.assertNotEqual(complaints(piece(members=".density = take(requiresNew(::density))")), "")
 
     def test_a_member_is_what_its_label_is(self):
-        self.assertNotEqual(complaints(piece(members=".density = take(requiresNew(mass)), .other = take(computes(::other))")), "")
+        members = ".density = take(requiresNew(mass)), .other = take(computes(::other))"
+        self.assertNotEqual(complaints(piece(members=members)), "")
 
 
 if __name__ == "__main__":

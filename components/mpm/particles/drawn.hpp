@@ -12,7 +12,8 @@ namespace tushar::mpm {
 /// The n-th of four random numbers in (0, 1) of a particle, n = 0 ... 3. It depends on the seed and the id only, so it
 /// is the same on every patch layout.
 ///
-/// Two rounds of the mixer of SplitMix64 (see mixed.hpp), but with its constant added before each of them, not once.
+/// Two rounds of the bit mixer of Steele, Lea & Flood, OOPSLA 2014 (see mixed.hpp), but with its constant added before
+/// each round, not once.
 /// Results of existing scenes depend on these bits.
 inline double drawn(int seed, ParticleId id, std::uint64_t n) {
   constexpr std::uint64_t step = 0x9e3779b97f4a7c15u;

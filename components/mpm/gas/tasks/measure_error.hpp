@@ -6,24 +6,7 @@
 
 namespace tushar::mpm::gas {
 
-/// Errors of a gas against exact values: one norm per field.
-struct ErrorNorms {
-  Norm &density, &velocity, &pressure, &energy;
-
-  static ErrorNorms from(auto& take, const reference::GasErrorLabels* labels) {
-    return {.density = take(computes(labels->density)),
-            .velocity = take(computes(labels->velocity)),
-            .pressure = take(computes(labels->pressure)),
-            .energy = take(computes(labels->energy))};
-  }
-
-  void add(const reference::GasState& found, const reference::GasState& exact) const {
-    density.add(found.density - exact.density, exact.density);
-    velocity.add((found.velocity - exact.velocity).norm(), exact.velocity.norm());
-    pressure.add(found.pressure - exact.pressure, exact.pressure);
-    energy.add(found.energy - exact.energy, exact.energy);
-  }
-};
+using reference::ErrorNorms;
 
 /// Errors of density, velocity, pressure (without artificial viscosity) and internal energy against the exact values at
 /// the particles.

@@ -71,7 +71,7 @@ void ImplicitMpm<Shape>::scheduleTimeAdvance(TaskList& tasks) const {
                     requiresOld(p::loadCurves), computes(p::externalForce<D>));
   tasks.perRankAcrossMaterials("impm::solve", solveStep<Shape>, problem_.materials, togetherOnRanks(), with(setup()),
                                startTime(), requiresOld(delT), all<SolidParticles<Shape>>(InStep(), &state_),
-                               all<NodalMotion<D>>(), SolveTotalsArgument());
+                               all<NodalMotion<D>>(), totals<SolveTotals>());
   scheduleMovement(tasks);
   if (is_damageable_) scheduleDamage(tasks, problem_.materials, state_);
   scheduleVelocity(tasks);

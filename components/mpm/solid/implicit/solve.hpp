@@ -155,9 +155,6 @@ struct SolveTotals {
             .rigidReaction = take(computes(total::rigidReactionForce))};
   }
 };
-/// SolveTotals as an argument of a task that sees the whole rank: totals belong to no patch and no material, so the
-/// body gets one group.
-struct SolveTotalsArgument : tasks::GroupArgument<SolveTotals> {};
 
 /// Solves for the displacement of all nodes in the step, by Newton's method. All materials that are not rigid bodies
 /// move in one field. Throws NumericalError if Newton's method fails.

@@ -41,7 +41,8 @@ SLIPS = {
     "MisspeltRequired": ({" waveSpeed(": " wavespeed("}, "a constitutive model needs `double waveSpeed("),
     "WithoutVariables": ({"struct State {};": "struct State { double alpha; };",
                           "<capability::DependsOnDeformationOnly, ": "<"},
-                         "a State that is not empty needs `static constexpr std::array<StateVariable, N> stateVariables`"),
+                         "a State that is not empty needs `static constexpr std::array<StateVariable, N> "
+                         "stateVariables`"),
     "TooFewVariables": ({"struct State {};": "struct State { double alpha, beta; };\n  static constexpr std::array"
                          "<StateVariable, 1> stateVariables{{{\"p.alpha\", \"1\", \"\"}}};",
                          "<capability::DependsOnDeformationOnly, ": "<"},
@@ -68,7 +69,8 @@ FLOW_SENTENCE = "capability::Hardening needs the public member `double hardening
 
 def compile_text(files):
     """Exit code of the compiler, and what it says, for main.cpp; the other files stand before those of the project."""
-    eigen = subprocess.run(["pkg-config", "--cflags", "eigen3"], capture_output=True, text=True, check=True).stdout.split()
+    eigen = subprocess.run(["pkg-config", "--cflags", "eigen3"], capture_output=True, text=True,
+                           check=True).stdout.split()
     with tempfile.TemporaryDirectory() as folder:
         for path, text in files.items():
             file = pathlib.Path(folder) / path
