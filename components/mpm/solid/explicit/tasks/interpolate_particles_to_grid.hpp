@@ -46,32 +46,8 @@ struct ForceSources {
   }
 };
 
-/// V (sigma - q I) of up to stressGroup particles from `first` on, N m; 0 without `forces`.
-template <class Shape>
-void forceMoments(const Material& material, const MomentumSources<Shape>& from, const ForceSources<Shape>* forces,
-                  int first, int count, Matrix3* moments) {
-  if (material.isRigid || !forces) {
-    std::fill_n(moments, count, Matrix3(Matrix3::Zero()));
-    return;
-  }
-  const double* mass = valuesOf(from.mass);
-  const StressSource source{.stress = valuesOf(forces->stress),
-                            .volume = valuesOf(forces->volume),
-                            .deformation = valuesOf(from.deformation)};
-  const double inverseDensity = 1 / material.density;
-  stressMoments(
-      material, source, first, count, [&](int p) { return mass[p] * inverseDensity; }, moments);
-  if (!forces->viscosity) return;
-  const double* viscosity = valuesOf(forces->viscosity);
-  for (int k = 0; k < count; ++k) {
-    const double volume = source.volume
-                              ? source.volume[first + k]
-                              : mass[first + k] / material.density * source.deformation[first + k].determinant();
-    moments[k].diagonal().array() -= volume * viscosity[first + k];
-  }
-}
-
-/// Brings the particles of a material to the nodes around them; `forces` is null for mass and momentum alone.
+/// Brings the particles of a material to the nodes around them; `forces` is null for mass and momentum alone. Holds
+/// pointers, not views: its loops are those of every step.
 template <class Shape>
 class Scatter {
  public:
@@ -82,11 +58,18 @@ class Scatter {
       : level_(level),
         material_(material),
         extents_(level, commonSize, from.size, from.deformation),
-        from_(from),
-        forces_(forces),
-        volume_(forces ? valuesOf(forces->volume) : nullptr),
-        external_force_(forces ? valuesOf(forces->externalForce) : nullptr),
-        record_(record) {}
+        x_(valuesOf(from.x)),
+        velocity_(valuesOf(from.velocity)),
+        mass_(valuesOf(from.mass)),
+        stresses_{.deformation = valuesOf(from.deformation)},
+        record_(record) {
+    if (!forces) return;
+    stresses_.stress = valuesOf(forces->stress);
+    stresses_.volume = valuesOf(forces->volume);
+    viscosity_ = valuesOf(forces->viscosity);
+    external_force_ = valuesOf(forces->externalForce);
+    has_stress_ = !material.isRigid;
+  }
 
   /// The particles of a cell of the patch.
   void addCell(const Index<D>& cell, const data::ParticleRange& range) const {
@@ -110,26 +93,43 @@ class Scatter {
   bool touchesOwn(const CellFrame<D>& frame, const Index<D>& cell, int p) const {
     constexpr double rounding = 1e-6;
     const Box& nodes = record_.box();
-    const Vec<D> xi = frame.coordinates(from_.x[p]), support = Shape::support(extents_[p]);
+    const Vec<D> xi = frame.coordinates(x_[p]), support = Shape::support(extents_[p]);
     for (int d = 0; d < D; ++d) {
       const double at = cell[d] + xi[d], reach = support[d] + rounding;
       if (at + reach <= nodes.lower[d] || at - reach >= nodes.upper[d] - 1) return false;
     }
     return true;
   }
+  /// V (sigma - q I) of up to stressGroup particles from `first` on, N m; 0 without stress.
+  void forceMoments(int first, int count, Matrix3* moments) const {
+    if (!has_stress_) {
+      std::fill_n(moments, count, Matrix3(Matrix3::Zero()));
+      return;
+    }
+    const double inverseDensity = 1 / material_.density;
+    const auto startVolume = [&](int p) { return mass_[p] * inverseDensity; };
+    stressMoments(material_, stresses_, first, count, startVolume, moments);
+    if (!viscosity_) return;
+    for (int k = 0; k < count; ++k) {
+      const int p = first + k;
+      const double volume = stresses_.volume ? stresses_.volume[p]
+                                             : mass_[p] / material_.density * stresses_.deformation[p].determinant();
+      moments[k].diagonal().array() -= volume * viscosity_[p];
+    }
+  }
   /// Adds particles of a cell to the nodes around, those of the view's box where `isWithin`, else all: m v and m with
   /// S_i, -V sigma with its gradient.
   template <bool isWithin>
   void addGroup(const Index<D>& cell, int first, int count) const {
     std::array<Matrix3, stressGroup> moments;
-    forceMoments<Shape>(material_, from_, forces_, first, count, moments.data());
+    forceMoments(first, count, moments.data());
     const CellFrame<D> frame(level_, cell);
     for (int k = 0; k < count; ++k) {
       const int p = first + k;
-      const typename Shape::Stencil stencil(frame, cell, from_.x[p], extents_[p]);
+      const typename Shape::Stencil stencil(frame, cell, x_[p], extents_[p]);
       const Vec<D> force = external_force_ ? external_force_[p] : Vec<D>(Vec<D>::Zero());
-      const NodeRecord value{quadOf<D>(from_.mass[p] * from_.velocity[p], from_.mass[p]),
-                             quadOf<D>(force, volume_ ? volume_[p] : 0.0)};
+      const NodeRecord value{quadOf<D>(mass_[p] * velocity_[p], mass_[p]),
+                             quadOf<D>(force, stresses_.volume ? stresses_.volume[p] : 0.0)};
       const Matrix3& moment = moments[k];
       const std::array<Quad, D> slope = slopes(moment);
       const Quad hoop{-moment(2, 2), 0, 0, 0};
@@ -153,11 +153,13 @@ class Scatter {
   const Level& level_;
   const Material& material_;
   Extents<Shape> extents_;
-  const MomentumSources<Shape>& from_;
-  const ForceSources<Shape>* forces_;
-  const double* volume_;
-  const Vec<D>* external_force_;
-  NodeView<NodeRecord> record_;
+  const Vec<D>*x_, *velocity_;
+  const double* mass_;
+  StressSource stresses_;
+  const double* viscosity_ = nullptr;       ///< null where there is none
+  const Vec<D>* external_force_ = nullptr;  ///< null where there is none
+  bool has_stress_ = false;
+  const NodeView<NodeRecord>& record_;
 };
 
 /// Velocities, masses and forces on the patch's own nodes: complete on all that are touched; what is not touched is 0
