@@ -1,5 +1,7 @@
 #include "components/components.hpp"
 
+#include "components/analysis/exact_solution.hpp"
+#include "components/analysis/particle_extract.hpp"
 #include "components/burgers/burgers.hpp"
 #include "components/burgers/burgers_wave.hpp"
 #include "components/euler/input.hpp"
@@ -11,8 +13,6 @@
 #include "components/mpm/solid/implicit/input.hpp"
 #include "components/poisson/poisson.hpp"
 #include "components/reference/modules.hpp"
-#include "core/simulation/exact_solution.hpp"
-#include "core/simulation/particle_extract.hpp"
 
 namespace tushar {
 
@@ -38,8 +38,8 @@ simulation::Catalogue catalogue() {
           reference::nohKind(),
           reference::sedovKind(),
           reference::tabulatedKind(),
-          simulation::exactSolutionKind(),
-          simulation::particleExtractKind(),
+          analysis::exactSolutionKind(),
+          analysis::particleExtractKind(),
       },
   };
 }

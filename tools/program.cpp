@@ -18,8 +18,10 @@
 #include "core/base/threads.hpp"
 #include "core/base/trace.hpp"
 #include "core/input/geometry.hpp"
-#include "core/simulation/dry_run.hpp"
-#include "core/simulation/scene.hpp"
+#include "core/scene/dry_run.hpp"
+#include "core/scene/find_restart.hpp"
+#include "core/scene/scene.hpp"
+#include "core/simulation/simulation.hpp"
 #include "core/solvers/solver.hpp"
 
 namespace tushar {
@@ -139,7 +141,7 @@ void printList(const simulation::Catalogue& known) {
 
 ExitCode describe(const std::string& name, const simulation::Catalogue& known) {
   if (name == "scene") {
-    simulation::describeSharedSections(std::cout);
+    scene::describeSharedSections(std::cout);
   } else if (const auto* component = findKind(known.components, name)) {
     component->describe(std::cout);
   } else if (const auto* analysis = findKind(known.analyses, name)) {
@@ -170,7 +172,7 @@ void checkWritable(const std::string& path) {
 /// Finds the checkpoint to go on from, and says what was found damaged on the way; the first rank does so for all.
 simulation::Restart findRestart(const Arguments& arguments, const mpi::Communicator& ranks) {
   simulation::Restart restart;
-  ranks.onFirst([&] { restart = simulation::findRestart(arguments.scene, arguments.checkpoint); });
+  ranks.onFirst([&] { restart = scene::findRestart(arguments.scene, arguments.checkpoint); });
   for (const std::string& note : restart.notes) fmt::print(stderr, "sus: {}\n", note);
   if (!restart.notes.empty()) fmt::print(stderr, "sus: goes on from the checkpoint of step {}\n", restart.step);
   restart.archive = ranks.broadcast(restart.archive.string());
@@ -183,10 +185,9 @@ simulation::Problem readProblem(const Arguments& arguments, const simulation::Ca
   const grid::Share share{ranks.rank(), ranks.size()};
   const grid::Workers first = ranks.broadcast(arguments.workers);  // all ranks must choose the same patches
   const grid::Workers workers{first.threads, first.mayBeFewer, ranks.size(), first.layout};
-  if (!arguments.restart) return simulation::readScene(arguments.scene, arguments.overrides, known, workers, share);
+  if (!arguments.restart) return scene::readScene(arguments.scene, arguments.overrides, known, workers, share);
   const simulation::Restart restart = findRestart(arguments, ranks);
-  simulation::Problem problem =
-      simulation::readScene(restart.scene().string(), arguments.overrides, known, workers, share);
+  simulation::Problem problem = scene::readScene(restart.scene().string(), arguments.overrides, known, workers, share);
   problem.restart = restart;
   return problem;
 }
@@ -220,7 +221,7 @@ void inspect(const Arguments& arguments, simulation::Simulation& run, bool isFir
 }
 
 /// Options that a typing error may have made useless.
-void noteUnused(const Arguments& arguments, const simulation::Report& report) {
+void noteUnused(const Arguments& arguments, const report::Report& report) {
   for (const std::string& option : report.unusedOptions)
     fmt::print(stderr, "note: PETSc: no solve has looked at the option {}\n", option);
   if (!arguments.petsc.empty() && !solvers::isLoaded())
@@ -244,7 +245,7 @@ ExitCode runScene(const Arguments& arguments, const simulation::Catalogue& known
   });
   catchInterrupts();
   if (traces) trace::start();
-  const simulation::Report report = run.run();
+  const report::Report report = run.run();
   if (traces) writeTrace(arguments.trace, ranks);
   if (reports) ranks.onFirst([&] { writeFile(arguments.run.jsonPath, toJson(report)); });
   if (ranks.isFirst()) noteUnused(arguments, report);
@@ -285,7 +286,7 @@ ExitCode dispatch(const Arguments& arguments, const simulation::Catalogue& known
   if (arguments.dryRun) {
     const grid::Workers workers{arguments.workers.threads, true, *arguments.dryRun, arguments.workers.layout};
     if (launchedRank() == 0)
-      fmt::print("{}", toText(simulation::dryRun(arguments.scene, arguments.overrides, known, workers)));
+      fmt::print("{}", toText(scene::dryRun(arguments.scene, arguments.overrides, known, workers)));
     return ExitCode::success;
   }
   session.emplace();

@@ -5,29 +5,14 @@
 #include <vector>
 
 #include "core/output/snapshot.hpp"
+#include "core/report/measured.hpp"
 #include "core/simulation/settings.hpp"
 #include "core/tasks/task_list.hpp"
 
 namespace tushar::simulation {
 
-/// An error norm that an analysis module measures: `density` at the `particle`s, by the reduction `label` of type
-/// data::Norm, or data::Maximum for max alone. `norms` lists those that mean something, of L1, L2, max and relative.
-struct MeasuredError {
-  std::string field, place;
-  const data::Label* label;
-  std::vector<std::string> norms;
-};
-
-/// A part of an energy budget that an analysis module keeps: the total `label` (J).
-struct EnergyTerm {
-  enum class Side {
-    came,  ///< what there was at the start, or came since
-    went,  ///< where it is now, or where it has gone
-  };
-  std::string name;
-  const data::Label* label;
-  Side side;
-};
+using report::EnergyTerm;
+using report::MeasuredError;
 
 /// A `DataAnalysis/Module`: it looks at the state of a run through diagnostic tasks.
 class Analysis {

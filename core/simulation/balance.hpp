@@ -4,15 +4,11 @@
 #include <vector>
 
 #include "core/grid/shares.hpp"
+#include "core/report/report.hpp"
 
 namespace tushar::simulation {
 
-/// What the report says of patches that have changed ranks.
-struct Rebalancing {
-  int times = 0;
-  int step = 0;                  ///< after which they did so last
-  double before = 1, after = 1;  ///< costs of the rank that has most over the mean, then
-};
+using report::Rebalancing;
 
 /// Decides when patches change ranks.
 ///

@@ -18,7 +18,7 @@ namespace tushar::simulation {
 /// start, the globals saved in every step, the derived fields of an output, the totals and errors of the report.
 class Phases {
  public:
-  /// Takes down the lists. Throws TaskError for one that reads what nobody writes.
+  /// Collects the task lists. Throws TaskError for one that reads what no task writes.
   Phases(const Component& component, const std::vector<std::unique_ptr<Analysis>>& analyses);
 
   /// What is wrong with the labels and materials that a scene wants saved.
@@ -55,9 +55,9 @@ class Phases {
   };
   void validateAll() const;
   void noteMaterials();
-  /// What analyses want to see of particles. Throws InputError for what nothing computes.
+  /// The particle variables that analysis modules sample. Throws InputError for one that no task computes.
   std::vector<SaveRequest> samplesOf(const std::vector<std::unique_ptr<Analysis>>& analyses) const;
-  /// The same, with materials that are given by their numbers named.
+  /// The requests with the names of materials in place of their numbers.
   std::vector<SaveRequest> named(const std::vector<SaveRequest>& saves) const;
   void sortSaves(const std::vector<SaveRequest>& saves);
 

@@ -1,11 +1,15 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/output/checkpoint_store.hpp"
+
 namespace tushar::simulation {
+
+/// The file of a checkpoint with everything in it.
+inline constexpr const char* stateFile = "state.h5";
 
 /// Where a run goes on.
 struct Restart {
@@ -16,15 +20,7 @@ struct Restart {
   /// The scene as the run before had it.
   std::filesystem::path scene() const { return archive / "input.xml"; }
   /// The checkpoint's file.
-  std::filesystem::path state() const;
+  std::filesystem::path state() const { return output::CheckpointStore(archive, 1).folder(step) / stateFile; }
 };
-
-/// The file of a checkpoint with everything in it.
-inline constexpr const char* stateFile = "state.h5";
-
-/// The checkpoint of a `.uda` (the folder, or the link to it) to go on from: that of `step`, or the last that is whole.
-/// Puts the scene back in its place where it is lost. Throws InputError where there is no such checkpoint, in a
-/// sentence that says what there is.
-Restart findRestart(const std::string& uda, std::optional<int> step);
 
 }  // namespace tushar::simulation

@@ -1,7 +1,8 @@
 #include <benchmark/benchmark.h>
 
 #include "components/components.hpp"
-#include "core/simulation/scene.hpp"
+#include "core/scene/scene.hpp"
+#include "core/simulation/simulation.hpp"
 #include "tests/benchmark/plain_loop.hpp"
 
 // What the framework costs: the time loop of ups/mpm/sod.ups beside a plain hand-written loop of the same method.
@@ -17,10 +18,10 @@ void framework(::benchmark::State& state) {
   simulation::RunOptions options;
   options.quiet = true;
   for (auto _ : state) {
-    simulation::Problem problem = simulation::readScene("ups/mpm/sod.ups", {resolution}, catalogue());
+    simulation::Problem problem = scene::readScene("ups/mpm/sod.ups", {resolution}, catalogue());
     problem.archive.saves.clear();
     simulation::Simulation run(std::move(problem), options, std::chrono::steady_clock::now());
-    const simulation::Report report = run.run();
+    const report::Report report = run.run();
     state.SetIterationTime(report.wallLoop);
     state.counters["us_per_step"] = 1e6 * report.wallLoop / report.steps;
   }

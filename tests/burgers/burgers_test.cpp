@@ -5,7 +5,8 @@
 #include <cmath>
 
 #include "components/components.hpp"
-#include "core/simulation/scene.hpp"
+#include "core/scene/scene.hpp"
+#include "core/simulation/simulation.hpp"
 
 namespace tushar::burgers {
 
@@ -34,8 +35,8 @@ Settings firstOrder(double viscosity = 0) {
   return settings;
 }
 
-simulation::Report run(std::vector<std::string> overrides) {
-  simulation::Problem problem = simulation::readScene("ups/burgers/sine.ups", overrides, catalogue());
+report::Report run(std::vector<std::string> overrides) {
+  simulation::Problem problem = scene::readScene("ups/burgers/sine.ups", overrides, catalogue());
   problem.archive.saves.clear();
   simulation::RunOptions options;
   options.quiet = true;
@@ -111,7 +112,7 @@ TEST(BurgersScene, IsOfFirstOrderAtAShock) {
 }
 
 TEST(BurgersScene, KeepsTheIntegralOfU) {
-  const simulation::Drift drift = run({"Burgers/viscosity=0.01"}).drifts.at(0);
+  const report::Drift drift = run({"Burgers/viscosity=0.01"}).drifts.at(0);
   EXPECT_EQ(drift.name, "momentum");
   EXPECT_LT(std::abs(drift.change), 1e-14);
 }
@@ -131,7 +132,7 @@ TEST(BurgersScene, RunsAlikeAlongEveryAxisOfAPlane) {
 TEST(BurgersScene, NeedsTheComponentAndOneDimension) {
   const auto problem = [](const std::string& scene, const std::vector<std::string>& overrides) {
     try {
-      simulation::readScene(scene, overrides, catalogue());
+      scene::readScene(scene, overrides, catalogue());
     } catch (const InputError& error) {
       return error.problems().at(0).sentence;
     }

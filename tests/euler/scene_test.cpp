@@ -4,7 +4,8 @@
 #include <sstream>
 
 #include "components/components.hpp"
-#include "core/simulation/scene.hpp"
+#include "core/scene/scene.hpp"
+#include "core/simulation/simulation.hpp"
 #include "tests/support/temporary.hpp"
 
 namespace tushar::euler {
@@ -13,8 +14,8 @@ namespace {
 
 using Overrides = std::vector<std::string>;
 
-simulation::Report run(const std::string& scene, const Overrides& overrides) {
-  simulation::Problem problem = simulation::readScene(scene, overrides, catalogue());
+report::Report run(const std::string& scene, const Overrides& overrides) {
+  simulation::Problem problem = scene::readScene(scene, overrides, catalogue());
   problem.archive.saves.clear();
   simulation::RunOptions options;
   options.quiet = true;
@@ -23,7 +24,7 @@ simulation::Report run(const std::string& scene, const Overrides& overrides) {
 
 double densityError(Overrides overrides, int cells) {
   overrides.push_back("Grid/Level/Box/resolution=[" + std::to_string(cells) + ",1,1]");
-  for (const simulation::ErrorNorms& error : run("ups/euler/sod.ups", overrides).errors)
+  for (const report::ErrorNorms& error : run("ups/euler/sod.ups", overrides).errors)
     if (error.field == "density" && error.place == "cell") return error.norms.at("L1");
   return -1;
 }
@@ -86,12 +87,12 @@ TEST(LaxAndLiu, HasOneFingerprintOnAnyPatches) {
 }
 
 TEST(Sedov, KeepsMassAndEnergy) {
-  for (const simulation::Drift& drift : run("ups/euler/sedov.ups", {"Grid/Level/Box/resolution=[60,60,1]"}).drifts)
+  for (const report::Drift& drift : run("ups/euler/sedov.ups", {"Grid/Level/Box/resolution=[60,60,1]"}).drifts)
     EXPECT_NEAR(drift.name == "momentum" ? 0 : drift.change, 0, 1e-12) << drift.name;
 }
 
 TEST(EulerScene, MeasuresCellsAlone) {
-  for (const simulation::ErrorNorms& error : run("ups/euler/sod.ups", {}).errors) EXPECT_EQ(error.place, "cell");
+  for (const report::ErrorNorms& error : run("ups/euler/sod.ups", {}).errors) EXPECT_EQ(error.place, "cell");
 }
 
 TEST(EulerScene, NamesACellThatNoObjectContains) {

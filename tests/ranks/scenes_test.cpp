@@ -6,12 +6,15 @@
 #include <filesystem>
 
 #include "components/components.hpp"
-#include "core/simulation/scene.hpp"
+#include "core/scene/scene.hpp"
+#include "core/simulation/simulation.hpp"
 #include "tests/ranks/ranks.hpp"
 
 // The same bits on any ranks, threads and patches.
 
 namespace tushar::simulation {
+
+using scene::readScene;
 
 namespace {
 
@@ -28,7 +31,7 @@ std::string resultOf(const std::string& scene, std::vector<std::string> sets, co
   problem.archive.checkpoint.reset();
   RunOptions options;
   options.quiet = true;
-  const Report report = Simulation(std::move(problem), options, std::chrono::steady_clock::now(), ranks).run();
+  const report::Report report = Simulation(std::move(problem), options, std::chrono::steady_clock::now(), ranks).run();
   return ranks.broadcast(std::to_string(report.steps) + " " + report.fingerprint + " " +
                          std::to_string(report.particles));
 }

@@ -4,7 +4,8 @@
 #include <limits>
 
 #include "components/components.hpp"
-#include "core/simulation/scene.hpp"
+#include "core/scene/scene.hpp"
+#include "core/simulation/simulation.hpp"
 #include "tests/ranks/ranks.hpp"
 
 // Scenes with a solve over the whole grid, on several ranks: the same answer, though not the same bits, since every
@@ -45,7 +46,7 @@ std::vector<double> gathered(data::Warehouse& warehouse, const std::string& labe
 std::vector<double> result(const std::string& scene, const std::string& label, int width, std::vector<std::string> sets,
                            const mpi::Communicator& ranks) {
   sets.push_back("DataArchiver/outputInterval=0");
-  Problem problem = readScene(scene, sets, catalogue(), {}, test::shareOf(ranks));
+  Problem problem = scene::readScene(scene, sets, catalogue(), {}, test::shareOf(ranks));
   problem.archive.saves.clear();
   RunOptions options;
   options.quiet = true;

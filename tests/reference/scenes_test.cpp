@@ -5,7 +5,8 @@
 #include <stdexcept>
 
 #include "components/components.hpp"
-#include "core/simulation/scene.hpp"
+#include "core/scene/scene.hpp"
+#include "core/simulation/simulation.hpp"
 
 // The references as modules of scenes: what they measure falls with the resolution, what they refuse they say.
 
@@ -15,22 +16,22 @@ namespace {
 
 using Overrides = std::vector<std::string>;
 
-simulation::Report run(const std::string& scene, const Overrides& overrides) {
-  simulation::Problem problem = simulation::readScene(scene, overrides, catalogue());
+report::Report run(const std::string& scene, const Overrides& overrides) {
+  simulation::Problem problem = scene::readScene(scene, overrides, catalogue());
   problem.archive.saves.clear();
   simulation::RunOptions options;
   options.quiet = true;
   return simulation::Simulation(std::move(problem), options, std::chrono::steady_clock::now()).run();
 }
 
-double cellError(const simulation::Report& report, const std::string& field) {
-  for (const simulation::ErrorNorms& error : report.errors)
+double cellError(const report::Report& report, const std::string& field) {
+  for (const report::ErrorNorms& error : report.errors)
     if (error.field == field && error.place == "cell") return error.norms.at("L1");
   throw std::logic_error("the report has no cell error of " + field);
 }
 
 /// Order of the L1 error of the cell means of a field between two runs, the second on the finer grid.
-double orderOf(const std::string& field, const simulation::Report& coarse, const simulation::Report& fine) {
+double orderOf(const std::string& field, const report::Report& coarse, const report::Report& fine) {
   return std::log(cellError(coarse, field) / cellError(fine, field)) / std::log(coarse.spacing / fine.spacing);
 }
 
@@ -41,7 +42,7 @@ std::string cells(int x, int y = 1, int z = 1) {
 /// What is wrong with a scene, without its place.
 std::string problemOf(const std::string& scene, const Overrides& overrides) {
   try {
-    simulation::readScene(scene, overrides, catalogue());
+    scene::readScene(scene, overrides, catalogue());
   } catch (const InputError& error) {
     return error.problems().size() == 1 ? error.problems()[0].sentence : std::string(error.what());
   }
@@ -121,7 +122,7 @@ TEST(NohScene, RefusesARegionUpsideDown) {
 }
 
 /// Runs the blast in d dimensions on n cells of 1.2 / n m per axis, all of its energy (1 J, J/m or J/m²) in the first.
-simulation::Report blast(int d, int n) {
+report::Report blast(int d, int n) {
   const auto corner = [d](double along, double across) {
     return fmt::format("[{},{},{}]", along, d > 1 ? along : across, d > 2 ? along : across);
   };

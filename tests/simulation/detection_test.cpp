@@ -7,12 +7,18 @@
 
 #include "components/components.hpp"
 #include "components/mpm/labels.hpp"
-#include "core/simulation/scene.hpp"
+#include "core/scene/find_restart.hpp"
+#include "core/scene/scene.hpp"
+#include "core/simulation/simulation.hpp"
 #include "tests/support/temporary.hpp"
 
 // A value that goes wrong in a run of Sod's tube is found where and when it does, whatever the patches.
 
 namespace tushar::simulation {
+
+using report::Report;
+using scene::findRestart;
+using scene::readScene;
 
 namespace {
 

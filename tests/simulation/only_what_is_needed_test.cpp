@@ -6,12 +6,15 @@
 #include <filesystem>
 
 #include "components/components.hpp"
-#include "core/simulation/scene.hpp"
+#include "core/scene/scene.hpp"
+#include "core/simulation/simulation.hpp"
 #include "tests/support/temporary.hpp"
 
 // What a scene does not ask for is not done.
 
 namespace tushar::simulation {
+
+using scene::readScene;
 
 namespace {
 

@@ -8,7 +8,7 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 # A folder includes itself and those before it.
 ORDER = ["core/base", "core/input", "core/grid", "core/data", "core/tasks", "core/solvers", "core/output",
-         "core/simulation", "core", "components", "tools"]
+         "core/collect", "core/report", "core/simulation", "core/scene", "core", "components", "tools"]
 INCLUDE = re.compile(r'^\s*#include\s+[<"]([^>"]+)[>"]', re.MULTILINE)
 FOREIGN = {"mpi.h": r"core/base/mpi.*", "core/base/mpi_native.hpp": r"core/base/mpi.*|core/solvers/petsc.*",
            "hdf5.h": r"core/output/archive.*", "petsc": r"core/solvers/petsc.*", "tbb/": r"core/base/threads.*"}

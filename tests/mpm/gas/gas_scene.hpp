@@ -8,8 +8,9 @@
 #include <vector>
 
 #include "components/components.hpp"
-#include "core/simulation/gather.hpp"
-#include "core/simulation/scene.hpp"
+#include "core/collect/gather.hpp"
+#include "core/scene/scene.hpp"
+#include "core/simulation/simulation.hpp"
 #include "tests/support/temporary.hpp"
 
 namespace tushar::mpm::gas {
@@ -23,7 +24,7 @@ class GasScene {
   /// The values of its particles, one after the other, vectors in x, y, z.
   std::vector<double> values(const char* label) {
     data::Warehouse& warehouse = run_.warehouse();
-    const auto array = simulation::Gather(warehouse).array(data::Generation::old, warehouse.table().find(label, 0));
+    const auto array = collect::Gather(warehouse).array(data::Generation::old, warehouse.table().find(label, 0));
     return std::get<std::vector<double>>(array.values);
   }
 
@@ -31,7 +32,7 @@ class GasScene {
   static simulation::Problem read(const std::string& scene) {
     const std::string path = test::temporaryFolder() + "scene.ups";
     std::ofstream(path) << scene;
-    return simulation::readScene(path, {}, catalogue());
+    return scene::readScene(path, {}, catalogue());
   }
   static simulation::RunOptions quiet() {
     simulation::RunOptions options;

@@ -1,0 +1,195 @@
+#include "components/analysis/particle_extract.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <set>
+
+#include "core/data/label.hpp"
+#include "core/input/schema.hpp"
+
+namespace tushar::analysis {
+
+using input::Diagnostics;
+using input::Element;
+using input::Schema;
+using output::Array;
+using simulation::Analysis;
+using simulation::AnalysisKind;
+using simulation::Component;
+using simulation::MakeAnalysis;
+using simulation::SaveRequest;
+
+namespace {
+
+constexpr std::string_view colorLabel = "p.color";
+
+struct Variable {
+  Location where;
+  std::string label;
+};
+
+struct Settings {
+  std::string name;
+  Location where;
+  std::string material;
+  double frequency = 0, start = 0, stop = 0;  ///< 1/s, s, s
+  double threshold = 0;
+  std::vector<Variable> variables;
+};
+
+struct Variables {
+  std::vector<Variable> list;
+};
+
+const Schema<Variables>& variablesSchema() {
+  static const Schema<Variable> variable =
+      Schema<Variable>("analyze", "A particle variable.")
+          .location(&Variable::where, "label")
+          .requiredAttribute("label", &Variable::label, "1", "its name, such as p.velocity")
+          .ignoredAttribute("matl", "the material is that of the module");
+  static const Schema<Variables> schema = Schema<Variables>("Variables", "What is written.")
+                                              .list("analyze", &Variables::list, variable, "a particle variable", 1);
+  return schema;
+}
+
+const Schema<Settings>& settingsSchema() {
+  static const Schema<Settings> schema =
+      Schema<Settings>("Module", "Variables of chosen particles over time, in a file for each.")
+          .requiredAttribute("name", &Settings::name, "1", "particleExtract")
+          .location(&Settings::where)
+          .value("material", &Settings::material, "", "1",
+                 "name of the material whose particles are looked at; the first")
+          .required("samplingFrequency", &Settings::frequency, "1/s", "samples per second of simulated time",
+                    input::positive())
+          .required("timeStart", &Settings::start, "s", "no sample before")
+          .required("timeStop", &Settings::stop, "s", "no sample after")
+          .required("colorThreshold", &Settings::threshold, "1", "particles whose p.color is greater are written")
+          .custom(
+              "Variables",
+              [](Settings& settings, const Element& element, Diagnostics& diagnostics) {
+                const auto tag = element.child("Variables");
+                if (!tag) return diagnostics.error(element, "missing tag <Variables> with <analyze label=\"…\"/>");
+                settings.variables = variablesSchema().read(*tag, diagnostics).list;
+              },
+              {"Variables"}, "what is written",
+              [](std::ostream& out, int indent) { variablesSchema().describeContents(out, indent); });
+  return schema;
+}
+
+const Array& column(const std::vector<Array>& columns, std::string_view label) {
+  return *std::find_if(columns.begin(), columns.end(), [&](const Array& array) { return array.label == label; });
+}
+
+/// Lines of a file that were written before a time [s]: what a run has left that is now repeated from earlier on.
+std::string linesBefore(const std::filesystem::path& file, double time) {
+  std::ifstream in(file);
+  std::string kept, line;
+  while (std::getline(in, line))
+    if (line.starts_with('#') || std::strtod(line.c_str(), nullptr) < time * (1 - 1e-6)) kept += line + '\n';
+  return kept;
+}
+
+class ParticleExtract : public Analysis {
+ public:
+  explicit ParticleExtract(Settings settings) : settings_(std::move(settings)) {}
+
+  void schedule(tasks::TaskList&) const override {}
+  void setTime(double time, double) override {
+    time_ = time;
+    const double count = std::floor((time - settings_.start) * settings_.frequency);
+    due_ = time >= settings_.start && time <= settings_.stop && count > last_count_;
+    if (due_) last_count_ = count;
+  }
+
+  std::vector<SaveRequest> samples() const override {
+    std::vector<SaveRequest> requests{request({settings_.where, std::string(colorLabel)}),
+                                      request({settings_.where, std::string(data::particleId.name)})};
+    for (const Variable& variable : settings_.variables) requests.push_back(request(variable));
+    return requests;
+  }
+  bool isSampleDue() const override { return due_; }
+
+  void sample(const output::Snapshot& snapshot, const std::filesystem::path& archive) override {
+    const auto block = std::find_if(snapshot.particles.begin(), snapshot.particles.end(), [&](const auto& b) {
+      return settings_.material.empty() || b.material == settings_.material;
+    });
+    if (block == snapshot.particles.end()) return;
+    const auto folder = archive / "particleExtract" / "L-0";
+    std::filesystem::create_directories(folder);
+    const auto& color = std::get<std::vector<double>>(column(block->arrays, colorLabel).values);
+    const auto& ids = std::get<std::vector<std::uint64_t>>(column(block->arrays, data::particleId.name).values);
+    std::vector<Array> columns{block->arrays.front()};
+    for (const Variable& variable : settings_.variables) columns.push_back(column(block->arrays, variable.label));
+    std::stable_sort(columns.begin() + 1, columns.end(),
+                     [](const Array& a, const Array& b) { return a.components < b.components; });
+    for (std::size_t p = 0; p < ids.size(); ++p)
+      if (color[p] > settings_.threshold) write(folder / std::to_string(ids[p]), columns, p);
+  }
+
+ private:
+  SaveRequest request(const Variable& variable) const {
+    return {variable.label, settings_.material, variable.where, settings_.where};
+  }
+
+  void write(const std::filesystem::path& file, const std::vector<Array>& columns, std::size_t entry) {
+    const bool isNew = files_.insert(file.filename().string()).second;
+    const std::string before = isNew ? linesBefore(file, time_) : "";
+    std::ofstream out(file, isNew ? std::ios::trunc : std::ios::app);
+    if (isNew) out << (before.empty() ? extractHeader(columns) : before);
+    out << extractLine(time_, columns, entry);
+    if (!out.flush()) throw FileError("cannot write '" + file.string() + "'");
+  }
+
+  Settings settings_;
+  double time_ = 0, last_count_ = 0;
+  bool due_ = false;
+  std::set<std::string> files_;  ///< that this run has written to
+};
+
+}  // namespace
+
+std::string extractHeader(const std::vector<Array>& columns) {
+  std::string line = "# Time    X      Y      Z     ";
+  for (std::size_t k = 1; k < columns.size(); ++k) {
+    const Array& array = columns[k];
+    if (array.components == 1) line += fmt::format("     {}", array.label);
+    if (array.components == 3) line += fmt::format("     {0}.x      {0}.y      {0}.z", array.label);
+    for (int row = 0; row < 3 && array.components == 9; ++row)
+      line += fmt::format("     {0}({1},0)      {0}({1},1)      {0}({1},2)", array.label, row);
+  }
+  return line + '\n';
+}
+
+std::string extractLine(double time, const std::vector<Array>& columns, std::size_t entry) {
+  std::string line = fmt::format("{:E}\t", time);
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const auto components = static_cast<std::size_t>(columns[k].components);
+    std::visit(
+        [&](const auto& values) {
+          for (std::size_t i = 0; i < components; ++i) {
+            const auto value = values[entry * components + i];
+            if constexpr (std::is_floating_point_v<std::decay_t<decltype(value)>>)
+              line += k == 0 ? fmt::format(" {:E}\t", value) : fmt::format("    {:16E}", value);
+            else
+              line += fmt::format("    {}", value);
+          }
+        },
+        columns[k].values);
+  }
+  return line + '\n';
+}
+
+AnalysisKind particleExtractKind() {
+  AnalysisKind kind{"particleExtract", "variables of chosen particles over time, in a file for each", {}, {}};
+  kind.describe = [](std::ostream& out) { settingsSchema().describe(out); };
+  kind.read = [](const Element& module, Diagnostics& diagnostics) -> MakeAnalysis {
+    const Settings settings = settingsSchema().read(module, diagnostics);
+    return [settings](const Component&, const grid::Level&) { return std::make_unique<ParticleExtract>(settings); };
+  };
+  return kind;
+}
+
+}  // namespace tushar::analysis

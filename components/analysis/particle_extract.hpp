@@ -1,0 +1,19 @@
+#pragma once
+
+#include <iosfwd>
+
+#include "core/simulation/catalogue.hpp"
+
+namespace tushar::analysis {
+
+/// `particleExtract`: variables of chosen particles over time, in a file for each: those of one material whose p.color
+/// is above a threshold. The files are `particleExtract/L-0/<p.particleID>` in the archive, as Uintah writes them: a
+/// line of names, then for every sample time, place, and the variables: numbers first, vectors, tensors by rows.
+simulation::AnalysisKind particleExtractKind();
+
+/// The line of names of such a file, for columns of particle variables.
+std::string extractHeader(const std::vector<output::Array>& columns);
+/// The line of particle `entry`: the time [s], p.x, which is the first column, and the others.
+std::string extractLine(double time, const std::vector<output::Array>& columns, std::size_t entry);
+
+}  // namespace tushar::analysis

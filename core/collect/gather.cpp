@@ -1,0 +1,128 @@
+#include "core/collect/gather.hpp"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "core/collect/collect.hpp"
+
+namespace tushar::collect {
+
+using data::Centring;
+using data::Generation;
+using data::Label;
+using grid::Box;
+using grid::Patch;
+
+namespace {
+
+output::Array emptyArray(const Label& label) {
+  output::Array array{std::string(label.name),
+                      std::string(label.unit),
+                      std::string(label.description),
+                      label.isVector ? 3 : label.components,
+                      {}};
+  if (label.number == data::Number::id) array.values = std::vector<std::uint64_t>{};
+  if (label.number == data::Number::integer) array.values = std::vector<std::int32_t>{};
+  return array;
+}
+
+struct HashFree {
+  void operator()(XXH64_state_t* state) const { XXH64_freeState(state); }
+};
+
+/// Of the values of a stream, piece by piece.
+XXH64_hash_t hashOf(const output::Array& array, XXH64_hash_t seed) {
+  constexpr std::size_t piece = 1 << 14;
+  const std::unique_ptr<XXH64_state_t, HashFree> state(XXH64_createState());
+  XXH64_reset(state.get(), seed);
+  const std::size_t number = std::visit([](const auto& values) { return sizeof(values[0]); }, array.values);
+  const std::size_t bytes = number * static_cast<std::size_t>(array.components);
+  std::vector<std::byte> memory(piece * bytes);
+  for (std::size_t first = 0; first < array.entries(); first += piece) {
+    const std::size_t count = std::min(piece, array.entries() - first);
+    array.source->read(first, count, memory.data());
+    XXH64_update(state.get(), memory.data(), count * bytes);
+  }
+  return XXH64_digest(state.get());
+}
+
+}  // namespace
+
+const Gather::Places& Gather::placesOf(int material) {
+  const auto [entry, isNew] = places_.try_emplace(material);
+  if (!isNew) return entry->second;
+  const int number = warehouse_->table().find(data::particleId.name, material);
+  const Parts ids = collectParticles(*warehouse_, Generation::old, number);
+  return entry->second = std::make_shared<const std::vector<Place>>(placesById(ids));
+}
+
+void Gather::streamParticles(Generation generation, int number, output::Array& array) {
+  const auto [label, material] = warehouse_->table()[number];
+  const Places& places = placesOf(material);
+  Parts parts = collectParticles(*warehouse_, generation, number);
+  if (!warehouse_->ranks().isFirst()) return;
+  array.source = sourceAt(places, std::move(parts), EntryForm(*label, warehouse_->level()));
+}
+
+void Gather::streamGrid(Generation generation, int number, output::Array& array) {
+  const Label& label = *warehouse_->table()[number].label;
+  const grid::Level& level = warehouse_->level();
+  const Box all = label.centring == Centring::node ? level.nodesOfCells() : level.cells();
+  Parts parts = collectGrid(*warehouse_, generation, number, all);
+  if (!warehouse_->ranks().isFirst()) return;
+  auto runs = std::make_shared<const Runs>(runsOfGrid(level, label, parts, all));
+  array.source = sourceInRuns(std::move(runs), all.size(), std::move(parts), EntryForm(label, level));
+}
+
+output::Array Gather::stream(Generation generation, int number) {
+  const Label& label = *warehouse_->table()[number].label;
+  output::Array array = emptyArray(label);
+  if (label.centring == Centring::reduction || !warehouse_->isHeld(generation, number)) return array;
+  label.centring == Centring::particle ? streamParticles(generation, number, array)
+                                       : streamGrid(generation, number, array);
+  return array;
+}
+
+output::Array Gather::array(Generation generation, int number) {
+  output::Array array = stream(generation, number);
+  output::load(array);
+  return array;
+}
+
+output::GridInfo gridInfo(const grid::Level& level) {
+  output::GridInfo info;
+  info.dimension = level.dimension();
+  info.lower = level.domain().lower;
+  info.cells = Index3::filled(1);
+  info.spacing = level.domain().upper - level.domain().lower;
+  for (int d = 0; d < level.dimension(); ++d) {
+    info.cells[level.axis(d)] = level.cells().extent(d);
+    info.spacing[level.axis(d)] = level.spacing(d);
+  }
+  return info;
+}
+
+std::string fingerprint(data::Warehouse& warehouse, const std::vector<std::string>& labels, int materials) {
+  XXH64_hash_t hash = 0;
+  Gather gather(warehouse);
+  for (const std::string& label : labels)
+    for (int material = -1; material < materials; ++material) {
+      const int number = warehouse.table().find(label, material);
+      if (number < 0) continue;
+      hash = hashOf(gather.stream(Generation::old, number), hash);
+    }
+  return fmt::format("{:016x}", hash);
+}
+
+long particleCount(data::Warehouse& warehouse, int materials) {
+  long count = 0;
+  for (int material = 0; material < materials; ++material)
+    for (const Patch& patch : warehouse.level().patches())
+      count += warehouse.particles(Generation::old, material, patch.id()).owned();
+  return warehouse.ranks().sum(count);
+}
+
+}  // namespace tushar::collect

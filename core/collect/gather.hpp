@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/collect/sources.hpp"
+#include "core/data/warehouse.hpp"
+#include "core/output/snapshot.hpp"
+
+namespace tushar::collect {
+
+/// Gathers variables over the whole grid on the first rank, in an order that no layout changes: particles by id, nodes
+/// and cells with x fastest. Vectors come out in x, y, z. All ranks ask for the same, while the state is as it is.
+class Gather {
+ public:
+  explicit Gather(data::Warehouse& warehouse) : warehouse_(&warehouse) {}
+
+  /// The values of a variable of a generation; none if it is not held, and on every rank but the first. They are in
+  /// memory.
+  output::Array array(data::Generation generation, int variable);
+  /// The values of a variable without a copy: they stay where they are, and are good while the state is as it is.
+  output::Array stream(data::Generation generation, int variable);
+
+ private:
+  using Places = std::shared_ptr<const std::vector<Place>>;
+
+  /// Where the particles of a material are, by id.
+  const Places& placesOf(int material);
+  void streamParticles(data::Generation generation, int number, output::Array& array);
+  void streamGrid(data::Generation generation, int number, output::Array& array);
+
+  data::Warehouse* warehouse_;
+  std::map<int, Places> places_;  ///< by material
+};
+
+/// The geometry of the grid as the archive keeps it.
+output::GridInfo gridInfo(const grid::Level& level);
+
+/// Hash of the old values of the named variables of all materials, in the order above: 16 hexadecimal digits.
+/// Two runs agree in it only if they agree in every bit. The first rank has it; all ask.
+std::string fingerprint(data::Warehouse& warehouse, const std::vector<std::string>& labels, int materials);
+
+/// Number of particles of all materials, on all ranks, which all ask.
+long particleCount(data::Warehouse& warehouse, int materials);
+
+}  // namespace tushar::collect

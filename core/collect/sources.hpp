@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/collect/collect.hpp"
+#include "core/output/snapshot.hpp"
+
+namespace tushar::collect {
+
+/// Entries that stand one after the other on a patch as in the order of the whole grid, up to the next run.
+struct Run {
+  std::size_t place;           ///< of the first in the order of the whole grid
+  std::uint32_t patch, first;  ///< where that is on its patch
+};
+
+/// Runs in the order of their places.
+using Runs = std::vector<Run>;
+
+/// The rows of the cells or nodes of a box, the first axis fastest, wherever the patches have them.
+Runs runsOfGrid(const grid::Level& level, const data::Label& label, const Parts& parts, const grid::Box& all);
+
+/// Where a particle is: the number of its patch, and its place there.
+struct Place {
+  std::uint32_t patch, index;
+};
+
+/// The particles whose ids these are, in ascending order of these.
+std::vector<Place> placesById(const Parts& ids);
+
+/// What becomes of an entry of a variable on its way into an array: it stays as it is, or is widened to x, y, z.
+class EntryForm {
+ public:
+  /// Of entries that stay as they are.
+  explicit EntryForm(const data::Label& label) : bytes_(label.bytes) {}
+  /// Vectors get 0 along the axes that the grid leaves out, and positions the middle of the domain.
+  EntryForm(const data::Label& label, const grid::Level& level);
+
+  std::size_t bytes() const { return bytes_; }  ///< of an entry of the variable
+  std::size_t bytesOut() const { return axes_ == 0 ? bytes_ : sizeof(rest_); }
+  /// Takes some that stand one after the other.
+  void copy(const std::byte* from, std::size_t count, std::byte* to) const;
+  /// Takes some that stand at places of patches.
+  void gather(const std::vector<Part>& parts, std::span<const Place> places, std::byte* to) const;
+
+ private:
+  template <class EntryAt>
+  void widen(const EntryAt& entryAt, std::size_t count, std::byte* to) const;
+
+  std::size_t bytes_;
+  int axes_ = 0;                ///< of the grid where entries are widened; else 0
+  int axis_[2] = {0, 0};        ///< x, y or z for each of these
+  double rest_[3] = {0, 0, 0};  ///< what x, y, z are along the others
+};
+
+/// The entries in the order of runs.
+std::shared_ptr<const output::Source> sourceInRuns(std::shared_ptr<const Runs> runs, std::size_t entries, Parts parts,
+                                                   const EntryForm& form);
+
+/// The entries at these places, one after the other.
+std::shared_ptr<const output::Source> sourceAt(std::shared_ptr<const std::vector<Place>> places, Parts parts,
+                                               const EntryForm& form);
+
+}  // namespace tushar::collect

@@ -1,0 +1,270 @@
+#include "core/collect/stored_state.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "core/base/error.hpp"
+#include "core/collect/collect.hpp"
+#include "core/collect/particle_order.hpp"
+#include "core/output/archive_files.hpp"
+
+namespace tushar::collect {
+
+using data::Centring;
+using data::Generation;
+using data::Label;
+using data::Variable;
+using grid::Box;
+using grid::Patch;
+using output::Array;
+
+namespace {
+
+std::byte* bytesOf(Array::Values& values) {
+  return std::visit([](auto& all) { return reinterpret_cast<std::byte*>(all.data()); }, values);
+}
+
+std::size_t sizeOf(const Array::Values& values) {
+  return std::visit([](const auto& all) { return all.size(); }, values);
+}
+
+Array::Values emptyValues(data::Number number) {
+  if (number == data::Number::id) return std::vector<std::uint64_t>{};
+  if (number == data::Number::integer) return std::vector<std::int32_t>{};
+  return std::vector<double>{};
+}
+
+/// An array of a variable, without values yet.
+Array arrayOf(const Label& label) {
+  return {std::string(label.name), std::string(label.unit), std::string(label.description), label.components,
+          emptyValues(label.number)};
+}
+
+const char* folderOf(Centring centring) {
+  switch (centring) {
+    case Centring::particle:
+      return "/particles/";
+    case Centring::node:
+      return "/nodes/";
+    case Centring::cell:
+      return "/cells/";
+    default:
+      return "/reductions/";
+  }
+}
+
+Box allOf(const grid::Level& level, const Label& label) {
+  return label.centring == Centring::node ? level.nodes() : level.cells();
+}
+
+std::size_t wordsOf(std::size_t bytes) { return (bytes + sizeof(std::uint64_t) - 1) / sizeof(std::uint64_t); }
+
+/// What writing and reading share: which variables there are, and where they stand in the file.
+class StateWalk {
+ public:
+  StateWalk(data::Warehouse& warehouse, const StateNames& names)
+      : warehouse_(warehouse), table_(warehouse.table()), level_(warehouse.level()), names_(names) {}
+
+ protected:
+  /// Calls `visit(number, path)` for each variable of the run.
+  template <class Visit>
+  void forEachVariable(Centring centring, int material, Visit&& visit) const {
+    for (const std::string& name : names_.labels) {
+      const int number = table_.find(name, material);
+      if (number >= 0 && table_[number].label->centring == centring) visit(number, pathOf(centring, name, material));
+    }
+  }
+  /// Calls `visit(number, path)` for each variable on cells and nodes.
+  template <class Visit>
+  void forEachField(Visit&& visit) const {
+    for (int m = -1; m < materials(); ++m)
+      for (const Centring centring : {Centring::cell, Centring::node}) forEachVariable(centring, m, visit);
+  }
+  int materials() const { return static_cast<int>(names_.materials.size()); }
+  bool hasParticles(int material) const { return table_.find(data::particleId.name, material) >= 0; }
+  std::string perCellPath(int material) const { return pathOf(Centring::particle, "perCell", material); }
+  const Label& label(int number) const { return *table_[number].label; }
+  Variable variable(int number, const Patch& patch) const {
+    return warehouse_.variable(Generation::old, number, patch.id());
+  }
+
+  data::Warehouse& warehouse_;
+  const data::VariableTable& table_;
+  const grid::Level& level_;
+
+ private:
+  std::string pathOf(Centring centring, const std::string& name, int material) const {
+    std::string path = folderOf(centring);
+    if (material >= 0) path += output::groupName(names_.materials[static_cast<std::size_t>(material)], material) + "/";
+    return path + output::nameInPath(name);
+  }
+
+  const StateNames& names_;
+};
+
+/// Every rank walks; the first has the file.
+class StateWriter : StateWalk {
+ public:
+  StateWriter(output::Hdf5File* file, data::Warehouse& warehouse, const StateNames& names)
+      : StateWalk(warehouse, names), file_(file) {}
+
+  void run() {
+    forEachField([&](int number, const std::string& path) {
+      if (isHeld(number)) writeField(number, path);
+    });
+    for (int m = 0; m < materials(); ++m)
+      if (hasParticles(m)) writeParticles(m);
+    forEachVariable(Centring::reduction, -1,
+                    [&](int number, const std::string& path) { writeReduction(number, path); });
+  }
+
+ private:
+  bool isHeld(int number) const { return warehouse_.isHeld(Generation::old, number); }
+
+  void writeField(int number, const std::string& path) {
+    const Box all = allOf(level_, label(number));
+    Parts parts = collectGrid(warehouse_, Generation::old, number, all);
+    if (!file_) return;
+    auto runs = std::make_shared<Runs>(runsOfGrid(level_, label(number), parts, all));
+    Array array = arrayOf(label(number));
+    array.source = sourceInRuns(std::move(runs), all.size(), std::move(parts), EntryForm(label(number)));
+    const auto extent = [&](int axis) { return static_cast<std::uint64_t>(all.extent(axis)); };
+    file_->dataset(path, array, {extent(2), extent(1), extent(0)});
+  }
+
+  void writeParticles(int material) {
+    const ParticleOrder order(warehouse_, material);
+    if (file_)
+      file_->dataset(perCellPath(material), {"perCell", "1", "particles of each cell", 1, order.perCell()},
+                     {level_.cells().size()});
+    const auto runs = std::make_shared<const Runs>(file_ ? order.runs() : Runs{});
+    forEachVariable(Centring::particle, material, [&](int number, const std::string& path) {
+      if (isHeld(number)) writeColumn(number, path, runs, order.count());
+    });
+  }
+
+  void writeColumn(int number, const std::string& path, const std::shared_ptr<const Runs>& runs, std::size_t count) {
+    Parts parts = collectParticles(warehouse_, Generation::old, number);
+    if (!file_) return;
+    Array array = arrayOf(label(number));
+    array.source = sourceInRuns(runs, count, std::move(parts), EntryForm(label(number)));
+    file_->dataset(path, array, {count});
+  }
+
+  void writeReduction(int number, const std::string& path) {
+    const std::span<const std::byte> bytes = warehouse_.reductionBytes(number);
+    if (bytes.empty() || !file_) return;
+    std::vector<std::uint64_t> words(wordsOf(bytes.size()));
+    std::memcpy(words.data(), bytes.data(), bytes.size());
+    Array array = arrayOf(label(number));
+    array.values = std::move(words);
+    file_->dataset(path, array, {array.entries()});
+  }
+
+  output::Hdf5File* file_;
+};
+
+class StateReader : StateWalk {
+ public:
+  StateReader(const output::Hdf5Input& file, data::Warehouse& warehouse, const StateNames& names,
+              const std::vector<std::string>& required)
+      : StateWalk(warehouse, names), file_(file), required_(required) {}
+
+  void run() {
+    forEachField([&](int number, const std::string& path) {
+      if (isStored(label(number), path)) readField(number, path);
+    });
+    for (int m = 0; m < materials(); ++m)
+      if (hasParticles(m) && isStored(data::particleId, perCellPath(m))) readParticles(m);
+    forEachVariable(Centring::reduction, -1, [&](int number, const std::string& path) {
+      if (isStored(label(number), path)) readReduction(number, path);
+    });
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& what) const {
+    throw InputError({{{file_.path().string(), 0, 0}, "", what + "; take back what was changed in the scene since"}});
+  }
+
+  bool isStored(const Label& label, const std::string& path) const {
+    if (file_.has(path)) return true;
+    if (std::find(required_.begin(), required_.end(), label.name) != required_.end())
+      refuse(fmt::format("the checkpoint has no {}, which the scene needs", path));
+    return false;
+  }
+
+  /// A dataset, which must have as many numbers as the scene needs, of the type `Values` or of the label.
+  Array::Values stored(const std::string& path, const Array::Values& type, std::size_t count) const {
+    Array::Values values = file_.dataset(path);
+    if (values.index() != type.index()) refuse(fmt::format("the checkpoint has another type of numbers at {}", path));
+    if (sizeOf(values) != count)
+      refuse(fmt::format("the checkpoint has {} numbers at {}, and the scene needs {}", sizeOf(values), path, count));
+    return values;
+  }
+  Array::Values stored(const std::string& path, const Label& label, std::size_t entries) const {
+    return stored(path, emptyValues(label.number), entries * static_cast<std::size_t>(label.components));
+  }
+
+  /// Ghosts are left to the first exchange.
+  void readField(int number, const std::string& path) {
+    const std::size_t bytes = label(number).bytes;
+    const Box all = allOf(level_, label(number));
+    Array::Values values = stored(path, label(number), all.size());
+    const std::byte* from = bytesOf(values);
+    warehouse_.allocateGrid(Generation::old, number);
+    for (const Patch& patch : level_.patches()) {
+      const Box own = ownBox(patch, label(number));
+      const Variable to = variable(number, patch);
+      forEachRow(own, [&](const Index3& first) {
+        std::memcpy(to.values + to.stored.offset(first) * bytes, from + all.offset(first) * bytes,
+                    static_cast<std::size_t>(own.extent(0)) * bytes);
+      });
+    }
+  }
+
+  void readParticles(int material) {
+    const Array::Values perCell = stored(perCellPath(material), std::vector<std::int32_t>{}, level_.cells().size());
+    ParticleOrder order(warehouse_, material, std::get<std::vector<std::int32_t>>(perCell));
+    order.install();
+    forEachVariable(Centring::particle, material, [&](int number, const std::string& path) {
+      if (isStored(label(number), path)) readColumn(number, path, order);
+    });
+  }
+
+  void readColumn(int number, const std::string& path, const ParticleOrder& order) {
+    const std::size_t bytes = label(number).bytes;
+    Array::Values values = stored(path, label(number), order.count());
+    const std::byte* from = bytesOf(values);
+    warehouse_.allocateParticles(Generation::old, number, Generation::old);
+    for (const Patch& patch : level_.patches()) {
+      const Variable to = variable(number, patch);
+      order.forEachRun(patch, [&](std::size_t place, std::size_t held, std::size_t count) {
+        std::memcpy(to.values + held * bytes, from + place * bytes, count * bytes);
+      });
+    }
+  }
+
+  void readReduction(int number, const std::string& path) {
+    const std::size_t bytes = label(number).bytes;
+    Array::Values words = stored(path, std::vector<std::uint64_t>{}, wordsOf(bytes));
+    warehouse_.restoreReduction(number, {bytesOf(words), bytesOf(words) + bytes});
+  }
+
+  const output::Hdf5Input& file_;
+  const std::vector<std::string>& required_;
+};
+
+}  // namespace
+
+void writeState(output::Hdf5File* file, data::Warehouse& warehouse, const StateNames& names) {
+  StateWriter(file, warehouse, names).run();
+}
+
+void readState(const output::Hdf5Input& file, data::Warehouse& warehouse, const StateNames& names,
+               const std::vector<std::string>& required) {
+  StateReader(file, warehouse, names, required).run();
+}
+
+}  // namespace tushar::collect

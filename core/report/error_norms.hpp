@@ -1,0 +1,18 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/report/measured.hpp"
+#include "core/report/report.hpp"
+
+namespace tushar::report {
+
+/// The norms of an error, from the numbers of its reduction. Left out are those of nothing: where no place was
+/// measured, and errors relative to a field that is 0 everywhere.
+ErrorNorms normsOf(const MeasuredError& error, const std::vector<double>& values);
+
+/// A sentence on the first norm that is not finite: the end of such a run cannot be measured. None if all are.
+std::optional<std::string> unmeasurable(const std::vector<ErrorNorms>& errors);
+
+}  // namespace tushar::report

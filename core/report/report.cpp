@@ -1,0 +1,209 @@
+#include "core/report/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace tushar::report {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json errorsOf(const Report& report) {
+  Json errors = Json::object();
+  for (const ErrorNorms& error : report.errors)
+    for (const auto& [norm, value] : error.norms) errors[error.field][error.place][norm] = value;
+  return errors;
+}
+
+Json wallOf(const Report& report) {
+  Json tasks = Json::object();
+  for (const TaskTime& task : report.tasks) tasks[task.name] = tasks.value(task.name, 0.0) + task.seconds;
+  return {{"startup", report.wallStartup},
+          {"loop", report.wallLoop},
+          {"output", report.wallOutput},
+          {"exchange", report.exchange},
+          {"tasks", tasks},
+          {"use",
+           {{"task", report.use.task},
+            {"message", report.use.message},
+            {"output", report.use.output},
+            {"wait", report.use.wait}}},
+          {"imbalance", report.use.imbalance},
+          {"rebalanced",
+           {{"times", report.rebalancing.times},
+            {"step", report.rebalancing.step},
+            {"before", report.rebalancing.before},
+            {"after", report.rebalancing.after}}}};
+}
+
+Json limitsOf(const Report& report) {
+  Json limits = Json::object();
+  for (const auto& [limit, steps] : report.limits) limits[limit] = steps;
+  return limits;
+}
+
+Json driftOf(const Report& report) {
+  Json drift = Json::object();
+  for (const Drift& d : report.drifts) drift[d.name] = d.change;
+  return drift;
+}
+
+Json energiesOf(const Report& report) {
+  const EnergyBudget& energies = report.energies;
+  Json came = Json::object(), went = Json::object();
+  for (const auto& [name, value] : energies.came) came[name] = value;
+  for (const auto& [name, value] : energies.went) went[name] = value;
+  return {{"came", came}, {"went", went}, {"unaccounted", energies.unaccounted()}, {"greatest", energies.greatest()}};
+}
+
+Json tasksOf(const Report& report) {
+  Json leftOut = Json::array();
+  for (const tasks::LeftOut& task : report.leftOut) leftOut.push_back({{"name", task.task}, {"why", task.reason}});
+  return {{"kept", report.kept}, {"left_out", leftOut}};
+}
+
+std::string limitLine(const Report& report) {
+  std::string text;
+  for (const auto& [limit, steps] : report.limits)
+    text += fmt::format("{}{} {}", text.empty() ? "time step ruled by " : ", ", limit, steps);
+  if (report.retries > 0) text += fmt::format("; {} repeated with a smaller one", report.retries);
+  return text.empty() ? "" : text + "\n";
+}
+
+std::string errorTable(const Report& report) {
+  std::string text;
+  for (const std::string& why : report.unmeasured) text += fmt::format("\n  no errors: {}\n", why);
+  if (report.errors.empty()) return text;
+  text += fmt::format("\n  {:<24} {:>12} {:>12} {:>12}   unit\n", "error of", "L1", "L2", "max");
+  for (const ErrorNorms& error : report.errors) {
+    const auto norm = [&](const char* name) {
+      const auto found = error.norms.find(name);
+      return found == error.norms.end() ? std::string("-") : fmt::format("{:.5g}", found->second);
+    };
+    text += fmt::format("  {:<24} {:>12} {:>12} {:>12}   {}\n", error.field + ", " + error.place, norm("L1"),
+                        norm("L2"), norm("max"), error.unit);
+  }
+  return text;
+}
+
+std::string driftTable(const Report& report) {
+  if (report.drifts.empty()) return "";
+  std::string text = fmt::format("\n  {:<24} {:>12} {:>12} {:>12}\n", "drift of", "start", "end", "change");
+  for (const Drift& drift : report.drifts)
+    text += fmt::format("  {:<24} {:>12.6g} {:>12.6g} {:>12.2e}   {}\n", drift.name, drift.start, drift.end,
+                        drift.change, drift.relative ? "relative" : drift.unit);
+  return text;
+}
+
+std::string energyTable(const Report& report) {
+  const EnergyBudget& energies = report.energies;
+  if (energies.came.empty()) return "";
+  std::string text = fmt::format("\n  {:<36} {:>14}\n", "energy budget", "J");
+  for (const auto& [name, value] : energies.came) text += fmt::format("  {:<36} {:>14.6g}\n", name, value);
+  for (const auto& [name, value] : energies.went) text += fmt::format("  - {:<34} {:>14.6g}\n", name, value);
+  return text + fmt::format("  {:<36} {:>14.2e}   {:.2e} of the greatest\n", "unaccounted", energies.unaccounted(),
+                            energies.greatest() > 0 ? energies.unaccounted() / energies.greatest() : 0.0);
+}
+
+/// What the threads did during the time loop and its outputs, in parts of their time.
+std::string useLine(const Report& report) {
+  const TimeUse& use = report.use;
+  const double all = use.task + use.message + use.output + use.wait;
+  if (all <= 0) return "";
+  const std::string ranks = report.ranks > 1 ? fmt::format("{} ranks of ", report.ranks) : "";
+  return fmt::format(
+      "  {}{} thread{}: {:.1f} % in tasks, {:.1f} % messages, {:.1f} % output, {:.1f} % waiting; "
+      "load imbalance {:.3f}\n",
+      ranks, report.threads, report.threads == 1 ? "" : "s", 100 * use.task / all, 100 * use.message / all,
+      100 * use.output / all, 100 * use.wait / all, use.imbalance);
+}
+
+std::string rebalancingLine(const Report& report) {
+  const Rebalancing& change = report.rebalancing;
+  if (change.times == 0) return "";
+  return fmt::format(
+      "  patches changed ranks {} time{}, last after step {}: the busiest rank had {:.2f} times its share, "
+      "then {:.2f}\n",
+      change.times, change.times == 1 ? "" : "s", change.step, change.before, change.after);
+}
+
+std::string timeTable(const Report& report) {
+  std::string text = fmt::format("\n  {:<36} {:>10}\n", "wall time", "ms");
+  const auto row = [&](const std::string& name, double seconds) {
+    text += fmt::format("  {:<36} {:>10.2f}\n", name, 1e3 * seconds);
+  };
+  row("start-up", report.wallStartup);
+  row("time loop", report.wallLoop);
+  for (const TaskTime& task : report.tasks) row("  " + task.name, task.seconds);
+  if (report.patches > 1) row("  ghost exchange", report.exchange);
+  row("output", report.wallOutput);
+  return text + useLine(report) + rebalancingLine(report);
+}
+
+}  // namespace
+
+double EnergyBudget::unaccounted() const {
+  double rest = 0;
+  for (const auto& term : came) rest += term.second;
+  for (const auto& term : went) rest -= term.second;
+  return rest;
+}
+
+double EnergyBudget::greatest() const {
+  double most = 0;
+  for (const auto* terms : {&came, &went})
+    for (const auto& term : *terms) most = std::max(most, std::abs(term.second));
+  return most;
+}
+
+std::string toJson(const Report& report) {
+  Json json;
+  json["scene"] = report.scene;
+  json["title"] = report.title;
+  json["component"] = report.component;
+  json["version"] = report.version;
+  json["build"] = report.build;
+  json["layout"] = {{"dimension", report.dimension}, {"cells", report.cells}, {"h", report.spacing},
+                    {"patches", report.patches},     {"ranks", report.ranks}, {"threads", report.threads}};
+  json["steps"] = report.steps;
+  json["retries"] = report.retries;
+  json["time_step_limits"] = limitsOf(report);
+  json["time"] = report.time;
+  json["ended"] = report.ended;
+  json["failure"] = report.failure;
+  json["particles"] = report.particles;
+  json["particles_dropped"] = report.dropped;
+  json["particle_steps_per_second"] = report.wallLoop > 0 ? report.particleSteps / report.wallLoop : 0;
+  json["memory"] = {{"resident", report.memory.now}, {"peak", report.memory.peak}};
+  json["wall"] = wallOf(report);
+  json["errors"] = errorsOf(report);
+  json["unmeasured"] = report.unmeasured;
+  json["drift"] = driftOf(report);
+  if (!report.energies.came.empty()) json["energies"] = energiesOf(report);
+  json["tasks"] = tasksOf(report);
+  json["archive"] = report.archive;
+  json["unused_petsc_options"] = report.unusedOptions;
+  json["fingerprint"] = report.fingerprint;
+  return json.dump(2) + "\n";
+}
+
+std::string toText(const Report& report) {
+  std::string text =
+      fmt::format("{} steps to t = {:.6g} s ({}), {} cells", report.steps, report.time, report.ended, report.cells);
+  if (report.particles > 0) {
+    text += fmt::format(", {} particles", report.particles);
+    if (report.dropped > 0) text += fmt::format(" ({} left the grid)", report.dropped);
+    if (report.wallLoop > 0)
+      text += fmt::format(", {:.3g} million particle-steps/s", 1e-6 * report.particleSteps / report.wallLoop);
+  }
+  text += "\n" + limitLine(report) + errorTable(report) + driftTable(report) + energyTable(report) + timeTable(report);
+  if (!report.archive.empty()) text += fmt::format("\n  saved in {}\n", report.archive);
+  text += fmt::format("\n  fingerprint {}\n", report.fingerprint);
+  return text;
+}
+
+}  // namespace tushar::report

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/memory.hpp"
+#include "core/report/time_use.hpp"
+#include "core/tasks/prune.hpp"
+
+namespace tushar::report {
+
+/// Norms of one error; NaN where a norm has no meaning.
+struct ErrorNorms {
+  std::string field, place;
+  std::map<std::string, double> norms;  ///< L1, L2, max, relative
+  std::string unit;
+};
+
+/// Change of a total from the start to the end of a run.
+struct Drift {
+  std::string name;  ///< mass, momentum, energy
+  double start = 0, end = 0;
+  double change = 0;  ///< relative to the start where that is not 0, else absolute
+  bool relative = true;
+  std::string unit;
+};
+
+/// What energy came and went over a run, J.
+struct EnergyBudget {
+  std::vector<std::pair<std::string, double>> came, went;  ///< names and amounts; work done on others is negative
+
+  /// What came and has not been seen again.
+  double unaccounted() const;
+  /// The greatest amount: what `unaccounted` is small or great against.
+  double greatest() const;
+};
+
+/// The patches that have changed ranks in a run.
+struct Rebalancing {
+  int times = 0;
+  int step = 0;                  ///< after which they did so last
+  double before = 1, after = 1;  ///< costs of the rank that has most over the mean, then
+};
+
+/// Wall time of a task over the whole run.
+struct TaskTime {
+  std::string name;
+  double seconds = 0;
+};
+
+/// What a run has to say about itself.
+struct Report {
+  std::string scene, title, component, version, build;
+  int dimension = 0, patches = 0, ranks = 1, threads = 1;
+  long cells = 0, particles = 0, dropped = 0;
+  double spacing = 0;                               ///< least cell width, m
+  int steps = 0, retries = 0;                       ///< taken; undone and repeated
+  std::vector<std::pair<std::string, int>> limits;  ///< of the time step, and how many steps each has ruled
+  double time = 0;                                  ///< reached, s
+  std::string ended;                                ///< why: maxTime, max_Timesteps, max_wall_time, interrupted, failed
+  std::string failure, advice;                      ///< of a run that failed: the value that cannot be, and what to try
+  double particleSteps = 0;
+  ResidentMemory memory;                                 ///< after the last step, of the rank that has most
+  double wallStartup = 0, wallLoop = 0, wallOutput = 0;  ///< s
+  TimeUse use;
+  Rebalancing rebalancing;
+  std::vector<TaskTime> tasks;
+  double exchange = 0;  ///< s of the loop spent filling ghosts
+  std::vector<ErrorNorms> errors;
+  std::vector<std::string> unmeasured;  ///< why errors are left out, a sentence for each module that has none
+  std::vector<Drift> drifts;
+  EnergyBudget energies;  ///< empty where nobody asked
+  std::vector<std::string> kept;
+  std::vector<tasks::LeftOut> leftOut;
+  std::string fingerprint;
+  std::string archive;                     ///< folder, if anything was saved
+  std::vector<std::string> unusedOptions;  ///< given to PETSc, which no solve has looked at
+};
+
+/// As JSON: the keys are listed in README.md.
+std::string toJson(const Report& report);
+/// As a table for a terminal.
+std::string toText(const Report& report);
+
+}  // namespace tushar::report

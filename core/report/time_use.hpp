@@ -1,0 +1,23 @@
+#pragma once
+
+#include "core/base/mpi.hpp"
+#include "core/base/threads.hpp"
+
+namespace tushar::report {
+
+/// Where the time of the threads went, s of all threads of all ranks together.
+struct TimeUse {
+  double task = 0;       ///< in the bodies of tasks, and moving particles to other cells
+  double message = 0;    ///< packing, unpacking and copying ghosts
+  double output = 0;     ///< writing; the other threads wait meanwhile
+  double wait = 0;       ///< the rest: for others, or in between
+  double imbalance = 1;  ///< time of all loops over what it would be if each thread worked all the time
+
+  TimeUse() = default;
+  /// From what the threads had done before, over `wall` seconds with `outputSeconds` of output among them. Every rank
+  /// makes it.
+  TimeUse(const Threads::Use& before, const Threads& threads, double wall, double outputSeconds,
+          const mpi::Communicator& ranks);
+};
+
+}  // namespace tushar::report

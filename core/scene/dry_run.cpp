@@ -1,0 +1,113 @@
+#include "core/scene/dry_run.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <ctime>
+#include <fstream>
+#include <set>
+
+#include "core/scene/scene.hpp"
+#include "core/simulation/phases.hpp"
+#include "core/tasks/exchange.hpp"
+
+namespace tushar::scene {
+
+namespace {
+
+double processorSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+/// Memory of this process that is in use, MB.
+double residentMegabytes() {
+  long total = 0, resident = 0;
+  std::ifstream("/proc/self/statm") >> total >> resident;
+  return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
+}
+
+int rankInTheMiddle(const grid::Level& level) {
+  Index3 middle;
+  for (int d = 0; d < 3; ++d) middle[d] = level.cells().upper[d] / 2;
+  return level.ownerOf(level.patchOf(middle).id());
+}
+
+/// Plans the messages of graphs, and counts them.
+class Messages {
+ public:
+  Messages(const grid::Level& level, const data::VariableTable& table) : level_(level), table_(table) {}
+
+  void add(const tasks::TaskGraph& graph, DryRun& result) {
+    if (graph.tasks().empty()) return;
+    for (const tasks::CompiledTask& task : graph.tasks()) {
+      std::set<int> receivers;
+      for (const tasks::NumberedFill& fill : task.fills)
+        for (const auto& [rank, copies] : plans_.of(level_, tasks::reachOf(table_, fill)).outgoing) {
+          receivers.insert(rank);
+          if (!fill.particles) result.bytes += bytesOf(copies, table_[fill.variable].label->bytes);
+        }
+      result.messages += static_cast<int>(receivers.size());
+      neighbours_.insert(receivers.begin(), receivers.end());
+      if (task.task.kind == tasks::TaskKind::relocate) addRelocations(static_cast<int>(task.materials.size()), result);
+      if (task.task.perRank) ++result.agreements;  // on whether to begin
+    }
+    ++result.agreements;  // on how it went
+    result.neighbours = static_cast<int>(neighbours_.size());
+  }
+
+ private:
+  static double bytesOf(const std::vector<tasks::GhostCopy>& copies, std::size_t bytes) {
+    double all = 0;
+    for (const tasks::GhostCopy& copy : copies) all += static_cast<double>(copy.box.size() * bytes);
+    return all;
+  }
+  void addRelocations(int materials, DryRun& result) {
+    const auto& receivers = plans_.of(level_, {false, tasks::Emigration::neighbourhood}).incoming;
+    neighbours_.insert(receivers.begin(), receivers.end());
+    result.messages += materials * static_cast<int>(receivers.size());
+    result.agreements += materials;
+  }
+
+  const grid::Level& level_;
+  const data::VariableTable& table_;
+  tasks::GhostPlans plans_;
+  std::set<int> neighbours_;
+};
+
+}  // namespace
+
+DryRun dryRun(const std::string& scene, const std::vector<std::string>& overrides,
+              const simulation::Catalogue& catalogue, const grid::Workers& workers) {
+  const int rank = rankInTheMiddle(*readScene(scene, overrides, catalogue, workers, {0, workers.ranks}).level);
+  const double memoryBefore = residentMegabytes(), timeBefore = processorSeconds();
+  const simulation::Problem problem = readScene(scene, overrides, catalogue, workers, {rank, workers.ranks});
+  const grid::Level& level = *problem.level;
+  data::VariableTable table;
+  simulation::Phases phases(*problem.component, problem.analyses);
+  phases.compile(problem.analyses, problem.archive.saves, level, table);
+  DryRun result;
+  result.agreements = 1;  // on whether to stop
+  Messages messages(level, table);
+  for (const tasks::TaskGraph* graph : {&phases.stableTimeStep, &phases.timeAdvance, &phases.everyStep}) {
+    result.tasks += static_cast<int>(graph->tasks().size());
+    result.placements += static_cast<int>(graph->placements().size());
+    messages.add(*graph, result);
+  }
+  result.seconds = processorSeconds() - timeBefore;
+  result.megabytes = residentMegabytes() - memoryBefore;
+  result.rank = level.share().rank;
+  result.ranks = level.share().ranks;
+  result.patches = static_cast<int>(level.patches().size());
+  result.patchesOfAll = level.patchCount();
+  return result;
+}
+
+std::string toText(const DryRun& result) {
+  return fmt::format(
+      "rank {} of {}: {} of {} patches\n"
+      "  a step: {} tasks, run {} times; {} messages to {} neighbours, {:.4g} kB and particles; {} agreements of all "
+      "ranks\n"
+      "  compiled in {:.2f} ms of processor time with {:.2f} MB\n",
+      result.rank, result.ranks, result.patches, result.patchesOfAll, result.tasks, result.placements, result.messages,
+      result.neighbours, 1e-3 * result.bytes, result.agreements, 1e3 * result.seconds, result.megabytes);
+}
+
+}  // namespace tushar::scene

@@ -1,0 +1,269 @@
+#include "core/scene/scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+
+#include "core/input/schema.hpp"
+#include "core/simulation/phases.hpp"
+
+namespace tushar::scene {
+
+using input::Diagnostics;
+using input::Document;
+using input::Element;
+using simulation::Analysis;
+using simulation::AnalysisKind;
+using simulation::ArchiveSettings;
+using simulation::BoundaryLabel;
+using simulation::Catalogue;
+using simulation::Component;
+using simulation::ComponentKind;
+using simulation::MakeAnalysis;
+using simulation::MakeComponent;
+using simulation::MeasuredError;
+using simulation::Phases;
+using simulation::Problem;
+using simulation::SaveRequest;
+using simulation::TimeSettings;
+
+namespace {
+
+const std::vector<std::string> sharedSections{"Meta", "SimulationComponent", "Time", "DataArchiver",
+                                              "Grid", "DataAnalysis"};
+
+/// Sections of Uintah's without effect here, and why.
+const std::vector<std::pair<std::string, std::string>> idleSections{
+    {"LoadBalancer", "does nothing here: patches and tasks are placed without it"},
+    {"Scheduler", "does nothing here: patches and tasks are placed without it"},
+    {"ParallelOptions", "does nothing here: patches and tasks are placed without it"},
+    {"SimulationController", "does nothing here: sus has options of its own"},
+    {"Debug", "does nothing here: see sus --trace and --schedule"},
+    {"ParticlePosition", "does nothing here: particles start by the <res> of their bodies"},
+    {"InitialConditions", "does nothing here: no component reads it"},
+    {"CFD", "does nothing here: no component reads it"}};
+
+struct Meta {
+  std::string title;
+};
+const input::Schema<Meta>& metaSchema() {
+  static const input::Schema<Meta> schema = input::Schema<Meta>("Meta", "About the scene.")
+                                                .custom(
+                                                    "title",
+                                                    [](Meta& meta, const Element& element, Diagnostics&) {
+                                                      if (const auto title = element.child("title"))
+                                                        meta.title = title->text();
+                                                    },
+                                                    {"title"}, "its name")
+                                                .ignored("info", "for readers")
+                                                .ignored("description", "for readers");
+  return schema;
+}
+
+struct ComponentTag {
+  std::string type;
+};
+const input::Schema<ComponentTag>& componentSchema() {
+  static const input::Schema<ComponentTag> schema =
+      input::Schema<ComponentTag>("SimulationComponent", "The physics.")
+          .requiredAttribute("type", &ComponentTag::type, "1", "name of the component; sus --list names them");
+  return schema;
+}
+
+/// The section of that name; a missing or second one is a problem.
+std::optional<Element> section(const Element& root, const std::string& name, bool required, Diagnostics& diagnostics) {
+  const std::vector<Element> all = root.children(name);
+  if (all.empty()) {
+    if (required) diagnostics.error(root, fmt::format("the section <{}> is missing", name));
+    return {};
+  }
+  for (std::size_t k = 1; k < all.size(); ++k)
+    diagnostics.error(all[k], fmt::format("<{}> is given twice; the first is at {}", name, all[0].where().text()));
+  return all.front();
+}
+
+const ComponentKind* readComponentKind(const Element& root, const Catalogue& catalogue, Diagnostics& diagnostics) {
+  const auto tag = section(root, "SimulationComponent", true, diagnostics);
+  if (!tag) return nullptr;
+  const std::size_t before = diagnostics.size();
+  const ComponentTag read = componentSchema().read(*tag, diagnostics);
+  if (diagnostics.size() > before) return nullptr;
+  std::string type = read.type;
+  if (std::none_of(type.begin(), type.end(), [](unsigned char c) { return std::islower(c); }))  // as Uintah takes it
+    std::transform(type.begin(), type.end(), type.begin(), [](unsigned char c) { return std::tolower(c); });
+  const ComponentKind* kind = findKind(catalogue.components, type);
+  if (!kind) diagnostics.error(*tag, "type: " + input::choiceProblem(read.type, namesOf(catalogue.components)));
+  return kind;
+}
+
+void refuseUnknownSections(const Element& root, const ComponentKind* kind, const Catalogue& catalogue,
+                           Diagnostics& diagnostics) {
+  std::vector<std::string> known = sharedSections;
+  for (const ComponentKind& other : catalogue.components)
+    if (!kind || kind == &other)
+      for (const std::string& section : other.sections)
+        if (std::find(known.begin(), known.end(), section) == known.end()) known.push_back(section);
+  for (const Element& child : root.children())
+    if (const auto idle = std::find_if(idleSections.begin(), idleSections.end(),
+                                       [&](const auto& section) { return section.first == child.name(); });
+        idle != idleSections.end())
+      diagnostics.note(child, idle->second);
+    else if (std::find(known.begin(), known.end(), child.name()) == known.end())
+      diagnostics.error(child, fmt::format("unknown section <{}>{}; allowed here: {}", child.name(),
+                                           didYouMean(child.name(), known), fmt::join(known, ", ")));
+}
+
+struct ReadModule {
+  Element element;
+  MakeAnalysis make;
+};
+
+std::vector<ReadModule> readModules(const Element& root, const Catalogue& catalogue, Diagnostics& diagnostics) {
+  std::vector<ReadModule> modules;
+  const auto analysis = section(root, "DataAnalysis", false, diagnostics);
+  if (!analysis) return modules;
+  for (const Element& child : analysis->children()) {
+    if (child.name() != "Module") {
+      diagnostics.error(child, fmt::format("unknown tag <{}>{}; allowed here: Module", child.name(),
+                                           didYouMean(child.name(), {"Module"})));
+      continue;
+    }
+    const auto name = child.attribute("name");
+    const AnalysisKind* kind = name ? findKind(catalogue.analyses, *name) : nullptr;
+    if (!name)
+      diagnostics.error(child, "the attribute name is missing; there are " + alternatives(namesOf(catalogue.analyses)));
+    else if (!kind)
+      diagnostics.error(child, "name: " + input::choiceProblem(*name, namesOf(catalogue.analyses)));
+    else
+      modules.push_back({child, kind->read(child, diagnostics)});
+  }
+  return modules;
+}
+
+/// A report has one place for the errors of a field, and for an energy budget. Throws InputError for a module that
+/// measures what is `measured` already, and adds to it.
+void refuseMeasuredTwice(const Analysis& analysis, const Element& module, std::set<std::string>& measured) {
+  for (const MeasuredError& error : analysis.errors())
+    if (const std::string what = error.field + ", " + error.place; !measured.insert(what).second)
+      throw InputError({{module.where(), module.path(),
+                         fmt::format("the errors of '{}' are measured by a module above already; keep one", what)}});
+  if (!analysis.energies().empty() && !measured.insert("energies").second)
+    throw InputError({{module.where(), module.path(), "a module above keeps the energy budget already; keep one"}});
+}
+
+std::vector<std::unique_ptr<Analysis>> makeModules(const std::vector<ReadModule>& modules, const Component& component,
+                                                   const grid::Level& level) {
+  std::vector<std::unique_ptr<Analysis>> analyses;
+  std::vector<InputProblem> problems;
+  std::set<std::string> measured;
+  for (const ReadModule& module : modules) {
+    try {
+      analyses.push_back(module.make(component, level));
+      refuseMeasuredTwice(*analyses.back(), module.element, measured);
+    } catch (const InputError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+  return analyses;
+}
+
+/// Refuses intervals that the times of a run could not tell apart.
+void checkIntervals(const TimeSettings& time, const ArchiveSettings& archive, const Element& section,
+                    Diagnostics& diagnostics) {
+  const double least = simulation::timeResolution * std::max(std::abs(time.initTime), std::abs(time.maxTime));
+  const auto check = [&](double interval, const Element& element, const std::string& what) {
+    if (interval > 0 && interval <= least)
+      diagnostics.error(element,
+                        fmt::format("{}found {:g} s, expected more than {:g} s: times up to maxTime cannot tell "
+                                    "less apart",
+                                    what, interval, least));
+  };
+  if (const auto tag = section.child("outputInterval")) check(archive.outputInterval, *tag, "");
+  if (archive.checkpoint && archive.checkpoint->interval)
+    check(*archive.checkpoint->interval, *section.child("checkpoint"), "attribute 'interval': ");
+}
+
+/// Names what is wrong with the saved labels, even where the rest of the scene is wrong, too: the labels of a component
+/// and of its modules do not depend on the grid. Takes out, with a note, what Uintah has and nobody here. Says nothing
+/// where a module cannot be had: its labels are not known.
+void checkSaves(const MakeComponent& make, const std::vector<ReadModule>& modules, std::vector<SaveRequest>& saves,
+                Diagnostics& diagnostics) {
+  grid::Domain line;
+  line.upper = {1, 0, 0};
+  const grid::Level anyLevel(line);
+  const auto component = make(anyLevel);
+  std::vector<std::unique_ptr<Analysis>> analyses;
+  try {
+    analyses = makeModules(modules, *component, anyLevel);
+  } catch (const InputError&) {
+    return;
+  }
+  const Phases phases(*component, analyses);
+  const std::vector<std::string> foreign = component->foreignLabels();
+  std::erase_if(saves, [&](const SaveRequest& save) {
+    const bool isLacking = std::find(foreign.begin(), foreign.end(), save.label) != foreign.end() &&
+                           !phases.saveable().contains(save.label);
+    if (isLacking)
+      diagnostics.note(save.where, "DataArchiver/save",
+                       fmt::format("'{}' is not saved: nobody computes it here", save.label));
+    return isLacking;
+  });
+  for (const InputProblem& problem : phases.problemsOf(saves))
+    diagnostics.error(problem.where, problem.tagPath, problem.sentence);
+}
+
+}  // namespace
+
+Problem readScene(const std::string& path, const std::vector<std::string>& overrides, const Catalogue& catalogue,
+                  const grid::Workers& workers, grid::Share share) {
+  Diagnostics diagnostics;
+  Document document = Document::load(path, diagnostics);
+  diagnostics.throwIfAny();
+  for (const std::string& change : overrides) document.set(change, diagnostics);
+  const Element root = document.root();
+
+  Problem problem;
+  problem.scenePath = path;
+  problem.inputXml = document.text();
+  const ComponentKind* kind = readComponentKind(root, catalogue, diagnostics);
+  refuseUnknownSections(root, kind, catalogue, diagnostics);
+  if (const auto meta = section(root, "Meta", false, diagnostics))
+    problem.title = metaSchema().read(*meta, diagnostics).title;
+  if (const auto time = section(root, "Time", true, diagnostics)) problem.time = readTime(*time, diagnostics);
+  if (const auto archive = section(root, "DataArchiver", false, diagnostics)) {
+    problem.archive = readArchive(*archive, diagnostics);
+    checkIntervals(problem.time, problem.archive, *archive, diagnostics);
+  }
+  grid::Domain domain;
+  if (const auto grid = section(root, "Grid", true, diagnostics))
+    domain = readGrid(*grid, kind ? kind->boundaryLabels : std::vector<BoundaryLabel>{}, workers, diagnostics);
+  if (kind && kind->nodesBeyond) domain.nodesBeyond = kind->nodesBeyond(root);
+  MakeComponent makeComponent;
+  if (kind) makeComponent = kind->read(root, diagnostics);
+  const std::vector<ReadModule> modules = readModules(root, catalogue, diagnostics);
+  const bool modulesAreRight = std::all_of(modules.begin(), modules.end(), [](const auto& m) { return m.make; });
+  if (makeComponent && modulesAreRight) checkSaves(makeComponent, modules, problem.archive.saves, diagnostics);
+  diagnostics.throwIfAny();
+
+  problem.componentName = kind->name;
+  problem.level = std::make_unique<grid::Level>(domain, share);
+  problem.threads = workers.threadsFor(domain.resolution);
+  problem.component = makeComponent(*problem.level);
+  if (problem.component->mayRepeatStep()) problem.time.recomputeTimeStep = true;
+  problem.analyses = makeModules(modules, *problem.component, *problem.level);
+  problem.notes = diagnostics.notes();
+  return problem;
+}
+
+void describeSharedSections(std::ostream& out) {
+  metaSchema().describe(out);
+  componentSchema().describe(out);
+  describeTime(out);
+  describeArchive(out);
+  describeGrid(out);
+}
+
+}  // namespace tushar::scene

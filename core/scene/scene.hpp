@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/grid/choose_patches.hpp"
+#include "core/input/document.hpp"
+#include "core/simulation/catalogue.hpp"
+#include "core/simulation/problem.hpp"
+
+namespace tushar::scene {
+
+/// Reads a scene, applies the overrides of the command line (`PATH=VALUE`), checks everything, and builds the grid, the
+/// component and the analysis modules. Where the scene gives no patches, the grid gets as many as `workers` need.
+/// Throws InputError with all problems of the scene at once. Writes nothing.
+simulation::Problem readScene(const std::string& path, const std::vector<std::string>& overrides,
+                              const simulation::Catalogue& catalogue, const grid::Workers& workers = {},
+                              grid::Share share = {});
+
+/// The manual of the sections that every component shares: Time, DataArchiver, Grid.
+void describeSharedSections(std::ostream& out);
+
+/// The `Time` section.
+simulation::TimeSettings readTime(const input::Element& section, input::Diagnostics& diagnostics);
+/// The `DataArchiver` section.
+simulation::ArchiveSettings readArchive(const input::Element& section, input::Diagnostics& diagnostics);
+/// The `Grid` section; `boundaryLabels` are those that the component understands.
+grid::Domain readGrid(const input::Element& section, const std::vector<simulation::BoundaryLabel>& boundaryLabels,
+                      const grid::Workers& workers, input::Diagnostics& diagnostics);
+
+void describeTime(std::ostream& out);
+void describeArchive(std::ostream& out);
+void describeGrid(std::ostream& out);
+
+}  // namespace tushar::scene

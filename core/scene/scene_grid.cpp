@@ -1,0 +1,286 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "core/grid/choose_patches.hpp"
+#include "core/input/schema.hpp"
+#include "core/scene/scene.hpp"
+
+namespace tushar::scene {
+
+using input::Diagnostics;
+using input::Element;
+using input::Schema;
+using simulation::BoundaryLabel;
+
+namespace {
+
+/// More cells than this cannot be numbered by an int.
+constexpr double mostCells = 2147483647.0;
+
+const std::vector<std::string> conditionKinds{"symmetry", "Dirichlet", "Neumann"};
+
+struct GridBox {
+  std::string label;
+  Vec3 lower = Vec3::Zero(), upper = Vec3::Ones();
+  std::optional<Index3> resolution;
+  std::optional<Index3> patches;
+  std::optional<int> autoPatch;
+  Index3 extraCells{};
+};
+
+struct LevelSection {
+  std::vector<GridBox> boxes;
+  std::optional<Vec3> spacing;
+  Index3 periodic{};
+};
+
+struct ConditionSection {
+  std::string id, label, var;
+  std::optional<std::string> value;
+};
+
+struct FaceSection {
+  int face = 0;
+  std::vector<ConditionSection> conditions;
+};
+
+struct FacesSection {
+  std::vector<FaceSection> faces;
+};
+
+struct GridSection {
+  FacesSection boundaries;
+  LevelSection level;
+};
+
+const Schema<GridBox>& boxSchema() {
+  static const Schema<GridBox> schema =
+      Schema<GridBox>("Box", "The box that is divided into cells.")
+          .attributeValue("label", &GridBox::label, "", "1", "its name")
+          .required("lower", &GridBox::lower, "m", "its lower corner")
+          .required("upper", &GridBox::upper, "m", "its upper corner")
+          .optional("resolution", &GridBox::resolution, "1", "cells along x, y, z (or give <spacing> of the Level)",
+                    input::atLeast(1))
+          .optional(
+              "patches", &GridBox::patches, "1",
+              "patches along x, y, z; where neither this nor autoPatch is given, as many as the threads and ranks need",
+              input::atLeast(1))
+          .optional("autoPatch", &GridBox::autoPatch, "1", "about how many patches to make, in place of patches",
+                    input::atLeast(1))
+          .value("extraCells", &GridBox::extraCells, Index3{}, "1",
+                 "accepted for Uintah's sake: what a shape function needs around the grid follows from it",
+                 input::nonNegative())
+          .check([](const GridBox& box, const Element& element, Diagnostics& diagnostics) {
+            if (box.patches && box.autoPatch) diagnostics.error(element, "gives both patches and autoPatch; keep one");
+            for (int axis = 0; axis < 3; ++axis)
+              if (box.upper[axis] < box.lower[axis])
+                diagnostics.error(element, fmt::format("upper is below lower along {}: {:g} < {:g} m", "xyz"[axis],
+                                                       box.upper[axis], box.lower[axis]));
+          });
+  return schema;
+}
+
+const Schema<LevelSection>& levelSchema() {
+  static const Schema<LevelSection> schema =
+      Schema<LevelSection>("Level", "A grid of cells of one size.")
+          .list("Box", &LevelSection::boxes, boxSchema(), "the box that is divided into cells", 1)
+          .optional("spacing", &LevelSection::spacing, "m", "cell widths, in place of the resolution of the Box",
+                    input::positive())
+          .value("periodic", &LevelSection::periodic, Index3{}, "1", "1 along axes where the grid repeats without end",
+                 input::between(0, 1))
+          .check([](const LevelSection& level, const Element& element, Diagnostics& diagnostics) {
+            if (level.boxes.size() > 1)
+              diagnostics.error(element.children("Box")[1],
+                                fmt::format("a Level has one Box here; this is a second one (the first is at {})",
+                                            element.children("Box")[0].where().text()));
+            for (const GridBox& box : level.boxes)
+              if (box.resolution.has_value() == level.spacing.has_value())
+                diagnostics.error(element, box.resolution ? "gives both spacing and resolution; keep one"
+                                                          : "gives neither <resolution> of its Box nor <spacing>");
+          });
+  return schema;
+}
+
+const Schema<ConditionSection>& conditionSchema() {
+  static const Schema<ConditionSection> schema =
+      Schema<ConditionSection>("BCType", "What a variable does at a face.")
+          .attributeValue("id", &ConditionSection::id, "all", "1", "number of the material that it holds for, or all")
+          .requiredAttribute("label", &ConditionSection::label, "1", "the variable")
+          .requiredAttribute("var", &ConditionSection::var, "1", "symmetry, Dirichlet or Neumann")
+          .optional("value", &ConditionSection::value, "SI unit of the variable", "a number or a vector")
+          .check([](const ConditionSection& condition, const Element& element, Diagnostics& diagnostics) {
+            if (const std::string problem = input::choiceProblem(condition.var, conditionKinds); !problem.empty())
+              diagnostics.error(element, "var: " + problem);
+            else if (condition.var != "symmetry" && !condition.value)
+              diagnostics.error(element, "a " + condition.var + " condition needs a <value>");
+            if (const auto number = input::parse<int>(condition.id); condition.id != "all" && !(number && *number >= 0))
+              diagnostics.error(element,
+                                "id: found '" + condition.id + "', expected 'all' or the number of a material");
+          });
+  return schema;
+}
+
+const Schema<FaceSection>& faceSchema() {
+  static const Schema<FaceSection> schema =
+      Schema<FaceSection>("Face", "A side of the grid.")
+          .requiredChoiceAttribute("side", &FaceSection::face,
+                                   {{"x-", 0}, {"x+", 1}, {"y-", 2}, {"y+", 3}, {"z-", 4}, {"z+", 5}}, "which")
+          .list("BCType", &FaceSection::conditions, conditionSchema(), "what a variable does there");
+  return schema;
+}
+
+const Schema<GridSection>& gridSchema() {
+  static const Schema<FacesSection> faces =
+      Schema<FacesSection>("BoundaryConditions",
+                           "What happens at the sides of the grid; a side that is not named is free.")
+          .list("Face", &FacesSection::faces, faceSchema(), "a side");
+  static const Schema<GridSection> schema = Schema<GridSection>("Grid", "The grid and what happens at its sides.")
+                                                .section("BoundaryConditions", &GridSection::boundaries, faces)
+                                                .requiredSection("Level", &GridSection::level, levelSchema());
+  return schema;
+}
+
+Vec3 conditionValue(const ConditionSection& condition, bool isVector, const Element& element,
+                    Diagnostics& diagnostics) {
+  if (!condition.value) return Vec3::Zero();
+  const auto vector = input::parse<Vec3>(*condition.value);
+  const auto number = input::parse<double>(*condition.value);
+  const std::string& problem = isVector ? vector.problem : number.problem;
+  if (!problem.empty()) diagnostics.error(element, "value: " + problem);
+  return isVector ? vector.value.value_or(Vec3::Zero()) : Vec3(number.value.value_or(0), 0, 0);
+}
+
+/// Why a condition contradicts itself or, on a plane of symmetry, the plane; or nothing.
+std::string contradiction(const grid::BoundaryCondition& condition, bool onOddPlane) {
+  const bool symmetry = condition.kind == "symmetry";
+  if (symmetry != (condition.variable == "Symmetric"))
+    return fmt::format("found label '{}' with var '{}'; 'Symmetric' goes with 'symmetry', and with nothing else",
+                       condition.variable, condition.kind);
+  if (!symmetry && onOddPlane && (condition.kind == "Dirichlet" || condition.value != Vec3::Zero()))
+    return "this face is a plane of symmetry: beside it only a Neumann condition of 0 is right";
+  return {};
+}
+
+/// Whether a value may be given on a plane of symmetry: the images of its vector have the same where it lies in the
+/// plane.
+bool fitsPlane(const BoundaryLabel& label, const grid::BoundaryCondition& condition, int axis) {
+  return label.isEven && condition.kind == "Dirichlet" && (!label.isVector || condition.value[axis] == 0);
+}
+
+/// Those of a side across `axis`.
+void readConditions(const std::vector<ConditionSection>& given, const std::vector<Element>& tags, int axis,
+                    const std::vector<BoundaryLabel>& labels, std::vector<grid::BoundaryCondition>& conditions,
+                    Diagnostics& diagnostics) {
+  const bool onPlane = std::any_of(given.begin(), given.end(), [](const auto& one) { return one.var == "symmetry"; });
+  std::map<std::string, Location> seen;
+  for (std::size_t k = 0; k < given.size() && k < tags.size(); ++k) {
+    const BoundaryLabel* label = findKind(labels, given[k].label);
+    if (!label && !labels.empty())
+      diagnostics.error(tags[k], "label: " + input::choiceProblem(given[k].label, namesOf(labels)));
+    if (!label || !input::choiceProblem(given[k].var, conditionKinds).empty()) continue;
+    const bool isPlane = given[k].var == "symmetry";
+    if (isPlane && given[k].value) diagnostics.note(tags[k], "<value> does nothing on a plane of symmetry");
+    conditions.push_back(
+        {label->name, given[k].var,
+         isPlane ? Vec3(Vec3::Zero()) : conditionValue(given[k], label->isVector, tags[k], diagnostics),
+         input::parse<int>(given[k].id).value.value_or(-1)});
+    const bool onOddPlane = onPlane && !fitsPlane(*label, conditions.back(), axis);
+    if (const std::string problem = contradiction(conditions.back(), onOddPlane); !problem.empty())
+      diagnostics.error(tags[k], problem);
+    if (const auto [first, isNew] = seen.emplace(label->name + given[k].id, tags[k].where()); !isNew)
+      diagnostics.error(tags[k], fmt::format("{} has a condition on this face already, at {}; keep one", label->name,
+                                             first->second.text()));
+  }
+}
+
+void readFaces(const Element& section, const FacesSection& faces, const std::vector<BoundaryLabel>& labels,
+               grid::Domain& domain, Diagnostics& diagnostics) {
+  const auto group = section.child("BoundaryConditions");
+  if (!group) return;
+  const std::vector<Element> elements = group->children("Face");
+  std::map<std::string, Location> seen;
+  for (std::size_t f = 0; f < faces.faces.size() && f < elements.size(); ++f) {
+    readConditions(faces.faces[f].conditions, elements[f].children("BCType"), faces.faces[f].face / 2, labels,
+                   domain.boundaries.faces[static_cast<std::size_t>(faces.faces[f].face)], diagnostics);
+    const std::string side = elements[f].attribute("side").value_or("");
+    if (const auto [first, isNew] = seen.emplace(side, elements[f].where()); !isNew)
+      diagnostics.error(elements[f],
+                        fmt::format("side {} is given twice, the first time at {}", side, first->second.text()));
+  }
+}
+
+Index3 resolutionOf(const GridBox& box, const LevelSection& level, const Element& element, Diagnostics& diagnostics) {
+  if (box.resolution) return *box.resolution;
+  Index3 resolution = Index3::filled(1);
+  for (int axis = 0; level.spacing && axis < 3; ++axis) {
+    const double cells = (box.upper[axis] - box.lower[axis]) / (*level.spacing)[axis];
+    if (cells > mostCells || (cells > 0.5 && std::abs(cells - std::round(cells)) > 1e-6 * cells))
+      diagnostics.error(
+          element, fmt::format("spacing along {} gives {:g} cells, which is not a whole number", "xyz"[axis], cells));
+    else
+      resolution[axis] = std::max(1, static_cast<int>(std::lround(cells)));
+  }
+  return resolution;
+}
+
+/// `asker` says where the patches come from, if not from the scene.
+void checkSize(const grid::Domain& domain, const Element& element, const std::string& asker, Diagnostics& diagnostics) {
+  double cells = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    cells *= domain.resolution[axis];
+    if (domain.upper[axis] == domain.lower[axis] && domain.resolution[axis] > 1)
+      diagnostics.error(element, fmt::format("there are {} cells along {}, where the box has no extent",
+                                             domain.resolution[axis], "xyz"[axis]));
+    if (domain.patches[axis] > domain.resolution[axis])
+      diagnostics.error(element, fmt::format("there are {} patches along {}{}, but only {} cell(s)",
+                                             domain.patches[axis], "xyz"[axis], asker, domain.resolution[axis]));
+  }
+  if (domain.upper == domain.lower) diagnostics.error(element, "the box has no extent along any axis");
+  if (cells > mostCells)
+    diagnostics.error(element,
+                      fmt::format("resolution [{},{},{}] makes {:.3g} cells; the most is {:.3g}", domain.resolution[0],
+                                  domain.resolution[1], domain.resolution[2], cells, mostCells));
+}
+
+/// A side of a periodic axis takes no conditions; Uintah overlooks them.
+void checkPeriodic(const Element& section, const grid::Domain& domain, Diagnostics& diagnostics) {
+  const auto group = section.child("BoundaryConditions");
+  if (!group) return;
+  const std::string sides[] = {"x-", "x+", "y-", "y+", "z-", "z+"};
+  for (const Element& face : group->children("Face"))
+    for (int k = 0; k < 6; ++k)
+      if (domain.periodic[k / 2] != 0 && face.attribute("side") == sides[k])
+        diagnostics.note(face,
+                         fmt::format("does nothing: {} is periodic, so this side can have no condition", "xyz"[k / 2]));
+}
+
+}  // namespace
+
+grid::Domain readGrid(const Element& section, const std::vector<BoundaryLabel>& boundaryLabels,
+                      const grid::Workers& workers, Diagnostics& diagnostics) {
+  const std::size_t before = diagnostics.size();
+  const GridSection read = gridSchema().read(section, diagnostics);
+  grid::Domain domain;
+  readFaces(section, read.boundaries, boundaryLabels, domain, diagnostics);
+  if (diagnostics.size() > before || read.level.boxes.empty()) return domain;
+  const GridBox& box = read.level.boxes.front();
+  const Element element = section.child("Level")->children("Box").front();
+  domain.lower = box.lower;
+  domain.upper = box.upper;
+  domain.resolution = resolutionOf(box, read.level, element, diagnostics);
+  if (box.patches) domain.patches = *box.patches;
+  if (workers.layout) domain.patches = *workers.layout;
+  domain.periodic = read.level.periodic;
+  checkPeriodic(section, domain, diagnostics);
+  checkSize(domain, element, workers.layout ? " in -layout" : "", diagnostics);
+  if (!box.patches && !workers.layout && diagnostics.size() == before)
+    domain.patches =
+        grid::choosePatches(domain.resolution, box.autoPatch.value_or(workers.patchesFor(domain.resolution)));
+  return domain;
+}
+
+void describeGrid(std::ostream& out) { gridSchema().describe(out); }
+
+}  // namespace tushar::scene

@@ -1,0 +1,198 @@
+#include <fmt/format.h>
+
+#include "core/input/schema.hpp"
+#include "core/input/values.hpp"
+#include "core/scene/scene.hpp"
+
+namespace tushar::scene {
+
+using input::Diagnostics;
+using input::Element;
+using input::Schema;
+using simulation::ArchiveSettings;
+using simulation::CheckpointSettings;
+using simulation::SaveRequest;
+using simulation::TimeSettings;
+
+namespace {
+
+constexpr double unlimited = std::numeric_limits<double>::max();
+
+void refuseRestartStep(TimeSettings&, const Element& element, Diagnostics& diagnostics) {
+  const auto given = element.child("override_restart_delt");
+  if (given && input::parse<double>(given->text()).value != 0.0)
+    diagnostics.error(*given,
+                      fmt::format("found '{}', expected 0: a restart goes on as the run would have", given->text()));
+}
+
+const Schema<TimeSettings>& timeSchema() {
+  static const Schema<TimeSettings> schema =
+      Schema<TimeSettings>("Time", "How far a run goes, and in which steps.")
+          .required("maxTime", &TimeSettings::maxTime, "s", "time at which the run ends", input::positive())
+          .value("initTime", &TimeSettings::initTime, 0, "s", "time at which the run starts")
+          .value("delt_min", &TimeSettings::deltMin, 0, "s", "least time step", input::nonNegative())
+          .value("delt_max", &TimeSettings::deltMax, unlimited, "s", "greatest time step; 0 is no limit",
+                 input::nonNegative())
+          .value("delt_init", &TimeSettings::deltInit, unlimited, "s", "greatest first time step", input::positive())
+          .value("max_delt_increase", &TimeSettings::maxDeltIncrease, unlimited, "1",
+                 "by how much of the one before a time step may be longer; 0 or less is no limit")
+          .value("timestep_multiplier", &TimeSettings::timestepMultiplier, 1, "1",
+                 "factor on the time step that the physics allow", input::positive())
+          .value("max_Timesteps", &TimeSettings::maxTimesteps, std::numeric_limits<int>::max(), "1",
+                 "number of steps after which the run ends", input::positive())
+          .value("max_wall_time", &TimeSettings::maxWallTime, unlimited, "s",
+                 "wall time after which the run ends, its output written", input::positive())
+          .value("end_at_max_time_exactly", &TimeSettings::endAtMaxTimeExactly, false, "1",
+                 "shorten the last step so that it ends at maxTime")
+          .value("clamp_time_to_output", &TimeSettings::clampTimeToOutput, false, "1",
+                 "shorten steps so that outputs are at multiples of outputInterval")
+          .value(
+              "recompute_timestep", &TimeSettings::recomputeTimeStep, false, "1",
+              "where a value becomes impossible, undo the step and repeat it with half the time step, up to 20 times")
+          .ours()
+          .value("initial_delt_range", &TimeSettings::initialDeltRange, 0, "s",
+                 "time up to which delt_init holds; the first step at least", input::nonNegative())
+          .custom("override_restart_delt", refuseRestartStep, {"override_restart_delt"},
+                  "only 0: a restart goes on as the run would have; sus -restart --set Time/delt_max=… makes its steps "
+                  "shorter")
+          .check([](const TimeSettings& time, const Element& element, Diagnostics& diagnostics) {
+            if (time.maxTime <= time.initTime)
+              diagnostics.error(element, "maxTime is not after initTime; nothing would be computed");
+            if (time.deltMax > 0 && time.deltMin > time.deltMax)
+              diagnostics.error(element, "delt_min is greater than delt_max");
+          });
+  return schema;
+}
+
+const Schema<SaveRequest>& saveSchema() {
+  static const Schema<SaveRequest> schema =
+      Schema<SaveRequest>("save", "A variable to be saved.")
+          .requiredAttribute("label", &SaveRequest::label, "1", "its name, such as p.x or KineticEnergy")
+          .attributeValue("material", &SaveRequest::material, "", "1", "only of this material")
+          .ignoredAttribute("levels", "there is one level")
+          .ignoredAttribute("compression", "<compression> in <DataArchiver> holds for all")
+          .ignoredAttribute("table_lookup", "belongs to components that read tables")
+          .location(&SaveRequest::where, "label")
+          .location(&SaveRequest::whereOfMaterial, "material");
+  return schema;
+}
+
+/// Whether `one` asks for all that `other` asks for.
+bool covers(const SaveRequest& one, const SaveRequest& other) {
+  return one.label == other.label && (one.material.empty() || one.material == other.material);
+}
+
+/// Takes out what another save asks for, too.
+void takeOutRepeated(std::vector<SaveRequest>& saves, const std::vector<Element>& tags, Diagnostics& diagnostics) {
+  if (saves.size() != tags.size()) return;
+  std::vector<SaveRequest> kept;
+  for (std::size_t k = 0; k < saves.size(); ++k) {
+    std::size_t other = 0;
+    while (other < saves.size() &&
+           (other == k || !covers(saves[other], saves[k]) || (other > k && covers(saves[k], saves[other]))))
+      ++other;
+    if (other == saves.size())
+      kept.push_back(saves[k]);
+    else
+      diagnostics.note(tags[k],
+                       fmt::format("does nothing: '{}' is saved by {}", saves[k].label, saves[other].where.text()));
+  }
+  saves = std::move(kept);
+}
+
+void checkIntervals(const CheckpointSettings& checkpoint, const Element& element, Diagnostics& diagnostics) {
+  const int given = checkpoint.interval.has_value() + checkpoint.timestepInterval.has_value() +
+                    checkpoint.walltimeInterval.has_value() + checkpoint.walltimeIntervalHours.has_value();
+  if (given != 1)
+    diagnostics.error(element, fmt::format("gives {} of interval, timestepInterval, walltimeInterval and "
+                                           "walltimeIntervalHours; give one",
+                                           given == 0 ? "none" : "more than one"));
+  else if (checkpoint.walltimeStart && !checkpoint.walltimeInterval)
+    diagnostics.error(element, "gives walltimeStart without walltimeInterval");
+  else if (checkpoint.walltimeStartHours && !checkpoint.walltimeIntervalHours)
+    diagnostics.error(element, "gives walltimeStartHours without walltimeIntervalHours");
+}
+
+const Schema<CheckpointSettings>& checkpointSchema() {
+  using Settings = CheckpointSettings;
+  static const Schema<Settings> schema =
+      Schema<Settings>("checkpoint",
+                       "The whole state, from which sus -restart goes on: at the start, at one of these "
+                       "intervals, and at the end.")
+          .attributeValue("cycle", &Settings::cycle, 2, "1", "how many are kept", input::atLeast(1))
+          .optionalAttribute("interval", &Settings::interval, "s", "simulated time between them", input::positive())
+          .optionalAttribute("timestepInterval", &Settings::timestepInterval, "1", "steps between them",
+                             input::positive())
+          .optionalAttribute("walltimeInterval", &Settings::walltimeInterval, "s", "wall time between them",
+                             input::positive())
+          .optionalAttribute("walltimeStart", &Settings::walltimeStart, "s",
+                             "wall time of the first; walltimeInterval if it is left out", input::positive())
+          .optionalAttribute("walltimeIntervalHours", &Settings::walltimeIntervalHours, "h", "wall time between them",
+                             input::positive())
+          .optionalAttribute("walltimeStartHours", &Settings::walltimeStartHours, "h",
+                             "wall time of the first; walltimeIntervalHours if it is left out", input::positive())
+          .ignoredAttribute("lastTimestep", "the last state is always kept")
+          .check(checkIntervals);
+  return schema;
+}
+
+/// A level, or a word of Uintah's.
+void readCompression(ArchiveSettings& archive, const Element& element, Diagnostics& diagnostics) {
+  const auto given = element.child("compression");
+  if (!given) return;
+  const std::string word = given->text();
+  const auto level = input::parse<int>(word);
+  if (word.find("gzip") != std::string::npos)
+    archive.compression = 1;
+  else if (word == "none" || word == "rle" || word == "tryall")
+    archive.compression = 0;
+  else if (!level.problem.empty() || !input::satisfies(*level.value, input::between(0, 9)))
+    diagnostics.error(*given, "found '" + word + "', expected an integer from 0 to 9, gzip, none, rle or tryall");
+  else
+    archive.compression = *level.value;
+}
+
+const Schema<ArchiveSettings>& archiveSchema() {
+  static const Schema<ArchiveSettings> schema =
+      Schema<ArchiveSettings>("DataArchiver", "What is saved, where and how often.")
+          .required("filebase", &ArchiveSettings::filebase, "1", "name of the folder, such as sod.uda")
+          .value("outputInterval", &ArchiveSettings::outputInterval, 0, "s", "time between outputs",
+                 input::nonNegative())
+          .value("outputTimestepInterval", &ArchiveSettings::outputTimestepInterval, 0, "1", "steps between outputs",
+                 input::nonNegative())
+          .flag("outputInitTimestep", &ArchiveSettings::outputInitTimestep, "also save the state at the start")
+          .flag("outputLastTimestep", &ArchiveSettings::outputLastTimestep, "also save the state at the end")
+          .flag("outputDoubleAsFloat", &ArchiveSettings::doubleAsFloat, "save with 7 digits")
+          .custom("compression", readCompression, {"compression"},
+                  "level of gzip from 0 for none, the default, to 9; "
+                  "gzip is 1, none, rle and tryall are 0")
+          .ignoredAttribute("type", "there is one kind of archive: HDF5 with an index for ParaView")
+          .ignored("save_crack_geometry", "there are no cracks")
+          .ignored("PIDX", "there is one kind of archive: HDF5 with an index for ParaView")
+          .list("save", &ArchiveSettings::saves, saveSchema(), "a variable to be saved")
+          .section("checkpoint", &ArchiveSettings::checkpoint, checkpointSchema())
+          .check([](const ArchiveSettings& archive, const Element& element, Diagnostics& diagnostics) {
+            if (archive.outputInterval > 0 && archive.outputTimestepInterval > 0)
+              diagnostics.error(element, "gives both outputInterval and outputTimestepInterval; keep one");
+            if (archive.filebase.find('/') != std::string::npos || archive.filebase == "." || archive.filebase == "..")
+              diagnostics.error(*element.child("filebase"),
+                                "found '" + archive.filebase +
+                                    "', expected the name of a folder within the one where sus is started");
+          });
+  return schema;
+}
+
+}  // namespace
+
+TimeSettings readTime(const Element& section, Diagnostics& diagnostics) {
+  return timeSchema().read(section, diagnostics);
+}
+ArchiveSettings readArchive(const Element& section, Diagnostics& diagnostics) {
+  ArchiveSettings archive = archiveSchema().read(section, diagnostics);
+  takeOutRepeated(archive.saves, section.children("save"), diagnostics);
+  return archive;
+}
+void describeTime(std::ostream& out) { timeSchema().describe(out); }
+void describeArchive(std::ostream& out) { archiveSchema().describe(out); }
+
+}  // namespace tushar::scene

@@ -1,0 +1,93 @@
+#include "core/simulation/checkpoint_file.hpp"
+
+#include <fmt/format.h>
+
+#include "core/collect/gather.hpp"
+#include "core/collect/stored_state.hpp"
+#include "core/output/archive_files.hpp"
+
+namespace tushar::simulation {
+
+namespace {
+
+constexpr int format = 1;
+
+[[noreturn]] void refuse(const output::Hdf5Input& file, const std::string& sentence) {
+  throw InputError({{{file.path().string(), 0, 0}, "", sentence}});
+}
+
+void writeGrid(output::Hdf5File& file, const output::GridInfo& grid) {
+  file.group("/grid");
+  file.attribute("/grid", "lower", grid.lower);
+  file.attribute("/grid", "spacing", grid.spacing);
+  file.attribute("/grid", "cells", grid.cells);
+  file.attribute("/grid", "dimension", grid.dimension);
+}
+
+bool isSameGrid(const output::Hdf5Input& file, const output::GridInfo& grid) {
+  return file.vector("/grid", "lower") == grid.lower && file.vector("/grid", "spacing") == grid.spacing &&
+         file.index("/grid", "cells") == grid.cells && file.integer("/grid", "dimension") == grid.dimension;
+}
+
+void checkScene(const output::Hdf5Input& file, const Problem& problem) {
+  if (const int found = file.integer("/", "format"); found != format)
+    refuse(file, fmt::format("the checkpoint has format {}, and this sus reads format {}; it was written by version {}",
+                             found, format, file.text("/", "version")));
+  if (const int found = file.integer("/", "step"); found != problem.restart->step)
+    refuse(file,
+           fmt::format("the checkpoint is of step {}; give its folder the name {}", found, output::stepName(found)));
+  if (const std::string found = file.text("/", "component"); found != problem.componentName)
+    refuse(file,
+           fmt::format("the checkpoint is of component '{}', and the scene has '{}'", found, problem.componentName));
+  if (!isSameGrid(file, collect::gridInfo(*problem.level)))
+    refuse(file, "the checkpoint has another grid than the scene; patches may change, cells may not");
+}
+
+collect::StateNames stateNames(const RunState& run) { return {run.phases.lasting(), run.phases.materials()}; }
+
+/// All but the state.
+void writeHeader(output::Hdf5File& file, const RunState& run, const CheckpointTarget& target) {
+  file.attribute("/", "format", format);
+  file.attribute("/", "step", run.time.step());
+  file.attribute("/", "time", run.time.time());
+  file.attribute("/", "delT", run.time.delT());
+  file.attribute("/", "dropped", static_cast<std::uint64_t>(target.dropped));
+  file.attribute("/", "version", std::string(TUSHAR_VERSION));
+  file.attribute("/", "component", run.problem.componentName);
+  writeGrid(file, collect::gridInfo(*run.problem.level));
+  file.text("/scene", run.problem.inputXml);
+  file.text("/archive/index", target.point.index);
+  file.text("/archive/xdmf", target.point.xdmf);
+  for (std::size_t k = 0; k < run.totalsAtStart.size(); ++k) {
+    const auto& [name, label] = run.phases.totals()[k];
+    const std::vector<double>& total = run.totalsAtStart[k];
+    file.dataset("/totals/" + name, {name, "", label, 1, total}, {total.size()});
+  }
+}
+
+}  // namespace
+
+void writeCheckpoint(RunState& run, const CheckpointTarget* target) {
+  if (!target) return collect::writeState(nullptr, run.warehouse, stateNames(run));
+  output::Hdf5File file(target->path, false, 0);
+  writeHeader(file, run, *target);
+  collect::writeState(&file, run.warehouse, stateNames(run));
+  file.close();
+}
+
+void readCheckpoint(RunState& run) {
+  const output::Hdf5Input file(run.problem.restart->state());
+  checkScene(file, run.problem);
+  collect::readState(file, run.warehouse, stateNames(run), run.phases.state());
+  run.time.resume(file.integer("/", "step"), file.real("/", "time"), file.real("/", "delT"));
+  if (run.ranks.isFirst()) run.scheduler.relocation().setDropped(static_cast<long>(file.count("/", "dropped")));
+  for (const auto& total : run.phases.totals())
+    run.totalsAtStart.push_back(std::get<std::vector<double>>(file.dataset("/totals/" + total.first)));
+}
+
+output::ArchivePoint archivePointOf(const RunState& run) {
+  const output::Hdf5Input file(run.problem.restart->state());
+  return {run.time.step(), run.time.time(), file.text("/archive/index"), file.text("/archive/xdmf")};
+}
+
+}  // namespace tushar::simulation

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+
+#include "core/output/archive.hpp"
+#include "core/simulation/run_state.hpp"
+
+namespace tushar::simulation {
+
+// A checkpoint's file.
+//
+//     /                  attributes format, step, time, delT, dropped, version, component
+//     /grid              attributes lower, spacing, cells, dimension
+//     /scene             the scene with its overrides
+//     /archive/index, xdmf    what index.xml and the XDMF file of the archive said
+//     /totals/<name>     mass, momentum and energy at the very start, for the drift of the report
+//     and the state: see core/collect/stored_state.hpp
+
+/// A place for the file of a checkpoint, and what it holds beside the state.
+struct CheckpointTarget {
+  std::filesystem::path path;
+  output::ArchivePoint point;  ///< how far the archive is
+  long dropped = 0;            ///< particles that have left the grid, on all ranks
+};
+
+/// Writes the state of a run as it is now. All ranks call it: rank 0 with the target, the others with null.
+void writeCheckpoint(RunState& run, const CheckpointTarget* target);
+
+/// Restores a run from the checkpoint named in its problem: the variables, step and time, dropped particles, and totals
+/// at the start. Throws InputError for a checkpoint of another format, step, component or grid. All ranks call it.
+void readCheckpoint(RunState& run);
+
+/// How far the archive was when the checkpoint of a restarted run was written; the run has read the checkpoint.
+output::ArchivePoint archivePointOf(const RunState& run);
+
+}  // namespace tushar::simulation

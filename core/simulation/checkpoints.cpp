@@ -1,0 +1,60 @@
+#include "core/simulation/checkpoints.hpp"
+
+#include <fmt/format.h>
+
+#include "core/base/trace.hpp"
+#include "core/output/checkpoint_store.hpp"
+#include "core/simulation/checkpoint_file.hpp"
+
+namespace tushar::simulation {
+
+Checkpoints::Checkpoints(RunState& run, Outputs& outputs) : run_(run), outputs_(outputs) {
+  if (const auto& asked = run.problem.archive.checkpoint) control_.emplace(*asked, run.problem.time.initTime);
+}
+
+void Checkpoints::resume() {
+  readCheckpoint(run_);
+  run_.clock.agree(run_.ranks);
+  if (control_) control_->note(run_.time.time(), run_.clock.elapsed());
+  last_ = run_.time.step();
+}
+
+bool Checkpoints::isDue() const {
+  return control_ && control_->isDue(run_.time.step(), run_.time.time(), run_.clock.elapsed());
+}
+
+void Checkpoints::writeFirst() {
+  if (control_) write();
+}
+
+void Checkpoints::writeLast() {
+  const bool isCutShort = !run_.time.done();
+  if (outputs_.folder().empty() || !(control_ || isCutShort)) return;
+  write();
+  if (isCutShort)
+    run_.progress.line(fmt::format("step {:>6}  t = {:<12.6g} sus -restart {} goes on from here", run_.time.step(),
+                                   run_.time.time(), outputs_.folder()));
+}
+
+void Checkpoints::write() {
+  if (last_ == run_.time.step()) return;
+  const auto started = Clock::now();
+  const trace::Span span(trace::Kind::output, "checkpoint");
+  const long dropped = run_.ranks.sum(run_.scheduler.relocation().dropped());
+  if (output::Archive* archive = outputs_.archive()) {
+    const output::ArchivePoint point = archive->sync(run_.time.step(), run_.time.time());
+    const int cycle = run_.problem.archive.checkpoint.value_or(CheckpointSettings{}).cycle;
+    output::CheckpointStore(archive->folder(), cycle).write(run_.time.step(), [&](const std::filesystem::path& folder) {
+      const CheckpointTarget target{folder / stateFile, point, dropped};
+      writeCheckpoint(run_, &target);
+    });
+  } else {
+    writeCheckpoint(run_, nullptr);
+  }
+  run_.clock.agree(run_.ranks);
+  last_ = run_.time.step();
+  if (control_) control_->note(run_.time.time(), run_.clock.elapsed());
+  seconds_ += secondsSince(started);
+}
+
+}  // namespace tushar::simulation

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+
+#include "core/simulation/checkpoint_control.hpp"
+#include "core/simulation/outputs.hpp"
+#include "core/simulation/run_state.hpp"
+
+namespace tushar::simulation {
+
+/// The checkpoints of a run, in the folder of its archive: when they are due, and which was the last. All ranks make
+/// the same calls.
+class Checkpoints {
+ public:
+  Checkpoints(RunState& run, Outputs& outputs);
+
+  /// Reads the checkpoint from which the run continues. Throws InputError for one that does not fit the scene.
+  void resume();
+  /// Writes a checkpoint of the start, if the scene asks for checkpoints.
+  void writeFirst();
+  /// Writes a checkpoint of the end, if the run has an archive and was cut short, or the scene asks for checkpoints.
+  void writeLast();
+  /// Whether a checkpoint is due after the last step.
+  bool isDue() const;
+  /// Writes a checkpoint, unless this step has one.
+  void write();
+
+  /// Wall time spent writing, s.
+  double seconds() const { return seconds_; }
+
+ private:
+  RunState& run_;
+  Outputs& outputs_;
+  std::optional<CheckpointControl> control_;  ///< empty if the scene asks for none
+  int last_ = -1;                             ///< step of the last that was written or read
+  double seconds_ = 0;
+};
+
+}  // namespace tushar::simulation

@@ -1,0 +1,119 @@
+#include "core/simulation/outputs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/base/trace.hpp"
+#include "core/output/checkpoint_store.hpp"
+#include "core/simulation/checkpoint_file.hpp"
+#include "core/simulation/snapshot_of.hpp"
+
+namespace tushar::simulation {
+
+Outputs::Outputs(RunState& run, std::filesystem::path parent)
+    : run_(run),
+      parent_(std::move(parent)),
+      times_(run.problem.time.initTime, run.problem.archive.outputInterval),
+      saves_(!run.phases.savedFields().empty() || !run.phases.savedGlobals().empty() || samples()) {}
+
+void Outputs::lockArchive() {
+  run_.ranks.onFirst([&] { lock_.emplace(run_.problem.restart->archive); });
+}
+
+void Outputs::open() {
+  const ArchiveSettings& settings = run_.problem.archive;
+  const bool goesOn = run_.problem.restart.has_value();
+  if (!goesOn && !saves_ && !settings.checkpoint) return;
+  const output::ArchiveOptions how{settings.doubleAsFloat, settings.compression, TUSHAR_VERSION};
+  run_.ranks.onFirst([&] { goesOn ? reopenArchive(how) : makeArchive(how); });
+  folder_ = run_.ranks.broadcast(archive_ ? archive_->folder().string() : "");
+  last_ = run_.ranks.broadcast(archive_ ? archive_->lastStep() : -1);
+}
+
+void Outputs::makeArchive(const output::ArchiveOptions& how) {
+  const Problem& problem = run_.problem;
+  archive_ = std::make_unique<output::Archive>(parent_ / problem.archive.filebase, problem.inputXml, how);
+  lock_.emplace(archive_->folder());
+}
+
+void Outputs::reopenArchive(const output::ArchiveOptions& how) {
+  const Problem& problem = run_.problem;
+  const Restart& restart = *problem.restart;
+  const output::ArchivePoint from = archivePointOf(run_);
+  output::CheckpointStore(restart.archive, 1).goBackTo(restart.step);
+  archive_ = std::make_unique<output::Archive>(restart.archive, problem.archive.filebase, from, problem.inputXml, how);
+  run_.progress.line(fmt::format("step {:>6}  t = {:<12.6g} goes on in {}", run_.time.step(), run_.time.time(),
+                                 archive_->folder().string()));
+}
+
+void Outputs::saveStart() {
+  saveGlobals();
+  if (run_.problem.archive.outputInitTimestep) save();
+}
+
+void Outputs::saveGlobals() {
+  if (folder_.empty() || (run_.phases.savedGlobals().empty() && !samples())) return;
+  run_.diagnose(run_.phases.everyStep);
+  for (const auto& analysis : run_.problem.analyses)
+    if (analysis->isSampleDue()) sample(*analysis);
+  if (archive_) appendGlobals();
+}
+
+void Outputs::appendGlobals() {
+  const auto started = Clock::now();
+  for (const std::string& name : run_.phases.savedGlobals()) {
+    const data::Label& label = *run_.table[run_.table.find(name, -1)].label;
+    const std::vector<double> values = run_.reduction(name);
+    if (values.empty()) continue;  // of a step: there has been none yet
+    archive_->appendGlobal({name, std::string(label.unit), std::string(label.description), run_.time.time(), values});
+  }
+  seconds_ += secondsSince(started);
+}
+
+bool Outputs::samples() const {
+  const auto& analyses = run_.problem.analyses;
+  return std::any_of(analyses.begin(), analyses.end(),
+                     [](const auto& analysis) { return !analysis->samples().empty(); });
+}
+
+void Outputs::sample(Analysis& analysis) {
+  const auto started = Clock::now();
+  output::Snapshot snapshot = snapshotOf(run_, analysis.samples());
+  output::load(snapshot);
+  run_.ranks.onFirst([&] { analysis.sample(snapshot, folder_); });
+  seconds_ += secondsSince(started);
+}
+
+bool Outputs::isDue() const {
+  const int every = run_.problem.archive.outputTimestepInterval;
+  return (every > 0 && run_.time.step() % every == 0) || times_.isReached(run_.time.time());
+}
+
+void Outputs::saveIfDue() {
+  const bool due = isDue();
+  passMilestones();
+  if (due) save();
+}
+
+void Outputs::save() {
+  if (!saves_ || last_ == run_.time.step()) return;
+  run_.diagnose(run_.phases.everyOutput);
+  const auto started = Clock::now();
+  const trace::Span span(trace::Kind::output, "save");
+  output::Snapshot state = snapshotOf(run_, run_.phases.savedFields());
+  for (const auto& analysis : run_.problem.analyses)
+    for (output::Array& column : analysis->exactProfile(*run_.problem.level))
+      state.reference.push_back(std::move(column));
+  run_.ranks.onFirst([&] { archive_->write(state); });
+  last_ = run_.time.step();
+  seconds_ += secondsSince(started);
+  run_.progress.line(fmt::format("step {:>6}  t = {:<12.6g} dt = {:<10.4g} saved in {}", run_.time.step(),
+                                 run_.time.time(), run_.time.delT(), folder_));
+}
+
+void Outputs::flush() {
+  if (archive_) archive_->flush();
+}
+
+}  // namespace tushar::simulation

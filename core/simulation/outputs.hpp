@@ -1,0 +1,68 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/output/archive.hpp"
+#include "core/output/folder_lock.hpp"
+#include "core/simulation/run_state.hpp"
+
+namespace tushar::simulation {
+
+/// The archive of a run, and what is saved in its folder: outputs, globals, and the samples of analysis modules. All
+/// ranks make the same calls; rank 0 writes.
+class Outputs {
+ public:
+  /// A new archive will be made in this folder; empty: the current one.
+  Outputs(RunState& run, std::filesystem::path parent);
+
+  /// Locks the folder of the run that this one continues. Throws FileError if another process has locked it.
+  void lockArchive();
+  /// Makes an archive, if the scene asks for outputs, globals, samples or checkpoints. A restarted run, which has read
+  /// its checkpoint, continues the archive of the run before. Throws FileError.
+  void open();
+  /// Saves the globals and, if the scene asks for it, an output of the start.
+  void saveStart();
+  /// Saves the globals, and the samples that are due, after a step.
+  void saveGlobals();
+  /// Writes an output after a step, if one is due.
+  void saveIfDue();
+  /// Writes an output, if the scene asks for any and this step has none.
+  void save();
+  /// Writes what the archive keeps in memory.
+  void flush();
+
+  /// Passes the output times up to now.
+  void passMilestones() { times_.pass(run_.time.time()); }
+  /// The next output time, s; infinity if the scene gives no interval.
+  double nextTime() const { return times_.next(); }
+  /// The folder of the archive; empty if there is none.
+  const std::string& folder() const { return folder_; }
+  /// The archive; null if there is none, and on all ranks but rank 0.
+  output::Archive* archive() const { return archive_.get(); }
+  /// Wall time spent collecting and writing, s.
+  double seconds() const { return seconds_; }
+
+ private:
+  void makeArchive(const output::ArchiveOptions& how);
+  void reopenArchive(const output::ArchiveOptions& how);
+  bool isDue() const;
+  /// Whether some analysis module samples particles during the run.
+  bool samples() const;
+  void sample(Analysis& analysis);
+  void appendGlobals();
+
+  RunState& run_;
+  std::filesystem::path parent_;
+  std::optional<output::FolderLock> lock_;    ///< on the archive's folder
+  std::unique_ptr<output::Archive> archive_;  ///< on rank 0
+  std::string folder_;
+  Milestones times_;
+  int last_ = -1;       ///< step of the last output
+  bool saves_ = false;  ///< whether the scene asks for outputs, globals or samples
+  double seconds_ = 0;
+};
+
+}  // namespace tushar::simulation

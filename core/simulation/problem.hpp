@@ -1,0 +1,31 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/grid/level.hpp"
+#include "core/simulation/analysis.hpp"
+#include "core/simulation/component.hpp"
+#include "core/simulation/restart.hpp"
+#include "core/simulation/settings.hpp"
+
+namespace tushar::simulation {
+
+/// Everything that a checked scene comes down to.
+struct Problem {
+  std::string scenePath, title, componentName;
+  std::string inputXml;             ///< the scene with its overrides, for the archive
+  std::vector<InputProblem> notes;  ///< on parts of the scene that have no effect
+  TimeSettings time;
+  ArchiveSettings archive;
+  std::unique_ptr<grid::Level> level;
+  int threads = 1;
+  std::unique_ptr<Component> component;
+  std::vector<std::unique_ptr<Analysis>> analyses;
+  std::optional<Restart> restart;  ///< where the run goes on; none where it starts
+};
+
+}  // namespace tushar::simulation

@@ -1,0 +1,55 @@
+#include "core/simulation/rebalancer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/base/trace.hpp"
+
+namespace tushar::simulation {
+
+void Rebalancer::balanceAtStart() {
+  if (run_.ranks.isAlone()) return;
+  std::vector<double> costs;
+  for (const grid::Patch& patch : run_.problem.level->patches()) {
+    int particles = 0;
+    for (int material = 0; material < run_.materials(); ++material)
+      particles += run_.warehouse.particles(data::Generation::old, material, patch.id()).owned();
+    costs.push_back(Balance::costOf(patch.cells().size(), particles));
+  }
+  balance(costs);
+}
+
+void Rebalancer::balanceIfDue() {
+  if (balance_.isDue()) balance(run_.scheduler.takeCosts());
+}
+
+void Rebalancer::balance(const std::vector<double>& costs) {
+  grid::Level& level = *run_.problem.level;
+  std::vector<double> all(static_cast<std::size_t>(level.patchCount()));
+  std::copy(costs.begin(), costs.end(), all.begin() + level.firstPatch());
+  run_.ranks.max(all);
+  const auto firsts = balance_.better(all, level.firsts(), run_.time.step());
+  if (!firsts) return;
+  const auto started = Clock::now();
+  const trace::Span span(trace::Kind::message, "give patches to other ranks");
+  tasks::migrate(level, run_.warehouse, luggage(), *firsts);
+  run_.scheduler.forgetLayout();
+  balance_.noteChange(run_.ranks.max(secondsSince(started)));
+  const Rebalancing& change = balance_.report();
+  run_.progress.line(
+      fmt::format("step {:>6}  patches change ranks: the busiest had {:.2f} times its share, and has {:.2f} now",
+                  run_.time.step(), change.before, change.after));
+}
+
+tasks::Luggage Rebalancer::luggage() const {
+  tasks::Luggage luggage{run_.materials(), {}};
+  for (const std::string& name : run_.phases.lasting())
+    for (int material = -1; material < luggage.materials; ++material)
+      if (const int number = run_.table.find(name, material);
+          number >= 0 && run_.table[number].label->centring != data::Centring::reduction)
+        luggage.variables.push_back(number);
+  return luggage;
+}
+
+}  // namespace tushar::simulation

@@ -1,0 +1,112 @@
+#include "core/simulation/run_report.hpp"
+
+#include "core/collect/gather.hpp"
+#include "core/report/drift.hpp"
+#include "core/report/error_norms.hpp"
+
+namespace tushar::simulation {
+
+using report::Report;
+
+void RunReport::beginLoop(double outputSeconds) {
+  loop_started_ = Clock::now();
+  output_before_ = outputSeconds;
+  use_before_ = run_.scheduler.threads().use();
+}
+
+void RunReport::noteStep() {
+  for (int material = 0; material < run_.materials(); ++material)
+    for (const grid::Patch& patch : run_.problem.level->patches())
+      particle_steps_ += run_.warehouse.particles(data::Generation::old, material, patch.id()).owned();
+}
+
+void RunReport::endLoop(double outputSeconds) {
+  const double output = outputSeconds - output_before_;
+  loop_ = secondsSince(loop_started_) - output;
+  use_ = report::TimeUse(use_before_, run_.scheduler.threads(), secondsSince(loop_started_), output, run_.ranks);
+}
+
+Report RunReport::make() {
+  const ResidentMemory memory = residentMemory();
+  run_.warehouse.releaseFreeMemory();
+  Report report;
+  report.memory = {run_.ranks.max(memory.now), run_.ranks.max(memory.peak)};
+  addLayout(report);
+  addProgress(report);
+  addTasks(report);
+  addDrifts(report);
+  addErrors(report);
+  report.fingerprint = collect::fingerprint(run_.warehouse, run_.phases.state(), run_.materials());
+  return report;
+}
+
+void RunReport::addLayout(Report& report) {
+  const Problem& problem = run_.problem;
+  report.scene = problem.scenePath;
+  report.title = problem.title;
+  report.component = problem.componentName;
+  report.version = TUSHAR_VERSION;
+  report.build = TUSHAR_BUILD_TYPE;
+  report.dimension = problem.level->dimension();
+  report.patches = problem.level->patchCount();
+  report.ranks = run_.ranks.size();
+  report.threads = run_.scheduler.threads().count();
+  report.spacing = problem.level->minSpacing();
+  report.cells = static_cast<long>(problem.level->cells().size());
+}
+
+void RunReport::addProgress(Report& report) {
+  report.particles = collect::particleCount(run_.warehouse, run_.materials());
+  report.dropped = run_.ranks.sum(run_.scheduler.relocation().dropped());
+  report.steps = run_.time.step();
+  report.retries = run_.time.retries();
+  for (const auto& [limit, steps] : run_.time.limits())
+    report.limits.emplace_back(limit.text().empty() ? "unnamed" : limit.text(), steps);
+  report.time = run_.time.time();
+  report.particleSteps = static_cast<double>(run_.ranks.sum(particle_steps_));
+  report.wallStartup = start_up_;
+  report.wallLoop = loop_;
+  report.use = use_;
+}
+
+void RunReport::addTasks(Report& report) {
+  const Phases& phases = run_.phases;
+  for (const tasks::TaskGraph* graph : {&phases.stableTimeStep, &phases.timeAdvance, &phases.everyStep}) {
+    for (const tasks::CompiledTask& task : graph->tasks()) {
+      report.tasks.push_back({task.task.name, task.seconds});
+      report.kept.push_back(task.task.name);
+      report.exchange += task.exchangeSeconds;
+    }
+    if (graph == &phases.everyStep) continue;
+    for (const tasks::LeftOut& task : graph->leftOut()) report.leftOut.push_back(task);
+  }
+}
+
+void RunReport::addDrifts(Report& report) {
+  const Totals& before = run_.totalsAtStart;
+  const Totals after = run_.measureTotals(run_.phases.report);
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    const auto& [name, label] = run_.phases.totals()[k];
+    const std::string unit(run_.table[run_.table.find(label, -1)].label->unit);
+    report.drifts.push_back(report::driftOf(name, before[k], after[k], unit));
+  }
+}
+
+void RunReport::addErrors(Report& report) {
+  for (const auto& analysis : run_.problem.analyses) {
+    if (std::string why = analysis->whyUnmeasured(); !why.empty()) {
+      report.unmeasured.push_back(std::move(why));
+      continue;
+    }
+    for (const EnergyTerm& term : analysis->energies()) {
+      auto& side = term.side == EnergyTerm::Side::came ? report.energies.came : report.energies.went;
+      side.emplace_back(term.name, run_.reduction(term.label->name).front());
+    }
+    for (const MeasuredError& error : analysis->errors()) {
+      report::ErrorNorms norms = report::normsOf(error, run_.reduction(error.label->name));
+      if (!norms.norms.empty()) report.errors.push_back(std::move(norms));
+    }
+  }
+}
+
+}  // namespace tushar::simulation

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "core/base/threads.hpp"
+#include "core/report/report.hpp"
+#include "core/simulation/run_state.hpp"
+
+namespace tushar::simulation {
+
+/// Measures a run while it lasts, and its state at the end. All ranks make the same calls. `outputSeconds` is the wall
+/// time spent on outputs since the process started, s.
+class RunReport {
+ public:
+  explicit RunReport(RunState& run) : run_(run) {}
+
+  /// The start-up is over.
+  void noteStartUp(double outputSeconds) { start_up_ = run_.clock.now() - outputSeconds; }
+  void beginLoop(double outputSeconds);
+  /// A step has been taken.
+  void noteStep();
+  void endLoop(double outputSeconds);
+
+  /// The report, except how the run ended, its outputs, and the patches that changed ranks.
+  report::Report make();
+
+ private:
+  void addLayout(report::Report& report);
+  void addProgress(report::Report& report);
+  void addTasks(report::Report& report);
+  void addDrifts(report::Report& report);
+  void addErrors(report::Report& report);
+
+  RunState& run_;
+  Clock::time_point loop_started_;
+  Threads::Use use_before_;
+  double output_before_ = 0;
+  double start_up_ = 0, loop_ = 0;  ///< s, without outputs
+  report::TimeUse use_;
+  long particle_steps_ = 0;  ///< of this rank
+};
+
+}  // namespace tushar::simulation

@@ -1,0 +1,35 @@
+#include "core/simulation/run_state.hpp"
+
+namespace tushar::simulation {
+
+RunState::RunState(Problem givenProblem, bool quiet, Clock::time_point startedAt, const mpi::Communicator& givenRanks)
+    : problem(std::move(givenProblem)),
+      ranks(givenRanks),
+      phases(*problem.component, problem.analyses),
+      warehouse(*problem.level, table, ranks),
+      scheduler(warehouse, problem.threads),
+      time(problem.time),
+      clock(startedAt),
+      progress(quiet || !ranks.isFirst(), stdout) {
+  phases.compile(problem.analyses, problem.archive.saves, *problem.level, table);
+  warehouse.grow(materials());
+}
+
+void RunState::diagnose(tasks::TaskGraph& graph) {
+  for (const auto& analysis : problem.analyses) analysis->setTime(time.time(), time.time() - problem.time.initTime);
+  scheduler.run(graph, {time.step(), time.time()});
+}
+
+std::vector<double> RunState::reduction(std::string_view label) const {
+  const int number = table.find(label, -1);
+  return number < 0 ? std::vector<double>{} : warehouse.reductionValues(number);
+}
+
+Totals RunState::measureTotals(tasks::TaskGraph& graph) {
+  diagnose(graph);
+  Totals totals;
+  for (const auto& total : phases.totals()) totals.push_back(reduction(total.second));
+  return totals;
+}
+
+}  // namespace tushar::simulation

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "core/base/mpi.hpp"
+#include "core/base/progress.hpp"
+#include "core/data/warehouse.hpp"
+#include "core/simulation/phases.hpp"
+#include "core/simulation/problem.hpp"
+#include "core/simulation/run_clock.hpp"
+#include "core/tasks/scheduler.hpp"
+
+namespace tushar::simulation {
+
+/// Mass, momentum and energy over the whole grid: the components of each, in the order of Phases::totals().
+using Totals = std::vector<std::vector<double>>;
+
+/// What the parts of a run share: the problem, its compiled tasks and variables, and how far the run is.
+struct RunState {
+  /// Compiles the task graphs. Throws what Phases throws.
+  RunState(Problem problem, bool quiet, Clock::time_point startedAt, const mpi::Communicator& ranks);
+  RunState(const RunState&) = delete;
+  RunState& operator=(const RunState&) = delete;
+
+  /// Number of materials.
+  int materials() const { return static_cast<int>(phases.materials().size()); }
+  /// Runs diagnostics on the state as it is now.
+  void diagnose(tasks::TaskGraph& graph);
+  /// The numbers of a reduction; empty if it has no value yet, or no task computes it.
+  std::vector<double> reduction(std::string_view label) const;
+  /// The totals of the state as it is now, by a graph that computes them.
+  Totals measureTotals(tasks::TaskGraph& graph);
+
+  Problem problem;
+  const mpi::Communicator& ranks;
+  data::VariableTable table;
+  Phases phases;
+  data::Warehouse warehouse;
+  tasks::Scheduler scheduler;
+  TimeControl time;
+  RunClock clock;
+  Progress progress;
+  Totals totalsAtStart;  ///< of the run, or of the one that it goes on from
+};
+
+}  // namespace tushar::simulation

@@ -1,0 +1,34 @@
+#include "core/report/drift.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace tushar::report {
+
+TEST(Drift, OfANumberKeepsItsSignAndIsRelativeToTheStart) {
+  const Drift drift = driftOf("energy", {-4}, {-5}, "J");
+
+  EXPECT_EQ(drift.start, -4);
+  EXPECT_EQ(drift.end, -5);
+  EXPECT_EQ(drift.change, -0.25);
+  EXPECT_TRUE(drift.relative);
+  EXPECT_EQ(drift.unit, "J");
+}
+
+TEST(Drift, OfAVectorIsThatOfMagnitudes) {
+  const Drift drift = driftOf("momentum", {3, 4}, {3, 7}, "kg m/s");
+
+  EXPECT_EQ(drift.start, 5);
+  EXPECT_EQ(drift.end, std::sqrt(58.0));
+  EXPECT_EQ(drift.change, 3.0 / 5);
+}
+
+TEST(Drift, FromNothingIsAbsolute) {
+  const Drift drift = driftOf("momentum", {0, 0}, {0, 2}, "kg m/s");
+
+  EXPECT_FALSE(drift.relative);
+  EXPECT_EQ(drift.change, 2);
+}
+
+}  // namespace tushar::report
