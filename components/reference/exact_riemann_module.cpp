@@ -124,6 +124,7 @@ ReferencePointer tubeOn(const grid::Level& level, const RiemannSection& read) {
 AnalysisKind exactRiemannKind() {
   AnalysisKind kind{"exactRiemann", "errors against the exact solution of a shock tube", {}, {}};
   kind.describe = [](std::ostream& out) { riemannSchema().describe(out); };
+  kind.schema = [] { return &riemannSchema(); };
   kind.read = [](const Element& module, Diagnostics& diagnostics) {
     return readModule(
         riemannSchema(), module, diagnostics,

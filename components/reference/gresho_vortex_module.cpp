@@ -38,6 +38,7 @@ const Schema<GreshoSection>& greshoSchema() {
 AnalysisKind greshoKind() {
   AnalysisKind kind{"gresho", "errors against the vortex of Gresho", {}, {}};
   kind.describe = [](std::ostream& out) { greshoSchema().describe(out); };
+  kind.schema = [] { return &greshoSchema(); };
   kind.read = [](const Element& module, Diagnostics& diagnostics) {
     return readModule(greshoSchema(), module, diagnostics, [](const GreshoSection& read, const grid::Level& level) {
       GreshoProblem problem;

@@ -36,6 +36,7 @@ const Schema<VortexSection>& vortexSchema() {
 AnalysisKind isentropicVortexKind() {
   AnalysisKind kind{"isentropicVortex", "errors against a smooth vortex in a uniform flow", {}, {}};
   kind.describe = [](std::ostream& out) { vortexSchema().describe(out); };
+  kind.schema = [] { return &vortexSchema(); };
   kind.read = [](const Element& module, Diagnostics& diagnostics) {
     return readModule(vortexSchema(), module, diagnostics, [](const VortexSection& read, const grid::Level& level) {
       IsentropicVortexProblem problem;

@@ -40,6 +40,7 @@ const Schema<NohSection>& nohSchema() {
 AnalysisKind nohKind() {
   AnalysisKind kind{"noh", "errors against Noh's problem: cold gas that falls into a point", {}, {}};
   kind.describe = [](std::ostream& out) { nohSchema().describe(out); };
+  kind.schema = [] { return &nohSchema(); };
   kind.read = [](const Element& module, Diagnostics& diagnostics) {
     return readModule(nohSchema(), module, diagnostics, [](const NohSection& read, const grid::Level& level) {
       return std::make_shared<Noh>(

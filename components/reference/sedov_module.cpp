@@ -45,6 +45,7 @@ const Schema<SedovSection>& sedovSchema() {
 AnalysisKind sedovKind() {
   AnalysisKind kind{"sedov", "errors against the self-similar blast wave of Sedov", {}, {}};
   kind.describe = [](std::ostream& out) { sedovSchema().describe(out); };
+  kind.schema = [] { return &sedovSchema(); };
   kind.read = [](const Element& module, Diagnostics& diagnostics) {
     return readModule(sedovSchema(), module, diagnostics, [](const SedovSection& read, const grid::Level& level) {
       return std::make_shared<Sedov>(

@@ -40,6 +40,7 @@ const Schema<WaveSection>& waveSchema() {
 AnalysisKind simpleWaveKind() {
   AnalysisKind kind{"simpleWave", "errors against a right-running simple wave", {}, {}};
   kind.describe = [](std::ostream& out) { waveSchema().describe(out); };
+  kind.schema = [] { return &waveSchema(); };
   kind.read = [](const Element& module, Diagnostics& diagnostics) {
     return readModule(waveSchema(), module, diagnostics, [](const WaveSection& read, const grid::Level& level) {
       if (axesOf(level)[0] == 0) throw std::invalid_argument("the wave runs along x, but this grid has no x");

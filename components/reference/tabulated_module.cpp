@@ -39,6 +39,7 @@ const Schema<TableSection>& tableSchema() {
 AnalysisKind tabulatedKind() {
   AnalysisKind kind{"tabulated", "errors against the cells of another run", {}, {}};
   kind.describe = [](std::ostream& out) { tableSchema().describe(out); };
+  kind.schema = [] { return &tableSchema(); };
   kind.read = [](const Element& module, Diagnostics& diagnostics) {
     return readModule(tableSchema(), module, diagnostics, [](const TableSection& read, const grid::Level&) {
       try {

@@ -9,5 +9,7 @@ Loads readLoads(const input::Element& root, bool usesCurves, input::Diagnostics&
 
 /// The manual.
 void describeLoads(std::ostream& out);
+/// How the section is read.
+const input::SchemaBase& loadsForm();
 
 }  // namespace tushar::mpm::solid
