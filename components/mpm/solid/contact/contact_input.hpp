@@ -3,6 +3,7 @@
 #include "components/mpm/solid/contact/contact.hpp"
 #include "core/input/diagnostics.hpp"
 #include "core/input/element.hpp"
+#include "core/input/tag_form.hpp"
 
 namespace tushar::mpm::solid {
 
