@@ -7,7 +7,7 @@ namespace tushar {
 namespace {
 
 // bash takes a word apart at = : and @, and replaces the last part only; so _sus_offer leaves out what stands before.
-constexpr const char* script = R"(# Completion of sus in bash: source <(sus --completion bash)
+constexpr const char* script = R"script(# Completion of sus in bash: source <(sus --completion bash)
 
 # Offers those of the words, a line each, that go on with what has been typed.
 _sus_offer() {
@@ -19,10 +19,14 @@ _sus_offer() {
   done <<<"$2"
 }
 
+# Offers folders and, with a pattern, files that match it.
 _sus_files() {
   local typed=$1 one
   COMPREPLY=()
-  while IFS= read -r one; do COMPREPLY+=("$one"); done < <(compgen -d -- "$typed"; [ $# -gt 1 ] && compgen -f -X "!$2" -- "$typed")
+  while IFS= read -r one; do COMPREPLY+=("$one"); done < <(
+    compgen -d -- "$typed"
+    [ $# -gt 1 ] && compgen -f -X "!$2" -- "$typed"
+  )
   compopt -o filenames 2>/dev/null
 }
 
@@ -30,7 +34,9 @@ _sus_files() {
 _sus_scene() {
   local word
   for word in "${COMP_WORDS[@]:1}"; do
-    case $word in *.ups | *.uda | *.uda.[0-9]* | *.uda/ | *.uda.[0-9]*/) printf '%s' "${word/#\~/$HOME}"; return ;; esac
+    case $word in
+      *.ups | *.uda | *.uda.[0-9]* | *.uda/ | *.uda.[0-9]*/) printf '%s' "${word/#\~/$HOME}"; return ;;
+    esac
   done
 }
 
@@ -40,48 +46,28 @@ _sus() {
   before=${line%"$typed"}
   before=${before%"${before##*[![:space:]]}"}
   before=${before##*[[:space:]]}
-  case $before in
-    --set | -set)
+  COMPREPLY=()
+  case ${before/#--/-} in
+    -set)
       scene=$(_sus_scene)
-      COMPREPLY=()
       [[ -z $scene || $typed == *=* ]] && return
-      _sus_offer "$typed" "$("$program" --paths "$scene" 2>/dev/null | sed 's/$/=/')" compopt -
-                                   o nospace 2 >
-                               / dev / null return;
-;
-    --describe | -describe) _sus_offer "$typed" "$_sus_manuals";
-    return;
-    ;
-    --schema | -schema) _sus_offer "$typed" $'rng\nxsd';
-    return;
-    ;
-    --completion | -completion) _sus_offer "$typed" bash;
-    return;
-    ;
-    --restart | -restart) _sus_files "$typed";
-    return;
-    ;
-    --trace | -trace | --json | -json | --graph | -graph) _sus_files "$typed" '*';
-    return;
-    ;
-    --output | -output) _sus_files "$typed";
-    return;
-    ;
-    -t | --layout | -layout | --nthreads | -nthreads | --petsc | -petsc | --dry-run | -dry-run | --checkpoint | -checkpoint)
-      COMPREPLY=();
-    return;
-    ;
+      _sus_offer "$typed" "$("$program" --paths "$scene" 2>/dev/null | sed 's/$/=/')"
+      compopt -o nospace 2>/dev/null ;;
+    -describe) _sus_offer "$typed" "$_sus_manuals" ;;
+    -schema) _sus_offer "$typed" $'rng\nxsd' ;;
+    -completion) _sus_offer "$typed" bash ;;
+    -restart | -output) _sus_files "$typed" ;;
+    -trace | -json | -graph) _sus_files "$typed" '*' ;;
+    -t | -layout | -nthreads | -petsc | -dry-run | -checkpoint) ;;
+    *)
+      case $typed in
+        --*) _sus_offer "$typed" "$_sus_options" ;;
+        -*) _sus_offer "$typed" "${_sus_options//--/-}" ;;
+        *) _sus_files "$typed" '*.ups' ;;
+      esac ;;
   esac
-  case $typed in
-    --*) _sus_offer "$typed" "$_sus_options" ;
-  ;
-    -*) _sus_offer "$typed" "${_sus_options//--/-}" ;
-    ;
-    *) _sus_files "$typed" '*.ups' ;
-    ;
-    esac
-    }
-)";
+}
+)script";
 
 std::string lines(const std::vector<std::string>& words) {
   std::string text;

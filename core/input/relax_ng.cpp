@@ -80,7 +80,7 @@ class Grammar {
       pending_.pop_front();
       xml_node element = named(named(grammar_, "define", next.name), "element", next.tag);
       next.fill(element);
-      if (k < root_names_) allowAttributes(element, {});
+      if (k < root_names_) allowOtherAttributes(element);
     }
     writeTypes();
   }
@@ -207,7 +207,14 @@ class Grammar {
     const bool someAreRequired = std::any_of(schema.entries().begin(), schema.entries().end(),
                                              [&](const auto& entry) { return isRequired(entry, demands); });
     xml_node parent = someAreRequired ? element.append_child("choice") : element;
-    if (someAreRequired) writeTags(parent.append_child("interleave"), schema, demands, false);
+    if (someAreRequired) {
+      xml_node all = parent.append_child("interleave");
+      writeTags(all, schema, demands, false);
+      if (all.first_child() == all.last_child()) {  // libxml2 2.9 loses its way in an interleave of one
+        parent.append_move(all.first_child());
+        parent.remove_child(all);
+      }
+    }
     xml_node withIncludes = parent.append_child("interleave");
     refer(withIncludes.append_child(someAreRequired ? "oneOrMore" : "zeroOrMore"), include);
     writeTags(withIncludes, schema, demands, true);
@@ -219,6 +226,14 @@ class Grammar {
     if (demands.empty()) return;
     xml_node except = any.append_child("except");
     for (const Demand& demand : demands) except.append_child("name").text() = demand.name.c_str();
+  }
+
+  /// Any attributes but those that are declared.
+  static void allowOtherAttributes(xml_node element) {
+    std::vector<Demand> declared;
+    for (const pugi::xpath_node& one : element.select_nodes("attribute|optional/attribute"))
+      declared.push_back({one.node().attribute("name").value(), {}});
+    allowAttributes(element, declared);
   }
 
   static void writeAnything(xml_node element, const std::vector<Demand>& demands) {
