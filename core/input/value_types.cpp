@@ -17,6 +17,9 @@ std::string threeOf(const std::string& pattern) { return fmt::format(R"(\[ ?{0} 
 
 std::string anyNumberOf(const std::string& pattern) { return fmt::format(R"(\[ ?({0}( ?, ?{0})*)? ?\])", pattern); }
 
+/// A number, or a text with something in it that no number has.
+std::string formula() { return fmt::format(R"({}|[^\[\]]*[^\[\]+\-.0-9eE][^\[\]]*)", number); }
+
 template <class T>
 ValueType typeOf(const std::string& name, const std::string& pattern) {
   return {std::string(typeName<T>), name, pattern};
@@ -36,7 +39,7 @@ const std::vector<ValueType>& valueTypes() {
       typeOf<std::vector<double>>("numbers", anyNumberOf(number)),
       typeOf<std::vector<int>>("integers", anyNumberOf(integer)),
       typeOf<std::vector<std::string>>("words", R"(\[.*\])"),
-      typeOf<Expression>("formula", R"([^\[\]]+)"),
+      typeOf<Expression>("formula", formula()),
       typeOf<VectorExpression>("formulas3", R"(\[.+,.+,.+\])"),
   };
   return types;
