@@ -102,7 +102,7 @@ class SchemaExport(unittest.TestCase):
                 if define.find(RNG + "element") is not None}
         for interleave in grammar.iter(RNG + "interleave"):
             branches = [{tags[ref.get("name")] for ref in branch.iter(RNG + "ref")} for branch in interleave]
-                together = [tag for branch in branches for tag in branch]
+            together = [tag for branch in branches for tag in branch]
             self.assertEqual(len(together), len(set(together)), sorted(together))
 
     def test_the_schema_beside_the_scenes_is_that_of_sus(self):
