@@ -56,7 +56,7 @@ ExitCode describe(const std::string& name, const simulation::Catalogue& known) {
 void printSchema(const std::string& language, const simulation::Catalogue& known) {
   const input::TagForm scene = scene::sceneForm(known);
   const std::string comment = fmt::format(
-      " Scenes of sus {}; made by: sus --schema {}. It leaves open: limits of values, how tags depend on each other,\n"
+      " Scenes of sus {}; made by: sus -schema {}. It leaves open: limits of values, how tags depend on each other,\n"
       "     what labels and materials there are. sus -check SCENE has all of that.",
       TUSHAR_VERSION, language);
   if (language == "rng") return input::writeRelaxNg(std::cout, scene, comment + " ");
