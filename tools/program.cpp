@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <malloc.h>
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <ctime>
 #include <filesystem>
@@ -15,146 +14,25 @@
 #include "core/base/interrupt.hpp"
 #include "core/base/launcher.hpp"
 #include "core/base/mpi.hpp"
-#include "core/base/threads.hpp"
 #include "core/base/trace.hpp"
-#include "core/input/geometry.hpp"
+#include "core/report/problems.hpp"
 #include "core/scene/dry_run.hpp"
 #include "core/scene/find_restart.hpp"
 #include "core/scene/scene.hpp"
 #include "core/simulation/simulation.hpp"
 #include "core/solvers/solver.hpp"
+#include "tools/arguments.hpp"
+#include "tools/information.hpp"
 
 namespace tushar {
 
 namespace {
-
-struct Arguments {
-  std::string scene, describe, graph, petsc, trace;
-  std::vector<std::string> overrides;
-  bool check = false, list = false, restart = false, schedule = false, version = false;
-  std::optional<int> checkpoint;  ///< step of the one to restart from
-  std::optional<int> dryRun;
-  grid::Workers workers{allowedThreads(), true, 1, {}};
-  simulation::RunOptions run;
-};
 
 /// When the process started: now, less the processor time that it has used.
 std::chrono::steady_clock::time_point processStart() {
   const double used = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
   return std::chrono::steady_clock::now() -
          std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(used));
-}
-
-/// Uintah's words begin with one dash: -validate becomes --validate. Single letters stay.
-std::string withTwoDashes(const std::string& word) {
-  const bool oneDash = word.size() > 2 && word[0] == '-' && word[1] != '-' && std::isalpha(word[1]);
-  return oneDash ? "-" + word : word;
-}
-
-std::vector<std::string> optionNames(const CLI::App& app) {
-  std::vector<std::string> names;
-  for (const CLI::Option* option : app.get_options())
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  return names;
-}
-
-/// The words as CLI11 takes them, the last first; what follows -petsc is PETSc's and stays as it is.
-std::vector<std::string> backwards(const std::vector<std::string>& given) {
-  std::vector<std::string> words;
-  for (const std::string& word : given)
-    words.push_back(!words.empty() && words.back() == "--petsc" ? word : withTwoDashes(word));
-  std::reverse(words.begin(), words.end());
-  return words;
-}
-
-/// Says which words of the command line mean nothing: the options, as they were written, or else a second scene.
-void reportUnknown(const CLI::App& app, const std::vector<std::string>& words, const std::string& scene) {
-  const std::vector<std::string> unknown = app.remaining(), names = optionNames(app);
-  bool options = false;
-  for (const std::string& word : words) {
-    const std::string full = withTwoDashes(word);
-    if (full[0] != '-' || std::find(unknown.begin(), unknown.end(), full) == unknown.end()) continue;
-    fmt::print(stderr, "sus: unknown option '{}'{}; sus -h lists the options\n", word, didYouMean(full, names));
-    options = true;
-  }
-  if (!options) fmt::print(stderr, "sus: runs one scene at a time: found '{}' after '{}'\n", unknown.front(), scene);
-}
-
-void setThreads(int count, grid::Workers& workers) {
-  workers.threads = count;
-  workers.mayBeFewer = false;
-}
-
-void setLayout(const std::string& text, grid::Workers& workers) {
-  workers.layout = grid::parseLayout(text);
-  if (!workers.layout)
-    throw CLI::ValidationError(
-        fmt::format("--layout: found '{}', expected AxBxC, the patches along x, y and z, such as 4x2x1", text));
-}
-
-void declare(CLI::App& app, Arguments& arguments) {
-  app.footer(
-      "Exit codes: 0 done, 1 failure (files, memory, a defect of sus), 2 bad command line, 3 bad scene,\n"
-      "            4 a value became impossible during the run, 5 interrupted (output written)");
-  app.add_option("scene", arguments.scene, "the scene to run (.ups), or with --restart the folder of a run (.uda)");
-  CLI::Option* restart = app.add_flag("--restart", arguments.restart,
-                                      "go on with the run of a .uda, in that folder, from its last whole checkpoint");
-  app.add_option("-t", arguments.checkpoint, "with --restart: from the checkpoint of this step; later ones are removed")
-      ->needs(restart);
-  app.add_option("--set", arguments.overrides,
-                 "override a value of the scene: PATH=VALUE, e.g.\n"
-                 "Grid/Level/Box/resolution=[200,1,1]; may be repeated")
-      ->allow_extra_args(false);
-  app.add_option_function<std::string>(
-      "--layout", [&](const std::string& text) { setLayout(text, arguments.workers); },
-      "patches along x, y, z, in place of those of the scene: AxBxC, such as 4x2x1");
-  app.add_option_function<int>(
-         "--nthreads", [&](int count) { setThreads(count, arguments.workers); },
-         "threads to run on; without it as many as there are cores for and as pay")
-      ->check(CLI::Range(1, 1024));
-  app.add_option("--trace", arguments.trace,
-                 "write what each thread did when to a file, for ui.perfetto.dev or chrome://tracing");
-  app.add_option("--json", arguments.run.jsonPath, "write the report to a file, as JSON");
-  app.add_option("--output", arguments.run.outputFolder, "put the .uda into this folder");
-  app.add_option("--petsc", arguments.petsc, "options for PETSc, in one word: -petsc \"-ksp_monitor -ksp_type gmres\"");
-  app.add_flag("--quiet", arguments.run.quiet, "no progress, no report on the screen");
-  app.add_flag("--check,--validate", arguments.check, "check the scene and make its start; run and write nothing");
-  app.add_option("--dry-run", arguments.dryRun,
-                 "compile what one of so many ranks would do, and say what that takes; run nothing")
-      ->check(CLI::Range(1, 10'000'000));
-  app.add_flag("--schedule", arguments.schedule,
-               "print the tasks in order, what they read and write, what is left out");
-  app.add_option("--graph", arguments.graph, "write the tasks of a step to a file, for Graphviz (dot)");
-  app.add_flag("--list", arguments.list, "list components, analysis modules and shapes");
-  app.add_option("--describe", arguments.describe, "the manual of a component, a module, or 'scene'");
-  app.add_flag("-V,--version", arguments.version, "version");
-}
-
-void printList(const simulation::Catalogue& known) {
-  fmt::print("components (SimulationComponent type=)\n");
-  for (const auto& kind : known.components) fmt::print("  {:<16} {}\n", kind.name, kind.sentence);
-  fmt::print("analysis modules (DataAnalysis/Module name=)\n");
-  for (const auto& kind : known.analyses) fmt::print("  {:<16} {}\n", kind.name, kind.sentence);
-  fmt::print("shapes (geom_object)\n");
-  for (const std::string& name : input::geometryNames()) fmt::print("  {}\n", name);
-}
-
-ExitCode describe(const std::string& name, const simulation::Catalogue& known) {
-  if (name == "scene") {
-    scene::describeSharedSections(std::cout);
-  } else if (const auto* component = findKind(known.components, name)) {
-    component->describe(std::cout);
-  } else if (const auto* analysis = findKind(known.analyses, name)) {
-    analysis->describe(std::cout);
-  } else {
-    std::vector<std::string> names = namesOf(known.components);
-    for (const std::string& other : namesOf(known.analyses)) names.push_back(other);
-    names.emplace_back("scene");
-    fmt::print(stderr, "sus: nothing is called '{}'{}; there are {}\n", name, didYouMean(name, names),
-               alternatives(names));
-    return ExitCode::badCommandLine;
-  }
-  return ExitCode::success;
 }
 
 void writeFile(const std::string& path, const std::string& text) {
@@ -180,15 +58,27 @@ simulation::Restart findRestart(const Arguments& arguments, const mpi::Communica
   return restart;
 }
 
+/// Adds what the command line asks for. A scene without <DataArchiver> has no name for the folder of its run.
+void addCheckpoints(const Arguments& arguments, const std::filesystem::path& name,
+                    simulation::ArchiveSettings& archive) {
+  if (arguments.checkpointInterval) simulation::addWallTimeInterval(archive.checkpoint, *arguments.checkpointInterval);
+  if (archive.filebase.empty()) archive.filebase = name.stem().string() + ".uda";
+}
+
 simulation::Problem readProblem(const Arguments& arguments, const simulation::Catalogue& known,
                                 const mpi::Communicator& ranks) {
   const grid::Share share{ranks.rank(), ranks.size()};
   const grid::Workers first = ranks.broadcast(arguments.workers);  // all ranks must choose the same patches
   const grid::Workers workers{first.threads, first.mayBeFewer, ranks.size(), first.layout};
-  if (!arguments.restart) return scene::readScene(arguments.scene, arguments.overrides, known, workers, share);
+  if (!arguments.restart) {
+    simulation::Problem problem = scene::readScene(arguments.scene, arguments.overrides, known, workers, share);
+    addCheckpoints(arguments, arguments.scene, problem.archive);
+    return problem;
+  }
   const simulation::Restart restart = findRestart(arguments, ranks);
   simulation::Problem problem = scene::readScene(restart.scene().string(), arguments.overrides, known, workers, share);
   problem.restart = restart;
+  addCheckpoints(arguments, restart.archive.stem(), problem.archive);
   return problem;
 }
 
@@ -207,6 +97,15 @@ std::string sizeOf(simulation::Simulation& run, long particles) {
          (particles > 0 ? fmt::format(" and {} particles at the start", particles) : "");
 }
 
+/// Where -json of a scene that is only checked asks for it.
+void writeProblems(const Arguments& arguments, const std::vector<InputProblem>& problems) {
+  const std::string text = report::toJson(problems);
+  if (arguments.showsJson())
+    fmt::print("{}", text);
+  else
+    writeFile(arguments.run.jsonPath, text);
+}
+
 /// What is said of a scene without running it.
 void inspect(const Arguments& arguments, simulation::Simulation& run, bool isFirst) {
   const long particles = arguments.check ? run.tryStart() : 0;
@@ -217,7 +116,9 @@ void inspect(const Arguments& arguments, simulation::Simulation& run, bool isFir
     writeFile(arguments.graph, dot.str());
   }
   if (arguments.schedule) run.phases().printSchedule(std::cout);
-  if (arguments.check) fmt::print("{}: fine, {}\n", arguments.scene, sizeOf(run, particles));
+  if (!arguments.check) return;
+  if (arguments.asksForJson) writeProblems(arguments, {});
+  if (!arguments.showsJson()) fmt::print("{}: fine, {}\n", arguments.scene, sizeOf(run, particles));
 }
 
 /// Options that a typing error may have made useless.
@@ -231,7 +132,7 @@ void noteUnused(const Arguments& arguments, const report::Report& report) {
 ExitCode runScene(const Arguments& arguments, const simulation::Catalogue& known,
                   std::chrono::steady_clock::time_point startedAt, const mpi::Communicator& ranks) {
   simulation::Problem problem = readProblem(arguments, known, ranks);
-  if (!arguments.run.quiet && ranks.isFirst())
+  if (!arguments.run.quiet && !arguments.showsJson() && ranks.isFirst())
     for (const InputProblem& note : problem.notes) fmt::print(stderr, "note: {}\n", note.text());
   simulation::Simulation run(std::move(problem), arguments.run, startedAt, ranks);
   if (arguments.check || arguments.schedule || !arguments.graph.empty()) {
@@ -254,25 +155,23 @@ ExitCode runScene(const Arguments& arguments, const simulation::Catalogue& known
   return report.ended == "interrupted" ? ExitCode::interrupted : ExitCode::success;
 }
 
+/// `-check -json SCENE`: the word after -json is the scene where there is no other.
+void settleJson(const CLI::App& app, Arguments& arguments) {
+  arguments.asksForJson = app.count("--json") > 0;
+  if (arguments.check && arguments.scene.empty()) std::swap(arguments.scene, arguments.run.jsonPath);
+}
+
 ExitCode refuse(const std::string& sentence) {
   if (launchedRank() == 0) fmt::print(stderr, "sus: {}\n", sentence);
   return ExitCode::badCommandLine;
 }
 
 /// `session` is opened where a scene is run.
-ExitCode dispatch(const Arguments& arguments, const simulation::Catalogue& known,
+ExitCode dispatch(const Arguments& arguments, const CLI::App& app, const simulation::Catalogue& known,
                   std::chrono::steady_clock::time_point startedAt, std::optional<mpi::Session>& session) {
-  const bool only = arguments.version || arguments.list || !arguments.describe.empty() || arguments.scene.empty();
-  if (only && launchedRank() > 0) return ExitCode::success;  // the first says it
-  if (arguments.version) {
-    fmt::print("sus {} ({})\n", TUSHAR_VERSION, TUSHAR_BUILD_TYPE);
-    return ExitCode::success;
-  }
-  if (arguments.list) {
-    printList(known);
-    return ExitCode::success;
-  }
-  if (!arguments.describe.empty()) return describe(arguments.describe, known);
+  if ((arguments.isQuestion() || arguments.scene.empty()) && launchedRank() > 0)
+    return ExitCode::success;  // the first says it
+  if (arguments.isQuestion()) return answer(arguments, app, known);
   if (arguments.scene.empty()) {
     fmt::print(stderr,
                "sus: no scene given; sus scene.ups runs one, sus -restart x.uda goes on with one, sus -h lists "
@@ -281,6 +180,10 @@ ExitCode dispatch(const Arguments& arguments, const simulation::Catalogue& known
   }
   if (!arguments.restart && std::filesystem::is_directory(arguments.scene + "/checkpoints"))
     return refuse(fmt::format("{0} is the folder of a run; sus -restart {0} goes on with it", arguments.scene));
+  if (arguments.asksForJson && !arguments.check && arguments.run.jsonPath.empty())
+    return refuse("--json needs the name of a file, where the report goes");
+  if (arguments.check && arguments.asksForJson && !arguments.showsJson() && launchedRank() == 0)
+    checkWritable(arguments.run.jsonPath);
   if (arguments.restart && !arguments.run.outputFolder.empty())
     return refuse("--output has no meaning with --restart: a run goes on in its own folder");
   if (arguments.dryRun) {
@@ -297,6 +200,7 @@ ExitCode dispatch(const Arguments& arguments, const simulation::Catalogue& known
 struct Failure {
   std::string text;
   ExitCode code = ExitCode::failure;
+  std::vector<InputProblem> problems;  ///< of the scene
 };
 
 /// What went wrong; no text where another rank has it.
@@ -304,16 +208,16 @@ Failure failureOf(const std::exception_ptr& thrown) {
   try {
     std::rethrow_exception(thrown);
   } catch (const InputError& error) {
-    return {fmt::format("{}\n", error.what()), ExitCode::badInput};
+    return {fmt::format("{}\n", error.what()), ExitCode::badInput, error.problems()};
   } catch (const NumericalError& error) {
     const std::string advice = error.advice().empty() ? "" : fmt::format("     try {}\n", error.advice());
-    return {fmt::format("sus: {}\n{}", error.what(), advice), ExitCode::numerical};
+    return {fmt::format("sus: {}\n{}", error.what(), advice), ExitCode::numerical, {}};
   } catch (const mpi::FailedElsewhere&) {
     return {};
   } catch (const std::bad_alloc&) {
-    return {"sus: not enough memory for this scene\n"};
+    return {"sus: not enough memory for this scene\n", ExitCode::failure, {}};
   } catch (const std::exception& error) {
-    return {fmt::format("sus: {}\n", error.what())};
+    return {fmt::format("sus: {}\n", error.what()), ExitCode::failure, {}};
   }
 }
 
@@ -326,12 +230,15 @@ void keepMemory() {
 }
 
 /// Says once for all ranks what went wrong, and ends them.
-int endWith(const Failure& failure, std::optional<mpi::Session>& session) {
+int endWith(const Failure& failure, const Arguments& arguments, std::optional<mpi::Session>& session) {
   int code = static_cast<int>(failure.code);
   const bool speaks = !session || session->speaks(!failure.text.empty(), code);
-  if (speaks) fmt::print(stderr, "{}", failure.text);
+  const bool isChecked = arguments.check && arguments.asksForJson && !failure.problems.empty();
+  if (speaks && isChecked) writeProblems(arguments, failure.problems);
+  if (speaks && !(isChecked && arguments.showsJson())) fmt::print(stderr, "{}", failure.text);
   if (session && !session->isAgreed()) {
     if (speaks) fmt::print(stderr, "     (rank {} of {})\n", session->ranks().rank(), session->ranks().size());
+    std::fflush(stdout);
     std::fflush(stderr);
     session->abort(code);
   }
@@ -350,8 +257,9 @@ int runProgram(int count, char** words, const simulation::Catalogue& known) {
   std::optional<mpi::Session> session;
   try {
     app.parse(backwards(given));
+    settleJson(app, arguments);
     if (!arguments.petsc.empty()) setenv("PETSC_OPTIONS", arguments.petsc.c_str(), 1);
-    const ExitCode code = dispatch(arguments, known, startedAt, session);
+    const ExitCode code = dispatch(arguments, app, known, startedAt, session);
     if (std::fflush(stdout) != 0 || !std::cout.flush()) throw FileError("standard output cannot be written");
     return static_cast<int>(code);
   } catch (const CLI::ExtrasError&) {
@@ -361,7 +269,7 @@ int runProgram(int count, char** words, const simulation::Catalogue& known) {
     if (launchedRank() > 0) return error.get_exit_code() == 0 ? 0 : static_cast<int>(ExitCode::badCommandLine);
     return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::badCommandLine);
   } catch (...) {
-    return endWith(failureOf(std::current_exception()), session);
+    return endWith(failureOf(std::current_exception()), arguments, session);
   }
 }
 

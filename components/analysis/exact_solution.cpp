@@ -164,6 +164,7 @@ class ExactSolution : public Analysis {
 AnalysisKind exactSolutionKind() {
   AnalysisKind kind{"exactSolution", "errors of a variable against a formula in x, y, z, t", {}, {}};
   kind.describe = [](std::ostream& out) { schema().describe(out); };
+  kind.schema = [] { return &schema(); };
   kind.read = [](const Element& module, Diagnostics& diagnostics) -> MakeAnalysis {
     const Settings settings = schema().read(module, diagnostics);
     const Location where = (module.child("label") ? *module.child("label") : module).where();

@@ -75,7 +75,13 @@ const Schema<Settings>& settingsSchema() {
                 settings.variables = variablesSchema().read(*tag, diagnostics).list;
               },
               {"Variables"}, "what is written",
-              [](std::ostream& out, int indent) { variablesSchema().describeContents(out, indent); });
+              [](std::ostream& out, int indent) { variablesSchema().describeContents(out, indent); })
+          .forms({input::sectionForm(
+              {"Variables"},
+              [] {
+                return std::vector<input::Alternative>{{&variablesSchema(), {}}};
+              },
+              1)});
   return schema;
 }
 
@@ -185,6 +191,7 @@ std::string extractLine(double time, const std::vector<Array>& columns, std::siz
 AnalysisKind particleExtractKind() {
   AnalysisKind kind{"particleExtract", "variables of chosen particles over time, in a file for each", {}, {}};
   kind.describe = [](std::ostream& out) { settingsSchema().describe(out); };
+  kind.schema = [] { return &settingsSchema(); };
   kind.read = [](const Element& module, Diagnostics& diagnostics) -> MakeAnalysis {
     const Settings settings = settingsSchema().read(module, diagnostics);
     return [settings](const Component&, const grid::Level&) { return std::make_unique<ParticleExtract>(settings); };

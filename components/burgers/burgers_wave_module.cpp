@@ -96,6 +96,7 @@ const input::Schema<Settings>& schema() {
 simulation::AnalysisKind waveKind() {
   simulation::AnalysisKind kind{"burgersWave", "errors against the exact solution of Burgers' equation", {}, {}};
   kind.describe = [](std::ostream& out) { schema().describe(out); };
+  kind.schema = [] { return &schema(); };
   kind.read = [](const input::Element& module, input::Diagnostics& diagnostics) -> simulation::MakeAnalysis {
     schema().read(module, diagnostics);
     return [where = module.where(), path = module.path()](const Component& component,

@@ -24,6 +24,7 @@ const Schema<GasObject>& objectSchema() {
               },
               input::geometryNames(), "the region: cells whose middle is inside; several are united",
               input::describeGeometry)
+          .forms(input::geometryForms(), 1)
           .required("density", &GasObject::density, "kg/m^3", "density at the start", input::positive(),
                     input::WithoutTime())
           .value("velocity", &GasObject::velocity, input::VectorExpression(), "m/s", "velocity at the start",
@@ -116,6 +117,7 @@ simulation::ComponentKind kind() {
   kind.sections = {"Euler"};
   kind.boundaryLabels = {grid::symmetric, boundary::density, boundary::velocity, boundary::pressure};
   kind.describe = [](std::ostream& out) { schema().describe(out); };
+  kind.forms = [] { return std::vector<std::vector<simulation::SectionForm>>{{{"Euler", &schema()}}}; };
   kind.read = [](const Element& root, Diagnostics& diagnostics) -> simulation::MakeComponent {
     const std::size_t before = diagnostics.size();
     const EulerSection read = simulation::readSection(root, schema(), diagnostics);

@@ -19,6 +19,13 @@ simulation::ComponentKind kind() {
     out << "Where <MPM> has <gas_dynamics> or <conserving_gas_dynamics>, instead:\n";
     gas::describe(out);
   };
+  kind.forms = [] {
+    std::vector<std::vector<simulation::SectionForm>> all = gas::forms();
+    all.push_back(solid::forms());
+    all.push_back(solid::implicit::forms());
+    all.back().front().demands = {{"time_integrator", {"implicit"}}};
+    return all;
+  };
   kind.nodesBeyond = [](const input::Element& root) { return gas::isGas(root) ? 0 : solid::nodesBeyond(root); };
   kind.read = [](const input::Element& root, input::Diagnostics& diagnostics) {
     if (gas::isGas(root)) return gas::readScene(root, diagnostics);

@@ -30,6 +30,7 @@ simulation::AnalysisKind gasModule(std::string name, std::string sentence, const
                                    Build build, GasesOf gasesOf = gasOfTags) {
   simulation::AnalysisKind kind{std::move(name), std::move(sentence), {}, {}};
   kind.describe = [schema](std::ostream& out) { schema().describe(out); };
+  kind.schema = [schema]() -> const input::SchemaBase* { return &schema(); };
   kind.read = [schema, build, gasesOf](const input::Element& module,
                                        input::Diagnostics& diagnostics) -> simulation::MakeAnalysis {
     const std::size_t before = diagnostics.size();

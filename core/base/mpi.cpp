@@ -1,6 +1,7 @@
 #include "core/base/mpi.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <exception>
 #include <thread>
@@ -53,6 +54,14 @@ Communicator copyOf(MPI_Comm all) {
 }
 
 }  // namespace
+
+std::string libraryVersion() {
+  std::array<char, MPI_MAX_LIBRARY_VERSION_STRING> text{};
+  int length = 0;
+  MPI_Get_library_version(text.data(), &length);
+  const std::string all(text.data(), static_cast<std::size_t>(length));
+  return all.substr(0, all.find_first_of(",\n"));  // Open MPI goes on with who packed it, and when
+}
 
 Communicator::Communicator(std::shared_ptr<const Native> native) : native_(std::move(native)) {
   MPI_Comm_rank(native_->ranks, &rank_);

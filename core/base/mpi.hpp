@@ -26,6 +26,9 @@ inline void append(Bytes& bytes, const void* from, std::size_t length) {
   bytes.insert(bytes.end(), first, first + length);
 }
 
+/// The MPI library that runs, with its version; MPI need not be started.
+std::string libraryVersion();
+
 /// Another rank has failed, and has the sentence that says why.
 class FailedElsewhere : public std::runtime_error {
  public:

@@ -5,12 +5,13 @@
 
 namespace tushar {
 
-Progress::Progress(bool quiet, std::FILE* stream)
+Progress::Progress(bool quiet, std::FILE* stream, Clock::duration period)
     : quiet_(quiet),
       terminal_(!quiet && isatty(fileno(stream))),
       stream_(stream),
+      period_(terminal_ ? std::chrono::milliseconds(100) : period),
       started_(Clock::now()),
-      next_(started_) {}
+      next_(terminal_ ? started_ : started_ + period_) {}
 
 void Progress::line(const std::string& text) {
   if (quiet_) return;
@@ -19,15 +20,19 @@ void Progress::line(const std::string& text) {
   std::fflush(stream_);
 }
 
-bool Progress::due() { return terminal_ && Clock::now() >= next_; }
+bool Progress::due() { return !quiet_ && Clock::now() >= next_; }
 
 void Progress::live(int step, double time, double delT, double maxTime) {
   const auto now = Clock::now();
-  next_ = now + std::chrono::milliseconds(100);
+  next_ = now + period_;
   const double elapsed = std::chrono::duration<double>(now - started_).count();
   const double done = maxTime > 0 ? time / maxTime : 0;
+  const double left = done > 0 ? elapsed / done - elapsed : 0.0;
+  if (!terminal_)
+    return line(fmt::format("step {:>6}  t = {:<12.6g} dt = {:<10.4g} {:.0f} %, {:.0f} s left", step, time, delT,
+                            100 * done, left));
   fmt::print(stream_, "\r\033[Kstep {}  t = {:.5g} s  dt = {:.3g} s  {:.0f} %  {:.0f} s left", step, time, delT,
-             100 * done, done > 0 ? elapsed / done - elapsed : 0.0);
+             100 * done, left);
   std::fflush(stream_);
   drawn_ = true;
 }

@@ -6,25 +6,29 @@
 
 namespace tushar {
 
-/// Tells how far a run is: a line for each output, and on a terminal a live line that is drawn over.
+/// Shows how far a run is: a line for each output and, on a terminal, a live line that is drawn over; elsewhere, as in
+/// the log of a batch job, a line a minute of wall time.
 class Progress {
  public:
-  /// Quiet progress says nothing. `stream` is the terminal or file.
-  Progress(bool quiet, std::FILE* stream);
+  using Clock = std::chrono::steady_clock;
+
+  /// Quiet progress says nothing. `stream` is the terminal or file; `period` is the time between the lines that go to a
+  /// file.
+  Progress(bool quiet, std::FILE* stream, Clock::duration period = std::chrono::minutes(1));
 
   /// A line that stays.
   void line(const std::string& text);
-  /// The live line, at most ten times a second. Only on a terminal.
+  /// Draws the live line, or writes a line to a file. `time`, `delT` and `maxTime` in s.
   void live(int step, double time, double delT, double maxTime);
   /// Ends the live line.
   void finish();
-  /// Whether a live line is due; cheap enough for every step.
+  /// Whether live() is due, at most ten times a second; cheap enough for every step.
   bool due();
 
  private:
-  using Clock = std::chrono::steady_clock;
   bool quiet_, terminal_, drawn_ = false;
   std::FILE* stream_;
+  Clock::duration period_;  ///< between live lines
   Clock::time_point started_, next_;
 };
 

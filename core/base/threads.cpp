@@ -5,6 +5,7 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+#include <tbb/version.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -55,6 +56,8 @@ class FirstFailure {
 };
 
 }  // namespace
+
+std::string tbbVersion() { return TBB_runtime_version(); }
 
 int allowedThreads() {
   const int share = static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN)) / ranksOnThisMachine();

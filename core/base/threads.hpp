@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <string_view>
 
 #include "core/base/trace.hpp"
@@ -10,6 +11,9 @@ namespace tushar {
 /// Cores that this rank may use: those that it is bound to, or its share where several ranks of a launcher use the same
 /// machine; no more than SLURM_CPUS_PER_TASK, where that is set.
 int allowedThreads();
+
+/// The version of TBB that runs.
+std::string tbbVersion();
 
 /// A fixed number of threads, the caller's among them, that work through loops.
 class Threads {

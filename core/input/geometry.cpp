@@ -22,6 +22,7 @@ struct Kind {
   std::string name;
   std::function<PiecePtr(const Element&, Diagnostics&)> read;
   std::function<void(std::ostream&, int)> describe;
+  const SchemaBase* schema;  ///< lives as long as the kind
 };
 
 template <class T>
@@ -32,7 +33,7 @@ Kind simple() {
     return diagnostics.size() == before ? piece : nullptr;
   };
   const auto describe = [](std::ostream& out, int indent) { T::schema().describe(out, indent); };
-  return {T::schema().name(), read, describe};
+  return {T::schema().name(), read, describe, &T::schema()};
 }
 
 /// A reference to a shape that is wrong is null without a sentence of its own.
@@ -70,19 +71,21 @@ Schema<Operands> operandsSchema(const std::string& name, const std::string& sent
   schema.foreignAttribute("label", "an empty tag with this label, further down, stands for this shape")
       .foreignAttribute("name", "another word for label")
       .custom("shapes", readOperands, geometryNames(), exactlyTwo ? "two shapes" : "any number of shapes")
+      .forms(geometryForms(), exactlyTwo ? 2 : 1)
       .check(checkCount);
   return schema;
 }
 
-Kind combined(const Schema<Operands>& schema, const std::function<PiecePtr(std::vector<PiecePtr>)>& combine) {
+Kind combined(Schema<Operands> declared, const std::function<PiecePtr(std::vector<PiecePtr>)>& combine) {
+  const auto schema = std::make_shared<const Schema<Operands>>(std::move(declared));
   const auto read = [schema, combine](const Element& element, Diagnostics& diagnostics) -> PiecePtr {
     const std::size_t before = diagnostics.size();
-    Operands operands = schema.read(element, diagnostics);
+    Operands operands = schema->read(element, diagnostics);
     if (diagnostics.size() != before || !allRead(operands.pieces)) return nullptr;
     return combine(std::move(operands.pieces));
   };
-  const auto describe = [schema](std::ostream& out, int indent) { schema.describe(out, indent); };
-  return {schema.name(), read, describe};
+  const auto describe = [schema](std::ostream& out, int indent) { schema->describe(out, indent); };
+  return {schema->name(), read, describe, schema.get()};
 }
 
 Kind nothing() {
@@ -94,7 +97,7 @@ Kind nothing() {
     schema.read(element, diagnostics);
     return std::make_shared<Nothing>();
   };
-  return {"null", read, [](std::ostream& out, int indent) { schema.describe(out, indent); }};
+  return {"null", read, [](std::ostream& out, int indent) { schema.describe(out, indent); }, &schema};
 }
 
 /// `tri`: the file of a surface.
@@ -118,7 +121,7 @@ Kind surface() {
     Triangles triangles = readTriangles(path.string(), *element.child("name"), diagnostics);
     return triangles.empty() ? nullptr : std::make_shared<Surface>(std::move(triangles));
   };
-  return {"tri", read, [](std::ostream& out, int indent) { schema.describe(out, indent); }};
+  return {"tri", read, [](std::ostream& out, int indent) { schema.describe(out, indent); }, &schema};
 }
 
 const std::vector<Kind>& kinds() {
@@ -213,7 +216,31 @@ void checkLabelIsNew(const Element& shape, const std::string& label, Diagnostics
                                        label, first->name(), first->where().text()));
 }
 
+/// An empty tag that stands for a shape further up.
+struct Reference {
+  std::string label;
+};
+
+Schema<Reference> referenceSchema(const std::string& attribute) {
+  return Schema<Reference>("label", "Stands for the shape with this label, further up.")
+      .requiredAttribute(attribute, &Reference::label, "1", "the label of that shape");
+}
+
+std::vector<Alternative> alternativesOf(const std::string& shape) {
+  static const Schema<Reference> byName = referenceSchema("name");
+  static const Schema<Reference> byLabel =
+      referenceSchema("label").foreignAttribute("name", "another word for label, which comes first");
+  return {{findKind(shape)->schema, {}}, {&byLabel, {}}, {&byName, {}}};
+}
+
 }  // namespace
+
+std::vector<TagForm> geometryForms() {
+  std::vector<TagForm> forms;
+  for (const std::string& name : geometryNames())
+    forms.push_back(sectionForm({name}, [name] { return alternativesOf(name); }));
+  return forms;
+}
 
 std::vector<std::string> geometryNames() {
   return {"box",   "cylinder", "sphere", "cone",  "ellipsoid",  "parallelepiped",

@@ -7,11 +7,14 @@
 #include "core/input/diagnostics.hpp"
 #include "core/input/element.hpp"
 #include "core/input/geometry/piece.hpp"
+#include "core/input/tag_form.hpp"
 
 namespace tushar::input {
 
 /// The tags that are shapes, for Schema::custom to take over: `.custom("shape", …, geometryNames(), …)`.
 std::vector<std::string> geometryNames();
+/// What may stand in them, for Schema::forms.
+std::vector<TagForm> geometryForms();
 
 /// The shapes among the children of a `<geom_object>` (or the like), united if there are several; other children are
 /// left to the schema of `parent`. Null, after a sentence, if there is none or if one is wrong.

@@ -21,6 +21,7 @@ void refuseSwitch(input::Schema<S>& schema, const std::string& tag, const std::s
         diagnostics.error(*given, "is not available; " + instead);
       },
       {tag}, "only false: " + instead);
+  schema.forms({patternForm({tag}, std::string("false|") + zeroPattern)});
 }
 
 /// A switch of Uintah's that only stands at `true` here; `instead` says what there is.
@@ -33,6 +34,7 @@ void requireSwitch(input::Schema<S>& schema, const std::string& tag, const std::
         if (given && given->text() != "true") diagnostics.error(*given, "is always true; " + instead);
       },
       {tag}, "only true: " + instead);
+  schema.forms({choiceForm({tag}, {"true"})});
 }
 
 /// A tag of Uintah's that only stands at one of some values here; `sentence` says why.
@@ -54,6 +56,10 @@ void refuseOtherValues(input::Schema<S>& schema, const std::string& tag, const s
                             "found '" + given->text() + "', expected " + input::listed(values) + ": " + sentence);
       },
       {tag}, "only " + input::listed(values) + ": " + sentence);
+  TagForm form = choiceForm({tag}, values);
+  const auto isNumber = [](const std::string& value) { return input::parse<double>(value).value.has_value(); };
+  if (std::all_of(values.begin(), values.end(), isNumber)) form.type = typeName<double>;
+  schema.forms({std::move(form)});
 }
 
 /// A tag of Uintah's that is missing here; `instead` says what there is.
@@ -65,6 +71,7 @@ void refuseTag(input::Schema<S>& schema, const std::string& tag, const std::stri
         if (const auto given = element.child(tag)) diagnostics.error(*given, "is not available; " + instead);
       },
       {tag}, "not there: " + instead);
+  schema.forms({noForm({tag})});
 }
 
 /// A choice of Uintah's of which only `available` are there; may be left out.
@@ -80,6 +87,7 @@ void refuseTypes(input::Schema<S>& schema, const std::string& tag, const std::ve
         if (!problem.empty()) diagnostics.error(*given, "attribute 'type': " + problem);
       },
       {tag}, sentence);
+  schema.forms({anyForm({tag}, {{"type", available}})});
 }
 
 /// Words of Uintah's that are missing here, and what there is instead.
@@ -106,6 +114,7 @@ void requiredChoiceOrRefusal(input::Schema<S>& schema, const std::string& tag, E
         if (!problem.empty()) diagnostics.error(*given, problem);
       },
       {tag}, input::listed(words) + ": " + sentence);
+  schema.forms({choiceForm({tag}, words, 1)});
 }
 
 }  // namespace tushar::input

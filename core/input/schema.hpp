@@ -197,6 +197,13 @@ class Schema : public SchemaBase {
     return put(std::move(entry));
   }
 
+  /// What may stand in the tags of the last declaration, a custom one, for the schemas of editors; of all of them
+  /// together at least `atLeast` must be given.
+  Schema& forms(std::vector<TagForm> forms, int atLeast = 0) {
+    setFormsOfLast(std::move(forms), atLeast);
+    return *this;
+  }
+
   /// Keeps where the tag stands or, with the name of an attribute, where that was given.
   Schema& location(Location S::*member, std::string attribute = "") {
     addLocate([member, attribute = std::move(attribute)](void* object, const Element& element) {
@@ -322,6 +329,7 @@ class Schema : public SchemaBase {
     entry.fill = [keep, &schema](void* object, const Element& element, Diagnostics& diagnostics) {
       keep(*static_cast<S*>(object), schema.read(element, diagnostics));
     };
+    entry.nested = &schema;
     entry.describe = [&schema](std::ostream& out, int indent) { schema.describeContents(out, indent); };
     return entry;
   }

@@ -113,8 +113,17 @@ std::string presence(const SchemaEntry& entry) {
   return entry.fallback.empty() ? "optional" : "default " + entry.fallback;
 }
 
-/// `number in Pa, greater than 0, default 1`.
-std::string facts(const SchemaEntry& entry) {
+void describeEntry(const SchemaEntry& entry, std::ostream& out, int indent) {
+  std::string line = std::string(indent, ' ') + title(entry);
+  if (const std::string facts = factsOf(entry); !facts.empty()) line += " — " + facts;
+  if (!entry.sentence.empty()) line += ": " + entry.sentence;
+  out << line << (entry.ours ? " [Tushar's own]" : "") << '\n';
+  if (entry.describe) entry.describe(out, indent + 2);
+}
+
+}  // namespace
+
+std::string factsOf(const SchemaEntry& entry) {
   std::vector<std::string> facts;
   if (!entry.type.empty()) {
     const bool hasUnit = !entry.unit.empty() && entry.unit != "1";
@@ -125,16 +134,6 @@ std::string facts(const SchemaEntry& entry) {
   if (!presence(entry).empty()) facts.push_back(presence(entry));
   return listed(facts);
 }
-
-void describeEntry(const SchemaEntry& entry, std::ostream& out, int indent) {
-  std::string line = std::string(indent, ' ') + title(entry);
-  if (!facts(entry).empty()) line += " — " + facts(entry);
-  if (!entry.sentence.empty()) line += ": " + entry.sentence;
-  out << line << (entry.ours ? " [Tushar's own]" : "") << '\n';
-  if (entry.describe) entry.describe(out, indent + 2);
-}
-
-}  // namespace
 
 std::string choiceProblem(const std::string& text, const std::vector<std::string>& words) {
   if (contains(words, text)) return {};
@@ -173,6 +172,12 @@ void SchemaBase::add(SchemaEntry entry) {
 void SchemaBase::markLastOurs() {
   assert(!entries_.empty());
   entries_.back().ours = true;
+}
+
+void SchemaBase::setFormsOfLast(std::vector<TagForm> forms, int atLeast) {
+  assert(!entries_.empty() && entries_.back().form == Form::custom);
+  entries_.back().forms = std::move(forms);
+  entries_.back().atLeast = atLeast;
 }
 
 void SchemaBase::setDefaults(void* object) const {

@@ -7,6 +7,7 @@
 
 #include "core/input/diagnostics.hpp"
 #include "core/input/element.hpp"
+#include "core/input/tag_form.hpp"
 
 namespace tushar::input {
 
@@ -28,7 +29,9 @@ struct SchemaEntry {
   std::vector<std::string> takes;  ///< the tags that it reads; empty for attributes and text
   bool ours = false;
   bool repeatable = false;
-  int atLeast = 0;  ///< how many must be given
+  int atLeast = 0;             ///< how many must be given
+  std::vector<TagForm> forms;  ///< what may stand in the tags that a function of the parent reads; empty: anything
+  const SchemaBase* nested = nullptr;  ///< what reads a nested tag
 
   std::function<void(void* object)> setDefault;
   /// Reads a value; returns a sentence where it is wrong.
@@ -39,6 +42,9 @@ struct SchemaEntry {
   std::function<void(std::ostream& out, int indent)> describe;
 };
 
+/// `number in Pa, greater than 0, default 1`: what the manual says of a value besides its sentence.
+std::string factsOf(const SchemaEntry& entry);
+
 /// Why `text` is none of `words`, or nothing.
 std::string choiceProblem(const std::string& text, const std::vector<std::string>& words);
 
@@ -47,6 +53,8 @@ class SchemaBase {
  public:
   const std::string& name() const { return name_; }
   const std::string& sentence() const { return sentence_; }
+  /// All declarations, in their order.
+  const std::vector<SchemaEntry>& entries() const { return entries_; }
   /// The tags that may be given, in the order of their declaration.
   std::vector<std::string> tagNames() const;
   std::vector<std::string> attributeNames() const;
@@ -65,6 +73,8 @@ class SchemaBase {
   void addCheck(Check check) { checks_.push_back(std::move(check)); }
   void addLocate(Locate locate) { locates_.push_back(std::move(locate)); }
   void markLastOurs();
+  /// What may stand in the tags of the last declaration, which a function reads; at least `atLeast` of them in all.
+  void setFormsOfLast(std::vector<TagForm> forms, int atLeast);
   void setDefaults(void* object) const;
   void readInto(void* object, const Element& element, Diagnostics& diagnostics) const;
 

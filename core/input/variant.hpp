@@ -26,6 +26,10 @@ class TypedTag<std::variant<Ts...>> {
   }
   static std::vector<std::string> names() { return {std::string(Ts::name)...}; }
   static void describe(std::ostream& out, int indent) { (describeOne<Ts>(out, indent), ...); }
+  /// The tag by each of the types.
+  static std::vector<input::Alternative> alternatives() {
+    return {{&schema<Ts>(), {{"type", {std::string(Ts::name)}}}}...};
+  }
 
  private:
   template <class T>
@@ -53,6 +57,7 @@ void typedTag(input::Schema<S>& schema, const std::string& tag, Variant S::*memb
           diagnostics.error(element, "missing tag <" + tag + "> (" + sentence + ")");
       },
       {tag}, sentence, TypedTag<Variant>::describe);
+  schema.forms({sectionForm({tag}, TypedTag<Variant>::alternatives, isRequired ? 1 : 0)});
 }
 
 }  // namespace tushar::input

@@ -11,6 +11,9 @@
 
 namespace tushar::output {
 
+/// The version of HDF5 that runs.
+std::string hdf5Version();
+
 /// Writes one HDF5 file. It needs no MPI and never starts it. Each function may throw FileError with the path and the
 /// reason: the system's, or else the innermost of HDF5, whose own printing is kept silent.
 class Hdf5File {

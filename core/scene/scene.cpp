@@ -33,17 +33,6 @@ namespace {
 const std::vector<std::string> sharedSections{"Meta", "SimulationComponent", "Time", "DataArchiver",
                                               "Grid", "DataAnalysis"};
 
-/// Sections of Uintah's without effect here, and why.
-const std::vector<std::pair<std::string, std::string>> idleSections{
-    {"LoadBalancer", "does nothing here: patches and tasks are placed without it"},
-    {"Scheduler", "does nothing here: patches and tasks are placed without it"},
-    {"ParallelOptions", "does nothing here: patches and tasks are placed without it"},
-    {"SimulationController", "does nothing here: sus has options of its own"},
-    {"Debug", "does nothing here: see sus --trace and --schedule"},
-    {"ParticlePosition", "does nothing here: particles start by the <res> of their bodies"},
-    {"InitialConditions", "does nothing here: no component reads it"},
-    {"CFD", "does nothing here: no component reads it"}};
-
 struct Meta {
   std::string title;
 };
@@ -56,6 +45,7 @@ const input::Schema<Meta>& metaSchema() {
                                                         meta.title = title->text();
                                                     },
                                                     {"title"}, "its name")
+                                                .forms({input::patternForm({"title"}, ".*")})
                                                 .ignored("info", "for readers")
                                                 .ignored("description", "for readers");
   return schema;
@@ -105,9 +95,9 @@ void refuseUnknownSections(const Element& root, const ComponentKind* kind, const
       for (const std::string& section : other.sections)
         if (std::find(known.begin(), known.end(), section) == known.end()) known.push_back(section);
   for (const Element& child : root.children())
-    if (const auto idle = std::find_if(idleSections.begin(), idleSections.end(),
+    if (const auto idle = std::find_if(idleSections().begin(), idleSections().end(),
                                        [&](const auto& section) { return section.first == child.name(); });
-        idle != idleSections.end())
+        idle != idleSections().end())
       diagnostics.note(child, idle->second);
     else if (std::find(known.begin(), known.end(), child.name()) == known.end())
       diagnostics.error(child, fmt::format("unknown section <{}>{}; allowed here: {}", child.name(),
@@ -216,6 +206,19 @@ void checkSaves(const MakeComponent& make, const std::vector<ReadModule>& module
 
 }  // namespace
 
+const std::vector<std::pair<std::string, std::string>>& idleSections() {
+  static const std::vector<std::pair<std::string, std::string>> sections{
+      {"LoadBalancer", "does nothing here: patches and tasks are placed without it"},
+      {"Scheduler", "does nothing here: patches and tasks are placed without it"},
+      {"ParallelOptions", "does nothing here: patches and tasks are placed without it"},
+      {"SimulationController", "does nothing here: sus has options of its own"},
+      {"Debug", "does nothing here: see sus --trace and --schedule"},
+      {"ParticlePosition", "does nothing here: particles start by the <res> of their bodies"},
+      {"InitialConditions", "does nothing here: no component reads it"},
+      {"CFD", "does nothing here: no component reads it"}};
+  return sections;
+}
+
 Problem readScene(const std::string& path, const std::vector<std::string>& overrides, const Catalogue& catalogue,
                   const grid::Workers& workers, grid::Share share) {
   Diagnostics diagnostics;
@@ -256,6 +259,9 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   problem.notes = diagnostics.notes();
   return problem;
 }
+
+const input::SchemaBase& metaForm() { return metaSchema(); }
+const input::SchemaBase& componentForm() { return componentSchema(); }
 
 void describeSharedSections(std::ostream& out) {
   metaSchema().describe(out);

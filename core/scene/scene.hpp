@@ -33,4 +33,15 @@ void describeTime(std::ostream& out);
 void describeArchive(std::ostream& out);
 void describeGrid(std::ostream& out);
 
+/// How the shared sections are read, for the schemas of editors; Grid with the boundary labels of a component.
+const input::SchemaBase& metaForm();
+const input::SchemaBase& timeForm();
+const input::SchemaBase& archiveForm();
+const input::SchemaBase& gridForm(const std::vector<grid::BoundaryVariable>& boundaryLabels);
+/// The tag SimulationComponent; its `type` says which component.
+const input::SchemaBase& componentForm();
+
+/// Sections of Uintah's without effect here, and why.
+const std::vector<std::pair<std::string, std::string>>& idleSections();
+
 }  // namespace tushar::scene

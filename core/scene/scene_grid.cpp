@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <list>
 #include <map>
 
 #include "core/grid/choose_patches.hpp"
@@ -111,10 +112,14 @@ const Schema<LevelSection>& levelSchema() {
   return schema;
 }
 
+Schema<ConditionSection> conditionTag() {
+  return Schema<ConditionSection>("BCType", "What a variable does at a face.")
+      .attributeValue("id", &ConditionSection::id, "all", "1", "number of the material that it holds for, or all");
+}
+
 const Schema<ConditionSection>& conditionSchema() {
   static const Schema<ConditionSection> schema =
-      Schema<ConditionSection>("BCType", "What a variable does at a face.")
-          .attributeValue("id", &ConditionSection::id, "all", "1", "number of the material that it holds for, or all")
+      conditionTag()
           .requiredAttribute("label", &ConditionSection::label, "1", "the variable")
           .requiredAttribute("var", &ConditionSection::var, "1", "symmetry, Dirichlet or Neumann")
           .optional("value", &ConditionSection::value, "SI unit of the variable", "a number or a vector")
@@ -130,25 +135,58 @@ const Schema<ConditionSection>& conditionSchema() {
   return schema;
 }
 
-const Schema<FaceSection>& faceSchema() {
-  static const Schema<FaceSection> schema =
-      Schema<FaceSection>("Face", "A side of the grid.")
-          .requiredChoiceAttribute("side", &FaceSection::face,
-                                   {{"x-", 0}, {"x+", 1}, {"y-", 2}, {"y+", 3}, {"z-", 4}, {"z+", 5}}, "which")
-          .list("BCType", &FaceSection::conditions, conditionSchema(), "what a variable does there");
-  return schema;
+/// Choices whose words stand for themselves.
+input::Choices<std::string> wordsOf(const std::vector<std::string>& words) {
+  input::Choices<std::string> choices;
+  for (const std::string& word : words) choices.emplace_back(word, word);
+  return choices;
 }
 
+/// The tags of <Grid> around those of conditions, which must outlive it.
+struct GridTags {
+  explicit GridTags(const Schema<ConditionSection>& condition)
+      : face(Schema<FaceSection>("Face", "A side of the grid.")
+                 .requiredChoiceAttribute("side", &FaceSection::face,
+                                          {{"x-", 0}, {"x+", 1}, {"y-", 2}, {"y+", 3}, {"z-", 4}, {"z+", 5}}, "which")
+                 .list("BCType", &FaceSection::conditions, condition, "what a variable does there")),
+        faces(Schema<FacesSection>("BoundaryConditions",
+                                   "What happens at the sides of the grid; a side that is not named is free.")
+                  .list("Face", &FacesSection::faces, face, "a side")),
+        grid(Schema<GridSection>("Grid", "The grid and what happens at its sides.")
+                 .section("BoundaryConditions", &GridSection::boundaries, faces)
+                 .requiredSection("Level", &GridSection::level, levelSchema())) {}
+  GridTags(const GridTags&) = delete;
+  GridTags& operator=(const GridTags&) = delete;
+
+  Schema<FaceSection> face;
+  Schema<FacesSection> faces;
+  Schema<GridSection> grid;
+};
+
 const Schema<GridSection>& gridSchema() {
-  static const Schema<FacesSection> faces =
-      Schema<FacesSection>("BoundaryConditions",
-                           "What happens at the sides of the grid; a side that is not named is free.")
-          .list("Face", &FacesSection::faces, faceSchema(), "a side");
-  static const Schema<GridSection> schema = Schema<GridSection>("Grid", "The grid and what happens at its sides.")
-                                                .section("BoundaryConditions", &GridSection::boundaries, faces)
-                                                .requiredSection("Level", &GridSection::level, levelSchema());
-  return schema;
+  static const GridTags tags(conditionSchema());
+  return tags.grid;
 }
+
+/// The conditions of a component as an editor is to see them: of its labels.
+Schema<ConditionSection> conditionFor(const std::vector<grid::BoundaryVariable>& labels) {
+  Schema<ConditionSection> tag = conditionTag();
+  if (labels.empty())
+    tag.requiredAttribute("label", &ConditionSection::label, "1", "the variable");
+  else
+    tag.requiredChoiceAttribute("label", &ConditionSection::label, wordsOf(namesOf(labels)), "the variable");
+  return tag.requiredChoiceAttribute("var", &ConditionSection::var, wordsOf(conditionKinds), "what it does")
+      .optional("value", &ConditionSection::value, "SI unit of the variable", "a number or a vector");
+}
+
+/// A Grid section with the labels of one component.
+struct GridFor {
+  explicit GridFor(const std::vector<grid::BoundaryVariable>& labels)
+      : condition(conditionFor(labels)), tags(condition) {}
+
+  Schema<ConditionSection> condition;
+  GridTags tags;
+};
 
 Vec3 conditionValue(const ConditionSection& condition, bool isVector, const Element& element,
                     Diagnostics& diagnostics) {
@@ -288,6 +326,11 @@ grid::Domain readGrid(const Element& section, const std::vector<grid::BoundaryVa
     domain.patches =
         grid::choosePatches(domain.resolution, box.autoPatch.value_or(workers.patchesFor(domain.resolution)));
   return domain;
+}
+
+const input::SchemaBase& gridForm(const std::vector<grid::BoundaryVariable>& boundaryLabels) {
+  static std::list<GridFor> all;
+  return all.emplace_back(boundaryLabels).tags.grid;
 }
 
 void describeGrid(std::ostream& out) { gridSchema().describe(out); }

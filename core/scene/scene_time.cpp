@@ -55,6 +55,7 @@ const Schema<TimeSettings>& timeSchema() {
           .custom("override_restart_delt", refuseRestartStep, {"override_restart_delt"},
                   "only 0: a restart goes on as the run would have; sus -restart --set Time/delt_max=… makes its steps "
                   "shorter")
+          .forms({input::patternForm({"override_restart_delt"}, input::zeroPattern)})
           .check([](const TimeSettings& time, const Element& element, Diagnostics& diagnostics) {
             if (time.maxTime <= time.initTime)
               diagnostics.error(element, "maxTime is not after initTime; nothing would be computed");
@@ -166,6 +167,7 @@ const Schema<ArchiveSettings>& archiveSchema() {
           .custom("compression", readCompression, {"compression"},
                   "level of gzip from 0 for none, the default, to 9; "
                   "gzip is 1, none, rle and tryall are 0")
+          .forms({input::patternForm({"compression"}, R"(.*gzip.*|none|rle|tryall|\+?0*[0-9](\.0*)?)")})
           .ignoredAttribute("type", "there is one kind of archive: HDF5 with an index for ParaView")
           .ignored("save_crack_geometry", "there are no cracks")
           .ignored("PIDX", "there is one kind of archive: HDF5 with an index for ParaView")
@@ -193,6 +195,8 @@ ArchiveSettings readArchive(const Element& section, Diagnostics& diagnostics) {
   return archive;
 }
 void describeTime(std::ostream& out) { timeSchema().describe(out); }
+const input::SchemaBase& timeForm() { return timeSchema(); }
+const input::SchemaBase& archiveForm() { return archiveSchema(); }
 void describeArchive(std::ostream& out) { archiveSchema().describe(out); }
 
 }  // namespace tushar::scene

@@ -42,6 +42,7 @@ ComponentKind kindWithSection(std::string name, std::string sentence, const inpu
   kind.sections = {schema.name()};
   kind.boundaryLabels = std::move(boundaryLabels);
   kind.describe = [&schema](std::ostream& out) { schema.describe(out); };
+  kind.forms = [&schema] { return std::vector<std::vector<SectionForm>>{{{schema.name(), &schema}}}; };
   kind.read = [&schema](const input::Element& root, input::Diagnostics& diagnostics) -> MakeComponent {
     const S settings = readSection(root, schema, diagnostics);
     return [settings](const grid::Level& level) { return makeByDimension<C>(level, settings); };

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/input/diagnostics.hpp"
+#include "core/input/tag_form.hpp"
 #include "core/simulation/analysis.hpp"
 #include "core/simulation/component.hpp"
 
@@ -14,6 +15,14 @@ namespace tushar::simulation {
 
 /// Builds a component on a grid, from what was read of the scene before.
 using MakeComponent = std::function<std::unique_ptr<Component>(const grid::Level&)>;
+
+/// A section that a component reads, for the schemas of editors.
+struct SectionForm {
+  std::string name;
+  const input::SchemaBase* schema = nullptr;  ///< null: anything may stand in it
+  bool required = true;
+  std::vector<input::Demand> demands = {};  ///< what else it takes for the schema to read it
+};
 
 /// A component that sus knows: one line of the table in components/components.cpp.
 struct ComponentKind {
@@ -26,6 +35,8 @@ struct ComponentKind {
   std::function<void(std::ostream&)> describe;  ///< its manual
   /// Layers of nodes that the scene needs beyond the sides of the grid; none where it is empty.
   std::function<int(const input::Element& root)> nodesBeyond;
+  /// The sections of a scene in each of the ways to write one; where it is empty, anything may stand in `sections`.
+  std::function<std::vector<std::vector<SectionForm>>()> forms;
 };
 
 /// Builds a module for a component; throws InputError if the two do not go together.
@@ -37,6 +48,7 @@ struct AnalysisKind {
   std::string sentence;
   std::function<MakeAnalysis(const input::Element& module, input::Diagnostics&)> read;
   std::function<void(std::ostream&)> describe;
+  std::function<const input::SchemaBase*()> schema = {};  ///< of the tag; where it is empty, anything may stand in it
 };
 
 /// Everything that a scene can pick.

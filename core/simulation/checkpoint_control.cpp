@@ -14,6 +14,12 @@ double seconds(const std::optional<double>& given, const std::optional<double>& 
 
 }  // namespace
 
+void addWallTimeInterval(std::optional<CheckpointSettings>& settings, double interval) {
+  if (!settings) settings.emplace();
+  settings->walltimeInterval = interval;
+  settings->walltimeStart = settings->walltimeStartHours = settings->walltimeIntervalHours = std::nullopt;
+}
+
 CheckpointControl::CheckpointControl(const CheckpointSettings& settings, double initTime)
     : every_(settings.timestepInterval.value_or(0)),
       times_(initTime, settings.interval.value_or(0)),

@@ -5,6 +5,10 @@
 
 namespace tushar::simulation {
 
+/// Adds checkpoints every `interval` s of wall time to those that a scene asks for, if it does: in place of its own
+/// interval of wall time, beside those of steps and simulated time.
+void addWallTimeInterval(std::optional<CheckpointSettings>& settings, double interval);
+
 /// When checkpoints are due. A run is never led another way by them: no time step is shortened.
 class CheckpointControl {
  public:

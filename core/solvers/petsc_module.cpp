@@ -21,6 +21,11 @@ class PetscSolver : public Solver {
     GhostedVector(unknowns).addUp(values);
   }
   std::vector<std::string> unusedOptions() const override { return PetscOptionsOfSolve::unused(); }
+  std::string version() const override {
+    PetscInt major = 0, minor = 0, subminor = 0;
+    PetscGetVersionNumber(&major, &minor, &subminor, nullptr);
+    return std::to_string(major) + "." + std::to_string(minor) + "." + std::to_string(subminor);
+  }
 };
 
 }  // namespace

@@ -37,6 +37,10 @@ const Solver& solver() {
   return loaded;
 }
 
+std::string petscVersion() try { return load().version(); } catch (const std::runtime_error& error) {
+  return fmt::format("not there: {}", error.what());
+}
+
 bool isLoaded() { return wasLoaded; }
 
 std::vector<std::string> unusedOptions() { return wasLoaded ? solver().unusedOptions() : std::vector<std::string>{}; }

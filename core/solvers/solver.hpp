@@ -94,6 +94,7 @@ class Solver {
   /// See the functions of these names.
   virtual void addUp(const Unknowns& unknowns, std::span<double> values) const = 0;
   virtual std::vector<std::string> unusedOptions() const = 0;
+  virtual std::string version() const = 0;
 };
 
 /// Every rank gets, for the blocks that it owns and for its ghosts, the sum of what all ranks have for them.
@@ -103,6 +104,9 @@ void addUp(const Unknowns& unknowns, std::span<double> values);
 bool isLoaded();
 /// Options in PETSc's language that were given, and that no solve so far has looked at.
 std::vector<std::string> unusedOptions();
+
+/// The version of PETSc that would solve, or why it cannot be loaded.
+std::string petscVersion();
 
 /// The solver; loads PETSc at the first call. Throws std::runtime_error where the library is missing.
 const Solver& solver();

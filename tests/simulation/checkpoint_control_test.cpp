@@ -51,6 +51,24 @@ TEST(CheckpointControl, BeginsWithTheWallTimeThatIsAskedForAndReadsHours) {
   EXPECT_TRUE(control.isDue(2, 2, 9000));
 }
 
+TEST(CheckpointControl, TakesAnIntervalOfWallTimeFromTheCommandLine) {
+  std::optional<CheckpointSettings> none;
+  addWallTimeInterval(none, 600);
+  EXPECT_EQ(none.value().cycle, 2);
+  const CheckpointControl alone(*none, 0);
+  EXPECT_FALSE(alone.isDue(1, 1, 599));
+  EXPECT_TRUE(alone.isDue(1, 1, 600));
+
+  std::optional<CheckpointSettings> both(std::in_place);
+  both->timestepInterval = 5;
+  both->walltimeIntervalHours = both->walltimeStartHours = 1;
+  addWallTimeInterval(both, 60);
+  const CheckpointControl beside(*both, 0);
+  EXPECT_TRUE(beside.isDue(5, 1, 0));
+  EXPECT_FALSE(beside.isDue(6, 1, 59));
+  EXPECT_TRUE(beside.isDue(6, 1, 60));
+}
+
 TEST(Milestones, ArePassedOneAfterTheOther) {
   Milestones outputs(-1, 0.25);
   EXPECT_EQ(outputs.next(), -0.75);

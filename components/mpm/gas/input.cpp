@@ -119,6 +119,15 @@ simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostic
   return [method, gases](const Level& level) { return makeComponent(level, method, gases); };
 }
 
+std::vector<std::vector<simulation::SectionForm>> forms() {
+  std::vector<std::vector<simulation::SectionForm>> forms;
+  for (const char* method : {"gas_dynamics", "conserving_gas_dynamics"})
+    forms.push_back({{"MPM", &mpmSchema(), true, {{method, {}}}},
+                     {"MaterialProperties", &gasProperties()},
+                     {"PhysicalBC", nullptr, false}});
+  return forms;
+}
+
 void describe(std::ostream& out) {
   mpmSchema().describe(out);
   gasProperties().describe(out);

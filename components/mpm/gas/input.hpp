@@ -13,6 +13,9 @@ bool isGas(const input::Element& root);
 /// Reads a scene of gases; every problem goes to the diagnostics.
 simulation::MakeComponent readScene(const input::Element& root, input::Diagnostics& diagnostics);
 
+/// The sections of such a scene, for the schemas of editors: a list for each method.
+std::vector<std::vector<simulation::SectionForm>> forms();
+
 /// Prints the reference of all tags.
 void describe(std::ostream& out);
 

@@ -22,6 +22,7 @@ const Schema<GasObjectSection>& objectSchema() {
                 object.shape = input::readGeometry(element, diagnostics);
               },
               input::geometryNames(), "the body's shape; several are united", input::describeGeometry)
+          .forms(input::geometryForms(), 1)
           .required("res", &GasObjectSection::res, "1", "particles per cell along x, y, z", input::between(1, 64))
           .value("velocity", &GasObjectSection::velocity, input::VectorExpression(), "m/s", "velocity at the start",
                  input::WithoutTime())

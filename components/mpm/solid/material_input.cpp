@@ -86,10 +86,22 @@ void readModel(Material& material, const Element& parent, Diagnostics& diagnosti
   forEachModel([&]<class M>(const M&) {
     if (type != M::name) return;
     M model = modelSchema<M>().read(*tag, diagnostics);
-    if constexpr (offers<M, capability::ConstantsOfMaterial>) model.material = material.constants();
+    if constexpr (providesCapability<M, capability::ConstantsOfMaterial>) model.material = material.constants();
     material.model = std::make_shared<ModelOf<M>>(model);
   });
   if (!material.model) refuseModel(*tag, type, diagnostics);
+}
+
+/// The tag by each of the models.
+std::vector<input::Alternative> modelAlternatives() {
+  std::vector<input::Alternative> alternatives;
+  forEachModel([&]<class M>(const M&) {
+    std::vector<std::string> words{std::string(M::name)};
+    for (const auto& [word, model] : otherWords)
+      if (model == M::name) words.push_back(word);
+    alternatives.push_back({&modelSchema<M>(), {{"type", words}}});
+  });
+  return alternatives;
 }
 
 void describeModels(std::ostream& out, int indent) {
@@ -108,6 +120,7 @@ Schema<Body> bodyTags() {
             body.shape = input::readGeometry(element, diagnostics);
           },
           input::geometryNames(), "the body's shape; several are united", input::describeGeometry)
+      .forms(input::geometryForms(), 1)
       .required("res", &Body::particlesPerCell, "1", "particles per cell along x, y, z", input::between(1, 32))
       .value("velocity", &Body::velocity, input::VectorExpression(), "m/s", "velocity at the start")
       .value("temperature", &Body::temperature, input::Expression(293.0), "K", "temperature at the start",
@@ -165,8 +178,10 @@ const Schema<Material>& materialSchema() {
             "specified, whose master it is, takes from others; gravity, damping and sides of the grid do not act on it")
         .custom("constitutive_model", readModel, {"constitutive_model"}, "how it answers to being deformed",
                 describeModels)
+        .forms({input::sectionForm({"constitutive_model"}, modelAlternatives, 1)})
         .custom("damage_model", readDamage, {"damage_model", "erosion"}, "how it fails, and what it bears then",
                 describeDamage)
+        .forms(damageForms())
         .list("geom_object", &Material::bodies, bodySchema(), "a body of material at the start", 1);
     acceptUintahsTags(material);
     return material;
@@ -210,6 +225,7 @@ const Schema<MaterialProperties>& propertiesSchema() {
                 read.contacts = readContacts(element, diagnostics);
               },
               {"contact"}, "how materials act on each other; several are applied one after the other", describeContacts)
+          .forms({contactForm()})
           .section("thermal_contact", &MaterialProperties::List::thermalContact, thermalContact)
           .check(noteCommonNames)
           .check(checkContacts);

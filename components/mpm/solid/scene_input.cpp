@@ -2,6 +2,9 @@
 
 #include <set>
 
+#include "components/mpm/solid/loads/load_input.hpp"
+#include "components/mpm/solid/material_input.hpp"
+
 namespace tushar::mpm::solid {
 
 using input::Diagnostics;
@@ -18,6 +21,13 @@ const Schema<PhysicalConstants>& constantsSchema() {
           .ignored("pressure", "belongs to components of flow")
           .ignored("reference_pressure", "nothing here depends on it");
   return schema;
+}
+
+std::vector<simulation::SectionForm> sectionForms(const input::SchemaBase& mpm) {
+  return {{"MPM", &mpm},
+          {"PhysicalConstants", &constantsSchema(), false},
+          {"MaterialProperties", &propertiesSchema()},
+          {"PhysicalBC", &loadsForm(), false}};
 }
 
 namespace {

@@ -2,6 +2,7 @@
 
 #include "components/mpm/solid/problem.hpp"
 #include "core/input/schema.hpp"
+#include "core/simulation/catalogue.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -10,6 +11,9 @@ struct PhysicalConstants {
   Vec3 gravity = Vec3::Zero();  ///< m/s^2
 };
 const input::Schema<PhysicalConstants>& constantsSchema();
+
+/// The sections of a scene of solids whose <MPM> is read by `mpm`, for the schemas of editors.
+std::vector<simulation::SectionForm> sectionForms(const input::SchemaBase& mpm);
 
 /// Gives every material its number, and a name of its own where the scene gives none or one that a material above has.
 void nameMaterials(std::vector<Material>& materials);

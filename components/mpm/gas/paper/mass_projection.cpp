@@ -166,6 +166,7 @@ void measureMassProjection(const Patch& patch, const Gas&, ParticleView<const Ve
 simulation::AnalysisKind massProjectionKind() {
   simulation::AnalysisKind kind{"massProjection", "error of the nodal mass against its bound", {}, {}};
   kind.describe = [](std::ostream& out) { schema().describe(out); };
+  kind.schema = [] { return &schema(); };
   kind.read = [](const input::Element& module, input::Diagnostics& diagnostics) -> simulation::MakeAnalysis {
     schema().read(module, diagnostics);
     return [where = module.where(), path = module.path()](const Component& component,

@@ -58,6 +58,7 @@ const input::Schema<Settings>& settingsSchema() {
 simulation::AnalysisKind energyBudgetKind() {
   simulation::AnalysisKind kind{"energyBudget", "where the energy of solids came from and where it went", {}, {}};
   kind.describe = [](std::ostream& out) { settingsSchema().describe(out); };
+  kind.schema = [] { return &settingsSchema(); };
   kind.read = [](const input::Element& module, input::Diagnostics& diagnostics) -> simulation::MakeAnalysis {
     settingsSchema().read(module, diagnostics);
     return [where = module.where(), path = module.path()](const Component& component,

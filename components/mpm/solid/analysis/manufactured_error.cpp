@@ -55,6 +55,7 @@ simulation::AnalysisKind manufacturedErrorKind() {
   simulation::AnalysisKind kind{
       "manufacturedError", "errors of particles against the solution of RunMMSProblem", {}, {}};
   kind.describe = [](std::ostream& out) { settingsSchema().describe(out); };
+  kind.schema = [] { return &settingsSchema(); };
   kind.read = [](const input::Element& module, input::Diagnostics& diagnostics) -> simulation::MakeAnalysis {
     settingsSchema().read(module, diagnostics);
     return [where = module.where(), path = module.path()](const Component& component,

@@ -164,6 +164,7 @@ struct ElasticPlastic {
             diagnostics.error(*given, input::choiceProblem(given->text(), {"radialReturn"}));
         },
         {"plastic_convergence_algo"}, "only radialReturn");
+    tags.forms({input::choiceForm({"plastic_convergence_algo"}, {"radialReturn"})});
     refuseTypes(tags, "yield_condition", {"vonMises"}, "the yield surface");
     refuseTypes(tags, "stability_check", {"none", "drucker", "becker", "drucker_becker"},
                 "nothing comes of it: only none where there is an <erosion>");

@@ -171,6 +171,10 @@ std::vector<Contact> readContacts(const Element& parent, Diagnostics& diagnostic
   return contacts;
 }
 
+input::TagForm contactForm() {
+  return input::sectionForm({"contact"}, [] { return std::vector<input::Alternative>{{&contactSchema(), {}}}; });
+}
+
 void describeContacts(std::ostream& out, int indent) { contactSchema().describeContents(out, indent); }
 
 }  // namespace tushar::mpm::solid

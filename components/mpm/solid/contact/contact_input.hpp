@@ -3,6 +3,7 @@
 #include "components/mpm/solid/contact/contact.hpp"
 #include "core/input/diagnostics.hpp"
 #include "core/input/element.hpp"
+#include "core/input/tag_form.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -11,5 +12,7 @@ std::vector<Contact> readContacts(const input::Element& parent, input::Diagnosti
 
 /// The manual, indented by that many blanks.
 void describeContacts(std::ostream& out, int indent);
+/// What may stand in such a tag, for the schemas of editors.
+input::TagForm contactForm();
 
 }  // namespace tushar::mpm::solid

@@ -192,6 +192,13 @@ void readDamage(Material& material, const Element& parent, Diagnostics& diagnost
   }
 }
 
+std::vector<input::TagForm> damageForms() {
+  return {input::sectionForm({"damage_model"}, input::TypedTag<Damage>::alternatives),
+          input::sectionForm({"erosion"}, [] {
+            return std::vector<input::Alternative>{{&erosionSchema(), {}}};
+          })};
+}
+
 void describeDamage(std::ostream& out, int indent) {
   input::TypedTag<Damage>::describe(out, indent);
   out << std::string(indent, ' ') << "<erosion>: " << erosionSchema().sentence() << '\n';

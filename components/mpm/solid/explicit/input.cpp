@@ -157,7 +157,8 @@ void addForeign(Schema<MpmSection>& mpm) {
   requireSwitch(mpm, "computeColinearNormals", "both sides of a contact have one normal");
   requireSwitch(mpm, "do_grid_reset", "the grid is where it was at the start of each step");
   mpm.custom("cpdi_lcrit", refuseShortDomains, {"cpdi_lcrit"},
-             "only 1e10 and more: domains of cpdi keep the size that the deformation gives them");
+             "only 1e10 and more: domains of cpdi keep the size that the deformation gives them")
+      .forms({input::typeForm({"cpdi_lcrit"}, std::string(input::typeName<double>))});
 }
 
 const Schema<MpmSection>& mpmSchema() {
@@ -278,6 +279,8 @@ simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostic
     return makeComponent(level, interpolator, problem);
   };
 }
+
+std::vector<simulation::SectionForm> forms() { return sectionForms(mpmSchema()); }
 
 void describe(std::ostream& out) {
   mpmSchema().describe(out);

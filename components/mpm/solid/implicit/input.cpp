@@ -263,6 +263,8 @@ bool isImplicit(const Element& root) {
   return integrator && integrator->text() == "implicit";
 }
 
+std::vector<simulation::SectionForm> forms() { return sectionForms(sectionSchema()); }
+
 simulation::ComponentKind implicitKind() {
   simulation::ComponentKind kind;
   kind.name = "impm";
@@ -275,6 +277,7 @@ simulation::ComponentKind implicitKind() {
     propertiesSchema().describe(out);
     describeLoads(out);
   };
+  kind.forms = [] { return std::vector<std::vector<simulation::SectionForm>>{forms()}; };
   kind.nodesBeyond = nodesBeyond;
   kind.read = readScene;
   return kind;

@@ -62,6 +62,30 @@ void readSurface(SurfaceSection& load, const Element& parent, Diagnostics& diagn
                       fmt::format("a load acts on a box, cylinder or sphere, not on a <{}>", shapes[0].name()));
 }
 
+struct Place {};
+
+/// The surface of a load, which readSurface reads.
+std::vector<input::Alternative> placeAlternatives() {
+  static const Schema<Place> schema = [] {
+    std::vector<input::TagForm> forms;
+    for (input::TagForm& form : input::geometryForms()) {
+      const std::string& shape = form.tags.front();
+      if (shape == "box")
+        form.alternatives = [all = form.alternatives] {
+          std::vector<input::Alternative> boxes = all();
+          boxes.front().schema = &boxSchema();
+          return boxes;
+        };
+      if (shape == "box" || shape == "cylinder" || shape == "sphere") forms.push_back(std::move(form));
+    }
+    return Schema<Place>("geom_object", "Where a load acts.")
+        .custom(
+            "shape", [](Place&, const Element&, Diagnostics&) {}, {"box", "cylinder", "sphere"}, "one shape")
+        .forms(std::move(forms), 1);
+  }();
+  return {{&schema, {}}};
+}
+
 const Schema<CurveSection>& curveSchema() {
   static const Schema<TimePoint> point = Schema<TimePoint>("time_point", "A load at a time.")
                                              .required("time", &TimePoint::time, "s", "when")
@@ -85,6 +109,7 @@ Schema<SurfaceSection> surfaceSchema(const std::string& name, const std::string&
   return Schema<SurfaceSection>(name, sentence)
       .custom("geom_object", readSurface, {"geom_object"},
               "a thin box, a cylinder or a sphere: particles along it and at the surface of their body are loaded")
+      .forms({input::sectionForm({"geom_object"}, placeAlternatives, 1)})
       .requiredSection("load_curve", &SurfaceSection::curve, curveSchema())
       .ignored("outward_normal", "the sign of the load says where to")
       .ignored("res", "particles are counted");
@@ -153,5 +178,6 @@ Loads readLoads(const Element& root, bool usesCurves, Diagnostics& diagnostics) 
 }
 
 void describeLoads(std::ostream& out) { loadsSchema().describe(out); }
+const input::SchemaBase& loadsForm() { return loadsSchema(); }
 
 }  // namespace tushar::mpm::solid

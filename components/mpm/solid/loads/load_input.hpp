@@ -9,5 +9,7 @@ Loads readLoads(const input::Element& root, bool usesCurves, input::Diagnostics&
 
 /// Prints the manual of the `PhysicalBC` section.
 void describeLoads(std::ostream& out);
+/// How the section is read.
+const input::SchemaBase& loadsForm();
 
 }  // namespace tushar::mpm::solid

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace tushar::input {
+
+class SchemaBase;
+
+/// An attribute or a tag that must be there, with one of some words; with any value where there are no words.
+struct Demand {
+  std::string name;
+  std::vector<std::string> words;
+};
+
+/// One way to write a tag: as a schema declares it, and with what else it takes to be read by that schema.
+struct Alternative {
+  const SchemaBase* schema = nullptr;  ///< must outlive the form
+  std::vector<Demand> demands;
+};
+
+/// What may stand in some tags that a function reads: for the schemas of editors, not for reading.
+struct TagForm {
+  enum class Kind { anything, nothing, value, section };
+
+  std::vector<std::string> tags;
+  Kind kind = Kind::anything;
+  std::string type;                  ///< of a value, as the manual calls it: see typeName
+  std::vector<std::string> choices;  ///< words for a value; compared as the type, if there is one
+  std::string pattern;               ///< a regular expression of XML Schema for a value, in place of the type
+  std::vector<Demand> demands;       ///< attributes of a tag whose contents may be anything
+  /// The schemas of a section; called when all schemas are complete.
+  std::function<std::vector<Alternative>()> alternatives;
+  int atLeast = 0;      ///< how many of each tag must be given
+  bool repeats = true;  ///< whether a tag may be given more than once
+};
+
+/// Tags with a value of a type.
+inline TagForm typeForm(std::vector<std::string> tags, std::string type, int atLeast = 0) {
+  TagForm form;
+  form.tags = std::move(tags);
+  form.kind = TagForm::Kind::value;
+  form.type = std::move(type);
+  form.atLeast = atLeast;
+  return form;
+}
+
+/// Tags with one of some words.
+inline TagForm choiceForm(std::vector<std::string> tags, std::vector<std::string> words, int atLeast = 0) {
+  TagForm form = typeForm(std::move(tags), "", atLeast);
+  form.choices = std::move(words);
+  return form;
+}
+
+/// Tags with a text that matches a regular expression of XML Schema, once its blanks are collapsed.
+inline TagForm patternForm(std::vector<std::string> tags, std::string pattern) {
+  TagForm form = typeForm(std::move(tags), "");
+  form.pattern = std::move(pattern);
+  return form;
+}
+
+/// Tags that are never right.
+inline TagForm noForm(std::vector<std::string> tags) {
+  TagForm form;
+  form.tags = std::move(tags);
+  form.kind = TagForm::Kind::nothing;
+  return form;
+}
+
+/// Tags whose contents are not looked at, but for the attributes of `demands`.
+inline TagForm anyForm(std::vector<std::string> tags, std::vector<Demand> demands = {}) {
+  TagForm form;
+  form.tags = std::move(tags);
+  form.demands = std::move(demands);
+  return form;
+}
+
+/// Tags that schemas read.
+inline TagForm sectionForm(std::vector<std::string> tags, std::function<std::vector<Alternative>()> alternatives,
+                           int atLeast = 0) {
+  TagForm form;
+  form.tags = std::move(tags);
+  form.kind = TagForm::Kind::section;
+  form.alternatives = std::move(alternatives);
+  form.atLeast = atLeast;
+  return form;
+}
+
+/// 0, as a number is written.
+inline constexpr const char* zeroPattern = R"([+\-]?(0+(\.0*)?|\.0+)([eE][+\-]?[0-9]+)?)";
+
+}  // namespace tushar::input

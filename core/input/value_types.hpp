@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/input/schema_base.hpp"
+
+namespace tushar::input {
+
+/// A type of values as the schemas of editors have it.
+struct ValueType {
+  std::string type;     ///< as the manual calls it
+  std::string name;     ///< in schemas
+  std::string pattern;  ///< a regular expression of XML Schema, for a text whose blanks are collapsed
+};
+
+/// All types of values, `text` the first.
+const std::vector<ValueType>& valueTypes();
+
+/// The type that the manual calls `type`; text where there is none.
+const ValueType& valueTypeOf(const std::string& type);
+
+/// What may stand in the tags of a declaration.
+std::vector<TagForm> formsOf(const SchemaEntry& entry);
+
+/// `number in Pa, greater than 0: its modulus [Tushar's own]`.
+std::string documentationOf(const SchemaEntry& entry);
+
+/// What a tag or an attribute of that name must be; null where nothing is demanded.
+const Demand* findDemand(const std::vector<Demand>& demands, const std::string& name);
+
+}  // namespace tushar::input

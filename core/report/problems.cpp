@@ -1,0 +1,36 @@
+#include "core/report/problems.hpp"
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+namespace tushar::report {
+
+namespace {
+
+/// The word in ` (did you mean 'x'?)` of a sentence.
+std::optional<std::string> suggestionIn(const std::string& sentence) {
+  constexpr std::string_view before = "(did you mean '", after = "'?)";
+  const std::size_t start = sentence.find(before);
+  if (start == std::string::npos) return {};
+  const std::size_t first = start + before.size(), end = sentence.find(after, first);
+  return end == std::string::npos ? std::nullopt : std::optional(sentence.substr(first, end - first));
+}
+
+}  // namespace
+
+std::string toJson(const std::vector<InputProblem>& problems) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const InputProblem& problem : problems) {
+    nlohmann::ordered_json one;
+    one["file"] = problem.where.file;
+    one["line"] = problem.where.line;
+    one["column"] = problem.where.column;
+    one["path"] = problem.tagPath;
+    one["message"] = problem.sentence;
+    if (const auto suggestion = suggestionIn(problem.sentence)) one["suggestion"] = *suggestion;
+    list.push_back(std::move(one));
+  }
+  return list.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace tushar::report

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/base/error.hpp"
+
+namespace tushar::report {
+
+/// The problems of a scene for programs: a list of objects with `file`, `line` and `column` (from 1; 0 where a line has
+/// no meaning), `path` of the tag, `message` and, where there is a nearest word, `suggestion`.
+std::string toJson(const std::vector<InputProblem>& problems);
+
+}  // namespace tushar::report

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "core/input/tag_form.hpp"
+#include "core/simulation/catalogue.hpp"
+
+namespace tushar::scene {
+
+/// What may stand in a scene, for the schemas of editors: the outermost tag in each of the ways to write it, which the
+/// component and its method decide.
+input::TagForm sceneForm(const simulation::Catalogue& catalogue);
+
+}  // namespace tushar::scene

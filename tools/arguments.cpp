@@ -1,0 +1,129 @@
+#include "tools/arguments.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "core/base/error.hpp"
+#include "core/input/values.hpp"
+
+namespace tushar {
+
+namespace {
+
+/// Uintah's words begin with one dash: -validate becomes --validate. Single letters stay.
+std::string withTwoDashes(const std::string& word) {
+  const bool oneDash = word.size() > 2 && word[0] == '-' && word[1] != '-' && std::isalpha(word[1]);
+  return oneDash ? "-" + word : word;
+}
+
+void setThreads(int count, grid::Workers& workers) {
+  workers.threads = count;
+  workers.mayBeFewer = false;
+}
+
+void setLayout(const std::string& text, grid::Workers& workers) {
+  workers.layout = grid::parseLayout(text);
+  if (!workers.layout)
+    throw CLI::ValidationError(
+        fmt::format("--layout: found '{}', expected AxBxC, the patches along x, y and z, such as 4x2x1", text));
+}
+
+double checkpointInterval(const std::string& text) {
+  const std::optional<double> seconds = parseDuration(text);
+  if (!seconds)
+    throw CLI::ValidationError(fmt::format("--checkpoint: found '{}', expected a time such as 30s, 10min or 2h", text));
+  return *seconds;
+}
+
+}  // namespace
+
+std::optional<double> parseDuration(const std::string& text) {
+  for (const auto& [unit, seconds] : {std::pair{"min", 60.0}, std::pair{"h", 3600.0}, std::pair{"s", 1.0}}) {
+    if (!text.ends_with(unit)) continue;
+    const auto count = input::parse<double>(text.substr(0, text.size() - std::string_view(unit).size()));
+    if (count && *count > 0) return *count * seconds;
+  }
+  return {};
+}
+
+std::vector<std::string> optionNames(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options())
+    if (!option->get_group().empty())
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+std::vector<std::string> backwards(const std::vector<std::string>& given) {
+  std::vector<std::string> words;
+  for (const std::string& word : given)
+    words.push_back(!words.empty() && words.back() == "--petsc" ? word : withTwoDashes(word));
+  std::reverse(words.begin(), words.end());
+  return words;
+}
+
+void reportUnknown(const CLI::App& app, const std::vector<std::string>& words, const std::string& scene) {
+  const std::vector<std::string> unknown = app.remaining(), names = optionNames(app);
+  bool options = false;
+  for (const std::string& word : words) {
+    const std::string full = withTwoDashes(word);
+    if (full[0] != '-' || std::find(unknown.begin(), unknown.end(), full) == unknown.end()) continue;
+    fmt::print(stderr, "sus: unknown option '{}'{}; sus -h lists the options\n", word, didYouMean(full, names));
+    options = true;
+  }
+  if (!options) fmt::print(stderr, "sus: runs one scene at a time: found '{}' after '{}'\n", unknown.front(), scene);
+}
+
+void declare(CLI::App& app, Arguments& arguments) {
+  app.footer(
+      "Exit codes: 0 done, 1 failure (files, memory, a defect of sus), 2 bad command line, 3 bad scene,\n"
+      "            4 a value became impossible during the run, 5 interrupted (output written)");
+  app.add_option("scene", arguments.scene, "the scene to run (.ups), or with --restart the folder of a run (.uda)");
+  CLI::Option* restart = app.add_flag("--restart", arguments.restart,
+                                      "go on with the run of a .uda, in that folder, from its last whole checkpoint");
+  app.add_option("-t", arguments.checkpoint, "with --restart: from the checkpoint of this step; later ones are removed")
+      ->needs(restart);
+  app.add_option("--set", arguments.overrides,
+                 "override a value of the scene: PATH=VALUE, e.g.\n"
+                 "Grid/Level/Box/resolution=[200,1,1]; may be repeated")
+      ->allow_extra_args(false);
+  app.add_option_function<std::string>(
+      "--layout", [&](const std::string& text) { setLayout(text, arguments.workers); },
+      "patches along x, y, z, in place of those of the scene: AxBxC, such as 4x2x1");
+  app.add_option_function<int>(
+         "--nthreads", [&](int count) { setThreads(count, arguments.workers); },
+         "threads to run on; without it as many as there are cores for and as pay")
+      ->check(CLI::Range(1, 1024));
+  app.add_option("--trace", arguments.trace,
+                 "write what each thread did when to a file, for ui.perfetto.dev or chrome://tracing");
+  app.add_option("--json", arguments.run.jsonPath,
+                 "write the report to a file, as JSON; with --check what is wrong with the scene, to the screen where "
+                 "no file is given")
+      ->expected(0, 1);
+  app.add_option_function<std::string>(
+      "--checkpoint", [&](const std::string& text) { arguments.checkpointInterval = checkpointInterval(text); },
+      "write a checkpoint every so often, such as 30s, 10min or 2h of wall time, beside those of the scene");
+  app.add_option("--output", arguments.run.outputFolder, "put the .uda into this folder");
+  app.add_option("--petsc", arguments.petsc, "options for PETSc, in one word: -petsc \"-ksp_monitor -ksp_type gmres\"");
+  app.add_flag("--quiet", arguments.run.quiet, "no progress, no report on the screen");
+  app.add_flag("--check,--validate", arguments.check, "check the scene and make its start; run and write nothing");
+  app.add_option("--dry-run", arguments.dryRun,
+                 "compile what one of so many ranks would do, and say what that takes; run nothing")
+      ->check(CLI::Range(1, 10'000'000));
+  app.add_flag("--schedule", arguments.schedule,
+               "print the tasks in order, what they read and write, what is left out");
+  app.add_option("--graph", arguments.graph, "write the tasks of a step to a file, for Graphviz (dot)");
+  app.add_flag("--list", arguments.list, "list components, analysis modules and shapes");
+  app.add_option("--describe", arguments.describe, "the manual of a component, a module, or 'scene'");
+  app.add_option("--schema", arguments.schema, "print a schema of all scenes for editors: rng (RELAX NG) or xsd")
+      ->check(CLI::IsMember({"rng", "xsd"}));
+  app.add_option("--completion", arguments.completion,
+                 "print what makes a shell complete the words after sus: source <(sus --completion bash)")
+      ->check(CLI::IsMember({"bash"}));
+  app.add_option("--paths", arguments.paths, "print the paths of a scene that --set may change")->group("");
+  app.add_flag("-V,--version", arguments.version, "version, commit, compiler and libraries");
+}
+
+}  // namespace tushar

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace tushar {
+
+/// A script for bash that completes the words after sus: options, scenes, folders of runs, the `manuals` of --describe
+/// and, after --set, the paths of the scene on the command line.
+std::string bashCompletion(const std::vector<std::string>& options, const std::vector<std::string>& manuals);
+
+}  // namespace tushar

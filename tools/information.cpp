@@ -1,0 +1,97 @@
+#include "tools/information.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <iostream>
+
+#include "core/input/document.hpp"
+#include "core/input/geometry.hpp"
+#include "core/input/paths.hpp"
+#include "core/input/relax_ng.hpp"
+#include "core/input/xml_schema.hpp"
+#include "core/scene/scene.hpp"
+#include "core/scene/scene_form.hpp"
+#include "tools/completion.hpp"
+#include "tools/version.hpp"
+
+namespace tushar {
+
+namespace {
+
+/// What there is to choose from.
+void printList(const simulation::Catalogue& known) {
+  fmt::print("components (SimulationComponent type=)\n");
+  for (const auto& kind : known.components) fmt::print("  {:<16} {}\n", kind.name, kind.sentence);
+  fmt::print("analysis modules (DataAnalysis/Module name=)\n");
+  for (const auto& kind : known.analyses) fmt::print("  {:<16} {}\n", kind.name, kind.sentence);
+  fmt::print("shapes (geom_object)\n");
+  for (const std::string& name : input::geometryNames()) fmt::print("  {}\n", name);
+}
+
+/// What --describe has a manual of.
+std::vector<std::string> manualNames(const simulation::Catalogue& known) {
+  std::vector<std::string> names = namesOf(known.components);
+  for (const std::string& other : namesOf(known.analyses)) names.push_back(other);
+  names.emplace_back("scene");
+  return names;
+}
+
+ExitCode describe(const std::string& name, const simulation::Catalogue& known) {
+  if (name == "scene") {
+    scene::describeSharedSections(std::cout);
+  } else if (const auto* component = findKind(known.components, name)) {
+    component->describe(std::cout);
+  } else if (const auto* analysis = findKind(known.analyses, name)) {
+    analysis->describe(std::cout);
+  } else {
+    const std::vector<std::string> names = manualNames(known);
+    fmt::print(stderr, "sus: nothing is called '{}'{}; there are {}\n", name, didYouMean(name, names),
+               alternatives(names));
+    return ExitCode::badCommandLine;
+  }
+  return ExitCode::success;
+}
+
+void printSchema(const std::string& language, const simulation::Catalogue& known) {
+  const input::TagForm scene = scene::sceneForm(known);
+  const std::string comment = fmt::format(
+      " Scenes of sus {}; made by: sus -schema {}. It leaves open: limits of values, how tags depend on each other,\n"
+      "     what labels and materials there are. sus -check SCENE has all of that.",
+      TUSHAR_VERSION, language);
+  if (language == "rng") return input::writeRelaxNg(std::cout, scene, comment + " ");
+  input::writeXmlSchema(std::cout, scene,
+                        comment +
+                            "\n     Beyond that XSD 1.0 leaves open: which tags must be given, and how often, as they "
+                            "come in any order;\n     and what depends on a type, a name, or the component: a tag may "
+                            "hold what any of them may. ");
+}
+
+/// A scene, or the folder of a run.
+void printPaths(const std::string& given) {
+  const bool isFolder = std::filesystem::is_directory(given);
+  input::Diagnostics diagnostics;
+  const input::Document document = input::Document::load(isFolder ? given + "/input.xml" : given, diagnostics);
+  diagnostics.throwIfAny();
+  for (const std::string& path : input::settablePaths(document.root())) fmt::print("{}\n", path);
+}
+
+}  // namespace
+
+ExitCode answer(const Arguments& arguments, const CLI::App& app, const simulation::Catalogue& known) {
+  if (arguments.version)
+    fmt::print("{}", versionText());
+  else if (arguments.list)
+    printList(known);
+  else if (!arguments.describe.empty())
+    return describe(arguments.describe, known);
+  else if (!arguments.schema.empty())
+    printSchema(arguments.schema, known);
+  else if (!arguments.completion.empty())
+    fmt::print("{}", bashCompletion(optionNames(app), manualNames(known)));
+  else
+    printPaths(arguments.paths);
+  return ExitCode::success;
+}
+
+}  // namespace tushar

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "core/base/error.hpp"
+#include "core/simulation/catalogue.hpp"
+#include "tools/arguments.hpp"
+
+namespace tushar {
+
+/// Answers what the command line asks of sus itself: version, lists, manuals, schemas, completion. The exit code.
+/// Throws InputError for a scene whose paths are asked for and that cannot be read.
+ExitCode answer(const Arguments& arguments, const CLI::App& app, const simulation::Catalogue& known);
+
+}  // namespace tushar
