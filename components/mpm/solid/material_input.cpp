@@ -86,7 +86,7 @@ void readModel(Material& material, const Element& parent, Diagnostics& diagnosti
   forEachModel([&]<class M>(const M&) {
     if (type != M::name) return;
     M model = modelSchema<M>().read(*tag, diagnostics);
-    if constexpr (offers<M, capability::ConstantsOfMaterial>) model.material = material.constants();
+    if constexpr (providesCapability<M, capability::ConstantsOfMaterial>) model.material = material.constants();
     material.model = std::make_shared<ModelOf<M>>(model);
   });
   if (!material.model) refuseModel(*tag, type, diagnostics);
