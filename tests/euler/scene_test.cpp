@@ -3,9 +3,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "components/components.hpp"
-#include "core/scene/scene.hpp"
-#include "core/simulation/simulation.hpp"
+#include "tests/support/scenes.hpp"
 #include "tests/support/temporary.hpp"
 
 namespace tushar::euler {
@@ -14,17 +12,9 @@ namespace {
 
 using Overrides = std::vector<std::string>;
 
-report::Report run(const std::string& scene, const Overrides& overrides) {
-  simulation::Problem problem = scene::readScene(scene, overrides, catalogue());
-  problem.archive.saves.clear();
-  simulation::RunOptions options;
-  options.quiet = true;
-  return simulation::Simulation(std::move(problem), options, std::chrono::steady_clock::now()).run();
-}
-
 double densityError(Overrides overrides, int cells) {
   overrides.push_back("Grid/Level/Box/resolution=[" + std::to_string(cells) + ",1,1]");
-  for (const report::ErrorNorms& error : run("ups/euler/sod.ups", overrides).errors)
+  for (const report::ErrorNorms& error : test::runScene("ups/euler/sod.ups", overrides).errors)
     if (error.field == "density" && error.place == "cell") return error.norms.at("L1");
   return -1;
 }
@@ -44,7 +34,7 @@ std::string changedScene(const std::string& from, const std::string& to) {
 /// What is wrong with the scene, without its place.
 std::string problemOf(const std::string& scene) {
   try {
-    run(scene, {});
+    test::runScene(scene, {});
   } catch (const InputError& error) {
     return error.problems().size() == 1 ? error.problems()[0].sentence : std::string(error.what());
   }
@@ -72,27 +62,30 @@ TEST(SodsTube, HasTheErrorsOfTheTable) {
 TEST(SodsTube, IsBetterWithTheExactFlux) { EXPECT_LT(densityError({"Euler/flux=exact"}, 100), densityError({}, 100)); }
 
 TEST(SodsTube, HasOneFingerprintOnAnyPatches) {
-  const std::string whole = run("ups/euler/sod.ups", {}).fingerprint;
+  const std::string whole = test::runScene("ups/euler/sod.ups", {}).fingerprint;
   for (const char* patches : {"2", "7", "64"})
-    EXPECT_EQ(run("ups/euler/sod.ups", {"Grid/Level/Box/patches=[" + std::string(patches) + ",1,1]"}).fingerprint,
-              whole);
+    EXPECT_EQ(
+        test::runScene("ups/euler/sod.ups", {"Grid/Level/Box/patches=[" + std::string(patches) + ",1,1]"}).fingerprint,
+        whole);
 }
 
 TEST(LaxAndLiu, HasOneFingerprintOnAnyPatches) {
   const std::string small = "Grid/Level/Box/resolution=[40,40,1]";
-  const std::string whole = run("ups/euler/lax_liu_3.ups", {small}).fingerprint;
+  const std::string whole = test::runScene("ups/euler/lax_liu_3.ups", {small}).fingerprint;
   for (const char* patches : {"[2,1,1]", "[3,5,1]", "[40,1,1]", "[8,8,1]"})
-    EXPECT_EQ(run("ups/euler/lax_liu_3.ups", {small, "Grid/Level/Box/patches=" + std::string(patches)}).fingerprint,
+    EXPECT_EQ(test::runScene("ups/euler/lax_liu_3.ups", {small, "Grid/Level/Box/patches=" + std::string(patches)})
+                  .fingerprint,
               whole);
 }
 
 TEST(Sedov, KeepsMassAndEnergy) {
-  for (const report::Drift& drift : run("ups/euler/sedov.ups", {"Grid/Level/Box/resolution=[60,60,1]"}).drifts)
+  for (const report::Drift& drift :
+       test::runScene("ups/euler/sedov.ups", {"Grid/Level/Box/resolution=[60,60,1]"}).drifts)
     EXPECT_NEAR(drift.name == "momentum" ? 0 : drift.change, 0, 1e-12) << drift.name;
 }
 
 TEST(EulerScene, MeasuresCellsAlone) {
-  for (const report::ErrorNorms& error : run("ups/euler/sod.ups", {}).errors) EXPECT_EQ(error.place, "cell");
+  for (const report::ErrorNorms& error : test::runScene("ups/euler/sod.ups", {}).errors) EXPECT_EQ(error.place, "cell");
 }
 
 TEST(EulerScene, NamesACellThatNoObjectContains) {
@@ -102,7 +95,7 @@ TEST(EulerScene, NamesACellThatNoObjectContains) {
 
 TEST(EulerScene, LetsALaterObjectCountWhereTwoOverlap) {
   const std::string wide = changedScene("<max>[0.5,1,1]</max>", "<max>[1,1,1]</max>");
-  EXPECT_EQ(run(wide, {}).fingerprint, run("ups/euler/sod.ups", {}).fingerprint);
+  EXPECT_EQ(test::runScene(wide, {}).fingerprint, test::runScene("ups/euler/sod.ups", {}).fingerprint);
 }
 
 TEST(EulerScene, NamesAFormulaWhoseDensityIsNotPositive) {
@@ -121,7 +114,7 @@ TEST(EulerScene, TakesAStiffenedGas) {
   const std::string scene =
       changedScene("<gas type=\"ideal_gas\"><gamma>1.4</gamma></gas>",
                    "<gas type=\"stiffened_gas\"><gamma>1.4</gamma><p_infinity>0</p_infinity></gas>");
-  EXPECT_EQ(run(scene, {}).fingerprint, run("ups/euler/sod.ups", {}).fingerprint);
+  EXPECT_EQ(test::runScene(scene, {}).fingerprint, test::runScene("ups/euler/sod.ups", {}).fingerprint);
 }
 
 TEST(EulerScene, RefusesAFluxAtAFace) {

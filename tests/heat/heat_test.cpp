@@ -13,15 +13,10 @@ namespace {
 /// A domain of unit length along its first D axes whose faces keep temperature 0, or are insulated.
 template <int D>
 grid::Domain slab(int cells, bool cold) {
-  grid::Domain domain;
-  domain.upper = Vec3::Zero();
-  for (int d = 0; d < D; ++d) {
-    domain.upper[d] = 1;
-    domain.resolution[d] = cells;
-    domain.patches[d] = 2;
+  grid::Domain domain = test::unitBox<D>(cells);
+  for (int d = 0; d < D; ++d)
     for (const int side : {0, 1})
       if (cold) domain.boundaries.face(d, side).push_back({boundary::temperature, BoundaryKind::dirichlet});
-  }
   return domain;
 }
 

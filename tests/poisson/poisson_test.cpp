@@ -11,19 +11,6 @@ namespace tushar::poisson {
 
 namespace {
 
-/// A domain of unit length along its first D axes, in two patches along each.
-template <int D>
-grid::Domain box(int cells) {
-  grid::Domain domain;
-  domain.upper = Vec3::Zero();
-  for (int d = 0; d < D; ++d) {
-    domain.upper[d] = 1;
-    domain.resolution[d] = cells;
-    domain.patches[d] = 2;
-  }
-  return domain;
-}
-
 void condition(grid::Domain& domain, int axis, int side, BoundaryKind kind, double value) {
   domain.boundaries.face(axis, side).push_back({boundary::phi, kind, Vec3(value, 0, 0)});
 }
@@ -78,27 +65,27 @@ double order(int cells, const Make& make, const Settings& settings, const std::s
 }
 
 grid::Domain oneDimension(int cells) {
-  grid::Domain domain = box<1>(cells);
+  grid::Domain domain = test::unitBox<1>(cells);
   condition(domain, 0, 0, BoundaryKind::dirichlet, 2);
   condition(domain, 0, 1, BoundaryKind::neumann, 1 - M_PI);
   return domain;
 }
 template <int D>
 grid::Domain keptAtOne(int cells) {
-  grid::Domain domain = box<D>(cells);
+  grid::Domain domain = test::unitBox<D>(cells);
   for (int d = 0; d < D; ++d)
     for (const int side : {0, 1}) condition(domain, d, side, BoundaryKind::dirichlet, 1);
   return domain;
 }
 grid::Domain repeated(int cells) {
-  grid::Domain domain = box<2>(cells);
+  grid::Domain domain = test::unitBox<2>(cells);
   domain.periodic = {{1, 1, 0}};
   return domain;
 }
 
 /// The outward derivative is kept at both ends.
 grid::Domain betweenSlopes(int cells, double lower, double upper) {
-  grid::Domain domain = box<1>(cells);
+  grid::Domain domain = test::unitBox<1>(cells);
   condition(domain, 0, 0, BoundaryKind::neumann, lower);
   condition(domain, 0, 1, BoundaryKind::neumann, upper);
   return domain;
@@ -177,7 +164,7 @@ TEST(Poisson, GivesTheSameBitsOnAnyPatches) {
 
 TEST(Poisson, KeepsTheFluxOverAJumpOfTheCoefficient) {
   // phi is piecewise linear: k phi' = 1 on both sides of the jump at .5.
-  grid::Domain domain = box<1>(8);
+  grid::Domain domain = test::unitBox<1>(8);
   condition(domain, 0, 0, BoundaryKind::dirichlet, 0);
   condition(domain, 0, 1, BoundaryKind::dirichlet, 0.5 + 0.5e-6);
   Settings settings = settingsOf("0", "x < 0.5 ? 1 : 1e6");

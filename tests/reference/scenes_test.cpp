@@ -4,9 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "components/components.hpp"
-#include "core/scene/scene.hpp"
-#include "core/simulation/simulation.hpp"
+#include "tests/support/scenes.hpp"
 
 // The references as modules of scenes: what they measure falls with the resolution, what they refuse they say.
 
@@ -15,14 +13,6 @@ namespace tushar::reference {
 namespace {
 
 using Overrides = std::vector<std::string>;
-
-report::Report run(const std::string& scene, const Overrides& overrides) {
-  simulation::Problem problem = scene::readScene(scene, overrides, catalogue());
-  problem.archive.saves.clear();
-  simulation::RunOptions options;
-  options.quiet = true;
-  return simulation::Simulation(std::move(problem), options, std::chrono::steady_clock::now()).run();
-}
 
 double cellError(const report::Report& report, const std::string& field) {
   for (const report::ErrorNorms& error : report.errors)
@@ -53,8 +43,8 @@ std::string problemOf(const std::string& scene, const Overrides& overrides) {
 
 TEST(VortexScene, IsOfSecondOrder) {
   const std::string end = "Time/maxTime=1";
-  const auto coarse = run("ups/euler/vortex.ups", {cells(48, 48), end});
-  const auto fine = run("ups/euler/vortex.ups", {cells(96, 96), end});
+  const auto coarse = test::runScene("ups/euler/vortex.ups", {cells(48, 48), end});
+  const auto fine = test::runScene("ups/euler/vortex.ups", {cells(96, 96), end});
   EXPECT_GT(orderOf("density", coarse, fine), 1.9);
   EXPECT_GT(orderOf("velocity", coarse, fine), 1.9);
   EXPECT_GT(orderOf("pressure", coarse, fine), 1.9);
@@ -63,13 +53,13 @@ TEST(VortexScene, IsOfSecondOrder) {
 
 TEST(VortexScene, ComesBackAfterAPeriod) {
   // L1 of the density is 3.3e-3, but .035 against a vortex half a period away.
-  EXPECT_LT(cellError(run("ups/euler/vortex.ups", {cells(48, 48)}), "density"), 4e-3);
+  EXPECT_LT(cellError(test::runScene("ups/euler/vortex.ups", {cells(48, 48)}), "density"), 4e-3);
 }
 
 TEST(VortexScene, MeasuresTheSameInThreeDimensions) {
   const std::string steps = "Time/delt_max=0.05", end = "Time/maxTime=1";  // steps below what either would take
-  const auto plane = run("ups/euler/vortex.ups", {cells(16, 16), steps, end});
-  const auto space = run("ups/euler/vortex.ups", {cells(16, 16, 2), steps, end});
+  const auto plane = test::runScene("ups/euler/vortex.ups", {cells(16, 16), steps, end});
+  const auto space = test::runScene("ups/euler/vortex.ups", {cells(16, 16, 2), steps, end});
   EXPECT_EQ(plane.steps, space.steps);
   EXPECT_NEAR(cellError(space, "density") / cellError(plane, "density"), 1, 1e-12);
 }
@@ -85,8 +75,8 @@ TEST(VortexScene, RefusesAnEmptyMiddle) {
 }
 
 TEST(GreshoScene, HasErrorsThatFall) {
-  const auto coarse = run("ups/euler/gresho.ups", {cells(32, 32), "Time/maxTime=0.5"});
-  const auto fine = run("ups/euler/gresho.ups", {cells(64, 64), "Time/maxTime=0.5"});
+  const auto coarse = test::runScene("ups/euler/gresho.ups", {cells(32, 32), "Time/maxTime=0.5"});
+  const auto fine = test::runScene("ups/euler/gresho.ups", {cells(64, 64), "Time/maxTime=0.5"});
   EXPECT_GT(orderOf("velocity", coarse, fine), 1);
   EXPECT_GT(orderOf("pressure", coarse, fine), 1);
 }
@@ -101,7 +91,7 @@ TEST(NohScene, HasErrorsThatFallInOneTwoAndThreeDimensions) {
   const std::string falling =
       "Euler/geom_object/velocity=[-x/sqrt(x^2+y^2+z^2),-y/sqrt(x^2+y^2+z^2),-z/sqrt(x^2+y^2+z^2)]";
   const auto order = [](const Overrides& coarse, const Overrides& fine) {
-    return orderOf("density", run("ups/euler/noh.ups", coarse), run("ups/euler/noh.ups", fine));
+    return orderOf("density", test::runScene("ups/euler/noh.ups", coarse), test::runScene("ups/euler/noh.ups", fine));
   };
   EXPECT_GT(order({cells(50), line}, {cells(100), line}), 0.8);
   EXPECT_GT(order({cells(50, 50)}, {cells(100, 100)}), 0.6);
@@ -110,8 +100,8 @@ TEST(NohScene, HasErrorsThatFallInOneTwoAndThreeDimensions) {
 }
 
 TEST(NohScene, MeasuresWithinItsRegionAlone) {
-  const auto inside = run("ups/euler/noh.ups", {cells(40, 40)});
-  const auto farther = run("ups/euler/noh.ups", {cells(40, 40), "DataAnalysis/Module/within/max=[1,1,1]"});
+  const auto inside = test::runScene("ups/euler/noh.ups", {cells(40, 40)});
+  const auto farther = test::runScene("ups/euler/noh.ups", {cells(40, 40), "DataAnalysis/Module/within/max=[1,1,1]"});
   EXPECT_EQ(inside.fingerprint, farther.fingerprint);
   EXPECT_NE(cellError(inside, "density"), cellError(farther, "density"));
 }
@@ -127,7 +117,7 @@ report::Report blast(int d, int n) {
     return fmt::format("[{},{},{}]", along, d > 1 ? along : across, d > 2 ? along : across);
   };
   const double h = 1.2 / n;
-  return run(
+  return test::runScene(
       "ups/euler/sedov.ups",
       {cells(n, d > 1 ? n : 1, d > 2 ? n : 1), "Time/maxTime=0.8", "Grid/Level/Box/upper=" + corner(1.2, 0),
        "Euler/geom_object[1]/box/max=[1.2,1.2,1.2]", "Euler/geom_object[2]/box/max=" + corner(h, 1.2),
@@ -152,8 +142,8 @@ TEST(SedovScene, RefusesAGasThatLeavesAVoid) {
 }
 
 TEST(DiagonalTubeScene, HasErrorsThatFall) {
-  const auto coarse = run("ups/euler/sod_diagonal.ups", {cells(50, 50)});
-  const auto fine = run("ups/euler/sod_diagonal.ups", {cells(100, 100)});
+  const auto coarse = test::runScene("ups/euler/sod_diagonal.ups", {cells(50, 50)});
+  const auto fine = test::runScene("ups/euler/sod_diagonal.ups", {cells(100, 100)});
   EXPECT_GT(orderOf("density", coarse, fine), 0.7);
   EXPECT_GT(orderOf("velocity", coarse, fine), 0.7);
   EXPECT_GT(orderOf("pressure", coarse, fine), 0.7);
@@ -172,7 +162,7 @@ TEST(DiagonalTubeScene, RefusesWhatTheGridCannotHold) {
 }
 
 TEST(DiagonalTubeScene, LeavesErrorsOutOnceItsWavesHaveMet) {
-  const auto report = run("ups/euler/sod_diagonal.ups", {cells(20, 20), "Time/maxTime=0.25"});
+  const auto report = test::runScene("ups/euler/sod_diagonal.ups", {cells(20, 20), "Time/maxTime=0.25"});
   EXPECT_TRUE(report.errors.empty());
   EXPECT_EQ(report.unmeasured, std::vector<std::string>{"'exactRiemann' has no solution at t = 0.25 s"});
 }

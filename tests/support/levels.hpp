@@ -16,4 +16,17 @@ inline grid::Domain domain(const Index3& resolution, const Index3& patches = {{1
   return domain;
 }
 
+/// A grid of unit length along its first D axes, in two patches along each, without conditions.
+template <int D>
+grid::Domain unitBox(int cells) {
+  grid::Domain domain;
+  domain.upper = Vec3::Zero();
+  for (int d = 0; d < D; ++d) {
+    domain.upper[d] = 1;
+    domain.resolution[d] = cells;
+    domain.patches[d] = 2;
+  }
+  return domain;
+}
+
 }  // namespace tushar::test
