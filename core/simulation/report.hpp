@@ -73,7 +73,7 @@ struct Report {
   std::vector<std::string> unusedOptions;  ///< given to PETSc, which no solve has looked at
 };
 
-/// As JSON: the keys are listed in README.md.
+/// As JSON: the keys are listed in tools/README.md.
 std::string toJson(const Report& report);
 /// As a table for a terminal.
 std::string toText(const Report& report);
