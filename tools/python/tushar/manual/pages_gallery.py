@@ -47,7 +47,7 @@ def scene_page(scene, picture, report, linker, version):
 
 
 def command_of(scene):
-    return f"{scene.command}\ntools/plot {scene.archive}"
+    return f"{scene.command}\n{' '.join(('tools/plot', scene.archive, *scene.shown))}"
 
 
 def measured(scene, report):

@@ -52,14 +52,14 @@ def item_html(item, here, known):
         name = link(item.page.url, name, here)
     path = item.paths[0][1]
     rows = [f'<h3>{name} {badge(item)}<a class="anchor" href="#{item.anchor}" aria-label="link to this tag">#</a></h3>']
-    if facts(item.tag):
-        rows.append(f'<p class="facts">{facts(item.tag)}</p>')
     if item.tag.sentence:
         rows.append(f"<p>{prose(item.tag.sentence)}</p>")
+    if facts(item.tag):
+        rows.append(f'<p class="facts">{facts(item.tag)}</p>')
     if item.tag.status == "used":
-        rows.append(uses(item.scenes, known, here))
         if item.tag.kind != "type":
             rows.append(f'<p class="path">{escape(path)}</p>')
+        rows.append(uses(item.scenes, known, here))
     elif item.scenes:
         rows.append(uses(item.scenes, known, here))
     return f'<article class="tag {item.tag.status}" id="{item.anchor}">{"".join(rows)}</article>'

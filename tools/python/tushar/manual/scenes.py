@@ -8,6 +8,9 @@ from tushar.program import ROOT
 
 FIELD = re.compile(r"^  (What|Source|Expect|Takes): +(.*(?:\n(?!  (?:What|Source|Expect|Takes):|-->).*)*)", re.MULTILINE)
 
+# What a picture of a solid shows: the first that is saved.
+PICTURED = ("p.damage", "p.plasticStrain", "p.stress", "p.displacement", "p.velocity", "p.temperature", "p.x")
+
 
 @dataclasses.dataclass
 class Scene:
@@ -35,6 +38,12 @@ class Scene:
     def archive(self):
         """Name of the folder that a run writes, without number."""
         return pathlib.Path(self.root.findtext("DataArchiver/filebase", "").strip()).name
+
+    @property
+    def shown(self):
+        """The variables of its picture; none where tools/plot picks well: gases, and fields of cells."""
+        saved = [(save.get("label") or "").strip() for save in self.root.iterfind("DataArchiver/save")]
+        return [label for label in PICTURED if label in saved][:1] if self.folder == "solid" else []
 
 
 def scenes():
