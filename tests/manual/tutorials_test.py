@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """The commands of the tutorials run, and print what the tutorials say.
 
-A block `sh` is run, `sh exits 3` ends with that code, `sh not run: why` is left out. A block `text` after it has lines of
-what it prints, in their order: … stands for anything, ⟨same⟩ for something that is the same each time.
+A block `sh` is run, `sh exits 3` ends with that code, `sh not run: why` is left out. A block `text` after it has lines
+of what it prints, in their order: … stands for anything, ⟨same⟩ for something that is the same each time.
 """
 import os
 import pathlib
@@ -33,7 +33,7 @@ def line_pattern(line):
     """A regular expression for a line of a block `text`, and for all that follows it in the same line."""
     parts = re.split(r"(…|⟨same⟩)", line.strip())
     meaning = {"…": ".*", "⟨same⟩": r"(?P<same>\S+)"}
-    return re.compile("".join(meaning.get(part) or r"\s+".join(map(re.escape, re.split(r"\s+", part))) for part in parts))
+    return re.compile("".join(meaning.get(part) or r"\s+".join(map(re.escape, part.split(" "))) for part in parts))
 
 
 def what_is_missing(expected, printed):
@@ -66,7 +66,8 @@ class Tutorials(unittest.TestCase):
         os.symlink(sys.executable, programs / "python3")
 
     def run_block(self, text):
-        environment = {**os.environ, "SUS": SUS, "MPLBACKEND": "Agg", "PATH": f"{self.folder.name}/.bin:{os.environ['PATH']}",
+        environment = {**os.environ, "SUS": SUS, "MPLBACKEND": "Agg",
+                       "PATH": f"{self.folder.name}/.bin:{os.environ['PATH']}",
                        "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
                        "OMPI_MCA_mpi_yield_when_idle": "1"}
         return subprocess.run(["bash", "-c", PRELUDE + text], cwd=self.folder.name, env=environment, text=True,

@@ -8,7 +8,8 @@ let chosen = -1;
 
 // 0 for no match; names count more than sentences, and whole words more than parts. Every word must be somewhere.
 function score(entry, words) {
-  const name = entry[1].toLowerCase(), bare = name.replace(/[<>="]/g, ""), text = (entry[3] + " " + entry[4]).toLowerCase();
+  const name = entry[1].toLowerCase(), bare = name.replace(/[<>="]/g, "");
+  const text = (entry[3] + " " + entry[4]).toLowerCase();
   let sum = 0;
   for (const word of words) {
     if (bare === word || name === word) sum += 100;
@@ -51,7 +52,8 @@ function find(text) {
   found.sort((a, b) => b[0] - a[0] || (a[1][1] < b[1][1] ? -1 : 1));
   const entries = found.slice(0, MOST).map(pair => pair[1]);
   const family = words.length > 2 && familyOf(text);
-  if (family) entries.unshift(["message", family.join(" "), "messages.html#" + family[0], "the message that you typed", ""]);
+  if (family)
+    entries.unshift(["message", family.join(" "), "messages.html#" + family[0], "the message that you typed", ""]);
   return entries;
 }
 

@@ -1,1 +1,1 @@
-"""The manual: a static site made of the schemas, the heads of the scenes, the pages, the messages and the C++ headers."""
+"""The manual: a static site made of schemas, heads of scenes, pages, messages and C++ headers."""

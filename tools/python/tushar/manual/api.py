@@ -30,7 +30,8 @@ def folders():
     meanings = dict(FOLDER_ROW.findall(text))
     meanings.pop("folder", None)
     there = {file.parent.name for file in (ROOT / "core").glob("*/*.hpp")}
-    return {name: meanings.get(name, "") for name in dict.fromkeys((*FIRST, *meanings, *sorted(there))) if name in there}
+    names = dict.fromkeys((*FIRST, *meanings, *sorted(there)))
+    return {name: meanings.get(name, "") for name in names if name in there}
 
 
 def headers():
@@ -45,7 +46,7 @@ def headers():
 
 
 def symbols_of(text):
-    """The symbols of a header, without what is private. The indentation that clang-format gives tells what is in what."""
+    """The symbols of a header, without what is private. The indentation shows what is in what."""
     symbols, classes, comment, private = [], [], [], []
     lines = text.splitlines()
     for number, line in enumerate(lines):

@@ -22,7 +22,9 @@ def link(url, text, here, title=""):
 
 def relative(url, here):
     path, mark, anchor = url.partition("#")
-    return posixpath.relpath(path, posixpath.dirname(here) or ".") + mark + anchor if path != here else mark + anchor or "#"
+    if path == here:
+        return mark + anchor or "#"
+    return posixpath.relpath(path, posixpath.dirname(here) or ".") + mark + anchor
 
 
 def prose(text):

@@ -103,4 +103,5 @@ class Renderer:
         info = tokens[at].info.strip()
         note = NOT_RUN.fullmatch(info)
         caption = f'<p class="note">not run by the tests of this manual: {escape(note[2])}</p>' if note else ""
-        return f'<pre class="{escape(info.split()[0] if info else "text")}"><code>{escape(tokens[at].content)}</code></pre>{caption}\n'
+        language = escape(info.split()[0] if info else "text")
+        return f'<pre class="{language}"><code>{escape(tokens[at].content)}</code></pre>{caption}\n'

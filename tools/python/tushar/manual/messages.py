@@ -1,4 +1,4 @@
-"""The catalogue of messages: families with a number, a cause and a remedy (tools/manual_pages/messages.toml)."""
+"""The catalogue of messages: families with a number, a cause and a remedy (tools/manual_pages/messages)."""
 import dataclasses
 import functools
 import re
@@ -6,7 +6,7 @@ import tomllib
 
 from tushar.program import ROOT
 
-CATALOGUE = ROOT / "tools/manual_pages/messages.toml"
+CATALOGUE = ROOT / "tools/manual_pages/messages"
 
 
 @dataclasses.dataclass(frozen=True)
@@ -32,9 +32,10 @@ def pattern(words):
 @functools.cache
 def catalogue():
     """(families in the order of their numbers, parts of messages that are none of their own)."""
-    data = tomllib.loads(CATALOGUE.read_text())
-    families = [Family(**{**entry, "words": tuple(entry["words"])}) for entry in data["family"]]
-    return families, tuple(data["fragments"])
+    files = [tomllib.loads(file.read_text()) for file in sorted(CATALOGUE.glob("*.toml"))]
+    entries = [entry for file in files for entry in file.get("family", ())]
+    families = [Family(**{**entry, "words": tuple(entry["words"])}) for entry in entries]
+    return families, tuple(part for file in files for part in file.get("fragments", ()))
 
 
 def family_of(text):

@@ -13,8 +13,8 @@ TYPE = re.compile(r"\btype\s*=\s*[\"']\s*([^\"']*?)\s*[\"']")
 def gallery_page(scenes, pictures, version):
     """All scenes as cards, by folder."""
     here = "gallery/index.html"
-    body = ["<p>Every scene of <code>ups</code>. Each is also a regression test; its page has the command, what is expected "
-            "and the scene itself, with each tag linked to its description.</p>"]
+    body = ["<p>Every scene of <code>ups</code>. Each is also a regression test; its page has the command, what is "
+            "expected and the scene itself, with each tag linked to its description.</p>"]
     folders = dict.fromkeys(scene.folder for scene in scenes)
     body.append("<p>" + " · ".join(f'<a href="#{name}">{FOLDERS.get(name, name)}</a>' for name in folders) + "</p>")
     for folder in folders:
@@ -52,7 +52,8 @@ def command_of(scene):
 
 def measured(scene, report):
     """What a run gave when the manual was made."""
-    rows = [("steps", f"{report.get('steps', 0)} to t = {report.get('time', 0):.6g} s ({report.get('ended') or report.get('failure')})")]
+    end = report.get("failure") or report.get("ended")
+    rows = [("steps", f"{report.get('steps', 0)} to t = {report.get('time', 0):.6g} s ({end})")]
     if report.get("particles"):
         rows.append(("particles", str(report["particles"])))
     wall = report.get("wall", {})
@@ -75,8 +76,9 @@ def measured(scene, report):
 class Linker:
     """Links the tags of a scene to their descriptions."""
 
-    def __init__(self, starts):
+    def __init__(self, starts, reference):
         self.starts = starts  # scene -> [(page, element)] of its sections
+        self.urls = {id(item): f"{page.url}#{item.anchor}" for page in reference.pages for item in page.items}
 
     def linked(self, scene):
         pages = {id(element): page for page, element in self.starts(scene)}
@@ -119,7 +121,7 @@ class Linker:
         text, name = escape(match.group()), match[2]
         if item:
             target = next((page for page in holders if page.tag.kind == "type"), item.page)
-            owner = target.url if target else self._url_of(item)
+            owner = target.url if target else self.urls[id(item)]
             title = item.tag.sentence
         elif holders:
             owner, title = holders[0].url, holders[0].tag.sentence
@@ -127,11 +129,3 @@ class Linker:
             return text
         hint = f' title="{escape(title)}"' if title else ""
         return text.replace(name, f'<a href="{relative(owner, here)}"{hint}>{name}</a>', 1)
-
-    def _url_of(self, item):
-        return self.urls[id(item)]
-
-    def know(self, reference):
-        """Takes down where each item is described."""
-        self.urls = {id(item): f"{page.url}#{item.anchor}" for page in reference.pages for item in page.items}
-        return self

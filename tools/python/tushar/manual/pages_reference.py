@@ -22,7 +22,8 @@ def facts(tag):
     if tag.presence == "default":
         parts.append("default: " + ("no limit" if tag.default in UNLIMITED else code(tag.default)))
     elif tag.presence:
-        parts.append(f'<span class="{"must" if tag.presence in ("required", "at least one") else "may"}">{tag.presence}</span>')
+        kind = "must" if tag.presence in ("required", "at least one") else "may"
+        parts.append(f'<span class="{kind}">{tag.presence}</span>')
     return " · ".join(parts)
 
 
@@ -31,8 +32,12 @@ def badge(item):
     if item.tag.status != "used":
         kind, text = BADGES[item.tag.status]
         return f'<span class="badge {kind}">{text}</span>'
-    own = item.tag.ours or all(is_own(section) for section, _ in item.paths)
-    return '<span class="badge ours">Tushar\'s own</span>' if own else ""
+    return '<span class="badge ours">Tushar\'s own</span>' if is_ours(item) else ""
+
+
+def is_ours(item):
+    """Whether Uintah lacks a tag that is in use here."""
+    return item.tag.status == "used" and (item.tag.ours or all(is_own(section) for section, _ in item.paths))
 
 
 def uses(scenes, known, here):
@@ -71,7 +76,8 @@ def places(subject, here, reference):
     for section, path in subject.paths:
         label = section.name + (" (gases)" if section.variant else "")
         seen.setdefault(path, []).append(label if section.kind != "scene" else "every scene")
-    rows = "".join(f"<li>{code(path)} <small>{escape(', '.join(dict.fromkeys(names)))}</small></li>" for path, names in seen.items())
+    rows = "".join(f"<li>{code(path)} <small>{escape(', '.join(dict.fromkeys(names)))}</small></li>"
+                   for path, names in seen.items())
     return f'<ul class="places">{rows}</ul>'
 
 
@@ -95,9 +101,9 @@ def tag_page(subject, reference, known, version):
 def index_page(reference, version):
     """All pages as a tree, by component; what stands in several places is opened once."""
     here = "reference/index.html"
-    body = ["<p>A scene is an XML file in Uintah's dialect. Each page below lists what stands in one tag: its type, unit, "
-            "limits, default and meaning, all from the schemas that read it. The path under a tag is the one that "
-            "<code>sus --set PATH=VALUE</code> takes.</p>",
+    body = ["<p>A scene is an XML file in Uintah's dialect. Each page below lists what stands in one tag: its type, "
+            "unit, limits, default and meaning, all from the schemas that read it. The path under a tag is the one "
+            "that <code>sus --set PATH=VALUE</code> takes.</p>",
             f'<p>{link("reference/a-z.html", "All tags from A to Z", here)} · '
             f'{link("reference/uintah.html", "Uintah’s tags that differ here, and those of our own", here)}</p>']
     opened = set()
@@ -137,23 +143,30 @@ def a_to_z_page(reference, version):
         if first != letter:
             body.append(("</ul>" if letter else "") + f'<h2 id="{first}">{first}</h2><ul class="index">')
             letter = first
-        places = [link(f"{subject.url}#{item.anchor}", "in " + code(subject.tag.title()), here) for subject, item in found]
-        body.append(f'<li>{code(title)} <small>{", ".join(places)}</small></li>')
-    return page(here, "All tags from A to Z", "\n".join(body) + "</ul>", version, link("reference/index.html", "Tags", here))
+        links = [link(f"{subject.url}#{item.anchor}", "in " + code(subject.tag.title()), here)
+                 for subject, item in found]
+        body.append(f'<li>{code(title)} <small>{", ".join(links)}</small></li>')
+    lead = link("reference/index.html", "Tags", here)
+    return page(here, "All tags from A to Z", "\n".join(body) + "</ul>", version, lead)
 
 
 def uintah_page(reference, version):
     here = "reference/uintah.html"
-    body = ["<p>A tag that is not listed here has Uintah’s name, place and meaning. The lists follow from the schemas, so "
-            "they are complete.</p>"]
-    for status, heading in (("limited", HEADINGS["limited"]), ("absent", HEADINGS["absent"]), ("ignored", HEADINGS["ignored"]),
-                            ("ours", "Tushar’s own")):
+    body = ["<p>A tag that is not listed here has Uintah’s name, place and meaning. The lists follow from the schemas, "
+            "so they are complete.</p>"]
+    for status, heading in (*HEADINGS.items(), ("ours", "Tushar’s own")):
         body.append(f'<h2 id="{status}">{heading}</h2>')
         for subject in reference.pages:
-            items = [item for item in subject.items if (badge(item).find("ours") > 0 if status == "ours" else item.tag.status == status)]
+            items = [item for item in subject.items if status in (item.tag.status, "ours" if is_ours(item) else "")]
             if items:
-                rows = "".join(f"<li>{link(f'{subject.url}#{item.anchor}', code(item.tag.title()), here)} {prose(item.tag.sentence)}</li>"
-                               for item in items)
-                body.append(f'<details><summary>{code(subject.tag.title())} <small>{escape(subject.paths[0][1])}: {len(items)}'
-                            f'</small></summary><ul class="index">{rows}</ul></details>')
-    return page(here, "Uintah’s tags and ours", "\n".join(body), version, link("reference/index.html", "Tags", here))
+                body.append(_listed(subject, items, here))
+    lead = link("reference/index.html", "Tags", here)
+    return page(here, "Uintah’s tags and ours", "\n".join(body), version, lead)
+
+
+def _listed(subject, items, here):
+    rows = "".join(f"<li>{link(f'{subject.url}#{item.anchor}', code(item.tag.title()), here)} "
+                   f"{prose(item.tag.sentence)}</li>" for item in items)
+    place = f"{escape(subject.paths[0][1])}: {len(items)}"
+    return (f"<details><summary>{code(subject.tag.title())} <small>{place}</small></summary>"
+            f'<ul class="index">{rows}</ul></details>')

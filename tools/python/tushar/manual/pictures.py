@@ -47,18 +47,19 @@ class Album:
         self.cache.mkdir(parents=True, exist_ok=True)
         print(f"runs {scene.path}", flush=True)
         with tempfile.TemporaryDirectory() as folder:
-            command = [str(self.sus), str(ROOT / scene.path), "--quiet", "--output", folder, "--json", f"{folder}/report.json"]
+            report, picture = f"{folder}/report.json", f"{folder}/picture.png"
+            run = [str(self.sus), str(ROOT / scene.path), "--quiet", "--output", folder, "--json", report]
+            draw = [str(ROOT / "tools/plot"), f"{folder}/{scene.archive}", *scene.shown, "--out", picture]
             try:
-                subprocess.run(command, capture_output=True, timeout=SECONDS, cwd=ROOT)
-                draw = [str(ROOT / "tools/plot"), f"{folder}/{scene.archive}", *scene.shown, "--out", f"{folder}/picture.png"]
-                done = subprocess.run(draw, capture_output=True, text=True, timeout=SECONDS, env={**os.environ, "MPLBACKEND": "Agg"})
+                subprocess.run(run, capture_output=True, timeout=SECONDS, cwd=ROOT)
+                done = subprocess.run(draw, capture_output=True, text=True, timeout=SECONDS,
+                                      env={**os.environ, "MPLBACKEND": "Agg"})
                 if done.returncode:
                     print(f"  no picture: {done.stderr.strip()}")
             except subprocess.TimeoutExpired:
                 print(f"  it takes more than {SECONDS} s: no picture")
-            for name, ending in (("report.json", ".json"), ("picture.png", ".png")):
-                if os.path.exists(f"{folder}/{name}"):
-                    shutil.copyfile(f"{folder}/{name}", stem.with_suffix(ending))
+            for file in filter(os.path.exists, (report, picture)):
+                shutil.copyfile(file, stem.with_suffix(pathlib.Path(file).suffix))
         stem.with_suffix(".done").touch()
 
 

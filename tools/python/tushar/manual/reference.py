@@ -1,4 +1,4 @@
-"""The pages of the reference: a page for each tag that holds others; the same content is one page, wherever it stands."""
+"""The pages of the reference: one for each tag that holds others; the same content is one page, wherever it is."""
 import dataclasses
 import re
 
@@ -95,8 +95,8 @@ def _parts(entry, known):
 def _content(tag):
     """Equal for tags that hold the same."""
     nested = tag.children if not _is_link(tag) else ()
-    return (tag.kind, tag.name, tag.sentence, tag.type, tag.default, tag.presence, tag.limits, tag.ours, tuple(tag.choices),
-            tuple(_content(child) for child in nested))
+    return (tag.kind, tag.name, tag.sentence, tag.type, tag.default, tag.presence, tag.limits, tag.ours,
+            tuple(tag.choices), tuple(_content(child) for child in nested))
 
 
 def _is_link(tag):
@@ -105,7 +105,8 @@ def _is_link(tag):
 
 
 def _page_of(tag, section, path, above, pages):
-    key = (tag.kind, tag.name, tag.sentence if tag.kind == "type" else "", tuple(_content(child) for child in tag.children))
+    sentence = tag.sentence if tag.kind == "type" else ""
+    key = (tag.kind, tag.name, sentence, tuple(_content(child) for child in tag.children))
     page = pages.setdefault(key, Page("", tag))
     page.paths.append((section, path))
     if above and above not in page.above:

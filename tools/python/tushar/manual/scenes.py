@@ -6,7 +6,7 @@ import xml.etree.ElementTree as ElementTree
 
 from tushar.program import ROOT
 
-FIELD = re.compile(r"^  (What|Source|Expect|Takes): +(.*(?:\n(?!  (?:What|Source|Expect|Takes):|-->).*)*)", re.MULTILINE)
+FIELD = re.compile(r"^  (What|Source|Expect|Takes): +(.*(?:\n(?!  \w+: |-->).*)*)", re.MULTILINE)
 
 # What a picture of a solid shows: the first that is saved.
 PICTURED = ("p.damage", "p.plasticStrain", "p.stress", "p.displacement", "p.velocity", "p.temperature", "p.x")

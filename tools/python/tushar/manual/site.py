@@ -5,8 +5,8 @@ import re
 import shutil
 import subprocess
 
-from tushar.manual import (api, markdown, messages, pages_gallery, pages_other, pages_reference, reference, scenes, tags,
-                           templates)
+from tushar.manual import (api, markdown, messages, pages_gallery, pages_other, pages_reference, reference, scenes,
+                           tags, templates)
 from tushar.program import ROOT
 
 SOURCES = "tools/manual_pages"
@@ -67,7 +67,9 @@ class Site:
         for page in self.reference.pages:
             self.files[page.url] = pages_reference.tag_page(page, self.reference, known, self.version)
             for item in page.items:
-                self._search("tag", item.tag.title(), f"{page.url}#{item.anchor}", item.tag.sentence, item.paths[0][1])
+                readers = ", ".join(dict.fromkeys(section.name for section, _ in item.paths if section.kind != "scene"))
+                where = item.paths[0][1] + (f" · {readers}" if readers else "")
+                self._search("tag", item.tag.title(), f"{page.url}#{item.anchor}", item.tag.sentence, where)
         for section, page in self.reference.roots:
             self._search("tag", page.tag.title(), page.url, page.tag.sentence, section.name)
         self.files["reference/index.html"] = pages_reference.index_page(self.reference, self.version)
@@ -77,16 +79,16 @@ class Site:
         self._search("page", "All tags from A to Z", "reference/a-z.html")
 
     def _add_scenes(self):
-        linker = pages_gallery.Linker(lambda scene: list(scenes.sections_of(scene, self.reference, self.sections)))
-        linker.know(self.reference)
+        linker = pages_gallery.Linker(lambda scene: scenes.sections_of(scene, self.reference, self.sections),
+                                      self.reference)
         pictures = {}
         for scene in self.scenes:
             picture = self.album.picture(scene)
             if picture:
                 pictures[scene.path] = f"pictures/{scene.path.removesuffix('.ups').replace('/', '-')}.png"
                 self.assets[str(picture)] = pictures[scene.path]
-            self.files[scene.url] = pages_gallery.scene_page(scene, pictures.get(scene.path), self.album.report(scene), linker,
-                                                             self.version)
+            self.files[scene.url] = pages_gallery.scene_page(scene, pictures.get(scene.path), self.album.report(scene),
+                                                             linker, self.version)
             self._search("scene", scene.title, scene.url, scene.head.get("What", ""), scene.path)
         self.files["gallery/index.html"] = pages_gallery.gallery_page(self.scenes, pictures, self.version)
 
@@ -133,15 +135,16 @@ class Site:
 
     def _add_tutorials(self):
         here = '<a href="index.html">Tutorials</a>'
-        return [self._add_page(f"{SOURCES}/{name}.md", f"tutorials/{name}.html", "tutorial", here) for name in TUTORIALS]
+        return [self._add_page(f"{SOURCES}/{name}.md", f"tutorials/{name}.html", "tutorial", here)
+                for name in TUTORIALS]
 
     def _add_indices(self, methods, tutorials):
         self.files["methods/index.html"] = pages_other.list_page(
-            "methods/index.html", "Methods and measurements", "The pages that lie beside the code and the scenes.", methods,
-            self.version)
+            "methods/index.html", "Methods and measurements", "The pages that lie beside the code and the scenes.",
+            methods, self.version)
         self.files["tutorials/index.html"] = pages_other.list_page(
-            "tutorials/index.html", "Tutorials", "Each takes minutes. A test runs their commands, except where a note says why not.",
-            tutorials, self.version)
+            "tutorials/index.html", "Tutorials",
+            "Each takes minutes. A test runs their commands, except where a note says why.", tutorials, self.version)
         self.assets[HOME_PICTURE] = "pictures/" + HOME_PICTURE.replace("/", "-")
         counts = {"tags": sum(len(page.items) for page in self.reference.pages), "scenes": len(self.scenes),
                   "families": len(messages.catalogue()[0]), "messages": self.messages,
@@ -164,7 +167,8 @@ class Site:
             shutil.copyfile(ROOT / SOURCES / name, out / name)
         families = [[family.id, family.title, [words.split("…") for words in family.words]]
                     for family in messages.catalogue()[0]]
-        (out / "search-index.js").write_text(f"const ENTRIES = {_json(self.entries)};\nconst FAMILIES = {_json(families)};\n")
+        index = f"const ENTRIES = {_json(self.entries)};\nconst FAMILIES = {_json(families)};\n"
+        (out / "search-index.js").write_text(index)
 
 
 def _json(value):

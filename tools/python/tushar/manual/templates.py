@@ -5,9 +5,8 @@ import re
 from tushar.program import ROOT
 
 # Calls whose arguments are a message, and returns of a sentence that a caller passes on.
-CALLS = re.compile(r"(?:diagnostics_?(?:\(\))?|self)?\.(?:error|note)\s*\(|\bthrow\s+[\w:]+\s*\(|\b(?:return\s+)?InputError\s*\(|"
-                   r"\b(?:refuse|complain|problem|wrong|expected|notAFormula|checked|fail|NumericalError)\s*\(|"
-                   r"fmt::print\(stderr|\bproblems?\.push_back\(")
+CALLS = re.compile(r"\.(?:error|note)\s*\(|\bthrow\s+[\w:]+\s*\(|fmt::print\(stderr|\bproblems?\.push_back\(|"
+                   r"\b(?:refuse|complain|problem|wrong|expected|notAFormula|checked|fail|InputError|NumericalError)\s*\(")
 # What --describe prints is no message.
 SCHEMA = re.compile(r"\bSchema\b|\.(?:value|required|optional|choice|section|custom|flag)\s*(?:<[^>]*>)?\(")
 RETURNS = re.compile(r"\breturn\b|\b(?:text|sentence|why|problem|what)\s*\+?=(?!=)")
@@ -30,14 +29,15 @@ class Template:
 def templates():
     """All messages of the sources: those with at least three words of their own."""
     files = [file for folder in ("core", "components", "tools") for file in sorted((ROOT / folder).rglob("*.?pp"))]
-    found = [template for file in files for template in templates_in(file.read_text(), file.relative_to(ROOT).as_posix())]
-    return [template for template in found if not SKIPPED.fullmatch(template.path)]
+    texts = [(file.read_text(), file.relative_to(ROOT).as_posix()) for file in files]
+    return [template for text, path in texts if not SKIPPED.fullmatch(path) for template in templates_in(text, path)]
 
 
 def templates_in(source, path):
     """The messages of one source; each place in it counts once."""
     source = COMMENT.sub(lambda comment: re.sub(r"[^\n]", " ", comment.group()), source)
-    spans = [(match.start(), _end_of_call(source, source.index("(", match.start()))) for match in CALLS.finditer(source)]
+    calls = [(match.start(), source.index("(", match.start())) for match in CALLS.finditer(source)]
+    spans = [(start, _end_of_call(source, bracket)) for start, bracket in calls]
     returns = [(match.start(), _end_of_statement(source, match.end())) for match in RETURNS.finditer(source)]
     spans += [(start, end) for start, end in returns if not SCHEMA.search(source, start, end)]
     found, done = [], set()
