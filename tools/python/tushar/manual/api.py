@@ -68,11 +68,17 @@ def symbols_of(text):
         kind = TYPE.match(declaration)
         if comment and not private:
             symbols.append(Symbol(_name(declaration, kind), classes[-1][1] if classes else "", declaration,
-                                  " ".join(comment), number + 1))
+                                  _text(comment), number + 1))
         if kind and not declaration.endswith(";"):
             classes.append((indent, kind[1] or kind[2]))
         comment = []
     return symbols
+
+
+def _text(comment):
+    """The lines of a comment as paragraphs: those of a list, and those after an empty line, begin anew."""
+    return re.sub(r" ?\n ?", "\n", " ".join("\n" + line if line.startswith("- ") or not line else line
+                                          for line in comment)).strip()
 
 
 def _declaration(lines, start):

@@ -9,7 +9,7 @@ import re
 class _Page(html.parser.HTMLParser):
     def __init__(self, text):
         super().__init__()
-        self.targets, self.anchors = [], set()
+        self.targets, self.anchors, self.twice = [], set(), []
         self.feed(text)
 
     def handle_starttag(self, tag, attributes):
@@ -17,6 +17,7 @@ class _Page(html.parser.HTMLParser):
             if name in ("href", "src"):
                 self.targets.append(value)
             elif name == "id":
+                self.twice += [value] if value in self.anchors else []
                 self.anchors.add(value)
 
 
@@ -26,6 +27,7 @@ def dead_links(folder):
     pages = {file.relative_to(folder).as_posix(): _Page(file.read_text()) for file in folder.rglob("*.html")}
     dead = []
     for url, page in pages.items():
+        dead += [(url, f"#{anchor}, which is there twice") for anchor in page.twice]
         for target in page.targets:
             if not re.match(r"[a-z]+:", target) and not _leads(url, target, pages, folder):
                 dead.append((url, target))

@@ -80,8 +80,9 @@ def symbol_anchors(path, symbols):
 
 def _symbol(symbol, anchor):
     within = " within" if symbol.within else ""
+    comment = "<br>".join(map(prose, symbol.comment.split("\n")))
     return (f'<article class="tag symbol{within}" id="{anchor}"><h3>{code(symbol.full_name)}</h3>'
-            f'<pre class="cpp"><code>{escape(symbol.declaration)}</code></pre><p>{prose(symbol.comment)}</p></article>')
+            f'<pre class="cpp"><code>{escape(symbol.declaration)}</code></pre><p>{comment}</p></article>')
 
 
 def list_page(here, title, intro, entries, version):
