@@ -68,7 +68,8 @@ class Messages(unittest.TestCase):
 
     def test_no_words_are_left_of_messages_that_went(self):
         texts = [template.text for template in self.templates]
-        stale = [f"{family.id}: {words}" for family in self.families if family.id not in JOINED for words in family.words
+        words_of = [(family.id, words) for family in self.families if family.id not in JOINED for words in family.words]
+        stale = [f"{number}: {words}" for number, words in words_of
                  if not any(pattern(words).search(text) for text in texts)]
         self.assertEqual(stale, [])
 

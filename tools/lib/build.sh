@@ -7,7 +7,7 @@ packages=(
   libopenmpi-dev openmpi-bin libhdf5-openmpi-dev libeigen3-dev libpugixml-dev libfmt-dev libcli11-dev
   nlohmann-json3-dev libmuparser-dev libxxhash-dev libtbb-dev libpetsc-real-dev
 )
-test_packages=(libgtest-dev python3 python3-venv python3-h5py python3-matplotlib)
+test_packages=(libgtest-dev python3 python3-venv python3-h5py python3-matplotlib python3-markdown-it)
 
 say() { printf '%s\n' "tushar: $*" >&2; }
 

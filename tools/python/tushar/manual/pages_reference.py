@@ -94,7 +94,10 @@ def tag_page(subject, reference, known, version):
         items = [item for item in subject.items if item.tag.status == status]
         if items and status in HEADINGS:
             body.append(f"<h2>{HEADINGS[status]}</h2>")
-        body += [item_html(item, here, known) for item in items]
+        for above, item in zip([None, *items], items):
+            if item.tag.role and (above is None or above.tag.role != item.tag.role):
+                body.append(f'<h2>{prose(item.tag.role[0].upper() + item.tag.role[1:])}</h2>')
+            body.append(item_html(item, here, known))
     return page(here, subject.tag.title(), "\n".join(body), version, lead)
 
 

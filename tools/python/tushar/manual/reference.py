@@ -82,10 +82,11 @@ def _parts(entry, known):
     parts = []
     for name in names:
         if name in defined and entry.children:
-            part = dataclasses.replace(defined[name], ours=defined[name].ours or entry.ours)
+            part = dataclasses.replace(defined[name], ours=defined[name].ours or entry.ours, role=entry.sentence)
             parts.append(unfolded(part, known))
         elif name in defined:  # a shape within a shape: its page is linked, not written again
-            parts.append(dataclasses.replace(entry, names=[name], children=[defined[name]]))
+            parts.append(dataclasses.replace(entry, names=[name], sentence=defined[name].sentence, role=entry.sentence,
+                                             children=[defined[name]]))
         else:
             types = [child for child in entry.children if child.kind == "type"] if name == entry.name else []
             parts.append(unfolded(dataclasses.replace(entry, names=[name], children=types), known))
@@ -95,7 +96,7 @@ def _parts(entry, known):
 def _content(tag):
     """Equal for tags that hold the same."""
     nested = tag.children if not _is_link(tag) else ()
-    return (tag.kind, tag.name, tag.sentence, tag.type, tag.default, tag.presence, tag.limits, tag.ours,
+    return (tag.kind, tag.name, tag.sentence, tag.role, tag.type, tag.default, tag.presence, tag.limits, tag.ours,
             tuple(tag.choices), tuple(_content(child) for child in nested))
 
 

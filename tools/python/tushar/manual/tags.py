@@ -32,6 +32,7 @@ class Tag:
     status: str = "used"  # used, ignored, limited (only some values), absent (refused)
     ours: bool = False
     children: list = dataclasses.field(default_factory=list)
+    role: str = ""  # what one of several tags is for, where its own sentence says what it is
 
     @property
     def name(self):
