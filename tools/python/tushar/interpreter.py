@@ -6,14 +6,12 @@ import subprocess
 import sys
 
 _TRIED = "TUSHAR_PYTHON_TRIED"
-# Modules whose package has another name: at Debian, at PyPI.
-_PACKAGES = {"markdown_it": ("python3-markdown-it", "markdown-it-py")}
 
 
 def ensure(*modules):
     """Returns if this Python can import the modules; else starts the program again with one that can, or ends it with
     a sentence on what to install. Call it before those imports."""
-    missing = [module for module in modules if not can_import(module)]
+    missing = [module for module in modules if not _can_import(module)]
     already_tried = os.environ.pop(_TRIED, None)
     if not missing:
         return
@@ -25,8 +23,7 @@ def ensure(*modules):
     sys.exit(_advice(missing, modules))
 
 
-def can_import(module):
-    """Whether this Python has a module."""
+def _can_import(module):
     try:
         importlib.import_module(module)
         return True
@@ -53,7 +50,7 @@ def _has(python, modules):
 
 
 def _advice(missing, modules):
-    packages, wheels = (" ".join(names) for names in zip(*(_PACKAGES.get(name, (f"python3-{name}", name)) for name in modules)))
+    packages = " ".join("python3-" + module for module in modules)
     return (f"This tool needs the Python {'library' if len(missing) == 1 else 'libraries'} {' and '.join(missing)}, which "
             f"no Python found here has: install {packages} (Debian, Ubuntu) or run 'python3 -m pip install "
-            f"{wheels}'.")
+            f"{' '.join(modules)}'.")

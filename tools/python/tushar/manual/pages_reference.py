@@ -98,7 +98,7 @@ def tag_page(subject, reference, known, version):
             if item.tag.role and (above is None or above.tag.role != item.tag.role):
                 body.append(f'<h2>{prose(item.tag.role[0].upper() + item.tag.role[1:])}</h2>')
             body.append(item_html(item, here, known))
-    return page(here, subject.tag.title(), "\n".join(body), version, lead)
+    return page(here, subject.title, "\n".join(body), version, lead)
 
 
 def index_page(reference, version):
@@ -119,7 +119,10 @@ def index_page(reference, version):
             if kind == "scene":
                 body.append(f'<ul class="tree">{"".join(trees)}</ul>')
                 continue
-            label = f'{code(name)} {escape(sentence)}' + (f" <small>{prose(variant)}</small>" if variant else "")
+            first = next(root.tag.sentence for s, root in reference.roots if (s.name, s.variant) == (name, variant))
+            several = kind == "component" and len([other for other in names if other[0] == name]) > 1
+            note = f" <small>{prose(variant or first)}</small>" if several else ""
+            label = f"{code(name)} {escape(sentence)}{note}"
             body.append(f'<details class="tree" id="{name}{"-gas" if variant else ""}"><summary>{label}</summary>'
                         f'<ul>{"".join(trees)}</ul></details>')
     return page(here, "Tags of a scene", "\n".join(body), version)

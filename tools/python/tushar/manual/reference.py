@@ -4,7 +4,7 @@ import re
 
 from tushar.manual.tags import Tag
 
-# Components of which Uintah has no section at all: their tags carry no mark of their own.
+# Components none of whose tags Uintah has, although it has sections of such names: their schemas carry no marks.
 OWN_SECTIONS = ("euler", "burgers", "heat", "poisson")
 MODULE = "DataAnalysis/Module"
 
@@ -32,6 +32,13 @@ class Page:
     @property
     def url(self):
         return f"reference/{self.slug}.html"
+
+    @property
+    def title(self):
+        """`<flow_model type="johnson_cook">` for one of several types, else the tag."""
+        if self.tag.kind != "type":
+            return self.tag.title()
+        return f"<{_word(self).removesuffix('-' + self.tag.name)} {self.tag.title()}>"
 
     def item(self, kind, name):
         return next((item for item in self.items if item.tag.kind == kind and item.tag.name == name), None)

@@ -14,8 +14,10 @@ LITERAL = re.compile(r'R"\((.*?)\)"|"((?:[^"\\]|\\.)*)"', re.DOTALL)
 FIELD = re.compile(r"\{\w*(?::[^{}]*)?\}")
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 # Files that no message of a run comes from: manuals, reports, traces, printing for people and programs.
-SKIPPED = re.compile(r"core/(?:simulation|report)/(?:report|dry_run|time_use)\.cpp|core/tasks/task_graph_print\.cpp|"
-                     r"core/base/(?:trace|progress)\.cpp|core/output/archive_xdmf\.cpp|core/base/launcher\.cpp")
+SKIPPED = re.compile(r".*/(?:report|dry_run|time_use|task_graph_print|trace|progress|archive_xdmf|launcher|completion|"
+                     r"version|commit|information|relax_ng|xml_schema)\.cpp")
+# What begins a function, as clang-format sets it; those that return a Kind say what --list prints.
+FUNCTION = re.compile(r"^\w[^\n;]*\([^\n]*$", re.MULTILINE)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -39,7 +41,9 @@ def templates_in(source, path):
     calls = [(match.start(), source.index("(", match.start())) for match in CALLS.finditer(source)]
     spans = [(start, _end_of_call(source, bracket)) for start, bracket in calls]
     returns = [(match.start(), _end_of_statement(source, match.end())) for match in RETURNS.finditer(source)]
-    spans += [(start, end) for start, end in returns if not SCHEMA.search(source, start, end)]
+    heads = [(match.start(), match.group()) for match in FUNCTION.finditer(source)]
+    spans += [(start, end) for start, end in returns
+              if not SCHEMA.search(source, start, end) and "Kind " not in _head_of(start, heads)]
     found, done = [], set()
     for start, end in sorted(spans, key=lambda span: (span[0], -span[1])):
         for at, text in _sentences(source[start:end]):
@@ -49,6 +53,11 @@ def templates_in(source, path):
             done.add(place)
             found.append(Template(text, path, source.count("\n", 0, place) + 1))
     return found
+
+
+def _head_of(place, heads):
+    """The first line of the function that a place is in."""
+    return next((head for start, head in reversed(heads) if start < place), "")
 
 
 def _end_of_call(source, at):
