@@ -106,7 +106,7 @@ def index_page(reference, version):
     here = "reference/index.html"
     body = ["<p>A scene is an XML file in Uintah's dialect. Each page below lists what stands in one tag: its type, "
             "unit, limits, default and meaning, all from the schemas that read it. The path under a tag is the one "
-            "that <code>sus --set PATH=VALUE</code> takes.</p>",
+            "that <code>sus --set PATH=VALUE</code> takes. A tag without a mark is Uintah’s, with its meaning.</p>",
             f'<p>{link("reference/a-z.html", "All tags from A to Z", here)} · '
             f'{link("reference/uintah.html", "Uintah’s tags that differ here, and those of our own", here)}</p>']
     opened = set()

@@ -5,7 +5,7 @@ import re
 from tushar.manual.tags import Tag
 
 # Components none of whose tags Uintah has, although it has sections of such names: their schemas carry no marks.
-OWN_SECTIONS = ("euler", "burgers", "heat", "poisson")
+OWN_SECTIONS = ("euler", "burgers", "heat", "implicit_heat", "poisson")
 MODULE = "DataAnalysis/Module"
 
 
