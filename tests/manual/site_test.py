@@ -10,15 +10,9 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools/python"), str(ROOT)]
 from tests.support import sus  # noqa: E402
-
-try:
-    import markdown_it  # noqa: F401
-except ImportError:
-    raise unittest.SkipTest("python3-markdown-it is missing; tools/test installs it") from None
 from tushar.manual import api, tags  # noqa: E402
 from tushar.manual.links import dead_links  # noqa: E402
 from tushar.manual.pictures import Album, bound_of, broken_bounds  # noqa: E402
-from tushar.manual.site import Site  # noqa: E402
 
 TITLE = re.compile(r'^ *((?:<[^>]+>(?:, )?)+|[\w.-]+=(?:"[^"]*")?)(?= —|:)')
 HEADER = """
@@ -40,13 +34,14 @@ T twice(T x);
 
 def setUpModule():
     global FOLDER, SITE
+    try:
+        from tushar.manual.site import Site
+    except ImportError as error:
+        raise unittest.SkipTest(f"{error}: tools/test installs python3-markdown-it") from None
     FOLDER = tempfile.TemporaryDirectory()
+    unittest.addModuleCleanup(FOLDER.cleanup)
     SITE = Site(sus.SUS, Album(sus.SUS, False, f"{FOLDER.name}/cache"))
     SITE.write(f"{FOLDER.name}/site")
-
-
-def tearDownModule():
-    FOLDER.cleanup()
 
 
 def described():

@@ -27,6 +27,11 @@ def facts(tag):
     return " · ".join(parts)
 
 
+def breakable(path):
+    """A path that may go on in another line after a slash."""
+    return escape(path).replace("/", "/<wbr>")
+
+
 def badge(item):
     """Whose the tag is, where it is not simply Uintah's."""
     if item.tag.status != "used":
@@ -63,7 +68,7 @@ def item_html(item, here, known):
         rows.append(f'<p class="facts">{facts(item.tag)}</p>')
     if item.tag.status == "used":
         if item.tag.kind != "type":
-            rows.append(f'<p class="path">{escape(path)}</p>')
+            rows.append(f'<p class="path">{breakable(path)}</p>')
         rows.append(uses(item.scenes, known, here))
     elif item.scenes:
         rows.append(uses(item.scenes, known, here))
@@ -76,7 +81,7 @@ def places(subject, here, reference):
     for section, path in subject.paths:
         label = section.name + (" (gases)" if section.variant else "")
         seen.setdefault(path, []).append(label if section.kind != "scene" else "every scene")
-    rows = "".join(f"<li>{code(path)} <small>{escape(', '.join(dict.fromkeys(names)))}</small></li>"
+    rows = "".join(f"<li><code>{breakable(path)}</code> <small>{escape(', '.join(dict.fromkeys(names)))}</small></li>"
                    for path, names in seen.items())
     return f'<ul class="places">{rows}</ul>'
 
@@ -174,5 +179,5 @@ def _listed(subject, items, here):
     rows = "".join(f"<li>{link(f'{subject.url}#{item.anchor}', code(item.tag.title()), here)} "
                    f"{prose(item.tag.sentence)}</li>" for item in items)
     place = f"{escape(subject.paths[0][1])}: {len(items)}"
-    return (f"<details><summary>{code(subject.tag.title())} <small>{place}</small></summary>"
+    return (f"<details><summary>{code(subject.title)} <small>{place}</small></summary>"
             f'<ul class="index">{rows}</ul></details>')
