@@ -1,1 +1,48 @@
-"""What the Python tools of Tushar share."""
+"""Tushar from Python: opens archives, runs scenes, sweeps over their values.
+
+    import tushar
+    archive = tushar.open("sod.uda")
+    density = archive[-1]["p.density"]                    # an array with .unit, read when its values are used
+    run = tushar.run("ups/mpm/sod.ups", {"Time/maxTime": 0.1})
+    table = tushar.sweep("ups/mpm/sod.ups", {"MPM/gas_dynamics/cfl": [0.1, 0.2]}, jobs=2).to_pandas()
+"""
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any, List
+
+__version__ = "0.1.0"
+# Where each name is: modules are loaded when a name is first used, so that `tushar.interpreter` needs no numpy.
+_HOME = {
+    "open": "archive:open_archive", "Archive": "archive", "Variable": "archive", "Series": "archive", "Globals": "archive",
+    "Snapshot": "snapshot", "Particles": "snapshot", "Array": "arrays", "Grid": "grid", "Tracks": "tracks",
+    "run": "runs", "Run": "runs", "find_sus": "runs", "sweep": "sweeps", "Sweep": "sweeps", "Point": "sweeps",
+    "TusharError": "errors", "ArchiveError": "errors", "MissingLibrary": "errors", "SusError": "errors",
+    "CommandError": "errors", "InputError": "errors", "NumericalError": "errors", "Interrupted": "errors",
+}
+__all__ = ["open", "Archive", "Variable", "Series", "Globals", "Snapshot", "Particles", "Array", "Grid", "Tracks", "run",
+           "Run", "find_sus", "sweep", "Sweep", "Point", "TusharError", "ArchiveError", "MissingLibrary", "SusError",
+           "CommandError", "InputError", "NumericalError", "Interrupted"]
+
+if TYPE_CHECKING:
+    from tushar.archive import Archive, Globals, Series, Variable
+    from tushar.archive import open_archive as open
+    from tushar.arrays import Array
+    from tushar.errors import (ArchiveError, CommandError, InputError, Interrupted, MissingLibrary, NumericalError,
+                               SusError, TusharError)
+    from tushar.grid import Grid
+    from tushar.runs import Run, find_sus, run
+    from tushar.snapshot import Particles, Snapshot
+    from tushar.sweeps import Point, Sweep, sweep
+    from tushar.tracks import Tracks
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOME:
+        raise AttributeError(f"module 'tushar' has no '{name}'; it has {', '.join(__all__)}")
+    module, _, other = _HOME[name].partition(":")
+    return getattr(importlib.import_module(f"tushar.{module}"), other or name)
+
+
+def __dir__() -> List[str]:
+    return sorted([*globals(), *__all__])

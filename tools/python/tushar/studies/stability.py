@@ -5,9 +5,9 @@ import math
 import pathlib
 import tempfile
 
-from tushar import scene_variants
+from tushar.studies import scene_variants
 from tushar.program import run_scene
-from tushar.study import value_at
+from tushar.studies.study import value_at
 
 GLOBALS = ("LeastDensity", "LeastInternalEnergy", "TotalEntropy", "TotalMass")
 DRIFT = 1e-11  # relative, of what a case keeps
