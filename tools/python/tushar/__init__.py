@@ -16,7 +16,7 @@ __version__ = "0.1.0"
 _HOME = {
     "open": "archive:open_archive", "Archive": "archive", "Variable": "archive", "Series": "archive", "Globals": "archive",
     "Snapshot": "snapshot", "Particles": "snapshot", "Array": "arrays", "Grid": "grid", "Tracks": "tracks",
-    "run": "runs", "Run": "runs", "find_sus": "runs", "sweep": "sweeps", "Sweep": "sweeps", "Point": "sweeps",
+    "run": "runs", "Run": "runs", "find_sus": "program", "sweep": "sweeps", "Sweep": "sweeps", "Point": "sweeps",
     "TusharError": "errors", "ArchiveError": "errors", "MissingLibrary": "errors", "SusError": "errors",
     "CommandError": "errors", "InputError": "errors", "NumericalError": "errors", "Interrupted": "errors",
 }
@@ -31,7 +31,8 @@ if TYPE_CHECKING:
     from tushar.errors import (ArchiveError, CommandError, InputError, Interrupted, MissingLibrary, NumericalError,
                                SusError, TusharError)
     from tushar.grid import Grid
-    from tushar.runs import Run, find_sus, run
+    from tushar.program import find_sus
+    from tushar.runs import Run, run
     from tushar.snapshot import Particles, Snapshot
     from tushar.sweeps import Point, Sweep, sweep
     from tushar.tracks import Tracks

@@ -87,17 +87,11 @@ class Array(NDArrayOperatorsMixin):
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Any:
         return getattr(ufunc, method)(*[item.values if isinstance(item, Array) else item for item in inputs], **options)
 
-    def min(self, *where: Any, **options: Any) -> Any:
-        return self.values.min(*where, **options)
-
-    def max(self, *where: Any, **options: Any) -> Any:
-        return self.values.max(*where, **options)
-
-    def mean(self, *where: Any, **options: Any) -> Any:
-        return self.values.mean(*where, **options)
-
-    def sum(self, *where: Any, **options: Any) -> Any:
-        return self.values.sum(*where, **options)
+    def __getattr__(self, name: str) -> Any:
+        """What else numpy's arrays have, such as `max()`, `mean(axis=0)` and `T`: of all values, read now."""
+        if name.startswith("_"):
+            raise AttributeError(name)
+        return getattr(self.values, name)
 
 
 def _is_basic(key: Any) -> bool:

@@ -14,7 +14,7 @@ import numpy as np
 from tushar import space
 from tushar.archive import Archive
 from tushar.errors import ArchiveError
-from tushar.panels import COLOURS, GAS, axis_label, bounds, cloud, colouring, image, name_of, profile, words
+from tushar.panels import COLOURS, GAS, axis_label, bounds, cloud, colouring, image, name_of, plain_marks, profile, words
 from tushar.snapshot import ID
 from tushar.view import Output, Quantity, View
 
@@ -24,7 +24,8 @@ STYLE = {"font.family": "DejaVu Sans", "font.size": 10, "axes.spines.top": False
          "legend.frameon": False, "figure.dpi": 150, "svg.fonttype": "none", "figure.constrained_layout.w_pad": 0.12,
          "figure.constrained_layout.h_pad": 0.12, "figure.constrained_layout.wspace": 0.03,
          "figure.constrained_layout.hspace": 0.03}
-TITLE = {"fontsize": 12.5, "fontweight": "semibold", "color": "#1a202c"}
+TITLE = {"fontsize": 12.5, "fontweight": "bold", "color": "#1a202c"}
+SIDE = 4.2  # of the longest axis among three slices [inch]
 LETTER = 0.108  # width of one in a title [inch]
 
 
@@ -132,9 +133,10 @@ class Figure:
         for panel in panels[count:]:
             panel.remove()
         for panel, quantity in zip(panels, self.quantities):
-            draw = cloud if quantity.variable.centring == "particle" else image
-            more = {"width": 72 * width} if draw is cloud else {}
-            drawn = draw(panel, self.output, quantity, self.output.axes, **more)
+            if quantity.variable.centring == "particle":
+                drawn = cloud(panel, self.output, quantity, self.output.axes, 72 * width)
+            else:
+                drawn = image(panel, self.output, quantity, self.output.axes)
             self._bar(self.figure, drawn, quantity, panel, "horizontal" if flat else "vertical")
 
     def _bar(self, figure: Any, drawn: Any, quantity: Quantity, panels: Any, orientation: str = "vertical") -> None:
@@ -142,34 +144,48 @@ class Figure:
         bar = figure.colorbar(drawn, ax=panels, orientation=orientation, **shape)
         bar.set_label(axis_label(name_of(self.output, quantity), quantity.variable.unit))
         bar.outline.set_visible(False)
+        if self.output.view.log:
+            plain_marks(bar.ax.yaxis if orientation == "vertical" else bar.ax.xaxis)
 
     def _spaces(self) -> None:
         count = len(self.quantities)
         columns = 1 if count == 1 else 2
         rows = -(-count // columns)
-        self.figure = plt.figure(figsize=(7.4 * columns, 0.4 + 5.6 * rows), layout="constrained")
+        views = [space.render(self.output, quantity) for quantity in self.quantities]
+        width, height = self._size_of_slices() if views[0] is None else (7.4, 5.8)
+        self.figure = plt.figure(figsize=(width * columns, 0.5 + height * rows), layout="constrained")
         parts = self.figure.subfigures(rows, columns, squeeze=False).ravel()
-        for part, quantity in zip(parts, self.quantities):
-            seen = space.render(self.output, quantity)
+        for part, quantity, seen in zip(parts, self.quantities, views):
             if seen is None:
                 self._slices(part, quantity)
             else:
                 self._seen(part, quantity, seen)
 
+    def _lengths(self) -> List[float]:
+        """Those of the axes on paper, the longest 1; none is so short that its marks do not fit."""
+        long = [high - low for low, high in map(self.output.extent, range(3))]
+        return [max(0.15, length / max(long)) for length in long]
+
+    def _size_of_slices(self) -> Tuple[float, float]:
+        x, y, z = self._lengths()
+        return SIDE * (x + z) + 3.0, SIDE * (y + z) + 1.6
+
     def _seen(self, part: Any, quantity: Quantity, seen: Any) -> None:
         panel = part.subplots()
-        panel.imshow(seen)
+        panel.imshow(seen.pixels)
         panel.axis("off")
+        for mark in seen.marks:
+            shift = (5 if mark.side == "left" else -5, -3 if mark.height == "top" else 3)
+            panel.annotate(mark.text, mark.place, xytext=shift, textcoords="offset points", ha=mark.side, va=mark.height,
+                           color="#4a5568", annotation_clip=False)
         values = self.output.values_of(quantity)
         self._bar(part, matplotlib.cm.ScalarMappable(**colouring(self.output, quantity, values)), quantity, panel)
 
     def _slices(self, part: Any, quantity: Quantity) -> None:
-        """The planes in the middle of each axis: z, below it y with the same x, beside it x with the same y."""
-        middle = [sum(self.output.extent(axis)) / 2 for axis in range(3)]
-        long = [high - low for low, high in map(self.output.extent, range(3))]
-        least = 0.3 * max(long)
-        grid = part.add_gridspec(2, 2, width_ratios=[max(long[0], least), max(long[2], least)],
-                                 height_ratios=[max(long[1], least), max(long[2], least)])
+        """Three planes: one of z, below it one of y with the same x, beside it one of x with the same y."""
+        middle = self.output.planes(quantity)
+        x, y, z = self._lengths()
+        grid = part.add_gridspec(2, 2, width_ratios=[x, z], height_ratios=[y, z])
         values = self.output.values_of(quantity)
         low, high = bounds(self.output, quantity, values)
         shown = Output(self.output.snapshot, self.output.view.with_ranges({quantity.label: (low, high)}))
@@ -180,14 +196,15 @@ class Figure:
             panel.set_title(f"{'xyz'[cut]} = {middle[cut]:.4g} m", fontsize=10, loc="left")
             panels.append(panel)
         self._bar(part, drawn, quantity, panels)
-        self.notes.append(f"{quantity.label}: the three planes in the middle; --slice chooses one, and with pyvista there "
+        self.notes.append(f"{quantity.label}: three planes; --slice chooses another, and with pyvista there "
                           "is a view in three dimensions")
 
 
 def _plane(panel: Any, output: Output, quantity: Quantity, axes: List[int], cut: Any) -> Any:
     """A slice with other axes than the usual: z across for x."""
     if quantity.variable.centring == "particle":
-        return cloud(panel, output, quantity, axes, 250, cut)
+        long = [high - low for low, high in map(output.extent, range(3))]
+        return cloud(panel, output, quantity, axes, 72 * SIDE * long[axes[0]] / max(long), cut)
     drawn = image(panel, output, quantity, sorted(axes), cut)
     if axes != sorted(axes):
         drawn.set_data(output.field(quantity, output.owners(quantity)[0], slices=cut).T)

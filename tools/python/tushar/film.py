@@ -40,6 +40,12 @@ def common_ranges(archive: Archive, variables: Sequence[str], view: View) -> Tup
     return labels, {label: _round(min(values), max(values), view) for label, values in found.items() if values}
 
 
+def _planes(archive: Archive, label: str, view: View) -> Tuple[float, float, float]:
+    """The places of three slices for all pictures: those of the output in the middle."""
+    with archive[len(archive) // 2] as snapshot:
+        return Output(snapshot, view).planes(Quantity.of(archive, label))
+
+
 def _round(low: float, high: float, view: View) -> Range:
     """The same to both sides of 0 for a difference."""
     most = max(abs(low), abs(high))
@@ -49,7 +55,7 @@ def _round(low: float, high: float, view: View) -> Range:
 def figures(archive: Archive, variables: Sequence[str], title: Optional[str], view: View) -> Iterator[Figure]:
     """A figure of each output that holds what is drawn, all with the same ranges."""
     labels, ranges = common_ranges(archive, variables, view)
-    shown = view.with_ranges(ranges)
+    shown = view.with_ranges(ranges).with_planes(_planes(archive, labels[0], view))
     drawn = 0
     for index in range(len(archive)):
         try:

@@ -1,14 +1,17 @@
 """Finds a Python that has the libraries a tool needs: a machine often has several."""
+from __future__ import annotations
+
 import importlib
 import os
 import shutil
 import subprocess
 import sys
+from typing import Optional, Sequence
 
 _TRIED = "TUSHAR_PYTHON_TRIED"
 
 
-def ensure(*modules):
+def ensure(*modules: str) -> None:
     """Returns if this Python can import the modules; else starts the program again with one that can, or ends it with
     a sentence on what to install. Call it before those imports."""
     missing = [module for module in modules if not _can_import(module)]
@@ -23,7 +26,7 @@ def ensure(*modules):
     sys.exit(_advice(missing, modules))
 
 
-def _can_import(module):
+def _can_import(module: str) -> bool:
     try:
         importlib.import_module(module)
         return True
@@ -31,7 +34,7 @@ def _can_import(module):
         return False
 
 
-def _other_python(modules):
+def _other_python(modules: Sequence[str]) -> Optional[str]:
     """The first python3 on the path, or the system's, that has the modules."""
     folders = os.environ.get("PATH", "").split(os.pathsep)
     found = [shutil.which("python3", path=folder) for folder in folders if folder] + ["/usr/bin/python3"]
@@ -41,7 +44,7 @@ def _other_python(modules):
     return None
 
 
-def _has(python, modules):
+def _has(python: str, modules: Sequence[str]) -> bool:
     command = [python, "-c", "import " + ", ".join(modules)]
     try:
         return subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=60).returncode == 0
@@ -49,7 +52,7 @@ def _has(python, modules):
         return False
 
 
-def _advice(missing, modules):
+def _advice(missing: Sequence[str], modules: Sequence[str]) -> str:
     packages = " ".join("python3-" + module for module in modules)
     return (f"This tool needs the Python {'library' if len(missing) == 1 else 'libraries'} {' and '.join(missing)}, which "
             f"no Python found here has: install {packages} (Debian, Ubuntu) or run 'python3 -m pip install "

@@ -5,6 +5,7 @@ import re
 from typing import Any, Dict, List, Optional, Tuple
 
 import matplotlib.colors
+import matplotlib.ticker
 import numpy as np
 
 from tushar.errors import ArchiveError
@@ -24,7 +25,7 @@ def pretty_unit(unit: str) -> str:
 
 
 def axis_label(name: str, unit: str) -> str:
-    return f"{name} [{pretty_unit(unit)}]" if unit else name
+    return f"{name} [{pretty_unit(unit)}]" if unit not in ("", "1") else name
 
 
 def words(label: str) -> str:
@@ -86,8 +87,18 @@ def _limit(panel: Any, limits: Range, log: bool) -> None:
         panel.set_ylim(low - margin, high + margin)
     else:
         panel.set_ylim(low, high)
-    if not log:
+    if log:
+        plain_marks(panel.yaxis)
+    else:
         widen(panel)
+
+
+def plain_marks(axis: Any) -> None:
+    """Marks 1, 2, 3 on a logarithmic axis instead of powers, where it spans less than two decades."""
+    low, high = axis.get_view_interval()
+    if high < 100 * low:
+        axis.set_major_formatter(matplotlib.ticker.LogFormatter())
+        axis.set_minor_formatter(matplotlib.ticker.LogFormatter(minor_thresholds=(2, 0.5)))
 
 
 def image(panel: Any, output: Output, quantity: Quantity, axes: List[int],
@@ -126,7 +137,14 @@ def _frame(panel: Any, output: Output, across: int, up: int) -> None:
     panel.grid(False)
     panel.set_xlabel(f"{'xyz'[across]} [m]")
     panel.set_ylabel(f"{'xyz'[up]} [m]")
-    panel.locator_params(axis="both", nbins=5)
+    set_ticks(panel, output, across, up)
+
+
+def set_ticks(panel: Any, output: Output, across: int, up: int) -> None:
+    """As many marks as there is room for: a short axis gets few."""
+    long = [high - low for low, high in map(output.extent, (across, up))]
+    for axis, length, least in (("x", long[0], 1), ("y", long[1], 2)):
+        panel.locator_params(axis=axis, nbins=int(np.clip(round(6 * length / max(long)), least, 5)))
 
 
 def colouring(output: Output, quantity: Quantity, values: Values) -> Dict[str, Any]:

@@ -56,8 +56,8 @@ def run(scene: Path, sets: Optional[Mapping[str, Any]] = None, *, ranks: int = 1
     """
     program, overrides = find_sus(sus), dict(sets or {})
     words = [*options, *(["--nthreads", str(threads)] if threads else [])]
-    keeps = tempfile.TemporaryDirectory(prefix="tushar-") if output is None else None
-    folder = pathlib.Path(keeps.name if output is None else output).resolve()
+    keeps = None if output else tempfile.TemporaryDirectory(prefix="tushar-")
+    folder = pathlib.Path(keeps.name if keeps else output or ".").resolve()
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "report.json").unlink(missing_ok=True)
     command = launcher(ranks) + command_of(program, scene, sets_of(overrides), folder, words)

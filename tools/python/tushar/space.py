@@ -3,7 +3,7 @@ value."""
 from __future__ import annotations
 
 import os
-from typing import Any, Optional
+from typing import Any, List, NamedTuple, Optional, Tuple
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from tushar.grid import Values
 from tushar.panels import colouring
 from tushar.view import Output, Quantity
 
-SIZE = 1100, 1000  # pixels
+SIZE = 1200, 1000  # pixels
 SURFACES = 5
 VTK_WITHOUT_SCREEN = 9, 4  # from this version on VTK draws where there is no display
 
@@ -25,15 +25,30 @@ def _pyvista() -> Any:
         return None
     if tuple(pyvista.vtk_version_info[:2]) < VTK_WITHOUT_SCREEN and not os.environ.get("DISPLAY"):
         return None
+    logger = need("vtkmodules.vtkCommonCore", "a view in three dimensions").vtkLogger
+    logger.SetStderrVerbosity(logger.VERBOSITY_ERROR)  # it warns where there is no display, and draws all the same
     return pyvista
 
 
-def render(output: Output, quantity: Quantity) -> Optional[Values]:
-    """A picture (height, width, 3) of a quantity in the whole grid; None where pyvista is not at hand."""
+class Mark(NamedTuple):
+    """A word beside the box: where, and on which side of that place."""
+    place: Tuple[float, ...]
+    text: str
+    side: str
+    height: str
+
+
+class Seen(NamedTuple):
+    """A picture (height, width, 3) in bytes, and the words to write on it, their places in pixels."""
+    pixels: Values
+    marks: List[Mark]
+
+
+def render(output: Output, quantity: Quantity) -> Optional[Seen]:
+    """A quantity in the whole grid; None where pyvista is not at hand."""
     pyvista = _pyvista()
     if pyvista is None or os.environ.get("TUSHAR_NO_PYVISTA"):
         return None
-    grid = output.grid
     box = [edge for axis in range(3) for edge in output.extent(axis)]
     plotter = pyvista.Plotter(off_screen=True, window_size=list(SIZE))
     plotter.set_background("white")
@@ -42,15 +57,34 @@ def render(output: Output, quantity: Quantity) -> Optional[Values]:
         _balls(pyvista, plotter, output, quantity)
     else:
         _surfaces(pyvista, plotter, output, quantity)
-    plotter.show_bounds(bounds=box, grid=False, location="outer", ticks="outside", font_size=11, color="#1a202c",
-                        n_xlabels=3, n_ylabels=3, n_zlabels=3 if grid.cells[2] * grid.spacing[2] > 0.4 * max(
-                            grid.cells * grid.spacing) else 2, fmt="%.3g", xtitle="x [m]", ytitle="y [m]", ztitle="z [m]")
     plotter.camera_position = "iso"
     plotter.reset_camera(bounds=box)
-    plotter.camera.zoom(0.95)
+    plotter.camera.zoom(1.0)
     seen: Values = np.asarray(plotter.screenshot(None, return_img=True))
+    marks = [mark._replace(place=_on_screen(plotter, mark.place)) for mark in _marks(output)]
     plotter.close()
-    return seen
+    return Seen(seen, marks)
+
+
+def _marks(output: Output) -> List[Mark]:
+    """The ends and the name of each axis, beside the edges of the box that are at its lower border as the camera sees it."""
+    (x0, x1), (y0, y1), (z0, z1) = (output.extent(axis) for axis in range(3))
+    edges = (("x", (x0, x1), lambda x: (x, y1, z0), "left", "top"), ("y", (y0, y1), lambda y: (x1, y, z0), "right", "top"),
+             ("z", (z0, z1), lambda z: (x1, y0, z), "right", "bottom"))
+    found = []
+    for name, (low, high), place, side, height in edges:
+        found += [Mark(place(end), f"{end:.4g}", side, height) for end in (low, high)]
+        found.append(Mark(place((low + high) / 2), f"{name} [m]", side, height))
+    return found
+
+
+def _on_screen(plotter: Any, place: Tuple[float, ...]) -> Tuple[float, ...]:
+    """Pixels from the left and from the top of a point in space."""
+    renderer = plotter.renderer
+    renderer.SetWorldPoint(*place, 1.0)
+    renderer.WorldToDisplay()
+    across, up, _ = renderer.GetDisplayPoint()
+    return across, SIZE[1] - up
 
 
 def _balls(pyvista: Any, plotter: Any, output: Output, quantity: Quantity) -> None:
@@ -80,7 +114,7 @@ def _surfaces(pyvista: Any, plotter: Any, output: Output, quantity: Quantity) ->
         surface = image.contour([float(level)], scalars="value")
         if surface.n_points:
             colour = _colours(output, quantity, np.array([level]), values)[0] / 255
-            plotter.add_mesh(surface, color=colour, opacity=0.45, smooth_shading=True)
+            plotter.add_mesh(surface, color=colour, opacity=0.5, smooth_shading=True, ambient=0.5)
 
 
 def _colours(output: Output, quantity: Quantity, values: Values, of: Optional[Values] = None) -> Values:

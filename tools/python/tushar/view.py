@@ -26,6 +26,7 @@ class View:
     material: Optional[str] = None
     other: Optional[Archive] = None  # the archive that is subtracted
     ranges: Dict[str, Range] = field(default_factory=dict)  # label -> range, common to the pictures of a film
+    planes: Optional[Tuple[float, float, float]] = None  # where the three slices of a film are [m]
 
     def __post_init__(self) -> None:
         if self.log and self.other:
@@ -33,6 +34,9 @@ class View:
 
     def with_ranges(self, ranges: Dict[str, Range]) -> View:
         return dataclasses.replace(self, ranges=ranges)
+
+    def with_planes(self, planes: Tuple[float, float, float]) -> View:
+        return dataclasses.replace(self, planes=planes)
 
     def limits(self, label: str) -> Range:
         """The least and the greatest value to show of a label; None where the values decide."""
@@ -149,6 +153,17 @@ class Output:
 
     def extent(self, axis: int) -> Tuple[float, float]:
         return float(self.grid.lower[axis]), float(self.grid.upper[axis])
+
+    def planes(self, quantity: Quantity) -> Tuple[float, float, float]:
+        """Where three slices show most [m]: the middle of the grid, of particles the rows of cells that hold most."""
+        if self.view.planes:
+            return self.view.planes
+        if quantity.variable.centring != "particle":
+            return tuple(sum(self.extent(axis)) / 2 for axis in range(3))  # type: ignore[return-value]
+        x = np.concatenate([self.particles(quantity, name)[0] for name in self.materials_with(quantity.variable)])
+        rows = np.floor((x - self.grid.lower) / self.grid.spacing).astype(int)
+        fullest = [int(np.bincount(np.clip(rows[:, axis], 0, None)).argmax()) for axis in range(3)]
+        return tuple(self.grid.lower + (np.array(fullest) + 0.5) * self.grid.spacing)
 
     def values_of(self, quantity: Quantity) -> Values:
         """All values that a picture shows of a quantity."""
