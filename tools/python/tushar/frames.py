@@ -208,7 +208,7 @@ def _field(snapshot: Snapshot, variable: Variable, owner: Optional[str]) -> Any:
 def _values(snapshot: Snapshot, variable: Variable, owner: Optional[str], key: Any, like: Any) -> Values:
     """What an output has there; not a number where it lacks the field, as a start lacks what steps compute."""
     with Snapshot(snapshot.archive, snapshot.index, snapshot.path, snapshot.time, snapshot.step) as own:
-        try:
-            return np.asarray(_field(own, variable, owner)[key])
-        except ArchiveError:
+        held = {name for name, *_ in fields_of(own)}
+        if not held & {variable.name, f"{variable.name}.{owner}"}:
             return np.asarray(np.broadcast_to(np.nan, like.shape)[key])
+        return np.asarray(_field(own, variable, owner)[key])

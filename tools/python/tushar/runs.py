@@ -4,8 +4,10 @@ from __future__ import annotations
 import json
 import os
 import pathlib
+import shutil
 import subprocess
 import tempfile
+import weakref
 from typing import Any, Dict, List, Mapping, Optional, Sequence
 
 from tushar.errors import BY_EXIT_CODE, SusError
@@ -15,11 +17,19 @@ from tushar.program import Path, command_of, find_sus
 MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1"}
 
 
+class Temporary:
+    """A folder that goes away when nothing refers to this object any more."""
+
+    def __init__(self) -> None:
+        self.path = tempfile.mkdtemp(prefix="tushar-")
+        weakref.finalize(self, shutil.rmtree, self.path, ignore_errors=True)
+
+
 class Run:
     """A run that ended. `report` is what `sus --json` writes, {} where it wrote none; `folder` holds the archive and
     report.json, for as long as the run or its archive is in use where no output folder was named."""
 
-    def __init__(self, scene: Path, sets: Mapping[str, Any], folder: pathlib.Path, keeps: Any = None) -> None:
+    def __init__(self, scene: Path, sets: Mapping[str, Any], folder: pathlib.Path, keeps: Optional[Temporary] = None) -> None:
         self.scene, self.sets, self.folder, self._keeps = os.fspath(scene), dict(sets), folder, keeps
         self.report: Dict[str, Any] = read_report(folder) or {}
         self.errors = ""  # what sus wrote to its standard error
@@ -56,8 +66,8 @@ def run(scene: Path, sets: Optional[Mapping[str, Any]] = None, *, ranks: int = 1
     """
     program, overrides = find_sus(sus), dict(sets or {})
     words = [*options, *(["--nthreads", str(threads)] if threads else [])]
-    keeps = None if output else tempfile.TemporaryDirectory(prefix="tushar-")
-    folder = pathlib.Path(keeps.name if keeps else output or ".").resolve()
+    keeps = None if output else Temporary()
+    folder = pathlib.Path(keeps.path if keeps else output or ".").resolve()
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "report.json").unlink(missing_ok=True)
     command = launcher(ranks) + command_of(program, scene, sets_of(overrides), folder, words)
@@ -100,7 +110,7 @@ def launcher(ranks: int) -> List[str]:
 
 def error_of(code: int, errors: str, done: Run) -> SusError:
     """The error that belongs to an exit code, with what sus said."""
-    said = done.report.get("failure") or errors.strip()
+    said = errors.strip() or str(done.report.get("failure", ""))
     if code < 0:
         said = said or f"sus was ended by signal {-code}"
     return BY_EXIT_CODE.get(code, SusError)(said.replace("sus: ", "", 1) or f"sus failed with exit code {code}", code, done)
