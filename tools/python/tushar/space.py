@@ -47,7 +47,7 @@ class Seen(NamedTuple):
 def render(output: Output, quantity: Quantity) -> Optional[Seen]:
     """A quantity in the whole grid; None where pyvista is not at hand."""
     pyvista = _pyvista()
-    if pyvista is None or os.environ.get("TUSHAR_NO_PYVISTA"):
+    if pyvista is None:
         return None
     box = [edge for axis in range(3) for edge in output.extent(axis)]
     plotter = pyvista.Plotter(off_screen=True, window_size=list(SIZE))
