@@ -64,7 +64,8 @@ class Outputs(WithArchives):
 
     def test_a_wrong_name_gets_the_nearest(self):
         archive = tushar.open(self.sod)
-        for wrong, sentence in ((lambda: archive[-1]["p.densty"], r"no particle variable 'p.densty' \(did you mean 'p.density'"),
+        density = r"no particle variable 'p.densty' \(did you mean 'p.density'"
+        for wrong, sentence in ((lambda: archive[-1]["p.densty"], density),
                                 (lambda: archive.globals["KinetcEnergy"], r"did you mean 'KineticEnergy'"),
                                 (lambda: archive["p.x"], r"outputs go by number: archive\[-1\]\['p.x'\]"),
                                 (lambda: archive[7], "no output 7: .* has 3, 0 to 2"),
@@ -101,7 +102,8 @@ class Arrays(WithArchives):
         count = len(x)
         half = last.materials["left"]
         for key in (0, -1, half, count - 1, slice(None), slice(half - 3, half + 3), slice(3, None, 7), slice(5, 2),
-                    slice(None, None, -1), slice(-4, None), (slice(None), 1), (half + 1, 2), (slice(1, count, 5), slice(0, 2)),
+                    slice(None, None, -1), slice(-4, None), (slice(None), 1), (half + 1, 2),
+                    (slice(1, count, 5), slice(0, 2)),
                     Ellipsis, (Ellipsis, 0), [3, 1, half], values[:, 0] > 0.5, np.int64(4)):
             np.testing.assert_array_equal(x[key], values[key], err_msg=str(key))
         for wrong in (count, -count - 1):
@@ -153,8 +155,9 @@ class Memory(unittest.TestCase):
         count = 10**9
         with tempfile.TemporaryDirectory() as where:
             folder = fake_uda.make_folder(where, "large")
-            fake_uda.write_index(folder, [("p.x", "particle", 3, "m", "gas"), ("p.density", "particle", 1, "kg/m^3", "gas"),
-                                          ("c.density", "cell", 1, "kg/m^3", "")], [], [(0, 0.0)], "Large")
+            variables = [("p.x", "particle", 3, "m", "gas"), ("p.density", "particle", 1, "kg/m^3", "gas"),
+                         ("c.density", "cell", 1, "kg/m^3", "")]
+            fake_uda.write_index(folder, variables, [], [(0, 0.0)], "Large")
             with fake_uda.open_output(folder, 0, 0.0, (512, 512, 512), (1, 1, 1), 3) as file:
                 group = file.create_group("particles/gas")
                 group.create_dataset("p.x", (count, 3), "f8", chunks=(10**5, 3))

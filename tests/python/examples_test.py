@@ -57,7 +57,8 @@ class Readme(InAFolder):
         self.assertEqual(len(blocks), 10)
         printed, left_out = self.run_blocks(blocks)
         self.assertLessEqual(len(left_out), 4)
-        for words in ("expected a value greater than 0 s", "['gas']", "kg/m^3", "(5, 2, 3)", "{'MPM/gas_dynamics/cfl': -1}"):
+        for words in ("expected a value greater than 0 s", "['gas']", "kg/m^3", "(5, 2, 3)",
+                      "{'MPM/gas_dynamics/cfl': -1}"):
             self.assertIn(words, printed)
 
 
@@ -65,7 +66,8 @@ class Notebook(InAFolder):
     PATH = LIBRARY / "examples/first_look.ipynb"
 
     def cells(self):
-        return ["".join(cell["source"]) for cell in json.loads(self.PATH.read_text())["cells"] if cell["cell_type"] == "code"]
+        cells = json.loads(self.PATH.read_text())["cells"]
+        return ["".join(cell["source"]) for cell in cells if cell["cell_type"] == "code"]
 
     def test_its_cells_run_one_after_the_other(self):
         printed, left_out = self.run_blocks(self.cells())
@@ -79,9 +81,11 @@ class Notebook(InAFolder):
         import nbformat
         book = nbformat.read(self.PATH, as_version=4)
         with_package = {**os.environ, "PYTHONPATH": str(LIBRARY)}
-        client = nbclient.NotebookClient(book, timeout=300, kernel_name="python3", resources={"metadata": {"path": "."}})
+        client = nbclient.NotebookClient(book, timeout=300, kernel_name="python3",
+                                         resources={"metadata": {"path": "."}})
         client.execute(env=with_package, cwd=str(ROOT))
-        pictures = [output for cell in book.cells for output in cell.get("outputs", []) if "image/png" in output.get("data", {})]
+        results = [output for cell in book.cells for output in cell.get("outputs", [])]
+        pictures = [output for output in results if "image/png" in output.get("data", {})]
         self.assertEqual(len(pictures), 3)
 
     def test_it_is_kept_without_results(self):
@@ -112,7 +116,8 @@ class Calibration(InAFolder):
 class Package(InAFolder):
     def test_it_can_be_installed(self):
         python = pathlib.Path("venv/bin/python3").absolute()
-        made = subprocess.run([sys.executable, "-m", "venv", "--system-site-packages", "venv"], capture_output=True, text=True)
+        made = subprocess.run([sys.executable, "-m", "venv", "--system-site-packages", "venv"],
+                              capture_output=True, text=True)
         if made.returncode:
             self.skipTest("this Python makes no virtual environments: apt install python3-venv")
         if subprocess.run([python, "-c", "import setuptools, wheel"], capture_output=True).returncode:

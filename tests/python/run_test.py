@@ -123,8 +123,9 @@ class Program(unittest.TestCase):
 
 class Values(unittest.TestCase):
     def test_they_are_written_as_scenes_write_them(self):
-        for value, text in ((0.1, "0.1"), (1e-300, "1e-300"), (True, "true"), ([200, 1, 1], "[200,1,1]"), ("sqrt(2)", "sqrt(2)"),
-                            (np.float64(0.1), "0.1"), (np.array([1.5, 2]), "[1.5,2.0]"), (np.int32(3), "3"), ((1, 2), "[1,2]")):
+        for value, text in ((0.1, "0.1"), (1e-300, "1e-300"), (True, "true"), ([200, 1, 1], "[200,1,1]"),
+                            ("sqrt(2)", "sqrt(2)"), (np.float64(0.1), "0.1"), (np.array([1.5, 2]), "[1.5,2.0]"),
+                            (np.int32(3), "3"), ((1, 2), "[1,2]")):
             self.assertEqual(text_of(value), text)
         self.assertEqual(sets_of({"a/b": 1, "c": False}), ["a/b=1", "c=false"])
 
@@ -135,13 +136,14 @@ class Sweep(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
         cls.folder = pathlib.Path(folder.name)
-        cls.sweep = tushar.sweep(SOD, {CFL: [0.1, -1, 0.2], "Grid/Level/Box/resolution": [[20, 1, 1], [40, 1, 1]]}, jobs=2,
-                                 sets={"Time/maxTime": 0.05}, output=cls.folder)
+        values = {CFL: [0.1, -1, 0.2], "Grid/Level/Box/resolution": [[20, 1, 1], [40, 1, 1]]}
+        cls.sweep = tushar.sweep(SOD, values, jobs=2, sets={"Time/maxTime": 0.05}, output=cls.folder)
 
     def test_runs_all_combinations_in_their_order(self):
         self.assertEqual([(point.values[CFL], point.values["Grid/Level/Box/resolution"][0]) for point in self.sweep],
                          [(0.1, 20), (0.1, 40), (-1, 20), (-1, 40), (0.2, 20), (0.2, 40)])
-        self.assertEqual([point.report.get("layout", {}).get("cells") for point in self.sweep], [20, 40, None, None, 20, 40])
+        cells = [point.report.get("layout", {}).get("cells") for point in self.sweep]
+        self.assertEqual(cells, [20, 40, None, None, 20, 40])
 
     def test_one_that_fails_does_not_end_the_others(self):
         self.assertEqual([type(point.error) for point in self.sweep.failed], [tushar.InputError] * 2)

@@ -133,7 +133,7 @@ def make_disks(where, name="disks"):
 
 
 def make_moving(where, name="moving"):
-    """Two materials of particles with ids; 20 leaves after the first output, 40 comes with the second. The link's path."""
+    """Particles with ids, of two materials; 20 leaves after the first output, 40 comes with the second."""
     folder = make_folder(where, name)
     write_index(folder, [("p.x", "particle", 3, "m", "a, b"), ("p.particleID", "particle", 1, "1", "a, b"),
                          ("p.mass", "particle", 1, "kg", "a")], [], [(0, 0.0), (1, 1.0)], "Moving")

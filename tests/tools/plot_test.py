@@ -47,15 +47,16 @@ class WithArchives(unittest.TestCase):
     def plot(self, *words, path=None):
         """Exit code, standard output and standard error of tools/plot, in a folder of its own."""
         environment = {**os.environ, **({"PATH": path} if path else {})}
-        done = subprocess.run([sys.executable, ROOT / "tools/plot", *words], capture_output=True, text=True, cwd=self.folder,
-                              env=environment)
+        done = subprocess.run([sys.executable, ROOT / "tools/plot", *words], capture_output=True, text=True,
+                              cwd=self.folder, env=environment)
         return done.returncode, done.stdout, done.stderr
 
     @staticmethod
     def texts(figure):
         """Titles and labels of all panels."""
         panels = figure.figure.axes
-        return [text for panel in panels for text in (panel.get_xlabel(), panel.get_ylabel(), panel.get_title(loc="left"))]
+        return [text for panel in panels
+                for text in (panel.get_xlabel(), panel.get_ylabel(), panel.get_title(loc="left"))]
 
 
 class Slices(WithArchives):
@@ -79,8 +80,9 @@ class Slices(WithArchives):
         self.assertLessEqual(np.abs(x[:, 1] - 0.3).max(), 0.0125)
 
     def test_that_is_nowhere_is_told(self):
-        for slices, sentence in (({2: 0.5}, "no slice at z: the grid has only x, y"), ({0: 1.5}, "x = 1.5 m is outside of the "
-                                 "grid, which reaches from 0 to 1 m"), ({0: 0.5, 1: 0.5}, "leave nothing to draw")):
+        outside = "x = 1.5 m is outside of the grid, which reaches from 0 to 1 m"
+        for slices, sentence in (({2: 0.5}, "no slice at z: the grid has only x, y"), ({0: 1.5}, outside),
+                                 ({0: 0.5, 1: 0.5}, "leave nothing to draw")):
             with self.assertRaisesRegex(ArchiveError, sentence):
                 Figure(Archive(self.plate), variables=["c.temperature"], view=View(slices))
 
@@ -105,7 +107,8 @@ class Values(WithArchives):
 
     def test_of_one_material(self):
         figure = Figure(Archive(self.disks), variables=["p.density"], view=View(material="left"))
-        self.assertEqual(len(figure.figure.axes[0].collections[0].get_offsets()), Archive(self.disks)[-1].materials["left"])
+        self.assertEqual(len(figure.figure.axes[0].collections[0].get_offsets()),
+                         Archive(self.disks)[-1].materials["left"])
         with self.assertRaisesRegex(ArchiveError, r"no material 'lft' \(did you mean 'left'"):
             Figure(Archive(self.disks), view=View(material="lft"))
         with self.assertRaisesRegex(ArchiveError, "holds no 'p.density' of material 'none'"):
@@ -154,7 +157,8 @@ class Differences(WithArchives):
             self.assertEqual((x[:, 0].tolist(), values.tolist()), ([31, 41], [0, 0.5]))
 
     def test_that_cannot_be_drawn_are_told(self):
-        for options, sentence in (((self.plate, "--diff", self.sod), "the grids differ, 6 x 4 cells here and 100 cells in"),
+        grids = "the grids differ, 6 x 4 cells here and 100 cells in"
+        for options, sentence in (((self.plate, "--diff", self.sod), grids),
                                   ((self.plate, "--diff", self.plate, "--log"), "--log and --diff do not go together")):
             code, _, err = self.plot(*options)
             self.assertEqual(code, 1, err)
@@ -191,19 +195,29 @@ class Films(WithArchives):
     def test_without_ffmpeg_an_mp4_becomes_a_gif(self):
         with mock.patch("tushar.film.ffmpeg", return_value=None):
             path, notes = film.write(Archive(self.plate), str(self.folder / "plate.mp4"), ["c.temperature"])
-        self.assertEqual((path, notes), (str(self.folder / "plate.gif"), ["there is no ffmpeg, which writes .mp4: the film is a "
-                                                                         ".gif"]))
+        self.assertEqual(path, str(self.folder / "plate.gif"))
+        self.assertEqual(notes, ["there is no ffmpeg, which writes .mp4: the film is a .gif"])
 
     def test_ffmpeg_gets_the_pictures(self):
         program = self.folder / "programs/ffmpeg"
         program.parent.mkdir(exist_ok=True)
         program.write_text('#!/bin/sh\nfor last; do :; done\necho "$@" > "$last"\nwc -c >> "$last"\n')
         program.chmod(program.stat().st_mode | stat.S_IXUSR)
-        code, out, err = self.plot(self.plate, "c.temperature", "--movie", "plate.mp4", path=f"{program.parent}:/usr/bin:/bin")
+        code, out, err = self.plot(self.plate, "c.temperature", "--movie", "plate.mp4",
+                                   path=f"{program.parent}:/usr/bin:/bin")
         self.assertEqual((code, out), (0, "plate.mp4\n"), err)
         words, count = (self.folder / "plate.mp4").read_text().splitlines()
         width, height = map(int, words.split(" -s ")[1].split()[0].split("x"))
         self.assertEqual((int(count), width % 2, height % 2), (2 * width * height * 3, 0, 0))
+
+    def test_what_ffmpeg_dies_of_is_told(self):
+        program = self.folder / "dying/ffmpeg"
+        program.parent.mkdir()
+        program.write_text("#!/bin/sh\necho no such codec >&2\nexit 1\n")
+        program.chmod(program.stat().st_mode | stat.S_IXUSR)
+        with mock.patch("tushar.film.ffmpeg", return_value=str(program)):
+            with self.assertRaisesRegex(ArchiveError, "ffmpeg could not write '.*a.mp4': no such codec"):
+                film.write(Archive(self.sod), str(self.folder / "a.mp4"))
 
     def test_a_name_that_is_no_film_is_told(self):
         self.assertIn("its name must end in .mp4 or .gif", self.plot(self.sod, "--movie", "film.avi")[2])
@@ -237,8 +251,8 @@ class ThreeDimensions(WithArchives):
 class Following(WithArchives):
     def test_draws_each_output_until_the_run_ends(self):
         with tempfile.TemporaryDirectory() as folder:
-            run = subprocess.Popen([SUS, "ups/mpm/sod.ups", "--quiet", "--output", folder, "--set",
-                                    "Grid/Level/Box/resolution=[1500,1,1]", "--set", "DataArchiver/outputInterval=.01"], cwd=ROOT)
+            sets = ["--set", "Grid/Level/Box/resolution=[1500,1,1]", "--set", "DataArchiver/outputInterval=.01"]
+            run = subprocess.Popen([SUS, "ups/mpm/sod.ups", "--quiet", "--output", folder, *sets], cwd=ROOT)
             self.addCleanup(run.wait)
             archive = pathlib.Path(folder, "sod.uda")
             for _ in range(300):
@@ -268,7 +282,8 @@ class Following(WithArchives):
 
 class Options(WithArchives):
     def test_mistakes_are_sentences(self):
-        for options, code, sentence in ((("--slice", "w=1"), 2, "found 'w=1', expected an axis and a place, such as x=0.5"),
+        axis = "found 'w=1', expected an axis and a place, such as x=0.5"
+        for options, code, sentence in ((("--slice", "w=1"), 2, axis),
                                         (("--range", "-1"), 2, "found '-1', expected two numbers, such as 0,1"),
                                         (("--range", "2,1"), 2, "expected the lower number first"),
                                         (("--index", "last"), 2, "found 'last', expected a number or 'all'"),

@@ -12,17 +12,18 @@ import importlib
 from typing import TYPE_CHECKING, Any, List
 
 __version__ = "0.1.0"
-# Where each name is: modules are loaded when a name is first used, so that `tushar.interpreter` needs no numpy.
-_HOME = {
-    "open": "archive:open_archive", "Archive": "archive", "Variable": "archive", "Series": "archive", "Globals": "archive",
-    "Snapshot": "snapshot", "Particles": "snapshot", "Array": "arrays", "Grid": "grid", "Tracks": "tracks",
-    "run": "runs", "Run": "runs", "find_sus": "program", "sweep": "sweeps", "Sweep": "sweeps", "Point": "sweeps",
-    "TusharError": "errors", "ArchiveError": "errors", "MissingLibrary": "errors", "SusError": "errors",
-    "CommandError": "errors", "InputError": "errors", "NumericalError": "errors", "Interrupted": "errors",
+# The names of each module, loaded when one is first used, so that `tushar.interpreter` needs no numpy.
+_NAMES = {
+    "archive": ["Archive", "Variable", "Series", "Globals"], "snapshot": ["Snapshot", "Particles"], "arrays": ["Array"],
+    "grid": ["Grid"], "tracks": ["Tracks"], "program": ["find_sus"], "runs": ["run", "Run"],
+    "sweeps": ["sweep", "Sweep", "Point"],
+    "errors": ["TusharError", "ArchiveError", "MissingLibrary", "SusError", "CommandError", "InputError",
+               "NumericalError", "Interrupted"],
 }
-__all__ = ["open", "Archive", "Variable", "Series", "Globals", "Snapshot", "Particles", "Array", "Grid", "Tracks", "run",
-           "Run", "find_sus", "sweep", "Sweep", "Point", "TusharError", "ArchiveError", "MissingLibrary", "SusError",
-           "CommandError", "InputError", "NumericalError", "Interrupted"]
+_HOME = {name: module for module, names in _NAMES.items() for name in names}
+__all__ = ["open", "Archive", "Variable", "Series", "Globals", "Snapshot", "Particles", "Array", "Grid", "Tracks",
+           "find_sus", "run", "Run", "sweep", "Sweep", "Point", "TusharError", "ArchiveError", "MissingLibrary",
+           "SusError", "CommandError", "InputError", "NumericalError", "Interrupted"]
 
 if TYPE_CHECKING:
     from tushar.archive import Archive, Globals, Series, Variable
@@ -39,10 +40,11 @@ if TYPE_CHECKING:
 
 
 def __getattr__(name: str) -> Any:
+    if name == "open":
+        return importlib.import_module("tushar.archive").open_archive
     if name not in _HOME:
         raise AttributeError(f"module 'tushar' has no '{name}'; it has {', '.join(__all__)}")
-    module, _, other = _HOME[name].partition(":")
-    return getattr(importlib.import_module(f"tushar.{module}"), other or name)
+    return getattr(importlib.import_module(f"tushar.{_HOME[name]}"), name)
 
 
 def __dir__() -> List[str]:

@@ -90,8 +90,8 @@ class Globals(Mapping[str, Series]):
 
 
 class Archive(Sequence[Snapshot]):
-    """An archive, `sod.uda` or `sod.uda.000`: a sequence of its outputs. `archive[0]` is the first, `archive[-1]` the last,
-    `archive.at(0.1)` the nearest to a time. Opening it reads its index alone. Wrong names raise ArchiveError."""
+    """An archive, `sod.uda` or `sod.uda.000`: a sequence of its outputs. `archive[0]` is the first, `archive[-1]` the
+    last, `archive.at(0.1)` the nearest to a time. Opening it reads its index alone. Wrong names raise ArchiveError."""
 
     def __init__(self, path: Any, report: Optional[Dict[str, Any]] = None, keeps: Any = None) -> None:
         self.folder = os.path.normpath(os.fspath(path))
@@ -128,7 +128,8 @@ class Archive(Sequence[Snapshot]):
 
     def __repr__(self) -> str:
         many = "output" if len(self) == 1 else "outputs"
-        return f"<Archive {self.folder}: {self.title}, {len(self)} {many}, {', '.join([*self.variables, *self.globals])}>"
+        names = ", ".join([*self.variables, *self.globals])
+        return f"<Archive {self.folder}: {self.title}, {len(self)} {many}, {names}>"
 
     def __len__(self) -> int:
         return len(self.times)

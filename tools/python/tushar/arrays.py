@@ -11,8 +11,8 @@ from numpy.lib.mixins import NDArrayOperatorsMixin
 class Array(NDArrayOperatorsMixin):
     """Values of a variable, on the disk until they are used: `array[::10]` reads every tenth row, `array.values` all.
 
-    It takes part in arithmetic and in numpy's functions, which return plain numpy arrays. Particles of several materials
-    follow one another, in the order of the scene. Each `unit` is that of the archive, such as `kg/m^3`; `1` for none.
+    It takes part in arithmetic and in numpy's functions, which return plain numpy arrays. Particles of several
+    materials follow one another, in the order of the scene. `unit` is that of the archive, `kg/m^3`; `1` for none.
     """
 
     def __init__(self, parts: Sequence[h5py.Dataset], name: str = "", unit: str = "", description: str = "") -> None:
@@ -97,7 +97,8 @@ class Array(NDArrayOperatorsMixin):
 def _is_basic(key: Any) -> bool:
     """Whether a key is made of numbers, slices and `...` alone."""
     items = key if isinstance(key, tuple) else (key,)
-    return all(isinstance(item, (int, np.integer, slice)) and not isinstance(item, bool) or item is Ellipsis for item in items)
+    return all(item is Ellipsis or isinstance(item, (int, np.integer, slice)) and not isinstance(item, bool)
+               for item in items)
 
 
 def _runs_backwards(item: Any) -> bool:

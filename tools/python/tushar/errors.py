@@ -69,4 +69,5 @@ def need(module: str, what: str) -> ModuleType:
         return importlib.import_module(module)
     except ImportError:
         name = module.split(".")[0]
-        raise MissingLibrary(f"{what} needs {name}, which this Python has not got: python3 -m pip install {name}") from None
+        advice = f"python3 -m pip install {name}"
+        raise MissingLibrary(f"{what} needs {name}, which this Python has not got: {advice}") from None

@@ -1,4 +1,4 @@
-"""Draws an output of an archive: profiles along a line, images or point clouds in a plane, views of three dimensions."""
+"""Draws an output of an archive: profiles along a line, images and clouds of points in a plane, views in 3-D."""
 from __future__ import annotations
 
 import textwrap
@@ -14,7 +14,8 @@ import numpy as np
 from tushar import space
 from tushar.archive import Archive
 from tushar.errors import ArchiveError
-from tushar.panels import COLOURS, GAS, axis_label, bounds, cloud, colouring, image, name_of, plain_marks, profile, words
+from tushar.panels import (COLOURS, GAS, axis_label, bounds, cloud, colouring, image, name_of, plain_marks, profile,
+                           words)
 from tushar.snapshot import ID
 from tushar.view import Output, Quantity, View
 
@@ -47,9 +48,22 @@ def choose(output: Output) -> Tuple[List[str], List[str]]:
               and (wanted is None or not v.materials or wanted in v.materials)]
     names = [name for name in names if name != ID]
     others = [v.name for v in saved if v.components == 1 and v.name in names] or names
+    if held and not fields and not others:
+        return ["p.x"], []  # where the particles of each material are
     if not fields and not others:
         raise ArchiveError(f"'{archive.folder}' holds nothing to draw at this output")
     return (fields or others)[:4 if dimension == 1 else 1], []
+
+
+def broken(title: str, letters: int) -> str:
+    """A title in lines of so many letters; where it can be, broken before the time or the place."""
+    lines: List[str] = []
+    for part in title.split(",  "):
+        if lines and len(lines[-1]) + len(part) + 3 <= letters:
+            lines[-1] += ",  " + part
+        else:
+            lines += textwrap.wrap(part, letters)
+    return "\n".join(lines)
 
 
 class Figure:
@@ -96,15 +110,15 @@ class Figure:
         draw = (self._lines, self._planes, self._spaces)[len(self.output.axes) - 1]
         draw()
         letters = max(20, int(self.figure.get_figwidth() / LETTER))
-        lines = textwrap.wrap(title.replace(",  t =", ",\xa0 t\xa0="), letters) if len(title) > letters else [title]
-        self.figure.suptitle("\n".join(lines), **TITLE)
+        self.figure.suptitle(broken(title, letters), **TITLE)
 
     def _lines(self) -> None:
         count = len(self.quantities)
         columns = 1 if count == 1 else 2
         rows = -(-count // columns)
         size = (7.2, 5.2) if count == 1 else (9.6, 0.6 + 3.3 * rows)
-        self.figure, grid = plt.subplots(rows, columns, figsize=size, squeeze=False, sharex=True, constrained_layout=True)
+        self.figure, grid = plt.subplots(rows, columns, figsize=size, squeeze=False,
+                                         sharex=True, constrained_layout=True)
         panels = grid.ravel()
         for panel in panels[count:]:
             panel.remove()
@@ -137,11 +151,12 @@ class Figure:
                 drawn = cloud(panel, self.output, quantity, self.output.axes, 72 * width)
             else:
                 drawn = image(panel, self.output, quantity, self.output.axes)
-            self._bar(self.figure, drawn, quantity, panel, "horizontal" if flat else "vertical")
+            if drawn is not None:
+                self._bar(self.figure, drawn, quantity, panel, "horizontal" if flat else "vertical")
 
     def _bar(self, figure: Any, drawn: Any, quantity: Quantity, panels: Any, orientation: str = "vertical") -> None:
         shape = {"shrink": 0.9, "pad": 0.02} if orientation == "vertical" else {"shrink": 0.7, "aspect": 35}
-        bar = figure.colorbar(drawn, ax=panels, orientation=orientation, **shape)
+        bar = figure.colorbar(drawn, ax=panels, orientation=orientation, extend=_beyond(drawn), **shape)
         bar.set_label(axis_label(name_of(self.output, quantity), quantity.variable.unit))
         bar.outline.set_visible(False)
         if self.output.view.log:
@@ -176,8 +191,8 @@ class Figure:
         panel.axis("off")
         for mark in seen.marks:
             shift = (5 if mark.side == "left" else -5, -3 if mark.height == "top" else 3)
-            panel.annotate(mark.text, mark.place, xytext=shift, textcoords="offset points", ha=mark.side, va=mark.height,
-                           color="#4a5568", annotation_clip=False)
+            panel.annotate(mark.text, mark.place, xytext=shift, textcoords="offset points", ha=mark.side,
+                           va=mark.height, color="#4a5568", annotation_clip=False)
         values = self.output.values_of(quantity)
         self._bar(part, matplotlib.cm.ScalarMappable(**colouring(self.output, quantity, values)), quantity, panel)
 
@@ -198,6 +213,16 @@ class Figure:
         self._bar(part, drawn, quantity, panels)
         self.notes.append(f"{quantity.label}: three planes; --slice chooses another, and with pyvista there "
                           "is a view in three dimensions")
+
+
+def _beyond(drawn: Any) -> str:
+    """At which ends of the colour bar there are values without a colour of their own."""
+    values = drawn.get_array()
+    if values is None or not np.size(values):
+        return "neither"
+    (low, high), known = drawn.get_clim(), np.ma.masked_invalid(values)
+    below, above = bool(known.min() < low), bool(known.max() > high)
+    return {(True, True): "both", (True, False): "min", (False, True): "max"}.get((below, above), "neither")
 
 
 def _plane(panel: Any, output: Output, quantity: Quantity, axes: List[int], cut: Any) -> Any:

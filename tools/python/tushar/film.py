@@ -1,11 +1,14 @@
 """Films of all outputs, and pictures that follow a run."""
 from __future__ import annotations
 
+import contextlib
 import fcntl
+import itertools
 import os
 import pathlib
 import shutil
 import subprocess
+import tempfile
 import time
 from typing import Any, Callable, Dict, Iterator, List, Optional, Sequence, Tuple
 
@@ -17,6 +20,7 @@ from tushar.figure import Figure, choose
 from tushar.view import Output, Quantity, Range, View
 
 SECONDS = 6.0  # a film takes so long, but for few outputs
+ALMOST_WHITE = 248  # what choosing 256 colours makes of white
 FASTEST, SLOWEST = 25.0, 2.0  # pictures per second
 
 
@@ -75,20 +79,26 @@ def write(archive: Archive, path: str, variables: Sequence[str] = (), title: Opt
     ending = pathlib.Path(path).suffix.lower()
     if ending not in (".gif", ".mp4"):
         raise ArchiveError(f"'{path}' is no film: its name must end in .mp4 or .gif")
-    pictures, notes = [], []
-    for figure in figures(archive, variables, title, view or View()):
-        pictures.append(figure.pixels())
-        notes += [note for note in figure.notes if note not in notes]
-    rate = float(np.clip(len(pictures) / SECONDS, SLOWEST, FASTEST))
+    notes: List[str] = []
     program = ffmpeg() if ending == ".mp4" else None
+    if ending == ".mp4" and not program:
+        path = str(pathlib.Path(path).with_suffix(".gif"))
+        notes.append("there is no ffmpeg, which writes .mp4: the film is a .gif")
+    rate = float(np.clip(len(archive) / SECONDS, SLOWEST, FASTEST))
+    pictures = _pictures(archive, variables, title, view or View(), notes)
     if program:
         _write_mp4(program, pictures, rate, path)
     else:
-        if ending == ".mp4":
-            path = str(pathlib.Path(path).with_suffix(".gif"))
-            notes.append("there is no ffmpeg, which writes .mp4: the film is a .gif")
         _write_gif(pictures, rate, path)
     return path, notes
+
+
+def _pictures(archive: Archive, variables: Sequence[str], title: Optional[str], view: View,
+              notes: List[str]) -> Iterator[Any]:
+    """The pictures one by one, as bytes; what there is to say of them is added to `notes`."""
+    for figure in figures(archive, variables, title, view):
+        notes += [note for note in figure.notes if note not in notes]
+        yield figure.pixels()
 
 
 def ffmpeg() -> Optional[str]:
@@ -103,21 +113,33 @@ def ffmpeg() -> Optional[str]:
     return str(imageio_ffmpeg.get_ffmpeg_exe())
 
 
-def _write_mp4(program: str, pictures: List[Any], rate: float, path: str) -> None:
-    height, width = pictures[0].shape[:2]
-    command = [program, "-y", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}", "-r",
-               f"{rate:g}", "-i", "-", "-c:v", "libx264", "-crf", "18", "-pix_fmt", "yuv420p", "-movflags", "+faststart", path]
-    done = subprocess.run(command, input=b"".join(picture.tobytes() for picture in pictures), capture_output=True)
-    if done.returncode:
-        raise ArchiveError(f"ffmpeg could not write '{path}': {done.stderr.decode(errors='replace').strip()}")
+def _write_mp4(program: str, pictures: Iterator[Any], rate: float, path: str) -> None:
+    first = next(pictures)
+    height, width = first.shape[:2]
+    given = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}", "-r", f"{rate:g}", "-i", "-"]
+    wanted = ["-c:v", "libx264", "-crf", "18", "-pix_fmt", "yuv420p", "-movflags", "+faststart", path]
+    command = [program, "-y", "-loglevel", "error", *given, *wanted]
+    with tempfile.TemporaryFile() as said:
+        with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=said) as process:
+            assert process.stdin
+            with contextlib.suppress(BrokenPipeError):  # what it died of is told below
+                for picture in itertools.chain([first], pictures):
+                    process.stdin.write(picture.tobytes())
+                process.stdin.close()
+        if process.returncode:
+            said.seek(0)
+            raise ArchiveError(f"ffmpeg could not write '{path}': {said.read().decode(errors='replace').strip()}")
 
 
-def _write_gif(pictures: List[Any], rate: float, path: str) -> None:
+def _write_gif(pictures: Iterator[Any], rate: float, path: str) -> None:
+    """All frames have the colours of the first, where the colour bar is, too."""
     from PIL import Image
-    frames = [Image.fromarray(picture) for picture in pictures]
-    palette = frames[-1].quantize(256, dither=Image.Dither.NONE)
-    flat = [frame.quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames]
-    flat[0].save(path, save_all=True, append_images=flat[1:], duration=round(1000 / rate), loop=0)
+    first = Image.fromarray(next(pictures)).quantize(256, dither=Image.Dither.NONE)
+    colours = np.array(first.getpalette()).reshape(-1, 3)
+    colours[colours.min(axis=1) >= ALMOST_WHITE] = 255
+    first.putpalette(colours.ravel().tolist())
+    more = [Image.fromarray(picture).quantize(palette=first, dither=Image.Dither.NONE) for picture in pictures]
+    first.save(path, save_all=True, append_images=more, duration=round(1000 / rate), loop=0)
 
 
 def is_written(folder: str) -> bool:

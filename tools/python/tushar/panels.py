@@ -120,15 +120,29 @@ def image(panel: Any, output: Output, quantity: Quantity, axes: List[int],
 def cloud(panel: Any, output: Output, quantity: Quantity, axes: List[int], width: float,
           slices: Optional[Dict[int, float]] = None) -> Any:
     """Particles in a plane, on a panel so wide [pt]; what the colour bar belongs to."""
-    found = [output.particles(quantity, name, slices=slices) for name in output.materials_with(quantity.variable)]
+    materials = output.materials_with(quantity.variable)
+    found = [output.particles(quantity, name, slices=slices) for name in materials]
     x, values = (np.concatenate(part) for part in zip(*found))
     across, up = axes
+    if quantity.label == "p.x" and slices is None:
+        return _places(panel, output, dict(zip(materials, (places for places, _ in found))), axes, width)
     colours = colouring(output, quantity, values)
     drawn = panel.scatter(x[:, across], x[:, up], c=values, s=_point_area(output, x, axes, width), linewidths=0,
                           rasterized=True, **colours)
     panel.set_aspect("equal")
     _frame(panel, output, across, up)
     return drawn
+
+
+def _places(panel: Any, output: Output, places: Dict[str, Values], axes: List[int], width: float) -> None:
+    """The particles of each material in a colour of its own, without values."""
+    area = _point_area(output, np.concatenate(list(places.values())), axes, width)
+    for colour, (material, x) in zip(COLOURS * len(places), places.items()):
+        panel.scatter(x[:, axes[0]], x[:, axes[1]], s=area, color=colour, linewidths=0, label=material, rasterized=True)
+    panel.set_aspect("equal")
+    _frame(panel, output, *axes)
+    if len(places) > 1:
+        panel.legend(loc="best", markerscale=2, fontsize=9)
 
 
 def _frame(panel: Any, output: Output, across: int, up: int) -> None:

@@ -14,7 +14,7 @@ PRESETS = ("release", "dev")
 
 
 def _tree() -> pathlib.Path:
-    """The root of the repository: above this file, else, for an installed package, the folder worked in or one above."""
+    """The root of the repository: above this file or, for an installed package, the working folder or one above."""
     here = pathlib.Path(__file__).resolve()
     for folder in (*here.parents, *pathlib.Path(os.path.abspath(".")).joinpath("x").parents):
         if (folder / "tools/run").is_file() and (folder / "ups").is_dir():
@@ -36,7 +36,7 @@ def scene_path(scene: Path) -> pathlib.Path:
 
 
 def find_sus(sus: Optional[Path] = None) -> str:
-    """The program: `sus` if given, else $SUS, the repository's build, the PATH. SusError where it is in none of them."""
+    """The program: `sus` if given, else $SUS, the repository's build, the PATH. SusError where it is in none."""
     named = sus or os.environ.get("SUS")
     if named:
         found = shutil.which(os.fspath(named))

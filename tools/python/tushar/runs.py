@@ -29,13 +29,15 @@ class Run:
     """A run that ended. `report` is what `sus --json` writes, {} where it wrote none; `folder` holds the archive and
     report.json, for as long as the run or its archive is in use where no output folder was named."""
 
-    def __init__(self, scene: Path, sets: Mapping[str, Any], folder: pathlib.Path, keeps: Optional[Temporary] = None) -> None:
+    def __init__(self, scene: Path, sets: Mapping[str, Any], folder: pathlib.Path,
+                 keeps: Optional[Temporary] = None) -> None:
         self.scene, self.sets, self.folder, self._keeps = os.fspath(scene), dict(sets), folder, keeps
         self.report: Dict[str, Any] = read_report(folder) or {}
         self.errors = ""  # what sus wrote to its standard error
 
     def __repr__(self) -> str:
-        ended = self.report.get("failure") or f"{self.report.get('steps', 0)} steps to t = {self.report.get('time', 0):g} s"
+        steps, time = self.report.get("steps", 0), self.report.get("time", 0)
+        ended = self.report.get("failure") or f"{steps} steps to t = {time:g} s"
         return f"<Run of {self.scene}: {ended}>"
 
     @property
@@ -113,7 +115,8 @@ def error_of(code: int, errors: str, done: Run) -> SusError:
     said = errors.strip() or str(done.report.get("failure", ""))
     if code < 0:
         said = said or f"sus was ended by signal {-code}"
-    return BY_EXIT_CODE.get(code, SusError)(said.replace("sus: ", "", 1) or f"sus failed with exit code {code}", code, done)
+    said = said.replace("sus: ", "", 1) or f"sus failed with exit code {code}"
+    return BY_EXIT_CODE.get(code, SusError)(said, code, done)
 
 
 def sets_of(overrides: Mapping[str, Any]) -> List[str]:

@@ -30,7 +30,8 @@ class Snapshot:
         self._opened: Optional[h5py.File] = None
 
     def __repr__(self) -> str:
-        return f"<Snapshot {self.index} of {os.path.basename(self.archive.folder)}, t = {self.time:g} s, step {self.step}>"
+        name = os.path.basename(self.archive.folder)
+        return f"<Snapshot {self.index} of {name}, t = {self.time:g} s, step {self.step}>"
 
     def __enter__(self) -> Snapshot:
         return self

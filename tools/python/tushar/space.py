@@ -67,9 +67,10 @@ def render(output: Output, quantity: Quantity) -> Optional[Seen]:
 
 
 def _marks(output: Output) -> List[Mark]:
-    """The ends and the name of each axis, beside the edges of the box that are at its lower border as the camera sees it."""
+    """The ends and the name of each axis, beside the edges of the box that the camera sees at the border."""
     (x0, x1), (y0, y1), (z0, z1) = (output.extent(axis) for axis in range(3))
-    edges = (("x", (x0, x1), lambda x: (x, y1, z0), "left", "top"), ("y", (y0, y1), lambda y: (x1, y, z0), "right", "top"),
+    edges = (("x", (x0, x1), lambda x: (x, y1, z0), "left", "top"),
+             ("y", (y0, y1), lambda y: (x1, y, z0), "right", "top"),
              ("z", (z0, z1), lambda z: (x1, y0, z), "right", "bottom"))
     found = []
     for name, (low, high), place, side, height in edges:

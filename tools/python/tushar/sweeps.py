@@ -37,7 +37,8 @@ class Point:
     def row(self) -> Dict[str, Any]:
         """Its values, and the numbers of its report: steps, time, seconds, errors.*, drift.*; failure, a sentence."""
         report = self.report
-        known = {"steps": report.get("steps"), "time": report.get("time"), "seconds": report.get("wall", {}).get("loop")}
+        known = {"steps": report.get("steps"), "time": report.get("time"),
+                 "seconds": report.get("wall", {}).get("loop")}
         flat = {**_flat("errors", report.get("errors", {})), **_flat("drift", report.get("drift", {}))}
         return {**self.values, **known, **flat, "failure": str(self.error) if self.error else ""}
 

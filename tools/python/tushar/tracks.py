@@ -17,8 +17,8 @@ FEW = 64  # rows that are read one by one; of more, all between the first and th
 
 
 class Tracks:
-    """Particles by their ids over all outputs: `tracks["p.x"]` has the shape (times, ids) or (times, ids, components), not
-    a number where a particle is not there. Whatever is asked for is read then, and not kept."""
+    """Particles by their ids over all outputs: `tracks["p.x"]` has the shape (times, ids) or (times, ids, components),
+    not a number where a particle is not there. Whatever is asked for is read then, and not kept."""
 
     def __init__(self, archive: Archive, ids: Optional[Sequence[int]], material: Optional[str]) -> None:
         self.archive, self.material = archive, material

@@ -55,7 +55,8 @@ class Quantity:
         base, _, tail = label.rpartition(".")
         if label not in archive.variables and base in archive.variables:
             names = [name[1:] for name in tails(archive.variables[base].components)]
-            return Quantity(label, archive.variables[base], names.index(check_name(f"component of {base}", tail, names)))
+            check_name(f"component of {base}", tail, names)
+            return Quantity(label, archive.variables[base], names.index(tail))
         return Quantity(label, archive.variables[check_name("variable", label, archive.variables)])
 
     @property
@@ -96,7 +97,8 @@ class Output:
             return None
         other = self.view.other.at(self.snapshot.time)
         if abs(other.time - self.snapshot.time) > 1e-9 * max(abs(self.snapshot.time), 1e-300):
-            self.notes.append(f"the difference is to t = {other.time:g} s, the nearest output of '{self.view.other.folder}'")
+            self.notes.append(f"the difference is to t = {other.time:g} s, the nearest output of "
+                              f"'{self.view.other.folder}'")
         return other
 
     def materials_with(self, variable: Variable) -> List[str]:
@@ -187,5 +189,5 @@ def _minus(own: Any, other: Any, name: str) -> Tuple[Values, Values]:
         _, mine, theirs = np.intersect1d(own.ids.values, other.ids.values, return_indices=True)
         return x[mine], here[mine] - there[theirs]
     if len(here) != len(there):
-        raise ArchiveError(f"{len(here)} particles here and {len(there)} there: a difference needs p.particleID in both")
+        raise ArchiveError(f"{len(here)} particles here and {len(there)} there: a difference needs {ID} in both")
     return x, here - there
