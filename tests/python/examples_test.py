@@ -15,7 +15,7 @@ import unittest
 import support
 
 support.ensure("h5py", "matplotlib")
-WITHOUT = {name: support.missing("h5py", "matplotlib", name) for name in ("scipy", "nbclient")}
+WITHOUT = {name: support.missing(name) for name in ("scipy", "nbclient")}
 
 import matplotlib
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Archives in pandas, xarray, pyvista and yt, by a Python that has them: python3 tests/python/frames_test.py"""
+"""Archives in pandas, xarray, pyvista and yt, where they are installed: python3 tests/python/frames_test.py"""
 import os
 import tempfile
 import unittest
@@ -7,7 +7,7 @@ import unittest
 import support
 
 support.ensure("h5py", "numpy")
-WITHOUT = {name: support.missing("h5py", "numpy", name) for name in ("pandas", "xarray", "pyvista", "yt")}
+WITHOUT = {name: support.missing(name) for name in ("pandas", "xarray", "pyvista", "yt")}
 
 import numpy as np
 

@@ -10,6 +10,7 @@ from typing import Any, Dict, Iterator, List, Mapping, Optional, Sequence
 
 import numpy as np
 
+from tushar.dat import rows_of
 from tushar.errors import ArchiveError, check_name
 from tushar.grid import Grid, Values
 from tushar.snapshot import Snapshot
@@ -74,12 +75,11 @@ class Globals(Mapping[str, Series]):
     def __getitem__(self, name: str) -> Series:
         variable = self.variables[check_name("global", name, self.variables)]
         try:
-            with open(self._files[name], encoding="utf-8") as file:
-                rows = [line.split() for line in file if line.endswith("\n") and not line.startswith("#")]
+            rows = rows_of(self._files[name])
         except OSError as error:
             raise ArchiveError(f"cannot read '{self._files[name]}': {error}") from None
         columns = 1 + variable.components
-        table = np.array([row for row in rows if len(row) == columns], dtype=float).reshape(-1, columns)
+        table = np.array(rows, dtype=float).reshape(-1, columns)
         values = table[:, 1] if columns == 2 else table[:, 1:]
         return Series(name, variable.unit, variable.description, table[:, 0], values)
 

@@ -18,7 +18,7 @@ def ensure(*modules: str) -> None:
     already_tried = os.environ.pop(_TRIED, None)
     if not missing:
         return
-    other = None if already_tried else _other_python(modules)
+    other = None if already_tried else python_with(modules)
     if other:
         sys.stdout.flush()
         os.environ[_TRIED] = "1"
@@ -34,7 +34,7 @@ def _can_import(module: str) -> bool:
         return False
 
 
-def _other_python(modules: Sequence[str]) -> Optional[str]:
+def python_with(modules: Sequence[str]) -> Optional[str]:
     """The first python3 on the path, or the system's, that has the modules."""
     folders = os.environ.get("PATH", "").split(os.pathsep)
     found = [shutil.which("python3", path=folder) for folder in folders if folder] + ["/usr/bin/python3"]
@@ -54,6 +54,6 @@ def _has(python: str, modules: Sequence[str]) -> bool:
 
 def _advice(missing: Sequence[str], modules: Sequence[str]) -> str:
     packages = " ".join("python3-" + module for module in modules)
-    return (f"This tool needs the Python {'library' if len(missing) == 1 else 'libraries'} {' and '.join(missing)}, which "
-            f"no Python found here has: install {packages} (Debian, Ubuntu) or run 'python3 -m pip install "
-            f"{' '.join(modules)}'.")
+    noun = "library" if len(missing) == 1 else "libraries"
+    return (f"This tool needs the Python {noun} {' and '.join(missing)}, which no Python found here has: install "
+            f"{packages} (Debian, Ubuntu) or run 'python3 -m pip install {' '.join(modules)}'.")
