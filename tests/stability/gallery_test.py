@@ -12,10 +12,10 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from sus import ROOT, SUS
 
 sys.path.insert(0, str(ROOT / "tools/python"))
-from tushar import scene_variants
-from tushar.gallery import CASES, METHODS
+from tushar.studies import scene_variants
+from tushar.studies.gallery import CASES, METHODS
 from tushar.program import run_scene
-from tushar.stability import Gallery, is_stable, judge, scene_of, write_scene
+from tushar.studies.stability import Gallery, is_stable, judge, scene_of, write_scene
 
 FATAL = ("toro_2", "toro_4", "toro_5", "leblanc", "ratio_1e6")  # for the paper's method
 SENTENCE = re.compile(r"p\.(?:density|internalEnergy) became -\S+ \S+ from \S+, but must be (?:greater than|at least) "

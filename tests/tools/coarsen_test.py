@@ -17,7 +17,7 @@ import h5py
 import numpy as np
 
 from sus import ROOT, SUS, run
-from tushar.uda import Uda
+from tushar import Archive
 
 SCENE = "ups/euler/kelvin_helmholtz.ups"
 SETS = ["Time/maxTime=0.05", "DataArchiver/outputInterval=0"]
@@ -45,13 +45,13 @@ class Coarsen(unittest.TestCase):
 
     def test_joins_cells_to_their_mean_in_four_digits(self):
         self.assertEqual(coarsen(self.archive, "--by", 4, "--out", self.table)[0], 0)
-        fine = Uda(self.archive)
+        fine = Archive(self.archive)
         with h5py.File(self.table) as table:
             self.assertEqual(table.attrs["time"], fine.times[-1])
             self.assertEqual(table["grid"].attrs["cells"].tolist(), [12, 12, 1])
             self.assertEqual(table["grid"].attrs["spacing"].tolist(), [1 / 12, 1 / 12, 1])
             for name in ("c.density", "c.pressure", "c.velocity"):
-                values = fine.field(name)[0]
+                values = fine[-1][name].values[0]
                 means = values.reshape(12, 4, 12, 4, -1).mean(axis=(1, 3)).squeeze()
                 np.testing.assert_allclose(table["cells/" + name][0], means, rtol=2**-13, atol=1e-30)
 
@@ -61,7 +61,7 @@ class Coarsen(unittest.TestCase):
         with h5py.File(self.table) as table:
             self.assertEqual(table["grid"].attrs["lower"].tolist(), [0.25, 0.5, 0])
             self.assertEqual(table["cells/c.density"].shape, (1, 8, 4))
-            block = Uda(self.archive).field("c.density")[0, 24:27, 12:15]
+            block = Archive(self.archive)[-1]["c.density"][0, 24:27, 12:15]
             self.assertAlmostEqual(table["cells/c.density"][0, 0, 0], block.mean(), delta=2e-4)
 
     def test_refuses_what_does_not_fit(self):
@@ -80,7 +80,7 @@ class Coarsen(unittest.TestCase):
 
     def test_a_scene_is_measured_against_a_table_or_an_output_as_it_is(self):
         self.assertEqual(coarsen(self.archive, "--by", 2, "--bits", 23, "--out", self.table)[0], 0)
-        output = str(pathlib.Path(self.archive, f"t{Uda(self.archive).steps[-1]:05}.h5"))
+        output = str(pathlib.Path(self.archive, f"t{Archive(self.archive).steps[-1]:05}.h5"))
         by_table, by_output = self.errors(24, self.table), self.errors(24, output)
         self.assertGreater(by_table["density"]["cell"]["L1"], 1e-3)
         for field in ("density", "velocity", "pressure"):

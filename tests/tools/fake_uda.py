@@ -133,3 +133,20 @@ def make_disks(where, name="disks"):
         group["p.x"] = np.zeros((0, 3))
         group["p.density"] = np.zeros(0)
     return os.path.join(where, name + ".uda")
+
+
+def make_moving(where, name="moving"):
+    """Particles with ids, of two materials; 20 leaves after the first output, 40 comes with the second."""
+    folder = make_folder(where, name)
+    write_index(folder, [("p.x", "particle", 3, "m", "a, b"), ("p.particleID", "particle", 1, "1", "a, b"),
+                         ("p.mass", "particle", 1, "kg", "a")], [], [(0, 0.0), (1, 1.0)], "Moving")
+    for step, held in ((0, {"a": [10, 20], "b": [30]}), (1, {"a": [10], "b": [30, 40]})):
+        with open_output(folder, step, float(step), (50, 1, 1), (1, 1, 1), 1) as file:
+            for index, (material, ids) in enumerate(held.items()):
+                group = file.create_group(f"particles/{material}")
+                group.attrs["index"] = index
+                group["p.particleID"] = np.array(ids, "u8")
+                group["p.x"] = np.array([[number + step, 0, 0] for number in ids], float)
+                if material == "a":
+                    group["p.mass"] = np.array(ids, float)
+    return os.path.join(where, name + ".uda")

@@ -6,7 +6,7 @@ import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools/python"))
-from tushar.change import Change
+from tushar.studies.change import Change
 
 
 class ChangeOfAGlobal(unittest.TestCase):

@@ -16,8 +16,8 @@ from tushar.interpreter import ensure
 
 ensure("matplotlib")
 
-from tushar.shorthand import SHORT
-from tushar.study import order, time_by_task
+from tushar.studies.shorthand import SHORT
+from tushar.studies.study import order, time_by_task
 
 METHODS = ("--method", "paper=ups/mpm/sod.ups", "--method",
            "tracked=ups/mpm/sod.ups;MPM/gas_dynamics/volume_model=tracked", "--method", "volumes=ups/euler/sod.ups")

@@ -16,8 +16,8 @@ import h5py
 import numpy as np
 
 import fake_uda
+from tushar import Archive, ArchiveError
 from tushar.figure import Figure
-from tushar.uda import Uda, UdaError
 
 
 def run(tool, *arguments):
@@ -48,71 +48,71 @@ class WithArchives(unittest.TestCase):
 class Library(WithArchives):
     def test_reads_the_link_and_the_folder_alike(self):
         for path in (self.sod, self.sod + "/", self.sod + ".000"):
-            self.assertEqual(Uda(path).times, [0.0, 0.1, 0.2])
-        self.assertEqual(Uda(self.sod).steps, [0, 100, 200])
-        self.assertEqual(Uda(self.sod).title, "Sod's shock tube")
+            self.assertEqual(Archive(path).times, [0.0, 0.1, 0.2])
+        self.assertEqual(Archive(self.sod).steps, [0, 100, 200])
+        self.assertEqual(Archive(self.sod).title, "Sod's shock tube")
 
     def test_returns_particles_of_the_last_output_unless_told(self):
-        uda = Uda(self.sod)
-        x = uda.particles("p.x")[:, 0]
-        np.testing.assert_array_equal(uda.particles("p.density"), fake_uda.sod(x, 0.2)[0])
-        np.testing.assert_array_equal(uda.particles("p.density", index=1), fake_uda.sod(x, 0.1)[0])
+        uda = Archive(self.sod)
+        x = uda[-1]["p.x"][:, 0]
+        np.testing.assert_array_equal(uda[-1]["p.density"], fake_uda.sod(x, 0.2)[0])
+        np.testing.assert_array_equal(uda[1]["p.density"], fake_uda.sod(x, 0.1)[0])
 
     def test_joins_the_materials_in_the_order_of_the_scene(self):
-        uda = Uda(self.disks)
-        left, right = uda.particles("p.density", "left"), uda.particles("p.density", "right")
-        self.assertEqual(list(uda.materials().values()), [len(left), len(right), 0])
-        np.testing.assert_array_equal(uda.particles("p.density"), np.concatenate([left, right]))
-        self.assertEqual(len(uda.particles("p.density", "none")), 0)
+        uda = Archive(self.disks)
+        left, right = uda[-1]["p.density", "left"], uda[-1]["p.density", "right"]
+        self.assertEqual(list(uda[-1].materials.values()), [len(left), len(right), 0])
+        np.testing.assert_array_equal(uda[-1]["p.density"], np.concatenate([left, right]))
+        self.assertEqual(len(uda[-1]["p.density", "none"]), 0)
 
     def test_shapes_fields_by_z_y_x(self):
-        uda = Uda(self.plate)
-        self.assertEqual(uda.field("c.temperature").shape, (1, 4, 6))
-        self.assertEqual(uda.field("g.mass").shape, (1, 5, 7))
+        uda = Archive(self.plate)
+        self.assertEqual(uda[-1]["c.temperature"].shape, (1, 4, 6))
+        self.assertEqual(uda[-1]["g.mass"].shape, (1, 5, 7))
 
     def test_places_cells_and_nodes(self):
-        grid = Uda(self.plate).grid()
+        grid = Archive(self.plate).grid
         self.assertEqual(grid.axes, [0, 1])
         np.testing.assert_allclose(grid.coordinates("cell")[1], [0.125, 0.375, 0.625, 0.875])
         np.testing.assert_allclose(grid.coordinates("node")[1], [0, 0.25, 0.5, 0.75, 1])
         np.testing.assert_allclose(grid.coordinates("node")[2], [0.5])
 
     def test_reads_globals_without_a_line_that_is_not_complete(self):
-        times, energy = Uda(self.sod).globals("KineticEnergy")
+        series = Archive(self.sod).globals["KineticEnergy"]
+        times, energy = series.times, series.values
         np.testing.assert_array_equal(times, [0, 0.1, 0.2])
         np.testing.assert_array_equal(energy, [0, 0.05, 0.1])
 
     def test_reads_the_exact_solution(self):
-        self.assertEqual(set(Uda(self.sod).reference()), {"x", "density", "velocity", "pressure", "energy"})
-        self.assertEqual(Uda(self.heat).reference(), {})
+        self.assertEqual(set(Archive(self.sod)[-1].reference), {"x", "density", "velocity", "pressure", "energy"})
+        self.assertEqual(Archive(self.heat)[-1].reference, {})
 
     def test_finds_the_nearest_time(self):
-        self.assertEqual(Uda(self.sod).index_at(0.11), 1)
+        self.assertEqual(Archive(self.sod).index_at(0.11), 1)
 
     def test_names_what_is_there_when_a_name_is_wrong(self):
-        uda = Uda(self.sod)
-        with self.assertRaisesRegex(UdaError, r"no particle variable 'p.densty' \(did you mean 'p.density'\?\); there "
-                                              r"is"):
-            uda.particles("p.densty")
-        with self.assertRaisesRegex(UdaError, r"no material 'Gas' \(did you mean 'gas'\?\)"):
-            uda.particles("p.density", "Gas")
-        with self.assertRaisesRegex(UdaError, r"no output 7: .* has 3, 0 to 2"):
-            uda.particles("p.density", index=7)
+        uda = Archive(self.sod)
+        with self.assertRaisesRegex(ArchiveError, r"no particle variable 'p.densty' \(did you mean 'p.density'\?\); there is"):
+            uda[-1]["p.densty"]
+        with self.assertRaisesRegex(ArchiveError, r"no material 'Gas' \(did you mean 'gas'\?\)"):
+            uda[-1]["p.density", "Gas"]
+        with self.assertRaisesRegex(ArchiveError, r"no output 7: .* has 3, 0 to 2"):
+            uda[7]["p.density"]
 
     def test_says_where_an_archive_may_be(self):
         os.unlink(self.disks)
-        with self.assertRaisesRegex(UdaError, r"is no folder; there is '.*disks.uda.000'"):
-            Uda(self.disks)
+        with self.assertRaisesRegex(ArchiveError, r"is no folder; there is '.*disks.uda.000'"):
+            Archive(self.disks)
         os.symlink("disks.uda.000", self.disks)
-        with self.assertRaisesRegex(UdaError, "has no index.xml"):
-            Uda(self.folder.name)
+        with self.assertRaisesRegex(ArchiveError, "has no index.xml"):
+            Archive(self.folder.name)
 
     def test_reads_an_archive_without_outputs(self):
         folder = fake_uda.make_folder(self.folder.name, "young")
         fake_uda.write_index(folder, [], [], [], "Young")
-        self.assertEqual(Uda(folder).times, [])
-        with self.assertRaisesRegex(UdaError, "has no outputs yet"):
-            Uda(folder).index_at(0)
+        self.assertEqual(Archive(folder).times, [])
+        with self.assertRaisesRegex(ArchiveError, "has no outputs yet"):
+            Archive(folder).index_at(0)
         self.assertEqual(run("uda", folder)[0], 0)
         self.assertIn("has no outputs yet", run("plot", folder)[2])
 
@@ -159,14 +159,14 @@ class Command(WithArchives):
         code, _, _ = run("uda", self.sod, "p.velocity", "--csv", self.path("out.csv"))
         table = np.loadtxt(self.path("out.csv"), delimiter=",", skiprows=1)
         self.assertEqual(code, 0)
-        np.testing.assert_array_equal(table[:, 1:], Uda(self.sod).particles("p.velocity"))
+        np.testing.assert_array_equal(table[:, 1:], Archive(self.sod)[-1]["p.velocity"])
         with open(self.path("out.csv"), encoding="utf-8") as file:
             self.assertEqual(file.readline(), "x [m],p.velocity.x [m/s],p.velocity.y [m/s],p.velocity.z [m/s]\n")
 
     def test_prints_statistics(self):
         out = run("uda", self.disks, "p.density", "--stats", "--material", "left")[1]
         row = next(line for line in out.splitlines() if line.startswith("p.density"))
-        density = Uda(self.disks).particles("p.density", "left")
+        density = Archive(self.disks)[-1]["p.density", "left"]
         numbers = [float(word) for word in row.split()[2:]]
         np.testing.assert_allclose(numbers, [len(density), density.min(), density.max(), density.mean(), density.std()],
                                    rtol=1e-6)  # seven digits are printed
@@ -220,8 +220,8 @@ class Plot(WithArchives):
         self.assertNotIn(b"pressure", svg)
 
     def test_keeps_a_node_field_within_the_grid(self):
-        uda = Uda(self.plate)
-        grid = uda.grid()
+        uda = Archive(self.plate)
+        grid = uda.grid
         panel = Figure(uda, variables=["g.mass"]).figure.axes[0]
         self.assertEqual((panel.get_xlim(), panel.get_ylim()),
                          ((0, grid.spacing[0] * grid.cells[0]), (0, grid.spacing[1] * grid.cells[1])))

@@ -9,7 +9,7 @@ packages=(
 )
 test_packages=(
   libgtest-dev libxml2-utils python3 python3-venv python3-h5py python3-matplotlib clang-format universal-ctags
-  python3-markdown-it
+  python3-markdown-it python3-scipy python3-setuptools python3-wheel
 )
 
 say() { printf '%s\n' "tushar: $*" >&2; }
@@ -84,13 +84,15 @@ build() {
   rm -f "$log"
 }
 
-# vtk_python: a Python of our own in build/python, with the XDMF reader that ParaView has; Debian's vtk lacks it.
-# Without a network the test that reads XDMF back is skipped, and says so.
+# vtk_python: a Python of our own in build/python with the newest libraries that the package tushar can work with, and with
+# the XDMF reader that ParaView has; Debian's vtk lacks it. Without a network the tests that need it are skipped, and say so.
 vtk_python() {
   local python=$root/build/python
-  "$python/bin/python3" -c 'import h5py, vtkmodules.vtkIOXdmf2' 2>/dev/null && return 0
-  say "installing VTK for the test of XDMF files into build/python"
-  if ! { python3 -m venv "$python" && "$python/bin/python3" -m pip install --quiet --disable-pip-version-check vtk h5py; } >&2; then
-    say "that did not work; the test that reads XDMF back by VTK will be skipped"
+  local libraries=(vtk h5py matplotlib scipy pandas xarray pyvista yt nbclient ipykernel mypy)
+  "$python/bin/python3" -c 'import h5py, vtkmodules.vtkIOXdmf2, pandas, pyvista, yt, nbclient, mypy' 2>/dev/null && return 0
+  say "installing VTK, pandas, xarray, pyvista and yt for the tests of Python into build/python"
+  if ! { python3 -m venv "$python" &&
+    "$python/bin/python3" -m pip install --quiet --disable-pip-version-check "${libraries[@]}"; } >&2; then
+    say "that did not work; the tests that need them will be skipped"
   fi
 }

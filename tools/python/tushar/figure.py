@@ -1,214 +1,247 @@
-"""Draws an output of an archive: profiles along a line, images or point clouds."""
-import re
+"""Draws an output of an archive: profiles along a line, images and clouds of points in a plane, views in 3-D."""
+from __future__ import annotations
+
+import textwrap
+from typing import Any, List, Optional, Sequence, Tuple
 
 import matplotlib
 
 matplotlib.use("Agg")
+import matplotlib.cm
 import matplotlib.pyplot as plt
 import numpy as np
 
-from tushar.uda import UdaError, check_name
+from tushar import space
+from tushar.archive import Archive
+from tushar.errors import ArchiveError
+from tushar.panels import (COLOURS, GAS, axis_label, bounds, cloud, colouring, image, name_of, plain_marks, profile,
+                           words)
+from tushar.snapshot import ID
+from tushar.view import Output, Quantity, View
 
-# The classic four of a shock tube: label in the archive, column of the exact solution, name on the axis.
-GAS = [("p.density", "density", "density"), ("p.velocity", "velocity", "velocity"),
-       ("p.pressure", "pressure", "pressure"), ("p.internalEnergy", "energy", "specific internal energy")]
-COLOURS = ["#2b6cb0", "#c05621", "#2f855a", "#6b46c1", "#b83280", "#2c7a7b"]
 STYLE = {"font.family": "DejaVu Sans", "font.size": 10, "axes.spines.top": False, "axes.spines.right": False,
          "axes.edgecolor": "#4a5568", "axes.labelcolor": "#1a202c", "xtick.color": "#4a5568", "ytick.color": "#4a5568",
          "axes.grid": True, "grid.color": "#e2e8f0", "grid.linewidth": 0.8, "axes.axisbelow": True,
          "legend.frameon": False, "figure.dpi": 150, "svg.fonttype": "none", "figure.constrained_layout.w_pad": 0.12,
          "figure.constrained_layout.h_pad": 0.12, "figure.constrained_layout.wspace": 0.03,
          "figure.constrained_layout.hspace": 0.03}
+TITLE = {"fontsize": 12.5, "fontweight": "bold", "color": "#1a202c"}
+SIDE = 4.2  # of the longest axis among three slices [inch]
+LETTER = 0.108  # width of one in a title [inch]
 
 
-def pretty_unit(unit):
-    """`kg/m^3` -> `kg/m³`."""
-    raised = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
-    return re.sub(r"\^(-?\d+)", lambda power: power.group(1).translate(raised), unit)
+def choose(output: Output) -> Tuple[List[str], List[str]]:
+    """The labels to draw when none are named, and notes on what is missing."""
+    archive, dimension = output.snapshot.archive, len(output.axes)
+    counts, wanted = output.snapshot.materials, output.view.material
+    held = [name for name, count in counts.items() if count and wanted in (None, name)]
+    saved = [v for v in archive.variables.values()
+             if v.centring == "particle" and v.name != "p.x" and set(held) & set(v.materials)]
+    names = [variable.name for variable in saved]
+    gas = [label for label, _, _ in GAS if label in names]
+    if gas:
+        missing = [(label, name) for label, _, name in GAS if label not in gas] if dimension == 1 else []
+        notes = [f'no {name}: the scene does not save it; add <save label="{label}"/> to DataArchiver'
+                 for label, name in missing]
+        return gas if dimension == 1 else gas[:1], notes
+    fields = [v.name for v in archive.variables.values() if v.centring in ("cell", "node")
+              and (wanted is None or not v.materials or wanted in v.materials)]
+    names = [name for name in names if name != ID]
+    others = [v.name for v in saved if v.components == 1 and v.name in names] or names
+    if held and not fields and not others:
+        return ["p.x"], []  # where the particles of each material are
+    if not fields and not others:
+        raise ArchiveError(f"'{archive.folder}' holds nothing to draw at this output")
+    return (fields or others)[:4 if dimension == 1 else 1], []
 
 
-def axis_label(name, unit):
-    return f"{name} [{pretty_unit(unit)}]" if unit else name
-
-
-def words(label):
-    """`c.temperature` -> `temperature`, `p.internalEnergy` -> `internal energy`."""
-    return re.sub(r"(?<=[a-z])([A-Z])", lambda letter: " " + letter.group(1).lower(), label.split(".")[-1])
+def broken(title: str, letters: int) -> str:
+    """A title in lines of so many letters; where it can be, broken before the time or the place."""
+    lines: List[str] = []
+    for part in title.split(",  "):
+        if lines and len(lines[-1]) + len(part) + 3 <= letters:
+            lines[-1] += ",  " + part
+        else:
+            lines += textwrap.wrap(part, letters)
+    return "\n".join(lines)
 
 
 class Figure:
-    """One output of an archive as a figure. `notes` tells what could not be drawn. Raises UdaError if nothing can."""
+    """One output of an archive as a figure. `notes` tells what was chosen or could not be drawn. Raises ArchiveError if
+    nothing can."""
 
-    def __init__(self, uda, index=-1, variables=(), title=None):
-        if not uda.times:
-            raise UdaError(f"'{uda.folder}' has no outputs yet")
-        self.uda, self.index = uda, index
-        self.grid = uda.grid(index)
-        self.notes = []
-        labels = [check_name("variable", name, uda.variables) for name in variables] or self._choose()
-        with plt.rc_context(STYLE):
-            self._draw(labels, title or f"{uda.title},  t = {uda.times[index]:.4g} s")
+    def __init__(self, archive: Archive, index: int = -1, variables: Sequence[str] = (), title: Optional[str] = None,
+                 view: Optional[View] = None) -> None:
+        if not archive.times:
+            raise ArchiveError(f"'{archive.folder}' has no outputs yet")
+        with archive[index] as snapshot:
+            self.output = Output(snapshot, view or View())
+            self.notes = self.output.notes
+            labels = list(variables)
+            if not labels:
+                labels, notes = choose(self.output)
+                self.notes += notes
+            self.quantities = [Quantity.of(archive, label) for label in labels]
+            with plt.rc_context(STYLE):
+                self._draw(title or self._title())
 
-    def save(self, path):
+    def save(self, path: Any) -> None:
         """Writes PNG, SVG or PDF by the ending of the path."""
         with plt.rc_context(STYLE):
             self.figure.savefig(path)
         plt.close(self.figure)
 
-    def _choose(self):
-        """The labels to draw when none are named."""
-        held = [name for name, count in self.uda.materials(self.index).items() if count]
-        saved = [v for v in self.uda.variables.values() if v.centring == "particle" and v.name != "p.x"] if held else []
-        names = [variable.name for variable in saved]
-        gas = [label for label, _, _ in GAS if label in names]
-        if gas:
-            for label, _, name in GAS if self.grid.dimension == 1 else ():
-                if label not in gas:
-                    self.notes.append(f'no {name}: the scene does not save it; add <save label="{label}"/> to '
-                                      f'DataArchiver')
-            return gas if self.grid.dimension == 1 else gas[:1]
-        fields = [v.name for v in self.uda.variables.values() if v.centring in ("cell", "node")]
-        others = [v.name for v in saved if v.components == 1 and v.name != "p.particleID"] or names
-        if not fields and not others:
-            raise UdaError(f"'{self.uda.folder}' holds nothing to draw at this output")
-        return (fields or others)[:4 if self.grid.dimension == 1 else 1]
+    def pixels(self) -> Any:
+        """The picture as an array (height, width, 3) of bytes, both even, as films want them."""
+        with plt.rc_context(STYLE):
+            self.figure.canvas.draw()
+            drawn = np.asarray(self.figure.canvas.buffer_rgba())[..., :3].copy()
+        plt.close(self.figure)
+        return drawn[:drawn.shape[0] // 2 * 2, :drawn.shape[1] // 2 * 2]
 
-    def _draw(self, labels, title):
-        columns = 1 if len(labels) == 1 else 2
-        rows = (len(labels) + columns - 1) // columns
-        flat = self.grid.dimension > 1
-        size = (7.2, 5.2) if len(labels) == 1 else (9.6, 0.6 + (3.8 if flat else 3.3) * rows)
-        self.figure, panels = plt.subplots(rows, columns, figsize=size, squeeze=False, sharex=not flat,
-                                           constrained_layout=True)
-        panels = panels.ravel()
-        for panel in panels[len(labels):]:
+    def _title(self) -> str:
+        output = self.output
+        title = f"{output.snapshot.archive.title},  t = {output.snapshot.time:.4g} s"
+        for axis, place in output.view.slices.items():
+            title += f",  {'xyz'[axis]} = {place:.4g} m"
+        return title
+
+    def _draw(self, title: str) -> None:
+        draw = (self._lines, self._planes, self._spaces)[len(self.output.axes) - 1]
+        draw()
+        letters = max(20, int(self.figure.get_figwidth() / LETTER))
+        self.figure.suptitle(broken(title, letters), **TITLE)
+
+    def _lines(self) -> None:
+        count = len(self.quantities)
+        columns = 1 if count == 1 else 2
+        rows = -(-count // columns)
+        size = (7.2, 5.2) if count == 1 else (9.6, 0.6 + 3.3 * rows)
+        self.figure, grid = plt.subplots(rows, columns, figsize=size, squeeze=False,
+                                         sharex=True, constrained_layout=True)
+        panels = grid.ravel()
+        for panel in panels[count:]:
             panel.remove()
-        for panel, label in zip(panels, labels):
-            self._panel(panel, label)
-        for panel in panels[max(0, len(labels) - columns):len(labels)] if not flat else ():
-            panel.set_xlabel(f"{'xyz'[self.grid.axes[0]]} [m]")
+        for panel, quantity in zip(panels, self.quantities):
+            profile(panel, self.output, quantity)
+        for panel in panels[max(0, count - columns):count]:
+            panel.set_xlabel(f"{'xyz'[self.output.axes[0]]} [m]")
             panel.tick_params(labelbottom=True)
-        self.figure.suptitle(title, fontsize=12.5, fontweight="semibold", color="#1a202c")
-        self._legend(panels[0])
-
-    def _legend(self, panel):
-        handles, names = panel.get_legend_handles_labels()
+        handles, names = panels[0].get_legend_handles_labels()
         if len(handles) > 1:
-            panel.legend(handles, names, loc="best", handlelength=1.6, fontsize=9)
+            panels[0].legend(handles, names, loc="best", handlelength=1.6, fontsize=9)
 
-    def _panel(self, panel, label):
-        variable = self.uda.variables[label]
-        name = next((name for known, _, name in GAS if known == label), words(label))
-        if self.grid.dimension == 1:
-            self._profile(panel, variable)
-            panel.set_ylabel(axis_label(name, variable.unit))
-            panel.set_xlim(self._range(self.grid.axes[0]))
-            widen(panel)
-        elif variable.centring == "particle":
-            self._cloud(panel, variable, name)
-        else:
-            self._image(panel, variable, name)
+    def _planes(self) -> None:
+        count = len(self.quantities)
+        columns = 1 if count == 1 else 2
+        rows = -(-count // columns)
+        (left, right), (low, high) = (self.output.extent(axis) for axis in self.output.axes)
+        ratio = (right - left) / (high - low)
+        most = (5.4, 4.6) if count == 1 else (4.2, 3.6)
+        width = max(0.9, min(most[0], most[1] * ratio))
+        flat = ratio > 2.2
+        tall = max(0.5, width / ratio) + (1.5 if flat else 0.65)
+        size = (max(columns * (width + (0.9 if flat else 1.9)), 4.4), 0.55 + rows * tall)
+        self.figure, grid = plt.subplots(rows, columns, figsize=size, squeeze=False, constrained_layout=True)
+        panels = grid.ravel()
+        for panel in panels[count:]:
+            panel.remove()
+        for panel, quantity in zip(panels, self.quantities):
+            if quantity.variable.centring == "particle":
+                drawn = cloud(panel, self.output, quantity, self.output.axes, 72 * width)
+            else:
+                drawn = image(panel, self.output, quantity, self.output.axes)
+            if drawn is not None:
+                self._bar(self.figure, drawn, quantity, panel, "horizontal" if flat else "vertical")
 
-    def _along(self, variable, values):
-        """The component along the line, or the magnitude in 2-D and 3-D."""
-        if variable.components == 1:
-            return values
-        if variable.components == 3 and self.grid.dimension == 1:
-            return values[..., self.grid.axes[0]]
-        return np.linalg.norm(values, axis=-1)
-
-    def _materials_with(self, variable):
-        counts = self.uda.materials(self.index)
-        return [name for name in counts if counts[name] and name in variable.materials]
-
-    def _profile(self, panel, variable):
-        if variable.centring == "particle":
-            materials = self._materials_with(variable)
-            for colour, material in zip(COLOURS * len(materials), materials):
-                x = self.uda.particles("p.x", material, self.index)[:, self.grid.axes[0]]
-                values = self._along(variable, self.uda.particles(variable.name, material, self.index))
-                name = f"particles of {material}" if len(materials) > 1 else "particles"
-                panel.plot(x, values, "o", color=colour, markersize=marker_size(len(x)), markeredgewidth=0, label=name)
-        else:
-            x = self.grid.coordinates(variable.centring)[self.grid.axes[0]]
-            for colour, (material, values) in zip(COLOURS * 9, self._fields(variable)):
-                panel.plot(x, self._along(variable, values).ravel(), "-o" if len(x) <= 200 else "-", color=colour,
-                           markersize=3, linewidth=1.4, label=material or variable.centring + "s")
-        self._exact(panel, variable.name)
-
-    def _exact(self, panel, label):
-        table = self.uda.reference(self.index)
-        column = next((column for known, column, _ in GAS if known == label), words(label))
-        if "x" in table and column in table:
-            panel.plot(table["x"], table[column], "-", color="#1a202c", linewidth=1.2, label="exact")
-
-    def _fields(self, variable):
-        names = variable.materials or [None]
-        return [(name, self.uda.field(variable.name, name, self.index)) for name in names]
-
-    def _image(self, panel, variable, name):
-        across, up = self.grid.axes[:2]
-        fields = self._fields(variable)
-        if len(fields) > 1:
-            self.notes.append(f"{variable.name}: only that of {fields[0][0]}")
-        values = self._along(variable, fields[0][1])
-        if self.grid.dimension == 3:
-            values = values[values.shape[0] // 2][None]
-            self.notes.append(f"{variable.name}: the slice in the middle of z")
-        values = values.reshape([count for axis, count in zip((2, 1, 0), values.shape) if axis in (across, up)])
-        lower, upper = self.grid.lower, self.grid.lower + self.grid.spacing * self.grid.cells
-        pad = self.grid.spacing / 2 if variable.centring == "node" else np.zeros(3)
-        box = (lower[across] - pad[across], upper[across] + pad[across], lower[up] - pad[up], upper[up] + pad[up])
-        drawn = panel.imshow(values, origin="lower", extent=box, cmap="viridis", interpolation="nearest",
-                             aspect="equal")
-        panel.set_xlim(self._range(across))
-        panel.set_ylim(self._range(up))
-        self._finish_map(panel, drawn, variable, name)
-
-    def _cloud(self, panel, variable, name):
-        x = np.concatenate([self.uda.particles("p.x", m, self.index) for m in self._materials_with(variable)])
-        values = [self.uda.particles(variable.name, m, self.index) for m in self._materials_with(variable)]
-        values = self._along(variable, np.concatenate(values))
-        across, up = self.grid.axes[:2]
-        if self.grid.dimension == 3:
-            order = np.argsort(x[:, 2])
-            x, values = x[order], values[order]
-            self.notes.append(f"{variable.name}: seen along z")
-        panel.set_aspect("equal")
-        panel.set_xlim(self._range(across))
-        panel.set_ylim(self._range(up))
-        drawn = panel.scatter(x[:, across], x[:, up], c=values, s=self._point_area(x), cmap="viridis", linewidths=0,
-                              rasterized=True)
-        self._finish_map(panel, drawn, variable, name)
-
-    def _point_area(self, x):
-        """Area [pt^2] of points that just touch where the particles lie as dense as in the mean occupied cell."""
-        axes = self.grid.axes[:2]
-        cells = np.unique(np.floor((x - self.grid.lower) / self.grid.spacing)[:, axes], axis=0)
-        area = np.prod(self.grid.spacing[axes]) * len(cells) / max(len(x), 1)
-        points_per_metre = 290 / max(high - low for low, high in map(self._range, axes))
-        return float(np.clip(area * points_per_metre ** 2, 0.2, 200))
-
-    def _range(self, axis):
-        return self.grid.lower[axis], self.grid.lower[axis] + self.grid.spacing[axis] * self.grid.cells[axis]
-
-    def _finish_map(self, panel, drawn, variable, name):
-        panel.grid(False)
-        panel.set_xlabel(f"{'xyz'[self.grid.axes[0]]} [m]")
-        panel.set_ylabel(f"{'xyz'[self.grid.axes[1]]} [m]")
-        bar = self.figure.colorbar(drawn, ax=panel, shrink=0.9, pad=0.02)
-        bar.set_label(axis_label(f"|{name}|" if variable.components > 1 else name, variable.unit))
+    def _bar(self, figure: Any, drawn: Any, quantity: Quantity, panels: Any, orientation: str = "vertical") -> None:
+        shape = {"shrink": 0.9, "pad": 0.02} if orientation == "vertical" else {"shrink": 0.7, "aspect": 35}
+        bar = figure.colorbar(drawn, ax=panels, orientation=orientation, extend=_beyond(drawn), **shape)
+        bar.set_label(axis_label(name_of(self.output, quantity), quantity.variable.unit))
         bar.outline.set_visible(False)
+        if self.output.view.log:
+            plain_marks(bar.ax.yaxis if orientation == "vertical" else bar.ax.xaxis)
+
+    def _spaces(self) -> None:
+        count = len(self.quantities)
+        columns = 1 if count == 1 else 2
+        rows = -(-count // columns)
+        views = [space.render(self.output, quantity) for quantity in self.quantities]
+        width, height = self._size_of_slices() if views[0] is None else (7.4, 5.8)
+        self.figure = plt.figure(figsize=(width * columns, 0.5 + height * rows), layout="constrained")
+        parts = self.figure.subfigures(rows, columns, squeeze=False).ravel()
+        for part, quantity, seen in zip(parts, self.quantities, views):
+            if seen is None:
+                self._slices(part, quantity)
+            else:
+                self._seen(part, quantity, seen)
+
+    def _lengths(self) -> List[float]:
+        """Those of the axes on paper, the longest 1; none is so short that its marks do not fit."""
+        long = [high - low for low, high in map(self.output.extent, range(3))]
+        return [max(0.15, length / max(long)) for length in long]
+
+    def _size_of_slices(self) -> Tuple[float, float]:
+        x, y, z = self._lengths()
+        return SIDE * (x + z) + 3.0, SIDE * (y + z) + 1.6
+
+    def _seen(self, part: Any, quantity: Quantity, seen: Any) -> None:
+        panel = part.subplots()
+        panel.imshow(seen.pixels)
+        panel.axis("off")
+        for mark in seen.marks:
+            shift = (5 if mark.side == "left" else -5, -3 if mark.height == "top" else 3)
+            panel.annotate(mark.text, mark.place, xytext=shift, textcoords="offset points", ha=mark.side,
+                           va=mark.height, color="#4a5568", annotation_clip=False)
+        values = self.output.values_of(quantity)
+        self._bar(part, matplotlib.cm.ScalarMappable(**colouring(self.output, quantity, values)), quantity, panel)
+
+    def _slices(self, part: Any, quantity: Quantity) -> None:
+        """Three planes: one of z, below it one of y with the same x, beside it one of x with the same y."""
+        middle = self.output.planes(quantity)
+        x, y, z = self._lengths()
+        grid = part.add_gridspec(2, 2, width_ratios=[x, z], height_ratios=[y, z])
+        values = self.output.values_of(quantity)
+        low, high = bounds(self.output, quantity, values)
+        shown = Output(self.output.snapshot, self.output.view.with_ranges({quantity.label: (low, high)}))
+        panels: List[Any] = []
+        for cell, axes, cut in ((grid[0, 0], [0, 1], 2), (grid[1, 0], [0, 2], 1), (grid[0, 1], [2, 1], 0)):
+            panel = part.add_subplot(cell)
+            drawn = _plane(panel, shown, quantity, axes, {cut: middle[cut]})
+            panel.set_title(f"{'xyz'[cut]} = {middle[cut]:.4g} m", fontsize=10, loc="left")
+            panels.append(panel)
+        self._bar(part, drawn, quantity, panels)
+        self.notes.append(f"{quantity.label}: three planes; --slice chooses another, and with pyvista there "
+                          "is a view in three dimensions")
 
 
-def marker_size(count):
-    """Points small enough that `count` of them can be told apart."""
-    return float(np.clip(80 / np.sqrt(max(count, 1)), 0.8, 5))
+def _beyond(drawn: Any) -> str:
+    """At which ends of the colour bar there are values without a colour of their own."""
+    values = drawn.get_array()
+    if values is None or not np.size(values):
+        return "neither"
+    (low, high), known = drawn.get_clim(), np.ma.masked_invalid(values)
+    below, above = bool(known.min() < low), bool(known.max() > high)
+    return {(True, True): "both", (True, False): "min", (False, True): "max"}.get((below, above), "neither")
 
 
-def widen(panel):
-    """Keeps a constant from being drawn as its rounding errors."""
-    low, high = panel.get_ylim()
-    middle, least = (low + high) / 2, 1e-6 * max(abs(low), abs(high), 1e-12)
-    if high - low < least:
-        panel.set_ylim(middle - max(0.05 * abs(middle), least), middle + max(0.05 * abs(middle), least))
+def _plane(panel: Any, output: Output, quantity: Quantity, axes: List[int], cut: Any) -> Any:
+    """A slice with other axes than the usual: z across for x."""
+    if quantity.variable.centring == "particle":
+        long = [high - low for low, high in map(output.extent, range(3))]
+        return cloud(panel, output, quantity, axes, 72 * SIDE * long[axes[0]] / max(long), cut)
+    drawn = image(panel, output, quantity, sorted(axes), cut)
+    if axes != sorted(axes):
+        drawn.set_data(output.field(quantity, output.owners(quantity)[0], slices=cut).T)
+        left, right, low, high = drawn.get_extent()
+        drawn.set_extent((low, high, left, right))
+        panel.set_xlim(output.extent(axes[0]))
+        panel.set_ylim(output.extent(axes[1]))
+        panel.set_xlabel(f"{'xyz'[axes[0]]} [m]")
+        panel.set_ylabel(f"{'xyz'[axes[1]]} [m]")
+    return drawn
+
+
+
+
+__all__ = ["COLOURS", "STYLE", "Figure", "words"]

@@ -1,21 +1,24 @@
 """Finds a Python that has the libraries a tool needs: a machine often has several."""
+from __future__ import annotations
+
 import importlib
 import os
 import shutil
 import subprocess
 import sys
+from typing import Optional, Sequence
 
 _TRIED = "TUSHAR_PYTHON_TRIED"
 
 
-def ensure(*modules):
+def ensure(*modules: str) -> None:
     """Returns if this Python can import the modules; else starts the program again with one that can, or ends it with
     a sentence on what to install. Call it before those imports."""
     missing = [module for module in modules if not _can_import(module)]
     already_tried = os.environ.pop(_TRIED, None)
     if not missing:
         return
-    other = None if already_tried else _other_python(modules)
+    other = None if already_tried else python_with(modules)
     if other:
         sys.stdout.flush()
         os.environ[_TRIED] = "1"
@@ -23,7 +26,7 @@ def ensure(*modules):
     sys.exit(_advice(missing, modules))
 
 
-def _can_import(module):
+def _can_import(module: str) -> bool:
     try:
         importlib.import_module(module)
         return True
@@ -31,7 +34,7 @@ def _can_import(module):
         return False
 
 
-def _other_python(modules):
+def python_with(modules: Sequence[str]) -> Optional[str]:
     """The first python3 on the path, or the system's, that has the modules."""
     folders = os.environ.get("PATH", "").split(os.pathsep)
     found = [shutil.which("python3", path=folder) for folder in folders if folder] + ["/usr/bin/python3"]
@@ -41,7 +44,7 @@ def _other_python(modules):
     return None
 
 
-def _has(python, modules):
+def _has(python: str, modules: Sequence[str]) -> bool:
     command = [python, "-c", "import " + ", ".join(modules)]
     try:
         return subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=60).returncode == 0
@@ -49,8 +52,8 @@ def _has(python, modules):
         return False
 
 
-def _advice(missing, modules):
+def _advice(missing: Sequence[str], modules: Sequence[str]) -> str:
     packages = " ".join("python3-" + module for module in modules)
-    return (f"This tool needs the Python {'library' if len(missing) == 1 else 'libraries'} {' and '.join(missing)}, "
-            f"which no Python found here has: install {packages} (Debian, Ubuntu) or run 'python3 -m pip install "
-            f"{' '.join(modules)}'.")
+    noun = "library" if len(missing) == 1 else "libraries"
+    return (f"This tool needs the Python {noun} {' and '.join(missing)}, which no Python found here has: install "
+            f"{packages} (Debian, Ubuntu) or run 'python3 -m pip install {' '.join(modules)}'.")

@@ -1,38 +1,81 @@
-"""The simulator that the tools run: the release build of this repository."""
-import json
+"""Where the simulator and its scenes are."""
+from __future__ import annotations
+
 import os
 import pathlib
+import shutil
 import subprocess
+from typing import Any, Dict, List, Optional, Sequence, Union
 
-ROOT = pathlib.Path(__file__).resolve().parents[3]
+from tushar.errors import SusError
+
+Path = Union[str, "os.PathLike[str]"]
+PRESETS = ("release", "dev")
+
+
+def _tree() -> pathlib.Path:
+    """The root of the repository: above this file or, for an installed package, the working folder or one above."""
+    here = pathlib.Path(__file__).resolve()
+    for folder in (*here.parents, *pathlib.Path(os.path.abspath(".")).joinpath("x").parents):
+        if (folder / "tools/run").is_file() and (folder / "ups").is_dir():
+            return folder
+    return pathlib.Path.cwd()
+
+
+ROOT = _tree()
 SUS = str(ROOT / "build/release/sus")
 
 
-def scene_path(scene):
+class SceneError(SusError):
+    """What sus says of a scene that it does not run."""
+
+
+def scene_path(scene: Path) -> pathlib.Path:
     """A scene as the caller or, failing that, the root of the repository knows it."""
     return pathlib.Path(scene).resolve() if os.path.exists(scene) else ROOT / scene
 
 
-class SceneError(Exception):
-    """What sus says of a scene that it does not run."""
+def find_sus(sus: Optional[Path] = None) -> str:
+    """The program: `sus` if given, else $SUS, the repository's build, the PATH. SusError where it is in none."""
+    named = sus or os.environ.get("SUS")
+    if named:
+        found = shutil.which(os.fspath(named))
+        if not found:
+            raise SusError(f"'{os.fspath(named)}'{'' if sus else ', which $SUS names,'} is no program")
+        return os.path.abspath(found)
+    built = [ROOT / "build" / preset / "sus" for preset in PRESETS]
+    for path in [*built, *sorted((ROOT / "build").glob("*/sus"))]:
+        if os.access(path, os.X_OK) and path.is_file():
+            return str(path)
+    installed = shutil.which("sus")
+    if not installed:
+        raise SusError(f"there is no sus: not in $SUS, not in {ROOT / 'build'}, not on the PATH; tools/run builds it")
+    return installed
 
 
-def run_scene(sus, scene, sets, folder):
-    """Runs a scene with overrides, its files in `folder`: the report. `failure` is a sentence for one that died, else
-    empty."""
-    path = pathlib.Path(folder, "report.json")
-    command = [str(sus), str(scene_path(scene)), "--quiet", "--json", str(path), "--output", str(folder)]
+def command_of(sus: Path, scene: Path, sets: Sequence[str], folder: Path, options: Sequence[str] = ()) -> List[str]:
+    """A run without words on the screen; its files and report.json go into `folder`."""
+    words = [str(sus), str(scene_path(scene)), "--quiet", "--json", str(pathlib.Path(folder, "report.json")),
+             "--output", str(folder), *options]
     for override in sets:
-        command += ["--set", override]
-    done = subprocess.run(command, capture_output=True, text=True)
+        words += ["--set", override]
+    return words
+
+
+def run_scene(sus: Path, scene: Path, sets: Sequence[str], folder: Path) -> Dict[str, Any]:
+    """Runs a scene with overrides, its files in `folder`: the report. `failure` is a sentence for one that died, else
+    empty. SceneError for a scene that does not run."""
+    from tushar.runs import read_report
+    done = subprocess.run(command_of(sus, scene, sets, folder), capture_output=True, text=True)
     if done.returncode not in (0, 4):
-        raise SceneError(f"{scene}: {done.stderr.strip() or 'sus failed'}")
-    if done.returncode == 0 and not path.exists():
+        raise SceneError(f"{scene}: {done.stderr.strip() or 'sus failed'}", done.returncode)
+    report = read_report(folder)
+    if done.returncode == 0 and report is None:
         raise SceneError(f"{sus} wrote no report: is it sus?")
-    return json.loads(path.read_text()) if path.exists() else {"failure": done.stderr.strip()}
+    return {"failure": done.stderr.strip()} if report is None else report
 
 
-def ensure_built(sus):
+def ensure_built(sus: str) -> None:
     """Installs what is missing and builds the release preset, if that is the program and it is not there."""
     if sus == SUS and not os.path.exists(sus):
         subprocess.run(["bash", "-euc", '. tools/lib/build.sh; install_missing "${packages[@]}"; build release sus'],

@@ -8,7 +8,7 @@ import shutil
 import subprocess
 import tempfile
 
-from tushar.gallery import CASES
+from tushar.studies.gallery import CASES
 from tushar.program import ROOT
 
 DIES = re.compile(r"\bdies in\b|\bgives up\b")  # what is expected of a scene that must fail

@@ -1,7 +1,7 @@
 """The gallery of hard cases: what is run, by which methods, and what the default method promises."""
 import dataclasses
 
-from tushar import scene_variants
+from tushar.studies import scene_variants
 from tushar.program import ROOT
 
 FOLDER = ROOT / "ups/stability"

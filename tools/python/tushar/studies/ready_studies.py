@@ -1,5 +1,5 @@
 """The studies that need no more than their name."""
-from tushar.study import Method
+from tushar.studies.study import Method
 
 CONSERVING = "MPM/conserving_gas_dynamics"
 SECOND_ORDER = (f"{CONSERVING}/transfer=affine_flip",)

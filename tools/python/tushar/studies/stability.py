@@ -5,9 +5,10 @@ import math
 import pathlib
 import tempfile
 
-from tushar import scene_variants
+from tushar.studies import scene_variants
+from tushar.dat import rows_of
 from tushar.program import run_scene
-from tushar.study import value_at
+from tushar.studies.study import value_at
 
 GLOBALS = ("LeastDensity", "LeastInternalEnergy", "TotalEntropy", "TotalMass")
 DRIFT = 1e-11  # relative, of what a case keeps
@@ -81,7 +82,7 @@ class Gallery:
     def _measure(self, scene, sets, case):
         with tempfile.TemporaryDirectory(prefix="run-", dir=self.folder) as folder:
             report = run_scene(self.sus, scene, sets, folder)
-            totals = {path.stem: [float(line.split()[1]) for line in path.read_text().splitlines() if line[:1] != "#"]
+            totals = {path.stem: [row[1] for row in rows_of(path)]
                       for path in pathlib.Path(folder).glob("*.uda.000/*.dat")}
         return measured(report, totals, case)
 

@@ -3,6 +3,8 @@ import dataclasses
 import pathlib
 import re
 
+from tushar.dat import rows_of
+
 
 @dataclasses.dataclass(frozen=True)
 class Change:
@@ -25,10 +27,10 @@ class Change:
         """Mean over the last quarter of the simulated time less the first value. Of a run that swings about its end as
         of one that is at rest there it is the end. None where the run has not saved the global."""
         files = sorted(pathlib.Path(folder).glob(f"*.uda.*/{self.name}.dat"))
-        lines = [line.split() for line in files[-1].read_text().splitlines() if line[:1] != "#"] if files else []
+        lines = rows_of(files[-1]) if files else []
         if not lines or len(lines[0]) <= 1 + self.component:
             return None
-        values = [(float(line[0]), float(line[1 + self.component])) for line in lines]
+        values = [(line[0], line[1 + self.component]) for line in lines]
         start, end = values[0][0], values[-1][0]
         late = [value for time, value in values if time >= end - (end - start) / 4]
         return sum(late) / len(late) - values[0][1]

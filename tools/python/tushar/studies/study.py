@@ -11,9 +11,9 @@ import statistics
 import tempfile
 import time
 
-from tushar.change import Change
+from tushar.studies.change import Change
 from tushar.program import SceneError, run_scene, scene_path
-from tushar.shorthand import SHORT
+from tushar.studies.shorthand import SHORT
 
 
 class StudyError(Exception):

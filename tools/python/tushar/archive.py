@@ -1,0 +1,232 @@
+"""Reads a `.uda` archive: the one reader of this project."""
+from __future__ import annotations
+
+import glob
+import json
+import os
+import xml.etree.ElementTree as ElementTree
+from dataclasses import dataclass, field
+from typing import Any, Dict, Iterator, List, Mapping, Optional, Sequence
+
+import numpy as np
+
+from tushar.dat import rows_of
+from tushar.errors import ArchiveError, check_name
+from tushar.grid import Grid, Values
+from tushar.snapshot import Snapshot
+from tushar.tracks import Tracks
+
+
+BY_LETTER = {"p.": ("particle",), "c.": ("cell", "node"), "g.": ("cell", "node")}
+
+
+@dataclass
+class Variable:
+    """A saved variable or a global quantity."""
+    name: str
+    unit: str
+    description: str
+    components: int = 1
+    centring: str = "global"  # particle, cell, node or global
+    materials: List[str] = field(default_factory=list)
+
+
+@dataclass
+class Series:
+    """A global quantity over time: `times` [s] (n,), `values` (n,) or (n, components)."""
+    name: str
+    unit: str
+    description: str
+    times: Values
+    values: Values
+
+    def __array__(self, dtype: Any = None, copy: Any = None) -> Values:
+        return self.values if dtype is None else self.values.astype(dtype)
+
+    def __len__(self) -> int:
+        return len(self.times)
+
+
+def _xml(path: str) -> ElementTree.Element:
+    try:
+        return ElementTree.parse(path).getroot()
+    except (OSError, ElementTree.ParseError) as error:
+        raise ArchiveError(f"cannot read '{path}': {error}") from None
+
+
+class Globals(Mapping[str, Series]):
+    """The global quantities of an archive, from its .dat files: `archive.globals["KineticEnergy"]`."""
+
+    def __init__(self, variables: Dict[str, Variable], files: Dict[str, str]) -> None:
+        self.variables, self._files = variables, files
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.variables)
+
+    def __len__(self) -> int:
+        return len(self.variables)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.variables
+
+    def __repr__(self) -> str:
+        return f"<Globals: {', '.join(self.variables) or 'none'}>"
+
+    def __getitem__(self, name: str) -> Series:
+        variable = self.variables[check_name("global", name, self.variables)]
+        try:
+            rows = rows_of(self._files[name])
+        except OSError as error:
+            raise ArchiveError(f"cannot read '{self._files[name]}': {error}") from None
+        columns = 1 + variable.components
+        table = np.array(rows, dtype=float).reshape(-1, columns)
+        values = table[:, 1] if columns == 2 else table[:, 1:]
+        return Series(name, variable.unit, variable.description, table[:, 0], values)
+
+    def to_pandas(self) -> Any:
+        """A DataFrame of all quantities by time [s]; units in `frame.attrs["units"]`."""
+        from tushar import frames
+        return frames.of_globals(self)
+
+
+class Archive(Sequence[Snapshot]):
+    """An archive, `sod.uda` or `sod.uda.000`: a sequence of its outputs. `archive[0]` is the first, `archive[-1]` the
+    last, `archive.at(0.1)` the nearest to a time. Opening it reads its index alone. Wrong names raise ArchiveError."""
+
+    def __init__(self, path: Any, report: Optional[Dict[str, Any]] = None, keeps: Any = None) -> None:
+        self.folder = os.path.normpath(os.fspath(path))
+        self._report, self._keeps = report, keeps
+        if not os.path.isfile(os.path.join(self.folder, "index.xml")):
+            raise ArchiveError(self._not_an_archive())
+        self.reload()
+
+    def reload(self) -> None:
+        """Reads the index again, for an archive that a run still writes."""
+        index = _xml(os.path.join(self.folder, "index.xml"))
+        self.version = index.get("version", "")
+        self.variables = {item.get("name", ""): self._variable(item) for item in index.iterfind("variables/variable")}
+        totals = {item.get("name", ""): item for item in index.iterfind("globals/global")}
+        self.globals = Globals({name: self._variable(item) for name, item in totals.items()},
+                               {name: os.path.join(self.folder, item.get("href", "")) for name, item in totals.items()})
+        outputs = index.findall("timesteps/timestep")
+        self.times = [float(output.get("time", "nan")) for output in outputs]
+        self.steps = [int(output.text or 0) for output in outputs]
+        self.files = [os.path.join(self.folder, output.get("href", "")) for output in outputs]
+
+    def _not_an_archive(self) -> str:
+        numbered = sorted(glob.glob(glob.escape(self.folder) + ".[0-9]*"))
+        hint = f"; there is '{numbered[-1]}'" if numbered else ""
+        what = "has no index.xml, so it is no archive" if os.path.isdir(self.folder) else "is no folder"
+        return f"'{self.folder}' {what}{hint}"
+
+    @staticmethod
+    def _variable(item: ElementTree.Element) -> Variable:
+        materials = item.get("materials", "")
+        return Variable(item.get("name", ""), item.get("unit", ""), item.get("description", ""),
+                        int(item.get("components", 1)), item.get("centring", "global"),
+                        materials.split(", ") if materials else [])
+
+    def __repr__(self) -> str:
+        many = "output" if len(self) == 1 else "outputs"
+        names = ", ".join([*self.variables, *self.globals])
+        return f"<Archive {self.folder}: {self.title}, {len(self)} {many}, {names}>"
+
+    def __len__(self) -> int:
+        return len(self.times)
+
+    def __getitem__(self, index: Any) -> Any:
+        """The output `index`, or a list of those of a slice."""
+        if isinstance(index, slice):
+            return [self[k] for k in range(*index.indices(len(self)))]
+        if isinstance(index, str):
+            raise ArchiveError(f"outputs go by number: archive[-1]['{index}'], or archive.globals['{index}']")
+        count = len(self)
+        if not -count <= index < count:
+            held = f"has {count}" + (f", 0 to {count - 1}" if count else "")
+            raise OutputError(f"no output {index}: '{self.folder}' {held}")
+        index = int(index) % count
+        return Snapshot(self, index, self.files[index], self.times[index], self.steps[index])
+
+    def at(self, time: float) -> Snapshot:
+        """The output nearest to a time [s]."""
+        found: Snapshot = self[self.index_at(time)]
+        return found
+
+    def index_at(self, time: float) -> int:
+        """The number of the output nearest to a time [s]."""
+        if not self.times:
+            raise ArchiveError(f"'{self.folder}' has no outputs yet")
+        return int(np.argmin(np.abs(np.array(self.times) - time)))
+
+    def variable(self, name: str, centrings: Sequence[str] = ()) -> Variable:
+        """The saved variable of that name, among those of some centrings; by default of those that its letter means."""
+        wanted = centrings or BY_LETTER.get(name[:2], ("particle", "cell", "node"))
+        names = [other for other, variable in self.variables.items() if variable.centring in wanted]
+        kind = "variable" if len(wanted) == 3 else " or ".join(wanted) + " variable"
+        return self.variables[check_name(kind, name, names)]
+
+    def has_file(self, index: int) -> bool:
+        """Whether the file of an output is there."""
+        return os.path.exists(self.files[index])
+
+    @property
+    def title(self) -> str:
+        """`Meta/title` of the scene; the folder's name if it has none."""
+        try:
+            title = (_xml(os.path.join(self.folder, "input.xml")).findtext("Meta/title") or "").strip()
+        except ArchiveError:
+            title = ""
+        return title or os.path.basename(self.folder)
+
+    @property
+    def materials(self) -> List[str]:
+        """Names of the materials that any variable belongs to."""
+        return list(dict.fromkeys(name for variable in self.variables.values() for name in variable.materials))
+
+    @property
+    def grid(self) -> Grid:
+        """The grid of the last output."""
+        with self[-1] as snapshot:
+            found: Grid = snapshot.grid
+        return found
+
+    @property
+    def report(self) -> Dict[str, Any]:
+        """The report of the run: what `sus --json` wrote to a report.json in the archive's folder or beside it."""
+        if self._report is None:
+            self._report = self._find_report()
+        return self._report
+
+    def _find_report(self) -> Dict[str, Any]:
+        own = os.path.realpath(self.folder)
+        for path in (os.path.join(own, "report.json"), os.path.join(os.path.dirname(own), "report.json")):
+            try:
+                with open(path, encoding="utf-8") as file:
+                    found = json.load(file)
+            except (OSError, ValueError):
+                continue
+            if isinstance(found, dict) and os.path.basename(found.get("archive", "")) == os.path.basename(own):
+                return found
+        raise ArchiveError(f"there is no report of '{self.folder}': sus --json report.json writes one beside it")
+
+    def particles(self, ids: Optional[Sequence[int]] = None, material: Optional[str] = None) -> Tracks:
+        """Particles over time, by their ids; all of the last output's if none are named."""
+        return Tracks(self, ids, material)
+
+    def to_xarray(self, variables: Optional[Sequence[str]] = None) -> Any:
+        """A Dataset of the fields on cells and nodes over time, read where values are asked for."""
+        from tushar import frames
+        return frames.dataset(self, list(self), variables)
+
+    def to_pandas(self) -> Any:
+        """The global quantities over time as a DataFrame; those of one output: `archive[-1].to_pandas()`."""
+        return self.globals.to_pandas()
+
+
+class OutputError(ArchiveError, IndexError):
+    """A number that no output has."""
+
+
+def open_archive(path: Any) -> Archive:
+    """Opens an archive, `sod.uda` or `sod.uda.000`."""
+    return Archive(path)

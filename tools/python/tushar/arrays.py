@@ -1,0 +1,105 @@
+"""Arrays of an archive that are read when their values are asked for, and only as far as they are."""
+from __future__ import annotations
+
+from typing import Any, Sequence, Tuple
+
+import h5py
+import numpy as np
+from numpy.lib.mixins import NDArrayOperatorsMixin
+
+
+class Array(NDArrayOperatorsMixin):
+    """Values of a variable, on the disk until they are used: `array[::10]` reads every tenth row, `array.values` all.
+
+    It takes part in arithmetic and in numpy's functions, which return plain numpy arrays. Particles of several
+    materials follow one another, in the order of the scene. `unit` is that of the archive, `kg/m^3`; `1` for none.
+    """
+
+    def __init__(self, parts: Sequence[h5py.Dataset], name: str = "", unit: str = "", description: str = "") -> None:
+        self._parts = list(parts)
+        self.name, self.unit, self.description = name, unit, description
+        self.shape: Tuple[int, ...] = (sum(len(part) for part in self._parts), *self._parts[0].shape[1:])
+        self.dtype: np.dtype[Any] = self._parts[0].dtype
+
+    @property
+    def ndim(self) -> int:
+        return len(self.shape)
+
+    @property
+    def size(self) -> int:
+        return int(np.prod(self.shape))
+
+    @property
+    def values(self) -> np.ndarray[Any, Any]:
+        """All values, read now."""
+        if len(self._parts) == 1:
+            return np.asarray(self._parts[0][()])
+        return np.concatenate([part[()] for part in self._parts])
+
+    def __len__(self) -> int:
+        return self.shape[0]
+
+    def __repr__(self) -> str:
+        unit = f" [{self.unit}]" if self.unit else ""
+        return f"<Array {self.name}{unit}, shape {self.shape}, {self.dtype}, not read yet>"
+
+    def __getitem__(self, key: Any) -> Any:
+        """What numpy's indexing of all values gives; slices and numbers read from the disk what they select."""
+        if not _is_basic(key):
+            return self.values[key]
+        if any(_runs_backwards(item) for item in (key if isinstance(key, tuple) else (key,))):
+            return self.values[key]
+        if len(self._parts) == 1:
+            return self._parts[0][key]
+        return self._of_several(key if isinstance(key, tuple) else (key,))
+
+    def _of_several(self, key: Tuple[Any, ...]) -> Any:
+        if not key or key[0] is Ellipsis:
+            return self.values[key]
+        first, rest = key[0], key[1:]
+        if not isinstance(first, slice):
+            part, row = self._row(int(first))
+            return part[(row, *rest)]
+        start, stop, step = first.indices(len(self))
+        found, begin = [], 0
+        for part in self._parts:
+            end = begin + len(part)
+            low = start if start >= begin else start + -(-(begin - start) // step) * step
+            if low < min(stop, end):
+                found.append(part[(slice(low - begin, min(stop, end) - begin, step), *rest)])
+            begin = end
+        return np.concatenate(found) if found else self._parts[0][(slice(0, 0), *rest)]
+
+    def _row(self, row: int) -> Tuple[h5py.Dataset, int]:
+        """The part that has a row, and which of its rows it is."""
+        if not -len(self) <= row < len(self):
+            raise IndexError(f"row {row} of {len(self)}")
+        row %= len(self)
+        for part in self._parts:
+            if row < len(part):
+                break
+            row -= len(part)
+        return part, row
+
+    def __array__(self, dtype: Any = None, copy: Any = None) -> np.ndarray[Any, Any]:
+        return self.values if dtype is None else self.values.astype(dtype)
+
+    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Any:
+        return getattr(ufunc, method)(*[item.values if isinstance(item, Array) else item for item in inputs], **options)
+
+    def __getattr__(self, name: str) -> Any:
+        """What else numpy's arrays have, such as `max()`, `mean(axis=0)` and `T`: of all values, read now."""
+        if name.startswith("_"):
+            raise AttributeError(name)
+        return getattr(self.values, name)
+
+
+def _is_basic(key: Any) -> bool:
+    """Whether a key is made of numbers, slices and `...` alone."""
+    items = key if isinstance(key, tuple) else (key,)
+    return all(item is Ellipsis or isinstance(item, (int, np.integer, slice)) and not isinstance(item, bool)
+               for item in items)
+
+
+def _runs_backwards(item: Any) -> bool:
+    return isinstance(item, slice) and item.step is not None and item.step < 0

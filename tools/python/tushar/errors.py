@@ -1,0 +1,73 @@
+"""The errors of the package: each says in a sentence or more what is wrong and, where it can, what to do."""
+from __future__ import annotations
+
+import difflib
+import importlib
+from types import ModuleType
+from typing import TYPE_CHECKING, Iterable, Optional
+
+if TYPE_CHECKING:
+    from tushar.runs import Run
+
+
+class TusharError(Exception):
+    """Anything that this package finds wrong."""
+
+
+class ArchiveError(TusharError):
+    """What is wrong with an archive, or with what was asked of it."""
+
+
+class MissingLibrary(TusharError, ImportError):
+    """A library that is optional and not installed."""
+
+
+class SusError(TusharError):
+    """A run that failed. `sentences` are what sus said, `code` its exit code, `run` what is left of the run."""
+
+    def __init__(self, message: str, code: int = 1, run: Optional[Run] = None) -> None:
+        super().__init__(message)
+        self.sentences = [line for line in message.splitlines() if line.strip()]
+        self.code = code
+        self.run = run
+
+
+class CommandError(SusError):
+    """Exit code 2: options that sus does not take."""
+
+
+class InputError(SusError):
+    """Exit code 3: mistakes in the scene or in what overrides it, all of them, a sentence each."""
+
+
+class NumericalError(SusError):
+    """Exit code 4: a value became impossible during the run. `run.archive` holds the outputs up to there."""
+
+
+class Interrupted(SusError):
+    """Exit code 5: the run was stopped by a signal, after writing its output."""
+
+
+BY_EXIT_CODE = {2: CommandError, 3: InputError, 4: NumericalError, 5: Interrupted}
+
+
+def check_name(kind: str, name: str, names: Iterable[str]) -> str:
+    """Returns `name` if it is among `names`; else raises ArchiveError with the nearest and all others."""
+    names = list(names)
+    if name in names:
+        return name
+    lowered = {other.lower(): other for other in names}
+    near = difflib.get_close_matches(str(name).lower(), lowered, 1, 0.5)
+    hint = f" (did you mean '{lowered[near[0]]}'?)" if near else ""
+    there = ", ".join(names) if names else "none"
+    raise ArchiveError(f"no {kind} '{name}'{hint}; there is: {there}")
+
+
+def need(module: str, what: str) -> ModuleType:
+    """An optional library; MissingLibrary with what to install where it is not there."""
+    try:
+        return importlib.import_module(module)
+    except ImportError:
+        name = module.split(".")[0]
+        advice = f"python3 -m pip install {name}"
+        raise MissingLibrary(f"{what} needs {name}, which this Python has not got: {advice}") from None

@@ -1,0 +1,209 @@
+"""The panels of a figure: profiles along a line, images and clouds of points in a plane."""
+from __future__ import annotations
+
+import re
+from typing import Any, Dict, List, Optional, Tuple
+
+import matplotlib.colors
+import matplotlib.ticker
+import numpy as np
+
+from tushar.errors import ArchiveError
+from tushar.grid import Values
+from tushar.view import Output, Quantity, Range
+
+# The classic four of a shock tube: label in the archive, column of the exact solution, name on the axis.
+GAS = [("p.density", "density", "density"), ("p.velocity", "velocity", "velocity"),
+       ("p.pressure", "pressure", "pressure"), ("p.internalEnergy", "energy", "specific internal energy")]
+COLOURS = ["#2b6cb0", "#c05621", "#2f855a", "#6b46c1", "#b83280", "#2c7a7b"]
+
+
+def pretty_unit(unit: str) -> str:
+    """`kg/m^3` -> `kg/m³`."""
+    raised = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
+    return re.sub(r"\^(-?\d+)", lambda power: power.group(1).translate(raised), unit)
+
+
+def axis_label(name: str, unit: str) -> str:
+    return f"{name} [{pretty_unit(unit)}]" if unit not in ("", "1") else name
+
+
+def words(label: str) -> str:
+    """`c.temperature` -> `temperature`, `p.internalEnergy` -> `internal energy`."""
+    return re.sub(r"(?<=[a-z])([A-Z])", lambda letter: " " + letter.group(1).lower(), label.split(".")[-1])
+
+
+def name_of(output: Output, quantity: Quantity, on_line: bool = False) -> str:
+    """What an axis calls a quantity: density, |velocity|, velocity x, difference of density."""
+    base = quantity.variable.name
+    name = next((name for known, _, name in GAS if known == base), words(base))
+    if quantity.component is not None:
+        name += " " + quantity.label.split(".")[-1]
+    elif not quantity.is_scalar and not on_line:
+        name = f"|{name}|"
+    return f"difference of {name}" if output.other else name
+
+
+def profile(panel: Any, output: Output, quantity: Quantity) -> None:
+    """Values along the one axis that is left, with the exact solution where the archive has it."""
+    axis = output.axes[0]
+    if quantity.variable.centring == "particle":
+        _points_on_line(panel, output, quantity, axis)
+    else:
+        x = output.grid.coordinates(quantity.variable.centring)[axis]
+        for colour, owner in zip(COLOURS * 9, output.owners(quantity)):
+            values = output.field(quantity, owner, axis).ravel()
+            panel.plot(x, values, "-o" if len(x) <= 200 else "-", color=colour, markersize=3, linewidth=1.4,
+                       label=owner or quantity.variable.centring + "s")
+    if not output.other and not output.view.slices:
+        _exact(panel, output, quantity.label)
+    panel.set_ylabel(axis_label(name_of(output, quantity, on_line=True), quantity.variable.unit))
+    panel.set_xlim(output.extent(axis))
+    _limit(panel, output.view.limits(quantity.label), output.view.log)
+
+
+def _points_on_line(panel: Any, output: Output, quantity: Quantity, axis: int) -> None:
+    materials = output.materials_with(quantity.variable)
+    for colour, material in zip(COLOURS * len(materials), materials):
+        x, values = output.particles(quantity, material, axis)
+        name = f"particles of {material}" if len(materials) > 1 else "particles"
+        panel.plot(x[:, axis], values, "o", color=colour, markersize=marker_size(len(x)), markeredgewidth=0, label=name)
+
+
+def _exact(panel: Any, output: Output, label: str) -> None:
+    table = output.snapshot.reference
+    column = next((column for known, column, _ in GAS if known == label), words(label))
+    if "x" in table and column in table:
+        panel.plot(table["x"], table[column], "-", color="#1a202c", linewidth=1.2, label="exact")
+
+
+def _limit(panel: Any, limits: Range, log: bool) -> None:
+    """The range of the values on an axis, with a margin where it is that of a film."""
+    if log:
+        panel.set_yscale("log")
+    low, high = limits
+    if low is not None and high is not None and not log:
+        margin = 0.04 * (high - low)
+        panel.set_ylim(low - margin, high + margin)
+    else:
+        panel.set_ylim(low, high)
+    if log:
+        plain_marks(panel.yaxis)
+    else:
+        widen(panel)
+
+
+def plain_marks(axis: Any) -> None:
+    """Marks 1, 2, 3 on a logarithmic axis instead of powers, where it spans less than two decades."""
+    low, high = axis.get_view_interval()
+    if high < 100 * low:
+        axis.set_major_formatter(matplotlib.ticker.LogFormatter())
+        axis.set_minor_formatter(matplotlib.ticker.LogFormatter(minor_thresholds=(2, 0.5)))
+
+
+def image(panel: Any, output: Output, quantity: Quantity, axes: List[int],
+          slices: Optional[Dict[int, float]] = None) -> Any:
+    """A field in a plane; what the colour bar belongs to."""
+    owners = output.owners(quantity)
+    if len(owners) > 1:
+        output.notes.append(f"{quantity.label}: only that of {owners[0]}; --material names another")
+    values = output.field(quantity, owners[0], slices=slices)
+    across, up = axes
+    pad = output.grid.spacing / 2 if quantity.variable.centring == "node" else np.zeros(3)
+    box = [edge for axis in axes for edge in (output.extent(axis)[0] - pad[axis], output.extent(axis)[1] + pad[axis])]
+    drawn = panel.imshow(values, origin="lower", extent=box, interpolation="nearest", aspect="equal",
+                         **colouring(output, quantity, values))
+    _frame(panel, output, across, up)
+    return drawn
+
+
+def cloud(panel: Any, output: Output, quantity: Quantity, axes: List[int], width: float,
+          slices: Optional[Dict[int, float]] = None) -> Any:
+    """Particles in a plane, on a panel so wide [pt]; what the colour bar belongs to."""
+    materials = output.materials_with(quantity.variable)
+    found = [output.particles(quantity, name, slices=slices) for name in materials]
+    x, values = (np.concatenate(part) for part in zip(*found))
+    across, up = axes
+    if quantity.label == "p.x" and slices is None:
+        return _places(panel, output, dict(zip(materials, (places for places, _ in found))), axes, width)
+    colours = colouring(output, quantity, values)
+    drawn = panel.scatter(x[:, across], x[:, up], c=values, s=_point_area(output, x, axes, width), linewidths=0,
+                          rasterized=True, **colours)
+    panel.set_aspect("equal")
+    _frame(panel, output, across, up)
+    return drawn
+
+
+def _places(panel: Any, output: Output, places: Dict[str, Values], axes: List[int], width: float) -> None:
+    """The particles of each material in a colour of its own, without values."""
+    area = _point_area(output, np.concatenate(list(places.values())), axes, width)
+    for colour, (material, x) in zip(COLOURS * len(places), places.items()):
+        panel.scatter(x[:, axes[0]], x[:, axes[1]], s=area, color=colour, linewidths=0, label=material, rasterized=True)
+    panel.set_aspect("equal")
+    _frame(panel, output, *axes)
+    if len(places) > 1:
+        panel.legend(loc="best", markerscale=2, fontsize=9)
+
+
+def _frame(panel: Any, output: Output, across: int, up: int) -> None:
+    panel.set_xlim(output.extent(across))
+    panel.set_ylim(output.extent(up))
+    panel.grid(False)
+    panel.set_xlabel(f"{'xyz'[across]} [m]")
+    panel.set_ylabel(f"{'xyz'[up]} [m]")
+    set_ticks(panel, output, across, up)
+
+
+def set_ticks(panel: Any, output: Output, across: int, up: int) -> None:
+    """As many marks as there is room for: a short axis gets few."""
+    long = [high - low for low, high in map(output.extent, (across, up))]
+    for axis, length, least in (("x", long[0], 1), ("y", long[1], 2)):
+        panel.locator_params(axis=axis, nbins=int(np.clip(round(6 * length / max(long)), least, 5)))
+
+
+def colouring(output: Output, quantity: Quantity, values: Values) -> Dict[str, Any]:
+    """Colour map and scale for values: those of the view; of a difference the same to both sides of 0."""
+    low, high = bounds(output, quantity, values)
+    cmap = output.view.cmap or ("RdBu_r" if output.other and quantity.is_scalar else "viridis")
+    scale = matplotlib.colors.LogNorm if output.view.log else matplotlib.colors.Normalize
+    return {"cmap": cmap, "norm": scale(low, high)}
+
+
+def bounds(output: Output, quantity: Quantity, values: Values) -> Tuple[float, float]:
+    """The least and the greatest value that have a colour of their own."""
+    low, high = output.view.limits(quantity.label)
+    known = values[np.isfinite(values)]
+    if output.view.log:
+        known = known[known > 0]
+        if not len(known) and (low is None or high is None):
+            raise ArchiveError(f"'{quantity.label}' has no values above 0, so there is no logarithmic scale of them")
+    least, most = (float(known.min()), float(known.max())) if len(known) else (0.0, 1.0)
+    if output.other and quantity.is_scalar and low is None and high is None:
+        least, most = -max(abs(least), abs(most)), max(abs(least), abs(most))
+    least, most = least if low is None else low, most if high is None else high
+    if most - least < 1e-9 * max(abs(least), abs(most)):  # a constant is not drawn as its rounding errors
+        middle = (least + most) / 2
+        least, most = middle - 0.05 * abs(middle), middle + 0.05 * abs(middle)
+    return (least, most) if most > least else (least - 1e-12, least + 1e-12)
+
+
+def _point_area(output: Output, x: Values, axes: List[int], width: float) -> float:
+    """Area [pt^2] of points that just touch where the particles lie as dense as in the mean occupied cell."""
+    grid = output.grid
+    cells = np.unique(np.floor((x - grid.lower) / grid.spacing)[:, axes], axis=0)
+    area = np.prod(grid.spacing[axes]) * len(cells) / max(len(x), 1)
+    low, high = output.extent(axes[0])
+    return float(np.clip(area * (width / (high - low)) ** 2, 0.2, 400))
+
+
+def marker_size(count: int) -> float:
+    """Points small enough that `count` of them can be told apart."""
+    return float(np.clip(80 / np.sqrt(max(count, 1)), 0.8, 5))
+
+
+def widen(panel: Any) -> None:
+    """Keeps a constant from being drawn as its rounding errors."""
+    low, high = panel.get_ylim()
+    middle, least = (low + high) / 2, 1e-6 * max(abs(low), abs(high), 1e-12)
+    if high - low < least:
+        panel.set_ylim(middle - max(0.05 * abs(middle), least), middle + max(0.05 * abs(middle), least))

@@ -1,0 +1,93 @@
+"""Outputs as datasets of pyvista and yt."""
+from __future__ import annotations
+
+from typing import Any, Dict, Tuple
+
+import numpy as np
+
+from tushar.errors import ArchiveError, need
+from tushar.frames import columns_of, fields_of
+from tushar.grid import Values
+from tushar.snapshot import Snapshot
+
+
+def to_pyvista(snapshot: Snapshot) -> Any:
+    pyvista = need("pyvista", "to_pyvista")
+    blocks = pyvista.MultiBlock()
+    cells = _image(pyvista, snapshot)
+    if cells.array_names:
+        blocks["cells"] = cells
+    for material, count in snapshot.materials.items():
+        if count:
+            blocks[material] = _points(pyvista, snapshot, material)
+    return blocks
+
+
+def _image(pyvista: Any, snapshot: Snapshot) -> Any:
+    """The grid, with the fields on its cells and nodes. VTK has two nodes where an axis of the grid has one."""
+    grid = snapshot.grid
+    image = pyvista.ImageData(dimensions=grid.cells + 1, spacing=grid.spacing, origin=grid.lower)
+    nodes = tuple(int(count) + 1 for count in grid.cells[::-1])
+    for name, variable, owner in fields_of(snapshot):
+        values = (snapshot[variable.name, owner] if owner else snapshot[variable.name]).values
+        tail = values.shape[3:]
+        if variable.centring == "cell":
+            image.cell_data[name] = values.reshape(-1, *tail)
+        else:
+            image.point_data[name] = np.broadcast_to(values, (*nodes, *tail)).reshape(-1, *tail)
+    return image
+
+
+def _points(pyvista: Any, snapshot: Snapshot, material: str) -> Any:
+    particles = snapshot.particles(material)
+    cloud = pyvista.PolyData(particles["p.x"].values)
+    for name in particles.variables:
+        if name != "p.x":
+            cloud.point_data[name] = particles[name].values
+    return cloud
+
+
+def to_yt(snapshot: Snapshot) -> Any:
+    yt = need("yt", "to_yt")
+    grid = snapshot.grid
+    box = np.stack([grid.lower, grid.upper], axis=1)
+    fields = _of_cells(snapshot)
+    particles = _of_particles(snapshot)
+    common = dict(length_unit="m", mass_unit="kg", time_unit="s", velocity_unit="m/s", bbox=box, sim_time=snapshot.time)
+    if fields:
+        return yt.load_uniform_grid({**fields, **particles}, tuple(map(int, grid.cells)), **common)
+    if not particles:
+        raise ArchiveError(f"output {snapshot.index} of '{snapshot.archive.folder}' holds neither cells nor particles")
+    return yt.load_particles({name: values for (_, name), values in particles.items()}, **common)
+
+
+def _of_cells(snapshot: Snapshot) -> Dict[Any, Tuple[Values, str]]:
+    """Component -> values (x, y, z) and unit, as yt has them."""
+    found: Dict[Any, Tuple[Values, str]] = {}
+    for name, variable, owner in fields_of(snapshot):
+        if variable.centring == "cell":
+            values = (snapshot[variable.name, owner] if owner else snapshot[variable.name]).values
+            shape = values.shape[:3]
+            for column, line in columns_of(name, values.reshape(np.prod(shape), -1)).items():
+                found["stream", column] = (line.reshape(shape).transpose(2, 1, 0).copy(), unit_of(variable.unit))
+    return found
+
+
+def _of_particles(snapshot: Snapshot) -> Dict[Any, Tuple[Values, str]]:
+    """yt's names of positions, and those of the archive; only what all materials have."""
+    found: Dict[Any, Tuple[Values, str]] = {}
+    everything = snapshot.particles()
+    if not len(everything):
+        return found
+    for name in everything.variables:
+        values = everything[name].values
+        if len(values) == len(everything):
+            for column, line in columns_of(name, values).items():
+                column = column.replace("p.x.", "particle_position_") if name == "p.x" else column
+                found["io", column] = (line, unit_of(snapshot.archive.variables[name].unit))
+    return found
+
+
+def unit_of(unit: str) -> str:
+    """`kg/m^3` -> `kg/m**3`; no unit for 1."""
+    return "" if unit == "1" else unit.replace("^", "**")

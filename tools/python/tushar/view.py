@@ -1,0 +1,193 @@
+"""What a picture shows of an output: which values, where, and of which material."""
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass, field
+from typing import Any, Dict, List, Optional, Tuple
+
+import numpy as np
+
+from tushar.archive import Archive, Variable
+from tushar.errors import ArchiveError, check_name
+from tushar.frames import tails
+from tushar.grid import Grid, Values
+from tushar.snapshot import ID, Snapshot
+
+Range = Tuple[Optional[float], Optional[float]]
+
+
+@dataclass(frozen=True)
+class View:
+    """The choices of a picture; None and {} leave them to it."""
+    slices: Dict[int, float] = field(default_factory=dict)  # axis -> place [m]
+    range: Optional[Range] = None
+    log: bool = False
+    cmap: Optional[str] = None
+    material: Optional[str] = None
+    other: Optional[Archive] = None  # the archive that is subtracted
+    ranges: Dict[str, Range] = field(default_factory=dict)  # label -> range, common to the pictures of a film
+    planes: Optional[Tuple[float, float, float]] = None  # where the three slices of a film are [m]
+
+    def __post_init__(self) -> None:
+        if self.log and self.other:
+            raise ArchiveError("a difference has values below 0, so --log and --diff do not go together")
+
+    def with_ranges(self, ranges: Dict[str, Range]) -> View:
+        return dataclasses.replace(self, ranges=ranges)
+
+    def with_planes(self, planes: Tuple[float, float, float]) -> View:
+        return dataclasses.replace(self, planes=planes)
+
+    def limits(self, label: str) -> Range:
+        """The least and the greatest value to show of a label; None where the values decide."""
+        return self.range or self.ranges.get(label, (None, None))
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A variable of an archive, or one component of it: `p.velocity`, `p.velocity.x`."""
+    label: str
+    variable: Variable
+    component: Optional[int] = None
+
+    @staticmethod
+    def of(archive: Archive, label: str) -> Quantity:
+        base, _, tail = label.rpartition(".")
+        if label not in archive.variables and base in archive.variables:
+            names = [name[1:] for name in tails(archive.variables[base].components)]
+            check_name(f"component of {base}", tail, names)
+            return Quantity(label, archive.variables[base], names.index(tail))
+        return Quantity(label, archive.variables[check_name("variable", label, archive.variables)])
+
+    @property
+    def is_scalar(self) -> bool:
+        return self.variable.components == 1 or self.component is not None
+
+    def scalar(self, values: Values, axis: Optional[int] = None) -> Values:
+        """The component that is meant; of a vector on a line along an axis that along it; else the magnitude."""
+        if self.variable.components == 1:
+            return values
+        if self.component is not None:
+            return np.asarray(values[..., self.component])
+        if self.variable.components == 3 and axis is not None:
+            return np.asarray(values[..., axis])
+        return np.asarray(np.linalg.norm(values, axis=-1))
+
+
+class Output:
+    """An output as a view shows it. `notes` say what was chosen or left out."""
+
+    def __init__(self, snapshot: Snapshot, view: View) -> None:
+        self.snapshot, self.view, self.grid = snapshot, view, snapshot.grid
+        self.notes: List[str] = []
+        for axis in view.slices:
+            if axis not in self.grid.axes:
+                used = ", ".join("xyz"[other] for other in self.grid.axes)
+                raise ArchiveError(f"there is no slice at {'xyz'[axis]}: the grid has only {used}")
+        if len(view.slices) >= self.grid.dimension:
+            raise ArchiveError("slices along all axes leave nothing to draw")
+        self.axes = [axis for axis in self.grid.axes if axis not in view.slices]
+        if view.material:
+            check_name("material", view.material, snapshot.archive.materials)
+        self.other = self._counterpart()
+
+    def _counterpart(self) -> Optional[Snapshot]:
+        """The output of the other archive at the nearest time."""
+        if not self.view.other:
+            return None
+        other = self.view.other.at(self.snapshot.time)
+        if abs(other.time - self.snapshot.time) > 1e-9 * max(abs(self.snapshot.time), 1e-300):
+            self.notes.append(f"the difference is to t = {other.time:g} s, the nearest output of "
+                              f"'{self.view.other.folder}'")
+        return other
+
+    def materials_with(self, variable: Variable) -> List[str]:
+        """Materials with particles that have a variable."""
+        counts = self.snapshot.materials
+        held = [name for name in counts if counts[name] and name in variable.materials]
+        if self.view.material:
+            held = [name for name in held if name == self.view.material]
+        if not held:
+            raise ArchiveError(f"output {self.snapshot.index} holds no '{variable.name}' of "
+                               + (f"material '{self.view.material}'" if self.view.material else "any particles"))
+        return held
+
+    def particles(self, quantity: Quantity, material: str, axis: Optional[int] = None,
+                  slices: Optional[Dict[int, float]] = None) -> Tuple[Values, Values]:
+        """Positions (n, 3) [m] and values (n,) of the particles within half a cell of the slices."""
+        own = self.snapshot.particles(material)
+        x, values = own["p.x"].values, own[quantity.variable.name].values
+        if self.other:
+            x, values = _minus(own, self.other.particles(material), quantity.variable.name)
+        kept = np.ones(len(x), bool)
+        for cut, place in (self.view.slices if slices is None else slices).items():
+            self.grid.nearest("cell", cut, place)
+            kept &= np.abs(x[:, cut] - place) <= self.grid.spacing[cut] / 2
+        return x[kept], quantity.scalar(values[kept], axis)
+
+    def owners(self, quantity: Quantity) -> List[Optional[str]]:
+        """The materials whose field is shown; None for a field of no material."""
+        materials = quantity.variable.materials
+        if self.view.material and materials:
+            return [check_name("material", self.view.material, materials)]
+        return list(materials) or [None]
+
+    def field(self, quantity: Quantity, owner: Optional[str], axis: Optional[int] = None,
+              slices: Optional[Dict[int, float]] = None) -> Values:
+        """Values of a field along the axes that are left, that of the highest first: (y, x) of a plane."""
+        name, centring = quantity.variable.name, quantity.variable.centring
+        key = self.place(centring, slices)
+        values = self.snapshot[name, owner][key]
+        if self.other:
+            if not self.other.grid == self.grid:
+                raise ArchiveError(f"the grids differ, {shape_of(self.grid)} here and {shape_of(self.other.grid)} in "
+                                   f"'{self.other.archive.folder}': there is no difference to draw")
+            values = values - self.other[name, owner][key]
+        return quantity.scalar(np.asarray(values), axis)
+
+    def place(self, centring: str, slices: Optional[Dict[int, float]] = None) -> Tuple[Any, ...]:
+        """The key to the nearest row of cells or nodes in each slice; an axis not in use has one row."""
+        cuts = self.view.slices if slices is None else slices
+        rows: List[Any] = [slice(None) if axis in self.grid.axes else 0 for axis in range(3)]
+        for cut, place in cuts.items():
+            rows[cut] = self.grid.nearest(centring, cut, place)
+        return tuple(rows[::-1])
+
+    def extent(self, axis: int) -> Tuple[float, float]:
+        return float(self.grid.lower[axis]), float(self.grid.upper[axis])
+
+    def planes(self, quantity: Quantity) -> Tuple[float, float, float]:
+        """Where three slices show most [m]: the middle of the grid, of particles the rows of cells that hold most."""
+        if self.view.planes:
+            return self.view.planes
+        if quantity.variable.centring != "particle":
+            return tuple(sum(self.extent(axis)) / 2 for axis in range(3))  # type: ignore[return-value]
+        x = np.concatenate([self.particles(quantity, name)[0] for name in self.materials_with(quantity.variable)])
+        rows = np.floor((x - self.grid.lower) / self.grid.spacing).astype(int)
+        fullest = [int(np.bincount(np.clip(rows[:, axis], 0, None)).argmax()) for axis in range(3)]
+        return tuple(self.grid.lower + (np.array(fullest) + 0.5) * self.grid.spacing)
+
+    def values_of(self, quantity: Quantity) -> Values:
+        """All values that a picture shows of a quantity."""
+        axis = self.axes[0] if len(self.axes) == 1 else None
+        if quantity.variable.centring == "particle":
+            parts = [self.particles(quantity, name, axis)[1] for name in self.materials_with(quantity.variable)]
+        else:
+            parts = [self.field(quantity, owner, axis).ravel() for owner in self.owners(quantity)]
+        values = np.concatenate(parts)
+        return np.asarray(values[np.isfinite(values)])
+
+
+def shape_of(grid: Grid) -> str:
+    return " x ".join(str(grid.cells[axis]) for axis in grid.axes) + " cells"
+
+
+def _minus(own: Any, other: Any, name: str) -> Tuple[Values, Values]:
+    """Positions and differences of the particles that both have: by id, or, without ids, one by one."""
+    x, here, there = own["p.x"].values, own[name].values, other[name].values
+    if ID in own.variables and ID in other.variables:
+        _, mine, theirs = np.intersect1d(own.ids.values, other.ids.values, return_indices=True)
+        return x[mine], here[mine] - there[theirs]
+    if len(here) != len(there):
+        raise ArchiveError(f"{len(here)} particles here and {len(there)} there: a difference needs {ID} in both")
+    return x, here - there
