@@ -92,7 +92,8 @@ class Library(WithArchives):
 
     def test_names_what_is_there_when_a_name_is_wrong(self):
         uda = Archive(self.sod)
-        with self.assertRaisesRegex(ArchiveError, r"no particle variable 'p.densty' \(did you mean 'p.density'\?\); there is"):
+        with self.assertRaisesRegex(ArchiveError,
+                                    r"no particle variable 'p.densty' \(did you mean 'p.density'\?\); there is"):
             uda[-1]["p.densty"]
         with self.assertRaisesRegex(ArchiveError, r"no material 'Gas' \(did you mean 'gas'\?\)"):
             uda[-1]["p.density", "Gas"]

@@ -1,1 +1,3 @@
-"""What tools/study and tools/stability run, measure and draw. It needs this repository's scenes, so it is not installed."""
+"""What tools/study and tools/stability run, measure and draw.
+
+It needs the scenes of this repository, so it is not installed."""
