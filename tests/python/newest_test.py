@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The tests of the package and of tools/plot again, by a Python with the newest libraries: that which tools/test makes
+"""The tests of the package and tools/plot again, by a Python with the newest libraries: the one that tools/test makes
 in build/python, or another on the PATH that has them."""
 import pathlib
 import subprocess
