@@ -38,7 +38,7 @@ simulation::ComponentKind kind() {
                input::atMost(1))
         .required("temperature", &Settings::temperature, "K", "T at the start", input::WithoutTime());
     input::refuseOtherValues(section, "time_integrator", {"explicit"},
-                             "write <SimulationComponent type=\"implicit_heat\"/> for implicit steps");
+                             "for implicit steps, use <SimulationComponent type=\"implicit_heat\"/>");
     return section;
   }();
   return simulation::kindWithSection<Heat>("heat", "heat conduction, explicit; the smallest complete component", schema,

@@ -53,12 +53,12 @@ class TaskError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A value that cannot be: which one, where, when, and what the user can try.
+/// A non-finite or unphysical value: which one, where, when, and what the user can try.
 class NumericalError : public std::runtime_error {
  public:
   /// `what` names the value and where it stands; `advice` says what to try, empty for what the component advises.
-  /// `value` is the name of the value alone, `cell` the number of its cell: of the errors of a task on several patches
-  /// the one of the least cell is told, so that the patches do not matter.
+  /// `value` is the name of the value alone, `cell` the number of its cell: if several patches report an
+  /// error, the one in the lowest cell is kept, so that the layout does not matter.
   NumericalError(const std::string& what, std::string advice, std::string value = {}, std::uint64_t cell = 0)
       : std::runtime_error(what), advice_(std::move(advice)), value_(std::move(value)), cell_(cell) {}
   const std::string& advice() const { return advice_; }

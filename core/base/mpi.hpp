@@ -63,14 +63,14 @@ class Communicator {
   /// all get the same bits.
   void merge(std::span<std::byte> value,
              const std::function<void(const std::byte* from, std::byte* into)>& merge) const;
-  /// The same for a value that has a function `merge`.
+  /// Merges a value by its own function `merge`.
   template <class T>
   void merge(T& value) const {
     merge(std::as_writable_bytes(std::span(&value, 1)), mergeInMemory<T>);
   }
-  /// What rank `from` has, on every rank.
+  /// The bytes of rank `from`, on every rank.
   Bytes broadcast(Bytes bytes, int from = 0) const;
-  /// The same for a value without pointers.
+  /// The value of rank `from`, on every rank; it holds no pointers.
   template <class T>
   T broadcast(T value, int from = 0) const {
     static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>, "another rank has no use for addresses");
@@ -83,7 +83,7 @@ class Communicator {
   std::string broadcast(const std::string& text, int from = 0) const;
   /// What each rank says, by rank, on every rank. Slow: for errors.
   std::vector<std::string> gather(const std::string& mine) const;
-  /// The first rank does something that the others do not see fail: throws what it throws there, and FailedElsewhere on
+  /// Rank 0 does something that the others do not see fail: throws what it throws there, and FailedElsewhere on
   /// the others.
   void onFirst(const std::function<void()>& action) const;
 

@@ -21,7 +21,7 @@ using QuadOfIntegers = int __attribute__((vector_size(16)));
 #endif
 }
 
-/// The same with a factor for each lane.
+/// factor * a + b with a factor for each lane.
 [[gnu::always_inline]] inline Quad multiplyAdd(const Quad& factor, const Quad& a, const Quad& b) {
 #if defined(__FMA__)
   return (Quad)_mm256_fmadd_pd((__m256d)factor, (__m256d)a, (__m256d)b);
@@ -30,7 +30,7 @@ using QuadOfIntegers = int __attribute__((vector_size(16)));
 #endif
 }
 
-/// The same number four times.
+/// One number in all four lanes.
 [[gnu::always_inline]] inline Quad quadOf(double number) { return Quad{number, number, number, number}; }
 
 /// Lane `Which` four times.

@@ -15,21 +15,21 @@ struct Part {
   grid::Box stored{};     ///< of cells and nodes: the box in memory
 };
 
-/// The values of a variable on each patch of the grid, by number, for the first rank; the others have none. Those of
+/// The values of a variable on each patch of the grid, by number, for rank 0; the others have none. Those of
 /// its own patches stay in the warehouse, and are good while the state is as it is.
 struct Parts {
   std::vector<Part> of;
   std::vector<mpi::Bytes> messages{};  ///< of the other ranks, with their values
 };
 
-/// Sends to the first rank what this rank has packed for each of its patches; see `collect`.
+/// Sends to rank 0 what this rank has packed for each of its patches; see `collect`.
 void sendPatches(const mpi::Communicator& ranks, mpi::Bytes bytes);
 /// Waits for what a rank has sent.
 mpi::Bytes receivePatches(const mpi::Communicator& ranks, int from);
 
 /// Brings what all ranks have of their patches to the first: `pack(patch, bytes)` appends it on a rank that is not the
 /// first, `unpack(patch, first byte)` takes it on the first, and returns how many bytes it has taken. What the first
-/// rank has itself is not copied: there `own(patch)` is called. The first rank gets the messages, which hold the bytes.
+/// rank has itself is not copied: there `own(patch)` is called. Rank 0 gets the messages, which hold the bytes.
 /// Every rank calls it.
 template <class Own, class Pack, class Unpack>
 std::vector<mpi::Bytes> collect(const data::Warehouse& warehouse, Own&& own, Pack&& pack, Unpack&& unpack) {

@@ -12,7 +12,7 @@
 
 namespace tushar::collect {
 
-/// Gathers variables over the whole grid on the first rank, in an order that no layout changes: particles by id, nodes
+/// Gathers variables over the whole grid on rank 0, in an order that no layout changes: particles by id, nodes
 /// and cells with x fastest. Vectors come out in x, y, z. All ranks ask for the same, while the state is as it is.
 class Gather {
  public:
@@ -40,7 +40,7 @@ class Gather {
 output::GridInfo gridInfo(const grid::Level& level);
 
 /// Hash of the old values of the named variables of all materials, in the order above: 16 hexadecimal digits.
-/// Two runs agree in it only if they agree in every bit. The first rank has it; all ask.
+/// Two runs agree in it only if they agree in every bit. Rank 0 has it; all ask.
 std::string fingerprint(data::Warehouse& warehouse, const std::vector<std::string>& labels, int materials);
 
 /// Number of particles of all materials, on all ranks, which all ask.

@@ -13,7 +13,7 @@ namespace tushar::collect {
 /// patch has them.
 class ParticleOrder {
  public:
-  /// Of the particles that the warehouses of all ranks hold. The first rank has it; all ask.
+  /// Of the particles that the warehouses of all ranks hold. Rank 0 has it; all ask.
   ParticleOrder(data::Warehouse& warehouse, int material);
   /// From the number of particles of each cell, the first axis fastest.
   ParticleOrder(data::Warehouse& warehouse, int material, const std::vector<std::int32_t>& perCell);

@@ -15,7 +15,7 @@ struct StateNames {
 };
 
 /// Writes the old values of the variables to the last bit, in an order that no layout changes: nodes and cells with x
-/// fastest, particles by (cell, id). Variables that are not held are left out. The first rank has the file, and all
+/// fastest, particles by (cell, id). Variables that are not held are left out. Rank 0 has the file, and all
 /// call this; the others hand over null.
 ///
 ///     /particles/<material>/perCell    number of particles of each cell

@@ -15,7 +15,7 @@ struct Share {
 /// Which rank has which patches: each a run of consecutive places of the curve.
 class Partition {
  public:
-  /// Shares of as many cells as whole patches allow. Nothing is kept for each rank. The first rank has a patch always.
+  /// Shares of as many cells as whole patches allow. Nothing is kept for each rank. Rank 0 has a patch always.
   Partition(const MortonCurve& curve, int ranks) : curve_(&curve), ranks_(ranks) {}
   /// Shares as they are given, which are kept.
   Partition(const MortonCurve& curve, RankOffsets offsets)

@@ -127,7 +127,7 @@ class GhostedVector {
   void take(Vec all);
   /// Sums to `all` what every rank has for its own and for its ghosts.
   void addUp(Vec all);
-  /// The same for numbers in place.
+  /// Adds up numbers of own and ghost places, in place.
   void addUp(std::span<double> values);
 
  private:

@@ -32,7 +32,7 @@ struct BrokenValue {
 /// bound: the same on any patches and ranks. None if all is well. Every rank asks.
 std::optional<BrokenValue> firstBroken(data::Warehouse& warehouse, const std::vector<Bounded>& written);
 
-/// The same for one variable and a bound that is not its label's.
+/// The first value of one variable that breaks `bound`, which need not be that of its label.
 std::optional<BrokenValue> firstBroken(data::Warehouse& warehouse, const Bounded& written, data::Bound bound);
 
 /// `cell (3, 4)`, or `node (3, 4)`.

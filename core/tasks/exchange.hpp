@@ -11,7 +11,7 @@
 
 namespace tushar::tasks {
 
-/// A fill of ghosts, by number of variable.
+/// One ghost fill of a variable, by the variable's number.
 struct BoundGhostFill {
   int variable;
   data::Generation generation, set;
@@ -31,15 +31,15 @@ class Exchange {
       : warehouse_(&warehouse), threads_(&threads), outbox_(warehouse.ranks()) {}
 
   /// Fills the ghosts of node and cell variables, and of particle variables, in three parts; which particles are ghosts
-  /// is settled on first use of their set. All ranks run them for the same fills in the same order, all three of one
+  /// is determined on first use of their set. All ranks run them for the same fills in the same order, all three of one
   /// before the next.
   ///
   /// Posts messages. A rank on which a task failed says so in place of its values (`hasStopped`).
   void send(std::span<const BoundGhostFill> fills, bool hasStopped);
   /// Fills what needs no message from other ranks, where no task has failed by then.
   void begin(bool hasStopped);
-  /// Waits for the messages of others and fills the rest. False if a rank that this one hears of has stopped: then
-  /// nothing more is filled, and this one is to stop, too, before it reads what is not there.
+  /// Waits for the messages of others and fills the rest. False if another rank has stopped; then
+  /// nothing more is filled, and this rank must stop too, before it reads values that are missing.
   bool finish();
   /// Between the last two: whether there are messages to wait for.
   bool isUnderWay() const { return !senders_.empty(); }

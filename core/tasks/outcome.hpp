@@ -10,12 +10,12 @@
 
 namespace tushar::tasks {
 
-/// Where a run of a graph ends before its last task: what the first task in its order came to, on whichever ranks. It
-/// goes into messages as it is.
+/// How and where a run of a graph stopped early: the first failing task in the order of the graph, over all ranks. Sent
+/// in messages as it is.
 ///
 /// A task that shortens the time step comes before one that breaks a bound, since what it computed is not used.
 struct Outcome {
-  /// Of several faults of a task the least counts, so that patches and ranks do not matter: first those that bodies
+  /// If a task has several faults, the least is kept, so that patches and ranks do not matter: first those that bodies
   /// throw, by cell, then broken bounds, by the place of the variable among those of the task.
   enum class Kind { shortensStep, throws, breaks };
   static constexpr int none = std::numeric_limits<int>::max();
@@ -26,7 +26,7 @@ struct Outcome {
   std::uint64_t place = 0;  ///< cell, or place of the variable
   int rank = 0;
   data::Minimum factor{};  ///< of the time step, where it is to be shortened
-  data::Reason value{};    ///< the value that cannot be, or the task
+  data::Reason value{};    ///< the offending value, or the task
 
   bool isNone() const { return task == none; }
   void merge(const Outcome& other);

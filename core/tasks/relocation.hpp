@@ -15,9 +15,8 @@ namespace tushar::tasks {
 
 /// Brings particles to the cell and patch where they are now, in the order (cell, id), and their variables with them.
 ///
-/// Keeps its working memory from step to step. Finding the moves, which may fail, is one thing, to make them another:
-/// where nothing reads particles between, they are made when the step counts, within the memory that the particles
-/// have.
+/// Keeps its working memory from step to step. Finding the moves, which may fail, is separate from making them: if
+/// nothing reads particles in between, they are made when the step is accepted, in the existing memory.
 class Relocation {
  public:
   Relocation(data::Warehouse& warehouse, Threads& threads) : warehouse_(&warehouse), threads_(&threads) {}
@@ -37,7 +36,7 @@ class Relocation {
 
   /// A step begins, perhaps for the second time.
   void start() { leaving_ = 0; }
-  /// The step counts.
+  /// The step is accepted.
   void commit() { dropped_ += std::exchange(leaving_, 0); }
   /// Particles that have left the grid from this rank since the start.
   long dropped() const { return dropped_; }
@@ -69,7 +68,7 @@ class Relocation {
 
     friend auto operator<=>(const Escape&, const Escape&) = default;
   };
-  /// What all ranks must know before any goes on.
+  /// What all ranks must know before any continues.
   struct Verdict {
     bool hasStopped, hasEscape, goFar;
     int rank;  ///< of the escape
@@ -140,7 +139,7 @@ class Relocation {
   template <int D>
   void findMoves(const grid::Patch& patch, const data::ParticleSet& set, Vec<D>* x, const ParticleId* ids,
                  PatchMoves& moves);
-  /// Of the one at place `departed` among those that leave their cells.
+  /// Notes the move of the particle at place `departed` among those that leave their cells.
   template <int D>
   void move(const grid::Patch& from, const Index<D>& cell, Vec<D>& x, ParticleId id, int departed, PatchMoves& moves);
   /// Sorts out what left its patch: who escaped first, how many left the grid, who goes to another rank.

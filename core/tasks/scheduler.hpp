@@ -27,11 +27,11 @@ std::string placeOf(const CompiledTask& task, int patch, int material, const Ste
 ///
 /// Ranks go through the same graph, each on its patches, and wait for one another only where one needs values of
 /// another: for ghosts, in a relocation, and once at the end of the graph, where reductions are merged and all agree on
-/// how it went. A rank on which a task fails runs no other, and neither does one that should read its values. A task
+/// the outcome. A rank on which a task fails runs no other, and neither does one that would read its values. A task
 /// for all patches at once is run by all ranks that have patches, or by none.
 class Scheduler {
  public:
-  /// On so many threads, but no more than this rank has patches.
+  /// Uses up to `threads` threads, but no more than this rank has patches.
   explicit Scheduler(data::Warehouse& warehouse, int threads = 1)
       : warehouse_(&warehouse),
         most_threads_(threads),
@@ -39,20 +39,20 @@ class Scheduler {
         exchange_(warehouse, threads_),
         relocation_(warehouse, threads_) {}
 
-  /// Runs every task on every patch, and looks whether what it wrote keeps the bounds of its labels. The old generation
+  /// Runs every task on every patch, and checks the bounds of what it wrote. The old generation
   /// is never touched. A body that throws and a broken bound end the run of the graph: a NumericalError comes out with
   /// task, patch, material, step and time added, the same on all ranks; anything else as TaskError on the rank where it
   /// happened. A task is run on all patches in any case, and of several errors the first comes out: that of the first
   /// cell, or patch.
   ///
-  /// If a task asks by recomputeTimeStep for a smaller time step, the graph ends with that task and the factor and
-  /// reason come back; running the graph once more repeats the step. Else nothing comes back: all is done.
+  /// If a task requests a smaller time step by recomputeTimeStep, the graph ends with that task and the factor and
+  /// reason come back; running the graph once more repeats the step. Otherwise returns nothing.
   std::optional<data::Minimum> run(TaskGraph& graph, const StepInfo& at);
   /// Makes the results of a graph the old state.
   void commit(TaskGraph& graph);
 
-  /// What each patch of this rank has cost since this was asked last, in seconds of the clock where all threads work
-  /// all the time; nothing is measured on a rank alone.
+  /// Cost of each patch of this rank since the last call, in seconds of the clock if all threads worked all the time;
+  /// zeros on a single rank.
   std::vector<double> takeCosts();
   /// To be called when the distribution of patches has changed.
   void forgetLayout();
@@ -65,11 +65,11 @@ class Scheduler {
   bool hasStopped() const { return !outcome_.isNone() || heard_stop_; }
   bool mayRunTogether();
   const mpi::Communicator& ranksWithPatches();
-  /// Of a run of the first `end` tasks.
+  /// Starts a run of the first `end` tasks.
   void start(const TaskGraph& graph, int end);
   void runTask(TaskGraph& graph, int number, const StepInfo& at);
   void runWork(CompiledTask& task, const StepInfo& at);
-  /// Of nodes that the task wrote as far as they are a patch's own.
+  /// Completes the nodes of which each patch wrote its own.
   void shareFaces(const CompiledTask& task);
   void relocate(const CompiledTask& task, const StepInfo& at);
   template <class Work>

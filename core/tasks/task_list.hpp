@@ -73,7 +73,7 @@ class TaskList {
                 }});
   }
 
-  /// The same for variables of materials, `body(patches, materials, arguments...)`: an access to a label becomes
+  /// Runs `body(patches, materials, arguments...)` once on a rank, for variables of materials: an access becomes
   /// `views[patch][material]`.
   template <class Material, class Body, class... Arguments>
   void perRankAcrossMaterials(std::string name, Body body, const std::vector<Material>& materials,

@@ -23,10 +23,9 @@ std::string problemWith(const std::vector<std::string>& overrides) {
 
 TEST(HeatSection, SendsImplicitStepsToTheComponentThatTakesThem) {
   EXPECT_EQ(problemWith({"Heat/time_integrator=explicit"}), "");
-  EXPECT_EQ(
-      problemWith({"Heat/time_integrator=backward_euler"}),
-      "found 'backward_euler', expected explicit: write <SimulationComponent type=\"implicit_heat\"/> for implicit "
-      "steps");
+  EXPECT_EQ(problemWith({"Heat/time_integrator=backward_euler"}),
+            "found 'backward_euler', expected explicit: for implicit steps, use <SimulationComponent "
+            "type=\"implicit_heat\"/>");
 }
 
 TEST(HeatSection, IsTheSameForImplicitSteps) {
