@@ -25,24 +25,26 @@ struct Linear {
     return cell;
   }
 
-  /// S_i of each node of a cell at a point x in it. Along each axis `lower` and `upper` are the factors 1 - |x - x_i| /
-  /// h of the lower and of the upper nodes; their sum is 1.
-  static Weights weights(const Vec<D>& lower, const Vec<D>& upper) {
+  /// S_i of each node of a cell at a point x in it. Along axis d `lower(d)` and `upper(d)` are the factors 1 - |x -
+  /// x_i| / h of the lower and of the upper nodes; their sum is 1.
+  template <class Lower, class Upper>
+  [[gnu::always_inline]] static Weights weights(const Lower& lower, const Upper& upper) {
     Weights s;
-    s[0] = lower[0];
-    s[1] = upper[0];
+    s[0] = lower(0);
+    s[1] = upper(0);
     for (int d = 1; d < D; ++d) {
       const int half = 1 << d;
       for (int k = 0; k < half; ++k) {
-        const auto low = static_cast<std::size_t>(k), high = static_cast<std::size_t>(k + half);
-        s[high] = s[low] * upper[d];
-        s[low] *= lower[d];
+        s[k + half] = s[k] * upper(d);
+        s[k] *= lower(d);
       }
     }
     return s;
   }
   /// S_i of each node of a cell at the coordinates `xi` in [0,1] within it.
-  static Weights weights(const Vec<D>& xi) { return weights(Vec<D>::Ones() - xi, xi); }
+  static Weights weights(const Vec<D>& xi) {
+    return weights([&](int d) { return 1.0 - xi[d]; }, [&](int d) { return xi[d]; });
+  }
 
   /// dS_k/dx_d in the middle of the cell, 1/m.
   static double centreGradient(const Level& level, int k, int d) {

@@ -20,8 +20,8 @@ class ShapeFunctions {
   }
   /// S_ip for each node i of the cell, numbered as in Linear, and a particle at x [m].
   typename Linear<D>::Weights at(const Vec<D>& x) const {
-    const Vec<D> xi = (x - middle_).cwiseProduct(inverse_spacing_), half = Vec<D>::Constant(0.5);
-    return Linear<D>::weights(half - xi, half + xi);
+    const Vec<D> xi = (x - middle_).cwiseProduct(inverse_spacing_);
+    return Linear<D>::weights([&](int d) { return 0.5 - xi[d]; }, [&](int d) { return 0.5 + xi[d]; });
   }
 
  private:
