@@ -2,15 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
 
 #include "core/base/error.hpp"
+#include "core/base/launcher.hpp"
 #include "core/input/values.hpp"
+#include "tools/messages.hpp"
 
 namespace tushar {
 
 namespace {
+
+void complain(const std::string& sentence) { fmt::print(stderr, "sus: {}\n", withNumber(sentence)); }
 
 /// Uintah's words begin with one dash: -validate becomes --validate. Single letters stay.
 std::string withTwoDashes(const std::string& word) {
@@ -37,17 +42,7 @@ double checkpointInterval(const std::string& text) {
   return *seconds;
 }
 
-}  // namespace
-
-std::optional<double> parseDuration(const std::string& text) {
-  for (const auto& [unit, seconds] : {std::pair{"min", 60.0}, std::pair{"h", 3600.0}, std::pair{"s", 1.0}}) {
-    if (!text.ends_with(unit)) continue;
-    const auto count = input::parse<double>(text.substr(0, text.size() - std::string_view(unit).size()));
-    if (count && *count > 0) return *count * seconds;
-  }
-  return {};
-}
-
+/// Names of all options that are shown, with two dashes.
 std::vector<std::string> optionNames(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options())
@@ -56,6 +51,7 @@ std::vector<std::string> optionNames(const CLI::App& app) {
   return names;
 }
 
+/// The words as CLI11 takes them, the last first; what follows --petsc is PETSc's and stays as it is.
 std::vector<std::string> backwards(const std::vector<std::string>& given) {
   std::vector<std::string> words;
   for (const std::string& word : given)
@@ -64,18 +60,20 @@ std::vector<std::string> backwards(const std::vector<std::string>& given) {
   return words;
 }
 
+/// Says which words of the command line mean nothing: the options, as they were written, or else a second scene.
 void reportUnknown(const CLI::App& app, const std::vector<std::string>& words, const std::string& scene) {
   const std::vector<std::string> unknown = app.remaining(), names = optionNames(app);
   bool options = false;
   for (const std::string& word : words) {
     const std::string full = withTwoDashes(word);
     if (full[0] != '-' || std::find(unknown.begin(), unknown.end(), full) == unknown.end()) continue;
-    fmt::print(stderr, "sus: unknown option '{}'{}; sus -h lists the options\n", word, didYouMean(full, names));
+    complain(fmt::format("unknown option '{}'{}; sus -h lists the options", word, didYouMean(full, names)));
     options = true;
   }
-  if (!options) fmt::print(stderr, "sus: runs one scene at a time: found '{}' after '{}'\n", unknown.front(), scene);
+  if (!options) complain(fmt::format("runs one scene at a time: found '{}' after '{}'", unknown.front(), scene));
 }
 
+/// Declares all options of sus; `arguments` must outlive `app`.
 void declare(CLI::App& app, Arguments& arguments) {
   app.footer(
       "Exit codes: 0 done, 1 failure (files, memory, a defect of sus), 2 bad command line, 3 bad scene,\n"
@@ -105,8 +103,11 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.add_option_function<std::string>(
       "--checkpoint", [&](const std::string& text) { arguments.checkpointInterval = checkpointInterval(text); },
       "write a checkpoint every so often, such as 30s, 10min or 2h of wall time, beside those of the scene");
+  app.add_option("--load", arguments.modules, "load a module of your own: a shared library; may be repeated")
+      ->allow_extra_args(false);
   app.add_option("--output", arguments.run.outputFolder, "put the .uda into this folder");
-  app.add_option("--petsc", arguments.petsc, "options for PETSc, in one word: -petsc \"-ksp_monitor -ksp_type gmres\"");
+  app.add_option("--petsc", arguments.petsc,
+                 "options for PETSc, in one word: --petsc \"-ksp_monitor -ksp_type gmres\"");
   app.add_flag("--quiet", arguments.run.quiet, "no progress, no report on the screen");
   app.add_flag("--check,--validate", arguments.check, "check the scene and make its start; run and write nothing");
   app.add_option("--dry-run", arguments.dryRun,
@@ -124,6 +125,48 @@ void declare(CLI::App& app, Arguments& arguments) {
       ->check(CLI::IsMember({"bash"}));
   app.add_option("--paths", arguments.paths, "print the paths of a scene that --set may change")->group("");
   app.add_flag("-V,--version", arguments.version, "version, commit, compiler and libraries");
+}
+
+/// What is wrong with the words of the command line.
+std::string sentenceOf(const CLI::App* app, const CLI::Error& error) {
+  const std::string text = CLI::FailureMessage::simple(app, error);
+  const std::size_t line = text.find('\n');
+  return withNumber(text.substr(0, line)) + (line == std::string::npos ? "" : text.substr(line));
+}
+
+/// `--check --json SCENE`: the word after --json is the scene where there is no other.
+void settleJson(const CLI::App& app, Arguments& arguments) {
+  arguments.asksForJson = app.count("--json") > 0;
+  if (arguments.check && arguments.scene.empty()) std::swap(arguments.scene, arguments.run.jsonPath);
+}
+
+}  // namespace
+
+std::optional<double> parseDuration(const std::string& text) {
+  for (const auto& [unit, seconds] : {std::pair{"min", 60.0}, std::pair{"h", 3600.0}, std::pair{"s", 1.0}}) {
+    if (!text.ends_with(unit)) continue;
+    const auto count = input::parse<double>(text.substr(0, text.size() - std::string_view(unit).size()));
+    if (count && *count > 0) return *count * seconds;
+  }
+  return {};
+}
+
+std::optional<ExitCode> parse(const std::vector<std::string>& words, Arguments& arguments) {
+  CLI::App app("sus: runs a scene (.ups) with the component that it names", "sus");
+  declare(app, arguments);
+  app.failure_message(sentenceOf);
+  arguments.optionNames = optionNames(app);
+  try {
+    app.parse(backwards(words));
+    settleJson(app, arguments);
+    return {};
+  } catch (const CLI::ExtrasError&) {
+    if (launchedRank() == 0) reportUnknown(app, words, arguments.scene);
+    return ExitCode::badCommandLine;
+  } catch (const CLI::ParseError& error) {
+    if (launchedRank() == 0) app.exit(error);
+    return error.get_exit_code() == 0 ? ExitCode::success : ExitCode::badCommandLine;
+  }
 }
 
 }  // namespace tushar

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/base/error.hpp"
 #include "core/base/threads.hpp"
 #include "core/grid/choose_patches.hpp"
 #include "core/simulation/settings.hpp"
@@ -14,9 +14,11 @@ namespace tushar {
 /// What the command line asks for.
 struct Arguments {
   std::string scene, describe, graph, petsc, trace, schema, completion, paths;
-  std::vector<std::string> overrides;
+  std::vector<std::string> overrides, words;  ///< of --set; all of the command line, with the program's name
+  std::vector<std::string> modules;           ///< files of the user's own
+  std::vector<std::string> optionNames;       ///< all that are shown, with two dashes
   bool check = false, list = false, restart = false, schedule = false, version = false;
-  bool asksForJson = false;                  ///< -json was given; its file may be missing
+  bool asksForJson = false;                  ///< --json was given; its file may be missing
   std::optional<int> checkpoint;             ///< step of the one to restart from
   std::optional<double> checkpointInterval;  ///< wall time between checkpoints, s
   std::optional<int> dryRun;
@@ -31,17 +33,9 @@ struct Arguments {
   bool showsJson() const { return check && asksForJson && (run.jsonPath.empty() || run.jsonPath == "-"); }
 };
 
-/// Declares all options of sus; `arguments` must outlive `app`.
-void declare(CLI::App& app, Arguments& arguments);
-
-/// The words as CLI11 takes them, the last first; what follows -petsc is PETSc's and stays as it is.
-std::vector<std::string> backwards(const std::vector<std::string>& given);
-
-/// Names of all options that are shown, with two dashes.
-std::vector<std::string> optionNames(const CLI::App& app);
-
-/// Says which words of the command line mean nothing: the options, as they were written, or else a second scene.
-void reportUnknown(const CLI::App& app, const std::vector<std::string>& words, const std::string& scene);
+/// Reads the words of the command line into `arguments`. The exit code if the program ends here, because they asked for
+/// help, or mean nothing; then the first rank has said so.
+std::optional<ExitCode> parse(const std::vector<std::string>& words, Arguments& arguments);
 
 /// Seconds in `30s`, `10min` or `2h`; none for any other text.
 std::optional<double> parseDuration(const std::string& text);

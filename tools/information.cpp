@@ -13,6 +13,7 @@
 #include "core/scene/scene.hpp"
 #include "core/scene/scene_form.hpp"
 #include "tools/completion.hpp"
+#include "tools/messages.hpp"
 #include "tools/version.hpp"
 
 namespace tushar {
@@ -21,18 +22,20 @@ namespace {
 
 /// What there is to choose from.
 void printList(const simulation::Catalogue& known) {
+  const auto components = known.components();
+  const auto analyses = known.analyses();
   fmt::print("components (SimulationComponent type=)\n");
-  for (const auto& kind : known.components) fmt::print("  {:<16} {}\n", kind.name, kind.sentence);
+  for (const auto* kind : components) fmt::print("  {:<16} {}\n", kind->name, kind->sentence);
   fmt::print("analysis modules (DataAnalysis/Module name=)\n");
-  for (const auto& kind : known.analyses) fmt::print("  {:<16} {}\n", kind.name, kind.sentence);
+  for (const auto* kind : analyses) fmt::print("  {:<16} {}\n", kind->name, kind->sentence);
   fmt::print("shapes (geom_object)\n");
   for (const std::string& name : input::geometryNames()) fmt::print("  {}\n", name);
 }
 
 /// What --describe has a manual of.
 std::vector<std::string> manualNames(const simulation::Catalogue& known) {
-  std::vector<std::string> names = namesOf(known.components);
-  for (const std::string& other : namesOf(known.analyses)) names.push_back(other);
+  std::vector<std::string> names = known.componentNames();
+  for (const std::string& other : known.analysisNames()) names.push_back(other);
   names.emplace_back("scene");
   return names;
 }
@@ -40,14 +43,15 @@ std::vector<std::string> manualNames(const simulation::Catalogue& known) {
 ExitCode describe(const std::string& name, const simulation::Catalogue& known) {
   if (name == "scene") {
     scene::describeSharedSections(std::cout);
-  } else if (const auto* component = findKind(known.components, name)) {
+  } else if (const auto* component = known.component(name)) {
     component->describe(std::cout);
-  } else if (const auto* analysis = findKind(known.analyses, name)) {
+  } else if (const auto* analysis = known.analysis(name)) {
     analysis->describe(std::cout);
   } else {
     const std::vector<std::string> names = manualNames(known);
-    fmt::print(stderr, "sus: nothing is called '{}'{}; there are {}\n", name, didYouMean(name, names),
-               alternatives(names));
+    fmt::print(
+        stderr, "sus: {}\n",
+        withNumber(fmt::format("nothing is called '{}'{}; there are {}", name, didYouMean(name, names), allOf(names))));
     return ExitCode::badCommandLine;
   }
   return ExitCode::success;
@@ -56,8 +60,8 @@ ExitCode describe(const std::string& name, const simulation::Catalogue& known) {
 void printSchema(const std::string& language, const simulation::Catalogue& known) {
   const input::TagForm scene = scene::sceneForm(known);
   const std::string comment = fmt::format(
-      " Scenes of sus {}; made by: sus -schema {}. It leaves open: limits of values, how tags depend on each other,\n"
-      "     what labels and materials there are. sus -check SCENE has all of that.",
+      " Scenes of sus {}; made by: sus --schema {}. It leaves open: limits of values, how tags depend on each other,\n"
+      "     what labels and materials there are. sus --check SCENE has all of that.",
       TUSHAR_VERSION, language);
   if (language == "rng") return input::writeRelaxNg(std::cout, scene, comment + " ");
   input::writeXmlSchema(std::cout, scene,
@@ -78,7 +82,7 @@ void printPaths(const std::string& given) {
 
 }  // namespace
 
-ExitCode answer(const Arguments& arguments, const CLI::App& app, const simulation::Catalogue& known) {
+ExitCode answer(const Arguments& arguments, const simulation::Catalogue& known) {
   if (arguments.version)
     fmt::print("{}", versionText());
   else if (arguments.list)
@@ -88,7 +92,7 @@ ExitCode answer(const Arguments& arguments, const CLI::App& app, const simulatio
   else if (!arguments.schema.empty())
     printSchema(arguments.schema, known);
   else if (!arguments.completion.empty())
-    fmt::print("{}", bashCompletion(optionNames(app), manualNames(known)));
+    fmt::print("{}", bashCompletion(arguments.optionNames, manualNames(known)));
   else
     printPaths(arguments.paths);
   return ExitCode::success;

@@ -23,6 +23,8 @@
 #include "core/solvers/solver.hpp"
 #include "tools/arguments.hpp"
 #include "tools/information.hpp"
+#include "tools/messages.hpp"
+#include "tools/version.hpp"
 
 namespace tushar {
 
@@ -51,7 +53,7 @@ void checkWritable(const std::string& path) {
 simulation::Restart findRestart(const Arguments& arguments, const mpi::Communicator& ranks) {
   simulation::Restart restart;
   ranks.onFirst([&] { restart = scene::findRestart(arguments.scene, arguments.checkpoint); });
-  for (const std::string& note : restart.notes) fmt::print(stderr, "sus: {}\n", note);
+  for (const std::string& note : restart.notes) fmt::print(stderr, "sus: {}\n", withNumber(note));
   if (!restart.notes.empty()) fmt::print(stderr, "sus: goes on from the checkpoint of step {}\n", restart.step);
   restart.archive = ranks.broadcast(restart.archive.string());
   restart.step = ranks.broadcast(restart.step);
@@ -93,13 +95,14 @@ void writeTrace(const std::string& path, const mpi::Communicator& ranks) {
 /// `100 cells and 450 particles at the start`.
 std::string sizeOf(simulation::Simulation& run, long particles) {
   const std::size_t cells = run.warehouse().level().cells().size();
-  return fmt::format("{} cell{}", cells, cells == 1 ? "" : "s") +
-         (particles > 0 ? fmt::format(" and {} particles at the start", particles) : "");
+  return counted(static_cast<long>(cells), "cell") +
+         (particles > 0 ? fmt::format(" and {} at the start", counted(particles, "particle")) : "");
 }
 
-/// Where -json of a scene that is only checked asks for it.
+/// Where --json of a scene that is only checked asks for it.
 void writeProblems(const Arguments& arguments, const std::vector<InputProblem>& problems) {
-  const std::string text = report::toJson(problems);
+  const std::string text =
+      report::toJson(problems, [](const InputProblem& problem) { return messageNumber(problem.text()); });
   if (arguments.showsJson())
     fmt::print("{}", text);
   else
@@ -124,16 +127,23 @@ void inspect(const Arguments& arguments, simulation::Simulation& run, bool isFir
 /// Options that a typing error may have made useless.
 void noteUnused(const Arguments& arguments, const report::Report& report) {
   for (const std::string& option : report.unusedOptions)
-    fmt::print(stderr, "note: PETSc: no solve has looked at the option {}\n", option);
+    fmt::print(stderr, "note: {}\n", withNumber(fmt::format("PETSc: no solve has looked at the option {}", option)));
   if (!arguments.petsc.empty() && !solvers::isLoaded())
-    fmt::print(stderr, "note: -petsc: this run has not solved anything by PETSc\n");
+    fmt::print(stderr, "note: {}\n", withNumber("--petsc: this run has not solved anything by PETSc"));
+}
+
+output::RunRecord recordOf(const Arguments& arguments) {
+  output::RunRecord record = buildRecord();
+  record.command = arguments.words;
+  record.overrides = arguments.overrides;
+  return record;
 }
 
 ExitCode runScene(const Arguments& arguments, const simulation::Catalogue& known,
                   std::chrono::steady_clock::time_point startedAt, const mpi::Communicator& ranks) {
   simulation::Problem problem = readProblem(arguments, known, ranks);
   if (!arguments.run.quiet && !arguments.showsJson() && ranks.isFirst())
-    for (const InputProblem& note : problem.notes) fmt::print(stderr, "note: {}\n", note.text());
+    for (const InputProblem& note : problem.notes) fmt::print(stderr, "note: {}\n", withNumber(note.text()));
   simulation::Simulation run(std::move(problem), arguments.run, startedAt, ranks);
   if (arguments.check || arguments.schedule || !arguments.graph.empty()) {
     inspect(arguments, run, ranks.isFirst());
@@ -146,40 +156,33 @@ ExitCode runScene(const Arguments& arguments, const simulation::Catalogue& known
   });
   catchInterrupts();
   if (traces) trace::start();
+  run.setRecord(recordOf(arguments));
   const report::Report report = run.run();
   if (traces) writeTrace(arguments.trace, ranks);
   if (reports) ranks.onFirst([&] { writeFile(arguments.run.jsonPath, toJson(report)); });
   if (ranks.isFirst()) noteUnused(arguments, report);
   if (!report.failure.empty()) throw NumericalError(report.failure, report.advice);
   if (!arguments.run.quiet && ranks.isFirst()) fmt::print("{}", toText(report));
-  return report.ended == "interrupted" ? ExitCode::interrupted : ExitCode::success;
-}
-
-/// `-check -json SCENE`: the word after -json is the scene where there is no other.
-void settleJson(const CLI::App& app, Arguments& arguments) {
-  arguments.asksForJson = app.count("--json") > 0;
-  if (arguments.check && arguments.scene.empty()) std::swap(arguments.scene, arguments.run.jsonPath);
+  return simulation::exitCodeOf(report);
 }
 
 ExitCode refuse(const std::string& sentence) {
-  if (launchedRank() == 0) fmt::print(stderr, "sus: {}\n", sentence);
+  if (launchedRank() == 0) fmt::print(stderr, "sus: {}\n", withNumber(sentence));
   return ExitCode::badCommandLine;
 }
 
 /// `session` is opened where a scene is run.
-ExitCode dispatch(const Arguments& arguments, const CLI::App& app, const simulation::Catalogue& known,
+ExitCode dispatch(const Arguments& arguments, const OpenCatalogue& open,
                   std::chrono::steady_clock::time_point startedAt, std::optional<mpi::Session>& session) {
   if ((arguments.isQuestion() || arguments.scene.empty()) && launchedRank() > 0)
     return ExitCode::success;  // the first says it
-  if (arguments.isQuestion()) return answer(arguments, app, known);
+  if (arguments.isQuestion()) return answer(arguments, open(arguments.modules));
   if (arguments.scene.empty()) {
-    fmt::print(stderr,
-               "sus: no scene given; sus scene.ups runs one, sus -restart x.uda goes on with one, sus -h lists "
-               "the options\n");
-    return ExitCode::badCommandLine;
+    return refuse(
+        "no scene given; sus scene.ups runs one, sus --restart x.uda goes on with one, sus -h lists the options");
   }
   if (!arguments.restart && std::filesystem::is_directory(arguments.scene + "/checkpoints"))
-    return refuse(fmt::format("{0} is the folder of a run; sus -restart {0} goes on with it", arguments.scene));
+    return refuse(fmt::format("{0} is the folder of a run; sus --restart {0} goes on with it", arguments.scene));
   if (arguments.asksForJson && !arguments.check && arguments.run.jsonPath.empty())
     return refuse("--json needs the name of a file, where the report goes");
   if (arguments.check && arguments.asksForJson && !arguments.showsJson() && launchedRank() == 0)
@@ -189,11 +192,11 @@ ExitCode dispatch(const Arguments& arguments, const CLI::App& app, const simulat
   if (arguments.dryRun) {
     const grid::Workers workers{arguments.workers.threads, true, *arguments.dryRun, arguments.workers.layout};
     if (launchedRank() == 0)
-      fmt::print("{}", toText(scene::dryRun(arguments.scene, arguments.overrides, known, workers)));
+      fmt::print("{}", toText(scene::dryRun(arguments.scene, arguments.overrides, open(arguments.modules), workers)));
     return ExitCode::success;
   }
   session.emplace();
-  return runScene(arguments, known, startedAt, session->ranks());
+  return runScene(arguments, open(arguments.modules), startedAt, session->ranks());
 }
 
 /// A sentence for the user, and what the shell gets.
@@ -208,16 +211,18 @@ Failure failureOf(const std::exception_ptr& thrown) {
   try {
     std::rethrow_exception(thrown);
   } catch (const InputError& error) {
-    return {fmt::format("{}\n", error.what()), ExitCode::badInput, error.problems()};
+    std::string text;
+    for (const InputProblem& problem : error.problems()) text += withNumber(problem.text()) + '\n';
+    return {text, ExitCode::badInput, error.problems()};
   } catch (const NumericalError& error) {
     const std::string advice = error.advice().empty() ? "" : fmt::format("     try {}\n", error.advice());
-    return {fmt::format("sus: {}\n{}", error.what(), advice), ExitCode::numerical, {}};
+    return {fmt::format("sus: {}\n{}", withNumber(error.what()), advice), ExitCode::numerical, {}};
   } catch (const mpi::FailedElsewhere&) {
     return {};
   } catch (const std::bad_alloc&) {
-    return {"sus: not enough memory for this scene\n", ExitCode::failure, {}};
+    return {withNumber("sus: not enough memory for this scene") + "\n", ExitCode::failure, {}};
   } catch (const std::exception& error) {
-    return {fmt::format("sus: {}\n", error.what()), ExitCode::failure, {}};
+    return {fmt::format("sus: {}\n", withNumber(error.what())), ExitCode::failure, {}};
   }
 }
 
@@ -247,27 +252,19 @@ int endWith(const Failure& failure, const Arguments& arguments, std::optional<mp
 
 }  // namespace
 
-int runProgram(int count, char** words, const simulation::Catalogue& known) {
+int runProgram(int count, char** words, const OpenCatalogue& open) {
   keepMemory();
   const auto startedAt = processStart();
-  const std::vector<std::string> given(words + 1, words + count);
   Arguments arguments;
-  CLI::App app("sus: runs a scene (.ups) with the component that it names", "sus");
-  declare(app, arguments);
+  arguments.words.assign(words, words + count);
   std::optional<mpi::Session> session;
   try {
-    app.parse(backwards(given));
-    settleJson(app, arguments);
+    if (const std::optional<ExitCode> code = parse({words + 1, words + count}, arguments))
+      return static_cast<int>(*code);
     if (!arguments.petsc.empty()) setenv("PETSC_OPTIONS", arguments.petsc.c_str(), 1);
-    const ExitCode code = dispatch(arguments, app, known, startedAt, session);
+    const ExitCode code = dispatch(arguments, open, startedAt, session);
     if (std::fflush(stdout) != 0 || !std::cout.flush()) throw FileError("standard output cannot be written");
     return static_cast<int>(code);
-  } catch (const CLI::ExtrasError&) {
-    if (launchedRank() == 0) reportUnknown(app, given, arguments.scene);
-    return static_cast<int>(ExitCode::badCommandLine);
-  } catch (const CLI::ParseError& error) {
-    if (launchedRank() > 0) return error.get_exit_code() == 0 ? 0 : static_cast<int>(ExitCode::badCommandLine);
-    return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::badCommandLine);
   } catch (...) {
     return endWith(failureOf(std::current_exception()), arguments, session);
   }

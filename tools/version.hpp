@@ -2,12 +2,19 @@
 
 #include <string>
 
+#include "core/output/run_log.hpp"
+
 namespace tushar {
 
 /// The commit that was configured, in 12 digits; `unknown` outside a clone.
 extern const char* const buildCommit;
+/// What the compiler was told, in all of the program.
+extern const char* const buildFlags;
 
-/// Version, buildCommit, compiler and libraries, a line each.
+/// Version, commit, compiler and libraries but for PETSc, which only a solve loads; and nothing of a run.
+output::RunRecord buildRecord();
+
+/// The same and PETSc, a line each.
 std::string versionText();
 
 }  // namespace tushar

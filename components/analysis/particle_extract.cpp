@@ -76,8 +76,8 @@ const Schema<Settings>& settingsSchema() {
               },
               {"Variables"}, "what is written",
               [](std::ostream& out, int indent) { variablesSchema().describeContents(out, indent); })
-          .forms({input::sectionForm(
-              {"Variables"},
+          .forms({input::onceForm(
+              "Variables",
               [] {
                 return std::vector<input::Alternative>{{&variablesSchema(), {}}};
               },
@@ -116,9 +116,10 @@ class ParticleExtract : public Analysis {
     for (const Variable& variable : settings_.variables) requests.push_back(request(variable));
     return requests;
   }
-  bool isSampleDue() const override { return due_; }
+  bool isSampleDue(int) const override { return due_; }
 
-  void sample(const output::Snapshot& snapshot, const std::filesystem::path& archive) override {
+  void sample(const std::vector<output::Snapshot>& parts, const std::filesystem::path& archive) override {
+    const output::Snapshot& snapshot = parts.front();
     const auto block = std::find_if(snapshot.particles.begin(), snapshot.particles.end(), [&](const auto& b) {
       return settings_.material.empty() || b.material == settings_.material;
     });

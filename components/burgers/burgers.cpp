@@ -143,6 +143,7 @@ namespace {
 const input::Schema<Settings>& schema() {
   static const input::Schema<Settings> schema =
       input::Schema<Settings>("Burgers", "Burgers' equation.")
+          .allOurs()
           .value("viscosity", &Settings::viscosity, 0, "m^2/s", "nu", input::nonNegative())
           .choice("limiter", &Settings::limiter, {{"first_order", 0}, {"minmod", 1}, {"van_leer", 2}, {"mc", 3}}, 2,
                   "of the slopes within cells; first_order has none")

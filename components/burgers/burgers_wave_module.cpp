@@ -1,6 +1,8 @@
+#include <stdexcept>
+
 #include "components/burgers/burgers.hpp"
 #include "components/burgers/burgers_wave.hpp"
-#include "core/input/schema.hpp"
+#include "core/simulation/plain_module.hpp"
 
 namespace tushar::burgers {
 
@@ -78,40 +80,19 @@ BurgersWave waveOf(const Burgers<1>& burgers, const Level& level) {
   return BurgersWave(std::move(problem));
 }
 
-struct Settings {
-  std::string name;
-};
-const input::Schema<Settings>& schema() {
-  static const input::Schema<Settings> schema =
-      input::Schema<Settings>(
-          "Module",
-          "Errors of the component burgers against the exact solution that follows from <Burgers>, in "
-          "one dimension.")
-          .requiredAttribute("name", &Settings::name, "1", "burgersWave");
-  return schema;
+std::unique_ptr<simulation::Analysis> makeModule(const Component& component, const Level& level) {
+  const auto* burgers = dynamic_cast<const Burgers<1>*>(&component);
+  if (!burgers) throw std::invalid_argument("measures the component burgers in one dimension; take the module out");
+  return std::make_unique<WaveError>(waveOf(*burgers, level));
 }
 
 }  // namespace
 
 simulation::AnalysisKind waveKind() {
-  simulation::AnalysisKind kind{"burgersWave", "errors against the exact solution of Burgers' equation", {}, {}};
-  kind.describe = [](std::ostream& out) { schema().describe(out); };
-  kind.schema = [] { return &schema(); };
-  kind.read = [](const input::Element& module, input::Diagnostics& diagnostics) -> simulation::MakeAnalysis {
-    schema().read(module, diagnostics);
-    return [where = module.where(), path = module.path()](const Component& component,
-                                                          const Level& level) -> std::unique_ptr<simulation::Analysis> {
-      const auto problem = [&](const std::string& sentence) { return InputError({{where, path, sentence}}); };
-      const auto* burgers = dynamic_cast<const Burgers<1>*>(&component);
-      if (!burgers) throw problem("measures the component burgers in one dimension; take the module out");
-      try {
-        return std::make_unique<WaveError>(waveOf(*burgers, level));
-      } catch (const std::invalid_argument& error) {
-        throw problem(error.what());
-      }
-    };
-  };
-  return kind;
+  return simulation::plainModule("burgersWave", "errors against the exact solution of Burgers' equation",
+                                 "Errors of the component burgers against the exact solution that follows from "
+                                 "<Burgers>, in one dimension.",
+                                 makeModule);
 }
 
 }  // namespace tushar::burgers

@@ -5,7 +5,7 @@
 
 namespace tushar::euler {
 
-/// What stands beyond a side of the grid: W = factor * (the mirrored or the nearest cell) + value.
+/// The state beyond a side of the grid: W = factor * (the mirrored or the nearest cell) + value.
 template <int D>
 struct GhostRule {
   bool mirrored = false;

@@ -14,23 +14,20 @@ using input::Schema;
 namespace {
 
 const Schema<GasObject>& objectSchema() {
-  static const Schema<GasObject> schema =
-      Schema<GasObject>("geom_object", "The gas of a region at the start; where regions overlap, the last one counts.")
-          .custom(
-              "shape",
-              [](GasObject& object, const Element& element, Diagnostics& diagnostics) {
-                object.where = element.where();
-                object.shape = input::readGeometry(element, diagnostics);
-              },
-              input::geometryNames(), "the region: cells whose middle is inside; several are united",
-              input::describeGeometry)
-          .forms(input::geometryForms(), 1)
-          .required("density", &GasObject::density, "kg/m^3", "density at the start", input::positive(),
-                    input::WithoutTime())
-          .value("velocity", &GasObject::velocity, input::VectorExpression(), "m/s", "velocity at the start",
-                 input::WithoutTime())
-          .required("pressure", &GasObject::pressure, "Pa", "pressure at the start; above -p_infinity",
-                    input::WithoutTime());
+  static const Schema<GasObject> schema = [] {
+    Schema<GasObject> tags("geom_object",
+                           "The gas of a region at the start; where regions overlap, the last one counts.");
+    tags.allOurs();
+    input::addShape(tags, &GasObject::where, &GasObject::shape,
+                    "the region: cells whose middle is inside; several are united")
+        .required("density", &GasObject::density, "kg/m^3", "density at the start", input::positive(),
+                  input::WithoutTime())
+        .value("velocity", &GasObject::velocity, input::VectorExpression(), "m/s", "velocity at the start",
+               input::WithoutTime())
+        .required("pressure", &GasObject::pressure, "Pa", "pressure at the start; above -p_infinity",
+                  input::WithoutTime());
+    return tags;
+  }();
   return schema;
 }
 
@@ -42,6 +39,7 @@ struct GasSection {
 const Schema<GasSection>& gasSchema() {
   static const Schema<GasSection> schema =
       Schema<GasSection>("gas", "p = (gamma - 1) rho epsilon - gamma p_infinity.")
+          .allOurs()
           .choiceAttribute("type", &GasSection::type,
                            {{"ideal_gas", GasType::ideal}, {"stiffened_gas", GasType::stiffened}}, GasType::ideal,
                            "an ideal gas has p_infinity = 0")
@@ -66,6 +64,7 @@ struct EulerSection {
 const Schema<EulerSection>& schema() {
   static const Schema<EulerSection> schema =
       Schema<EulerSection>("Euler", "Gas dynamics by finite volumes: Godunov's method and MUSCL-Hancock.")
+          .allOurs()
           .choice("flux", &EulerSection::flux, {{"hllc", FluxKind::hllc}, {"exact", FluxKind::exact}}, FluxKind::hllc,
                   "the Riemann solver at faces: three waves, or the exact solution (slow)")
           .choice("reconstruction", &EulerSection::reconstruction,

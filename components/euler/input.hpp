@@ -4,7 +4,7 @@
 
 namespace tushar::euler {
 
-/// What sus knows of this component.
+/// The entry of this component in the table of sus.
 simulation::ComponentKind kind();
 
 }  // namespace tushar::euler

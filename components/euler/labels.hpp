@@ -16,7 +16,7 @@ inline constexpr CellLabel<Vec<D>> velocity{"c.velocity", "m/s", "velocity"};
 inline constexpr CellLabel<double> internalEnergy{"c.internalEnergy", "J/kg", "internal energy per mass"};
 }  // namespace c
 
-/// What gas that flows in through a side of the grid has.
+/// The state of gas that flows in through a side of the grid.
 namespace boundary {
 inline constexpr BoundaryLabel<double> density{"Density"};
 inline constexpr BoundaryLabel<Vec3> velocity{"Velocity"};

@@ -29,7 +29,7 @@ void Heat<D>::scheduleDiagnostics(TaskList& tasks) const {
 simulation::ComponentKind kind() {
   static const input::Schema<Settings> schema = [] {
     input::Schema<Settings> section("Heat", "Heat conduction, explicit in time.");
-    section.location(&Settings::where)
+    section.allOurs()
         .value("thermal_conductivity", &Settings::conductivity, input::Expression(1.0), "W/(m K)", "k",
                input::WithoutTime(), input::positive())
         .value("density", &Settings::density, 1, "kg/m^3", "rho", input::positive())
@@ -39,6 +39,8 @@ simulation::ComponentKind kind() {
         .required("temperature", &Settings::temperature, "K", "T at the start", input::WithoutTime());
     input::refuseOtherValues(section, "time_integrator", {"explicit"},
                              "for implicit steps, use <SimulationComponent type=\"implicit_heat\"/>");
+    input::refuseTag(section, "Solver",
+                     "explicit steps solve no system; <SimulationComponent type=\"implicit_heat\"/> does");
     return section;
   }();
   return simulation::kindWithSection<Heat>("heat", "heat conduction, explicit; the smallest complete component", schema,

@@ -18,7 +18,6 @@ inline constexpr ReductionLabel<Sum> totalEnergy{"TotalEnergy", "J", "heat in al
 
 /// The `Heat` section.
 struct Settings {
-  Location where;                       ///< in the scene
   input::Expression conductivity{1.0};  ///< k, W/(m K)
   double density = 1;                   ///< rho, kg/m³
   double specificHeat = 1;              ///< c, J/(kg K)
@@ -47,18 +46,12 @@ class Heat : public Component {
   Settings settings_;
 };
 
-/// T at the middle of each cell, from the scene's formula. Throws InputError where that is not finite, or k not greater
+/// T at the middle of each cell, from the scene's formula. Throws InputError if it is not finite, or k is not greater
 /// than 0.
 template <int D>
 void initialize(const Patch& patch, const Settings& settings, CellView<double> temperature) {
-  const numerics::CheckedFormula start{settings.temperature, settings.where, "Heat/temperature", "K"};
-  const numerics::CheckedFormula k{settings.conductivity, settings.where, "Heat/thermal_conductivity", "W/(m K)"};
-  const Level& level = patch.level();
-  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    const Vec3 middle = level.expandPoint<D>(level.cellCentre<D>(cell));
-    temperature[cell] = start.finiteAt(middle);
-    k.positiveAt(middle);
-  });
+  numerics::CheckedFormula{settings.temperature, "Heat/temperature", "K"}.fill<D>(patch, temperature);
+  numerics::CheckedFormula{settings.conductivity, "Heat/thermal_conductivity", "W/(m K)"}.requirePositive<D>(patch);
 }
 
 /// dt = cfl rho c / max(sum over the cell's faces of k / h_d²), for one k everywhere the limit of von Neumann: no cell

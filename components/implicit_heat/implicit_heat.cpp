@@ -28,14 +28,8 @@ void ImplicitHeat<D>::scheduleDiagnostics(TaskList& tasks) const {
 
 template <int D>
 void initialize(const Patch& patch, const Settings& settings, CellView<double> temperature) {
-  const numerics::CheckedFormula start{settings.temperature, settings.where, "Heat/temperature", "K"};
-  const numerics::CheckedFormula k{settings.conductivity, settings.where, "Heat/thermal_conductivity", "W/(m K)"};
-  const Level& level = patch.level();
-  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    const Vec3 middle = level.expandPoint<D>(level.cellCentre<D>(cell));
-    temperature[cell] = start.finiteAt(middle);
-    k.positiveAt(middle);
-  });
+  numerics::CheckedFormula{settings.temperature, "Heat/temperature", "K"}.fill<D>(patch, temperature);
+  numerics::CheckedFormula{settings.conductivity, "Heat/thermal_conductivity", "W/(m K)"}.requirePositive<D>(patch);
 }
 
 template <int D>
@@ -73,13 +67,14 @@ namespace {
 const input::Schema<Settings>& schema() {
   static const input::Schema<Settings> schema =
       input::Schema<Settings>("Heat", "Heat conduction, implicit in time.")
-          .location(&Settings::where)
+          .allOurs()
           .value("thermal_conductivity", &Settings::conductivity, input::Expression(1.0), "W/(m K)", "k",
                  input::WithoutTime(), input::positive())
           .value("density", &Settings::density, 1, "kg/m^3", "rho", input::positive())
           .value("specific_heat", &Settings::specificHeat, 1, "J/(kg K)", "c", input::positive())
           .choice("time_integrator", &Settings::theta, {{"backward_euler", 1}, {"crank_nicolson", 0.5}}, 1,
                   "how time advances; the steps are those of <Time>")
+          .elsewhere("explicit", "for explicit steps, use <SimulationComponent type=\"heat\"/>")
           .section("Solver", &Settings::solver, solvers::linearSchema(), "the linear solve of each step")
           .ignored("cfl", "implicit steps have no limit; it serves <SimulationComponent type=\"heat\"/>")
           .required("temperature", &Settings::temperature, "K", "T at the start", input::WithoutTime());

@@ -18,7 +18,6 @@ inline constexpr ReductionLabel<Maximum> iterations{"KrylovIterations", "1", "it
 
 /// The `Heat` section, for implicit steps.
 struct Settings {
-  Location where;                       ///< in the scene
   input::Expression conductivity{1.0};  ///< k, W/(m K)
   double density = 1;                   ///< rho, kg/m³
   double specificHeat = 1;              ///< c, J/(kg K)
@@ -48,7 +47,7 @@ class ImplicitHeat : public Component {
   Settings settings_;
 };
 
-/// T at the middle of each cell, from the scene's formula. Throws InputError where that is not finite, or k not greater
+/// T at the middle of each cell, from the scene's formula. Throws InputError if it is not finite, or k is not greater
 /// than 0.
 template <int D>
 void initialize(const Patch& patch, const Settings& settings, CellView<double> temperature);

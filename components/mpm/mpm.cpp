@@ -1,12 +1,37 @@
 #include "components/mpm/mpm.hpp"
 
+#include <array>
+
 #include "components/mpm/boundary_labels.hpp"
-#include "components/mpm/gas/input.hpp"
-#include "components/mpm/solid/explicit/input.hpp"
-#include "components/mpm/solid/implicit/input.hpp"
-#include "components/mpm/solid/scene_input.hpp"
+#include "core/simulation/module.hpp"
 
 namespace tushar::mpm {
+
+namespace {
+
+constexpr std::array modules{"mpm_gas", "mpm_solid", "mpm_implicit"};
+
+simulation::ComponentKind& entryOf(Method method) {
+  static std::array<simulation::ComponentKind, modules.size()> entries;
+  return entries[static_cast<std::size_t>(method)];
+}
+
+/// Loads the module of a method where it has not been.
+const simulation::ComponentKind& kindOf(Method method) {
+  simulation::loadModule(modules[static_cast<std::size_t>(method)]);
+  return entryOf(method);
+}
+
+}  // namespace
+
+Method methodOf(const input::Element& root) {
+  const auto mpm = root.child("MPM");
+  if (mpm && (mpm->child("gas_dynamics") || mpm->child("conserving_gas_dynamics"))) return Method::gas;
+  const auto integrator = mpm ? mpm->child("time_integrator") : std::nullopt;
+  return integrator && integrator->text() == "implicit" ? Method::implicitSolid : Method::solid;
+}
+
+void define(Method method, simulation::ComponentKind kind) { entryOf(method) = std::move(kind); }
 
 simulation::ComponentKind kind() {
   simulation::ComponentKind kind;
@@ -15,22 +40,23 @@ simulation::ComponentKind kind() {
   kind.sections = {"MPM", "MaterialProperties", "PhysicalConstants", "PhysicalBC"};
   kind.boundaryLabels = {grid::symmetric, boundary::velocity.evenOnPlanes(), boundary::temperature.evenOnPlanes()};
   kind.describe = [](std::ostream& out) {
-    solid::describe(out);
+    kindOf(Method::solid).describe(out);
     out << "Where <MPM> has <gas_dynamics> or <conserving_gas_dynamics>, instead:\n";
-    gas::describe(out);
+    kindOf(Method::gas).describe(out);
   };
   kind.forms = [] {
-    std::vector<std::vector<simulation::SectionForm>> all = gas::forms();
-    all.push_back(solid::forms());
-    all.push_back(solid::implicit::forms());
+    std::vector<std::vector<simulation::SectionForm>> all = kindOf(Method::gas).forms();
+    all.push_back(kindOf(Method::solid).forms().front());
+    all.push_back(kindOf(Method::implicitSolid).forms().front());
     all.back().front().demands = {{"time_integrator", {"implicit"}}};
     return all;
   };
-  kind.nodesBeyond = [](const input::Element& root) { return gas::isGas(root) ? 0 : solid::nodesBeyond(root); };
+  kind.nodesBeyond = [](const input::Element& root) {
+    const auto& nodesBeyond = kindOf(methodOf(root)).nodesBeyond;
+    return nodesBeyond ? nodesBeyond(root) : 0;
+  };
   kind.read = [](const input::Element& root, input::Diagnostics& diagnostics) {
-    if (gas::isGas(root)) return gas::readScene(root, diagnostics);
-    if (solid::implicit::isImplicit(root)) return solid::implicit::readScene(root, diagnostics);
-    return solid::readScene(root, diagnostics);
+    return kindOf(methodOf(root)).read(root, diagnostics);
   };
   return kind;
 }

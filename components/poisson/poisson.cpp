@@ -21,12 +21,8 @@ void Poisson<D>::scheduleTimeAdvance(TaskList& tasks) const {
 
 template <int D>
 void initialize(const Patch& patch, const Settings& settings, CellView<double> phi) {
-  const numerics::CheckedFormula k{settings.coefficient, settings.where, "Poisson/coefficient", ""};
-  const Level& level = patch.level();
-  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    k.positiveAt(level.expandPoint<D>(level.cellCentre<D>(cell)));
-    phi[cell] = 0;
-  });
+  numerics::CheckedFormula{settings.coefficient, "Poisson/coefficient", ""}.requirePositive<D>(patch);
+  phi.fill(0);
 }
 
 namespace {
@@ -86,14 +82,11 @@ namespace {
 const input::Schema<Settings>& schema() {
   static const input::Schema<Settings> schema =
       input::Schema<Settings>("Poisson", "div(coefficient grad phi) = source.")
-          .location(&Settings::where)
+          .allOurs()
           .value("coefficient", &Settings::coefficient, input::Expression(1.0), "1", "k", input::WithoutTime(),
                  input::positive())
-          .ours()
           .value("source", &Settings::source, input::Expression(0.0), "1/m^2", "f, at the end of each step")
-          .ours()
-          .section("Solver", &Settings::solver, solvers::linearSchema())
-          .ours();
+          .section("Solver", &Settings::solver, solvers::linearSchema());
   return schema;
 }
 

@@ -19,7 +19,6 @@ inline constexpr ReductionLabel<Maximum> finalResidual{"KrylovResidual", "1",
 
 /// The `Poisson` section.
 struct Settings {
-  Location where;                      ///< in the scene
   input::Expression coefficient{1.0};  ///< k
   input::Expression source{0.0};       ///< f
   solvers::LinearSettings solver;

@@ -6,7 +6,7 @@
 
 namespace tushar::reference {
 
-/// What a gas is at a point, or its mean over a box.
+/// The state of a gas at a point, or its mean over a box.
 struct GasState {
   double density = 0;            ///< kg/m^3
   Vec3 velocity = Vec3::Zero();  ///< m/s

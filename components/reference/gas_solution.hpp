@@ -19,14 +19,14 @@ struct GasErrorLabels {
   ReductionLabel<Norm> density, velocity, pressure, energy;
 };
 
-/// Against the exact values where the particles are.
+/// Particles against the exact values at their positions.
 inline constexpr GasErrorLabels particleError{
     {"ParticleError.density", "kg/m^3", "error of density at the particles"},
     {"ParticleError.velocity", "m/s", "error of velocity at the particles, as a length"},
     {"ParticleError.pressure", "Pa", "error of pressure (without artificial viscosity) at the particles"},
     {"ParticleError.energy", "J/kg", "error of internal energy at the particles"}};
 
-/// Of cell means against exact cell means; cells without gas count as 0.
+/// Cell means against exact cell means; cells without gas count as 0.
 inline constexpr GasErrorLabels cellError{{"CellError.density", "kg/m^3", "error of the mean density of cells"},
                                           {"CellError.velocity", "m/s", "error of the mean velocity of cells"},
                                           {"CellError.pressure", "Pa", "error of the mean pressure of cells"},

@@ -11,7 +11,7 @@
 
 namespace tushar::reference {
 
-/// What all modules that measure a gas have in common.
+/// The tags that all modules that measure a gas share.
 struct GasTags {
   std::string name;
   double gamma = 1.4;
@@ -22,11 +22,7 @@ struct GasTags {
 /// `within`: a box.
 const input::Schema<Region>& regionSchema();
 
-/// A member of a base of S, as one of S.
-template <class S, class T, class Base>
-T S::*memberOf(T Base::*member) {
-  return member;
-}
+using input::memberOf;
 
 /// The schema of the module `name` with those tags; S is derived from GasTags.
 template <class S>
@@ -39,7 +35,7 @@ input::Schema<S> gasSchema(const std::string& name, std::string sentence, double
       .ours();
 }
 
-/// What the modules of vortices have in common.
+/// The tags that the modules of vortices share.
 struct VortexTags : GasTags {
   int axis = 2;
   Vec3 centre = Vec3::Zero(), velocity = Vec3::Zero();
@@ -58,11 +54,30 @@ input::Schema<S> vortexSchema(const std::string& name, std::string sentence) {
       .ours();
 }
 
+/// The tags that the modules of flows around a centre share.
+struct RadialTags : GasTags {
+  double density = 1, pressure = 0;
+  Vec3 centre = Vec3::Zero();
+};
+
+/// The schema of the module `name` with those tags; S is derived from RadialTags, and `centre` says what is there.
+template <class S>
+input::Schema<S> radialSchema(const std::string& name, std::string sentence, std::string centre, double gamma = 1.4) {
+  return gasSchema<S>(name, std::move(sentence), gamma)
+      .value("density", memberOf<S>(&RadialTags::density), 1, "kg/m^3", "density at t = 0", input::positive())
+      .ours()
+      .value("pressure", memberOf<S>(&RadialTags::pressure), 0, "Pa",
+             "pressure at t = 0, which should be next to nothing", input::nonNegative())
+      .ours()
+      .value("centre", memberOf<S>(&RadialTags::centre), Vec3::Zero(), "m", std::move(centre))
+      .ours();
+}
+
 /// Where the vortex goes on a grid, which may repeat. Throws std::invalid_argument where the plane in which it turns is
 /// not in the grid.
 MovingFrame frameOf(const VortexTags& tags, const grid::Level& level);
 
-/// What the problems of all vortices have in common, from the tags of S.
+/// Fills the settings that the problems of all vortices share from the tags of S.
 template <class Problem, class S>
 Problem vortexProblem(const S& read, const grid::Level& level) {
   Problem problem;

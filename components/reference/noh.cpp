@@ -1,18 +1,11 @@
 #include "components/reference/noh.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
-#include <stdexcept>
 
 namespace tushar::reference {
 
 Noh::Noh(const NohProblem& problem) : RadialReference(problem.centre, problem.round), problem_(problem) {
-  if (!(problem.density > 0 && problem.speed > 0 && problem.pressure >= 0 && problem.gamma > 1))
-    throw std::invalid_argument(fmt::format(
-        "Noh's problem needs a positive density and speed, a pressure of at least 0 and a gamma above 1, not "
-        "{}, {}, {} and {}.",
-        problem.density, problem.speed, problem.pressure, problem.gamma));
+  requireRadialFlow("Noh's problem", problem.density, "speed", problem.speed, problem.pressure, problem.gamma);
   const double gamma = problem.gamma;
   behind_.density = problem.density * std::pow((gamma + 1) / (gamma - 1), dimension());
   behind_.energy = 0.5 * problem.speed * problem.speed;

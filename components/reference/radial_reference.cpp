@@ -29,4 +29,13 @@ GasState RadialReference::average(const Vec3& lower, const Vec3& upper, double t
   return piecewiseMean(*this, std::vector{Sphere{centre_, shockRadius(t), round_}}, lower, end, t);
 }
 
+void requireRadialFlow(const char* problem, double density, const char* amount, double value, double pressure,
+                       double gamma) {
+  if (density > 0 && value > 0 && pressure >= 0 && gamma > 1) return;
+  throw std::invalid_argument(
+      fmt::format("{} needs a positive density and {}, a pressure of at least 0 and a gamma above 1, not {}, {}, {} "
+                  "and {}.",
+                  problem, amount, density, value, pressure, gamma));
+}
+
 }  // namespace tushar::reference

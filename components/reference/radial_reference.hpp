@@ -4,7 +4,7 @@
 
 namespace tushar::reference {
 
-/// What a gas is at a distance from a centre; it flows along the radius.
+/// The state of a gas at a distance from a centre; it flows along the radius.
 struct RadialState {
   double density = 0;   ///< kg/m^3
   double velocity = 0;  ///< outwards, m/s
@@ -36,5 +36,10 @@ class RadialReference : public GasReference {
  private:
   Vec3 centre_, round_;
 };
+
+/// Throws std::invalid_argument for a density, an `amount` (such as the energy of a blast), a pressure [Pa] or a gamma
+/// that `problem` cannot have.
+void requireRadialFlow(const char* problem, double density, const char* amount, double value, double pressure,
+                       double gamma);
 
 }  // namespace tushar::reference

@@ -17,11 +17,7 @@ constexpr int kSteps = 16000;
 }  // namespace
 
 Sedov::Sedov(const SedovProblem& problem) : RadialReference(problem.centre, problem.round), problem_(problem) {
-  if (!(problem.density > 0 && problem.energy > 0 && problem.pressure >= 0 && problem.gamma > 1))
-    throw std::invalid_argument(fmt::format(
-        "A blast needs a positive density and energy, a pressure of at least 0 and a gamma above 1, not {}, "
-        "{}, {} and {}.",
-        problem.density, problem.energy, problem.pressure, problem.gamma));
+  requireRadialFlow("A blast", problem.density, "energy", problem.energy, problem.pressure, problem.gamma);
   if (dimension() == 3 && problem.gamma >= 7)
     throw std::invalid_argument(fmt::format(
         "A blast in three dimensions leaves a void in its middle for gamma of 7 and more, such as {}.", problem.gamma));

@@ -14,8 +14,8 @@ namespace tushar::reference {
 namespace {
 
 constexpr int kSamples = 4000;
-constexpr int kMostIterations = 200;
-constexpr double kRoundOff = 2 * std::numeric_limits<double>::epsilon();
+constexpr int kMostWaveIterations = 200;
+constexpr double kWaveRoundOff = 2 * std::numeric_limits<double>::epsilon();
 
 void checkSettings(const SimpleWaveProblem& problem) {
   if (!problem.velocity) throw std::invalid_argument("A simple wave needs a velocity profile.");
@@ -116,13 +116,13 @@ double SimpleWave::foot(double x, double t) const {
   for (double reach = -error; error != 0 && miss(other) * error > 0; reach *= 2) other = guess + reach;
   double lower = std::min(guess, other);
   double upper = std::max(guess, other);
-  for (int i = 0; i < kMostIterations && error != 0; ++i) {
+  for (int i = 0; i < kMostWaveIterations && error != 0; ++i) {
     (error < 0 ? lower : upper) = guess;
     double next = guess - error / (1 + t * signalSlope(guess));
     if (!(next >= lower && next <= upper)) next = 0.5 * (lower + upper);
     const double moved = std::abs(next - guess);
     guess = next;
-    if (moved <= kRoundOff * (std::abs(x) + problem_.soundSpeed * t)) break;
+    if (moved <= kWaveRoundOff * (std::abs(x) + problem_.soundSpeed * t)) break;
     error = miss(guess);
   }
   return guess;

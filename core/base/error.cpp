@@ -43,6 +43,11 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
+const Location& placeOf(std::initializer_list<const Location*> parts, const Location& tag) {
+  const auto found = std::find_if(parts.begin(), parts.end(), [](const Location* where) { return where->isOption(); });
+  return found == parts.end() ? tag : **found;
+}
+
 std::string Location::text() const { return line > 0 ? fmt::format("{}:{}:{}", file, line, column) : file; }
 
 std::string InputProblem::text() const {
@@ -68,13 +73,24 @@ std::string didYouMean(std::string_view word, const std::vector<std::string>& ca
   return nearest ? fmt::format(" (did you mean '{}'?)", *nearest) : std::string();
 }
 
-std::string alternatives(const std::vector<std::string>& words) {
+namespace {
+
+std::string quoted(const std::vector<std::string>& words, const char* last) {
   std::string text;
   for (std::size_t i = 0; i < words.size(); ++i) {
-    if (i > 0) text += i + 1 == words.size() ? " or " : ", ";
+    if (i > 0) text += i + 1 == words.size() ? last : ", ";
     text += "'" + words[i] + "'";
   }
   return text;
+}
+
+}  // namespace
+
+std::string alternatives(const std::vector<std::string>& words) { return quoted(words, " or "); }
+std::string allOf(const std::vector<std::string>& words) { return quoted(words, " and "); }
+
+std::string counted(long count, std::string_view noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
 }  // namespace tushar

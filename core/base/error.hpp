@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -24,9 +25,15 @@ struct Location {
   int line = 0;      ///< from 1; 0 where a line has no meaning
   int column = 0;    ///< from 1, in bytes
 
+  /// Whether it is an option on the command line.
+  bool isOption() const { return line == 0 && !file.empty(); }
   /// `file:line:column`, or `file` alone where there is no line.
   std::string text() const;
 };
+
+/// Where to look for what several `parts` of a tag got wrong together: the option that overrides one of them, else
+/// `tag`.
+const Location& placeOf(std::initializer_list<const Location*> parts, const Location& tag);
 
 /// One thing wrong with a scene, in one sentence.
 struct InputProblem {
@@ -80,5 +87,10 @@ std::string didYouMean(std::string_view word, const std::vector<std::string>& ca
 
 /// `'a', 'b' or 'c'`.
 std::string alternatives(const std::vector<std::string>& words);
+/// `'a', 'b' and 'c'`.
+std::string allOf(const std::vector<std::string>& words);
+
+/// `1 cell`, `2 cells`.
+std::string counted(long count, std::string_view noun);
 
 }  // namespace tushar

@@ -5,7 +5,7 @@
 namespace tushar {
 
 namespace {
-volatile std::sig_atomic_t interrupted = 0;
+volatile std::sig_atomic_t interrupted = 0, saveAsked = 0;
 
 /// A second signal finds the default; where both came before the first was noted, it is raised again for that.
 extern "C" void noteInterrupt(int signal) {
@@ -14,14 +14,23 @@ extern "C" void noteInterrupt(int signal) {
   if (interrupted) std::raise(signal);
   interrupted = 1;
 }
+
+extern "C" void noteSaveSignal(int) { saveAsked = 1; }
 }  // namespace
 
 void catchInterrupts() {
   interrupted = 0;
   std::signal(SIGINT, noteInterrupt);
   std::signal(SIGTERM, noteInterrupt);
+  std::signal(SIGUSR1, noteSaveSignal);
 }
 
 bool isInterrupted() { return interrupted != 0; }
+
+bool takeSaveSignal() {
+  if (!saveAsked) return false;
+  saveAsked = 0;
+  return true;
+}
 
 }  // namespace tushar

@@ -2,9 +2,12 @@
 
 namespace tushar {
 
-/// From now on Ctrl-C and SIGTERM only take note that the run is to end after the step; a second one ends it at once.
+/// From now on the first Ctrl-C or SIGTERM ends the run after the current step, and the second ends it at once. SIGUSR1
+/// asks for the state to be saved after the step.
 void catchInterrupts();
-/// Whether one has come.
+/// Whether such a signal has come.
 bool isInterrupted();
+/// Whether SIGUSR1 has come since the last call.
+bool takeSaveSignal();
 
 }  // namespace tushar

@@ -12,7 +12,7 @@ int launchedRank();
 /// How many of them are on this machine.
 int ranksOnThisMachine();
 
-/// Cores that the launcher gave to each; the most that an int can say where it did not say.
+/// Cores that the launcher gave to each process; the greatest int if it does not tell.
 int launchedCoresPerRank();
 
 }  // namespace tushar

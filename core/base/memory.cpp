@@ -1,5 +1,7 @@
 #include "core/base/memory.hpp"
 
+#include <sys/resource.h>
+
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -18,6 +20,12 @@ ResidentMemory residentMemory() {
     if (name == "VmHWM:") memory.peak = kilobytes * 1024;
   }
   return memory;
+}
+
+double peakMemory() {
+  rusage use{};
+  getrusage(RUSAGE_SELF, &use);
+  return 1024.0 * static_cast<double>(use.ru_maxrss);
 }
 
 }  // namespace tushar

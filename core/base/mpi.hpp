@@ -17,7 +17,7 @@ namespace tushar::mpi {
 
 using Bytes = std::vector<std::byte>;
 
-/// What a message is about: a rank that waits for one takes no other.
+/// The kind of a message: a rank that waits for one kind takes no other.
 enum class Tag : int { ghosts, migrants, patches, output };
 
 /// Adds `length` bytes to the end.
@@ -29,7 +29,7 @@ inline void append(Bytes& bytes, const void* from, std::size_t length) {
 /// The MPI library that runs, with its version; MPI need not be started.
 std::string libraryVersion();
 
-/// Another rank has failed, and has the sentence that says why.
+/// Thrown where another rank has failed; that rank reports why.
 class FailedElsewhere : public std::runtime_error {
  public:
   FailedElsewhere() : std::runtime_error("another rank has failed") {}
@@ -56,7 +56,7 @@ class Communicator {
 
   bool any(bool mine) const;
   double max(double mine) const;
-  /// The greatest of each.
+  /// The greatest value of each over all ranks.
   void max(std::span<double> mine) const;
   long sum(long mine) const;
   /// Every rank gets `merge(from, into)` over the values of all, in a tree that depends on their number alone, so that
@@ -81,7 +81,7 @@ class Communicator {
     return value;
   }
   std::string broadcast(const std::string& text, int from = 0) const;
-  /// What each rank says, by rank, on every rank. Slow: for errors.
+  /// The texts of all ranks, by rank, on every rank. Slow: for errors.
   std::vector<std::string> gather(const std::string& mine) const;
   /// Rank 0 does something that the others do not see fail: throws what it throws there, and FailedElsewhere on
   /// the others.
@@ -118,7 +118,7 @@ class Outbox {
 
  private:
   struct Sent;
-  /// Of outboxes that are no more.
+  /// Messages still on their way when their outbox was destroyed.
   static std::list<Sent>& abandoned();
 
   const Communicator* ranks_;

@@ -16,7 +16,7 @@ class Progress {
   /// file.
   Progress(bool quiet, std::FILE* stream, Clock::duration period = std::chrono::minutes(1));
 
-  /// A line that stays.
+  /// Prints a line that stays.
   void line(const std::string& text);
   /// Draws the live line, or writes a line to a file. `time`, `delT` and `maxTime` in s.
   void live(int step, double time, double delT, double maxTime);

@@ -24,7 +24,7 @@ class Threads {
   Threads& operator=(const Threads&) = delete;
 
   int count() const { return count_; }
-  /// So many from the next loop on.
+  /// Sets the number of threads from the next loop on.
   void resize(int count);
 
   /// Calls `work(0)` to `work(times - 1)`, in any order and several at once, and returns when all are done. Of what
@@ -44,7 +44,7 @@ class Threads {
     forEach(1, named, kind);
   }
 
-  /// What the loops have taken so far, s.
+  /// Time that the loops have taken so far, s.
   struct Use {
     double task = 0, message = 0;  ///< of all threads together, by the kind of the loops
     double loops = 0;              ///< from the start of each loop to its end

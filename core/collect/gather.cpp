@@ -29,11 +29,16 @@ output::Array emptyArray(const Label& label) {
   return array;
 }
 
+/// All cells or nodes that a label has a value for.
+Box boxOf(const Label& label, const grid::Level& level) {
+  return label.centring == Centring::node ? level.nodesOfCells() : level.cells();
+}
+
 struct HashFree {
   void operator()(XXH64_state_t* state) const { XXH64_freeState(state); }
 };
 
-/// Of the values of a stream, piece by piece.
+/// The hash of an array, which is read piece by piece.
 XXH64_hash_t hashOf(const output::Array& array, XXH64_hash_t seed) {
   constexpr std::size_t piece = 1 << 14;
   const std::unique_ptr<XXH64_state_t, HashFree> state(XXH64_createState());
@@ -67,10 +72,9 @@ void Gather::streamParticles(Generation generation, int number, output::Array& a
   array.source = sourceAt(places, std::move(parts), EntryForm(*label, warehouse_->level()));
 }
 
-void Gather::streamGrid(Generation generation, int number, output::Array& array) {
+void Gather::streamGrid(Generation generation, int number, const Box& all, output::Array& array) {
   const Label& label = *warehouse_->table()[number].label;
   const grid::Level& level = warehouse_->level();
-  const Box all = label.centring == Centring::node ? level.nodesOfCells() : level.cells();
   Parts parts = collectGrid(*warehouse_, generation, number, all);
   if (!warehouse_->ranks().isFirst()) return;
   auto runs = std::make_shared<const Runs>(runsOfGrid(level, label, parts, all));
@@ -82,7 +86,18 @@ output::Array Gather::stream(Generation generation, int number) {
   output::Array array = emptyArray(label);
   if (label.centring == Centring::reduction || !warehouse_->isHeld(generation, number)) return array;
   label.centring == Centring::particle ? streamParticles(generation, number, array)
-                                       : streamGrid(generation, number, array);
+                                       : streamGrid(generation, number, boxOf(label, warehouse_->level()), array);
+  return array;
+}
+
+output::Array Gather::stream(Generation generation, int number, const Layer& layer) {
+  const Label& label = *warehouse_->table()[number].label;
+  output::Array array = emptyArray(label);
+  if (!warehouse_->isHeld(generation, number)) return array;
+  Box part = boxOf(label, warehouse_->level());
+  part.lower[layer.axis] = label.centring == Centring::node ? layer.node : layer.cell;
+  part.upper[layer.axis] = part.lower[layer.axis] + 1;
+  streamGrid(generation, number, part, array);
   return array;
 }
 
@@ -102,6 +117,15 @@ output::GridInfo gridInfo(const grid::Level& level) {
     info.cells[level.axis(d)] = level.cells().extent(d);
     info.spacing[level.axis(d)] = level.spacing(d);
   }
+  return info;
+}
+
+output::GridInfo gridInfo(const grid::Level& level, const Layer& layer) {
+  output::GridInfo info = gridInfo(level);
+  const int axis = level.axis(layer.axis);
+  info.lower[axis] = level.nodePosition(layer.axis, layer.cell);
+  info.cells[axis] = 1;
+  --info.dimension;
   return info;
 }
 

@@ -12,6 +12,11 @@
 
 namespace tushar::collect {
 
+/// The cells between two neighbouring planes of nodes across a kernel axis, and the nodes of one of the two.
+struct Layer {
+  int axis = 0, cell = 0, node = 0;
+};
+
 /// Gathers variables over the whole grid on rank 0, in an order that no layout changes: particles by id, nodes
 /// and cells with x fastest. Vectors come out in x, y, z. All ranks ask for the same, while the state is as it is.
 class Gather {
@@ -23,6 +28,8 @@ class Gather {
   output::Array array(data::Generation generation, int variable);
   /// The values of a variable without a copy: they stay where they are, and are good while the state is as it is.
   output::Array stream(data::Generation generation, int variable);
+  /// The same for the part of a variable of cells or nodes that is in a layer; no other part is sent.
+  output::Array stream(data::Generation generation, int variable, const Layer& layer);
 
  private:
   using Places = std::shared_ptr<const std::vector<Place>>;
@@ -30,7 +37,7 @@ class Gather {
   /// Where the particles of a material are, by id.
   const Places& placesOf(int material);
   void streamParticles(data::Generation generation, int number, output::Array& array);
-  void streamGrid(data::Generation generation, int number, output::Array& array);
+  void streamGrid(data::Generation generation, int number, const grid::Box& all, output::Array& array);
 
   data::Warehouse* warehouse_;
   std::map<int, Places> places_;  ///< by material
@@ -38,6 +45,8 @@ class Gather {
 
 /// The geometry of the grid as the archive keeps it.
 output::GridInfo gridInfo(const grid::Level& level);
+/// That of a layer: the axis across it has one cell, and is not in use.
+output::GridInfo gridInfo(const grid::Level& level, const Layer& layer);
 
 /// Hash of the old values of the named variables of all materials, in the order above: 16 hexadecimal digits.
 /// Two runs agree in it only if they agree in every bit. Rank 0 has it; all ask.

@@ -13,9 +13,9 @@ namespace tushar::collect {
 /// patch has them.
 class ParticleOrder {
  public:
-  /// Of the particles that the warehouses of all ranks hold. Rank 0 has it; all ask.
+  /// Orders the particles that the warehouses of all ranks hold; the order is on rank 0. Collective.
   ParticleOrder(data::Warehouse& warehouse, int material);
-  /// From the number of particles of each cell, the first axis fastest.
+  /// Takes the number of particles in each cell, the first axis fastest.
   ParticleOrder(data::Warehouse& warehouse, int material, const std::vector<std::int32_t>& perCell);
 
   /// Number of particles.

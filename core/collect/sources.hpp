@@ -27,22 +27,22 @@ struct Place {
   std::uint32_t patch, index;
 };
 
-/// The particles whose ids these are, in ascending order of these.
+/// Where the particles with these ids are, in ascending order of the ids.
 std::vector<Place> placesById(const Parts& ids);
 
 /// What becomes of an entry of a variable on its way into an array: it stays as it is, or is widened to x, y, z.
 class EntryForm {
  public:
-  /// Of entries that stay as they are.
+  /// Entries stay as they are.
   explicit EntryForm(const data::Label& label) : bytes_(label.bytes) {}
   /// Vectors get 0 along the axes that the grid leaves out, and positions the middle of the domain.
   EntryForm(const data::Label& label, const grid::Level& level);
 
   std::size_t bytes() const { return bytes_; }  ///< of an entry of the variable
   std::size_t bytesOut() const { return axes_ == 0 ? bytes_ : sizeof(rest_); }
-  /// Takes some that stand one after the other.
+  /// Takes consecutive entries.
   void copy(const std::byte* from, std::size_t count, std::byte* to) const;
-  /// Takes some that stand at places of patches.
+  /// Takes the entries at given places of patches.
   void gather(const std::vector<Part>& parts, std::span<const Place> places, std::byte* to) const;
 
  private:

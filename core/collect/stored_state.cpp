@@ -9,6 +9,7 @@
 #include "core/collect/collect.hpp"
 #include "core/collect/particle_order.hpp"
 #include "core/output/archive_files.hpp"
+#include "core/output/archive_hdf5_parts.hpp"
 
 namespace tushar::collect {
 
@@ -195,33 +196,51 @@ class StateReader : StateWalk {
     return false;
   }
 
-  /// A dataset, which must have as many numbers as the scene needs, of the type `Values` or of the label.
+  /// Refuses a dataset that has not as many numbers as the scene needs, or another type.
+  void check(const std::string& path, const Array::Values& found, std::size_t size, const Array::Values& type,
+             std::size_t count) const {
+    if (found.index() != type.index()) refuse(fmt::format("the checkpoint has another type of numbers at {}", path));
+    if (size != count)
+      refuse(fmt::format("the checkpoint has {} numbers at {}, and the scene needs {}", size, path, count));
+  }
+
+  /// A dataset of so many numbers of a type.
   Array::Values stored(const std::string& path, const Array::Values& type, std::size_t count) const {
     Array::Values values = file_.dataset(path);
-    if (values.index() != type.index()) refuse(fmt::format("the checkpoint has another type of numbers at {}", path));
-    if (sizeOf(values) != count)
-      refuse(fmt::format("the checkpoint has {} numbers at {}, and the scene needs {}", sizeOf(values), path, count));
+    check(path, values, sizeOf(values), type, count);
     return values;
   }
-  Array::Values stored(const std::string& path, const Label& label, std::size_t entries) const {
-    return stored(path, emptyValues(label.number), entries * static_cast<std::size_t>(label.components));
+
+  /// The values of a variable, to be read part by part.
+  output::Hdf5Parts partsOf(const std::string& path, const Label& label, std::size_t entries) const {
+    output::Hdf5Parts parts(file_, path);
+    check(path, parts.type(), parts.count(), emptyValues(label.number),
+          entries * static_cast<std::size_t>(label.components));
+    return parts;
   }
 
   /// Ghosts are left to the first exchange.
   void readField(int number, const std::string& path) {
-    const std::size_t bytes = label(number).bytes;
-    const Box all = allOf(level_, label(number));
-    Array::Values values = stored(path, label(number), all.size());
-    const std::byte* from = bytesOf(values);
+    const Label& field = label(number);
+    const Box all = allOf(level_, field);
+    const output::Hdf5Parts file = partsOf(path, field, all.size());
+    std::vector<output::Hdf5Parts::Part> rows;
     warehouse_.allocateGrid(Generation::old, number);
     for (const Patch& patch : level_.patches()) {
-      const Box own = ownBox(patch, label(number));
+      const Box own = ownBox(patch, field);
       const Variable to = variable(number, patch);
       forEachRow(own, [&](const Index3& first) {
-        std::memcpy(to.values + to.stored.offset(first) * bytes, from + all.offset(first) * bytes,
-                    static_cast<std::size_t>(own.extent(0)) * bytes);
+        rows.push_back(partOf(field, all.offset(first), static_cast<std::size_t>(own.extent(0)),
+                              to.values + to.stored.offset(first) * field.bytes));
       });
     }
+    file.read(std::move(rows));
+  }
+
+  /// Entries of a variable, from a place in the file on.
+  static output::Hdf5Parts::Part partOf(const Label& label, std::size_t place, std::size_t count, std::byte* to) {
+    const auto components = static_cast<std::size_t>(label.components);
+    return {place * components, count * components, to};
   }
 
   void readParticles(int material) {
@@ -234,16 +253,17 @@ class StateReader : StateWalk {
   }
 
   void readColumn(int number, const std::string& path, const ParticleOrder& order) {
-    const std::size_t bytes = label(number).bytes;
-    Array::Values values = stored(path, label(number), order.count());
-    const std::byte* from = bytesOf(values);
+    const Label& column = label(number);
+    const output::Hdf5Parts file = partsOf(path, column, order.count());
+    std::vector<output::Hdf5Parts::Part> rows;
     warehouse_.allocateParticles(Generation::old, number, Generation::old);
     for (const Patch& patch : level_.patches()) {
       const Variable to = variable(number, patch);
       order.forEachRun(patch, [&](std::size_t place, std::size_t held, std::size_t count) {
-        std::memcpy(to.values + held * bytes, from + place * bytes, count * bytes);
+        rows.push_back(partOf(column, place, count, to.values + held * column.bytes));
       });
     }
+    file.read(std::move(rows));
   }
 
   void readReduction(int number, const std::string& path) {

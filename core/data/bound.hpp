@@ -5,12 +5,12 @@
 
 namespace tushar::data {
 
-/// What every number of a variable must be, whichever task writes it.
+/// A limit that every number of a variable must keep, whichever task writes it.
 enum class Bound { none, finite, nonNegative, positive };
 
-/// Whether a number keeps a bound. One that is not finite keeps none but Bound::none.
+/// Whether a number keeps a bound. A number that is not finite keeps only Bound::none.
 bool holds(Bound bound, double value);
-/// Whether `count` numbers all do: one pass, in vector instructions.
+/// Whether all `count` numbers keep it: one pass, in vector instructions.
 bool holds(Bound bound, const double* values, std::size_t count);
 /// `finite`, `at least 0`, `greater than 0`.
 std::string_view textOf(Bound bound);

@@ -14,16 +14,16 @@ class BufferPool {
   /// Makes room for `bytes` in a buffer, from the pool where it has one that fits; the first `keep` bytes stay as they
   /// were.
   void reserve(Buffer& buffer, std::size_t bytes, std::size_t keep = 0);
-  /// A buffer of at least `bytes`, for a moment: it may be one that holds much more.
+  /// Lends a buffer of at least `bytes` for a short time; it may hold much more.
   Buffer lend(std::size_t bytes);
-  /// Leaves the buffer empty.
+  /// Takes back the memory of a buffer, which is then empty.
   void takeBack(Buffer& buffer);
-  /// Gives what is free back to the system.
+  /// Gives free memory back to the system.
   void release();
   /// A step begins: what lay free during the whole of the last one goes back to the system.
   void beginStep();
 
-  /// Times that the pool had not enough.
+  /// How often the pool did not have enough.
   std::size_t allocations() const { return allocations_; }
   /// Bytes that lie free, and that buffers hold which came from the pool.
   std::size_t free() const { return free_bytes_; }

@@ -102,7 +102,7 @@ class ParticleSet {
   void setOwned(int count);
   /// The cells of the patch in the row from `first` on have their particles now.
   void closeRow(const Index3& first);
-  /// As setOwned, where closeRow has been called for every row that has particles.
+  /// Like setOwned, after closeRow has been called for every row that has particles.
   void setOwnedOfClosedRows(int count) { owned_ = count; }
 
   /// The ghosts of `box` are the particles that another set has there, which stands `offset` places behind this one.
@@ -131,7 +131,7 @@ class ParticleSet {
     return row;
   }
 
-  /// Takes the particles out of the cells of a row, but for those of `kept`.
+  /// Removes the particles of the cells of a row, except those in `kept`.
   void empty(std::size_t row, const Span& kept);
   /// Notes ghosts from `first` up to `last` in a row of cells.
   void widen(std::size_t row, const Span& cells, const ParticleRange& places);

@@ -17,13 +17,13 @@ namespace tushar::data {
 class Reason {
  public:
   constexpr Reason() = default;
-  /// Of a literal of at most 31 letters.
+  /// Takes a literal of at most 31 letters.
   template <std::size_t N>
   constexpr Reason(const char (&words)[N]) {
     static_assert(N <= std::tuple_size_v<decltype(letters_)>, "a reason has at most 31 letters");
     for (std::size_t k = 0; k < N; ++k) letters_[k] = words[k];
   }
-  /// Of any text; what is beyond 31 letters is cut off.
+  /// Takes any text, cut off after 31 letters.
   static Reason of(std::string_view words) {
     Reason reason;
     words.copy(reason.letters_.data(), reason.letters_.size() - 1);

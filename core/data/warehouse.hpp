@@ -32,12 +32,12 @@ class VariableTable {
  public:
   /// The number of a variable, given on first use.
   int number(const Label& label, int material);
-  /// The number, or -1 where no task ever named the variable.
+  /// The number, or -1 if no task has named the variable.
   int find(std::string_view name, int material) const;
   const VariableName& operator[](int number) const { return names_[number]; }
   int size() const { return static_cast<int>(names_.size()); }
 
-  /// Some task reads the variable `ghost` cells or nodes beyond its patch.
+  /// Notes that a task reads the variable `ghost` cells or nodes beyond its patch.
   void widen(int number, int ghost);
   /// How far beyond its patch a variable is ever read.
   int ghost(int number) const { return ghosts_[number]; }
@@ -96,7 +96,7 @@ class Warehouse {
   R& reduction(int number) {
     return static_cast<TypedReduction<R>&>(slot(number)).reducer;
   }
-  /// What a patch adds to a reduction.
+  /// The part that a patch adds to a reduction.
   template <class R>
   R& partOfReduction(int number, int patch) {
     return static_cast<TypedReduction<R>&>(slot(number)).part(patch - level_->firstPatch());
@@ -108,7 +108,7 @@ class Warehouse {
   std::vector<double> reductionValues(int number) const;
   /// The reducer as it lies in memory; nothing if no task has computed it.
   std::span<const std::byte> reductionBytes(int number) const;
-  /// Gives a reduction the bytes that it had in another run.
+  /// Restores the bytes that a reduction had in another run.
   void restoreReduction(int number, std::vector<std::byte> bytes);
 
   /// Makes room for all variables named so far, and for the particle sets of `materials` materials.
@@ -140,7 +140,7 @@ class Warehouse {
   /// Room for all copies of ghosts that have a place; what stands in the memory stays.
   void reserveCopies(Generation generation, int number, Generation set);
 
-  /// Memory for a moment, which goes back by takeBack.
+  /// Lends memory for a short time; give it back with takeBack.
   Buffer lend(std::size_t bytes) { return pool_.lend(bytes); }
   void takeBack(Buffer& buffer) { pool_.takeBack(buffer); }
   /// Gives memory that no variable has back to the system.
@@ -148,7 +148,7 @@ class Warehouse {
   /// A step begins, of all its graphs: memory that the last one never needed goes back to the system.
   void beginStep();
 
-  /// Whether any rank has values of a variable; every rank asks.
+  /// Whether any rank has values of a variable. Collective.
   bool isHeld(Generation generation, int number);
 
   /// What was computed becomes old, and the memory of what was old is free, on every patch.

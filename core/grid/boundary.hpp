@@ -54,7 +54,7 @@ struct BoundaryValue {
   T value;  ///< the unit is the variable's, per metre for Neumann
 
   bool isDirichlet() const { return kind == BoundaryKind::dirichlet; }
-  /// Of the condition as the scene gives it.
+  /// Takes a condition as the scene gives it.
   static BoundaryValue of(const BoundaryCondition& condition) {
     if constexpr (std::is_same_v<T, double>)
       return {condition.kind, condition.value[0]};

@@ -7,7 +7,7 @@
 
 namespace tushar::grid {
 
-/// Who works on a grid.
+/// The ranks and threads that work on a grid.
 struct Workers {
   int threads = 1;          ///< of each rank
   bool mayBeFewer = false;  ///< whether only as many threads are wanted as are worth having

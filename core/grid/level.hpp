@@ -50,7 +50,7 @@ class Level {
 
   /// Every cell of the grid; lower is always 0.
   const Box& cells() const { return cells_; }
-  /// Every node, those beyond the sides of the grid among them.
+  /// Every node, including those beyond the sides of the grid.
   Box nodes() const;
   /// The nodes of the cells of the grid.
   Box nodesOfCells() const { return cells_.nodes(dimension()); }
@@ -65,7 +65,7 @@ class Level {
   Patch patch(int id) const { return {*this, id, curve_->cellsAt(curve_->blockAt(id))}; }
   /// The number of the first patch of this rank.
   int firstPatch() const { return first_patch_; }
-  /// Whether a patch is of this rank.
+  /// Whether this rank has a patch.
   bool isMine(int patch) const {
     return patch >= first_patch_ && patch < first_patch_ + static_cast<int>(patches_.size());
   }

@@ -17,7 +17,7 @@ class Partition {
  public:
   /// Shares of as many cells as whole patches allow. Nothing is kept for each rank. Rank 0 has a patch always.
   Partition(const MortonCurve& curve, int ranks) : curve_(&curve), ranks_(ranks) {}
-  /// Shares as they are given, which are kept.
+  /// Keeps the shares that are given.
   Partition(const MortonCurve& curve, RankOffsets offsets)
       : curve_(&curve), ranks_(static_cast<int>(offsets.size()) - 1), offsets_(std::move(offsets)) {}
 

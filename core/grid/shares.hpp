@@ -7,11 +7,11 @@ namespace tushar::grid {
 /// Which patches go to which rank: rank r has those from `offsets[r]` to `offsets[r + 1]`.
 using RankOffsets = std::vector<int>;
 
-/// Of all ways to give `ranks` ranks consecutive patches, one with the least sum of `costs` on the rank that has most.
-/// Rank 0 always has a patch.
+/// Gives consecutive patches to `ranks` ranks so that the busiest rank has as little of the `costs` as possible. Rank 0
+/// always has a patch.
 RankOffsets evenShares(const std::vector<double>& costs, int ranks);
 
-/// The sum of costs on the rank that has most.
+/// The sum of costs on the busiest rank.
 double greatestShare(const std::vector<double>& costs, const RankOffsets& offsets);
 
 }  // namespace tushar::grid

@@ -15,16 +15,16 @@ Constraint lessThan(double limit) {
 }
 
 Constraint atLeast(double limit) {
-  return {[limit](double value) { return value >= limit; }, fmt::format("of at least {}", limit)};
+  return {[limit](double value) { return value >= limit; }, fmt::format("at least {}", limit)};
 }
 
 Constraint atMost(double limit) {
-  return {[limit](double value) { return value <= limit; }, fmt::format("of at most {}", limit)};
+  return {[limit](double value) { return value <= limit; }, fmt::format("at most {}", limit)};
 }
 
 Constraint between(double least, double most) {
   return {[=](double value) { return least <= value && value <= most; },
-          least == most ? fmt::format("of {} only", most) : fmt::format("from {} to {}", least, most)};
+          least == most ? fmt::format("{} only", most) : fmt::format("from {} to {}", least, most)};
 }
 
 bool satisfies(double value, const Constraint& constraint) { return constraint.holds(value); }
@@ -55,7 +55,9 @@ bool satisfies(const VectorExpression& value, const Constraint& constraint) {
 
 std::string violation(const std::string& found, const Constraint& constraint, const std::string& unit) {
   const bool hasUnit = !unit.empty() && unit != "1";
-  return fmt::format("found '{}', expected a value {}{}", found, constraint.allowed, hasUnit ? " " + unit : "");
+  const bool isNoun = constraint.allowed.starts_with("at ") || constraint.allowed.ends_with(" only");
+  return fmt::format("found '{}', expected a value {}{}{}", found, isNoun ? "of " : "", constraint.allowed,
+                     hasUnit ? " " + unit : "");
 }
 
 std::string violation(const std::string& found, const WithoutTime&, const std::string&) {

@@ -9,10 +9,10 @@
 
 namespace tushar::input {
 
-/// What a number must satisfy, and how that is said.
+/// A condition on a number, and the words for it.
 struct Constraint {
   std::function<bool(double)> holds;
-  std::string allowed;  ///< follows "a value": `greater than 0`, `of at least 1`, `from 0 to 1`
+  std::string allowed;  ///< `greater than 0`, `at least 1`, `from 0 to 1`
 };
 
 Constraint greaterThan(double limit);

@@ -58,7 +58,8 @@ std::string resolved(const std::string& path, const std::string& scene) {
 /// Whether the text of a tag is the path of a file: it must lead there from the archive's copy of the scene, too.
 bool isPath(const pugi::xml_node& xml) {
   const std::string_view name = xml.name(), parent = xml.parent().name();
-  return name == "file" || (parent == "contact" && name == "filename") || (parent == "tri" && name == "name");
+  return name == "file" || name == "PrescribedDeformationFile" || (parent == "contact" && name == "filename") ||
+         ((parent == "tri" || parent == "line_segment") && name == "name");
 }
 
 std::unique_ptr<Node> TreeBuilder::makeTag(const XmlFile& file, const pugi::xml_node& xml) {

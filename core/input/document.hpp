@@ -14,13 +14,13 @@ namespace tushar::input {
 ///
 /// `<include href="other.xml" section="A/B"/>` is replaced by that section of the other file, its tag included (by what
 /// is below the root where no section is given; by what is below the tag with `excludeSectionTag="true"`). `href` is
-/// relative to the including file, and so is what a tag `<file>` names: its text becomes an absolute path, so that the
-/// scene as text() gives it finds the file from any folder.
+/// relative to the including file, and so is what a tag such as `<file>` names: its text becomes an absolute path, so
+/// that the scene as text() gives it finds the file from any folder.
 class Document {
  public:
   /// Reads a file. Whatever is wrong with it goes to `diagnostics`; the document then has a bare root.
   static Document load(const std::string& path, Diagnostics& diagnostics);
-  /// Reads a scene from memory; positions and included files are told as if it were the file `name`.
+  /// Reads a scene from memory; messages and included files treat it as the file `name`.
   static Document parse(std::string_view text, const std::string& name, Diagnostics& diagnostics);
 
   /// Overrides one value, `Grid/Level/Box/resolution=[200,1,1]`. `Tag[2]` picks the second of several siblings,

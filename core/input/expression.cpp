@@ -80,6 +80,7 @@ Expression::Expression(const Expression& other)
       value_(other.value_),
       constant_(other.constant_),
       dependsOnTime_(other.dependsOnTime_),
+      where_(other.where_),
       program_(constant_ ? nullptr : std::make_unique<Program>(text_)) {}
 Expression::Expression(Expression&& other) noexcept = default;
 Expression::~Expression() = default;
@@ -89,6 +90,7 @@ Expression& Expression::operator=(Expression other) noexcept {
   value_ = other.value_;
   constant_ = other.constant_;
   dependsOnTime_ = other.dependsOnTime_;
+  where_ = std::move(other.where_);
   program_ = std::move(other.program_);
   return *this;
 }
@@ -153,6 +155,10 @@ bool VectorExpression::isConstant() const {
 
 bool VectorExpression::dependsOnTime() const {
   return std::any_of(components_.begin(), components_.end(), [](const Expression& c) { return c.dependsOnTime(); });
+}
+
+void VectorExpression::readAt(const Location& where) {
+  for (Expression& component : components_) component.readAt(where);
 }
 
 std::string VectorExpression::text() const {

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/base/error.hpp"
 #include "core/base/vec.hpp"
 #include "core/input/parsed.hpp"
 
@@ -33,6 +34,9 @@ class Expression {
   bool dependsOnTime() const { return dependsOnTime_; }
   /// As it was written.
   const std::string& text() const { return text_; }
+  /// The tag that it was read from, or the option that overrides it.
+  const Location& where() const { return where_; }
+  void readAt(const Location& where) { where_ = where; }
 
  private:
   struct Program;
@@ -42,6 +46,7 @@ class Expression {
   double value_ = 0;
   bool constant_ = true;
   bool dependsOnTime_ = false;
+  Location where_;
   std::unique_ptr<Program> program_;  ///< none of a constant
 };
 
@@ -61,6 +66,9 @@ class VectorExpression {
   /// `axis` is 0, 1 or 2.
   const Expression& operator[](int axis) const { return components_[axis]; }
   std::string text() const;
+  /// The tag that it was read from, or the option that overrides it.
+  const Location& where() const { return components_[0].where(); }
+  void readAt(const Location& where);
 
  private:
   std::array<Expression, 3> components_;

@@ -8,7 +8,9 @@
 #include <optional>
 
 #include "core/input/geometry/combined.hpp"
+#include "core/input/geometry/planes.hpp"
 #include "core/input/geometry/shapes.hpp"
+#include "core/input/geometry/smooth_cylinder.hpp"
 #include "core/input/geometry/surface.hpp"
 #include "core/input/schema.hpp"
 #include "core/input/text.hpp"
@@ -59,7 +61,7 @@ void readOperands(Operands& operands, const Element& parent, Diagnostics& diagno
   for (const Element& shape : shapesIn(parent)) operands.pieces.push_back(readShape(shape, diagnostics));
 }
 
-/// Of a tag with exactly two shapes, or with at least one.
+/// The schema of a tag with exactly two shapes, or with at least one.
 Schema<Operands> operandsSchema(const std::string& name, const std::string& sentence, bool exactlyTwo) {
   const auto checkCount = [exactlyTwo](const Operands& operands, const Element& element, Diagnostics& diagnostics) {
     const std::size_t count = operands.pieces.size();
@@ -100,28 +102,46 @@ Kind nothing() {
   return {"null", read, [](std::ostream& out, int indent) { schema.describe(out, indent); }, &schema};
 }
 
-/// `tri`: the file of a surface.
-struct SurfaceTag {
+/// A shape that stands in a file.
+struct FileTag {
   std::string file;
 };
 
-Kind surface() {
-  static const Schema<SurfaceTag> schema =
-      Schema<SurfaceTag>("tri", "What lies within a closed surface of triangles.")
+/// `load(path, tag, diagnostics)` makes the shape, or says what is wrong at the tag.
+Kind fromFile(const std::string& name, const std::string& sentence, const std::string& whatFile,
+              const std::function<PiecePtr(const std::string&, const Element&, Diagnostics&)>& load) {
+  const auto schema = std::make_shared<const Schema<FileTag>>(
+      Schema<FileTag>(name, sentence)
           .foreignAttribute("label", "an empty tag with this label, further down, stands for this shape")
-          .required(
-              "name", &SurfaceTag::file, "m",
-              "a file beside the scene: STL (text or binary) if it ends in .stl, else what NAME.pts, a point `x y z` a "
-              "line, and NAME.tri, three numbers of points (from 0) a line, hold together");
-  const auto read = [](const Element& element, Diagnostics& diagnostics) -> PiecePtr {
+          .required("name", &FileTag::file, "m", whatFile));
+  const auto read = [schema, load](const Element& element, Diagnostics& diagnostics) -> PiecePtr {
     const std::size_t before = diagnostics.size();
-    const SurfaceTag tag = schema.read(element, diagnostics);
+    const FileTag tag = schema->read(element, diagnostics);
     if (diagnostics.size() != before) return nullptr;
     const auto path = std::filesystem::path(element.where().file).parent_path() / tag.file;
-    Triangles triangles = readTriangles(path.string(), *element.child("name"), diagnostics);
-    return triangles.empty() ? nullptr : std::make_shared<Surface>(std::move(triangles));
+    return load(path.string(), *element.child("name"), diagnostics);
   };
-  return {"tri", read, [](std::ostream& out, int indent) { schema.describe(out, indent); }, &schema};
+  return {name, read, [schema](std::ostream& out, int indent) { schema->describe(out, indent); }, schema.get()};
+}
+
+Kind surface() {
+  return fromFile(
+      "tri", "What lies within a closed surface of triangles.",
+      "a file beside the scene: STL (text or binary) if it ends in .stl, else what NAME.pts, a point `x y z` a line, "
+      "and NAME.tri, three numbers of points (from 0) a line, hold together",
+      [](const std::string& path, const Element& tag, Diagnostics& diagnostics) -> PiecePtr {
+        Triangles triangles = readTriangles(path, tag, diagnostics);
+        return triangles.empty() ? nullptr : std::make_shared<Surface>(std::move(triangles));
+      });
+}
+
+Kind polygon() {
+  return fromFile("line_segment", "A polygon in the plane z = 0, within 1e-5 m of it.",
+                  "a file beside the scene: a corner `x y` a line, one after the other around it",
+                  [](const std::string& path, const Element& tag, Diagnostics& diagnostics) -> PiecePtr {
+                    std::vector<Vec3> corners = readPolygon(path, tag, diagnostics);
+                    return corners.empty() ? nullptr : std::make_shared<Polygon>(std::move(corners));
+                  });
 }
 
 const std::vector<Kind>& kinds() {
@@ -135,6 +155,9 @@ const std::vector<Kind>& kinds() {
       simple<Torus>(),
       nothing(),
       surface(),
+      polygon(),
+      simple<Polyhedron>(),
+      simple<SmoothCylinder>(),
       combined(operandsSchema("union", "What is in any of its shapes.", false),
                [](std::vector<PiecePtr> pieces) { return std::make_shared<Union>(std::move(pieces)); }),
       combined(operandsSchema("difference", "What is in its first shape but not in its second.", true),
@@ -182,38 +205,43 @@ std::vector<Element> labelledAbove(const Element& shape) {
   return found;
 }
 
-std::optional<Element> definition(const std::string& label, const std::vector<Element>& labelled) {
-  for (const Element& shape : labelled) {
-    if (labelOf(shape) == label) return shape;
-  }
-  return std::nullopt;
+std::vector<Element> definitions(const std::string& label, const std::vector<Element>& labelled) {
+  std::vector<Element> found;
+  for (const Element& shape : labelled)
+    if (labelOf(shape) == label) found.push_back(shape);
+  return found;
 }
 
 PiecePtr readReference(const Element& reference, const std::string& label, Diagnostics& diagnostics) {
   const std::vector<Element> labelled = labelledAbove(reference);
-  const auto original = definition(label, labelled);
-  if (!original) {
+  const std::vector<Element> originals = definitions(label, labelled);
+  if (originals.empty()) {
     std::vector<std::string> labels;
     for (const Element& shape : labelled) labels.push_back(*labelOf(shape));
     diagnostics.error(reference,
                       fmt::format("there is no shape labelled '{}' above{}", label, didYouMean(label, labels)));
     return nullptr;
   }
-  if (original->name() != reference.name()) {
-    diagnostics.error(reference, fmt::format("'{}' is the <{}> at {}, not a <{}>", label, original->name(),
-                                             original->where().text(), reference.name()));
+  const Element& original = originals.front();
+  if (originals.size() > 1) {
+    diagnostics.error(reference, fmt::format("'{}' is the label of the shapes at {} and at {}: which one is meant?",
+                                             label, original.where().text(), originals[1].where().text()));
+    return nullptr;
+  }
+  if (original.name() != reference.name()) {
+    diagnostics.error(reference, fmt::format("'{}' is the <{}> at {}, not a <{}>", label, original.name(),
+                                             original.where().text(), reference.name()));
     return nullptr;
   }
   Diagnostics toldAlready;
-  return findKind(original->name())->read(*original, toldAlready);
+  return findKind(original.name())->read(original, toldAlready);
 }
 
-void checkLabelIsNew(const Element& shape, const std::string& label, Diagnostics& diagnostics) {
-  const auto first = definition(label, labelledAbove(shape));
-  if (!first) return;
-  diagnostics.error(shape, fmt::format("the label '{}' is that of the <{}> at {} already; to use that one again, leave "
-                                       "this tag empty",
-                                       label, first->name(), first->where().text()));
+void noteIfTaken(const Element& shape, const std::string& label, Diagnostics& diagnostics) {
+  const std::vector<Element> others = definitions(label, labelledAbove(shape));
+  if (others.empty()) return;
+  diagnostics.note(shape, fmt::format("the label '{}' is that of the <{}> at {}, too: no tag can refer to it", label,
+                                      others.front().name(), others.front().where().text()));
 }
 
 /// An empty tag that stands for a shape further up.
@@ -243,8 +271,8 @@ std::vector<TagForm> geometryForms() {
 }
 
 std::vector<std::string> geometryNames() {
-  return {"box",   "cylinder", "sphere", "cone",  "ellipsoid",  "parallelepiped",
-          "torus", "null",     "tri",    "union", "difference", "intersection"};
+  return {"box", "cylinder",     "sphere",     "cone",      "ellipsoid", "parallelepiped", "torus",       "null",
+          "tri", "line_segment", "polyhedron", "smoothcyl", "union",     "difference",     "intersection"};
 }
 
 PiecePtr readShape(const Element& shape, Diagnostics& diagnostics) {
@@ -256,7 +284,7 @@ PiecePtr readShape(const Element& shape, Diagnostics& diagnostics) {
   }
   const auto label = labelOf(shape);
   if (label && isEmpty(shape)) return readReference(shape, *label, diagnostics);
-  if (label) checkLabelIsNew(shape, *label, diagnostics);
+  if (label) noteIfTaken(shape, *label, diagnostics);
   return kind->read(shape, diagnostics);
 }
 

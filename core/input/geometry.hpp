@@ -7,7 +7,7 @@
 #include "core/input/diagnostics.hpp"
 #include "core/input/element.hpp"
 #include "core/input/geometry/piece.hpp"
-#include "core/input/tag_form.hpp"
+#include "core/input/schema.hpp"
 
 namespace tushar::input {
 
@@ -28,5 +28,17 @@ PiecePtr readShape(const Element& shape, Diagnostics& diagnostics);
 
 /// The manual of all shapes, indented by that many blanks.
 void describeGeometry(std::ostream& out, int indent = 0);
+
+/// Adds the tags of shapes to the schema of a body: `shape` becomes their union, and `where` the place of the body.
+/// `sentence` says what the shape is for.
+template <class S>
+Schema<S>& addShape(Schema<S>& body, Location S::*where, PiecePtr S::*shape, const std::string& sentence) {
+  const auto read = [shape](S& object, const Element& element, Diagnostics& diagnostics) {
+    object.*shape = readGeometry(element, diagnostics);
+  };
+  return body.location(where)
+      .custom("shape", read, geometryNames(), sentence, describeGeometry)
+      .forms(geometryForms(), 1);
+}
 
 }  // namespace tushar::input

@@ -7,10 +7,10 @@
 
 namespace tushar::input {
 
-/// Tags may stand in each other this deep.
+/// The greatest depth to which tags may be nested.
 inline constexpr std::size_t mostNested = 100;
 
-/// The first place of an XML text where its tags do not stand in each other as they must.
+/// The first place of an XML text at which its tags are not properly nested.
 struct BadNesting {
   std::ptrdiff_t where;            ///< byte of the text
   std::string closed;              ///< name of the tag that is closed there; empty at the end of the text

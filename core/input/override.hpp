@@ -25,10 +25,11 @@ struct Override {
   std::string value;
 };
 
-/// Reads `PATH=VALUE`; none, and a sentence in `diagnostics`, where it has no such form.
+/// Reads `PATH=VALUE`; nothing, and a sentence in `diagnostics`, if the text has another form.
 std::optional<Override> parseOverride(std::string_view text, const Location& where, Diagnostics& diagnostics);
 
-/// Sets the value below `root`, creating missing tags; they and the tag set are from then on at `where`.
+/// Sets the value below `root`, creating missing tags. The new tags, and the tag or attribute that is set, are from
+/// then on at `where`.
 void apply(const Override& change, Node& root, const Location& where, Diagnostics& diagnostics);
 
 }  // namespace tushar::input

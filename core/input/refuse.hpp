@@ -87,7 +87,9 @@ void refuseTypes(input::Schema<S>& schema, const std::string& tag, const std::ve
         if (!problem.empty()) diagnostics.error(*given, "attribute 'type': " + problem);
       },
       {tag}, sentence);
-  schema.forms({anyForm({tag}, {{"type", available}})});
+  TagForm form = anyForm({tag}, {{"type", available}});
+  form.repeats = false;
+  schema.forms({std::move(form)});
 }
 
 /// Words of Uintah's that are missing here, and what there is instead.

@@ -8,6 +8,7 @@
 #include <map>
 #include <pugixml.hpp>
 
+#include "core/input/schema_file.hpp"
 #include "core/input/value_types.hpp"
 
 namespace tushar::input {
@@ -23,12 +24,6 @@ constexpr const char* include = "include";
 
 void document(xml_node parent, const std::string& text) {
   if (!text.empty()) parent.append_child("a:documentation").text() = text.c_str();
-}
-
-xml_node named(xml_node parent, const char* kind, const std::string& name) {
-  xml_node child = parent.append_child(kind);
-  child.append_attribute("name") = name.c_str();
-  return child;
 }
 
 void refer(xml_node parent, const std::string& name) { named(parent, "ref", name); }
@@ -270,16 +265,12 @@ class Grammar {
 
 void writeRelaxNg(std::ostream& out, const TagForm& root, const std::string& comment) {
   pugi::xml_document file;
-  xml_node declaration = file.append_child(pugi::node_declaration);
-  declaration.append_attribute("version") = "1.0";
-  declaration.append_attribute("encoding") = "UTF-8";
-  file.append_child(pugi::node_comment).set_value(comment.c_str());
-  xml_node grammar = file.append_child("grammar");
+  xml_node grammar = startFile(file, "grammar", comment);
   grammar.append_attribute("xmlns") = "http://relaxng.org/ns/structure/1.0";
   grammar.append_attribute("xmlns:a") = "http://relaxng.org/ns/compatibility/annotations/1.0";
   grammar.append_attribute("datatypeLibrary") = "http://www.w3.org/2001/XMLSchema-datatypes";
   Grammar(grammar).write(root);
-  file.save(out, " ", pugi::format_default, pugi::encoding_utf8);
+  writeFile(file, out);
 }
 
 }  // namespace tushar::input

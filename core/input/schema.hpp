@@ -21,6 +21,12 @@ namespace tushar::input {
 template <class E>
 using Choices = std::vector<std::pair<std::string, E>>;
 
+/// The pointer to a member of a base of S, as a member of S.
+template <class S, class T, class Base>
+T S::*memberOf(T Base::*member) {
+  return member;
+}
+
 /// How one tag is read into a structure S: each tag and attribute that it may have is declared once, with its type,
 /// default, unit, limits and a sentence. Reading, the messages and the manual all come from these declarations.
 ///
@@ -32,14 +38,14 @@ class Schema : public SchemaBase {
   /// `name` is the tag's; `sentence` says what it is for.
   Schema(std::string name, std::string sentence) : SchemaBase(std::move(name), std::move(sentence)) {}
 
-  /// Reads the tag; every problem goes to `diagnostics`, and what it concerns keeps its default.
+  /// Reads the tag; every problem goes to `diagnostics`, and the member concerned keeps its default.
   S read(const Element& element, Diagnostics& diagnostics) const {
     S object{};
     readInto(&object, element, diagnostics);
     return object;
   }
 
-  /// What an empty tag means.
+  /// The settings of an empty tag.
   S defaults() const {
     S object{};
     setDefaults(&object);
@@ -76,12 +82,12 @@ class Schema : public SchemaBase {
     return put(std::move(entry));
   }
 
-  /// A tag that says yes by standing there; with a text, that is true or false.
+  /// A flag: an empty tag means true; otherwise its text is true or false.
   Schema& flag(std::string name, bool S::*member, std::string sentence) {
     SchemaEntry entry = valueEntry<bool>(member, name, "1", sentence);
     entry.type = "empty, true or false";
-    entry.assign = [read = entry.assign](void* object, const std::string& text) {
-      return read(object, text.empty() ? "true" : text);
+    entry.assign = [read = entry.assign](void* object, const std::string& text, const Location& where) {
+      return read(object, text.empty() ? "true" : text, where);
     };
     return put(withDefault(std::move(entry), member, false));
   }
@@ -220,6 +226,17 @@ class Schema : public SchemaBase {
     return *this;
   }
 
+  /// Adds, to the message about a word that the last choice lacks, where that word is available.
+  Schema& elsewhere(const std::string& word, const std::string& sentence) {
+    explainWordOfLast(word, sentence);
+    return *this;
+  }
+
+  /// Marks all declarations that follow as tags that Uintah does not have.
+  Schema& allOurs() {
+    markAllOurs();
+    return *this;
+  }
   /// Marks the last declaration as one that Uintah does not have.
   Schema& ours() {
     markLastOurs();
@@ -276,14 +293,16 @@ class Schema : public SchemaBase {
     entry.type = typeName<T>;
     entry.unit = unit;
     ((entry.limits += (entry.limits.empty() ? "" : " and ") + constraints.allowed), ...);
-    entry.assign = [=](void* object, const std::string& text) -> std::string {
+    entry.assign = [=](void* object, const std::string& text, const Location& where) -> std::string {
       Parsed<T> parsed = parse<T>(text);
       if (!parsed) return parsed.problem;
       std::string problem;
       ((problem.empty() && !satisfies(*parsed, constraints) ? void(problem = violation(text, constraints, unit))
                                                             : void()),
        ...);
-      if (problem.empty()) store(member, object, *std::move(parsed.value));
+      if (!problem.empty()) return problem;
+      if constexpr (requires { parsed.value->readAt(where); }) parsed.value->readAt(where);
+      store(member, object, *std::move(parsed.value));
       return problem;
     };
     return entry;
@@ -301,7 +320,7 @@ class Schema : public SchemaBase {
                                  const std::string& sentence) {
     SchemaEntry entry = named(name, sentence);
     for (const auto& [word, meaning] : choices) entry.choices.push_back(word);
-    entry.assign = [member, choices, words = entry.choices](void* object, const std::string& text) {
+    entry.assign = [member, choices, words = entry.choices](void* object, const std::string& text, const Location&) {
       const std::string problem = choiceProblem(text, words);
       if (!problem.empty()) return problem;
       const auto found = std::find(words.begin(), words.end(), text) - words.begin();

@@ -32,17 +32,18 @@ void reportAttribute(const Element& element, const Attribute& attribute, std::st
   diagnostics.error(attribute.where, element.path(), std::move(sentence));
 }
 
+void refuseTags(const Element& element, Diagnostics& diagnostics) {
+  for (const Element& child : element.children())
+    diagnostics.error(child,
+                      fmt::format("tag <{}> in <{}>, where only a value is allowed", child.name(), element.name()));
+}
+
 /// A tag that holds one value has neither attributes nor tags.
 void readValue(const SchemaEntry& entry, void* object, const Element& element, Diagnostics& diagnostics) {
-  for (const Attribute& attribute : element.attributes()) {
-    reportAttribute(element, attribute, unknownAttribute(element, attribute.name, {}), diagnostics);
-  }
-  const std::vector<Element> children = element.children();
-  for (const Element& child : children) {
-    diagnostics.error(child, fmt::format("tag <{}> in <{}>, where only a value is allowed", child.name(), entry.name));
-  }
-  if (!children.empty() && element.text().empty()) return;
-  const std::string problem = entry.assign(object, element.text());
+  refuseAttributes(element, {}, diagnostics);
+  refuseTags(element, diagnostics);
+  if (!element.children().empty() && element.text().empty()) return;
+  const std::string problem = entry.assign(object, element.text(), element.where());
   if (!problem.empty()) diagnostics.error(element, problem);
 }
 
@@ -89,9 +90,24 @@ void readAttribute(const SchemaEntry& entry, void* object, const Element& elemen
     diagnostics.error(element,
                       fmt::format("missing attribute '{}' of <{}> ({})", entry.name, element.name(), entry.sentence));
   } else if (entry.form == Form::value) {
-    const std::string problem = entry.assign(object, found->value);
+    const std::string problem = entry.assign(object, found->value, found->where);
     if (!problem.empty()) {
       reportAttribute(element, *found, fmt::format("attribute '{}': {}", entry.name, problem), diagnostics);
+    }
+  }
+}
+
+/// Reports what a function that reads tags by hand does not look at: attributes, tags in values, second tags.
+void checkForm(const TagForm& form, const Element& element, Diagnostics& diagnostics) {
+  std::vector<std::string> demanded;
+  for (const Demand& demand : form.demands) demanded.push_back(demand.name);
+  const bool isValue = form.kind == TagForm::Kind::value;
+  for (const std::string& tag : form.tags) {
+    const std::vector<Element> found = element.children(tag);
+    for (std::size_t k = 1; k < found.size() && !form.repeats; ++k) reportTwice(found[0], found[k], diagnostics);
+    for (const Element& one : found) {
+      if (isValue || !demanded.empty()) refuseAttributes(one, demanded, diagnostics);
+      if (isValue) refuseTags(one, diagnostics);
     }
   }
 }
@@ -122,6 +138,18 @@ void describeEntry(const SchemaEntry& entry, std::ostream& out, int indent) {
 }
 
 }  // namespace
+
+void refuseAttributes(const Element& element, const std::vector<std::string>& allowed, Diagnostics& diagnostics) {
+  for (const Attribute& attribute : element.attributes())
+    if (!contains(allowed, attribute.name))
+      reportAttribute(element, attribute, unknownAttribute(element, attribute.name, allowed), diagnostics);
+}
+
+void refuseText(const Element& element, Diagnostics& diagnostics) {
+  if (!element.text().empty())
+    diagnostics.error(element,
+                      fmt::format("text '{}' in <{}>, where only tags are allowed", element.text(), element.name()));
+}
 
 std::string factsOf(const SchemaEntry& entry) {
   std::vector<std::string> facts;
@@ -166,12 +194,22 @@ void SchemaBase::describeContents(std::ostream& out, int indent) const {
 
 void SchemaBase::add(SchemaEntry entry) {
   if (entry.place == Place::tag && entry.takes.empty()) entry.takes = {entry.name};
+  entry.ours = entry.ours || all_ours_;
   entries_.push_back(std::move(entry));
 }
 
 void SchemaBase::markLastOurs() {
   assert(!entries_.empty());
   entries_.back().ours = true;
+}
+
+void SchemaBase::explainWordOfLast(const std::string& word, const std::string& sentence) {
+  assert(!entries_.empty() && !entries_.back().choices.empty());
+  entries_.back().assign = [word, sentence, assign = entries_.back().assign](void* object, const std::string& text,
+                                                                             const Location& where) {
+    const std::string problem = assign(object, text, where);
+    return problem.empty() || text != word ? problem : problem + ": " + sentence;
+  };
 }
 
 void SchemaBase::setFormsOfLast(std::vector<TagForm> forms, int atLeast) {
@@ -199,11 +237,7 @@ void SchemaBase::readInto(void* object, const Element& element, Diagnostics& dia
 }
 
 void SchemaBase::reportUnknown(const Element& element, Diagnostics& diagnostics) const {
-  const std::vector<std::string> attributes = attributeNames();
-  for (const Attribute& attribute : element.attributes()) {
-    if (contains(attributes, attribute.name)) continue;
-    reportAttribute(element, attribute, unknownAttribute(element, attribute.name, attributes), diagnostics);
-  }
+  refuseAttributes(element, attributeNames(), diagnostics);
   const std::vector<std::string> tags = tagNames();
   for (const Element& child : element.children()) {
     if (contains(tags, child.name())) continue;
@@ -222,6 +256,7 @@ void SchemaBase::readTags(void* object, const Element& element, Diagnostics& dia
   for (const SchemaEntry& entry : entries_) {
     if (entry.place != Place::tag || entry.form == Form::ignored) continue;
     if (entry.form == Form::custom) {
+      for (const TagForm& form : entry.forms) checkForm(form, element, diagnostics);
       entry.fill(object, element, diagnostics);
     } else {
       readTag(entry, object, element, diagnostics);
@@ -233,7 +268,7 @@ void SchemaBase::readText(void* object, const Element& element, Diagnostics& dia
   const auto isText = [](const SchemaEntry& entry) { return entry.place == Place::text; };
   const auto entry = std::find_if(entries_.begin(), entries_.end(), isText);
   if (entry != entries_.end()) {
-    const std::string problem = entry->assign(object, element.text());
+    const std::string problem = entry->assign(object, element.text(), element.where());
     if (!problem.empty()) diagnostics.error(element, problem);
   } else if (!element.text().empty()) {
     diagnostics.error(element, fmt::format("text '{}' in <{}>, where {} allowed", element.text(), element.name(),

@@ -34,8 +34,8 @@ struct SchemaEntry {
   const SchemaBase* nested = nullptr;  ///< what reads a nested tag
 
   std::function<void(void* object)> setDefault;
-  /// Reads a value; returns a sentence where it is wrong.
-  std::function<std::string(void* object, const std::string& text)> assign;
+  /// Reads a value that is given at `where`; returns a sentence where it is wrong.
+  std::function<std::string(void* object, const std::string& text, const Location& where)> assign;
   /// Reads a nested tag; for Form::custom, the parent.
   std::function<void(void* object, const Element& element, Diagnostics& diagnostics)> fill;
   /// The manual of what is below the tag.
@@ -47,6 +47,11 @@ std::string factsOf(const SchemaEntry& entry);
 
 /// Why `text` is none of `words`, or nothing.
 std::string choiceProblem(const std::string& text, const std::vector<std::string>& words);
+
+/// Reports the attributes of a tag that are not among `allowed`.
+void refuseAttributes(const Element& element, const std::vector<std::string>& allowed, Diagnostics& diagnostics);
+/// Reports the text of a tag that holds tags alone.
+void refuseText(const Element& element, Diagnostics& diagnostics);
 
 /// What a Schema does without knowing the structure that it fills.
 class SchemaBase {
@@ -73,6 +78,8 @@ class SchemaBase {
   void addCheck(Check check) { checks_.push_back(std::move(check)); }
   void addLocate(Locate locate) { locates_.push_back(std::move(locate)); }
   void markLastOurs();
+  void markAllOurs() { all_ours_ = true; }
+  void explainWordOfLast(const std::string& word, const std::string& sentence);
   /// What may stand in the tags of the last declaration, which a function reads; at least `atLeast` of them in all.
   void setFormsOfLast(std::vector<TagForm> forms, int atLeast);
   void setDefaults(void* object) const;
@@ -87,6 +94,7 @@ class SchemaBase {
   std::string name_;
   std::string sentence_;
   std::vector<SchemaEntry> entries_;
+  bool all_ours_ = false;  ///< from here on
   std::vector<Locate> locates_;
   std::vector<Check> checks_;
 };

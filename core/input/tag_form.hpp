@@ -24,26 +24,25 @@ struct Alternative {
 struct TagForm {
   enum class Kind { anything, nothing, value, section };
 
-  std::vector<std::string> tags;
+  std::vector<std::string> tags = {};
   Kind kind = Kind::anything;
-  std::string type;                  ///< of a value, as the manual calls it: see typeName
-  std::vector<std::string> choices;  ///< words for a value; compared as the type, if there is one
-  std::string pattern;               ///< a regular expression of XML Schema for a value, in place of the type
-  std::vector<Demand> demands;       ///< attributes of a tag whose contents may be anything
+  std::string type = {};                  ///< of a value, as the manual calls it: see typeName
+  std::vector<std::string> choices = {};  ///< words for a value; compared as the type, if there is one
+  std::string pattern = {};               ///< a regular expression of XML Schema for a value, in place of the type
+  std::vector<Demand> demands = {};       ///< attributes of a tag whose contents may be anything
   /// The schemas of a section; called when all schemas are complete.
-  std::function<std::vector<Alternative>()> alternatives;
+  std::function<std::vector<Alternative>()> alternatives = {};
   int atLeast = 0;      ///< how many of each tag must be given
   bool repeats = true;  ///< whether a tag may be given more than once
 };
 
-/// Tags with a value of a type.
+/// Tags with a value of a type, each given once at the most.
 inline TagForm typeForm(std::vector<std::string> tags, std::string type, int atLeast = 0) {
-  TagForm form;
-  form.tags = std::move(tags);
-  form.kind = TagForm::Kind::value;
-  form.type = std::move(type);
-  form.atLeast = atLeast;
-  return form;
+  return {.tags = std::move(tags),
+          .kind = TagForm::Kind::value,
+          .type = std::move(type),
+          .atLeast = atLeast,
+          .repeats = false};
 }
 
 /// Tags with one of some words.
@@ -62,28 +61,27 @@ inline TagForm patternForm(std::vector<std::string> tags, std::string pattern) {
 
 /// Tags that are never right.
 inline TagForm noForm(std::vector<std::string> tags) {
-  TagForm form;
-  form.tags = std::move(tags);
-  form.kind = TagForm::Kind::nothing;
-  return form;
+  return {.tags = std::move(tags), .kind = TagForm::Kind::nothing};
 }
 
 /// Tags whose contents are not looked at, but for the attributes of `demands`.
 inline TagForm anyForm(std::vector<std::string> tags, std::vector<Demand> demands = {}) {
-  TagForm form;
-  form.tags = std::move(tags);
-  form.demands = std::move(demands);
-  return form;
+  return {.tags = std::move(tags), .demands = std::move(demands)};
 }
 
 /// Tags that schemas read.
 inline TagForm sectionForm(std::vector<std::string> tags, std::function<std::vector<Alternative>()> alternatives,
                            int atLeast = 0) {
-  TagForm form;
-  form.tags = std::move(tags);
-  form.kind = TagForm::Kind::section;
-  form.alternatives = std::move(alternatives);
-  form.atLeast = atLeast;
+  return {.tags = std::move(tags),
+          .kind = TagForm::Kind::section,
+          .alternatives = std::move(alternatives),
+          .atLeast = atLeast};
+}
+
+/// A tag that schemas read, given once at the most.
+inline TagForm onceForm(std::string tag, std::function<std::vector<Alternative>()> alternatives, int atLeast = 0) {
+  TagForm form = sectionForm({std::move(tag)}, std::move(alternatives), atLeast);
+  form.repeats = false;
   return form;
 }
 

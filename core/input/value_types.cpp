@@ -15,7 +15,7 @@ constexpr const char* number = R"([+\-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+\-]?[
 
 std::string threeOf(const std::string& pattern) { return fmt::format(R"(\[ ?{0} ?, ?{0} ?, ?{0} ?\])", pattern); }
 
-std::string anyNumberOf(const std::string& pattern) { return fmt::format(R"(\[ ?({0}( ?, ?{0})*)? ?\])", pattern); }
+std::string anyNumberOf(const std::string& pattern) { return fmt::format(R"({0}|\[ ?({0}( ?, ?{0})*)? ?\])", pattern); }
 
 /// A number, or a text with something in it that no number has.
 std::string formula() { return fmt::format(R"({}|[^\[\]]*[^\[\]+\-.0-9eE][^\[\]]*)", number); }

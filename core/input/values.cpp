@@ -58,9 +58,12 @@ Parsed<std::vector<std::string>> parts(const std::string& text, std::string_view
   return Parsed<std::vector<std::string>>::ok(splitAtCommas(inside));
 }
 
+/// A number without brackets is a list of one, as in Uintah.
 template <class T>
 Parsed<std::vector<T>> parseList(std::string_view given, std::string_view what) {
   const std::string text = trimmed(given);
+  if constexpr (std::is_arithmetic_v<T>)
+    if (const Parsed<T> single = parse<T>(text)) return Parsed<std::vector<T>>::ok({*single});
   const auto pieces = parts(text, what);
   if (!pieces) return Parsed<std::vector<T>>::wrong(pieces.problem);
   std::vector<T> values;

@@ -57,7 +57,7 @@ void typedTag(input::Schema<S>& schema, const std::string& tag, Variant S::*memb
           diagnostics.error(element, "missing tag <" + tag + "> (" + sentence + ")");
       },
       {tag}, sentence, TypedTag<Variant>::describe);
-  schema.forms({sectionForm({tag}, TypedTag<Variant>::alternatives, isRequired ? 1 : 0)});
+  schema.forms({onceForm(tag, TypedTag<Variant>::alternatives, isRequired ? 1 : 0)});
 }
 
 }  // namespace tushar::input

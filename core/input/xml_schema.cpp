@@ -8,6 +8,7 @@
 #include <pugixml.hpp>
 #include <set>
 
+#include "core/input/schema_file.hpp"
 #include "core/input/value_types.hpp"
 
 namespace tushar::input {
@@ -18,13 +19,7 @@ using Place = SchemaEntry::Place;
 using Form = SchemaEntry::Form;
 using pugi::xml_node;
 
-xml_node named(xml_node parent, const char* kind, const std::string& name) {
-  xml_node child = parent.append_child(kind);
-  child.append_attribute("name") = name.c_str();
-  return child;
-}
-
-void document(xml_node parent, const std::string& text) {
+void annotate(xml_node parent, const std::string& text) {
   if (text.empty()) return;
   parent.append_child("xs:annotation").append_child("xs:documentation").text() = text.c_str();
 }
@@ -121,11 +116,11 @@ class Writer {
       }
     xml_node type = named(schema_, "xs:complexType", name);
     if (hasText) type.append_attribute("mixed") = "true";
-    document(type, sections.front().schema->sentence());
+    annotate(type, sections.front().schema->sentence());
     if (!tags.all.empty()) writeTags(type, tags);
     for (const auto& [attribute, uses] : attributes.all) {
       xml_node one = named(type, "xs:attribute", attribute);
-      document(one, uses.documentation);
+      annotate(one, uses.documentation);
       writeValue(one, uses);
     }
     if (isRoot) type.append_child("xs:anyAttribute").append_attribute("processContents") = "skip";
@@ -160,7 +155,7 @@ class Writer {
       xml_node element = named(choice, "xs:element", tag);
       const std::string name = typeOf(tag, uses);
       if (!name.empty()) element.append_attribute("type") = name.c_str();
-      document(element, uses.documentation);
+      annotate(element, uses.documentation);
       if (name.empty()) writeValue(element, uses);
     }
     xml_node other = named(choice, "xs:element", "include");
@@ -187,7 +182,7 @@ class Writer {
       restrict(named(schema_, "xs:simpleType", "value-" + type.name), "xs:token", "xs:pattern", {type.pattern});
     xml_node other = named(schema_, "xs:complexType", "include");
     other.append_attribute("mixed") = "true";
-    document(other, "Takes the place of tags of another file.");
+    annotate(other, "Takes the place of tags of another file.");
     for (const char* name : {"href", "section", "excludeSectionTag"})
       named(other, "xs:attribute", name).append_attribute("type") = "xs:string";
   }
@@ -202,14 +197,10 @@ class Writer {
 
 void writeXmlSchema(std::ostream& out, const TagForm& root, const std::string& comment) {
   pugi::xml_document file;
-  xml_node declaration = file.append_child(pugi::node_declaration);
-  declaration.append_attribute("version") = "1.0";
-  declaration.append_attribute("encoding") = "UTF-8";
-  file.append_child(pugi::node_comment).set_value(comment.c_str());
-  xml_node schema = file.append_child("xs:schema");
+  xml_node schema = startFile(file, "xs:schema", comment);
   schema.append_attribute("xmlns:xs") = "http://www.w3.org/2001/XMLSchema";
   Writer(schema).write(root);
-  file.save(out, " ", pugi::format_default, pugi::encoding_utf8);
+  writeFile(file, out);
 }
 
 }  // namespace tushar::input

@@ -19,7 +19,7 @@ double CheckedFormula::positiveAt(const Vec3& x) const {
 }
 
 void CheckedFormula::refuse(double value, const Vec3& x, const char* wanted) const {
-  throw InputError({{where, path,
+  throw InputError({{formula.where(), path,
                      fmt::format("it is {:g}{}{} at ({:g}, {:g}, {:g}), and must be {} everywhere", value,
                                  unit.empty() ? "" : " ", unit, x[0], x[1], x[2], wanted)}});
 }

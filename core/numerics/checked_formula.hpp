@@ -4,6 +4,8 @@
 
 #include "core/base/error.hpp"
 #include "core/base/vec.hpp"
+#include "core/data/views.hpp"
+#include "core/grid/level.hpp"
 #include "core/input/expression.hpp"
 
 namespace tushar::numerics {
@@ -11,16 +13,31 @@ namespace tushar::numerics {
 /// A formula of the scene whose values are checked where they are needed.
 struct CheckedFormula {
   const input::Expression& formula;
-  Location where;    ///< its section in the scene
-  std::string path;  ///< such as `Heat/temperature`
+  std::string path;  ///< its tag, such as `Heat/temperature`
   std::string unit;  ///< empty without dimension
 
   /// The value at a point [m]. Throws InputError where it is not finite.
   double finiteAt(const Vec3& x) const;
   /// Throws InputError where the value is not finite and greater than 0.
   double positiveAt(const Vec3& x) const;
+  /// Sets each cell of a patch to the value at its middle. Throws InputError where that is not finite.
+  template <int D>
+  void fill(const grid::Patch& patch, data::CellView<double> field) const {
+    atMiddles<D>(patch, [&](const Index<D>& cell, const Vec3& x) { field[cell] = finiteAt(x); });
+  }
+  /// Throws InputError where the value at the middle of a cell is not finite and greater than 0.
+  template <int D>
+  void requirePositive(const grid::Patch& patch) const {
+    atMiddles<D>(patch, [&](const Index<D>&, const Vec3& x) { positiveAt(x); });
+  }
 
  private:
+  template <int D, class Visit>
+  static void atMiddles(const grid::Patch& patch, Visit&& visit) {
+    const grid::Level& level = patch.level();
+    grid::forEach<D>(patch.cells(),
+                     [&](const Index<D>& cell) { visit(cell, level.expandPoint<D>(level.cellCentre<D>(cell))); });
+  }
   [[noreturn]] void refuse(double value, const Vec3& x, const char* wanted) const;
 };
 

@@ -38,10 +38,13 @@ struct ArchivePoint {
 ///     sod.uda.001/input.xml       the scene
 ///                 index.xml       variables, globals and times
 ///                 sod.xdmf        for ParaView
+///                 sod.vtkhdf, sod.gas.vtkhdf    the same for newer readers of VTK
 ///                 KineticEnergy.dat
 ///                 t00042.h5       /grid, /particles/<material>/<label>, /cells/…, /nodes/…, /reference/<column>
 ///
-/// Files other than `.dat` are put in place whole by a rename, so that a killed run leaves none of them torn.
+/// Files other than `.dat` are put in place whole by a rename, so that a killed run leaves none of them torn; lines of
+/// `.dat` files are with the system at once. index.xml and the XDMF file list all outputs, and may be behind by a
+/// second or a twentieth of the run's time, so that an output takes as long however many there are.
 class Archive {
  public:
   /// Makes the folder `filebase.NNN`, NNN one above the highest there is, and points the link `filebase` to it.
@@ -56,14 +59,17 @@ class Archive {
   Archive(const Archive&) = delete;
   Archive& operator=(const Archive&) = delete;
 
-  /// Writes an output, then the index, the XDMF file and the pending samples. A step that is written again replaces
-  /// what was there.
+  /// Writes an output. A step that is written again replaces what was there.
   void write(const Snapshot& snapshot);
-  /// Adds a line to `<name>.dat`. It is kept in memory until there are many, or write() or flush() is called.
+  /// Adds a line to `<name>.dat`.
   void appendGlobal(const GlobalSample& sample);
-  /// Writes what is kept in memory.
+  /// Writes index.xml and the XDMF file if they have been behind for long enough. To be called after each step.
+  void keepUp();
+  /// Writes them if they are behind at all.
   void flush();
-  /// Writes what is kept in memory, and waits until all is on the disk. Where the archive stands then.
+  /// Writes them, and waits until the lines of globals are on the disk. Where the archive stands then: this, kept in a
+  /// checkpoint, makes up for lists that a power cut takes. Outputs may go with it, but for those of the last seconds
+  /// only.
   ArchivePoint sync(int step, double time);
 
   /// The folder of this run, `sod.uda.001`.

@@ -22,13 +22,14 @@ std::string linesUpTo(const std::string& lines, double time) {
   return lines.substr(0, kept);
 }
 
-void removeOutputsAfter(const fs::path& folder, int step) {
-  std::vector<fs::path> later;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (const auto found = stepOf(entry.path().stem().string()); entry.path().extension() == ".h5" && found > step)
-      later.push_back(entry.path());
+void removeUnlisted(const fs::path& folder, const ArchiveIndex& index) {
+  std::vector<fs::path> unlisted;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const auto step = stepOf(entry.path().stem().string());
+    if (entry.path().extension() == ".h5" && step && !index.lists(*step)) unlisted.push_back(entry.path());
+  }
   std::error_code ignored;
-  for (const fs::path& output : later) fs::remove(output, ignored);
+  for (const fs::path& output : unlisted) fs::remove(output, ignored);
 }
 
 std::string xmlOr(const fs::path& file, const char* root, const std::string& otherwise) {

@@ -3,15 +3,25 @@
 #include <filesystem>
 #include <string>
 
+#include "core/output/archive_index.hpp"
+
 namespace tushar::output {
 
 /// The lines of a `.dat` file that belong to times up to `time` [s]; an unfinished last line is left out.
 std::string linesUpTo(const std::string& lines, double time);
 
-/// Removes the outputs of steps after `step` from an archive's folder.
-void removeOutputsAfter(const std::filesystem::path& folder, int step);
+/// Removes the outputs of an archive's folder that its index does not list.
+void removeUnlisted(const std::filesystem::path& folder, const ArchiveIndex& index);
 
 /// The text of an XML file whose outermost tag is `root`; `otherwise` where the file is missing or torn.
 std::string xmlOr(const std::filesystem::path& file, const char* root, const std::string& otherwise);
+
+/// What lists the outputs up to a step, from a file and from what a checkpoint has kept of it: the file may be torn,
+/// and behind where the power failed; the checkpoint has no output that was made after it at the same step.
+template <class List>
+std::string fuller(const std::filesystem::path& file, const std::string& kept, int step) {
+  const std::string found = xmlOr(file, List::rootName, kept);
+  return List::sizeOf(found, step) >= List::sizeOf(kept, step) ? found : kept;
+}
 
 }  // namespace tushar::output

@@ -57,9 +57,9 @@ void refuseToReplace(const fs::path& filebase) {
                                 filebase.string(), fs::is_directory(status) ? "folder" : "file"));
 }
 
-void writeText(const fs::path& file, const std::string& text, std::ios::openmode mode) {
+void writeText(const fs::path& file, const std::string& text) {
   errno = 0;
-  std::ofstream out(file, std::ios::binary | mode);
+  std::ofstream out(file, std::ios::binary | std::ios::trunc);
   if (!out) fail("write", file, lastError());
   out << text;
   out.close();
@@ -92,19 +92,40 @@ void pointLink(const fs::path& filebase, const fs::path& folder) {
 
 void replaceFile(const fs::path& file, const std::string& text) {
   const fs::path temporary = temporaryOf(file);
-  writeText(temporary, text, std::ios::trunc);
+  writeText(temporary, text);
   moveInto(temporary, file);
 }
 
 void replaceFileOnDisk(const fs::path& file, const std::string& text) {
   const fs::path temporary = temporaryOf(file);
-  writeText(temporary, text, std::ios::trunc);
+  writeText(temporary, text);
   syncToDisk(temporary);
   moveInto(temporary, file);
   syncToDisk(parentOf(file));
 }
 
-void appendToFile(const fs::path& file, const std::string& text) { writeText(file, text, std::ios::app); }
+AppendFile::AppendFile(fs::path file)
+    : path_(std::move(file)), descriptor_(::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666)) {
+  if (descriptor_ < 0) fail("write", path_, lastError());
+}
+
+AppendFile::~AppendFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void AppendFile::append(std::string_view text) {
+  while (!text.empty()) {
+    errno = 0;
+    const ssize_t done = ::write(descriptor_, text.data(), text.size());
+    if (done < 0 && errno == EINTR) continue;
+    if (done <= 0) fail("write", path_, lastError());
+    text.remove_prefix(static_cast<std::size_t>(done));
+  }
+}
+
+void AppendFile::sync() const {
+  if (::fsync(descriptor_) != 0) fail("write", path_, lastError());
+}
 
 void moveInto(const fs::path& temporary, const fs::path& file) {
   std::error_code error;

@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "core/output/snapshot.hpp"
 
@@ -21,8 +23,23 @@ void replaceFile(const std::filesystem::path& file, const std::string& text);
 /// The same, and on the disk when it returns.
 void replaceFileOnDisk(const std::filesystem::path& file, const std::string& text);
 
-/// Adds `text` to the end of the file. FileError if it cannot.
-void appendToFile(const std::filesystem::path& file, const std::string& text);
+/// A file that is open to be added to, without a buffer. Its functions throw FileError.
+class AppendFile {
+ public:
+  /// Opens the file, or makes it.
+  explicit AppendFile(std::filesystem::path file);
+  AppendFile(AppendFile&& other) noexcept
+      : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
+  ~AppendFile();
+  /// Adds text; a process that is killed afterwards has not lost it.
+  void append(std::string_view text);
+  /// Waits until all is on the disk.
+  void sync() const;
+
+ private:
+  std::filesystem::path path_;
+  int descriptor_;
+};
 
 /// Renames a finished temporary file to its name. FileError if it cannot.
 void moveInto(const std::filesystem::path& temporary, const std::filesystem::path& file);
@@ -30,10 +47,10 @@ void moveInto(const std::filesystem::path& temporary, const std::filesystem::pat
 /// Waits until a file, or the names in a folder, are on the disk. FileError if they cannot be.
 void syncToDisk(const std::filesystem::path& path);
 
-/// All of a file; none if it cannot be read.
+/// The contents of a file; nothing if it cannot be read.
 std::optional<std::string> textOf(const std::filesystem::path& file);
 
-/// Where a file is written before it has its name.
+/// The temporary path of a file, until it is renamed.
 std::filesystem::path temporaryOf(const std::filesystem::path& file);
 
 /// A name as part of a path, in the file system, in HDF5 or in XDMF: '/' and ':' become '_'.

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstring>
 #include <functional>
+#include <limits>
 #include <numeric>
 #include <system_error>
 #include <type_traits>
@@ -25,6 +27,11 @@ namespace {
 hid_t fileType(double, bool asFloat) { return asFloat ? H5T_IEEE_F32LE : H5T_IEEE_F64LE; }
 hid_t fileType(std::uint64_t, bool) { return H5T_STD_U64LE; }
 hid_t fileType(std::int32_t, bool) { return H5T_STD_I32LE; }
+
+hid_t fileTypeLike(const Array::Values& type) {
+  return std::visit([](const auto& all) { return fileType(typename std::decay_t<decltype(all)>::value_type{}, false); },
+                    type);
+}
 
 hsize_t volume(const std::vector<hsize_t>& extent) {
   return std::accumulate(extent.begin(), extent.end(), hsize_t{1}, std::multiplies<>());
@@ -70,8 +77,33 @@ Handle withoutTimes() {
   return {creation, H5Pclose};
 }
 
+template <class Extent>
+Handle spaceOf(const std::vector<Extent>& shape) {
+  const std::vector<hsize_t> extent(shape.begin(), shape.end());
+  return {H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose};
+}
+
 Handle vectorSpace(hsize_t size) { return {H5Screate_simple(1, &size, nullptr), H5Sclose}; }
 Handle scalarSpace() { return {H5Screate(H5S_SCALAR), H5Sclose}; }
+
+/// 0, 1, 2, …, made while it is written.
+class Sequence : public Source {
+ public:
+  explicit Sequence(std::size_t count) : count_(count) {}
+  std::size_t entries() const override { return count_; }
+  void read(std::size_t first, std::size_t count, std::byte* to) const override {
+    for (std::uint64_t k = first; k < first + count; ++k, to += sizeof(k)) std::memcpy(to, &k, sizeof(k));
+  }
+
+ private:
+  std::size_t count_;
+};
+
+/// The type of a dataset of the file.
+Handle typeIn(hid_t file, const std::string& dataset) {
+  const Handle data(H5Dopen2(file, dataset.c_str(), H5P_DEFAULT), H5Dclose);
+  return {H5Dget_type(data), H5Tclose};
+}
 
 }  // namespace
 
@@ -106,7 +138,7 @@ void Hdf5File::dataset(const std::string& name, const Array& array, std::vector<
   const Silence silence;
   std::vector<hsize_t> full(shape.begin(), shape.end());
   if (array.components > 1) full.push_back(static_cast<hsize_t>(array.components));
-  const Handle space(H5Screate_simple(static_cast<int>(full.size()), full.data(), nullptr), H5Sclose);
+  const Handle space = spaceOf(full);
   const Handle links = parentsMade();
   const Handle creation = withoutTimes();
   checked(setCompression(creation, full, compression_) ? 0 : -1, name + ", compressed, in");
@@ -160,6 +192,46 @@ void Hdf5File::text(const std::string& name, const std::string& value) {
   checked(H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, &characters), name + " in");
 }
 
+void Hdf5File::virtualDataset(const std::string& name, const Array::Values& type,
+                              const std::vector<std::uint64_t>& shape, const std::vector<VirtualPart>& parts) {
+  const Silence silence;
+  const Handle space = spaceOf(shape), links = parentsMade(), creation = withoutTimes();
+  for (const VirtualPart& part : parts) {
+    const std::vector<hsize_t> first(part.first.begin(), part.first.end()), none(part.source.size(), 0);
+    const std::vector<hsize_t> extent(part.extent.begin(), part.extent.end());
+    const Handle source = spaceOf(part.source);
+    const std::size_t leading = extent.size() - part.source.size();
+    H5Sselect_hyperslab(source, H5S_SELECT_SET, none.data(), nullptr, extent.data() + leading, nullptr);
+    H5Sselect_hyperslab(space, H5S_SELECT_SET, first.data(), nullptr, extent.data(), nullptr);
+    checked(H5Pset_virtual(creation, space, part.file.c_str(), part.dataset.c_str(), source), name + " in");
+  }
+  H5Sselect_all(space);
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  if (std::holds_alternative<std::vector<double>>(type)) H5Pset_fill_value(creation, H5T_NATIVE_DOUBLE, &nan);
+  const bool isOfThisFile = !parts.empty() && parts.front().file == ".";
+  const Handle kept =
+      isOfThisFile ? typeIn(file_, parts.front().dataset) : Handle(H5Tcopy(fileTypeLike(type)), H5Tclose);
+  const Handle data(H5Dcreate2(file_, name.c_str(), kept, space, links, creation, H5P_DEFAULT), H5Dclose);
+  checked<hid_t>(data, name + " in");
+}
+
+void Hdf5File::sequence(const std::string& name, std::uint64_t count) {
+  const Silence silence;
+  const Handle space = vectorSpace(count), links = parentsMade(), creation = withoutTimes();
+  const Handle data(H5Dcreate2(file_, name.c_str(), H5T_STD_I64LE, space, links, creation, H5P_DEFAULT), H5Dclose);
+  checked<hid_t>(data, name + " in");
+  const Array numbers{name, "", "", 1, std::vector<std::uint64_t>{}, std::make_shared<Sequence>(count)};
+  writePieces<std::uint64_t>(data, numbers, {count}, name);
+}
+
+void Hdf5File::equalBytes(const std::string& name, std::uint8_t value, std::uint64_t count) {
+  const Silence silence;
+  const Handle space = vectorSpace(count), links = parentsMade(), creation = withoutTimes();
+  H5Pset_fill_value(creation, H5T_NATIVE_UINT8, &value);
+  const Handle data(H5Dcreate2(file_, name.c_str(), H5T_STD_U8LE, space, links, creation, H5P_DEFAULT), H5Dclose);
+  checked<hid_t>(data, name + " in");
+}
+
 void Hdf5File::writeAttribute(const std::string& object, const char* name, Id space, Id type, const void* data) {
   const Silence silence;
   const Handle made(H5Acreate_by_name(file_, object.c_str(), name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
@@ -192,6 +264,20 @@ void Hdf5File::attribute(const std::string& object, const char* name, const Vec3
 
 void Hdf5File::attribute(const std::string& object, const char* name, const Index3& value) {
   writeAttribute(object, name, vectorSpace(3), H5T_NATIVE_INT, value.at.data());
+}
+
+void Hdf5File::attribute(const std::string& object, const char* name, const std::vector<double>& value) {
+  writeAttribute(object, name, vectorSpace(value.size()), H5T_NATIVE_DOUBLE, value.data());
+}
+
+void Hdf5File::attribute(const std::string& object, const char* name, const std::vector<int>& value) {
+  writeAttribute(object, name, vectorSpace(value.size()), H5T_NATIVE_INT, value.data());
+}
+
+void Hdf5File::fixedText(const std::string& object, const char* name, const std::string& value) {
+  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type, value.size());
+  writeAttribute(object, name, scalarSpace(), type, value.data());
 }
 
 void Hdf5File::close() {

@@ -14,6 +14,14 @@ namespace tushar::output {
 /// The version of HDF5 that runs.
 std::string hdf5Version();
 
+/// A dataset of another file that is shown as a box of a virtual one. `file` is relative to the folder of the latter,
+/// or `.` for the same file.
+struct VirtualPart {
+  std::string file, dataset;
+  std::vector<std::uint64_t> source;  ///< shape of the dataset, of which as much is shown as the box has room for
+  std::vector<std::uint64_t> first, extent;  ///< corner and size of the box
+};
+
 /// Writes one HDF5 file. It needs no MPI and never starts it. Each function may throw FileError with the path and the
 /// reason: the system's, or else the innermost of HDF5, whose own printing is kept silent.
 class Hdf5File {
@@ -33,6 +41,14 @@ class Hdf5File {
   void dataset(const std::string& name, const Array& array, std::vector<std::uint64_t> shape);
   /// Writes a text of any length as a dataset. The groups above it are made.
   void text(const std::string& name, const std::string& value);
+  /// Makes a dataset of real numbers, or of integers like those of `type`, that shows parts of others and holds no
+  /// number itself. What no part covers is NaN or 0. Where it shows parts of this file, it has their type.
+  void virtualDataset(const std::string& name, const Array::Values& type, const std::vector<std::uint64_t>& shape,
+                      const std::vector<VirtualPart>& parts);
+  /// Writes 0, 1, 2, … as signed integers of 8 bytes.
+  void sequence(const std::string& name, std::uint64_t count);
+  /// Makes a dataset of `count` equal bytes that takes no place.
+  void equalBytes(const std::string& name, std::uint8_t value, std::uint64_t count);
   /// Attributes of a group that exists; `/` is the root.
   void attribute(const std::string& object, const char* name, double value);
   void attribute(const std::string& object, const char* name, int value);
@@ -40,6 +56,10 @@ class Hdf5File {
   void attribute(const std::string& object, const char* name, const std::string& value);
   void attribute(const std::string& object, const char* name, const Vec3& value);
   void attribute(const std::string& object, const char* name, const Index3& value);
+  void attribute(const std::string& object, const char* name, const std::vector<double>& value);
+  void attribute(const std::string& object, const char* name, const std::vector<int>& value);
+  /// A text of fixed length, in ASCII.
+  void fixedText(const std::string& object, const char* name, const std::string& value);
   /// Writes all to the disk and closes: here a full disk is noticed.
   void close();
 

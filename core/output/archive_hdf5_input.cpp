@@ -24,6 +24,11 @@ Array::Values valuesLike(hid_t type) {
   return std::vector<std::int32_t>{};
 }
 
+template <class Number>
+Number typeOfNumber(const std::vector<Number>&) {
+  return {};
+}
+
 /// The text that HDF5 has put into memory of its own.
 std::string taken(char* characters) {
   const std::string text = characters ? characters : "";
@@ -83,6 +88,20 @@ Array::Values Hdf5Input::dataset(const std::string& name) const {
       },
       read);
   return read;
+}
+
+Hdf5Input::Placed Hdf5Input::placed(const std::string& name) const {
+  const Silence silence;
+  const Handle data(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
+  checked<hid_t>(data, name + " of");
+  const Handle space(H5Dget_space(data), H5Sclose);
+  const Handle type(H5Dget_type(data), H5Tclose);
+  const auto numbers = checked(H5Sget_simple_extent_npoints(space), name + " of");
+  Placed placed{valuesLike(type), static_cast<std::size_t>(numbers)};
+  const hid_t native = std::visit([](const auto& values) { return memoryType(typeOfNumber(values)); }, placed.type);
+  const haddr_t offset = H5Dget_offset(data);
+  if (offset != HADDR_UNDEF && H5Tequal(type, native) > 0) placed.offset = static_cast<std::int64_t>(offset);
+  return placed;
 }
 
 std::string Hdf5Input::text(const std::string& name) const {

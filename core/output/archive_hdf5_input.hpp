@@ -25,6 +25,13 @@ class Hdf5Input {
   std::vector<std::string> names(const std::string& group) const;
   /// The numbers of a dataset, whatever its shape, as they were written.
   Array::Values dataset(const std::string& name) const;
+  /// Where a dataset stands.
+  struct Placed {
+    Array::Values type;        ///< no values, of the type that it has
+    std::size_t count = 0;     ///< of numbers, whatever the shape
+    std::int64_t offset = -1;  ///< of the first in the file; -1 where they do not stand there as they do in memory
+  };
+  Placed placed(const std::string& name) const;
   /// A dataset that Hdf5File::text wrote.
   std::string text(const std::string& name) const;
 

@@ -50,30 +50,44 @@ ArchiveIndex::ArchiveIndex(std::string version, const std::string& text, int ste
       outputs_[at] = {node.attribute("time").as_double(), node.attribute("delT").as_double()};
 }
 
+std::string ArchiveIndex::refusalOf(const std::string& text) {
+  pugi::xml_document document;
+  document.load_string(text.c_str());
+  const pugi::xml_node root = document.child(rootName);
+  const int found = root.attribute("format").as_int();
+  return found <= format
+             ? ""
+             : fmt::format("the archive has format {}, and this sus knows formats up to {}; version {} wrote it", found,
+                           format, root.attribute("version").as_string());
+}
+
 std::vector<std::string> ArchiveIndex::globals() const {
   std::vector<std::string> names;
   for (const auto& global : globals_) names.push_back(global.first);
   return names;
 }
 
-void ArchiveIndex::addVariable(const Array& array, const std::string& centring, const std::string& material) {
-  Variable& variable = variables_[array.label];
+bool ArchiveIndex::addVariable(const Array& array, const std::string& centring, const std::string& material) {
+  const auto [place, isNew] = variables_.try_emplace(array.label);
+  Variable& variable = place->second;
   variable.centring = centring;
   variable.unit = array.unit;
   variable.description = array.description;
   variable.type = typeOf(array);
   variable.components = array.components;
-  if (!material.empty()) variable.materials.insert(material);
+  return (!material.empty() && variable.materials.insert(material).second) || isNew;
 }
 
-void ArchiveIndex::add(const Snapshot& snapshot) {
+bool ArchiveIndex::add(const Snapshot& snapshot) {
+  bool isNew = false;
   for (const ParticleBlock& block : snapshot.particles)
     for (const Array& array : block.arrays)
-      if (isHeld(block, array)) addVariable(array, "particle", groupName(block.material, block.materialIndex));
+      if (isHeld(block, array)) isNew |= addVariable(array, "particle", groupName(block.material, block.materialIndex));
   for (const FieldBlock& field : snapshot.fields)
-    addVariable(field.array, field.centring == Centring::cell ? "cell" : "node",
-                field.materialIndex < 0 ? "" : groupName(field.material, field.materialIndex));
+    isNew |= addVariable(field.array, field.centring == Centring::cell ? "cell" : "node",
+                         field.materialIndex < 0 ? "" : groupName(field.material, field.materialIndex));
   outputs_[snapshot.step] = {snapshot.time, snapshot.delT};
+  return isNew;
 }
 
 void ArchiveIndex::add(const GlobalSample& sample, const std::string& file) {
@@ -83,7 +97,7 @@ void ArchiveIndex::add(const GlobalSample& sample, const std::string& file) {
 std::string ArchiveIndex::text() const {
   pugi::xml_document document;
   pugi::xml_node root = document.append_child(rootName);
-  set(root, "version", version_);
+  set(root, "format", format, "version", version_);
   pugi::xml_node variables = root.append_child("variables");
   for (const auto& [name, variable] : variables_) {
     pugi::xml_node node = variables.append_child("variable");

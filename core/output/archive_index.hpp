@@ -13,14 +13,21 @@ namespace tushar::output {
 class ArchiveIndex {
  public:
   static constexpr const char* rootName = "tushar_archive";
+  static constexpr int format = 1;  ///< of archives; one more where older readers would go wrong
 
   explicit ArchiveIndex(std::string version) : version_(std::move(version)) {}
   /// Goes on from the text of another index, without its outputs after `step`.
   ArchiveIndex(std::string version, const std::string& text, int step);
 
-  void add(const Snapshot& snapshot);
+  /// Lists an output. Whether it brings names that were not listed.
+  bool add(const Snapshot& snapshot);
   void add(const GlobalSample& sample, const std::string& file);
   std::vector<std::string> globals() const;
+  /// How many outputs the text of an index lists, up to a step.
+  static std::size_t sizeOf(const std::string& text, int step) { return ArchiveIndex("", text, step).outputs_.size(); }
+  /// Why an archive cannot be read: an index of a newer format. Empty where it can.
+  static std::string refusalOf(const std::string& text);
+  bool lists(int step) const { return outputs_.contains(step); }
   /// The step of the last output; -1 where there is none.
   int lastStep() const { return outputs_.empty() ? -1 : outputs_.rbegin()->first; }
   /// The whole file.
@@ -39,7 +46,7 @@ class ArchiveIndex {
   struct Output {
     double time, delT;
   };
-  void addVariable(const Array& array, const std::string& centring, const std::string& material);
+  bool addVariable(const Array& array, const std::string& centring, const std::string& material);
 
   std::string version_;
   std::map<std::string, Variable> variables_;

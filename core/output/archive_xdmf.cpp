@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <set>
 #include <string_view>
 
 #include "core/output/archive_files.hpp"
@@ -28,6 +29,15 @@ constexpr std::string_view atStep = " at step ";
 int stepOfTime(const std::string& gridName) {
   const std::size_t at = gridName.rfind(atStep);
   return at == std::string::npos ? 0 : std::atoi(gridName.c_str() + at + atStep.size());
+}
+
+/// Removes the grid of a step. Steps ascend, so that looking from the end on takes no longer the more there are.
+void removeStep(pugi::xml_node times, int step) {
+  for (pugi::xml_node grid = times.last_child(); grid; grid = grid.previous_sibling()) {
+    const int found = stepOfTime(grid.attribute("Name").as_string());
+    if (found == step) times.remove_child(grid);
+    if (found <= step) return;
+  }
 }
 
 pugi::xml_node addGrid(pugi::xml_node parent, const std::string& name, const char* type) {
@@ -139,9 +149,8 @@ pugi::xml_node XdmfIndex::addTime(const std::string& block, const Snapshot& snap
     times = addGrid(domain_, block, "Collection");
     set(times, "CollectionType", "Temporal");
   }
-  const std::string step = fmt::format("{}{}{}", block, atStep, snapshot.step);
-  times.remove_child(times.find_child_by_attribute("Grid", "Name", step.c_str()));
-  pugi::xml_node grid = addGrid(times, step, type);
+  removeStep(times, snapshot.step);
+  pugi::xml_node grid = addGrid(times, fmt::format("{}{}{}", block, atStep, snapshot.step), type);
   set(grid.append_child("Time"), "Value", snapshot.time);
   return grid;
 }
@@ -175,6 +184,15 @@ void XdmfIndex::add(const Snapshot& snapshot) {
   for (const ParticleBlock& block : snapshot.particles) addParticles(snapshot, block);
   addFields(snapshot, Centring::cell);
   addFields(snapshot, Centring::node);
+}
+
+std::size_t XdmfIndex::sizeOf(const std::string& text, int step) {
+  const XdmfIndex shown(false, text, step);
+  std::set<int> steps;
+  for (const pugi::xml_node& times : shown.domain_)
+    for (const pugi::xml_node& grid : times.children("Grid"))
+      steps.insert(stepOfTime(grid.attribute("Name").as_string()));
+  return steps.size();
 }
 
 std::string XdmfIndex::text() const { return textOf(document_); }

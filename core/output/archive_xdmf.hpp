@@ -19,6 +19,8 @@ class XdmfIndex {
 
   /// Adds a time, or replaces that of the same step.
   void add(const Snapshot& snapshot);
+  /// How many outputs the text of an XDMF file shows, up to a step.
+  static std::size_t sizeOf(const std::string& text, int step);
   /// The whole file.
   std::string text() const;
 

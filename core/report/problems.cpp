@@ -18,7 +18,8 @@ std::optional<std::string> suggestionIn(const std::string& sentence) {
 
 }  // namespace
 
-std::string toJson(const std::vector<InputProblem>& problems) {
+std::string toJson(const std::vector<InputProblem>& problems,
+                   const std::function<std::string(const InputProblem&)>& numberOf) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const InputProblem& problem : problems) {
     nlohmann::ordered_json one;
@@ -27,6 +28,7 @@ std::string toJson(const std::vector<InputProblem>& problems) {
     one["column"] = problem.where.column;
     one["path"] = problem.tagPath;
     one["message"] = problem.sentence;
+    if (const std::string number = numberOf ? numberOf(problem) : ""; !number.empty()) one["number"] = number;
     if (const auto suggestion = suggestionIn(problem.sentence)) one["suggestion"] = *suggestion;
     list.push_back(std::move(one));
   }

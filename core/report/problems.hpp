@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -8,7 +9,9 @@
 namespace tushar::report {
 
 /// The problems of a scene for programs: a list of objects with `file`, `line` and `column` (from 1; 0 where a line has
-/// no meaning), `path` of the tag, `message` and, where there is a nearest word, `suggestion`.
-std::string toJson(const std::vector<InputProblem>& problems);
+/// no meaning), `path` of the tag, `message` and, where there is a nearest word, `suggestion`; `number` as `numberOf`
+/// gives it, if it does.
+std::string toJson(const std::vector<InputProblem>& problems,
+                   const std::function<std::string(const InputProblem&)>& numberOf = {});
 
 }  // namespace tushar::report

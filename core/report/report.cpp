@@ -6,6 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/base/error.hpp"
+
 namespace tushar::report {
 
 namespace {
@@ -40,6 +42,14 @@ Json wallOf(const Report& report) {
             {"after", report.rebalancing.after}}}};
 }
 
+Json memoryOf(const MemoryUse& use) {
+  return {{"peak", use.peak},
+          {"fields", use.fields},
+          {"particles", use.particles},
+          {"buffers", use.buffers},
+          {"files", use.files}};
+}
+
 Json limitsOf(const Report& report) {
   Json limits = Json::object();
   for (const auto& [limit, steps] : report.limits) limits[limit] = steps;
@@ -69,7 +79,7 @@ Json tasksOf(const Report& report) {
 std::string limitLine(const Report& report) {
   std::string text;
   for (const auto& [limit, steps] : report.limits)
-    text += fmt::format("{}{} {}", text.empty() ? "time step ruled by " : ", ", limit, steps);
+    text += fmt::format("{}{} {}", text.empty() ? "time step limited by " : ", ", limit, steps);
   if (report.retries > 0) text += fmt::format("; {} repeated with a smaller one", report.retries);
   return text.empty() ? "" : text + "\n";
 }
@@ -122,6 +132,19 @@ std::string useLine(const Report& report) {
       100 * use.output / all, 100 * use.wait / all, use.imbalance);
 }
 
+/// What all ranks have in memory, in megabytes.
+std::string memoryLine(const Report& report) {
+  const MemoryUse& sum = report.memoryOfRanks.sum;
+  if (sum.peak <= 0) return "";
+  const std::string most =
+      report.ranks > 1 ? fmt::format(" (of a rank up to {:.1f})", 1e-6 * report.memoryOfRanks.most.peak) : "";
+  return fmt::format(
+      "  memory: peak {:.1f} MB{}; fields {:.1f}, particles {:.1f}, kept for later steps {:.1f}, outputs and "
+      "checkpoints "
+      "{:.1f}\n",
+      1e-6 * sum.peak, most, 1e-6 * sum.fields, 1e-6 * sum.particles, 1e-6 * sum.buffers, 1e-6 * sum.files);
+}
+
 std::string rebalancingLine(const Report& report) {
   const Rebalancing& change = report.rebalancing;
   if (change.times == 0) return "";
@@ -141,7 +164,7 @@ std::string timeTable(const Report& report) {
   for (const TaskTime& task : report.tasks) row("  " + task.name, task.seconds);
   if (report.patches > 1) row("  ghost exchange", report.exchange);
   row("output", report.wallOutput);
-  return text + useLine(report) + rebalancingLine(report);
+  return text + useLine(report) + memoryLine(report) + rebalancingLine(report);
 }
 
 }  // namespace
@@ -178,7 +201,10 @@ std::string toJson(const Report& report) {
   json["particles"] = report.particles;
   json["particles_dropped"] = report.dropped;
   json["particle_steps_per_second"] = report.wallLoop > 0 ? report.particleSteps / report.wallLoop : 0;
-  json["memory"] = {{"resident", report.memory.now}, {"peak", report.memory.peak}};
+  json["memory"] = {{"resident", report.memory.now},
+                    {"peak", report.memory.peak},
+                    {"sum", memoryOf(report.memoryOfRanks.sum)},
+                    {"most", memoryOf(report.memoryOfRanks.most)}};
   json["wall"] = wallOf(report);
   json["errors"] = errorsOf(report);
   json["unmeasured"] = report.unmeasured;
@@ -192,10 +218,10 @@ std::string toJson(const Report& report) {
 }
 
 std::string toText(const Report& report) {
-  std::string text =
-      fmt::format("{} steps to t = {:.6g} s ({}), {} cells", report.steps, report.time, report.ended, report.cells);
+  std::string text = fmt::format("{} to t = {:.6g} s ({}), {}", counted(report.steps, "step"), report.time,
+                                 report.ended, counted(report.cells, "cell"));
   if (report.particles > 0) {
-    text += fmt::format(", {} particles", report.particles);
+    text += ", " + counted(report.particles, "particle");
     if (report.dropped > 0) text += fmt::format(" ({} left the grid)", report.dropped);
     if (report.wallLoop > 0)
       text += fmt::format(", {:.3g} million particle-steps/s", 1e-6 * report.particleSteps / report.wallLoop);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/memory.hpp"
+#include "core/report/memory_use.hpp"
 #include "core/report/time_use.hpp"
 #include "core/tasks/prune.hpp"
 
@@ -31,7 +32,7 @@ struct Drift {
 struct EnergyBudget {
   std::vector<std::pair<std::string, double>> came, went;  ///< names and amounts; work done on others is negative
 
-  /// What came and has not been seen again.
+  /// The energy that came and is not accounted for.
   double unaccounted() const;
   /// The greatest amount: what `unaccounted` is small or great against.
   double greatest() const;
@@ -50,7 +51,7 @@ struct TaskTime {
   double seconds = 0;
 };
 
-/// What a run has to say about itself.
+/// The report of a run.
 struct Report {
   std::string scene, title, component, version, build;
   int dimension = 0, patches = 0, ranks = 1, threads = 1;
@@ -59,10 +60,11 @@ struct Report {
   int steps = 0, retries = 0;                       ///< taken; undone and repeated
   std::vector<std::pair<std::string, int>> limits;  ///< of the time step, and how many steps each has ruled
   double time = 0;                                  ///< reached, s
-  std::string ended;                                ///< why: maxTime, max_Timesteps, max_wall_time, interrupted, failed
-  std::string failure, advice;                      ///< of a run that failed: the value that cannot be, and what to try
+  std::string ended;            ///< why: maxTime, max_Timesteps, max_wall_time, stop_now, interrupted, failed
+  std::string failure, advice;  ///< of a run that failed: the value that cannot be, and what to try
   double particleSteps = 0;
-  ResidentMemory memory;                                 ///< after the last step, of the rank that has most
+  ResidentMemory memory;  ///< after the last step, of the rank that has most
+  MemoryOfRanks memoryOfRanks;
   double wallStartup = 0, wallLoop = 0, wallOutput = 0;  ///< s
   TimeUse use;
   Rebalancing rebalancing;

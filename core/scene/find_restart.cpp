@@ -8,6 +8,7 @@
 #include "core/base/error.hpp"
 #include "core/output/archive_files.hpp"
 #include "core/output/archive_hdf5_input.hpp"
+#include "core/output/archive_index.hpp"
 #include "core/output/checkpoint_manifest.hpp"
 #include "core/output/checkpoint_store.hpp"
 
@@ -23,13 +24,16 @@ namespace {
 
 /// The folder behind a path that may be a link to it.
 fs::path folderOf(const fs::path& uda) {
-  if (!fs::exists(uda)) refuse(uda, "there is no such folder; -restart takes the .uda folder of a run");
+  if (!fs::exists(uda)) refuse(uda, "there is no such folder; --restart takes the .uda folder of a run");
   if (!fs::is_directory(uda))
-    refuse(uda, "this is no folder; -restart takes the .uda folder of a run (without -restart, sus runs a scene)");
+    refuse(uda, "this is no folder; --restart takes the .uda folder of a run (without --restart, sus runs a scene)");
   const fs::path path = uda.has_filename() ? uda : uda.parent_path();
   const fs::path folder = fs::is_symlink(path) ? path.parent_path() / fs::read_symlink(path) : path;
   if (!fs::exists(folder / "index.xml") && !fs::exists(folder / "checkpoints"))
     refuse(uda, "this is no .uda folder: it has neither index.xml nor checkpoints");
+  if (const std::string why = output::ArchiveIndex::refusalOf(output::textOf(folder / "index.xml").value_or(""));
+      !why.empty())
+    refuse(uda, why);
   return folder;
 }
 

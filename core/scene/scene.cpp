@@ -82,18 +82,19 @@ const ComponentKind* readComponentKind(const Element& root, const Catalogue& cat
   std::string type = read.type;
   if (std::none_of(type.begin(), type.end(), [](unsigned char c) { return std::islower(c); }))  // as Uintah takes it
     std::transform(type.begin(), type.end(), type.begin(), [](unsigned char c) { return std::tolower(c); });
-  const ComponentKind* kind = findKind(catalogue.components, type);
-  if (!kind) diagnostics.error(*tag, "type: " + input::choiceProblem(read.type, namesOf(catalogue.components)));
+  const ComponentKind* kind = catalogue.component(type);
+  if (!kind)
+    diagnostics.error(tag->whereOf("type"), tag->path(),
+                      "type: " + input::choiceProblem(read.type, catalogue.componentNames()));
   return kind;
 }
 
 void refuseUnknownSections(const Element& root, const ComponentKind* kind, const Catalogue& catalogue,
                            Diagnostics& diagnostics) {
   std::vector<std::string> known = sharedSections;
-  for (const ComponentKind& other : catalogue.components)
-    if (!kind || kind == &other)
-      for (const std::string& section : other.sections)
-        if (std::find(known.begin(), known.end(), section) == known.end()) known.push_back(section);
+  for (const ComponentKind* other : kind ? std::vector{kind} : catalogue.components())
+    for (const std::string& section : other->sections)
+      if (std::find(known.begin(), known.end(), section) == known.end()) known.push_back(section);
   for (const Element& child : root.children())
     if (const auto idle = std::find_if(idleSections().begin(), idleSections().end(),
                                        [&](const auto& section) { return section.first == child.name(); });
@@ -102,6 +103,16 @@ void refuseUnknownSections(const Element& root, const ComponentKind* kind, const
     else if (std::find(known.begin(), known.end(), child.name()) == known.end())
       diagnostics.error(child, fmt::format("unknown section <{}>{}; allowed here: {}", child.name(),
                                            didYouMean(child.name(), known), fmt::join(known, ", ")));
+}
+
+/// Refuses text and attributes of the root, but for the name spaces that editors write.
+void refuseLooseWords(const Element& root, Diagnostics& diagnostics) {
+  std::vector<std::string> allowed;
+  for (const input::Attribute& attribute : root.attributes())
+    if (attribute.name.starts_with("xmlns") || attribute.name.find(':') != std::string::npos)
+      allowed.push_back(attribute.name);
+  input::refuseAttributes(root, allowed, diagnostics);
+  input::refuseText(root, diagnostics);
 }
 
 struct ReadModule {
@@ -113,6 +124,8 @@ std::vector<ReadModule> readModules(const Element& root, const Catalogue& catalo
   std::vector<ReadModule> modules;
   const auto analysis = section(root, "DataAnalysis", false, diagnostics);
   if (!analysis) return modules;
+  input::refuseAttributes(*analysis, {}, diagnostics);
+  input::refuseText(*analysis, diagnostics);
   for (const Element& child : analysis->children()) {
     if (child.name() != "Module") {
       diagnostics.error(child, fmt::format("unknown tag <{}>{}; allowed here: Module", child.name(),
@@ -120,11 +133,12 @@ std::vector<ReadModule> readModules(const Element& root, const Catalogue& catalo
       continue;
     }
     const auto name = child.attribute("name");
-    const AnalysisKind* kind = name ? findKind(catalogue.analyses, *name) : nullptr;
+    const AnalysisKind* kind = name ? catalogue.analysis(*name) : nullptr;
     if (!name)
-      diagnostics.error(child, "the attribute name is missing; there are " + alternatives(namesOf(catalogue.analyses)));
+      diagnostics.error(child, "the attribute name is missing; there are " + allOf(catalogue.analysisNames()));
     else if (!kind)
-      diagnostics.error(child, "name: " + input::choiceProblem(*name, namesOf(catalogue.analyses)));
+      diagnostics.error(child.whereOf("name"), child.path(),
+                        "name: " + input::choiceProblem(*name, catalogue.analysisNames()));
     else
       modules.push_back({child, kind->read(child, diagnostics)});
   }
@@ -175,18 +189,36 @@ void checkIntervals(const TimeSettings& time, const ArchiveSettings& archive, co
     check(*archive.checkpoint->interval, *section.child("checkpoint"), "attribute 'interval': ");
 }
 
+/// A component on the smallest grid that it takes, of one axis where it can be.
+struct Trial {
+  std::unique_ptr<grid::Level> level;
+  std::unique_ptr<Component> component;  ///< null if it takes no grid
+};
+Trial tryOut(const MakeComponent& make) {
+  for (int axes = 1; axes <= 3; ++axes) {
+    grid::Domain domain;
+    for (int d = axes; d < 3; ++d) domain.upper[d] = 0;
+    auto level = std::make_unique<grid::Level>(domain);
+    try {
+      auto component = make(*level);
+      return {std::move(level), std::move(component)};
+    } catch (const InputError&) {
+      continue;  // it needs more axes
+    }
+  }
+  return {};
+}
+
 /// Names what is wrong with the saved labels, even where the rest of the scene is wrong, too: the labels of a component
 /// and of its modules do not depend on the grid. Takes out, with a note, what Uintah has and nobody here. Says nothing
 /// where a module cannot be had: its labels are not known.
 void checkSaves(const MakeComponent& make, const std::vector<ReadModule>& modules, std::vector<SaveRequest>& saves,
                 Diagnostics& diagnostics) {
-  grid::Domain line;
-  line.upper = {1, 0, 0};
-  const grid::Level anyLevel(line);
-  const auto component = make(anyLevel);
+  const auto [level, component] = tryOut(make);
+  if (!component) return;
   std::vector<std::unique_ptr<Analysis>> analyses;
   try {
-    analyses = makeModules(modules, *component, anyLevel);
+    analyses = makeModules(modules, *component, *level);
   } catch (const InputError&) {
     return;
   }
@@ -200,6 +232,9 @@ void checkSaves(const MakeComponent& make, const std::vector<ReadModule>& module
                        fmt::format("'{}' is not saved: nobody computes it here", save.label));
     return isLacking;
   });
+  for (const SaveRequest& save : saves)
+    for (const std::string& remark : phases.remarksOn(save))
+      diagnostics.note(save.whereOfMaterial, "DataArchiver/save", remark);
   for (const InputProblem& problem : phases.problemsOf(saves))
     diagnostics.error(problem.where, problem.tagPath, problem.sentence);
 }
@@ -230,6 +265,7 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   Problem problem;
   problem.scenePath = path;
   problem.inputXml = document.text();
+  refuseLooseWords(root, diagnostics);
   const ComponentKind* kind = readComponentKind(root, catalogue, diagnostics);
   refuseUnknownSections(root, kind, catalogue, diagnostics);
   if (const auto meta = section(root, "Meta", false, diagnostics))

@@ -54,13 +54,14 @@ std::vector<std::string> spellings(const std::string& name) {
 /// <DataAnalysis> with all modules.
 const SchemaBase& analysisForm(const Catalogue& catalogue, Schemas& schemas) {
   std::vector<Alternative> modules;
-  for (const auto& kind : catalogue.analyses) {
-    const SchemaBase* schema = kind.schema ? kind.schema() : nullptr;
-    if (schema) modules.push_back({schema, {{"name", {kind.name}}}});
+  const auto kinds = catalogue.analyses();
+  for (const auto* kind : kinds) {
+    const SchemaBase* schema = kind->schema ? kind->schema() : nullptr;
+    if (schema) modules.push_back({schema, {{"name", {kind->name}}}});
   }
   TagForm form = input::sectionForm({"Module"}, [modules] { return modules; });
   Schema<Unread>& all = schemas.emplace_back("DataAnalysis", "What is measured while a scene runs.");
-  const bool hasUnknown = modules.size() < catalogue.analyses.size();
+  const bool hasUnknown = modules.size() < kinds.size();
   addTag(all, hasUnknown ? input::anyForm({"Module"}) : form, "a module; its name says which");
   return all;
 }
@@ -88,11 +89,11 @@ TagForm sceneForm(const Catalogue& catalogue) {
   const auto schemas = std::make_shared<Schemas>();
   std::vector<const SchemaBase*> roots;
   const SchemaBase& analyses = analysisForm(catalogue, *schemas);
-  for (const ComponentKind& kind : catalogue.components) {
-    const SchemaBase& grid = gridForm(kind.boundaryLabels);
-    for (const std::vector<SectionForm>& sections : waysToWrite(kind)) {
-      Schema<Unread>& root = schemas->emplace_back("Uintah_specification", kind.sentence + ".");
-      addShared(root, kind, grid, analyses);
+  for (const ComponentKind* kind : catalogue.components()) {
+    const SchemaBase& grid = gridForm(kind->boundaryLabels);
+    for (const std::vector<SectionForm>& sections : waysToWrite(*kind)) {
+      Schema<Unread>& root = schemas->emplace_back("Uintah_specification", kind->sentence + ".");
+      addShared(root, *kind, grid, analyses);
       for (const SectionForm& section : sections)
         section.schema ? addSection(root, section.name, *section.schema, section.required, section.demands)
                        : addTag(root, input::anyForm({section.name}), "anything");

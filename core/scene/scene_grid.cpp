@@ -23,12 +23,18 @@ constexpr double mostCells = 2147483647.0;
 
 const std::vector<std::string> conditionKinds(grid::boundaryKindNames.begin(), grid::boundaryKindNames.end());
 
-/// Of one of `conditionKinds`.
+/// The kind that `var`, one of `conditionKinds`, names.
 grid::BoundaryKind kindOf(const std::string& var) {
   return static_cast<grid::BoundaryKind>(std::find(conditionKinds.begin(), conditionKinds.end(), var) -
                                          conditionKinds.begin());
 }
 bool isSymmetry(const std::string& var) { return var == nameOf(grid::BoundaryKind::symmetry); }
+
+/// Labels of Uintah's components of flow, which scenes of others carry along.
+const std::vector<std::string> labelsOfFlow{"Density", "Pressure", "SpecificVol"};
+bool isOfFlow(const std::string& label) {
+  return std::find(labelsOfFlow.begin(), labelsOfFlow.end(), label) != labelsOfFlow.end();
+}
 
 struct GridBox {
   std::string label;
@@ -63,6 +69,12 @@ struct GridSection {
   FacesSection boundaries;
   LevelSection level;
 };
+
+/// What is wrong with an attribute.
+void errorOf(const std::string& attribute, const Element& element, const std::string& problem,
+             Diagnostics& diagnostics) {
+  diagnostics.error(element.whereOf(attribute), element.path(), attribute + ": " + problem);
+}
 
 const Schema<GridBox>& boxSchema() {
   static const Schema<GridBox> schema =
@@ -117,6 +129,14 @@ Schema<ConditionSection> conditionTag() {
       .attributeValue("id", &ConditionSection::id, "all", "1", "number of the material that it holds for, or all");
 }
 
+/// `var`, and the value that it may need.
+void checkKind(const ConditionSection& condition, const Element& element, Diagnostics& diagnostics) {
+  if (const std::string problem = input::choiceProblem(condition.var, conditionKinds); !problem.empty())
+    errorOf("var", element, problem, diagnostics);
+  else if (!isSymmetry(condition.var) && !condition.value)
+    diagnostics.error(element, "a " + condition.var + " condition needs a <value>");
+}
+
 const Schema<ConditionSection>& conditionSchema() {
   static const Schema<ConditionSection> schema =
       conditionTag()
@@ -124,13 +144,10 @@ const Schema<ConditionSection>& conditionSchema() {
           .requiredAttribute("var", &ConditionSection::var, "1", "symmetry, Dirichlet or Neumann")
           .optional("value", &ConditionSection::value, "SI unit of the variable", "a number or a vector")
           .check([](const ConditionSection& condition, const Element& element, Diagnostics& diagnostics) {
-            if (const std::string problem = input::choiceProblem(condition.var, conditionKinds); !problem.empty())
-              diagnostics.error(element, "var: " + problem);
-            else if (!isSymmetry(condition.var) && !condition.value)
-              diagnostics.error(element, "a " + condition.var + " condition needs a <value>");
+            if (!isOfFlow(condition.label)) checkKind(condition, element, diagnostics);
             if (const auto number = input::parse<int>(condition.id); condition.id != "all" && !(number && *number >= 0))
-              diagnostics.error(element,
-                                "id: found '" + condition.id + "', expected 'all' or the number of a material");
+              errorOf("id", element, "found '" + condition.id + "', expected 'all' or the number of a material",
+                      diagnostics);
           });
   return schema;
 }
@@ -171,11 +188,15 @@ const Schema<GridSection>& gridSchema() {
 /// The conditions of a component as an editor is to see them: of its labels.
 Schema<ConditionSection> conditionFor(const std::vector<grid::BoundaryVariable>& labels) {
   Schema<ConditionSection> tag = conditionTag();
+  std::vector<std::string> names = namesOf(labels), kinds(conditionKinds.begin(), conditionKinds.end());
+  for (const std::string& label : labelsOfFlow)
+    if (std::find(names.begin(), names.end(), label) == names.end()) names.push_back(label);
+  kinds.emplace_back("computeFromDensity");  // of SpecificVol
   if (labels.empty())
     tag.requiredAttribute("label", &ConditionSection::label, "1", "the variable");
   else
-    tag.requiredChoiceAttribute("label", &ConditionSection::label, wordsOf(namesOf(labels)), "the variable");
-  return tag.requiredChoiceAttribute("var", &ConditionSection::var, wordsOf(conditionKinds), "what it does")
+    tag.requiredChoiceAttribute("label", &ConditionSection::label, wordsOf(names), "the variable");
+  return tag.requiredChoiceAttribute("var", &ConditionSection::var, wordsOf(kinds), "what it does")
       .optional("value", &ConditionSection::value, "SI unit of the variable", "a number or a vector");
 }
 
@@ -194,7 +215,7 @@ Vec3 conditionValue(const ConditionSection& condition, bool isVector, const Elem
   const auto vector = input::parse<Vec3>(*condition.value);
   const auto number = input::parse<double>(*condition.value);
   const std::string& problem = isVector ? vector.problem : number.problem;
-  if (!problem.empty()) diagnostics.error(element, "value: " + problem);
+  if (!problem.empty()) diagnostics.error(element.child("value")->where(), element.path(), "value: " + problem);
   return isVector ? vector.value.value_or(Vec3::Zero()) : Vec3(number.value.value_or(0), 0, 0);
 }
 
@@ -224,8 +245,11 @@ void readConditions(const std::vector<ConditionSection>& given, const std::vecto
   std::map<std::string, Location> seen;
   for (std::size_t k = 0; k < given.size() && k < tags.size(); ++k) {
     const grid::BoundaryVariable* label = findKind(labels, given[k].label);
-    if (!label && !labels.empty())
-      diagnostics.error(tags[k], "label: " + input::choiceProblem(given[k].label, namesOf(labels)));
+    if (!label && isOfFlow(given[k].label))
+      diagnostics.note(tags[k], given[k].label + " belongs to components of flow: nothing here depends on it");
+    else if (!label && !labels.empty())
+      errorOf("label", tags[k], input::choiceProblem(given[k].label, namesOf(labels)), diagnostics);
+    if (label && isOfFlow(given[k].label)) checkKind(given[k], tags[k], diagnostics);
     if (!label || !input::choiceProblem(given[k].var, conditionKinds).empty()) continue;
     const bool isPlane = isSymmetry(given[k].var);
     if (isPlane && given[k].value) diagnostics.note(tags[k], "<value> does nothing on a plane of symmetry");
@@ -235,7 +259,8 @@ void readConditions(const std::vector<ConditionSection>& given, const std::vecto
          input::parse<int>(given[k].id).value.value_or(-1)});
     const bool onOddPlane = onPlane && !fitsPlane(*label, conditions.back(), axis);
     if (const std::string problem = contradiction(conditions.back(), onOddPlane); !problem.empty())
-      diagnostics.error(tags[k], problem);
+      diagnostics.error(placeOf({&tags[k].whereOf("var"), &tags[k].whereOf("label")}, tags[k].where()), tags[k].path(),
+                        problem);
     if (const auto [first, isNew] = seen.emplace(given[k].label + given[k].id, tags[k].where()); !isNew)
       diagnostics.error(tags[k], fmt::format("{} has a condition on this face already, at {}; keep one", label->name,
                                              first->second.text()));
@@ -281,8 +306,8 @@ void checkSize(const grid::Domain& domain, const Element& element, const std::st
       diagnostics.error(element, fmt::format("there are {} cells along {}, where the box has no extent",
                                              domain.resolution[axis], "xyz"[axis]));
     if (domain.patches[axis] > domain.resolution[axis])
-      diagnostics.error(element, fmt::format("there are {} patches along {}{}, but only {} cell(s)",
-                                             domain.patches[axis], "xyz"[axis], asker, domain.resolution[axis]));
+      diagnostics.error(element, fmt::format("there are {} patches along {}{}, but only {}", domain.patches[axis],
+                                             "xyz"[axis], asker, counted(domain.resolution[axis], "cell")));
   }
   if (domain.upper == domain.lower) diagnostics.error(element, "the box has no extent along any axis");
   if (cells > mostCells)
@@ -321,7 +346,7 @@ grid::Domain readGrid(const Element& section, const std::vector<grid::BoundaryVa
   if (workers.layout) domain.patches = *workers.layout;
   domain.periodic = read.level.periodic;
   checkPeriodic(section, domain, diagnostics);
-  checkSize(domain, element, workers.layout ? " in -layout" : "", diagnostics);
+  checkSize(domain, element, workers.layout ? " in --layout" : "", diagnostics);
   if (!box.patches && !workers.layout && diagnostics.size() == before)
     domain.patches =
         grid::choosePatches(domain.resolution, box.autoPatch.value_or(workers.patchesFor(domain.resolution)));

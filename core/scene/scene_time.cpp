@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "core/input/schema.hpp"
 #include "core/input/values.hpp"
 #include "core/scene/scene.hpp"
@@ -52,9 +54,10 @@ const Schema<TimeSettings>& timeSchema() {
           .ours()
           .value("initial_delt_range", &TimeSettings::initialDeltRange, 0, "s",
                  "time up to which delt_init holds; the first step at least", input::nonNegative())
-          .custom("override_restart_delt", refuseRestartStep, {"override_restart_delt"},
-                  "only 0: a restart goes on as the run would have; sus -restart --set Time/delt_max=… makes its steps "
-                  "shorter")
+          .custom(
+              "override_restart_delt", refuseRestartStep, {"override_restart_delt"},
+              "only 0: a restart goes on as the run would have; sus --restart --set Time/delt_max=… makes its steps "
+              "shorter")
           .forms({input::patternForm({"override_restart_delt"}, input::zeroPattern)})
           .check([](const TimeSettings& time, const Element& element, Diagnostics& diagnostics) {
             if (time.maxTime <= time.initTime)
@@ -101,7 +104,7 @@ void takeOutRepeated(std::vector<SaveRequest>& saves, const std::vector<Element>
   saves = std::move(kept);
 }
 
-void checkIntervals(const CheckpointSettings& checkpoint, const Element& element, Diagnostics& diagnostics) {
+void checkCheckpointIntervals(const CheckpointSettings& checkpoint, const Element& element, Diagnostics& diagnostics) {
   const int given = checkpoint.interval.has_value() + checkpoint.timestepInterval.has_value() +
                     checkpoint.walltimeInterval.has_value() + checkpoint.walltimeIntervalHours.has_value();
   if (given != 1)
@@ -118,7 +121,7 @@ const Schema<CheckpointSettings>& checkpointSchema() {
   using Settings = CheckpointSettings;
   static const Schema<Settings> schema =
       Schema<Settings>("checkpoint",
-                       "The whole state, from which sus -restart goes on: at the start, at one of these "
+                       "The whole state, from which sus --restart goes on: at the start, at one of these "
                        "intervals, and at the end.")
           .attributeValue("cycle", &Settings::cycle, 2, "1", "how many are kept", input::atLeast(1))
           .optionalAttribute("interval", &Settings::interval, "s", "simulated time between them", input::positive())
@@ -133,7 +136,7 @@ const Schema<CheckpointSettings>& checkpointSchema() {
           .optionalAttribute("walltimeStartHours", &Settings::walltimeStartHours, "h",
                              "wall time of the first; walltimeIntervalHours if it is left out", input::positive())
           .ignoredAttribute("lastTimestep", "the last state is always kept")
-          .check(checkIntervals);
+          .check(checkCheckpointIntervals);
   return schema;
 }
 
@@ -153,10 +156,16 @@ void readCompression(ArchiveSettings& archive, const Element& element, Diagnosti
     archive.compression = *level.value;
 }
 
+/// Of a path from the root, as Uintah's scenes have on the machines of their authors, its last part.
+std::string nameOf(const std::string& filebase) {
+  return filebase.starts_with('/') ? std::filesystem::path(filebase).filename().string() : filebase;
+}
+
 const Schema<ArchiveSettings>& archiveSchema() {
   static const Schema<ArchiveSettings> schema =
       Schema<ArchiveSettings>("DataArchiver", "What is saved, where and how often.")
-          .required("filebase", &ArchiveSettings::filebase, "1", "name of the folder, such as sod.uda")
+          .required("filebase", &ArchiveSettings::filebase, "1",
+                    "name of the folder, such as sod.uda; of a path from the root its last part")
           .value("outputInterval", &ArchiveSettings::outputInterval, 0, "s", "time between outputs",
                  input::nonNegative())
           .value("outputTimestepInterval", &ArchiveSettings::outputTimestepInterval, 0, "1", "steps between outputs",
@@ -176,7 +185,8 @@ const Schema<ArchiveSettings>& archiveSchema() {
           .check([](const ArchiveSettings& archive, const Element& element, Diagnostics& diagnostics) {
             if (archive.outputInterval > 0 && archive.outputTimestepInterval > 0)
               diagnostics.error(element, "gives both outputInterval and outputTimestepInterval; keep one");
-            if (archive.filebase.find('/') != std::string::npos || archive.filebase == "." || archive.filebase == "..")
+            const std::string name = nameOf(archive.filebase);
+            if (name.empty() || name.find('/') != std::string::npos || name == "." || name == "..")
               diagnostics.error(*element.child("filebase"),
                                 "found '" + archive.filebase +
                                     "', expected the name of a folder within the one where sus is started");
@@ -191,6 +201,11 @@ TimeSettings readTime(const Element& section, Diagnostics& diagnostics) {
 }
 ArchiveSettings readArchive(const Element& section, Diagnostics& diagnostics) {
   ArchiveSettings archive = archiveSchema().read(section, diagnostics);
+  const std::string name = nameOf(archive.filebase);
+  if (name != archive.filebase)
+    diagnostics.note(*section.child("filebase"),
+                     fmt::format("the folder is called '{}'; it stands where sus is started or --output says", name));
+  archive.filebase = name;
   takeOutRepeated(archive.saves, section.children("save"), diagnostics);
   return archive;
 }

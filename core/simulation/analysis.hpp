@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/collect/gather.hpp"
 #include "core/output/snapshot.hpp"
 #include "core/report/measured.hpp"
 #include "core/simulation/settings.hpp"
@@ -28,12 +29,15 @@ class Analysis {
   virtual std::vector<EnergyTerm> energies() const { return {}; }
   /// Why errors mean nothing at the time that is set, in a sentence; empty where they do.
   virtual std::string whyUnmeasured() const { return {}; }
-  /// Particle variables that sample() wants to see, and where the scene asks for them.
+  /// Variables that sample() wants to see, and where the scene asks for them.
   virtual std::vector<SaveRequest> samples() const { return {}; }
-  /// Whether sample() is to be called at the time that is set.
-  virtual bool isSampleDue() const { return false; }
-  /// Looks at what samples() asks for. Files of its own go to the folder of the archive.
-  virtual void sample(const output::Snapshot&, const std::filesystem::path&) {}
+  /// The layers of the grid in which it wants to see them, without particles; where there are none: all.
+  virtual std::vector<collect::Layer> layers() const { return {}; }
+  /// Whether sample() is to be called after this step, at the time that is set.
+  virtual bool isSampleDue(int /*step*/) const { return false; }
+  /// Looks at what samples() asks for: in each of the layers(), or all. Files of its own go to the folder of the
+  /// archive.
+  virtual void sample(const std::vector<output::Snapshot>&, const std::filesystem::path&) {}
   /// A table of exact values to draw beside the result, one column an array, `x` first; empty where there is none.
   virtual std::vector<output::Array> exactProfile(const grid::Level&) const { return {}; }
 };

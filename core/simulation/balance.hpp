@@ -24,12 +24,12 @@ class Balance {
     return static_cast<double>(cells) + particleCost * particles;
   }
 
-  /// A step is done: whether to look at the costs.
+  /// Notes that a step is done. Returns whether to measure the costs now.
   bool isDue() { return ranks_ > 1 && ++steps_ >= next_; }
   /// Other shares, if those of now are to be left: the rank that has most gets a tenth less, and over `costs` (of each
   /// patch of the grid) that saves more than the change takes.
   std::optional<grid::RankOffsets> better(const std::vector<double>& costs, const grid::RankOffsets& now, int step);
-  /// The change took so long [s] on the slowest rank.
+  /// Notes how long the change took on the slowest rank [s].
   void noteChange(double seconds) { change_ = seconds; }
 
   const Rebalancing& report() const { return report_; }

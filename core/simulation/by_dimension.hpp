@@ -32,6 +32,12 @@ S readSection(const input::Element& root, const input::Schema<S>& schema, input:
   return schema.read(sections.front(), diagnostics);
 }
 
+/// The same for a section that may be missing: it then has its defaults.
+template <class S>
+S readOptionalSection(const input::Element& root, const input::Schema<S>& schema, input::Diagnostics& diagnostics) {
+  return root.child(schema.name()) ? readSection(root, schema, diagnostics) : schema.defaults();
+}
+
 /// A component of as many dimensions as the grid has axes that is made of the settings of its one section.
 template <template <int> class C, class S>
 ComponentKind kindWithSection(std::string name, std::string sentence, const input::Schema<S>& schema,

@@ -2,8 +2,11 @@
 
 #include <functional>
 #include <iosfwd>
+#include <map>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 #include "core/input/diagnostics.hpp"
@@ -24,7 +27,7 @@ struct SectionForm {
   std::vector<input::Demand> demands = {};  ///< what else it takes for the schema to read it
 };
 
-/// A component that sus knows: one line of the table in components/components.cpp.
+/// A component that sus knows.
 struct ComponentKind {
   std::string name;                                    ///< the `type` of SimulationComponent
   std::string sentence;                                ///< what it is
@@ -33,9 +36,9 @@ struct ComponentKind {
   /// Reads its sections from the root of the scene; every problem goes to the diagnostics.
   std::function<MakeComponent(const input::Element& root, input::Diagnostics&)> read;
   std::function<void(std::ostream&)> describe;  ///< its manual
-  /// Layers of nodes that the scene needs beyond the sides of the grid; none where it is empty.
+  /// Layers of nodes that the scene needs beyond the sides of the grid; an empty function means none.
   std::function<int(const input::Element& root)> nodesBeyond;
-  /// The sections of a scene in each of the ways to write one; where it is empty, anything may stand in `sections`.
+  /// The sections of a scene, for each way to write one; if the function is empty, `sections` may hold anything.
   std::function<std::vector<std::vector<SectionForm>>()> forms;
 };
 
@@ -51,12 +54,6 @@ struct AnalysisKind {
   std::function<const input::SchemaBase*()> schema = {};  ///< of the tag; where it is empty, anything may stand in it
 };
 
-/// Everything that a scene can pick.
-struct Catalogue {
-  std::vector<ComponentKind> components;
-  std::vector<AnalysisKind> analyses;
-};
-
 /// The entry of that name, or null.
 template <class Kind>
 const Kind* findKind(const std::vector<Kind>& kinds, std::string_view name) {
@@ -70,5 +67,48 @@ std::vector<std::string> namesOf(const std::vector<Kind>& kinds) {
   for (const Kind& kind : kinds) names.emplace_back(kind.name);
   return names;
 }
+
+/// A shared library of components and analyses, and what it has by name; loaded when one of them is first asked for.
+struct Module {
+  std::string name;
+  std::vector<std::string> components, analyses;
+};
+
+/// Everything that a scene can pick.
+class Catalogue {
+ public:
+  Catalogue() = default;
+  Catalogue(std::vector<ComponentKind> components, std::vector<AnalysisKind> analyses);
+
+  /// Adds what another catalogue has, but modules. Throws std::invalid_argument if a name is taken.
+  void add(const Catalogue& other);
+  /// `load` brings what the module has. Throws std::invalid_argument if a name is taken.
+  void addModule(Module module, std::function<Catalogue()> load);
+
+  std::vector<std::string> componentNames() const;
+  std::vector<std::string> analysisNames() const;
+  /// The component of that name, for as long as the catalogue lives; null if there is none. Loads its module.
+  const ComponentKind* component(std::string_view name) const;
+  /// As component().
+  const AnalysisKind* analysis(std::string_view name) const;
+  /// All in the order of their names; loads all modules.
+  std::vector<const ComponentKind*> components() const;
+  std::vector<const AnalysisKind*> analyses() const;
+
+ private:
+  using LoadModule = std::function<Catalogue()>;
+  /// A kind that is there, or the module that brings it.
+  template <class Kind>
+  using Entries = std::map<std::string, std::variant<Kind, std::shared_ptr<LoadModule>>, std::less<>>;
+
+  template <class Kind>
+  const Kind* find(const Entries<Kind>& entries, std::string_view name) const;
+  template <class Kind>
+  std::vector<const Kind*> all(const Entries<Kind>& entries) const;
+  void take(const LoadModule& load) const;
+
+  mutable Entries<ComponentKind> components_;
+  mutable Entries<AnalysisKind> analyses_;
+};
 
 }  // namespace tushar::simulation

@@ -9,14 +9,14 @@ namespace tushar::simulation {
 /// interval of wall time, beside those of steps and simulated time.
 void addWallTimeInterval(std::optional<CheckpointSettings>& settings, double interval);
 
-/// When checkpoints are due. A run is never led another way by them: no time step is shortened.
+/// Decides when checkpoints are due. They never change a run: no time step is shortened for them.
 class CheckpointControl {
  public:
   CheckpointControl(const CheckpointSettings& settings, double initTime);
 
   /// Whether a checkpoint is due after a step that led to `time` [s], `wall` [s] after the process started.
   bool isDue(int step, double time, double wall) const;
-  /// A checkpoint has been written, or a run starts or goes on here.
+  /// Notes that a checkpoint has been written, or that a run starts or continues here.
   void note(double time, double wall);
 
  private:

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/memory.hpp"
 #include "core/base/trace.hpp"
 #include "core/output/checkpoint_store.hpp"
 #include "core/simulation/checkpoint_file.hpp"
@@ -32,7 +33,7 @@ void Checkpoints::writeLast() {
   if (outputs_.folder().empty() || !(control_ || isCutShort)) return;
   write();
   if (isCutShort)
-    run_.progress.line(fmt::format("step {:>6}  t = {:<12.6g} sus -restart {} goes on from here", run_.time.step(),
+    run_.progress.line(fmt::format("step {:>6}  t = {:<12.6g} sus --restart {} goes on from here", run_.time.step(),
                                    run_.time.time(), outputs_.folder()));
 }
 
@@ -40,6 +41,7 @@ void Checkpoints::write() {
   if (last_ == run_.time.step()) return;
   const auto started = Clock::now();
   const trace::Span span(trace::Kind::output, "checkpoint");
+  const PeakGrowth growth(memory_);
   const long dropped = run_.ranks.sum(run_.scheduler.relocation().dropped());
   if (output::Archive* archive = outputs_.archive()) {
     const output::ArchivePoint point = archive->sync(run_.time.step(), run_.time.time());

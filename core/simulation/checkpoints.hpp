@@ -27,13 +27,15 @@ class Checkpoints {
 
   /// Wall time spent writing, s.
   double seconds() const { return seconds_; }
+  /// By how much that has raised the peak of this rank's memory, bytes.
+  double memory() const { return memory_; }
 
  private:
   RunState& run_;
   Outputs& outputs_;
   std::optional<CheckpointControl> control_;  ///< empty if the scene asks for none
   int last_ = -1;                             ///< step of the last that was written or read
-  double seconds_ = 0;
+  double seconds_ = 0, memory_ = 0;
 };
 
 }  // namespace tushar::simulation

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/base/memory.hpp"
 #include "core/base/trace.hpp"
 #include "core/output/checkpoint_store.hpp"
 #include "core/simulation/checkpoint_file.hpp"
@@ -29,6 +30,7 @@ void Outputs::open() {
   run_.ranks.onFirst([&] { goesOn ? reopenArchive(how) : makeArchive(how); });
   folder_ = run_.ranks.broadcast(archive_ ? archive_->folder().string() : "");
   last_ = run_.ranks.broadcast(archive_ ? archive_->lastStep() : -1);
+  if (archive_) run_.clock.watch(archive_->folder());
 }
 
 void Outputs::makeArchive(const output::ArchiveOptions& how) {
@@ -56,7 +58,7 @@ void Outputs::saveGlobals() {
   if (folder_.empty() || (run_.phases.savedGlobals().empty() && !samples())) return;
   run_.diagnose(run_.phases.everyStep);
   for (const auto& analysis : run_.problem.analyses)
-    if (analysis->isSampleDue()) sample(*analysis);
+    if (analysis->isSampleDue(run_.time.step())) sample(*analysis);
   if (archive_) appendGlobals();
 }
 
@@ -79,9 +81,11 @@ bool Outputs::samples() const {
 
 void Outputs::sample(Analysis& analysis) {
   const auto started = Clock::now();
-  output::Snapshot snapshot = snapshotOf(run_, analysis.samples());
-  output::load(snapshot);
-  run_.ranks.onFirst([&] { analysis.sample(snapshot, folder_); });
+  std::vector<output::Snapshot> parts;
+  for (const collect::Layer& layer : analysis.layers()) parts.push_back(snapshotOf(run_, analysis.samples(), layer));
+  if (parts.empty()) parts.push_back(snapshotOf(run_, analysis.samples()));
+  for (output::Snapshot& part : parts) output::load(part);
+  run_.ranks.onFirst([&] { analysis.sample(parts, folder_); });
   seconds_ += secondsSince(started);
 }
 
@@ -94,6 +98,7 @@ void Outputs::saveIfDue() {
   const bool due = isDue();
   passMilestones();
   if (due) save();
+  if (archive_) archive_->keepUp();
 }
 
 void Outputs::save() {
@@ -101,6 +106,7 @@ void Outputs::save() {
   run_.diagnose(run_.phases.everyOutput);
   const auto started = Clock::now();
   const trace::Span span(trace::Kind::output, "save");
+  const PeakGrowth growth(memory_);
   output::Snapshot state = snapshotOf(run_, run_.phases.savedFields());
   for (const auto& analysis : run_.problem.analyses)
     for (output::Array& column : analysis->exactProfile(*run_.problem.level))

@@ -31,7 +31,7 @@ class Outputs {
   void saveIfDue();
   /// Writes an output, if the scene asks for any and this step has none.
   void save();
-  /// Writes what the archive keeps in memory.
+  /// Brings the lists of the archive up to date.
   void flush();
 
   /// Passes the output times up to now.
@@ -44,6 +44,8 @@ class Outputs {
   output::Archive* archive() const { return archive_.get(); }
   /// Wall time spent collecting and writing, s.
   double seconds() const { return seconds_; }
+  /// By how much that has raised the peak of this rank's memory, bytes.
+  double memory() const { return memory_; }
 
  private:
   void makeArchive(const output::ArchiveOptions& how);
@@ -62,7 +64,7 @@ class Outputs {
   Milestones times_;
   int last_ = -1;       ///< step of the last output
   bool saves_ = false;  ///< whether the scene asks for outputs, globals or samples
-  double seconds_ = 0;
+  double seconds_ = 0, memory_ = 0;
 };
 
 }  // namespace tushar::simulation

@@ -32,10 +32,10 @@ Names united(Names a, const Names& b) {
   return a;
 }
 
-using Totals = std::vector<std::pair<std::string, std::string>>;
+using NamedTotals = std::vector<std::pair<std::string, std::string>>;
 /// What is conserved and the total that says how much of it there is, of those that are diagnosed.
-Totals totalsAmong(const Names& diagnosed) {
-  Totals totals;
+NamedTotals totalsAmong(const Names& diagnosed) {
+  NamedTotals totals;
   for (const auto& [quantity, label] :
        {std::pair{"mass", "TotalMass"}, {"momentum", "TotalMomentum"}, {"energy", "TotalEnergy"}})
     if (diagnosed.contains(label)) totals.emplace_back(quantity, label);
@@ -111,22 +111,41 @@ std::vector<int> numbersIn(const std::string& text) {
 
 }  // namespace
 
+bool Phases::isMaterial(const std::string& name) const {
+  return std::find(materials_.begin(), materials_.end(), name) != materials_.end();
+}
+
 std::vector<SaveRequest> Phases::named(const std::vector<SaveRequest>& saves) const {
+  const int count = static_cast<int>(materials_.size());
   std::vector<SaveRequest> all;
   for (SaveRequest save : saves) {
-    const bool isName = std::find(materials_.begin(), materials_.end(), save.material) != materials_.end();
-    const std::vector<int> numbers = isName ? std::vector<int>{} : numbersIn(save.material);
-    if (save.material == "all" && !isName) save.material.clear();
-    if (numbers.empty() || numbers.back() >= static_cast<int>(materials_.size())) {
+    const std::vector<int> numbers = isMaterial(save.material) ? std::vector<int>{} : numbersIn(save.material);
+    const bool isOfAll = std::find(numbers.begin(), numbers.end(), count) != numbers.end();
+    if (isOfAll || (save.material == "all" && !isMaterial("all"))) save.material.clear();
+    if (numbers.empty() || isOfAll) {
       all.push_back(save);
       continue;
     }
     for (const int number : numbers) {
+      if (number > count) continue;
       save.material = materials_[number];
       all.push_back(save);
     }
   }
   return all;
+}
+
+std::vector<std::string> Phases::remarksOn(const SaveRequest& save) const {
+  const int count = static_cast<int>(materials_.size());
+  std::vector<std::string> remarks;
+  if (isMaterial(save.material)) return remarks;
+  for (const int number : numbersIn(save.material))
+    if (number == count)
+      remarks.push_back(fmt::format(
+          "in Uintah material {} is all materials together; here '{}' is saved of each of them", number, save.label));
+    else if (number > count)
+      remarks.push_back(fmt::format("does nothing for {}: materials are counted from 0 to {}", number, count - 1));
+  return remarks;
 }
 
 std::vector<InputProblem> Phases::problemsOf(const std::vector<SaveRequest>& saves, const std::string& path) const {
@@ -135,14 +154,14 @@ std::vector<InputProblem> Phases::problemsOf(const std::vector<SaveRequest>& sav
   for (const SaveRequest& save : named(saves)) {
     if (!known.contains(save.label))
       problems.push_back({save.where, path,
-                          fmt::format("no task of this component computes '{}'{}; there are {}", save.label,
+                          fmt::format("no task of this component computes '{}'{}; there {} {}", save.label,
                                       didYouMean(save.label, {known.begin(), known.end()}),
-                                      alternatives({known.begin(), known.end()}))});
-    else if (!save.material.empty() &&
-             std::find(materials_.begin(), materials_.end(), save.material) == materials_.end())
-      problems.push_back({save.whereOfMaterial, path,
-                          fmt::format("there is no material '{}'{}; there are {}", save.material,
-                                      didYouMean(save.material, materials_), alternatives(materials_))});
+                                      known.size() == 1 ? "is" : "are", allOf({known.begin(), known.end()}))});
+    else if (!save.material.empty() && !isMaterial(save.material))
+      problems.push_back(
+          {save.whereOfMaterial, path,
+           fmt::format("there is no material '{}'{}; there {} {}", save.material, didYouMean(save.material, materials_),
+                       materials_.size() == 1 ? "is" : "are", allOf(materials_))});
   }
   return problems;
 }
@@ -151,8 +170,11 @@ std::vector<SaveRequest> Phases::samplesOf(const std::vector<std::unique_ptr<Ana
   std::vector<SaveRequest> samples;
   for (const auto& analysis : analyses)
     for (SaveRequest& sample : analysis->samples()) samples.push_back(std::move(sample));
-  if (std::vector<InputProblem> problems = problemsOf(samples, "DataAnalysis/Module"); !problems.empty())
-    throw InputError(std::move(problems));
+  std::vector<InputProblem> problems = problemsOf(samples, "DataAnalysis/Module");
+  for (const SaveRequest& sample : samples)
+    for (const std::string& remark : remarksOn(sample))
+      problems.push_back({sample.whereOfMaterial, "DataAnalysis/Module", remark});
+  if (!problems.empty()) throw InputError(std::move(problems));
   return samples;
 }
 

@@ -24,6 +24,8 @@ class Phases {
   /// What is wrong with the labels and materials that a scene wants saved.
   std::vector<InputProblem> problemsOf(const std::vector<SaveRequest>& saves,
                                        const std::string& path = "DataArchiver/save") const;
+  /// What a saved number that is not that of a material means.
+  std::vector<std::string> remarksOn(const SaveRequest& save) const;
   /// Compiles the lists. Throws InputError for a saved label that no task computes, TaskError for lists that do not
   /// fit together.
   void compile(const std::vector<std::unique_ptr<Analysis>>& analyses, const std::vector<SaveRequest>& saves,
@@ -57,7 +59,9 @@ class Phases {
   void noteMaterials();
   /// The particle variables that analysis modules sample. Throws InputError for one that no task computes.
   std::vector<SaveRequest> samplesOf(const std::vector<std::unique_ptr<Analysis>>& analyses) const;
-  /// The requests with the names of materials in place of their numbers.
+  bool isMaterial(const std::string& name) const;
+  /// The requests with the names of materials in place of their numbers; the number behind the last stands for all, as
+  /// in Uintah, and those behind it for nothing.
   std::vector<SaveRequest> named(const std::vector<SaveRequest>& saves) const;
   void sortSaves(const std::vector<SaveRequest>& saves);
 

@@ -14,7 +14,7 @@
 
 namespace tushar::simulation {
 
-/// Everything that a checked scene comes down to.
+/// A scene that has been checked, ready to run.
 struct Problem {
   std::string scenePath, title, componentName;
   std::string inputXml;             ///< the scene with its overrides, for the archive

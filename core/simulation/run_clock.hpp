@@ -1,20 +1,24 @@
 #pragma once
 
 #include <chrono>
+#include <filesystem>
+#include <optional>
+#include <utility>
 
 #include "core/base/mpi.hpp"
+#include "core/simulation/trigger_files.hpp"
 
 namespace tushar::simulation {
 
 using Clock = std::chrono::steady_clock;
 
-/// Seconds that have passed.
+/// Seconds since a point in time.
 inline double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// The wall clock of a run. All ranks share its last reading, so that they end the run and write checkpoints after the
-/// same step.
+/// The wall clock of a run, and what it is asked for from outside by signals and files. All ranks share its last
+/// reading, so that they end the run, save the state and write checkpoints after the same step.
 class RunClock {
  public:
   /// `startedAt` is when the process started.
@@ -22,17 +26,24 @@ class RunClock {
 
   /// Time since the process started, on this rank, s.
   double now() const { return secondsSince(started_at_); }
-  /// Reads the clock, and whether any rank was interrupted. All ranks call it.
+  /// From now on this rank, the first, looks for files in the folder of the archive.
+  void watch(const std::filesystem::path& folder) { files_.emplace(folder); }
+  /// Reads the clock, and what any rank was asked for. All ranks call it.
   void agree(const mpi::Communicator& ranks);
   /// Time since the process started, at the last reading of all ranks, s.
   double elapsed() const { return elapsed_; }
   /// Whether an interrupt is to end the run on all ranks.
   bool isInterrupted() const { return interrupted_; }
+  /// Whether a file is to end the run.
+  bool isStopped() const { return stopped_; }
+  /// Whether the state is to be saved now; not again until it is asked for again.
+  bool takeSaveRequest() { return std::exchange(save_asked_, false); }
 
  private:
   Clock::time_point started_at_;
   double elapsed_ = 0;
-  bool interrupted_ = false;
+  bool interrupted_ = false, stopped_ = false, save_asked_ = false;
+  std::optional<TriggerFiles> files_;
 };
 
 }  // namespace tushar::simulation

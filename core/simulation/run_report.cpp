@@ -1,5 +1,7 @@
 #include "core/simulation/run_report.hpp"
 
+#include <algorithm>
+
 #include "core/collect/gather.hpp"
 #include "core/report/drift.hpp"
 #include "core/report/error_norms.hpp"
@@ -26,11 +28,9 @@ void RunReport::endLoop(double outputSeconds) {
   use_ = report::TimeUse(use_before_, run_.scheduler.threads(), secondsSince(loop_started_), output, run_.ranks);
 }
 
-Report RunReport::make() {
-  const ResidentMemory memory = residentMemory();
-  run_.warehouse.releaseFreeMemory();
+Report RunReport::make(double fileMemory) {
   Report report;
-  report.memory = {run_.ranks.max(memory.now), run_.ranks.max(memory.peak)};
+  addMemory(report, fileMemory);
   addLayout(report);
   addProgress(report);
   addTasks(report);
@@ -38,6 +38,19 @@ Report RunReport::make() {
   addErrors(report);
   report.fingerprint = collect::fingerprint(run_.warehouse, run_.phases.state(), run_.materials());
   return report;
+}
+
+/// What the last step leaves free is known once it has gone back to the system.
+void RunReport::addMemory(Report& report, double fileMemory) {
+  const ResidentMemory memory = residentMemory();
+  run_.warehouse.releaseFreeMemory();
+  report.memory = {run_.ranks.max(memory.now), run_.ranks.max(memory.peak)};
+  report::MemoryUse use;
+  use.peak = memory.peak;
+  use.buffers = std::max(0.0, memory.now - residentMemory().now);
+  use.files = fileMemory;
+  addVariables(run_.warehouse, use);
+  report.memoryOfRanks = ofRanks(use, run_.ranks);
 }
 
 void RunReport::addLayout(Report& report) {

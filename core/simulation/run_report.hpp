@@ -12,17 +12,19 @@ class RunReport {
  public:
   explicit RunReport(RunState& run) : run_(run) {}
 
-  /// The start-up is over.
+  /// Notes that the start-up is over.
   void noteStartUp(double outputSeconds) { start_up_ = run_.clock.now() - outputSeconds; }
   void beginLoop(double outputSeconds);
-  /// A step has been taken.
+  /// Notes that a step has been taken.
   void noteStep();
   void endLoop(double outputSeconds);
 
-  /// The report, except how the run ended, its outputs, and the patches that changed ranks.
-  report::Report make();
+  /// The report, except how the run ended, its outputs, and the patches that changed ranks. `fileMemory` is by how much
+  /// outputs and checkpoints have raised the peak of this rank's memory, bytes.
+  report::Report make(double fileMemory = 0);
 
  private:
+  void addMemory(report::Report& report, double fileMemory);
   void addLayout(report::Report& report);
   void addProgress(report::Report& report);
   void addTasks(report::Report& report);

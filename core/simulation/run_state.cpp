@@ -15,8 +15,12 @@ RunState::RunState(Problem givenProblem, bool quiet, Clock::time_point startedAt
   warehouse.grow(materials());
 }
 
-void RunState::diagnose(tasks::TaskGraph& graph) {
+void RunState::setTimeOfAnalyses() {
   for (const auto& analysis : problem.analyses) analysis->setTime(time.time(), time.time() - problem.time.initTime);
+}
+
+void RunState::diagnose(tasks::TaskGraph& graph) {
+  setTimeOfAnalyses();
   scheduler.run(graph, {time.step(), time.time()});
 }
 

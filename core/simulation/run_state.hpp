@@ -25,6 +25,8 @@ struct RunState {
 
   /// Number of materials.
   int materials() const { return static_cast<int>(phases.materials().size()); }
+  /// Tells the analysis modules what time it is.
+  void setTimeOfAnalyses();
   /// Runs diagnostics on the state as it is now.
   void diagnose(tasks::TaskGraph& graph);
   /// The numbers of a reduction; empty if it has no value yet, or no task computes it.

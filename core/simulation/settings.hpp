@@ -21,10 +21,10 @@ struct SaveRequest {
 /// The tag `checkpoint`: how many are kept, and one of the intervals.
 struct CheckpointSettings {
   int cycle = 2;
-  std::optional<double> interval;                                   ///< s of simulated time
-  std::optional<int> timestepInterval;                              ///< steps
-  std::optional<double> walltimeStart, walltimeInterval;            ///< s
-  std::optional<double> walltimeStartHours, walltimeIntervalHours;  ///< h
+  std::optional<double> interval = {};                                        ///< s of simulated time
+  std::optional<int> timestepInterval = {};                                   ///< steps
+  std::optional<double> walltimeStart = {}, walltimeInterval = {};            ///< s
+  std::optional<double> walltimeStartHours = {}, walltimeIntervalHours = {};  ///< h
 };
 
 /// The `DataArchiver` section.
@@ -40,7 +40,7 @@ struct ArchiveSettings {
   std::optional<CheckpointSettings> checkpoint;
 };
 
-/// How a run is asked for on the command line.
+/// The options of a run on the command line.
 struct RunOptions {
   std::string jsonPath;      ///< where the report goes; empty: nowhere
   std::string outputFolder;  ///< instead of the current folder

@@ -1,6 +1,9 @@
 #include "core/simulation/simulation.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
 
 #include "core/collect/gather.hpp"
 #include "core/report/error_norms.hpp"
@@ -8,6 +11,16 @@
 #include "core/solvers/solver.hpp"
 
 namespace tushar::simulation {
+
+namespace {
+
+std::string hostName() {
+  char name[256] = "";
+  gethostname(name, sizeof name - 1);
+  return name;
+}
+
+}  // namespace
 
 Simulation::Simulation(Problem problem, const RunOptions& options, Clock::time_point startedAt)
     : Simulation(std::move(problem), options, startedAt, mpi::Communicator::alone()) {}
@@ -28,6 +41,7 @@ long Simulation::tryStart() {
 report::Report Simulation::run() {
   begin();
   outputs_.open();
+  openLog();
   if (!run_.problem.restart) {
     outputs_.saveStart();
     checkpoints_.writeFirst();
@@ -35,12 +49,43 @@ report::Report Simulation::run() {
   report_.noteStartUp(outputSeconds());
   run_.clock.agree(run_.ranks);
   loop();
+  saveEnd();
+  report::Report report = makeReport();
+  if (log_ && solvers::isLoaded()) log_->addLibrary("PETSc", solvers::petscVersion());
+  if (log_) log_->end(report.ended, report.steps, static_cast<int>(exitCodeOf(report)));
+  return report;
+}
+
+void Simulation::openLog() {
+  for (const std::string& host : run_.ranks.gather(hostName()))
+    if (std::find(record_.hosts.begin(), record_.hosts.end(), host) == record_.hosts.end())
+      record_.hosts.push_back(host);
+  if (outputs_.folder().empty()) return;
+  record_.ranks = run_.ranks.size();
+  record_.threads = run_.scheduler.threads().count();
+  record_.restarts = run_.problem.restart.has_value();
+  record_.step = run_.time.step();
+  run_.ranks.onFirst([&] { log_.emplace(outputs_.folder(), record_); });
+}
+
+/// `mpirun` leaves an interrupted run two seconds: the checkpoint, by which it goes on, comes first.
+void Simulation::saveEnd() {
+  const bool isCut = run_.clock.isInterrupted() || run_.clock.isStopped();
   if (failure_) saveLastGood();
-  if (run_.problem.archive.outputLastTimestep || run_.clock.isInterrupted()) outputs_.save();
+  if (isCut && !outputs_.folder().empty()) checkpoints_.write();
+  if (isCut || run_.problem.archive.outputLastTimestep) outputs_.save();
   run_.progress.finish();
   outputs_.flush();
   checkpoints_.writeLast();
-  return makeReport();
+}
+
+void Simulation::saveNow() {
+  if (outputs_.folder().empty())
+    return run_.progress.line("nothing is saved: the scene asks for no outputs, globals or checkpoints");
+  outputs_.save();
+  checkpoints_.write();
+  run_.progress.line(fmt::format("step {:>6}  t = {:<12.6g} saved as asked for; sus --restart {} goes on from here",
+                                 run_.time.step(), run_.time.time(), outputs_.folder()));
 }
 
 void Simulation::begin() {
@@ -57,6 +102,7 @@ void Simulation::begin() {
 void Simulation::resume() {
   checkpoints_.resume();
   outputs_.passMilestones();
+  run_.setTimeOfAnalyses();  // what was due up to now, the run before has sampled
 }
 
 void Simulation::initialize() {
@@ -93,6 +139,7 @@ void Simulation::step() {
   outputs_.saveGlobals();
   outputs_.saveIfDue();
   run_.clock.agree(run_.ranks);
+  if (run_.clock.takeSaveRequest()) saveNow();
   if (!hasEnded() && checkpoints_.isDue()) checkpoints_.write();
 }
 
@@ -120,13 +167,15 @@ void Simulation::advance() {
 }
 
 bool Simulation::hasEnded() const {
-  return run_.time.done() || run_.clock.isInterrupted() || run_.clock.elapsed() > run_.problem.time.maxWallTime;
+  return run_.time.done() || run_.clock.isInterrupted() || run_.clock.isStopped() ||
+         run_.clock.elapsed() > run_.problem.time.maxWallTime;
 }
 
 std::string Simulation::whyEnded() const {
   if (failure_) return "failed";
   if (run_.clock.isInterrupted()) return "interrupted";
   if (run_.time.time() >= run_.problem.time.maxTime) return "maxTime";
+  if (run_.clock.isStopped()) return "stop_now";
   return run_.time.done() ? "max_Timesteps" : "max_wall_time";
 }
 
@@ -141,13 +190,13 @@ void Simulation::saveLastGood() {
   if (outputs_.folder().empty()) return;
   outputs_.save();
   checkpoints_.write();
-  failure_ = NumericalError(fmt::format("{}; the last whole step, {} at t = {:.6g} s, is saved: sus -restart {}",
+  failure_ = NumericalError(fmt::format("{}; the last whole step, {} at t = {:.6g} s, is saved: sus --restart {}",
                                         failure_->what(), run_.time.step(), run_.time.time(), outputs_.folder()),
                             failure_->advice(), failure_->value());
 }
 
 report::Report Simulation::makeReport() {
-  report::Report report = report_.make();
+  report::Report report = report_.make(outputs_.memory() + checkpoints_.memory());
   if (!failure_)
     if (const auto sentence = report::unmeasurable(report.errors)) failure_ = advised(NumericalError(*sentence, ""));
   report.ended = whyEnded();
@@ -160,6 +209,11 @@ report::Report Simulation::makeReport() {
   report.archive = outputs_.folder();
   report.unusedOptions = solvers::unusedOptions();
   return report;
+}
+
+ExitCode exitCodeOf(const report::Report& report) {
+  if (!report.failure.empty()) return ExitCode::numerical;
+  return report.ended == "interrupted" ? ExitCode::interrupted : ExitCode::success;
 }
 
 }  // namespace tushar::simulation

@@ -4,7 +4,9 @@
 #include <optional>
 #include <string>
 
+#include "core/base/error.hpp"
 #include "core/base/mpi.hpp"
+#include "core/output/run_log.hpp"
 #include "core/report/report.hpp"
 #include "core/simulation/checkpoints.hpp"
 #include "core/simulation/outputs.hpp"
@@ -28,12 +30,15 @@ class Simulation {
   /// Makes the state at the start (or reads the checkpoint), and nothing else; the number of particles. Throws what a
   /// run would throw there.
   long tryStart();
-  /// Runs to the end of the scene, to an interrupt, or to a value that is not finite or out of its bounds, which the
-  /// report then names: the last whole step is saved. Throws TaskError, FileError, and NumericalError for such a value
-  /// at the start.
+  /// What run.json says of the program and its command line.
+  void setRecord(output::RunRecord record) { record_ = std::move(record); }
+  /// Runs to the end of the scene, to an interrupt, to a file `stop_now` in its archive, or to a value that is not
+  /// finite or out of its bounds, which the report then names: the last whole step is saved. Throws TaskError,
+  /// FileError, and NumericalError for such a value at the start.
   report::Report run();
 
  private:
+  void openLog();
   void begin();
   void resume();
   void initialize();
@@ -48,6 +53,10 @@ class Simulation {
   void saveLastGood();
   /// Wall time of outputs and checkpoints, s.
   double outputSeconds() const { return outputs_.seconds() + checkpoints_.seconds(); }
+  /// Writes an output and a checkpoint between steps, as a signal or a file has asked for.
+  void saveNow();
+  /// Writes what is to be saved at the end.
+  void saveEnd();
   report::Report makeReport();
 
   RunState run_;
@@ -56,6 +65,11 @@ class Simulation {
   Rebalancer rebalancer_;
   RunReport report_;
   std::optional<NumericalError> failure_;
+  output::RunRecord record_;
+  std::optional<output::RunLog> log_;  ///< on rank 0, of a run that has an archive
 };
+
+/// What sus returns after a run that has come to a report.
+ExitCode exitCodeOf(const report::Report& report);
 
 }  // namespace tushar::simulation

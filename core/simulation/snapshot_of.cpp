@@ -1,7 +1,5 @@
 #include "core/simulation/snapshot_of.hpp"
 
-#include "core/collect/gather.hpp"
-
 namespace tushar::simulation {
 
 using collect::Gather;
@@ -10,13 +8,18 @@ using data::Generation;
 
 namespace {
 
-/// The particles of every material, with p.x alone.
-output::Snapshot positions(const RunState& run, Gather& gather) {
+output::Snapshot emptySnapshot(const RunState& run, output::GridInfo grid) {
   output::Snapshot snapshot;
   snapshot.step = run.time.step();
   snapshot.time = run.time.time();
   snapshot.delT = run.time.delT();
-  snapshot.grid = collect::gridInfo(*run.problem.level);
+  snapshot.grid = std::move(grid);
+  return snapshot;
+}
+
+/// The particles of every material, with p.x alone.
+output::Snapshot positions(const RunState& run, Gather& gather) {
+  output::Snapshot snapshot = emptySnapshot(run, collect::gridInfo(*run.problem.level));
   for (std::size_t m = 0; m < run.phases.materials().size(); ++m) {
     const int number = run.table.find(data::positionName, static_cast<int>(m));
     if (number < 0) continue;
@@ -26,7 +29,9 @@ output::Snapshot positions(const RunState& run, Gather& gather) {
   return snapshot;
 }
 
-void addField(RunState& run, const SaveRequest& save, Gather& gather, output::Snapshot& snapshot) {
+/// `stream(generation, number)` gets the values.
+template <class Stream>
+void addField(RunState& run, const SaveRequest& save, const Stream& stream, output::Snapshot& snapshot) {
   for (int m = -1; m < run.materials(); ++m) {
     const int number = run.table.find(save.label, m);
     const std::string material = m < 0 ? "" : run.phases.materials()[m];
@@ -34,7 +39,7 @@ void addField(RunState& run, const SaveRequest& save, Gather& gather, output::Sn
       continue;
     const data::Label& label = *run.table[number].label;
     const bool derived = !run.warehouse.isHeld(Generation::old, number);
-    output::Array array = gather.stream(derived ? Generation::fresh : Generation::old, number);
+    output::Array array = stream(derived ? Generation::fresh : Generation::old, number);
     if (label.centring == Centring::particle)
       snapshot.particles[m].arrays.push_back(std::move(array));
     else if (array.entries() > 0)
@@ -48,7 +53,16 @@ void addField(RunState& run, const SaveRequest& save, Gather& gather, output::Sn
 output::Snapshot snapshotOf(RunState& run, const std::vector<SaveRequest>& requests) {
   Gather gather(run.warehouse);
   output::Snapshot snapshot = positions(run, gather);
-  for (const SaveRequest& request : requests) addField(run, request, gather, snapshot);
+  const auto whole = [&](Generation generation, int number) { return gather.stream(generation, number); };
+  for (const SaveRequest& request : requests) addField(run, request, whole, snapshot);
+  return snapshot;
+}
+
+output::Snapshot snapshotOf(RunState& run, const std::vector<SaveRequest>& requests, const collect::Layer& layer) {
+  Gather gather(run.warehouse);
+  output::Snapshot snapshot = emptySnapshot(run, collect::gridInfo(*run.problem.level, layer));
+  const auto part = [&](Generation generation, int number) { return gather.stream(generation, number, layer); };
+  for (const SaveRequest& request : requests) addField(run, request, part, snapshot);
   return snapshot;
 }
 

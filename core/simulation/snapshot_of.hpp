@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "core/collect/gather.hpp"
 #include "core/output/snapshot.hpp"
 #include "core/simulation/run_state.hpp"
 
@@ -10,5 +11,8 @@ namespace tushar::simulation {
 /// The state of a run as it is now, from all ranks: the particles of every material with p.x, and the variables that
 /// are asked for. Rank 0 has the values; they are not copied, and good while the state is as it is. All ranks call it.
 output::Snapshot snapshotOf(RunState& run, const std::vector<SaveRequest>& requests);
+
+/// The same of a layer of the grid, without particles.
+output::Snapshot snapshotOf(RunState& run, const std::vector<SaveRequest>& requests, const collect::Layer& layer);
 
 }  // namespace tushar::simulation

@@ -27,7 +27,7 @@ input::Schema<LinearSettings> schemaOf(const LinearSettings& defaults) {
       .value("maxiterations", &LinearSettings::maxIterations, defaults.maxIterations, "1", "more of them are a failure",
              input::atLeast(1))
       .ours()
-      .value("petsc", &LinearSettings::petsc, "", "1", "options in PETSc's language; sus -petsc wins")
+      .value("petsc", &LinearSettings::petsc, "", "1", "options in PETSc's language; sus --petsc wins")
       .ours()
       .check([](const LinearSettings& read, const input::Element& element, input::Diagnostics& diagnostics) {
         if (read.solver == "preonly" && read.preconditioner != "lu" && read.preconditioner != "cholesky")

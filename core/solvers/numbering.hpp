@@ -19,8 +19,8 @@ class CellNumbering {
   int owned() const { return level_->share().ranks > 1 ? owned_ : static_cast<int>(level_->cells().size()); }
   /// The cells of other ranks: their numbers among those of all ranks.
   const std::vector<int>& ghosts() const { return ghosts_; }
-  /// Of a cell of the grid or, along periodic axes, of an image of one; -1 beyond the grid and far from the rank's
-  /// patches.
+  /// The number of a cell of the grid or, along periodic axes, of a periodic image; -1 beyond the grid and far from the
+  /// patches of this rank.
   template <int D>
   int operator()(const Index<D>& image) const {
     const Index<D> cell = level_->wrapped(image);

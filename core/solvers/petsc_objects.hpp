@@ -13,7 +13,7 @@
 
 namespace tushar::solvers {
 
-/// Throws std::runtime_error with PETSc's words where a call has failed.
+/// Throws std::runtime_error with PETSc's message if a call has failed.
 void check(PetscErrorCode code);
 
 /// Starts PETSc at the first call.
@@ -45,7 +45,7 @@ using OwnedNullSpace = Owned<MatNullSpace, MatNullSpaceDestroy>;
 /// Other solves do not see them.
 class PetscOptionsOfSolve {
  public:
-  /// Starts PETSc, where it has not been.
+  /// Starts PETSc, unless it has been started.
   explicit PetscOptionsOfSolve(const std::string& options);
   PetscOptionsOfSolve(const PetscOptionsOfSolve&) = delete;
   PetscOptionsOfSolve& operator=(const PetscOptionsOfSolve&) = delete;

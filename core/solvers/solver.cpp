@@ -9,6 +9,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "core/base/missing.hpp"
 #include "core/solvers/report.hpp"
 
 namespace tushar::solvers {
@@ -22,6 +23,10 @@ std::atomic<bool> wasLoaded = false;
 /// Lazily bound, so that what PETSc brings along is only resolved where it is used.
 const Solver& load() {
   void* handle = dlopen(library, RTLD_LAZY | RTLD_LOCAL);
+  if (!handle) {
+    buildMissing("petsc");
+    handle = dlopen(library, RTLD_LAZY | RTLD_LOCAL);
+  }
   if (!handle) throw std::runtime_error(fmt::format("the solver cannot be loaded: {}", dlerror()));
   using Entry = const Solver* (*)();
   const auto entry = reinterpret_cast<Entry>(dlsym(handle, "tusharSolver"));

@@ -184,6 +184,12 @@ inline constexpr bool isOfMaterialAndPatch<OptionalAccess<Access>> = isOfMateria
 template <class Access>
 inline constexpr bool isOfMaterialAndPatch<OfferedAccess<Access>> = isOfMaterialAndPatch<Access>;
 
+/// Whether an argument stands for a variable; any other is a value of its own, such as the one of `with`.
+template <class Argument>
+inline constexpr bool isOfLabel = isOfMaterialAndPatch<Argument>;
+template <class R, AccessKind Kind>
+inline constexpr bool isOfLabel<FieldAccess<data::ReductionLabel<R>, Kind>> = true;
+
 /// Whether an argument only makes sense where a task makes particles, or runs once on a rank.
 template <class Argument>
 inline constexpr bool isCreation = false;

@@ -32,13 +32,17 @@ struct Blank<data::GridView<C, T>> {
   static data::GridView<C, T> make() { return {nullptr, grid::Box{}}; }
 };
 
-/// Declares the accesses that a group names, in their order.
+/// Declares the accesses that a group names, in their order. `makesParticles`: for a task of `newParticles`.
+template <bool makesParticles>
 class DeclareEach {
  public:
   explicit DeclareEach(std::vector<Access>& accesses) : accesses_(&accesses) {}
 
   template <class Argument>
   decltype(auto) operator()(Argument argument) const {
+    static_assert(isOfLabel<Argument>,
+                  "take(...) takes accesses to labels; give a group other values as settings, all<Group>(value)");
+    static_assert(makesParticles || !isCreation<Argument>, "creates(...) belongs to newParticles, also in a group");
     argument.declare(*accesses_);
     return Blank<decltype(argument.bind(std::declval<const TaskContext&>()))>::make();
   }
@@ -82,9 +86,10 @@ struct GroupArgument {
   std::tuple<Settings...> settings;
   int first = 0;  ///< place of its first access among those of the task
 
-  void declare(std::vector<Access>& accesses) {
+  template <bool makesParticles>
+  void declareFor(std::vector<Access>& accesses) {
     first = static_cast<int>(accesses.size());
-    DeclareEach take(accesses);
+    DeclareEach<makesParticles> take(accesses);
     std::apply([&](const auto&... each) { Group::from(take, each...); }, settings);
   }
   Group bind(const TaskContext& context) const {

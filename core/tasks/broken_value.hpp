@@ -28,8 +28,8 @@ struct BrokenValue {
   std::string sentence;  ///< value, bound, particle, cell, position, the value before, those around it, how many broke
 };
 
-/// Of what a task has written on all patches, the first value in the order of variables, cells and ids that breaks its
-/// bound: the same on any patches and ranks. None if all is well. Every rank asks.
+/// The first value that a task wrote and that breaks its bound, in the order of variables, cells and ids: the same for
+/// any patches and ranks. None if all bounds hold. Collective.
 std::optional<BrokenValue> firstBroken(data::Warehouse& warehouse, const std::vector<Bounded>& written);
 
 /// The first value of one variable that breaks `bound`, which need not be that of its label.

@@ -67,7 +67,7 @@ class TaskContext {
   const R& reduction(int access) const {
     return warehouse_->reduction<R>((*accesses_)[access].variable);
   }
-  /// What the patch adds to it.
+  /// The part that the patch adds to the reduction.
   template <class R>
   R& partOfReduction(int access) const {
     return warehouse_->partOfReduction<R>((*accesses_)[access].variable, patch_->id());

@@ -36,16 +36,16 @@ class Exchange {
   ///
   /// Posts messages. A rank on which a task failed says so in place of its values (`hasStopped`).
   void send(std::span<const BoundGhostFill> fills, bool hasStopped);
-  /// Fills what needs no message from other ranks, where no task has failed by then.
+  /// Fills the ghosts that need no message from other ranks, unless a task has failed.
   void begin(bool hasStopped);
   /// Waits for the messages of others and fills the rest. False if another rank has stopped; then
   /// nothing more is filled, and this rank must stop too, before it reads values that are missing.
   bool finish();
-  /// Between the last two: whether there are messages to wait for.
+  /// Between the two calls above: whether there are messages to wait for.
   bool isUnderWay() const { return !senders_.empty(); }
-  /// Between the last two: whether the patch at this place of the rank's has all its ghosts.
+  /// Between the two calls above: whether the patch at this place of the rank has all its ghosts.
   bool isReady(std::size_t place);
-  /// Patches of this rank take the new values of a node variable that they have but do not own from one another.
+  /// Copies the new values of a node variable between patches of this rank, from owners to those that share the node.
   void shareFaces(int variable);
   /// To be called when the distribution of patches has changed.
   void forgetLayout() {
@@ -81,7 +81,7 @@ class Exchange {
   mpi::Outbox outbox_;
   GhostPlans plans_;
   std::vector<std::vector<GhostCopy>> faces_;  ///< by place of the patch on this rank; settled on first use
-  // Of the exchange that was sent:
+  // The exchange that was sent:
   std::span<const BoundGhostFill> fills_;
   bool has_stopped_ = false;
   std::set<int> senders_;       ///< ranks whose messages are awaited

@@ -44,7 +44,7 @@ struct GhostReach {
 class GhostPlans {
  public:
   const GhostPlan& of(const grid::Level& level, const GhostReach& reach);
-  /// There is another layout from now on.
+  /// To be called when the distribution of patches has changed.
   void forget() { plans_.clear(); }
 
  private:

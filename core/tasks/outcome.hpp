@@ -10,8 +10,8 @@
 
 namespace tushar::tasks {
 
-/// How and where a run of a graph stopped early: the first failing task in the order of the graph, over all ranks. Sent
-/// in messages as it is.
+/// How and where a run of a graph stopped early: the first failing task in the order of the graph, over all ranks. It
+/// is sent in messages byte by byte.
 ///
 /// A task that shortens the time step comes before one that breaks a bound, since what it computed is not used.
 struct Outcome {

@@ -17,9 +17,9 @@ class ParticleInstaller {
 
   ParticleInstaller(data::Warehouse& warehouse, int material, const std::vector<ParticleMaker>& makers);
 
-  /// First the sets, which then have slots.
+  /// First: installs the particle sets, which then have slots.
   void makeSets(const OnPatches& onPatches);
-  /// Then the values of each label that is created; of one that nobody reads none are kept.
+  /// Then: installs the values of a created label, and drops those of a label that nobody reads.
   void write(int number, std::size_t access, bool isRead, const OnPatches& onPatches);
   void writeIds(const OnPatches& onPatches);
 

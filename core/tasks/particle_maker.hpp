@@ -48,7 +48,7 @@ class ParticleMaker {
   }
 
   bool keepsAll() const { return keeps_all_; }
-  /// Makes these the new particles of the patch, sorted by (cell, id).
+  /// Installs the particles as those of the patch, sorted by (cell, id).
   /// Throws data::AccessError for a particle outside the patch.
   void makeSet(data::ParticleSet& set, const grid::Patch& patch, int reach);
   /// Whether there are values of a created label.

@@ -43,7 +43,7 @@ class ParticleMigration {
   /// Sends those that leave and takes in those that come, with the values of all that is carried; together with all
   /// ranks, or where `goFar` is false with the neighbours.
   void run(const std::vector<Carried>& carried, bool goFar);
-  /// Those that have come.
+  /// The particles that have arrived.
   const std::vector<MigratingParticle>& arrived() const { return arrived_; }
   /// Their values of a carried variable, one after the other.
   const std::byte* values(std::size_t carried) const { return values_[carried].data(); }

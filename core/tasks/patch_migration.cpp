@@ -23,9 +23,10 @@ namespace {
 
 /// Writes what stands on patches: the particles of all by cell, then each variable, behind a byte that says whether
 /// there is one.
-class Packer {
+class PatchPacker {
  public:
-  Packer(data::Warehouse& warehouse, const MigratedVariables& migrated) : warehouse_(warehouse), migrated_(migrated) {}
+  PatchPacker(data::Warehouse& warehouse, const MigratedVariables& migrated)
+      : warehouse_(warehouse), migrated_(migrated) {}
 
   void add(const std::vector<Patch>& patches, Bytes& to) {
     for (const Patch& patch : patches)
@@ -66,7 +67,7 @@ class Packer {
   const MigratedVariables& migrated_;
 };
 
-/// Reads what a Packer has written.
+/// Reads what a PatchPacker has written.
 class Unpacker {
  public:
   Unpacker(data::Warehouse& warehouse, const MigratedVariables& migrated, std::vector<Patch> patches, Bytes message)
@@ -155,7 +156,7 @@ void migratePatches(grid::Level& level, data::Warehouse& warehouse, const Migrat
   mpi::Outbox outbox(ranks);
   std::map<int, Bytes> parts;
   forEachOwner(offsets, before[me], before[me + 1], [&](int rank, int first, int end) {
-    Packer(warehouse, migrated).add(patchesFrom(level, first, end), parts[rank]);
+    PatchPacker(warehouse, migrated).add(patchesFrom(level, first, end), parts[rank]);
   });
   for (auto& [rank, bytes] : parts)
     if (rank != ranks.rank()) outbox.send(rank, mpi::Tag::patches, std::move(bytes));

@@ -13,7 +13,7 @@ struct LeftOut {
   std::string reason;
 };
 
-/// What is left of a list, and what it takes.
+/// The tasks that are left of a list, and the variables that they need.
 struct Pruned {
   std::vector<Task> kept;
   std::vector<LeftOut> leftOut;

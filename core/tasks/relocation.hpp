@@ -34,9 +34,9 @@ class Relocation {
   /// To be called when the distribution of patches has changed.
   void forgetLayout();
 
-  /// A step begins, perhaps for the second time.
+  /// Starts a step, perhaps for the second time.
   void start() { leaving_ = 0; }
-  /// The step is accepted.
+  /// Accepts the step.
   void commit() { dropped_ += std::exchange(leaving_, 0); }
   /// Particles that have left the grid from this rank since the start.
   long dropped() const { return dropped_; }
@@ -60,7 +60,7 @@ class Relocation {
     Index3 cell;
     int from, departed;  ///< place before, and among the departed
   };
-  /// A particle that went where none can be; of several the first by cell and id.
+  /// A particle that went where none can be; if there are several, the first by cell and id.
   struct Escape {
     std::uint64_t cell;
     ParticleId id;
@@ -112,7 +112,7 @@ class Relocation {
     bool goFar = false;
     std::size_t departed = 0;  ///< from their cells, on all patches
   };
-  /// A variable on its way: from where to where on each patch, and the values of the departed.
+  /// A variable in transit: its memory before and after on each patch, and the values of departed particles.
   struct Move {
     std::size_t bytes;
     const std::byte* from;
@@ -142,12 +142,12 @@ class Relocation {
   /// Notes the move of the particle at place `departed` among those that leave their cells.
   template <int D>
   void move(const grid::Patch& from, const Index<D>& cell, Vec<D>& x, ParticleId id, int departed, PatchMoves& moves);
-  /// Sorts out what left its patch: who escaped first, how many left the grid, who goes to another rank.
+  /// Sorts the particles that left their patch: which escaped first, how many left the grid, which go to another rank.
   Verdict gather(Moves& moves, bool hasStopped);
   [[noreturn]] void refuseEscape(int position, const Verdict& verdict) const;
   template <int D>
   std::string sentence(int position, const Escape& escape) const;
-  /// Hands out those who come into a cell of another patch.
+  /// Hands particles over to the patches that they come into.
   void receiveAll(Moves& moves);
   static void receive(const grid::Patch& patch, const Index3& cell, const Incoming& particle, PatchMoves& moves);
   void rebuild(const grid::Patch& patch, int material, PatchMoves& moves);
@@ -156,9 +156,9 @@ class Relocation {
   static void mergeCell(PatchMoves& moves, const data::ParticleRange& before, int firstIncoming, const ParticleId* ids,
                         std::size_t& nextDeparted);
   void carry(const Carried& carried, std::size_t place, data::Generation to, int material, Moves& moves);
-  /// Keeps the values of those that leave their cells apart.
+  /// Sets the values of departing particles aside.
   static void pack(const Move& move, std::size_t place, const PatchMoves& moves);
-  /// Brings those that stay to their places, and lets the others in.
+  /// Moves the particles that stay to their new places, and inserts those that arrive.
   void moveOn(const Move& move, std::size_t place, Moves& moves);
 
   data::Warehouse* warehouse_;

@@ -19,7 +19,7 @@ class TaskList {
   template <class Body, class... Arguments>
   void perPatch(std::string name, Body body, Arguments... arguments) {
     check<false, false, Arguments...>();
-    std::vector<Access> accesses = declare(arguments...);
+    std::vector<Access> accesses = declare<false>(arguments...);
     add({std::move(name),
          TaskKind::work,
          {},
@@ -34,7 +34,7 @@ class TaskList {
   template <class Material, class Body, class... Arguments>
   void perMaterial(std::string name, Body body, const std::vector<Material>& materials, Arguments... arguments) {
     check<false, false, Arguments...>();
-    std::vector<Access> accesses = declare(arguments...);
+    std::vector<Access> accesses = declare<false>(arguments...);
     add({std::move(name), TaskKind::work, names(materials), std::move(accesses),
          [body, &materials, bound = std::make_tuple(arguments...)](const TaskContext& context) {
            const Material& material = materials[context.material()];
@@ -48,7 +48,7 @@ class TaskList {
   template <class Material, class Body, class... Arguments>
   void acrossMaterials(std::string name, Body body, const std::vector<Material>& materials, Arguments... arguments) {
     check<false, false, Arguments...>();
-    std::vector<Access> accesses = declare(arguments...);
+    std::vector<Access> accesses = declare<false>(arguments...);
     add({std::move(name), TaskKind::work, names(materials), std::move(accesses),
          [body, &materials, bound = std::make_tuple(arguments...)](const TaskContext& context) {
            std::apply([&](const auto&... argument) { body(context.patch(), materials, bindAll(argument, context)...); },
@@ -62,7 +62,7 @@ class TaskList {
   template <class Body, class... Arguments>
   void perRank(std::string name, Body body, Arguments... arguments) {
     check<false, true, Arguments...>();
-    std::vector<Access> accesses = declare(arguments...);
+    std::vector<Access> accesses = declare<false>(arguments...);
     addPerRank({std::move(name),
                 TaskKind::work,
                 {},
@@ -79,7 +79,7 @@ class TaskList {
   void perRankAcrossMaterials(std::string name, Body body, const std::vector<Material>& materials,
                               Arguments... arguments) {
     check<false, true, Arguments...>();
-    std::vector<Access> accesses = declare(arguments...);
+    std::vector<Access> accesses = declare<false>(arguments...);
     addPerRank(
         {std::move(name), TaskKind::work, names(materials), std::move(accesses),
          [body, &materials, bound = std::make_tuple(arguments...)](const TaskContext& context) {
@@ -94,7 +94,7 @@ class TaskList {
   template <class Material, class Body, class... Arguments>
   void newParticles(std::string name, Body body, const std::vector<Material>& materials, Arguments... arguments) {
     check<true, false, Arguments...>();
-    std::vector<Access> accesses = declare(arguments...);
+    std::vector<Access> accesses = declare<true>(arguments...);
     add({std::move(name), TaskKind::newParticles, names(materials), std::move(accesses),
          [body, &materials, bound = std::make_tuple(arguments...)](const TaskContext& context) {
            const Material& material = materials[context.material()];
@@ -128,10 +128,17 @@ class TaskList {
     static_assert(isOnRank || !(isOfRanks<Arguments> || ...),
                   "togetherOnRanks() belongs to perRank and perRankAcrossMaterials");
   }
-  template <class... Arguments>
+  template <bool makesParticles, class Argument>
+  static void declareOne(Argument& argument, std::vector<Access>& accesses) {
+    if constexpr (requires { argument.template declareFor<makesParticles>(accesses); })
+      argument.template declareFor<makesParticles>(accesses);
+    else
+      argument.declare(accesses);
+  }
+  template <bool makesParticles, class... Arguments>
   static std::vector<Access> declare(Arguments&... arguments) {
     std::vector<Access> accesses;
-    (arguments.declare(accesses), ...);
+    (declareOne<makesParticles>(arguments, accesses), ...);
     return accesses;
   }
   template <class Material>

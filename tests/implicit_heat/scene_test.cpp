@@ -19,6 +19,16 @@ std::string problemWith(const std::vector<std::string>& overrides) {
   return "";
 }
 
+/// Where the first problem of the scene with an override is.
+std::string blamed(const std::string& change) {
+  try {
+    scene::readScene("ups/heat/sine.ups", {change}, catalogue());
+  } catch (const InputError& error) {
+    return error.problems()[0].where.text();
+  }
+  return "";
+}
+
 }  // namespace
 
 TEST(HeatSection, SendsImplicitStepsToTheComponentThatTakesThem) {
@@ -26,6 +36,22 @@ TEST(HeatSection, SendsImplicitStepsToTheComponentThatTakesThem) {
   EXPECT_EQ(problemWith({"Heat/time_integrator=backward_euler"}),
             "found 'backward_euler', expected explicit: for implicit steps, use <SimulationComponent "
             "type=\"implicit_heat\"/>");
+  EXPECT_EQ(problemWith({"Heat/Solver/solver=cg"}),
+            "is not available; explicit steps solve no system; <SimulationComponent type=\"implicit_heat\"/> does");
+}
+
+TEST(HeatSection, SendsExplicitStepsBack) {
+  EXPECT_EQ(problemWith({"SimulationComponent/@type=implicit_heat", "Heat/time_integrator=explicit"}),
+            "found 'explicit', expected 'backward_euler' or 'crank_nicolson': for explicit steps, use "
+            "<SimulationComponent type=\"heat\"/>");
+}
+
+TEST(Overrides, AreBlamedForWhatTheyGetWrong) {
+  const std::string face = "Grid/BoundaryConditions/Face[1]/BCType/";
+  for (const std::string& change :
+       {std::string("SimulationComponent/@type=heatt"), std::string("DataAnalysis/Module/@name=exactSolutio"),
+        face + "@var=Dirichle", face + "@label=Temperatur", face + "@id=one", face + "value=cold"})
+    EXPECT_EQ(blamed(change), "--set " + change);
 }
 
 TEST(HeatSection, IsTheSameForImplicitSteps) {

@@ -19,7 +19,7 @@ LEFT = MATERIAL + "geom_object[1]/"
 OVERRIDES = {
     "unknown component": ("SimulationComponent/@type=mpn",
                           "SimulationComponent: type: found 'mpn', expected 'burgers', 'euler', 'heat', "
-                          "'implicit_heat', 'mpm', 'impm' or 'poisson' (did you mean 'mpm'?)"),
+                          "'implicit_heat', 'impm', 'mpm' or 'poisson' (did you mean 'mpm'?)"),
     "unknown tag": (BOX + "resolutoin=[3,1,1]", BOX + "resolutoin: unknown tag <resolutoin> in <Box> (did you mean "
                     "'resolution'?); allowed here: lower, upper, resolution, patches, autoPatch, extraCells"),
     "unknown section": ("Gird/x=1", "Gird: unknown section <Gird> (did you mean 'Grid'?); allowed here: Meta, "
@@ -31,10 +31,9 @@ OVERRIDES = {
                                   "constitutive_model: an ideal_gas has no p_infinity; use type=\"stiffened_gas\""),
     "unknown module": ("DataAnalysis/Module/@name=exactRieman",
                        "DataAnalysis/Module: name: found 'exactRieman', expected "
-                       "'burgersWave', 'massProjection', 'energyBudget', 'manufacturedError', 'exactRiemann', "
-                       "'simpleWave', 'isentropicVortex', 'gresho', 'noh', 'sedov', 'tabulated', 'exactSolution' or "
-                       "'particleExtract' (did you mean "
-                       "'exactRiemann'?)"),
+                       "'burgersWave', 'energyBudget', 'exactRiemann', 'exactSolution', 'gresho', 'isentropicVortex', "
+                       "'manufacturedError', 'massProjection', 'noh', 'particleExtract', 'sedov', 'simpleWave', "
+                       "'slice' or 'tabulated' (did you mean 'exactRiemann'?)"),
     "unknown choice": (GAS + "volume_model=tracket", GAS + "volume_model: found 'tracket', expected 'cell_share' or "
                        "'tracked' (did you mean 'tracked'?)"),
     "unknown boundary label": ("Grid/BoundaryConditions/Face[1]/BCType/@label=Symetric",
@@ -65,7 +64,7 @@ OVERRIDES = {
     "inverted box": (BOX + "upper=[-1,1,1]", "Grid/Level/Box: upper is below lower along x: -1 < 0 m"),
     "no extent": (BOX + "upper=[0,1,1]", "Grid/Level/Box: there are 100 cells along x, where the box has no extent"),
     "more patches than cells": (BOX + "patches=[101,1,1]", "Grid/Level/Box: there are 101 patches along x, but only "
-                                                           "100 cell(s)"),
+                                                           "100 cells"),
     "both patches and autoPatch": (BOX + "autoPatch=4", "Grid/Level/Box: gives both patches and autoPatch; keep one"),
     "both spacing and resolution": ("Grid/Level/spacing=[.01,1,1]",
                                     "Grid/Level: gives both spacing and resolution; keep one"),
@@ -107,7 +106,7 @@ OVERRIDES = {
                             "'p.densty' (did you mean 'p.density'?); there are 'CellError.density'"),
     "unknown saved material": ("DataArchiver/save[1]/@material=gass",
                                "DataArchiver/save: there is no material 'gass' (did you "
-                               "mean 'gas'?); there are 'gas'"),
+                               "mean 'gas'?); there is 'gas'"),
     "checkpoint without interval": ("DataArchiver/checkpoint/@cycle=2",
                                     "DataArchiver/checkpoint: gives none of interval, "
                                     "timestepInterval, walltimeInterval and walltimeIntervalHours; give one"),
@@ -142,6 +141,17 @@ TEXTS = {
                           "unknown attribute 'sied' of <Face> (did you mean 'side'?)"),
     "text among tags": (SOD.replace("<Time>", "<Time> soon "), ":13:4",
                         "text 'soon' in <Time>, where only tags are allowed"),
+    "text in the outermost tag": (SOD.replace("<Time>", "soon <Time>"), "",
+                                  "text 'soon' in <Uintah_specification>, where only tags are allowed"),
+    "an attribute of the outermost tag": (SOD.replace("<Uintah_specification>", '<Uintah_specification version="2">'),
+                                          "", "unknown attribute 'version' of <Uintah_specification>"),
+    "text among modules": (SOD.replace("<DataAnalysis>", "<DataAnalysis> soon"), "",
+                           "text 'soon' in <DataAnalysis>, where only tags are allowed"),
+    "an attribute of modules": (SOD.replace("<DataAnalysis>", '<DataAnalysis name="x">'), "",
+                                "unknown attribute 'name' of <DataAnalysis>"),
+    "an attribute of a title": (SOD.replace("<title>", '<title lang="en">'), "", "unknown attribute 'lang' of <title>"),
+    "loads on a gas": (SOD.replace("<MaterialProperties>", "<PhysicalBC/><MaterialProperties>"), "",
+                       "PhysicalBC: a gas takes no <PhysicalBC>"),
     "two checkpoint intervals": (SOD.replace("<filebase>", '<checkpoint interval="1" timestepInterval="2"/><filebase>'),
                                  ":36:6",
                                  "gives more than one of interval, timestepInterval, walltimeInterval and "
@@ -272,9 +282,9 @@ class BrokenScenes(unittest.TestCase):
         self.assertEqual(result.code, 2)
         self.assertIn("sus: unknown option '--jsn' (did you mean '--json'?)", result.err)
         self.assertEqual(run("ups/mpm/sod.ups", options=("-emit_taskgraphs",)).err,
-                         "sus: unknown option '-emit_taskgraphs'; sus -h lists the options\n")
+                         "sus: unknown option '-emit_taskgraphs'; sus -h lists the options [T701]\n")
         self.assertEqual(run("ups/mpm/sod.ups", options=("ups/heat/sine.ups",)).err,
-                         "sus: runs one scene at a time: found 'ups/heat/sine.ups' after 'ups/mpm/sod.ups'\n")
+                         "sus: runs one scene at a time: found 'ups/heat/sine.ups' after 'ups/mpm/sod.ups' [T701]\n")
 
     def test_says_what_it_has_checked(self):
         for scene, size in (("ups/mpm/sod.ups", "100 cells and 450 particles at the start"),
@@ -284,7 +294,7 @@ class BrokenScenes(unittest.TestCase):
     def test_a_screen_that_takes_nothing(self):
         with open("/dev/full", "w") as full:
             done = subprocess.run([SUS, "--list"], stdout=full, stderr=subprocess.PIPE, text=True)
-        self.assertEqual((done.returncode, done.stderr), (1, "sus: standard output cannot be written\n"))
+        self.assertEqual((done.returncode, done.stderr), (1, "sus: standard output cannot be written [T402]\n"))
 
 
 if __name__ == "__main__":

@@ -33,13 +33,14 @@ class CheckJson(unittest.TestCase):
             done, plain = sus("-check", "-json", scene), sus("-check", scene)
         self.assertEqual((done.returncode, done.stderr), (3, ""))
         problems = json.loads(done.stdout)
-        keys = ["file", "line", "column", "path", "message"]
+        keys = ["file", "line", "column", "path", "message", "number"]
         self.assertEqual([list(problem) for problem in problems], [keys, [*keys, "suggestion"]])
         first, second = problems
         self.assertEqual((first["file"], first["line"], first["path"]), (str(scene), 14, "Time/maxTime"))
         self.assertIn("expected a value greater than 0", first["message"])
         self.assertEqual(second["suggestion"], "cfl")
-        lines = [f"{one['file']}:{one['line']}:{one['column']}: {one['path']}: {one['message']}" for one in problems]
+        lines = [f"{one['file']}:{one['line']}:{one['column']}: {one['path']}: {one['message']} [{one['number']}]"
+                 for one in problems]
         self.assertEqual("\n".join(lines) + "\n", plain.stderr)
 
     def test_an_override_has_no_line(self):
@@ -63,7 +64,7 @@ class CheckJson(unittest.TestCase):
     def test_a_report_needs_a_file(self):
         done = sus(SOD, "-json")
         self.assertEqual((done.returncode, done.stderr),
-                         (2, "sus: --json needs the name of a file, where the report goes\n"))
+                         (2, "sus: --json needs the name of a file, where the report goes [T701]\n"))
 
 
 if __name__ == "__main__":

@@ -191,10 +191,25 @@ TEST(Geometry, SaysThatALabelIsOfAnotherKind) {
             Lines{"s.ups:3:5: M/b/sphere: 'gp3' is the <box> at s.ups:2:5, not a <sphere>"});
 }
 
-TEST(Geometry, SaysThatALabelIsTaken) {
-  EXPECT_EQ(problemsOf("<a>" + box("[0,0,0]", "[1,1,1]", "g") + "</a>\n<b>" + box("[0,0,0]", "[2,2,2]", "g") + "</b>"),
-            Lines{"s.ups:3:5: M/b/box: the label 'g' is that of the <box> at s.ups:2:5 already; to use that one again, "
-                  "leave this tag empty"});
+TEST(Geometry, NotesThatALabelIsTaken) {
+  const Document document =
+      documentOf("<M><a>" + box("[0,0,0]", "[1,1,1]", "g") + "</a>\n<b>" + box("[0,0,0]", "[2,2,2]", "g") + "</b></M>");
+  Diagnostics diagnostics;
+
+  const PiecePtr piece = readGeometry(*document.root().child("M")->child("b"), diagnostics);
+
+  ASSERT_NE(piece, nullptr);
+  expectBounds(*piece, {0, 0, 0}, {2, 2, 2});
+  ASSERT_EQ(diagnostics.notes().size(), 1u);
+  EXPECT_EQ(diagnostics.notes()[0].sentence,
+            "the label 'g' is that of the <box> at s.ups:1:30, too: no tag can refer to it");
+}
+
+TEST(Geometry, SaysThatALabelIsOfTwoShapes) {
+  EXPECT_EQ(
+      problemsOf("<a>" + box("[0,0,0]", "[1,1,1]", "g") + "</a>\n<b>" + box("[0,0,0]", "[2,2,2]", "g") +
+                 "</b>\n<c><box label='g'/></c>"),
+      Lines{"s.ups:4:5: M/c/box: 'g' is the label of the shapes at s.ups:2:5 and at s.ups:3:5: which one is meant?"});
 }
 
 TEST(Geometry, KeepsTheLabelsOfSectionsApart) {
@@ -219,9 +234,10 @@ TEST(Geometry, TellsOfAWrongShapeOnlyOnce) {
 }
 
 TEST(Geometry, SaysThatThereIsNoShape) {
-  EXPECT_EQ(problemsOf("<a><res>[1,1,1]</res></a>"),
-            Lines{"s.ups:2:2: M/a: <a> has no shape; the shapes are: box, cylinder, sphere, cone, ellipsoid, "
-                  "parallelepiped, torus, null, tri, union, difference, intersection"});
+  EXPECT_EQ(
+      problemsOf("<a><res>[1,1,1]</res></a>"),
+      Lines{"s.ups:2:2: M/a: <a> has no shape; the shapes are: box, cylinder, sphere, cone, ellipsoid, "
+            "parallelepiped, torus, null, tri, line_segment, polyhedron, smoothcyl, union, difference, intersection"});
 }
 
 TEST(Geometry, SaysThatAShapeIsUnknown) {
@@ -230,16 +246,21 @@ TEST(Geometry, SaysThatAShapeIsUnknown) {
 
   readShape(*document.root().child("bx"), diagnostics);
 
-  EXPECT_EQ(told(diagnostics),
-            Lines{"s.ups:1:24: bx: unknown shape <bx> (did you mean 'box'?); the shapes are: box, cylinder, sphere, "
-                  "cone, ellipsoid, parallelepiped, torus, null, tri, union, difference, intersection"});
+  EXPECT_EQ(
+      told(diagnostics),
+      Lines{
+          "s.ups:1:24: bx: unknown shape <bx> (did you mean 'box'?); the shapes are: box, cylinder, sphere, "
+          "cone, ellipsoid, parallelepiped, torus, null, tri, line_segment, polyhedron, smoothcyl, union, difference, "
+          "intersection"});
 }
 
 TEST(Geometry, SaysThatAShapeInAUnionIsUnknown) {
   EXPECT_EQ(
       problemsOf("<a><union>" + box("[0,0,0]", "[1,1,1]") + "<spere/></union></a>"),
       Lines{"s.ups:2:59: M/a/union/spere: unknown tag <spere> in <union> (did you mean 'sphere'?); allowed here: box, "
-            "cylinder, sphere, cone, ellipsoid, parallelepiped, torus, null, tri, union, difference, intersection"});
+            "cylinder, sphere, cone, ellipsoid, parallelepiped, torus, null, tri, line_segment, polyhedron, smoothcyl, "
+            "union, "
+            "difference, intersection"});
 }
 
 TEST(Geometry, SaysHowManyShapesAreNeeded) {

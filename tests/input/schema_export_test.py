@@ -82,8 +82,9 @@ class SchemaExport(unittest.TestCase):
             "included tags": sod.replace("<maxTime>0.2</maxTime>",
                                          '<include href="t.xml" section="Time" excludeSectionTag="true"/>'),
             "compression": editors.overridden(sod, "DataArchiver/compression=gzip -9"),
-            "attributes of the outermost tag": sod.replace("<Uintah_specification>",
-                                                           '<Uintah_specification version="2">'),
+            "name spaces of editors": sod.replace(
+                "<Uintah_specification>", '<Uintah_specification xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance" '
+                'xsi:noNamespaceSchemaLocation="tushar.xsd">'),
         }
         for name, text in accepted.items():
             self.assertNotEqual(text, sod, name)

@@ -236,6 +236,60 @@ TEST(Schema, SaysHowManyTagsAreNeeded) {
   EXPECT_EQ(told(diagnostics), Lines{"s.ups:1:24: curve: <curve> needs at least 2 tags <point>, found 1 (a time)"});
 }
 
+TEST(Schema, RefusesWhatFunctionsDoNotLookAt) {
+  struct Flow {};
+  Schema<Flow> schema("flow", "");
+  const auto readNothing = [](Flow&, const Element&, Diagnostics&) {};
+  schema.custom("speed", readNothing, {"speed"}, "").forms({typeForm({"speed"}, "number")});
+  schema.custom("model", readNothing, {"model"}, "").forms({anyForm({"model"}, {{"type", {"a"}}})});
+  schema.custom("law", readNothing, {"law"}, "").forms({onceForm("law", [] { return std::vector<Alternative>(); })});
+  const auto problemsOfFlow = [&](const std::string& inside) {
+    const Document document = documentOf("<flow>" + inside + "</flow>");
+    Diagnostics diagnostics;
+    schema.read(*document.root().child("flow"), diagnostics);
+    return told(diagnostics);
+  };
+
+  EXPECT_EQ(problemsOfFlow("<speed>1</speed><model type='a'><b/></model><law c='d'/>"), Lines{});
+  EXPECT_EQ(problemsOfFlow("<speed unit='m'><b/></speed>").size(), 2u);
+  EXPECT_EQ(problemsOfFlow("<speed>1</speed>\n<speed>1</speed>"),
+            Lines{"s.ups:2:2: flow/speed: tag <speed> is given twice, on line 1 and on line 2; one is allowed"});
+  EXPECT_EQ(problemsOfFlow("<law/>\n<law/>"),
+            Lines{"s.ups:2:2: flow/law: tag <law> is given twice, on line 1 and on line 2; one is allowed"});
+  ASSERT_EQ(problemsOfFlow("<model type='a' kind='b'/>").size(), 1u);
+  EXPECT_NE(problemsOfFlow("<model type='a' kind='b'/>")[0].find("unknown attribute 'kind' of <model>"),
+            std::string::npos);
+}
+
+TEST(Schema, MarksAllTagsOfASection) {
+  struct Flow {
+    double speed = 0;
+  };
+  Schema<Flow> schema("flow", "");
+  schema.allOurs().value("speed", &Flow::speed, 1, "m/s", "how fast").ignored("colour", "means nothing");
+  std::ostringstream out;
+  schema.describe(out);
+  EXPECT_EQ(out.str(),
+            "<flow>: \n  <speed> — number in m/s, default 1: how fast [Tushar's own]\n"
+            "  <colour> — ignored: means nothing [Tushar's own]\n");
+}
+
+TEST(Schema, SaysWhereAWordIsThatIsNotHere) {
+  struct Steps {
+    int order = 0;
+  };
+  const Schema<Steps> schema = std::move(Schema<Steps>("steps", "")
+                                             .choice("order", &Steps::order, {{"first", 1}, {"second", 2}}, 1, "")
+                                             .elsewhere("third", "the component fine has it"));
+  for (const auto& [word, hint] : {std::pair{"third", ": the component fine has it"}, std::pair{"nine", ""}}) {
+    const Document document = documentOf("<steps><order>" + std::string(word) + "</order></steps>");
+    Diagnostics diagnostics;
+    schema.read(*document.root().child("steps"), diagnostics);
+    ASSERT_EQ(told(diagnostics).size(), 1u);
+    EXPECT_TRUE(told(diagnostics)[0].ends_with("expected 'first' or 'second'" + std::string(hint)));
+  }
+}
+
 TEST(Schema, ChecksValuesAgainstEachOther) {
   EXPECT_EQ(problemsOf("<cfl>0.9</cfl>"), Lines{"s.ups:1:24: gas: cfl is above gamma/2"});
 }
@@ -274,8 +328,8 @@ TEST(Schema, DescribesItself) {
             "<gas>: The gas method.\n"
             "  <cfl> — number, greater than 0 and less than 1, default 0.2125: Courant number [Tushar's own]\n"
             "  <gamma> — number, greater than 1, required: ratio of specific heats\n"
-            "  <pressure> — formula in x, y, z, t in Pa, of at least 0, optional: initial pressure\n"
-            "  <velocity> — numbers [a,b,c] in m/s, of at most 10, default [0,0,0]: initial velocity\n"
+            "  <pressure> — formula in x, y, z, t in Pa, at least 0, optional: initial pressure\n"
+            "  <velocity> — numbers [a,b,c] in m/s, at most 10, default [0,0,0]: initial velocity\n"
             "  <res> — integers [a,b,c], greater than 0, default [2,2,2]: particles per cell\n"
             "  <on> — true or false, default true: whether it runs\n"
             "  <model> — 'cell_share' or 'tracked', default cell_share: volume model\n"
@@ -290,9 +344,9 @@ TEST(Schema, DescribesItself) {
             "    label= — text, required: the variable\n"
             "    model= — 'share' or 'tracked', default tracked: how\n"
             "    weight= — number in kg, greater than 0, default 1: its weight\n"
-            "  <time> — number in s, of at least 0, any number: an output time\n"
+            "  <time> — number in s, at least 0, any number: an output time\n"
             "  <scale> — optional: A factor.\n"
-            "    (text) — number, of at least 0, required: the factor\n"
+            "    (text) — number, at least 0, required: the factor\n"
             "    kind= — text, required: of what\n"
             "  <doing> — ignored: means nothing here\n"
             "  <box>, <sphere>: its shapes\n");

@@ -8,8 +8,8 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from sus import ROOT, run
 
-BEAM, BILLET, CYLINDER, SPALL = (f"ups/solid/{name}.ups" for name in ("implicit_cantilever", "billet", "thick_cylinder",
-                                                                      "spall"))
+BEAM, BILLET, BLOCK, CYLINDER, SPALL = (f"ups/solid/{name}.ups" for name in (
+    "implicit_cantilever", "billet", "pushed_block", "thick_cylinder", "spall"))
 CONDITIONS, GEOMETRY = "</BoundaryConditions>", "<geom_object>"
 TEMPERATURE = '<Face side="x+"><BCType id="ID" label="Temperature" var="KIND"><value>VALUE</value></BCType></Face>'
 HEAT = """<PhysicalBC><MPM><heat_flux><geom_object><box><min>[1,.4,0]</min><max>[1,.6,.05]</max></box></geom_object>
@@ -37,6 +37,26 @@ MTS = '<flow_model type="mts_model">' + "".join(f"<{tag}>{number}</{tag}>" for t
 REFUSED = {
     "a rigid body that nothing holds in implicit steps":
         (BEAM, ('type="comp_neo_hook"', 'type="rigid"'), "'rubber' is rigid, which has no tangent"),
+    "a pressure on faces that does not say which":
+        (BLOCK, ("<outward_normal>true</outward_normal>", ""),
+         "missing tag <outward_normal>: needed with <use_CBDI_boundary_condition>"),
+    "pressures that turn, at the corners of particles":
+        (BLOCK, ("<interpolator>", "<keepPressBCNormalToSurface>true</keepPressBCNormalToSurface><interpolator>"),
+         "not with <use_CBDI_boundary_condition>"),
+    "a torque on a box":
+        (BLOCK, ("pressure>", "torque>"), "a torque acts on the side of a <cylinder> only"),
+    "planes between bodies before there are any":
+        (BLOCK, ("<interpolator>", "<stress_update>usf</stress_update><interpolator>"),
+         "friction_LR, friction_LRVar and specified_friction only with usl and musl"),
+    "friction by color without its table":
+        (BLOCK, ("friction_LR<", "friction_LRVar<"), "missing tag <variable_friction> in <contact>"),
+    "colors of friction that do not ascend":
+        (BLOCK, ("friction_LR</type>", "friction_LRVar</type><master_material>0</master_material><variable_friction>"
+                 "<entry><color>1</color><mu>0</mu></entry><entry><color>1</color><mu>1</mu></entry>"
+                 "</variable_friction>"), "its color is not above that of the one before"),
+    "a master that turns without a file":
+        (BILLET, ("<materials>[0,1]</materials>", "<include_rotation>true</include_rotation>"),
+         "needs a contact of type rigid, specified or specified_friction and its <filename>"),
     "a flow of heat into implicit steps": (BEAM, heat_flow("Neumann", "5"), "var: Neumann for Temperature only with"),
     "heat on a surface in implicit steps":
         (BEAM, ("<Grid>", HEAT), "heat_flux: only with <time_integrator> explicit", "MPM/use_load_curves=true"),
@@ -79,6 +99,27 @@ REFUSED = {
     "two thermal contacts":
         (BILLET, ("<contact>", "<thermal_contact/><thermal_contact/><contact>"),
          "tag <thermal_contact> is given twice"),
+    "two sections of constants":
+        (BEAM, ("<MaterialProperties>", "<PhysicalConstants/><MaterialProperties>"),
+         "<PhysicalConstants> is given twice; the first is at "),
+    "two sections of loads":
+        (CYLINDER, ("<PhysicalBC>", "<PhysicalBC><MPM/></PhysicalBC><PhysicalBC>"),
+         "<PhysicalBC> is given twice; the first is at "),
+    "two places of a load":
+        (CYLINDER, ("<load_curve>", "<geom_object/><load_curve>"), "tag <geom_object> is given twice"),
+    "an attribute of the place of a load":
+        (CYLINDER, ("<geom_object>\n          <cylinder", '<geom_object name="x">\n          <cylinder'),
+         "unknown attribute 'name' of <geom_object>"),
+    "two constitutive models":
+        (BEAM, (RUBBER, '<constitutive_model type="rigid"/>' + RUBBER), "tag <constitutive_model> is given twice"),
+    "two damage models":
+        (SPALL, ("<damage_model", '<damage_model type="x"/><damage_model'), "tag <damage_model> is given twice"),
+    "an attribute of a switch":
+        (BEAM, (RUBBER, RUBBER + '<usePlasticity unit="1">false</usePlasticity>'),
+         "unknown attribute 'unit' of <usePlasticity>"),
+    "a tag in a switch":
+        (BEAM, (RUBBER, RUBBER + "<usePlasticity>false<b/></usePlasticity>"),
+         "tag <b> in <usePlasticity>, where only a value is allowed"),
     "a surface of Mohr and Coulomb without corners":
         (BEAM, (RUBBER, '<constitutive_model type="MohrCoulomb"><G>1</G><K>1</K><Version>3</Version>'),
          "Version: found '3', expected 1, 11, 12: stresses return to the nearest point of a surface with corners"),
@@ -107,8 +148,8 @@ REFUSED = {
         (BILLET, ("<type>rigid</type>", "<type>friction</type><mu>.1</mu>"),
          "contact: friction only with <time_integrator> "
          "explicit; here all materials move as one", "MPM/time_integrator=implicit", "MPM/artificial_viscosity=false"),
-    "fibres with viscosity":
-        (BEAM, ('type="comp_neo_hook"', 'type="visco_trans_iso_hyper"'), "trans_iso_hyper, without viscosity"),
+    "fibres with friction":
+        (BEAM, ('type="comp_neo_hook"', 'type="TransIsoHypoFrictional"'), "hypo_elastic, without fibres"),
     "affine velocities that stresses would not see":
         (BILLET, ("<interpolator>", "<apic>true</apic><stress_update>usf</stress_update><interpolator>"),
          "apic: only with stress_update usl"),

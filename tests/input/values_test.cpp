@@ -58,8 +58,8 @@ TEST(Values, ReadVectorsWithBlanksAnywhere) {
 }
 
 TEST(Values, RefuseWhatIsNoVector) {
-  EXPECT_EQ(parse<Vec3>("1,2,3").problem, "found '1,2,3', expected three numbers, as [1,2,3]");
-  EXPECT_EQ(parse<Vec3>("[1,2]").problem, "found '[1,2]', expected three numbers, as [1,2,3]");
+  for (const std::string text : {"1,2,3", "[1,2]"})
+    EXPECT_EQ(parse<Vec3>(text).problem, "found '" + text + "', expected three numbers, as [1,2,3]");
   EXPECT_EQ(parse<Vec3>("[1,,3]").problem, "in '[1,,3]': found nothing, expected a number");
   EXPECT_EQ(parse<Vec3>("").problem, "found nothing, expected three numbers, as [1,2,3]");
   EXPECT_EQ(parse<Index3>("[1,2.5,3]").problem, "in '[1,2.5,3]': found '2.5', expected an integer");
@@ -72,9 +72,14 @@ TEST(Values, ReadLists) {
   EXPECT_EQ(*parse<std::vector<std::string>>("[xminus, yplus]"), (std::vector<std::string>{"xminus", "yplus"}));
 }
 
+TEST(Values, ReadANumberWithoutBracketsAsAListOfOne) {
+  EXPECT_EQ(*parse<std::vector<double>>(" .5 "), (std::vector<double>{0.5}));
+  EXPECT_EQ(*parse<std::vector<int>>("0"), std::vector<int>{0});
+}
+
 TEST(Values, RefuseWhatIsNoList) {
-  EXPECT_EQ(parse<std::vector<double>>("1").problem, "found '1', expected numbers, as [1,2,3]");
-  EXPECT_EQ(parse<std::vector<int>>("1").problem, "found '1', expected integers, as [1,2,3]");
+  EXPECT_EQ(parse<std::vector<double>>("a").problem, "found 'a', expected numbers, as [1,2,3]");
+  EXPECT_EQ(parse<std::vector<int>>("1,2").problem, "found '1,2', expected integers, as [1,2,3]");
   EXPECT_EQ(parse<std::vector<std::string>>("a").problem, "found 'a', expected words, as [a,b,c]");
 }
 

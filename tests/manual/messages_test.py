@@ -32,6 +32,7 @@ MISTAKES = (
     ("T401", ("nothere.ups",)),
     ("T501", ("-restart", "nothere.uda")),
     ("T701", ("--descrbe", "mpm")),
+    ("T705", (SOD, "--load", "nothere.so")),
 )
 
 
@@ -82,6 +83,7 @@ class Messages(unittest.TestCase):
                 first = done.stderr.splitlines()[0]
                 self.assertIsNotNone(family_of(first), first)
                 self.assertEqual(family_of(first).id, number, first)
+                self.assertTrue(first.endswith(f" [{number}]"), first)
 
 
 class Search(unittest.TestCase):

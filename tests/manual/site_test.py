@@ -14,7 +14,7 @@ from tushar.manual import api, tags  # noqa: E402
 from tushar.manual.links import dead_links  # noqa: E402
 from tushar.manual.pictures import Album, bound_of, broken_bounds  # noqa: E402
 
-TITLE = re.compile(r'^ *((?:<[^>]+>(?:, )?)+|[\w.-]+=(?:"[^"]*")?)(?= —|:)')
+TITLE = re.compile(r'^ *((?:<[^>]+>(?:, )?)+|[\w.-]+=(?:"[^"]*")?|\(text\))(?= —|:)')
 HEADER = """
 /// A box.
 class Box {
@@ -120,9 +120,9 @@ class Tags(unittest.TestCase):
     """The text of --describe is read as it is meant."""
 
     def test_a_value(self):
-        tag = tags.parse_line("<r> — number in m, greater than 0 and of at most 1, default 0.5: radius [Tushar's own]")
+        tag = tags.parse_line("<r> — number in m, greater than 0 and at most 1, default 0.5: radius [Tushar's own]")
         self.assertEqual((tag.title(), tag.type, tag.unit), ("<r>", "number", "m"))
-        self.assertEqual(tag.limits, "greater than 0 and of at most 1")
+        self.assertEqual(tag.limits, "greater than 0 and at most 1")
         self.assertEqual((tag.presence, tag.default, tag.sentence, tag.ours), ("default", "0.5", "radius", True))
 
     def test_a_choice_a_vector_and_a_formula(self):

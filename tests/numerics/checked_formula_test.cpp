@@ -3,13 +3,20 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
+
+#include "tests/support/levels.hpp"
 
 namespace tushar::numerics {
 
 namespace {
 
 const input::Expression& inverse() {
-  static const input::Expression formula = *input::Expression::parse("1/x");
+  static const input::Expression formula = [] {
+    input::Expression parsed = *input::Expression::parse("1/x");
+    parsed.readAt({"a.ups", 3, 5});
+    return parsed;
+  }();
   return formula;
 }
 
@@ -26,14 +33,14 @@ std::string refusal(const CheckedFormula& formula, double x) {
 }  // namespace
 
 TEST(CheckedFormula, GivesItsValue) {
-  const CheckedFormula formula{inverse(), {}, "Heat/temperature", "K"};
+  const CheckedFormula formula{inverse(), "Heat/temperature", "K"};
 
   EXPECT_EQ(formula.finiteAt(Vec3(-4, 0, 0)), -0.25);
   EXPECT_EQ(formula.positiveAt(Vec3(4, 0, 0)), 0.25);
 }
 
 TEST(CheckedFormula, SaysWhereItIsNotWhatItMustBe) {
-  const CheckedFormula formula{inverse(), {"a.ups", 3, 5}, "Heat/temperature", "K"};
+  const CheckedFormula formula{inverse(), "Heat/temperature", "K"};
 
   EXPECT_THROW(formula.finiteAt(Vec3::Zero()), InputError);
   EXPECT_EQ(
@@ -42,11 +49,24 @@ TEST(CheckedFormula, SaysWhereItIsNotWhatItMustBe) {
 }
 
 TEST(CheckedFormula, NamesNoUnitOfANumberWithoutDimension) {
-  const CheckedFormula formula{inverse(), {"a.ups", 3, 5}, "Poisson/coefficient", ""};
+  const CheckedFormula formula{inverse(), "Poisson/coefficient", ""};
 
   EXPECT_EQ(
       refusal(formula, -0.5),
       "a.ups:3:5: Poisson/coefficient: it is -2 at (-0.5, 0, 0), and must be finite and greater than 0 everywhere");
+}
+
+TEST(CheckedFormula, FillsAPatchAndIsCheckedInEveryCell) {
+  const grid::Level level(test::domain({{4, 1, 1}}));
+  std::vector<double> values(4);
+  const CheckedFormula formula{inverse(), "Heat/temperature", "K"};
+
+  formula.fill<1>(level.patches().front(), data::CellView<double>(values.data(), level.cells()));
+  for (int k = 0; k < 4; ++k) EXPECT_EQ(values[k], 1 / level.cellCentre<1>(Index<1>{{k}})[0]);
+  EXPECT_NO_THROW(formula.requirePositive<1>(level.patches().front()));
+  const input::Expression early = *input::Expression::parse("1.5*0.25-x");
+  EXPECT_THROW((CheckedFormula{early, "Heat/temperature", "K"}.requirePositive<1>(level.patches().front())),
+               InputError);
 }
 
 }  // namespace tushar::numerics

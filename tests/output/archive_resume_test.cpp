@@ -82,6 +82,45 @@ TEST(ArchiveResume, TakesThePointsIndexWhereThatOfTheFolderIsDamaged) {
   EXPECT_EQ(goneOn(here / "sod.uda.000", point), expected);
 }
 
+/// As after a power cut: the old file, whole.
+TEST(ArchiveResume, TakesThePointsIndexWhereThatOfTheFolderIsBehindIt) {
+  const TemporaryFolder here;
+  const auto expected = uncut(here / "other/sod.uda");
+  {
+    Archive archive(here / "old/sod.uda", "<scene/>", options);
+    advance(archive, 0, 2);
+  }
+  const ArchivePoint point = runToStep7(here / "sod.uda");
+  for (const char* name : {"index.xml", "sod.xdmf"})
+    fs::copy_file(here / "old/sod.uda.000" / name, here / "sod.uda.000" / name, fs::copy_options::overwrite_existing);
+
+  EXPECT_EQ(goneOn(here / "sod.uda.000", point), expected);
+}
+
+/// An interrupted run writes its checkpoint before its last output.
+TEST(ArchiveResume, KeepsAnOutputOfTheStepThatWasMadeAfterThePoint) {
+  const TemporaryFolder here;
+  ArchivePoint point;
+  {
+    Archive archive(here / "sod.uda", "<scene/>", options);
+    advance(archive, 0, 3);
+    point = archive.sync(3, 0.3);
+    archive.write(snapshot3d(3, 0.3));
+  }
+  const Archive archive(here / "sod.uda.000", "sod.uda", point, "<scene/>", options);
+  EXPECT_EQ(archive.lastStep(), 3);
+  EXPECT_TRUE(fs::exists(archive.folder() / "t00003.h5"));
+}
+
+TEST(ArchiveResume, RemovesAnOutputThatNoListKnows) {
+  const TemporaryFolder here;
+  const ArchivePoint point = runToStep7(here / "sod.uda");
+  std::ofstream(here / "sod.uda.000/t00003.h5") << "of a run that was killed";
+  const Archive archive(here / "sod.uda.000", "sod.uda", point, "<scene/>", options);
+  EXPECT_FALSE(fs::exists(archive.folder() / "t00003.h5"));
+  EXPECT_TRUE(fs::exists(archive.folder() / "t00002.h5"));
+}
+
 TEST(ArchiveResume, BeginsAGlobalAnewWhoseFileIsGone) {
   const TemporaryFolder here;
   const ArchivePoint point = runToStep7(here / "sod.uda");

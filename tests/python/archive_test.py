@@ -15,6 +15,7 @@ import numpy as np
 
 import fake_uda
 import tushar
+from in_folder import InFolder
 
 LARGE = """
 import resource, sys
@@ -29,15 +30,13 @@ print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)
 """
 
 
-class WithArchives(unittest.TestCase):
+class WithArchives(InFolder):
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        cls.folder = folder.name
-        cls.sod = fake_uda.make_sod(folder.name)
-        cls.plate = fake_uda.make_heat(folder.name, (6, 4, 1), 2, "plate")
-        cls.disks = fake_uda.make_disks(folder.name)
+        super().setUpClass()
+        cls.sod = fake_uda.make_sod(cls.folder)
+        cls.plate = fake_uda.make_heat(cls.folder, (6, 4, 1), 2, "plate")
+        cls.disks = fake_uda.make_disks(cls.folder)
 
 
 class Outputs(WithArchives):
@@ -120,12 +119,11 @@ class Arrays(WithArchives):
         self.assertEqual(len(last["p.density"].values), 400)
 
 
-class ParticlesOverTime(unittest.TestCase):
+class ParticlesOverTime(InFolder):
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        cls.path = fake_uda.make_moving(folder.name)
+        super().setUpClass()
+        cls.path = fake_uda.make_moving(cls.folder)
 
     def test_they_go_by_id_and_are_no_number_where_they_are_not(self):
         tracks = tushar.open(self.path).particles(ids=[30, 20, 40])

@@ -93,13 +93,30 @@ class Notebook(InAFolder):
             self.assertFalse(cell.get("outputs"))
 
 
+def example_of(name):
+    """An example as a module."""
+    spec = importlib.util.spec_from_file_location(name, LIBRARY / "examples" / f"{name}.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+class StressPath(InAFolder):
+    def test_goes_and_is_drawn_from_the_outputs_of_a_run(self):
+        example = example_of("stress_path")
+        archive = tushar.run("ups/solid/crushed_sandstone.ups", {"Time/maxTime": 0.01}).archive
+        times, pressure, mises = example.stress_path(archive)
+        self.assertEqual(len(times), len(archive))
+        self.assertAlmostEqual(pressure[-1] / 156.5e6, 1, delta=0.03)  # at the last output, within 1 % of the time
+        self.assertLess(max(mises), 1e3, "pressed all around")
+        example.draw(archive, "path.png")
+        self.assertGreater(pathlib.Path("path.png").stat().st_size, 1000)
+
+
 @unittest.skipIf(WITHOUT["scipy"], WITHOUT["scipy"])
 class Calibration(InAFolder):
     def test_finds_the_yield_stress_that_a_length_was_made_with(self):
-        path = LIBRARY / "examples/calibrate_yield_stress.py"
-        spec = importlib.util.spec_from_file_location("calibrate", path)
-        example = importlib.util.module_from_spec(spec)
-        spec.loader.exec_module(example)
+        example = example_of("calibrate_yield_stress")
         cells = [6, 21]
         length = example.final_length(400e6, cells)
         with contextlib.redirect_stdout(io.StringIO()):

@@ -13,19 +13,15 @@ import numpy as np
 
 import fake_uda
 import tushar
+from in_folder import InFolder
 
 
-class WithArchives(unittest.TestCase):
+class WithArchives(InFolder):
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        cls.folder = folder.name
-        cls.sod = tushar.open(fake_uda.make_sod(folder.name))
-        cls.plate = tushar.open(fake_uda.make_heat(folder.name, (6, 4, 1), 2, "plate"))
-        cls.box = tushar.open(fake_uda.make_heat(folder.name, (6, 4, 3), 3, "box"))
-        cls.disks = tushar.open(fake_uda.make_disks(folder.name))
-        cls.moving = tushar.open(fake_uda.make_moving(folder.name))
+        super().setUpClass()
+        for name, archive in fake_uda.make_all(cls.folder).items():
+            setattr(cls, name, tushar.open(archive))
 
 
 @unittest.skipIf(WITHOUT["pandas"], WITHOUT["pandas"])

@@ -15,6 +15,7 @@ support.ensure("h5py", "numpy")
 import numpy as np
 
 import tushar
+from in_folder import InFolder
 from support import ROOT, SOD, TUBE
 from tushar.program import find_sus
 from tushar.runs import sets_of, text_of
@@ -130,12 +131,10 @@ class Values(unittest.TestCase):
         self.assertEqual(sets_of({"a/b": 1, "c": False}), ["a/b=1", "c=false"])
 
 
-class Sweep(unittest.TestCase):
+class Sweep(InFolder):
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        cls.folder = pathlib.Path(folder.name)
+        super().setUpClass()
         values = {CFL: [0.1, -1, 0.2], "Grid/Level/Box/resolution": [[20, 1, 1], [40, 1, 1]]}
         cls.sweep = tushar.sweep(SOD, values, jobs=2, sets={"Time/maxTime": 0.05}, output=cls.folder)
 

@@ -9,19 +9,7 @@ namespace tushar::tasks {
 
 namespace {
 
-using data::Bound;
-using data::CellLabel;
-using data::CellView;
-using data::Minimum;
-using data::Sum;
-using grid::forEach;
-using grid::Patch;
-using test::numberOf;
-using test::onRanks;
-using test::plane;
-
-constexpr CellLabel<double> number{"c.number", "1", "number of the cell", Bound::positive};
-constexpr data::ReductionLabel<Sum> wrong{"wrong", "1", "values that are not what they should be"};
+using namespace test;
 
 /// What comes of a run in which one task does something to one cell.
 template <class Harm>

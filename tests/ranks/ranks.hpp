@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "core/base/mpi.hpp"
+#include "core/core.hpp"
 #include "core/grid/partition.hpp"
 #include "tests/support/run.hpp"
 
@@ -25,6 +26,9 @@ inline double numberOf(const Index<2>& at, bool periodic) {
   const auto wrapped = [&](int k, int cells) { return periodic ? (k % cells + cells) % cells : k; };
   return 1 + wrapped(at[0], 12) + 1000 * wrapped(at[1], 10);
 }
+
+inline constexpr CellLabel<double> number{"c.number", "1", "number of the cell", Bound::positive};
+inline constexpr ReductionLabel<Sum> wrong{"wrong", "1", "values that are not what they should be"};
 
 /// A grid of 12 x 10 cells.
 inline grid::Domain plane(const Index3& patches, bool periodic) {

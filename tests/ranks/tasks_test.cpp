@@ -16,26 +16,11 @@ namespace tushar::tasks {
 
 namespace {
 
-using data::Bound;
-using data::CellLabel;
-using data::CellView;
-using data::Minimum;
-using data::NodeLabel;
-using data::NodeView;
-using data::ParticleLabel;
-using data::ParticleView;
-using data::Sum;
-using grid::forEach;
-using grid::Patch;
-using test::numberOf;
-using test::onRanks;
-using test::plane;
+using namespace test;
 
-constexpr CellLabel<double> number{"c.number", "1", "number of the cell", Bound::positive};
 constexpr NodeLabel<double> nodeNumber{"g.number", "1", "number of the node"};
 constexpr ParticleLabel<Vec<2>> x{"p.x", "m", "position"};
 constexpr ParticleLabel<double> mark{"p.mark", "1", "a value that belongs to the id"};
-constexpr data::ReductionLabel<Sum> wrong{"wrong", "1", "values that are not what they should be"};
 constexpr data::ReductionLabel<Sum> count{"count", "1", "particles"};
 constexpr data::ReductionLabel<Sum> wrongBefore{"wrongBefore", "1", "the same at the start of the step"};
 constexpr data::ReductionLabel<Sum> countBefore{"countBefore", "1", "particles at the start of the step"};

@@ -66,7 +66,7 @@ class Crash(unittest.TestCase):
                                (lambda folder: (folder / "manifest").write_text(""),
                                 "the content of manifest has changed")):
             errors, report = self.damaged(harm)
-            self.assertEqual(errors, f"sus: the checkpoint {last.resolve()} is damaged: {sentence}\n"
+            self.assertEqual(errors, f"sus: the checkpoint {last.resolve()} is damaged: {sentence} [T502]\n"
                                      "sus: goes on from the checkpoint of step 200\n")
             self.assertEqual(report["fingerprint"], fingerprint)
         self.assertEqual(self.damaged(shutil.rmtree)[0], "")
@@ -105,9 +105,9 @@ class Crash(unittest.TestCase):
             self.assertIn(sentence, errors)
             self.assertEqual((found, len(errors.strip().splitlines())), (code, 1), errors)
 
-        assert_refused(here.path / "none.uda", "there is no such folder; -restart takes the .uda folder of a run")
-        assert_refused(SOD, "this is no folder; -restart takes the .uda folder of a run (without -restart, sus runs a "
-                            "scene)")
+        assert_refused(here.path / "none.uda", "there is no such folder; --restart takes the .uda folder of a run")
+        assert_refused(SOD, "this is no folder; --restart takes the .uda folder of a run (without --restart, "
+                            "sus runs a scene)")
         assert_refused(here.path, "this is no .uda folder: it has neither index.xml nor checkpoints")
         assert_refused(bare.uda, "there are no checkpoints; a scene asks for them by <checkpoint .../> in its "
                                  "DataArchiver")
@@ -136,7 +136,7 @@ class Crash(unittest.TestCase):
         run.wait()
         self.assertEqual((code, errors), (1, f"sus: another run is writing to '{self.here.uda.resolve()}'; wait for "
                                              f"its "
-                                             "end, or end it\n"))
+                                             "end, or end it [T403]\n"))
         self.assertEqual(self.here.restart("Time/max_Timesteps=1")[0], 0)
 
     def test_an_earlier_checkpoint_can_be_chosen_and_later_ones_are_forgotten(self):

@@ -42,7 +42,7 @@ class Failure(unittest.TestCase):
 
     def test_the_last_whole_step_is_saved_and_can_be_gone_on_from(self):
         said = self.died()
-        archive = re.search(r"the last whole step, (\d+) at t = \S+ s, is saved: sus -restart (\S+)\n", said)
+        archive = re.search(r"the last whole step, (\d+) at t = \S+ s, is saved: sus --restart (\S+) \[T\d+\]\n", said)
         again = run("-restart", archive[2], "--quiet", "--json", f"{self.folder}/again.json")
         self.assertEqual(again.returncode, 4)
         self.assertIn(said[:said.index(" (task")], again.stderr)
@@ -53,7 +53,7 @@ class Failure(unittest.TestCase):
         done = run(without_redistribution(self.folder), "--output", self.folder, "--set",
                    "Time/recompute_timestep=true")
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertRegex(done.stdout, r"time step ruled by CFL \d+, .*p.density \d+; \d+ repeated with a smaller one")
+        self.assertRegex(done.stdout, r"time step limited by CFL \d+, .*p.density \d+; \d+ repeated with a smaller one")
 
 
 if __name__ == "__main__":

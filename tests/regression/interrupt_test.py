@@ -80,6 +80,58 @@ class Interrupt(unittest.TestCase):
             self.assertEqual(run.wait(timeout=60), 5)
             self.assert_goes_on_to_the_bits_of_the_uncut_run(here)
 
+    def started(self, ranks=1):
+        """A run that has written its first output, and that would go on for minutes."""
+        here = Folder(ranks=ranks)
+        self.addCleanup(here.cleanup)
+        run = subprocess.Popen(here.command([SOD, "--output", here.path], ("Grid/Level/Box/resolution=[20000,1,1]",)),
+                               cwd=ROOT)
+        self.addCleanup(run.wait)
+        self.addCleanup(run.kill)
+        while not list(here.path.glob("*.uda/t00000.h5")):
+            self.assertIsNone(run.poll())
+            time.sleep(0.01)
+        return here, run
+
+    def wait_for(self, condition):
+        for _ in range(6000):
+            if condition():
+                return
+            time.sleep(0.01)
+        self.fail("nothing happened for a minute")
+
+    def assert_saved_while_it_goes_on(self, ask, ranks):
+        here, run = self.started(ranks)
+        outputs = len(list(here.uda.glob("t*.h5")))
+        ask(here, run)
+        self.wait_for(lambda: (here.uda / "checkpoints/LATEST").exists())
+        self.assertIsNone(run.poll())
+        self.assertTrue((here.uda / f"{here.checkpoints[-1].name}.h5").exists())
+        self.assertGreater(len(list(here.uda.glob("t*.h5"))), outputs)
+        self.assertFalse((here.uda / "output_now").exists())
+        run.terminate()
+        run.wait(timeout=60)
+
+    def test_sigusr1_or_a_file_save_the_state_and_the_run_goes_on(self):
+        for ranks in (1, 2):
+            self.assert_saved_while_it_goes_on(lambda here, run: run.send_signal(signal.SIGUSR1), ranks)
+            self.assert_saved_while_it_goes_on(lambda here, run: (here.uda / "output_now").touch(), ranks)
+
+    def test_the_file_stop_now_ends_a_run_with_output_and_checkpoint(self):
+        for ranks in (1, 2):
+            here, run = self.started(ranks)
+            (here.uda / "stop_now").touch()
+            self.assertEqual(run.wait(timeout=60), 0)
+            report = json.loads((here.path / "report.json").read_text())
+            self.assertEqual(report["ended"], "stop_now")
+            self.assertFalse((here.uda / "stop_now").exists())
+            name = f"t{report['steps']:05d}"
+            self.assertEqual([path.name for path in here.checkpoints], [name])
+            self.assertIn(f"{name}.h5", (here.uda / "index.xml").read_text())
+            code, errors, again = here.restart(f"Time/max_Timesteps={report['steps'] + 3}")
+            self.assertEqual((code, errors, again["steps"]), (0, "", report["steps"] + 3))
+            self.assertIn(f"{name}.h5", (here.uda / "index.xml").read_text())
+
     def test_max_wall_time_ends_a_run_with_a_checkpoint(self):
         here = self.folder()
         code, errors, report = here.run(SOD, FINE, "Time/max_wall_time=0.2")

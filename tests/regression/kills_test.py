@@ -3,6 +3,7 @@
 
 A few kills; KILLS=50 tests/regression/kills_test.py makes more.
 """
+import json
 import os
 import pathlib
 import random
@@ -11,6 +12,7 @@ import subprocess
 import sys
 import time
 import unittest
+import xml.etree.ElementTree as ElementTree
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from sus import ROOT
@@ -52,8 +54,19 @@ class Kills(unittest.TestCase):
                 pass
         killed = job.wait(timeout=PATIENCE) != 0
         self.kills += killed
+        self.assert_reads(here)
         self.in_checkpoint += killed and bool(list(here.path.glob("*.uda/checkpoints/*.tmp")))
         return killed
+
+    def assert_reads(self, here):
+        """The lists of a killed run are whole, and name outputs that are there."""
+        for uda in here.path.glob("*.uda"):
+            listed = ElementTree.parse(uda / "index.xml").iterfind("timesteps/timestep")
+            self.assertEqual([at.get("href") for at in listed if not (uda / at.get("href")).exists()], [])
+            for shown in uda.glob("*.xdmf"):
+                ElementTree.parse(shown)
+            for run in json.loads((uda / "run.json").read_text())["runs"] if (uda / "run.json").exists() else ():
+                self.assertIn("command", run)
 
     def layout(self):
         return ["-layout", self.chance.choice(LAYOUTS)]

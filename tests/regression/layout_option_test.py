@@ -37,10 +37,10 @@ class LayoutOption(unittest.TestCase):
             self.assertEqual(result.code, 2)
             self.assertEqual(result.err.splitlines()[0], f"--layout: found '{layout}', expected AxBxC, the patches "
                                                          f"along "
-                                                         "x, y and z, such as 4x2x1")
+                                                         "x, y and z, such as 4x2x1 [T701]")
         result = run(SOD, options=("-layout", "101x1x1"))
         self.assertEqual(result.code, 3)
-        self.assertIn("there are 101 patches along x in -layout, but only 100 cell(s)", result.err)
+        self.assertIn("there are 101 patches along x in --layout, but only 100 cells", result.err)
 
 
 if __name__ == "__main__":

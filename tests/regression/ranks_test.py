@@ -66,7 +66,7 @@ class Ranks(unittest.TestCase):
         self.assertEqual(report["layout"]["ranks"], 3)
         for key in ("fingerprint", "steps", "time", "particles", "drift", "errors"):
             self.assertEqual(report[key], expected[key], key)
-        for file in alone.uda.glob("t*.h5"):
+        for file in [*alone.uda.glob("t*.h5"), *alone.uda.glob("*.vtkhdf")]:
             self.assertEqual((several.uda / file.name).read_bytes(), file.read_bytes(), file.name)
         for name in ("index.xml", "sod.xdmf", "KineticEnergy.dat"):
             self.assertEqual((several.uda / name).read_text(), (alone.uda / name).read_text())

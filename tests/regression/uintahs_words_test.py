@@ -34,9 +34,11 @@ STILL = '<BCType id="all" label="Velocity" var="Dirichlet"><value>[0,0,0]</value
 # what: scene, text, what takes its place
 RUN = {
     "an archive of a type": (DISCS, "<DataArchiver>", '<DataArchiver type="PIDX">'),
+    "an archive by its path": (DISCS, "<filebase>two", "<filebase>/some/where/else/two"),
     "a compression by name": (DISCS, "<save ", "<compression>gzip</compression><save ", 1),
     "digits by an empty tag": (DISCS, "<save ", "<outputDoubleAsFloat/><save ", 1),
     "materials by their numbers": (BILLET, '<save label="p.x"/>', '<save label="p.x" material="0-1"/>'),
+    "a list of one without brackets": (BILLET, "<materials>[0,1]</materials>", "<materials>1</materials>"),
     "all materials": (BILLET, '<save label="p.x"/>', '<save label="p.x" material="all"/>'),
     "a rigid body without moduli":
         (BILLET, "<bulk_modulus>1e9</bulk_modulus><shear_modulus>1e9</shear_modulus>", ""),
@@ -83,9 +85,18 @@ class UintahsWords(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             archive = archive_of(BILLET, folder, *FEW, "DataArchiver/save[1]/@material=1")
             self.assertGreater(len(columns(archive, "p.x", material="billet")["x [m]"]), 0)
-        result = run(BILLET, *FEW, "DataArchiver/save[1]/@material=2")
+        result = run(BILLET, *FEW, "DataArchiver/save[1]/@material=-1")
         self.assertEqual(result.code, 3)
-        self.assertIn("there is no material '2'", result.err)
+        self.assertIn("there is no material '-1'", result.err)
+
+    def test_the_number_behind_the_last_stands_for_all_materials(self):
+        with tempfile.TemporaryDirectory() as folder:
+            archive = archive_of(BILLET, folder, *FEW, "DataArchiver/save[1]/@material=2-4")
+            for material in ("die", "billet"):
+                self.assertGreater(len(columns(archive, "p.x", material=material)["x [m]"]), 0)
+        result = run(BILLET, *FEW, "DataArchiver/save[1]/@material=2-4", options=())
+        self.assertIn("in Uintah material 2 is all materials together; here 'p.x' is saved of each", result.err)
+        self.assertIn("does nothing for 4: materials are counted from 0 to 1", result.err)
 
     def test_what_is_saved_twice_is_saved_once(self):
         with tempfile.TemporaryDirectory() as folder:

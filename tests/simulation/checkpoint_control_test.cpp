@@ -4,49 +4,46 @@
 
 namespace tushar::simulation {
 
-TEST(CheckpointControl, CountsSteps) {
-  CheckpointSettings settings;
-  settings.timestepInterval = 10;
-  const CheckpointControl control(settings, 0);
+namespace {
 
-  EXPECT_TRUE(control.isDue(20, 1e9, 1e9));
-  EXPECT_FALSE(control.isDue(21, 1e9, 1e9));
+struct Moment {
+  int step;
+  double time, wallTime;  ///< s
+};
+
+/// A checkpoint is not yet due at `before`, and due at `after`.
+void expectDueBetween(const CheckpointControl& control, const Moment& before, const Moment& after) {
+  EXPECT_FALSE(control.isDue(before.step, before.time, before.wallTime));
+  EXPECT_TRUE(control.isDue(after.step, after.time, after.wallTime));
+}
+/// The same after a checkpoint at `last`.
+void expectNextBetween(CheckpointControl& control, const Moment& last, const Moment& before, const Moment& after) {
+  control.note(last.time, last.wallTime);
+  expectDueBetween(control, before, after);
+}
+
+}  // namespace
+
+TEST(CheckpointControl, CountsSteps) {
+  const CheckpointControl control({.timestepInterval = 10}, 0);
+  expectDueBetween(control, {21, 1e9, 1e9}, {20, 1e9, 1e9});
 }
 
 TEST(CheckpointControl, CountsTimeFromTheStartOfTheSceneOn) {
-  CheckpointSettings settings;
-  settings.interval = 0.1;
-  CheckpointControl control(settings, 5);
-  control.note(5, 0);
-
-  EXPECT_FALSE(control.isDue(3, 5.09, 0));
-  EXPECT_TRUE(control.isDue(3, 5.1, 0));
-  control.note(5.37, 0);
-  EXPECT_FALSE(control.isDue(4, 5.39, 0));
-  EXPECT_TRUE(control.isDue(4, 5.4, 0));
+  CheckpointControl control({.interval = 0.1}, 5);
+  expectNextBetween(control, {0, 5, 0}, {3, 5.09, 0}, {3, 5.1, 0});
+  expectNextBetween(control, {3, 5.37, 0}, {4, 5.39, 0}, {4, 5.4, 0});
 }
 
 TEST(CheckpointControl, CountsWallTimeFromTheLastOneOn) {
-  CheckpointSettings settings;
-  settings.walltimeInterval = 60;
-  CheckpointControl control(settings, 0);
-  control.note(0, 0.1);
-
-  EXPECT_FALSE(control.isDue(1, 1, 59));
-  EXPECT_TRUE(control.isDue(1, 1, 61));
-  control.note(1, 65);
-  EXPECT_FALSE(control.isDue(2, 2, 124));
-  EXPECT_TRUE(control.isDue(2, 2, 125));
+  CheckpointControl control({.walltimeInterval = 60}, 0);
+  expectNextBetween(control, {0, 0, 0.1}, {1, 1, 59}, {1, 1, 61});
+  expectNextBetween(control, {1, 1, 65}, {2, 2, 124}, {2, 2, 125});
 }
 
 TEST(CheckpointControl, BeginsWithTheWallTimeThatIsAskedForAndReadsHours) {
-  CheckpointSettings settings;
-  settings.walltimeStartHours = 2;
-  settings.walltimeIntervalHours = 0.5;
-  CheckpointControl control(settings, 0);
-
-  EXPECT_FALSE(control.isDue(1, 1, 7199));
-  EXPECT_TRUE(control.isDue(1, 1, 7200));
+  CheckpointControl control({.walltimeStartHours = 2, .walltimeIntervalHours = 0.5}, 0);
+  expectDueBetween(control, {1, 1, 7199}, {1, 1, 7200});
   control.note(1, 7200);
   EXPECT_TRUE(control.isDue(2, 2, 9000));
 }
@@ -55,9 +52,7 @@ TEST(CheckpointControl, TakesAnIntervalOfWallTimeFromTheCommandLine) {
   std::optional<CheckpointSettings> none;
   addWallTimeInterval(none, 600);
   EXPECT_EQ(none.value().cycle, 2);
-  const CheckpointControl alone(*none, 0);
-  EXPECT_FALSE(alone.isDue(1, 1, 599));
-  EXPECT_TRUE(alone.isDue(1, 1, 600));
+  expectDueBetween(CheckpointControl(*none, 0), {1, 1, 599}, {1, 1, 600});
 
   std::optional<CheckpointSettings> both(std::in_place);
   both->timestepInterval = 5;
@@ -65,8 +60,7 @@ TEST(CheckpointControl, TakesAnIntervalOfWallTimeFromTheCommandLine) {
   addWallTimeInterval(both, 60);
   const CheckpointControl beside(*both, 0);
   EXPECT_TRUE(beside.isDue(5, 1, 0));
-  EXPECT_FALSE(beside.isDue(6, 1, 59));
-  EXPECT_TRUE(beside.isDue(6, 1, 60));
+  expectDueBetween(beside, {6, 1, 59}, {6, 1, 60});
 }
 
 TEST(Milestones, ArePassedOneAfterTheOther) {

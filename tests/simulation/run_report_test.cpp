@@ -31,4 +31,20 @@ TEST(RunReport, MeasuresStepsAndTheDriftOfTotals) {
   EXPECT_EQ(report.drifts[0].change, -0.75);
 }
 
+TEST(RunReport, TellsWhatIsInMemory) {
+  test::CoolingRun run;
+  run.initialize();
+  RunReport made(run);
+
+  const report::MemoryOfRanks memory = made.make(4096).memoryOfRanks;
+
+  EXPECT_GE(memory.sum.fields, 8 * sizeof(double));  // the heat of eight cells, with what aligns it
+  EXPECT_LE(memory.sum.fields, 1000);
+  EXPECT_EQ(memory.sum.particles, 0);
+  EXPECT_EQ(memory.sum.files, 4096);
+  EXPECT_EQ(memory.most.files, 4096);
+  EXPECT_GT(memory.sum.peak, 1e6);
+  EXPECT_GE(memory.sum.buffers, 0);
+}
+
 }  // namespace tushar::simulation

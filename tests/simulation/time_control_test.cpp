@@ -59,11 +59,7 @@ TEST(TimeControl, LimitsTheFirstStepAndTheGrowthOfTheOthers) {
 }
 
 TEST(TimeControl, KeepsTheFirstStepForAsLongAsAskedBeItBelowTheLeast) {
-  TimeSettings settings = until(1);
-  settings.deltInit = 0.001;
-  settings.deltMin = 0.01;
-  settings.initialDeltRange = 0.0015;
-  TimeControl time(settings);
+  TimeControl time({.maxTime = 1, .deltMin = 0.01, .deltInit = 0.001, .initialDeltRange = 0.0015});
 
   for (const double expected : {0.001, 0.001, 0.1, 0.1}) {
     EXPECT_EQ(time.next({0.1}, never), expected) << "as Uintah has it";
@@ -72,11 +68,7 @@ TEST(TimeControl, KeepsTheFirstStepForAsLongAsAskedBeItBelowTheLeast) {
 }
 
 TEST(TimeControl, TakesNoGreatestStepOrGrowthFromZero) {
-  TimeSettings settings = until(1);
-  settings.deltInit = 0.001;
-  settings.maxDeltIncrease = 0;
-  settings.deltMax = 0;
-  TimeControl time(settings);
+  TimeControl time({.maxTime = 1, .deltMax = 0, .deltInit = 0.001, .maxDeltIncrease = 0});
 
   time.next({0.1}, never);
   time.advance();

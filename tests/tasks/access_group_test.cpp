@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "core/core.hpp"
 #include "tests/support/run.hpp"
 
 // Accesses by name, and accesses and outputs that only some scenes have.
@@ -7,12 +8,6 @@
 namespace tushar::tasks {
 
 namespace {
-
-using data::CellLabel;
-using data::CellView;
-using data::Sum;
-using grid::forEach;
-using grid::Patch;
 
 constexpr CellLabel<double> first{"c.first", "1", "a value"}, second{"c.second", "1", "another"};
 constexpr CellLabel<double> sum{"c.sum", "1", "of both"}, product{"c.product", "1", "of both, where it is read"};

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "core/base/error.hpp"
+#include "core/core.hpp"
 #include "core/tasks/place.hpp"
 #include "tests/support/run.hpp"
 
@@ -9,12 +9,6 @@
 namespace tushar::tasks {
 
 namespace {
-
-using data::CellLabel;
-using data::CellView;
-using data::Sum;
-using grid::forEach;
-using grid::Patch;
 
 constexpr CellLabel<double> number{"c.number", "1", "number of the cell"},
     running{"c.running", "1", "sum up to the cell"};

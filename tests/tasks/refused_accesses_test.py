@@ -20,6 +20,10 @@ struct Group {
   data::CellView<double> other;
   static Group from(auto& take) { return {%s}; }
 };
+struct Made {
+  std::vector<double>& mass;
+  static Made from(auto& take) { return {.mass = take(creates(::mass))}; }
+};
 void task(TaskList& list, const std::vector<Material>& materials) {
   const auto body = [](const auto&...) {};
   list.perPatch("read", [](const grid::Patch& patch, const Group& group) {
@@ -48,6 +52,16 @@ class RefusedAccesses(unittest.TestCase):
     def test_new_particles_belong_to_the_task_that_makes_them(self):
         said = complaints(piece(task='list.perMaterial("make", body, materials, creates(mass))'))
         self.assertIn("creates(...) belongs to newParticles", said)
+
+    def test_a_group_makes_no_particles_elsewhere(self):
+        code = piece(task='list.perMaterial("make", body, materials, all<Made>())')
+        self.assertIn("creates(...) belongs to newParticles, also in a group", complaints(code))
+        self.assertEqual(complaints(code.replace("perMaterial", "newParticles")), "")
+
+    def test_a_group_takes_no_plain_value(self):
+        for value in ("with(1.0)", "startTime()"):
+            members = f".density = take(requiresNew(::density)), .other = (take({value}), take(computes(::other)))"
+            self.assertIn("take(...) takes accesses to labels", complaints(piece(members=members)))
 
     def test_ranks_belong_to_tasks_of_a_rank(self):
         said = complaints(piece(task='list.perPatch("solve", body, togetherOnRanks())'))

@@ -150,3 +150,9 @@ def make_moving(where, name="moving"):
                 if material == "a":
                     group["p.mass"] = np.array(ids, float)
     return os.path.join(where, name + ".uda")
+
+
+def make_all(where):
+    """One archive of each kind, by name."""
+    return {"sod": make_sod(where), "plate": make_heat(where, (6, 4, 1), 2, "plate"),
+            "box": make_heat(where, (6, 4, 3), 3, "box"), "disks": make_disks(where), "moving": make_moving(where)}

@@ -1,29 +1,19 @@
 #!/usr/bin/env python3
-"""tools/new_component makes a component that compiles, is known to sus, runs its scene and passes its tests.
+"""tools/new_component makes a component that compiles, is a module that sus loads, runs its scene and passes its tests.
 
-Works on a copy of the sources; compiles the new files alone and links them with the libraries of this build.
+Works on a copy of the sources; compiles the new files alone and links them with the core of this build.
 """
-import os
 import pathlib
-import shlex
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-SUS = pathlib.Path(os.environ.get("SUS", ROOT / "build/dev/sus")).resolve()
-BUILD = SUS.parent
-
-
-def compile_command():
-    """How this build compiles components/heat/heat.cpp, less its in- and output."""
-    import json
-    entries = json.loads((BUILD / "compile_commands.json").read_text())
-    command = next(e["command"] for e in entries if e["file"].endswith("components/heat/heat.cpp"))
-    words = shlex.split(command)
-    words = words[:words.index("-o")]
-    return [word for word in words if "ccache" not in word]
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests/support"))
+import modules  # noqa: E402
+from sus import SUS  # noqa: E402
 
 
 class NewComponent(unittest.TestCase):
@@ -31,8 +21,8 @@ class NewComponent(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
         cls.copy = pathlib.Path(cls.folder.name)
-        for name in ("components", "tools", "ups", "tests", "core"):
-            shutil.copytree(ROOT / name, cls.copy / name)
+        for name in ("components", "tools", "ups", "tests", "core", ".clang-format"):
+            (shutil.copytree if (ROOT / name).is_dir() else shutil.copy)(ROOT / name, cls.copy / name)
         cls.made = subprocess.run([cls.copy / "tools/new_component", "shallow_water"], capture_output=True, text=True)
 
     @classmethod
@@ -42,42 +32,36 @@ class NewComponent(unittest.TestCase):
     def compile(self, source):
         """Object file of a source of the copy."""
         target = self.copy / (source.replace("/", "_") + ".o")
-        command = [word.replace(str(ROOT), str(self.copy)) if word.startswith("-I") else word
-                   for word in compile_command()]
-        done = subprocess.run(command + ["-o", target, "-c", self.copy / source], capture_output=True, text=True)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        modules.must([*modules.compile_command(self.copy), "-o", target, "-c", self.copy / source], modules.BUILD)
         return target
 
-    def link(self, objects, *more):
-        """Program of objects of the copy and the libraries of this build."""
-        ninja = (BUILD / "build.ninja").read_text()
-        rule = ninja[ninja.index("build sus: CXX_EXECUTABLE_LINKER"):]
-        libraries = next(line for line in rule.splitlines() if line.strip().startswith("LINK_LIBRARIES"))
-        program = self.copy / "program"
-        flags = [word for word in compile_command() if word.startswith(("-fsanitize", "-O"))]
-        command = ["g++", *flags, "-o", program, *objects, *more, *shlex.split(libraries.split("=", 1)[1])]
-        done = subprocess.run(command, cwd=BUILD, capture_output=True, text=True)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        return program
+    def component(self):
+        """Object files of the new component, and the file of its module."""
+        folder = self.copy / "components/shallow_water"
+        sources = sorted(str(file.relative_to(self.copy)) for file in folder.glob("*.cpp"))
+        self.assertEqual([pathlib.Path(source).name for source in sources], ["module.cpp", "shallow_water.cpp"])
+        objects = [self.compile(source) for source in sources]
+        (self.copy / "card.cpp").write_text(modules.card("shallow_water"))
+        plugins = self.copy / "plugins"
+        plugins.mkdir()
+        modules.link_module(plugins / "tushar_shallow_water.so", *objects, self.compile("card.cpp"))
+        return objects, plugins / "tushar_shallow_water.so"
 
     def test_builds_passes_its_tests_and_runs_its_scene(self):
         self.assertEqual(self.made.returncode, 0, self.made.stderr)
-        new = [self.compile("components/shallow_water/shallow_water.cpp"), self.compile("components/components.cpp")]
-        sus = self.link([*new, self.compile("tools/sus.cpp")])
-        listed = subprocess.run([sus, "--list"], capture_output=True, text=True).stdout
-        self.assertIn("  shallow_water ", listed)
-        run = subprocess.run([sus, "ups/shallow_water/shallow_water.ups", "--output", self.copy], cwd=self.copy,
-                             capture_output=True, text=True)
+        objects, module = self.component()
+        scene = self.copy / "ups/shallow_water/shallow_water.ups"
+        run = modules.run([SUS, "--load", module, scene, "--output", self.copy], self.copy)
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertIn("temperature, cell", run.stdout)
-        scene = self.copy / "ups/shallow_water/shallow_water.ups"
-        schedule = subprocess.run([sus, "--schedule", scene], capture_output=True, text=True).stdout
+        listed = modules.run([SUS, "--list"], TUSHAR_PLUGINS=f"{self.copy}/ups:{module.parent}").stdout
+        self.assertIn("  shallow_water ", listed)
+        schedule = modules.run([SUS, "--load", module, "--schedule", scene]).stdout
         self.assertEqual((self.copy / "tests/golden/shallow_water_shallow_water.txt").read_text(), schedule)
         tests = [self.compile(str(file.relative_to(self.copy)))
                  for file in sorted((self.copy / "tests/shallow_water").glob("*_test.cpp"))]
-        program = self.link([*new, *tests], "-lgtest_main", "-lgtest")
-        passed = subprocess.run([program], cwd=self.copy, capture_output=True, text=True,
-                                env=dict(os.environ, LD_LIBRARY_PATH=str(BUILD)))
+        modules.link_program(self.copy / "program", *objects, *tests)
+        passed = modules.run([self.copy / "program"], self.copy)
         self.assertEqual(passed.returncode, 0, passed.stdout)
         self.assertIn("[  PASSED  ]", passed.stdout)
 
@@ -93,15 +77,16 @@ class NewComponent(unittest.TestCase):
         self.assertEqual(sorted(self.copy.rglob("*")), before)
 
     def test_registers_in_alphabetical_order(self):
-        text = (self.copy / "components/components.cpp").read_text()
+        table = self.copy / "components/CMakeLists.txt"
+        before = table.read_text().splitlines()
         made = subprocess.run([self.copy / "tools/new_component", "advection"], capture_output=True, text=True)
         self.assertEqual(made.returncode, 0, made.stderr)
-        with_advection = (self.copy / "components/components.cpp").read_text()
-        includes = [line for line in with_advection.splitlines()[1:] if line.startswith("#include")]
-        self.assertIn('#include "components/advection/advection.hpp"', includes)
-        self.assertEqual(includes, sorted(includes))
-        self.assertIn("          advection::kind(),\n          burgers::kind(),\n", with_advection)
-        self.assertEqual([line for line in with_advection.splitlines() if "advection" not in line], text.splitlines())
+        after = table.read_text().splitlines()
+        lines = [line for line in after if line.startswith("component(")]
+        self.assertEqual(lines[0], "component(advection)")
+        self.assertIn("component(shallow_water)", lines)
+        self.assertEqual(lines, sorted(lines))
+        self.assertEqual([line for line in after if "advection" not in line], before)
 
 
 if __name__ == "__main__":

@@ -24,22 +24,18 @@ import numpy as np
 from PIL import Image
 
 import fake_uda
+from in_folder import InFolder
 from tushar import Archive, ArchiveError, film, space
 from tushar.figure import Figure
 from tushar.view import Output, Quantity, View
 
 
-class WithArchives(unittest.TestCase):
+class WithArchives(InFolder):
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        cls.folder = pathlib.Path(folder.name)
-        cls.sod = fake_uda.make_sod(folder.name)
-        cls.plate = fake_uda.make_heat(folder.name, (6, 4, 1), 2, "plate")
-        cls.box = fake_uda.make_heat(folder.name, (6, 4, 3), 3, "box")
-        cls.disks = fake_uda.make_disks(folder.name)
-        cls.moving = fake_uda.make_moving(folder.name)
+        super().setUpClass()
+        for name, archive in fake_uda.make_all(cls.folder).items():
+            setattr(cls, name, archive)
 
     def plot(self, *words, path=None):
         """Exit code, standard output and standard error of tools/plot, in a folder of its own."""

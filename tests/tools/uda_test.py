@@ -90,6 +90,39 @@ class Library(WithArchives):
     def test_finds_the_nearest_time(self):
         self.assertEqual(Archive(self.sod).index_at(0.11), 1)
 
+    def test_knows_outputs_that_the_index_does_not_list_yet(self):
+        with tempfile.TemporaryDirectory() as folder:
+            archive = Archive(fake_uda.make_sod(folder))
+            index = os.path.join(folder, "sod.uda", "index.xml")
+            before = archive.steps, archive.times, archive.files
+            with open(index, encoding="utf-8") as file:
+                lines = [line for line in file if f">{archive.steps[-1]}<" not in line]
+            with open(index, "w", encoding="utf-8") as file:
+                file.writelines(lines)
+            archive.reload()
+            self.assertEqual((archive.steps, archive.times, archive.files), before)
+            open(os.path.join(folder, "sod.uda", "t99999.h5"), "wb").close()  # none of sus
+            archive.reload()
+            self.assertEqual(archive.steps, before[0])
+
+    def test_refuses_an_archive_of_a_newer_format(self):
+        with tempfile.TemporaryDirectory() as folder:
+            index = os.path.join(fake_uda.make_sod(folder), "index.xml")
+            with open(index, encoding="utf-8") as file:
+                text = file.read()
+            with open(index, "w", encoding="utf-8") as file:
+                file.write(text.replace("<tushar_archive version", '<tushar_archive format="7" version'))
+            with self.assertRaisesRegex(ArchiveError, "has format 7, and this reader knows formats up to 1; sus 0.1.0"):
+                Archive(os.path.dirname(index))
+
+    def test_lists_its_runs(self):
+        with tempfile.TemporaryDirectory() as folder:
+            archive = Archive(fake_uda.make_sod(folder))
+            self.assertEqual(archive.runs, [])
+            with open(os.path.join(archive.folder, "run.json"), "w", encoding="utf-8") as file:
+                file.write('{"format": 1, "runs": [{"ranks": 2, "end": null}]}')
+            self.assertEqual([run["ranks"] for run in archive.runs], [2])
+
     def test_names_what_is_there_when_a_name_is_wrong(self):
         uda = Archive(self.sod)
         with self.assertRaisesRegex(ArchiveError,

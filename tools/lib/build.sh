@@ -9,7 +9,7 @@ packages=(
 )
 test_packages=(
   libgtest-dev libxml2-utils python3 python3-venv python3-h5py python3-matplotlib clang-format universal-ctags
-  python3-markdown-it python3-scipy python3-setuptools python3-wheel
+  python3-markdown-it python3-scipy python3-setuptools python3-wheel dpkg-dev
 )
 
 say() { printf '%s\n' "tushar: $*" >&2; }
@@ -49,14 +49,15 @@ install_missing() {
   rm -f "$log"
 }
 
-# run_ninja FOLDER LOG [TARGET...]: says that it builds once there is something to build, not before.
+# run_ninja FOLDER LOG [TARGET...]: says that it builds once there is something to build, not before. What it builds is
+# $building, else the folder.
 run_ninja() {
   local folder=$1 log=$2 said= line
   shift 2
   ninja -C "$folder" "$@" 2>&1 | while IFS= read -r line; do
     printf '%s\n' "$line" >>"$log"
     case $line in *Building* | *Linking*)
-      [ -n "$said" ] || say "building ${folder#"$root"/}"
+      [ -n "$said" ] || say "building ${building:-${folder#"$root"/}}"
       said=yes ;;
     esac
   done
@@ -82,6 +83,18 @@ build() {
     exit 1
   fi
   rm -f "$log"
+}
+
+# built_modules PRESET: targets of the modules that an earlier run has built; those must not stay behind their sources.
+built_modules() {
+  local folder=$root/build/$1 file name
+  [ -f "$folder/build.ninja" ] || return 0
+  # A module that was removed from the sources, as by another branch, is no target of the new build.ninja.
+  if [ -w "$folder" ]; then ninja -C "$folder" build.ninja >/dev/null 2>&1 || true; fi
+  for file in "$folder"/modules/tushar_*.so "$folder"/libtushar_petsc.so; do
+    name=$(basename "$file" .so)
+    if [ -f "$file" ] && grep -q "^build ${name#lib}:" "$folder/build.ninja"; then printf '%s\n' "${name#lib}"; fi
+  done
 }
 
 # vtk_python: a Python of our own in build/python with the newest libraries that the package tushar can work with, and with

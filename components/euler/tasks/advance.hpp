@@ -18,7 +18,7 @@ using Advance = void (*)(const Patch& patch, const Gas& gas, CellView<const doub
                          CellView<const Vec<D>> momentum, CellView<const double> totalEnergy, double dt,
                          CellView<double> newDensity, CellView<Vec<D>> newMomentum, CellView<double> newTotalEnergy);
 
-/// The body for a method: each is compiled on its own, so that no loop over cells asks which one it is.
+/// The body for a method: each is compiled on its own, so that no loop over cells branches on the method.
 template <int D>
 Advance<D> chooseAdvance(const Method& method);
 

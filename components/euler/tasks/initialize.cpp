@@ -36,7 +36,8 @@ void checkState(const Gas& gas, const GasObject& object, const Vec3& point, doub
   const bool finite = std::isfinite(density) && std::isfinite(pressure) && velocity.allFinite();
   if (finite && density > 0 && pressure + gas.pInfinity > 0) return;
   throw InputError(
-      {{object.where, "Euler/geom_object",
+      {{placeOf({&object.density.where(), &object.pressure.where(), &object.velocity.where()}, object.where),
+        "Euler/geom_object",
         fmt::format("density {:g} kg/m^3, pressure {:g} Pa and velocity ({:g}, {:g}, {:g}) m/s at ({:g}, "
                     "{:g}, {:g}); the density and the pressure + p_infinity must be positive, and all finite",
                     density, pressure, velocity[0], velocity[1], velocity[2], point[0], point[1], point[2])}});

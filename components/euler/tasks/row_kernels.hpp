@@ -71,7 +71,7 @@ void changeRow(const Gas& gas, const Pointers<D>& change, int count, const Point
   }
 }
 
-/// Takes the cells whose `least` is not positive as constant: their values at both faces become those of the cell.
+/// Treats cells whose `least` is not positive as constant: their values at both faces become those of the cell.
 template <int D>
 void flattenRow(const double* least, const Pointers<D>& w, int count, const Pointers<D>& lower,
                 const Pointers<D>& upper) {
@@ -79,7 +79,7 @@ void flattenRow(const double* least, const Pointers<D>& w, int count, const Poin
     for (std::size_t k = 0; k < w.size() && !(least[i] > 0); ++k) lower[k][i] = upper[k][i] = w[k][i];
 }
 
-/// Fluxes through the lower faces of `count` cells across `Axis`, between what stands on both sides.
+/// Fluxes through the lower faces of `count` cells across `Axis`, from the states on both sides.
 template <int D, class Flux, int Axis>
 void fluxRow(const Gas& gas, const Pointers<D>& below, const Pointers<D>& above, int count, const Pointers<D>& flux) {
 #pragma GCC ivdep

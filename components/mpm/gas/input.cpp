@@ -1,12 +1,12 @@
 #include "components/mpm/gas/input.hpp"
 
 #include "components/mpm/boundary_labels.hpp"
-#include "components/mpm/gas/conserving/conserving_mpm.hpp"
 #include "components/mpm/gas/conserving/input.hpp"
 #include "components/mpm/gas/material_input.hpp"
 #include "components/mpm/gas/paper/gas_mpm.hpp"
 #include "components/mpm/gas/paper/input.hpp"
 #include "core/simulation/by_dimension.hpp"
+#include "core/simulation/module.hpp"
 
 namespace tushar::mpm::gas {
 
@@ -81,6 +81,8 @@ void refuseStiffness(const GasProperties& properties, Diagnostics& diagnostics) 
 void refuseSolidsOnly(const Element& root, Diagnostics& diagnostics) {
   if (const auto constants = root.child("PhysicalConstants"))
     diagnostics.error(*constants, "a gas knows no <PhysicalConstants>: nothing acts on it but its pressure");
+  if (const auto loads = root.child("PhysicalBC"))
+    diagnostics.error(*loads, "a gas takes no <PhysicalBC>: no load acts on it but the pressure of its sides");
   const auto grid = root.child("Grid");
   const auto conditions = grid ? grid->child("BoundaryConditions") : std::nullopt;
   if (!conditions) return;
@@ -94,17 +96,11 @@ void refuseSolidsOnly(const Element& root, Diagnostics& diagnostics) {
 std::unique_ptr<Component> makeComponent(const Level& level, const MpmSection& method, const std::vector<Gas>& gases) {
   if (method.gas && method.gas->redistribute) paper::checkSeeds(*method.gas->redistribute, level.dimension());
   if (method.gas) return simulation::makeByDimension<paper::GasMpm>(level, *method.gas, gases);
-  return simulation::makeByDimension<conserving::ConservingMpm>(
-      level, conserving::settle(*method.conserving, level.dimension()), gases);
+  simulation::loadModule("mpm_gas_conserving");
+  return conserving::makeConservingMpm(level, conserving::settle(*method.conserving, level.dimension()), gases);
 }
 
-}  // namespace
-
-bool isGas(const Element& root) {
-  const auto mpm = root.child("MPM");
-  return mpm && (mpm->child("gas_dynamics") || mpm->child("conserving_gas_dynamics"));
-}
-
+/// Reads a scene of gases; every problem goes to the diagnostics.
 simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostics) {
   refuseSolidsOnly(root, diagnostics);
   const std::size_t before = diagnostics.size();
@@ -119,18 +115,28 @@ simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostic
   return [method, gases](const Level& level) { return makeComponent(level, method, gases); };
 }
 
+/// The sections of such a scene, for the schemas of editors: a list for each method.
 std::vector<std::vector<simulation::SectionForm>> forms() {
   std::vector<std::vector<simulation::SectionForm>> forms;
   for (const char* method : {"gas_dynamics", "conserving_gas_dynamics"})
-    forms.push_back({{"MPM", &mpmSchema(), true, {{method, {}}}},
-                     {"MaterialProperties", &gasProperties()},
-                     {"PhysicalBC", nullptr, false}});
+    forms.push_back({{"MPM", &mpmSchema(), true, {{method, {}}}}, {"MaterialProperties", &gasProperties()}});
   return forms;
 }
 
 void describe(std::ostream& out) {
   mpmSchema().describe(out);
   gasProperties().describe(out);
+}
+
+}  // namespace
+
+simulation::ComponentKind kind() {
+  simulation::ComponentKind kind;
+  kind.name = "mpm";
+  kind.read = readScene;
+  kind.forms = forms;
+  kind.describe = describe;
+  return kind;
 }
 
 }  // namespace tushar::mpm::gas

@@ -13,40 +13,35 @@ using input::Schema;
 namespace {
 
 const Schema<GasObjectSection>& objectSchema() {
-  static const Schema<GasObjectSection> schema =
-      Schema<GasObjectSection>("geom_object", "A body of material at the start.")
-          .custom(
-              "shape",
-              [](GasObjectSection& object, const Element& element, Diagnostics& diagnostics) {
-                object.where = element.where();
-                object.shape = input::readGeometry(element, diagnostics);
-              },
-              input::geometryNames(), "the body's shape; several are united", input::describeGeometry)
-          .forms(input::geometryForms(), 1)
-          .required("res", &GasObjectSection::res, "1", "particles per cell along x, y, z", input::between(1, 64))
-          .value("velocity", &GasObjectSection::velocity, input::VectorExpression(), "m/s", "velocity at the start",
-                 input::WithoutTime())
-          .optional("temperature", &GasObjectSection::temperature, "K",
-                    "temperature at the start, in place of <pressure>: p = (gamma - 1) rho c_v T", input::positive(),
-                    input::WithoutTime())
-          .optional("density", &GasObjectSection::density, "kg/m^3",
-                    "density at the start, if not that of the material", input::positive(), input::WithoutTime())
-          .ours()
-          .optional("pressure", &GasObjectSection::pressure, "Pa", "pressure at the start", input::positive(),
-                    input::WithoutTime())
-          .ours()
-          .choice("placement", &GasObjectSection::placement,
-                  {{"midpoint", Placement::midpoint}, {"jittered", Placement::jittered}, {"random", Placement::random}},
-                  Placement::midpoint,
-                  "particles in the middle of equal parts of a cell, anywhere in these parts, or anywhere in the cell")
-          .ours()
-          .value("seed", &GasObjectSection::seed, 0, "1", "another one draws other places", input::nonNegative())
-          .ours()
-          .check([](const GasObjectSection& object, const Element& element, Diagnostics& diagnostics) {
-            if (object.pressure.has_value() == object.temperature.has_value())
-              diagnostics.error(element, object.pressure ? "gives both <pressure> and <temperature>; keep one"
-                                                         : "gives neither <pressure> nor <temperature>");
-          });
+  static const Schema<GasObjectSection> schema = [] {
+    Schema<GasObjectSection> tags("geom_object", "A body of material at the start.");
+    input::addShape(tags, &GasObjectSection::where, &GasObjectSection::shape, "the body's shape; several are united")
+        .required("res", &GasObjectSection::res, "1", "particles per cell along x, y, z", input::between(1, 64))
+        .value("velocity", &GasObjectSection::velocity, input::VectorExpression(), "m/s", "velocity at the start",
+               input::WithoutTime())
+        .optional("temperature", &GasObjectSection::temperature, "K",
+                  "temperature at the start, in place of <pressure>: p = (gamma - 1) rho c_v T", input::positive(),
+                  input::WithoutTime())
+        .optional("density", &GasObjectSection::density, "kg/m^3", "density at the start, if not that of the material",
+                  input::positive(), input::WithoutTime())
+        .ours()
+        .optional("pressure", &GasObjectSection::pressure, "Pa", "pressure at the start", input::positive(),
+                  input::WithoutTime())
+        .ours()
+        .choice("placement", &GasObjectSection::placement,
+                {{"midpoint", Placement::midpoint}, {"jittered", Placement::jittered}, {"random", Placement::random}},
+                Placement::midpoint,
+                "particles in the middle of equal parts of a cell, anywhere in these parts, or anywhere in the cell")
+        .ours()
+        .value("seed", &GasObjectSection::seed, 0, "1", "another one draws other places", input::nonNegative())
+        .ours()
+        .check([](const GasObjectSection& object, const Element& element, Diagnostics& diagnostics) {
+          if (object.pressure.has_value() == object.temperature.has_value())
+            diagnostics.error(element, object.pressure ? "gives both <pressure> and <temperature>; keep one"
+                                                       : "gives neither <pressure> nor <temperature>");
+        });
+    return tags;
+  }();
   return schema;
 }
 
@@ -108,7 +103,9 @@ input::Expression pressureOf(const GasObjectSection& object, const input::Expres
   if (object.pressure) return *object.pressure;
   const std::string text = fmt::format("({})*({})*({})-({})", (model.gamma - 1) * model.specificHeat, density.text(),
                                        object.temperature->text(), model.pInfinity);
-  return *input::Expression::parse(text);
+  input::Expression pressure = *input::Expression::parse(text);
+  pressure.readAt(object.temperature->where());
+  return pressure;
 }
 
 }  // namespace

@@ -13,13 +13,16 @@ namespace tushar::mpm {
 /// with sigma_c = (+-1, …) and the half edges R = F diag(size h) / 2; Sadeghirad, Brannon & Burghardt, Int. J. Numer.
 /// Meth. Engng 86 (2011) 1435. A domain that reaches farther than a cell from its middle is shrunk to that, as Homel,
 /// Brannon & Guilkey, Int. J. Numer. Meth. Engng 107 (2016) 31, do.
-template <int D>
-struct CpdiShape {
+///
+/// Where `Axisymmetric`, the first axis is the radius; the means are those of the plane and S_i / r is taken at the
+/// particle, as in Uintah.
+template <int D, bool Axisymmetric = false>
+struct ConvectedShape {
   static constexpr int dimension = D;
   static constexpr int ghostNodes = 1, reach = 1 + ghostNodes;
   static constexpr bool hasSize = true;
   static constexpr bool deforms = true;
-  static constexpr bool axisymmetric = false;
+  static constexpr bool axisymmetric = Axisymmetric;
 
   /// How far a particle reaches along each axis, in cells.
   static Vec<D> support(const Extent<D>& extent) {
@@ -31,6 +34,7 @@ struct CpdiShape {
     static constexpr int nodes = 4;  ///< along each axis: of the particle's cell and those around
     static constexpr int corners = 1 << D;
     static constexpr double share = 1.0 / corners;
+    static constexpr bool axisymmetric = Axisymmetric;
 
     /// A corner of the domain: the lower node of its cell, counted from `first`, the tent functions of that cell's
     /// nodes, and what it has in the gradient (1/m).
@@ -42,10 +46,12 @@ struct CpdiShape {
 
     Index<D> first;
     std::array<Corner, corners> corner;
+    double inverseRadius = 0;  ///< 1/m; 0 where nothing is axisymmetric
 
     Stencil(const Level& level, const Index<D>& cell, const Vec<D>& x, const Extent<D>& extent)
         : Stencil(CellFrame<D>(level, cell), cell, x, extent) {}
     Stencil(const CellFrame<D>& frame, const Index<D>& cell, const Vec<D>& x, const Extent<D>& extent) {
+      if constexpr (Axisymmetric) inverseRadius = 1 / x[0];
       for (int d = 0; d < D; ++d) first[d] = cell[d] - 1;
       const Vec<D> xi = frame.coordinates(x);
       Eigen::Matrix<double, D, D> half = extent.halfEdges;
@@ -77,6 +83,14 @@ struct CpdiShape {
       });
     }
 
+    /// S_i of a node.
+    double valueAt(const Index<D>& node) const {
+      double value = 0;
+      for (const Corner& at : corner)
+        if (const int k = nodeOfCell(node - first, at.cell); k >= 0) value += share * at.weights[k];
+      return value;
+    }
+
    private:
     /// In the cell that a point at `xi`, in cells from that of the particle, lies in.
     static void place(Corner& corner, const Vec<D>& xi) {
@@ -100,5 +114,16 @@ struct CpdiShape {
     }
   };
 };
+
+template <int D>
+using CpdiShape = ConvectedShape<D>;
+template <int D>
+using AxisymmetricCpdiShape = ConvectedShape<D, true>;
+
+/// S_i / r of a node, 1/m; 0 where nothing is axisymmetric.
+template <class Stencil, int D = Stencil::dimension>
+requires(Stencil::corners > 0) double hoopOf(const Stencil& stencil, const Index<D>& node) {
+  return Stencil::axisymmetric ? stencil.inverseRadius * stencil.valueAt(node) : 0.0;
+}
 
 }  // namespace tushar::mpm

@@ -6,7 +6,7 @@
 
 namespace tushar::mpm {
 
-/// What a shape function asks of a particle besides its position.
+/// The data of a particle that a shape function needs besides its position.
 template <int D>
 struct Extent {
   Vec<D> size = Vec<D>::Ones();  ///< at the start, in cells

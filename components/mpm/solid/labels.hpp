@@ -6,7 +6,7 @@
 
 namespace tushar::mpm::solid {
 
-/// Particle variables, those of the gas method among them.
+/// Particle variables, including those that the gas methods have, too.
 namespace p {
 using namespace mpm::p;
 inline constexpr ParticleLabel<Matrix3> stress{"p.stress", "Pa", "Cauchy stress"};
@@ -16,6 +16,7 @@ template <int D>
 inline constexpr ParticleLabel<Vec<D>> displacement{"p.displacement", "m", "displacement since the start"};
 template <int D>
 inline constexpr ParticleLabel<Vec<D>> size{"p.size", "1", "extent at the start, in cells"};
+inline constexpr ParticleLabel<Matrix3> domain{"p.domain", "1", "edges at the start, in cells, one a column"};
 inline constexpr ParticleLabel<double> temperature{"p.temperature", "K", "temperature"};
 inline constexpr ParticleLabel<double> temperatureChange{"p.temperatureChange", "K", "by the work of the step"};
 inline constexpr ParticleLabel<double> damage{"p.damage", "1", "damage, 0 where sound"};
@@ -24,6 +25,7 @@ inline constexpr ParticleLabel<double> failureThreshold{"p.epsf", "Pa, 1 or Pa^(
 inline constexpr ParticleLabel<int> localized{"p.localizedMPM", "1", "1 once it has failed"};
 inline constexpr ParticleLabel<double> failureTime{"p.timeofloc", "s", "when it failed"};
 inline constexpr ParticleLabel<double> color{"p.color", "1", "number that the scene gives to a body"};
+inline constexpr ParticleLabel<int> surface{"p.surface", "1", "1 where it starts at the surface of its body"};
 inline constexpr ParticleLabel<double> viscosity{"p.q", "Pa", "artificial viscosity"};
 inline constexpr ParticleLabel<double> strainEnergy{
     "p.strainEnergy", "J", "strain energy of an elastic particle, or what the step added to it"};
@@ -76,6 +78,12 @@ inline constexpr NodeLabel<Vec<D>> massPosition{"g.massPosition", "kg m", "mass 
 inline constexpr NodeLabel<Matrix3> surfaceStress{"g.surfaceStress", "Pa", "stress of particles, gathered"};
 inline constexpr NodeLabel<double> surfaceVolume{"g.surfaceVolume", "m^3",
                                                  "volume of particles, with what mirrors it beyond symmetry planes"};
+template <int D>
+inline constexpr NodeLabel<Vec<D>> separatingNormal{
+    "g.normAlphaToBeta", "1", "out of the body with most mass at the node, where several touch; 0 elsewhere"};
+inline constexpr NodeLabel<double> prominence{"g.matlProminence", "m",
+                                              "how far surface particles reach along g.normAlphaToBeta"};
+inline constexpr NodeLabel<double> color{"g.color", "1", "mean of p.color by mass"};
 inline constexpr NodeLabel<double> frictionHeat{"g.frictionHeat", "J", "heat that rubbing makes in a step"};
 inline constexpr NodeLabel<double> heatCapacity{"g.heatCapacity", "J/K", "heat capacity gathered from particles"};
 inline constexpr NodeLabel<double> temperatureNoBC{"g.temperaturenobc", "K", "temperature gathered from particles"};

@@ -3,6 +3,7 @@
 #include "components/mpm/solid/constitutive/model.hpp"
 #include "components/mpm/solid/damage/damage.hpp"
 #include "components/mpm/solid/damage/erosion.hpp"
+#include "components/mpm/solid/placement.hpp"
 #include "core/core.hpp"
 #include "core/input/expression.hpp"
 #include "core/input/geometry.hpp"
@@ -17,6 +18,12 @@ struct Body {
   input::VectorExpression velocity;    ///< m/s
   input::Expression temperature;       ///< K
   double color = 0;
+  int levels = 1;  ///< sizes of particles that fill its shape; negative: none sticks out of it
+  /// Rows of A, and b: its particles start at A X + b (m) where they else would at X.
+  Vec3 affineRow0 = Vec3::UnitX(), affineRow1 = Vec3::UnitY(), affineRow2 = Vec3::UnitZ(), affineShift = Vec3::Zero();
+  std::shared_ptr<const Seeds> seeds;  ///< where its particles start; null: in equal parts of cells
+
+  Matrix3 affineMatrix() const;
 };
 
 /// Where the k-th particle of a cell starts, m, rounded as Uintah rounds it: a point on a face of the shape is inside
@@ -53,14 +60,18 @@ struct Material {
   double meltTemperature = 0;      ///< K
   double roomTemperature = 0;      ///< K
   double thermalConductivity = 0;  ///< W/(m K)
+  double thermalExpansion = 0;     ///< of lengths, 1/K
   bool isRigid = false;            ///< its stress exerts no force
   bool transmitsForce = false;     ///< it moves as a rigid whole, by the sum of the forces on it
+  bool mayLeadContact = true;      ///< planes that separate it from others (see SeparatingPlane) may belong to it
   Damage damage;
   Erosion erosion;
   std::vector<Body> bodies;
 
   MaterialConstants constants() const { return {density, specificHeat, meltTemperature, roomTemperature}; }
-  /// Whether particles may come to bear less than the constitutive model says.
+  /// That of a particle at F = I, kg/m^3: bodies that start under pressure have `density` there and then.
+  double undeformedDensity() const { return density * model->initialVolumeRatio(); }
+  /// Whether particles may lose strength, so that they bear less than the constitutive model says.
   bool isDamageable() const { return erosion.acts() || !std::holds_alternative<NoDamage>(damage); }
 };
 

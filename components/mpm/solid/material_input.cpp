@@ -2,10 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
+
 #include <map>
 #include <set>
 
 #include "components/mpm/solid/constitutive/all.hpp"
+#include "components/mpm/solid/constitutive/expanding.hpp"
+#include "components/mpm/solid/constitutive/gurson.hpp"
 #include "components/mpm/solid/contact/contact_input.hpp"
 #include "components/mpm/solid/damage/damage_input.hpp"
 #include "core/input/refuse.hpp"
@@ -43,29 +47,19 @@ const std::map<std::string, std::string> otherWords{{"cnh_damage", "UCNH"}, {"cn
 
 /// Models of Uintah's that are missing here, and what there is instead.
 const std::vector<std::pair<std::string, std::string>> lackingModels{
-    {"visco_scram", "hypo_elastic, without viscosity, with a <damage_model>"},
-    {"mw_visco_elastic", "hypo_elastic, without viscosity"},
     {"membrane", "comp_neo_hook for bodies as thick as a cell"},
     {"three_factor_mooney", "comp_mooney_rivlin"},
     {"SVK", "comp_neo_hook"},
     {"ArrudaBoyce8", "comp_mooney_rivlin"},
     {"murnaghanMPM", "water, whose pressure obeys the same law"},
-    {"TH_water", "water"},
-    {"jwlpp_mpm", "ideal_gas for gases"},
-    {"program_burn", "ideal_gas for gases"},
     {"p_alpha", "elastic_plastic_hp with a mie_gruneisen equation of state"},
     {"rf_elastic_plastic", "elastic_plastic_hp"},
-    {"visco_plastic", "elastic_plastic_hp with johnson_cook flow"},
-    {"visco_trans_iso_hyper", "trans_iso_hyper, without viscosity"},
     {"TransIsoHypoFrictional", "hypo_elastic, without fibres"},
     {"hypo_elastic_fortran", "hypo_elastic"},
     {"kayenta", "MohrCoulomb"},
-    {"Arenisca", "MohrCoulomb"},
-    {"Arenisca3", "MohrCoulomb"},
-    {"Arenisca4", "MohrCoulomb"},
-    {"ArenaSoil", "MohrCoulomb"},
+    {"Arenisca", "Arenisca3, whose cap has another shape"},
+    {"ArenaSoil", "Arenisca4"},
     {"camclay", "MohrCoulomb"},
-    {"nonlocal_drucker_prager", "MohrCoulomb"},
     {"HypoplasticB", "MohrCoulomb"},
     {"soil_foam", "MohrCoulomb"},
 };
@@ -78,16 +72,59 @@ void refuseModel(const Element& tag, const std::string& type, Diagnostics& diagn
   diagnostics.error(tag, "attribute 'type': " + input::choiceProblem(type, modelNames()));
 }
 
+/// The model that a tag asks for, by the name that it has here.
+std::string typeOf(const Element& tag) {
+  const std::string type = tag.attribute("type").value_or("");
+  const auto yields = tag.child("usePlasticity");
+  if (type == CompNeoHook::name && yields && yields->text() == "true") return std::string(Ucnh::name);
+  const auto surface = tag.child("yield_condition");
+  if (type == ElasticPlasticModel::name && surface && surface->attribute("type") == GursonYield::name)
+    return std::string(ElasticPlasticHp::name);
+  const auto other = otherWords.find(type);
+  return other == otherWords.end() ? type : other->second;
+}
+
+/// Whether a temperature can make bodies of a model longer: as in Uintah, of its neo-Hookean ones.
+template <class M>
+inline constexpr bool expands =
+    std::is_same_v<M, CompNeoHook> || std::is_same_v<M, Ucnh> || std::is_same_v<M, CompNeoHookPlastic>;
+
+/// Of a model with that bulk modulus, Pa.
+template <class M>
+std::shared_ptr<const Model> expandingIfAsked(const M& model, double bulkModulus, const Material& material) {
+  if (material.thermalExpansion > 0)
+    return std::make_shared<Expanding<M>>(model, bulkModulus,
+                                          ThermalExpansion{material.thermalExpansion, material.roomTemperature});
+  return std::make_shared<ModelOf<M>>(model);
+}
+
+/// A model as the particles of a material use it.
+template <class M>
+std::shared_ptr<const Model> modelFrom(const M& model, const Material& material) {
+  if constexpr (requires { model.yieldSpreads; })
+    if (model.isPlastic && model.yieldSpreads && model.yieldStress && model.hardeningModulus)
+      return expandingIfAsked(UcnhVar::spread(model), model.bulkModulus, material);
+  if constexpr (std::is_same_v<M, ElasticPlasticHp>)
+    if (std::holds_alternative<GursonYield>(model.yieldCondition))
+      return std::make_shared<ModelOf<GursonPlastic>>(GursonPlastic{model});
+  if constexpr (expands<M>)
+    return expandingIfAsked(model, model.bulkModulus, material);
+  else
+    return std::make_shared<ModelOf<M>>(model);
+}
+
 void readModel(Material& material, const Element& parent, Diagnostics& diagnostics) {
   const auto tag = parent.child("constitutive_model");
   if (!tag) return diagnostics.error(parent, "missing tag <constitutive_model> in <material>");
-  std::string type = tag->attribute("type").value_or("");
-  if (const auto other = otherWords.find(type); other != otherWords.end()) type = other->second;
+  const std::string type = typeOf(*tag);
   forEachModel([&]<class M>(const M&) {
     if (type != M::name) return;
     M model = modelSchema<M>().read(*tag, diagnostics);
     if constexpr (providesCapability<M, capability::ConstantsOfMaterial>) model.material = material.constants();
-    material.model = std::make_shared<ModelOf<M>>(model);
+    material.model = modelFrom(model, material);
+    if (material.thermalExpansion > 0 && !expands<M>)
+      diagnostics.note(parent.child("linear_thermal_expansion_coef").value(),
+                       "does nothing: as in Uintah, only comp_neo_hook, UCNH and comp_neo_hook_plastic expand");
   });
   if (!material.model) refuseModel(*tag, type, diagnostics);
 }
@@ -99,6 +136,7 @@ std::vector<input::Alternative> modelAlternatives() {
     std::vector<std::string> words{std::string(M::name)};
     for (const auto& [word, model] : otherWords)
       if (model == M::name) words.push_back(word);
+    if (M::name == Ucnh::name) words.emplace_back(CompNeoHook::name);
     alternatives.push_back({&modelSchema<M>(), {{"type", words}}});
   });
   return alternatives;
@@ -111,27 +149,38 @@ void describeModels(std::ostream& out, int indent) {
   });
 }
 
+void checkAffine(const Body& body, const Element& element, Diagnostics& diagnostics) {
+  if (!(body.affineMatrix().determinant() > 0))
+    diagnostics.error(element, "affineTransformation_A0, …_A1 and …_A2: the determinant of A must be above 0");
+}
+
 Schema<Body> bodyTags() {
-  return Schema<Body>("geom_object", "A body of material at the start.")
-      .custom(
-          "shape",
-          [](Body& body, const Element& element, Diagnostics& diagnostics) {
-            body.where = element.where();
-            body.shape = input::readGeometry(element, diagnostics);
-          },
-          input::geometryNames(), "the body's shape; several are united", input::describeGeometry)
-      .forms(input::geometryForms(), 1)
+  Schema<Body> tags("geom_object", "A body of material at the start.");
+  input::addShape(tags, &Body::where, &Body::shape, "the body's shape; several are united")
       .required("res", &Body::particlesPerCell, "1", "particles per cell along x, y, z", input::between(1, 32))
       .value("velocity", &Body::velocity, input::VectorExpression(), "m/s", "velocity at the start")
       .value("temperature", &Body::temperature, input::Expression(293.0), "K", "temperature at the start",
              input::nonNegative())
       .value("color", &Body::color, 0, "1", "a number that its particles keep, p.color")
+      .value("numLevelsParticleFilling", &Body::levels, 1, "1",
+             "sizes of particles, each half of the one before, that fill the shape up to its surface; negative: none "
+             "sticks out of it",
+             input::between(-8, 8))
+      .value(
+          "affineTransformation_A0", &Body::affineRow0, Vec3::UnitX(), "1",
+          "first row of A: a particle starts at A X + b instead of at X, where the shape has X inside, and its edges "
+          "are those of the cell's parts times A")
+      .value("affineTransformation_A1", &Body::affineRow1, Vec3::UnitY(), "1", "second row of A")
+      .value("affineTransformation_A2", &Body::affineRow2, Vec3::UnitZ(), "1", "third row of A")
+      .value("affineTransformation_b", &Body::affineShift, Vec3::Zero(), "m", "b")
+      .check(checkAffine)
       .ignored("concentration", "belongs to do_scalar_diffusion")
       .ignored("comment", "for readers")
       .ignored("density", "the material's is taken, as in Uintah")
       .ignored("pressure", "bodies start without stress")
       .ignored("level", "there is one level")
       .ignoredAttribute("name", "for readers");
+  return tags;
 }
 
 const Schema<Body>& bodySchema() {
@@ -145,12 +194,10 @@ const Schema<Body>& bodySchema() {
 
 /// Tags of Uintah's in a material that change nothing here, and those that are missing.
 void acceptUintahsTags(Schema<Material>& tags) {
-  tags.ignored("possible_alpha_material", "belongs to the contact friction_LR");
   for (const char* tag : {"water_density", "porosity", "permeability", "initial_pore_pressure"})
     tags.ignored(tag, "belongs to coupled_flow_analysis");
   tags.ignored("heat_transfer_coefficient", "with <thermal_contact> materials share one temperature at a node");
   tags.ignored("C_p", "the <specific_heat> is taken").ignored("do_conc_reduction", "belongs to do_scalar_diffusion");
-  refuseSwitch(tags, "linear_thermal_expansion_coef", "temperature does not make bodies longer");
   requireSwitch(tags, "is_active", "every material is there from the start");
   refuseSwitch(tags, "activation_time", "every material is there from the start");
 }
@@ -167,6 +214,9 @@ const Schema<Material>& materialSchema() {
                "temperature at which it melts; it never does where none is given, as in Uintah", input::positive())
         .value("room_temp", &Material::roomTemperature, 294, "K", "temperature of the constants of damage",
                input::nonNegative())
+        .value("linear_thermal_expansion_coef", &Material::thermalExpansion, 0, "1/K",
+               "growth of lengths with the temperature above <room_temp>, of neo-Hookean models in explicit steps",
+               input::nonNegative())
         .value("is_rigid", &Material::isRigid, false, "1",
                "explicit steps: its stress exerts no force, and its velocities go by FLIP also with XPIC2; in implicit "
                "steps "
@@ -176,9 +226,12 @@ const Schema<Material>& materialSchema() {
             "explicit steps: it moves as a rigid whole, by the sum of the loads on it and of what <contact> of type "
             "rigid or "
             "specified, whose master it is, takes from others; gravity, damping and sides of the grid do not act on it")
+        .value("possible_alpha_material", &Material::mayLeadContact, true, "1",
+               "contacts of type friction_LR, friction_LRVar and specified_friction: normals may point out of this "
+               "material; false: it slides on others only where two others meet")
         .custom("constitutive_model", readModel, {"constitutive_model"}, "how it answers to being deformed",
                 describeModels)
-        .forms({input::sectionForm({"constitutive_model"}, modelAlternatives, 1)})
+        .forms({input::onceForm("constitutive_model", modelAlternatives, 1)})
         .custom("damage_model", readDamage, {"damage_model", "erosion"}, "how it fails, and what it bears then",
                 describeDamage)
         .forms(damageForms())

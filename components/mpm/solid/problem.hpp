@@ -1,6 +1,7 @@
 #pragma once
 
 #include "components/mpm/solid/contact/contact.hpp"
+#include "components/mpm/solid/loads/prescribed_deformation.hpp"
 #include "components/mpm/solid/method.hpp"
 #include "components/mpm/solid/tasks/create_particles.hpp"
 #include "components/mpm/solid/tasks/show_state.hpp"
@@ -14,6 +15,7 @@ struct Problem {
   std::vector<Material> materials;
   std::vector<Contact> contacts;
   Start start;
+  std::shared_ptr<const PrescribedDeformation> motion = nullptr;  ///< of all bodies; null: by forces
 };
 
 /// Solids of any shape function, by explicit or implicit steps.

@@ -12,14 +12,14 @@ using input::Element;
 using input::Schema;
 
 const Schema<PhysicalConstants>& constantsSchema() {
-  static const Schema<PhysicalConstants> schema =
-      Schema<PhysicalConstants>("PhysicalConstants", "What acts everywhere.")
-          .value("gravity", &PhysicalConstants::gravity, Vec3::Zero(), "m/s^2", "acceleration of all that has mass")
-          .ignored("reference_point", "belongs to components of flow")
-          .ignored("viscosity", "belongs to components of flow")
-          .ignored("ideal_gas_constant", "belongs to components of flow")
-          .ignored("pressure", "belongs to components of flow")
-          .ignored("reference_pressure", "nothing here depends on it");
+  static const Schema<PhysicalConstants> schema = [] {
+    Schema<PhysicalConstants> tags("PhysicalConstants", "What acts everywhere.");
+    tags.value("gravity", &PhysicalConstants::gravity, Vec3::Zero(), "m/s^2", "acceleration of all that has mass");
+    for (const char* tag : {"reference_point", "viscosity", "ideal_gas_constant", "pressure"})
+      tags.ignored(tag, "belongs to components of flow");
+    tags.ignored("reference_pressure", "nothing here depends on it");
+    return tags;
+  }();
   return schema;
 }
 
@@ -38,13 +38,16 @@ void settleSizes(Problem& problem) {
   for (int axis = 0; axis < 3; ++axis) problem.method.commonSize[axis] = 1.0 / first[axis];
   problem.method.keepsSizes = problem.start.solution != nullptr;
   for (const Material& material : problem.materials)
-    for (const Body& body : material.bodies)
-      problem.method.keepsSizes = problem.method.keepsSizes || !(body.particlesPerCell == first);
+    for (const Body& body : material.bodies) {
+      problem.method.keepsSizes = problem.method.keepsSizes || body.seeds || !(body.particlesPerCell == first);
+      problem.method.keepsDomains = problem.method.keepsDomains || body.seeds;
+    }
 }
 
 }  // namespace
 
 void settleParticles(const Level& level, Problem& problem) {
+  for (Material& material : problem.materials) placeParticles(level, material.bodies);
   countParticles(level, problem.materials, problem.start.loads.surfaces);
   settleSizes(problem);
   double widths = 0, axes = 0;
@@ -53,6 +56,11 @@ void settleParticles(const Level& level, Problem& problem) {
     axes += level.cellWidth(axis) > 0;
   }
   problem.method.meanWidth = widths / axes;
+  for (const Material& material : problem.materials)
+    for (int d = 0; d < level.dimension(); ++d)
+      problem.method.nonlocalLayers =
+          std::max(problem.method.nonlocalLayers,
+                   static_cast<int>(std::ceil(material.model->nonlocalLength() / level.spacing(d))));
   problem.method.isThin = {true, true, true};
   for (int d = 0; d < level.dimension(); ++d) problem.method.isThin[level.axis(d)] = false;
 }

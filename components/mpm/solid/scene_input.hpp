@@ -21,7 +21,7 @@ void nameMaterials(std::vector<Material>& materials);
 /// Heat that works or flows changes a temperature by the heat capacity, which must be there.
 void checkHeat(const Problem& problem, const input::Element& root, input::Diagnostics& diagnostics);
 
-/// What depends on the grid: how many particles share each load, their size, the width of cells.
+/// Completes what depends on the grid: how many particles share each load, their size, the width of cells.
 void settleParticles(const Level& level, Problem& problem);
 
 /// Throws InputError where an axisymmetric scene, whose <MPM> stands at `where`, has cells around its axis.

@@ -8,8 +8,6 @@ namespace tushar::mpm::solid {
 
 /// Switches of Uintah's that are missing here, and what there is instead.
 inline const std::vector<std::pair<std::string, std::string>> lackingSwitches{
-    {"UseGradientEnhancedVelocityProjection", "take it out: particles pass on their own velocity"},
-    {"UsePrescribedDeformation", "move the body by a <contact> of type specified"},
     {"InsertParticles", "give every body its place at the start"},
     {"refine_particles", "give the body more particles by <res>"},
     {"use_cohesive_zones", "give the bodies a <contact>"},
@@ -19,8 +17,6 @@ inline const std::vector<std::pair<std::string, std::string>> lackingSwitches{
     {"DoCapDensity", "take it out: density is not capped"},
     {"DoGranularMPM", "take it out"},
     {"DoDefGradAveraging", "use a wider <interpolator>, such as gimp or 3rdorderBS, against locking"},
-    {"keepPressBCNormalToSurface", "a pressure keeps the direction of its surface at the start"},
-    {"use_CBDI_boundary_condition", "a pressure is shared among the particles at its surface"},
     {"use_volume_integral", "take it out: particles stand for their volume"},
     {"restartOnLargeNodalVelocity", "recompute_timestep in <Time> repeats a step that fails"},
 };
@@ -34,8 +30,6 @@ inline const std::vector<std::pair<std::string, std::string>> meaninglessTags{
     {"computeNodalHeatFlux", "nothing depends on it"},
     {"interpolateParticleTempToGridEveryStep", "temperatures always come from the particles"},
     {"testForNegTemps_mpm", "nothing depends on it"},
-    {"PrescribedDeformationFile", "belongs to UsePrescribedDeformation"},
-    {"exactDeformation", "belongs to UsePrescribedDeformation"},
     {"InsertParticlesFile", "belongs to InsertParticles"},
     {"water_damping_coef", "belongs to coupled_flow_analysis"},
     {"solid_damping_coef", "belongs to coupled_flow_analysis"},
@@ -59,6 +53,8 @@ inline const std::vector<std::string> uintahsLabels{"AccStrainEnergy",
                                                     "dispNew",
                                                     "p.tempPrevious",
                                                     "p.externalHeatRate",
+                                                    "p.JThermal",
+                                                    "p.volumedeformed",
                                                     "p.temperatureGradient",
                                                     "p.currentsize",
                                                     "frictionalWork",

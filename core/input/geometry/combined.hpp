@@ -6,7 +6,7 @@
 
 namespace tushar::input {
 
-/// No point: Uintah's `null`, the shape of a material that has no particles at the start.
+/// The empty set: Uintah's `null`, the shape of a material that has no particles at the start.
 class Nothing : public GeometryPiece {
  public:
   bool contains(const Vec3&) const override { return false; }

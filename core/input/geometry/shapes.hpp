@@ -97,7 +97,7 @@ struct Torus : GeometryPiece {
   int axis = 2;
   double theta = 0;  ///< the axis z tilts towards -x, y towards z, x towards y (rad)
 
-  /// Of length 1, tilted by theta.
+  /// The unit vector along the axis, tilted by theta.
   Vec3 direction() const;
   bool contains(const Vec3& point) const override;
   Box3 bounds() const override;

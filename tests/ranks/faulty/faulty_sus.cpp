@@ -31,9 +31,12 @@ class Faulty : public simulation::Component {
   std::unique_ptr<simulation::Component> heat_;
 };
 
-simulation::Catalogue faultyCatalogue() {
-  simulation::Catalogue known = catalogue();
-  for (simulation::ComponentKind& kind : known.components) {
+/// All components, but for heat a faulty one.
+simulation::Catalogue faultyCatalogue(const std::vector<std::string>&) {
+  const simulation::Catalogue known = catalogue();
+  std::vector<simulation::ComponentKind> components;
+  for (const simulation::ComponentKind* kind : known.components()) components.push_back(*kind);
+  for (simulation::ComponentKind& kind : components) {
     if (kind.name != "heat") continue;
     kind.read = [read = kind.read](const input::Element& root,
                                    input::Diagnostics& diagnostics) -> simulation::MakeComponent {
@@ -41,9 +44,11 @@ simulation::Catalogue faultyCatalogue() {
           [make = read(root, diagnostics)](const grid::Level& level) { return std::make_unique<Faulty>(make(level)); };
     };
   }
-  return known;
+  std::vector<simulation::AnalysisKind> analyses;
+  for (const simulation::AnalysisKind* kind : known.analyses()) analyses.push_back(*kind);
+  return {components, analyses};
 }
 
 }  // namespace
 
-int main(int count, char** words) { return runProgram(count, words, faultyCatalogue()); }
+int main(int count, char** words) { return runProgram(count, words, faultyCatalogue); }

@@ -4,10 +4,12 @@ from __future__ import annotations
 import glob
 import json
 import os
+import re
 import xml.etree.ElementTree as ElementTree
 from dataclasses import dataclass, field
-from typing import Any, Dict, Iterator, List, Mapping, Optional, Sequence
+from typing import Any, Dict, Iterator, List, Mapping, Optional, Sequence, Set, Tuple
 
+import h5py
 import numpy as np
 
 from tushar.dat import rows_of
@@ -17,6 +19,7 @@ from tushar.snapshot import Snapshot
 from tushar.tracks import Tracks
 
 
+FORMAT = 1  # of archives: the newest that is known here
 BY_LETTER = {"p.": ("particle",), "c.": ("cell", "node"), "g.": ("cell", "node")}
 
 
@@ -52,6 +55,20 @@ def _xml(path: str) -> ElementTree.Element:
         return ElementTree.parse(path).getroot()
     except (OSError, ElementTree.ParseError) as error:
         raise ArchiveError(f"cannot read '{path}': {error}") from None
+
+
+def unlisted(folder: str, known: Set[str]) -> List[Tuple[int, float, str]]:
+    """Step, time [s] and file of the outputs that index.xml lacks: it is behind while a run goes on, or was killed."""
+    found = []
+    for name in os.listdir(folder):
+        if name in known or not re.fullmatch(r"t\d{5,}\.h5", name):
+            continue
+        try:
+            with h5py.File(os.path.join(folder, name), "r") as file:
+                found.append((int(file.attrs["step"]), float(file.attrs["time"]), name))
+        except (OSError, KeyError):  # gone, or not of sus
+            continue
+    return found
 
 
 class Globals(Mapping[str, Series]):
@@ -91,7 +108,8 @@ class Globals(Mapping[str, Series]):
 
 class Archive(Sequence[Snapshot]):
     """An archive, `sod.uda` or `sod.uda.000`: a sequence of its outputs. `archive[0]` is the first, `archive[-1]` the
-    last, `archive.at(0.1)` the nearest to a time. Opening it reads its index alone. Wrong names raise ArchiveError."""
+    last, `archive.at(0.1)` the nearest to a time. Opening it reads its index, and the times of outputs that a run has
+    not listed there yet. Wrong names raise ArchiveError."""
 
     def __init__(self, path: Any, report: Optional[Dict[str, Any]] = None, keeps: Any = None) -> None:
         self.folder = os.path.normpath(os.fspath(path))
@@ -104,14 +122,19 @@ class Archive(Sequence[Snapshot]):
         """Reads the index again, for an archive that a run still writes."""
         index = _xml(os.path.join(self.folder, "index.xml"))
         self.version = index.get("version", "")
+        if int(index.get("format", FORMAT)) > FORMAT:
+            raise ArchiveError(f"'{self.folder}' has format {index.get('format')}, and this reader knows formats up to "
+                               f"{FORMAT}; sus {self.version} wrote it")
         self.variables = {item.get("name", ""): self._variable(item) for item in index.iterfind("variables/variable")}
         totals = {item.get("name", ""): item for item in index.iterfind("globals/global")}
-        self.globals = Globals({name: self._variable(item) for name, item in totals.items()},
-                               {name: os.path.join(self.folder, item.get("href", "")) for name, item in totals.items()})
-        outputs = index.findall("timesteps/timestep")
-        self.times = [float(output.get("time", "nan")) for output in outputs]
-        self.steps = [int(output.text or 0) for output in outputs]
-        self.files = [os.path.join(self.folder, output.get("href", "")) for output in outputs]
+        files = {name: os.path.join(self.folder, item.get("href", "")) for name, item in totals.items()}
+        self.globals = Globals({name: self._variable(item) for name, item in totals.items()}, files)
+        listed = [(int(output.text or 0), float(output.get("time", "nan")), output.get("href", ""))
+                  for output in index.iterfind("timesteps/timestep")]
+        outputs = sorted([*listed, *unlisted(self.folder, {name for _, _, name in listed})])
+        self.times = [time for _, time, _ in outputs]
+        self.steps = [step for step, _, _ in outputs]
+        self.files = [os.path.join(self.folder, name) for _, _, name in outputs]
 
     def _not_an_archive(self) -> str:
         numbered = sorted(glob.glob(glob.escape(self.folder) + ".[0-9]*"))
@@ -177,6 +200,16 @@ class Archive(Sequence[Snapshot]):
         except ArchiveError:
             title = ""
         return title or os.path.basename(self.folder)
+
+    @property
+    def runs(self) -> List[Dict[str, Any]]:
+        """What run.json says of each start and restart: program, command line, dates and end; [] of older archives."""
+        try:
+            with open(os.path.join(self.folder, "run.json"), encoding="utf-8") as file:
+                found: List[Dict[str, Any]] = json.load(file)["runs"]
+        except (OSError, ValueError, KeyError):
+            return []
+        return found
 
     @property
     def materials(self) -> List[str]:

@@ -49,7 +49,8 @@ def find_sus(sus: Optional[Path] = None) -> str:
             return str(path)
     installed = shutil.which("sus")
     if not installed:
-        raise SusError(f"there is no sus: not in $SUS, not in {ROOT / 'build'}, not on the PATH; tools/run builds it")
+        raise SusError(f"there is no sus: not in $SUS, not in {ROOT / 'build'}, not on the PATH; tools/run builds it "
+                       "in the repository, and $SUS may name it: SUS=REPOSITORY/build/release/sus")
     return installed
 
 

@@ -37,7 +37,7 @@ class Run:
 
     def __repr__(self) -> str:
         steps, time = self.report.get("steps", 0), self.report.get("time", 0)
-        ended = self.report.get("failure") or f"{steps} steps to t = {time:g} s"
+        ended = self.report.get("failure") or f"{steps} step{'s'[steps == 1:]} to t = {time:g} s"
         return f"<Run of {self.scene}: {ended}>"
 
     @property

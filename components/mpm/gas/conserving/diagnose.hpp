@@ -46,7 +46,7 @@ void computeDensity(const Patch& patch, const Gas& gas, ParticleView<const doubl
   }
 }
 
-/// Momentum over mass of the parts of particles in each cell; 0 where there are none.
+/// Momentum over mass of the parts of particles in each cell; 0 in cells without any.
 template <int D>
 void computeCellVelocity(const Patch& patch, const Gas&, ParticleView<const Vec<D>> x, ParticleView<const Vec<D>> edges,
                          ParticleView<const double> mass, ParticleView<const Vec<D>> velocity,

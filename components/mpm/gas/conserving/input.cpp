@@ -2,6 +2,9 @@
 
 namespace tushar::mpm::gas::conserving {
 
+std::unique_ptr<Component> (*makeConservingMpm)(const Level& level, const ConservingGasDynamics& method,
+                                                const std::vector<Gas>& gases) = nullptr;
+
 using input::Schema;
 
 namespace {

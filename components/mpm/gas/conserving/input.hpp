@@ -1,6 +1,7 @@
 #pragma once
 
 #include "components/mpm/gas/conserving/scheme.hpp"
+#include "components/mpm/gas/material.hpp"
 #include "core/input/schema.hpp"
 
 namespace tushar::mpm::gas::conserving {
@@ -16,6 +17,10 @@ struct Section {
   std::optional<Remap> remap;
 };
 const input::Schema<Section>& sectionSchema();
+
+/// Makes the method; the module mpm_gas_conserving fills it in when it is loaded.
+extern std::unique_ptr<Component> (*makeConservingMpm)(const Level& level, const ConservingGasDynamics& method,
+                                                       const std::vector<Gas>& gases);
 
 /// The method on a grid of that dimension, defaults filled in.
 ConservingGasDynamics settle(const Section& read, int dimension);

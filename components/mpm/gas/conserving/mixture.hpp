@@ -31,7 +31,7 @@ struct Mixture {
   }
 };
 
-/// What one gas holds in the cells of a patch.
+/// The fields of one gas in the cells of a patch.
 struct GasInCells {
   CellView<const double> mass;            ///< kg
   CellView<const double> internalEnergy;  ///< J
@@ -43,7 +43,7 @@ struct GasInCells {
   }
 };
 
-/// What all gases hold in the cells of a patch.
+/// The fields of all gases together in the cells of a patch.
 struct Cells {
   const std::vector<Gas>& gases;
   const std::vector<GasInCells>& held;  ///< one for each gas

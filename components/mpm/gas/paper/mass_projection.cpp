@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <stdexcept>
 
 #include "components/mpm/gas/paper/gas_mpm.hpp"
-#include "core/input/schema.hpp"
+#include "core/simulation/plain_module.hpp"
 
 namespace tushar::mpm::gas::paper {
 
@@ -75,16 +76,6 @@ class MassProjection : public simulation::Analysis {
   const std::vector<Gas>* materials_;
 };
 
-struct Settings {
-  std::string name;
-};
-const input::Schema<Settings>& schema() {
-  static const input::Schema<Settings> schema =
-      input::Schema<Settings>("Module", "Error of the nodal mass against its bound, (19)-(23) of Tran, Kim & Berzins.")
-          .requiredAttribute("name", &Settings::name, "1", "massProjection");
-  return schema;
-}
-
 /// Why the module cannot measure this run; empty if it can.
 std::string misfit(const GasMpm<1>* mpm, const Level& level) {
   if (level.dimension() > 1)
@@ -94,6 +85,12 @@ std::string misfit(const GasMpm<1>* mpm, const Level& level) {
   if (mpm->method().volumeModel != VolumeModel::cellShare)
     return "measures particles that share their cell's volume, and volume_model is tracked; use cell_share";
   return {};
+}
+
+std::unique_ptr<simulation::Analysis> makeModule(const Component& component, const Level& level) {
+  const auto* mpm = dynamic_cast<const GasMpm<1>*>(&component);
+  if (const std::string why = misfit(mpm, level); !why.empty()) throw std::invalid_argument(why);
+  return std::make_unique<MassProjection>(mpm->materials());
 }
 
 }  // namespace
@@ -164,19 +161,9 @@ void measureMassProjection(const Patch& patch, const Gas&, ParticleView<const Ve
 }
 
 simulation::AnalysisKind massProjectionKind() {
-  simulation::AnalysisKind kind{"massProjection", "error of the nodal mass against its bound", {}, {}};
-  kind.describe = [](std::ostream& out) { schema().describe(out); };
-  kind.schema = [] { return &schema(); };
-  kind.read = [](const input::Element& module, input::Diagnostics& diagnostics) -> simulation::MakeAnalysis {
-    schema().read(module, diagnostics);
-    return [where = module.where(), path = module.path()](const Component& component,
-                                                          const Level& level) -> std::unique_ptr<simulation::Analysis> {
-      const auto* mpm = dynamic_cast<const GasMpm<1>*>(&component);
-      if (const std::string why = misfit(mpm, level); !why.empty()) throw InputError({{where, path, why}});
-      return std::make_unique<MassProjection>(mpm->materials());
-    };
-  };
-  return kind;
+  return simulation::plainModule("massProjection", "error of the nodal mass against its bound",
+                                 "Error of the nodal mass against its bound, (19)-(23) of Tran, Kim & Berzins.",
+                                 makeModule);
 }
 
 }  // namespace tushar::mpm::gas::paper

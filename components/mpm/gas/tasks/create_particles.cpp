@@ -31,20 +31,24 @@ InputProblem emptyBody(const Level& level, const GasObject& object) {
 void refuseImpossible(const GasObject& object, const Vec3& point, double density, double pressure,
                       const Vec3& velocity) {
   const char* what = nullptr;
+  const Location* where = nullptr;
   double value = 0;
   if (!(density > 0) || !std::isfinite(density)) {
     what = "density";
+    where = &object.density.where();
     value = density;
   } else if (!(pressure >= 0) || !std::isfinite(pressure)) {
     what = "pressure";
+    where = &object.pressure.where();
     value = pressure;
   } else if (!velocity.allFinite()) {
     what = "velocity";
+    where = &object.velocity.where();
     value = velocity.sum();
   }
   if (!what) return;
   throw InputError(
-      {{object.where, "geom_object",
+      {{placeOf({where}, object.where), "geom_object",
         fmt::format("its {} is {:g} at the point ({:g}, {:g}, {:g}); density must be greater than 0, pressure at "
                     "least 0, and all must be finite",
                     what, value, point[0], point[1], point[2])}});

@@ -1,12 +1,13 @@
 #include "components/mpm/solid/analysis/energy_budget.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "components/mpm/solid/constitutive/comp_mooney_rivlin.hpp"
 #include "components/mpm/solid/constitutive/comp_neo_hook.hpp"
 #include "components/mpm/solid/explicit/solid_mpm.hpp"
 #include "components/mpm/solid/explicit/tasks/measure_work.hpp"
-#include "core/input/schema.hpp"
+#include "core/simulation/plain_module.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -43,34 +44,18 @@ class EnergyBudget : public simulation::Analysis {
   bool stores_all_strain_;
 };
 
-struct Settings {
-  std::string name;
-};
-const input::Schema<Settings>& settingsSchema() {
-  static const input::Schema<Settings> schema =
-      input::Schema<Settings>("Module", "Where the energy of solids came from and where it went, in the report.")
-          .requiredAttribute("name", &Settings::name, "1", "energyBudget");
-  return schema;
+std::unique_ptr<simulation::Analysis> makeModule(const Component& component, const Level&) {
+  const auto* solids = dynamic_cast<const Solids*>(&component);
+  if (!solids || !solids->measuresWork())
+    throw std::invalid_argument("only solids by explicit time steps have an energy budget; take the module out");
+  return std::make_unique<EnergyBudget>(storesAllStrain(solids->problem()));
 }
 
 }  // namespace
 
 simulation::AnalysisKind energyBudgetKind() {
-  simulation::AnalysisKind kind{"energyBudget", "where the energy of solids came from and where it went", {}, {}};
-  kind.describe = [](std::ostream& out) { settingsSchema().describe(out); };
-  kind.schema = [] { return &settingsSchema(); };
-  kind.read = [](const input::Element& module, input::Diagnostics& diagnostics) -> simulation::MakeAnalysis {
-    settingsSchema().read(module, diagnostics);
-    return [where = module.where(), path = module.path()](const Component& component,
-                                                          const Level&) -> std::unique_ptr<simulation::Analysis> {
-      const auto* solids = dynamic_cast<const Solids*>(&component);
-      if (!solids || !solids->measuresWork())
-        throw InputError(
-            {{where, path, "only solids by explicit time steps have an energy budget; take the module out"}});
-      return std::make_unique<EnergyBudget>(storesAllStrain(solids->problem()));
-    };
-  };
-  return kind;
+  return simulation::plainModule("energyBudget", "where the energy of solids came from and where it went",
+                                 "Where the energy of solids came from and where it went, in the report.", makeModule);
 }
 
 }  // namespace tushar::mpm::solid

@@ -1,7 +1,9 @@
 #include "components/mpm/solid/analysis/manufactured_error.hpp"
 
+#include <stdexcept>
+
 #include "components/mpm/solid/explicit/solid_mpm.hpp"
-#include "core/input/schema.hpp"
+#include "core/simulation/plain_module.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -33,42 +35,25 @@ class ManufacturedError : public simulation::Analysis {
   double time_ = 0;
 };
 
-struct Settings {
-  std::string name;
-};
-const input::Schema<Settings>& settingsSchema() {
-  static const input::Schema<Settings> schema =
-      input::Schema<Settings>("Module", "Errors of particles against the solution of RunMMSProblem.")
-          .requiredAttribute("name", &Settings::name, "1", "manufacturedError");
-  return schema;
-}
-
 std::unique_ptr<simulation::Analysis> make(const Problem& problem, int dimension) {
   if (dimension == 1) return std::make_unique<ManufacturedError<1>>(problem);
   if (dimension == 2) return std::make_unique<ManufacturedError<2>>(problem);
   return std::make_unique<ManufacturedError<3>>(problem);
 }
 
+std::unique_ptr<simulation::Analysis> makeManufacturedError(const Component& component, const Level& level) {
+  const auto* solids = dynamic_cast<const Solids*>(&component);
+  if (!solids || !solids->problem().start.solution)
+    throw std::invalid_argument(
+        "measures against the solution of <RunMMSProblem> in <MPM>, and there is none; take the module out");
+  return make(solids->problem(), level.dimension());
+}
+
 }  // namespace
 
 simulation::AnalysisKind manufacturedErrorKind() {
-  simulation::AnalysisKind kind{
-      "manufacturedError", "errors of particles against the solution of RunMMSProblem", {}, {}};
-  kind.describe = [](std::ostream& out) { settingsSchema().describe(out); };
-  kind.schema = [] { return &settingsSchema(); };
-  kind.read = [](const input::Element& module, input::Diagnostics& diagnostics) -> simulation::MakeAnalysis {
-    settingsSchema().read(module, diagnostics);
-    return [where = module.where(), path = module.path()](const Component& component,
-                                                          const Level& level) -> std::unique_ptr<simulation::Analysis> {
-      const auto* solids = dynamic_cast<const Solids*>(&component);
-      if (!solids || !solids->problem().start.solution)
-        throw InputError({{where, path,
-                           "measures against the solution of <RunMMSProblem> in <MPM>, and there is none; "
-                           "take the module out"}});
-      return make(solids->problem(), level.dimension());
-    };
-  };
-  return kind;
+  return simulation::plainModule("manufacturedError", "errors of particles against the solution of RunMMSProblem",
+                                 "Errors of particles against the solution of RunMMSProblem.", makeManufacturedError);
 }
 
 }  // namespace tushar::mpm::solid

@@ -3,6 +3,7 @@
 #include <array>
 #include <type_traits>
 
+#include "components/mpm/solid/constitutive/capabilities_at_start.hpp"
 #include "components/mpm/solid/constitutive/capability_list.hpp"
 #include "components/mpm/solid/constitutive/model_types.hpp"
 #include "core/base/lanes.hpp"
@@ -40,6 +41,15 @@ struct IgnoresTemperature {
 /// F-bar in implicit time steps: updateStress reads F, F_old and the State, and F -> s F changes nothing but the mean
 /// of J sigma. Every model that DependsOnDeformationOnly supports it without naming it.
 struct FBar {
+  template <class M>
+  static consteval bool check() {
+    return true;
+  }
+};
+
+/// The model reads the position and the mass of the particle and the time, in explicit steps. Offer it where something
+/// runs through the body at a given speed.
+struct PlaceAndTime {
   template <class M>
   static consteval bool check() {
     return true;
@@ -210,6 +220,25 @@ struct TemperatureChange {
   }
 };
 
+/// Specific heat, J/(kg K), where it is not that of the material.
+struct HeatCapacity {
+  struct Name {
+    int heatCapacity;
+  };
+  template <class M>
+  static consteval bool check() {
+    constexpr bool isNamed = providesCapability<M, HeatCapacity>;
+    constexpr bool isAbsent = requires { &Both<M, Name>::heatCapacity; };
+    static_assert(isNamed || isAbsent,
+                  "a member heatCapacity is used only by a model that names capability::HeatCapacity");
+    constexpr bool fits = requires { Member<M, double, const Matrix3&, double>{&M::heatCapacity}; };
+    static_assert(!isNamed || fits,
+                  "capability::HeatCapacity needs the public member `double heatCapacity(const Matrix3& "
+                  "deformationGradient, double temperature) const`");
+    return true;
+  }
+};
+
 /// Adds the heat of the artificial viscosity, J/kg, to the State. Without it the viscosity heats nothing, as in Uintah.
 struct ViscousHeat {
   struct Name {
@@ -268,6 +297,42 @@ struct OptionalState {
   }
 };
 
+/// How many of the leading doubles of their State particles keep, which depends on the constants of the model; the
+/// others are not set. Offer it where a rare choice of constants needs many more variables.
+struct PartialState {
+  struct Name {
+    int keptNumbers;
+  };
+  template <class M>
+  static consteval bool check() {
+    constexpr bool isNamed = providesCapability<M, PartialState>;
+    constexpr bool isAbsent = requires { &Both<M, Name>::keptNumbers; };
+    static_assert(isNamed || isAbsent,
+                  "a member keptNumbers is used only by a model that names capability::PartialState");
+    constexpr bool fits = requires { Member<M, int>{&M::keptNumbers}; };
+    static_assert(!isNamed || fits, "capability::PartialState needs the public member `int keptNumbers() const`");
+    return true;
+  }
+};
+
+/// Radius, m, within which explicit steps take the mean of the State's `p.plasticIncrement` over the particles of the
+/// material, at the end of each step, into its `p.meanPlasticIncrement`; 0 for no mean.
+struct Nonlocal {
+  struct Name {
+    int nonlocalLength;
+  };
+  template <class M>
+  static consteval bool check() {
+    constexpr bool isNamed = providesCapability<M, Nonlocal>;
+    constexpr bool isAbsent = requires { &Both<M, Name>::nonlocalLength; };
+    static_assert(isNamed || isAbsent,
+                  "a member nonlocalLength is used only by a model that names capability::Nonlocal");
+    constexpr bool fits = requires { Member<M, double>{&M::nonlocalLength}; };
+    static_assert(!isNamed || fits, "capability::Nonlocal needs the public member `double nonlocalLength() const`");
+    return true;
+  }
+};
+
 /// Variables of Uintah's model of the same name that are always 0 here, for scenes that save them.
 struct AbsentVariables {
   struct Name {
@@ -288,8 +353,9 @@ struct AbsentVariables {
 };
 
 /// Every capability that a constitutive model can name.
-using OfModels = CapabilityList<DependsOnDeformationOnly, IgnoresTemperature, FBar, Vectorized, NominalTangent,
-                                BulkSpeed, InitialWaveSpeed, OwnViscosity, ConstantsOfMaterial, TemperatureChange,
-                                ViscousHeat, Melting, OptionalState, AbsentVariables>;
+using OfModels = CapabilityList<DependsOnDeformationOnly, IgnoresTemperature, FBar, PlaceAndTime, Vectorized,
+                                NominalTangent, BulkSpeed, InitialWaveSpeed, InitialVolumeRatio, InitialStress,
+                                OwnViscosity, ConstantsOfMaterial, TemperatureChange, HeatCapacity, ViscousHeat,
+                                Melting, OptionalState, PartialState, StateByParticle, Nonlocal, AbsentVariables>;
 
 }  // namespace tushar::mpm::solid::capability

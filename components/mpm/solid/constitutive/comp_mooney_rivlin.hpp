@@ -55,11 +55,12 @@ struct CompMooneyRivlin {
       return Matrix3(2 * change);
     });
   }
-  /// Of the linear material, as in Uintah: 2 mu (1 - nu) / (1 - 2 nu), mu = 2 (C1 + C2).
+  /// The wave speed of the linear material, as in Uintah, with the modulus 2 mu (1 - nu) / (1 - 2 nu), mu = 2 (C1 +
+  /// C2).
   double initialWaveSpeed(double initialDensity) const {
     return std::sqrt(4 * (c1 + c2) * (1 - poissonRatio) / ((1 - 2 * poissonRatio) * initialDensity));
   }
-  /// Uintah's bound.
+  /// Uintah's upper bound.
   double waveSpeed(double initialDensity, const Deformation& d, const Matrix3& stress, const State&) const {
     const Invariants i(d.deformationGradient);
     const double least = stress.diagonal().minCoeff();

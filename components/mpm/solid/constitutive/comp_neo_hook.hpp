@@ -6,6 +6,7 @@
 
 #include "components/mpm/solid/constitutive/constitutive_model.hpp"
 #include "components/mpm/solid/constitutive/cube_root.hpp"
+#include "components/mpm/solid/constitutive/initial_pressure.hpp"
 #include "components/mpm/solid/constitutive/strain_invariants.hpp"
 #include "components/mpm/solid/constitutive/tangent.hpp"
 #include "components/mpm/solid/constitutive/tensor_lanes.hpp"
@@ -17,31 +18,35 @@ namespace tushar::mpm::solid {
 /// W = K/2 ((J² - 1)/2 - ln J) + G/2 (J^(-2/3) tr(F Fᵀ) - 3).
 struct CompNeoHook {
   struct State {};
-  using Capabilities = CapabilityList<capability::DependsOnDeformationOnly, capability::IgnoresTemperature,
-                                      capability::Vectorized, capability::NominalTangent, capability::BulkSpeed>;
+  using Capabilities =
+      CapabilityList<capability::DependsOnDeformationOnly, capability::IgnoresTemperature, capability::Vectorized,
+                     capability::NominalTangent, capability::BulkSpeed, capability::InitialVolumeRatio>;
   static constexpr std::string_view name = "comp_neo_hook";
   static constexpr bool strainEnergyIsRate = false;
 
   double bulkModulus = 0;   ///< K, Pa
   double shearModulus = 0;  ///< G, Pa
+  bool startsUnderPressure = false;
+  double initialPressure = 0;  ///< Pa
 
   static const input::Schema<CompNeoHook>& schema() {
     static const input::Schema<CompNeoHook> schema = [] {
       input::Schema<CompNeoHook> tags("comp_neo_hook", "Compressible neo-Hookean elasticity.");
       tags.required("bulk_modulus", &CompNeoHook::bulkModulus, "Pa", "K", input::positive())
           .required("shear_modulus", &CompNeoHook::shearModulus, "Pa", "G", input::nonNegative());
-      for (const char* tag : {"yield_stress", "hardening_modulus", "alpha", "yield_distrib"})
-        tags.ignored(tag, "it does not yield: comp_neo_hook_plastic does");
-      tags.ignored("useModifiedEOS", "only Uintah's coupled fluid reads it")
-          .ignored("initial_pressure", "belongs to useInitialStress");
-      refuseSwitch(tags, "usePlasticity", "comp_neo_hook_plastic yields");
-      refuseSwitch(tags, "useInitialStress", "bodies start without stress");
-      refuseSwitch(tags, "reinitializeCMData", "bodies start without stress");
+      for (const char* tag :
+           {"yield_stress", "hardening_modulus", "alpha", "yield_distrib", "yield_range", "yield_seed"})
+        tags.ignored(tag, "it does not yield unless <usePlasticity> is true");
+      tags.ignored("useModifiedEOS", "only Uintah's coupled fluid reads it");
+      addInitialPressure(tags);
+      refuseSwitch(tags, "usePlasticity", "true makes it a UCNH");
+      refuseSwitch(tags, "reinitializeCMData", "a body keeps the state in which it starts");
       return tags;
     }();
     return schema;
   }
   State initialState() const { return {}; }
+  double initialVolumeRatio() const { return startsUnderPressure ? volumeRatioUnder(initialPressure, bulkModulus) : 1; }
 
   /// J sigma = K/2 (J² - 1) I + G dev(J^(-2/3) F Fᵀ)
   template <class Real>

@@ -5,16 +5,21 @@
 #include <cmath>
 
 #include "components/mpm/solid/constitutive/constitutive_model.hpp"
+#include "components/mpm/solid/constitutive/plasticity/deviator.hpp"
 #include "components/mpm/solid/constitutive/plasticity/equation_of_state.hpp"
 #include "components/mpm/solid/constitutive/plasticity/flow.hpp"
+#include "components/mpm/solid/constitutive/plasticity/gurson_yield.hpp"
 #include "components/mpm/solid/constitutive/plasticity/return_tangent.hpp"
 #include "components/mpm/solid/constitutive/plasticity/shear_and_melting.hpp"
+#include "components/mpm/solid/constitutive/plasticity/specific_heat.hpp"
 #include "components/mpm/solid/constitutive/polar.hpp"
 #include "components/mpm/solid/constitutive/tangent.hpp"
 #include "core/input/refuse.hpp"
 #include "core/input/variant.hpp"
 
 namespace tushar::mpm::solid {
+
+struct GursonPlastic;
 
 /// Metals at large strain and high rate: hypoelastic shear in axes that turn with the material, von Mises' yield
 /// surface with a flow model, radial return, and an equation of state. Simo & Hughes, Computational Inelasticity
@@ -23,19 +28,26 @@ namespace tushar::mpm::solid {
 template <bool isHp>
 struct ElasticPlastic {
   struct State {
-    double plasticStrain;      ///< 1
-    double plasticStrainRate;  ///< 1/s
-    double strainRate;         ///< 1/s
-    double energy;             ///< J/kg
+    double plasticStrain;                                        ///< 1
+    double plasticStrainRate;                                    ///< 1/s
+    double strainRate;                                           ///< 1/s
+    double energy;                                               ///< J/kg
+    std::array<Tensor, MaxwellDeviator::greatestCount> maxwell;  ///< s_j of the Maxwell elements, Pa
   };
-  using Capabilities = CapabilityList<capability::AbsentVariables, capability::ConstantsOfMaterial,
-                                      capability::NominalTangent, capability::BulkSpeed, capability::InitialWaveSpeed,
-                                      capability::TemperatureChange, capability::ViscousHeat, capability::Melting>;
-  static constexpr std::array<StateVariable, 4> stateVariables{
+  using Capabilities =
+      CapabilityList<capability::AbsentVariables, capability::ConstantsOfMaterial, capability::NominalTangent,
+                     capability::BulkSpeed, capability::InitialWaveSpeed, capability::TemperatureChange,
+                     capability::HeatCapacity, capability::ViscousHeat, capability::Melting, capability::PartialState>;
+  static constexpr std::array<StateVariable, 9> stateVariables{
       {{"p.plasticStrain", "1", "equivalent plastic strain"},
        {"p.plasticStrainRate", "1/s", "its rate in the last step"},
        {"p.strainRate", "1/s", "equivalent strain rate in the last step"},
-       {"p.energy", "J/kg", "work of the stresses since the start"}}};
+       {"p.energy", "J/kg", "work of the stresses since the start"},
+       {"p.sigmaDev0", "Pa", "stress deviator of the Maxwell element 1", 9},
+       {"p.sigmaDev1", "Pa", "stress deviator of the Maxwell element 2", 9},
+       {"p.sigmaDev2", "Pa", "stress deviator of the Maxwell element 3", 9},
+       {"p.sigmaDev3", "Pa", "stress deviator of the Maxwell element 4", 9},
+       {"p.sigmaDev4", "Pa", "stress deviator of the Maxwell element 5", 9}}};
   static constexpr std::array<StateVariable, 1> absentVariables{
       {{"p.porosity", "1", "share of pores: there are none"}}};
   static constexpr std::string_view name = isHp ? "elastic_plastic_hp" : "elastic_plastic";
@@ -46,23 +58,35 @@ struct ElasticPlastic {
   double shearModulus = 0;          ///< G, Pa
   double heatedShare = 0.9;         ///< of the plastic work, Taylor & Quinney's coefficient, 1
   double initialTemperature = 294;  ///< T_0 of the equation of state, K
+  DeviatorModel deviatorModel;
   FlowModel flow;
   EquationOfState equationOfState;
   ShearModel shear;
   MeltingModel melting;
+  bool computesHeat = false;  ///< else the specific heat is that of the material
+  SpecificHeatModel specificHeat;
+  std::variant<VonMisesYield, GursonYield> yieldCondition;    ///< with GursonYield the model is GursonPlastic
+  bool poresEvolve = true;                                    ///< this and the following only with GursonYield
+  double initialPorosity = 0.002, porosityDeviation = 0.002;  ///< f at the start, mean and standard deviation, 1
+  bool porositySpreads = false;                               ///< f at the start by a normal distribution
+  double nucleating = 0.1;                                    ///< f_N, 1
+  double nucleationStrain = 0.3, nucleationDeviation = 0.1;   ///< e_N and s_N, 1
 
   static const input::Schema<ElasticPlastic>& schema() {
     static const input::Schema<ElasticPlastic> schema = makeSchema();
     return schema;
   }
-  State initialState() const { return {0, 0, 0, 0}; }
+  State initialState() const { return {0, 0, 0, 0, {}}; }
+  int keptNumbers() const { return maxwell() ? 4 + 9 * maxwell()->count : 4; }
 
   Matrix3 updateStress(const Deformation& d, const Matrix3& oldStress, State& state) const {
     const Corotated step(d, oldStress);
     state.strainRate = std::sqrt(2.0 / 3.0) * step.strain.norm() / d.timeStep;
-    const FlowState start = flowStateOf(compressionOf(d, oldStress), state);
-    Matrix3 stress = deviator(step.stress) + 2 * start.shearModulus * deviator(step.strain);
+    const FlowState start = flowStateOf(compressionOf(d, oldStress), state, d.timeStep);
+    const Matrix3 trial = oldDeviator(step, d, state) + 2 * start.shearModulus * deviator(step.strain);
+    Matrix3 stress = trial;
     state.plasticStrainRate = yield(start, d.timeStep, stress, state);
+    if (maxwell()) advanceMaxwell(step, d, deviator(step.strain) - (trial - stress) / (2 * start.shearModulus), state);
     stress.diagonal().array() += meanStress(d, oldStress.trace() / 3, state.energy);
     stress = step.turned(stress);
     state.energy += stressWork(d, oldStress, stress) / material.density;
@@ -90,7 +114,7 @@ struct ElasticPlastic {
     return std::sqrt((bulkModulus + 4.0 / 3.0 * shearModulus) / initialDensity);
   }
   double waveSpeed(double initialDensity, const Deformation& d, const Matrix3& stress, const State&) const {
-    const double modulus = shearModulusAt(compressionOf(d, stress));
+    const double modulus = maxwell() ? maxwell()->modulusIn(0) : shearModulusAt(compressionOf(d, stress));
     return std::sqrt((bulkModulus + 4.0 / 3.0 * modulus) * d.deformationGradient.determinant() / initialDensity);
   }
   double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
@@ -100,14 +124,23 @@ struct ElasticPlastic {
                              const State&) const {
     return stressWork(d, oldStress, stress);
   }
-  /// From plastic work, chi sigma_y de_p / (rho c), and from the volume change.
+  /// Rise of the temperature by plastic work, chi sigma_y de_p / (rho c), and by the change of volume.
   double temperatureChange(const Deformation& d, const Matrix3& stress, const State& state) const {
     const double equivalent = std::sqrt(1.5) * deviator(stress).norm(), j = d.deformationGradient.determinant();
     const VolumeState volume = volumeState(d, 0, 0);
     const double byVolume = std::visit([&](const auto& model) { return model.heating(volume); }, equationOfState);
     if (state.plasticStrainRate == 0) return byVolume;
     const double work = equivalent * state.plasticStrainRate * d.timeStep;
-    return byVolume + heatedShare * work * j / (material.density * material.specificHeat);
+    return byVolume + heatedShare * work * j / (material.density * heatCapacity(d.deformationGradient, d.temperature));
+  }
+  double heatCapacity(const Matrix3& deformation, double temperature) const {
+    if (!computesHeat) return material.specificHeat;
+    const double ratio = 1 / deformation.determinant();
+    return std::visit(
+        [&](const auto& model) {
+          return model.specificHeat({temperature, ratio, material.density * ratio, bulkModulus}, material.specificHeat);
+        },
+        specificHeat);
   }
   void addViscousHeat(State& state, double heat) const { state.energy += heat; }
   bool isMolten(const Matrix3& deformation, const Matrix3& stress, double temperature) const {
@@ -115,6 +148,8 @@ struct ElasticPlastic {
   }
 
  private:
+  friend struct GursonPlastic;
+
   static input::Schema<ElasticPlastic> makeSchema() {
     using Self = ElasticPlastic;
     input::Schema<Self> tags{std::string(name), "Metals at large strain and high rate."};
@@ -126,10 +161,21 @@ struct ElasticPlastic {
                input::nonNegative());
     typedTag(tags, "flow_model", &Self::flow, "the yield stress", true);
     typedTag(tags, "equation_of_state", &Self::equationOfState, "the mean stress; default_hyper if left out", false);
+    typedTag(tags, "deviatoric_stress_model", &Self::deviatorModel,
+             "how the stress deviator grows; hypoElastic if left out", false);
     typedTag(tags, "shear_modulus_model", &Self::shear, "the shear modulus; constant_shear if left out", false);
     typedTag(tags, "melting_temp_model", &Self::melting, "where there is no shear stress; constant_Tm if left out",
              false);
+    tags.value(
+        "compute_specific_heat", &Self::computesHeat, false, "1",
+        "the heat of plastic work and viscosity is divided by that of <specific_heat_model>; conduction takes the "
+        "<specific_heat> of the material, as in Uintah");
+    typedTag(tags, "specific_heat_model", &Self::specificHeat, "the specific heat; constant_Cp if left out", false);
     acceptWhatDoesNotMatter(tags);
+    tags.check([](const Self& read, const input::Element& element, input::Diagnostics& diagnostics) {
+      if (read.maxwell() && std::holds_alternative<GursonYield>(read.yieldCondition))
+        diagnostics.error(element, "yield_condition gurson needs a <deviatoric_stress_model> hypoElastic");
+    });
     return tags;
   }
   /// Accepts tags of Uintah that have no effect with radial return, and choices of which one is available.
@@ -142,33 +188,43 @@ struct ElasticPlastic {
         .ignored("useModifiedEOS", "only Uintah's coupled fluid reads it")
         .ignored("evolve_damage", "a <damage_model> does it where there is one")
         .ignored("do_melting", "above <melt_temp> there is no shear stress, as in Uintah");
-    for (const char* tag : {"evolve_porosity", "initial_mean_porosity", "initial_std_porosity", "critical_porosity",
-                            "frac_nucleation", "meanstrain_nucleation", "stddevstrain_nucleation",
-                            "initial_porosity_distrib", "check_TEPLA_failure_criterion", "check_max_stress_failure"})
-      tags.ignored(tag, "there is no porosity: the yield surface of von Mises does not feel it");
-    tags.custom(
-        "compute_specific_heat",
-        [](ElasticPlastic&, const input::Element& element, input::Diagnostics& diagnostics) {
-          const auto compute = element.child("compute_specific_heat"), model = element.child("specific_heat_model");
-          if (!compute || !model || compute->text() == "false") return;
-          const std::string type = model->attribute("type").value_or("constant_Cp");
-          if (const std::string problem = input::choiceProblem(type, {"constant_Cp"}); !problem.empty())
-            diagnostics.error(*model, "type: " + problem + ": give the <specific_heat> of the material");
-        },
-        {"compute_specific_heat", "specific_heat_model"}, "only constant_Cp: the <specific_heat> of the material");
+    declarePores(tags);
+    for (const char* tag : {"critical_porosity", "check_TEPLA_failure_criterion", "check_max_stress_failure"})
+      tags.ignored(tag, "no particle fails by its pores");
     tags.custom(
         "plastic_convergence_algo",
         [](ElasticPlastic&, const input::Element& element, input::Diagnostics& diagnostics) {
           const auto given = element.child("plastic_convergence_algo");
-          if (given && given->text() != "radialReturn")
-            diagnostics.error(*given, input::choiceProblem(given->text(), {"radialReturn"}));
+          if (given && given->text() == "biswajit")
+            diagnostics.note(*given, "stresses go back to the yield surface exactly, as with radialReturn");
+          else if (given && given->text() != "radialReturn")
+            diagnostics.error(*given, input::choiceProblem(given->text(), {"radialReturn", "biswajit"}));
         },
-        {"plastic_convergence_algo"}, "only radialReturn");
-    tags.forms({input::choiceForm({"plastic_convergence_algo"}, {"radialReturn"})});
-    refuseTypes(tags, "yield_condition", {"vonMises"}, "the yield surface");
+        {"plastic_convergence_algo"},
+        "radialReturn or biswajit: stresses go back to the yield surface exactly with both");
+    tags.forms({input::choiceForm({"plastic_convergence_algo"}, {"radialReturn", "biswajit"})});
+    typedTag(tags, "yield_condition", &ElasticPlastic::yieldCondition, "the yield surface; vonMises if left out",
+             false);
     refuseTypes(tags, "stability_check", {"none", "drucker", "becker", "drucker_becker"},
                 "nothing comes of it: only none where there is an <erosion>");
-    refuseTypes(tags, "deviatoric_stress_model", {"hypoElastic"}, "the stress deviator grows with 2 G dev D");
+  }
+
+  /// What only the yield condition gurson looks at.
+  static void declarePores(input::Schema<ElasticPlastic>& tags) {
+    using Self = ElasticPlastic;
+    tags.value("evolve_porosity", &Self::poresEvolve, true, "1", "of gurson: pores grow, close and open")
+        .value("initial_mean_porosity", &Self::initialPorosity, 0.002, "1", "of gurson: share of pores at the start",
+               input::between(0, 0.9))
+        .value("initial_std_porosity", &Self::porosityDeviation, 0.002, "1", "of gurson: its standard deviation",
+               input::nonNegative())
+        .choice("initial_porosity_distrib", &Self::porositySpreads, {{"constant", false}, {"gauss", true}}, false,
+                "of gurson: how the pores at the start differ from particle to particle; other numbers than Uintah "
+                "draws")
+        .value("frac_nucleation", &Self::nucleating, 0.1, "1", "of gurson: share of pores that open",
+               input::nonNegative())
+        .value("meanstrain_nucleation", &Self::nucleationStrain, 0.3, "1", "of gurson: plastic strain at which they do")
+        .value("stddevstrain_nucleation", &Self::nucleationDeviation, 0.1, "1", "of gurson: its standard deviation",
+               input::nonNegative());
   }
 
   Compression compressionOf(double volume, double pressure, double temperature) const {
@@ -183,8 +239,26 @@ struct ElasticPlastic {
   double shearModulusAt(const Compression& compression) const {
     return std::visit([&](const auto& model) { return model.modulus(compression, shearModulus); }, shear);
   }
-  FlowState flowStateOf(const Compression& c, const State& state) const {
-    return {state.plasticStrain, state.strainRate, c.temperature, shearModulusAt(c), c.density, c.meltTemperature};
+  FlowState flowStateOf(const Compression& c, const State& state, double timeStep) const {
+    const double modulus = maxwell() ? maxwell()->modulusIn(timeStep) : shearModulusAt(c);
+    return {state.plasticStrain, state.strainRate, c.temperature, modulus, c.density, c.meltTemperature};
+  }
+  const MaxwellDeviator* maxwell() const { return std::get_if<MaxwellDeviator>(&deviatorModel); }
+  /// What a step leaves of the deviator without strain, in the rotated axes, Pa.
+  Matrix3 oldDeviator(const Corotated& step, const Deformation& d, const State& state) const {
+    if (!maxwell()) return deviator(step.stress);
+    Matrix3 sum = Matrix3::Zero();
+    for (int j = 0; j < maxwell()->count; ++j)
+      sum += maxwell()->step(j, d.timeStep).kept * step.seen(matrixOf(state.maxwell[j]));
+    return sum;
+  }
+  void advanceMaxwell(const Corotated& step, const Deformation& d, const Matrix3& elasticStrain, State& state) const {
+    for (int j = 0; j < maxwell()->count; ++j) {
+      const MaxwellStep element = maxwell()->step(j, d.timeStep);
+      const Matrix3 stress = element.kept * step.seen(matrixOf(state.maxwell[j])) +
+                             2 * element.gained * maxwell()->modulus[j] * elasticStrain;
+      state.maxwell[j] = tensorOf(step.turned(stress));
+    }
   }
   static bool isFluid(const FlowState& state) {
     return state.temperature > state.meltTemperature || state.shearModulus <= 0;
@@ -212,10 +286,10 @@ struct ElasticPlastic {
     state.strainRate = std::sqrt(2.0 / 3.0) * step.strain.norm() / d.timeStep;
     const auto startAt = [&](double swollen) {
       const double volume = swollen * d.deformationGradient.determinant();
-      return flowStateOf(compressionOf(volume, -oldStress.trace() / 3, d.temperature), state);
+      return flowStateOf(compressionOf(volume, -oldStress.trace() / 3, d.temperature), state, d.timeStep);
     };
     const FlowState start = startAt(1);
-    ReturnTangent tangent{step.strain, deviator(step.stress) + 2 * start.shearModulus * deviator(step.strain)};
+    ReturnTangent tangent{step.strain, oldDeviator(step, d, state) + 2 * start.shearModulus * deviator(step.strain)};
     if (isFluid(start)) return tangent;
     tangent.modulus = start.shearModulus;
     tangent.modulusByVolume = logarithmicSlope([&](double swollen) { return startAt(swollen).shearModulus; });

@@ -5,27 +5,27 @@
 #include <cmath>
 
 #include "components/mpm/solid/constitutive/constitutive_model.hpp"
+#include "components/mpm/solid/constitutive/isotropic_moduli.hpp"
 #include "components/mpm/solid/constitutive/tangent.hpp"
 
 namespace tushar::mpm::solid {
 
 /// Linear elasticity in rate form, sigma += (2 G dev D + K tr D I) dt with D = (L + Lᵀ)/2, as Uintah's `hypo_elastic`:
 /// there is no objective rate, so the stress does not turn with the material.
-struct HypoElastic {
-  struct State {};
+struct HypoElastic : IsotropicModuli {
+  using State = NoState;
   using Capabilities =
       CapabilityList<capability::IgnoresTemperature, capability::NominalTangent, capability::BulkSpeed>;
   static constexpr std::string_view name = "hypo_elastic";
   static constexpr bool strainEnergyIsRate = true;
 
-  double bulkModulus = 0;   ///< K, Pa
-  double shearModulus = 0;  ///< G, Pa
-
   static const input::Schema<HypoElastic>& schema() {
     static const input::Schema<HypoElastic> schema =
         input::Schema<HypoElastic>("hypo_elastic", "Linear elasticity in rate form, without an objective rate.")
-            .required("G", &HypoElastic::shearModulus, "Pa", "shear modulus", input::nonNegative())
-            .required("K", &HypoElastic::bulkModulus, "Pa", "bulk modulus", input::positive());
+            .required("G", input::memberOf<HypoElastic>(&HypoElastic::shearModulus), "Pa", "shear modulus",
+                      input::nonNegative())
+            .required("K", input::memberOf<HypoElastic>(&HypoElastic::bulkModulus), "Pa", "bulk modulus",
+                      input::positive());
     return schema;
   }
   State initialState() const { return {}; }
@@ -44,12 +44,6 @@ struct HypoElastic {
       const Matrix3 moved = h * step, change = 0.5 * (moved + moved.transpose());
       return Matrix3(j * (h.trace() * stress + stressOf(change)));
     });
-  }
-  double waveSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
-    return std::sqrt((bulkModulus + 4.0 / 3.0 * shearModulus) * d.deformationGradient.determinant() / initialDensity);
-  }
-  double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
-    return std::sqrt(bulkModulus * d.deformationGradient.determinant() / initialDensity);
   }
   /// D : (mean stress) J dt
   double strainEnergyDensity(const Deformation& d, const Matrix3& oldStress, const Matrix3& stress,

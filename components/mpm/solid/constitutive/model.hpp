@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 
+#include <cmath>
 #include <cstring>
 #include <memory>
 #include <optional>
@@ -27,6 +28,10 @@ struct StressPoints {
   Matrix3* stress = nullptr;                  ///< Pa; null if not wanted
   double* state = nullptr;                    ///< in and out; stateStride numbers for each particle
   int stateStride = 0;
+  // Only for models with capability::PlaceAndTime.
+  const Vec3* position = nullptr;         ///< m
+  const double* mass = nullptr;           ///< kg
+  double time = 0;                        ///< at the start of the step, s
   double* waveSpeed = nullptr;            ///< m/s
   double* bulkSpeed = nullptr;            ///< m/s; null if not wanted
   double* temperatureChange = nullptr;    ///< K; null if not wanted
@@ -45,19 +50,28 @@ class Model {
   virtual std::vector<StateVariable> stateVariables() const = 0;
   /// See capability::AbsentVariables.
   virtual std::vector<StateVariable> absentVariables() const = 0;
-  virtual void initialize(double* state) const = 0;
+  virtual void initialize(double* state, const Birth& birth) const = 0;
+  /// See capability::StateByParticle.
+  virtual bool variesByParticle() const = 0;
   virtual bool usesTemperature() const = 0;
   /// See capability::DependsOnDeformationOnly.
   virtual bool dependsOnDeformationOnly() const = 0;
   /// See capability::FBar.
   virtual bool supportsFBar() const = 0;
 
+  /// See capability::PlaceAndTime.
+  virtual bool usesPlaceAndTime() const = 0;
+
   /// Whether the work of a step changes the temperature.
   virtual bool changesTemperature() const = 0;
+  /// J/(kg K) at F and a temperature, K; `ofMaterial` for models without HeatCapacity.
+  virtual double heatCapacity(const Matrix3& deformation, double temperature, double ofMaterial) const = 0;
   /// See capability::ViscousHeat.
   virtual bool hasViscousHeat() const = 0;
   /// Adds the heat of the artificial viscosity, J/kg, to the state of a particle; only if hasViscousHeat().
   virtual void addViscousHeat(double* state, double heat) const = 0;
+  /// See capability::Nonlocal.
+  virtual double nonlocalLength() const = 0;
   /// Whether a point with F, a stress (Pa) and a temperature (K) is molten; false for models without Melting.
   virtual bool isMolten(const Matrix3& deformation, const Matrix3& stress, double temperature) const = 0;
   /// Coefficients that replace those of the scene.
@@ -65,6 +79,10 @@ class Model {
 
   /// Speed of the fastest wave at the start of the run, m/s.
   virtual double initialWaveSpeed(double initialDensity, double temperature) const = 0;
+  /// See capability::InitialVolumeRatio.
+  virtual double initialVolumeRatio() const = 0;
+  /// See capability::InitialStress.
+  virtual Matrix3 initialStress() const = 0;
   virtual void updateStress(double initialDensity, const StressPoints& points) const = 0;
   /// See capability::NominalTangent.
   virtual bool hasTangent() const = 0;
@@ -92,25 +110,40 @@ class ModelOf : public Model {
 
   const M& model() const { return model_; }
   std::string_view name() const override { return M::name; }
-  int stateSize() const override { return keepsState() ? int(sizeof(State) / sizeof(double)) : 0; }
+  int stateSize() const override { return keptNumbers(); }
   std::vector<StateVariable> stateVariables() const override {
+    std::vector<StateVariable> kept;
     if constexpr (hasState) {
-      if (keepsState()) return {M::stateVariables.begin(), M::stateVariables.end()};
+      int numbers = keptNumbers();
+      for (const StateVariable& variable : M::stateVariables)
+        if ((numbers -= variable.components) >= 0) kept.push_back(variable);
     }
-    return {};
+    return kept;
   }
   std::vector<StateVariable> absentVariables() const override {
     if constexpr (providesCapability<M, capability::AbsentVariables>)
       return {M::absentVariables.begin(), M::absentVariables.end()};
     return {};
   }
-  void initialize(double* state) const override {
-    if (keepsState()) store(model_.initialState(), state);
+  void initialize(double* state, [[maybe_unused]] const Birth& birth) const override {
+    if (!keepsState()) return;
+    if constexpr (providesCapability<M, capability::StateByParticle>)
+      store(model_.initialState(birth), state);
+    else
+      store(model_.initialState(), state);
   }
+  bool variesByParticle() const override { return providesCapability<M, capability::StateByParticle>; }
   bool usesTemperature() const override { return !providesCapability<M, capability::IgnoresTemperature>; }
   bool dependsOnDeformationOnly() const override { return fromDeformation; }
   bool supportsFBar() const override { return fromDeformation || providesCapability<M, capability::FBar>; }
+  bool usesPlaceAndTime() const override { return providesCapability<M, capability::PlaceAndTime>; }
   bool changesTemperature() const override { return providesCapability<M, capability::TemperatureChange>; }
+  double heatCapacity(const Matrix3& deformation, double temperature, double ofMaterial) const override {
+    if constexpr (providesCapability<M, capability::HeatCapacity>)
+      return model_.heatCapacity(deformation, temperature);
+    else
+      return ofMaterial;
+  }
   bool hasViscousHeat() const override { return providesCapability<M, capability::ViscousHeat>; }
   void addViscousHeat(double* numbers, double heat) const override {
     if constexpr (providesCapability<M, capability::ViscousHeat>) {
@@ -118,6 +151,10 @@ class ModelOf : public Model {
       model_.addViscousHeat(state, heat);
       store(state, numbers);
     }
+  }
+  double nonlocalLength() const override {
+    if constexpr (providesCapability<M, capability::Nonlocal>) return model_.nonlocalLength();
+    return 0;
   }
   bool isMolten(const Matrix3& deformation, const Matrix3& stress, double temperature) const override {
     if constexpr (providesCapability<M, capability::Melting>)
@@ -156,6 +193,19 @@ class ModelOf : public Model {
       const Matrix3 stress = model_.updateStress(d, Matrix3::Zero(), state);
       return model_.waveSpeed(initialDensity, d, stress, state);
     }
+  }
+
+  Matrix3 initialStress() const override {
+    if constexpr (providesCapability<M, capability::InitialStress>)
+      return model_.initialStress();
+    else
+      return Matrix3::Zero();
+  }
+  double initialVolumeRatio() const override {
+    if constexpr (providesCapability<M, capability::InitialVolumeRatio>)
+      return model_.initialVolumeRatio();
+    else
+      return 1;
   }
 
   bool hasTangent() const override { return providesCapability<M, capability::NominalTangent>; }
@@ -210,8 +260,14 @@ class ModelOf : public Model {
       return waveSpeed;
   }
   static Deformation deformation(const StressPoints& points, int k) {
-    return {points.deformationGradient[k], points.oldDeformationGradient[k], points.velocityGradient[k],
-            points.timeStep, points.temperature ? points.temperature[k] : 0.0};
+    Deformation d{points.deformationGradient[k], points.oldDeformationGradient[k], points.velocityGradient[k],
+                  points.timeStep, points.temperature ? points.temperature[k] : 0.0};
+    if constexpr (providesCapability<M, capability::PlaceAndTime>) {
+      d.position = points.position[k];
+      d.mass = points.mass[k];
+      d.time = points.time;
+    }
+    return d;
   }
   static Matrix3 oldStress(const StressPoints& points, int k) {
     return points.oldStress ? points.oldStress[k] : Matrix3(Matrix3::Zero());
@@ -222,15 +278,27 @@ class ModelOf : public Model {
     else
       return hasState;
   }
+  int keptNumbers() const {
+    if constexpr (providesCapability<M, capability::PartialState>) return model_.keptNumbers();
+    return keepsState() ? int(sizeof(State) / sizeof(double)) : 0;
+  }
   State load(const double* numbers) const {
-    State state = model_.initialState();
-    if constexpr (hasState) {
-      if (keepsState()) std::memcpy(&state, numbers, sizeof state);
+    if constexpr (providesCapability<M, capability::PartialState>) {
+      State state;
+      std::memcpy(&state, numbers, sizeof(double) * keptNumbers());
+      return state;
+    } else {
+      State state = model_.initialState();
+      if constexpr (hasState) {
+        if (keepsState()) std::memcpy(&state, numbers, sizeof state);
+      }
+      return state;
     }
-    return state;
   }
   void store(const State& state, double* numbers) const {
-    if constexpr (hasState) {
+    if constexpr (providesCapability<M, capability::PartialState>) {
+      std::memcpy(numbers, &state, sizeof(double) * keptNumbers());
+    } else if constexpr (hasState) {
       if (keepsState()) std::memcpy(numbers, &state, sizeof state);
     }
   }

@@ -28,6 +28,16 @@ struct Deformation {
   Matrix3 velocityGradient;        ///< L = dv_i/dx_j in the step, 1/s
   double timeStep;                 ///< s
   double temperature;              ///< K
+  // Only for a model with capability::PlaceAndTime.
+  Vec3 position = Vec3::Zero();  ///< at the start of the step, m
+  double mass = 0;               ///< kg; per radian in axisymmetric scenes
+  double time = 0;               ///< at the start of the step, s
+};
+
+/// What a particle is born with that its State may depend on.
+struct Birth {
+  ParticleId id = 0;
+  double color = 0;  ///< p.color, 1
 };
 
 /// A variable of a model's State, which a scene may save by its label.

@@ -3,10 +3,12 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "components/mpm/solid/constitutive/constitutive_model.hpp"
+#include "components/mpm/solid/constitutive/isotropic_moduli.hpp"
 #include "components/mpm/solid/constitutive/polar.hpp"
 #include "core/input/refuse.hpp"
 
@@ -16,58 +18,68 @@ namespace tushar::mpm::solid {
 /// principal stresses s1 >= s2 >= s3, tension positive; flow by the same with the angle psi of dilation. The stress
 /// returns to a face, an edge or the apex: de Souza Neto, Perić & Owen, Computational Methods for Plasticity (2008),
 /// section 8.2. The stress rotates with the material; Uintah's does not.
-struct MohrCoulomb {
-  struct State {};
-  using Capabilities = CapabilityList<capability::IgnoresTemperature, capability::BulkSpeed>;
+///
+/// With <Usetransition> c = St A1 W^-B1 max(1, g/g_ref)^beta_rate for a water content W and a rate of shear g:
+/// Boukpeti, White, Randolph & Low, Géotechnique 62 (2012) 483. With <UseWaterRetention> a suction s adds s tan PhiB to
+/// it, Fredlund, Morgenstern & Widger, Can. Geotech. J. 15 (1978) 313; the saturation is S = (1 + (alpha s)^n)^-m, van
+/// Genuchten, Soil Sci. Soc. Am. J. 44 (1980) 892, and as much water stays in the pores.
+struct MohrCoulomb : IsotropicModuli {
+  struct State {
+    double suction;         ///< s, Pa
+    double specificVolume;  ///< of the soil with its pores, by that of its grains, 1
+    double cohesion;        ///< c, Pa
+  };
+  using Capabilities = CapabilityList<capability::IgnoresTemperature, capability::BulkSpeed, capability::OptionalState>;
+  static constexpr std::array<StateVariable, 3> stateVariables{
+      {{"Suction", "Pa", "suction of the water in the pores"},
+       {"SpecificVol", "1", "volume of the soil with its pores, by that of its grains"},
+       {"c", "Pa", "cohesion"}}};
   static constexpr std::string_view name = "MohrCoulomb";
   static constexpr bool strainEnergyIsRate = true;
 
-  double shearModulus = 0;   ///< G, Pa
-  double bulkModulus = 0;    ///< K, Pa
   double cohesion = 0;       ///< c, Pa
   double frictionAngle = 0;  ///< phi, degrees
   double dilationAngle = 0;  ///< psi, degrees
+  bool isWet = false;        ///< the cohesion follows from the content of water and the rate
+  double strength = 0;       ///< A1, Pa
+  double waterExponent = 0;  ///< B1, 1
+  double waterContent = 1;   ///< W, 1
+  double sensitivity = 1;    ///< St, 1
+  double rateExponent = 0;   ///< beta_rate, 1
+  double referenceRate = 0;  ///< g_ref, 1/s
+  bool retainsWater = false;
+  double retentionM = 0, retentionN = 0;  ///< m and n of the retention curve, 1
+  double retentionAlpha = 0;              ///< its alpha, 1/Pa
+  double suctionAngle = 0;                ///< PhiB, degrees
+  double initialSuction = 0;              ///< Pa
+  double initialSpecificVolume = 0;       ///< 1
 
   static const input::Schema<MohrCoulomb>& schema() {
-    static const input::Schema<MohrCoulomb> schema = [] {
-      input::Schema<MohrCoulomb> tags("MohrCoulomb", "Linear elasticity with the yield surface of Mohr and Coulomb.");
-      tags.required("G", &MohrCoulomb::shearModulus, "Pa", "shear modulus", input::positive())
-          .required("K", &MohrCoulomb::bulkModulus, "Pa", "bulk modulus", input::positive())
-          .value("c", &MohrCoulomb::cohesion, 0, "Pa", "cohesion", input::nonNegative())
-          .value("Phi", &MohrCoulomb::frictionAngle, 0, "degrees", "angle of friction", input::between(0, 89))
-          .value("Psi", &MohrCoulomb::dilationAngle, 0, "degrees", "angle of dilation", input::between(0, 89))
-          .check([](const MohrCoulomb& read, const input::Element& element, input::Diagnostics& diagnostics) {
-            if (read.dilationAngle > read.frictionAngle)
-              diagnostics.error(element, "<Psi> is greater than <Phi>: plastic flow would create energy");
-          });
-      refuseOtherValues(tags, "Version", {"1", "11", "12"},
-                        "stresses return to the nearest point of a surface with corners");
-      for (const char* tag :
-           {"Usetransition", "Usemodul", "Use_softening", "Use_linear", "Use_regular", "UseWaterRetention",
-            "UseRemould", "Use_friction", "Use_pressure_dependence", "Usetransition1", "Use_dilation"})
-        refuseSwitch(tags, tag, "strength and stiffness are those of <c>, <Phi>, <G> and <K> throughout");
-      for (const char* tag :
-           {"A1",         "B1",   "W",       "beta_rate", "strain_ref", "m_modul",   "nuy",       "St",
-            "strain_95",  "a",    "y_ref",   "y",         "n",          "tFE",       "tShear",    "n_nonlocalMC",
-            "l_nonlocal", "PhiB", "suction", "SpecVol",   "WR_Param1",  "WR_Param2", "WR_Param3", "WR_Param4"})
-        tags.ignored(tag, "belongs to what only stands at false");
-      return tags;
-    }();
+    static const input::Schema<MohrCoulomb> schema = makeSchema();
     return schema;
   }
-  State initialState() const { return {}; }
+  bool keepsState() const { return isWet || retainsWater; }
+  State initialState() const { return {initialSuction, initialSpecificVolume, cohesion}; }
 
-  Matrix3 updateStress(const Deformation& d, const Matrix3& oldStress, State&) const {
+  Matrix3 updateStress(const Deformation& d, const Matrix3& oldStress, State& state) const {
     const Corotated step(d, oldStress);
     Matrix3 trial = step.stress + 2 * shearModulus * step.strain;
     trial.diagonal().array() += lambda() * step.strain.trace();
-    return step.turned(returned(trial));
+    if (!keepsState()) return step.turned(returned(trial));
+    MohrCoulomb now = *this;
+    if (isWet) now.cohesion = wetCohesion(step.strain / d.timeStep);
+    if (retainsWater) {
+      squeeze(step.strain.trace(), state);
+      now.cohesion += state.suction * std::tan(radians(suctionAngle));
+    }
+    state.cohesion = now.cohesion;
+    return step.turned(now.returned(trial));
   }
-  double waveSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
-    return std::sqrt((bulkModulus + 4.0 / 3.0 * shearModulus) * d.deformationGradient.determinant() / initialDensity);
+  double waveSpeed(double initialDensity, const Deformation& d, const Matrix3& stress, const State&) const {
+    return IsotropicModuli::waveSpeed(initialDensity, d, stress, {});
   }
-  double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
-    return std::sqrt(bulkModulus * d.deformationGradient.determinant() / initialDensity);
+  double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3& stress, const State&) const {
+    return IsotropicModuli::bulkSpeed(initialDensity, d, stress, {});
   }
   double strainEnergyDensity(const Deformation& d, const Matrix3& oldStress, const Matrix3& stress,
                              const State&) const {
@@ -84,8 +96,100 @@ struct MohrCoulomb {
   using Principal = Eigen::Vector3d;  ///< principal stresses, Pa, the greatest first
 
   double lambda() const { return bulkModulus - 2.0 / 3.0 * shearModulus; }
-  static double sine(double degrees) { return std::sin(degrees * std::numbers::pi / 180); }
-  double strength() const { return 2 * cohesion * std::cos(frictionAngle * std::numbers::pi / 180); }
+  static double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+  static double sine(double degrees) { return std::sin(radians(degrees)); }
+  double bearable() const { return 2 * cohesion * std::cos(radians(frictionAngle)); }
+
+  /// Pa, at a rate of strain in 1/s. As in Uintah the rate of shear is (1/2 sum (D_i - D_j)² + 3/4 sum D_ij²)^(1/2).
+  double wetCohesion(const Matrix3& rate) const {
+    const double normal = std::pow(rate(0, 0) - rate(1, 1), 2) + std::pow(rate(0, 0) - rate(2, 2), 2) +
+                          std::pow(rate(1, 1) - rate(2, 2), 2);
+    const double oblique = std::pow(rate(0, 1), 2) + std::pow(rate(1, 2), 2) + std::pow(rate(2, 0), 2);
+    const double shear = std::sqrt(0.5 * normal + 0.75 * oblique);
+    const double faster = shear > referenceRate ? std::pow(shear / referenceRate, rateExponent) : 1;
+    return sensitivity * strength * std::pow(waterContent, -waterExponent) * faster;
+  }
+  /// The share of the pores that water fills at a suction, Pa.
+  double saturation(double suction) const {
+    return std::pow(1 + std::pow(retentionAlpha * suction, retentionN), -retentionM);
+  }
+  /// The suction after a dilatation, Pa: the water that is there fills more of smaller pores.
+  void squeeze(double dilatation, State& state) const {
+    const double before = state.specificVolume, now = before * (1 + dilatation);
+    const double water = saturation(state.suction) * (before - 1) / before;
+    const double filled = std::clamp(water * now / (now - 1), 1e-4, 0.99999);
+    state.specificVolume = now;
+    state.suction = std::pow(std::pow(filled, -1 / retentionM) - 1, 1 / retentionN) / retentionAlpha;
+  }
+
+  static input::Schema<MohrCoulomb> makeSchema() {
+    using Self = MohrCoulomb;
+    input::Schema<Self> tags("MohrCoulomb", "Linear elasticity with the yield surface of Mohr and Coulomb.");
+    tags.required("G", input::memberOf<Self>(&Self::shearModulus), "Pa", "shear modulus", input::positive())
+        .required("K", input::memberOf<Self>(&Self::bulkModulus), "Pa", "bulk modulus", input::positive())
+        .value("c", &Self::cohesion, 0, "Pa", "cohesion", input::nonNegative())
+        .value("Phi", &Self::frictionAngle, 0, "degrees", "angle of friction", input::between(0, 89))
+        .value("Psi", &Self::dilationAngle, 0, "degrees", "angle of dilation", input::between(0, 89));
+    declareWater(tags);
+    tags.check(checkConstants);
+    refuseOtherValues(tags, "Version", {"1", "11", "12"},
+                      "stresses return to the nearest point of a surface with corners");
+    for (const char* tag : {"Usemodul", "Use_softening", "Use_linear", "Use_regular", "UseRemould", "Use_friction",
+                            "Use_pressure_dependence", "Usetransition1", "Use_dilation"})
+      refuseSwitch(tags, tag, "stiffness is that of <G> and <K> throughout, strength does not soften");
+    for (const char* tag : {"m_modul", "nuy", "strain_95", "a", "y_ref", "y", "n", "tFE", "tShear", "n_nonlocalMC",
+                            "l_nonlocal", "WR_Param4"})
+      tags.ignored(tag, "belongs to what only stands at false");
+    tags.ignored("beta", "Uintah does not read it either: the exponent of the rate is <beta_rate>");
+    return tags;
+  }
+  static void declareWater(input::Schema<MohrCoulomb>& tags) {
+    using Self = MohrCoulomb;
+    declareSwitch(tags, "Usetransition", &Self::isWet, "the cohesion is that of <A1>, <B1>, <W> and the rate, not <c>");
+    tags.value("A1", &Self::strength, 0, "Pa", "of Usetransition: cohesion at a content of water of 1",
+               input::nonNegative())
+        .value("B1", &Self::waterExponent, 0, "1", "of Usetransition: exponent of the content of water")
+        .value("W", &Self::waterContent, 1, "1", "of Usetransition: content of water", input::positive())
+        .value("St", &Self::sensitivity, 1, "1", "of Usetransition: factor of the cohesion", input::nonNegative())
+        .value("beta_rate", &Self::rateExponent, 0, "1", "of Usetransition: exponent of the rate of shear")
+        .value("strain_ref", &Self::referenceRate, 0, "1/s", "of Usetransition: greatest rate that adds nothing",
+               input::nonNegative());
+    declareSwitch(tags, "UseWaterRetention", &Self::retainsWater, "the suction of water in the pores adds cohesion");
+    tags.value("WR_Param1", &Self::retentionM, 0, "1", "of UseWaterRetention: m of van Genuchten")
+        .value("WR_Param2", &Self::retentionN, 0, "1", "of UseWaterRetention: n of van Genuchten")
+        .value("WR_Param3", &Self::retentionAlpha, 0, "1/Pa", "of UseWaterRetention: alpha of van Genuchten")
+        .value("PhiB", &Self::suctionAngle, 0, "degrees", "of UseWaterRetention: angle of the suction's cohesion",
+               input::between(0, 89))
+        .value("suction", &Self::initialSuction, 0, "Pa", "of UseWaterRetention: suction at the start",
+               input::nonNegative())
+        .value("SpecVol", &Self::initialSpecificVolume, 0, "1",
+               "of UseWaterRetention: volume of the soil by that of its grains, at the start");
+  }
+  /// A switch that Uintah reads as a number: on if it is above 0.
+  static void declareSwitch(input::Schema<MohrCoulomb>& tags, const std::string& tag, bool MohrCoulomb::*member,
+                            const std::string& sentence) {
+    const auto read = [=](MohrCoulomb& object, const input::Element& element, input::Diagnostics& diagnostics) {
+      const auto given = element.child(tag);
+      if (!given || given->text() == "false") return;
+      const auto number = input::parse<double>(given->text()).value;
+      object.*member = given->text() == "true" || number == 1.0;
+      if (!(object.*member || number == 0.0))
+        diagnostics.error(*given, "found '" + given->text() + "', expected 0 or 1");
+    };
+    tags.custom(tag, read, {tag}, "0 or 1: " + sentence)
+        .forms({input::choiceForm({tag}, {"0", "1", "0.0", "1.0", "false", "true"})});
+  }
+  static void checkConstants(const MohrCoulomb& read, const input::Element& element, input::Diagnostics& diagnostics) {
+    if (read.dilationAngle > read.frictionAngle)
+      diagnostics.error(element, "<Psi> is greater than <Phi>: plastic flow would create energy");
+    if (read.isWet && read.rateExponent != 0 && read.referenceRate == 0)
+      diagnostics.error(element, "<beta_rate> needs <strain_ref>");
+    const double least = std::min({read.retentionM, read.retentionN, read.retentionAlpha});
+    if (read.retainsWater && (least <= 0 || read.initialSpecificVolume <= 1))
+      diagnostics.error(element,
+                        "<UseWaterRetention> needs <WR_Param1>, <WR_Param2> and <WR_Param3> above 0, and <SpecVol> "
+                        "above 1");
+  }
 
   /// Normal of the yield face of the i-th and the j-th principal stress.
   static Principal normal(int i, int j, double angle) {
@@ -94,7 +198,7 @@ struct MohrCoulomb {
     n[j] = -1 + sine(angle);
     return n;
   }
-  double face(const Principal& s, int i, int j) const { return normal(i, j, frictionAngle).dot(s) - strength(); }
+  double face(const Principal& s, int i, int j) const { return normal(i, j, frictionAngle).dot(s) - bearable(); }
   /// Stress per unit of plastic flow across a face, Pa.
   Principal correction(int i, int j) const {
     const Principal flow = normal(i, j, dilationAngle);
@@ -121,7 +225,7 @@ struct MohrCoulomb {
       const Principal onEdge = atFirst ? returnedToEdge(s, 1, 2) : returnedToEdge(s, 0, 1);
       if (isOrdered(onEdge, tolerance)) return onEdge;
     }
-    return strength() / (2 * sine(frictionAngle)) * Principal::Ones();
+    return bearable() / (2 * sine(frictionAngle)) * Principal::Ones();
   }
   /// Return to the edge between the faces (0, 2) and (i, j).
   Principal returnedToEdge(const Principal& s, int i, int j) const {

@@ -16,20 +16,18 @@ struct Rigid {
   static constexpr ArtificialViscosity ownViscosity{0, 0};
 
   static const input::Schema<Rigid>& schema() {
-    static const input::Schema<Rigid> schema =
-        input::Schema<Rigid>("rigid", "No stress at all: for bodies that a contact moves.")
-            .ignored("bulk_modulus", "nothing depends on it")
-            .ignored("shear_modulus", "nothing depends on it")
-            .ignored("K", "nothing depends on it")
-            .ignored("G", "nothing depends on it")
-            .ignored("useModifiedEOS", "nothing depends on it")
-            .ignored("alpha", "nothing depends on it")
-            .ignored("coeff_thermal_expansion", "nothing depends on it");
+    static const input::Schema<Rigid> schema = [] {
+      input::Schema<Rigid> tags("rigid", "No stress at all: for bodies that a contact moves.");
+      for (const char* tag :
+           {"bulk_modulus", "shear_modulus", "K", "G", "useModifiedEOS", "alpha", "coeff_thermal_expansion"})
+        tags.ignored(tag, "nothing depends on it");
+      return tags;
+    }();
     return schema;
   }
   State initialState() const { return {}; }
   Matrix3 updateStress(const Deformation&, const Matrix3&, State&) const { return Matrix3::Zero(); }
-  /// So slow that other materials limit the time step.
+  /// Slow enough that other materials limit the time step.
   double waveSpeed(double, const Deformation&, const Matrix3&, const State&) const { return 1e-10; }
   double strainEnergyDensity(const Deformation&, const Matrix3&, const Matrix3&, const State&) const { return 0; }
 };

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "components/mpm/solid/constitutive/constitutive_model.hpp"
+#include "components/mpm/solid/constitutive/initial_pressure.hpp"
 #include "components/mpm/solid/constitutive/strain_invariants.hpp"
 #include "components/mpm/solid/constitutive/tangent.hpp"
 #include "core/input/refuse.hpp"
@@ -22,8 +23,9 @@ struct NeoHookPlastic {
     double plasticStrain;  ///< alpha, equivalent plastic strain, 1
     Tensor bElBar;         ///< J^(-2/3) F_e F_eᵀ: elastic and isochoric, 1
   };
-  using Capabilities = CapabilityList<capability::OptionalState, capability::IgnoresTemperature, capability::FBar,
-                                      capability::NominalTangent, capability::BulkSpeed>;
+  using Capabilities =
+      CapabilityList<capability::OptionalState, capability::IgnoresTemperature, capability::FBar,
+                     capability::NominalTangent, capability::BulkSpeed, capability::InitialVolumeRatio>;
   static constexpr std::array<StateVariable, 2> stateVariables{
       {{"p.plasticStrain", "1", "equivalent plastic strain"},
        {"p.bElBar", "1", "elastic part of the left Cauchy-Green tensor, without its volume", 9}}};
@@ -36,6 +38,11 @@ struct NeoHookPlastic {
   std::optional<double> yieldStress;       ///< Y, Pa
   std::optional<double> hardeningModulus;  ///< H, Pa
   double initialPlasticStrain = 0;         ///< 1
+  bool yieldSpreads = false;               ///< the yield stress differs from particle to particle: see UcnhVar
+  double yieldRange = 0;                   ///< to both sides of Y, Pa
+  int yieldSeed = 0;
+  bool startsUnderPressure = false;
+  double initialPressure = 0;  ///< Pa
 
   static const input::Schema<NeoHookPlastic>& schema() {
     using Self = NeoHookPlastic;
@@ -50,20 +57,27 @@ struct NeoHookPlastic {
           .optional("hardening_modulus", &Self::hardeningModulus, "Pa",
                     "growth of the yield stress with the plastic strain; needed where it yields", input::nonNegative())
           .value("alpha", &Self::initialPlasticStrain, 0, "1", "plastic strain at the start", input::nonNegative())
+          .choice("yield_distrib", &Self::yieldSpreads, {{"constant", false}, {"uniform", true}}, false,
+                  "how the yield stress differs from particle to particle")
+          .value("yield_range", &Self::yieldRange, 0, "Pa", "of uniform: to both sides of <yield_stress>",
+                 input::nonNegative())
+          .value("yield_seed", &Self::yieldSeed, 0, "1", "other numbers, other yield stresses; not those of Uintah")
           .ignored("useModifiedEOS", "only Uintah's coupled fluid reads it")
-          .ignored("initial_pressure", "belongs to useInitialStress")
           .check([](const Self& read, const input::Element& element, input::Diagnostics& diagnostics) {
             if (read.isPlastic && !(read.yieldStress && read.hardeningModulus))
               diagnostics.error(element, "where it yields, <yield_stress> and <hardening_modulus> must be given");
+            if (read.yieldSpreads && read.yieldStress && read.yieldRange >= *read.yieldStress)
+              diagnostics.error(element, "<yield_range> must be less than <yield_stress>");
           });
-      refuseSwitch(tags, "useInitialStress", "bodies start without stress");
-      refuseSwitch(tags, "reinitializeCMData", "bodies start without stress");
+      addInitialPressure(tags);
+      refuseSwitch(tags, "reinitializeCMData", "a body keeps the state in which it starts");
       return tags;
     }();
     return schema;
   }
   bool keepsState() const { return isPlastic; }
   State initialState() const { return {initialPlasticStrain, identityTensor}; }
+  double initialVolumeRatio() const { return startsUnderPressure ? volumeRatioUnder(initialPressure, bulkModulus) : 1; }
 
   Matrix3 updateStress(const Deformation& d, const Matrix3&, State& state) const {
     const double j = d.deformationGradient.determinant();
@@ -123,20 +137,20 @@ struct NeoHookPlastic {
     double hardening = 0;  ///< H / (3 mu)
     double excess = 0;     ///< q, by which the return shortens s, Pa
 
-    Trial(const NeoHookPlastic& model, const Deformation& d, const State& state) {
+    Trial(const NeoHookPlastic& body, const Deformation& d, const State& state) {
       const Matrix3 step =
-          model.isPlastic ? Matrix3(d.deformationGradient * d.oldDeformationGradient.inverse()) : d.deformationGradient;
+          body.isPlastic ? Matrix3(d.deformationGradient * d.oldDeformationGradient.inverse()) : d.deformationGradient;
       const double volume = step.determinant();
       elastic = step * step.transpose();
-      if (model.isPlastic) elastic = step * matrixOf(state.bElBar) * step.transpose();
+      if (body.isPlastic) elastic = step * matrixOf(state.bElBar) * step.transpose();
       elastic /= std::cbrt(volume * volume);
-      stress = model.shearModulus * deviator(elastic);
+      stress = body.shearModulus * deviator(elastic);
       size = stress.norm();
-      shear = model.shearModulus * elastic.trace() / 3;
+      shear = body.shearModulus * elastic.trace() / 3;
       normal = size > 0 ? Matrix3(stress / size) : Matrix3(Matrix3::Zero());
-      if (!model.isPlastic) return;
-      hardening = *model.hardeningModulus / (3 * shear);
-      const double radius = *model.hardeningModulus * state.plasticStrain + *model.yieldStress;
+      if (!body.isPlastic) return;
+      hardening = *body.hardeningModulus / (3 * shear);
+      const double radius = *body.hardeningModulus * state.plasticStrain + *body.yieldStress;
       excess = std::max(size - std::sqrt(2.0 / 3.0) * radius, 0.0) / (1 + hardening);
     }
     /// (2/3)^(1/2) q / (2 mu)

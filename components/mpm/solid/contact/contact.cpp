@@ -1,6 +1,8 @@
 #include "components/mpm/solid/contact/contact.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 namespace tushar::mpm::solid {
 
@@ -8,9 +10,10 @@ bool Contact::concerns(int material) const {
   return materials.empty() || std::find(materials.begin(), materials.end(), material) != materials.end();
 }
 
-std::optional<Vec3> Contact::prescribedVelocity(double time) const {
-  if (time > stopTime) return velocityAfterStop;
-  if (profile.empty()) return std::nullopt;
+namespace {
+
+/// The value of a profile at a time.
+Vec3 valueAt(const Profile<Vec3>& profile, double time) {
   if (time <= profile.front().first) return profile.front().second;
   if (time >= profile.back().first) return profile.back().second;
   const auto next = std::lower_bound(profile.begin(), profile.end(), time,
@@ -20,18 +23,48 @@ std::optional<Vec3> Contact::prescribedVelocity(double time) const {
   return share * next->second + (1 - share) * v0;
 }
 
-namespace {
+}  // namespace
 
-/// Whether the material that keeps a contact from acting is at a node.
-template <int D>
-bool isExcluded(const Contact& contact, const Records& records, const Index<D>& node) {
-  return contact.excluded >= 0 && records[contact.excluded][node][lane::mass] != 0;
+Vec3 Motion::at(const Vec3& point, double dt) const {
+  const double speed = angularVelocity.norm();
+  if (speed == 0) return velocity;
+  const Vec3 r = point - centre;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (std::abs(angularVelocity[axis]) <= 0.99 * speed) continue;
+    const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+    const double angle = angularVelocity[axis] * dt, half = std::sin(0.5 * angle);
+    const double along = -2 * half * half, across = std::sin(angle);  // cos - 1 and sin
+    Vec3 chord = Vec3::Zero();
+    chord[i] = along * r[i] - across * r[j];
+    chord[j] = across * r[i] + along * r[j];
+    return velocity + chord / dt;
+  }
+  return velocity + angularVelocity.cross(r);
 }
+
+std::optional<Vec3> Contact::prescribedVelocity(double time) const {
+  if (time > stopTime) return velocityAfterStop;
+  if (profile.empty()) return std::nullopt;
+  return valueAt(profile, time);
+}
+
+std::optional<Motion> Contact::prescribedMotion(double time) const {
+  const auto velocity = prescribedVelocity(time);
+  if (!velocity) return std::nullopt;
+  Motion motion{.velocity = *velocity};
+  if (time <= stopTime && !angularVelocity.empty()) {
+    motion.centre = valueAt(centres, time);
+    motion.angularVelocity = valueAt(angularVelocity, time);
+  }
+  return motion;
+}
+
+namespace {
 
 /// Whether a contact acts at a node: its master is there, and no material that excludes it.
 template <int D>
 bool isAt(const Contact& contact, const Records& records, const Index<D>& node) {
-  return records[contact.master][node][lane::mass] != 0 && !isExcluded<D>(contact, records, node);
+  return isPresent<D>(records, contact.master, node) && !isExcluded<D>(contact, records, node);
 }
 
 }  // namespace
@@ -55,13 +88,22 @@ void moveAsOne(const Patch&, const Contact& contact, const Records& records) {
 }
 
 template <int D>
-void followMaster(const Patch& patch, const Contact& contact, double time, const Records& records) {
+Vec<D> masterVelocity(const Patch& patch, const Contact& contact, const std::optional<Motion>& motion, double dt,
+                      const Records& records, const Index<D>& node) {
+  if (!motion) return lanes<D>(records[contact.master][node], lane::velocity);
+  Vec<D> at;
+  for (int d = 0; d < D; ++d) at[d] = patch.level().nodePosition(d, node[d]);
+  return patch.level().reduce<D>(motion->at(patch.level().expandPoint<D>(at), dt));
+}
+
+template <int D>
+void followMaster(const Patch& patch, const Contact& contact, double time, double dt, const Records& records) {
   const auto master = static_cast<std::size_t>(contact.master);
-  const auto prescribed = contact.prescribedVelocity(time);
+  const auto motion = contact.prescribedMotion(time);
   forEach<D>(records.front().box(), [&](const Index<D>& node) {
     if (!isAt<D>(contact, records, node)) return;
-    if (prescribed) setLanes<D>(records[master][node], lane::velocity, patch.level().reduce<D>(*prescribed));
-    const Vec<D> velocity = lanes<D>(records[master][node], lane::velocity);
+    const Vec<D> velocity = masterVelocity<D>(patch, contact, motion, dt, records, node);
+    setLanes<D>(records[master][node], lane::velocity, velocity);
     for (std::size_t m = 0; m < records.size(); ++m) {
       if (m == master || !contact.concerns(static_cast<int>(m))) continue;
       for (int d = 0; d < D; ++d)
@@ -80,9 +122,7 @@ void sumReaction(const Patch& patch, const Contact& contact, const Acceleration&
       const NodeRecord& record = records[m][node];
       if (static_cast<int>(m) == contact.master || !contact.concerns(static_cast<int>(m)) || record[lane::mass] == 0)
         continue;
-      const Vec<D> before = lanes<D>(record, lane::before), after = lanes<D>(record, lane::velocity);
-      const Vec<D> forced = (after - before) / dt - gravity + acceleration.damping * before;
-      reaction.add(patch.level().expandDirection<D>(-record[lane::mass] * forced));
+      reaction.add(patch.level().expandDirection<D>(heldForce<D>(record, gravity, acceleration, dt)));
     }
   });
 }
@@ -90,9 +130,15 @@ void sumReaction(const Patch& patch, const Contact& contact, const Acceleration&
 template void moveAsOne<1>(const Patch&, const Contact&, const Records&);
 template void moveAsOne<2>(const Patch&, const Contact&, const Records&);
 template void moveAsOne<3>(const Patch&, const Contact&, const Records&);
-template void followMaster<1>(const Patch&, const Contact&, double, const Records&);
-template void followMaster<2>(const Patch&, const Contact&, double, const Records&);
-template void followMaster<3>(const Patch&, const Contact&, double, const Records&);
+template void followMaster<1>(const Patch&, const Contact&, double, double, const Records&);
+template Vec<1> masterVelocity<1>(const Patch&, const Contact&, const std::optional<Motion>&, double, const Records&,
+                                  const Index<1>&);
+template void followMaster<2>(const Patch&, const Contact&, double, double, const Records&);
+template Vec<2> masterVelocity<2>(const Patch&, const Contact&, const std::optional<Motion>&, double, const Records&,
+                                  const Index<2>&);
+template void followMaster<3>(const Patch&, const Contact&, double, double, const Records&);
+template Vec<3> masterVelocity<3>(const Patch&, const Contact&, const std::optional<Motion>&, double, const Records&,
+                                  const Index<3>&);
 template void sumReaction<1>(const Patch&, const Contact&, const Acceleration&, double, const Records&, VectorSum&);
 template void sumReaction<2>(const Patch&, const Contact&, const Acceleration&, double, const Records&, VectorSum&);
 template void sumReaction<3>(const Patch&, const Contact&, const Acceleration&, double, const Records&, VectorSum&);

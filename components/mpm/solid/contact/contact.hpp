@@ -3,6 +3,7 @@
 #include <array>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "components/mpm/solid/transfer/node_record.hpp"
@@ -10,12 +11,29 @@
 
 namespace tushar::mpm::solid {
 
+/// A number or vector over time, s: straight lines between its entries, constant before the first and after the last.
+template <class T>
+using Profile = std::vector<std::pair<double, T>>;
+
+/// How a master is driven at a moment: it translates, and turns about an axis through a centre.
+struct Motion {
+  Vec3 velocity = Vec3::Zero();         ///< m/s
+  Vec3 centre = Vec3::Zero();           ///< m
+  Vec3 angularVelocity = Vec3::Zero();  ///< 1/s
+
+  /// Velocity at a point, m/s, that brings it in dt to where it should be: the chord of its circle where the axis is
+  /// nearly one of the grid's (cos > 0.99), omega x r where it is oblique, as in Uintah.
+  Vec3 at(const Vec3& point, double dt) const;
+};
+
 /// How materials act on each other where they share nodes: one `contact` of a scene.
 struct Contact {
   enum class Type {
-    singleVelocity,  ///< they move as one: no slip, no separation
-    specified,       ///< they follow a master, whose velocity may be given over time
-    friction,        ///< they part freely and slide with Coulomb's friction
+    singleVelocity,     ///< they move as one: no slip, no separation
+    specified,          ///< they follow a master, whose velocity may be given over time
+    friction,           ///< they part freely and slide with Coulomb's friction
+    planeFriction,      ///< the same along the plane that separates their particles (see SeparatingPlane)
+    specifiedFriction,  ///< they part from a master, whose velocity may be given, and slide on it along such planes
   };
 
   Type type = Type::singleVelocity;
@@ -25,13 +43,15 @@ struct Contact {
   bool directionIsGiven = false;                         ///< by the scene
   double stopTime = std::numeric_limits<double>::max();  ///< s
   Vec3 velocityAfterStop = Vec3::Zero();                 ///< m/s
-  std::vector<std::pair<double, Vec3>> profile;  ///< time (s) and the master's velocity (m/s); empty: it is free
+  Profile<Vec3> profile;                                 ///< the master's velocity, m/s; empty: it is free
+  Profile<Vec3> centres, angularVelocity;                ///< m, 1/s: the master turns; empty: it does not
 
   bool actsTwice = true;  ///< on the velocities that came from the particles, too
   int excluded = -1;      ///< where this material is, nothing follows a master or moves as one; -1: none
 
-  double friction = 0;          ///< coefficient mu
-  bool onlyOnApproach = false;  ///< friction: what the stress presses together may part
+  double friction = 0;              ///< coefficient mu
+  Profile<double> frictionOfColor;  ///< mu over p.color of the master instead of time; empty: mu is `friction`
+  bool onlyOnApproach = false;      ///< friction: what the stress presses together may part
   bool normalsInCells =
       false;  ///< friction: mass gradients are taken per cell, not per m, as axisymmetric ones in Uintah
   bool keepsMomentum = false;   ///< friction: one normal for all, who are pressed where the stresses of all press
@@ -39,7 +59,11 @@ struct Contact {
   double volumeConstraint = 0;  ///< friction: the share of the volume around a node that must be filled for a contact
 
   bool concerns(int material) const;
-  /// The master's velocity at a time, where it is given.
+  /// Whether bodies touch along planes that separate their particles.
+  bool usesPlanes() const { return type == Type::planeFriction || type == Type::specifiedFriction; }
+  /// The master's motion at a time, if it is given.
+  std::optional<Motion> prescribedMotion(double time) const;
+  /// The master's velocity at a time, if it is given.
   std::optional<Vec3> prescribedVelocity(double time) const;
 };
 
@@ -57,13 +81,40 @@ template <int D>
 void moveAsOne(const Patch& patch, const Contact& contact, const Records& records);
 /// Where the master is, the others get its velocity along the contact's directions.
 template <int D>
-void followMaster(const Patch& patch, const Contact& contact, double time, const Records& records);
+void followMaster(const Patch& patch, const Contact& contact, double time, double dt, const Records& records);
+/// The master's velocity at a node, m/s: its own unless its motion is given.
+template <int D>
+Vec<D> masterVelocity(const Patch& patch, const Contact& contact, const std::optional<Motion>& motion, double dt,
+                      const Records& records, const Index<D>& node);
+/// Below it a share of the mass at a node is what rounding has left of a body.
+inline constexpr double leastShare = 1e-14;
 
-/// What has changed the velocities of a step besides the forces of stresses and loads.
+/// Whether a material is at a node: a particle whose edge is as far from it as shape functions reach may leave 1e-30 of
+/// its mass there by rounding, which must not tie other bodies to it.
+template <int D>
+bool isPresent(const Records& records, int material, const Index<D>& node) {
+  double total = 0;
+  for (const auto& record : records) total += record[node][lane::mass];
+  return total > 0 && records[material][node][lane::mass] >= leastShare * total;
+}
+/// Whether the material that keeps a contact from acting is at a node.
+template <int D>
+bool isExcluded(const Contact& contact, const Records& records, const Index<D>& node) {
+  return contact.excluded >= 0 && records[contact.excluded][node][lane::mass] != 0;
+}
+
+/// The changes of velocity in a step other than those by stresses and loads.
 struct Acceleration {
   Vec3 gravity = Vec3::Zero();  ///< m/s^2
   double damping = 0;           ///< 1/s
 };
+/// The force that holds a body at a node against its stresses and loads, N: - m ((v* - v) / dt - g + damping v) of a
+/// record that holds v* and v.
+template <int D>
+Vec<D> heldForce(const NodeRecord& record, const Vec<D>& gravity, const Acceleration& acceleration, double dt) {
+  const Vec<D> before = lanes<D>(record, lane::before), after = lanes<D>(record, lane::velocity);
+  return -record[lane::mass] * ((after - before) / dt - gravity + acceleration.damping * before);
+}
 /// Where the master is, adds to `reaction` the force (N) that holds the others against their stresses and loads, as
 /// Uintah counts it: - sum m ((v* - v) / dt - g + damping v). The records hold v* and v before the contact.
 template <int D>

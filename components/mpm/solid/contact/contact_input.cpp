@@ -16,7 +16,18 @@ using input::Schema;
 
 namespace {
 
-enum class Kind { none, singleVelocity, rigid, specified, friction, conservingFriction, approach };
+enum class Kind {
+  none,
+  singleVelocity,
+  rigid,
+  specified,
+  friction,
+  conservingFriction,
+  approach,
+  planeFriction,
+  colorFriction,
+  specifiedFriction,
+};
 
 const input::Choices<Kind> kinds{{"null", Kind::none},
                                  {"single_velocity", Kind::singleVelocity},
@@ -26,16 +37,30 @@ const input::Choices<Kind> kinds{{"null", Kind::none},
                                  {"friction", Kind::friction},
                                  {"friction_bard", Kind::friction},
                                  {"friction_conserving", Kind::conservingFriction},
-                                 {"approach", Kind::approach}};
-const input::Lacking lackingKinds{{"friction_LR", "friction_bard"},
-                                  {"friction_LRVar", "friction_bard"},
-                                  {"specified_friction", "specified, where nothing slips"},
-                                  {"penalty", "friction_bard"},
-                                  {"nodal_svf", "single_velocity"},
-                                  {"fluid", "single_velocity"}};
+                                 {"approach", Kind::approach},
+                                 {"friction_LR", Kind::planeFriction},
+                                 {"friction_LRVar", Kind::colorFriction},
+                                 {"specified_friction", Kind::specifiedFriction}};
+const input::Lacking lackingKinds{
+    {"penalty", "friction_bard"}, {"nodal_svf", "single_velocity"}, {"fluid", "single_velocity"}};
 
 /// Whether bodies slide and part.
 bool slides(Kind kind) { return kind == Kind::friction || kind == Kind::conservingFriction || kind == Kind::approach; }
+
+/// Whether bodies slide along the planes that separate their particles.
+bool usesPlanes(Kind kind) {
+  return kind == Kind::planeFriction || kind == Kind::colorFriction || kind == Kind::specifiedFriction;
+}
+/// Whether the others follow or meet a master that may be driven.
+bool hasMaster(Kind kind) { return kind == Kind::rigid || kind == Kind::specified || kind == Kind::specifiedFriction; }
+
+/// An `entry` of variable_friction.
+struct FrictionEntry {
+  double color = 0, friction = 0;
+};
+struct FrictionTable {
+  std::vector<FrictionEntry> entries;
+};
 
 /// The tags of every kind of contact, as they are written.
 struct ContactSection {
@@ -49,7 +74,42 @@ struct ContactSection {
   std::optional<double> friction;
   double separationFactor = 0, volumeConstraint = 0;
   std::optional<int> steps, excluded;
+  bool turns = false;
+  std::optional<FrictionTable> frictionTable;
 };
+
+const Schema<FrictionTable>& frictionTableSchema() {
+  static const Schema<FrictionEntry> entry =
+      Schema<FrictionEntry>("entry", "The coefficient of friction at a color.")
+          .required("color", &FrictionEntry::color, "1", "p.color of the master")
+          .required("mu", &FrictionEntry::friction, "1", "coefficient there", input::nonNegative());
+  static const Schema<FrictionTable> schema =
+      Schema<FrictionTable>("variable_friction", "Friction by the color of the master.")
+          .list("entry", &FrictionTable::entries, entry, "colors ascend; straight between two, constant beyond", 2)
+          .check([](const FrictionTable& table, const Element& element, Diagnostics& diagnostics) {
+            for (std::size_t k = 1; k < table.entries.size(); ++k)
+              if (table.entries[k].color <= table.entries[k - 1].color)
+                diagnostics.error(element.children("entry")[k], "its color is not above that of the one before");
+          });
+  return schema;
+}
+
+/// What contacts along planes need and cannot have.
+void checkPlanes(const ContactSection& read, const Element& element, Diagnostics& diagnostics) {
+  const bool byColor = read.kind == Kind::colorFriction;
+  if (byColor && !read.frictionTable)
+    diagnostics.error(element, "missing tag <variable_friction> in <contact>: friction_LRVar takes its mu from there");
+  if (byColor && !element.child("master_material"))
+    diagnostics.error(element,
+                      "missing tag <master_material> in <contact>: friction_LRVar takes its mu from that color");
+  if (!byColor && read.frictionTable)
+    diagnostics.error(element.child("variable_friction").value(), "acts in contacts of type friction_LRVar only");
+  if (usesPlanes(read.kind) && !byColor && !read.friction)
+    diagnostics.error(element, "missing tag <mu> in <contact>: friction needs its coefficient");
+  if (usesPlanes(read.kind) && read.kind != Kind::specifiedFriction && read.excluded)
+    diagnostics.error(element.child("ExcludeMaterial").value(),
+                      "acts in contacts of type rigid, specified, specified_friction and single_velocity only");
+}
 
 void checkContact(const ContactSection& read, const Element& element, Diagnostics& diagnostics) {
   if (slides(read.kind) && !read.friction)
@@ -57,95 +117,143 @@ void checkContact(const ContactSection& read, const Element& element, Diagnostic
   if (slides(read.kind) && read.excluded)
     diagnostics.error(element.child("ExcludeMaterial").value(),
                       "acts in contacts of type rigid, specified and single_velocity only");
-  if (!slides(read.kind) && read.volumeConstraint > 0)
+  if (!slides(read.kind) && !usesPlanes(read.kind) && read.volumeConstraint > 0)
     diagnostics.error(element.child("volume_constraint").value(),
                       "acts in contacts of type friction, friction_bard, friction_conserving and approach only");
+  if (read.turns && (!hasMaster(read.kind) || read.profileFile.empty()))
+    diagnostics.error(element.child("include_rotation").value(),
+                      "needs a contact of type rigid, specified or specified_friction and its <filename>");
+  checkPlanes(read, element, diagnostics);
+}
+
+/// The kinds of contact, and who takes part.
+void addKinds(Schema<ContactSection>& contact) {
+  requiredChoiceOrRefusal(
+      contact, "type", &ContactSection::kind, kinds, lackingKinds,
+      "not at all; as one body; they follow a master, which is free or moves as told (two words for it); they part "
+      "freely and slide with friction as in Uintah, which asks each body alone whether its stress presses (two words "
+      "for it); the same, but all have one normal and are pressed where the stresses of all press, which keeps "
+      "momentum; as in Uintah, but only while they approach each other; they part freely, keep momentum and slide with "
+      "friction along the plane that separates their particles, found by logistic regression (Nairn, Hammerquist & "
+      "Smith 2020); the same with mu by the color of the master; they part from a master, which is free or moves as "
+      "told, and slide on it along such planes");
+  contact.optional("materials", &ContactSection::materials, "1", "numbers of the materials that take part; else all")
+      .optional("OneOrTwoStep", &ContactSection::steps, "1",
+                "1: acts on the velocities at the end of a step only; 2: on those at its start, too. Left out: 1 with "
+                "rigid and specified, else 2; with XPIC2 always 2",
+                input::between(1, 2))
+      .optional("ExcludeMaterial", &ContactSection::excluded, "1",
+                "rigid, specified, single_velocity: does not act where this material is", input::nonNegative())
+      .ignored("vel_fields", "an old word for materials");
+}
+
+/// What contacts with a master say of its motion.
+void addMaster(Schema<ContactSection>& contact) {
+  contact
+      .optional("direction", &ContactSection::direction, "1",
+                "rigid, specified: 1 along x, y, z where the others follow the master. Left out: along z, in implicit "
+                "steps along all",
+                input::between(0, 1))
+      .value("master_material", &ContactSection::master, 0, "1", "rigid, specified: number of the master",
+             input::nonNegative())
+      .value("stop_time", &ContactSection::stopTime, std::numeric_limits<double>::max(), "s",
+             "rigid, specified: from then on all move with velocity_after_stop")
+      .value("velocity_after_stop", &ContactSection::velocityAfterStop, Vec3::Zero(), "m/s",
+             "rigid, specified: velocity after stop_time")
+      .value("filename", &ContactSection::profileFile, "", "1",
+             "specified: a file with a line `time vx vy vz` for each of at least two times, ascending")
+      .value("include_rotation", &ContactSection::turns, false, "1",
+             "specified: the master turns, too; the lines of <filename> are `time vx vy vz cx cy cz wx wy wz`, with a "
+             "point of the axis (m) and the angular velocity (1/s)")
+      .ignored("rigid_material", "an old word for master_material");
+}
+
+void addFriction(Schema<ContactSection>& contact) {
+  contact
+      .optional("mu", &ContactSection::friction, "1", "friction, approach: coefficient; needed there",
+                input::nonNegative())
+      .section("variable_friction", &ContactSection::frictionTable, frictionTableSchema())
+      .value("separation_factor", &ContactSection::separationFactor, 9.9e99, "1",
+             "friction, approach (friction_LR and its like need none): what lies farther apart than so many cells "
+             "does not touch",
+             input::positive())
+      .value("volume_constraint", &ContactSection::volumeConstraint, 0, "1",
+             "friction, approach (friction_LR and its like need none): share of the volume around a node that bodies "
+             "must fill to touch there",
+             input::nonNegative());
 }
 
 const Schema<ContactSection>& contactSchema() {
   static const Schema<ContactSection> schema = [] {
     Schema<ContactSection> contact("contact", "How materials act on each other where they share nodes.");
-    requiredChoiceOrRefusal(
-        contact, "type", &ContactSection::kind, kinds, lackingKinds,
-        "not at all; as one body; they follow a master, which is free or moves as told (two words for it); they part "
-        "freely and slide with friction as in Uintah, which asks each body alone whether its stress presses (two words "
-        "for it); "
-        "the same, but all have one normal and are pressed where the stresses of all press, which keeps momentum; as "
-        "in "
-        "Uintah, but only while they approach each other");
-    contact.optional("materials", &ContactSection::materials, "1", "numbers of the materials that take part; else all")
-        .optional(
-            "direction", &ContactSection::direction, "1",
-            "rigid, specified: 1 along x, y, z where the others follow the master. Left out: along z, in implicit "
-            "steps along all",
-            input::between(0, 1))
-        .value("master_material", &ContactSection::master, 0, "1", "rigid, specified: number of the master",
-               input::nonNegative())
-        .value("stop_time", &ContactSection::stopTime, std::numeric_limits<double>::max(), "s",
-               "rigid, specified: from then on all move with velocity_after_stop")
-        .value("velocity_after_stop", &ContactSection::velocityAfterStop, Vec3::Zero(), "m/s",
-               "rigid, specified: velocity after stop_time")
-        .value("filename", &ContactSection::profileFile, "", "1",
-               "specified: a file with a line `time vx vy vz` for each of at least two times, ascending")
-        .optional("mu", &ContactSection::friction, "1", "friction, approach: coefficient; needed there",
-                  input::nonNegative())
-        .value("separation_factor", &ContactSection::separationFactor, 9.9e99, "1",
-               "friction, approach: what lies farther apart than so many cells does not touch", input::positive())
-        .value("volume_constraint", &ContactSection::volumeConstraint, 0, "1",
-               "friction, approach: share of the volume around a node that bodies must fill to touch there",
-               input::nonNegative())
-        .optional(
-            "OneOrTwoStep", &ContactSection::steps, "1",
-            "1: acts on the velocities at the end of a step only; 2: on those at its start, too. Left out: 1 with "
-            "rigid and specified, else 2; with XPIC2 always 2",
-            input::between(1, 2))
-        .optional("ExcludeMaterial", &ContactSection::excluded, "1",
-                  "rigid, specified, single_velocity: does not act where this material is", input::nonNegative())
-        .ignored("vel_fields", "an old word for materials")
-        .ignored("rigid_material", "an old word for master_material")
-        .check(checkContact);
+    addKinds(contact);
+    addMaster(contact);
+    addFriction(contact);
+    contact.check(checkContact);
     refuseSwitch(contact, "normal_only", "friction_bard with mu 0 lets bodies slip");
-    refuseSwitch(contact, "include_rotation", "the master moves without turning");
-    refuseTag(contact, "condition", "give the times of a profile by <filename>");
-    refuseTag(contact, "conditionValue", "give the times of a profile by <filename>");
-    refuseTag(contact, "conditionAction", "give the times of a profile by <filename>");
-    refuseTag(contact, "variable_friction", "there is one <mu> for a contact");
+    for (const char* tag : {"condition", "conditionValue", "conditionAction"})
+      refuseTag(contact, tag, "give the times of a profile by <filename>");
     return contact;
   }();
   return schema;
 }
 
-/// The lines `time vx vy vz` of a file that stands beside the scene.
-std::vector<std::pair<double, Vec3>> readProfile(const Element& tag, const std::string& name,
-                                                 Diagnostics& diagnostics) {
-  const auto path = std::filesystem::path(tag.where().file).parent_path() / name;
+/// The numbers of a file that stands beside the scene, `columns` a line.
+std::vector<double> readTable(const Element& tag, const std::string& path, std::size_t columns,
+                              Diagnostics& diagnostics) {
   std::ifstream file(path);
   if (!file) {
-    diagnostics.error(tag, fmt::format("filename: '{}' cannot be read: there is no such file", path.string()));
+    diagnostics.error(tag, fmt::format("filename: '{}' cannot be read: there is no such file", path));
     return {};
   }
-  std::vector<std::pair<double, Vec3>> profile;
-  double t;
-  Vec3 v;
-  while (file >> t >> v[0] >> v[1] >> v[2]) {
-    if (!profile.empty() && t <= profile.back().first)
-      diagnostics.error(tag, fmt::format("filename: the times in '{}' do not ascend at {:g} s", path.string(), t));
-    profile.emplace_back(t, v);
+  std::vector<double> numbers;
+  for (double number; file >> number;) numbers.push_back(number);
+  if (columns > 4 && (numbers.size() % columns != 0 || !file.eof()))
+    diagnostics.error(tag, fmt::format("filename: '{}' needs {} numbers a line with <include_rotation>: `time vx vy vz "
+                                       "cx cy cz wx wy wz`",
+                                       path, columns));
+  return numbers;
+}
+
+/// Gives a contact the motion of its master, by a file.
+void readMotion(const Element& tag, const ContactSection& read, Contact& contact, Diagnostics& diagnostics) {
+  const std::string path = (std::filesystem::path(tag.where().file).parent_path() / read.profileFile).string();
+  const std::size_t columns = read.turns ? 10 : 4;
+  const std::size_t before = diagnostics.size();
+  const std::vector<double> numbers = readTable(tag, path, columns, diagnostics);
+  if (diagnostics.size() > before) return;
+  for (std::size_t k = 0; k + columns <= numbers.size(); k += columns) {
+    const double t = numbers[k];
+    const auto vector = [&](std::size_t first) {
+      return Vec3(numbers[k + first], numbers[k + first + 1], numbers[k + first + 2]);
+    };
+    if (!contact.profile.empty() && t <= contact.profile.back().first)
+      diagnostics.error(tag, fmt::format("filename: the times in '{}' do not ascend at {:g} s", path, t));
+    contact.profile.emplace_back(t, vector(1));
+    if (!read.turns) continue;
+    contact.centres.emplace_back(t, vector(4));
+    contact.angularVelocity.emplace_back(t, vector(7));
   }
-  if (profile.size() < 2)
-    diagnostics.error(tag, fmt::format("filename: '{}' has no two lines `time vx vy vz`", path.string()));
-  return profile;
+  if (contact.profile.size() < 2)
+    diagnostics.error(tag, fmt::format("filename: '{}' has no two lines `time vx vy vz`", path));
+}
+
+Contact::Type typeOf(Kind kind) {
+  if (kind == Kind::rigid || kind == Kind::specified) return Contact::Type::specified;
+  if (kind == Kind::specifiedFriction) return Contact::Type::specifiedFriction;
+  if (usesPlanes(kind)) return Contact::Type::planeFriction;
+  return slides(kind) ? Contact::Type::friction : Contact::Type::singleVelocity;
 }
 
 Contact settle(const ContactSection& read, const Element& tag, Diagnostics& diagnostics) {
   Contact contact;
-  const bool follows = read.kind == Kind::rigid || read.kind == Kind::specified;
-  contact.type = follows             ? Contact::Type::specified
-                 : slides(read.kind) ? Contact::Type::friction
-                                     : Contact::Type::singleVelocity;
-  contact.actsTwice = read.steps.value_or(follows ? 1 : 2) == 2;
+  contact.type = typeOf(read.kind);
+  contact.actsTwice = read.steps.value_or(hasMaster(read.kind) ? 1 : 2) == 2;
   contact.excluded = read.excluded.value_or(-1);
   contact.friction = read.friction.value_or(0);
+  if (read.frictionTable)
+    for (const FrictionEntry& entry : read.frictionTable->entries)
+      contact.frictionOfColor.emplace_back(entry.color, entry.friction);
   contact.onlyOnApproach = read.kind == Kind::approach;
   contact.keepsMomentum = read.kind == Kind::conservingFriction;
   contact.separationFactor = read.separationFactor;
@@ -156,7 +264,7 @@ Contact settle(const ContactSection& read, const Element& tag, Diagnostics& diag
   for (int axis = 0; axis < 3 && read.direction; ++axis) contact.direction[axis] = (*read.direction)[axis] != 0;
   contact.stopTime = read.stopTime;
   contact.velocityAfterStop = read.velocityAfterStop;
-  if (!read.profileFile.empty()) contact.profile = readProfile(tag, read.profileFile, diagnostics);
+  if (!read.profileFile.empty()) readMotion(tag, read, contact, diagnostics);
   return contact;
 }
 

@@ -10,8 +10,6 @@ namespace {
 constexpr double leastTraction = 1e-12;
 /// Mass gradients below it are not made normals of length 1, kg/m.
 constexpr double leastGradient = 1e-15;
-/// Below it a share of the mass at a node is what rounding has left of a body.
-constexpr double leastShare = 1e-14;
 
 /// All bodies that take part, seen from a node.
 template <int D>

@@ -13,7 +13,7 @@ struct Touch {
   bool isPressed;   ///< the stress presses on the surface
 };
 
-/// What friction does to a body at a node.
+/// The effect of friction on a body at a node.
 template <int D>
 struct FrictionImpulse {
   Vec<D> change = Vec<D>::Zero();  ///< of the velocity, m/s

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "components/mpm/particles/drawn.hpp"
+#include "components/mpm/solid/by_color.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -74,6 +75,13 @@ DamageState ThresholdDamage::initial(double volume, ParticleId id) const {
     default:
       return {0, mean, false};
   }
+}
+
+DamageState ThresholdVarDamage::initial(double volume, ParticleId id, double color) const {
+  ThresholdDamage own = *this;
+  own.mean = valueByColor(table.entries, color, &Entry::mean);
+  own.deviation = valueByColor(table.entries, color, &Entry::deviation);
+  return own.initial(volume, id);
 }
 
 bool ThresholdDamage::isBeyond(const DamageConditions& conditions, const Matrix3& stress, double threshold) const {

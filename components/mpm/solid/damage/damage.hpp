@@ -117,7 +117,23 @@ struct ThresholdDamage {
   bool isBeyond(const DamageConditions& conditions, const Matrix3& stress, double threshold) const;
 };
 
-using Damage = std::variant<NoDamage, JohnsonCookDamage, HancockMackenzieDamage, BrittleDamage, ThresholdDamage>;
+/// The same with a mean and a deviation by the p.color of the particles.
+struct ThresholdVarDamage : ThresholdDamage {
+  static constexpr std::string_view name = "ThresholdVar";
+  struct Entry {
+    double color = 0, mean = 0, deviation = 0;
+  };
+  struct Table {
+    std::vector<Entry> entries;  ///< in the order of their color
+  };
+  Table table;
+
+  static const input::Schema<ThresholdVarDamage>& schema();
+  DamageState initial(double volume, ParticleId id, double color) const;
+};
+
+using Damage = std::variant<NoDamage, JohnsonCookDamage, HancockMackenzieDamage, BrittleDamage, ThresholdDamage,
+                            ThresholdVarDamage>;
 
 /// Principal values, the least first.
 inline Vec3 principalValues(const Matrix3& tensor) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "components/mpm/solid/by_color.hpp"
 #include "core/input/refuse.hpp"
 
 namespace tushar::mpm::solid {
@@ -71,46 +72,98 @@ const Schema<BrittleDamage>& BrittleDamage::schema() {
   return schema;
 }
 
+/// A member of the model that Self extends.
+template <class Self, class T>
+T Self::*of(T ThresholdDamage::*member) {
+  return member;
+}
+
+/// The tags of the criterion, and of how the threshold differs from particle to particle.
+template <class Self>
+void declareThreshold(Schema<Self>& tags) {
+  using Base = ThresholdDamage;
+  using Criterion = Base::Criterion;
+  using Distribution = Base::Distribution;
+  tags.requiredChoice("failure_criteria", of<Self>(&Base::criterion),
+                      {{"MaximumPrincipalStress", Criterion::principalStress},
+                       {"MaximumPrincipalStrain", Criterion::principalStrain},
+                       {"MohrCoulomb", Criterion::mohrCoulomb},
+                       {"MohrColoumb", Criterion::mohrCoulomb}},
+                      "what is compared with the threshold")
+      .choice("failure_distrib", of<Self>(&Base::distribution),
+              {{"constant", Distribution::constant},
+               {"gauss", Distribution::gauss},
+               {"weibull", Distribution::weibull},
+               {"uniform", Distribution::uniform}},
+              Distribution::constant, "how the threshold differs from particle to particle")
+      .value("failure_seed", of<Self>(&Base::seed), 0, "1", "other numbers, other thresholds; not those of Uintah")
+      .choice("scaling", of<Self>(&Base::scalesWithVolume), {{"none", false}, {"kayenta", true}}, false,
+              "small particles bear more: (reference_volume / volume)^(1/exponent)")
+      .optional("reference_volume", of<Self>(&Base::referenceVolume), "m^3", "where nothing is scaled",
+                input::positive())
+      .optional("exponent", of<Self>(&Base::exponent), "1", "of the scaling; Weibull's modulus if left out",
+                input::positive())
+      .value("friction_angle", of<Self>(&Base::frictionAngle), 0, "degrees", "of MohrCoulomb", input::between(0, 89))
+      .value("tensile_cutoff_fraction_of_cohesion", of<Self>(&Base::tensileCutoff), 0, "1", "of MohrCoulomb",
+             input::nonNegative())
+      .value("LocalizeParticles", of<Self>(&Base::localizes), true, "1", "whether particles fail at all");
+}
+
+/// Checks the scaling of a threshold.
+void checkScaling(const ThresholdDamage& read, const Element& element, Diagnostics& diagnostics) {
+  if (!read.scalesWithVolume) return;
+  if (read.distribution == ThresholdDamage::Distribution::constant)
+    diagnostics.error(element, "scaling needs a <failure_distrib> that is not constant");
+  if (!read.referenceVolume) diagnostics.error(element, "scaling needs <reference_volume>");
+  if (!read.exponent && read.distribution != ThresholdDamage::Distribution::weibull)
+    diagnostics.error(element, "scaling needs <exponent>");
+}
+
 const Schema<ThresholdDamage>& ThresholdDamage::schema() {
   using Self = ThresholdDamage;
-  static const Schema<Self> schema =
-      Schema<Self>("damage_model", "A particle fails at once above a threshold.")
-          .requiredChoice("failure_criteria", &Self::criterion,
-                          {{"MaximumPrincipalStress", Criterion::principalStress},
-                           {"MaximumPrincipalStrain", Criterion::principalStrain},
-                           {"MohrCoulomb", Criterion::mohrCoulomb},
-                           {"MohrColoumb", Criterion::mohrCoulomb}},
-                          "what is compared with the threshold")
-          .required("failure_mean", &Self::mean, "Pa or 1", "mean of the threshold; the cohesion of MohrCoulomb",
+  static const Schema<Self> schema = [] {
+    Schema<Self> tags("damage_model", "A particle fails at once above a threshold.");
+    declareThreshold(tags);
+    tags.required("failure_mean", &Self::mean, "Pa or 1", "mean of the threshold; the cohesion of MohrCoulomb",
+                  input::positive())
+        .value("failure_std", &Self::deviation, 0, "Pa or 1", "standard deviation, half width, or Weibull's modulus",
+               input::nonNegative())
+        .check([](const Self& read, const Element& element, Diagnostics& diagnostics) {
+          if (read.distribution == Distribution::weibull && read.deviation <= 0)
+            diagnostics.error(element, "failure_distrib weibull needs <failure_std>, its modulus");
+          checkScaling(read, element, diagnostics);
+        });
+    return tags;
+  }();
+  return schema;
+}
+
+const Schema<ThresholdVarDamage>& ThresholdVarDamage::schema() {
+  using Self = ThresholdVarDamage;
+  static const Schema<Entry> entry =
+      Schema<Entry>("entry", "The threshold of the particles of a color.")
+          .required("color", &Entry::color, "1", "p.color of the particles")
+          .required("mean", &Entry::mean, "Pa or 1", "mean of the threshold; the cohesion of MohrCoulomb",
                     input::positive())
-          .choice("failure_distrib", &Self::distribution,
-                  {{"constant", Distribution::constant},
-                   {"gauss", Distribution::gauss},
-                   {"weibull", Distribution::weibull},
-                   {"uniform", Distribution::uniform}},
-                  Distribution::constant, "how the threshold differs from particle to particle")
-          .value("failure_std", &Self::deviation, 0, "Pa or 1", "standard deviation, half width, or Weibull's modulus",
-                 input::nonNegative())
-          .value("failure_seed", &Self::seed, 0, "1", "other numbers, other thresholds; not those of Uintah")
-          .choice("scaling", &Self::scalesWithVolume, {{"none", false}, {"kayenta", true}}, false,
-                  "small particles bear more: (reference_volume / volume)^(1/exponent)")
-          .optional("reference_volume", &Self::referenceVolume, "m^3", "where nothing is scaled", input::positive())
-          .optional("exponent", &Self::exponent, "1", "of the scaling; Weibull's modulus if left out",
-                    input::positive())
-          .value("friction_angle", &Self::frictionAngle, 0, "degrees", "of MohrCoulomb", input::between(0, 89))
-          .value("tensile_cutoff_fraction_of_cohesion", &Self::tensileCutoff, 0, "1", "of MohrCoulomb",
-                 input::nonNegative())
-          .value("LocalizeParticles", &Self::localizes, true, "1", "whether particles fail at all")
-          .check([](const Self& read, const Element& element, Diagnostics& diagnostics) {
-            if (read.distribution == Distribution::weibull && read.deviation <= 0)
-              diagnostics.error(element, "failure_distrib weibull needs <failure_std>, its modulus");
-            if (read.scalesWithVolume && read.distribution == Distribution::constant)
-              diagnostics.error(element, "scaling needs a <failure_distrib> that is not constant");
-            if (read.scalesWithVolume && !read.referenceVolume)
-              diagnostics.error(element, "scaling needs <reference_volume>");
-            if (read.scalesWithVolume && !read.exponent && read.distribution != Distribution::weibull)
-              diagnostics.error(element, "scaling needs <exponent>");
-          });
+          .required("std", &Entry::deviation, "Pa or 1", "standard deviation, half width, or Weibull's modulus",
+                    input::nonNegative());
+  static const Schema<Table> byColor =
+      Schema<Table>("variable_properties", "Thresholds by p.color, linear between the entries.")
+          .list("entry", &Table::entries, entry, "of a color, in the order of the colors", 1);
+  static const Schema<Self> schema = [] {
+    Schema<Self> tags("damage_model", "A particle fails at once above a threshold by its color.");
+    declareThreshold(tags);
+    tags.requiredSection("variable_properties", &Self::table, byColor)
+        .check([](const Self& read, const Element& element, Diagnostics& diagnostics) {
+          if (!growsInColor(read.table.entries))
+            diagnostics.error(element, "variable_properties: <color> must grow from one entry to the next");
+          for (const Entry& one : read.table.entries)
+            if (read.distribution == Distribution::weibull && one.deviation <= 0)
+              diagnostics.error(element, "failure_distrib weibull needs a <std>, its modulus, in every entry");
+          checkScaling(read, element, diagnostics);
+        });
+    return tags;
+  }();
   return schema;
 }
 
@@ -193,8 +246,7 @@ void readDamage(Material& material, const Element& parent, Diagnostics& diagnost
 }
 
 std::vector<input::TagForm> damageForms() {
-  return {input::sectionForm({"damage_model"}, input::TypedTag<Damage>::alternatives),
-          input::sectionForm({"erosion"}, [] {
+  return {input::onceForm("damage_model", input::TypedTag<Damage>::alternatives), input::onceForm("erosion", [] {
             return std::vector<input::Alternative>{{&erosionSchema(), {}}};
           })};
 }

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 
-#include "components/mpm/shapes/cpdi_shape.hpp"
-#include "components/mpm/solid/explicit/solid_mpm.hpp"
+#include "components/mpm/solid/explicit/interpolators.hpp"
 #include "components/mpm/solid/loads/load_input.hpp"
 #include "components/mpm/solid/material_input.hpp"
 #include "components/mpm/solid/scene_input.hpp"
@@ -21,8 +21,6 @@ using input::Schema;
 
 namespace {
 
-enum class Interpolator { linear, gimp, cpdi, quadratic, cubic };
-
 const input::Choices<Interpolator> interpolators{{"linear", Interpolator::linear},
                                                  {"gimp", Interpolator::gimp},
                                                  {"cpdi", Interpolator::cpdi},
@@ -34,7 +32,8 @@ struct MpmSection {
   int integrator = 0;
   Interpolator interpolator = Interpolator::linear;
   bool artificialViscosity = false, withColor = false, axisymmetric = false, useLoadCurves = false;
-  bool conductsHeat = true, xpic = false, affine = false, contactHeats = false, sharesVolume = false;
+  bool conductsHeat = true, loadsAtCorners = false, xpic = false, affine = false, projectsGradient = false,
+       contactHeats = false, sharesVolume = false, turnsPressures = false;
   std::optional<bool> viscosityHeats;
   double picFraction = 0;
   StressUpdate stressUpdate = StressUpdate::last;
@@ -43,6 +42,8 @@ struct MpmSection {
   double minimumParticleMass = 0, minimumMassForAcceleration = 0;
   std::optional<double> maximumParticleVelocity;
   int minimumSubcycles = 1;
+  bool momentumForm = false, prescribesDeformation = false;
+  std::string deformationFile;
 };
 
 /// What works against compression and motion.
@@ -67,8 +68,10 @@ void addLimits(Schema<MpmSection>& mpm) {
              "a node lighter than that is only accelerated by gravity", input::nonNegative())
       .optional("maximum_particle_velocity", &MpmSection::maximumParticleVelocity, "m/s",
                 "a particle that becomes faster is slowed down to 9/10 of it", input::positive())
-      .value("minimum_subcycles_for_F", &MpmSection::minimumSubcycles, 1, "1",
-             "least number of parts in which a step changes the deformation gradient", input::atLeast(1));
+      .value(
+          "minimum_subcycles_for_F", &MpmSection::minimumSubcycles, 1, "1",
+          "least number of parts in which a step changes the deformation gradient; -n: the exponential series of L dt "
+          "up to its power n takes their place");
 }
 
 /// When stresses are brought forward, and how velocities go from the grid to the particles.
@@ -80,12 +83,27 @@ void addUpdates(Schema<MpmSection>& mpm) {
              "the grid's velocity at the start")
       .ours()
       .value("XPIC2", &MpmSection::xpic, false, "1", "velocities by extended PIC of order 2")
+      .value("UseGradientEnhancedVelocityProjection", &MpmSection::projectsGradient, false, "1",
+             "a particle gives each node the velocity that its velocity gradient makes there; without conduction of "
+             "heat")
       .value("pic_fraction", &MpmSection::picFraction, 0, "1",
              "share of the grid's own velocity in what particles get; the rest is FLIP", input::between(0, 1))
       .ours()
       .value("apic", &MpmSection::affine, false, "1",
              "affine particle-in-cell: particles take the grid's velocity and a moment of it that keeps rotation")
-      .ours();
+      .ours()
+      .value("UseMomentumForm", &MpmSection::momentumForm, false, "1",
+             "of older versions of Uintah: true is <stress_update> musl");
+}
+
+/// Bodies that are driven through a deformation.
+void addPrescribedDeformation(Schema<MpmSection>& mpm) {
+  mpm.value("UsePrescribedDeformation", &MpmSection::prescribesDeformation, false, "1",
+            "all bodies move as <PrescribedDeformationFile> says, whatever their stress")
+      .value("PrescribedDeformationFile", &MpmSection::deformationFile, "time_defgrad_rotation", "1",
+             "a file of points in time, each 14 numbers: time (s), the components of the deformation gradient row by "
+             "row, and the angle (degrees) and axis of a rotation on the way there");
+  refuseSwitch(mpm, "exactDeformation", "give <Time> a delt_max that leads from point to point");
 }
 
 /// The space, what acts from outside, and heat.
@@ -96,6 +114,12 @@ void addSurroundings(Schema<MpmSection>& mpm) {
           "DoPressureStabilization", &MpmSection::sharesVolume, false, "1",
           "the particles of a cell change their volume as one, so that a nearly incompressible body can bend and shear")
       .value("use_load_curves", &MpmSection::useLoadCurves, false, "1", "the loads of <PhysicalBC> act")
+      .value("use_CBDI_boundary_condition", &MpmSection::loadsAtCorners, false, "1",
+             "pressures act at the corners of the faces of particles, and grow with these (Sadeghirad, Brannon & "
+             "Guilkey 2013). As in Uintah a particle without a face within 26 degrees of the surface bears none, and a "
+             "<torque> acts only where a pressure does, there four times")
+      .value("keepPressBCNormalToSurface", &MpmSection::turnsPressures, false, "1",
+             "pressures turn with the particles they act on; else they keep their direction of the start")
       .value("DoExplicitHeatConduction", &MpmSection::conductsHeat, true, "1", "heat is conducted")
       .value("do_contact_friction_heating", &MpmSection::contactHeats, false, "1",
              "friction between materials heats them, where heat is conducted")
@@ -115,13 +139,22 @@ void checkDissipation(const MpmSection& read, const Element& element, Diagnostic
 }
 
 void checkUpdates(const MpmSection& read, const Element& element, Diagnostics& diagnostics) {
-  const bool hasAxisymmetric = read.interpolator == Interpolator::linear || read.interpolator == Interpolator::gimp;
-  if (read.axisymmetric && !hasAxisymmetric)
-    diagnostics.error(element, "axisymmetric: only with the interpolators linear and gimp");
+  const bool isSpline = read.interpolator == Interpolator::quadratic || read.interpolator == Interpolator::cubic;
+  if (read.axisymmetric && isSpline)
+    diagnostics.error(element, "axisymmetric: only with the interpolators linear, gimp and cpdi");
   if (read.affine && (read.axisymmetric || read.interpolator == Interpolator::cpdi))
     diagnostics.error(element, "apic: neither with axisymmetric nor with the interpolator cpdi; use XPIC2");
+  if (read.projectsGradient && (read.affine || read.axisymmetric || read.stressUpdate != StressUpdate::last))
+    diagnostics.error(element,
+                      "UseGradientEnhancedVelocityProjection: only with stress_update usl, without "
+                      "axisymmetric and apic");
+  if (read.projectsGradient && read.conductsHeat)
+    diagnostics.error(element,
+                      "UseGradientEnhancedVelocityProjection: temperatures do not go to the grid with their "
+                      "gradients; set <DoExplicitHeatConduction> to false");
   if (read.affine && read.stressUpdate != StressUpdate::last)
     diagnostics.error(element, "apic: only with stress_update usl");
+  if (read.momentumForm && read.affine) diagnostics.error(element, "UseMomentumForm: not with apic");
   if (read.affine + read.xpic + (read.picFraction > 0) > 1)
     diagnostics.error(element, "apic, XPIC2 and pic_fraction are three ways to take the velocity: pick one");
 }
@@ -143,11 +176,18 @@ constexpr std::array implicitOnly{"with_gauss_solver",
                                   "delT_increase_factor",
                                   "temperature_solve"};
 
-/// Uintah divides domains that become longer than so many cells; its default is 1e10.
-void refuseShortDomains(MpmSection&, const Element& element, Diagnostics& diagnostics) {
+/// Uintah shrinks domains with a corner farther from the middle than so many cells, but for axisymmetric ones. Here
+/// none reaches farther than a cell along an axis, so that its corners are at most 3^(1/2) cells away.
+void refuseShortDomains(MpmSection& read, const Element& element, Diagnostics& diagnostics) {
   const auto given = element.child("cpdi_lcrit");
-  if (given && input::parse<double>(given->text()).value.value_or(0) < 1e10)
-    diagnostics.error(*given, "is not available; domains of cpdi keep the size that the deformation gives them");
+  if (!given || read.interpolator != Interpolator::cpdi) return;
+  const auto longest = input::parse<double>(given->text()).value;
+  if (!longest) return diagnostics.error(*given, "'" + given->text() + "' is not a number");
+  if (read.axisymmetric) return diagnostics.note(*given, "means nothing where axisymmetric, as in Uintah");
+  if (*longest < std::numbers::sqrt3)
+    diagnostics.error(*given,
+                      "less than 3^(1/2) is not available; a domain of cpdi that reaches farther than a cell "
+                      "from its middle along an axis is shrunk to that");
 }
 
 /// What Uintah has and this method has not, or always does.
@@ -157,7 +197,7 @@ void addForeign(Schema<MpmSection>& mpm) {
   requireSwitch(mpm, "computeColinearNormals", "both sides of a contact have one normal");
   requireSwitch(mpm, "do_grid_reset", "the grid is where it was at the start of each step");
   mpm.custom("cpdi_lcrit", refuseShortDomains, {"cpdi_lcrit"},
-             "only 1e10 and more: domains of cpdi keep the size that the deformation gives them")
+             "at least 3^(1/2): no domain of cpdi reaches farther than a cell from its middle along an axis")
       .forms({input::typeForm({"cpdi_lcrit"}, std::string(input::typeName<double>))});
 }
 
@@ -172,6 +212,7 @@ const Schema<MpmSection>& mpmSchema() {
     addDissipation(mpm);
     addLimits(mpm);
     addUpdates(mpm);
+    addPrescribedDeformation(mpm);
     addSurroundings(mpm);
     mpm.check(checkDissipation).check(checkUpdates);
     addForeign(mpm);
@@ -183,30 +224,8 @@ const Schema<MpmSection>& mpmSchema() {
 std::unique_ptr<Component> makeComponent(const Level& level, Interpolator interpolator, Problem problem) {
   settleParticles(level, problem);
   problem.start.domainsDeform = interpolator == Interpolator::cpdi;
-  const auto make = [&]<template <int> class Shape>() -> std::unique_ptr<Component> {
-    if (level.dimension() == 1) return std::make_unique<SolidMpm<Shape<1>>>(problem);
-    if (level.dimension() == 2) return std::make_unique<SolidMpm<Shape<2>>>(problem);
-    return std::make_unique<SolidMpm<Shape<3>>>(problem);
-  };
-  const auto makeAxisymmetric = [&]<template <int> class Shape>() -> std::unique_ptr<Component> {
-    if (level.dimension() == 1) return std::make_unique<SolidMpm<Shape<1>>>(problem);
-    return std::make_unique<SolidMpm<Shape<2>>>(problem);
-  };
-  if (problem.start.axisymmetric)
-    return interpolator == Interpolator::linear ? makeAxisymmetric.template operator()<AxisymmetricLinearShape>()
-                                                : makeAxisymmetric.template operator()<AxisymmetricGimpShape>();
-  switch (interpolator) {
-    case Interpolator::linear:
-      return make.template operator()<LinearShape>();
-    case Interpolator::gimp:
-      return make.template operator()<GimpShape>();
-    case Interpolator::cpdi:
-      return make.template operator()<CpdiShape>();
-    case Interpolator::quadratic:
-      return make.template operator()<QuadraticShape>();
-    default:
-      return make.template operator()<CubicShape>();
-  }
+  const MakeSolids make = solidsOf(interpolator, problem.start.axisymmetric);
+  return make(level.dimension(), problem);
 }
 
 Method settle(const MpmSection& read, const PhysicalConstants& constants) {
@@ -218,14 +237,62 @@ Method settle(const MpmSection& read, const PhysicalConstants& constants) {
   method.maximumParticleVelocity = read.maximumParticleVelocity;
   method.minimumSubcyclesForF = read.minimumSubcycles;
   method.conductsHeat = read.conductsHeat;
-  method.stressUpdate = read.stressUpdate;
+  method.stressUpdate = read.momentumForm ? StressUpdate::modifiedLast : read.stressUpdate;
   method.picFraction = read.affine ? 1 : read.picFraction;
   method.xpic = read.xpic;
   method.affine = read.affine;
+  method.projectsGradient = read.projectsGradient;
   method.viscosityHeats = read.artificialViscosity && read.viscosityHeats.value_or(true);
   method.contactHeats = read.contactHeats;
+  method.loadsAtCorners = read.loadsAtCorners;
   method.sharesVolume = read.sharesVolume;
+  method.turnsPressures = read.turnsPressures;
   return method;
+}
+
+/// The motion of all bodies, where the scene prescribes one.
+std::shared_ptr<const PrescribedDeformation> readMotion(const MpmSection& read, const Element& root,
+                                                        Diagnostics& diagnostics) {
+  if (!read.prescribesDeformation) return {};
+  const auto file = root.child("MPM")->child("PrescribedDeformationFile");
+  if (read.axisymmetric)
+    diagnostics.error(root.child("MPM")->child("axisymmetric").value(), "not with UsePrescribedDeformation");
+  const auto motion =
+      readPrescribedDeformation(read.deformationFile, (file ? *file : *root.child("MPM")).where(), diagnostics);
+  return motion ? std::make_shared<PrescribedDeformation>(*motion) : nullptr;
+}
+
+/// Throws InputError where a scene whose <MPM> stands at `where` leaves out an axis along which bodies are deformed.
+void refuseFlat(const Level& level, const Location& where) {
+  if (level.dimension() < 3)
+    throw InputError({{where, "MPM/UsePrescribedDeformation",
+                       "needs a grid in three dimensions: more than one cell along x, y and z"}});
+}
+
+/// With use_CBDI_boundary_condition pressures say which faces of particles they act on.
+void checkCorners(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
+  const auto loads = root.child("PhysicalBC");
+  if (!problem.method.loadsAtCorners || !loads) return;
+  if (problem.method.turnsPressures)
+    diagnostics.error(root.child("MPM")->child("keepPressBCNormalToSurface").value(),
+                      "not with <use_CBDI_boundary_condition>");
+  if (!problem.start.loads.bodies.empty())
+    diagnostics.error(*loads, "force: not with <use_CBDI_boundary_condition>, where pressures and torques act alone");
+  for (const Element& pressure : loads->child("MPM").value().children("pressure"))
+    if (!pressure.child("outward_normal"))
+      diagnostics.error(pressure, "missing tag <outward_normal>: needed with <use_CBDI_boundary_condition>");
+}
+
+/// What contacts cannot have together with other parts of the method.
+void checkContactsOfMethod(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
+  for (const Contact& contact : problem.contacts) {
+    if (problem.start.axisymmetric && contact.volumeConstraint > 0 && !contact.usesPlanes())
+      diagnostics.error(root.child("MPM")->child("axisymmetric").value(),
+                        "volume_constraint of <contact> compares volumes, which are per radian here: leave it out");
+    if (problem.method.stressUpdate == StressUpdate::first && contact.usesPlanes())
+      diagnostics.error(root.child("MPM")->child("stress_update").value(),
+                        "contacts of type friction_LR, friction_LRVar and specified_friction only with usl and musl");
+  }
 }
 
 /// Loads that something else in the scene would put out of effect.
@@ -242,31 +309,28 @@ void checkLoads(const Problem& problem, const Element& root, Diagnostics& diagno
     diagnostics.error(root.child("PhysicalBC").value(), "heat_flux: needs <DoExplicitHeatConduction> true");
 }
 
-}  // namespace
-
+/// Reads a scene of solids; every problem goes to the diagnostics.
 simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.size();
   const MpmSection read = simulation::readSection(root, mpmSchema(), diagnostics);
-  const auto constants = root.child("PhysicalConstants");
-  const Method method = settle(read, constants ? constantsSchema().read(*constants, diagnostics) : PhysicalConstants{});
+  const Method method = settle(read, simulation::readOptionalSection(root, constantsSchema(), diagnostics));
   const MaterialProperties properties = simulation::readSection(root, propertiesSchema(), diagnostics);
   if (diagnostics.size() > before) return {};
   Problem problem{method, properties.mpm.materials, properties.mpm.contacts, {}};
   for (Contact& contact : problem.contacts) {
-    contact.actsTwice = contact.actsTwice || read.xpic;
+    contact.actsTwice = contact.actsTwice || (read.xpic && contact.type != Contact::Type::planeFriction);
     contact.normalsInCells = read.axisymmetric;
   }
   problem.method.thermalContact = properties.mpm.thermalContact.has_value();
   problem.start = {read.axisymmetric, readLoads(root, read.useLoadCurves, diagnostics),
                    makeManufactured(read.manufactured)};
   problem.start.leastMass = read.minimumParticleMass;
+  problem.motion = readMotion(read, root, diagnostics);
   nameMaterials(problem.materials);
   checkHeat(problem, root, diagnostics);
   checkLoads(problem, root, diagnostics);
-  for (const Contact& contact : problem.contacts)
-    if (problem.start.axisymmetric && contact.volumeConstraint > 0)
-      diagnostics.error(root.child("MPM")->child("axisymmetric").value(),
-                        "volume_constraint of <contact> compares volumes, which are per radian here: leave it out");
+  checkCorners(problem, root, diagnostics);
+  checkContactsOfMethod(problem, root, diagnostics);
   for (const Material& material : problem.materials) {
     if (problem.start.solution && material.model->name() != "cnh_mms")
       diagnostics.error(root.child("MPM")->child("RunMMSProblem").value(),
@@ -276,17 +340,31 @@ simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostic
   if (diagnostics.size() > before) return {};
   return [interpolator = read.interpolator, problem, where = root.child("MPM")->where()](const Level& level) {
     if (problem.start.axisymmetric) refuseCellsAround(level, where);
+    if (problem.motion) refuseFlat(level, where);
     return makeComponent(level, interpolator, problem);
   };
 }
 
-std::vector<simulation::SectionForm> forms() { return sectionForms(mpmSchema()); }
+/// The sections of such a scene, for the schemas of editors.
+std::vector<std::vector<simulation::SectionForm>> forms() { return {sectionForms(mpmSchema())}; }
 
 void describe(std::ostream& out) {
   mpmSchema().describe(out);
   constantsSchema().describe(out);
   propertiesSchema().describe(out);
   describeLoads(out);
+}
+
+}  // namespace
+
+simulation::ComponentKind kind() {
+  simulation::ComponentKind kind;
+  kind.name = "mpm";
+  kind.read = readScene;
+  kind.forms = forms;
+  kind.describe = describe;
+  kind.nodesBeyond = nodesBeyond;
+  return kind;
 }
 
 }  // namespace tushar::mpm::solid

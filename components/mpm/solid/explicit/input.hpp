@@ -4,13 +4,7 @@
 
 namespace tushar::mpm::solid {
 
-/// Reads a scene of solids; every problem goes to the diagnostics.
-simulation::MakeComponent readScene(const input::Element& root, input::Diagnostics& diagnostics);
-
-/// The sections of such a scene, for the schemas of editors.
-std::vector<simulation::SectionForm> forms();
-
-/// The manual.
-void describe(std::ostream& out);
+/// Solids with explicit time steps, as a part of the component mpm.
+simulation::ComponentKind kind();
 
 }  // namespace tushar::mpm::solid

@@ -1,12 +1,12 @@
 #pragma once
 
-#include "components/mpm/solid/labels.hpp"
+#include "components/mpm/solid/transfer/extent.hpp"
 
 namespace tushar::mpm::solid {
 
-/// Which particle variables a scene has besides those of every scene: known once its materials are.
+/// Which optional particle variables a scene has; its materials decide.
 struct Keeps {
-  bool sizes = false;                            ///< p.size: particles do not all start with one size
+  KeptSizes sizes;                               ///< p.size or p.domain: particles do not all start with one size
   bool stress = false;                           ///< p.stress and p.volume: some stress is not a function of F alone
   bool temperature = false;                      ///< p.temperature: some stress depends on it
   bool temperatureChange = false;                ///< the work of a step changes the temperature

@@ -4,12 +4,15 @@
 #include "components/mpm/solid/explicit/schedule_heat.hpp"
 #include "components/mpm/solid/explicit/solid_mpm.hpp"
 #include "components/mpm/solid/explicit/tasks/affine.hpp"
+#include "components/mpm/solid/explicit/tasks/corner_loads.hpp"
 #include "components/mpm/solid/explicit/tasks/exchange_momentum.hpp"
 #include "components/mpm/solid/explicit/tasks/friction.hpp"
+#include "components/mpm/solid/explicit/tasks/gradient_enhanced.hpp"
 #include "components/mpm/solid/explicit/tasks/integrate_acceleration.hpp"
 #include "components/mpm/solid/explicit/tasks/interpolate_particles_to_grid.hpp"
 #include "components/mpm/solid/explicit/tasks/interpolate_to_particles_and_update.hpp"
 #include "components/mpm/solid/explicit/tasks/measure_work.hpp"
+#include "components/mpm/solid/explicit/tasks/prescribe_motion.hpp"
 #include "components/mpm/solid/explicit/tasks/stable_time_step.hpp"
 #include "components/mpm/solid/explicit/tasks/update_in_parts.hpp"
 #include "components/mpm/solid/explicit/tasks/velocity_updates.hpp"
@@ -18,6 +21,7 @@
 #include "components/mpm/solid/tasks/damage.hpp"
 #include "components/mpm/solid/tasks/diagnose.hpp"
 #include "components/mpm/solid/tasks/displacement.hpp"
+#include "components/mpm/solid/tasks/nonlocal.hpp"
 #include "components/mpm/solid/tasks/show_grid.hpp"
 
 // The schedule of SolidMpm: included by the files that instantiate it, one for each kind of shape function.
@@ -48,6 +52,9 @@ void SolidMpm<Shape>::scheduleInitialize(TaskList& tasks) const {
                     requiresNew(p::velocity<D>), requiresNew(p::temperature), requiresNew(p::deformationMeasure),
                     computes(c::stableTimeStep));
   if (keeps_stress_) scheduleInitialStress(tasks, problem_.materials, state_);
+  if (hasPlanes())
+    tasks.perMaterial("mpm::findSurface", findSurface<D>, problem_.materials, requiresNew(p::x<D>),
+                      computes(p::surface));
   if (problem_.method.affine)
     tasks.perMaterial("mpm::initializeAffineMoment", initializeAffineMoment, problem_.materials, requiresNew(p::mass),
                       computes(p::affineMoment));
@@ -93,6 +100,7 @@ void SolidMpm<Shape>::scheduleTimeAdvance(TaskList& tasks) const {
                       modifies(p::velocity<D>));
   if (heats_) scheduleHeatOfWork(tasks, problem_.materials, problem_.method.conductsHeat);
   scheduleStrainWork(tasks);
+  scheduleNonlocalPlasticity(tasks);
   tasks.perMaterial("mpm::addDisplacement", addDisplacement<D>, problem_.materials, requiresOld(p::x<D>),
                     requiresNew(p::x<D>), requiresOld(p::displacement<D>), computes(p::displacement<D>));
   tasks.relocate(p::x<D>, problem_.materials);
@@ -104,9 +112,14 @@ void SolidMpm<Shape>::scheduleApplyExternalLoads(TaskList& tasks) const {
     tasks.perMaterial("mpm::applyExternalLoads", applyManufacturedForce<D>, problem_.materials,
                       with(problem_.start.solution.get()), startTime(), requiresOld(p::x<D>),
                       requiresOld(p::displacement<D>), requiresOld(p::mass), computes(p::externalForce<D>));
+  else if (problem_.method.loadsAtCorners)
+    tasks.perMaterial("mpm::applyExternalLoads", applyLoadsAtCorners<D>, problem_.materials, with(problem_.start.loads),
+                      with(problem_.method.commonSize), startTime(), all<LoadedParticles<D>>(boxSizes(), 0),
+                      computes(p::externalForce<D>));
   else
     tasks.perMaterial("mpm::applyExternalLoads", applyExternalLoads<D>, problem_.materials, with(problem_.start.loads),
                       startTime(), requiresOld(p::x<D>), requiresOld(p::mass), requiresOld(p::loadCurves),
+                      when(problem_.method.turnsPressures, requiresOld(p::deformationMeasure)),
                       computes(p::externalForce<D>));
 }
 
@@ -124,20 +137,29 @@ template <class Shape>
 template <class Reads>
 void SolidMpm<Shape>::scheduleInterpolateParticlesToGrid(TaskList& tasks, Reads stressed) const {
   const int reach = Shape::reach;
+  Keeps scattered = keeps();
+  scattered.externalForce = isLoaded() && !problem_.method.loadsAtCorners;
   tasks.perMaterial(
       "mpm::interpolateParticlesToGrid", interpolateParticlesToGrid<Shape>, problem_.materials,
-      with(problem_.method.commonSize), with(!problem_.contacts.empty()),
+      with(problem_.method.commonSize), with(!problem_.contacts.empty() || problem_.method.loadsAtCorners),
       all<MomentumSources<Shape>>(keepsSizes(), requiresOld(p::velocity<D>, reach),
                                   when(!keeps_stress_ || Shape::deforms, stressed(p::deformationMeasure, reach))),
-      all<ForceSources<Shape>>(keeps(), stressed), computesOwn(g::record));
+      all<ForceSources<Shape>>(scattered, stressed), computesOwn(g::record));
+  if (problem_.method.loadsAtCorners && isLoaded())
+    tasks.perMaterial("mpm::addLoadsAtCorners", addLoadsAtCorners<D>, problem_.materials, with(problem_.start.loads),
+                      with(problem_.method.commonSize), startTime(),
+                      all<LoadedParticles<D>>(boxSizes(), static_cast<int>(cornerReach)), modifies(g::record));
   if constexpr (!Shape::deforms && !Shape::axisymmetric)
     if (problem_.method.affine)
       tasks.perMaterial("mpm::addAffineVelocity", addAffineVelocity<Shape>, problem_.materials,
                         with(problem_.method.commonSize), all<Placed<Shape>>(keepsSizes(), reach),
                         requiresOld(p::mass, reach), requiresOld(p::affineMoment, reach), modifies(g::record));
-  if (!problem_.contacts.empty())
-    tasks.acrossMaterials("mpm::exMomInterpolated", exchangeMomentum<D>, problem_.materials, with(problem_.contacts),
-                          with(Moment::start), startTime(), modifies(g::record));
+  if (problem_.method.projectsGradient)
+    tasks.perMaterial("mpm::addVelocityGradient", addVelocityGradient<Shape>, problem_.materials,
+                      with(problem_.method.commonSize), all<Placed<Shape>>(keepsSizes(), reach),
+                      requiresOld(p::mass, reach), requiresOld(p::velocityGradient, reach), modifies(g::record));
+  if (hasPlanes()) scheduleSeparateBodies(tasks);
+  if (!problem_.contacts.empty()) scheduleContact(tasks, "mpm::exMomInterpolated", Moment::start, g::record);
   if (hasFriction()) scheduleFriction(tasks, "mpm::frictionInterpolated", Moment::start, g::record);
 }
 
@@ -165,7 +187,15 @@ void SolidMpm<Shape>::scheduleIntegrateAcceleration(TaskList& tasks) const {
   scheduleKeepVelocity(tasks, g::velocityOfContact<D>);
   tasks.perMaterial("mpm::setGridBoundaryConditions", setGridBoundaryConditions<Shape>, problem_.materials,
                     requiresOld(p::x<D>, Shape::reach), modifies(g::record));
+  schedulePrescribedMotion(tasks, g::record);
   if (transmitsForce()) scheduleTransmittedForce(tasks);
+}
+
+template <class Shape>
+void SolidMpm<Shape>::schedulePrescribedMotion(TaskList& tasks, const NodeLabel<NodeRecord>& record) const {
+  if (problem_.motion)
+    tasks.perMaterial("mpm::prescribeMotion", prescribeMotion<Shape>, problem_.materials, with(problem_.motion.get()),
+                      startTime(), requiresOld(p::x<D>, Shape::reach), modifies(record));
 }
 
 template <class Shape>
@@ -197,7 +227,7 @@ void SolidMpm<Shape>::scheduleStrainWork(TaskList& tasks) const {
 template <class Shape>
 void SolidMpm<Shape>::scheduleUpdateParticles(TaskList& tasks) const {
   tasks.perMaterial("mpm::interpolateToParticlesAndUpdate", interpolateToParticlesAndUpdate<Shape>, problem_.materials,
-                    with(problem_.method), requiresOld(delT), all<ParticleUpdate<Shape>>(keeps()));
+                    with(problem_.method), startTime(), requiresOld(delT), all<ParticleUpdate<Shape>>(keeps()));
   scheduleDamage(tasks);
 }
 
@@ -253,12 +283,11 @@ void SolidMpm<Shape>::scheduleInterpolateMomentum(TaskList& tasks, Reads moving)
                     with(problem_.method.commonSize),
                     all<MomentumSources<Shape>>(keepsSizes(), moving(p::velocity<D>, reach), shapedBy(old, reach)),
                     computesOwn(g::stressRecord));
-  if (!problem_.contacts.empty())
-    tasks.acrossMaterials("mpm::exMomOfStresses", exchangeMomentum<D>, problem_.materials, with(problem_.contacts),
-                          with(Moment::end), startTime(), modifies(g::stressRecord));
+  if (!problem_.contacts.empty()) scheduleContact(tasks, "mpm::exMomOfStresses", Moment::end, g::stressRecord);
   if (hasFriction()) scheduleFriction(tasks, "mpm::frictionOfStresses", Moment::end, g::stressRecord);
   tasks.perMaterial("mpm::setGridBoundaryConditionsOfStresses", setGridBoundaryConditions<Shape>, problem_.materials,
                     requiresOld(p::x<D>, reach), modifies(g::stressRecord));
+  schedulePrescribedMotion(tasks, g::stressRecord);
 }
 
 /// F and the stress, apart from the motion, with the velocity of `record`.
@@ -266,9 +295,21 @@ template <class Shape>
 void SolidMpm<Shape>::scheduleComputeStressTensor(TaskList& tasks, const NodeLabel<NodeRecord>& record) const {
   const auto body = problem_.method.sharesVolume ? computeStressTensor<Shape, Volumes::shared>
                                                  : computeStressTensor<Shape, Volumes::own>;
-  tasks.perMaterial("mpm::computeStressTensor", body, problem_.materials, with(problem_.method), requiresOld(delT),
-                    all<StateUpdate<Shape>>(keeps(), &record));
+  tasks.perMaterial("mpm::computeStressTensor", body, problem_.materials, with(problem_.method), startTime(),
+                    requiresOld(delT), all<StateUpdate<Shape>>(keeps(), &record));
   scheduleDamage(tasks);
+}
+
+/// The mean of the plastic strain around each particle, for the next step.
+template <class Shape>
+void SolidMpm<Shape>::scheduleNonlocalPlasticity(TaskList& tasks) const {
+  const int layers = problem_.method.nonlocalLayers;
+  if (layers == 0) return;
+  tasks.perMaterial("mpm::findPlasticIncrement", findPlasticIncrement, problem_.materials, with(state_size_),
+                    requiresNew(state_), computes(p::plasticIncrement));
+  tasks.perMaterial("mpm::averagePlasticIncrement", averagePlasticIncrement<D>, problem_.materials, with(layers),
+                    with(state_size_), requiresOld(p::x<D>, layers), requiresOld(p::volume, layers),
+                    requiresNew(p::plasticIncrement, layers), modifies(state_));
 }
 
 template <class Shape>

@@ -2,11 +2,35 @@
 
 #include "components/mpm/solid/explicit/solid_mpm.hpp"
 #include "components/mpm/solid/explicit/tasks/exchange_momentum.hpp"
+#include "components/mpm/solid/explicit/tasks/separate_bodies.hpp"
 #include "components/mpm/solid/explicit/tasks/transmit_force.hpp"
 
-// What contact at the end of a step, and materials that transmit its forces, add to the schedule of SolidMpm.
+// What contact, and materials that transmit its forces, add to the schedule of SolidMpm.
 
 namespace tushar::mpm::solid {
+
+/// The planes along which bodies slide.
+template <class Shape>
+void SolidMpm<Shape>::scheduleSeparateBodies(TaskList& tasks) const {
+  const auto& [materials, commonSize] = std::tie(problem_.materials, problem_.method.commonSize);
+  tasks.acrossMaterials("mpm::separateBodies", separateBodies<Shape>, materials, with(problem_.contacts),
+                        with(commonSize), requiresNew(g::record),
+                        all<PlaneSources<Shape>>(keepsSizes(), problem_.method.keepsSizes));
+  if (frictionHasColor())
+    tasks.perMaterial("mpm::interpolateColor", interpolateColor<Shape>, materials, with(commonSize),
+                      all<Placed<Shape>>(keepsSizes(), static_cast<int>(Shape::reach)),
+                      requiresOld(p::mass, Shape::reach), requiresOld(p::color, Shape::reach), requiresNew(g::record),
+                      computes(g::color));
+}
+
+/// Contacts other than friction by stresses, on the velocities of a record.
+template <class Shape>
+void SolidMpm<Shape>::scheduleContact(TaskList& tasks, const std::string& name, Moment moment,
+                                      const NodeLabel<NodeRecord>& record) const {
+  tasks.acrossMaterials(name, exchangeMomentum<D>, problem_.materials, with(problem_.contacts), with(moment),
+                        startTime(), requiresOld(delT), modifies(record),
+                        all<SeparatingPlane<D>>(hasPlanes(), frictionHasColor()));
+}
 
 template <class Shape>
 void SolidMpm<Shape>::scheduleContactAtEnd(TaskList& tasks) const {
@@ -14,7 +38,8 @@ void SolidMpm<Shape>::scheduleContactAtEnd(TaskList& tasks) const {
   if (problem_.contacts.empty() && !transmitsForce()) return;
   tasks.acrossMaterials("mpm::exMomIntegrated", exchangeMomentumAtEnd<D>, problem_.materials, with(problem_.contacts),
                         with(acceleration), startTime(), requiresOld(delT), modifies(g::record),
-                        computes(total::rigidReactionForce), when(transmitsForce(), computes(g::transmittedForce<D>)));
+                        all<SeparatingPlane<D>>(hasPlanes(), frictionHasColor()), computes(total::rigidReactionForce),
+                        when(transmitsForce(), computes(g::transmittedForce<D>)));
 }
 
 template <class Shape>

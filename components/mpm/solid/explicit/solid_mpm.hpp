@@ -45,17 +45,31 @@ class SolidMpm : public Solids {
   void scheduleFriction(TaskList& tasks, const std::string& name, Moment moment, const NodeLabel<NodeRecord>& record,
                         bool heats = false) const;
   void scheduleIntegrateAcceleration(TaskList& tasks) const;
+  void schedulePrescribedMotion(TaskList& tasks, const NodeLabel<NodeRecord>& record) const;
+  void scheduleSeparateBodies(TaskList& tasks) const;
+  void scheduleContact(TaskList& tasks, const std::string& name, Moment moment,
+                       const NodeLabel<NodeRecord>& record) const;
   void scheduleContactAtEnd(TaskList& tasks) const;
   void scheduleTransmittedForce(TaskList& tasks) const;
   void scheduleApplyExternalLoads(TaskList& tasks) const;
   void scheduleUpdateParticles(TaskList& tasks) const;
   void scheduleHeat(TaskList& tasks) const;
   void scheduleDamage(TaskList& tasks) const;
+  void scheduleNonlocalPlasticity(TaskList& tasks) const;
 
   bool isViscous() const { return problem_.method.viscosity.has_value(); }
+  template <class Holds>
+  bool anyContact(Holds&& holds) const {
+    return std::any_of(problem_.contacts.begin(), problem_.contacts.end(), holds);
+  }
   bool hasFriction() const {
-    return std::any_of(problem_.contacts.begin(), problem_.contacts.end(),
-                       [](const Contact& contact) { return contact.type == Contact::Type::friction; });
+    return anyContact([](const Contact& contact) { return contact.type == Contact::Type::friction; });
+  }
+  bool hasPlanes() const {
+    return anyContact([](const Contact& contact) { return contact.usesPlanes(); });
+  }
+  bool frictionHasColor() const {
+    return anyContact([](const Contact& contact) { return !contact.frictionOfColor.empty(); });
   }
   bool rubbingHeats() const { return hasFriction() && problem_.method.contactHeats && problem_.method.conductsHeat; }
   bool transmitsForce() const {
@@ -63,7 +77,15 @@ class SolidMpm : public Solids {
                        [](const Material& material) { return material.transmitsForce; });
   }
   bool isLoaded() const { return problem_.start.loads.hasForces() || problem_.start.solution || transmitsForce(); }
-  bool keepsSizes() const { return Shape::hasSize && problem_.method.keepsSizes; }
+  KeptSizes keepsSizes() const {
+    const bool domains = Shape::deforms && problem_.method.keepsDomains;
+    return {Shape::hasSize && problem_.method.keepsSizes && !domains, domains};
+  }
+  /// Of particles as boxes, whatever the shape functions ask for.
+  KeptSizes boxSizes() const {
+    const Method& method = problem_.method;
+    return {method.keepsSizes && !method.keepsDomains, method.keepsDomains};
+  }
   Keeps keeps() const {
     return {.sizes = keepsSizes(),
             .stress = keeps_stress_,

@@ -1,4 +1,4 @@
-#include "components/mpm/solid/explicit/schedule.hpp"
+#include "components/mpm/solid/explicit/make.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -9,3 +9,15 @@ template class SolidMpm<AxisymmetricGimpShape<1>>;
 template class SolidMpm<AxisymmetricGimpShape<2>>;
 
 }  // namespace tushar::mpm::solid
+
+namespace tushar::modules {
+
+using namespace mpm;
+using namespace mpm::solid;
+
+simulation::Catalogue mpm_solid_gimp() {
+  defineSolids(Interpolator::gimp, makeSolids<GimpShape>, makeAxisymmetricSolids<AxisymmetricGimpShape>);
+  return {};
+}
+
+}  // namespace tushar::modules

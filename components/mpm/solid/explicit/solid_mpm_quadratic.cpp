@@ -1,4 +1,4 @@
-#include "components/mpm/solid/explicit/schedule.hpp"
+#include "components/mpm/solid/explicit/make.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -7,3 +7,15 @@ template class SolidMpm<QuadraticShape<2>>;
 template class SolidMpm<QuadraticShape<3>>;
 
 }  // namespace tushar::mpm::solid
+
+namespace tushar::modules {
+
+using namespace mpm;
+using namespace mpm::solid;
+
+simulation::Catalogue mpm_solid_quadratic() {
+  defineSolids(Interpolator::quadratic, makeSolids<QuadraticShape>);
+  return {};
+}
+
+}  // namespace tushar::modules

@@ -94,12 +94,17 @@ const Schema<Section>& sectionSchema() {
         .ignored("minimum_particle_mass", "no particle is taken out")
         .ignored("maximum_particle_velocity", "no particle is slowed down");
     refuseSwitch(mpm, "artificial_viscosity", "only explicit steps have one");
+    refuseSwitch(mpm, "UsePrescribedDeformation", "explicit steps can be driven through a deformation");
+    refuseSwitch(mpm, "keepPressBCNormalToSurface", "a pressure keeps the direction of its surface at the start");
     refuseSwitch(mpm, "temperature_solve", "nodes take the mean temperature of their particles");
-    for (const char* tag : {"artificial_viscosity_coeff1", "artificial_viscosity_coeff2",
-                            "artificial_viscosity_heating", "minimum_mass_for_acc", "minimum_subcycles_for_F", "XPIC2",
-                            "do_contact_friction_heating", "cpdi_lcrit", "computeColinearNormals"})
+    for (const char* tag :
+         {"artificial_viscosity_coeff1", "artificial_viscosity_coeff2", "artificial_viscosity_heating",
+          "minimum_mass_for_acc", "minimum_subcycles_for_F", "XPIC2", "do_contact_friction_heating", "cpdi_lcrit",
+          "computeColinearNormals", "PrescribedDeformationFile", "exactDeformation", "UseMomentumForm",
+          "UseGradientEnhancedVelocityProjection"})
       mpm.ignored(tag, "as in Uintah, only explicit steps look at it");
     addForeignTags(mpm);
+    refuseSwitch(mpm, "use_CBDI_boundary_condition", "a pressure is shared among the particles at its surface");
     return mpm;
   }();
   return schema;
@@ -138,12 +143,12 @@ bool isMaster(const Problem& problem, int material) {
 void refuseWithoutTangent(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
   for (const Material& material : problem.materials)
     if (!material.model->hasTangent() && !isMaster(problem, material.index))
-      diagnostics.error(
-          root.child("MaterialProperties").value(),
-          "'" + material.name + "' is " + std::string(material.model->name()) +
-              ", which has no tangent: implicit time steps need one; take comp_neo_hook, "
-              "comp_mooney_rivlin, trans_iso_hyper, hypo_elastic, UCNH or elastic_plastic, or make it the "
-              "master of a <contact> of type rigid or specified");
+      diagnostics.error(root.child("MaterialProperties").value(),
+                        "'" + material.name + "' is " + std::string(material.model->name()) +
+                            ", which has no tangent: implicit time steps need one; take comp_neo_hook, "
+                            "comp_mooney_rivlin, trans_iso_hyper, visco_trans_iso_hyper, hypo_elastic, UCNH or "
+                            "elastic_plastic, or make it the "
+                            "master of a <contact> of type rigid or specified");
 }
 
 /// Whether a damage model counts damage without weakening the material.
@@ -173,9 +178,11 @@ void refuseExplicitOnly(const Problem& problem, const Element& root, Diagnostics
                             "<time_integrator> explicit; here <damage_model> hancock_mackenzie and johnson_cook count "
                             "damage, without <erosion>");
   for (const Contact& contact : problem.contacts) {
-    if (contact.type == Contact::Type::friction)
+    if (contact.type == Contact::Type::friction || contact.usesPlanes())
       diagnostics.error(where,
                         "contact: friction only with <time_integrator> explicit; here all materials move as one");
+    if (!contact.angularVelocity.empty())
+      diagnostics.error(where, "contact: include_rotation only with <time_integrator> explicit");
     if (contact.excluded >= 0)
       diagnostics.error(where, "contact: ExcludeMaterial only with <time_integrator> explicit");
     for (const Material& material : problem.materials)
@@ -222,14 +229,12 @@ std::unique_ptr<Component> makeComponent(const Level& level, const Problem& prob
   return std::make_unique<ImplicitMpm<Shape<3>>>(problem, method);
 }
 
-}  // namespace
-
+/// Reads a scene of solids with implicit time steps; every problem goes to the diagnostics.
 simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.size();
   const Section read = simulation::readSection(root, sectionSchema(), diagnostics);
-  const auto constants = root.child("PhysicalConstants");
   Problem problem;
-  if (constants) problem.method.gravity = constantsSchema().read(*constants, diagnostics).gravity;
+  problem.method.gravity = simulation::readOptionalSection(root, constantsSchema(), diagnostics).gravity;
   const MaterialProperties properties = simulation::readSection(root, propertiesSchema(), diagnostics);
   if (diagnostics.size() > before) return {};
   problem.materials = properties.mpm.materials;
@@ -257,13 +262,7 @@ simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostic
   };
 }
 
-bool isImplicit(const Element& root) {
-  const auto mpm = root.child("MPM");
-  const auto integrator = mpm ? mpm->child("time_integrator") : std::nullopt;
-  return integrator && integrator->text() == "implicit";
-}
-
-std::vector<simulation::SectionForm> forms() { return sectionForms(sectionSchema()); }
+}  // namespace
 
 simulation::ComponentKind implicitKind() {
   simulation::ComponentKind kind;
@@ -277,7 +276,7 @@ simulation::ComponentKind implicitKind() {
     propertiesSchema().describe(out);
     describeLoads(out);
   };
-  kind.forms = [] { return std::vector<std::vector<simulation::SectionForm>>{forms()}; };
+  kind.forms = [] { return std::vector<std::vector<simulation::SectionForm>>{sectionForms(sectionSchema())}; };
   kind.nodesBeyond = nodesBeyond;
   kind.read = readScene;
   return kind;

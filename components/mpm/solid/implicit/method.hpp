@@ -43,6 +43,10 @@ namespace p {
 using namespace solid::p;
 template <int D>
 inline constexpr ParticleLabel<Vec<D>> acceleration{"p.acceleration", "m/s^2", "acceleration at the end of the step"};
+template <int D>
+inline constexpr ParticleLabel<Vec<D>> deformedPosition{"p.xx", "m",
+                                                        "position; p.x is that at the start if "
+                                                        "do_grid_reset is false"};
 }  // namespace p
 namespace g {
 using namespace solid::g;

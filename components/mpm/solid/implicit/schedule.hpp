@@ -45,7 +45,7 @@ void ImplicitMpm<Shape>::scheduleStartingAcceleration(TaskList& tasks) const {
   }
   tasks.perMaterial("mpm::applyExternalLoads", applyExternalLoads<D>, problem_.materials, with(problem_.start.loads),
                     startTime(), requiresNew(p::x<D>), requiresNew(p::mass), requiresNew(p::loadCurves),
-                    modifies(p::externalForce<D>));
+                    when(false, requiresNew(p::deformationMeasure)), modifies(p::externalForce<D>));
   tasks.perRankAcrossMaterials("impm::accelerateAtStart", accelerateAtStart<Shape>, problem_.materials,
                                togetherOnRanks(), with(setup()), startTime(),
                                all<SolidParticles<Shape>>(AtStart(), &state_), computes(g::newAcceleration<D>));
@@ -121,6 +121,8 @@ void ImplicitMpm<Shape>::scheduleDiagnostics(TaskList& tasks) const {
   scheduleTotals<D>(tasks, problem_.materials, problem_.method, keepsSizes);
   tasks.perMaterial("mpm::sumVolume", sumParticles, problem_.materials, requiresOld(p::volume),
                     computes(total::volume));
+  tasks.perMaterial("impm::findDeformedPosition", findDeformedPosition<D>, problem_.materials, requiresOld(p::x<D>),
+                    when(!how_.resetsGrid, requiresOld(p::displacement<D>)), computes(p::deformedPosition<D>));
   for (const auto& view : state_views_) view->schedule(tasks, problem_.materials, state_size_, state_);
   scheduleShowOnGrid<Shape>(tasks, problem_.materials, problem_.method.commonSize, keepsSizes,
                             requiresOld(p::volume, Shape::reach), requiresOld(p::stress, Shape::reach));

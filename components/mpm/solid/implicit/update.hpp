@@ -77,7 +77,7 @@ void stressOfStep(const Patch& patch, const Material& material, PointStates& sta
   for (int p = 0; p < m.mass.owned(); ++p) {
     m.deformation[p] = states.deformation[p];
     m.stress[p] = states.stress[p];
-    m.volume[p] = m.mass[p] / material.density * m.deformation[p].determinant();
+    m.volume[p] = m.mass[p] / material.undeformedDensity() * m.deformation[p].determinant();
   }
 }
 
@@ -173,7 +173,7 @@ template <int D>
 void applyLoadsAtEnd(const Patch& patch, const Material& material, const Loads& loads, double time, double dt,
                      ParticleView<const Vec<D>> x, ParticleView<const double> mass, ParticleView<const int> loadCurves,
                      ParticleView<Vec<D>> externalForce) {
-  applyExternalLoads<D>(patch, material, loads, time + dt, x, mass, loadCurves, externalForce);
+  applyExternalLoads<D>(patch, material, loads, time + dt, x, mass, loadCurves, std::nullopt, externalForce);
 }
 
 }  // namespace tushar::mpm::solid::implicit

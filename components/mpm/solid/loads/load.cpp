@@ -1,5 +1,6 @@
 #include "components/mpm/solid/loads/load.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -42,6 +43,11 @@ struct CylinderPlace {
 /// Calls `visit(point)` for the position of each particle of a body, m.
 template <int D, class Visit>
 void forEachParticle(const grid::Level& level, const Body& body, Visit&& visit) {
+  if (body.seeds) {
+    for (const auto& [cell, seeds] : *body.seeds)
+      for (const Seed& seed : seeds) visit(seed.at);
+    return;
+  }
   grid::forEach<D>(level.cells(), [&](const Index<D>& cell) {
     forEachParticleIn<D>(level, body, cell, [&](const Index<D>&, const Vec3& point) { visit(point); });
   });
@@ -75,7 +81,8 @@ double areaOf(const Surface& surface) {
                     surface);
 }
 
-bool isAlong(const Surface& surface, const Vec3& point, const Vec3& spacing, bool forHeat) {
+bool isAlong(const Surface& surface, const Vec3& point, const Vec3& spacing, LoadKind kind) {
+  const bool forHeat = kind == LoadKind::heatFlux;
   return std::visit(
       Overloaded{
           [&](const input::Box& box) {
@@ -88,7 +95,8 @@ bool isAlong(const Surface& surface, const Vec3& point, const Vec3& spacing, boo
           },
           [&](const input::Cylinder& c) {
             const CylinderPlace place(c, point);
-            const double end = 1.2 * spacing.minCoeff(), side = forHeat ? 0.5 * spacing.norm() : end;
+            const double end = (kind == LoadKind::torque ? 0.9 : 1.2) * spacing.minCoeff(),
+                         side = forHeat ? 0.5 * spacing.norm() : end;
             const double height = (c.top - c.bottom).norm();
             if (isEnd(c)) return place.height >= -end && place.height <= height + end && place.radius <= c.radius;
             return place.height >= 0 && place.height <= height && std::abs(place.radius - c.radius) <= side;
@@ -107,14 +115,17 @@ Vec3 normalAt(const Surface& surface, const Vec3& point) {
                     surface);
 }
 
-bool SurfaceLoad::acts(const grid::Level& level, const Body& body, const Vec3& point) const {
+bool isAtSurface(const grid::Level& level, const Body& body, const Vec3& point) {
   const Vec3 spacing = particleSpacing(level, body);
-  if (!isAlong(surface, point, spacing, kind == Kind::heatFlux)) return false;
   const int axes = level.domain().resolution[2] > 1 ? 3 : 2;
   for (int d = 0; d < axes; ++d)
     for (const double side : {-1.0, 1.0})
       if (!body.shape->contains(point + side * spacing[d] * Vec3::Unit(d))) return true;
   return false;
+}
+
+bool SurfaceLoad::acts(const grid::Level& level, const Body& body, const Vec3& point) const {
+  return isAlong(surface, point, particleSpacing(level, body), kind) && isAtSurface(level, body, point);
 }
 
 double SurfaceLoad::weight(const Vec3& point) const {
@@ -123,10 +134,17 @@ double SurfaceLoad::weight(const Vec3& point) const {
 }
 
 double SurfaceLoad::share(const Vec3& point, double time) const {
-  return curve.at(time) * areaOf(surface) * weight(point) / particles;
+  const double area = kind == Kind::torque ? 1.0 : areaOf(surface);
+  return curve.at(time) * area * weight(point) / particles;
 }
 
-Vec3 SurfaceLoad::force(const Vec3& point, double time) const { return share(point, time) * normalAt(surface, point); }
+Vec3 SurfaceLoad::force(const Vec3& point, double time) const {
+  if (kind != Kind::torque) return share(point, time) * normalAt(surface, point);
+  const auto& cylinder = std::get<input::Cylinder>(surface);
+  const CylinderPlace place(cylinder, point);
+  if (place.radius == 0) return Vec3::Zero();
+  return share(point, time) / place.radius * place.outwards.cross((cylinder.top - cylinder.bottom).normalized());
+}
 
 namespace {
 
@@ -136,7 +154,9 @@ bool hasKind(const std::vector<SurfaceLoad>& loads, SurfaceLoad::Kind kind) {
 
 }  // namespace
 
-bool Loads::hasForces() const { return !bodies.empty() || hasKind(surfaces, SurfaceLoad::Kind::pressure); }
+bool Loads::hasForces() const {
+  return !bodies.empty() || hasKind(surfaces, LoadKind::pressure) || hasKind(surfaces, LoadKind::torque);
+}
 bool Loads::hasHeat() const { return hasKind(surfaces, SurfaceLoad::Kind::heatFlux); }
 
 Vec3 particleSpacing(const grid::Level& level, const Body& body) {

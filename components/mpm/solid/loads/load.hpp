@@ -21,33 +21,38 @@ struct LoadCurve {
 /// cylinder, or a sphere.
 using Surface = std::variant<input::Box, input::Cylinder, input::Sphere>;
 
+/// What a load on a surface brings.
+enum class LoadKind { pressure, torque, heatFlux };
+
 /// Area of a surface, m^2; per radian for the side or end of an axisymmetric cylinder.
 double areaOf(const Surface& surface);
 /// Whether a particle at `point`, whose neighbours are `spacing` away, lies along a surface, by Uintah's distances:
-/// from a box one spacing, along its thin axis or for heat along all axes; from a cylinder 1.2 of the least spacing, or
-/// for heat from its side half the length of the spacing vector; from a sphere that whole length.
-bool isAlong(const Surface& surface, const Vec3& point, const Vec3& spacing, bool forHeat);
+/// from a box one spacing, along its thin axis or for heat along all axes; from a cylinder 1.2 of the least spacing,
+/// for a torque 0.9 of it, or for heat from its side half the length of the spacing vector; from a sphere that whole
+/// length.
+bool isAlong(const Surface& surface, const Vec3& point, const Vec3& spacing, LoadKind kind);
 /// The direction in which a positive load pushes: the thin axis of a box, outwards, or along a cylinder to its top.
 Vec3 normalAt(const Surface& surface, const Vec3& point);
 
-/// A `PhysicalBC/MPM/pressure` or `heat_flux`: the particles at the surface share the force or heat of the whole area
-/// evenly, or on the end of an axisymmetric cylinder by their radius.
+/// A `PhysicalBC/MPM/pressure`, `torque` or `heat_flux`: the particles at the surface share the force or heat of the
+/// whole area, or the torque, evenly, or on the end of an axisymmetric cylinder by their radius.
 struct SurfaceLoad {
-  enum class Kind { pressure, heatFlux };
+  using Kind = LoadKind;
 
   Kind kind = Kind::pressure;
   Surface surface;
-  LoadCurve curve;       ///< Pa, or W/m^2
-  int material = -1;     ///< -1: all
-  Location where;        ///< in the scene
-  double particles = 0;  ///< sum of the weights of the particles at the surface, set by countParticles
+  LoadCurve curve;            ///< Pa, N m, or W/m^2
+  int material = -1;          ///< -1: all
+  Location where;             ///< in the scene
+  double particles = 0;       ///< sum of the weights of the particles at the surface, set by countParticles
+  bool outwardNormal = true;  ///< a pressure on faces of particles: on those towards normalAt; false: on the opposite
 
-  /// Whether a particle of a body is loaded: it lies along the surface, and at least one neighbouring particle would be
-  /// outside the body. On a grid of one cell along z neighbours along z do not count.
+  /// Whether a particle of a body is loaded: it lies along the surface of the load and at that of the body.
   bool acts(const grid::Level& level, const Body& body, const Vec3& point) const;
-  /// Force of a pressure on a particle, N.
+  /// Force of a pressure on a particle, N; of a torque T its share T / (n r) along r x axis, as in Uintah: a positive
+  /// one turns a right-handed screw from the top of the cylinder to its bottom.
   Vec3 force(const Vec3& point, double time) const;
-  /// Force or heat of a particle, N or W.
+  /// Force, torque or heat of a particle, N, N m or W.
   double share(const Vec3& point, double time) const;
   /// Weight of a particle among those at the surface: 1, or its radius, m.
   double weight(const Vec3& point) const;
@@ -72,8 +77,24 @@ struct Loads {
   bool hasHeat() const;
 };
 
+/// Calls `onSurface(load)` or `onBody(load)` for each load of a particle; `packed` holds their numbers as p.loadCurveID
+/// does.
+template <class OnSurface, class OnBody>
+void forEachLoad(const Loads& loads, int packed, OnSurface&& onSurface, OnBody&& onBody) {
+  for (int ids = packed; ids > 0; ids /= 256) {
+    const auto k = static_cast<std::size_t>(ids % 256 - 1);
+    if (k < loads.surfaces.size())
+      onSurface(loads.surfaces[k]);
+    else
+      onBody(loads.bodies[k - loads.surfaces.size()]);
+  }
+}
+
 /// The distance between the particles of a body along x, y, z, m.
 Vec3 particleSpacing(const grid::Level& level, const Body& body);
+/// Whether a particle that starts at `point` is at the surface of its body: at least one neighbouring particle would be
+/// outside. On a grid of one cell along z neighbours along z do not count.
+bool isAtSurface(const grid::Level& level, const Body& body, const Vec3& point);
 
 /// Sums the weights of the particles at the surface of each load into SurfaceLoad::particles.
 void countParticles(const grid::Level& level, const std::vector<Material>& materials, std::vector<SurfaceLoad>& loads);

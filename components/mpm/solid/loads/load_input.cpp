@@ -4,6 +4,7 @@
 
 #include "core/input/refuse.hpp"
 #include "core/input/schema.hpp"
+#include "core/simulation/by_dimension.hpp"
 
 namespace tushar::mpm::solid {
 
@@ -25,9 +26,10 @@ struct SurfaceSection {
   Location where;
   std::optional<Surface> surface;
   CurveSection curve;
+  std::optional<bool> outwardNormal;
 };
 struct LoadsSection {
-  std::vector<SurfaceSection> pressures, heatFluxes;
+  std::vector<SurfaceSection> pressures, torques, heatFluxes;
   std::vector<BodyLoad> forces;
 };
 struct PhysicalBC {
@@ -47,6 +49,7 @@ void readSurface(SurfaceSection& load, const Element& parent, Diagnostics& diagn
   load.where = parent.where();
   const auto object = parent.child("geom_object");
   const auto shapes = object ? object->children() : std::vector<Element>{};
+  if (object) input::refuseAttributes(*object, {}, diagnostics);
   if (shapes.size() != 1) return diagnostics.error(parent, "needs one <geom_object> with one shape: where it acts");
   if (shapes[0].name() == "box" && shapes[0].child("min")) {
     load.surface = boxSchema().read(shapes[0], diagnostics);
@@ -109,9 +112,12 @@ Schema<SurfaceSection> surfaceSchema(const std::string& name, const std::string&
   return Schema<SurfaceSection>(name, sentence)
       .custom("geom_object", readSurface, {"geom_object"},
               "a thin box, a cylinder or a sphere: particles along it and at the surface of their body are loaded")
-      .forms({input::sectionForm({"geom_object"}, placeAlternatives, 1)})
+      .forms({input::onceForm("geom_object", placeAlternatives, 1)})
       .requiredSection("load_curve", &SurfaceSection::curve, curveSchema())
-      .ignored("outward_normal", "the sign of the load says where to")
+      .optional("outward_normal", &SurfaceSection::outwardNormal, "1",
+                "needed for a pressure with <use_CBDI_boundary_condition>, where it acts on the faces of particles "
+                "towards the normal of the shape, or (false) on the opposite ones; else the sign of the load says "
+                "where to")
       .ignored("res", "particles are counted");
 }
 
@@ -130,6 +136,12 @@ void checkNumbers(const Element& loads, Diagnostics& diagnostics) {
 const Schema<PhysicalBC>& loadsSchema() {
   static const Schema<SurfaceSection> pressure =
       surfaceSchema("pressure", "Force per area, shared evenly among the particles at a surface of a body.");
+  static const Schema<SurfaceSection> torque =
+      surfaceSchema("torque", "A torque about the axis of a cylinder, shared evenly among the particles at its side.")
+          .check([](const SurfaceSection& read, const Element& element, Diagnostics& diagnostics) {
+            if (read.surface && !std::holds_alternative<input::Cylinder>(*read.surface))
+              diagnostics.error(element, "a torque acts on the side of a <cylinder> only");
+          });
   static const Schema<SurfaceSection> heatFlux =
       surfaceSchema("heat_flux", "Heat per area and time, shared evenly among the particles at a surface of a body.");
   static const Schema<BodyLoad> force =
@@ -140,14 +152,16 @@ const Schema<PhysicalBC>& loadsSchema() {
   static const Schema<LoadsSection> mpm = [] {
     Schema<LoadsSection> loads("MPM", "Loads on particles.");
     loads.list("pressure", &LoadsSection::pressures, pressure, "force per area on a surface")
+        .list("torque", &LoadsSection::torques, torque,
+              "N m; a positive one turns a right-handed screw from the top of the cylinder to its bottom, as in Uintah")
         .list("heat_flux", &LoadsSection::heatFluxes, heatFlux, "heat per area and time through a surface, inwards")
         .list("force", &LoadsSection::forces, force, "force per mass, at all times")
         .check([](const LoadsSection& read, const Element& element, Diagnostics& diagnostics) {
           checkNumbers(element, diagnostics);
-          if (read.pressures.size() + read.heatFluxes.size() + read.forces.size() > 127)
+          if (read.pressures.size() + read.torques.size() + read.heatFluxes.size() + read.forces.size() > 127)
             diagnostics.error(element, "there can be 127 loads");
         });
-    for (const char* tag : {"torque", "pressure_pts"}) refuseTag(loads, tag, "there are pressure, force and heat_flux");
+    refuseTag(loads, "pressure_pts", "there are pressure, torque, force and heat_flux");
     for (const char* tag : {"arches_heat_flux", "scalar_flux"}) refuseTag(loads, tag, "there is heat_flux");
     return loads;
   }();
@@ -160,20 +174,20 @@ const Schema<PhysicalBC>& loadsSchema() {
 
 Loads readLoads(const Element& root, bool usesCurves, Diagnostics& diagnostics) {
   Loads loads;
-  const auto section = root.child("PhysicalBC");
-  if (!section) return loads;
-  const LoadsSection read = loadsSchema().read(*section, diagnostics).mpm;
+  const LoadsSection read = simulation::readOptionalSection(root, loadsSchema(), diagnostics).mpm;
   loads.bodies = read.forces;
   const auto add = [&](const std::vector<SurfaceSection>& sections, SurfaceLoad::Kind kind) {
     for (const SurfaceSection& one : sections) {
       if (!one.surface || !usesCurves) continue;
       SurfaceLoad load{kind, *one.surface, {}, one.curve.material.value_or(-1), one.where};
+      load.outwardNormal = one.outwardNormal.value_or(true);
       for (const TimePoint& point : one.curve.points) load.curve.points.emplace_back(point.time, point.load);
       loads.surfaces.push_back(load);
     }
   };
-  add(read.pressures, SurfaceLoad::Kind::pressure);
-  add(read.heatFluxes, SurfaceLoad::Kind::heatFlux);
+  add(read.pressures, LoadKind::pressure);
+  add(read.torques, LoadKind::torque);
+  add(read.heatFluxes, LoadKind::heatFlux);
   return loads;
 }
 

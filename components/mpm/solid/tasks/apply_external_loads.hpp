@@ -1,37 +1,31 @@
 #pragma once
 
+#include "components/mpm/solid/constitutive/polar.hpp"
 #include "components/mpm/solid/loads/load.hpp"
 #include "components/mpm/solid/loads/manufactured.hpp"
 #include "components/mpm/solid/transfer/extent.hpp"
 
 namespace tushar::mpm::solid {
 
-/// Calls `onSurface(load)` or `onBody(load)` for each load of a particle; `packed` holds their numbers as p.loadCurveID
-/// does.
-template <class OnSurface, class OnBody>
-void forEachLoad(const Loads& loads, int packed, OnSurface&& onSurface, OnBody&& onBody) {
-  for (int ids = packed; ids > 0; ids /= 256) {
-    const auto k = static_cast<std::size_t>(ids % 256 - 1);
-    if (k < loads.surfaces.size())
-      onSurface(loads.surfaces[k]);
-    else
-      onBody(loads.bodies[k - loads.surfaces.size()]);
-  }
-}
-
-/// The force of loads on each particle at the start of the step.
+/// The force of loads on each particle at the start of the step. With `deformation` pressures turn with the body, by
+/// the rotation R of F = R U.
 template <int D>
 void applyExternalLoads(const Patch& patch, const Material&, const Loads& loads, double time,
                         ParticleView<const Vec<D>> x, ParticleView<const double> mass,
-                        ParticleView<const int> loadCurves, ParticleView<Vec<D>> externalForce) {
+                        ParticleView<const int> loadCurves, OptionalView<const Matrix3> deformation,
+                        ParticleView<Vec<D>> externalForce) {
   const Level& level = patch.level();
+  const auto turned = [&](int p, const Vec3& force) {
+    return deformation ? Vec3(rotationOf((*deformation)[p]) * force) : force;
+  };
   for (int p = 0; p < x.owned(); ++p) {
     externalForce[p] = Vec<D>::Zero();
     forEachLoad(
         loads, loadCurves[p],
         [&](const SurfaceLoad& load) {
-          if (load.kind == SurfaceLoad::Kind::pressure)
-            externalForce[p] += level.reduce<D>(load.force(level.expandPoint<D>(x[p]), time));
+          if (load.kind == LoadKind::heatFlux) return;
+          const Vec3 force = load.force(level.expandPoint<D>(x[p]), time);
+          externalForce[p] += level.reduce<D>(load.kind == LoadKind::pressure ? turned(p, force) : force);
         },
         [&](const BodyLoad& load) { externalForce[p] += mass[p] * level.reduce<D>(load.forceDensity); });
   }

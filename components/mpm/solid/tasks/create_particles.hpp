@@ -50,6 +50,7 @@ inline int loadsOn(const Level& level, const Start& start, const Material& mater
 template <int D>
 struct NewParticles {
   std::vector<Vec<D>>&x, &velocity, &displacement, &size;
+  std::vector<Matrix3>& domain;
   std::vector<double>&mass, &temperature, &color;
   std::vector<int>& loads;
 
@@ -58,22 +59,24 @@ struct NewParticles {
             .velocity = take(creates(p::velocity<D>)),
             .displacement = take(creates(p::displacement<D>)),
             .size = take(creates(p::size<D>)),
+            .domain = take(creates(p::domain)),
             .mass = take(creates(p::mass)),
             .temperature = take(creates(p::temperature)),
             .color = take(creates(p::color)),
             .loads = take(creates(p::loadCurves))};
   }
 
-  /// Adds a particle at `at`, m. `place` is the same point rounded as Uintah rounds it: loads act there or not. Throws
-  /// InputError where its mass is not above the scene's least.
-  void add(const Level& level, const Start& start, const Material& material, const Body& body, const Vec3& place,
-           const Vec<D>& at, const Vec<D>& extent) const {
+  /// Adds a particle at `at`, m. The seed's place is the same point rounded as Uintah rounds it: loads act there or
+  /// not. Throws InputError where its mass is not above the scene's least.
+  void add(const Level& level, const Start& start, const Material& material, const Body& body, const Vec<D>& at,
+           const Seed& seed) const {
     const Vec3 point = level.expandPoint<D>(at);
     x.push_back(at);
     velocity.push_back(level.reduce<D>(body.velocity(point)));
     displacement.push_back(Vec<D>::Zero());
-    size.push_back(extent);
-    double volume = level.cellVolume() * extent.prod();
+    size.push_back(extentOf<D>(level, seed));
+    domain.push_back(seed.domain);
+    double volume = level.cellVolume() * seed.volume;
     if (start.axisymmetric) volume *= point[0] / (level.cellWidth(2) > 0 ? level.cellWidth(2) : 1.0);
     mass.push_back(material.density * volume);
     if (mass.back() <= start.leastMass)
@@ -83,7 +86,7 @@ struct NewParticles {
                         point[0], point[1], point[2], mass.back(), start.leastMass)}});
     temperature.push_back(body.temperature(point));
     color.push_back(body.color);
-    loads.push_back(loadsOn(level, start, material, body, place));
+    loads.push_back(loadsOn(level, start, material, body, seed.at));
     if (start.solution) deform(level, start, material, point);
   }
 
@@ -102,6 +105,18 @@ struct NewParticles {
   }
 };
 
+/// Adds the particles of a body that start in a cell where its seeds are; `inCell` counts those of the cell.
+template <int D>
+void addSeeds(const Level& level, const Start& start, const Material& material, const Body& body, const Index<D>& cell,
+              ParticleId& inCell, ParticleMaker& maker, const NewParticles<D>& particles) {
+  const auto found = body.seeds->find(level.cellNumber<D>(cell));
+  if (found == body.seeds->end()) return;
+  for (const Seed& seed : found->second) {
+    maker.add(cell, idOf<D>(level, cell, inCell++, body.where));
+    particles.add(level, start, material, body, level.reduce<D>(seed.at), seed);
+  }
+}
+
 /// Fills each body with its particles, `particlesPerCell` along each axis in the middle of equal parts of a cell, if
 /// the shape contains that point. As in Uintah, bodies may overlap, and two bodies that share a face with such points
 /// both have particles there.
@@ -118,12 +133,16 @@ void actuallyInitialize(const Patch& patch, const Material& material, ParticleMa
   forEach<D>(patch.cellsWithin(around), [&](const Index<D>& cell) {
     ParticleId inCell = 0;
     for (const Body& body : material.bodies) {
-      Vec<D> extent;
-      for (int d = 0; d < D; ++d) extent[d] = 1.0 / body.particlesPerCell[level.axis(d)];
+      if (body.seeds) {
+        if (patch.cells().contains(cell)) addSeeds<D>(level, start, material, body, cell, inCell, maker, particles);
+        continue;
+      }
+      const Seed part = partOfCell<D>(level, body.particlesPerCell);
       forEachParticleIn<D>(level, body, cell, [&](const Index<D>& k, const Vec3& place) {
         Vec<D> at;
         for (int d = 0; d < D; ++d)
-          at[d] = level.nodePosition(d, 0) + (cell[d] + (k[d] + 0.5) * extent[d]) * level.spacing(d);
+          at[d] = level.nodePosition(d, 0) +
+                  (cell[d] + (k[d] + 0.5) * part.domain(level.axis(d), level.axis(d))) * level.spacing(d);
         const ParticleId id = idOf<D>(level, cell, inCell++, body.where);
         Index<D> home = cell;
         if (start.solution) {
@@ -132,7 +151,7 @@ void actuallyInitialize(const Patch& patch, const Material& material, ParticleMa
         }
         if (!patch.cells().contains(home)) return;
         maker.add(home, id);
-        particles.add(level, start, material, body, place, at, extent);
+        particles.add(level, start, material, body, at, {place, part.domain, part.volume});
       });
     }
   });
@@ -148,7 +167,7 @@ void startAtZero(const Patch&, const Material&, ParticleView<const double> mass,
       values[p].setZero();
 }
 
-/// F = I, or that of the manufactured solution at time 0.
+/// F = J^(1/3) I of the model, J = 1 unless it starts under pressure, or F of the manufactured solution at time 0.
 template <int D>
 void startDeformation(const Patch& patch, const Material& material, const Start& start, ParticleView<const Vec<D>> x,
                       std::optional<ParticleView<const Vec<D>>> displacement, ParticleView<Matrix3> deformation) {
@@ -157,26 +176,68 @@ void startDeformation(const Patch& patch, const Material& material, const Start&
       deformation[p] = start.solution->deformationGradient(
           elasticOf(material), patch.level().expandPoint<D>(Vec<D>(x[p] - (*displacement)[p])), 0);
     else
-      deformation[p].setIdentity();
+      deformation[p] = Matrix3::Identity() * std::cbrt(material.model->initialVolumeRatio());
 }
 
+/// The stress of a particle at the start, Pa: that of its F and temperature (K) where it starts under pressure, else
+/// the model's.
+inline Matrix3 startStress(const Material& material, const Matrix3& f, double temperature, double* state) {
+  if (material.model->initialVolumeRatio() == 1) return material.model->initialStress();
+  const Matrix3 zero = Matrix3::Zero();
+  Matrix3 stress = zero;
+  double waveSpeed = 0;
+  StressPoints point{.count = 1, .oldDeformationGradient = &f, .deformationGradient = &f, .velocityGradient = &zero};
+  point.temperature = &temperature;
+  point.oldStress = &zero;
+  point.stress = &stress;
+  point.state = state;
+  point.waveSpeed = &waveSpeed;
+  material.model->updateStress(material.density, point);
+  return stress;
+}
+
+/// What particles get after their place and mass; `state` holds the internal variables of the constitutive models,
+/// which may differ by id and color.
+struct StartOfPoints {
+  ParticleView<const double> mass, temperature;
+  ParticleView<const Matrix3> deformation;
+  ParticleView<double> volume;
+  ParticleView<Matrix3> stress;
+  std::optional<ParticleView<double>> state;
+  std::optional<ParticleView<const ParticleId>> id;
+  std::optional<ParticleView<const double>> color;
+
+  static StartOfPoints from(auto& take, const ParticleLabel<double>* state, bool vary) {
+    return {.mass = take(requiresNew(p::mass)),
+            .temperature = take(requiresNew(p::temperature)),
+            .deformation = take(requiresNew(p::deformationMeasure)),
+            .volume = take(computes(p::volume)),
+            .stress = take(computes(p::stress)),
+            .state = take(when(state->components > 0, computes(*state))),
+            .id = take(when(vary, requiresNew(data::particleId))),
+            .color = take(when(vary, requiresNew(p::color)))};
+  }
+};
+
 /// Volume, stress and internal variables of particles at the start.
-inline void initializeStress(const Patch&, const Material& material, int stateSize, ParticleView<const double> mass,
-                             ParticleView<const Matrix3> deformation, ParticleView<double> volume,
-                             ParticleView<Matrix3> stress, std::optional<ParticleView<double>> state) {
-  for (int p = 0; p < mass.owned(); ++p) {
-    volume[p] = mass[p] / material.density * deformation[p].determinant();
-    stress[p] = Matrix3::Zero();
-    if (state) material.model->initialize(&(*state)[0] + p * stateSize);
+inline void initializeStress(const Patch&, const Material& material, int stateSize, const StartOfPoints& points) {
+  const double density = material.undeformedDensity();
+  for (int p = 0; p < points.mass.owned(); ++p) {
+    const Matrix3& f = points.deformation[p];
+    points.volume[p] = points.mass[p] / density * f.determinant();
+    double* const internal = points.state ? &(*points.state)[0] + p * stateSize : nullptr;
+    if (internal)
+      material.model->initialize(internal, points.id ? Birth{(*points.id)[p], (*points.color)[p]} : Birth{});
+    points.stress[p] = startStress(material, f, points.temperature[p], internal);
   }
 }
 
-/// `state` holds the internal variables of the constitutive models.
 inline void scheduleInitialStress(TaskList& tasks, const std::vector<Material>& materials,
                                   const ParticleLabel<double>& state) {
-  tasks.perMaterial("mpm::initializeStress", initializeStress, materials, with(state.components), requiresNew(p::mass),
-                    requiresNew(p::deformationMeasure), computes(p::volume), computes(p::stress),
-                    when(state.components > 0, computes(state)));
+  const bool vary = std::any_of(materials.begin(), materials.end(),
+                                [](const Material& material) { return material.model->variesByParticle(); });
+  tasks.perMaterial("mpm::initializeStress", initializeStress, materials, with(state.components),
+                    all<StartOfPoints>(&state, vary));
 }
 
 template <int D>

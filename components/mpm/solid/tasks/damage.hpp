@@ -6,14 +6,25 @@
 
 namespace tushar::mpm::solid {
 
+/// The damage at the start of a particle with that volume, m^3, and p.color.
+inline DamageState initialDamage(const Damage& damage, double volume, ParticleId id, double color) {
+  return std::visit(
+      [&](const auto& model) {
+        if constexpr (requires { model.initial(volume, id, color); })
+          return model.initial(volume, id, color);
+        else
+          return model.initial(volume, id);
+      },
+      damage);
+}
+
 /// Particles start with the damage of the scene, each with its own threshold; none has failed.
 inline void initializeDamage(const Patch&, const Material& material, ParticleView<const ParticleId> id,
-                             ParticleView<const double> volume, ParticleView<double> damage,
-                             ParticleView<double> threshold, ParticleView<int> localized,
+                             ParticleView<const double> volume, OptionalView<const double> color,
+                             ParticleView<double> damage, ParticleView<double> threshold, ParticleView<int> localized,
                              ParticleView<double> failureTime) {
   for (int p = 0; p < damage.owned(); ++p) {
-    const DamageState start =
-        std::visit([&](const auto& model) { return model.initial(volume[p], id[p]); }, material.damage);
+    const DamageState start = initialDamage(material.damage, volume[p], id[p], color ? (*color)[p] : 0.0);
     damage[p] = start.damage;
     threshold[p] = start.threshold;
     localized[p] = 0;
@@ -22,9 +33,12 @@ inline void initializeDamage(const Patch&, const Material& material, ParticleVie
 }
 
 inline void scheduleInitialDamage(TaskList& tasks, const std::vector<Material>& materials) {
+  const bool byColor = std::any_of(materials.begin(), materials.end(), [](const Material& material) {
+    return std::holds_alternative<ThresholdVarDamage>(material.damage);
+  });
   tasks.perMaterial("mpm::initializeDamage", initializeDamage, materials, requiresNew(data::particleId),
-                    requiresNew(p::volume), computes(p::damage), computes(p::failureThreshold), computes(p::localized),
-                    computes(p::failureTime));
+                    requiresNew(p::volume), when(byColor, requiresNew(p::color)), computes(p::damage),
+                    computes(p::failureThreshold), computes(p::localized), computes(p::failureTime));
 }
 
 /// Without a damage model no particle is localized.

@@ -64,20 +64,25 @@ void sumKineticEnergy(const Patch&, const Material&, ParticleView<const double> 
 /// The edges of a particle: F times those at the start, m.
 template <int D>
 void computeScaleFactor(const Patch& patch, const Material&, const Vec3& commonSize,
-                        const std::optional<ParticleView<const Vec<D>>>& size, ParticleView<const Matrix3> deformation,
-                        ParticleView<Matrix3> scale) {
+                        const std::optional<ParticleView<const Vec<D>>>& size,
+                        const std::optional<ParticleView<const Matrix3>>& domain,
+                        ParticleView<const Matrix3> deformation, ParticleView<Matrix3> scale) {
   const Level& level = patch.level();
   for (int p = 0; p < deformation.owned(); ++p) {
     Vec3 edges;
     for (int axis = 0; axis < 3; ++axis) edges[axis] = commonSize[axis] * level.cellWidth(axis);
     for (int d = 0; d < D && size; ++d) edges[level.axis(d)] = (*size)[p][d] * level.spacing(d);
     scale[p] = deformation[p] * edges.asDiagonal();
+    if (!domain) continue;
+    Matrix3 start = (*domain)[p];
+    for (int axis = 0; axis < 3; ++axis) start.row(axis) *= level.cellWidth(axis);
+    scale[p] = deformation[p] * start;
   }
 }
 
 /// Totals over the particles, and their edges.
 template <int D>
-void scheduleTotals(TaskList& tasks, const std::vector<Material>& materials, const Method& method, bool keepsSizes) {
+void scheduleTotals(TaskList& tasks, const std::vector<Material>& materials, const Method& method, KeptSizes sizes) {
   tasks.perMaterial("mpm::sumMass", sumParticles, materials, requiresOld(p::mass), computes(total::mass));
   tasks.perMaterial("mpm::sumStrainEnergy", sumParticles, materials, requiresOld(p::strainEnergy),
                     computes(total::strainEnergy));
@@ -93,8 +98,8 @@ void scheduleTotals(TaskList& tasks, const std::vector<Material>& materials, con
                     requiresOld(p::x<D>), requiresOld(p::velocity<D>),
                     when(method.affine, requiresOld(p::affineMoment)), computes(total::angularMomentum));
   tasks.perMaterial("mpm::computeScaleFactor", computeScaleFactor<D>, materials, with(method.commonSize),
-                    when(keepsSizes, requiresOld(p::size<D>)), requiresOld(p::deformationMeasure),
-                    computes(p::scaleFactor));
+                    when(sizes.each, requiresOld(p::size<D>)), when(sizes.domains, requiresOld(p::domain)),
+                    requiresOld(p::deformationMeasure), computes(p::scaleFactor));
 }
 
 }  // namespace tushar::mpm::solid

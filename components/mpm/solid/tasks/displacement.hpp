@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "components/mpm/solid/material.hpp"
 
 namespace tushar::mpm::solid {
@@ -9,6 +11,13 @@ template <int D>
 void addDisplacement(const Patch&, const Material&, ParticleView<const Vec<D>> x, ParticleView<const Vec<D>> newX,
                      ParticleView<const Vec<D>> displacement, ParticleView<Vec<D>> newDisplacement) {
   for (int p = 0; p < x.owned(); ++p) newDisplacement[p] = displacement[p] + (newX[p] - x[p]);
+}
+
+/// Where particles are, also in a grid that goes along with them, which their x do not leave: x_p + u_p there.
+template <int D>
+void findDeformedPosition(const Patch&, const Material&, ParticleView<const Vec<D>> x,
+                          const std::optional<ParticleView<const Vec<D>>>& displacement, ParticleView<Vec<D>> where) {
+  for (int p = 0; p < x.owned(); ++p) where[p] = displacement ? Vec<D>(x[p] + (*displacement)[p]) : x[p];
 }
 
 }  // namespace tushar::mpm::solid

@@ -29,7 +29,7 @@ struct HeatToNodes {
   ParticleView<const double> mass, particleTemperature;
   NodeView<double> capacity, temperatureNoBC, temperature;
 
-  static HeatToNodes from(auto& take, bool keepsSizes) {
+  static HeatToNodes from(auto& take, KeptSizes keepsSizes) {
     constexpr int reach = Shape::reach;
     return {.particles = Placed<Shape>::from(take, keepsSizes, reach, requiresOld(p::deformationMeasure, reach)),
             .mass = take(requiresOld(p::mass, reach)),
@@ -64,7 +64,7 @@ void interpolateTemperatureToGrid(const Patch& patch, const Material& material, 
 
 template <class Shape>
 void scheduleNodalTemperature(TaskList& tasks, const std::vector<Material>& materials, const Vec3& commonSize,
-                              bool keepsSizes) {
+                              KeptSizes keepsSizes) {
   tasks.perMaterial("mpm::interpolateTemperatureToGrid", interpolateTemperatureToGrid<Shape>, materials,
                     with(commonSize), all<HeatToNodes<Shape>>(keepsSizes));
 }
@@ -78,7 +78,7 @@ struct HeatFlow {
   NodeView<const double> temperature;
   NodeView<double> heatRate;
 
-  static HeatFlow from(auto& take, bool keepsSizes, bool isHeated) {
+  static HeatFlow from(auto& take, KeptSizes keepsSizes, bool isHeated) {
     constexpr int reach = Shape::reach;
     return {.particles = Placed<Shape>::from(take, keepsSizes, reach, requiresOld(p::deformationMeasure, reach)),
             .mass = take(requiresOld(p::mass, reach)),
@@ -95,11 +95,12 @@ void computeInternalHeatRate(const Patch& patch, const Material& material, const
   h.heatRate.fill(0.0);
   const Box& box = h.heatRate.box();
   if (material.thermalConductivity == 0 && !h.heatFlux) return;
+  const double density = material.undeformedDensity();
   forEachStencil(patch, h.particles.x.cells(), h.particles, commonSize, [&](int p, const auto& stencil) {
     Vec<D> slope = Vec<D>::Zero();
     stencil.forEachNode(
         [&](const Index<D>& node, double, const Vec<D>& gradient) { slope += h.temperature[node] * gradient; });
-    const double volume = h.mass[p] / material.density * (*h.particles.deformation)[p].determinant();
+    const double volume = h.mass[p] / density * (*h.particles.deformation)[p].determinant();
     slope *= -material.thermalConductivity * volume;
     stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>& gradient) {
       if (box.contains(node)) h.heatRate[node] += gradient.dot(slope) + (h.heatFlux ? s * (*h.heatFlux)[p] : 0.0);
@@ -165,7 +166,7 @@ struct HeatToParticles {
   NodeView<const double> rate;
   ParticleView<double> newTemperature;
 
-  static HeatToParticles from(auto& take, bool keepsSizes) {
+  static HeatToParticles from(auto& take, KeptSizes keepsSizes) {
     return {.particles = Placed<Shape>::from(take, keepsSizes, 0, requiresOld(p::deformationMeasure)),
             .temperature = take(requiresOld(p::temperature)),
             .rate = take(requiresNew(g::temperatureRate, Shape::ghostNodes)),
@@ -186,7 +187,7 @@ void updateTemperature(const Patch& patch, const Material&, const Vec3& commonSi
 
 template <class Shape>
 void scheduleTemperatureUpdate(TaskList& tasks, const std::vector<Material>& materials, const Vec3& commonSize,
-                               bool keepsSizes) {
+                               KeptSizes keepsSizes) {
   tasks.perMaterial("mpm::updateTemperature", updateTemperature<Shape>, materials, with(commonSize),
                     all<HeatToParticles<Shape>>(keepsSizes), requiresOld(delT));
 }

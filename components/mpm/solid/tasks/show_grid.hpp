@@ -13,7 +13,8 @@ namespace tushar::mpm::solid {
 /// V_p = m_p J / density
 inline void computeVolume(const Patch&, const Material& material, ParticleView<const double> mass,
                           ParticleView<const Matrix3> deformation, ParticleView<double> volume) {
-  for (int p = 0; p < mass.owned(); ++p) volume[p] = mass[p] / material.density * deformation[p].determinant();
+  const double density = material.undeformedDensity();
+  for (int p = 0; p < mass.owned(); ++p) volume[p] = mass[p] / density * deformation[p].determinant();
 }
 /// sigma_p, Pa, if the stress is a function of F alone.
 inline void computeStress(const Patch&, const Material& material, ParticleView<const Matrix3> deformation,
@@ -36,7 +37,7 @@ struct GridPicture {
   NodeView<Matrix3> stress;
 
   /// `volume` and `stress` read those of particles, with the ghost cells that shape functions reach.
-  static GridPicture from(auto& take, bool keepsSizes, auto volume, auto stress) {
+  static GridPicture from(auto& take, KeptSizes keepsSizes, auto volume, auto stress) {
     constexpr int reach = Shape::reach;
     return {.particles = Placed<Shape>::from(take, keepsSizes, reach, requiresOld(p::deformationMeasure, reach)),
             .particleMass = take(requiresOld(p::mass, reach)),
@@ -89,7 +90,7 @@ void showOnGrid(const Patch& patch, const Material&, const Vec3& commonSize, con
 /// `volume` and `stress` read those of particles, with the ghost cells that shape functions reach.
 template <class Shape, class Volume, class Stress>
 void scheduleShowOnGrid(TaskList& tasks, const std::vector<Material>& materials, const Vec3& commonSize,
-                        bool keepsSizes, Volume volume, Stress stress) {
+                        KeptSizes keepsSizes, Volume volume, Stress stress) {
   tasks.perMaterial("mpm::showOnGrid", showOnGrid<Shape>, materials, with(commonSize),
                     all<GridPicture<Shape>>(keepsSizes, volume, stress));
 }

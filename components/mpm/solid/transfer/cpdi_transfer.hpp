@@ -22,14 +22,21 @@ template <int D, class Visit>
   }
 }
 
+/// What each corner brings to the high half of a record, but for its slopes.
+template <class Stencil>
+[[gnu::always_inline]] inline Quad meanShare(const Stencil& stencil, const Quad& high, const Quad& hoop) {
+  if constexpr (Stencil::axisymmetric) return Stencil::share * multiplyAdd(stencil.inverseRadius, hoop, high);
+  return Stencil::share * high;
+}
+
 /// As for other shapes (see transfer.hpp): each corner brings its share to the nodes of its cell.
 template <class Stencil, int D = Stencil::dimension>
 requires(Stencil::corners > 0)
     [[gnu::always_inline]] inline void scatter(const Stencil& stencil, const NodeWindow<NodeRecord, D>& nodes,
                                                const NodeRecord& value,
                                                const std::array<Quad, Stencil::dimension>& slope,
-                                               const Quad& = Quad{}) {
-  const Quad low = Stencil::share * value.low, mean = Stencil::share * value.high;
+                                               const Quad& hoop = Quad{}) {
+  const Quad low = Stencil::share * value.low, mean = meanShare(stencil, value.high, hoop);
   for (const auto& corner : stencil.corner) {
     Quad high = mean;
     for (std::size_t d = 0; d < D; ++d) high = multiplyAdd(corner.slope[static_cast<int>(d)], slope[d], high);
@@ -46,8 +53,8 @@ template <class Stencil, int D = Stencil::dimension>
 requires(Stencil::corners >
          0) inline void scatterWithin(const Stencil& stencil, const Box& box, const NodeWindow<NodeRecord, D>& nodes,
                                       const NodeRecord& value, const std::array<Quad, Stencil::dimension>& slope,
-                                      const Quad& = Quad{}) {
-  const Quad low = Stencil::share * value.low, mean = Stencil::share * value.high;
+                                      const Quad& hoop = Quad{}) {
+  const Quad low = Stencil::share * value.low, mean = meanShare(stencil, value.high, hoop);
   for (const auto& corner : stencil.corner) {
     Quad high = mean;
     for (std::size_t d = 0; d < D; ++d) high = multiplyAdd(corner.slope[static_cast<int>(d)], slope[d], high);
@@ -84,6 +91,7 @@ requires(Stencil::corners > 0)
     for (std::size_t d = 0; d < D; ++d)
       sums.gradient[d] = multiplyAdd(corner.slope[static_cast<int>(d)], at.low, sums.gradient[d]);
   }
+  if constexpr (Stencil::axisymmetric) sums.hoop = stencil.inverseRadius * sums.value.low;
   return sums;
 }
 

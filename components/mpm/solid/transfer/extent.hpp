@@ -20,7 +20,7 @@ int sceneAxis(const Level& level, int kernelAxis) {
 template <class T>
 using OptionalView = std::optional<ParticleView<T>>;
 
-/// The values of a view, or null where there are none.
+/// The values of a view, or null if there is no view.
 template <class T>
 T* valuesOf(const ParticleView<T>& view) {
   return view.set().hasNone() ? nullptr : view.values();
@@ -30,19 +30,47 @@ T* valuesOf(const OptionalView<T>& view) {
   return view ? valuesOf(*view) : nullptr;
 }
 
+/// Whether the particles of a scene keep their own size, and whether as a parallelepiped.
+struct KeptSizes {
+  bool each = false, domains = false;
+
+  constexpr KeptSizes(bool keepsEach = false, bool keepsDomains = false) : each(keepsEach), domains(keepsDomains) {}
+};
+
+/// The sizes of particles at the start, in cells: where there is neither view, all share one.
+template <int D>
+struct Sizes {
+  OptionalView<const Vec<D>> each;
+  OptionalView<const Matrix3> domain;  ///< edges, one a column
+
+  Sizes(std::nullopt_t = std::nullopt) {}
+  Sizes(ParticleView<const Vec<D>> eachSize) : each(std::move(eachSize)) {}
+  Sizes(OptionalView<const Vec<D>> eachSize, OptionalView<const Matrix3> eachDomain = {})
+      : each(std::move(eachSize)), domain(std::move(eachDomain)) {}
+  static Sizes from(auto& take, KeptSizes kept, int ghost = 0) {
+    auto size = take(when(kept.each, requiresOld(p::size<D>, ghost)));
+    return {size, take(when(kept.domains, requiresOld(p::domain, ghost)))};
+  }
+};
+
 /// Extents of the particles of a material for shape functions: one size for all or each its own, deformed by F.
 template <class Shape>
 class Extents {
  public:
   static constexpr int D = Shape::dimension;
 
-  Extents(const Level& level, const Vec3& common, const OptionalView<const Vec<D>>& each,
-          const OptionalView<const Matrix3>& deformation)
-      : level_(level), common_(level.reduce<D>(common)), each_(valuesOf(each)), deformation_(valuesOf(deformation)) {}
+  Extents(const Level& level, const Vec3& common, const Sizes<D>& sizes, const OptionalView<const Matrix3>& deformation)
+      : level_(level),
+        common_(level.reduce<D>(common)),
+        each_(valuesOf(sizes.each)),
+        domain_(valuesOf(sizes.domain)),
+        deformation_(valuesOf(deformation)) {}
 
   Extent<D> operator[](int p) const {
     Extent<D> extent;
     if constexpr (Shape::hasSize) extent.size = each_ ? each_[p] : common_;
+    if constexpr (Shape::deforms)
+      if (domain_) return skewed(p, extent.size);
     if constexpr (Shape::deforms)
       for (int i = 0; i < D; ++i)
         for (int j = 0; j < D; ++j)
@@ -52,9 +80,25 @@ class Extents {
   }
 
  private:
+  /// Half the edges F S of a particle that started with the edges S, in cells.
+  Extent<D> skewed(int p, const Vec<D>& size) const requires(Shape::deforms) {
+    Extent<D> extent;
+    extent.size = size;
+    for (int i = 0; i < D; ++i)
+      for (int j = 0; j < D; ++j) {
+        double edge = 0;
+        for (int k = 0; k < D; ++k)
+          edge += deformation_[p](sceneAxis<D>(level_, i), sceneAxis<D>(level_, k)) * level_.spacing(k) *
+                  domain_[p](sceneAxis<D>(level_, k), sceneAxis<D>(level_, j));
+        extent.halfEdges(i, j) = 0.5 * edge * level_.inverseSpacing(i);
+      }
+    return extent;
+  }
+
   const Level& level_;
   Vec<D> common_;
   const Vec<D>* each_;
+  const Matrix3* domain_;
   const Matrix3* deformation_;
 };
 

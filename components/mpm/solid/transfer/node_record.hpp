@@ -5,7 +5,7 @@
 
 namespace tushar::mpm::solid {
 
-/// What a node keeps in a step: three components along the kernel axes, a number, three components, a number.
+/// The numbers of a node in a step: three components along the kernel axes, a number, three components, a number.
 ///
 /// | lanes | from particles | before contact | at the end of the step |
 /// |---|---|---|---|

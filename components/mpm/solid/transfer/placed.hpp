@@ -8,17 +8,17 @@ namespace tushar::mpm::solid {
 template <class Shape, int D = Shape::dimension>
 struct Placed {
   ParticleView<const Vec<D>> x;             ///< m
-  OptionalView<const Vec<D>> size;          ///< at the start, in cells; where all particles do not share one
+  Sizes<D> size;                            ///< at the start
   OptionalView<const Matrix3> deformation;  ///< F, 1; where shape functions follow it
 
   /// At the start of the step, with `ghost` cells beyond the patch. F only where shape functions follow it.
-  static Placed from(auto& take, bool keepsSizes, int ghost = 0) {
+  static Placed from(auto& take, KeptSizes keepsSizes, int ghost = 0) {
     return from(take, keepsSizes, ghost, when(Shape::deforms, requiresOld(p::deformationMeasure, ghost)));
   }
   /// With F by an access of the caller's, `when(on, access)`.
-  static Placed from(auto& take, bool keepsSizes, int ghost, auto deformation) {
+  static Placed from(auto& take, KeptSizes keepsSizes, int ghost, auto deformation) {
     return {.x = take(requiresOld(p::x<D>, ghost)),
-            .size = take(when(keepsSizes, requiresOld(p::size<D>, ghost))),
+            .size = Sizes<D>::from(take, keepsSizes, ghost),
             .deformation = take(deformation)};
   }
 

@@ -43,7 +43,7 @@ template <class Stencil, int D, class Visit>
   }
 }
 
-/// What a particle brings to a row of nodes along the first axis, but for the factors of that axis.
+/// The contribution of a particle to a row of nodes along the first axis, without the factors of that axis.
 struct RowShare {
   Quad low, high, change, round;
 
@@ -107,8 +107,8 @@ inline void scatterWithin(const Stencil& stencil, const Box& box, const NodeWind
   });
 }
 
-/// What a particle takes from the nodes: sum_i S_i record_i; of the low halves the gradient and sum_i S_i / r record_i,
-/// too.
+/// The values that a particle interpolates from the nodes: sum_i S_i record_i; of the low halves the gradient and sum_i
+/// S_i / r record_i, too.
 template <int D>
 struct Gathered {
   NodeRecord value{};

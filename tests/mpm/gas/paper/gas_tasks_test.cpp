@@ -66,12 +66,37 @@ struct Cloud : test::Particles {
   }
 };
 
+/// What a step makes of the particles.
+template <int D>
+struct Next {
+  std::vector<Vec<D>> x, v;
+  std::vector<double> density, energy, divergence;
+
+  ParticleUpdate<D> from(const Cloud<D>& cloud, const std::vector<Vec<D>>& acceleration,
+                         const std::vector<Vec<D>>& star) {
+    return {.x = cloud.read(cloud.x),
+            .velocity = cloud.read(cloud.v),
+            .mass = cloud.read(cloud.mass),
+            .density = cloud.read(cloud.density),
+            .internalEnergy = cloud.read(cloud.energy),
+            .pressure = cloud.read(cloud.pressure),
+            .acceleration = cloud.readNodes(acceleration),
+            .velocityStar = cloud.readNodes(star),
+            .newX = cloud.write(x),
+            .newVelocity = cloud.write(v),
+            .newDensity = cloud.write(density),
+            .newInternalEnergy = cloud.write(energy),
+            .divergence = cloud.write(divergence)};
+  }
+};
+
 /// Relative change of total energy over one step of the conserving update.
 template <int D>
 double energyDrift(const Index3& resolution) {
   const Cloud<D> cloud(resolution);
-  std::vector<double> mass, density, energy, divergence;
-  std::vector<Vec<D>> velocity, force, acceleration, star, x, v;
+  Next<D> next;
+  std::vector<double> mass;
+  std::vector<Vec<D>> velocity, force, acceleration, star;
   const double dt = 0.002;
   interpolateParticlesToGrid<D>(cloud.patch(), cloud.gas, cloud.read(cloud.x), cloud.read(cloud.mass),
                                 cloud.read(cloud.v), cloud.nodes(mass), cloud.nodes(velocity));
@@ -80,22 +105,8 @@ double energyDrift(const Index3& resolution) {
   computeAndIntegrateAcceleration<D>(cloud.patch(), cloud.gas, cloud.readNodes(mass), cloud.readNodes(force),
                                      cloud.readNodes(velocity), dt, cloud.nodes(acceleration), cloud.nodes(star));
   setGridBoundaryConditions<D>(cloud.patch(), cloud.gas, cloud.nodes(acceleration), cloud.nodes(star));
-  updateParticlesConserving<D>(cloud.patch(), cloud.gas,
-                               {.x = cloud.read(cloud.x),
-                                .velocity = cloud.read(cloud.v),
-                                .mass = cloud.read(cloud.mass),
-                                .density = cloud.read(cloud.density),
-                                .internalEnergy = cloud.read(cloud.energy),
-                                .pressure = cloud.read(cloud.pressure),
-                                .acceleration = cloud.readNodes(acceleration),
-                                .velocityStar = cloud.readNodes(star),
-                                .newX = cloud.write(x),
-                                .newVelocity = cloud.write(v),
-                                .newDensity = cloud.write(density),
-                                .newInternalEnergy = cloud.write(energy),
-                                .divergence = cloud.write(divergence)},
-                               dt);
-  return cloud.total(energy, v) / cloud.total(cloud.energy, cloud.v) - 1;
+  updateParticlesConserving<D>(cloud.patch(), cloud.gas, next.from(cloud, acceleration, star), dt);
+  return cloud.total(next.energy, next.v) / cloud.total(cloud.energy, cloud.v) - 1;
 }
 
 template <int D>
@@ -224,32 +235,18 @@ TEST(ComputeInternalForce, VanishesInsideAUniformPressureInThreeDimensions) {
 
 TEST(UpdateParticles, FollowsEquations12To15) {
   const Cloud<1> cloud({{2, 1, 1}}, 1);
-  std::vector<Vec<1>> a{Vec<1>(1.0), Vec<1>(2.0), Vec<1>(4.0)}, star{Vec<1>(0.5), Vec<1>(0.7), Vec<1>(0.2)}, x, v;
-  std::vector<double> density, energy, divergence;
+  std::vector<Vec<1>> a{Vec<1>(1.0), Vec<1>(2.0), Vec<1>(4.0)}, star{Vec<1>(0.5), Vec<1>(0.7), Vec<1>(0.2)};
+  Next<1> next;
   const double dt = 0.01, h = 0.5, s = cloud.x[0][0] / h;
 
-  updateParticles<1>(cloud.patch(), cloud.gas,
-                     {.x = cloud.read(cloud.x),
-                      .velocity = cloud.read(cloud.v),
-                      .mass = {},
-                      .density = cloud.read(cloud.density),
-                      .internalEnergy = cloud.read(cloud.energy),
-                      .pressure = cloud.read(cloud.pressure),
-                      .acceleration = cloud.readNodes(a),
-                      .velocityStar = cloud.readNodes(star),
-                      .newX = cloud.write(x),
-                      .newVelocity = cloud.write(v),
-                      .newDensity = cloud.write(density),
-                      .newInternalEnergy = cloud.write(energy),
-                      .divergence = cloud.write(divergence)},
-                     dt);
+  updateParticles<1>(cloud.patch(), cloud.gas, next.from(cloud, a, star), dt);
 
   const double d = (0.7 - 0.5) / h;
-  EXPECT_NEAR(v[0][0], cloud.v[0][0] + dt * ((1 - s) * 1 + s * 2), 1e-15);
-  EXPECT_NEAR(x[0][0], cloud.x[0][0] + dt * ((1 - s) * 0.5 + s * 0.7), 1e-15);
-  EXPECT_NEAR(energy[0], cloud.energy[0] - cloud.pressure[0] / cloud.density[0] * d * dt, 1e-15);
-  EXPECT_NEAR(density[0], cloud.density[0] * (1 - d * dt), 1e-15);
-  EXPECT_NEAR(divergence[0], d, 1e-15);
+  EXPECT_NEAR(next.v[0][0], cloud.v[0][0] + dt * ((1 - s) * 1 + s * 2), 1e-15);
+  EXPECT_NEAR(next.x[0][0], cloud.x[0][0] + dt * ((1 - s) * 0.5 + s * 0.7), 1e-15);
+  EXPECT_NEAR(next.energy[0], cloud.energy[0] - cloud.pressure[0] / cloud.density[0] * d * dt, 1e-15);
+  EXPECT_NEAR(next.density[0], cloud.density[0] * (1 - d * dt), 1e-15);
+  EXPECT_NEAR(next.divergence[0], d, 1e-15);
 }
 
 TEST(UpdateParticlesConserving, KeepsTotalEnergyToRoundOff) {

@@ -57,8 +57,10 @@ inline std::vector<FlowModel> flowModels() {
   const ZerilliArmstrong crystal{0.1, 0.1, 0.3, 0.1, 0.5, 3e-3, 1e-4, 5e-3, 3e-4};
   return {IsotropicHardening{0.2, 0.5}, soft, threshold, tonks, saturating, lund, crystal};
 }
-inline TransIsoHyper ligament() {
-  TransIsoHyper model;
+/// A ligament, relaxing or not.
+template <class M = TransIsoHyper>
+M ligament() {
+  M model;
   model.bulkModulus = 7;
   model.c1 = 1;
   model.c2 = 0.5;
@@ -67,6 +69,55 @@ inline TransIsoHyper ligament() {
   model.c5 = 5;
   model.straight = 1.05;
   model.fibre = {2, 1, 2};
+  return model;
+}
+/// Two Maxwell elements, one of which relaxes within a step or two.
+inline ViscoTransIsoHyper relaxingLigament() {
+  auto model = ligament<ViscoTransIsoHyper>();
+  model.y1 = 0.5;
+  model.t1 = 2e-3;
+  model.y4 = 1.5;
+  model.t4 = 0.1;
+  return model;
+}
+inline MwViscoElastic springBesideMaxwell() {
+  MwViscoElastic model;
+  model.springShear = 1;
+  model.springBulk = 2;
+  model.maxwellShear = 3;
+  model.maxwellBulk = 5;
+  model.shearViscosity = 0.6;
+  model.bulkViscosity = 3;
+  return model;
+}
+inline ElasticPlasticHp relaxingMetal(const FlowModel& flow) {
+  auto model = elasticPlastic(flow);
+  model.deviatorModel = MaxwellDeviator{2, {1, 2}, {0.01, 0.1}};
+  return model;
+}
+inline ViscoScram explosive() {
+  ViscoScram model;
+  model.poissonRatio = 0.3;
+  model.crackScale = 1e-3;
+  model.crackPower = 2;
+  model.greatestCrackSpeed = 1e-3;
+  model.toughness = 0.5;
+  model.crackFriction = 0.35;
+  model.initialCrackRadius = 1e-3;
+  model.tensileSpeedUp = 12;
+  model.g1 = 1;
+  model.g3 = 2;
+  model.rate3 = 100;
+  model.gruneisen = 1;
+  model.material = {2, 0.5, 2000, 294};
+  return model;
+}
+/// Ice of the scene that Uintah ships, suvic_10minus4.ups.
+inline ViscoPlastic ice() {
+  ViscoPlastic model;
+  model.bulkModulus = 8.9e9;
+  model.shearModulus = 3.52e9;
+  model.material = {917, 2000, 273, 294};
   return model;
 }
 inline MohrCoulomb mohrCoulomb(double friction, double dilation) {
@@ -78,15 +129,7 @@ inline MohrCoulomb mohrCoulomb(double friction, double dilation) {
 }
 /// Copper of Johnson & Cook, Proc. 7th Int. Symp. on Ballistics (1983), table 1.
 inline JohnsonCook copper() {
-  JohnsonCook model;
-  model.a = 90e6;
-  model.b = 292e6;
-  model.n = 0.31;
-  model.c = 0.025;
-  model.m = 1.09;
-  model.roomTemperature = 298;
-  model.meltTemperature = 1356;
-  return model;
+  return {.a = 90e6, .b = 292e6, .c = 0.025, .n = 0.31, .m = 1.09, .roomTemperature = 298, .meltTemperature = 1356};
 }
 
 }  // namespace tushar::mpm::solid::testing

@@ -2,6 +2,7 @@
 
 #include "components/mpm/solid/constitutive/all.hpp"
 #include "components/mpm/solid/material_input.hpp"
+#include "components/mpm/solid/tasks/create_particles.hpp"
 #include "tests/input/support.hpp"
 
 namespace tushar::mpm::solid::testing {
@@ -57,6 +58,64 @@ TEST(MaterialInput, MeltsNothingWhereNoTemperatureIsGivenAsUintah) {
             295e10);
 }
 
+TEST(MaterialInput, PicksTheModelThatTheTagsAskFor) {
+  const auto nameOf = [](const std::string& type, const std::string& tags) {
+    return std::string(materialsOf(sceneOf(type, tags))[0].model->name());
+  };
+  const std::string elastic = "<bulk_modulus>7</bulk_modulus><shear_modulus>3</shear_modulus>";
+  const std::string yields = elastic +
+                             "<usePlasticity>true</usePlasticity><yield_stress>2</yield_stress>"
+                             "<hardening_modulus>1</hardening_modulus>";
+  const std::string spread = "<yield_distrib>uniform</yield_distrib><yield_range>1</yield_range>";
+  EXPECT_EQ(nameOf("comp_neo_hook", elastic), "comp_neo_hook");
+  EXPECT_EQ(nameOf("comp_neo_hook", yields), "UCNH");
+  EXPECT_EQ(nameOf("comp_neo_hook", yields + spread), "UCNHVar");
+  expectProblem(sceneOf("UCNH", yields + "<yield_distrib>uniform</yield_distrib><yield_range>2</yield_range>"),
+                "<yield_range> must be less than <yield_stress>");
+}
+
+TEST(MaterialInput, StartsUnderPressureAlsoWhereTheYieldStressDiffers) {
+  const std::string pressed =
+      "<bulk_modulus>7</bulk_modulus><shear_modulus>3</shear_modulus><usePlasticity>true</usePlasticity>"
+      "<yield_stress>2</yield_stress><hardening_modulus>1</hardening_modulus>"
+      "<useInitialStress>true</useInitialStress><initial_pressure>0.5</initial_pressure>";
+  const std::string spread = "<yield_distrib>uniform</yield_distrib><yield_range>1</yield_range>";
+  const std::string hot =
+      "<room_temp>300</room_temp><linear_thermal_expansion_coef>1e-4</linear_thermal_expansion_coef>";
+  for (const std::string& tags : {pressed, pressed + spread}) {
+    const Material material = materialsOf(sceneOf("UCNH", tags, hot))[0];
+    const double ratio = material.model->initialVolumeRatio(), grown = 1.02 * 1.02 * 1.02;
+    EXPECT_EQ(ratio, volumeRatioUnder(0.5, 7));
+    std::vector<double> state(static_cast<std::size_t>(material.model->stateSize()));
+    material.model->initialize(state.data(), {});
+    const Matrix3 unit = Matrix3::Identity(), f = std::cbrt(ratio) * unit;
+    EXPECT_NEAR((startStress(material, f, 300, state.data()) + 0.5 * unit).norm(), 0, 1e-13);
+    const double hotter = 0.5 + 7.0 / 2 * (grown - 1 / grown);
+    EXPECT_NEAR((startStress(material, f, 500, state.data()) + hotter * unit).norm(), 0, 1e-13);
+  }
+}
+
+TEST(MaterialInput, GivesMetalsThePoresOfGursonsYieldCondition) {
+  const std::string surface =
+      "<yield_condition type='gurson'><q1>1.5</q1><q2>1</q2><q3>2.25</q3><k>4</k><f_c>.05</f_c></yield_condition>";
+  for (const char* type : {"elastic_plastic", "elastic_plastic_hp"}) {
+    const auto materials = materialsOf(sceneOf(type, moduli + flow + surface, "<specific_heat>5</specific_heat>"));
+    EXPECT_GE(offsetOf(*materials[0].model, "p.plasticDilatation"), 0);
+  }
+  const std::string relaxing =
+      "<deviatoric_stress_model type='hypoViscoElastic'><mu>[1]</mu><tau>[1]</tau></deviatoric_stress_model>";
+  expectProblem(sceneOf("elastic_plastic", moduli + flow + surface + relaxing, "<specific_heat>5</specific_heat>"),
+                "yield_condition gurson needs a <deviatoric_stress_model> hypoElastic");
+}
+
+TEST(MaterialInput, RefusesColorsThatDoNotGrow) {
+  const std::string entry =
+      "<entry><color>1</color><bulk_modulus>7</bulk_modulus><shear_modulus>3</shear_modulus>"
+      "<yield_stress>2</yield_stress><hardening_modulus>1</hardening_modulus></entry>";
+  const std::string table = "<variable_properties>" + entry + entry + "</variable_properties>";
+  expectProblem(sceneOf("UCNHVar", table), "whose <color> grows from one to the next");
+}
+
 TEST(MaterialInput, KeepsStateOnlyWhereTheConstantsNeedIt) {
   const std::string yields =
       "<usePlasticity>true</usePlasticity><yield_stress>1</yield_stress>"
@@ -66,8 +125,49 @@ TEST(MaterialInput, KeepsStateOnlyWhereTheConstantsNeedIt) {
   EXPECT_EQ(offsetOf(*materialsOf(sceneOf("UCNH", moduli + yields))[0].model, "p.bElBar"), 1);
 }
 
+TEST(MaterialInput, LetsHotBodiesExpandWithoutStress) {
+  const std::string hot =
+      "<room_temp>300</room_temp><linear_thermal_expansion_coef>1e-4</linear_thermal_expansion_coef>";
+  const std::string yields = "<yield_stress>1e9</yield_stress><hardening_modulus>0</hardening_modulus>";
+  for (const std::string type : {"comp_neo_hook", "comp_neo_hook_plastic"}) {
+    const auto materials = materialsOf(sceneOf(type, moduli + (type == "comp_neo_hook" ? "" : yields), hot));
+    const Model& model = *materials[0].model;
+    EXPECT_TRUE(model.usesTemperature());
+    EXPECT_FALSE(model.dependsOnDeformationOnly() || model.hasTangent());
+    const Matrix3 none = Matrix3::Zero(), unit = Matrix3::Identity();
+    // free at (1 + 1e-4 · 200)³, and held in place under the pressure of the missing expansion
+    const Matrix3 deformation[] = {unit * 1.02, unit};
+    const Matrix3 before[] = {unit, unit}, rate[] = {none, none};
+    const double temperature[] = {500, 500}, grown = 1.02 * 1.02 * 1.02;
+    std::vector<double> state(2 * std::max(model.stateSize(), 1)), speed(2);
+    for (int k = 0; k < 2; ++k) model.initialize(&state[k * model.stateSize()], {});
+    Matrix3 stress[2];
+    model.updateStress(2, {.count = 2,
+                           .timeStep = 1,
+                           .oldDeformationGradient = before,
+                           .deformationGradient = deformation,
+                           .velocityGradient = rate,
+                           .temperature = temperature,
+                           .stress = stress,
+                           .state = state.data(),
+                           .stateStride = model.stateSize(),
+                           .waveSpeed = speed.data()});
+    EXPECT_NEAR(stress[0].norm(), 0, 1e-13) << type;
+    EXPECT_NEAR((stress[1] + 7.0 / 2 * (grown - 1 / grown) * unit).norm(), 0, 1e-13) << type;
+  }
+}
+
+TEST(MaterialInput, NotesWhatDoesNotExpand) {
+  const Document document = input::documentOf(
+      sceneOf("hypo_elastic", "<G>1</G><K>1</K>", "<linear_thermal_expansion_coef>1</linear_thermal_expansion_coef>"));
+  Diagnostics diagnostics;
+  propertiesSchema().read(*document.root().child("MaterialProperties"), diagnostics);
+  ASSERT_EQ(diagnostics.notes().size(), 1u);
+  EXPECT_NE(diagnostics.notes()[0].sentence.find("as in Uintah, only comp_neo_hook"), std::string::npos);
+}
+
 TEST(MaterialInput, SaysWhatThereIsInsteadOfAModelOfUintah) {
-  expectProblem(sceneOf("Arenisca3", ""), "the model 'Arenisca3' of Uintah is not available; nearest is MohrCoulomb");
+  expectProblem(sceneOf("camclay", ""), "the model 'camclay' of Uintah is not available; nearest is MohrCoulomb");
   expectProblem(sceneOf("comp_neo_hok", ""), "did you mean 'comp_neo_hook'");
 }
 
@@ -80,13 +180,13 @@ TEST(MaterialInput, AsksForWhatAPlasticModelNeeds) {
 }
 
 TEST(MaterialInput, RefusesWhatItDoesNotHave) {
-  expectProblem(sceneOf("UCNH", moduli + std::string("<useInitialStress>true</useInitialStress>")),
+  expectProblem(sceneOf("UCNHVar", "<useInitialStress>true</useInitialStress>"),
                 "is not available; bodies start without stress");
-  expectProblem(sceneOf("elastic_plastic", moduli + flow + "<yield_condition type='gurson'/>"),
-                "attribute 'type': found 'gurson', expected 'vonMises'");
+  expectProblem(sceneOf("elastic_plastic", moduli + flow + "<yield_condition type='rousselier'/>"),
+                "attribute 'type': found 'rousselier', expected 'vonMises' or 'gurson'");
   expectProblem(
-      sceneOf("elastic_plastic", moduli + flow + "<plastic_convergence_algo>biswajit</plastic_convergence_algo>"),
-      "found 'biswajit', expected 'radialReturn'");
+      sceneOf("elastic_plastic", moduli + flow + "<plastic_convergence_algo>newton</plastic_convergence_algo>"),
+      "found 'newton', expected 'radialReturn' or 'biswajit'");
   expectProblem(sceneOf("MohrCoulomb", "<G>1</G><K>1</K><Use_softening>1</Use_softening>"), "is not available");
   expectProblem(sceneOf("MohrCoulomb", "<G>1</G><K>1</K><Phi>10</Phi><Psi>20</Psi>"), "<Psi> is greater than <Phi>");
   EXPECT_EQ(sentencesOf(sceneOf("MohrCoulomb", "<G>1</G><K>1</K><Use_softening>0.0</Use_softening>")), "");

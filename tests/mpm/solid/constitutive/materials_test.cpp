@@ -45,11 +45,14 @@ TEST(Hyperelasticity, StressIsTheDerivativeOfTheEnergy) {
   expectStressFromEnergy(withModuli<CompNeoHook>());
   expectStressFromEnergy(compMooneyRivlin());
   expectStressFromEnergy(withModuli<Ucnh>());
-  TransIsoHyper fibres = ligament();
+  TransIsoHyper fibres = ligament<>();
   for (const double straight : {1.0, 1.05, 2.0}) {  // fibres that are straight, have become so, are still crimped
     fibres.straight = straight;
     expectStressFromEnergy(fibres);
   }
+  auto exponential = ligament<ViscoTransIsoHyper>();
+  exponential.rubber = FibreElasticity::Rubber::verondaWestmann;
+  expectStressFromEnergy(exponential);
 }
 
 /// W of a strain of 1e-7 is that of the linear theory, e:e G + (K/2 - G/3) tr² e, in a body that has turned.
@@ -74,7 +77,7 @@ TEST(Hyperelasticity, KeepsTheEnergyOfStrainsThatAreHardlyThere) {
   const CompMooneyRivlin rubber = compMooneyRivlin();
   const double shear = 2 * (rubber.c1 + rubber.c2), nu = rubber.poissonRatio;
   expectEnergyOfSmallStrain(rubber, 2 * shear * (1 + nu) / (3 * (1 - 2 * nu)), shear);
-  TransIsoHyper fibres = ligament();
+  TransIsoHyper fibres = ligament<>();
   fibres.c3 = fibres.c5 = 0;
   expectEnergyOfSmallStrain(fibres, fibres.bulkModulus, 2 * (fibres.c1 + fibres.c2));
 }
@@ -120,6 +123,34 @@ TEST(Objectivity, StressOfYieldingBodiesTurnsWithThem) {
   expectObjective(soil, f, keep);
 }
 
+/// Turns tensors of a State.
+void turn(const Matrix3& q, auto&... tensors) { ((tensors = tensorOf(q * matrixOf(tensors) * q.transpose())), ...); }
+
+TEST(Objectivity, StressOfRelaxingBodiesTurnsWithThem) {
+  MaterialPoint<ViscoTransIsoHyper> fibres{relaxingLigament()};
+  MaterialPoint<MwViscoElastic> maxwell{springBesideMaxwell()};
+  MaterialPoint<ElasticPlasticHp> metal{relaxingMetal(IsotropicHardening{0.2, 0.5})};
+  MaterialPoint<ViscoScram> cracked{explosive()};
+  MaterialPoint<ViscoPlastic> creeping{ice()};
+  for (const double strain : {0.1, 0.15}) {
+    fibres.advance(generalDeformation(strain));
+    maxwell.advance(generalDeformation(strain));
+    metal.advance(generalDeformation(strain));
+    cracked.advance(generalDeformation(strain));
+    creeping.advance(generalDeformation(strain));
+  }
+  const Matrix3 f = generalDeformation(0.2);
+  expectObjective(fibres, f, [](ViscoTransIsoHyper::State& state, const Matrix3& q) {
+    turn(q, state.elasticStress, state.histories[0], state.histories[3]);
+  });
+  expectObjective(maxwell, f, [](MwViscoElastic::State& state, const Matrix3& q) { turn(q, state.deviator); });
+  expectObjective(
+      metal, f, [](ElasticPlasticHp::State& state, const Matrix3& q) { turn(q, state.maxwell[0], state.maxwell[1]); });
+  expectObjective(cracked, f,
+                  [](ViscoScram::State& state, const Matrix3& q) { turn(q, state.deviators[0], state.deviators[2]); });
+  expectObjective(creeping, f, [](ViscoPlastic::State& state, const Matrix3& q) { turn(q, state.backStress); });
+}
+
 TEST(CompNeoHookPlastic, ReturnsToTheYieldSurface) {
   for (const double hardening : {0.0, 0.5}) {
     MaterialPoint<CompNeoHookPlastic> point{compNeoHookPlastic(hardening)};
@@ -147,7 +178,7 @@ TEST(ElasticPlastic, ReturnsToTheYieldSurfaceOfEachFlowModel) {
 }
 
 TEST(TransIsoHyper, HoldsByItsFibresWhereTheyArePulled) {
-  TransIsoHyper model = ligament();
+  TransIsoHyper model = ligament<>();
   model.fibre = {0, 1, 0};
   model.straight = 1.2;
   const MaterialPoint<TransIsoHyper> point{model};
@@ -278,6 +309,45 @@ TEST(Water, HasThePressureOfItsDensityAndTheShearOfItsRate) {
   const Matrix3 stress = water.updateStress({f, f, rate, 1, 300}, Matrix3::Zero(), none);
   EXPECT_NEAR(stress.trace() / 3, -2 * (std::pow(0.9, -7) - 1), roundOff);
   EXPECT_NEAR(stress(0, 1), 0.3 * 4, roundOff);
+}
+
+ThWater thWater() {
+  ThWater water;
+  water.pressureShift = 2e-7;
+  water.heatSlope = 2.6;
+  water.specificHeat = 4205.7;
+  water.compressibility = 5e-10;
+  water.densestTemperature = 277;
+  water.curvature = 8e-6;
+  water.densestVolume = 1.00008e-3;
+  water.material.density = 995.7;
+  return water;
+}
+
+TEST(ThWater, HasTheVolumeOfItsPressureAndTemperature) {
+  MaterialPoint<ThWater> point{thWater()};
+  for (const double temperature : {277.0, 290.0, 310.0})
+    for (const double squeezed : {1.001, 0.99, 0.98}) {
+      point.temperature = temperature;
+      const double p = 101325 - point.stress(std::cbrt(squeezed) * Matrix3::Identity())(0, 0);
+      const double warm = temperature - 277 + 2e-7 * p;
+      EXPECT_NEAR(1.00008e-3 * (1 - 5e-10 * p + 8e-6 * warm * warm), squeezed / 995.7, 1e-16);
+    }
+}
+
+/// c² = -v² dp/dv along the path on which compression heats it, by differences.
+TEST(ThWater, CarriesSoundAsFastAsItsAdiabatSays) {
+  const double h = 1e-4;
+  const auto pressureAfter = [&](double stretch) {
+    MaterialPoint<ThWater> point{thWater()};
+    const Matrix3 f = std::cbrt(stretch) * Matrix3::Identity();
+    point.temperature += point.model.temperatureChange(point.step(f), Matrix3::Zero(), {});
+    return -point.stress(f)(0, 0);
+  };
+  const double speed = std::sqrt((pressureAfter(1 - h) - pressureAfter(1 + h)) / (2 * h) / 995.7);
+  const MaterialPoint<ThWater> still{thWater()};
+  EXPECT_NEAR(still.model.waveSpeed(995.7, still.step(Matrix3::Identity()), Matrix3::Zero(), {}) / speed, 1, 1e-6);
+  EXPECT_NEAR(speed / 1500, 1, 0.05);  // of water
 }
 
 /// c² = dp/drho of each equation of state.

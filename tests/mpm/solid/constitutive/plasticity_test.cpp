@@ -9,6 +9,49 @@ namespace {
 
 constexpr double roundOff = 1e-12;  ///< some hundred operations, each exact to 1e-16
 
+TEST(SpecificHeat, OfCopperAndSteelIsThatOfTables) {
+  const auto at = [](const auto& model, double temperature) {
+    return model.specificHeat({temperature, 1, 8960, 1e11}, 1);
+  };
+  // CRC Handbook of Chemistry and Physics: copper 252, 385 and 409 J/(kg K), within 1.5 %
+  EXPECT_NEAR(at(CopperHeat(), 100), 252, 0.015 * 252);
+  EXPECT_NEAR(at(CopperHeat(), 298), 385, 0.015 * 385);
+  EXPECT_NEAR(at(CopperHeat(), 500), 409, 0.015 * 409);
+  EXPECT_NEAR(at(CopperHeat(), 270 - 1e-9), at(CopperHeat(), 270), 5) << "the fits meet within 2 %";
+  const SteelHeat steel;
+  EXPECT_NEAR(at(steel, 520), 190.14 - 273.75 / 2 + 418.3 * std::pow(2, 0.2), 1e-12 * 500);
+  EXPECT_NEAR(at(steel, 1560), 465.21 + 267.52 / 2 + 58.16 * std::pow(2, 0.35), 1e-12 * 700);
+  EXPECT_TRUE(std::isfinite(at(steel, 1040)));
+  EXPECT_EQ(at(ConstantHeat(), 300), 1);
+}
+
+TEST(SpecificHeat, OfTheCubicSaturatesAndFollowsTheDensity) {
+  const CubicHeat cubic{1.1, -0.2, 0, 0.01, 0.02, 0.003, 0.001};
+  EXPECT_NEAR(cubic.specificHeat({2, 1, 2, 3}, 0), 8 / (0.01 + 0.04 + 0.012 + 0.008), 1e-12 * 100);
+  EXPECT_NEAR(cubic.specificHeat({1e9, 1, 2, 3}, 0), 1000, 1e-4) << "1/c3";
+  // Debye's temperature grows with Grüneisen's coefficient, d ln theta / d ln rho = a + b / eta
+  const double debye = std::pow(1.5, 1.1) * std::exp(-0.2 / 3);
+  EXPECT_NEAR(cubic.specificHeat({2 * debye, 1.5, 3, 3}, 0), cubic.specificHeat({2, 1, 2, 3}, 0), 1e-10);
+  CubicHeat growing = cubic;
+  growing.expansion = 0.1;
+  EXPECT_NEAR(growing.specificHeat({2, 1, 2, 3}, 0) - cubic.specificHeat({2, 1, 2, 3}, 0), 0.01 * 2 * 3 / 2, 1e-12);
+}
+
+TEST(SpecificHeat, DividesTheHeatOfPlasticWork) {
+  auto metal = elasticPlastic(IsotropicHardening{0.2, 0.5});
+  const Matrix3 before = Matrix3::Identity(), rate = Vec3(-10, 5, 5).asDiagonal();
+  const Deformation d{before, before, rate, 0.01, 500};
+  const Matrix3 stress = Vec3(-0.4, 0.2, 0.2).asDiagonal();
+  const typename ElasticPlasticHp::State state{0.1, 10, 10, 0, {}};
+  const double constant = metal.temperatureChange(d, stress, state);
+  metal.specificHeat = CopperHeat();
+  EXPECT_EQ(metal.temperatureChange(d, stress, state), constant) << "only where compute_specific_heat says so";
+  metal.computesHeat = true;
+  const double heat = CopperHeat().specificHeat({500, 1, 2, 7}, 0);
+  EXPECT_NEAR(metal.temperatureChange(d, stress, state), constant * metal.material.specificHeat / heat,
+              roundOff * constant);
+}
+
 TEST(FlowModel, OfSteinbergAndLundFulfilsTheirEquation) {
   const SteinbergCochranGuinan flow{3, 0.1, 0.15, 0, 0, 0, 1e6, 1e-5, 0.31, 8.617e-5, 0.1};
   for (const double rate : {1.0, 100.0, 1e3}) {

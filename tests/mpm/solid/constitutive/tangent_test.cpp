@@ -20,12 +20,21 @@ TEST(NominalTangent, IsTheDerivativeOfTheStressOfHyperelasticModels) {
   expectConsistentTangent(MaterialPoint<CompNeoHook>{withModuli<CompNeoHook>()}, f);
   expectConsistentTangent(MaterialPoint<CompMooneyRivlin>{compMooneyRivlin()}, f);
   expectConsistentTangent(MaterialPoint<CnhMms>{withModuli<CnhMms>()}, f);
-  TransIsoHyper fibres = ligament();
+  TransIsoHyper fibres = ligament<>();
   for (const double straight : {1.0, 1.05, 2.0}) {
     fibres.straight = straight;
     expectConsistentTangent(MaterialPoint<TransIsoHyper>{fibres}, f);
   }
   expectConsistentTangent(MaterialPoint<TransIsoHyper>{fibres}, f.inverse());
+}
+
+TEST(NominalTangent, OfRelaxingFibresCountsWhatTheyRemember) {
+  MaterialPoint<ViscoTransIsoHyper> point{relaxingLigament()};
+  for (const auto rubber : {FibreElasticity::Rubber::mooneyRivlin, FibreElasticity::Rubber::verondaWestmann}) {
+    point.model.rubber = rubber;
+    point.advance(generalDeformation(0.1));
+    expectConsistentTangent(point, generalDeformation(0.2));
+  }
 }
 
 TEST(NominalTangent, OfHypoElasticCountsTheStressAtTheStartOfTheStep) {
@@ -71,6 +80,13 @@ TEST(NominalTangent, OfElasticPlasticIsConsistentWithEveryFlowModel) {
   for (const FlowModel& flow : flowModels()) {
     SCOPED_TRACE(std::visit([](const auto& model) { return std::string(model.name); }, flow));
     expectConsistentTangentOfMetal(elasticPlastic(flow));
+  }
+}
+
+TEST(NominalTangent, OfElasticPlasticIsConsistentWithMaxwellElements) {
+  for (const FlowModel& flow : flowModels()) {
+    SCOPED_TRACE(std::visit([](const auto& model) { return std::string(model.name); }, flow));
+    expectConsistentTangentOfMetal(relaxingMetal(flow));
   }
 }
 

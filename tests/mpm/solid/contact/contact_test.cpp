@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+
 #include "components/mpm/shapes/tensor_shape.hpp"
 #include "components/mpm/solid/constitutive/all.hpp"
+#include "components/mpm/solid/constitutive/model.hpp"
 #include "components/mpm/solid/contact/friction.hpp"
 #include "components/mpm/solid/explicit/tasks/exchange_momentum.hpp"
 #include "components/mpm/solid/explicit/tasks/friction.hpp"
@@ -97,10 +100,10 @@ TEST(SingleVelocity, ActsAtTheStartOfAStepUnlessItActsOnce) {
   bodies.contact.type = Contact::Type::singleVelocity;
   bodies.move(0, {0, -1});
   bodies.contact.actsTwice = false;
-  exchangeMomentum<2>(bodies.level.patches().front(), {}, {bodies.contact}, Moment::start, 0, bodies.views());
+  exchangeMomentum<2>(bodies.level.patches().front(), {}, {bodies.contact}, Moment::start, 0, 1e-3, bodies.views(), {});
   EXPECT_EQ(bodies.velocity(0), Vec<2>(0, -1));
   bodies.contact.actsTwice = true;
-  exchangeMomentum<2>(bodies.level.patches().front(), {}, {bodies.contact}, Moment::start, 0, bodies.views());
+  exchangeMomentum<2>(bodies.level.patches().front(), {}, {bodies.contact}, Moment::start, 0, 1e-3, bodies.views(), {});
   EXPECT_EQ(bodies.velocity(0), Vec<2>(0, -0.5));
   EXPECT_EQ(bodies.velocity(1), Vec<2>(0, -0.5));
 }
@@ -110,7 +113,7 @@ TEST(SingleVelocity, DoesNotActWhereAMaterialExcludesIt) {
   bodies.contact.type = Contact::Type::singleVelocity;
   bodies.contact.excluded = 1;
   bodies.move(0, {0, -1});
-  exchangeMomentum<2>(bodies.level.patches().front(), {}, {bodies.contact}, Moment::start, 0, bodies.views());
+  exchangeMomentum<2>(bodies.level.patches().front(), {}, {bodies.contact}, Moment::start, 0, 1e-3, bodies.views(), {});
   EXPECT_EQ(bodies.velocity(0), Vec<2>(0, -1));
 }
 
@@ -212,6 +215,7 @@ TEST(Surface, PointsOutOfTheBody) {
   const std::vector<Matrix3> deformation{Matrix3::Identity()}, stress{Matrix3::Identity()};
   Material material;
   material.density = 2;
+  material.model = std::make_shared<ModelOf<IdealGas>>(IdealGas{});
   std::vector<Vec<2>> gradient(level.nodes().size()), position(level.nodes().size());
   std::vector<Matrix3> nodalStress(level.nodes().size());
   std::vector<double> volume(level.nodes().size());
@@ -238,9 +242,19 @@ TEST(Specified, MovesTheOthersAlongItsDirectionsOnly) {
   bodies.move(0, {5, -1});
   bodies.move(1, {1, 0});
   const Records views{{bodies.records[0].data(), bodies.nodes}, {bodies.records[1].data(), bodies.nodes}};
-  followMaster<2>(bodies.level.patches().front(), bodies.contact, 0, views);
+  followMaster<2>(bodies.level.patches().front(), bodies.contact, 0, 1e-3, views);
   EXPECT_EQ(bodies.velocity(1), Vec<2>(1, -1));
   EXPECT_EQ(bodies.velocity(0), Vec<2>(5, -1));
+}
+
+TEST(Specified, MovesNothingWhereRoundingLeavesATraceOfTheMaster) {
+  TwoBodies bodies;
+  bodies.contact.type = Contact::Type::specified;
+  bodies.contact.direction = {true, true, true};
+  bodies.at(bodies.records[0])[lane::mass] = 1e-30;
+  bodies.move(0, {5, -1});
+  followMaster<2>(bodies.level.patches().front(), bodies.contact, 0, 1e-3, bodies.views());
+  EXPECT_EQ(bodies.velocity(1), Vec<2>(0, 0));
 }
 
 TEST(Specified, MovesNothingWhereTheExcludedMaterialIs) {
@@ -250,7 +264,7 @@ TEST(Specified, MovesNothingWhereTheExcludedMaterialIs) {
   bodies.contact.excluded = 1;
   bodies.move(0, {5, -1});
   const Records views{{bodies.records[0].data(), bodies.nodes}, {bodies.records[1].data(), bodies.nodes}};
-  followMaster<2>(bodies.level.patches().front(), bodies.contact, 0, views);
+  followMaster<2>(bodies.level.patches().front(), bodies.contact, 0, 1e-3, views);
   EXPECT_EQ(bodies.velocity(1), Vec<2>(0, 0));
 }
 
@@ -262,6 +276,37 @@ TEST(Specified, FeelsTheForceThatItHoldsTheOthersWith) {
   VectorSum reaction;
   sumReaction<2>(bodies.level.patches().front(), bodies.contact, {Vec3(0, 5, 0), 0}, 1e-3, views, reaction);
   EXPECT_NEAR(reaction.y.total(), -15, 1e-12);
+}
+
+TEST(Specified, TurnsTheOthersWithIt) {
+  TwoBodies bodies;
+  bodies.contact.type = Contact::Type::specified;
+  bodies.contact.direction = {true, true, true};
+  bodies.contact.profile = {{0, Vec3(1, 0, 0)}, {1, Vec3(1, 0, 0)}};
+  bodies.contact.centres = {{0, Vec3(1, 0, 0)}, {1, Vec3(1, 0, 0)}};
+  bodies.contact.angularVelocity = {{0, Vec3(0, 0, 0)}, {1, Vec3(0, 0, 4)}};
+  const Records views = bodies.views();
+  const double dt = 1e-8;
+  followMaster<2>(bodies.level.patches().front(), bodies.contact, 0.5, dt, views);
+  for (const int body : {0, 1})  // at (1, 1), a metre above the centre
+    EXPECT_LT((bodies.velocity(body) - Vec<2>(1 - 2, 0)).norm(), 2 * 2 * dt) << "omega^2 r dt / 2 is the chord's";
+}
+
+TEST(Motion, KeepsPointsOnTheirCircleInAnyTime) {
+  for (int axis = 0; axis < 3; ++axis) {
+    Motion motion{.velocity = Vec3(1, 2, 3), .centre = Vec3(0.3, -0.2, 0.1), .angularVelocity = 7 * Vec3::Unit(axis)};
+    const Vec3 point(1, 2, -1), before = point - motion.centre;
+    const double dt = 0.2;
+    const Vec3 after = before + dt * (motion.at(point, dt) - motion.velocity);
+    const Eigen::AngleAxisd turn(7 * dt, Vec3::Unit(axis));
+    EXPECT_LT((after - turn * before).norm(), 10 * roundOff) << "axis " << axis;
+  }
+}
+
+TEST(Motion, AboutAnObliqueAxisIsItsVelocity) {
+  const Motion motion{.velocity = Vec3(1, 0, 0), .centre = Vec3::Zero(), .angularVelocity = Vec3(1, 1, 1)};
+  EXPECT_LT((motion.at(Vec3(1, 0, 0), 1) - Vec3(1, 1, -1)).norm(), roundOff);
+  EXPECT_EQ((Motion{.velocity = Vec3(1, 2, 3)}.at(Vec3(9, 9, 9), 1)), Vec3(1, 2, 3));
 }
 
 TEST(Specified, GoesThroughItsProfileAndThenStops) {

@@ -175,6 +175,18 @@ TEST(ThresholdDamage, DrawsThresholdsByTheIdOfAParticleWithTheMeanThatIsAskedFor
   }
 }
 
+TEST(ThresholdVarDamage, DrawsThresholdsByTheColorOfAParticle) {
+  ThresholdVarDamage model;
+  model.distribution = ThresholdDamage::Distribution::uniform;
+  model.table.entries = {{1, 10, 2}, {3, 20, 4}};
+  ThresholdDamage common = model;
+  for (const auto& [color, share] : {std::pair{0.0, 0.0}, {1.0, 0.0}, {2.5, 0.75}, {3.0, 1.0}, {9.0, 1.0}}) {
+    common.mean = 10 + 10 * share;
+    common.deviation = 2 + 2 * share;
+    EXPECT_NEAR(model.initial(1, 77, color).threshold, common.initial(1, 77).threshold, 1e-14);
+  }
+}
+
 TEST(ThresholdDamage, GivesSmallParticlesMoreToBear) {
   ThresholdDamage model;
   model.distribution = ThresholdDamage::Distribution::uniform;

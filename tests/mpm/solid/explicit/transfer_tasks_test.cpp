@@ -5,7 +5,10 @@
 #include <random>
 
 #include "components/mpm/shapes/cpdi_shape.hpp"
+#include "components/mpm/solid/constitutive/ideal_gas.hpp"
+#include "components/mpm/solid/constitutive/model.hpp"
 #include "components/mpm/solid/explicit/tasks/affine.hpp"
+#include "components/mpm/solid/explicit/tasks/gradient_enhanced.hpp"
 #include "components/mpm/solid/explicit/tasks/interpolate_particles_to_grid.hpp"
 #include "components/mpm/solid/explicit/tasks/update_in_parts.hpp"
 #include "components/mpm/solid/explicit/tasks/velocity_updates.hpp"
@@ -43,6 +46,7 @@ struct Cloud : test::Particles {
 
   Cloud() : Particles(domain()) {
     material.density = 1;
+    material.model = std::make_shared<ModelOf<IdealGas>>(IdealGas{});
     method.commonSize = {0.5, 0.5, 0.5};
     set.reset(patch(), Shape::reach);
     forEach<3>(level.cells(), [&](const Index3& cell) {
@@ -244,6 +248,31 @@ TYPED_TEST(Affine, KeepsAngularMomentumToTheGridAndBack) {
   updateAffineMoment<TypeParam>(c.patch(), c.material, c.method.commonSize, c.nodes(), c.placed(), c.write(b));
   EXPECT_LT((onGrid - before).norm(), roundOff * 10) << "sums of order 10";
   EXPECT_LT((spin(v, b) - before).norm(), roundOff * 10);
+}
+
+/// Velocities that are linear in space go to the nodes as they are; without their gradients they do not.
+TYPED_TEST(Transfer, GivesNodesTheVelocityThatAGradientMakesThere) {
+  constexpr int D = TypeParam::dimension;
+  Cloud<TypeParam> cloud;
+  Matrix3 gradient;
+  gradient << 0.3, -0.2, 0.5, 0.7, 0.1, -0.4, -0.6, 0.2, 0.8;
+  const Eigen::Matrix<double, D, D> inKernel = gradient.topLeftCorner<D, D>();
+  for (std::size_t p = 0; p < cloud.v.size(); ++p) cloud.v[p] = inKernel * cloud.x[p];
+  cloud.toGrid(false);
+  const auto& c = cloud;
+  const std::vector<Matrix3> gradients(c.x.size(), gradient);
+  const auto farthest = [&] {
+    double most = 0;
+    cloud.forEachNode([&](const Vec3& x, const NodeRecord& record) {
+      if (record[lane::mass] > 1e-9)
+        most = std::max(most, (lanes<D>(record, lane::velocity) - inKernel * x.head<D>()).norm());
+    });
+    return most;
+  };
+  EXPECT_GT(farthest(), 1e-3);
+  addVelocityGradient<TypeParam>(c.patch(), c.material, c.method.commonSize, c.placed(), c.read(c.mass),
+                                 c.read(gradients), cloud.nodes());
+  EXPECT_LT(farthest(), 1e-8) << "round-off, by masses of nodes above 1e-9";
 }
 
 TEST(LimitVelocity, SlowsDownWhatHasBecomeFasterAndLeavesWhatWasFastBefore) {

@@ -150,7 +150,7 @@ class Block {
     deformation_.back()(0, 0) = stretched;
     stress_.push_back(Matrix3::Zero());
     state_.resize(state_.size() + state_size_);
-    material_.model->initialize(&state_[state_.size() - state_size_]);
+    material_.model->initialize(&state_[state_.size() - state_size_], {});
   }
 
   Level level_;

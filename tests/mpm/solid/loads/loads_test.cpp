@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "components/mpm/solid/explicit/tasks/corner_loads.hpp"
 #include "components/mpm/solid/tasks/apply_external_loads.hpp"
 #include "tests/support/particles.hpp"
 
@@ -40,9 +41,25 @@ TEST(Load, SharesAPressureAmongTheParticlesOfASurface) {
   const Loads loads{{onASquare(SurfaceLoad::Kind::pressure)}, {}};
   std::vector<Vec<2>> force(2);
   applyExternalLoads<2>(two.level.patches().front(), two.material, loads, 1, two.read(two.x), two.read(two.mass),
-                        two.read(std::vector<int>{0, 1}), {force.data(), two.set, two.level.cells()});
+                        two.read(std::vector<int>{0, 1}), std::nullopt, {force.data(), two.set, two.level.cells()});
   EXPECT_EQ(force[0], Vec<2>(0, 0));
   EXPECT_EQ(force[1], Vec<2>(4 * 6 / 4.0, 0)) << "4 Pa at half the time, 6 m^2, 4 particles";
+}
+
+TEST(Load, TurnsAPressureButNoBodyForceWithTheParticle) {
+  TwoParticles two;
+  const Loads loads{{onASquare(SurfaceLoad::Kind::pressure)}, {{Vec3::Zero(), Vec3::Ones(), Vec3(0, -5, 0)}}};
+  Matrix3 quarter, stretch = Matrix3::Identity();
+  quarter << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  stretch(0, 0) = 2;
+  stretch(0, 1) = stretch(1, 0) = 0.5;
+  const std::vector<Matrix3> deformation{Matrix3::Identity(), quarter * stretch};
+  std::vector<Vec<2>> force(2);
+  applyExternalLoads<2>(two.level.patches().front(), two.material, loads, 1, two.read(two.x), two.read(two.mass),
+                        two.read(std::vector<int>{1, 1 + 256 * 2}), two.read(deformation),
+                        {force.data(), two.set, two.level.cells()});
+  EXPECT_EQ(force[0], Vec<2>(6, 0));
+  EXPECT_NEAR((force[1] - Vec<2>(0, 6 - 15)).norm(), 0, 1e-14) << "F = R U: R turns the pressure by 90 degrees";
 }
 
 TEST(Load, PullsBodiesByTheirMass) {
@@ -50,7 +67,8 @@ TEST(Load, PullsBodiesByTheirMass) {
   const Loads loads{{onASquare(SurfaceLoad::Kind::heatFlux)}, {{Vec3::Zero(), Vec3::Ones(), Vec3(0, -5, 0)}}};
   std::vector<Vec<2>> force(2);
   applyExternalLoads<2>(two.level.patches().front(), two.material, loads, 1, two.read(two.x), two.read(two.mass),
-                        two.read(std::vector<int>{2, 1 + 256 * 2}), {force.data(), two.set, two.level.cells()});
+                        two.read(std::vector<int>{2, 1 + 256 * 2}), std::nullopt,
+                        {force.data(), two.set, two.level.cells()});
   EXPECT_EQ(force[0], Vec<2>(0, -10));
   EXPECT_EQ(force[1], Vec<2>(0, -15)) << "heat does not push";
 }
@@ -75,6 +93,73 @@ TEST(Load, OnAnAxisymmetricEndIsSharedByRadius) {
   // p r dr for each, and together the pressure times the area of a radian, R²/2.
   EXPECT_DOUBLE_EQ(load.force(Vec3(0.5, 1, 0), 0)[1], 6 * 0.5);
   EXPECT_DOUBLE_EQ(load.force(Vec3(1.5, 1, 0), 0)[1], 6 * 1.5);
+}
+
+input::Cylinder upright() {
+  input::Cylinder side;
+  side.bottom = Vec3(1, 0, 0);
+  side.top = Vec3(1, 0, 3);
+  side.radius = 2;
+  return side;
+}
+
+TEST(Torque, OfAllParticlesIsThatOfTheCurve) {
+  SurfaceLoad load{LoadKind::torque, upright(), {{{0, 6}}}, -1, {}};
+  const std::vector<Vec3> points{Vec3(3, 0, 1), Vec3(1, 1.9, 2), Vec3(-1.1, 0.3, 0.5)};
+  load.particles = static_cast<double>(points.size());
+  Vec3 torque = Vec3::Zero();
+  for (const Vec3& point : points) torque += (point - upright().bottom).cross(load.force(point, 0));
+  EXPECT_NEAR(torque.z(), -6, 1e-14) << "positive against the right-hand rule, as in Uintah";
+  EXPECT_EQ(load.force(Vec3(1, 0, 2), 0), Vec3::Zero()) << "on the axis";
+}
+
+/// A particle with edges of .2, .4 and 1 m at the start.
+ParticleBox particleAt(const Vec3& middle, const Matrix3& f = Matrix3::Identity()) {
+  const Matrix3 start = Vec3(0.2, 0.4, 1).asDiagonal();
+  return {middle, start, f * start};
+}
+
+TEST(CornerLoad, IsThePressureTimesTheAreaAtTheCornersOfAFace) {
+  const Loads loads{{onASquare(LoadKind::pressure)}, {}};
+  const auto load = cornerLoad(loads, 1, particleAt(Vec3(0.9, 1, 1)), 1);
+  ASSERT_TRUE(load);
+  EXPECT_LT((load->force - Vec3(4 * 6 / 4.0, 0, 0)).norm(), 1e-14) << "4 Pa at half the time, 6 m^2, 4 particles";
+  Vec3 sum = Vec3::Zero();
+  for (const Vec3& corner : load->corners) sum += corner;
+  EXPECT_LT((sum / 4 - Vec3(1, 1, 1)).norm(), 1e-14) << "around the middle of the face";
+  for (const Vec3& corner : load->corners) {
+    EXPECT_NEAR(std::abs(corner.y() - 1), 0.2, 1e-14);
+    EXPECT_NEAR(std::abs(corner.z() - 1), 0.5, 1e-14);
+  }
+}
+
+TEST(CornerLoad, GrowsWithTheFaceAndTakesTheOppositeOneWhereAsked) {
+  Loads loads{{onASquare(LoadKind::pressure)}, {}};
+  loads.surfaces[0].outwardNormal = false;
+  const Matrix3 wider = Vec3(1, 3, 0.5).asDiagonal();
+  const auto load = cornerLoad(loads, 1, particleAt(Vec3(0.9, 1, 1), wider), 1);
+  ASSERT_TRUE(load);
+  EXPECT_NEAR(load->force.x(), 1.5 * 6, 1e-13);
+  EXPECT_NEAR(load->corners[0].x(), 0.8, 1e-14);
+}
+
+TEST(CornerLoad, IsNoneWithoutAFaceTowardsTheNormal) {
+  SurfaceLoad load{LoadKind::pressure, upright(), {{{0, 6}}}, -1, {}};
+  load.particles = 1;
+  const Loads loads{{load}, {}};
+  EXPECT_FALSE(cornerLoad(loads, 1, particleAt(Vec3(2, 1, 1)), 0)) << "45 degrees from both axes";
+  EXPECT_TRUE(cornerLoad(loads, 1, particleAt(Vec3(3, 0.1, 1)), 0));
+}
+
+TEST(CornerLoad, PutsAllOfAForceOnTheNodesAround) {
+  TwoParticles two;
+  const Box nodes = two.level.nodes();
+  std::vector<NodeRecord> records(nodes.size(), NodeRecord{});
+  addForceAt<2>(two.level, Vec<2>(0.25, 0.5), Vec<2>(8, 4), {records.data(), nodes});
+  Vec<2> sum = Vec<2>::Zero();
+  for (const NodeRecord& record : records) sum += lanes<2>(record, lane::force);
+  EXPECT_LT((sum - Vec<2>(8, 4)).norm(), 1e-14);
+  EXPECT_EQ(records[nodes.offset(Index3{{0, 0, 0}})][lane::force], 8 * 0.75 * 0.5);
 }
 
 TEST(Load, ActsOnBodiesInABoxAndAParticlesSpacingBeyond) {

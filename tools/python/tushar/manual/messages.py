@@ -39,7 +39,10 @@ def catalogue():
 
 
 def family_of(text):
-    """The family with the longest words in a message of sus, or None."""
+    """The family with this number, or with the longest words in a message of sus; or None."""
+    numbered = [family for family in catalogue()[0] if family.id == text.strip()]
+    if numbered:
+        return numbered[0]
     best = max(catalogue()[0], key=lambda family: family.fits(text))
     return best if best.fits(text) else None
 

@@ -12,8 +12,8 @@ RANGES = (("T1", "The text of a scene"), ("T2", "A scene that can be read but no
 def message_page(families, found, version):
     """`found` has the templates of each family, {id: templates}."""
     here = "messages.html"
-    body = ["<p>Every message of <code>sus</code> belongs to a family with a number that stays. <code>sus</code> does "
-            "not print the numbers: put a message into the field below or the search field, or look for its words.</p>",
+    body = ["<p>Every message of <code>sus</code> ends with a number that stays, as <code>[T101]</code>. Look for it "
+            "here, or put the message into the field below or the search field.</p>",
             '<p><textarea id="message" rows="3" aria-label="A message of sus" '
             'placeholder="Paste a message of sus here"></textarea></p><p id="family" class="note" hidden></p>']
     for prefix, heading in RANGES:

@@ -12,7 +12,7 @@ TYPES = ("empty, true or false", "true or false", "integers [a,b,c]", "integers 
          "numbers [a,b,…]", "number", "words [a,b,…]", "text", "formulas [a,b,c] in x, y, z, t",
          "formula in x, y, z, t")
 PRESENCE = re.compile(r"(?:^|, )(ignored|optional|required|any number|at least (?:one|\d+)|default (.*))$", re.DOTALL)
-LIMIT = re.compile(r"(?:greater than|less than|of at least|of at most|of \S+ only|from \S+ to \S+|without t)\b.*$",
+LIMIT = re.compile(r"(?:greater than|less than|at least|at most|\S+ only|from \S+ to \S+|without t)\b.*$",
                    re.DOTALL)
 TITLE = re.compile(r"(?:<[\w.-]+>(?:, )?)+|[\w.-]+=(?:\"[^\"]*\")?|\(text\)")
 

@@ -6,7 +6,7 @@
 
 namespace tushar::mpm::gas::paper {
 
-/// Mean density of the particles of each cell [kg/m³]; 0 where there is none.
+/// Mean density of the particles of each cell [kg/m³]; 0 in cells without any.
 template <int D>
 void averageDensity(const Patch& patch, const Gas&, ParticleView<const double> density, CellView<double> mean) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {

@@ -1,23 +1,28 @@
 #pragma once
 
-#include "components/mpm/solid/contact/contact.hpp"
+#include "components/mpm/solid/contact/plane_friction.hpp"
 #include "components/mpm/solid/material.hpp"
 
 namespace tushar::mpm::solid {
 
-/// A contact without slip, on the velocities that the records hold.
+/// A contact other than friction by stresses, on the velocities that the records hold.
 template <int D>
-void moveTogether(const Patch& patch, const Contact& contact, double time, const Records& records) {
+void applyContact(const Patch& patch, const Contact& contact, double time, double dt, const Records& records,
+                  const SeparatingPlanes<D>& planes) {
   if (contact.type == Contact::Type::singleVelocity) moveAsOne<D>(patch, contact, records);
-  if (contact.type == Contact::Type::specified) followMaster<D>(patch, contact, time, records);
+  if (contact.type == Contact::Type::specified) followMaster<D>(patch, contact, time, dt, records);
+  if (contact.type == Contact::Type::planeFriction) slideAlongPlanes<D>(contact, records, planes);
+  if (contact.type == Contact::Type::specifiedFriction) slideOnMaster<D>(patch, contact, time, dt, records, planes);
 }
 
-/// Contacts without slip, on velocities of the start of a step or of its end: Uintah's exMomInterpolated.
+/// Contacts other than friction by stresses, on velocities of the start of a step or of its end: Uintah's
+/// exMomInterpolated.
 template <int D>
 void exchangeMomentum(const Patch& patch, const std::vector<Material>&, const std::vector<Contact>& contacts,
-                      Moment moment, double time, const Records& records) {
+                      Moment moment, double time, double dt, const Records& records,
+                      const SeparatingPlanes<D>& planes) {
   for (const Contact& contact : contacts)
-    if (contact.actsTwice || moment == Moment::end) moveTogether<D>(patch, contact, time, records);
+    if (contact.actsTwice || moment == Moment::end) applyContact<D>(patch, contact, time, dt, records, planes);
 }
 
 /// A force on the nodes, N, of each material; none where no material transmits force.
@@ -28,20 +33,20 @@ using TransmittedForces = std::vector<std::optional<NodeView<Vec<D>>>>;
 template <int D>
 void addMomentum(const Contact& contact, const Records& records, double share, NodeView<Vec<D>> sum) {
   forEach<D>(sum.box(), [&](const Index<D>& node) {
-    if (records[contact.master][node][lane::mass] == 0) return;
+    if (!isPresent<D>(records, contact.master, node)) return;
     for (std::size_t m = 0; m < records.size(); ++m)
       if (const NodeRecord& record = records[m][node]; contact.concerns(static_cast<int>(m)) && record[lane::mass] != 0)
         sum[node] += share * record[lane::mass] * lanes<D>(record, lane::velocity);
   });
 }
 
-/// Contacts without slip on the velocities at the end of the step, Uintah's exMomIntegrated: adds the force of rigid
+/// The same on the velocities at the end of the step, Uintah's exMomIntegrated: adds the force of rigid
 /// and specified ones to `reaction`, and for a master that transmits force what it takes from the others,
 /// - sum m (v* after - v* before) / dt at each node, N, to `transmitted`.
 template <int D>
 void exchangeMomentumAtEnd(const Patch& patch, const std::vector<Material>& materials,
                            const std::vector<Contact>& contacts, const Acceleration& acceleration, double time,
-                           double dt, const Records& records, VectorSum& reaction,
+                           double dt, const Records& records, const SeparatingPlanes<D>& planes, VectorSum& reaction,
                            const TransmittedForces<D>& transmitted) {
   for (const auto& force : transmitted)
     if (force) force->fill(Vec<D>::Zero());
@@ -51,7 +56,9 @@ void exchangeMomentumAtEnd(const Patch& patch, const std::vector<Material>& mate
     const bool transmits = isSpecified && materials[master].transmitsForce;
     if (transmits) addMomentum<D>(contact, records, 1 / dt, *transmitted[master]);
     if (isSpecified) sumReaction<D>(patch, contact, acceleration, dt, records, reaction);
-    moveTogether<D>(patch, contact, time, records);
+    if (contact.type == Contact::Type::specifiedFriction)
+      sumSlidingReaction<D>(patch, contact, acceleration, time, dt, records, planes, reaction);
+    applyContact<D>(patch, contact, time, dt, records, planes);
     if (transmits) addMomentum<D>(contact, records, -1 / dt, *transmitted[master]);
   }
 }

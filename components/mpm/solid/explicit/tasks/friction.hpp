@@ -13,7 +13,7 @@ namespace tushar::mpm::solid {
 template <class Shape, int D = Shape::dimension>
 struct SurfaceSources {
   ParticleView<const Vec<D>> x;
-  OptionalView<const Vec<D>> size;
+  Sizes<D> size;
   ParticleView<const double> mass;
   ParticleView<const Matrix3> deformation;
   OptionalView<const Matrix3> particleStress;  ///< where it is not a function of F alone
@@ -23,7 +23,7 @@ struct SurfaceSources {
 
   static SurfaceSources from(auto& take, const Keeps& keeps) {
     return {.x = take(requiresOld(p::x<D>, Shape::reach)),
-            .size = take(when(keeps.sizes, requiresOld(p::size<D>, Shape::reach))),
+            .size = Sizes<D>::from(take, keeps.sizes, Shape::reach),
             .mass = take(requiresOld(p::mass, Shape::reach)),
             .deformation = take(requiresOld(p::deformationMeasure, Shape::reach)),
             .particleStress = take(when(keeps.stress, requiresOld(p::stress, Shape::reach))),
@@ -34,7 +34,7 @@ struct SurfaceSources {
   }
 };
 
-/// Beyond a symmetry plane a body goes on: no gradient points through the plane, and the volume counts twice.
+/// A body continues beyond a symmetry plane: no gradient points through the plane, and the volume counts twice.
 template <int D>
 void mirrorSurface(const Patch& patch, const Material& material, NodeView<Vec<D>> massGradient,
                    NodeView<double> volume) {
@@ -58,8 +58,9 @@ void computeSurface(const Patch& patch, const Material& material, const Vec3& co
   u.volume.fill(0.0);
   const Box& box = u.position.box();
   const Extents<Shape> extents(patch.level(), commonSize, u.size, u.deformation);
+  const double density = material.undeformedDensity();
   forEachStencil<Shape>(patch, u.x.cells(), u.x, extents, [&](int p, const auto& stencil) {
-    const double mass = u.mass[p], v = mass / material.density * u.deformation[p].determinant();
+    const double mass = u.mass[p], v = mass / density * u.deformation[p].determinant();
     const double weight = Shape::axisymmetric ? mass / v : mass;
     Matrix3 sigma = Matrix3::Zero();
     if (u.particleStress)

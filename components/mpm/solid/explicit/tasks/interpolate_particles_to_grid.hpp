@@ -14,22 +14,22 @@ namespace tushar::mpm::solid {
 template <class Shape, int D = Shape::dimension>
 struct MomentumSources {
   ParticleView<const Vec<D>> x;
-  OptionalView<const Vec<D>> size;
+  Sizes<D> size;
   ParticleView<const double> mass;
   ParticleView<const Vec<D>> velocity;
   OptionalView<const Matrix3> deformation;  ///< F, where shape functions or stresses follow it
 
   /// `velocity` and `deformation` are accesses of those two.
-  static MomentumSources from(auto& take, bool keepsSizes, auto velocity, auto deformation) {
+  static MomentumSources from(auto& take, KeptSizes keepsSizes, auto velocity, auto deformation) {
     return {.x = take(requiresOld(p::x<D>, Shape::reach)),
-            .size = take(when(keepsSizes, requiresOld(p::size<D>, Shape::reach))),
+            .size = Sizes<D>::from(take, keepsSizes, Shape::reach),
             .mass = take(requiresOld(p::mass, Shape::reach)),
             .velocity = take(velocity),
             .deformation = take(deformation)};
   }
 };
 
-/// What particles exert forces by, besides F.
+/// The variables besides F from which the forces of particles follow.
 template <class Shape, int D = Shape::dimension>
 struct ForceSources {
   OptionalView<const double> volume;
@@ -106,14 +106,14 @@ class Scatter {
       std::fill_n(moments, count, Matrix3(Matrix3::Zero()));
       return;
     }
-    const double inverseDensity = 1 / material_.density;
+    const double density = material_.undeformedDensity(), inverseDensity = 1 / density;
     const auto startVolume = [&](int p) { return mass_[p] * inverseDensity; };
     stressMoments(material_, stresses_, first, count, startVolume, moments);
     if (!viscosity_) return;
     for (int k = 0; k < count; ++k) {
       const int p = first + k;
-      const double volume = stresses_.volume ? stresses_.volume[p]
-                                             : mass_[p] / material_.density * stresses_.deformation[p].determinant();
+      const double volume =
+          stresses_.volume ? stresses_.volume[p] : mass_[p] / density * stresses_.deformation[p].determinant();
       moments[k].diagonal().array() -= volume * viscosity_[p];
     }
   }

@@ -4,7 +4,7 @@
 
 namespace tushar::mpm::solid {
 
-/// What brings particles to the end of a step.
+/// The variables of the task that moves particles to the end of a step.
 template <class Shape, int D = Shape::dimension>
 struct ParticleUpdate {
   ParticleView<Vec<D>> newX, newVelocity;
@@ -20,9 +20,9 @@ struct ParticleUpdate {
 /// x, v, F and the stress in one pass over the particles: Uintah's interpolateToParticlesAndUpdate,
 /// computeParticleGradients and computeStressTensor.
 template <class Shape, int D = Shape::dimension>
-void interpolateToParticlesAndUpdate(const Patch& patch, const Material& material, const Method& method, double dt,
-                                     const ParticleUpdate<Shape>& u) {
-  updateParticles<Shape, Volumes::own>(patch, material, method, dt, u.state, [&](int p, const Gathered<D>& sums) {
+void interpolateToParticlesAndUpdate(const Patch& patch, const Material& material, const Method& method, double time,
+                                     double dt, const ParticleUpdate<Shape>& u) {
+  updateParticles<Shape, Volumes::own>(patch, material, method, time, dt, u.state, [&](int p, const Gathered<D>& sums) {
     moveParticle<D>(dt, sums, u.state.x[p], u.state.velocity[p], u.newX[p], u.newVelocity[p]);
   });
 }

@@ -129,7 +129,8 @@ struct StrainWork {
 /// artificial viscosity, -V q ln(J_new / J_old).
 inline void measureStrainWork(const Patch&, const Material& material, const StrainWork& u) {
   std::array<Matrix3, stressGroup> before, after;
-  const auto startVolume = [&](int p) { return u.mass[p] / material.density; };
+  const double density = material.undeformedDensity();
+  const auto startVolume = [&](int p) { return u.mass[p] / density; };
   for (int first = 0; first < u.work.owned(); first += stressGroup) {
     const int count = std::min(stressGroup, u.work.owned() - first);
     stressMoments(material, u.before.source(), first, count, startVolume, before.data());
@@ -143,7 +144,7 @@ inline void measureStrainWork(const Patch&, const Material& material, const Stra
       u.work[p][works::strain] +=
           0.5 * (before[at].cwiseProduct(forth - unit).sum() + after[at].cwiseProduct(unit - back).sum());
       if (!u.viscosity) continue;
-      const double now = u.mass[p] / material.density * f.determinant();
+      const double now = u.mass[p] / density * f.determinant();
       u.work[p][works::dissipated] -= now * (*u.viscosity)[p] * std::log(forth.determinant());
     }
   }

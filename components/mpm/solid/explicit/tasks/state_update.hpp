@@ -6,14 +6,14 @@
 
 namespace tushar::mpm::solid {
 
-/// What brings F, the stress and what goes with it to the end of a step.
+/// The variables with which F, the stress and internal variables reach the end of a step.
 template <class Shape, int D = Shape::dimension>
 struct StateUpdate {
   NodeView<const NodeRecord> record;  ///< with the velocity that F follows
 
   // At the start of the step.
   ParticleView<const Vec<D>> x;
-  OptionalView<const Vec<D>> size;
+  Sizes<D> size;
   ParticleView<const Vec<D>> velocity;
   ParticleView<const double> mass;
   ParticleView<const Matrix3> oldDeformation;
@@ -35,7 +35,7 @@ struct StateUpdate {
   static StateUpdate from(auto& take, const Keeps& keeps, const NodeLabel<NodeRecord>* record) {
     return {.record = take(requiresNew(*record, Shape::ghostNodes)),
             .x = take(requiresOld(p::x<D>)),
-            .size = take(when(keeps.sizes, requiresOld(p::size<D>))),
+            .size = Sizes<D>::from(take, keeps.sizes),
             .velocity = take(requiresOld(p::velocity<D>)),
             .mass = take(requiresOld(p::mass)),
             .oldDeformation = take(requiresOld(p::deformationMeasure)),

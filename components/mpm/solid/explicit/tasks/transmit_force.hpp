@@ -21,7 +21,7 @@ struct Pull {
   Vec3 acceleration() const { return Vec3(force.x.total(), force.y.total(), force.z.total()) / mass.total(); }
 };
 
-/// What moves a material on a patch as a rigid body.
+/// The sums that move a material as a rigid body, over a patch.
 template <class Shape, int D = Shape::dimension>
 struct RigidMotion {
   ParticleView<const Vec<D>> x;

@@ -8,7 +8,7 @@ namespace tushar::mpm::solid {
 // The two halves of interpolateToParticlesAndUpdate, for schedules that do not keep them together: stresses first in
 // the step, or last with velocities that went to the grid once more.
 
-/// What brings x and v to the end of a step.
+/// The variables with which x and v reach the end of a step.
 template <class Shape, int D = Shape::dimension>
 struct MotionUpdate {
   NodeView<const NodeRecord> record;
@@ -17,7 +17,7 @@ struct MotionUpdate {
   ParticleView<Vec<D>> newX, newVelocity;
 
   /// `deformation` is an access of F.
-  static MotionUpdate from(auto& take, bool keepsSizes, auto deformation) {
+  static MotionUpdate from(auto& take, KeptSizes keepsSizes, auto deformation) {
     return {.record = take(requiresNew(g::record, Shape::ghostNodes)),
             .particles = Placed<Shape>::from(take, keepsSizes, 0, deformation),
             .velocity = take(requiresOld(p::velocity<D>)),
@@ -38,9 +38,9 @@ void moveParticles(const Patch& patch, const Material&, const Vec3& commonSize, 
 
 /// L_p, F_p and the stress with the velocity that the records hold: Uintah's computeStressTensor.
 template <class Shape, Volumes volumes = Volumes::own, int D = Shape::dimension>
-void computeStressTensor(const Patch& patch, const Material& material, const Method& method, double dt,
+void computeStressTensor(const Patch& patch, const Material& material, const Method& method, double time, double dt,
                          const StateUpdate<Shape>& u) {
-  updateParticles<Shape, volumes>(patch, material, method, dt, u, [](int, const Gathered<D>&) {});
+  updateParticles<Shape, volumes>(patch, material, method, time, dt, u, [](int, const Gathered<D>&) {});
 }
 
 }  // namespace tushar::mpm::solid

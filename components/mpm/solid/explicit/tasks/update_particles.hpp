@@ -33,6 +33,13 @@ inline void deform(const Matrix3& f, const Matrix3& velocityGradient, double dt,
   rows.copyTo(result);
 }
 
+/// F at the end of a step: (sum_k (L dt)^k / k!) F, up to the power `order`.
+inline void deformBySeries(const Matrix3& f, const Matrix3& velocityGradient, double dt, int order, Matrix3& result) {
+  Matrix3 sum = Matrix3::Identity();
+  for (int k = order; k > 0; --k) sum = Matrix3::Identity() + dt / k * velocityGradient * sum;
+  result = sum * f;
+}
+
 /// x_p += dt sum_i S_i v*_i,   v_p += sum_i S_i (v*_i - v_i): the FLIP of Brackbill & Ruppel, J. Comput. Phys. 65
 /// (1986) 314.
 template <int D>
@@ -43,7 +50,8 @@ template <int D>
   newVelocity = velocity + (after - before);
 }
 
-/// L_p = sum_i v*_i grad S_i (and L_theta = sum_i v*_r S_i / r where axisymmetric),   F_p = (I + L_p dt) F_p.
+/// L_p = sum_i v*_i grad S_i (and L_theta = sum_i v*_r S_i / r where axisymmetric),   F_p = (I + L_p dt) F_p, in
+/// parts or with the terms of its series that the scene asks for.
 template <class Shape, int D = Shape::dimension>
 [[gnu::always_inline]] inline void deformParticle(const Level& level, const Method& method, double dt,
                                                   const Gathered<D>& sums, const Erosion& erosion,
@@ -59,17 +67,30 @@ template <class Shape, int D = Shape::dimension>
       velocityGradient(sceneAxis<D>(level, i), sceneAxis<D>(level, j)) = sums.gradient[j][lane::velocity + i];
   const Matrix3& before = u.oldDeformation[p];
   Matrix3& now = u.deformation[p];
-  deform(before, velocityGradient, dt, subcyclesForF(square * dt * dt, method.minimumSubcyclesForF), now);
+  if (method.minimumSubcyclesForF < 1)
+    deformBySeries(before, velocityGradient, dt, -method.minimumSubcyclesForF, now);
+  else
+    deform(before, velocityGradient, dt, subcyclesForF(square * dt * dt, method.minimumSubcyclesForF), now);
   if (u.localized && (*u.localized)[p]) erosion.restrain(before, now, velocityGradient);
   if (u.volume) (*u.volume)[p] = (*u.oldVolume)[p] * (now.determinant() / before.determinant());
   if (u.velocityGradient) (*u.velocityGradient)[p] = velocityGradient;
 }
 
-/// What a constitutive model says of up to stressGroup particles besides their stress.
+/// The results of a constitutive model for up to stressGroup particles, besides their stresses.
 struct StressResults {
   std::array<double, stressGroup> waveSpeed, bulkSpeed;  ///< m/s
   std::array<double, stressGroup> energyDensity;         ///< J/m^3 of the volume at the start
 };
+
+/// The positions, masses and the time of particles from `first` on, for a model that reads them.
+template <class Shape, int D = Shape::dimension>
+void placePoints(const Level& level, const StateUpdate<Shape>& u, double time, int first,
+                 std::array<Vec3, stressGroup>& positions, StressPoints& points) {
+  for (int k = 0; k < points.count; ++k) positions[k] = level.expandPoint<D>(u.x[first + k]);
+  points.position = positions.data();
+  points.mass = u.mass.values() + first;
+  points.time = time;
+}
 
 /// Particles `first` and those after it as a constitutive model takes them. `velocityGradient` is that of the first.
 template <class Shape>
@@ -96,7 +117,11 @@ StressPoints stressPoints(const StateUpdate<Shape>& u, double dt, const Matrix3*
 template <class Shape>
 void heatByViscosity(const Material& material, double growth, const StateUpdate<Shape>& u, int p) {
   const double heat = -(*u.viscosity)[p] * growth;
-  if (u.temperatureChange) (*u.temperatureChange)[p] += heat / material.specificHeat;
+  if (u.temperatureChange) {
+    const double temperature = u.temperature ? (*u.temperature)[p] : 0.0;
+    (*u.temperatureChange)[p] +=
+        heat / material.model->heatCapacity(u.deformation[p], temperature, material.specificHeat);
+  }
   material.model->addViscousHeat(valuesOf(u.state) + p * u.stateSize, heat);
 }
 
@@ -108,40 +133,46 @@ void updateViscosity(const Material& material, const Method& method, double dt, 
   const ArtificialViscosity own =
       material.model->ownViscosity().value_or(method.viscosity.value_or(ArtificialViscosity{}));
   const bool heated = method.viscosityHeats && material.model->hasViscousHeat();
+  const double undeformed = material.undeformedDensity();
   double* const viscosity = valuesOf(u.viscosity);
   for (int k = 0; k < count; ++k) {
     const int p = first + k;
     const double jump = std::max(-velocityGradient[k].trace(), 0.0) * method.meanWidth;
-    const double density = material.density / u.deformation[p].determinant();
+    const double density = undeformed / u.deformation[p].determinant();
     viscosity[p] = density * jump * (own.linear * bulkSpeed[k] + own.quadratic * jump);
     if (heated) heatByViscosity(material, velocityGradient[k].trace() * dt / density, u, p);
   }
 }
 
-/// Strain energy of particles from `first` on, from its density (J/m^3 of the volume at the start): none is left in
+/// Strain energy of particles from `first` on, from its density (J/m^3 of the volume at F = I): none is left in
 /// what has failed.
 template <class Shape>
 void updateStrainEnergy(const Material& material, const StateUpdate<Shape>& u, const double* density, int first,
                         int count) {
+  const double undeformed = material.undeformedDensity();
   double* const energy = valuesOf(u.strainEnergy);
   const int* const localized = valuesOf(u.localized);
   for (int k = 0; k < count; ++k) {
     const int p = first + k;
     const bool bears = !localized || !localized[p];
-    energy[p] = bears ? density[k] * u.mass[p] / material.density : 0.0;
+    energy[p] = bears ? density[k] * u.mass[p] / undeformed : 0.0;
   }
 }
 
 /// Stress, artificial viscosity and strain energy of particles of a cell, where a scene keeps them; adds their waves to
 /// `rate`.
 template <class Shape, int D = Shape::dimension>
-void updateStress(const Material& material, const Method& method, double dt, const StateUpdate<Shape>& u,
-                  const Matrix3* velocityGradient, int first, int count, CrossingRate<D>& rate) {
+void updateStress(const Level& level, const Material& material, const Method& method, double time, double dt,
+                  const StateUpdate<Shape>& u, const Matrix3* velocityGradient, int first, int count,
+                  CrossingRate<D>& rate) {
   if (u.state)
     std::copy_n(valuesOf(u.oldState) + first * u.stateSize, count * u.stateSize,
                 valuesOf(u.state) + first * u.stateSize);
   StressResults results;
-  material.model->updateStress(material.density, stressPoints(u, dt, velocityGradient, first, count, results));
+  StressPoints points = stressPoints(u, dt, velocityGradient, first, count, results);
+  std::array<Vec3, stressGroup> positions;
+  if (material.model->usesPlaceAndTime()) placePoints<Shape>(level, u, time, first, positions, points);
+  material.model->updateStress(material.density, points);
   for (int k = 0; k < count; ++k) rate.add(results.waveSpeed[k], u.velocity[first + k]);
   if (u.viscosity) updateViscosity(material, method, dt, u, velocityGradient, results.bulkSpeed.data(), first, count);
   if (u.strainEnergy) updateStrainEnergy(material, u, results.energyDensity.data(), first, count);
@@ -163,9 +194,9 @@ NumericalError withoutWaveSpeed(const Level& level, const StateUpdate<Shape>& u,
 
 /// F, the stress and what goes with it at the end of the step, of the patch's own particles, and how long a step each
 /// cell may take. Calls `move(p, sums)` for what each particle gathers from the grid. Throws NumericalError where a
-/// wave has no speed.
+/// wave has no speed. The step starts at `time`, s.
 template <class Shape, Volumes volumes, class Move, int D = Shape::dimension>
-void updateParticles(const Patch& patch, const Material& material, const Method& method, double dt,
+void updateParticles(const Patch& patch, const Material& material, const Method& method, double time, double dt,
                      const StateUpdate<Shape>& u, Move&& move) {
   const Level& level = patch.level();
   const Extents<Shape> extents(level, method.commonSize, u.size, u.oldDeformation);
@@ -189,8 +220,8 @@ void updateParticles(const Patch& patch, const Material& material, const Method&
       }
       if constexpr (volumes == Volumes::shared) shareVolume<Shape>(dt, range, u, velocityGradient);
       for (int k = 0; k < count; k += stressGroup)
-        updateStress<Shape>(material, method, dt, u, velocityGradient + k, first + k, std::min(stressGroup, count - k),
-                            rate);
+        updateStress<Shape>(level, material, method, time, dt, u, velocityGradient + k, first + k,
+                            std::min(stressGroup, count - k), rate);
     }
     if (!rate.isKnown()) throw withoutWaveSpeed<Shape>(level, u, cell, range);
     u.stableTimeStep[cell] = rate.time();

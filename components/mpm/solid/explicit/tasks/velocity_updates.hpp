@@ -40,7 +40,7 @@ void limitVelocity(const Patch&, const Material&, double greatest, ParticleView<
   }
 }
 
-/// What XPIC changes of particles that have moved by FLIP.
+/// The correction by XPIC for particles that have moved by FLIP.
 template <class Shape, int D = Shape::dimension>
 struct XpicUpdate {
   NodeView<const NodeRecord> smoothRecord;
@@ -49,7 +49,7 @@ struct XpicUpdate {
   ParticleView<Vec<D>> newX, velocity;
 
   /// `deformation` is an access of F.
-  static XpicUpdate from(auto& take, bool keepsSizes, auto deformation) {
+  static XpicUpdate from(auto& take, KeptSizes keepsSizes, auto deformation) {
     return {.smoothRecord = take(requiresNew(g::smoothRecord, Shape::ghostNodes)),
             .particles = Placed<Shape>::from(take, keepsSizes, 0, deformation),
             .oldVelocity = take(requiresOld(p::velocity<D>)),

@@ -2,7 +2,7 @@
 
 #include "core/tasks/scheduler.hpp"
 
-// How the ranks agree on how a graph went.
+// How the run of a graph ends: faults are noted, all ranks agree on the first, and a sentence says what broke.
 
 namespace tushar::tasks {
 

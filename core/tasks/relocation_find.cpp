@@ -3,11 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <utility>
 
 #include "core/base/error.hpp"
 #include "core/tasks/broken_value.hpp"
 #include "core/tasks/outcome.hpp"
+
+// How Relocation finds which particles leave their cells, and where to.
 
 namespace tushar::tasks {
 
@@ -24,13 +25,6 @@ Index3 widened(const Index<D>& cell) {
   Index3 wide;
   for (int d = 0; d < D; ++d) wide[d] = cell[d];
   return wide;
-}
-
-/// Makes the old set the new one.
-void keepSet(data::Warehouse& warehouse, int material, const Patch& patch) {
-  ParticleSet& before = warehouse.particles(Generation::old, material, patch.id());
-  before.forgetGhosts();
-  std::swap(before, warehouse.particles(Generation::fresh, material, patch.id()));
 }
 
 /// Whether a position lies in the cell with these bounds.
@@ -92,27 +86,6 @@ bool Relocation::find(int material, int position, bool hasStopped) {
   if (verdict.hasEscape) refuseEscape(position, verdict);
   movesOf(material).goFar = verdict.goFar;
   return true;
-}
-
-void Relocation::apply(int material, const std::vector<Carried>& carried, Generation to) {
-  Moves& moves = movesOf(material);
-  moves.migration.run(carried, moves.goFar);
-  receiveAll(moves);
-  forEachPatch([&](const Patch& patch) {
-    PatchMoves& ofPatch = of(moves, patch.id());
-    if (!ofPatch.staysAsItIs(to)) return rebuild(patch, material, ofPatch);
-    keepSet(*warehouse_, material, patch);
-    keepAll(ofPatch, warehouse_->particles(Generation::fresh, material, patch.id()).owned());
-  });
-  warehouse_->layOut(Generation::fresh, material, Generation::old);
-  const auto stands = [&](const PatchMoves& ofPatch) { return ofPatch.staysAsItIs(to); };
-  if (std::all_of(moves.patches.begin(), moves.patches.end(), stands)) return;
-  moves.departed = 0;
-  for (const Patch& patch : warehouse_->level().patches()) {
-    PatchMoves& ofPatch = of(moves, patch.id());
-    ofPatch.packed = std::exchange(moves.departed, moves.departed + ofPatch.departed.size());
-  }
-  for (std::size_t place = 0; place < carried.size(); ++place) carry(carried[place], place, to, material, moves);
 }
 
 void Relocation::Verdict::merge(const Verdict& other) {
@@ -200,6 +173,16 @@ void Relocation::move(const Patch& from, const Index<D>& fromCell, Vec<D>& x, Pa
     moves.outgoing.push_back({id, wide, place, departed});
 }
 
+void Relocation::receive(const Patch& patch, const Index3& cell, const Incoming& particle, PatchMoves& moves) {
+  const int added = static_cast<int>(moves.incoming.size());
+  moves.incoming.push_back(particle);
+  int* link = &moves.firstIncoming[patch.cells().offset(cell)];
+  while (*link >= 0 && moves.incoming[*link].id < particle.id) link = &moves.incoming[*link].next;
+  moves.incoming.back().next = *link;
+  *link = added;
+  moves.isEntered[patch.cells().rowOf(cell)] = true;
+}
+
 Relocation::Verdict Relocation::gather(Moves& moves, bool hasStopped) {
   const grid::Level& level = warehouse_->level();
   Verdict verdict{hasStopped, false, false, warehouse_->ranks().rank(), {}};
@@ -249,101 +232,6 @@ std::string Relocation::sentence(int position, const Escape& escape) const {
   const char axis = "xyz"[level.axis(through)];
   return fmt::format("particle {} passed through the symmetry plane {}{}, from {} = {:.6g} m to {:.6g} m; patch {}",
                      escape.id, axis, "-+"[side], axis, at(Generation::old)[through], x[through], escape.patch);
-}
-
-void Relocation::receiveAll(Moves& moves) {
-  const grid::Level& level = warehouse_->level();
-  const auto receiveAt = [&](ParticleId id, const Index3& cell, const Arrival& from) {
-    const Patch to = level.patchOf(cell);
-    if (!level.isMine(to.id())) return;
-    PatchMoves& there = of(moves, to.id());
-    there.arrivals.push_back(from);
-    receive(to, cell, {id, -static_cast<int>(there.arrivals.size()), -1}, there);
-  };
-  for (const Patch& patch : level.patches())
-    for (const Outgoing& one : of(moves, patch.id()).outgoing) receiveAt(one.id, one.cell, {patch.id(), one.departed});
-  const std::vector<MigratingParticle>& arrived = moves.migration.arrived();
-  for (std::size_t k = 0; k < arrived.size(); ++k) receiveAt(arrived[k].id, arrived[k].cell, {-1, static_cast<int>(k)});
-}
-
-void Relocation::receive(const Patch& patch, const Index3& cell, const Incoming& particle, PatchMoves& moves) {
-  const int added = static_cast<int>(moves.incoming.size());
-  moves.incoming.push_back(particle);
-  int* link = &moves.firstIncoming[patch.cells().offset(cell)];
-  while (*link >= 0 && moves.incoming[*link].id < particle.id) link = &moves.incoming[*link].next;
-  moves.incoming.back().next = *link;
-  *link = added;
-  moves.isEntered[patch.cells().rowOf(cell)] = true;
-}
-
-void Relocation::rebuild(const Patch& patch, int material, PatchMoves& moves) {
-  const int id = warehouse_->table().find(data::particleId.name, material);
-  const ParticleSet& before = warehouse_->particles(Generation::old, material, patch.id());
-  ParticleSet& after = warehouse_->particles(Generation::fresh, material, patch.id());
-  const auto* ids = reinterpret_cast<const ParticleId*>(warehouse_->variable(Generation::old, id, patch.id()).values);
-  after.reset(patch, warehouse_->table().reach(material));
-  moves.runs.clear();
-  moves.entries.clear();
-  moves.entries.reserve(moves.incoming.size());
-  moves.count = 0;
-  std::size_t nextDeparted = 0;
-  const int rowLength = patch.cells().extent(0);
-  grid::forEach<3>(patch.cells().rowStarts(), [&](const Index3& cell) {
-    const bool isEntered = moves.isEntered[patch.cells().rowOf(cell)];
-    if (!isEntered && before.occupied(cell, patch.cells().upper[0]).empty()) return;
-    const ParticleRange* from = before.row(cell);
-    ParticleRange* to = after.row(cell);
-    const int* firstIncoming = &moves.firstIncoming[patch.cells().offset(cell)];
-    for (int k = 0; k < rowLength; ++k, ++from, ++to) {
-      const int first = moves.count;
-      const bool stays = nextDeparted == moves.departed.size() || moves.departed[nextDeparted] >= from->last;
-      if (stays && firstIncoming[k] < 0)
-        keep(moves, from->first, from->size());
-      else
-        mergeCell(moves, *from, firstIncoming[k], ids, nextDeparted);
-      *to = {first, moves.count};
-    }
-    after.closeRow(cell);
-  });
-  after.setOwnedOfClosedRows(moves.count);
-}
-
-/// All particles of a patch stay in their places.
-void Relocation::keepAll(PatchMoves& moves, int count) {
-  moves.runs.clear();
-  moves.entries.clear();
-  moves.count = 0;
-  keep(moves, 0, count);
-}
-
-/// Appends particles that were consecutive and stay so.
-void Relocation::keep(PatchMoves& moves, int first, int count) {
-  if (count == 0) return;
-  Run* last = moves.runs.empty() ? nullptr : &moves.runs.back();
-  if (last && last->from + last->count == first && last->to + last->count == moves.count)
-    last->count += count;
-  else
-    moves.runs.push_back({moves.count, first, count});
-  moves.count += count;
-}
-
-/// Appends the particles of one cell: those that stay, in their order, and those that come in between by id.
-void Relocation::mergeCell(PatchMoves& moves, const ParticleRange& before, int firstIncoming, const ParticleId* ids,
-                           std::size_t& nextDeparted) {
-  int waiting = firstIncoming;
-  const auto letInOne = [&] {
-    moves.entries.push_back({moves.count++, waiting});
-    waiting = moves.incoming[waiting].next;
-  };
-  for (int p = before.first; p < before.last; ++p) {
-    if (nextDeparted < moves.departed.size() && moves.departed[nextDeparted] == p) {
-      ++nextDeparted;
-      continue;
-    }
-    while (waiting >= 0 && moves.incoming[waiting].id < ids[p]) letInOne();
-    keep(moves, p, 1);
-  }
-  while (waiting >= 0) letInOne();
 }
 
 }  // namespace tushar::tasks

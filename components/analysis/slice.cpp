@@ -1,0 +1,223 @@
+#include "components/analysis/slice.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <memory>
+#include <set>
+#include <sstream>
+
+#include "core/input/schema.hpp"
+#include "core/output/archive.hpp"
+#include "core/simulation/time_control.hpp"
+
+namespace tushar::analysis {
+
+using collect::Layer;
+using grid::Level;
+using input::Diagnostics;
+using input::Element;
+using input::Schema;
+using output::Archive;
+using output::Snapshot;
+using simulation::Analysis;
+using simulation::AnalysisKind;
+using simulation::Component;
+using simulation::MakeAnalysis;
+using simulation::SaveRequest;
+
+namespace {
+
+/// The text of a tag, and where it stands.
+struct Word {
+  Location where;
+  std::string text;
+};
+
+struct Settings {
+  std::string name;
+  Location where;
+  std::vector<Word> planes, labels;
+  std::string material;
+  double interval = 0;   ///< s; 0: none
+  int stepInterval = 0;  ///< 0: none
+};
+
+const Schema<Word>& planeSchema() {
+  static const Schema<Word> schema =
+      Schema<Word>("plane", "A plane across an axis of the grid.")
+          .location(&Word::where)
+          .text(&Word::text, "m", "the coordinate that its points share, such as z = 0.5");
+  return schema;
+}
+
+const Schema<Word>& labelSchema() {
+  static const Schema<Word> schema = Schema<Word>("label", "A variable of cells or nodes.")
+                                         .location(&Word::where)
+                                         .text(&Word::text, "1", "its name, such as c.density or g.velocity");
+  return schema;
+}
+
+void checkSettings(const Settings& settings, const Element& module, Diagnostics& diagnostics) {
+  std::set<std::string> names;
+  for (const Word& plane : settings.planes) {
+    const auto read = planeOf(plane.text);
+    const std::string path = module.path() + "/plane";
+    if (!read)
+      diagnostics.error(plane.where, path,
+                        fmt::format("found '{}', expected an axis and a coordinate in m, as z = 0.5", plane.text));
+    else if (!names.insert(fmt::format("{} {}", read->axis, read->at)).second)
+      diagnostics.error(plane.where, path, fmt::format("the plane {} is given twice", plane.text));
+  }
+  for (const Word& label : settings.labels)
+    if (!label.text.starts_with("c.") && !label.text.starts_with("g."))
+      diagnostics.error(label.where, module.path() + "/label",
+                        fmt::format("found '{}', expected a variable of cells (c.) or nodes (g.)", label.text));
+  if ((settings.interval > 0) == (settings.stepInterval > 0))
+    diagnostics.error(module, "a slice needs one of outputInterval and outputTimestepInterval");
+}
+
+const Schema<Settings>& settingsSchema() {
+  static const Schema<Settings> schema =
+      Schema<Settings>("Module", "Variables on planes, often: archives of their own in slice/<plane>.")
+          .requiredAttribute("name", &Settings::name, "1", "slice")
+          .location(&Settings::where)
+          .list("plane", &Settings::planes, planeSchema(), "a plane, whose cells and nearest nodes are written", 1)
+          .ours()
+          .list("label", &Settings::labels, labelSchema(), "a variable of cells or nodes", 1)
+          .ours()
+          .value("material", &Settings::material, "", "1", "name of the material whose variables are written; all")
+          .ours()
+          .value("outputInterval", &Settings::interval, 0, "s", "simulated time between two slices", input::positive())
+          .ours()
+          .value("outputTimestepInterval", &Settings::stepInterval, 0, "1", "steps between two slices",
+                 input::positive())
+          .ours()
+          .check(checkSettings);
+  return schema;
+}
+
+char nameOf(int axis) { return "xyz"[axis]; }
+
+/// Why a grid has no cells on a plane; empty where it has.
+std::string problemOf(const Plane& plane, const Level& level) {
+  const double lower = level.domain().lower[plane.axis], upper = level.domain().upper[plane.axis];
+  if (level.dimension() < 2) return "a slice of a grid along one axis would be a point; take the module out";
+  bool isUsed = false;
+  for (int d = 0; d < level.dimension(); ++d) {
+    isUsed = isUsed || level.axis(d) == plane.axis;
+    if (level.cells().extent(d) < 2)
+      return fmt::format("a slice needs more than one cell along {}, which the grid uses", nameOf(level.axis(d)));
+  }
+  if (!isUsed) return fmt::format("the grid has no cells side by side along {}; name another axis", nameOf(plane.axis));
+  if (plane.at >= lower && plane.at <= upper) return {};
+  return fmt::format("found {} = {:g} m, expected a place on the grid, from {:g} to {:g} m", nameOf(plane.axis),
+                     plane.at, lower, upper);
+}
+
+/// The layers of the planes. Throws InputError for planes that the grid has no cells on.
+std::vector<Layer> layersOf(const Settings& settings, const Level& level) {
+  std::vector<Layer> layers;
+  std::vector<InputProblem> problems;
+  for (const Word& word : settings.planes) {
+    const auto plane = planeOf(word.text);
+    if (!plane) continue;  // the diagnostics say it
+    if (const std::string problem = problemOf(*plane, level); !problem.empty())
+      problems.push_back({word.where, "DataAnalysis/Module/plane", problem});
+    else
+      layers.push_back(layerAt(*plane, level));
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+  return layers;
+}
+
+class Slice : public Analysis {
+ public:
+  Slice(Settings settings, const Level& level)
+      : settings_(std::move(settings)), layers_(layersOf(settings_, level)), times_(0, settings_.interval) {
+    archives_.resize(layers_.size());
+  }
+
+  void schedule(tasks::TaskList&) const override {}
+  void setTime(double, double sinceStart) override {
+    if (sinceStart == since_start_) return;
+    since_start_ = sinceStart;
+    time_is_due_ = times_.isReached(sinceStart);
+    times_.pass(sinceStart);
+  }
+  std::vector<SaveRequest> samples() const override {
+    std::vector<SaveRequest> requests;
+    for (const Word& label : settings_.labels)
+      requests.push_back({label.text, settings_.material, label.where, settings_.where});
+    return requests;
+  }
+  std::vector<Layer> layers() const override { return layers_; }
+  bool isSampleDue(int step) const override {
+    const int every = settings_.stepInterval;
+    return step == 0 || (every > 0 ? step % every == 0 : time_is_due_);
+  }
+  void sample(const std::vector<Snapshot>& parts, const std::filesystem::path& folder) override {
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      if (!archives_[k]) archives_[k] = open(k, parts[k], folder);
+      archives_[k]->write(parts[k]);
+    }
+  }
+
+ private:
+  /// The archive of a plane, without what a run before has left that is now repeated.
+  std::unique_ptr<Archive> open(std::size_t plane, const Snapshot& first, const std::filesystem::path& folder) const {
+    const Plane at = *planeOf(settings_.planes[plane].text);
+    const auto own = folder / "slice" / fmt::format("{}={}", nameOf(at.axis), at.at);
+    std::error_code error;
+    std::filesystem::create_directories(own, error);
+    if (error) throw FileError(fmt::format("cannot make the folder '{}': {}", own.string(), error.message()));
+    std::ostringstream scene;
+    scene << std::ifstream(folder / "input.xml").rdbuf();
+    return std::make_unique<Archive>(own, "slice", output::ArchivePoint{first.step - 1, first.time, "", ""},
+                                     scene.str(), output::ArchiveOptions{.version = TUSHAR_VERSION});
+  }
+
+  Settings settings_;
+  std::vector<Layer> layers_;
+  simulation::Milestones times_;  ///< since the start of the first run, s
+  double since_start_ = -1;
+  bool time_is_due_ = false;
+  std::vector<std::unique_ptr<Archive>> archives_;  ///< of each plane, once it is written
+};
+
+}  // namespace
+
+std::optional<Plane> planeOf(const std::string& text) {
+  std::string packed = text;
+  std::erase_if(packed, [](unsigned char c) { return std::isspace(c) != 0; });
+  const std::size_t axis = packed.empty() ? std::string::npos : std::string("xyz").find(packed[0]);
+  if (axis == std::string::npos || packed.size() < 3 || packed[1] != '=') return {};
+  const auto at = input::parse<double>(packed.substr(2));
+  if (!at.value) return {};
+  return Plane{static_cast<int>(axis), *at.value};
+}
+
+Layer layerAt(const Plane& plane, const Level& level) {
+  int d = 0;
+  while (level.axis(d) != plane.axis) ++d;
+  const int cells = level.cells().extent(d);
+  const double place = (plane.at - level.nodePosition(d, 0)) / level.spacing(d);  // in cells
+  const int cell = std::clamp(static_cast<int>(std::ceil(place)) - 1, 0, cells - 1);
+  const int node = std::clamp(static_cast<int>(std::ceil(place - .5)), 0, cells);
+  return {d, cell, node};
+}
+
+AnalysisKind sliceKind() {
+  AnalysisKind kind{"slice", "variables of cells and nodes on planes, often", {}, {}};
+  kind.describe = [](std::ostream& out) { settingsSchema().describe(out); };
+  kind.schema = [] { return &settingsSchema(); };
+  kind.read = [](const Element& module, Diagnostics& diagnostics) -> MakeAnalysis {
+    const Settings settings = settingsSchema().read(module, diagnostics);
+    return [settings](const Component&, const Level& level) { return std::make_unique<Slice>(settings, level); };
+  };
+  return kind;
+}
+
+}  // namespace tushar::analysis

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/simulation/catalogue.hpp"
+
+namespace tushar::analysis {
+
+/// `slice`: variables of cells and nodes on planes, often. Each plane is an archive of its own in that of the run,
+/// `sod.uda/slice/z=0`, with a grid that is one cell thick. It shows the cells that the plane cuts, and the nodes
+/// nearest to it, as they are; of two at the same distance those with the smaller coordinate.
+simulation::AnalysisKind sliceKind();
+
+/// A plane across an axis of the scene (0 for x, 1 for y, 2 for z), where that coordinate is `at` [m].
+struct Plane {
+  int axis;
+  double at;
+};
+
+/// What `z = 0.5` says; none where it is something else.
+std::optional<Plane> planeOf(const std::string& text);
+
+/// The layer of the grid that a plane shows. The grid uses the plane's axis, and the plane is within its sides.
+collect::Layer layerAt(const Plane& plane, const grid::Level& level);
+
+}  // namespace tushar::analysis

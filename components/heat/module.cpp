@@ -1,0 +1,7 @@
+#include "components/heat/heat.hpp"
+
+namespace tushar::modules {
+
+simulation::Catalogue heat() { return {{tushar::heat::kind()}, {}}; }
+
+}  // namespace tushar::modules

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <algorithm>
+#include <functional>
+
+namespace tushar::mpm::solid {
+
+/// A value that particles have by their p.color: linear between the entries of a table, which are in the order of their
+/// `color`, and beyond them that of the first and the last. Throws nothing; the table must not be empty.
+template <class Table, class Value>
+double valueByColor(const Table& table, double color, Value&& value) {
+  const auto upper = std::find_if(table.begin(), table.end(), [&](const auto& entry) { return color <= entry.color; });
+  if (upper == table.begin()) return std::invoke(value, table.front());
+  if (upper == table.end()) return std::invoke(value, table.back());
+  const auto lower = std::prev(upper);
+  const double share = (color - lower->color) / (upper->color - lower->color);
+  return (1 - share) * std::invoke(value, *lower) + share * std::invoke(value, *upper);
+}
+
+/// Whether the colors of a table grow from entry to entry.
+template <class Table>
+bool growsInColor(const Table& table) {
+  return std::adjacent_find(table.begin(), table.end(),
+                            [](const auto& a, const auto& b) { return a.color >= b.color; }) == table.end();
+}
+
+}  // namespace tushar::mpm::solid

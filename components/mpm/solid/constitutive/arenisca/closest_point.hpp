@@ -1,0 +1,124 @@
+#pragma once
+
+#include <Eigen/Eigenvalues>
+
+#include "components/mpm/solid/constitutive/arenisca/elasticity.hpp"
+#include "components/mpm/solid/constitutive/arenisca/yield_surface.hpp"
+
+namespace tushar::mpm::solid::arenisca {
+
+/// A stress by its invariants, in the axes of its deviator.
+struct Invariants {
+  double i1, rootJ2;  ///< Pa
+  LodeAngle theta;
+
+  explicit Invariants(const Matrix3& stress) : i1(stress.trace()) {
+    const Matrix3 s = deviator(stress);
+    const double j2 = 0.5 * s.squaredNorm();
+    rootJ2 = j2 > 1e-16 * (i1 * i1 + j2) ? std::sqrt(j2) : 0.0;
+    theta = 0;
+    if (rootJ2 > 0) {
+      const double sine = -0.5 * s.determinant() * std::sqrt(27 / (j2 * j2 * j2));
+      theta = std::asin(std::clamp(sine, -1.0, 1.0)) / 3;
+    }
+  }
+  Invariants(double i1_, double rootJ2_, LodeAngle theta_) : i1(i1_), rootJ2(rootJ2_), theta(theta_) {}
+};
+
+/// Where f, which rises from below 0 to above, crosses 0, by bisection to the last bit but a few; an end if it does
+/// not.
+template <class F>
+double crossing(double low, double high, const F& f) {
+  const double width = 1e-14 * std::max(std::abs(low), std::abs(high));
+  while (high - low > width) {
+    const double middle = 0.5 * (low + high);
+    (f(middle) < 0 ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+/// Where f, which falls to its least value and rises again, is least: the golden section.
+template <class F>
+double least(double low, double high, const F& f) {
+  constexpr double golden = std::numbers::phi - 1;
+  double a = high - golden * (high - low), b = low + golden * (high - low), fa = f(a), fb = f(b);
+  for (int k = 0; k < 45; ++k) {
+    if (fa < fb) {
+      high = b;
+      b = a;
+      fb = fa;
+      fa = f(a = high - golden * (high - low));
+    } else {
+      low = a;
+      a = b;
+      fa = fb;
+      fb = f(b = low + golden * (high - low));
+    }
+  }
+  return 0.5 * (low + high);
+}
+
+/// The point of a yield surface next to a stress outside it, in the space of z = I1 / sqrt 3 and
+/// r = beta sqrt(3/2 K/G) sqrt(2 J2): for beta = 1 the return of associated plasticity with the moduli K and G. Homel,
+/// Guilkey & Brannon, Comput. Mech. 56 (2015) 565. They search from within by bisection and rotation; here the distance
+/// to the sections across the axis, which is convex along it as the surface is, has its least value found by bisection
+/// of its derivative.
+class ClosestPoint {
+ public:
+  ClosestPoint(const Constants& c, const Moduli& moduli, const YieldSurface& surface)
+      : surface_(surface), stretch_(c.flowFactor * std::sqrt(3 * moduli.bulk / moduli.shear)) {}
+
+  /// For the trial stress, by its invariants.
+  Invariants operator()(const Invariants& trial) const {
+    const double at = (trial.i1 - surface_.zeta()) / root3, radius = stretch_ * trial.rootJ2;
+    const double first = surface_.end() / root3, last = surface_.vertex() / root3;
+    const double near = std::clamp(at, first, last);
+    const double distance = std::hypot(at - near, radius);
+    const double z = crossing(std::max(first, at - distance), std::min(last, at + distance), [&](double place) {
+      const double gap = gapOf(place, radius, trial.theta);
+      return place - at - (gap > 0 ? gap * stretch_ * root3 * surface_.slope(root3 * place) : 0.0);
+    });
+    const double i = root3 * z, reach = surface_.radius(i);
+    const LodeAngle theta = nearestAngle(stretch_ * reach, radius, trial.theta);
+    return {i + surface_.zeta(), surface_.lodeFactor(theta) * reach, theta};
+  }
+
+ private:
+  static constexpr double root3 = std::numbers::sqrt3;
+
+  /// How far the trial lies outside the section at z, times d(r)/d(radius) of the nearest point there.
+  double gapOf(double z, double trialRadius, LodeAngle trialTheta) const {
+    const double radius = stretch_ * surface_.radius(root3 * z);
+    if (trialRadius <= radius * surface_.lodeFactor(trialTheta)) return 0;
+    const LodeAngle theta = nearestAngle(radius, trialRadius, trialTheta);
+    const double factor = surface_.lodeFactor(theta);
+    return (trialRadius * std::cos(theta - trialTheta) - radius * factor) * factor;
+  }
+  /// Lode's angle of the point of a section next to the trial.
+  LodeAngle nearestAngle(double radius, double trialRadius, LodeAngle trialTheta) const {
+    if (surface_.isRound() || radius == 0) return trialTheta;
+    constexpr double sixth = std::numbers::pi / 6;
+    return least(-sixth, sixth, [&](double theta) {
+      const double r = radius * surface_.lodeFactor(theta);
+      return r * (r - 2 * trialRadius * std::cos(theta - trialTheta));
+    });
+  }
+
+  const YieldSurface& surface_;
+  double stretch_;  ///< r over sqrt J2
+};
+
+/// The stress with given invariants and the axes of `trial`.
+inline Matrix3 stressWith(const Invariants& invariants, const Matrix3& trial, const Invariants& before) {
+  const Matrix3 mean = invariants.i1 / 3 * Matrix3::Identity();
+  if (before.rootJ2 == 0) return mean;
+  if (invariants.theta == before.theta) return mean + invariants.rootJ2 / before.rootJ2 * deviator(trial);
+  const Eigen::Matrix3d axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(trial).eigenvectors();
+  Eigen::Vector3d s;
+  for (int k = 0; k < 3; ++k)
+    s[k] =
+        2 / std::numbers::sqrt3 * invariants.rootJ2 * std::sin(invariants.theta + (k - 1) * 2 * std::numbers::pi / 3);
+  return mean + Matrix3(axes * s.asDiagonal() * axes.transpose());
+}
+
+}  // namespace tushar::mpm::solid::arenisca

@@ -1,0 +1,147 @@
+#pragma once
+
+#include <cmath>
+
+#include "core/input/schema.hpp"
+
+namespace tushar::mpm::solid::arenisca {
+
+/// What a scene gives for Arenisca, by the symbols of its publications. Stresses are positive in tension; I1 is the
+/// trace of the stress, J2 the second invariant of its deviator.
+struct Constants {
+  double peakI1 = 0;         ///< I1 at the vertex of the yield surface, Pa
+  double vertexSlope = 0;    ///< FSLOPE: -d(sqrt J2)/dI1 at the vertex, 1
+  double strength = 0;       ///< STREN: sqrt J2 of the limit of strength, Pa; 0: there is none
+  double pressureSlope = 0;  ///< YSLOPE: -d(sqrt J2)/dI1 at high pressure, 1
+  double flowFactor = 1;     ///< beta: of the deviator in the space of closest points; 1: associated flow
+  double b0 = 0, b1 = 0;     ///< bulk modulus at low pressure, and what high pressure adds, Pa
+  double b2 = 0;             ///< pressure that takes, times 3, Pa
+  double b3 = 0, b4 = 0;     ///< what plastic compaction takes off the bulk modulus, Pa; strain that takes, 1
+  double g0 = 0;             ///< shear modulus, Pa
+  double g1 = 0, g2 = 0;     ///< Poisson's ratio at low pressure, and what high pressure adds, 1; 0: G = g0
+  double p0 = 0;             ///< I1 at which pores begin to collapse, Pa
+  double p1 = 0;             ///< of the crush curve, 1/Pa
+  double p3 = 0;             ///< volumetric strain at which all pores have collapsed, 1
+  double capRatio = 0;       ///< CR: (vertex - start of the cap) / (vertex - end of the cap)
+  double fluidBulk = 0;      ///< K_f, Pa; 0: pores are empty
+  double fluidPressure = 0;  ///< at the start, Pa
+  double t1 = 0, t2 = 0;     ///< relaxation time t1 |D|^-t2, s for |D| in 1/s
+  double mostSubsteps = 256;
+  int lodeType = 0;      ///< of Lode's angle: 0 none, 1 Gudehus, 3 Mohr and Coulomb
+  double lodeRatio = 1;  ///< psi: strength in triaxial compression over that in extension
+
+  /// K_m: bulk modulus of the grains, Pa.
+  double matrixBulk() const { return b0 + b1; }
+  /// phi_0: share of pores at the start.
+  double porosity() const { return 1 - std::exp(-p3); }
+  /// C_1 = K_f (1 - phi_0) + K_m phi_0, Pa
+  double mixedBulk() const { return fluidBulk * (1 - porosity()) + matrixBulk() * porosity(); }
+  /// Whether a fluid fills the pores at a volumetric strain: beyond that, it is under tension and tears.
+  bool isSaturated(double strain) const {
+    return fluidBulk != 0 && strain <= mixedBulk() * fluidPressure / (fluidBulk * matrixBulk());
+  }
+};
+
+/// Whether the four constants of the limit of strength are one of the forms that YieldSurface knows.
+inline bool hasLimit(const Constants& c) {
+  const bool cone = c.vertexSlope > 0 && c.peakI1 >= 0 && c.strength == 0 && c.pressureSlope == 0;
+  const bool cylinder = c.vertexSlope == 0 && c.peakI1 == 0 && c.strength > 0 && c.pressureSlope == 0;
+  const bool coneToCylinder = c.vertexSlope > 0 && c.pressureSlope == 0 && c.strength > 0 && c.peakI1 == 0;
+  const bool curved = c.vertexSlope > c.pressureSlope && c.pressureSlope > 0 && c.peakI1 >= 0 &&
+                      c.strength > c.pressureSlope * c.peakI1;
+  return cone || cylinder || coneToCylinder || curved;
+}
+
+template <class M>
+void check(const M& c, const input::Element& element, input::Diagnostics& diagnostics) {
+  if (!hasLimit(c))
+    diagnostics.error(
+        element,
+        "PEAKI1, FSLOPE, STREN and YSLOPE make no limit of strength; allowed: FSLOPE > 0, the other two "
+        "0 (a cone); STREN > 0 alone (a cylinder); FSLOPE and STREN > 0, the other two 0; FSLOPE > YSLOPE "
+        "> 0 and STREN > YSLOPE PEAKI1");
+  if (c.p0 >= 0) diagnostics.error(element, "p0_crush_curve: pores collapse under compression: give it below 0");
+  if (c.p1 == 0) diagnostics.error(element, "p1_crush_curve: is 0, so that no pressure would collapse the pores");
+  if ((c.t1 > 0) != (c.t2 > 0))
+    diagnostics.error(element, "T1_rate_dependence and T2_rate_dependence: both are 0, or both are positive");
+  if (c.lodeType != 0 && c.lodeType != 1 && c.lodeType != 3)
+    diagnostics.error(element, "J3_type: allowed are 0, 1 (Gudehus) and 3 (Mohr and Coulomb)");
+}
+
+/// Declares tags of a model for members of its Constants.
+template <class M>
+struct Tags {
+  input::Schema<M>& schema;
+
+  void require(const char* tag, double Constants::*member, const char* unit, const char* sentence,
+               auto... limit) const {
+    schema.required(tag, static_cast<double M::*>(member), unit, sentence, limit...);
+  }
+  void value(const char* tag, double Constants::*member, double otherwise, const char* unit, const char* sentence,
+             auto... limit) const {
+    schema.value(tag, static_cast<double M::*>(member), otherwise, unit, sentence, limit...);
+  }
+};
+
+/// A cone with a cap, the crush curve, and the dependence on the rate.
+template <class M>
+void addConeTags(input::Schema<M>& schema) {
+  const Tags<M> tags{schema};
+  tags.require("PEAKI1", &Constants::peakI1, "Pa", "trace of the stress at the vertex of the yield surface",
+               input::nonNegative());
+  tags.require("FSLOPE", &Constants::vertexSlope, "1", "slope of the limit of strength at the vertex",
+               input::nonNegative());
+  tags.require("B0", &Constants::b0, "Pa", "bulk modulus at low pressure", input::positive());
+  tags.require("G0", &Constants::g0, "Pa", "shear modulus", input::positive());
+  tags.require("p0_crush_curve", &Constants::p0, "Pa", "trace of the stress at which pores begin to collapse, below 0");
+  tags.require("p1_crush_curve", &Constants::p1, "1/Pa", "how fast the stress rises while pores collapse");
+  tags.require("p3_crush_curve", &Constants::p3, "1", "volumetric strain at which all pores have collapsed",
+               input::positive());
+  tags.require("CR", &Constants::capRatio, "1", "where the cap begins, between the vertex (0) and its end (1)",
+               input::between(0, 1));
+  tags.value("T1_rate_dependence", &Constants::t1, 0, "s", "relaxation time at a strain rate of 1/s",
+             input::nonNegative());
+  tags.value("T2_rate_dependence", &Constants::t2, 0, "1", "power of the strain rate by which it falls",
+             input::nonNegative());
+  tags.value("subcycling_characteristic_number", &Constants::mostSubsteps, 256, "1",
+             "most parts into which a step is divided", input::positive());
+  schema.check(check<M>);
+}
+
+/// The curved limit of strength, nonlinear elasticity and the fluid.
+template <class M>
+void addSoilTags(input::Schema<M>& schema) {
+  const Tags<M> tags{schema};
+  tags.require("STREN", &Constants::strength, "Pa", "strength in shear at high pressure", input::nonNegative());
+  tags.require("YSLOPE", &Constants::pressureSlope, "1", "slope of the limit of strength at high pressure",
+               input::nonNegative());
+  tags.require("BETA_nonassociativity", &Constants::flowFactor, "1", "1: plastic flow is normal to the yield surface",
+               input::positive());
+  tags.require("B1", &Constants::b1, "Pa", "what high pressure adds to the bulk modulus", input::nonNegative());
+  tags.require("B2", &Constants::b2, "Pa", "trace of the stress that this takes", input::nonNegative());
+  tags.require("B3", &Constants::b3, "Pa", "what plastic compaction takes off the bulk modulus", input::nonNegative());
+  tags.require("B4", &Constants::b4, "1", "volumetric strain that this takes", input::nonNegative());
+  tags.require("G1", &Constants::g1, "1", "Poisson's ratio at low pressure, instead of <G0>");
+  tags.require("G2", &Constants::g2, "1", "what high pressure adds to it; where one of both is 0, <G0> counts");
+  for (const char* unused : {"G3", "G4", "p2_crush_curve"})
+    schema.ignored(unused, "as in Uintah, nothing depends on it");
+  tags.require("fluid_B0", &Constants::fluidBulk, "Pa", "bulk modulus of the fluid in the pores; 0: they are empty",
+               input::nonNegative());
+  tags.require("fluid_pressure_initial", &Constants::fluidPressure, "Pa", "its pressure at the start",
+               input::nonNegative());
+}
+
+/// Lode's angle: Arenisca4 alone has it.
+template <class M>
+void addLodeTags(input::Schema<M>& schema) {
+  schema
+      .value("J3_type", static_cast<int M::*>(&Constants::lodeType), 0, "1",
+             "dependence on Lode's angle: 0 none, 1 Gudehus, 3 Mohr and Coulomb", input::nonNegative())
+      .value("J3_psi", static_cast<double M::*>(&Constants::lodeRatio), 1, "1",
+             "strength in triaxial compression over that in extension; convex for J3_type 1 from 7/9 to 9/7, for 3 "
+             "from 1/2 to 2",
+             input::between(0.5, 2))
+      .ignored("principal_stress_cutoff", "as in Uintah, nothing depends on it");
+}
+
+}  // namespace tushar::mpm::solid::arenisca

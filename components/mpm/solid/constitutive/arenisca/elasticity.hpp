@@ -1,0 +1,95 @@
+#pragma once
+
+#include <algorithm>
+
+#include "components/mpm/solid/constitutive/arenisca/constants.hpp"
+#include "components/mpm/solid/tensor.hpp"
+
+namespace tushar::mpm::solid::arenisca {
+
+/// Tangent moduli of an isotropic solid, Pa.
+struct Moduli {
+  double bulk, shear;
+
+  /// 3 K iso e + 2 G dev e
+  Matrix3 stress(const Matrix3& strain) const {
+    Matrix3 result = 2 * shear * strain;
+    result.diagonal().array() += (bulk - 2.0 / 3.0 * shear) * strain.trace();
+    return result;
+  }
+  Matrix3 strain(const Matrix3& stress) const {
+    Matrix3 result = stress / (2 * shear);
+    result.diagonal().array() += (1 / (9 * bulk) - 1 / (6 * shear)) * stress.trace();
+    return result;
+  }
+};
+
+/// What plastic compaction takes off the bulk modulus, Pa: b3 exp(b4 / e_p), for a volumetric plastic strain e_p < 0.
+inline double lossOfBulk(const Constants& c, double plasticStrain) {
+  return plasticStrain < 0 ? c.b3 * std::exp(c.b4 / plasticStrain) : 0.0;
+}
+
+/// Share of pores in the unloaded, saturated material.
+inline double currentPorosity(const Constants& c, double plasticStrain) {
+  const double pores = c.porosity() * std::exp(plasticStrain * c.matrixBulk() / c.mixedBulk());
+  return pores / ((1 - c.porosity()) * std::exp(plasticStrain * c.fluidBulk / c.mixedBulk()) + pores);
+}
+
+/// Bulk modulus of the saturated material, Pa, from that of the dry one, K_d: Gassmann, Vierteljahrsschr. Naturforsch.
+/// Ges. Zürich 96 (1951) 1, but like Uintah's Arenisca with phi / K_m subtracted once more.
+inline double saturatedBulk(const Constants& c, double plasticStrain) {
+  const double grains = c.matrixBulk(), dry = c.b0 - lossOfBulk(c, plasticStrain);
+  const double phi = currentPorosity(c, plasticStrain), alpha = 1 - dry / grains;
+  return dry + alpha * alpha / ((alpha - phi) / grains + (1 / c.fluidBulk - 1 / grains) * phi);
+}
+
+/// Tangent moduli at a trace of the stress (Pa) and a volumetric plastic strain:
+/// K = b0 + b1 exp(b2 / I1) - b3 exp(b4 / e_p) in compression, G = g0 or 3/2 K (1 - 2 nu) / (1 + nu) with
+/// nu = g1 + g2 exp(b2 / I1) where both are given; saturatedBulk() where a fluid fills the pores. Homel, Guilkey &
+/// Brannon, Acta Mech. 227 (2016) 279.
+inline Moduli moduli(const Constants& c, double i1, double plasticStrain) {
+  Moduli result{c.b0, c.g0};
+  if (plasticStrain <= 0) {
+    if (i1 < 0) {
+      const double pressed = std::exp(c.b2 / i1);
+      result.bulk += c.b1 * pressed;
+      const double nu = c.g1 + c.g2 * pressed;
+      if (c.g1 != 0 && c.g2 != 0) result.shear = 1.5 * result.bulk * (1 - 2 * nu) / (1 + nu);
+    }
+    result.bulk -= lossOfBulk(c, plasticStrain);
+  }
+  if (c.isSaturated(plasticStrain)) result.bulk = saturatedBulk(c, plasticStrain);
+  return result;
+}
+
+/// I1 less its part of the fluid at the end of the cap, Pa: the crush curve
+/// X = p0 + ln(1 + e_p / p3) / p1 for -p3 < e_p <= 0 and X = p0 (1 + e_p)^(1 / (p0 p1 p3)) beyond, times K / K_dry
+/// where a fluid fills the pores. Once all have collapsed, there is no end.
+inline double capEnd(const Constants& c, double plasticStrain) {
+  if (plasticStrain <= -c.p3) return 1e12 * c.p0;
+  const double dry = plasticStrain <= 0 ? c.p0 + std::log((plasticStrain + c.p3) / c.p3) / c.p1
+                                        : c.p0 * std::pow(1 + plasticStrain, 1 / (c.p0 * c.p1 * c.p3));
+  if (!c.isSaturated(plasticStrain)) return dry;
+  const double dryBulk = c.b0 + c.b1 * std::exp(2 * c.b2 / dry) - lossOfBulk(c, plasticStrain);
+  return dry * moduli(c, dry / 2, plasticStrain).bulk / dryBulk;
+}
+
+/// Change of zeta, the trace of the stress that the fluid bears, with the volumetric plastic strain, Pa.
+inline double fluidStiffness(const Constants& c, double zeta, double plasticStrain) {
+  if (!c.isSaturated(plasticStrain)) return 0;
+  const double grains = c.matrixBulk(), fluid = c.fluidBulk, phi = c.porosity(), volume = std::exp(plasticStrain);
+  return 3 * volume * fluid * grains /
+         (volume * (fluid + grains) - (1 - phi) * grains * std::exp(zeta / (3 * grains)) -
+          phi * fluid * std::exp((3 * c.fluidPressure + zeta) / (3 * fluid)));
+}
+
+/// Pressure of the fluid at a volumetric strain, Pa.
+inline double porePressure(const Constants& c, double strain) {
+  if (!c.isSaturated(strain)) return 0;
+  const double mixed = c.mixedBulk(), grains = std::exp(strain * c.fluidBulk / mixed),
+               pores = std::exp(strain * c.matrixBulk() / mixed), phi = c.porosity();
+  return c.fluidPressure +
+         c.fluidBulk * (std::log((1 - phi) * grains + phi * pores) - strain * (1 + c.matrixBulk() / mixed));
+}
+
+}  // namespace tushar::mpm::solid::arenisca

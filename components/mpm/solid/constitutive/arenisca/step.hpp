@@ -1,0 +1,114 @@
+#pragma once
+
+#include "components/mpm/solid/constitutive/arenisca/closest_point.hpp"
+
+namespace tushar::mpm::solid::arenisca {
+
+/// What a step changes, in axes that turn with the material.
+struct Point {
+  Matrix3 stress;         ///< quasistatic, Pa
+  Matrix3 plasticStrain;  ///< 1
+  double cap;             ///< X, end of the cap, Pa
+  double zeta;            ///< trace of the stress that the fluid bears, Pa
+
+  Moduli moduli(const Constants& c) const { return arenisca::moduli(c, stress.trace(), plasticStrain.trace()); }
+};
+
+/// One part of a step, with the moduli at its start: elastic, or with a return to a yield surface that moves with the
+/// volumetric plastic strain. How far it moves is found by bisection on the share of the plastic strain of the return
+/// to the surface at rest, until the strain that moved the surface is that of the return. Homel, Guilkey & Brannon,
+/// Comput. Mech. 56 (2015) 565.
+class Substep {
+ public:
+  Substep(const Constants& c, const Point& start, const Matrix3& strain)
+      : c_(c),
+        start_(start),
+        strain_(strain),
+        moduli_(start.moduli(c)),
+        trial_stress_(start.stress + moduli_.stress(strain)),
+        trial_(trial_stress_),
+        start_volume_(start.plasticStrain.trace()),
+        stiffness_(fluidStiffness(c, start.zeta, start_volume_)) {}
+
+  Point end() const {
+    if (contains({c_, start_.cap, start_.zeta})) return {trial_stress_, start_.plasticStrain, start_.cap, start_.zeta};
+    const Return atRest = returned({c_, start_.cap, start_.zeta});
+    const Return moved = moves(atRest) ? consistent(atRest) : atRest;
+    Point end{moved.stress, start_.plasticStrain + moved.plasticStrain, 0, 0};
+    const double excess = std::min(0.0, end.plasticStrain.trace() + c_.p3);
+    end.plasticStrain.diagonal().array() -= excess / 3;
+    const double volume = moved.plasticStrain.trace() - excess;
+    end.cap = capEnd(c_, end.plasticStrain.trace());
+    end.zeta = zetaAfter(volume);
+    return end;
+  }
+
+ private:
+  struct Return {
+    Matrix3 stress, plasticStrain;
+  };
+
+  bool contains(const YieldSurface& surface) const { return surface.contains(trial_.i1, trial_.rootJ2, trial_.theta); }
+  /// A fluid under tension tears.
+  double zetaAfter(double volume) const { return std::min(start_.zeta + stiffness_ * volume, 0.0); }
+  YieldSurface surfaceAfter(double volume) const { return {c_, capEnd(c_, start_volume_ + volume), zetaAfter(volume)}; }
+  bool moves(const Return& atRest) const {
+    const YieldSurface surface = surfaceAfter(atRest.plasticStrain.trace());
+    return surface.end() != start_.cap || surface.zeta() != start_.zeta;
+  }
+  Return returned(const YieldSurface& surface) const {
+    const Matrix3 stress = stressWith(ClosestPoint(c_, moduli_, surface)(trial_), trial_stress_, trial_);
+    return {stress, strain_ - moduli_.strain(stress - start_.stress)};
+  }
+  Return consistent(const Return& atRest) const {
+    const double whole = atRest.plasticStrain.trace();
+    const bool compacts = trial_.i1<atRest.stress.trace(), dilates = trial_.i1> atRest.stress.trace();
+    Return best = atRest;
+    double low = 0, high = 1;
+    while (high - low > 1e-7) {
+      const double share = 0.5 * (low + high);
+      const YieldSurface surface = surfaceAfter(share * whole);
+      bool isTooFar = contains(surface);
+      if (!isTooFar) {
+        const Return next = returned(surface);
+        isTooFar = compacts != (trial_.i1 < next.stress.trace()) || dilates != (trial_.i1 > next.stress.trace());
+        if (!isTooFar) {
+          best = next;
+          isTooFar = std::abs(next.plasticStrain.trace()) <= share * std::abs(whole);
+        }
+      }
+      (isTooFar ? high : low) = share;
+    }
+    return best;
+  }
+
+  const Constants& c_;
+  const Point& start_;
+  const Matrix3& strain_;
+  Moduli moduli_;
+  Matrix3 trial_stress_;
+  Invariants trial_;
+  double start_volume_;  ///< volumetric plastic strain
+  double stiffness_;     ///< of the fluid, Pa
+};
+
+/// In how many parts a step is taken: more than one where the bulk modulus changes by more than its value, or the
+/// stress by more than 1/`sharpness` of the size of the yield surface.
+inline int substeps(const Constants& c, const Point& start, const Matrix3& strain, double sharpness) {
+  const Matrix3 change = Moduli{c.matrixBulk(), c.g0}.stress(strain);
+  const double bulk = start.moduli(c).bulk;
+  const double there = moduli(c, start.stress.trace() + change.trace(), start.plasticStrain.trace()).bulk;
+  double size = 0.5 * (c.peakI1 - start.cap);
+  if (c.strength > 0) size = std::min(size, c.strength);
+  const double wanted = std::max(std::abs(bulk - there) / bulk, sharpness * change.norm() / size);
+  return int(std::ceil(std::clamp(wanted, 1.0, std::max(1.0, c.mostSubsteps))));
+}
+
+inline Point advance(const Constants& c, Point point, const Matrix3& strain, double sharpness) {
+  const int parts = substeps(c, point, strain, sharpness);
+  const Matrix3 part = strain / parts;
+  for (int k = 0; k < parts; ++k) point = Substep(c, point, part).end();
+  return point;
+}
+
+}  // namespace tushar::mpm::solid::arenisca

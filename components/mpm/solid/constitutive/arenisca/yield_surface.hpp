@@ -1,0 +1,80 @@
+#pragma once
+
+#include <limits>
+#include <numbers>
+
+#include "components/mpm/solid/constitutive/arenisca/constants.hpp"
+
+namespace tushar::mpm::solid::arenisca {
+
+/// An angle of Lode, rad: pi/6 in triaxial compression, -pi/6 in extension; sin 3 theta = -J3/2 (3/J2)^(3/2).
+using LodeAngle = double;
+
+/// sqrt J2 <= Gamma(theta) F_f(I) f_c(I) with I = I1 - zeta between `end` and the vertex: a limit of strength
+/// F_f = a1 - a3 exp(a2 I) - a4 I, closed by an elliptic cap f_c; Gamma is that of Gudehus, of Mohr and Coulomb, or 1.
+class YieldSurface {
+ public:
+  YieldSurface(const Constants& c, double end, double zeta)
+      : zeta_(zeta), end_(end), vertex_(c.peakI1), lode_type_(c.lodeType), lode_ratio_(c.lodeRatio) {
+    branch_ = vertex_ - c.capRatio * (vertex_ - end_);
+    const double high = c.strength - c.pressureSlope * c.peakI1;
+    if (c.strength == 0) {
+      a1_ = c.peakI1 * c.vertexSlope;
+      a4_ = c.vertexSlope;
+    } else {
+      a1_ = c.strength;
+      a2_ = (c.vertexSlope - c.pressureSlope) / high;
+      a3_ = c.vertexSlope > 0 ? high * std::exp(-a2_ * c.peakI1) : 0.0;
+      a4_ = c.pressureSlope;
+    }
+  }
+
+  double zeta() const { return zeta_; }
+  double end() const { return end_; }
+  double vertex() const { return vertex_; }
+  bool isRound() const { return lode_type_ == 0; }
+
+  /// F_f f_c at I, Pa.
+  double radius(double i) const { return limit(i) * std::sqrt(std::max(0.0, capSquare(i))); }
+  /// Its derivative; infinite at the end of the cap.
+  double slope(double i) const {
+    const double limitSlope = -a3_ * a2_ * std::exp(a2_ * i) - a4_;
+    if (i >= branch_) return limitSlope;
+    const double square = capSquare(i), length = branch_ - end_;
+    if (square <= 0) return std::numeric_limits<double>::infinity();
+    const double factor = std::sqrt(square);
+    return limitSlope * factor + limit(i) * ((branch_ - i) / length / length) / factor;
+  }
+  /// Gamma
+  double lodeFactor(LodeAngle theta) const {
+    if (lode_type_ == 1) {
+      const double s = std::sin(3 * theta);
+      return 0.5 * (1 + s + (1 - s) / lode_ratio_);
+    }
+    if (lode_type_ == 3) {
+      const double sinPhi = 3 * (1 - lode_ratio_) / (1 + lode_ratio_);
+      return 2 * std::numbers::sqrt3 / (3 - sinPhi) *
+             (std::cos(theta) - sinPhi * std::sin(theta) / std::numbers::sqrt3);
+    }
+    return 1;
+  }
+  bool contains(double i1, double rootJ2, LodeAngle theta) const {
+    const double i = i1 - zeta_;
+    return i >= end_ && i <= vertex_ && rootJ2 <= lodeFactor(theta) * radius(i);
+  }
+
+ private:
+  double limit(double i) const { return a1_ - a3_ * std::exp(a2_ * i) - a4_ * i; }
+  double capSquare(double i) const {
+    if (i >= branch_) return 1;
+    const double share = (branch_ - i) / (branch_ - end_);
+    return 1 - share * share;
+  }
+
+  double zeta_, end_, vertex_, branch_;
+  double a1_ = 0, a2_ = 0, a3_ = 0, a4_ = 0;
+  int lode_type_;
+  double lode_ratio_;
+};
+
+}  // namespace tushar::mpm::solid::arenisca

@@ -1,0 +1,68 @@
+#pragma once
+
+#include "components/mpm/solid/constitutive/capability_list.hpp"
+#include "components/mpm/solid/constitutive/model_types.hpp"
+
+// Capabilities of constitutive models that concern the start of a run.
+
+namespace tushar::mpm::solid::capability {
+
+struct DependsOnDeformationOnly;
+
+/// The det F with which particles start, and with it their stress: that of updateStress there. They fill their body so
+/// deformed. Without it 1, and no stress unless it names InitialStress. Offer it for materials that may start under
+/// pressure.
+struct InitialVolumeRatio {
+  struct Name {
+    int initialVolumeRatio;
+  };
+  template <class M>
+  static consteval bool check() {
+    constexpr bool isNamed = providesCapability<M, InitialVolumeRatio>;
+    constexpr bool isAbsent = requires { &Both<M, Name>::initialVolumeRatio; };
+    static_assert(isNamed || isAbsent,
+                  "a member initialVolumeRatio is used only by a model that names capability::InitialVolumeRatio");
+    constexpr bool fits = requires { Member<M, double>{&M::initialVolumeRatio}; };
+    static_assert(!isNamed || fits,
+                  "capability::InitialVolumeRatio needs the public member `double initialVolumeRatio() const`");
+    return true;
+  }
+};
+
+/// Stress at the start of the run, Pa; without it there is none. Offer it for solids with a fluid under pressure.
+struct InitialStress {
+  struct Name {
+    int initialStress;
+  };
+  template <class M>
+  static consteval bool check() {
+    constexpr bool isNamed = providesCapability<M, InitialStress>;
+    constexpr bool isAbsent = requires { &Both<M, Name>::initialStress; };
+    static_assert(isNamed || isAbsent,
+                  "a member initialStress is used only by a model that names capability::InitialStress");
+    constexpr bool fits = requires { Member<M, Matrix3>{&M::initialStress}; };
+    static_assert(!isNamed || fits,
+                  "capability::InitialStress needs the public member `Matrix3 initialStress() const`");
+    constexpr bool isFunctionOfF = providesCapability<M, DependsOnDeformationOnly>;
+    static_assert(!isNamed || !isFunctionOfF,
+                  "capability::InitialStress needs a model whose particles keep their stress");
+    return true;
+  }
+};
+
+/// The State at the start depends on the particle. Offer it for materials whose constants vary within a body.
+struct StateByParticle {
+  template <class M>
+  static consteval bool check() {
+    constexpr bool isNamed = providesCapability<M, StateByParticle>;
+    constexpr bool fits = requires(const M& model) {
+      { model.initialState(Birth{}) } -> std::same_as<typename M::State>;
+    };
+    static_assert(isNamed == fits,
+                  "a public member `State initialState(const Birth&) const` and capability::StateByParticle need each "
+                  "other");
+    return true;
+  }
+};
+
+}  // namespace tushar::mpm::solid::capability

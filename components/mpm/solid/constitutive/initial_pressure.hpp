@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cmath>
+
+#include "core/input/schema.hpp"
+
+namespace tushar::mpm::solid {
+
+/// The J of K/2 (J - 1/J) = -p: that of a neo-Hookean body under a pressure, Pa.
+inline double volumeRatioUnder(double pressure, double bulkModulus) {
+  const double q = pressure / bulkModulus;
+  return std::sqrt(1 + q * q) - q;
+}
+
+/// The tags of a body that starts under pressure.
+template <class M>
+void addInitialPressure(input::Schema<M>& tags) {
+  tags.value("useInitialStress", &M::startsUnderPressure, false, "1",
+             "the body starts under <initial_pressure>, in the size that it has then")
+      .value("initial_pressure", &M::initialPressure, 0, "Pa", "pressure at the start, with <useInitialStress>");
+}
+
+}  // namespace tushar::mpm::solid

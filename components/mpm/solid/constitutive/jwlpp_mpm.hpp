@@ -1,0 +1,135 @@
+#pragma once
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <optional>
+
+#include "components/mpm/solid/constitutive/constitutive_model.hpp"
+#include "components/mpm/solid/constitutive/explosive.hpp"
+
+namespace tushar::mpm::solid {
+
+/// An explosive that burns where it is compressed, dF/dt = G (1 - F) p^b, JWL++: Souers & al., Propellants,
+/// Explos., Pyrotech. 25 (2000) 54. A particle burns in steps that it starts above an ignition pressure. sigma = -p I,
+/// with the pressures of Murnaghan and of Jones, Wilkins and Lee in proportion.
+struct JwlppMpm {
+  struct State {
+    double burned;  ///< F, 1
+    double growth;  ///< of F in the last step, 1
+  };
+  using Capabilities =
+      CapabilityList<capability::IgnoresTemperature, capability::ConstantsOfMaterial, capability::InitialVolumeRatio,
+                     capability::BulkSpeed, capability::InitialWaveSpeed>;
+  static constexpr std::array<StateVariable, 2> stateVariables{
+      {{"p.progressF", "1", "fraction that has burned"}, {"p.progressdelF", "1", "fraction that burned in the step"}}};
+  static constexpr std::string_view name = "jwlpp_mpm";
+  static constexpr bool strainEnergyIsRate = true;
+
+  MaterialConstants material;
+  double ignitionPressure = 0;               ///< Pa
+  double compressibility = 0, exponent = 0;  ///< kappa, 1/Pa, and n, 1, of the explosive
+  double a = 0, b = 0, c = 0;                ///< A, B, C of the products, Pa
+  double r1 = 0, r2 = 0, omega = 0;          ///< R1, R2, omega of the products, 1
+  double rate = 0;                           ///< G, 1/(s Pa^b)
+  double power = 0;                          ///< b, 1
+  double greatestFraction = 1;               ///< of F, 1
+  bool startsUnderPressure = false;
+  double initialPressure = 0;  ///< Pa
+
+  static const input::Schema<JwlppMpm>& schema() {
+    static const input::Schema<JwlppMpm> schema = makeSchema();
+    return schema;
+  }
+  Murnaghan explosive() const { return {compressibility, exponent}; }
+  Jwl products() const { return {a, b, c, r1, r2, omega}; }
+
+  State initialState() const { return {0, 0}; }
+  double initialVolumeRatio() const { return startsUnderPressure ? explosive().relativeVolume(initialPressure) : 1; }
+
+  Matrix3 updateStress(const Deformation& d, const Matrix3& oldStress, State& state) const {
+    const double before = state.burned;
+    if (-oldStress.trace() / 3 > ignitionPressure && before < greatestFraction)
+      state.burned = std::min(burn(before, d), greatestFraction);
+    state.growth = state.burned - before;
+    return -pressure(state.burned, d.deformationGradient.determinant()) * Matrix3::Identity();
+  }
+  /// Of the explosive: J = 1 at the density of the material.
+  double initialWaveSpeed(double initialDensity) const { return speed(material.density / initialDensity); }
+  /// That of the explosive, also where it has burned, as in Uintah; the products' may be three times as fast.
+  double waveSpeed(double, const Deformation& d, const Matrix3&, const State&) const {
+    return speed(d.deformationGradient.determinant());
+  }
+  /// c_b² = J / (kappa rho_0), as in Uintah.
+  double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
+    return std::sqrt(d.deformationGradient.determinant() / (compressibility * initialDensity));
+  }
+  /// 0 as in Uintah, so that StrainEnergy can be compared.
+  double strainEnergyDensity(const Deformation&, const Matrix3&, const Matrix3&, const State&) const { return 0; }
+
+ private:
+  double pressure(double fraction, double j) const { return mixedPressure(explosive(), products(), fraction, j); }
+  double speed(double j) const { return j * std::sqrt(explosive().stiffness(j) / material.density); }
+
+  /// F at the end of a step in which J grows at a constant rate, to 1e-9: with u = -ln(1 - F), du/dt = G p^b, by the
+  /// fourth-order method of Kutta, Z. Math. Phys. 46 (1901) 435, in as many steps as halving them asks for.
+  double burn(double before, const Deformation& d) const {
+    constexpr double wanted = 1e-9, done = 30;  // exp(-done) is left: nothing
+    const double start = d.oldDeformationGradient.determinant();
+    const double growth = std::log(d.deformationGradient.determinant() / start);
+    const auto slope = [&](double s, double u) {
+      const double p = pressure(-std::expm1(-u), start * std::exp(growth * s));
+      return d.timeStep * rate * std::pow(std::max(p, 0.0), power);
+    };
+    double u = -std::log1p(-before), s = 0, h = 1;
+    while (s < 1 && u < done) {
+      h = std::min(h, 1 - s);
+      const double once = kutta(slope, s, u, h), twice = kutta(slope, s + h / 2, kutta(slope, s, u, h / 2), h / 2);
+      const double error = std::abs(std::exp(-once) - std::exp(-twice)) / 15;
+      if (error > wanted && h > smallestStep) {
+        h /= 2;
+        continue;
+      }
+      s += h;
+      u = twice;
+      if (error < wanted / 64) h *= 2;
+    }
+    return u < done ? -std::expm1(-u) : 1;
+  }
+  static constexpr double smallestStep = 1e-12;
+  template <class Slope>
+  static double kutta(const Slope& slope, double s, double u, double h) {
+    const double k1 = slope(s, u), k2 = slope(s + h / 2, u + h / 2 * k1), k3 = slope(s + h / 2, u + h / 2 * k2);
+    return u + h / 6 * (k1 + 2 * k2 + 2 * k3 + slope(s + h, u + h * k3));
+  }
+
+  static input::Schema<JwlppMpm> makeSchema() {
+    using Self = JwlppMpm;
+    input::Schema<Self> tags("jwlpp_mpm", "An explosive that burns where it is compressed: JWL++.");
+    tags.required("ignition_pressure", &Self::ignitionPressure, "Pa", "above it a particle burns", input::positive())
+        .required("murnaghan_K", &Self::compressibility, "1/Pa", "of the explosive, 1/(bulk modulus)",
+                  input::positive())
+        .required("murnaghan_n", &Self::exponent, "1", "of the explosive: exponent of the density", input::positive())
+        .required("jwl_A", &Self::a, "Pa", "of the products: factor of exp(-R1 V)", input::nonNegative())
+        .required("jwl_B", &Self::b, "Pa", "of the products: factor of exp(-R2 V)")
+        .required("jwl_C", &Self::c, "Pa", "of the products: factor of V^-(1 + om)", input::nonNegative())
+        .required("jwl_R1", &Self::r1, "1", "of the products", input::positive())
+        .required("jwl_R2", &Self::r2, "1", "of the products", input::positive())
+        .required("jwl_om", &Self::omega, "1", "of the products", input::nonNegative())
+        .required("reaction_G", &Self::rate, "1/(s Pa^b)", "factor of the rate of burning", input::nonNegative())
+        .required("reaction_b", &Self::power, "1", "exponent of the pressure in the rate", input::nonNegative())
+        .value("max_burned_fraction", &Self::greatestFraction, 1, "1", "no more burns", input::between(0, 1))
+        .value("useInitialStress", &Self::startsUnderPressure, false, "1", "bodies start under <initial_pressure>")
+        .value("initial_pressure", &Self::initialPressure, 0, "Pa", "pressure at the start", input::nonNegative())
+        .ignored("jwl_rho0", "the material's density is taken, as in Uintah");
+    for (const char* tag : {"max_burn_timestep_size", "doFastStressCompute", "tolerance_for_Newton_iterations",
+                            "max_number_of_Newton_iterations"})
+      tags.ignored(tag, "the burning is integrated to 1e-9 of the particle, in as many parts as that takes");
+    for (const char* tag : {"useTaylorSeriesForDefGrad", "num_taylor_terms"})
+      tags.ignored(tag, "as in Uintah, <minimum_subcycles_for_F> says how F follows L");
+    return tags;
+  }
+};
+static_assert(ConstitutiveModel<JwlppMpm>);
+
+}  // namespace tushar::mpm::solid

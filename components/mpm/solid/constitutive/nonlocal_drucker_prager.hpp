@@ -1,0 +1,132 @@
+#pragma once
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+
+#include "components/mpm/solid/constitutive/constitutive_model.hpp"
+#include "components/mpm/solid/constitutive/polar.hpp"
+#include "core/input/refuse.hpp"
+
+namespace tushar::mpm::solid {
+
+/// Linear elasticity with the yield surface of Drucker and Prager, J2^(1/2) + alpha I1 = k with I1 = tr sigma, flow by
+/// the same with alpha_p, and a strength k that changes with the plastic strain at the point and around it; Burghardt,
+/// Brannon & Guilkey, Comput. Methods Appl. Mech. Engrg. 225 (2012) 55. With the plastic strain rate l' M, |M| = 1,
+/// k = k_o + eta + eta_n, d eta/dt = h_local l', d eta_n/dt = h_nonlocal times the mean of l' within l_nonlocal. The
+/// mean is that of the step before, so that a step is explicit in it.
+struct NonlocalDruckerPrager {
+  struct State {
+    double plasticStrain;      ///< integral of l', 1
+    double hardening;          ///< eta, Pa
+    double nonlocalHardening;  ///< eta_n, Pa
+    double plasticIncrement;   ///< of the step, 1
+    double meanIncrement;      ///< of the step, within l_nonlocal, 1
+  };
+  using Capabilities = CapabilityList<capability::IgnoresTemperature, capability::BulkSpeed, capability::Nonlocal>;
+  static constexpr std::array<StateVariable, 5> stateVariables{
+      {{"p.plasticStrain", "1", "length of the path of the plastic strain"},
+       {"p.eta", "Pa", "strength gained by the plastic strain at the point"},
+       {"p.eta_nl", "Pa", "strength gained by the plastic strain around it"},
+       {"p.plasticIncrement", "1", "plastic strain of the last step"},
+       {"p.meanPlasticIncrement", "1", "its mean within l_nonlocal"}}};
+  static constexpr std::string_view name = "nonlocal_drucker_prager";
+  static constexpr bool strainEnergyIsRate = true;
+
+  double bulkModulus = 0;                                       ///< K, Pa
+  double shearModulus = 0;                                      ///< G, Pa
+  double friction = 0;                                          ///< alpha, 1
+  double dilation = 0;                                          ///< alpha_p, 1
+  double strength = 0;                                          ///< k_o, Pa
+  double localModulus = 0;                                      ///< h_local, Pa
+  double nonlocalModulus = 0;                                   ///< h_nonlocal, Pa
+  double length = 0;                                            ///< l_nonlocal, m
+  double leastStrength = 0;                                     ///< Pa
+  double stressAlongX = 0, stressAlongY = 0, stressAlongZ = 0;  ///< at the start, in equilibrium, Pa
+
+  static const input::Schema<NonlocalDruckerPrager>& schema() {
+    static const input::Schema<NonlocalDruckerPrager> schema = makeSchema();
+    return schema;
+  }
+  State initialState() const { return {0, 0, 0, 0, 0}; }
+  double nonlocalLength() const { return nonlocalModulus != 0 ? length : 0; }
+
+  Matrix3 updateStress(const Deformation& d, const Matrix3& oldStress, State& state) const {
+    const Matrix3 initial = Vec3(stressAlongX, stressAlongY, stressAlongZ).asDiagonal();
+    const Corotated step(d, oldStress + initial);
+    state.nonlocalHardening += nonlocalModulus * state.meanIncrement;
+    Matrix3 stress = step.stress + 2 * shearModulus * step.strain;
+    stress.diagonal().array() += (bulkModulus - 2.0 / 3.0 * shearModulus) * step.strain.trace();
+    state.plasticIncrement = yield(stress, state);
+    state.meanIncrement = nonlocalLength() > 0 ? 0 : state.plasticIncrement;
+    state.plasticStrain += state.plasticIncrement;
+    return step.turned(stress) - initial;
+  }
+  double waveSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
+    return std::sqrt((bulkModulus + 4.0 / 3.0 * shearModulus) * d.deformationGradient.determinant() / initialDensity);
+  }
+  double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
+    return std::sqrt(bulkModulus * d.deformationGradient.determinant() / initialDensity);
+  }
+  double strainEnergyDensity(const Deformation& d, const Matrix3& oldStress, const Matrix3& stress,
+                             const State&) const {
+    return stressWork(d, oldStress, stress);
+  }
+
+ private:
+  /// Returns a trial stress to the yield surface along C : M, or to its apex; the result is the plastic strain.
+  double yield(Matrix3& stress, State& state) const {
+    const Matrix3 shear = deviator(stress);
+    const double size = shear.norm() / std::sqrt(2.0), mean = stress.trace() / 3;
+    double strengthNow = strength + state.hardening + state.nonlocalHardening, hardening = localModulus;
+    double increment = plasticIncrement(size + 3 * friction * mean - strengthNow, hardening);
+    if (strengthNow + hardening * increment < leastStrength) {
+      strengthNow = leastStrength;
+      hardening = 0;
+      increment = plasticIncrement(size + 3 * friction * mean - strengthNow, hardening);
+    }
+    if (increment <= 0) return 0;
+    const double toAxis = size * flowScale() / shearModulus;  // where no shear stress is left
+    if (increment > toAxis) {
+      const double apex = friction > 0 ? strengthNow / (3 * friction) : mean;
+      stress = apex * Matrix3::Identity();
+      return toAxis;
+    }
+    stress -=
+        increment / flowScale() * (shearModulus / size * shear + 3 * bulkModulus * dilation * Matrix3::Identity());
+    state.hardening += hardening * increment;
+    return increment;
+  }
+  double plasticIncrement(double excess, double hardening) const {
+    const double stiffness = (shearModulus + 9 * bulkModulus * friction * dilation) / flowScale() + hardening;
+    return std::max(excess / stiffness, 0.0);
+  }
+  /// Length of the gradient of the flow potential, 1.
+  double flowScale() const { return std::sqrt(0.5 + 3 * dilation * dilation); }
+
+  static input::Schema<NonlocalDruckerPrager> makeSchema() {
+    using Self = NonlocalDruckerPrager;
+    input::Schema<Self> tags{std::string(name), "Drucker & Prager's yield surface, softening over a length."};
+    tags.required("bulk_modulus", &Self::bulkModulus, "Pa", "K", input::positive())
+        .required("shear_modulus", &Self::shearModulus, "Pa", "G", input::positive())
+        .required("alpha", &Self::friction, "1", "how much pressure adds to the strength", input::nonNegative())
+        .required("alpha_p", &Self::dilation, "1", "how much plastic flow dilates", input::nonNegative())
+        .required("k_o", &Self::strength, "Pa", "strength at the start, in shear without pressure", input::positive())
+        .value("h_local", &Self::localModulus, 0, "Pa", "growth of the strength with the plastic strain at the point")
+        .value("h_nonlocal", &Self::nonlocalModulus, 0, "Pa", "growth with its mean within l_nonlocal")
+        .value("l_nonlocal", &Self::length, 0, "m", "radius of the mean; 0 takes the point itself",
+               input::nonNegative())
+        .value("minimum_yield_stress", &Self::leastStrength, 0, "Pa", "the strength does not fall below",
+               input::nonNegative())
+        .value("initial_xstress", &Self::stressAlongX, 0, "Pa", "stress along x in which bodies rest at the start")
+        .value("initial_ystress", &Self::stressAlongY, 0, "Pa", "stress along y in which bodies rest at the start")
+        .value("initial_zstress", &Self::stressAlongZ, 0, "Pa", "stress along z in which bodies rest at the start")
+        .ignored("hardening_type", "Uintah does not use it either");
+    refuseTag(tags, "k_o_dist", "all particles have the strength k_o");
+    return tags;
+  }
+};
+static_assert(ConstitutiveModel<NonlocalDruckerPrager>);
+
+}  // namespace tushar::mpm::solid

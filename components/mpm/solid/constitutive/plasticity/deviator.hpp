@@ -1,0 +1,97 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "components/mpm/solid/constitutive/maxwell.hpp"
+#include "components/mpm/solid/tensor.hpp"
+#include "core/input/schema.hpp"
+#include "core/input/values.hpp"
+
+namespace tushar::mpm::solid {
+
+/// ds/dt = 2 G dev D where it does not yield.
+struct HypoelasticDeviator {
+  static constexpr std::string_view name = "hypoElastic";
+
+  static const input::Schema<HypoelasticDeviator>& schema() {
+    static const input::Schema<HypoelasticDeviator> schema("deviatoric_stress_model",
+                                                           "The stress deviator grows with 2 G dev D.");
+    return schema;
+  }
+};
+
+/// Maxwell elements beside each other, ds_j/dt = 2 mu_j (dev D - D_p) - s_j/tau_j, s = sum_j s_j, with the plastic
+/// strain rate D_p common to all. In a step s is that of an elastic body with the shear modulus sum_j gained_j mu_j and
+/// the deviator sum_j kept_j s_j at the start: see MaxwellStep. Uintah's steps are explicit and return with the
+/// <shear_modulus>, which should be sum_j mu_j.
+struct MaxwellDeviator {
+  static constexpr std::string_view name = "hypoViscoElastic";
+  static constexpr int greatestCount = 5;
+
+  int count = 0;
+  std::array<double, greatestCount> modulus{};  ///< mu_j, Pa
+  std::array<double, greatestCount> time{};     ///< tau_j, s
+
+  static const input::Schema<MaxwellDeviator>& schema() {
+    static const input::Schema<MaxwellDeviator> schema = makeSchema();
+    return schema;
+  }
+  MaxwellStep step(int j, double timeStep) const { return MaxwellStep(timeStep / time[j]); }
+  /// Shear modulus of a step, Pa; of a fast wave with a step of 0.
+  double modulusIn(double timeStep) const {
+    double sum = 0;
+    for (int j = 0; j < count; ++j) sum += step(j, timeStep).gained * modulus[j];
+    return sum;
+  }
+
+ private:
+  static input::Schema<MaxwellDeviator> makeSchema() {
+    input::Schema<MaxwellDeviator> tags("deviatoric_stress_model", "Maxwell elements, whose stress relaxes.");
+    tags.custom(
+            "mu",
+            [](MaxwellDeviator& read, const input::Element& element, input::Diagnostics& diagnostics) {
+              readElements(read, element, diagnostics);
+            },
+            {"mu", "tau"},
+            "shear moduli (Pa) and times of relaxation (s) of up to " + std::to_string(greatestCount) + " elements")
+        .forms({input::typeForm({"mu", "tau"}, std::string(input::typeName<std::vector<double>>), 1)});
+    return tags;
+  }
+  static void readElements(MaxwellDeviator& read, const input::Element& element, input::Diagnostics& diagnostics) {
+    const std::vector<double> moduli = numbersOf("mu", element, diagnostics);
+    const std::vector<double> times = numbersOf("tau", element, diagnostics);
+    if (moduli.size() != times.size())
+      return diagnostics.error(element, "<mu> and <tau> must be lists of the same length");
+    if (moduli.size() > greatestCount)
+      return diagnostics.error(element, "at most " + std::to_string(greatestCount) + " elements are available");
+    read.count = int(moduli.size());
+    std::copy(moduli.begin(), moduli.end(), read.modulus.begin());
+    std::copy(times.begin(), times.end(), read.time.begin());
+  }
+  static std::vector<double> numbersOf(const std::string& tag, const input::Element& element,
+                                       input::Diagnostics& diagnostics) {
+    const auto given = element.child(tag);
+    if (!given) {
+      diagnostics.error(element, "missing tag <" + tag + "> in <" + element.name() + ">");
+      return {};
+    }
+    const auto read = input::parse<std::vector<double>>(given->text());
+    if (!read.problem.empty()) {
+      diagnostics.error(*given, read.problem);
+      return {};
+    }
+    for (const double number : *read.value)
+      if (number <= 0) diagnostics.error(*given, "all must be positive");
+    return *read.value;
+  }
+};
+
+/// The first is the default, as in Uintah.
+using DeviatorModel = std::variant<HypoelasticDeviator, MaxwellDeviator>;
+
+}  // namespace tushar::mpm::solid

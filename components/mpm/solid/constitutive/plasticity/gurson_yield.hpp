@@ -1,0 +1,158 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+
+#include "core/input/schema.hpp"
+
+namespace tushar::mpm::solid {
+
+/// Von Mises: q = sigma_y.
+struct VonMisesYield {
+  static constexpr std::string_view name = "vonMises";
+  static const input::Schema<VonMisesYield>& schema() {
+    static const input::Schema<VonMisesYield> schema("yield_condition", "The equivalent stress is the yield stress.");
+    return schema;
+  }
+};
+
+/// Metals with pores, (q/sigma_y)² + 2 q1 f* cosh(3 q2 p / (2 sigma_y)) = 1 + q3 f*² with the equivalent stress q, the
+/// mean stress p (tension positive) and the share f of pores, f* = f up to f_c and f_c + k (f - f_c) beyond: Gurson, J.
+/// Eng. Mater. Technol. 99 (1977) 2; Tvergaard & Needleman, Acta Metall. 32 (1984) 157.
+struct GursonYield {
+  static constexpr std::string_view name = "gurson";
+  double q1 = 1.5, q2 = 1, q3 = 2.25;
+  double acceleration = 4;         ///< k, 1
+  double criticalPorosity = 0.05;  ///< f_c, 1
+
+  static const input::Schema<GursonYield>& schema() {
+    static const input::Schema<GursonYield> schema =
+        input::Schema<GursonYield>("yield_condition", "Of metals with pores: Gurson, Tvergaard and Needleman.")
+            .required("q1", &GursonYield::q1, "1", "factor of the pores", input::positive())
+            .required("q2", &GursonYield::q2, "1", "factor of the mean stress", input::positive())
+            .required("q3", &GursonYield::q3, "1", "factor of the square of the pores, q1^2 as a rule",
+                      input::nonNegative())
+            .required("k", &GursonYield::acceleration, "1", "by how much pores count more once they grow together",
+                      input::positive())
+            .required("f_c", &GursonYield::criticalPorosity, "1", "share of pores from which on they do",
+                      input::between(0, 1));
+    return schema;
+  }
+  /// f*, 1
+  double effective(double f) const {
+    return f > criticalPorosity ? criticalPorosity + acceleration * (f - criticalPorosity) : f;
+  }
+  /// (q/sigma_y)² on the yield surface, at p by sigma_y; negative where it bears no q.
+  double square(double p, double f) const {
+    const double pores = effective(f);
+    return 1 + q3 * pores * pores - 2 * q1 * pores * std::cosh(argument(p));
+  }
+  double strength(double p, double f) const { return std::sqrt(std::max(square(p, f), 0.0)); }
+  /// sigma_y d Phi/dp at p by sigma_y.
+  double dilatancy(double p, double f) const { return 3 * q1 * q2 * effective(f) * std::sinh(argument(p)); }
+
+ private:
+  /// Kept where cosh is a number; no metal bears that.
+  double argument(double p) const { return std::clamp(1.5 * q2 * p, -300.0, 300.0); }
+};
+
+/// A root of f between a and b, where it changes its sign, by false position as the Illinois algorithm corrects it;
+/// Dowell & Jarratt, BIT 11 (1971) 168.
+template <class Function>
+double rootBetween(const Function& f, double a, double b) {
+  double fa = f(a), fb = f(b);
+  for (int k = 0; k < 100 && fa != 0 && std::abs(b - a) > 1e-14 * std::max(std::abs(a), std::abs(b)); ++k) {
+    const double c = b - fb * (b - a) / (fb - fa), fc = f(c);
+    if (fc == 0) return c;
+    if ((fc > 0) != (fb > 0)) {
+      a = b;
+      fa = fb;
+    } else {
+      fa /= 2;
+    }
+    b = c;
+    fb = fc;
+  }
+  return fa == 0 ? a : b;
+}
+
+/// Return to Gurson's surface with associated flow: Aravas, Int. J. Numer. Meth. Engng 24 (1987) 1395. `yieldStress(x)`
+/// is sigma_y after a plastic strain x of the metal, Pa; `meanStress(t)` after a plastic dilatation t, Pa.
+template <class YieldStress, class MeanStress>
+class GursonReturn {
+ public:
+  /// What the step makes of the point.
+  struct Result {
+    double plasticStrain = 0;  ///< of the metal, more, 1
+    double dilatation = 0;     ///< plastic, more, 1
+    double equivalent = 0;     ///< q at the end, Pa
+    double mean = 0;           ///< p at the end, Pa
+    double work = 0;           ///< plastic, J/m^3
+  };
+
+  /// `nucleation` is the share of new pores by the plastic strain, 1; `trial` the equivalent trial stress, Pa.
+  GursonReturn(const GursonYield& surface, YieldStress yieldStress, MeanStress meanStress, double shearModulus,
+               double porosity, double nucleation)
+      : surface_(surface),
+        yield_stress_(yieldStress),
+        mean_stress_(meanStress),
+        shear_modulus_(shearModulus),
+        porosity_(porosity),
+        nucleation_(nucleation) {}
+
+  Result operator()(double trial) const {
+    const double mean = mean_stress_(0.0), yield = yield_stress_(0.0);
+    const double square = surface_.square(mean / yield, porosity_);
+    if (square >= 0 && trial <= yield * std::sqrt(square)) return {0, 0, trial, mean, 0};
+    const auto residual = [&](double dilatation) { return associated(at(trial, dilatation), trial); };
+    if (residual(0) == 0) return at(trial, 0);
+    return at(trial, rootBetween(residual, 0.0, farthest(mean)));
+  }
+  /// f after more plastic dilatation and strain: the pores grow with the one, new ones open with the other in tension.
+  double porosity(double dilatation, double strain) const {
+    return std::clamp(1 - (1 - porosity_) * std::exp(-dilatation) + nucleation_ * strain, 0.0, 0.999);
+  }
+
+ private:
+  /// The plastic dilatation that takes all of the mean stress away or, in compression, closes the pores.
+  double farthest(double mean) const {
+    const double least = std::log1p(-porosity_);
+    double end = mean > 0 ? 1e-6 : std::max(-1e-6, least);
+    while (end > least && end < 1 && (mean_stress_(end) > 0) == (mean > 0)) end = std::max(2 * end, least);
+    return end;
+  }
+  /// The point on the surface after a plastic dilatation: the strain of the metal follows from the plastic work
+  /// (1 - f) sigma_y x = q z + p t, z being the plastic strain of the deviator.
+  Result at(double trial, double dilatation) const {
+    const double mean = mean_stress_(dilatation);
+    const auto after = [&](double strain) {
+      const double yield = yield_stress_(strain), f = porosity(dilatation, strain);
+      const double equivalent = std::min(yield * surface_.strength(mean / yield, f), trial);
+      const double work = equivalent * (trial - equivalent) / (3 * shear_modulus_) + mean * dilatation;
+      return std::pair(Result{strain, dilatation, equivalent, mean, work}, (1 - f) * yield * strain - work);
+    };
+    const auto [start, lack] = after(0);
+    if (lack >= 0) return start;
+    double end = start.work / yield_stress_(0.0);
+    while (end < 1e3 && after(end).second < 0) end *= 2;
+    return after(rootBetween([&](double strain) { return after(strain).second; }, 0.0, end)).first;
+  }
+  /// 0 where the dilatation t goes with the plastic strain z of the deviator by the normal of the surface,
+  /// 2 t q/sigma_y = z sigma_y dPhi/dp, or where the surface ends without any deviator.
+  double associated(const Result& result, double trial) const {
+    const double yield = yield_stress_(result.plasticStrain), f = porosity(result.dilatation, result.plasticStrain);
+    const double p = result.mean / yield, strain = (trial - result.equivalent) / (3 * shear_modulus_);
+    const double square = surface_.square(p, f), along = strain * surface_.dilatancy(p, f);
+    if (square < 0) return std::copysign(square, -p) - along;
+    return 2 * result.dilatation * std::sqrt(square) - along;
+  }
+
+  const GursonYield& surface_;
+  YieldStress yield_stress_;
+  MeanStress mean_stress_;
+  double shear_modulus_, porosity_, nucleation_;
+};
+
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <Eigen/LU>
+
+#include "components/mpm/solid/constitutive/constitutive_model.hpp"
+#include "components/mpm/solid/constitutive/explosive.hpp"
+
+namespace tushar::mpm::solid {
+
+/// An explosive that burns by programme: a detonation starts at a point, or at a plane and runs to both sides, and has
+/// a given velocity whatever the pressure; Wilkins, Methods in Computational Physics 3 (1964) 211. From
+/// t_b = T0 + |x - x_0| / D on it burns a particle of mass m, in the time in which it goes 1.5 (m / rho_0)^(1/3) far.
+/// sigma = -p I, with the pressures of Murnaghan and of Jones, Wilkins and Lee in proportion.
+struct ProgramBurn {
+  struct State {
+    double burned;  ///< F, 1
+  };
+  using Capabilities = CapabilityList<capability::IgnoresTemperature, capability::PlaceAndTime, capability::BulkSpeed,
+                                      capability::InitialWaveSpeed>;
+  static constexpr std::array<StateVariable, 1> stateVariables{{{"p.progressF", "1", "fraction that has burned"}}};
+  static constexpr std::string_view name = "program_burn";
+  static constexpr bool strainEnergyIsRate = true;
+
+  double compressibility = 0, exponent = 0;  ///< kappa, 1/Pa, and n, 1, of the explosive
+  double a = 0, b = 0, c = 0;                ///< A, B, C of the products, Pa
+  double r1 = 0, r2 = 0, omega = 0;          ///< R1, R2, omega of the products, 1
+  double density = 0;                        ///< rho_0, kg/m^3
+  double detonationVelocity = 0;             ///< D, m/s
+  double ignitionTime = 0;                   ///< T0, s
+  std::array<double, 3> origin{};            ///< x_0, m
+  std::array<double, 3> direction{};         ///< normal of the plane through x_0; 0: it starts at the point
+
+  static const input::Schema<ProgramBurn>& schema() {
+    static const input::Schema<ProgramBurn> schema = makeSchema();
+    return schema;
+  }
+  Murnaghan explosive() const { return {compressibility, exponent}; }
+  Jwl products() const { return {a, b, c, r1, r2, omega}; }
+
+  State initialState() const { return {0}; }
+
+  Matrix3 updateStress(const Deformation& d, const Matrix3&, State& state) const {
+    state.burned = burnedAt(d);
+    return -mixedPressure(explosive(), products(), state.burned, volumeOf(d)) * Matrix3::Identity();
+  }
+  /// Of the explosive.
+  double initialWaveSpeed(double initialDensity) const { return speed(explosive(), density / initialDensity); }
+  /// c² = -J² dp/dJ / rho_0, of the products as soon as it burns.
+  double waveSpeed(double, const Deformation& d, const Matrix3&, const State& state) const {
+    return state.burned > 0 ? speed(products(), volumeOf(d)) : speed(explosive(), volumeOf(d));
+  }
+  /// c_b² = J / (kappa rho_0), as in Uintah.
+  double bulkSpeed(double, const Deformation& d, const Matrix3&, const State&) const {
+    return std::sqrt(volumeOf(d) / (compressibility * density));
+  }
+  /// 0 as in Uintah, so that StrainEnergy can be compared.
+  double strainEnergyDensity(const Deformation&, const Matrix3&, const Matrix3&, const State&) const { return 0; }
+
+ private:
+  static double volumeOf(const Deformation& d) { return d.deformationGradient.determinant(); }
+  template <class Law>
+  double speed(const Law& law, double j) const {
+    return j * std::sqrt(law.stiffness(j) / density);
+  }
+
+  static input::Schema<ProgramBurn> makeSchema() {
+    using Self = ProgramBurn;
+    input::Schema<Self> tags("program_burn", "An explosive that a detonation of given velocity burns.");
+    tags.required("K", &Self::compressibility, "1/Pa", "of the explosive, 1/(bulk modulus)", input::positive())
+        .required("n", &Self::exponent, "1", "of the explosive: exponent of the density", input::positive())
+        .required("A", &Self::a, "Pa", "of the products: factor of exp(-R1 V)", input::nonNegative())
+        .required("B", &Self::b, "Pa", "of the products: factor of exp(-R2 V)")
+        .required("C", &Self::c, "Pa", "of the products: factor of V^-(1 + om)", input::nonNegative())
+        .required("R1", &Self::r1, "1", "of the products", input::positive())
+        .required("R2", &Self::r2, "1", "of the products", input::positive())
+        .required("om", &Self::omega, "1", "of the products", input::nonNegative())
+        .required("rho0", &Self::density, "kg/m^3", "density without pressure", input::positive())
+        .required("D", &Self::detonationVelocity, "m/s", "velocity of the detonation", input::positive())
+        .value("T0", &Self::ignitionTime, 0, "s", "time at which the detonation starts")
+        .ignored("P0", "no pressure depends on it");
+    declareVector(tags, "starting_location", &Self::origin, true, "point, m, where the detonation starts");
+    declareVector(tags, "direction_if_plane", &Self::direction, false,
+                  "normal of the plane through that point where it starts; [0,0,0] if it starts at the point alone");
+    return tags;
+  }
+
+  /// The fraction that has burned at the start of the step.
+  double burnedAt(const Deformation& d) const {
+    const Vec3 way = d.position - Vec3(origin[0], origin[1], origin[2]),
+               normal(direction[0], direction[1], direction[2]);
+    const double length = normal.norm();
+    const double distance = length > 0 ? std::abs(normal.dot(way)) / length : way.norm();
+    const double since = d.time - ignitionTime - distance / detonationVelocity;
+    if (since < 0) return 0;
+    constexpr double complete = 0.96;  // above it all has burned, as in Uintah
+    const double fraction = since * detonationVelocity / (1.5 * std::cbrt(d.mass / density));
+    return fraction > complete ? 1 : fraction;
+  }
+};
+static_assert(ConstitutiveModel<ProgramBurn>);
+
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,244 @@
+#pragma once
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "components/mpm/solid/constitutive/constitutive_model.hpp"
+#include "components/mpm/solid/constitutive/maxwell.hpp"
+#include "components/mpm/solid/constitutive/polar.hpp"
+#include "core/input/refuse.hpp"
+
+namespace tushar::mpm::solid {
+
+/// Plastic-bonded explosive: five Maxwell elements in series with penny-shaped cracks of radius c; Bennett, Haberman,
+/// Johnson, Asay & Henson, J. Mech. Phys. Solids 46 (1998) 2303. With s = sum_n s_n, G = sum_n G_n:
+/// ds_n/dt = 2 G_n dev D - s_n/tau_n - G_n/G d((c/a)³ s)/dt, dp/dt = -K tr D, K = 2 G (1 + nu)/(3 (1 - 2 nu)).
+/// The step is implicit in s, so that it is stable for any time step; without cracks it is exact.
+struct ViscoScram {
+  struct State {
+    double crackRadius;               ///< c, m
+    double viscousHeating;            ///< K/s
+    double crackHeating;              ///< K/s
+    double volumeHeating;             ///< taken by expansion, K/s
+    std::array<Tensor, 5> deviators;  ///< s_n, Pa
+  };
+  using Capabilities = CapabilityList<capability::ConstantsOfMaterial, capability::BulkSpeed,
+                                      capability::InitialWaveSpeed, capability::TemperatureChange>;
+  static constexpr std::array<StateVariable, 9> stateVariables{
+      {{"p.crackRad", "m", "radius of the cracks"},
+       {"p.veHeatRate", "K/s", "heating by viscosity"},
+       {"p.crHeatRate", "K/s", "heating by the growth of cracks"},
+       {"p.volHeatRate", "K/s", "cooling by expansion"},
+       {"p.maxwellStress1", "Pa", "stress deviator of the Maxwell element 1", 9},
+       {"p.maxwellStress2", "Pa", "stress deviator of the Maxwell element 2", 9},
+       {"p.maxwellStress3", "Pa", "stress deviator of the Maxwell element 3", 9},
+       {"p.maxwellStress4", "Pa", "stress deviator of the Maxwell element 4", 9},
+       {"p.maxwellStress5", "Pa", "stress deviator of the Maxwell element 5", 9}}};
+  static constexpr std::string_view name = "visco_scram";
+  static constexpr bool strainEnergyIsRate = true;
+
+  MaterialConstants material;
+  double poissonRatio = 0;                                       ///< nu, 1
+  double crackScale = 0;                                         ///< a, m
+  double crackPower = 0;                                         ///< m, 1
+  double greatestCrackSpeed = 0;                                 ///< m/s
+  double toughness = 0;                                          ///< K_0, Pa m^(1/2)
+  double crackFriction = 0;                                      ///< mu, 1
+  double initialCrackRadius = 0;                                 ///< m
+  double tensileSpeedUp = 0;                                     ///< of cracks in tension, 1
+  double g1 = 0, g2 = 0, g3 = 0, g4 = 0, g5 = 0;                 ///< G_n, Pa
+  double rate1 = 0, rate2 = 0, rate3 = 0, rate4 = 0, rate5 = 0;  ///< 1/tau_n, 1/s
+  double gruneisen = 0;                                          ///< 1
+  bool ratesFollowTemperature = false;
+  double shiftTemperature = 298;  ///< T_0 of Williams, Landel & Ferry, K
+  double shift1 = 6.5;            ///< C_1, 1
+  double shift2 = 120;            ///< C_2, K
+
+  static const input::Schema<ViscoScram>& schema() {
+    static const input::Schema<ViscoScram> schema = makeSchema();
+    return schema;
+  }
+  State initialState() const { return {initialCrackRadius, 0, 0, 0, {}}; }
+
+  Matrix3 updateStress(const Deformation& d, const Matrix3& oldStress, State& state) const {
+    const Corotated step(d, oldStress);
+    const double mean = step.stress.trace() / 3;
+    const CrackLoad load = crackLoadOf(step, d.timeStep);
+    const double before = cracked(state.crackRadius);
+    state.crackRadius += growthOf(load, state.crackRadius, d.timeStep);
+    const Matrix3 old = deviator(step.stress), stress = advance(step, d, before, state);
+    heat(step, d, cracked(state.crackRadius) * stress - before * old, stress, state);
+    Matrix3 total = stress;
+    total.diagonal().array() += mean + bulkModulus() * step.strain.trace();
+    return step.turned(total);
+  }
+  double initialWaveSpeed(double initialDensity) const { return std::sqrt(waveModulus() / initialDensity); }
+  double waveSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
+    return std::sqrt(waveModulus() * d.deformationGradient.determinant() / initialDensity);
+  }
+  double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
+    return std::sqrt(bulkModulus() * d.deformationGradient.determinant() / initialDensity);
+  }
+  double strainEnergyDensity(const Deformation& d, const Matrix3& oldStress, const Matrix3& stress,
+                             const State&) const {
+    return stressWork(d, oldStress, stress);
+  }
+  /// Hackett & Bennett, Int. J. Numer. Methods Engrg. 49 (2000) 1191.
+  double temperatureChange(const Deformation& d, const Matrix3&, const State& state) const {
+    return (state.viscousHeating + state.crackHeating - state.volumeHeating) * d.timeStep;
+  }
+
+ private:
+  struct Element {
+    double modulus;  ///< G_n, Pa
+    double rate;     ///< 1/tau_n, 1/s
+  };
+  /// What opens the cracks in a step.
+  struct CrackLoad {
+    double pressure;       ///< on the faces of the cracks, Pa; 0 in tension
+    double stress;         ///< (s:s)^(1/2) under pressure, (sigma:sigma)^(1/2) in tension, Pa
+    double greatestSpeed;  ///< m/s
+  };
+
+  double shearModulus() const { return g1 + g2 + g3 + g4 + g5; }
+  double bulkModulus() const { return 2 * shearModulus() * (1 + poissonRatio) / (3 * (1 - 2 * poissonRatio)); }
+  double waveModulus() const { return bulkModulus() + 4.0 / 3.0 * shearModulus(); }
+  /// (c/a)³
+  double cracked(double radius) const {
+    const double relative = radius / crackScale;
+    return relative * relative * relative;
+  }
+  /// The elements at a temperature: all times of relaxation shift by that of Williams, Landel & Ferry, J. Am. Chem.
+  /// Soc. 77 (1955) 3701.
+  std::array<Element, 5> elementsAt(double temperature) const {
+    const double warm = temperature - shiftTemperature;
+    const double faster = ratesFollowTemperature ? std::exp(shift1 * warm / (shift2 + warm)) : 1;
+    return {
+        {{g1, rate1 * faster}, {g2, rate2 * faster}, {g3, rate3 * faster}, {g4, rate4 * faster}, {g5, rate5 * faster}}};
+  }
+
+  /// The greatest speed of cracks follows the strain rate: exp(-2.90178468) (1.5^(1/2) |dev D|)^.90564746, numbers of
+  /// Uintah's for PBX 9501.
+  CrackLoad crackLoadOf(const Corotated& step, double timeStep) const {
+    const double mean = step.stress.trace() / 3, rate = std::sqrt(1.5) * deviator(step.strain).norm() / timeStep;
+    double speed = rate > 1e-8 ? std::exp(0.90564746 * std::log(rate) - 2.90178468) : 0;
+    if (mean > 0) speed *= tensileSpeedUp;
+    return {std::max(-mean, 0.0), mean > 0 ? step.stress.norm() : deviator(step.stress).norm(),
+            std::min(speed, greatestCrackSpeed)};
+  }
+  /// dc/dt = v (K/K_1)^m below K', v (1 - (K_0'/K)²) above, eqs. 24-31: K = (3/2 pi c)^(1/2) sigma, K_0' the toughness
+  /// with friction on the faces of the crack, K' = K_0' (1 + 2/m)^(1/2), K_1 = K' (1 + m/2)^(1/m).
+  double crackSpeed(const CrackLoad& load, double radius) const {
+    const double intensity = std::sqrt(1.5 * std::numbers::pi * radius) * load.stress;
+    if (intensity <= 0) return 0;
+    const double slip = std::sqrt(45 / (2 * (3 - 2 * crackFriction * crackFriction))) * crackFriction;
+    const double held = slip * load.pressure * std::sqrt(radius) / toughness;
+    const double resistance = toughness * std::sqrt(1 + std::numbers::pi * held * (1 + held));
+    const double change = resistance * std::sqrt(1 + 2 / crackPower);
+    if (intensity < change) {
+      const double scale = change * std::pow(1 + crackPower / 2, 1 / crackPower);
+      return load.greatestSpeed * std::pow(intensity / scale, crackPower);
+    }
+    return load.greatestSpeed * (1 - resistance * resistance / (intensity * intensity));
+  }
+  /// Growth of the radius in a step, m, by the method of Runge and Kutta of fourth order.
+  double growthOf(const CrackLoad& load, double radius, double timeStep) const {
+    const double k1 = crackSpeed(load, radius), k2 = crackSpeed(load, radius + 0.5 * timeStep * k1);
+    const double k3 = crackSpeed(load, radius + 0.5 * timeStep * k2), k4 = crackSpeed(load, radius + timeStep * k3);
+    return timeStep / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+  }
+  /// The stress deviator at the end of the step, in the rotated axes. With B = (c/a)³:
+  /// s_n <- kept_n s_n + gained_n (2 G_n dev D dt - G_n/G (B s - B_old s_old)), a linear equation for s, their sum.
+  Matrix3 advance(const Corotated& step, const Deformation& d, double crackedBefore, State& state) const {
+    const auto elements = elementsAt(d.temperature);
+    const Matrix3 strain = deviator(step.strain), old = deviator(step.stress);
+    const double cracks = cracked(state.crackRadius);
+    std::array<Matrix3, 5> free;
+    Matrix3 sum = Matrix3::Zero();
+    double share = 0;
+    for (int n = 0; n < 5; ++n) {
+      const MaxwellStep element(elements[n].rate * d.timeStep);
+      free[n] =
+          element.kept * step.seen(matrixOf(state.deviators[n])) + element.gained * 2 * elements[n].modulus * strain;
+      sum += free[n];
+      share += element.gained * elements[n].modulus / shearModulus();
+    }
+    const Matrix3 stress = (sum + share * crackedBefore * old) / (1 + share * cracks);
+    const Matrix3 opened = cracks * stress - crackedBefore * old;
+    for (int n = 0; n < 5; ++n) {
+      const double gained = MaxwellStep(elements[n].rate * d.timeStep).gained;
+      state.deviators[n] = tensorOf(step.turned(free[n] - gained * elements[n].modulus / shearModulus() * opened));
+    }
+    return stress;
+  }
+  /// Rates of heating, K/s: sum_n s_n:s_n/(2 G_n tau_n), s : d((c/a)³ s)/dt / (2 G), each over rho c_v, and
+  /// Gamma T tr D.
+  void heat(const Corotated& step, const Deformation& d, const Matrix3& opened, const Matrix3& stress,
+            State& state) const {
+    const double capacity = material.density / d.deformationGradient.determinant() * material.specificHeat;
+    double work = 0;
+    const auto elements = elementsAt(d.temperature);
+    for (int n = 0; n < 5; ++n)
+      if (elements[n].modulus > 0)
+        work += matrixOf(state.deviators[n]).squaredNorm() * elements[n].rate / (2 * elements[n].modulus);
+    state.viscousHeating = work / capacity;
+    state.crackHeating = stress.cwiseProduct(opened).sum() / (2 * shearModulus() * d.timeStep) / capacity;
+    state.volumeHeating = gruneisen * d.temperature * step.strain.trace() / d.timeStep;
+  }
+
+  static input::Schema<ViscoScram> makeSchema() {
+    using Self = ViscoScram;
+    input::Schema<Self> tags{std::string(name), "Plastic-bonded explosive: relaxation, and cracks that grow."};
+    tags.required("PR", &Self::poissonRatio, "1", "Poisson's ratio", input::between(-0.999, 0.4999))
+        .required("CrackParameterA", &Self::crackScale, "m", "a: cracks of this radius halve the stiffness",
+                  input::positive())
+        .required("CrackPowerValue", &Self::crackPower, "1", "m: exponent of slow growth", input::positive())
+        .required("CrackMaxGrowthRate", &Self::greatestCrackSpeed, "m/s", "speed that cracks do not exceed",
+                  input::nonNegative())
+        .required("StressIntensityF", &Self::toughness, "Pa m^(1/2)", "K_0: toughness without friction",
+                  input::positive())
+        .required("CrackFriction", &Self::crackFriction, "1", "friction of the faces of cracks", input::between(0, 1.2))
+        .required("InitialCrackRadius", &Self::initialCrackRadius, "m", "at the start", input::nonNegative())
+        .required("CrackGrowthRate", &Self::tensileSpeedUp, "1", "how many times as fast cracks grow in tension",
+                  input::nonNegative())
+        .required("Gamma", &Self::gruneisen, "1", "Grüneisen's constant: compression heats", input::nonNegative());
+    addElements(tags);
+    tags.value("use_time_temperature_equation", &Self::ratesFollowTemperature, false, "1",
+               "whether relaxation is faster in the heat")
+        .value("T0", &Self::shiftTemperature, 298, "K", "temperature of the given rates of relaxation")
+        .value("C1", &Self::shift1, 6.5, "1", "first constant of Williams, Landel & Ferry")
+        .value("C2", &Self::shift2, 120, "K", "second constant of Williams, Landel & Ferry", input::positive())
+        .ignored("Beta", "Uintah does not use it either")
+        .ignored("DCp_DTemperature", "Uintah does not use it either")
+        .ignored("useModifiedEOS", "only Uintah's coupled fluid reads it")
+        .ignored("useObjectiveRate", "stresses always rotate with the material");
+    refuseSwitch(tags, "randomize_parameters", "all particles have the given moduli");
+    refuseSwitch(tags, "CoeffThermalExpansion", "heat does not strain the material");
+    for (const char* tag : {"useMurnahanEOS", "useBirchMurnaghanEOS", "useJWLEOS", "useJWLCEOS", "gamma", "P0",
+                            "bulkPrime", "A", "B", "C", "R1", "R2", "om", "Cv"})
+      tags.ignored(tag, "only Uintah's coupled fluid reads it");
+    return tags;
+  }
+  static void addElements(input::Schema<ViscoScram>& tags) {
+    using Self = ViscoScram;
+    const std::array<std::pair<double Self::*, double Self::*>, 5> members{{{&Self::g1, &Self::rate1},
+                                                                            {&Self::g2, &Self::rate2},
+                                                                            {&Self::g3, &Self::rate3},
+                                                                            {&Self::g4, &Self::rate4},
+                                                                            {&Self::g5, &Self::rate5}}};
+    for (int n = 0; n < 5; ++n) {
+      const std::string number = std::to_string(n + 1);
+      tags.required("G" + number, members[n].first, "Pa", "shear modulus of a Maxwell element", input::nonNegative());
+      tags.required("RTau" + number, members[n].second, "1/s", "its rate of relaxation", input::nonNegative());
+    }
+    tags.check([](const Self& read, const input::Element& element, input::Diagnostics& diagnostics) {
+      if (read.shearModulus() <= 0) diagnostics.error(element, "one of <G1> to <G5> must be positive");
+    });
+  }
+};
+static_assert(ConstitutiveModel<ViscoScram>);
+
+}  // namespace tushar::mpm::solid

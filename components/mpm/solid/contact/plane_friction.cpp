@@ -1,0 +1,190 @@
+#include "components/mpm/solid/contact/plane_friction.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "components/mpm/solid/contact/friction.hpp"
+
+namespace tushar::mpm::solid {
+
+namespace {
+
+constexpr int mostSteps = 51;
+constexpr double tolerance = 1e-7;
+/// Below it the mass of a body at a node is nothing, kg; as in Uintah.
+constexpr double leastMass = 1e-16;
+
+/// A step of the regression: (J^T J + lambda) change = J^T (c - f) - lambda phi.
+template <int D>
+Eigen::Matrix<double, D + 1, 1> step(const std::vector<SidedParticle<D>>& particles, double lambda,
+                                     const Eigen::Matrix<double, D + 1, 1>& phi) {
+  Eigen::Matrix<double, D + 1, D + 1> matrix = Eigen::Matrix<double, D + 1, D + 1>::Zero();
+  Eigen::Matrix<double, D + 1, 1> right = Eigen::Matrix<double, D + 1, 1>::Zero();
+  for (int d = 0; d < D; ++d) {
+    matrix(d, d) = lambda;
+    right[d] = -lambda * phi[d];
+  }
+  for (const SidedParticle<D>& particle : particles) {
+    Eigen::Matrix<double, D + 1, 1> x;
+    x << particle.x, 1.0;
+    const double f = std::tanh(0.5 * phi.dot(x)), slope = 0.5 * (1 - f * f);
+    matrix += slope * slope * x * x.transpose();
+    right += slope * ((particle.isOther ? 1.0 : -1.0) - f) * x;
+  }
+  return matrix.partialPivLu().solve(right);
+}
+
+/// The material whose body the plane at a node belongs to, or -1.
+template <int D>
+int foremost(const SeparatingPlanes<D>& planes, const Index<D>& node) {
+  for (std::size_t m = 0; m < planes.size(); ++m)
+    if (!(*planes[m].normal)[node].isZero()) return static_cast<int>(m);
+  return -1;
+}
+
+/// Whether a body reaches through the plane into that of the first at a node.
+template <int D>
+bool overlaps(const SeparatingPlanes<D>& planes, int first, std::size_t m, const Index<D>& node) {
+  return (*planes[m].prominence)[node] <= (*planes[static_cast<std::size_t>(first)].prominence)[node];
+}
+
+/// mu at a node.
+template <int D>
+double frictionAt(const Contact& contact, const SeparatingPlanes<D>& planes, const Index<D>& node) {
+  const auto& table = contact.frictionOfColor;
+  if (table.empty()) return contact.friction;
+  const double color = (*planes[static_cast<std::size_t>(contact.master)].color)[node];
+  if (color <= table.front().first) return table.front().second;
+  if (color >= table.back().first) return table.back().second;
+  const auto next =
+      std::lower_bound(table.begin(), table.end(), color, [](const auto& entry, double c) { return entry.first < c; });
+  const auto& [c0, mu0] = *(next - 1);
+  const double share = (color - c0) / (next->first - c0);
+  return share * next->second + (1 - share) * mu0;
+}
+
+/// Whether a body may slide on a master at a node: it takes part, and both are there and overlap.
+template <int D>
+bool meetsMaster(const Contact& contact, const Records& records, const SeparatingPlanes<D>& planes, int first,
+                 std::size_t m, const Index<D>& node) {
+  return static_cast<int>(m) != contact.master && contact.concerns(static_cast<int>(m)) &&
+         records[contact.master][node][lane::mass] != 0 && records[m][node][lane::mass] != 0 &&
+         overlaps<D>(planes, first, m, node);
+}
+
+/// Calls `visit(node, m, touch)` for each body m that meets the master at a node, moving against it.
+template <int D, class Visit>
+void forEachTouch(const Patch& patch, const Contact& contact, double time, double dt, const Records& records,
+                  const SeparatingPlanes<D>& planes, Visit&& visit) {
+  const auto motion = contact.prescribedMotion(time);
+  forEach<D>(records.front().box(), [&](const Index<D>& node) {
+    const int first = foremost<D>(planes, node);
+    if (first < 0 || isExcluded<D>(contact, records, node)) return;
+    const Vec<D> moving = masterVelocity<D>(patch, contact, motion, dt, records, node);
+    const Vec<D> normal = -(*planes[static_cast<std::size_t>(first)].normal)[node];
+    for (std::size_t m = 0; m < records.size(); ++m) {
+      if (!meetsMaster<D>(contact, records, planes, first, m, node)) continue;
+      const Touch<D> touch{normal, lanes<D>(records[m][node], lane::velocity) - moving, false};
+      if (touch.velocity.dot(normal) > 0) visit(node, m, touch);
+    }
+  });
+}
+
+}  // namespace
+
+template <int D>
+Vec<D> separatingNormal(const std::vector<SidedParticle<D>>& particles, double width) {
+  Eigen::Matrix<double, D + 1, 1> phi = Eigen::Matrix<double, D + 1, 1>::Zero();
+  Vec<D> last = Vec<D>::Zero(), closest = Vec<D>::Zero();
+  double least = 1;
+  for (int k = 0; k < mostSteps; ++k) {
+    phi += step<D>(particles, 1e-7 * width * width, phi);
+    Vec<D> normal = phi.template head<D>();
+    if (const double length = normal.norm(); length > 0) normal /= length;
+    const double change = 1 - normal.dot(last);
+    if (change < least) {
+      least = change;
+      closest = normal;
+    }
+    if (change < tolerance) return normal;
+    last = normal;
+  }
+  return closest;
+}
+
+template <int D>
+void slideAlongPlanes(const Contact& contact, const Records& records, const SeparatingPlanes<D>& planes) {
+  forEach<D>(records.front().box(), [&](const Index<D>& node) {
+    const int first = foremost<D>(planes, node);
+    if (first < 0) return;
+    Vec<D> momentum = Vec<D>::Zero();
+    double mass = 0;
+    for (std::size_t m = 0; m < records.size(); ++m) {
+      if (!contact.concerns(static_cast<int>(m))) continue;
+      momentum += records[m][node][lane::mass] * lanes<D>(records[m][node], lane::velocity);
+      mass += records[m][node][lane::mass];
+    }
+    const Vec<D> normal = -(*planes[static_cast<std::size_t>(first)].normal)[node];
+    NodeRecord& body = records[first][node];
+    for (std::size_t m = 0; m < records.size(); ++m) {
+      NodeRecord& record = records[m][node];
+      if (static_cast<int>(m) == first || !contact.concerns(static_cast<int>(m))) continue;
+      if (record[lane::mass] <= leastMass || !overlaps<D>(planes, first, m, node)) continue;
+      const Vec<D> v = lanes<D>(record, lane::velocity);
+      const Touch<D> touch{normal, v - momentum / mass, false};
+      const Vec<D> change = frictionImpulse<D>(touch, frictionAt<D>(contact, planes, node)).change;
+      setLanes<D>(record, lane::velocity, v + change);
+      const double share = record[lane::mass] / body[lane::mass];
+      setLanes<D>(body, lane::velocity, lanes<D>(body, lane::velocity) - share * change);
+    }
+  });
+}
+
+template <int D>
+void slideOnMaster(const Patch& patch, const Contact& contact, double time, double dt, const Records& records,
+                   const SeparatingPlanes<D>& planes) {
+  forEachTouch<D>(patch, contact, time, dt, records, planes,
+                  [&](const Index<D>& node, std::size_t m, const Touch<D>& touch) {
+                    const Vec<D> change = frictionImpulse<D>(touch, contact.friction).change;
+                    setLanes<D>(records[m][node], lane::velocity, lanes<D>(records[m][node], lane::velocity) + change);
+                  });
+  const auto motion = contact.prescribedMotion(time);
+  forEach<D>(records.front().box(), [&](const Index<D>& node) {
+    NodeRecord& master = records[contact.master][node];
+    if (master[lane::mass] == 0 || isExcluded<D>(contact, records, node)) return;
+    setLanes<D>(master, lane::velocity, masterVelocity<D>(patch, contact, motion, dt, records, node));
+  });
+}
+
+template <int D>
+void sumSlidingReaction(const Patch& patch, const Contact& contact, const Acceleration& acceleration, double time,
+                        double dt, const Records& records, const SeparatingPlanes<D>& planes, VectorSum& reaction) {
+  const Vec<D> gravity = patch.level().reduce<D>(acceleration.gravity);
+  forEachTouch<D>(patch, contact, time, dt, records, planes, [&](const Index<D>& node, std::size_t m, const Touch<D>&) {
+    if (!isOwned<D>(patch, node)) return;
+    const NodeRecord& record = records[m][node];
+    reaction.add(patch.level().expandDirection<D>(heldForce<D>(record, gravity, acceleration, dt)));
+  });
+}
+
+template Vec<1> separatingNormal<1>(const std::vector<SidedParticle<1>>&, double);
+template Vec<2> separatingNormal<2>(const std::vector<SidedParticle<2>>&, double);
+template Vec<3> separatingNormal<3>(const std::vector<SidedParticle<3>>&, double);
+template void slideAlongPlanes<1>(const Contact&, const Records&, const SeparatingPlanes<1>&);
+template void slideAlongPlanes<2>(const Contact&, const Records&, const SeparatingPlanes<2>&);
+template void slideAlongPlanes<3>(const Contact&, const Records&, const SeparatingPlanes<3>&);
+template void slideOnMaster<1>(const Patch&, const Contact&, double, double, const Records&,
+                               const SeparatingPlanes<1>&);
+template void slideOnMaster<2>(const Patch&, const Contact&, double, double, const Records&,
+                               const SeparatingPlanes<2>&);
+template void slideOnMaster<3>(const Patch&, const Contact&, double, double, const Records&,
+                               const SeparatingPlanes<3>&);
+template void sumSlidingReaction<1>(const Patch&, const Contact&, const Acceleration&, double, double, const Records&,
+                                    const SeparatingPlanes<1>&, VectorSum&);
+template void sumSlidingReaction<2>(const Patch&, const Contact&, const Acceleration&, double, double, const Records&,
+                                    const SeparatingPlanes<2>&, VectorSum&);
+template void sumSlidingReaction<3>(const Patch&, const Contact&, const Acceleration&, double, double, const Records&,
+                                    const SeparatingPlanes<3>&, VectorSum&);
+
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "components/mpm/solid/contact/contact.hpp"
+#include "components/mpm/solid/labels.hpp"
+
+// Contact with friction along the plane that separates the particles of two bodies, found by logistic regression;
+// Nairn, Hammerquist & Smith, Comput. Methods Appl. Mech. Engrg. 362 (2020) 112859.
+
+namespace tushar::mpm::solid {
+
+/// A particle near a node.
+template <int D>
+struct SidedParticle {
+  Vec<D> x;      ///< from the node, m
+  bool isOther;  ///< of another body than the one that the normal points out of
+};
+
+/// Normal of the plane phi . x + phi_0 = 0 that separates the particles around a node: it minimises
+///   sum_p (c_p - tanh((phi . x_p + phi_0) / 2))^2 + lambda |phi|^2,   c_p = -1 on one side, 1 on the other,
+/// by at most 51 Gauss-Newton steps from 0; lambda = 1e-7 width^2, m^2 (section 3.3 of the source). Where they do not
+/// settle within 1e-7 in the cosine between two steps, the normal of those that came closest.
+template <int D>
+Vec<D> separatingNormal(const std::vector<SidedParticle<D>>& particles, double width);
+
+/// How a body sees a plane that separates bodies at nodes.
+template <int D>
+struct SeparatingPlane {
+  /// Out of the body, of length 1, where it has most mass of those that meet at the node; 0 elsewhere.
+  std::optional<NodeView<const Vec<D>>> normal;
+  /// How far its particles reach along that normal, m: the farthest of the body with most mass, the nearest of others.
+  std::optional<NodeView<const double>> prominence;
+  std::optional<NodeView<const double>> color;  ///< mean of its p.color by mass
+
+  static SeparatingPlane from(auto& take, bool hasPlanes, bool hasColor) {
+    return {.normal = take(when(hasPlanes, requiresNew(g::separatingNormal<D>))),
+            .prominence = take(when(hasPlanes, requiresNew(g::prominence))),
+            .color = take(when(hasColor, requiresNew(g::color)))};
+  }
+};
+/// Those of all materials.
+template <int D>
+using SeparatingPlanes = std::vector<SeparatingPlane<D>>;
+
+/// Prominence of a body that has no particle of its surface near a node.
+inline constexpr double noProminence = -std::numeric_limits<double>::max();
+
+/// The body with most mass and each other one that overlaps it beyond the plane and approaches the centre of mass
+/// exchange the impulse that stops the approach and, by Coulomb's friction, slows the slip; momentum is kept.
+template <int D>
+void slideAlongPlanes(const Contact& contact, const Records& records, const SeparatingPlanes<D>& planes);
+
+/// The master moves as `motion` says, or as it does; what overlaps and approaches it is stopped, and slowed by
+/// friction.
+template <int D>
+void slideOnMaster(const Patch& patch, const Contact& contact, double time, double dt, const Records& records,
+                   const SeparatingPlanes<D>& planes);
+
+/// As sumReaction, over the bodies that slideOnMaster will stop.
+template <int D>
+void sumSlidingReaction(const Patch& patch, const Contact& contact, const Acceleration& acceleration, double time,
+                        double dt, const Records& records, const SeparatingPlanes<D>& planes, VectorSum& reaction);
+
+}  // namespace tushar::mpm::solid

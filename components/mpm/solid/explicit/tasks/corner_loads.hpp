@@ -1,0 +1,99 @@
+#pragma once
+
+#include <cmath>
+
+#include "components/mpm/solid/loads/loaded_face.hpp"
+#include "components/mpm/solid/material.hpp"
+#include "components/mpm/solid/transfer/boundary.hpp"
+#include "components/mpm/solid/transfer/placed.hpp"
+
+// The tasks of use_CBDI_boundary_condition: pressures act at the corners of the faces of particles.
+
+namespace tushar::mpm::solid {
+
+/// Cells beyond a patch whose particles may have a corner next to its nodes.
+inline constexpr int cornerReach = 2;
+
+/// Particles that bear loads.
+template <int D>
+struct LoadedParticles {
+  ParticleView<const Vec<D>> x;
+  Sizes<D> size;
+  ParticleView<const Matrix3> deformation;
+  ParticleView<const int> loadCurves;
+
+  static LoadedParticles from(auto& take, KeptSizes keepsSizes, int reach) {
+    return {.x = take(requiresOld(p::x<D>, reach)),
+            .size = Sizes<D>::from(take, keepsSizes, reach),
+            .deformation = take(requiresOld(p::deformationMeasure, reach)),
+            .loadCurves = take(requiresOld(p::loadCurves, reach))};
+  }
+  /// Particle p as a box. Along axes that the grid leaves out its edge is 1 m at the start.
+  ParticleBox box(const Level& level, const Vec3& commonSize, int p) const {
+    Vec3 edges = Vec3::Ones();
+    for (int d = 0; d < D; ++d)
+      edges[level.axis(d)] = (size.each ? (*size.each)[p][d] : commonSize[level.axis(d)]) * level.spacing(d);
+    Matrix3 start = edges.asDiagonal();
+    if (size.domain) {
+      start = (*size.domain)[p];
+      for (int d = 0; d < D; ++d) start.row(level.axis(d)) *= level.spacing(d);
+    }
+    return {level.expandPoint<D>(x[p]), start, deformation[p] * start};
+  }
+};
+
+/// The force of loads on each particle at the start of the step, where they act at corners.
+template <int D>
+void applyLoadsAtCorners(const Patch& patch, const Material&, const Loads& loads, const Vec3& commonSize, double time,
+                         const LoadedParticles<D>& particles, ParticleView<Vec<D>> externalForce) {
+  const Level& level = patch.level();
+  for (int p = 0; p < particles.loadCurves.owned(); ++p) {
+    externalForce[p] = Vec<D>::Zero();
+    if (particles.loadCurves[p] == 0) continue;
+    const auto load = cornerLoad(loads, particles.loadCurves[p], particles.box(level, commonSize, p), time);
+    if (load) externalForce[p] = level.reduce<D>(load->force);
+  }
+}
+
+/// f_i += N_i(x) force, with the tent functions of the cell that a point lies in.
+template <int D>
+void addForceAt(const Level& level, const Vec<D>& x, const Vec<D>& force, NodeView<NodeRecord> record) {
+  Index<D> cell;
+  Vec<D> within;
+  for (int d = 0; d < D; ++d) {
+    const double at = (x[d] - level.nodePosition(d, 0)) * level.inverseSpacing(d);
+    cell[d] = static_cast<int>(std::floor(at));
+    within[d] = at - cell[d];
+  }
+  const auto weights = Linear<D>::weights(within);
+  for (int k = 0; k < Linear<D>::nodes; ++k) {
+    const Index<D> node = Linear<D>::node(cell, k);
+    if (!record.box().contains(node)) continue;
+    NodeRecord& at = record[node];
+    setLanes<D>(at, lane::force, lanes<D>(at, lane::force) + weights[static_cast<std::size_t>(k)] * force);
+  }
+}
+
+/// Adds the forces of loads to those of the nodes around the corners on which they act. A corner lies at most a cell
+/// from the middle of its particle along each axis.
+template <int D>
+void addLoadsAtCorners(const Patch& patch, const Material& material, const Loads& loads, const Vec3& commonSize,
+                       double time, const LoadedParticles<D>& particles, NodeView<NodeRecord> record) {
+  const Level& level = patch.level();
+  const auto& x = particles.x;
+  x.template forEachOccupied<D>(x.cells(), [&](const Index<D>&, const data::ParticleRange& range) {
+    for (const int p : range) {
+      if (particles.loadCurves[p] == 0) continue;
+      const auto load = cornerLoad(loads, particles.loadCurves[p], particles.box(level, commonSize, p), time);
+      if (!load) continue;
+      for (const Vec3& corner : load->corners) {
+        Vec<D> at = level.reduce<D>(corner);
+        for (int d = 0; d < D; ++d) at[d] = std::clamp(at[d], x[p][d] - level.spacing(d), x[p][d] + level.spacing(d));
+        addForceAt<D>(level, at, Vec<D>(0.25 * level.reduce<D>(load->force)), record);
+      }
+    }
+  });
+  setSymmetry<D>(patch, material.index, record);
+}
+
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "components/mpm/solid/material.hpp"
+#include "components/mpm/solid/transfer/boundary.hpp"
+#include "components/mpm/solid/transfer/placed.hpp"
+
+namespace tushar::mpm::solid {
+
+/// v_i += sum_p S_i m_p L_p (x_i - x_p) / m_i, with L_p of the step before: a node takes the velocity that the
+/// particle's field has there; Wallstedt & Guilkey, Comput. Model. Eng. Sci. 19 (2007) 223.
+template <class Shape, int D = Shape::dimension>
+void addVelocityGradient(const Patch& patch, const Material& material, const Vec3& commonSize,
+                         const Placed<Shape>& particles, ParticleView<const double> mass,
+                         ParticleView<const Matrix3> velocityGradient, NodeView<NodeRecord> record) {
+  const Level& level = patch.level();
+  const auto& x = particles.x;
+  forEachStencil<Shape>(patch, x.cells(), particles, commonSize, [&](int p, const auto& stencil) {
+    Eigen::Matrix<double, D, D> gradient;
+    for (int i = 0; i < D; ++i)
+      for (int j = 0; j < D; ++j) gradient(i, j) = velocityGradient[p](sceneAxis<D>(level, i), sceneAxis<D>(level, j));
+    stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>&) {
+      if (!record.box().contains(node)) return;
+      NodeRecord& at = record[node];
+      if (at[lane::mass] <= 0) return;
+      Vec<D> away;
+      for (int d = 0; d < D; ++d) away[d] = level.nodePosition(d, node[d]) - x[p][d];
+      const Vec<D> change = gradient * away * (s * mass[p] / at[lane::mass]);
+      setLanes<D>(at, lane::velocity, lanes<D>(at, lane::velocity) + change);
+    });
+  });
+  setSymmetry<D>(patch, material.index, record);
+}
+
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,218 @@
+#pragma once
+
+#include "components/mpm/solid/contact/plane_friction.hpp"
+#include "components/mpm/solid/loads/load.hpp"
+#include "components/mpm/solid/material.hpp"
+#include "components/mpm/solid/transfer/placed.hpp"
+
+// The planes that separate bodies at the nodes where several meet (see SeparatingPlane), as Uintah has them.
+
+namespace tushar::mpm::solid {
+
+/// What separateBodies reads of a material and writes for it.
+template <class Shape, int D = Shape::dimension>
+struct PlaneSources {
+  Placed<Shape> particles;
+  OptionalView<const Vec<D>> size;  ///< at the start, in cells, where shape functions do not ask for it
+  ParticleView<const int> surface;
+  NodeView<Vec<D>> normal;
+  NodeView<double> prominence;
+
+  /// `ofShape` are the sizes that shape functions ask for.
+  static PlaneSources from(auto& take, KeptSizes ofShape, bool keepsSizes) {
+    return {.particles = Placed<Shape>::from(take, ofShape, Shape::reach),
+            .size = take(when(!Shape::hasSize && keepsSizes, requiresOld(p::size<D>, Shape::reach))),
+            .surface = take(requiresOld(p::surface, Shape::reach)),
+            .normal = take(computes(g::separatingNormal<D>)),
+            .prominence = take(computes(g::prominence))};
+  }
+  /// Column i: from the middle of particle p to the middle of its face that lay along axis i at the start, m.
+  Eigen::Matrix<double, D, D> halfEdges(const Level& level, const Vec3& commonSize, int p) const {
+    Eigen::Matrix<double, D, D> half = Eigen::Matrix<double, D, D>::Zero();
+    const auto& each = Shape::hasSize ? particles.size.each : size;
+    const Vec<D> cells = each ? (*each)[p] : level.reduce<D>(commonSize);
+    for (int d = 0; d < D; ++d) half(d, d) = 0.5 * cells[d] * level.spacing(d);
+    if constexpr (Shape::deforms) {
+      half = particles.extents(level, commonSize)[p].halfEdges;
+      for (int d = 0; d < D; ++d) half.row(d) *= level.spacing(d);
+    }
+    return half;
+  }
+};
+
+/// Which materials a plane may belong to, and which it belongs to before all others.
+struct Precedence {
+  std::vector<bool> mayLead, isRigid;
+
+  Precedence(const std::vector<Material>& materials, const std::vector<Contact>& contacts) {
+    for (const Material& material : materials) {
+      mayLead.push_back(material.mayLeadContact);
+      isRigid.push_back(material.isRigid);
+    }
+    for (const Contact& contact : contacts) {
+      const auto master = static_cast<std::size_t>(contact.master);
+      if (contact.type == Contact::Type::specified) mayLead[master] = false;
+      if (contact.type == Contact::Type::specifiedFriction) isRigid[master] = true;
+    }
+  }
+
+  /// The material with most mass of those that meet at a node, or the rigid one; -1 where fewer than two meet.
+  template <int D>
+  int leader(const std::vector<NodeView<const NodeRecord>>& records, const Index<D>& node) const {
+    double total = 0, most = 0, mostOfRigid = 1e-90;
+    for (const auto& record : records) total += record[node][lane::mass];
+    int meeting = 0, heaviest = -1, rigid = -1;
+    for (std::size_t m = 0; m < records.size(); ++m) {
+      const double mass = records[m][node][lane::mass];
+      if (!mayLead[m]) continue;
+      if (isRigid[m] && mass > mostOfRigid) {
+        mostOfRigid = mass;
+        rigid = static_cast<int>(m);
+      }
+      if (mass <= 1e-8 * total || mass <= 1e-16) continue;
+      ++meeting;
+      if (mass <= most) continue;
+      most = mass;
+      heaviest = static_cast<int>(m);
+    }
+    if (meeting < 2) return -1;
+    return rigid >= 0 ? rigid : heaviest;
+  }
+};
+
+/// The nodes of a patch at which bodies meet, in their order.
+template <int D>
+struct MeetingNodes {
+  Box box;
+  std::vector<int> number;  ///< of each node of the box among those that follow, or -1
+  std::vector<Index<D>> node;
+  std::vector<int> leader;  ///< the material that the plane belongs to
+  std::vector<std::vector<SidedParticle<D>>> particles;
+
+  MeetingNodes(const Box& nodes, const Precedence& precedence, const std::vector<NodeView<const NodeRecord>>& records)
+      : box(nodes), number(nodes.size(), -1) {
+    forEach<D>(box, [&](const Index<D>& at) {
+      const int first = precedence.leader<D>(records, at);
+      if (first < 0) return;
+      number[place(at)] = static_cast<int>(node.size());
+      node.push_back(at);
+      leader.push_back(first);
+    });
+    particles.resize(node.size());
+  }
+  /// The number of a node, or -1.
+  int operator[](const Index<D>& at) const { return box.contains(at) ? number[place(at)] : -1; }
+
+ private:
+  std::size_t place(const Index<D>& at) const {
+    Index3 whole = box.lower;
+    for (int d = 0; d < D; ++d) whole[d] = at[d];
+    return box.offset(whole);
+  }
+};
+
+/// Adds the particles of material m to the nodes at which they meet others.
+template <class Shape, int D = Shape::dimension>
+void gatherParticles(const Patch& patch, const Vec3& commonSize, const PlaneSources<Shape>& of, int m,
+                     MeetingNodes<D>& nodes) {
+  const auto& x = of.particles.x;
+  forEachStencil<Shape>(patch, x.cells(), of.particles, commonSize, [&](int p, const auto& stencil) {
+    stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>&) {
+      const int k = nodes[node];
+      if (k < 0 || s <= 1e-8) return;
+      Vec<D> away;
+      for (int d = 0; d < D; ++d) away[d] = x[p][d] - patch.level().nodePosition(d, node[d]);
+      nodes.particles[static_cast<std::size_t>(k)].push_back({away, m != nodes.leader[static_cast<std::size_t>(k)]});
+    });
+  });
+}
+
+/// The normal at the k-th of the nodes: 0 unless there are particles on both sides. None points through a symmetry
+/// plane.
+template <int D>
+Vec<D> normalAt(const Patch& patch, const MeetingNodes<D>& nodes, std::size_t k) {
+  const auto& around = nodes.particles[k];
+  const auto others = std::count_if(around.begin(), around.end(), [](const auto& one) { return one.isOther; });
+  if (others == 0 || others == static_cast<std::ptrdiff_t>(around.size())) return Vec<D>::Zero();
+  Vec<D> normal = separatingNormal<D>(around, patch.level().cellWidth(0));
+  const int material = nodes.leader[k];
+  for (int d = 0; d < D; ++d)
+    for (const int side : {0, 1})
+      if (patch.isAtBoundary(d, side) && patch.level().isSymmetry(d, side, material) &&
+          patch.faceNodes(d, side).template contains<D>(nodes.node[k]))
+        normal[d] = 0;
+  const double length = normal.norm();
+  return length > 0 ? Vec<D>(normal / length) : normal;
+}
+
+/// Prominence of material m: where it leads, how far its particles reach along the normal at most; elsewhere, at least.
+template <class Shape, int D = Shape::dimension>
+void measureProminence(const Patch& patch, const Vec3& commonSize, int m, const MeetingNodes<D>& nodes,
+                       const std::vector<Vec<D>>& normals, const PlaneSources<Shape>& of) {
+  of.prominence.fill(noProminence);
+  const auto& x = of.particles.x;
+  forEachStencil<Shape>(patch, x.cells(), of.particles, commonSize, [&](int p, const auto& stencil) {
+    if (of.surface[p] == 0) return;
+    const auto edges = of.halfEdges(patch.level(), commonSize, p);
+    stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>&) {
+      const int k = nodes[node];
+      if (k < 0 || s <= 0) return;
+      const Vec<D>& normal = normals[static_cast<std::size_t>(k)];
+      const double middle = x[p].dot(normal), half = (edges.transpose() * normal).cwiseAbs().maxCoeff();
+      double& reach = of.prominence[node];
+      if (m == nodes.leader[static_cast<std::size_t>(k)])
+        reach = std::max(reach, middle + half);
+      else
+        reach = reach == noProminence ? middle - half : std::min(reach, middle - half);
+    });
+  });
+}
+
+/// The planes that separate bodies, for contacts with friction along them.
+template <class Shape, int D = Shape::dimension>
+void separateBodies(const Patch& patch, const std::vector<Material>& materials, const std::vector<Contact>& contacts,
+                    const Vec3& commonSize, const std::vector<NodeView<const NodeRecord>>& records,
+                    const std::vector<PlaneSources<Shape>>& of) {
+  MeetingNodes<D> nodes(of.front().normal.box(), Precedence(materials, contacts), records);
+  for (std::size_t m = 0; m < of.size(); ++m) {
+    of[m].normal.fill(Vec<D>::Zero());
+    gatherParticles<Shape>(patch, commonSize, of[m], static_cast<int>(m), nodes);
+  }
+  std::vector<Vec<D>> normals;
+  for (std::size_t k = 0; k < nodes.node.size(); ++k) {
+    normals.push_back(normalAt<D>(patch, nodes, k));
+    of[static_cast<std::size_t>(nodes.leader[k])].normal[nodes.node[k]] = normals.back();
+  }
+  for (std::size_t m = 0; m < of.size(); ++m)
+    measureProminence<Shape>(patch, commonSize, static_cast<int>(m), nodes, normals, of[m]);
+}
+
+/// The mean of p.color by mass at the nodes of a patch; 0 where there is no mass.
+template <class Shape, int D = Shape::dimension>
+void interpolateColor(const Patch& patch, const Material&, const Vec3& commonSize, const Placed<Shape>& particles,
+                      ParticleView<const double> mass, ParticleView<const double> color,
+                      NodeView<const NodeRecord> record, NodeView<double> mean) {
+  mean.fill(0.0);
+  forEachStencil<Shape>(patch, particles.x.cells(), particles, commonSize, [&](int p, const auto& stencil) {
+    stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>&) {
+      if (mean.box().contains(node)) mean[node] += s * mass[p] * color[p];
+    });
+  });
+  forEach<D>(mean.box(), [&](const Index<D>& node) {
+    if (const double total = record[node][lane::mass]; total > 0) mean[node] /= total;
+  });
+}
+
+/// Whether each particle starts at the surface of its body.
+template <int D>
+void findSurface(const Patch& patch, const Material& material, ParticleView<const Vec<D>> x,
+                 ParticleView<int> surface) {
+  for (int p = 0; p < x.owned(); ++p) {
+    const Vec3 place = patch.level().expandPoint<D>(x[p]);
+    surface[p] = 1;
+    for (const Body& body : material.bodies)
+      if (body.shape->contains(place)) surface[p] = isAtSurface(patch.level(), body, place) ? 1 : 0;
+  }
+}
+
+}  // namespace tushar::mpm::solid

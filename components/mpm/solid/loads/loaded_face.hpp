@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "components/mpm/solid/loads/load.hpp"
+
+// Pressures on the faces of particles: convected boundary domain interpolation, CBDI; Sadeghirad, Brannon & Guilkey,
+// Int. J. Numer. Meth. Engng 95 (2013) 928, section 4.
+
+namespace tushar::mpm::solid {
+
+/// The face of a particle on which a pressure acts.
+struct LoadedFace {
+  std::array<Vec3, 4> corners;  ///< m
+  double stretch;               ///< its area over that at the start
+};
+
+/// A particle as a parallelepiped: its middle, and its edges at the start and now, one a column, m.
+struct ParticleBox {
+  Vec3 middle;
+  Matrix3 startEdges, edges;
+
+  /// The face towards a normal, whose edge differs from it by less than an angle with the cosine 0.9, if there is one.
+  std::optional<LoadedFace> face(const Vec3& normal) const;
+};
+
+/// What the loads of a particle do to it at the corners of its face.
+struct CornerLoad {
+  Vec3 force;                   ///< N, a quarter of it at each corner
+  std::array<Vec3, 4> corners;  ///< m
+};
+
+/// The pressures and torques on a particle, whose numbers `packed` holds as p.loadCurveID does. Without a face towards
+/// the normal of a pressure there is no load, and a torque counts four times, as in Uintah.
+std::optional<CornerLoad> cornerLoad(const Loads& loads, int packed, const ParticleBox& particle, double time);
+
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "components/mpm/solid/tensor.hpp"
+#include "core/input/diagnostics.hpp"
+
+namespace tushar::mpm::solid {
+
+/// A deformation that a body is driven through, homogeneous in space: F(t) runs straight between points in time, and
+/// the body turns by an angle about an axis on the way to each point. It goes on straight beyond the first and the last
+/// point.
+class PrescribedDeformation {
+ public:
+  struct Point {
+    double time = 0;                            ///< s
+    Matrix3 deformation = Matrix3::Identity();  ///< F without the rotation, 1
+    double angle = 0;                           ///< of the rotation since the point before, degrees
+    Vec3 axis = Vec3::UnitX();                  ///< of that rotation, of length 1
+  };
+
+  /// At least two points, in the order of time.
+  explicit PrescribedDeformation(std::vector<Point> points);
+
+  /// F = Q Q_0 F_s at a time, with F_s from the points, Q the rotation since the point before and Q_0 all others.
+  Matrix3 deformation(double time) const;
+  /// L = dF/dt F^-1 at a time, 1/s.
+  Matrix3 velocityGradient(double time) const;
+
+ private:
+  struct Moment;
+  Moment at(double time) const;
+
+  std::vector<Point> points_;
+  std::vector<Matrix3> turned_;  ///< Q_0 from each point on
+};
+
+/// Reads points of 14 numbers: time (s), the components of F row by row, an angle (degrees) and its axis. Problems go
+/// to the diagnostics, with file and line; one of the file as a whole to the place that names it.
+std::optional<PrescribedDeformation> readPrescribedDeformation(const std::string& path, const Location& named,
+                                                               input::Diagnostics& diagnostics);
+
+}  // namespace tushar::mpm::solid

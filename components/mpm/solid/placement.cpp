@@ -1,0 +1,138 @@
+#include "components/mpm/solid/placement.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+
+#include "components/mpm/solid/material.hpp"
+#include "core/input/geometry/smooth_cylinder.hpp"
+
+namespace tushar::mpm::solid {
+
+Matrix3 Body::affineMatrix() const {
+  Matrix3 rows;
+  rows << affineRow0.transpose(), affineRow1.transpose(), affineRow2.transpose();
+  return rows;
+}
+
+namespace {
+
+Vec3 widthsOf(const Level& level) { return {level.cellWidth(0), level.cellWidth(1), level.cellWidth(2)}; }
+
+/// Divides lengths along x, y, z by those of cells; 1 along an axis without width.
+Vec3 inCells(const Level& level) {
+  Vec3 inverse = widthsOf(level);
+  for (int axis = 0; axis < 3; ++axis) inverse[axis] = inverse[axis] > 0 ? 1 / inverse[axis] : 1;
+  return inverse;
+}
+
+/// A particle of a cell while it is being filled.
+struct Filling {
+  Vec3 at, spacing;  ///< m
+  double share;      ///< of its extent in that of the largest, 1
+};
+
+/// Whether the eight points a quarter of `spacing` away lie in a shape; along an axis without width there are none.
+bool isFullyInside(const input::GeometryPiece& shape, const Vec3& at, const Vec3& spacing) {
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 away(corner & 1 ? 0.25 : -0.25, corner & 2 ? 0.25 : -0.25, corner & 4 ? 0.25 : -0.25);
+    if (!shape.contains(at + away.cwiseProduct(spacing))) return false;
+  }
+  return true;
+}
+
+bool overlaps(const Filling& one, const Vec3& point) {
+  return ((point - one.at).array().abs() <= 0.5 * one.spacing.array()).all();
+}
+
+/// Adds particles of a 2^-k-th of the size where those that are there leave room.
+template <int D>
+void fillGaps(const Level& level, const Body& body, const Index<D>& cell, int k, std::vector<Filling>& particles) {
+  Body finer = body;
+  for (int d = 0; d < D; ++d) finer.particlesPerCell[level.axis(d)] *= 1 << k;
+  const std::vector<Filling> before = particles;
+  forEachParticleIn<D>(level, finer, cell, [&](const Index<D>&, const Vec3& at) {
+    for (const Filling& one : before)
+      if (overlaps(one, at)) return;
+    Vec3 spacing = widthsOf(level);
+    for (int axis = 0; axis < 3; ++axis) spacing[axis] /= finer.particlesPerCell[axis];
+    particles.push_back({at, spacing, 1.0 / (1 << k)});
+  });
+}
+
+/// The particles of a cell, in `levels` sizes, each half of the one before; where the number is negative, those that
+/// stick out of the shape give way to smaller ones.
+template <int D>
+std::vector<Filling> fill(const Level& level, const Body& body, const Index<D>& cell) {
+  std::vector<Filling> particles;
+  fillGaps<D>(level, body, cell, 0, particles);
+  Vec3 spacing = widthsOf(level);
+  for (int axis = 0; axis < 3; ++axis) spacing[axis] /= body.particlesPerCell[axis];
+  for (int k = 1; k < std::abs(body.levels); ++k) {
+    if (body.levels < 0)
+      std::erase_if(particles, [&](const Filling& one) { return !isFullyInside(*body.shape, one.at, spacing); });
+    fillGaps<D>(level, body, cell, k, particles);
+    for (int d = 0; d < D; ++d) spacing[level.axis(d)] *= 0.5;
+  }
+  return particles;
+}
+
+/// Puts a seed into its cell.
+template <int D>
+void add(const Level& level, const Body& body, const Seed& seed, Seeds& seeds) {
+  const Index<D> cell = level.cellOf<D>(level.reduce<D>(seed.at));
+  if (!level.cells().contains(cell))
+    throw InputError({{body.where, "geom_object",
+                       fmt::format("a particle would start at ({:g}, {:g}, {:g}) m, outside of the grid", seed.at[0],
+                                   seed.at[1], seed.at[2])}});
+  seeds[level.cellNumber<D>(cell)].push_back(seed);
+}
+
+template <int D>
+void seedFilling(const Level& level, const Body& body, const Index<D>& cell, Seeds& seeds) {
+  const Matrix3 matrix = body.affineMatrix();
+  const Vec3 widths = widthsOf(level), inverse = inCells(level);
+  for (const Filling& one : fill<D>(level, body, cell)) {
+    Vec3 edges;
+    for (int axis = 0; axis < 3; ++axis) edges[axis] = 1.0 / body.particlesPerCell[axis];
+    for (int d = 0; d < D; ++d) edges[level.axis(d)] *= one.share;
+    const Vec3 at = matrix * one.at + body.affineShift;
+    const Vec3 lengths = (widths.array() > 0).select(edges.cwiseProduct(widths), edges);
+    double volume = matrix.determinant();
+    for (int d = 0; d < D; ++d) volume *= edges[level.axis(d)];
+    add<D>(level, body, {at, inverse.asDiagonal() * matrix * lengths.asDiagonal(), volume}, seeds);
+  }
+}
+
+template <int D>
+void seedCylinder(const Level& level, const Body& body, const input::SmoothCylinder& cylinder, Seeds& seeds) {
+  const Vec3 inverse = inCells(level);
+  for (const input::SmoothCylinder::Particle& one : cylinder.particles(level.cellVolume()))
+    add<D>(level, body, {one.at, inverse.asDiagonal() * one.edges, one.volume / level.cellVolume()}, seeds);
+}
+
+template <int D>
+void place(const Level& level, Body& body) {
+  const auto* cylinder = dynamic_cast<const input::SmoothCylinder*>(body.shape.get());
+  if (!cylinder && std::abs(body.levels) <= 1 && body.affineMatrix() == Matrix3::Identity() &&
+      body.affineShift.isZero(0))
+    return;
+  auto seeds = std::make_shared<Seeds>();
+  if (cylinder)
+    seedCylinder<D>(level, body, *cylinder, *seeds);
+  else
+    forEach<D>(level.cells(), [&](const Index<D>& cell) { seedFilling<D>(level, body, cell, *seeds); });
+  body.seeds = seeds;
+}
+
+}  // namespace
+
+void placeParticles(const Level& level, std::vector<Body>& bodies) {
+  for (Body& body : bodies) {
+    if (level.dimension() == 1) place<1>(level, body);
+    if (level.dimension() == 2) place<2>(level, body);
+    if (level.dimension() == 3) place<3>(level, body);
+  }
+}
+
+}  // namespace tushar::mpm::solid

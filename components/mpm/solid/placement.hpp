@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "components/mpm/solid/tensor.hpp"
+#include "core/core.hpp"
+
+namespace tushar::mpm::solid {
+
+struct Body;
+
+/// A particle that starts elsewhere than in the middle of an equal part of a cell.
+struct Seed {
+  Vec3 at = Vec3::Zero();            ///< m
+  Matrix3 domain = Matrix3::Zero();  ///< its edges, one a column, in cells
+  double volume = 0;                 ///< in cells
+};
+
+/// The particles of a body by the number of the cell in which they start.
+using Seeds = std::map<std::uint64_t, std::vector<Seed>>;
+
+/// A particle in an equal part of a cell; `at` is left open.
+template <int D>
+Seed partOfCell(const Level& level, const Index3& particlesPerCell) {
+  Seed seed;
+  for (int axis = 0; axis < 3; ++axis) seed.domain(axis, axis) = 1.0 / particlesPerCell[axis];
+  Vec<D> extent;
+  for (int d = 0; d < D; ++d) extent[d] = seed.domain(level.axis(d), level.axis(d));
+  seed.volume = extent.prod();
+  return seed;
+}
+
+/// The extent of a particle along the axes of the kernel, in cells; of one whose edges lie in other directions that of
+/// a cube of its volume.
+template <int D>
+Vec<D> extentOf(const Level& level, const Seed& seed) {
+  Vec<D> extent;
+  bool isAlongAxes = true;
+  for (int i = 0; i < D; ++i)
+    for (int j = 0; j < D; ++j)
+      if (i == j)
+        extent[i] = seed.domain(level.axis(i), level.axis(i));
+      else
+        isAlongAxes = isAlongAxes && seed.domain(level.axis(i), level.axis(j)) == 0;
+  return isAlongAxes ? extent : Vec<D>(Vec<D>::Constant(std::pow(seed.volume, 1.0 / D)));
+}
+
+/// Finds the seeds of each body whose particles do not start in equal parts of cells: it is filled in levels, moved by
+/// a map, or a smooth cylinder. Throws InputError where one would start outside of the grid.
+void placeParticles(const Level& level, std::vector<Body>& bodies);
+
+}  // namespace tushar::mpm::solid

@@ -1,0 +1,25 @@
+#include "core/base/missing.hpp"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <stdexcept>
+
+namespace tushar {
+
+std::filesystem::path libraryFolder() {
+  Dl_info found;
+  if (!dladdr(reinterpret_cast<const void*>(&libraryFolder), &found))
+    throw std::runtime_error("the folder of the modules is not known");
+  return std::filesystem::canonical(found.dli_fname).parent_path();
+}
+
+void buildMissing(const std::string& name) {
+  const std::filesystem::path script = libraryFolder() / "build_missing";
+  if (!std::filesystem::exists(script)) return;
+  if (std::system(fmt::format("'{}' tushar_{} 1>&2", script.string(), name).c_str()) != 0)
+    throw std::runtime_error(fmt::format("tushar_{} was not built", name));
+}
+
+}  // namespace tushar

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace tushar {
+
+/// The folder of the shared library of the framework, beside which those are that are loaded on demand.
+std::filesystem::path libraryFolder();
+
+/// Builds the target `tushar_NAME`, which the first build has left out, in a folder where Tushar is built: that has the
+/// script `build_missing`. Does nothing elsewhere. Throws std::runtime_error if the build fails.
+void buildMissing(const std::string& name);
+
+}  // namespace tushar

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/input/geometry/piece.hpp"
+#include "core/input/schema.hpp"
+
+namespace tushar::input {
+
+/// A hollow cylinder whose particles follow its surface: rings of them around the axis, in layers along it. Uintah's
+/// `smoothcyl`.
+struct SmoothCylinder : GeometryPiece {
+  enum class Scheme { pieSlices, constantVolumes };
+  /// A particle of it.
+  struct Particle {
+    Vec3 at;                                              ///< m
+    Eigen::Matrix<double, 3, 3, Eigen::DontAlign> edges;  ///< one a column: around, outwards, along the axis, m
+    double volume;                                        ///< m^3
+  };
+
+  Scheme scheme = Scheme::pieSlices;
+  Vec3 bottom = Vec3::Zero(), top = Vec3::Zero();  ///< centres of the ends, m
+  double innerRadius = 0, outerRadius = 0;         ///< m
+  int radial = 0, axial = 0;                       ///< rings, and layers
+  std::optional<int> angular;                      ///< particles of a ring
+  double startAngle = 0, endAngle = 360;           ///< degrees
+
+  bool contains(const Vec3& point) const override;
+  Box3 bounds() const override;
+  /// Its particles. Rings of pie slices have fewer than told where one would have less than a twentieth of
+  /// `cellVolume`, m^3.
+  std::vector<Particle> particles(double cellVolume) const;
+  static const Schema<SmoothCylinder>& schema();
+
+ private:
+  void addRing(const Vec3& center, int ring, int count, std::vector<Particle>& particles) const;
+  int particlesOfRing(int ring, double cellVolume) const;
+  /// Area of a particle of a ring of `count`, m^2.
+  double areaOf(int ring, int count) const;
+  /// Of the arc, rad.
+  double angle() const;
+  /// Width of a ring, and height of a layer, m.
+  double width() const { return (outerRadius - innerRadius) / radial; }
+  double height() const { return (top - bottom).norm() / axial; }
+};
+
+}  // namespace tushar::input

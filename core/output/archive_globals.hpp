@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/output/archive.hpp"
+#include "core/output/archive_files.hpp"
+
+namespace tushar::output {
+
+/// The `.dat` files of an archive. Each line is with the system when append() returns, so a killed run loses none.
+class GlobalFiles {
+ public:
+  explicit GlobalFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  /// The name of a global's file.
+  static std::string nameOf(const std::string& global);
+  /// Adds a line to the file of a global; its first sample makes the file anew. Whether this was the first.
+  bool append(const GlobalSample& sample);
+  /// Goes on in the files of these globals, without the lines after `time` [s].
+  void resume(const std::vector<std::string>& globals, double time);
+  /// Waits until all lines are on the disk.
+  void sync() const;
+
+ private:
+  std::filesystem::path pathOf(const std::string& global) const { return folder_ / nameOf(global); }
+
+  std::filesystem::path folder_;
+  std::map<std::string, AppendFile> files_;  ///< by the global's name
+  std::string line_;                         ///< memory for one, kept for the next
+};
+
+}  // namespace tushar::output

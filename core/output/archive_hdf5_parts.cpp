@@ -1,0 +1,84 @@
+#include "core/output/archive_hdf5_parts.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/uio.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
+#include "core/base/error.hpp"
+
+namespace tushar::output {
+
+namespace {
+
+/// The file, open for reading while this lives.
+class OpenFile {
+ public:
+  explicit OpenFile(const std::filesystem::path& path) : descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
+  ~OpenFile() {
+    if (descriptor >= 0) ::close(descriptor);
+  }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+
+  const int descriptor;
+};
+
+constexpr std::size_t mostAtOnce = 256;  ///< parts; Linux takes 1024
+
+}  // namespace
+
+Hdf5Parts::Hdf5Parts(const Hdf5Input& file, std::string name) : file_(&file), name_(std::move(name)) {
+  const Hdf5Input::Placed placed = file.placed(name_);
+  type_ = placed.type;
+  count_ = placed.count;
+  offset_ = placed.offset;
+  bytes_ = std::visit([](const auto& values) { return sizeof(values[0]); }, type_);
+}
+
+void Hdf5Parts::read(std::vector<Part> parts) const {
+  if (offset_ < 0) return readWhole(parts);
+  std::sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.first < b.first; });
+  const OpenFile file(file_->path());
+  for (const Part *first = parts.data(), *const end = first + parts.size(), *last; first != end; first = last) {
+    for (last = first + 1; last != end && static_cast<std::size_t>(last - first) < mostAtOnce &&
+                           last->first == last[-1].first + last[-1].count;)
+      ++last;
+    readRun(file.descriptor, first, last);
+  }
+}
+
+void Hdf5Parts::readWhole(const std::vector<Part>& parts) const {
+  const Array::Values all = file_->dataset(name_);
+  const auto* from =
+      std::visit([](const auto& values) { return reinterpret_cast<const std::byte*>(values.data()); }, all);
+  for (const Part& part : parts) std::memcpy(part.to, from + part.first * bytes_, part.count * bytes_);
+}
+
+/// Parts that follow one another in the file.
+void Hdf5Parts::readRun(int descriptor, const Part* first, const Part* last) const {
+  std::array<iovec, mostAtOnce> to{};
+  std::size_t count = 0;
+  for (const Part* part = first; part != last; ++part) to[count++] = {part->to, part->count * bytes_};
+  auto at = static_cast<off_t>(offset_ + static_cast<std::int64_t>(first->first * bytes_));
+  for (std::size_t next = 0; next < count;) {
+    errno = 0;
+    ssize_t done = preadv(descriptor, &to[next], static_cast<int>(count - next), at);
+    if (done < 0 && errno == EINTR) continue;
+    if (done <= 0 && to[next].iov_len > 0)
+      throw FileError(fmt::format("cannot read {} of '{}': {}", name_, file_->path().string(),
+                                  std::generic_category().message(errno ? errno : EIO)));
+    at += done;
+    for (; next < count && static_cast<std::size_t>(done) >= to[next].iov_len; ++next)
+      done -= static_cast<ssize_t>(to[next].iov_len);
+    if (next < count) to[next] = {static_cast<std::byte*>(to[next].iov_base) + done, to[next].iov_len - done};
+  }
+}
+
+}  // namespace tushar::output

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+
+namespace tushar::output {
+
+/// When a list that is written whole is due again. Writing takes longer the more it lists: so it waits for a second
+/// after the last time, and for 20 times as long as that has taken.
+class Pace {
+ public:
+  /// There is something new. What readers cannot do without is `urgent`.
+  void note(bool urgent) {
+    behind_ = true;
+    urgent_ = urgent_ || urgent;
+  }
+  bool isBehind() const { return behind_; }
+  bool isDue() const { return urgent_ || (behind_ && Clock::now() >= next_); }
+  /// Writes by a function, and is behind no more unless that throws.
+  template <class Write>
+  void catchUp(const Write& write) {
+    const auto started = Clock::now();
+    write();
+    const auto ended = Clock::now();
+    next_ = ended + std::max<Clock::duration>(std::chrono::seconds(1), 20 * (ended - started));
+    behind_ = urgent_ = false;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  bool behind_ = false, urgent_ = false;
+  Clock::time_point next_;
+};
+
+}  // namespace tushar::output

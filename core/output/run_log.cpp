@@ -1,0 +1,90 @@
+#include "core/output/run_log.hpp"
+
+#include <fmt/chrono.h>
+
+#include <ctime>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "core/base/error.hpp"
+#include "core/output/archive_files.hpp"
+
+namespace tushar::output {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// `2026-01-31T12:00:00Z`.
+std::string dateNow() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
+
+Json entryOf(const RunRecord& record) {
+  Json entry;
+  entry["started"] = dateNow();
+  entry["restart"] = record.restarts;
+  entry["from_step"] = record.step;
+  entry["command"] = record.command;
+  entry["overrides"] = record.overrides;
+  entry["ranks"] = record.ranks;
+  entry["threads"] = record.threads;
+  entry["hosts"] = record.hosts;
+  entry["version"] = record.version;
+  entry["build"] = record.build;
+  entry["commit"] = record.commit;
+  entry["compiler"] = record.compiler;
+  entry["flags"] = record.flags;
+  for (const auto& [name, version] : record.libraries) entry["libraries"][name] = version;
+  entry["end"] = nullptr;
+  return entry;
+}
+
+/// The runs that a file lists; none where there is no file, or where it is damaged, which moves it away.
+Json runsIn(const fs::path& file) {
+  const Json empty = {{"format", RunLog::format}, {"runs", Json::array()}};
+  const auto text = textOf(file);
+  if (!text) return empty;
+  Json found = Json::parse(*text, nullptr, false);
+  if (found.is_object() && found.contains("runs") && found["runs"].is_array()) return found;
+  std::error_code ignored;
+  fs::rename(file, fs::path(file) += ".damaged", ignored);
+  return empty;
+}
+
+/// As text; bytes that are no UTF-8 become a mark.
+std::string textOf(const Json& runs) { return runs.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+}  // namespace
+
+RunLog::RunLog(const fs::path& folder, const RunRecord& record) : file_(folder / "run.json") {
+  Json runs = runsIn(file_);
+  runs["runs"].push_back(entryOf(record));
+  runs_ = textOf(runs);
+  replaceFile(file_, runs_);
+}
+
+RunLog::~RunLog() {
+  if (!ended_) end("error", -1, static_cast<int>(ExitCode::failure));
+}
+
+void RunLog::addLibrary(const std::string& name, const std::string& version) {
+  Json runs = Json::parse(runs_);
+  runs["runs"].back()["libraries"][name] = version;
+  runs_ = textOf(runs);
+}
+
+void RunLog::end(const std::string& why, int step, int exitCode) {
+  ended_ = true;
+  Json runs = Json::parse(runs_);
+  Json end = {{"date", dateNow()}, {"why", why}, {"exit", exitCode}};
+  if (step >= 0) end["step"] = step;
+  runs["runs"].back()["end"] = end;
+  try {
+    replaceFile(file_, textOf(runs));
+  } catch (const FileError&) {
+    // The results are what matters, and their errors have been told.
+  }
+}
+
+}  // namespace tushar::output

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tushar::output {
+
+/// What program a run is of, and how it was started.
+struct RunRecord {
+  std::string version, build, commit, compiler, flags;
+  std::vector<std::pair<std::string, std::string>> libraries;  ///< name and version
+  std::vector<std::string> command, overrides;                 ///< words of the command line; those of --set
+  std::vector<std::string> hosts;                              ///< of the ranks, each once
+  int ranks = 1, threads = 1;
+  bool restarts = false;
+  int step = 0;  ///< from which it starts
+};
+
+/// `run.json` in the folder of an archive: the runs that wrote there, each start and restart, with dates (UTC). They
+/// stand here, not in outputs, so that equal results have equal bytes. A run without an end was killed.
+class RunLog {
+ public:
+  static constexpr int format = 1;
+
+  /// Adds a run that starts now. A file that cannot be read is moved to `run.json.damaged`. FileError if it cannot be
+  /// written.
+  RunLog(const std::filesystem::path& folder, const RunRecord& record);
+  /// Adds `error` as the end of a run that has said none, and exit code 1.
+  ~RunLog();
+  RunLog(const RunLog&) = delete;
+  RunLog& operator=(const RunLog&) = delete;
+
+  /// Adds a library that the run has loaded on its way; it is in the file after end().
+  void addLibrary(const std::string& name, const std::string& version);
+  /// Adds how the run ended: why, after which step, and the exit code. What a full disk refuses is lost.
+  void end(const std::string& why, int step, int exitCode);
+
+ private:
+  std::filesystem::path file_;
+  std::string runs_;  ///< the text of the file
+  bool ended_ = false;
+};
+
+}  // namespace tushar::output

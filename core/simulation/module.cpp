@@ -1,0 +1,137 @@
+#include "core/simulation/module.hpp"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+#include <string_view>
+
+#include "core/base/missing.hpp"
+#include "core/simulation/module_interface.hpp"
+
+namespace tushar::simulation {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The modules of this program that openModules() has found.
+struct OwnModules {
+  fs::path folder;
+  std::map<std::string, Catalogue> loaded;  ///< what each has brought
+};
+OwnModules& ownModules() {
+  static OwnModules modules;
+  return modules;
+}
+
+/// Opens a shared library and finds its card. Throws std::runtime_error if it is no module, or does not fit.
+const ModuleCard& open(const fs::path& file) {
+  void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  const std::string problem = handle ? "" : dlerror();
+  // A module for another version may call what is not there; its card is read all the same.
+  if (!handle) handle = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL);
+  const auto* card = handle ? static_cast<const ModuleCard*>(dlsym(handle, "tusharModule")) : nullptr;
+  if (handle && !card)
+    throw std::runtime_error(fmt::format("{} is no module of Tushar: it has no symbol tusharModule", file.string()));
+  if (const std::string misfit = card ? misfitOf(card->abi) : ""; !misfit.empty())
+    throw std::runtime_error(fmt::format("the module {} does not fit: {}; build it again", file.string(), misfit));
+  if (!problem.empty())
+    throw std::runtime_error(fmt::format("the module {} cannot be loaded: {}", file.string(), problem));
+  return *card;
+}
+
+/// What a module of this program has; loads it where it has not been.
+const Catalogue& loadOwn(const std::string& name) {
+  std::map<std::string, Catalogue>& loaded = ownModules().loaded;
+  if (const auto found = loaded.find(name); found != loaded.end()) return found->second;
+  const fs::path file = ownModules().folder / fmt::format("tushar_{}.so", name);
+  if (!fs::exists(file)) buildMissing(name);
+  if (!fs::exists(file))
+    throw std::runtime_error(
+        fmt::format("the module {} is missing: there is no {}; install Tushar again", name, file.string()));
+  return loaded.emplace(name, open(file).kinds()).first->second;
+}
+
+/// Lines such as `heat component heat`: a module, and one thing that it has.
+void addOwnModules(Catalogue& catalogue) {
+  std::ifstream index(ownModules().folder / "index.txt");
+  if (!index) throw std::runtime_error(fmt::format("{}: cannot be read", (ownModules().folder / "index.txt").string()));
+  std::map<std::string, Module> modules;
+  for (std::string line; std::getline(index, line);) {
+    std::istringstream words(line);
+    std::string module, kind, name;
+    words >> module >> kind >> name;
+    modules[module].name = module;
+    if (kind == "component") modules[module].components.push_back(name);
+    if (kind == "analysis") modules[module].analyses.push_back(name);
+  }
+  for (const auto& [name, module] : modules) catalogue.addModule(module, [name = name] { return loadOwn(name); });
+}
+
+/// Shared libraries in the folders of TUSHAR_PLUGINS, in the order of their names.
+std::vector<std::string> filesOfUser() {
+  std::vector<std::string> files;
+  const char* const folders = std::getenv("TUSHAR_PLUGINS");
+  std::istringstream all(folders ? folders : "");
+  for (std::string folder; std::getline(all, folder, ':');) {
+    if (folder.empty()) continue;
+    if (!fs::is_directory(folder))
+      throw std::runtime_error(fmt::format("TUSHAR_PLUGINS: there is no folder {}", folder));
+    const std::size_t before = files.size();
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+      if (entry.path().extension() == ".so") files.push_back(entry.path().string());
+    std::sort(files.begin() + static_cast<std::ptrdiff_t>(before), files.end());
+  }
+  return files;
+}
+
+void addFile(Catalogue& catalogue, const std::string& file) {
+  if (!fs::exists(file)) throw std::runtime_error(fmt::format("there is no module {}", file));
+  const Catalogue kinds = open(fs::absolute(file)).kinds();
+  try {
+    catalogue.add(kinds);
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error(fmt::format("the module {} cannot be added: {}", file, error.what()));
+  }
+}
+
+}  // namespace
+
+std::string misfitOf(const ModuleAbi& module) {
+  constexpr ModuleAbi own = abiWith(TUSHAR_INTERFACE);
+  using Text = std::string_view;
+  if (Text(module.version) != own.version)
+    return fmt::format("it was built for Tushar {}, and this is {}", module.version, own.version);
+  if (Text(module.compiler) != own.compiler)
+    return fmt::format("it was compiled by {}, and this program by {}", module.compiler, own.compiler);
+  if (module.checks != own.checks)
+    return fmt::format("it was compiled with{} TUSHAR_CHECKS, and this program with{} it", module.checks ? "" : "out",
+                       own.checks ? "" : "out");
+  if (module.alignment != own.alignment)
+    return fmt::format("it was compiled for vectors of {} bytes, and this program for {}: use the same -march",
+                       module.alignment, own.alignment);
+  if (Text(module.interface) != own.interface) return "it was built with other headers of the same version";
+  return "";
+}
+
+Catalogue openModules(const std::vector<std::string>& files) {
+  ownModules().folder = libraryFolder() / "modules";
+  Catalogue catalogue;
+  addOwnModules(catalogue);
+  for (const std::string& file : filesOfUser()) addFile(catalogue, file);
+  for (const std::string& file : files) addFile(catalogue, file);
+  return catalogue;
+}
+
+void loadModule(const std::string& name) {
+  if (!ownModules().folder.empty()) loadOwn(name);
+}
+
+}  // namespace tushar::simulation

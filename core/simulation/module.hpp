@@ -1,0 +1,20 @@
+#pragma once
+
+#include "core/simulation/catalogue.hpp"
+#include "core/simulation/module_card.hpp"
+
+namespace tushar::simulation {
+
+/// Why a module with that card cannot be loaded by this program, or nothing.
+std::string misfitOf(const ModuleAbi& module);
+
+/// A catalogue of all modules of this program, each loaded when it is first needed, and of those of the user: the files
+/// named here and in the folders that TUSHAR_PLUGINS names, joined by `:`. Throws std::runtime_error with a sentence
+/// for each that cannot be loaded.
+Catalogue openModules(const std::vector<std::string>& files);
+
+/// Loads a module of this program, which then puts itself where it is used. Does nothing in a program without
+/// openModules(), which has all linked in. Throws std::runtime_error if the module is not there.
+void loadModule(const std::string& name);
+
+}  // namespace tushar::simulation

@@ -1,0 +1,39 @@
+#pragma once
+
+namespace tushar::simulation {
+
+class Catalogue;
+
+/// What a module and the program that loads it must have in common.
+struct ModuleAbi {
+  const char* version;    ///< of Tushar
+  const char* compiler;   ///< and its version
+  const char* interface;  ///< a hash of the headers of core
+  int checks;             ///< 1 if every index of every view is checked
+  int alignment;          ///< of vectors, bytes
+};
+
+/// What a shared library shows as `extern "C" const ModuleCard tusharModule`. tushar_module() of CMake writes it.
+struct ModuleCard {
+  ModuleAbi abi;
+  const char* name;
+  Catalogue (*kinds)();  ///< called once
+};
+
+#ifdef TUSHAR_CHECKS
+inline constexpr int checksEveryIndex = 1;
+#else
+inline constexpr int checksEveryIndex = 0;
+#endif
+#ifdef __clang__
+inline constexpr const char* compilerName = __VERSION__;
+#else
+inline constexpr const char* compilerName = "GCC " __VERSION__;
+#endif
+
+/// Of the source file that calls it.
+constexpr ModuleAbi abiWith(const char* interface) {
+  return {TUSHAR_VERSION, compilerName, interface, checksEveryIndex, __BIGGEST_ALIGNMENT__};
+}
+
+}  // namespace tushar::simulation

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+
+namespace tushar::simulation {
+
+/// Files by which a run is asked for something from outside: `output_now` or `stop_now` in the folder of its archive.
+class TriggerFiles {
+ public:
+  /// Takes away files that an earlier run has left.
+  explicit TriggerFiles(std::filesystem::path folder);
+
+  /// What is asked for.
+  struct Found {
+    bool output = false, stop = false;
+  };
+  /// Looks for the files, at most ten times in a second, and takes away what it finds. `now` is the wall time, s.
+  Found look(double now);
+
+ private:
+  bool take(const char* name) const;
+
+  std::filesystem::path folder_;
+  double next_ = 0;  ///< when to look again, s
+};
+
+}  // namespace tushar::simulation

@@ -1,0 +1,195 @@
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+#include "core/tasks/move_runs.hpp"
+#include "core/tasks/relocation.hpp"
+
+// How Relocation makes the moves that it has found: it builds the new particle sets, and variables follow them.
+
+namespace tushar::tasks {
+
+using data::Generation;
+using data::ParticleRange;
+using data::ParticleSet;
+using grid::Patch;
+
+namespace {
+
+/// Makes the old set the new one.
+void keepSet(data::Warehouse& warehouse, int material, const Patch& patch) {
+  ParticleSet& before = warehouse.particles(Generation::old, material, patch.id());
+  before.forgetGhosts();
+  std::swap(before, warehouse.particles(Generation::fresh, material, patch.id()));
+}
+
+}  // namespace
+
+void Relocation::apply(int material, const std::vector<Carried>& carried, Generation to) {
+  Moves& moves = movesOf(material);
+  moves.migration.run(carried, moves.goFar);
+  receiveAll(moves);
+  forEachPatch([&](const Patch& patch) {
+    PatchMoves& ofPatch = of(moves, patch.id());
+    if (!ofPatch.staysAsItIs(to)) return rebuild(patch, material, ofPatch);
+    keepSet(*warehouse_, material, patch);
+    keepAll(ofPatch, warehouse_->particles(Generation::fresh, material, patch.id()).owned());
+  });
+  warehouse_->layOut(Generation::fresh, material, Generation::old);
+  const auto stands = [&](const PatchMoves& ofPatch) { return ofPatch.staysAsItIs(to); };
+  if (std::all_of(moves.patches.begin(), moves.patches.end(), stands)) return;
+  moves.departed = 0;
+  for (const Patch& patch : warehouse_->level().patches()) {
+    PatchMoves& ofPatch = of(moves, patch.id());
+    ofPatch.packed = std::exchange(moves.departed, moves.departed + ofPatch.departed.size());
+  }
+  for (std::size_t place = 0; place < carried.size(); ++place) carry(carried[place], place, to, material, moves);
+}
+
+void Relocation::receiveAll(Moves& moves) {
+  const grid::Level& level = warehouse_->level();
+  const auto receiveAt = [&](ParticleId id, const Index3& cell, const Arrival& from) {
+    const Patch to = level.patchOf(cell);
+    if (!level.isMine(to.id())) return;
+    PatchMoves& there = of(moves, to.id());
+    there.arrivals.push_back(from);
+    receive(to, cell, {id, -static_cast<int>(there.arrivals.size()), -1}, there);
+  };
+  for (const Patch& patch : level.patches())
+    for (const Outgoing& one : of(moves, patch.id()).outgoing) receiveAt(one.id, one.cell, {patch.id(), one.departed});
+  const std::vector<MigratingParticle>& arrived = moves.migration.arrived();
+  for (std::size_t k = 0; k < arrived.size(); ++k) receiveAt(arrived[k].id, arrived[k].cell, {-1, static_cast<int>(k)});
+}
+
+void Relocation::rebuild(const Patch& patch, int material, PatchMoves& moves) {
+  const int id = warehouse_->table().find(data::particleId.name, material);
+  const ParticleSet& before = warehouse_->particles(Generation::old, material, patch.id());
+  ParticleSet& after = warehouse_->particles(Generation::fresh, material, patch.id());
+  const auto* ids = reinterpret_cast<const ParticleId*>(warehouse_->variable(Generation::old, id, patch.id()).values);
+  after.reset(patch, warehouse_->table().reach(material));
+  moves.runs.clear();
+  moves.entries.clear();
+  moves.entries.reserve(moves.incoming.size());
+  moves.count = 0;
+  std::size_t nextDeparted = 0;
+  const int rowLength = patch.cells().extent(0);
+  grid::forEach<3>(patch.cells().rowStarts(), [&](const Index3& cell) {
+    const bool isEntered = moves.isEntered[patch.cells().rowOf(cell)];
+    if (!isEntered && before.occupied(cell, patch.cells().upper[0]).empty()) return;
+    const ParticleRange* from = before.row(cell);
+    ParticleRange* to = after.row(cell);
+    const int* firstIncoming = &moves.firstIncoming[patch.cells().offset(cell)];
+    for (int k = 0; k < rowLength; ++k, ++from, ++to) {
+      const int first = moves.count;
+      const bool stays = nextDeparted == moves.departed.size() || moves.departed[nextDeparted] >= from->last;
+      if (stays && firstIncoming[k] < 0)
+        keep(moves, from->first, from->size());
+      else
+        mergeCell(moves, *from, firstIncoming[k], ids, nextDeparted);
+      *to = {first, moves.count};
+    }
+    after.closeRow(cell);
+  });
+  after.setOwnedOfClosedRows(moves.count);
+}
+
+/// All particles of a patch stay in their places.
+void Relocation::keepAll(PatchMoves& moves, int count) {
+  moves.runs.clear();
+  moves.entries.clear();
+  moves.count = 0;
+  keep(moves, 0, count);
+}
+
+/// Appends particles that were consecutive and stay so.
+void Relocation::keep(PatchMoves& moves, int first, int count) {
+  if (count == 0) return;
+  Run* last = moves.runs.empty() ? nullptr : &moves.runs.back();
+  if (last && last->from + last->count == first && last->to + last->count == moves.count)
+    last->count += count;
+  else
+    moves.runs.push_back({moves.count, first, count});
+  moves.count += count;
+}
+
+/// Appends the particles of one cell: those that stay, in their order, and those that come in between by id.
+void Relocation::mergeCell(PatchMoves& moves, const ParticleRange& before, int firstIncoming, const ParticleId* ids,
+                           std::size_t& nextDeparted) {
+  int waiting = firstIncoming;
+  const auto letInOne = [&] {
+    moves.entries.push_back({moves.count++, waiting});
+    waiting = moves.incoming[waiting].next;
+  };
+  for (int p = before.first; p < before.last; ++p) {
+    if (nextDeparted < moves.departed.size() && moves.departed[nextDeparted] == p) {
+      ++nextDeparted;
+      continue;
+    }
+    while (waiting >= 0 && moves.incoming[waiting].id < ids[p]) letInOne();
+    keep(moves, p, 1);
+  }
+  while (waiting >= 0) letInOne();
+}
+
+/// What is in its generation already moves within its memory, where the slots allow it.
+void Relocation::carry(const Carried& carried, std::size_t place, Generation to, int material, Moves& moves) {
+  const data::SharedSlots before = warehouse_->slots(carried.from, carried.variable);
+  const data::SharedSlots after = warehouse_->slotsOfSets(Generation::fresh, material);
+  data::Buffer outgrown;
+  if (carried.from == to)
+    outgrown = warehouse_->follow(to, carried.variable, Generation::fresh);
+  else
+    warehouse_->allocateParticles(to, carried.variable, Generation::fresh);
+  const std::size_t bytes = warehouse_->table()[carried.variable].label->bytes;
+  data::Buffer packed = warehouse_->lend(moves.departed * bytes);
+  const std::byte* from =
+      outgrown.capacity() > 0 ? outgrown.data() : warehouse_->memory(carried.from, carried.variable);
+  const Move move{.bytes = bytes,
+                  .from = from,
+                  .to = warehouse_->memory(to, carried.variable),
+                  .before = before.get(),
+                  .after = after.get(),
+                  .migrants = moves.migration.values(place),
+                  .packed = packed.data()};
+  const bool isInPlace = from == move.to;
+  const auto placeOf = [&](const Patch& patch) {
+    return static_cast<std::size_t>(patch.id() - warehouse_->level().firstPatch());
+  };
+  const auto stands = [&](const Patch& patch) { return isInPlace && of(moves, patch.id()).staysAsItIs(to); };
+  if (moves.departed > 0) forEachPatch([&](const Patch& patch) { pack(move, placeOf(patch), of(moves, patch.id())); });
+  forEachPatch([&](const Patch& patch) {
+    if (!stands(patch)) moveOn(move, placeOf(patch), moves);
+  });
+  warehouse_->takeBack(packed);
+  warehouse_->takeBack(outgrown);
+}
+
+void Relocation::pack(const Move& move, std::size_t place, const PatchMoves& moves) {
+  const std::byte* from = move.from + move.before->first[place] * move.bytes;
+  std::byte* to = move.packed + moves.packed * move.bytes;
+  for (const int one : moves.departed) {
+    std::memcpy(to, from + static_cast<std::size_t>(one) * move.bytes, move.bytes);
+    to += move.bytes;
+  }
+}
+
+void Relocation::moveOn(const Move& move, std::size_t place, Moves& all) {
+  const PatchMoves& moves = all.patches[place];
+  std::byte* values = move.to + move.after->first[place] * move.bytes;
+  moveRuns(moves.runs, move.from + move.before->first[place] * move.bytes, values, move.bytes);
+  for (const Entry& entry : moves.entries) {
+    const int source = moves.incoming[entry.incoming].from;
+    const std::byte* from = nullptr;
+    if (source >= 0) {
+      from = move.packed + (moves.packed + static_cast<std::size_t>(source)) * move.bytes;
+    } else {
+      const Arrival& arrival = moves.arrivals[-1 - source];
+      const auto at = static_cast<std::size_t>(arrival.place);
+      from = arrival.patch < 0 ? move.migrants + at * move.bytes
+                               : move.packed + (of(all, arrival.patch).packed + at) * move.bytes;
+    }
+    std::memcpy(values + static_cast<std::size_t>(entry.to) * move.bytes, from, move.bytes);
+  }
+}
+
+}  // namespace tushar::tasks

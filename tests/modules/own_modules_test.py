@@ -1,0 +1,95 @@
+#!/usr/bin/env python3
+"""The modules of sus: their index says what they have; one that is not built is built, or is told to be missing."""
+import os
+import pathlib
+import re
+import shutil
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests/support"))
+import modules  # noqa: E402
+from sus import SUS  # noqa: E402
+
+SCENE = ROOT / "ups/heat/sine.ups"
+INDEX = modules.BUILD / "modules/index.txt"
+
+
+class Index(unittest.TestCase):
+    maxDiff = None
+
+    @classmethod
+    def setUpClass(cls):
+        cls.lines = [line.split() for line in INDEX.read_text().splitlines()]
+
+    def test_names_all_that_the_modules_have(self):
+        listed = modules.run([SUS, "--list"]).stdout  # loads every module
+        for kind, heading in (("component", "components"), ("analysis", "analysis modules")):
+            section = re.search(rf"^{heading} .*\n((?:  .*\n)*)", listed, re.MULTILINE)[1]
+            self.assertEqual(re.findall(r"^  (\w+)", section, re.MULTILINE),
+                             sorted(name for _, is_a, name in self.lines if is_a == kind))
+
+    def test_each_name_is_in_the_module_that_it_says(self):
+        for module, _, name in self.lines:
+            with self.subTest(module=module, name=name):
+                done = modules.run([SUS, "--describe", name])  # loads this module alone
+                self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+
+class Missing(unittest.TestCase):
+    """A copy of sus beside an index, but no modules."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.here = pathlib.Path(folder.name)
+        (self.here / "modules").mkdir()
+        for file in (SUS, modules.BUILD / "libtushar_core.so"):
+            shutil.copy(file, self.here)
+        shutil.copy(INDEX, self.here / "modules")
+
+    def run_scene(self):
+        libraries = f"{self.here}:{os.environ.get('LD_LIBRARY_PATH', '')}"
+        return modules.run([self.here / "sus", SCENE, "--quiet", "--output", self.here / "output"],
+                           LD_LIBRARY_PATH=libraries)
+
+    def builder(self, commands):
+        """The script that sus calls beside it; it keeps what it is called with."""
+        script = self.here / "build_missing"
+        script.write_text(f"#!/bin/sh\necho \"$@\" >> '{self.here}/calls'\n{commands}\n")
+        script.chmod(0o755)
+
+    def calls(self):
+        return (self.here / "calls").read_text().splitlines()
+
+    def test_is_built_when_a_scene_asks_for_it(self):
+        self.builder(f"cp '{modules.BUILD}/modules/'$1.so '{self.here}/modules/'")
+        for _ in range(2):
+            done = self.run_scene()
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(self.calls(), ["tushar_heat", "tushar_analysis"])
+
+    def test_a_build_that_fails_is_told(self):
+        self.builder("exit 3")
+        done = self.run_scene()
+        self.assertEqual((done.returncode, done.stderr), (1, "sus: tushar_heat was not built [T707]\n"))
+        self.assertFalse((self.here / "output").exists())
+
+    def test_where_nothing_is_built_it_is_missing(self):
+        done = self.run_scene()
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.stderr, "sus: the module heat is missing: there is no "
+                                      f"{self.here}/modules/tushar_heat.so; install Tushar again [T707]\n")
+        self.assertFalse((self.here / "output").exists())
+
+    def test_no_index(self):
+        (self.here / "modules/index.txt").unlink()
+        done = self.run_scene()
+        self.assertEqual((done.returncode, done.stderr),
+                         (1, f"sus: {self.here}/modules/index.txt: cannot be read [T401]\n"))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,129 @@
+#include <gtest/gtest.h>
+
+#include "components/mpm/solid/constitutive/model.hpp"
+#include "components/mpm/solid/constitutive/nonlocal_drucker_prager.hpp"
+#include "components/mpm/solid/tasks/nonlocal.hpp"
+#include "tests/mpm/solid/constitutive/material_point.hpp"
+#include "tests/support/particles.hpp"
+
+namespace tushar::mpm::solid::testing {
+namespace {
+
+constexpr double roundOff = 1e-12;  ///< some hundred operations, each exact to 1e-16
+
+NonlocalDruckerPrager soil() {
+  NonlocalDruckerPrager model;
+  model.bulkModulus = 7;
+  model.shearModulus = 3;
+  model.friction = 0.2;
+  model.dilation = 0.1;
+  model.strength = 0.1;
+  return model;
+}
+/// J2^(1/2) + alpha I1
+double loadOf(const NonlocalDruckerPrager& model, const Matrix3& stress) {
+  return deviator(stress).norm() / std::sqrt(2.0) + model.friction * stress.trace();
+}
+
+TEST(NonlocalDruckerPrager, ReturnsToTheSurfaceOfItsStrength) {
+  NonlocalDruckerPrager model = soil();
+  model.localModulus = 0.5;
+  MaterialPoint<NonlocalDruckerPrager> point{model};
+  for (const double stretch : {0.97, 0.94, 0.9}) {
+    point.advance(Vec3(1 / std::sqrt(stretch), 1 / std::sqrt(stretch), stretch).asDiagonal());
+    EXPECT_GT(point.oldState.plasticIncrement, 0);
+    EXPECT_NEAR(loadOf(model, point.oldStress), 0.1 + 0.5 * point.oldState.plasticStrain, roundOff);
+  }
+}
+
+TEST(NonlocalDruckerPrager, ReturnsToItsApexFromStrongTension) {
+  MaterialPoint<NonlocalDruckerPrager> point{soil()};
+  point.advance(1.1 * Matrix3::Identity());
+  EXPECT_LT((point.oldStress - 0.1 / (3 * 0.2) * Matrix3::Identity()).norm(), roundOff);
+}
+
+/// In uniaxial strain the axial stress exceeds the lateral one by 2 G e, and by 3^(1/2) k once it flows.
+TEST(NonlocalDruckerPrager, FollowsTheUniaxialStrainPathWithoutFriction) {
+  NonlocalDruckerPrager model = soil();
+  model.friction = model.dilation = 0;
+  MaterialPoint<NonlocalDruckerPrager> point{model};
+  double strain = 0;
+  for (int step = 1; step <= 50; ++step) {
+    const double stretch = 1 - 1e-3 * step;
+    strain += stretch / point.oldDeformation(2, 2) - 1;
+    point.advance(Vec3(1, 1, stretch).asDiagonal());
+    const double difference = point.oldStress(0, 0) - point.oldStress(2, 2);
+    EXPECT_NEAR(difference, std::min(-2 * 3 * strain, std::sqrt(3.0) * 0.1), roundOff);
+    EXPECT_NEAR(point.oldStress.trace() / 3, 7 * strain, roundOff);
+  }
+}
+
+TEST(NonlocalDruckerPrager, SoftensByTheMeanPlasticStrainDownToItsLeastStrength) {
+  NonlocalDruckerPrager model = soil();
+  model.friction = model.dilation = 0;
+  model.nonlocalModulus = -2;
+  model.leastStrength = 0.05;
+  MaterialPoint<NonlocalDruckerPrager> point{model};
+  point.advance(Vec3(1, 1, 0.97).asDiagonal());
+  EXPECT_EQ(point.oldState.meanIncrement, point.oldState.plasticIncrement) << "without a length, the point itself";
+  point.oldState.meanIncrement = 0.01;
+  point.advance(Vec3(1, 1, 0.96).asDiagonal());
+  EXPECT_NEAR(loadOf(model, point.oldStress), 0.1 - 2 * 0.01, roundOff);
+  point.oldState.meanIncrement = 1;
+  point.advance(Vec3(1, 1, 0.95).asDiagonal());
+  EXPECT_NEAR(loadOf(model, point.oldStress), 0.05, roundOff);
+}
+
+TEST(NonlocalDruckerPrager, FlowsFromTheStressInWhichBodiesRest) {
+  NonlocalDruckerPrager model = soil();
+  model.stressAlongZ = -0.3;
+  MaterialPoint<NonlocalDruckerPrager> point{model};
+  point.advance(Matrix3::Identity());
+  const Matrix3 whole = point.oldStress + Matrix3(Vec3(0, 0, -0.3).asDiagonal());
+  EXPECT_NEAR(loadOf(model, whole), 0.1, roundOff);
+}
+
+/// A row of four cells of 1 m with a particle in the middle of each.
+struct Row : test::Particles {
+  static grid::Domain domain() {
+    grid::Domain domain;
+    domain.upper = {4, 1, 0};
+    domain.resolution = {{4, 1, 0}};
+    return domain;
+  }
+  Row() : Particles(domain()) {
+    set.reset(level.patches().front(), 4);
+    for (int k = 0; k < 4; ++k) {
+      set.at(Index3{{k, 0, 0}}) = {k, k + 1};
+      x.push_back({k + 0.5, 0.5});
+    }
+    set.setOwned(4);
+  }
+  std::vector<Vec<2>> x;
+};
+
+TEST(Nonlocal, TakesTheMeanOfThePlasticStrainWithinItsLength) {
+  Row row;
+  NonlocalDruckerPrager model = soil();
+  model.nonlocalModulus = -1;
+  model.length = 1.5;
+  Material material;
+  material.model = std::make_shared<ModelOf<NonlocalDruckerPrager>>(model);
+  constexpr int numbers = 5;
+  std::vector<double> state(4 * numbers, 0.0), increment(4), volume{2, 2, 2, 2};
+  state[1 * numbers + 3] = 1;  // p.plasticIncrement of the second particle
+
+  findPlasticIncrement(row.patch(), material, numbers, row.read(state), row.write(increment));
+  averagePlasticIncrement<2>(row.patch(), material, 2, numbers, row.read(row.x), row.read(volume), row.read(increment),
+                             {state.data(), row.set, row.level.cells()});
+
+  EXPECT_EQ(increment, (std::vector<double>{0, 1, 0, 0}));
+  const double beside = std::exp(-std::pow(6 * std::sqrt(std::numbers::pi), 2.0 / 3.0) / (1.5 * 1.5));
+  EXPECT_NEAR(state[0 * numbers + 4], beside / (1 + beside), roundOff);
+  EXPECT_NEAR(state[1 * numbers + 4], 1 / (1 + 2 * beside), roundOff);
+  EXPECT_NEAR(state[2 * numbers + 4], beside / (1 + 2 * beside), roundOff);
+  EXPECT_EQ(state[3 * numbers + 4], 0);
+}
+
+}  // namespace
+}  // namespace tushar::mpm::solid::testing

@@ -1,0 +1,77 @@
+#!/usr/bin/env python3
+"""Masters that turn, friction along planes between bodies, pressures on the faces of particles, and torques."""
+import cmath
+import math
+import pathlib
+import sys
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from solids import SceneTest, globals_of, last_state
+from sus import ROOT
+
+DISC, BLOCK, SLOPE = (f"ups/solid/{name}.ups" for name in ("driven_disc", "pushed_block", "sliding_block"))
+CONTACT = "MaterialProperties/MPM/contact/"
+LATTICE = [(k + .5) * .025 for k in range(-6, 6)]  # of the particles in the hub, m from its centre
+
+
+def mean_acceleration(lines, mass, start):
+    """Of a centre of mass that starts at rest at `start`, from its way until the last line."""
+    moved = (lines[-1][1] - lines[0][1]) / mass
+    return 2 * moved / (lines[-1][0] - start) ** 2
+
+
+class Turning(SceneTest):
+    def test_the_hub_turns_as_its_file_says(self):
+        start = [complex(x, y) for x in LATTICE for y in LATTICE if abs(complex(x, y)) <= .15]
+        at = last_state(DISC, "p.x", material="hub")
+        now = [complex(x - .5, y - .5) for x, y in zip(at["x [m]"], at["y [m]"])]
+        radii = [sorted(map(abs, places)) for places in (start, now)]
+        self.assertEqual(len(start), len(now))
+        self.assertLess(max(abs(r - s) for r, s in zip(*radii)), 1e-11, "rounding over 700 steps")
+        # The hub is the same after quarters of a turn, so fourth powers add up: 4 times the angle.
+        turned = sum(z ** 4 for z in now) / sum(z ** 4 for z in start)
+        self.assertAlmostEqual(cmath.phase(turned / cmath.exp(4j * 4)) / 4, 0, delta=.04)
+
+    def test_the_disc_comes_to_turn_with_it(self):
+        lines = globals_of(DISC, "AngularMomentum")["AngularMomentum"]
+        whole = 20 * 1000 * .05 * math.pi / 2 * .35 ** 4  # of a rigid disc of both at 20/s, by the right hand
+        about_centre = lines[-1][3]  # the sum of momenta is 0
+        self.assertGreater(about_centre / whole, .8)
+        self.assertLess(about_centre / whole, 1.2, "it swings around that of the hub")
+
+
+class PlaneFriction(SceneTest):
+    def test_a_pushed_block_is_as_fast_as_coulomb_says(self):
+        lines = globals_of(BLOCK, "CenterOfMassPosition")["CenterOfMassPosition"]
+        # 1.011: the block bounces a little under the growing pressures.
+        self.assertAlmostEqual(mean_acceleration(lines, 62.5, .01) / 4, 1, delta=.02)
+
+    def test_a_block_slides_down_a_slope(self):
+        sets = [CONTACT + "type=friction_LR"]
+        lines = globals_of(SLOPE, "CenterOfMassPosition", sets=sets)["CenterOfMassPosition"]
+        a = 9.81 * (math.sin(math.pi / 6) - .3 * math.cos(math.pi / 6))
+        self.assertAlmostEqual(mean_acceleration(lines, 62.5, 0) / a, 1, delta=.02)
+
+    def test_momentum_is_kept(self):
+        sets = [CONTACT + "type=friction_LR"]
+        momenta = globals_of("ups/solid/two_material_contact.ups", "TotalMomentum", sets=sets)["TotalMomentum"]
+        self.assertLess(max(abs(line[1] / momenta[0][1] - 1) for line in momenta), 1e-12)
+
+
+class Faces(SceneTest):
+    def test_pressures_give_the_momentum_of_their_area(self):
+        """A block in free space: 8000 Pa on .0625 m^2, grown in .02 s."""
+        text = (ROOT / BLOCK).read_text()
+        start = text.index('<material name="plane">')
+        free = text[:start] + text[text.index("<contact>"):]
+        free = free.replace(free[free.index("<contact>"):free.index("</contact>") + len("</contact>")], "")
+        lines = globals_of(self.scene(free), "TotalMomentum", until=.05)["TotalMomentum"]
+        time, momentum = lines[-1][:2]
+        lag = time / len(lines) / 2  # the load of a step is that of its start
+        # Faces grow by the strain of the block, 1e-4.
+        self.assertAlmostEqual(momentum / (8000 * .0625 * (time - .01 - lag)), 1, delta=1e-3)
+
+
+if __name__ == "__main__":
+    unittest.main()

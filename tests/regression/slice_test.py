@@ -1,0 +1,153 @@
+#!/usr/bin/env python3
+"""The module slice: the values of the full outputs on its planes, the same bytes on any layout and after a restart."""
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from sus import ROOT, SUS, on_ranks
+
+sys.path.insert(0, str(ROOT / "tools/python"))
+from tushar.interpreter import ensure
+
+MISSING = None
+try:
+    ensure("h5py", "numpy")
+    import numpy as np
+    import tushar
+except SystemExit:
+    MISSING = "no Python here has h5py and numpy"
+
+VORTEX = ROOT / "ups/euler/vortex_3d.ups"
+DISCS = ROOT / "ups/solid/two_discs.ups"
+STEPS = "<outputTimestepInterval>3</outputTimestepInterval>"
+PLANES = "<plane>z = 0</plane><plane>x=1.3</plane>"
+LABELS = "<label>c.density</label><label>c.velocity</label>"
+SMALL = ["--set", "Grid/Level/Box/resolution=[12,12,6]", "--set", "Time/max_Timesteps=10", "--set",
+         "DataArchiver/outputInterval=0", "--set", "DataArchiver/outputTimestepInterval=1", "--set",
+         "DataArchiver/checkpoint/@timestepInterval=4"]
+
+
+def sus(*arguments, ranks=1):
+    command = [*on_ranks(ranks), SUS, "--quiet", *map(str, arguments)]
+    return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=300)
+
+
+@unittest.skipIf(MISSING, MISSING)
+class Slice(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def scene(self, of, tags):
+        """A copy of a scene with the module."""
+        module = f'<DataAnalysis><Module name="slice">{tags}</Module></DataAnalysis></Uintah_specification>'
+        text = of.read_text()
+        if "</DataAnalysis>" in text:
+            text = text[:text.index("<DataAnalysis>")] + "</Uintah_specification>"
+        path = self.folder / of.name
+        path.write_text(text.replace("</Uintah_specification>", module))
+        return path
+
+    def run_in(self, name, scene, *options, ranks=1):
+        """The archive that a run of a scene makes in a folder of that name."""
+        ended = sus(scene, "--output", self.folder / name, *options, ranks=ranks)
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        return next((self.folder / name).glob("*.uda.000"))
+
+    def files_of(self, archive):
+        files = [file for file in (archive / "slice").rglob("*") if file.is_file() and file.name != "input.xml"]
+        return {str(file.relative_to(archive)): file.read_bytes() for file in files}
+
+    def test_a_plane_has_the_values_of_the_full_output(self):
+        archive = self.run_in("whole", self.scene(VORTEX, PLANES + LABELS + STEPS), *SMALL)
+        whole = tushar.open(archive)
+        for plane, axis, row in (("z=0", 0, 2), ("x=1.3", 2, 7)):
+            part = tushar.open(archive / "slice" / plane)
+            self.assertEqual(part.steps, [0, 3, 6, 9])
+            for k, step in enumerate(part.steps):
+                all_of = whole[whole.steps.index(step)]
+                self.assertEqual(part.times[k], whole.times[whole.steps.index(step)])
+                for label in ("c.density", "c.velocity"):
+                    expected = np.take(all_of[label][:], [row], axis=axis)
+                    np.testing.assert_array_equal(part[k][label][:], expected, err_msg=f"{plane} {label}")
+            grid = part.grid
+            self.assertEqual((grid.dimension, int(grid.cells[2 - axis])), (2, 1))
+            place = float(plane[2:])
+            self.assertLessEqual(grid.lower[2 - axis], place)
+            self.assertGreaterEqual(grid.lower[2 - axis] + grid.spacing[2 - axis] + 1e-12, place)
+
+    def test_the_nodes_of_a_material(self):
+        tags = "<plane>y = .52</plane><label>g.mass</label><material>lower</material>" + STEPS
+        scene = self.scene(DISCS, tags)
+        scene.write_text(scene.read_text().replace("</DataArchiver>", '<save label="g.mass"/></DataArchiver>'))
+        archive = self.run_in("discs", scene, "--set", "Time/max_Timesteps=6", "--set", "DataArchiver/outputInterval=0",
+                              "--set", "DataArchiver/outputTimestepInterval=3")
+        whole, part = tushar.open(archive)[-1], tushar.open(archive / "slice/y=0.52")[-1]
+        row = whole.grid.nearest("node", 1, .52)
+        expected = whole["g.mass", "lower"][:][:, [row]]
+        self.assertGreater(np.max(expected), 0)
+        np.testing.assert_array_equal(part["g.mass", "lower"][:], expected)
+        self.assertEqual(part.grid.dimension, whole.grid.dimension - 1)
+
+    def test_any_layout_and_a_restart_leave_the_same_bytes(self):
+        scene = self.scene(VORTEX, PLANES + LABELS + STEPS)
+        expected = self.files_of(self.run_in("one", scene, *SMALL, "-nthreads", "1"))
+        self.assertEqual(sum(name.endswith(".h5") for name in expected), 8)
+        layouts = {"patches": (1, "[2,3,1]"), "ranks": (3, "[2,2,2]")}
+        for name, (ranks, patches) in layouts.items():
+            archive = self.run_in(name, scene, *SMALL, "--set", f"Grid/Level/Box/patches={patches}", ranks=ranks)
+            self.assertEqual(self.files_of(archive), expected, name)
+        cut = self.run_in("cut", scene, *SMALL, "--set", "Time/max_Timesteps=7")
+        ended = sus("-restart", cut, "-t", "4", "--set", "Time/max_Timesteps=10")
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        self.assertEqual(self.files_of(cut), expected, "after a restart")
+
+    def test_slices_by_time_and_after_a_restart(self):
+        scene = self.scene(VORTEX, "<plane>z=0</plane><label>c.density</label><outputInterval>.5</outputInterval>")
+        archive = self.run_in("time", scene, *SMALL)
+        part, whole = tushar.open(archive / "slice/z=0"), tushar.open(archive)
+        expected = [0] + [step for step, before, now in zip(whole.steps[1:], whole.times, whole.times[1:])
+                          if now // .5 > before // .5]
+        self.assertEqual(part.steps, expected)
+        self.assertLess(len(expected), len(whole))
+        cut = self.run_in("cut", scene, *SMALL, "--set", "Time/max_Timesteps=7")
+        self.assertEqual(sus("-restart", cut, "-t", "4", "--set", "Time/max_Timesteps=10").returncode, 0)
+        self.assertEqual(self.files_of(cut), self.files_of(archive))
+
+    def test_what_a_module_cannot_show_is_refused(self):
+        wrong = {
+            "<plane>z</plane>" + LABELS + STEPS: "plane: found 'z', expected an axis and a coordinate in m, as z = 0.5",
+            "<plane>z=0</plane><plane>z = 0.0</plane>" + LABELS + STEPS: "plane: the plane z = 0.0 is given twice",
+            "<plane>z=2</plane>" + LABELS + STEPS: "plane: found z = 2 m, expected a place on the grid, from -1.25 to",
+            PLANES + "<label>p.x</label>" + STEPS: "found 'p.x', expected a variable of cells (c.) or nodes (g.)",
+            PLANES + "<label>c.densty</label>" + STEPS: "computes 'c.densty' (did you mean 'c.density'?)",
+            PLANES + LABELS: "a slice needs one of outputInterval and outputTimestepInterval",
+            PLANES + STEPS: "label",
+            LABELS + STEPS: "plane",
+        }
+        for tags, sentence in wrong.items():
+            ended = sus(self.scene(VORTEX, tags), "-check")
+            self.assertEqual(ended.returncode, 3, tags)
+            self.assertIn(sentence, ended.stderr)
+        flat = self.scene(ROOT / "ups/euler/vortex.ups", PLANES + LABELS + STEPS)
+        self.assertIn("the grid has no cells side by side along z", sus(flat, "-check").stderr)
+        line = self.scene(ROOT / "ups/euler/sod.ups", "<plane>x=0.5</plane>" + LABELS + STEPS)
+        self.assertIn("would be a point", sus(line, "-check").stderr)
+
+    def test_a_film_of_slices(self):
+        archive = self.run_in("film", self.scene(VORTEX, PLANES + LABELS + STEPS), *SMALL)
+        film = self.folder / "film.gif"
+        made = subprocess.run([ROOT / "tools/plot", archive / "slice/z=0", "c.density", "--movie", film],
+                              capture_output=True, text=True)
+        if "needs the Python" in made.stderr:
+            self.skipTest(made.stderr)
+        self.assertEqual(made.returncode, 0, made.stderr)
+        self.assertEqual(film.read_bytes()[:3], b"GIF")
+
+
+if __name__ == "__main__":
+    unittest.main()
