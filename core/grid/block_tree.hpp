@@ -1,0 +1,89 @@
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "core/base/vec.hpp"
+
+namespace tushar::grid {
+
+/// A block of cells: its level, 0 the coarsest, and its place among the blocks of that level along the kernel axes.
+struct BlockId {
+  int level = 0;
+  Index3 at{};
+
+  friend bool operator==(const BlockId&, const BlockId&) = default;
+  /// Along Morton's curve through all levels, depth first: a block comes before those it is refined into. Levels from 0
+  /// to 31; any place, also outside the grid.
+  friend std::strong_ordering operator<=>(const BlockId& a, const BlockId& b);
+};
+
+/// Which blocks of a grid are leaves: every cell of the grid is in one of them. A block is refined into two along each
+/// axis. Leaves that touch, over an edge or a corner too, differ by one level at most; along periodic axes, their
+/// images do. A tree never changes: regridding makes another.
+class BlockTree {
+ public:
+  /// Nothing refined yet. `roots`: blocks of level 0 along the kernel axes (1 beyond `dimension`); `periodic[d]` != 0
+  /// where the grid repeats; `levels`: the most levels, from 1 to 16. Throws std::invalid_argument where this does not
+  /// hold, or the finest level has more than 2^20 blocks along an axis.
+  BlockTree(int dimension, const Index3& roots, const Index3& periodic, int levels);
+
+  int dimension() const { return dimension_; }
+  int levels() const { return levels_; }
+  const Index3& roots() const { return roots_; }
+  /// Blocks of a level along the kernel axes: roots times 2^level in the first `dimension` axes.
+  Index3 blocksOf(int level) const;
+
+  /// Depth first along Morton's curve through all levels (G. M. Morton, A Computer Oriented Geodetic Data Base and a
+  /// New Technique in File Sequencing, IBM 1966).
+  const std::vector<BlockId>& leaves() const { return leaves_; }
+  /// The level of the leaf that holds a block's place: its own, a coarser one, or block.level + 1 where the block is
+  /// refined. Along periodic axes, images count; outside the grid along other axes: -1.
+  int levelAt(const BlockId& block) const;
+  /// Place of a leaf on the curve, from 0; the block must be a leaf, not the image of one.
+  int placeOf(const BlockId& leaf) const;
+  /// Whether there are finer leaves in a block's place. Along periodic axes, images count.
+  bool isRefined(const BlockId& block) const { return levelAt(block) > block.level; }
+
+  /// The tree in which all of `wanted` are refined, of those refined now also those in `kept`, and nothing else but
+  /// what follows from that: ancestors, and neighbours of refined blocks, so that leaves that touch differ by one level
+  /// at most. Images along periodic axes count as the blocks they are of; blocks of the last level, and blocks outside
+  /// the grid along other axes, are passed over. A function of its arguments alone.
+  BlockTree regridded(const std::set<BlockId>& wanted, const std::set<BlockId>& kept) const;
+
+  /// Leaves as numbers, sorted along the curve, for checkpoints and messages: the bits of the block's lower corner in
+  /// blocks of the finest level, interleaved, z above y above x; below them four bits of level.
+  const std::vector<std::uint64_t>& keys() const { return keys_; }
+  /// The tree with these leaves. Throws std::invalid_argument if they are not, in this order, the leaves of a tree that
+  /// covers the grid, or some that touch differ by more than one level.
+  static BlockTree fromKeys(int dimension, const Index3& roots, const Index3& periodic, int levels,
+                            const std::vector<std::uint64_t>& keys);
+
+  /// The same grid, levels and leaves.
+  friend bool operator==(const BlockTree&, const BlockTree&) = default;
+
+ private:
+  using Keys = std::vector<std::uint64_t>;
+
+  std::uint64_t keyOf(const BlockId& block) const;
+  BlockId blockOf(std::uint64_t key) const;
+  /// The block, or along periodic axes the one that it is an image of; none outside the grid.
+  std::optional<BlockId> inside(const BlockId& block) const;
+  /// The tree in which these blocks of each level are refined, and what follows from that.
+  BlockTree withRefined(std::vector<Keys> refined) const;
+  /// Blocks one level coarser that must be refined, so that all blocks around a refined one exist.
+  void addRefinedAround(const BlockId& block, Keys& coarser) const;
+  void setLeaves(const std::vector<Keys>& refined);
+
+  int dimension_;
+  Index3 roots_;
+  Index3 periodic_{};  ///< 0 or 1
+  int levels_;
+  Keys keys_;  ///< of the leaves, sorted
+  std::vector<BlockId> leaves_;
+};
+
+}  // namespace tushar::grid
