@@ -66,8 +66,8 @@ void checkTree(int dimension, const Index3& roots, int levels) {
 std::strong_ordering operator<=>(const BlockId& a, const BlockId& b) {
   const int finer = std::max(a.level, b.level);
   std::strong_ordering order = a.level <=> b.level;
-  int highest =
-      0;  // bit in which the places differ: the highest one of all axes decides, of equal ones that of the last axis
+  // The highest bit in which the places differ along any axis decides; of equally high ones, that of the last axis.
+  int highest = 0;
   for (int d = 0; d < 3; ++d) {
     const std::int64_t first = std::int64_t{a.at[d]} << (finer - a.level);
     const std::int64_t second = std::int64_t{b.at[d]} << (finer - b.level);
