@@ -7,7 +7,7 @@
 #include "core/data/label.hpp"
 #include "core/data/reduction.hpp"
 #include "core/data/views.hpp"
-#include "core/grid/level.hpp"
+#include "core/grid/grid.hpp"
 #include "core/simulation/component.hpp"
 #include "core/tasks/task_list.hpp"
 
@@ -26,6 +26,7 @@ using data::ParticleLabel;
 using data::ParticleView;
 using data::recomputeTimeStep;
 using data::ReductionLabel;
+using data::RimFlux;
 using data::Sum;
 using data::VectorSum;
 using data::WideSum;
@@ -36,6 +37,7 @@ using grid::BoundaryValue;
 using grid::Box;
 using grid::forEach;
 using grid::forEachRow;
+using grid::Grid;
 using grid::Level;
 using grid::Patch;
 using simulation::Component;
@@ -43,6 +45,7 @@ using tasks::all;
 using tasks::computes;
 using tasks::computesOwn;
 using tasks::creates;
+using tasks::keepsFlux;
 using tasks::modifies;
 using tasks::offers;
 using tasks::ParticleMaker;

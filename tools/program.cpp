@@ -94,7 +94,7 @@ void writeTrace(const std::string& path, const mpi::Communicator& ranks) {
 
 /// `100 cells and 450 particles at the start`.
 std::string sizeOf(simulation::Simulation& run, long particles) {
-  const std::size_t cells = run.warehouse().level().cells().size();
+  const std::size_t cells = run.warehouse().grid().level().cells().size();
   return counted(static_cast<long>(cells), "cell") +
          (particles > 0 ? fmt::format(" and {} at the start", counted(particles, "particle")) : "");
 }

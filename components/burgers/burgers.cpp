@@ -1,7 +1,7 @@
 #include "components/burgers/burgers.hpp"
 
+#include "core/base/limiters.hpp"
 #include "core/input/schema.hpp"
-#include "core/numerics/limiters.hpp"
 #include "core/simulation/by_dimension.hpp"
 
 namespace tushar::burgers {
@@ -29,6 +29,28 @@ double faceFlux(const std::array<double, 4>& u, Slope slope, double viscosityOve
   return godunovFlux(left, right) - viscosityOverSpacing * (u[2] - u[1]);
 }
 
+/// The flux through a face of a cell, side 0: the lower one, along the axis.
+template <int D>
+double fluxThrough(const Patch& patch, const Settings& settings, const BoundarySides<double>& sides,
+                   CellView<const double> u, const Index<D>& cell, int d, int side) {
+  std::array<double, 4> row;
+  for (int k = 0; k < 4; ++k) {
+    Index<D> at = cell;
+    at[d] += k + side - kReach;
+    row[k] = valueAt<D>(patch, sides, u, at, d);
+  }
+  return faceFlux(row, slopeOf(settings.limiter), settings.viscosity * patch.level().inverseSpacing(d));
+}
+
+/// Half of the fluxes through the rim by one of the two stages.
+template <int D>
+void keepHalf(const Patch& patch, const Settings& settings, const BoundarySides<double>& sides,
+              CellView<const double> u, RimFlux<double> flux) {
+  flux.forEachFace<D>([&](const Index<D>& cell, int d, int side, double& through) {
+    through += 0.5 * fluxThrough<D>(patch, settings, sides, u, cell, d, side);
+  });
+}
+
 /// L(u) in a cell.
 template <int D>
 double rateOfChange(const Patch& patch, const Settings& settings, Slope slope, const BoundarySides<double>& sides,
@@ -51,9 +73,7 @@ double rateOfChange(const Patch& patch, const Settings& settings, Slope slope, c
 
 }  // namespace
 
-Slope slopeOf(int limiter) {
-  return std::array<Slope, 4>{noSlope, numerics::Minmod::slope, numerics::VanLeer::slope, numerics::Mc::slope}[limiter];
-}
+Slope slopeOf(int limiter) { return std::array<Slope, 4>{noSlope, Minmod::slope, VanLeer::slope, Mc::slope}[limiter]; }
 
 double godunovFlux(double left, double right) {
   const double rightGoing = std::max(left, 0.0), leftGoing = std::min(right, 0.0);
@@ -74,9 +94,9 @@ void Burgers<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
 template <int D>
 void Burgers<D>::scheduleTimeAdvance(TaskList& tasks) const {
   tasks.perPatch("burgers::predict", predict<D>, with(settings_), requiresOld(c::u, kReach), requiresOld(delT),
-                 computes(c::predicted));
+                 computes(c::predicted), keepsFlux(c::u));
   tasks.perPatch("burgers::correct", correct<D>, with(settings_), requiresOld(c::u), requiresNew(c::predicted, kReach),
-                 requiresOld(delT), computes(c::u));
+                 requiresOld(delT), computes(c::u), keepsFlux(c::u));
 }
 
 template <int D>
@@ -110,23 +130,25 @@ void computeStableTimeStep(const Patch& patch, const Settings& settings, CellVie
 
 template <int D>
 void predict(const Patch& patch, const Settings& settings, CellView<const double> u, double dt,
-             CellView<double> predicted) {
+             CellView<double> predicted, RimFlux<double> flux) {
   const Slope slope = slopeOf(settings.limiter);
   const BoundarySides<double> sides = patch.level().sides(boundary::velocity);
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     predicted[cell] = u[cell] + dt * rateOfChange<D>(patch, settings, slope, sides, u, cell);
   });
+  keepHalf<D>(patch, settings, sides, u, flux);
 }
 
 template <int D>
 void correct(const Patch& patch, const Settings& settings, CellView<const double> u, CellView<const double> predicted,
-             double dt, CellView<double> newU) {
+             double dt, CellView<double> newU, RimFlux<double> flux) {
   const Slope slope = slopeOf(settings.limiter);
   const BoundarySides<double> sides = patch.level().sides(boundary::velocity);
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     newU[cell] =
         0.5 * (u[cell] + predicted[cell] + dt * rateOfChange<D>(patch, settings, slope, sides, predicted, cell));
   });
+  keepHalf<D>(patch, settings, sides, predicted, flux);
 }
 
 template <int D>

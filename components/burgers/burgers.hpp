@@ -66,12 +66,12 @@ double godunovFlux(double left, double right);
 /// u* = u + dt L(u), L minus the sum of the fluxes out of a cell over its volume.
 template <int D>
 void predict(const Patch& patch, const Settings& settings, CellView<const double> u, double dt,
-             CellView<double> predicted);
+             CellView<double> predicted, RimFlux<double> flux = {});
 
 /// u' = (u + u* + dt L(u*)) / 2.
 template <int D>
 void correct(const Patch& patch, const Settings& settings, CellView<const double> u, CellView<const double> predicted,
-             double dt, CellView<double> newU);
+             double dt, CellView<double> newU, RimFlux<double> flux = {});
 
 /// Integrals of u and u²/2 over the patch's cells.
 template <int D>

@@ -25,7 +25,8 @@ void Euler<D>::scheduleTimeAdvance(TaskList& tasks) const {
   const int ghost = reach(settings_.method);
   tasks.perPatch("euler::advance", chooseAdvance<D>(settings_.method), with(settings_.gas),
                  requiresOld(c::density, ghost), requiresOld(c::momentum<D>, ghost), requiresOld(c::totalEnergy, ghost),
-                 requiresOld(delT), computes(c::density), computes(c::momentum<D>), computes(c::totalEnergy));
+                 requiresOld(delT), computes(c::density), computes(c::momentum<D>), computes(c::totalEnergy),
+                 keepsFlux(c::density), keepsFlux(c::momentum<D>), keepsFlux(c::totalEnergy));
 }
 
 template <int D>

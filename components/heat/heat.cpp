@@ -18,7 +18,7 @@ void Heat<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
 template <int D>
 void Heat<D>::scheduleTimeAdvance(TaskList& tasks) const {
   tasks.perPatch("heat::conduct", conduct<D>, with(settings_), requiresOld(c::temperature, 1), requiresOld(delT),
-                 computes(c::temperature));
+                 computes(c::temperature), keepsFlux(c::temperature));
 }
 
 template <int D>

@@ -64,14 +64,17 @@ void computeStableTimeStep(const Patch& patch, const Settings& settings, Minimum
   });
 }
 
-/// T' = T + dt sum_d (k_{i-1/2} (T_{i-1} - T_i) + k_{i+1/2} (T_{i+1} - T_i)) / (rho c h_d²), k at faces as in
-/// Diffusion.
+/// The fluxes are of T, K m/s. T' = T + dt sum_d (k_{i-1/2} (T_{i-1} - T_i) + k_{i+1/2} (T_{i+1} - T_i)) / (rho c
+/// h_d²), k at faces as in Diffusion.
 template <int D>
 void conduct(const Patch& patch, const Settings& settings, CellView<const double> temperature, double dt,
-             CellView<double> newTemperature) {
+             CellView<double> newTemperature, RimFlux<double> flux = {}) {
   const numerics::Diffusion<D> diffusion(patch.level(), settings.conductivity, boundary::temperature);
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     newTemperature[cell] = temperature[cell] + dt / settings.capacity() * diffusion(temperature, cell);
+  });
+  flux.forEachFace<D>([&](const Index<D>& cell, int d, int side, double& through) {
+    through += diffusion.flux(temperature, cell, d, side) / settings.capacity();
   });
 }
 

@@ -38,6 +38,10 @@ struct Index {
     for (int d = 0; d < D; ++d) a[d] += b[d];
     return a;
   }
+  friend constexpr Index operator*(Index a, int factor) {
+    for (int& one : a.at) one *= factor;
+    return a;
+  }
   friend constexpr Index operator-(Index a, const Index& b) {
     for (int d = 0; d < D; ++d) a[d] -= b[d];
     return a;

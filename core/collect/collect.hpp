@@ -33,21 +33,21 @@ mpi::Bytes receivePatches(const mpi::Communicator& ranks, int from);
 /// Every rank calls it.
 template <class Own, class Pack, class Unpack>
 std::vector<mpi::Bytes> collect(const data::Warehouse& warehouse, Own&& own, Pack&& pack, Unpack&& unpack) {
-  const grid::Level& level = warehouse.level();
+  const grid::Grid& grid = warehouse.grid();
   const mpi::Communicator& ranks = warehouse.ranks();
   if (!ranks.isFirst()) {
     mpi::Bytes bytes;
-    for (const grid::Patch& patch : level.patches()) pack(patch, bytes);
+    for (const grid::Patch& patch : grid.patches()) pack(patch, bytes);
     sendPatches(ranks, std::move(bytes));
     return {};
   }
-  for (const grid::Patch& patch : level.patches()) own(patch);
+  for (const grid::Patch& patch : grid.patches()) own(patch);
   std::vector<mpi::Bytes> messages;
-  int next = static_cast<int>(level.patches().size());
+  int next = static_cast<int>(grid.patches().size());
   for (int rank = 1; rank < ranks.size(); ++rank) {
     messages.push_back(receivePatches(ranks, rank));
     const std::byte* from = messages.back().data();
-    for (; next < level.patchCount() && level.ownerOf(next) == rank; ++next) from += unpack(level.patch(next), from);
+    for (; next < grid.patchCount() && grid.ownerOf(next) == rank; ++next) from += unpack(grid.patch(next), from);
   }
   return messages;
 }

@@ -69,24 +69,25 @@ void Gather::streamParticles(Generation generation, int number, output::Array& a
   const Places& places = placesOf(material);
   Parts parts = collectParticles(*warehouse_, generation, number);
   if (!warehouse_->ranks().isFirst()) return;
-  array.source = sourceAt(places, std::move(parts), EntryForm(*label, warehouse_->level()));
+  array.source = sourceAt(places, std::move(parts), EntryForm(*label, warehouse_->grid().level()));
 }
 
 void Gather::streamGrid(Generation generation, int number, const Box& all, output::Array& array) {
   const Label& label = *warehouse_->table()[number].label;
-  const grid::Level& level = warehouse_->level();
+  const grid::Grid& grid = warehouse_->grid();
   Parts parts = collectGrid(*warehouse_, generation, number, all);
   if (!warehouse_->ranks().isFirst()) return;
-  auto runs = std::make_shared<const Runs>(runsOfGrid(level, label, parts, all));
-  array.source = sourceInRuns(std::move(runs), all.size(), std::move(parts), EntryForm(label, level));
+  auto runs = std::make_shared<const Runs>(runsOfGrid(grid, label, parts, all));
+  array.source = sourceInRuns(std::move(runs), all.size(), std::move(parts), EntryForm(label, grid.level()));
 }
 
 output::Array Gather::stream(Generation generation, int number) {
   const Label& label = *warehouse_->table()[number].label;
   output::Array array = emptyArray(label);
   if (label.centring == Centring::reduction || !warehouse_->isHeld(generation, number)) return array;
-  label.centring == Centring::particle ? streamParticles(generation, number, array)
-                                       : streamGrid(generation, number, boxOf(label, warehouse_->level()), array);
+  label.centring == Centring::particle
+      ? streamParticles(generation, number, array)
+      : streamGrid(generation, number, boxOf(label, warehouse_->grid().level()), array);
   return array;
 }
 
@@ -94,7 +95,7 @@ output::Array Gather::stream(Generation generation, int number, const Layer& lay
   const Label& label = *warehouse_->table()[number].label;
   output::Array array = emptyArray(label);
   if (!warehouse_->isHeld(generation, number)) return array;
-  Box part = boxOf(label, warehouse_->level());
+  Box part = boxOf(label, warehouse_->grid().level());
   part.lower[layer.axis] = label.centring == Centring::node ? layer.node : layer.cell;
   part.upper[layer.axis] = part.lower[layer.axis] + 1;
   streamGrid(generation, number, part, array);
@@ -144,7 +145,7 @@ std::string fingerprint(data::Warehouse& warehouse, const std::vector<std::strin
 long particleCount(data::Warehouse& warehouse, int materials) {
   long count = 0;
   for (int material = 0; material < materials; ++material)
-    for (const Patch& patch : warehouse.level().patches())
+    for (const Patch& patch : warehouse.grid().patches())
       count += warehouse.particles(Generation::old, material, patch.id()).owned();
   return warehouse.ranks().sum(count);
 }

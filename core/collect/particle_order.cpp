@@ -12,7 +12,7 @@ using data::ParticleRange;
 using grid::Patch;
 
 ParticleOrder::ParticleOrder(data::Warehouse& warehouse, int material) : warehouse_(&warehouse), material_(material) {
-  const grid::Box& cells = warehouse.level().cells();
+  const grid::Box& cells = warehouse.grid().level().cells();
   std::vector<std::int32_t> perCell(warehouse.ranks().isFirst() ? cells.size() : 0);
   const auto countsOf = [&](const Patch& patch, auto&& take) {
     const data::ParticleSet& set = warehouse.particles(Generation::old, material, patch.id());
@@ -55,10 +55,10 @@ std::vector<std::int32_t> ParticleOrder::perCell() const {
 }
 
 Runs ParticleOrder::runs() const {
-  const grid::Level& level = warehouse_->level();
+  const grid::Grid& grid = warehouse_->grid();
   Runs runs;
-  for (int id = 0; id < level.patchCount(); ++id) {
-    const Patch patch = level.patch(id);
+  for (int id = 0; id < grid.patchCount(); ++id) {
+    const Patch patch = grid.patch(id);
     std::uint32_t next = 0;
     forEachRow(patch.cells(), [&](const Index3& first) {
       const std::size_t* start = startOf(first);
@@ -72,7 +72,7 @@ Runs ParticleOrder::runs() const {
 }
 
 void ParticleOrder::install() {
-  for (const Patch& patch : warehouse_->level().patches()) {
+  for (const Patch& patch : warehouse_->grid().patches()) {
     data::ParticleSet& set = warehouse_->particles(Generation::old, material_, patch.id());
     set.reset(patch, warehouse_->table().reach(material_));
     int next = 0;

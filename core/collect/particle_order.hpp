@@ -37,7 +37,9 @@ class ParticleOrder {
   }
 
  private:
-  const std::size_t* startOf(const Index3& cell) const { return &starts_[warehouse_->level().cells().offset(cell)]; }
+  const std::size_t* startOf(const Index3& cell) const {
+    return &starts_[warehouse_->grid().level().cells().offset(cell)];
+  }
   void sum(const std::vector<std::int32_t>& perCell);
 
   data::Warehouse* warehouse_;

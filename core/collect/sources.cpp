@@ -137,10 +137,10 @@ void gatherFixed(const EntryAt& entryAt, std::size_t count, std::byte* to) {
 
 }  // namespace
 
-Runs runsOfGrid(const Level& level, const data::Label& label, const Parts& parts, const Box& all) {
+Runs runsOfGrid(const grid::Grid& grid, const data::Label& label, const Parts& parts, const Box& all) {
   Runs runs;
   for (std::size_t id = 0; id < parts.of.size(); ++id) {
-    const Box own = ownBox(level.patch(static_cast<int>(id)), label).intersect(all);
+    const Box own = ownBox(grid.patch(static_cast<int>(id)), label).intersect(all);
     forEachRow(own, [&](const Index3& first) {
       runs.push_back({all.offset(first), static_cast<std::uint32_t>(id),
                       static_cast<std::uint32_t>(parts.of[id].stored.offset(first))});

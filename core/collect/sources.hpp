@@ -20,7 +20,7 @@ struct Run {
 using Runs = std::vector<Run>;
 
 /// The rows of the cells or nodes of a box, the first axis fastest, wherever the patches have them.
-Runs runsOfGrid(const grid::Level& level, const data::Label& label, const Parts& parts, const grid::Box& all);
+Runs runsOfGrid(const grid::Grid& grid, const data::Label& label, const Parts& parts, const grid::Box& all);
 
 /// Where a particle is: the number of its patch, and its place there.
 struct Place {

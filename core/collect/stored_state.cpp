@@ -66,7 +66,7 @@ std::size_t wordsOf(std::size_t bytes) { return (bytes + sizeof(std::uint64_t) -
 class StateWalk {
  public:
   StateWalk(data::Warehouse& warehouse, const StateNames& names)
-      : warehouse_(warehouse), table_(warehouse.table()), level_(warehouse.level()), names_(names) {}
+      : warehouse_(warehouse), table_(warehouse.table()), grid_(warehouse.grid()), names_(names) {}
 
  protected:
   /// Calls `visit(number, path)` for each variable of the run.
@@ -93,7 +93,7 @@ class StateWalk {
 
   data::Warehouse& warehouse_;
   const data::VariableTable& table_;
-  const grid::Level& level_;
+  const grid::Grid& grid_;
 
  private:
   std::string pathOf(Centring centring, const std::string& name, int material) const {
@@ -125,10 +125,10 @@ class StateWriter : StateWalk {
   bool isHeld(int number) const { return warehouse_.isHeld(Generation::old, number); }
 
   void writeField(int number, const std::string& path) {
-    const Box all = allOf(level_, label(number));
+    const Box all = allOf(grid_.level(), label(number));
     Parts parts = collectGrid(warehouse_, Generation::old, number, all);
     if (!file_) return;
-    auto runs = std::make_shared<Runs>(runsOfGrid(level_, label(number), parts, all));
+    auto runs = std::make_shared<Runs>(runsOfGrid(grid_, label(number), parts, all));
     Array array = arrayOf(label(number));
     array.source = sourceInRuns(std::move(runs), all.size(), std::move(parts), EntryForm(label(number)));
     const auto extent = [&](int axis) { return static_cast<std::uint64_t>(all.extent(axis)); };
@@ -139,7 +139,7 @@ class StateWriter : StateWalk {
     const ParticleOrder order(warehouse_, material);
     if (file_)
       file_->dataset(perCellPath(material), {"perCell", "1", "particles of each cell", 1, order.perCell()},
-                     {level_.cells().size()});
+                     {grid_.level().cells().size()});
     const auto runs = std::make_shared<const Runs>(file_ ? order.runs() : Runs{});
     forEachVariable(Centring::particle, material, [&](int number, const std::string& path) {
       if (isHeld(number)) writeColumn(number, path, runs, order.count());
@@ -222,11 +222,11 @@ class StateReader : StateWalk {
   /// Ghosts are left to the first exchange.
   void readField(int number, const std::string& path) {
     const Label& field = label(number);
-    const Box all = allOf(level_, field);
+    const Box all = allOf(grid_.level(), field);
     const output::Hdf5Parts file = partsOf(path, field, all.size());
     std::vector<output::Hdf5Parts::Part> rows;
     warehouse_.allocateGrid(Generation::old, number);
-    for (const Patch& patch : level_.patches()) {
+    for (const Patch& patch : grid_.patches()) {
       const Box own = ownBox(patch, field);
       const Variable to = variable(number, patch);
       forEachRow(own, [&](const Index3& first) {
@@ -244,7 +244,8 @@ class StateReader : StateWalk {
   }
 
   void readParticles(int material) {
-    const Array::Values perCell = stored(perCellPath(material), std::vector<std::int32_t>{}, level_.cells().size());
+    const Array::Values perCell =
+        stored(perCellPath(material), std::vector<std::int32_t>{}, grid_.level().cells().size());
     ParticleOrder order(warehouse_, material, std::get<std::vector<std::int32_t>>(perCell));
     order.install();
     forEachVariable(Centring::particle, material, [&](int number, const std::string& path) {
@@ -257,7 +258,7 @@ class StateReader : StateWalk {
     const output::Hdf5Parts file = partsOf(path, column, order.count());
     std::vector<output::Hdf5Parts::Part> rows;
     warehouse_.allocateParticles(Generation::old, number, Generation::old);
-    for (const Patch& patch : level_.patches()) {
+    for (const Patch& patch : grid_.patches()) {
       const Variable to = variable(number, patch);
       order.forEachRun(patch, [&](std::size_t place, std::size_t held, std::size_t count) {
         rows.push_back(partOf(column, place, count, to.values + held * column.bytes));

@@ -10,8 +10,8 @@
 
 namespace tushar::data {
 
-/// Where a variable lives.
-enum class Centring { particle, node, cell, reduction };
+/// Where a variable lives; on rims, the faces of a patch behind which another level stands, are fluxes.
+enum class Centring { particle, node, cell, rim, reduction };
 
 /// How one number of a variable is stored.
 enum class Number { real, id, integer };

@@ -41,12 +41,21 @@ bool Slots::extends(const Slots& other) const {
   return true;
 }
 
-SharedSlots slotsOfGrid(const grid::Level& level, const Label& label, int ghost) {
+SharedSlots slotsOfGrid(const grid::Grid& grid, const Label& label, int ghost) {
   Slots slots;
-  for (const grid::Patch& patch : level.patches()) {
+  for (const grid::Patch& patch : grid.patches()) {
     slots.stored.push_back(label.centring == Centring::node ? patch.nodesWithin(ghost) : patch.cellsWithin(ghost));
     slots.first.push_back(slots.end);
     slots.end += roundedUp(slots.stored.back().size());
+  }
+  return std::make_shared<const Slots>(std::move(slots));
+}
+
+SharedSlots slotsOfRims(const grid::Grid& grid) {
+  Slots slots;
+  for (const grid::Patch& patch : grid.patches()) {
+    slots.first.push_back(slots.end);
+    slots.end += roundedUp(grid::sizeOf(grid.rims(patch.id())));
   }
   return std::make_shared<const Slots>(std::move(slots));
 }

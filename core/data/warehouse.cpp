@@ -39,8 +39,8 @@ void VariableTable::widen(int number, int ghost) {
   reaches_[material] = std::max(reaches_[material], ghost);
 }
 
-Warehouse::Warehouse(const grid::Level& level, VariableTable& table)
-    : Warehouse(level, table, mpi::Communicator::alone()) {}
+Warehouse::Warehouse(const grid::Grid& grid, VariableTable& table)
+    : Warehouse(grid, table, mpi::Communicator::alone()) {}
 
 void Warehouse::grow(int materials) {
   const auto variables = static_cast<std::size_t>(table_->size()), many = static_cast<std::size_t>(materials);
@@ -48,7 +48,7 @@ void Warehouse::grow(int materials) {
   for (State* state : {&old_, &fresh_}) {
     state->storages.resize(std::max(state->storages.size(), variables));
     state->layouts.resize(std::max(state->layouts.size(), many));
-    state->sets.resize(std::max(state->sets.size(), place(materials, level_->firstPatch())));
+    state->sets.resize(std::max(state->sets.size(), place(materials, grid_->firstPatch())));
   }
 }
 
@@ -123,8 +123,17 @@ void Warehouse::allocate(Storage& storage, const Label& label, const SharedSlots
 void Warehouse::allocateGrid(Generation generation, int number) {
   const Label& label = *(*table_)[number].label;
   SharedSlots& slots = grid_slots_[{label.centring, table_->ghost(number)}];
-  if (!slots) slots = slotsOfGrid(*level_, label, table_->ghost(number));
+  if (!slots) slots = slotsOfGrid(*grid_, label, table_->ghost(number));
   allocate(storage(generation, number), label, slots, slots->end);
+}
+
+void Warehouse::allocateRims(Generation generation, int number) {
+  SharedSlots& slots = grid_slots_[{Centring::rim, 0}];
+  if (!slots) slots = slotsOfRims(*grid_);
+  Storage& rims = storage(generation, number);
+  const Label& label = *(*table_)[number].label;
+  allocate(rims, label, slots, slots->end);
+  std::fill_n(reinterpret_cast<double*>(rims.memory.data()), slots->end * label.bytes / sizeof(double), 0.0);
 }
 
 void Warehouse::allocateParticles(Generation generation, int number, Generation set) {
@@ -148,7 +157,7 @@ void Warehouse::free(Generation generation, int number) {
 
 void Warehouse::layOut(Generation generation, int material, Generation base) {
   std::vector<std::size_t> counts;
-  for (const grid::Patch& patch : level_->patches())
+  for (const grid::Patch& patch : grid_->patches())
     counts.push_back(particles(generation, material, patch.id()).owned());
   Layout& where = layout(generation, material);
   where.slots = slotsThatFit(layout(base, material).slots, counts);
@@ -205,7 +214,7 @@ void Warehouse::releaseFreeMemory() {
 void Warehouse::beginStep() { pool_.beginStep(); }
 
 bool Warehouse::isHeld(Generation generation, int number) {
-  return ranks_->any(!level_->patches().empty() && storage(generation, number).held);
+  return ranks_->any(!grid_->patches().empty() && storage(generation, number).held);
 }
 
 void Warehouse::makeOld(int number) {
@@ -215,7 +224,7 @@ void Warehouse::makeOld(int number) {
 
 void Warehouse::swapSets(int material) {
   std::swap(layout(Generation::old, material), layout(Generation::fresh, material));
-  for (const grid::Patch& patch : level_->patches())
+  for (const grid::Patch& patch : grid_->patches())
     std::swap(particles(Generation::old, material, patch.id()), particles(Generation::fresh, material, patch.id()));
 }
 

@@ -13,7 +13,7 @@
 #include "core/data/label.hpp"
 #include "core/data/particle_set.hpp"
 #include "core/data/slots.hpp"
-#include "core/grid/level.hpp"
+#include "core/grid/grid.hpp"
 
 namespace tushar::mpi {
 class Communicator;
@@ -75,14 +75,14 @@ enum class Generation { old, fresh };
 class Warehouse {
  public:
   /// For one rank on its own.
-  Warehouse(const grid::Level& level, VariableTable& table);
-  /// `ranks` share the grid as the level says, and outlive the warehouse.
-  Warehouse(const grid::Level& level, VariableTable& table, const mpi::Communicator& ranks)
-      : level_(&level), table_(&table), ranks_(&ranks) {}
+  Warehouse(const grid::Grid& grid, VariableTable& table);
+  /// `ranks` share the grid as the grid says, and outlive the warehouse.
+  Warehouse(const grid::Grid& grid, VariableTable& table, const mpi::Communicator& ranks)
+      : grid_(&grid), table_(&table), ranks_(&ranks) {}
 
-  const grid::Level& level() const { return *level_; }
+  const grid::Grid& grid() const { return *grid_; }
   const VariableTable& table() const { return *table_; }
-  int patches() const { return static_cast<int>(level_->patches().size()); }
+  int patches() const { return static_cast<int>(grid_->patches().size()); }
   /// The ranks that share the grid.
   const mpi::Communicator& ranks() const { return *ranks_; }
 
@@ -99,7 +99,7 @@ class Warehouse {
   /// The part that a patch adds to a reduction.
   template <class R>
   R& partOfReduction(int number, int patch) {
-    return static_cast<TypedReduction<R>&>(slot(number)).part(patch - level_->firstPatch());
+    return static_cast<TypedReduction<R>&>(slot(number)).part(patch - grid_->firstPatch());
   }
   void resetReduction(int number);
   /// A reduction whatever its type; made on first use, which must not be by several threads at once.
@@ -113,10 +113,12 @@ class Warehouse {
 
   /// Makes room for all variables named so far, and for the particle sets of `materials` materials.
   void grow(int materials);
-  /// Forgets what stands on patches, for those that the level gives this rank now; reductions stay.
+  /// Forgets what stands on patches, for those that the grid gives this rank now; reductions stay.
   void startAnew(int materials);
   /// Room for a node or cell variable on all patches, with all ghosts that tasks read; NaN-filled in the dev preset.
   void allocateGrid(Generation generation, int number);
+  /// Room for fluxes through the rims of all patches; all 0.
+  void allocateRims(Generation generation, int number);
   /// Room for a particle variable on all patches, where the particles of the sets of generation `set` stand; NaN-filled
   /// in the dev preset.
   void allocateParticles(Generation generation, int number, Generation set);
@@ -181,15 +183,15 @@ class Warehouse {
   State& state(Generation generation) { return generation == Generation::old ? old_ : fresh_; }
   Storage& storage(Generation generation, int number) { return state(generation).storages[number]; }
   Layout& layout(Generation generation, int material) { return state(generation).layouts[material]; }
-  std::size_t placeOf(int patch) const { return patch - level_->firstPatch(); }
+  std::size_t placeOf(int patch) const { return patch - grid_->firstPatch(); }
   std::size_t place(int number, int patch) const {
-    return static_cast<std::size_t>(number) * level_->patches().size() + placeOf(patch);
+    return static_cast<std::size_t>(number) * grid_->patches().size() + placeOf(patch);
   }
   void allocate(Storage& storage, const Label& label, const SharedSlots& slots, std::size_t values);
   std::size_t valuesWithCopies(const Layout& layout, int number) const;
   void takeRestored(int number);
 
-  const grid::Level* level_;
+  const grid::Grid* grid_;
   VariableTable* table_;
   const mpi::Communicator* ranks_;
   State old_, fresh_;

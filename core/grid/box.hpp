@@ -7,6 +7,9 @@
 
 namespace tushar::grid {
 
+/// Where a cell is along an axis on the next coarser level, on either side of 0.
+constexpr int coarserCell(int cell) { return cell >= 0 ? cell / 2 : -((1 - cell) / 2); }
+
 /// A half-open box of cells or nodes, [lower, upper) along each axis.
 /// Axes that a scene leaves out hold the single index 0.
 struct Box {
@@ -69,6 +72,25 @@ struct Box {
       box.upper[d] += width;
     }
     return box;
+  }
+
+  /// The cells of the next finer level in this box of cells.
+  constexpr Box refined(int dimension) const {
+    Box fine = *this;
+    for (int d = 0; d < dimension; ++d) {
+      fine.lower[d] *= 2;
+      fine.upper[d] *= 2;
+    }
+    return fine;
+  }
+  /// The cells of the next coarser level around this box of cells.
+  constexpr Box coarsened(int dimension) const {
+    Box coarse = *this;
+    for (int d = 0; d < dimension; ++d) {
+      coarse.lower[d] = coarserCell(lower[d]);
+      coarse.upper[d] = coarserCell(upper[d] - 1) + 1;
+    }
+    return coarse;
   }
 
   constexpr Box shifted(const Index3& by) const { return {lower + by, upper + by}; }

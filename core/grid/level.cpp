@@ -4,22 +4,11 @@
 
 namespace tushar::grid {
 
-Level::Level(const Domain& domain, Share share) : domain_(domain), share_(share) {
+Level::Level(const Domain& domain, int number, int levels, const Grid* grid)
+    : number_(number), halvings_(levels - 1 - number), grid_(grid), domain_(domain) {
   chooseAxes();
-  cutIntoPatches();
-  partition_.emplace(*curve_, share_.ranks);
-  makePatches();
-}
-
-RankOffsets Level::rankOffsets() const {
-  RankOffsets offsets;
-  for (int rank = 0; rank <= share_.ranks; ++rank) offsets.push_back(partition_->firstOf(rank));
-  return offsets;
-}
-
-void Level::share(RankOffsets offsets) {
-  partition_.emplace(*curve_, std::move(offsets));
-  makePatches();
+  for (int d = 0; d < dimension(); ++d) domain_.resolution[axis(d)] <<= number;
+  measure();
 }
 
 void Level::chooseAxes() {
@@ -36,57 +25,25 @@ void Level::chooseAxes() {
     const bool flat = extent == 0;
     const bool thin =
         domain_.resolution[axis] == 1 && ((isPlane(axis, 0) && isPlane(axis, 1)) || domain_.periodic[axis] != 0);
-    if (!flat) cellVolume_ *= extent / domain_.resolution[axis];
     if (!flat && !thin) axes_.push_back(axis);
   }
   if (axes_.empty()) axes_.push_back(0);
   for (int d = 0; d < dimension(); ++d) is_periodic_ = is_periodic_ || isPeriodic(d);
 }
 
-void Level::cutIntoPatches() {
+void Level::measure() {
   cells_.upper = Index3::filled(1);
-  MortonCurve::Cuts cuts{{{0, 1}, {0, 1}, {0, 1}}};
   for (int d = 0; d < dimension(); ++d) {
-    const auto k = static_cast<std::size_t>(d);
     const int cells = domain_.resolution[axis(d)];
-    const int parts = std::max(1, std::min(domain_.patches[axis(d)], cells));
     const double extent = domain_.upper[axis(d)] - domain_.lower[axis(d)];
-    lower_[k] = domain_.lower[axis(d)];
-    spacing_[k] = extent > 0 ? extent / cells : 1.0;
-    inverse_spacing_[k] = 1.0 / spacing_[k];
+    lower_[d] = domain_.lower[axis(d)];
+    spacing_[d] = extent > 0 ? extent / cells : 1.0;
+    inverse_spacing_[d] = 1.0 / spacing_[d];
     cells_.upper[d] = cells;
-    cuts[k].clear();
-    for (int part = 0; part <= parts; ++part)
-      cuts[k].push_back(static_cast<int>(static_cast<long>(cells) * part / parts));
   }
-  curve_.emplace(std::move(cuts));
-}
-
-void Level::makePatches() {
-  patches_.clear();
-  first_patch_ = partition_->firstOf(share_.rank);
-  const int end = partition_->firstOf(share_.rank + 1);
-  for (int id = first_patch_; id < end; ++id) patches_.push_back(patch(id));
-  own_nodes_.clear();
-  for (const Patch& patch : patches_) {
-    Box own = patch.nodes();
-    for (int d = 0; d < dimension(); ++d)
-      if (sharesUpperFace(patch, d)) own.upper[d] = patch.cells().upper[d];
-    own_nodes_.push_back(own);
-  }
-}
-
-/// Not so for a patch that is no thicker than the layers of nodes beyond the grid at its other side: these mirror the
-/// nodes of the face.
-bool Level::sharesUpperFace(const Patch& patch, int kernelAxis) const {
-  const int face = patch.cells().upper[kernelAxis];
-  if (face == cells_.upper[kernelAxis]) return false;
-  if (patch.isAtBoundary(kernelAxis, 0) && patch.cells().extent(kernelAxis) <= domain_.nodesBeyond) return false;
-  Box behind = patch.cells();
-  for (int d = 0; d < dimension(); ++d) ++behind.upper[d];
-  behind.lower[kernelAxis] = face;
-  const std::vector<Patch> others = patchesOverlapping(behind);
-  return std::all_of(others.begin(), others.end(), [&](const Patch& other) { return isMine(other.id()); });
+  for (int axis = 0; axis < 3; ++axis)
+    if (const double extent = domain_.upper[axis] - domain_.lower[axis]; extent != 0)
+      cellVolume_ *= extent / domain_.resolution[axis];
 }
 
 Box Level::nodes() const {
@@ -131,26 +88,6 @@ std::string Level::axesLeftOut() const {
     if (std::find(axes_.begin(), axes_.end(), axis) == axes_.end())
       names += (names.empty() ? "" : ", ") + std::string(1, "xyz"[axis]);
   return names;
-}
-
-Patch Level::patchOf(const Index3& cell) const {
-  Index3 block;
-  for (int d = 0; d < 3; ++d) block[d] = curve_->blockAlong(d, cell[d]);
-  return {*this, curve_->placeOf(block), curve_->cellsAt(block)};
-}
-
-std::vector<Patch> Level::patchesOverlapping(const Box& cells) const {
-  std::vector<Patch> found;
-  const Box inside = cells.intersect(cells_);
-  if (inside.empty()) return found;
-  Box blocks;
-  for (int d = 0; d < 3; ++d) {
-    blocks.lower[d] = curve_->blockAlong(d, inside.lower[d]);
-    blocks.upper[d] = curve_->blockAlong(d, inside.upper[d] - 1) + 1;
-  }
-  forEach<3>(blocks,
-             [&](const Index3& block) { found.emplace_back(*this, curve_->placeOf(block), curve_->cellsAt(block)); });
-  return found;
 }
 
 Box Level::clip(const Box& box, const Box& grid) const {

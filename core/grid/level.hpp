@@ -9,10 +9,11 @@
 
 #include "core/grid/boundary.hpp"
 #include "core/grid/box.hpp"
-#include "core/grid/partition.hpp"
-#include "core/grid/patch.hpp"
+#include "core/grid/refinement.hpp"
 
 namespace tushar::grid {
+
+class Grid;
 
 /// A uniform grid as a scene describes it, in metres along x, y and z.
 struct Domain {
@@ -22,14 +23,12 @@ struct Domain {
   Index3 patches{{1, 1, 1}};     ///< along x, y, z
   Index3 periodic{};             ///< 1 along axes where the grid repeats without end
   int nodesBeyond = 0;           ///< layers of nodes outside every side that is not periodic, for wide shape functions
+  Refinement refinement;         ///< nothing is refined unless it says so
   BoundaryConditions boundaries;
 };
 
-/// The grid of a run: its geometry, its boundary conditions and its patches, as one of the ranks that share it sees
-/// them.
-///
-/// Patches are numbered along Morton's curve; a rank has consecutive ones. Only these are kept: any other is made when
-/// it is asked for, so that a grid of a million patches takes no more memory on a rank than its own.
+/// A grid of cells of one size: its geometry and its boundary conditions. A run's grid has one or several levels, each
+/// with half the cell width of the one before (see Grid); cells and nodes are counted on each level from 0.
 ///
 /// Kernels run in `dimension()` axes. An axis of the scene is left out when it has no extent, or has one cell
 /// between two symmetry planes or repeats one cell; the axes that remain keep their order.
@@ -39,11 +38,16 @@ struct Domain {
 /// complete it.
 class Level {
  public:
-  /// Splits the domain into patches; along an axis with fewer cells than patches asked for, a patch per cell.
-  explicit Level(const Domain& domain, Share share = {});
+  explicit Level(const Domain& domain) : Level(domain, 0, 1, nullptr) {}
+  /// Level `number` of `levels` of a grid, which outlives it: `domain`'s cells are halved `number` times.
+  Level(const Domain& domain, int number, int levels, const Grid* grid);
   Level(const Level&) = delete;
   Level& operator=(const Level&) = delete;
 
+  /// 0 for the coarsest.
+  int number() const { return number_; }
+  /// The grid that it is a level of, which knows its patches; there must be one.
+  const Grid& grid() const { return *grid_; }
   int dimension() const { return static_cast<int>(axes_.size()); }
   /// The scene's axis (0 for x, 1 for y, 2 for z) behind a kernel axis.
   int axis(int kernelAxis) const { return axes_[kernelAxis]; }
@@ -57,28 +61,7 @@ class Level {
   /// The part of a box of cells that lies on the grid or, along periodic axes, on its images.
   Box clipCells(const Box& cells) const { return clip(cells, cells_); }
   Box clipNodes(const Box& nodes) const { return clip(nodes, this->nodes()); }
-  /// The patches of this rank, by number.
-  const std::vector<Patch>& patches() const { return patches_; }
-  /// Number of patches of all ranks.
-  int patchCount() const { return curve_->blocks(); }
-  /// Any patch of the grid.
-  Patch patch(int id) const { return {*this, id, curve_->cellsAt(curve_->blockAt(id))}; }
-  /// The number of the first patch of this rank.
-  int firstPatch() const { return first_patch_; }
-  /// Whether this rank has a patch.
-  bool isMine(int patch) const {
-    return patch >= first_patch_ && patch < first_patch_ + static_cast<int>(patches_.size());
-  }
-  /// The rank that has a patch.
-  int ownerOf(int patch) const { return isMine(patch) ? share_.rank : partition_->ownerOf(patch); }
-  const Share& share() const { return share_; }
-  /// Nodes of one of this rank's patches that are its own: all but those on an upper face behind which only patches of
-  /// this rank stand, which have these nodes, too. Each node of a patch is an own node of one of the rank's.
-  const Box& ownNodes(int patch) const { return own_nodes_[patch - first_patch_]; }
-  /// Which patches each rank has.
-  RankOffsets rankOffsets() const;
-  /// Gives the patches to the ranks anew. What stands on them is the caller's to move: see tasks::migratePatches.
-  void share(RankOffsets offsets);
+  /// What the scene says of the grid, with the cells of this level.
   const Domain& domain() const { return domain_; }
 
   /// Cell width along a kernel axis, m.
@@ -116,10 +99,6 @@ class Level {
   Box cellsNear(const Vec3& lower, const Vec3& upper) const;
   /// The axes that are left out: `y, z`, or nothing.
   std::string axesLeftOut() const;
-  /// The patch that holds a cell of the grid.
-  Patch patchOf(const Index3& cell) const;
-  /// The patches that hold cells of a box, in the order of their cells.
-  std::vector<Patch> patchesOverlapping(const Box& cells) const;
   /// The periodic images of the grid that hold cells of a box, as shifts in cells: cell c + shift is an image of c.
   /// Zero among them where the box holds cells of the grid.
   std::vector<Index3> imagesOverlapping(const Box& cells) const;
@@ -132,12 +111,14 @@ class Level {
     }
     return cell;
   }
-  /// Number of a cell in lexicographic order, x fastest, 0 for the first; independent of the patches.
+  /// Number of a cell in lexicographic order, x fastest, 0 for the first; independent of the patches. Where there are
+  /// finer levels, that of the first of its cells of the finest.
   template <int D>
   std::uint64_t cellNumber(const Index<D>& cell) const {
     std::uint64_t number = 0;
     for (int d = D - 1; d >= 0; --d)
-      number = number * static_cast<std::uint64_t>(cells_.extent(d)) + static_cast<std::uint64_t>(cell[d]);
+      number = (number * static_cast<std::uint64_t>(cells_.extent(d)) << halvings_) +
+               (static_cast<std::uint64_t>(cell[d]) << halvings_);
     return number;
   }
 
@@ -193,22 +174,16 @@ class Level {
   const BoundaryCondition* condition(int kernelAxis, int side, const BoundaryVariable& variable, int material) const;
   void chooseAxes();
   Box clip(const Box& box, const Box& grid) const;
-  void cutIntoPatches();
-  void makePatches();
-  bool sharesUpperFace(const Patch& patch, int kernelAxis) const;
+  void measure();
 
+  int number_ = 0, halvings_ = 0;  ///< and how often the cells of the finest level are halved beyond these
+  const Grid* grid_ = nullptr;
   Domain domain_;
   std::vector<int> axes_;
   std::array<double, 3> lower_{}, spacing_{}, inverse_spacing_{};
   double cellVolume_ = 1;
   bool is_periodic_ = false;
   Box cells_;
-  Share share_;
-  std::optional<MortonCurve> curve_;
-  std::optional<Partition> partition_;
-  int first_patch_ = 0;
-  std::vector<Patch> patches_;
-  std::vector<Box> own_nodes_;  ///< by place of the patch on this rank
 };
 
 }  // namespace tushar::grid

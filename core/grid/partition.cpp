@@ -10,13 +10,13 @@ namespace tushar::grid {
 int Partition::firstOf(int rank) const {
   if (!offsets_.empty()) return offsets_[rank];
   const auto ranks = static_cast<std::uint64_t>(ranks_), wanted = static_cast<std::uint64_t>(rank);
-  return curve_->placeAfter((wanted * curve_->cells() + ranks - 1) / ranks);
+  return tiling_->patchAfter((wanted * tiling_->cells() + ranks - 1) / ranks);
 }
 
-int Partition::ownerOf(int place) const {
+int Partition::ownerOf(int patch) const {
   if (!offsets_.empty())
-    return static_cast<int>(std::upper_bound(offsets_.begin(), offsets_.end(), place) - offsets_.begin()) - 1;
-  return static_cast<int>(curve_->cellsBefore(place) * static_cast<std::uint64_t>(ranks_) / curve_->cells());
+    return static_cast<int>(std::upper_bound(offsets_.begin(), offsets_.end(), patch) - offsets_.begin()) - 1;
+  return static_cast<int>(tiling_->cellsBefore(patch) * static_cast<std::uint64_t>(ranks_) / tiling_->cells());
 }
 
 }  // namespace tushar::grid

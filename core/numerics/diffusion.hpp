@@ -51,6 +51,13 @@ class Diffusion {
     });
     return sum;
   }
+  /// The flux of phi through a face of a cell inside the grid over that of div(k grad phi), along the axis:
+  /// -k d phi / dx.
+  double flux(const data::CellView<const double>& phi, const Index<D>& cell, int d, int side) const {
+    const Index<D> next = side == 0 ? cell - Index<D>::unit(d) : cell + Index<D>::unit(d);
+    const double outward = atFace(cell, next, true) * (phi[cell] - phi[next]) / level_.spacing(d);
+    return side == 0 ? -outward : outward;
+  }
   /// The sum over the faces of a cell of k / h²: an explicit step of at most one over it lets no cell overshoot.
   double rate(const Index<D>& cell) const {
     double sum = 0;

@@ -24,23 +24,23 @@ double residentMegabytes() {
   return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
 }
 
-int rankInTheMiddle(const grid::Level& level) {
+int rankInTheMiddle(const grid::Grid& grid) {
   Index3 middle;
-  for (int d = 0; d < 3; ++d) middle[d] = level.cells().upper[d] / 2;
-  return level.ownerOf(level.patchOf(middle).id());
+  for (int d = 0; d < 3; ++d) middle[d] = grid.level().cells().upper[d] / 2;
+  return grid.ownerOf(grid.patchOf(middle, 0).id());
 }
 
 /// Plans the messages of graphs, and counts them.
 class Messages {
  public:
-  Messages(const grid::Level& level, const data::VariableTable& table) : level_(level), table_(table) {}
+  Messages(const grid::Grid& grid, const data::VariableTable& table) : grid_(grid), table_(table) {}
 
   void add(const tasks::TaskGraph& graph, DryRun& result) {
     if (graph.tasks().empty()) return;
     for (const tasks::CompiledTask& task : graph.tasks()) {
       std::set<int> receivers;
       for (const tasks::BoundGhostFill& fill : task.fills)
-        for (const auto& [rank, copies] : plans_.of(level_, tasks::reachOf(table_, fill)).outgoing) {
+        for (const auto& [rank, copies] : plans_.of(grid_, tasks::reachOf(table_, fill)).outgoing) {
           receivers.insert(rank);
           if (!fill.particles) result.bytes += bytesOf(copies, table_[fill.variable].label->bytes);
         }
@@ -60,13 +60,14 @@ class Messages {
     return all;
   }
   void addRelocations(int materials, DryRun& result) {
-    const auto& receivers = plans_.of(level_, {false, tasks::ParticleMigration::neighbourhood}).incoming;
+    const auto& receivers =
+        plans_.of(grid_, {data::Centring::particle, tasks::ParticleMigration::neighbourhood}).incoming;
     neighbours_.insert(receivers.begin(), receivers.end());
     result.messages += materials * static_cast<int>(receivers.size());
     result.agreements += materials;
   }
 
-  const grid::Level& level_;
+  const grid::Grid& grid_;
   const data::VariableTable& table_;
   tasks::GhostPlans plans_;
   std::set<int> neighbours_;
@@ -76,16 +77,16 @@ class Messages {
 
 DryRun dryRun(const std::string& scene, const std::vector<std::string>& overrides,
               const simulation::Catalogue& catalogue, const grid::Workers& workers) {
-  const int rank = rankInTheMiddle(*readScene(scene, overrides, catalogue, workers, {0, workers.ranks}).level);
+  const int rank = rankInTheMiddle(*readScene(scene, overrides, catalogue, workers, {0, workers.ranks}).grid);
   const double memoryBefore = residentMegabytes(), timeBefore = processorSeconds();
   const simulation::Problem problem = readScene(scene, overrides, catalogue, workers, {rank, workers.ranks});
-  const grid::Level& level = *problem.level;
+  const grid::Grid& grid = *problem.grid;
   data::VariableTable table;
   simulation::Phases phases(*problem.component, problem.analyses);
-  phases.compile(problem.analyses, problem.archive.saves, level, table);
+  phases.compile(problem.analyses, problem.archive.saves, grid, table);
   DryRun result;
   result.agreements = 1;  // on whether to stop
-  Messages messages(level, table);
+  Messages messages(grid, table);
   for (const tasks::TaskGraph* graph : {&phases.stableTimeStep, &phases.timeAdvance, &phases.everyStep}) {
     result.tasks += static_cast<int>(graph->tasks().size());
     result.placements += static_cast<int>(graph->placements().size());
@@ -93,10 +94,10 @@ DryRun dryRun(const std::string& scene, const std::vector<std::string>& override
   }
   result.seconds = processorSeconds() - timeBefore;
   result.megabytes = residentMegabytes() - memoryBefore;
-  result.rank = level.share().rank;
-  result.ranks = level.share().ranks;
-  result.patches = static_cast<int>(level.patches().size());
-  result.patchesOfAll = level.patchCount();
+  result.rank = grid.share().rank;
+  result.ranks = grid.share().ranks;
+  result.patches = static_cast<int>(grid.patches().size());
+  result.patchesOfAll = grid.patchCount();
   return result;
 }
 

@@ -287,11 +287,11 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   diagnostics.throwIfAny();
 
   problem.componentName = kind->name;
-  problem.level = std::make_unique<grid::Level>(domain, share);
+  problem.grid = std::make_unique<grid::Grid>(domain, share);
   problem.threads = workers.threadsFor(domain.resolution);
-  problem.component = makeComponent(*problem.level);
+  problem.component = makeComponent(problem.grid->level());
   if (problem.component->mayRepeatStep()) problem.time.recomputeTimeStep = true;
-  problem.analyses = makeModules(modules, *problem.component, *problem.level);
+  problem.analyses = makeModules(modules, *problem.component, problem.grid->level());
   problem.notes = diagnostics.notes();
   return problem;
 }

@@ -39,7 +39,7 @@ void checkScene(const output::Hdf5Input& file, const Problem& problem) {
   if (const std::string found = file.text("/", "component"); found != problem.componentName)
     refuse(file,
            fmt::format("the checkpoint is of component '{}', and the scene has '{}'", found, problem.componentName));
-  if (!isSameGrid(file, collect::gridInfo(*problem.level)))
+  if (!isSameGrid(file, collect::gridInfo(problem.grid->level())))
     refuse(file, "the checkpoint has another grid than the scene; patches may change, cells may not");
 }
 
@@ -54,7 +54,7 @@ void writeHeader(output::Hdf5File& file, const RunState& run, const CheckpointTa
   file.attribute("/", "dropped", static_cast<std::uint64_t>(target.dropped));
   file.attribute("/", "version", std::string(TUSHAR_VERSION));
   file.attribute("/", "component", run.problem.componentName);
-  writeGrid(file, collect::gridInfo(*run.problem.level));
+  writeGrid(file, collect::gridInfo(run.problem.grid->level()));
   file.text("/scene", run.problem.inputXml);
   file.text("/archive/index", target.point.index);
   file.text("/archive/xdmf", target.point.xdmf);

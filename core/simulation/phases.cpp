@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "core/input/values.hpp"
+#include "core/tasks/reflux.hpp"
 
 namespace tushar::simulation {
 
@@ -205,10 +206,11 @@ void Phases::sortSaves(const std::vector<SaveRequest>& saves) {
 }
 
 void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, const std::vector<SaveRequest>& saves,
-                     const grid::Level& level, data::VariableTable& table) {
+                     const grid::Grid& grid, data::VariableTable& table) {
   if (std::vector<InputProblem> problems = problemsOf(saves); !problems.empty()) throw InputError(std::move(problems));
   const std::vector<SaveRequest> samples = samplesOf(analyses);
   sortSaves(named(saves));
+  if (grid.levels() > 1) lists_.timeAdvance = tasks::withRefluxing(lists_.timeAdvance);
   const Lists& lists = lists_;
   const Names diagnosed = producedBy(lists.diagnostics.tasks());
   const Names stepped = united(producedBy(lists.initialize.tasks()), producedBy(lists.timeAdvance.tasks()));
@@ -243,13 +245,13 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
 
   state_ = namesOfState(bare.needed, decided, stepped);
   lasting_ = namesOfState(advance.needed, decided, stepped);
-  initialize = tasks::TaskGraph("initialize", std::move(init), level, table);
-  stableTimeStep = tasks::TaskGraph("computeStableTimeStep", std::move(stable), level, table);
-  timeAdvance = tasks::TaskGraph("timeAdvance", std::move(advance), level, table);
-  everyStep = tasks::TaskGraph("diagnostics of every step", std::move(step), level, table);
-  everyOutput = tasks::TaskGraph("diagnostics of every output", std::move(output), level, table);
-  startTotals = tasks::TaskGraph("totals of the start", std::move(begin), level, table);
-  report = tasks::TaskGraph("diagnostics of the report", std::move(end), level, table);
+  initialize = tasks::TaskGraph("initialize", std::move(init), grid, table);
+  stableTimeStep = tasks::TaskGraph("computeStableTimeStep", std::move(stable), grid, table);
+  timeAdvance = tasks::TaskGraph("timeAdvance", std::move(advance), grid, table);
+  everyStep = tasks::TaskGraph("diagnostics of every step", std::move(step), grid, table);
+  everyOutput = tasks::TaskGraph("diagnostics of every output", std::move(output), grid, table);
+  startTotals = tasks::TaskGraph("totals of the start", std::move(begin), grid, table);
+  report = tasks::TaskGraph("diagnostics of the report", std::move(end), grid, table);
   table.number(data::delT, -1);
 }
 

@@ -29,7 +29,7 @@ class Phases {
   /// Compiles the lists. Throws InputError for a saved label that no task computes, TaskError for lists that do not
   /// fit together.
   void compile(const std::vector<std::unique_ptr<Analysis>>& analyses, const std::vector<SaveRequest>& saves,
-               const grid::Level& level, data::VariableTable& table);
+               const grid::Grid& grid, data::VariableTable& table);
 
   tasks::TaskGraph initialize, stableTimeStep, timeAdvance, startTotals, everyStep, everyOutput, report;
 

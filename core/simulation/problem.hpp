@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "core/grid/level.hpp"
+#include "core/grid/grid.hpp"
 #include "core/simulation/analysis.hpp"
 #include "core/simulation/component.hpp"
 #include "core/simulation/restart.hpp"
@@ -21,7 +21,7 @@ struct Problem {
   std::vector<InputProblem> notes;  ///< on parts of the scene that have no effect
   TimeSettings time;
   ArchiveSettings archive;
-  std::unique_ptr<grid::Level> level;
+  std::unique_ptr<grid::Grid> grid;
   int threads = 1;
   std::unique_ptr<Component> component;
   std::vector<std::unique_ptr<Analysis>> analyses;

@@ -11,7 +11,7 @@ namespace tushar::simulation {
 void Rebalancer::balanceAtStart() {
   if (run_.ranks.isAlone()) return;
   std::vector<double> costs;
-  for (const grid::Patch& patch : run_.problem.level->patches()) {
+  for (const grid::Patch& patch : run_.problem.grid->patches()) {
     int particles = 0;
     for (int material = 0; material < run_.materials(); ++material)
       particles += run_.warehouse.particles(data::Generation::old, material, patch.id()).owned();
@@ -25,15 +25,15 @@ void Rebalancer::balanceIfDue() {
 }
 
 void Rebalancer::balance(const std::vector<double>& costs) {
-  grid::Level& level = *run_.problem.level;
-  std::vector<double> all(level.patchCount());
-  std::copy(costs.begin(), costs.end(), all.begin() + level.firstPatch());
+  grid::Grid& grid = *run_.problem.grid;
+  std::vector<double> all(grid.patchCount());
+  std::copy(costs.begin(), costs.end(), all.begin() + grid.firstPatch());
   run_.ranks.max(all);
-  const auto offsets = balance_.better(all, level.rankOffsets(), run_.time.step());
+  const auto offsets = balance_.better(all, grid.rankOffsets(), run_.time.step());
   if (!offsets) return;
   const auto started = Clock::now();
   const trace::Span span(trace::Kind::message, "give patches to other ranks");
-  tasks::migratePatches(level, run_.warehouse, migratedVariables(), *offsets);
+  tasks::migratePatches(grid, run_.warehouse, migratedVariables(), *offsets);
   run_.scheduler.forgetLayout();
   balance_.noteChange(run_.ranks.max(secondsSince(started)));
   const Rebalancing& change = balance_.report();

@@ -18,7 +18,7 @@ void RunReport::beginLoop(double outputSeconds) {
 
 void RunReport::noteStep() {
   for (int material = 0; material < run_.materials(); ++material)
-    for (const grid::Patch& patch : run_.problem.level->patches())
+    for (const grid::Patch& patch : run_.problem.grid->patches())
       particle_steps_ += run_.warehouse.particles(data::Generation::old, material, patch.id()).owned();
 }
 
@@ -60,12 +60,12 @@ void RunReport::addLayout(Report& report) {
   report.component = problem.componentName;
   report.version = TUSHAR_VERSION;
   report.build = TUSHAR_BUILD_TYPE;
-  report.dimension = problem.level->dimension();
-  report.patches = problem.level->patchCount();
+  report.dimension = problem.grid->dimension();
+  report.patches = problem.grid->patchCount();
   report.ranks = run_.ranks.size();
   report.threads = run_.scheduler.threads().count();
-  report.spacing = problem.level->minSpacing();
-  report.cells = static_cast<long>(problem.level->cells().size());
+  report.spacing = problem.grid->finest().minSpacing();
+  report.cells = static_cast<long>(problem.grid->level().cells().size());
 }
 
 void RunReport::addProgress(Report& report) {

@@ -6,12 +6,12 @@ RunState::RunState(Problem givenProblem, bool quiet, Clock::time_point startedAt
     : problem(std::move(givenProblem)),
       ranks(givenRanks),
       phases(*problem.component, problem.analyses),
-      warehouse(*problem.level, table, ranks),
+      warehouse(*problem.grid, table, ranks),
       scheduler(warehouse, problem.threads),
       time(problem.time),
       clock(startedAt),
       progress(quiet || !ranks.isFirst(), stdout) {
-  phases.compile(problem.analyses, problem.archive.saves, *problem.level, table);
+  phases.compile(problem.analyses, problem.archive.saves, *problem.grid, table);
   warehouse.grow(materials());
 }
 

@@ -19,7 +19,7 @@ output::Snapshot emptySnapshot(const RunState& run, output::GridInfo grid) {
 
 /// The particles of every material, with p.x alone.
 output::Snapshot positions(const RunState& run, Gather& gather) {
-  output::Snapshot snapshot = emptySnapshot(run, collect::gridInfo(*run.problem.level));
+  output::Snapshot snapshot = emptySnapshot(run, collect::gridInfo(run.problem.grid->level()));
   for (std::size_t m = 0; m < run.phases.materials().size(); ++m) {
     const int number = run.table.find(data::positionName, static_cast<int>(m));
     if (number < 0) continue;
@@ -60,7 +60,7 @@ output::Snapshot snapshotOf(RunState& run, const std::vector<SaveRequest>& reque
 
 output::Snapshot snapshotOf(RunState& run, const std::vector<SaveRequest>& requests, const collect::Layer& layer) {
   Gather gather(run.warehouse);
-  output::Snapshot snapshot = emptySnapshot(run, collect::gridInfo(*run.problem.level, layer));
+  output::Snapshot snapshot = emptySnapshot(run, collect::gridInfo(run.problem.grid->level(), layer));
   const auto part = [&](Generation generation, int number) { return gather.stream(generation, number, layer); };
   for (const SaveRequest& request : requests) addField(run, request, part, snapshot);
   return snapshot;

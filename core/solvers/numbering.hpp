@@ -3,7 +3,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "core/grid/level.hpp"
+#include "core/grid/grid.hpp"
 
 namespace tushar::solvers {
 
@@ -13,10 +13,10 @@ namespace tushar::solvers {
 class CellNumbering {
  public:
   explicit CellNumbering(const grid::Level& level) : level_(&level) {
-    if (level.share().ranks > 1) numberOwnPatches();
+    if (level.grid().share().ranks > 1) numberOwnPatches();
   }
 
-  int owned() const { return level_->share().ranks > 1 ? owned_ : static_cast<int>(level_->cells().size()); }
+  int owned() const { return level_->grid().share().ranks > 1 ? owned_ : static_cast<int>(level_->cells().size()); }
   /// The cells of other ranks: their numbers among those of all ranks.
   const std::vector<int>& ghosts() const { return ghosts_; }
   /// The number of a cell of the grid or, along periodic axes, of a periodic image; -1 beyond the grid and far from the
@@ -26,7 +26,7 @@ class CellNumbering {
     const Index<D> cell = level_->wrapped(image);
     if (!level_->cells().contains(cell)) return -1;
     const std::uint64_t place = level_->cellNumber<D>(cell);
-    if (level_->share().ranks == 1) return static_cast<int>(place);
+    if (level_->grid().share().ranks == 1) return static_cast<int>(place);
     const auto found = numbers_.find(place);
     return found == numbers_.end() ? -1 : found->second;
   }

@@ -103,7 +103,7 @@ template <data::Centring C, class T>
 FieldAccess<data::FieldLabel<C, T>, AccessKind::computes> computes(const data::FieldLabel<C, T>& label) {
   return {&label};
 }
-/// Writes every node that is the patch's own (Level::ownNodes): no node is written by two patches of a rank. What
+/// Writes every node that is the patch's own (Grid::ownNodes): no node is written by two patches of a rank. What
 /// stands on the other nodes of the patch comes from the patches that own them, after the task.
 template <class T>
 FieldAccess<data::NodeLabel<T>, AccessKind::computes> computesOwn(const data::NodeLabel<T>& label) {
@@ -138,8 +138,8 @@ struct OptionalAccess {
 /// An access that is declared only where `on`: the body gets a std::optional view.
 template <class Label, AccessKind Kind>
 OptionalAccess<FieldAccess<Label, Kind>> when(bool on, FieldAccess<Label, Kind> access) {
-  using Bound = decltype(access.bind(std::declval<const TaskContext&>()));
-  static_assert(!std::is_reference_v<Bound>,
+  using View = decltype(access.bind(std::declval<const TaskContext&>()));
+  static_assert(!std::is_reference_v<View>,
                 "when(...) takes accesses that become views; a reducer or a list of new values cannot be optional");
   return {on, access};
 }
@@ -159,6 +159,29 @@ struct OfferedAccess {
 template <data::Centring C, class T>
 OfferedAccess<FieldAccess<data::FieldLabel<C, T>, AccessKind::computes>> offers(const data::FieldLabel<C, T>& label) {
   return {{&label, 0, false, true}};
+}
+
+/// The fluxes of a variable of cells through the faces at which the patch's level ends.
+template <class T>
+struct FluxAccess {
+  const data::CellLabel<T>* label;
+  int index = -1;
+
+  void declare(std::vector<Access>& accesses) {
+    index = static_cast<int>(accesses.size());
+    accesses.push_back({&data::rimLabelOf(*label), AccessKind::computes, 0, false, true, label});
+  }
+  data::RimFlux<T> bind(const TaskContext& context) const {
+    return context.isWanted(index) ? context.flux<T>(index) : data::RimFlux<T>();
+  }
+};
+/// Keeps the fluxes of a variable where its level ends, so that the framework can make both levels agree on what flows
+/// between them: a RimFlux<T>, to which the body adds the amount of the variable per area and time through each face,
+/// along the axis. Where there is one level it is empty. For `computes` or `modifies` tasks of scheduleTimeAdvance
+/// whose change of a cell is dt times the difference of such fluxes over h.
+template <class T>
+FluxAccess<T> keepsFlux(const data::CellLabel<T>& label) {
+  return {&label};
 }
 
 /// The time at the start of the step, s: a double.
@@ -183,6 +206,8 @@ template <class Access>
 inline constexpr bool isOfMaterialAndPatch<OptionalAccess<Access>> = isOfMaterialAndPatch<Access>;
 template <class Access>
 inline constexpr bool isOfMaterialAndPatch<OfferedAccess<Access>> = isOfMaterialAndPatch<Access>;
+template <class T>
+inline constexpr bool isOfMaterialAndPatch<FluxAccess<T>> = true;
 
 /// Whether an argument stands for a variable; any other is a value of its own, such as the one of `with`.
 template <class Argument>

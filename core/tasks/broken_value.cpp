@@ -18,6 +18,7 @@ using data::ParticleSet;
 using data::Variable;
 using data::Warehouse;
 using grid::Box;
+using grid::Grid;
 using grid::Level;
 using grid::Patch;
 
@@ -74,14 +75,14 @@ class Search {
  public:
   Search(Warehouse& warehouse, const Bounded& written, Bound bound)
       : warehouse_(warehouse),
-        level_(warehouse.level()),
+        grid_(warehouse.grid()),
         written_(written),
         bound_(bound),
         label_(*warehouse.table()[written.variable].label),
         material_(warehouse.table()[written.variable].material) {}
 
   std::optional<BrokenValue> run() {
-    for (const Patch& patch : level_.patches()) isParticle() ? lookAtParticles(patch) : lookAtGrid(patch);
+    for (const Patch& patch : grid_.patches()) isParticle() ? lookAtParticles(patch) : lookAtGrid(patch);
     warehouse_.ranks().merge(found_);
     if (found_.broken == 0) return std::nullopt;
     return BrokenValue{std::string(label_.name), found_.patch, isParticle() ? particleSentence() : gridSentence()};
@@ -105,11 +106,14 @@ class Search {
     return warehouse_.variable(Generation::fresh, written_.variable, patch).stored.offset(at);
   }
   /// The patch that a cell, or the node at its lower corner, belongs to.
-  Patch ownerOf(Index3 at) const {
-    for (int d = 0; d < 3; ++d) at[d] = std::min(at[d], level_.cells().upper[d] - 1);
-    return level_.patchOf(at);
+  Patch ownerOf(Index3 at, const Level& level) const {
+    for (int d = 0; d < 3; ++d) at[d] = std::min(at[d], level.cells().upper[d] - 1);
+    return grid_.patchOf(at, level.number());
   }
-  Box gridBox() const { return label_.centring == Centring::node ? level_.nodes() : level_.cells(); }
+  bool isNode() const { return label_.centring == Centring::node; }
+  Box boxOf(const Level& level) const { return isNode() ? level.nodes() : level.cells(); }
+  /// The level of what was found.
+  const Level& level() const { return grid_.patch(found_.patch).level(); }
 
   /// Counts a value, and remembers it if it is broken and comes before those seen so far.
   void look(const double* values, const Order& order, int patch, const Index3& at, std::size_t place) {
@@ -125,17 +129,19 @@ class Search {
     grid::forEach<3>(patch.cells(), [&](const Index3& cell) {
       for (const int p : set(written_.set, patch.id()).in(cell)) {
         const auto place = static_cast<std::size_t>(p);
-        look(numbers(Generation::fresh, patch.id(), place), {level_.cellNumber(cell), ids(written_.set, patch.id())[p]},
-             patch.id(), cell, place);
+        look(numbers(Generation::fresh, patch.id(), place),
+             {patch.level().cellNumber(cell), ids(written_.set, patch.id())[p]}, patch.id(), cell, place);
       }
     });
   }
   void lookAtGrid(const Patch& patch) {
-    const Box all = gridBox();
+    const Level& level = patch.level();
+    const Box all = boxOf(level);
     grid::forEach<3>(ownBox(patch, label_), [&](const Index3& at) {
-      if (ownerOf(at).id() != patch.id()) return;
+      if (ownerOf(at, level).id() != patch.id()) return;
       const std::size_t place = gridPlace(patch.id(), at);
-      look(numbers(Generation::fresh, patch.id(), place), {all.offset(at), 0}, patch.id(), at, place);
+      look(numbers(Generation::fresh, patch.id(), place), {isNode() ? all.offset(at) : level.cellNumber(at), 0},
+           patch.id(), at, place);
     });
   }
 
@@ -146,10 +152,9 @@ class Search {
       if (!text.empty()) return text;
     return "";
   }
-  bool isHere() const { return level_.isMine(found_.patch); }
+  bool isHere() const { return grid_.isMine(found_.patch); }
   bool wasHeld() const {
-    return !level_.patches().empty() &&
-           warehouse_.variable(Generation::old, written_.variable, level_.firstPatch()).held;
+    return !grid_.patches().empty() && warehouse_.variable(Generation::old, written_.variable, grid_.firstPatch()).held;
   }
 
   std::string became(const std::string& before) const {
@@ -167,7 +172,7 @@ class Search {
   /// The value that the particle had at the start of the step, where it was then; none for one that is new.
   std::string particleBefore(ParticleId id) const {
     if (!wasHeld()) return "";
-    for (const Patch& patch : level_.patches())
+    for (const Patch& patch : grid_.patches())
       for (int p = 0; p < set(Generation::old, patch.id()).owned(); ++p)
         if (ids(Generation::old, patch.id())[p] == id)
           return textOf(numbers(Generation::old, patch.id(), static_cast<std::size_t>(p)), label_.components);
@@ -177,13 +182,13 @@ class Search {
     const int number = warehouse_.table().find("p.x", material_);
     if (!isHere() || number < 0 || !warehouse_.variable(written_.set, number, found_.patch).held) return "";
     const double* x = numbersOf(warehouse_.variable(written_.set, number, found_.patch)) +
-                      place_ * static_cast<std::size_t>(level_.dimension());
-    return fmt::format(" at x = {} m", textOf(x, level_.dimension()));
+                      place_ * static_cast<std::size_t>(grid_.dimension());
+    return fmt::format(" at x = {} m", textOf(x, grid_.dimension()));
   }
   /// The values in a cell but that of the particle itself, at most four.
   std::string valuesIn(const Index3& cell) const {
-    const int patch = level_.patchOf(cell).id();
-    if (!level_.isMine(patch)) return "";
+    const int patch = grid_.patchOf(cell, level().number()).id();
+    if (!grid_.isMine(patch)) return "";
     std::string text;
     int count = 0;
     for (const int p : set(written_.set, patch).in(cell)) {
@@ -198,14 +203,14 @@ class Search {
   std::string particleSentence() const {
     const ParticleId id = found_.first[1];
     std::string text = became(said(particleBefore(id)));
-    text += fmt::format(": particle {} in {}", id, nameOf(level_, found_.at)) + said(positionOfParticle());
+    text += fmt::format(": particle {} in {}", id, nameOf(level(), found_.at)) + said(positionOfParticle());
     text += fmt::format("; around it: {} in its cell", said(valuesIn(found_.at)));
-    for (int d = 0; d < level_.dimension(); ++d)
+    for (int d = 0; d < grid_.dimension(); ++d)
       for (const int side : {-1, 1}) {
         Index3 cell = found_.at;
         cell[d] += side;
-        if (level_.cells().contains(cell))
-          text += fmt::format(", {} in {}", said(valuesIn(cell)), nameOf(level_, cell));
+        if (level().cells().contains(cell))
+          text += fmt::format(", {} in {}", said(valuesIn(cell)), nameOf(level(), cell));
       }
     return text + "; " + howMany("particles");
   }
@@ -215,30 +220,32 @@ class Search {
     return textOf(numbers(Generation::old, found_.patch, place_), label_.components);
   }
   std::string valueAt(const Index3& at) const {
-    const int patch = ownerOf(at).id();
-    if (!level_.isMine(patch)) return "";
+    const int patch = ownerOf(at, level()).id();
+    if (!grid_.isMine(patch)) return "";
     return textOf(numbers(Generation::fresh, patch, gridPlace(patch, at)), label_.components);
   }
   std::string gridSentence() const {
-    const bool nodes = label_.centring == Centring::node;
+    const bool nodes = isNode();
+    const Level& level = this->level();
     const char* what = nodes ? "node" : "cell";
     std::array<double, 3> x{};
-    for (int d = 0; d < level_.dimension(); ++d)
-      x[d] = level_.nodePosition(d, found_.at[d]) + (nodes ? 0 : 0.5 * level_.spacing(d));
+    for (int d = 0; d < level.dimension(); ++d)
+      x[d] = level.nodePosition(d, found_.at[d]) + (nodes ? 0 : 0.5 * level.spacing(d));
     std::string text = fmt::format("{}: {} at x = {} m; around it:", became(said(gridBefore())),
-                                   nameOf(level_, found_.at, what), textOf(x.data(), level_.dimension()));
-    for (int d = 0; d < level_.dimension(); ++d)
+                                   nameOf(level, found_.at, what), textOf(x.data(), level.dimension()));
+    for (int d = 0; d < level.dimension(); ++d)
       for (const int side : {-1, 1}) {
         Index3 at = found_.at;
         at[d] += side;
-        if (gridBox().contains(at)) text += fmt::format(" {} in {},", said(valueAt(at)), nameOf(level_, at, what));
+        if (boxOf(level).contains(at) && ownerOf(at, level).id() >= 0)
+          text += fmt::format(" {} in {},", said(valueAt(at)), nameOf(level, at, what));
       }
     text.back() = ';';
     return text + " " + howMany(nodes ? "nodes" : "cells");
   }
 
   Warehouse& warehouse_;
-  const Level& level_;
+  const Grid& grid_;
   Bounded written_;
   Bound bound_;
   const Label& label_;
@@ -256,7 +263,7 @@ bool keepsBounds(Warehouse& warehouse, const std::vector<Bounded>& written, cons
 }
 
 std::size_t firstThatBreaks(Warehouse& warehouse, const std::vector<Bounded>& written) {
-  const auto& patches = warehouse.level().patches();
+  const auto& patches = warehouse.grid().patches();
   const auto breaks = [&](const Bounded& variable) {
     return std::any_of(patches.begin(), patches.end(),
                        [&](const Patch& patch) { return !keepsBound(warehouse, variable, patch); });

@@ -5,6 +5,7 @@
 
 #include "core/base/mpi.hpp"
 #include "core/data/reduction.hpp"
+#include "core/data/rim_flux.hpp"
 #include "core/data/views.hpp"
 #include "core/data/warehouse.hpp"
 #include "core/tasks/particle_maker.hpp"
@@ -55,6 +56,18 @@ class TaskContext {
     return {reinterpret_cast<T*>(variable.values), set, cells, &label};
   }
 
+  /// Where the values of an access stand, whatever their type.
+  data::Variable variable(int access) const {
+    const BoundAccess& bound = (*accesses_)[access];
+    return warehouse_->variable(bound.generation, bound.variable, patch_->id());
+  }
+  /// Where the patch meets other levels.
+  const std::vector<grid::RimPiece>& rims() const { return warehouse_->grid().rims(patch_->id()); }
+  template <class T>
+  data::RimFlux<T> flux(int access) const {
+    return {reinterpret_cast<T*>(variable(access).values), rims()};
+  }
+
   template <data::Centring C, class T>
   data::GridView<C, T> grid(int access, const data::Label& label) const {
     const BoundAccess& bound = (*accesses_)[access];
@@ -81,7 +94,7 @@ class TaskContext {
  private:
   template <data::Centring C>
   grid::Box boxOf(const BoundAccess& bound) const {
-    if (bound.own) return warehouse_->level().ownNodes(patch_->id());
+    if (bound.own) return warehouse_->grid().ownNodes(patch_->id());
     return C == data::Centring::node ? patch_->nodesWithin(bound.ghost) : patch_->cellsWithin(bound.ghost);
   }
 

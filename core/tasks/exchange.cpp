@@ -24,8 +24,9 @@ void forEachRow(const Box& box, std::size_t bytes, Visit&& visit) {
   grid::forEach<3>(box.rowStarts(), [&](const Index3& first) { visit(first, length); });
 }
 
-std::byte* at(const Variable& variable, const Index3& place, std::size_t bytes) {
-  return variable.values + variable.stored.offset(place) * bytes;
+template <class Values>
+std::byte* at(const Values& values, const Index3& place, std::size_t bytes) {
+  return values.values + values.stored.offset(place) * bytes;
 }
 
 /// Moves positions to the image where they are ghosts.
@@ -37,6 +38,15 @@ void shiftPositions(const grid::Level& level, const Index3& shift, double* x, in
   }
 }
 
+/// The values of a copy that are means, one after the other.
+void means(const grid::Grid& grid, const data::Label& label, const GhostCopy& copy, const Variable& from,
+           std::byte* to) {
+  if (copy.rim >= 0)
+    return meanFluxes(grid, copy, label.components, reinterpret_cast<const double*>(from.values),
+                      reinterpret_cast<double*>(to));
+  restrictTo(label, grid.dimension(), copy.box.shifted(Index3{} - copy.shift), {from.values, from.stored}, to);
+}
+
 /// Appends to a message the values that another rank receives for one ghost fill.
 class Packer {
  public:
@@ -45,6 +55,11 @@ class Packer {
 
   void addGrid(const GhostCopy& copy) {
     const Variable from = variable(copy.from);
+    if (copy.isMean) {
+      const std::size_t before = message_.size();
+      message_.resize(before + copy.box.size() * name_.label->bytes);
+      return means(warehouse_.grid(), *name_.label, copy, from, message_.data() + before);
+    }
     forEachRow(copy.box.shifted(Index3{} - copy.shift), name_.label->bytes,
                [&](const Index3& first, std::size_t length) {
                  mpi::append(message_, at(from, first, name_.label->bytes), length);
@@ -111,11 +126,11 @@ class Exchange::ReceivedMessages {
 
 GhostReach reachOf(const data::VariableTable& table, const BoundGhostFill& fill) {
   const auto [label, material] = table[fill.variable];
-  return {label->centring == data::Centring::node, fill.particles ? table.reach(material) : table.ghost(fill.variable)};
+  return {label->centring, fill.particles ? table.reach(material) : table.ghost(fill.variable)};
 }
 
 bool Exchange::movesNothing() const {
-  return warehouse_->level().patchCount() == 1 && !warehouse_->level().isPeriodic();
+  return warehouse_->grid().patchCount() == 1 && !warehouse_->grid().level().isPeriodic();
 }
 
 void Exchange::send(std::span<const BoundGhostFill> fills, bool hasStopped) {
@@ -161,7 +176,7 @@ bool Exchange::isReady(std::size_t place) {
 
 template <class Work>
 void Exchange::forEach(const Work& work) {
-  const std::vector<Patch>& patches = warehouse_->level().patches();
+  const std::vector<Patch>& patches = warehouse_->grid().patches();
   const auto workOn = [&](int place) {
     const auto at = static_cast<std::size_t>(place);
     const trace::Span span(trace::Kind::message, "fill ghosts", patches[at].id());
@@ -183,7 +198,8 @@ void Exchange::fillFromHere() {
   forEach([&](const BoundGhostFill& fill, bool, const Patch& patch, std::size_t place) {
     if (fill.particles) return fillCopies(fill, patch, nullptr);
     for (const GhostCopy& copy : planOf(fill).into[place])
-      if (isHere(copy)) copyGrid(fill, copy);
+      if (isHere(copy) && copy.coarse < 0) copyGrid(fill, copy);
+    if (planOf(fill).isLocal[place]) fillFromCoarser(fill, place, nullptr);
   });
 }
 
@@ -193,8 +209,8 @@ void Exchange::noteUnresolved() {
   std::set<std::pair<Generation, int>> settled;
   for (std::size_t k = 0; k < fills_.size(); ++k) {
     const int material = warehouse_->table()[fills_[k].variable].material;
-    if (!fills_[k].particles || warehouse_->level().patches().empty()) continue;
-    const int patch = warehouse_->level().firstPatch();
+    if (!fills_[k].particles || warehouse_->grid().patches().empty()) continue;
+    const int patch = warehouse_->grid().firstPatch();
     resolves_[k] = !warehouse_->particles(fills_[k].set, material, patch).hasGhosts() &&
                    settled.emplace(fills_[k].set, material).second;
   }
@@ -221,39 +237,80 @@ void Exchange::post(bool hasStopped) {
 }
 
 void Exchange::copyGrid(const BoundGhostFill& fill, const GhostCopy& copy) {
-  const std::size_t bytes = warehouse_->table()[fill.variable].label->bytes;
-  const Variable from = warehouse_->variable(fill.generation, fill.variable, copy.from);
+  copyGridTo(fill, copy, valuesAt(fill, copy));
+}
+
+/// Where a copy goes: to the patch, or to the faces of its rim for what stands behind them.
+CellValues Exchange::valuesAt(const BoundGhostFill& fill, const GhostCopy& copy) {
   const Variable to = warehouse_->variable(fill.generation, fill.variable, copy.to);
-  forEachRow(copy.box, bytes, [&](const Index3& first, std::size_t length) {
-    std::memcpy(at(to, first, bytes), at(from, first - copy.shift, bytes), length);
+  if (copy.rim < 0) return {to.values, to.stored};
+  const grid::RimPiece& piece = warehouse_->grid().rims(copy.to)[static_cast<std::size_t>(copy.rim)];
+  const std::size_t bytes = warehouse_->table()[fill.variable].label->bytes;
+  return {to.values + (piece.first + piece.cells.size()) * bytes, piece.cells};
+}
+
+void Exchange::copyGridTo(const BoundGhostFill& fill, const GhostCopy& copy, const CellValues& to) {
+  const data::Label& label = *warehouse_->table()[fill.variable].label;
+  const Variable from = warehouse_->variable(fill.generation, fill.variable, copy.from);
+  if (!copy.isMean)
+    return forEachRow(copy.box, label.bytes, [&](const Index3& first, std::size_t length) {
+      std::memcpy(at(to, first, label.bytes), at(from, first - copy.shift, label.bytes), length);
+    });
+  Bytes values(copy.box.size() * label.bytes);
+  means(warehouse_->grid(), label, copy, from, values.data());
+  const std::byte* next = values.data();
+  forEachRow(copy.box, label.bytes, [&](const Index3& first, std::size_t length) {
+    std::memcpy(at(to, first, label.bytes), next, length);
+    next += length;
   });
+}
+
+/// Ghosts in coarser cells, once these are complete. With messages, all that the patch has of other ranks.
+void Exchange::fillFromCoarser(const BoundGhostFill& fill, std::size_t place, ReceivedMessages* messages) {
+  const GhostPlan& plan = planOf(fill);
+  const data::Label& label = *warehouse_->table()[fill.variable].label;
+  const Variable own = warehouse_->variable(fill.generation, fill.variable, warehouse_->grid().patches()[place].id());
+  std::vector<Bytes> coarse;
+  for (const CoarseGhosts& part : plan.coarse[place]) coarse.emplace_back(part.cells.size() * label.bytes);
+  for (const GhostCopy& copy : plan.into[place]) {
+    if (isHere(copy) && copy.coarse < 0) continue;  // is there already
+    const CellValues to = copy.coarse < 0
+                              ? valuesAt(fill, copy)
+                              : CellValues{coarse[copy.coarse].data(), plan.coarse[place][copy.coarse].cells};
+    isHere(copy) ? copyGridTo(fill, copy, to) : takeGrid(fill, copy, to, *messages);
+  }
+  for (std::size_t k = 0; k < coarse.size(); ++k) {
+    const CoarseGhosts& part = plan.coarse[place][k];
+    prolong(label, warehouse_->grid().dimension(), {coarse[k].data(), part.cells}, part.ghosts,
+            {own.values, own.stored});
+  }
 }
 
 void Exchange::fillFromElsewhere(const BoundGhostFill& fill, bool resolves, ReceivedMessages& messages) {
   if (resolves) placeGhostCopies(fill, &messages);
   if (fill.particles) reserveCopies(fill);
   const GhostPlan& plan = planOf(fill);
-  const std::vector<Patch>& patches = warehouse_->level().patches();
-  for (std::size_t place = 0; place < patches.size(); ++place) {
-    if (fill.particles) fillCopies(fill, patches[place], &messages);
-    for (const GhostCopy& copy : plan.into[place])
-      if (!fill.particles && !isHere(copy)) takeGrid(fill, copy, messages);
-  }
+  const std::vector<Patch>& patches = warehouse_->grid().patches();
+  for (std::size_t place = 0; place < patches.size(); ++place)
+    if (fill.particles)
+      fillCopies(fill, patches[place], &messages);
+    else if (!plan.isLocal[place])
+      fillFromCoarser(fill, place, &messages);
 }
 
 void Exchange::shareFaces(int variable) {
-  const std::vector<Patch>& patches = warehouse_->level().patches();
+  const std::vector<Patch>& patches = warehouse_->grid().patches();
   if (patches.size() < 2) return;
-  if (faces_.empty()) faces_ = planFaces(warehouse_->level());
+  if (faces_.empty()) faces_ = planFaces(warehouse_->grid());
   const BoundGhostFill fill{variable, Generation::fresh, Generation::fresh, false};
   threads_->forEach(static_cast<int>(patches.size()), [&](int place) {
     for (const GhostCopy& copy : faces_[place]) copyGrid(fill, copy);
   });
 }
 
-void Exchange::takeGrid(const BoundGhostFill& fill, const GhostCopy& copy, ReceivedMessages& messages) {
+void Exchange::takeGrid(const BoundGhostFill& fill, const GhostCopy& copy, const CellValues& to,
+                        ReceivedMessages& messages) {
   const std::size_t bytes = warehouse_->table()[fill.variable].label->bytes;
-  const Variable to = warehouse_->variable(fill.generation, fill.variable, copy.to);
   forEachRow(copy.box, bytes, [&](const Index3& first, std::size_t length) {
     std::memcpy(at(to, first, bytes), messages.next(copy.rank, length), length);
   });
@@ -273,7 +330,7 @@ void Exchange::linkLocalGhosts(const BoundGhostFill& fill, const Patch& patch, c
 /// Copies of ghosts have their places: of periodic images on this rank, or of what other ranks have sent.
 void Exchange::placeGhostCopies(const BoundGhostFill& fill, ReceivedMessages* messages) {
   const int material = warehouse_->table()[fill.variable].material;
-  const std::vector<Patch>& patches = warehouse_->level().patches();
+  const std::vector<Patch>& patches = warehouse_->grid().patches();
   for (std::size_t place = 0; place < patches.size(); ++place) {
     ParticleSet& set = warehouse_->particles(fill.set, material, patches[place].id());
     for (const GhostCopy& copy : planOf(fill).into[place]) {
@@ -299,18 +356,18 @@ void Exchange::reserveCopies(const BoundGhostFill& fill) {
 /// The copies that a patch has of particles of this rank, or of others from their messages.
 void Exchange::fillCopies(const BoundGhostFill& fill, const Patch& patch, ReceivedMessages* messages) {
   const auto [label, material] = warehouse_->table()[fill.variable];
-  const grid::Level& level = warehouse_->level();
+  const grid::Grid& grid = warehouse_->grid();
   const Variable here = warehouse_->variable(fill.generation, fill.variable, patch.id());
   for (const data::GhostRun& run : warehouse_->particles(fill.set, material, patch.id()).ghostRuns()) {
-    if (level.isMine(run.patch) == (messages != nullptr)) continue;
+    if (grid.isMine(run.patch) == (messages != nullptr)) continue;
     const std::size_t length = static_cast<std::size_t>(run.count) * label->bytes;
-    const std::byte* from = messages ? messages->next(level.ownerOf(run.patch), length)
+    const std::byte* from = messages ? messages->next(grid.ownerOf(run.patch), length)
                                      : warehouse_->variable(fill.generation, fill.variable, run.patch).values +
                                            static_cast<std::size_t>(run.first) * label->bytes;
     std::byte* to = here.values + static_cast<std::size_t>(run.to) * label->bytes;
     std::memcpy(to, from, length);
     if (label->name == data::positionName && !(run.shift == Index3{}))
-      shiftPositions(level, run.shift, reinterpret_cast<double*>(to), run.count);
+      shiftPositions(patch.level(), run.shift, reinterpret_cast<double*>(to), run.count);
   }
 }
 

@@ -8,6 +8,8 @@
 #include "core/base/threads.hpp"
 #include "core/data/warehouse.hpp"
 #include "core/tasks/ghost_plan.hpp"
+#include "core/tasks/rim_fluxes.hpp"
+#include "core/tasks/transfer.hpp"
 
 namespace tushar::tasks {
 
@@ -62,7 +64,10 @@ class Exchange {
   void fillFromHere();
   void fillFromElsewhere(const BoundGhostFill& fill, bool resolves, ReceivedMessages& messages);
   void copyGrid(const BoundGhostFill& fill, const GhostCopy& copy);
-  void takeGrid(const BoundGhostFill& fill, const GhostCopy& copy, ReceivedMessages& messages);
+  CellValues valuesAt(const BoundGhostFill& fill, const GhostCopy& copy);
+  void copyGridTo(const BoundGhostFill& fill, const GhostCopy& copy, const CellValues& to);
+  void fillFromCoarser(const BoundGhostFill& fill, std::size_t place, ReceivedMessages* messages);
+  void takeGrid(const BoundGhostFill& fill, const GhostCopy& copy, const CellValues& to, ReceivedMessages& messages);
   void linkLocalGhosts(const BoundGhostFill& fill, const grid::Patch& patch, const std::vector<GhostCopy>& copies);
   void placeGhostCopies(const BoundGhostFill& fill, ReceivedMessages* messages);
   void reserveCopies(const BoundGhostFill& fill);
@@ -73,7 +78,7 @@ class Exchange {
   template <class Work>
   void forEach(const Work& work);
   const GhostPlan& planOf(const BoundGhostFill& fill) {
-    return plans_.of(warehouse_->level(), reachOf(warehouse_->table(), fill));
+    return plans_.of(warehouse_->grid(), reachOf(warehouse_->table(), fill));
   }
 
   data::Warehouse* warehouse_;

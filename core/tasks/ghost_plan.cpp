@@ -3,6 +3,7 @@
 namespace tushar::tasks {
 
 using grid::Box;
+using grid::Grid;
 using grid::Level;
 using grid::Patch;
 
@@ -22,16 +23,10 @@ void forEachPartOutside(Box box, const Box& hole, Visit&& visit) {
   }
 }
 
-/// Calls `visit(patch, shift)` for each patch and each of its images that holds cells of a box.
-template <class Visit>
-void forEachSource(const Level& level, const Box& cells, Visit&& visit) {
-  for (const Index3& shift : level.imagesOverlapping(cells))
-    for (const Patch& patch : level.patchesOverlapping(cells.shifted(Index3{} - shift))) visit(patch, shift);
-}
-
 /// The nodes that others take from a patch: a node between patches from the one above. On an image the last node of a
 /// periodic axis is left to the next image.
-Box nodesGiven(const Level& level, const Patch& patch, const Index3& shift) {
+Box nodesGiven(const Patch& patch, const Index3& shift) {
+  const Level& level = patch.level();
   Box nodes = patch.nodes();
   for (int d = 0; d < level.dimension(); ++d) {
     const bool isLast = patch.cells().upper[d] == level.cells().upper[d];
@@ -40,85 +35,183 @@ Box nodesGiven(const Level& level, const Patch& patch, const Index3& shift) {
   return nodes;
 }
 
+/// How far beyond a patch, in its cells, stands what it gives to or takes from others for ghosts of a width. Where
+/// there are levels: twice the width for a coarser neighbour, and two coarse cells for slopes.
+int neighbourhoodOf(const Grid& grid, const GhostReach& reach) {
+  if (grid.levels() > 1) return 2 * reach.width + 4;
+  return reach.width + (reach.centring == data::Centring::node ? 1 : 0);
+}
+
+/// The copies that one patch needs.
+class PlannerOfPatch {
+ public:
+  PlannerOfPatch(const Grid& grid, const GhostReach& reach, const Patch& patch)
+      : grid_(grid),
+        reach_(reach),
+        patch_(patch),
+        level_(patch.level()),
+        isNode_(reach.centring == data::Centring::node) {}
+
+  void run() {
+    if (reach_.centring == data::Centring::rim) return addFinerFluxes();
+    addSameLevel();
+    if (reach_.centring != data::Centring::cell || grid_.levels() == 1) return;
+    addMeans(level_, patch_.cellsWithin(reach_.width), patch_.cells(), -1);
+    addCoarse();
+  }
+
+  std::vector<GhostCopy> copies;
+  std::vector<CoarseGhosts> coarse;
+
+ private:
+  void add(const Patch& from, const Box& box, const Index3& shift, bool isMean, int coarseCells) {
+    copies.push_back({from.id(), patch_.id(), grid_.ownerOf(from.id()), box, shift, isMean, coarseCells});
+  }
+
+  /// Means of the fluxes of finer patches.
+  void addFinerFluxes() {
+    const std::vector<grid::RimPiece> pieces = grid::rimsOf(grid_, patch_);
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+      const grid::RimPiece& piece = pieces[k];
+      if (!piece.isFiner) continue;
+      copies.push_back({piece.other, patch_.id(), grid_.ownerOf(piece.other), piece.cells, piece.shift, true, -1,
+                        static_cast<int>(k), piece.axis, piece.side});
+    }
+  }
+
+  void addSameLevel() {
+    const Box own = isNode_ ? patch_.nodes() : patch_.cells();
+    const Box wanted = isNode_ ? patch_.nodesWithin(reach_.width) : patch_.cellsWithin(reach_.width);
+    // The last node of a periodic axis is the image of the first, with other rounding: a node of the grid is never
+    // taken from an image, whatever the patches.
+    const Box all = isNode_ ? level_.nodes() : level_.cells();
+    grid_.forEachOverlapping(
+        level_, patch_.cellsWithin(reach_.width + (isNode_ ? 1 : 0)), [&](const Patch& other, const Index3& shift) {
+          const Box has = isNode_ ? nodesGiven(other, shift) : other.cells();
+          const Box given = has.shifted(shift).intersect(wanted);
+          if (given.empty() || (other.id() == patch_.id() && shift == Index3{})) return;
+          forEachPartOutside(given, own, [&](const Box& part) {
+            if (shift == Index3{}) return add(other, part, shift, false, -1);
+            forEachPartOutside(part, all, [&](const Box& beyond) { add(other, beyond, shift, false, -1); });
+          });
+        });
+  }
+
+  /// Cells of a box of a level, but for those of a hole, that are refined.
+  void addMeans(const Level& level, const Box& wanted, const Box& hole, int coarseCells) {
+    if (level.number() + 1 == grid_.levels()) return;
+    const int dimension = level.dimension();
+    grid_.forEachOverlapping(
+        grid_.level(level.number() + 1), wanted.refined(dimension), [&](const Patch& other, Index3 shift) {
+          for (int d = 0; d < dimension; ++d) shift[d] /= 2;
+          const Box given = other.cells().coarsened(dimension).shifted(shift).intersect(wanted);
+          if (!given.empty())
+            forEachPartOutside(given, hole, [&](const Box& part) { add(other, part, shift, true, coarseCells); });
+        });
+  }
+
+  /// Ghosts in coarser cells, and what these and their neighbours are made from.
+  void addCoarse() {
+    if (level_.number() == 0) return;
+    const Level& below = grid_.level(level_.number() - 1);
+    const int dimension = level_.dimension();
+    const Box wanted = patch_.cellsWithin(reach_.width);
+    grid_.forEachOverlapping(below, wanted.coarsened(dimension), [&](const Patch& other, const Index3& shift) {
+      const Box ghosts = other.cells().shifted(shift).refined(dimension).intersect(wanted);
+      if (ghosts.empty()) return;
+      const Box cells = below.clipCells(ghosts.coarsened(dimension).grown(1, dimension));
+      const int place = static_cast<int>(coarse.size());
+      coarse.push_back({ghosts, cells});
+      grid_.forEachOverlapping(below, cells, [&](const Patch& source, const Index3& by) {
+        const Box given = source.cells().shifted(by).intersect(cells);
+        if (!given.empty()) add(source, given, by, false, place);
+      });
+      addMeans(below, cells, {}, place);
+    });
+  }
+
+  const Grid& grid_;
+  const GhostReach& reach_;
+  const Patch& patch_;
+  const Level& level_;
+  bool isNode_;
+};
+
 class Planner {
  public:
-  Planner(const Level& level, bool nodes, int width) : level_(level), nodes_(nodes), width_(width) {}
+  Planner(const Grid& grid, const GhostReach& reach) : grid_(grid), reach_(reach) {}
 
   GhostPlan run() const {
     GhostPlan plan;
     std::set<int> readers;
-    for (const Patch& patch : level_.patches()) {
-      plan.into.push_back(copiesInto(patch));
+    for (const Patch& patch : grid_.patches()) {
+      PlannerOfPatch ofPatch(grid_, reach_, patch);
+      ofPatch.run();
+      plan.into.push_back(std::move(ofPatch.copies));
+      plan.coarse.push_back(std::move(ofPatch.coarse));
       plan.isLocal.push_back(true);
       for (const GhostCopy& copy : plan.into.back()) {
-        if (copy.rank == level_.share().rank) continue;
+        if (copy.rank == grid_.share().rank) continue;
         plan.incoming.insert(copy.rank);
         plan.isLocal.back() = false;
       }
-      if (level_.share().ranks > 1)
-        forEachSource(level_, reach(patch), [&](const Patch& other, const Index3&) {
-          if (!level_.isMine(other.id())) readers.insert(other.id());
-        });
+      if (grid_.share().ranks > 1) noteReaders(patch, readers);
     }
-    for (const int reader : readers)
-      for (const GhostCopy& copy : copiesInto(level_.patch(reader)))
-        if (level_.isMine(copy.from)) plan.outgoing[level_.ownerOf(reader)].push_back(copy);
+    for (const int reader : readers) {
+      const Patch patch = grid_.patch(reader);
+      PlannerOfPatch ofReader(grid_, reach_, patch);
+      ofReader.run();
+      for (const GhostCopy& copy : ofReader.copies)
+        if (grid_.isMine(copy.from)) plan.outgoing[grid_.ownerOf(reader)].push_back(copy);
+    }
     return plan;
   }
 
  private:
-  Box reach(const Patch& patch) const { return patch.cellsWithin(width_ + (nodes_ ? 1 : 0)); }
-
-  std::vector<GhostCopy> copiesInto(const Patch& patch) const {
-    std::vector<GhostCopy> copies;
-    const Box own = nodes_ ? patch.nodes() : patch.cells();
-    const Box wanted = nodes_ ? patch.nodesWithin(width_) : patch.cellsWithin(width_);
-    // The last node of a periodic axis is the image of the first, with other rounding: a node of the grid is never
-    // taken from an image, whatever the patches.
-    const Box grid = nodes_ ? level_.nodes() : level_.cells();
-    forEachSource(level_, reach(patch), [&](const Patch& other, const Index3& shift) {
-      const Box given = (nodes_ ? nodesGiven(level_, other, shift) : other.cells()).shifted(shift).intersect(wanted);
-      if (given.empty() || (other.id() == patch.id() && shift == Index3{})) return;
-      const auto add = [&](const Box& box) {
-        copies.push_back({other.id(), patch.id(), level_.ownerOf(other.id()), box, shift});
-      };
-      forEachPartOutside(given, own, [&](const Box& part) {
-        if (shift == Index3{}) return add(part);
-        forEachPartOutside(part, grid, add);
-      });
-    });
-    return copies;
+  /// Patches of other ranks that may need something of this one.
+  void noteReaders(const Patch& patch, std::set<int>& readers) const {
+    const Level& level = patch.level();
+    const Box near = patch.cellsWithin(neighbourhoodOf(grid_, reach_));
+    const auto note = [&](const Patch& other, const Index3&) {
+      if (!grid_.isMine(other.id())) readers.insert(other.id());
+    };
+    grid_.forEachOverlapping(level, near, note);
+    if (level.number() > 0)
+      grid_.forEachOverlapping(grid_.level(level.number() - 1), near.coarsened(level.dimension()), note);
+    if (level.number() + 1 < grid_.levels())
+      grid_.forEachOverlapping(grid_.level(level.number() + 1), near.refined(level.dimension()), note);
   }
 
-  const Level& level_;
-  bool nodes_;
-  int width_;
+  const Grid& grid_;
+  const GhostReach& reach_;
 };
 
 }  // namespace
 
-GhostPlan planGhosts(const Level& level, bool nodes, int width) { return Planner(level, nodes, width).run(); }
+GhostPlan planGhosts(const Grid& grid, const GhostReach& reach) { return Planner(grid, reach).run(); }
 
-std::vector<std::vector<GhostCopy>> planFaces(const Level& level) {
+std::vector<std::vector<GhostCopy>> planFaces(const Grid& grid) {
   std::vector<std::vector<GhostCopy>> faces;
-  for (const Patch& patch : level.patches()) {
+  for (const Patch& patch : grid.patches()) {
     std::vector<GhostCopy>& into = faces.emplace_back();
-    const Box own = level.ownNodes(patch.id());
-    for (const Patch& other : level.patchesOverlapping(patch.cellsWithin(1))) {
-      if (other.id() == patch.id() || !level.isMine(other.id())) continue;
-      const Box given = level.ownNodes(other.id()).intersect(patch.nodes());
+    const Box own = grid.ownNodes(patch.id());
+    for (const Patch& other : grid.patchesOverlapping(patch.cellsWithin(1), patch.level().number())) {
+      if (other.id() == patch.id() || !grid.isMine(other.id())) continue;
+      const Box given = grid.ownNodes(other.id()).intersect(patch.nodes());
       if (given.empty()) continue;
       forEachPartOutside(given, own, [&](const Box& part) {
-        into.push_back({other.id(), patch.id(), level.share().rank, part, Index3{}});
+        into.push_back({other.id(), patch.id(), grid.share().rank, part, Index3{}});
       });
     }
   }
   return faces;
 }
 
-const GhostPlan& GhostPlans::of(const grid::Level& level, const GhostReach& reach) {
+const GhostPlan& GhostPlans::of(const grid::Grid& grid, GhostReach reach) {
+  const bool isAsForCells = reach.centring == data::Centring::particle && grid.levels() == 1;
+  if (isAsForCells) reach.centring = data::Centring::cell;
   const auto [plan, isNew] = plans_.try_emplace(reach);
-  if (isNew) plan->second = planGhosts(level, reach.nodes, reach.width);
+  if (isNew) plan->second = planGhosts(grid, reach);
   return plan->second;
 }
 

@@ -5,45 +5,59 @@
 #include <set>
 #include <vector>
 
-#include "core/grid/level.hpp"
+#include "core/data/label.hpp"
+#include "core/grid/grid.hpp"
 
 namespace tushar::tasks {
 
 /// Ghosts of a patch that one other patch has, or the patch itself at its periodic image.
 struct GhostCopy {
-  int from, to;   ///< patches
-  int rank;       ///< that has `from`
-  grid::Box box;  ///< cells or nodes around `to`
-  Index3 shift;   ///< in cells: what stands at `box` stands at `box` - shift on `from`
+  int from, to;            ///< patches
+  int rank;                ///< that has `from`
+  grid::Box box;           ///< cells or nodes around `to`
+  Index3 shift;            ///< in cells: what stands at `box` stands at `box` - shift on `from`
+  bool isMean = false;     ///< each cell is the mean of the finer ones that `from` has in it
+  int coarse = -1;         ///< the coarse cells that it fills, among those of `to`; -1: the ghosts themselves
+  int rim = -1;            ///< of fluxes: the piece of the rim of `to` that it fills
+  int axis = 0, side = 0;  ///< of that piece
+};
+
+/// Ghosts of a patch that stand in coarser cells: they are interpolated from these and those around them.
+struct CoarseGhosts {
+  grid::Box ghosts;  ///< cells of the patch's level
+  grid::Box cells;   ///< of the coarser level
 };
 
 /// What moves between patches so that each has its ghosts, settled once for a layout. Every rank works out its part
 /// from the geometry: a receiver and a sender list the copies between them in the same order, without a message.
+///
+/// All of it comes from cells that patches own, so that one round does for all levels.
 struct GhostPlan {
   std::vector<std::vector<GhostCopy>> into;        ///< by patch of this rank
+  std::vector<std::vector<CoarseGhosts>> coarse;   ///< by patch of this rank
   std::vector<bool> isLocal;                       ///< by patch of this rank: whether it needs no other rank
   std::map<int, std::vector<GhostCopy>> outgoing;  ///< by rank that they go to
   std::set<int> incoming;                          ///< ranks that others come from
 };
 
-/// For cells (particles among them) or nodes within `width` of each patch. Each ghost comes from one patch.
-GhostPlan planGhosts(const grid::Level& level, bool nodes, int width);
-
-/// Nodes that patches of this rank have and do not own, by patch: each from one that does.
-std::vector<std::vector<GhostCopy>> planFaces(const grid::Level& level);
-
-/// Which ghosts a patch needs.
+/// Which ghosts a patch needs. Particles and nodes come from patches of the same level only.
 struct GhostReach {
-  bool nodes;
+  data::Centring centring;
   int width;
 
   friend auto operator<=>(const GhostReach&, const GhostReach&) = default;
 };
 
+/// Each ghost comes from one patch, or from the coarser cells around it.
+GhostPlan planGhosts(const grid::Grid& grid, const GhostReach& reach);
+
+/// Nodes that patches of this rank have and do not own, by patch: each from one that does.
+std::vector<std::vector<GhostCopy>> planFaces(const grid::Grid& grid);
+
 /// The plans of a layout, each made when it is asked for.
 class GhostPlans {
  public:
-  const GhostPlan& of(const grid::Level& level, const GhostReach& reach);
+  const GhostPlan& of(const grid::Grid& grid, GhostReach reach);
   /// To be called when the distribution of patches has changed.
   void forget() { plans_.clear(); }
 

@@ -29,7 +29,7 @@ class ParticleInstaller {
   template <class WriteOne>
   void writeEach(int number, const OnPatches& onPatches, const WriteOne& writeOne);
   std::size_t placeOf(const grid::Patch& patch) const {
-    return static_cast<std::size_t>(patch.id() - warehouse_->level().firstPatch());
+    return static_cast<std::size_t>(patch.id() - warehouse_->grid().firstPatch());
   }
 
   data::Warehouse* warehouse_;

@@ -18,7 +18,7 @@ void ParticleMigration::start() {
 
 const std::vector<int>& ParticleMigration::neighbours() {
   if (!has_neighbours_) {
-    const GhostPlan plan = planGhosts(warehouse_->level(), false, neighbourhood);
+    const GhostPlan plan = planGhosts(warehouse_->grid(), {data::Centring::particle, neighbourhood});
     neighbours_.assign(plan.incoming.begin(), plan.incoming.end());
     has_neighbours_ = true;
   }

@@ -140,32 +140,32 @@ void forEachOwner(const grid::RankOffsets& offsets, int first, int end, Visit&& 
       visit(static_cast<int>(rank), from, to);
 }
 
-std::vector<Patch> patchesFrom(const grid::Level& level, int first, int end) {
+std::vector<Patch> patchesFrom(const grid::Grid& grid, int first, int end) {
   std::vector<Patch> patches;
-  for (int patch = first; patch < end; ++patch) patches.push_back(level.patch(patch));
+  for (int patch = first; patch < end; ++patch) patches.push_back(grid.patch(patch));
   return patches;
 }
 
 }  // namespace
 
-void migratePatches(grid::Level& level, data::Warehouse& warehouse, const MigratedVariables& migrated,
+void migratePatches(grid::Grid& grid, data::Warehouse& warehouse, const MigratedVariables& migrated,
                     const grid::RankOffsets& offsets) {
   const mpi::Communicator& ranks = warehouse.ranks();
   const auto me = static_cast<std::size_t>(ranks.rank());
-  const grid::RankOffsets before = level.rankOffsets();
+  const grid::RankOffsets before = grid.rankOffsets();
   mpi::Outbox outbox(ranks);
   std::map<int, Bytes> parts;
   forEachOwner(offsets, before[me], before[me + 1], [&](int rank, int first, int end) {
-    PatchPacker(warehouse, migrated).add(patchesFrom(level, first, end), parts[rank]);
+    PatchPacker(warehouse, migrated).add(patchesFrom(grid, first, end), parts[rank]);
   });
   for (auto& [rank, bytes] : parts)
     if (rank != ranks.rank()) outbox.send(rank, mpi::Tag::patches, std::move(bytes));
-  level.share(offsets);
+  grid.share(offsets);
   warehouse.startAnew(migrated.materials);
   std::deque<Unpacker> unpackers;
   forEachOwner(before, offsets[me], offsets[me + 1], [&](int rank, int first, int end) {
     Bytes bytes = rank == ranks.rank() ? std::move(parts[rank]) : ranks.receive(rank, mpi::Tag::patches);
-    unpackers.emplace_back(warehouse, migrated, patchesFrom(level, first, end), std::move(bytes));
+    unpackers.emplace_back(warehouse, migrated, patchesFrom(grid, first, end), std::move(bytes));
     unpackers.back().takeSets();
   });
   for (int material = 0; material < migrated.materials; ++material)

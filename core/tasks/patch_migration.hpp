@@ -13,7 +13,7 @@ struct MigratedVariables {
 
 /// Gives the patches of the grid to the ranks anew, each with its variables. Ghosts are left to the next exchange; all
 /// else that stands on patches is lost. All ranks that share the grid call it, between two steps.
-void migratePatches(grid::Level& level, data::Warehouse& warehouse, const MigratedVariables& migrated,
+void migratePatches(grid::Grid& grid, data::Warehouse& warehouse, const MigratedVariables& migrated,
                     const grid::RankOffsets& offsets);
 
 }  // namespace tushar::tasks

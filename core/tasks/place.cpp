@@ -2,7 +2,7 @@
 
 namespace tushar::tasks {
 
-std::vector<Placement> place(const std::vector<Task>& tasks, const grid::Level& level) {
+std::vector<Placement> place(const std::vector<Task>& tasks, const grid::Grid& grid) {
   std::vector<Placement> placements;
   for (std::size_t t = 0; t < tasks.size(); ++t) {
     if (tasks[t].perRank) {
@@ -12,8 +12,7 @@ std::vector<Placement> place(const std::vector<Task>& tasks, const grid::Level& 
     const int first = tasks[t].perMaterial() ? 0 : -1;
     const int last = tasks[t].perMaterial() ? static_cast<int>(tasks[t].materials.size()) : 0;
     for (int material = first; material < last; ++material)
-      for (const grid::Patch& patch : level.patches())
-        placements.push_back({static_cast<int>(t), patch.id(), material});
+      for (const grid::Patch& patch : grid.patches()) placements.push_back({static_cast<int>(t), patch.id(), material});
   }
   return placements;
 }

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/grid/level.hpp"
+#include "core/grid/grid.hpp"
 #include "core/tasks/task.hpp"
 
 namespace tushar::tasks {
@@ -18,6 +18,6 @@ struct Placement {
 
 /// Step 4 of compiling: which task runs where, in the order in which they run: task by task, material by material,
 /// patch by patch.
-std::vector<Placement> place(const std::vector<Task>& tasks, const grid::Level& level);
+std::vector<Placement> place(const std::vector<Task>& tasks, const grid::Grid& grid);
 
 }  // namespace tushar::tasks

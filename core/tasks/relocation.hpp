@@ -124,7 +124,7 @@ class Relocation {
 
   template <class Work>
   void forEachPatch(const Work& work) {
-    const std::vector<grid::Patch>& patches = warehouse_->level().patches();
+    const std::vector<grid::Patch>& patches = warehouse_->grid().patches();
     threads_->forEach(static_cast<int>(patches.size()), [&](int k) {
       const grid::Patch& patch = patches[k];
       const trace::Span span(trace::Kind::task, "relocate", patch.id());
@@ -132,7 +132,7 @@ class Relocation {
     });
   }
   Moves& movesOf(int material);
-  PatchMoves& of(Moves& moves, int patch) { return moves.patches[patch - warehouse_->level().firstPatch()]; }
+  PatchMoves& of(Moves& moves, int patch) { return moves.patches[patch - warehouse_->grid().firstPatch()]; }
   static void forgetIncoming(const grid::Patch& patch, PatchMoves& moves);
   template <int D>
   void findMoves(int material, int position, int id);

@@ -39,7 +39,7 @@ void Relocation::apply(int material, const std::vector<Carried>& carried, Genera
   const auto stands = [&](const PatchMoves& ofPatch) { return ofPatch.staysAsItIs(to); };
   if (std::all_of(moves.patches.begin(), moves.patches.end(), stands)) return;
   moves.departed = 0;
-  for (const Patch& patch : warehouse_->level().patches()) {
+  for (const Patch& patch : warehouse_->grid().patches()) {
     PatchMoves& ofPatch = of(moves, patch.id());
     ofPatch.packed = std::exchange(moves.departed, moves.departed + ofPatch.departed.size());
   }
@@ -47,15 +47,15 @@ void Relocation::apply(int material, const std::vector<Carried>& carried, Genera
 }
 
 void Relocation::receiveAll(Moves& moves) {
-  const grid::Level& level = warehouse_->level();
+  const grid::Grid& grid = warehouse_->grid();
   const auto receiveAt = [&](ParticleId id, const Index3& cell, const Arrival& from) {
-    const Patch to = level.patchOf(cell);
-    if (!level.isMine(to.id())) return;
+    const Patch to = grid.patchOf(cell, grid.finest().number());
+    if (!grid.isMine(to.id())) return;
     PatchMoves& there = of(moves, to.id());
     there.arrivals.push_back(from);
     receive(to, cell, {id, -static_cast<int>(there.arrivals.size()), -1}, there);
   };
-  for (const Patch& patch : level.patches())
+  for (const Patch& patch : grid.patches())
     for (const Outgoing& one : of(moves, patch.id()).outgoing) receiveAt(one.id, one.cell, {patch.id(), one.departed});
   const std::vector<MigratingParticle>& arrived = moves.migration.arrived();
   for (std::size_t k = 0; k < arrived.size(); ++k) receiveAt(arrived[k].id, arrived[k].cell, {-1, static_cast<int>(k)});
@@ -153,7 +153,7 @@ void Relocation::carry(const Carried& carried, std::size_t place, Generation to,
                   .packed = packed.data()};
   const bool isInPlace = from == move.to;
   const auto placeOf = [&](const Patch& patch) {
-    return static_cast<std::size_t>(patch.id() - warehouse_->level().firstPatch());
+    return static_cast<std::size_t>(patch.id() - warehouse_->grid().firstPatch());
   };
   const auto stands = [&](const Patch& patch) { return isInPlace && of(moves, patch.id()).staysAsItIs(to); };
   if (moves.departed > 0) forEachPatch([&](const Patch& patch) { pack(move, placeOf(patch), of(moves, patch.id())); });

@@ -70,7 +70,7 @@ Relocation::Moves& Relocation::movesOf(int material) {
 
 bool Relocation::find(int material, int position, bool hasStopped) {
   const int id = warehouse_->table().find(data::particleId.name, material);
-  if (!hasStopped) switch (warehouse_->level().dimension()) {
+  if (!hasStopped) switch (warehouse_->grid().dimension()) {
       case 1:
         findMoves<1>(material, position, id);
         break;
@@ -132,7 +132,7 @@ void Relocation::findMoves(const Patch& patch, const ParticleSet& set, Vec<D>* x
   forgetIncoming(patch, moves);
   moves.escape.reset();
   moves.leaving = 0;
-  const grid::Level& level = warehouse_->level();
+  const grid::Level& level = warehouse_->grid().finest();
   set.forEachOccupied<D>(patch.cells(), [&](const Index<D>& cell, const ParticleRange& range) {
     Vec<D> lower, upper;
     for (int d = 0; d < D; ++d) {
@@ -156,7 +156,7 @@ void Relocation::findMoves(const Patch& patch, const ParticleSet& set, Vec<D>* x
 template <int D>
 void Relocation::move(const Patch& from, const Index<D>& fromCell, Vec<D>& x, ParticleId id, int departed,
                       PatchMoves& moves) {
-  const grid::Level& level = warehouse_->level();
+  const grid::Level& level = warehouse_->grid().finest();
   const int place = moves.departed[departed];
   if (level.isPeriodic()) wrap<D>(level, x);
   const Index<D> cell = level.cellOf<D>(x);
@@ -184,17 +184,17 @@ void Relocation::receive(const Patch& patch, const Index3& cell, const Incoming&
 }
 
 Relocation::Verdict Relocation::gather(Moves& moves, bool hasStopped) {
-  const grid::Level& level = warehouse_->level();
+  const grid::Grid& grid = warehouse_->grid();
   Verdict verdict{hasStopped, false, false, warehouse_->ranks().rank(), {}};
   moves.migration.start();
-  for (const Patch& from : level.patches()) {
+  for (const Patch& from : grid.patches()) {
     if (hasStopped) break;
     const PatchMoves& ofPatch = of(moves, from.id());
     leaving_ += ofPatch.leaving;
     if (ofPatch.escape) verdict.merge({false, true, false, verdict.rank, *ofPatch.escape});
     for (const Outgoing& one : ofPatch.outgoing)
-      if (const int patch = level.patchOf(one.cell).id(); !level.isMine(patch))
-        moves.migration.add(level.ownerOf(patch), {one.id, one.cell, from.id(), one.from});
+      if (const int patch = grid.patchOf(one.cell, grid.finest().number()).id(); !grid.isMine(patch))
+        moves.migration.add(grid.ownerOf(patch), {one.id, one.cell, from.id(), one.from});
   }
   verdict.goFar = moves.migration.goesFar();
   return verdict;
@@ -205,7 +205,7 @@ void Relocation::refuseEscape(int position, const Verdict& verdict) const {
     throw NumericalError(fmt::format("{}; patch {}", broken->sentence, broken->patch), "", broken->label);
   std::optional<NumericalError> mine;
   if (verdict.rank == warehouse_->ranks().rank()) {
-    const int dimension = warehouse_->level().dimension();
+    const int dimension = warehouse_->grid().dimension();
     const std::string what = dimension == 1   ? sentence<1>(position, verdict.escape)
                              : dimension == 2 ? sentence<2>(position, verdict.escape)
                                               : sentence<3>(position, verdict.escape);
@@ -216,7 +216,7 @@ void Relocation::refuseEscape(int position, const Verdict& verdict) const {
 
 template <int D>
 std::string Relocation::sentence(int position, const Escape& escape) const {
-  const grid::Level& level = warehouse_->level();
+  const grid::Level& level = warehouse_->grid().finest();
   const auto at = [&](Generation generation) {
     const Variable x = warehouse_->variable(generation, position, escape.patch);
     return reinterpret_cast<const Vec<D>*>(x.values)[escape.place];

@@ -69,7 +69,7 @@ std::string placeOf(const CompiledTask& task, int patch, int material, const Ste
 
 template <class Work>
 void Scheduler::workOn(std::size_t place, const CompiledTask& task, const Work& work) {
-  const grid::Patch& patch = warehouse_->level().patches()[place];
+  const grid::Patch& patch = warehouse_->grid().patches()[place];
   const trace::Span span(trace::Kind::task, task.task.name, patch.id());
   if (warehouse_->ranks().isAlone()) return work(patch);
   const auto started = Clock::now();
@@ -104,7 +104,7 @@ bool Scheduler::finishExchange(CompiledTask& task) {
 }
 
 std::vector<double> Scheduler::takeCosts() {
-  costs_.resize(warehouse_->level().patches().size());
+  costs_.resize(warehouse_->grid().patches().size());
   for (double& cost : costs_) cost /= threads_.count();
   return std::exchange(costs_, std::vector<double>(costs_.size()));
 }
@@ -119,7 +119,7 @@ void Scheduler::forgetLayout() {
 
 void Scheduler::divideReductions(const CompiledTask& task) {
   for (const int reduction : task.readReductions) warehouse_->slot(reduction);
-  for (const int reduction : task.reductions) warehouse_->slot(reduction).divide(warehouse_->level().patches().size());
+  for (const int reduction : task.reductions) warehouse_->slot(reduction).divide(warehouse_->grid().patches().size());
 }
 
 void Scheduler::gatherReductions(const CompiledTask& task) {
@@ -150,7 +150,7 @@ void Scheduler::start(const TaskGraph& graph, int end) {
   outcome_ = {};
   error_.reset();
   heard_stop_ = false;
-  costs_.resize(warehouse_->level().patches().size());
+  costs_.resize(warehouse_->grid().patches().size());
   relocation_.start();
   for (const int reduction : graph.reductions()) warehouse_->resetReduction(reduction);
 }
@@ -184,12 +184,12 @@ std::optional<data::Minimum> Scheduler::factorOf(const CompiledTask& task) {
 bool Scheduler::mayRunTogether() {
   heard_stop_ = warehouse_->ranks().any(hasStopped());
   ranksWithPatches();
-  return !heard_stop_ && !warehouse_->level().patches().empty();
+  return !heard_stop_ && !warehouse_->grid().patches().empty();
 }
 
 const mpi::Communicator& Scheduler::ranksWithPatches() {
   if (!with_patches_) {
-    with_patches_ = warehouse_->ranks().split(warehouse_->level().patches().empty() ? 0 : 1);
+    with_patches_ = warehouse_->ranks().split(warehouse_->grid().patches().empty() ? 0 : 1);
     if (with_patches_->isAlone()) with_patches_ = mpi::Communicator();
   }
   return *with_patches_;
@@ -270,7 +270,7 @@ void Scheduler::runOnRank(CompiledTask& task, const StepInfo& at) {
   const int first = firstMaterial(task);
   for (const MaterialBinding& binding : task.materials) allocateOutputs(binding);
   std::vector<std::vector<TaskContext>> contexts;
-  for (const grid::Patch& patch : warehouse_->level().patches()) {
+  for (const grid::Patch& patch : warehouse_->grid().patches()) {
     std::vector<TaskContext>& ofPatch = contexts.emplace_back();
     for (std::size_t m = 0; m < task.materials.size(); ++m)
       ofPatch.emplace_back(*warehouse_, patch, static_cast<int>(m) + first, task.materials[m].accesses, at.time);
@@ -303,14 +303,14 @@ void Scheduler::runAcrossMaterials(CompiledTask& task, const grid::Patch& patch,
 
 void Scheduler::runPlaced(CompiledTask& task, const grid::Patch& patch, int material, const StepInfo& at) {
   ParticleMaker* maker = nullptr;
-  if (task.task.kind == TaskKind::newParticles) maker = &makers_[patch.id() - warehouse_->level().firstPatch()];
+  if (task.task.kind == TaskKind::newParticles) maker = &makers_[patch.id() - warehouse_->grid().firstPatch()];
   located(task, patch.id(), material, at, [&] {
     task.task.body(TaskContext(*warehouse_, patch, material, task.of(material).accesses, at.time, maker));
   });
 }
 
 void Scheduler::install(const CompiledTask& task, int material, const StepInfo& at) {
-  const std::vector<grid::Patch>& patches = warehouse_->level().patches();
+  const std::vector<grid::Patch>& patches = warehouse_->grid().patches();
   const MaterialBinding& binding = task.of(material);
   ParticleInstaller installer(*warehouse_, material, makers_);
   const auto onPatches = [&](const ParticleInstaller::Work& work) {
@@ -331,11 +331,16 @@ void Scheduler::install(const CompiledTask& task, int material, const StepInfo& 
 }
 
 void Scheduler::allocateOutputs(const MaterialBinding& binding) {
-  for (const Output& output : binding.outputs)
-    if (warehouse_->table()[output.variable].label->centring == data::Centring::particle)
-      warehouse_->allocateParticles(Generation::fresh, output.variable, output.set);
-    else
-      warehouse_->allocateGrid(Generation::fresh, output.variable);
+  for (const Output& output : binding.outputs) switch (warehouse_->table()[output.variable].label->centring) {
+      case data::Centring::particle:
+        warehouse_->allocateParticles(Generation::fresh, output.variable, output.set);
+        break;
+      case data::Centring::rim:
+        warehouse_->allocateRims(Generation::fresh, output.variable);
+        break;
+      default:
+        warehouse_->allocateGrid(Generation::fresh, output.variable);
+    }
 }
 
 void Scheduler::free(const CompiledTask& task) {

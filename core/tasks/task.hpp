@@ -24,9 +24,10 @@ enum class AccessKind {
 struct Access {
   const data::Label* label;
   AccessKind kind;
-  int ghost = 0;         ///< cells or nodes beyond the patch that are read
-  bool own = false;      ///< of nodes: whether it writes only those that are the patch's own
-  bool offered = false;  ///< whether a kept task can do without it
+  int ghost = 0;                       ///< cells or nodes beyond the patch that are read
+  bool own = false;                    ///< of nodes: whether it writes only those that are the patch's own
+  bool offered = false;                ///< whether a kept task can do without it
+  const data::Label* keeps = nullptr;  ///< of fluxes: the variable that flows
 
   bool reads() const {
     return kind == AccessKind::requiresOld || kind == AccessKind::requiresNew || kind == AccessKind::modifies;

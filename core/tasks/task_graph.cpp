@@ -48,11 +48,11 @@ int materialOf(const Access& access, int material) {
 
 }  // namespace
 
-TaskGraph::TaskGraph(std::string name, Pruned pruned, const grid::Level& level, data::VariableTable& table)
+TaskGraph::TaskGraph(std::string name, Pruned pruned, const grid::Grid& grid, data::VariableTable& table)
     : name_(std::move(name)),
       pruned_(std::move(pruned)),
       dependencies_(connect(pruned_.kept)),
-      placements_(place(pruned_.kept, level)),
+      placements_(place(pruned_.kept, grid)),
       sets_(particleSetsBefore(pruned_.kept)),
       lifetimes_(lifetimes(pruned_)) {
   for (std::size_t t = 0; t < pruned_.kept.size(); ++t) bind(t, table);

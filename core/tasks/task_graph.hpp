@@ -58,7 +58,7 @@ class TaskGraph {
  public:
   TaskGraph() = default;
   /// Throws TaskError if a list makes particles without giving them all that is needed later.
-  TaskGraph(std::string name, Pruned pruned, const grid::Level& level, data::VariableTable& table);
+  TaskGraph(std::string name, Pruned pruned, const grid::Grid& grid, data::VariableTable& table);
 
   const std::string& name() const { return name_; }
   std::vector<CompiledTask>& tasks() { return tasks_; }

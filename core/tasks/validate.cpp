@@ -55,8 +55,8 @@ class Validator {
 
   void checkWriter(const Task& task, const Access& access) {
     const bool added = produced_.insert(std::string(access.label->name)).second;
-    const bool reduction = access.label->centring == data::Centring::reduction;
-    if (!added && !reduction && access.kind == AccessKind::computes)
+    const bool adds = access.label->centring == data::Centring::reduction || access.keeps;
+    if (!added && !adds && access.kind == AccessKind::computes)
       complain(task, access, "is computed a second time; use modifies to change it");
   }
 

@@ -21,9 +21,10 @@ grid::Domain line(int cells) {
 
 /// u after Euler's step of `dt` in one dimension, on plain fields.
 std::vector<double> predicted(const grid::Domain& domain, std::vector<double> u, double dt, const Settings& settings) {
-  const Level level(domain);
+  const Grid grid(domain);
+  const Level& level = grid.level();
   std::vector<double> after(u.size());
-  predict<1>(level.patches().front(), settings, CellView<const double>(u.data(), level.cells()), dt,
+  predict<1>(grid.patches().front(), settings, CellView<const double>(u.data(), level.cells()), dt,
              CellView<double>(after.data(), level.cells()));
   return after;
 }
@@ -89,13 +90,14 @@ TEST(Burgers, TakesInWhatAFaceGives) {
 }
 
 TEST(Burgers, LimitsTheTimeStepByVelocityAndViscosity) {
-  const Level level(line(10));
+  const Grid grid(line(10));
+  const Level& level = grid.level();
   const std::vector<double> u{0, 1, -3, 2, 0, 0, 0, 0, 0, 0};
   Settings settings;
   settings.viscosity = 0.1;
   settings.cfl = 0.4;
   Minimum dt;
-  computeStableTimeStep<1>(level.patches().front(), settings, CellView<const double>(u.data(), level.cells()), dt);
+  computeStableTimeStep<1>(grid.patches().front(), settings, CellView<const double>(u.data(), level.cells()), dt);
   EXPECT_NEAR(dt.value, 0.4 / (3 * 10 + 2 * 0.1 * 100), 1e-15);
 }
 

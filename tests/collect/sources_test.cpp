@@ -75,11 +75,11 @@ TEST(SourceInRuns, GivesTheSameForPiecesThatCutRuns) {
 }
 
 TEST(RunsOfGrid, AreRowsOfPatchesWithoutTheirGhosts) {
-  const grid::Level level(test::domain({{4, 2, 1}}, {{2, 1, 1}}));
+  const grid::Grid grid(test::domain({{4, 2, 1}}, {{2, 1, 1}}));
   std::vector<Part> parts;
-  for (const grid::Patch& patch : level.patches()) parts.push_back({nullptr, 0, patch.cellsWithin(1)});
+  for (const grid::Patch& patch : grid.patches()) parts.push_back({nullptr, 0, patch.cellsWithin(1)});
 
-  const Runs runs = runsOfGrid(level, heat, Parts{parts}, level.cells());
+  const Runs runs = runsOfGrid(grid, heat, Parts{parts}, grid.level().cells());
 
   std::vector<std::size_t> places, firsts;
   for (const auto& run : runs) {
@@ -91,7 +91,8 @@ TEST(RunsOfGrid, AreRowsOfPatchesWithoutTheirGhosts) {
 }
 
 TEST(EntryForm, WidensPositionsToTheMiddleOfTheAxisLeftOut) {
-  const grid::Level level(test::domain({{4, 2, 1}}));
+  const grid::Grid grid(test::domain({{4, 2, 1}}));
+  const grid::Level& level = grid.level();
   const std::vector<double> entries{0.1, 0.2, 0.3, 0.4};
   const Parts parts{{partOf(entries)}};
   const auto places = std::make_shared<const std::vector<Place>>(std::vector<Place>{{0, 1}, {0, 0}});

@@ -9,7 +9,7 @@
 #include "core/data/buffer_pool.hpp"
 #include "core/data/reduction.hpp"
 #include "core/data/views.hpp"
-#include "core/grid/level.hpp"
+#include "core/grid/grid.hpp"
 
 namespace tushar::data {
 
@@ -174,11 +174,11 @@ TEST(BufferPool, GivesUpWhatAWholeStepDidNotNeed) {
 }
 
 /// A set on a grid of 5 x 4 x 3 cells, some without particles.
-ParticleSet someCells(const grid::Level& level) {
+ParticleSet someCells(const grid::Grid& grid) {
   ParticleSet set;
-  set.reset(level.patches().front(), 0);
+  set.reset(grid.patches().front(), 0);
   int count = 0;
-  grid::forEach<3>(level.cells(), [&](const Index3& cell) {
+  grid::forEach<3>(grid.level().cells(), [&](const Index3& cell) {
     const int first = count;
     if (cell[1] != 2 && (cell[0] + cell[2]) % 3 == 1) count += 2;
     set.at(cell) = {first, count};
@@ -191,8 +191,9 @@ TEST(ParticleSet, VisitsTheCellsOfABoxThatHoldParticlesInOrder) {
   grid::Domain domain;
   domain.resolution = {{5, 4, 3}};
   domain.upper = {5, 4, 3};
-  const grid::Level level(domain);
-  const ParticleSet set = someCells(level);
+  const grid::Grid grid(domain);
+  const grid::Level& level = grid.level();
+  const ParticleSet set = someCells(grid);
   for (const grid::Box& box :
        {level.cells(), grid::Box{{{1, 0, 1}}, {{4, 3, 3}}}, grid::Box{{{2, 1, 0}}, {{2, 3, 2}}}}) {
     std::vector<std::pair<Index3, int>> expected, visited;
@@ -209,10 +210,11 @@ TEST(ParticleSet, IsEmptyAfterAReset) {
   grid::Domain domain;
   domain.resolution = {{5, 4, 3}};
   domain.upper = {5, 4, 3};
-  const grid::Level level(domain);
-  ParticleSet set = someCells(level);
+  const grid::Grid grid(domain);
+  const grid::Level& level = grid.level();
+  ParticleSet set = someCells(grid);
 
-  set.reset(level.patches().front(), 0);
+  set.reset(grid.patches().front(), 0);
 
   grid::forEach<3>(level.cells(), [&](const Index3& cell) { EXPECT_TRUE(set.in(cell).empty()); });
   set.forEachOccupied<3>(level.cells(), [](const Index3&, const ParticleRange&) { ADD_FAILURE(); });

@@ -35,7 +35,7 @@ class GasBox {
   using Profile = std::function<State<D>(const Vec<D>&)>;
 
   GasBox(const grid::Domain& domain, const Profile& primitiveAt, Method how = {}, Gas of = {})
-      : level(domain), gas(of), method(how), density(level.cells().size()), energy(density), momentum(density.size()) {
+      : grid(domain), gas(of), method(how), density(level.cells().size()), energy(density), momentum(density.size()) {
     forEach<D>(level.cells(), [&](const Index<D>& cell) {
       const State<D> u = conserved<D>(gas, primitiveAt(level.cellCentre<D>(cell)));
       const std::size_t i = level.cellNumber<D>(cell);
@@ -47,7 +47,7 @@ class GasBox {
 
   double stableStep(double cfl) {
     Minimum dt;
-    for (const Patch& patch : level.patches())
+    for (const Patch& patch : grid.patches())
       computeStableTimeStep<D>(patch, gas, cfl, seen<const double>(density, patch, 0),
                                seen<const Vec<D>>(momentum, patch, 0), seen<const double>(energy, patch, 0), dt);
     return dt.value;
@@ -57,11 +57,11 @@ class GasBox {
     std::vector<double> newDensity(density.size()), newEnergy(density.size());
     std::vector<Vec<D>> newMomentum(density.size());
     const int ghost = reach(method);
-    for (const Patch& patch : level.patches())
+    for (const Patch& patch : grid.patches())
       chooseAdvance<D>(method)(patch, gas, seen<const double>(density, patch, ghost),
                                seen<const Vec<D>>(momentum, patch, ghost), seen<const double>(energy, patch, ghost), dt,
                                seen<double>(newDensity, patch, 0), seen<Vec<D>>(newMomentum, patch, 0),
-                               seen<double>(newEnergy, patch, 0));
+                               seen<double>(newEnergy, patch, 0), {}, {}, {});
     density = newDensity;
     momentum = newMomentum;
     energy = newEnergy;
@@ -86,7 +86,8 @@ class GasBox {
   double mass() const { return total(density); }
   double totalEnergy() const { return total(energy); }
 
-  Level level;
+  Grid grid;
+  const Level& level = grid.level();
   Gas gas;
   Method method;
   std::vector<double> density, energy;

@@ -1,4 +1,4 @@
-#include "core/grid/level.hpp"
+#include "core/grid/grid.hpp"
 
 #include <gtest/gtest.h>
 
@@ -43,7 +43,8 @@ TEST(Level, WrapsCellsAlongPeriodicAxesAlone) {
   Domain plane = domain({{8, 4, 1}});
   plane.periodic[1] = 1;
   for (const int side : {0, 1}) plane.boundaries.face(1, side).clear();
-  const Level level(plane);
+  const Grid grid(plane);
+  const Level& level = grid.level();
 
   EXPECT_EQ(level.wrapped(Index<2>{{3, 2}}), (Index<2>{{3, 2}}));
   EXPECT_EQ(level.wrapped(Index<2>{{-1, -1}}), (Index<2>{{-1, 3}}));
@@ -69,28 +70,30 @@ TEST(Level, CountsTheCrossSectionInTheVolumeOfItsCells) {
 
 TEST(Level, TilesTheGridWithPatches) {
   for (const Index3& patches : {Index3{{1, 1, 1}}, {{3, 2, 1}}, {{7, 5, 4}}, {{16, 6, 4}}}) {
-    const Level level(domain({{16, 6, 4}}, patches));
+    const Grid grid(domain({{16, 6, 4}}, patches));
+    const Level& level = grid.level();
     std::vector<int> owners(level.cells().size(), 0);
-    for (const Patch& patch : level.patches())
+    for (const Patch& patch : grid.patches())
       forEach<3>(patch.cells(), [&](const Index3& cell) {
         ++owners[level.cells().offset(cell)];
-        EXPECT_EQ(level.patchOf(cell).id(), patch.id());
+        EXPECT_EQ(grid.patchOf(cell, 0).id(), patch.id());
       });
     EXPECT_EQ(std::set<int>(owners.begin(), owners.end()), std::set<int>{1});
   }
 }
 
 TEST(Level, FindsThePatchesThatOverlapABox) {
-  const Level level(domain({{16, 6, 1}}, {{4, 3, 1}}));
+  const Grid grid(domain({{16, 6, 1}}, {{4, 3, 1}}));
 
   std::set<int> found;
-  for (const Patch& patch : level.patchesOverlapping({{{3, 1, 0}}, {{5, 2, 1}}})) found.insert(patch.id());
+  for (const Patch& patch : grid.patchesOverlapping({{{3, 1, 0}}, {{5, 2, 1}}}, 0)) found.insert(patch.id());
 
   EXPECT_EQ(found, (std::set<int>{0, 1}));
 }
 
 TEST(Level, PutsAPointOnAFaceIntoTheCellAboveAndTheUpperEndIntoTheLast) {
-  const Level level(domain({{10, 1, 1}}));
+  const Grid grid(domain({{10, 1, 1}}));
+  const Level& level = grid.level();
 
   for (int cell = 0; cell < 10; ++cell) EXPECT_EQ(level.cellAlong(0, level.nodePosition(0, cell)), cell);
   EXPECT_EQ(level.cellAlong(0, 1.0), 9);
@@ -100,21 +103,23 @@ TEST(Level, PutsAPointOnAFaceIntoTheCellAboveAndTheUpperEndIntoTheLast) {
 }
 
 TEST(Level, ExpandsPointsToTheMiddleOfAxesLeftOut) {
-  const Level level(domain({{10, 1, 1}}));
+  const Grid grid(domain({{10, 1, 1}}));
+  const Level& level = grid.level();
 
   EXPECT_EQ(level.expandPoint<1>(Vec<1>(0.25)), Vec3(0.25, 0.3, 0.2));
   EXPECT_EQ(level.expandDirection<1>(Vec<1>(2.0)), Vec3(2, 0, 0));
 }
 
 TEST(Patch, HasTheNodesOfItsCellsAndThoseWithinReachOnTheGrid) {
-  const Level level(domain({{9, 1, 1}}, {{3, 1, 1}}));
-  const Patch& middle = level.patches()[1];
+  const Grid grid(domain({{9, 1, 1}}, {{3, 1, 1}}));
+  const Level& level = grid.level();
+  const Patch& middle = grid.patches()[1];
 
   EXPECT_EQ(middle.nodes(), (Box{{{3, 0, 0}}, {{7, 1, 1}}}));
   EXPECT_EQ(middle.nodesWithin(2), (Box{{{1, 0, 0}}, {{9, 1, 1}}}));
   EXPECT_EQ(middle.cellsWithin(9), level.cells());
   EXPECT_FALSE(middle.isAtBoundary(0, 0));
-  EXPECT_TRUE(level.patches()[2].isAtBoundary(0, 1));
+  EXPECT_TRUE(grid.patches()[2].isAtBoundary(0, 1));
 }
 
 TEST(Level, GoesOnBeyondItsEndsAlongPeriodicAxes) {
@@ -122,8 +127,9 @@ TEST(Level, GoesOnBeyondItsEndsAlongPeriodicAxes) {
   ring.boundaries.faces[0].clear();
   ring.boundaries.faces[1].clear();
   ring.periodic[0] = 1;
-  const Level level(ring);
-  const Patch& first = level.patches().front();
+  const Grid grid(ring);
+  const Level& level = grid.level();
+  const Patch& first = grid.patches().front();
 
   EXPECT_EQ(first.cellsWithin(2), (Box{{{-2, 0, 0}}, {{6, 4, 1}}}));
   EXPECT_EQ(first.nodesWithin(1), (Box{{{-1, 0, 0}}, {{6, 5, 1}}}));

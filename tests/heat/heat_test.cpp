@@ -40,7 +40,7 @@ double errorOfSine(int cells) {
   run.step(begin);
   for (int k = 0; k < steps; ++k) run.step(step);
   Norm error;
-  for (const Patch& patch : run.level.patches()) {
+  for (const Patch& patch : run.grid.patches()) {
     const auto held = run.warehouse.variable(data::Generation::old, run.table.find("c.temperature", -1), patch.id());
     const auto* values = reinterpret_cast<const double*>(held.values);
     forEach<3>(patch.cells(), [&](const Index3& cell) {
@@ -54,9 +54,10 @@ double errorOfSine(int cells) {
 
 /// T after one step of `dt` in one dimension, on plain fields.
 std::vector<double> conducted(const grid::Domain& domain, std::vector<double> temperature, double dt) {
-  const Level level(domain);
+  const Grid grid(domain);
+  const Level& level = grid.level();
   std::vector<double> after(temperature.size());
-  conduct<1>(level.patches().front(), Settings(), CellView<const double>(temperature.data(), level.cells()), dt,
+  conduct<1>(grid.patches().front(), Settings(), CellView<const double>(temperature.data(), level.cells()), dt,
              CellView<double>(after.data(), level.cells()));
   return after;
 }
@@ -104,12 +105,12 @@ TEST(Heat, LetsANeumannFaceGiveHeat) {
 }
 
 TEST(Heat, LimitsTheTimeStepByVonNeumann) {
-  const Level level(slab<2>(10, true));
+  const Grid grid(slab<2>(10, true));
   Settings settings;
   settings.conductivity = 2;
   Minimum dt;
 
-  computeStableTimeStep<2>(level.patches().front(), settings, dt);
+  computeStableTimeStep<2>(grid.patches().front(), settings, dt);
 
   EXPECT_NEAR(dt.value, 0.9 * 0.01 / (2 * 2 * 2), 1e-15);
 }

@@ -46,7 +46,7 @@ std::vector<double> after(const grid::Domain& domain, const Settings& settings, 
   run.step(begin);
   for (int k = 0; k < steps; ++k) run.step(step);
   std::vector<double> temperature;
-  for (const Patch& patch : run.level.patches()) {
+  for (const Patch& patch : run.grid.patches()) {
     const auto held = run.warehouse.variable(data::Generation::old, run.table.find("c.temperature", -1), patch.id());
     const auto* values = reinterpret_cast<const double*>(held.values);
     forEach<3>(patch.cells(), [&](const Index3& cell) { temperature.push_back(values[held.stored.offset(cell)]); });

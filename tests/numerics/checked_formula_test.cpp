@@ -57,16 +57,16 @@ TEST(CheckedFormula, NamesNoUnitOfANumberWithoutDimension) {
 }
 
 TEST(CheckedFormula, FillsAPatchAndIsCheckedInEveryCell) {
-  const grid::Level level(test::domain({{4, 1, 1}}));
+  const grid::Grid grid(test::domain({{4, 1, 1}}));
+  const grid::Level& level = grid.level();
   std::vector<double> values(4);
   const CheckedFormula formula{inverse(), "Heat/temperature", "K"};
 
-  formula.fill<1>(level.patches().front(), data::CellView<double>(values.data(), level.cells()));
+  formula.fill<1>(grid.patches().front(), data::CellView<double>(values.data(), level.cells()));
   for (int k = 0; k < 4; ++k) EXPECT_EQ(values[k], 1 / level.cellCentre<1>(Index<1>{{k}})[0]);
-  EXPECT_NO_THROW(formula.requirePositive<1>(level.patches().front()));
+  EXPECT_NO_THROW(formula.requirePositive<1>(grid.patches().front()));
   const input::Expression early = *input::Expression::parse("1.5*0.25-x");
-  EXPECT_THROW((CheckedFormula{early, "Heat/temperature", "K"}.requirePositive<1>(level.patches().front())),
-               InputError);
+  EXPECT_THROW((CheckedFormula{early, "Heat/temperature", "K"}.requirePositive<1>(grid.patches().front())), InputError);
 }
 
 }  // namespace tushar::numerics

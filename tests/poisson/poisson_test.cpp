@@ -44,7 +44,7 @@ Solved solved(const grid::Domain& domain, const Settings& settings, const std::s
   const input::Expression phi = *input::Expression::parse(exact);
   Norm error;
   std::map<std::uint64_t, double> found;
-  for (const Patch& patch : run.level.patches()) {
+  for (const Patch& patch : run.grid.patches()) {
     const auto held = run.warehouse.variable(data::Generation::old, run.table.find("c.phi", -1), patch.id());
     const auto* values = reinterpret_cast<const double*>(held.values);
     forEach<3>(patch.cells(), [&](const Index3& cell) {

@@ -26,7 +26,7 @@ std::vector<double> gathered(data::Warehouse& warehouse, const std::string& labe
   std::vector<double> field(level.cells().size() * wide, -std::numeric_limits<double>::infinity());
   const bool ofParticles = label.front() == 'p';
   const int number = warehouse.table().find(label, ofParticles ? 0 : -1);
-  for (const grid::Patch& patch : level.patches()) {
+  for (const grid::Patch& patch : grid.patches()) {
     const data::Variable held = warehouse.variable(Generation::old, number, patch.id());
     const auto* values = reinterpret_cast<const double*>(held.values);
     grid::forEach<3>(patch.cells(), [&](const Index3& cell) {

@@ -111,7 +111,7 @@ class Swarm {
 
  private:
   void move(int turn) {
-    const int ranks = run.level.share().ranks, patches = run.level.patchCount();
+    const int ranks = run.grid.share().ranks, patches = run.grid.patchCount();
     grid::RankOffsets offsets{0};
     for (int rank = 1; rank < ranks; ++rank)
       offsets.push_back(turn % 2 == 0 ? patches : patches * rank * rank / (ranks * ranks));
@@ -182,10 +182,10 @@ TEST(Ranks, WorkOnPatchesThatNeedNoMessageBeforeThoseThatWaitForOne) {
     run.step(graph);
 
     const auto needsNoMessage = [&](int id) {
-      const std::vector<Patch> near = run.level.patchesOverlapping(run.level.patch(id).cellsWithin(1));
-      return std::all_of(near.begin(), near.end(), [&](const Patch& patch) { return run.level.isMine(patch.id()); });
+      const std::vector<Patch> near = run.grid.patchesOverlapping(run.grid.patch(id).cellsWithin(1));
+      return std::all_of(near.begin(), near.end(), [&](const Patch& patch) { return run.grid.isMine(patch.id()); });
     };
-    EXPECT_EQ(order.size(), run.level.patches().size());
+    EXPECT_EQ(order.size(), run.grid.patches().size());
     EXPECT_TRUE(std::is_partitioned(order.begin(), order.end(), needsNoMessage));
     EXPECT_TRUE(std::any_of(order.begin(), order.end(), needsNoMessage));
     EXPECT_FALSE(std::is_sorted(order.begin(), order.end()));

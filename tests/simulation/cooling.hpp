@@ -54,7 +54,7 @@ inline simulation::Problem cooling() {
   problem.inputXml = "<Uintah_specification/>\n";
   problem.time.maxTime = 1;
   problem.archive.filebase = "cooling.uda";
-  problem.level = std::make_unique<Level>(domain({{8, 1, 1}}, {{2, 1, 1}}));
+  problem.grid = std::make_unique<Grid>(domain({{8, 1, 1}}, {{2, 1, 1}}));
   problem.component = std::make_unique<Cooling>();
   return problem;
 }

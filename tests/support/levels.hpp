@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/grid/level.hpp"
+#include "core/grid/grid.hpp"
 
 namespace tushar::test {
 

@@ -8,11 +8,12 @@ namespace tushar::test {
 
 /// The particles of a grid of one patch, and views of values of them.
 struct Particles {
-  Level level;
+  Grid grid;
+  const Level& level = grid.level();
   data::ParticleSet set;
 
-  explicit Particles(const grid::Domain& domain) : level(domain) {}
-  const Patch& patch() const { return level.patches().front(); }
+  explicit Particles(const grid::Domain& domain) : grid(domain) {}
+  const Patch& patch() const { return grid.patches().front(); }
   template <class T>
   ParticleView<const T> read(const std::vector<T>& values) const {
     return {values.data(), set, level.cells()};

@@ -15,11 +15,11 @@ class Runner {
   /// On one of some ranks, or on one alone.
   explicit Runner(const grid::Domain& domain, int threads = 1,
                   const mpi::Communicator& ranks = mpi::Communicator::alone())
-      : level(domain, {ranks.rank(), ranks.size()}), warehouse(level, table, ranks), scheduler(warehouse, threads) {}
+      : grid(domain, {ranks.rank(), ranks.size()}), warehouse(grid, table, ranks), scheduler(warehouse, threads) {}
 
   /// Compiles a list; compile all before the first run.
   tasks::TaskGraph compile(const tasks::TaskList& list, const tasks::Names& wanted, bool repeated = false) {
-    tasks::TaskGraph graph("test", tasks::prune(list.tasks(), wanted, repeated), level, table);
+    tasks::TaskGraph graph("test", tasks::prune(list.tasks(), wanted, repeated), grid, table);
     materials_ = std::max(materials_, graph.materials());
     return graph;
   }
@@ -30,7 +30,8 @@ class Runner {
     scheduler.commit(graph);
   }
 
-  grid::Level level;
+  grid::Grid grid;
+  const grid::Level& level = grid.level();
   data::VariableTable table;
   data::Warehouse warehouse;
   tasks::Scheduler scheduler;

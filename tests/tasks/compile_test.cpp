@@ -168,13 +168,13 @@ TEST(Connect, LetsReadersWaitForTheRelocationThatBringsTheirParticles) {
 
 TEST(Place, RunsEachTaskOnEachPatchForEachMaterial) {
   const std::vector<Material> two{{"gas"}, {"steel"}};
-  const grid::Level level(test::domain({{8, 1, 1}}, {{2, 1, 1}}));
+  const grid::Grid grid(test::domain({{8, 1, 1}}, {{2, 1, 1}}));
   TaskList list;
   list.perPatch("write", write, computes(a));
   list.perMaterial("move", writeX, two, computes(x));
 
   const std::vector<Placement> expected{{0, 0, -1}, {0, 1, -1}, {1, 0, 0}, {1, 1, 0}, {1, 0, 1}, {1, 1, 1}};
-  EXPECT_EQ(place(list.tasks(), level), expected);
+  EXPECT_EQ(place(list.tasks(), grid), expected);
 }
 
 TEST(Plan, FillsOldGhostsOnceBeforeTheFirstTaskThatNeedsAny) {
@@ -236,14 +236,14 @@ TEST(Plan, SendsAsSoonAsTheLastOfAStageIsComputed) {
 }
 
 TEST(TaskGraph, SendsBeforeTheTaskAfterTheOneThatComputes) {
-  const grid::Level level(test::domain({{8, 1, 1}}));
+  const grid::Grid grid(test::domain({{8, 1, 1}}));
   data::VariableTable table;
   TaskList list;
   list.perPatch("writeA", write, computes(a));
   list.perPatch("writeB", write, computes(b));
   list.perPatch("readA", readWrite, requiresNew(a, 1), computes(c));
 
-  const TaskGraph graph("step", prune(list.tasks(), {"c.b", "c.c"}, false), level, table);
+  const TaskGraph graph("step", prune(list.tasks(), {"c.b", "c.c"}, false), grid, table);
 
   EXPECT_EQ(graph.tasks()[0].sends, -1);
   EXPECT_EQ(graph.tasks()[1].sends, 2);
@@ -263,13 +263,13 @@ TEST(Lifetimes, EndWithTheLastReaderUnlessTheResultIsWanted) {
 }
 
 TEST(TaskGraph, RefusesNewParticlesWithoutWhatIsNeededLater) {
-  const grid::Level level(test::domain({{8, 1, 1}}));
+  const grid::Grid grid(test::domain({{8, 1, 1}}));
   data::VariableTable table;
   TaskList list;
   list.newParticles("make", makeX, gas, creates(x));
 
   try {
-    TaskGraph("advance", prune(list.tasks(), {"p.x", "p.mass"}, false), level, table);
+    TaskGraph("advance", prune(list.tasks(), {"p.x", "p.mass"}, false), grid, table);
     FAIL();
   } catch (const TaskError& error) {
     EXPECT_STREQ(error.what(), "task make makes new particles, but does not create p.mass, which is needed later");
@@ -277,14 +277,14 @@ TEST(TaskGraph, RefusesNewParticlesWithoutWhatIsNeededLater) {
 }
 
 TEST(TaskGraph, PrintsTasksInOrderAndDependenciesForGraphviz) {
-  const grid::Level level(test::domain({{8, 1, 1}}));
+  const grid::Grid grid(test::domain({{8, 1, 1}}));
   data::VariableTable table;
   TaskList list;
   list.perPatch("makeA", write, computes(a));
   list.perPatch("makeB", readWrite, requiresNew(a, 1), computes(b));
   std::ostringstream text, dot;
 
-  const TaskGraph graph("step", prune(list.tasks(), {"c.b"}, false), level, table);
+  const TaskGraph graph("step", prune(list.tasks(), {"c.b"}, false), grid, table);
   graph.print(text);
   graph.printDot(dot);
 

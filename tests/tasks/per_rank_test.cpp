@@ -55,7 +55,7 @@ TEST(PerRank, RunsOnceAndSeesEveryPatchInOrder) {
 
   run.step(graph);
 
-  const int last = run.level.patches().back().id();
+  const int last = run.grid.patches().back().id();
   const data::Variable held = run.warehouse.variable(data::Generation::old, run.table.find("c.running", -1), last);
   EXPECT_EQ(reinterpret_cast<const double*>(held.values)[held.stored.offset({{7, 0, 0}})], 36);
   EXPECT_EQ(run.warehouse.reductionValues(run.table.find("calls", -1)).at(0), 1);

@@ -64,7 +64,7 @@ std::pair<double, std::size_t> differingOwnNodes(const Index3& resolution, const
   TaskGraph graph = run.compile(list, {"wrong"});
   run.step(graph);
   std::size_t written = 0;
-  for (const Patch& patch : run.level.patches()) written += run.level.ownNodes(patch.id()).size();
+  for (const Patch& patch : run.grid.patches()) written += run.grid.ownNodes(patch.id()).size();
   return {run.warehouse.reductionValues(run.table.find("wrong", -1)).at(0), written};
 }
 
@@ -163,7 +163,7 @@ TEST(Scheduler, HandsTheNewStateToTheNextStepAsOld) {
   run.step(step);
   run.step(step);
 
-  const int last = run.level.patches().back().id();
+  const int last = run.grid.patches().back().id();
   const data::Variable held = run.warehouse.variable(data::Generation::old, run.table.find("c.number", -1), last);
   const auto* values = reinterpret_cast<const double*>(held.values);
   EXPECT_EQ(values[held.stored.offset({{7, 0, 0}})], 4 * numberOf({{7, 0, 0}}));

@@ -6,7 +6,7 @@
 namespace tushar::euler {
 
 /// One step on a patch: the body of the task, with the gas, the state before [kg/m³, kg/(m² s), J/m³], the time step
-/// [s] and the state after.
+/// [s], the state after and its fluxes through the rim of the level.
 ///
 /// U' = U - dt sum_d (F_{d,i+1/2} - F_{d,i-1/2}) / h_d, all axes at once (unsplit). First order: F of the cells on
 /// both sides of a face. MUSCL-Hancock: limited slopes of rho, v, p along each axis; what the fluxes of a cell's own
@@ -16,7 +16,8 @@ namespace tushar::euler {
 template <int D>
 using Advance = void (*)(const Patch& patch, const Gas& gas, CellView<const double> density,
                          CellView<const Vec<D>> momentum, CellView<const double> totalEnergy, double dt,
-                         CellView<double> newDensity, CellView<Vec<D>> newMomentum, CellView<double> newTotalEnergy);
+                         CellView<double> newDensity, CellView<Vec<D>> newMomentum, CellView<double> newTotalEnergy,
+                         RimFlux<double> massFlux, RimFlux<Vec<D>> momentumFlux, RimFlux<double> energyFlux);
 
 /// The body for a method: each is compiled on its own, so that no loop over cells branches on the method.
 template <int D>

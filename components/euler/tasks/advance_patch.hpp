@@ -4,7 +4,7 @@
 #include "components/euler/tasks/advance.hpp"
 #include "components/euler/tasks/check_state.hpp"
 #include "components/euler/tasks/row_kernels.hpp"
-#include "core/numerics/limiters.hpp"
+#include "core/base/limiters.hpp"
 
 namespace tushar::euler {
 
@@ -112,12 +112,33 @@ void addFluxes(double ratio, const Box& block, const StateViews<D, const double>
   });
 }
 
+/// The fluxes of the state through the rim of the level.
+template <int D>
+struct RimFluxes {
+  RimFlux<double> mass;
+  RimFlux<Vec<D>> momentum;
+  RimFlux<double> energy;
+
+  /// Keeps those across an axis that stand in rows.
+  void keep(const Box& faces, int axis, Rows<D>& flux) const {
+    if (mass.empty()) return;
+    mass.template forEachFaceIn<D>(
+        faces, axis, [&](const Index<D>& face, double& through) { through += flux.at(face)[kDensity][0]; });
+    momentum.template forEachFaceIn<D>(faces, axis, [&](const Index<D>& face, Vec<D>& through) {
+      for (int d = 0; d < D; ++d) through[d] += flux.at(face)[kVelocity(d)][0];
+    });
+    energy.template forEachFaceIn<D>(
+        faces, axis, [&](const Index<D>& face, double& through) { through += flux.at(face)[kPressure<D>][0]; });
+  }
+};
+
 template <int D, class Flux, class Shape, int Axis>
 void sweep(const Gas& gas, const Level& level, const Box& block, double dt, const StateViews<D, const double>& old,
-           Work<D>& work, const StateViews<D, double>& fresh) {
+           Work<D>& work, const StateViews<D, double>& fresh, const RimFluxes<D>& rims) {
   Box faces = block;
   ++faces.upper[Axis];
   computeFluxes<D, Flux, Shape, Axis>(gas, faces, work);
+  rims.keep(faces, Axis, work.flux);
   addFluxes<D, Axis>(dt / level.spacing(Axis), block, old, work.flux, fresh);
 }
 
@@ -136,10 +157,12 @@ bool canBe(const Gas& gas, const Box& block, const StateViews<D, double>& fresh)
 template <int D, class Flux, class Shape>
 void advance(const Patch& patch, const Gas& gas, CellView<const double> density, CellView<const Vec<D>> momentum,
              CellView<const double> totalEnergy, double dt, CellView<double> newDensity, CellView<Vec<D>> newMomentum,
-             CellView<double> newTotalEnergy) {
+             CellView<double> newTotalEnergy, RimFlux<double> massFlux, RimFlux<Vec<D>> momentumFlux,
+             RimFlux<double> energyFlux) {
   const Level& level = patch.level();
   const StateViews<D, const double> old{density, momentum, totalEnergy};
   const StateViews<D, double> fresh{newDensity, newMomentum, newTotalEnergy};
+  const RimFluxes<D> rims{massFlux, momentumFlux, energyFlux};
   const GhostRules<D> rules = ghostRules<D>(level);
   Work<D> work(patch.cells(), Shape::reach);
   bool fine = true;
@@ -148,9 +171,9 @@ void advance(const Patch& patch, const Gas& gas, CellView<const double> density,
     recover<D>(gas, level, old, work.w);
     fillBeyondGrid<D>(level, rules, work.w);
     predict<D>(gas, level, block.grown(1, D), dt, work, Shape{});
-    sweep<D, Flux, Shape, 0>(gas, level, block, dt, old, work, fresh);
-    if constexpr (D > 1) sweep<D, Flux, Shape, 1>(gas, level, block, dt, old, work, fresh);
-    if constexpr (D > 2) sweep<D, Flux, Shape, 2>(gas, level, block, dt, old, work, fresh);
+    sweep<D, Flux, Shape, 0>(gas, level, block, dt, old, work, fresh, rims);
+    if constexpr (D > 1) sweep<D, Flux, Shape, 1>(gas, level, block, dt, old, work, fresh, rims);
+    if constexpr (D > 2) sweep<D, Flux, Shape, 2>(gas, level, block, dt, old, work, fresh, rims);
     fine &= canBe<D>(gas, block, fresh);
   });
   if (!fine) refuseBroken<D>(patch, gas, fresh, &old);
@@ -159,9 +182,9 @@ void advance(const Patch& patch, const Gas& gas, CellView<const double> density,
 template <int D, class Flux>
 Advance<D> chooseShape(const Method& method) {
   if (method.reconstruction == Reconstruction::firstOrder) return advance<D, Flux, Constant>;
-  if (method.limiter == Limiter::minmod) return advance<D, Flux, Sloped<numerics::Minmod>>;
-  if (method.limiter == Limiter::vanLeer) return advance<D, Flux, Sloped<numerics::VanLeer>>;
-  return advance<D, Flux, Sloped<numerics::Mc>>;
+  if (method.limiter == Limiter::minmod) return advance<D, Flux, Sloped<Minmod>>;
+  if (method.limiter == Limiter::vanLeer) return advance<D, Flux, Sloped<VanLeer>>;
+  return advance<D, Flux, Sloped<Mc>>;
 }
 
 template <int D>

@@ -143,9 +143,10 @@ TEST(CreateParticles, RefusesBodiesThatOverlapNamingThePoint) {
 }
 
 TEST(Totals, AreSumsOverTheParticles) {
-  const Level level(test::domain({{2, 1, 1}}));
+  const Grid grid(test::domain({{2, 1, 1}}));
+  const Level& level = grid.level();
   data::ParticleSet set;
-  set.reset(level.patches().front(), 0);
+  set.reset(grid.patches().front(), 0);
   set.at(Index<1>{{0}}) = {0, 2};
   set.at(Index<1>{{1}}) = {2, 3};
   set.setOwned(3);
@@ -156,9 +157,9 @@ TEST(Totals, AreSumsOverTheParticles) {
   Sum total, kinetic, internal, both;
   VectorSum momentum;
 
-  sumMass<1>(level.patches().front(), Gas(), m, total);
-  sumMomentum<1>(level.patches().front(), Gas(), m, u, momentum);
-  sumEnergy<1>(level.patches().front(), Gas(), m, u, e, kinetic, internal, both);
+  sumMass<1>(grid.patches().front(), Gas(), m, total);
+  sumMomentum<1>(grid.patches().front(), Gas(), m, u, momentum);
+  sumEnergy<1>(grid.patches().front(), Gas(), m, u, e, kinetic, internal, both);
 
   EXPECT_EQ(total.total(), 6);
   EXPECT_EQ(momentum.values(), (std::vector<double>{-1.5, 0, 0}));

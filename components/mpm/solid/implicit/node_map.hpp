@@ -115,15 +115,15 @@ class NodeMap {
     for (std::size_t k = 0; k < known_.size(); ++k) known_[k] = (known_[k] & isNear) | (touched[k] & isTouched);
   }
   int ownerOf(const Index<D>& node) const {
-    if (ranks_->isAlone()) return level_->share().rank;
+    if (ranks_->isAlone()) return level_->grid().share().rank;
     Index3 cell{};
     for (int d = 0; d < D; ++d) cell[d] = std::clamp(node[d], 0, level_->cells().extent(d) - 1);
-    return level_->ownerOf(level_->patchOf(cell).id());
+    return level_->grid().ownerOf(level_->grid().patchOf(cell, level_->number()).id());
   }
   /// Numbers the rank's own nodes, then the ghosts, each in lexicographic order.
   void numberOwners() {
-    const int mine = level_->share().rank;
-    std::vector<int> counts(level_->share().ranks + 1, 0), ownerOfGhost;
+    const int mine = level_->grid().share().rank;
+    std::vector<int> counts(level_->grid().share().ranks + 1, 0), ownerOfGhost;
     std::vector<Index<D>> ghosts;
     forEach<D>(box_, [&](const Index<D>& node) {
       if ((known_[place(node)] & isTouched) == 0) return;

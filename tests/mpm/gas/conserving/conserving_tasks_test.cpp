@@ -164,14 +164,15 @@ TEST(ConservingStep, CarriesAUniformFlowAsItIs) {
 }
 
 TEST(ConservingStep, StressTakesTheFacesAsTheyStandHalfAStepLater) {
-  const Level level(shaped<2>());
+  const Grid grid(shaped<2>());
+  const Level& level = grid.level();
   Gas gas;
   CellValues<double> pressure(level), viscosity(level);
   CellValues<Tensor<2>> gradient(level), stress(level);
   std::fill(pressure.values.begin(), pressure.values.end(), 2.0);
   std::fill(viscosity.values.begin(), viscosity.values.end(), 0.5);
   std::fill(gradient.values.begin(), gradient.values.end(), Tensor<2>{{0.2, 0.4}, {-0.6, -0.2}});
-  computeStress<2, AffineFlip>(level.patches().front(), gas, pressure.read(), viscosity.read(), gradient.read(), 1.0,
+  computeStress<2, AffineFlip>(grid.patches().front(), gas, pressure.read(), viscosity.read(), gradient.read(), 1.0,
                                stress.write());
 
   const Tensor<2> expected = 2.5 * Tensor<2>{{0.9, 0.3}, {-0.2, 1.1}};  // cof of {{1.1, .2}, {-.3, .9}}; div v = 0
@@ -213,7 +214,7 @@ TEST(CountSteps, CallsForARemapWhenItsTimeHasComeOrACellIsOverfull) {
   const Remap remap{3, 0.02};
   const auto count = [&](double age, double fill) {
     Maximum result;
-    countSteps(Level(shaped<1>()).patches().front(), remap, age, fill, result);
+    countSteps(Grid(shaped<1>()).patches().front(), remap, age, fill, result);
     return result.value;
   };
   EXPECT_EQ(count(0, 1), 1);
@@ -224,7 +225,8 @@ TEST(CountSteps, CallsForARemapWhenItsTimeHasComeOrACellIsOverfull) {
 
 /// dt of a plane whose gradient is `of` in one cell and 0 elsewhere; `mass` is that of the cell.
 double deformationLimit(const Tensor<2>& of, double mass = 1) {
-  const Level level(shaped<2>());
+  const Grid grid(shaped<2>());
+  const Level& level = grid.level();
   CellValues<double> cellMass(level);
   CellValues<Tensor<2>> gradient(level);
   std::fill(cellMass.values.begin(), cellMass.values.end(), 1.0);
@@ -232,7 +234,7 @@ double deformationLimit(const Tensor<2>& of, double mass = 1) {
   cellMass.values[3] = mass;
   gradient.values[3] = of;
   Minimum dt;
-  limitDeformation<2>(level.patches().front(), Gas(), cellMass.read(), gradient.read(), dt);
+  limitDeformation<2>(grid.patches().front(), Gas(), cellMass.read(), gradient.read(), dt);
   return dt.value;
 }
 

@@ -87,12 +87,12 @@ TEST(SharedWork, OfOneGasIsAllItsOwn) {
 }
 
 TEST(MixAtNodes, GivesAllGasesTheVelocityOfTheirMomentum) {
-  const Level level{test::domain({{1, 1, 1}})};
+  const Grid grid{test::domain({{1, 1, 1}})};
   std::array<double, 2> water{3, 0}, air{1, 0};
   std::array<Vec<1>, 2> fast{Vec<1>(4), Vec<1>(0)}, slow{Vec<1>(-4), Vec<1>(0)};
   const Box nodes{{}, {{2, 1, 1}}};
 
-  mixAtNodes<1>(level.patches().front(), std::vector{gasOf(4.4, 6e8), gasOf(1.4, 0)},
+  mixAtNodes<1>(grid.patches().front(), std::vector{gasOf(4.4, 6e8), gasOf(1.4, 0)},
                 {NodeView<double>(water.data(), nodes), NodeView<double>(air.data(), nodes)},
                 {NodeView<Vec<1>>(fast.data(), nodes), NodeView<Vec<1>>(slow.data(), nodes)});
 

@@ -12,7 +12,8 @@ namespace {
 
 /// Particles in a row of cells of width 1/cells, and what is measured of them.
 struct Row {
-  Level level;
+  Grid grid;
+  const Level& level = grid.level();
   data::ParticleSet set;
   std::vector<Vec<1>> x;
   std::vector<double> density, error, bound;
@@ -21,7 +22,7 @@ struct Row {
   /// `places[c]` are those of the particles of cell c, from 0 to 1; `rho` is the density at x [m].
   template <class Rho>
   Row(const std::vector<std::vector<double>>& places, const Rho& rho)
-      : level(test::domain({{static_cast<int>(places.size()), 1, 1}})) {
+      : grid(test::domain({{static_cast<int>(places.size()), 1, 1}})) {
     set.reset(patch(), 2);
     for (std::size_t c = 0; c < places.size(); ++c) {
       const int first = static_cast<int>(x.size());
@@ -37,7 +38,7 @@ struct Row {
     measureMassProjection(patch(), Gas(), {x.data(), set, level.cells()}, {density.data(), set, level.cells()},
                           {error.data(), level.nodes()}, {bound.data(), level.nodes()}, greatestError, greatestRatio);
   }
-  const Patch& patch() const { return level.patches().front(); }
+  const Patch& patch() const { return grid.patches().front(); }
 };
 
 double one(double) { return 1; }

@@ -92,7 +92,7 @@ struct Row : test::Particles {
     return domain;
   }
   Row() : Particles(domain()) {
-    set.reset(level.patches().front(), 4);
+    set.reset(grid.patches().front(), 4);
     for (int k = 0; k < 4; ++k) {
       set.at(Index3{{k, 0, 0}}) = {k, k + 1};
       x.push_back({k + 0.5, 0.5});

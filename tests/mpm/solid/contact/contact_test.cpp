@@ -45,7 +45,7 @@ struct TwoBodies {
     domain.resolution = {{2, 2, 0}};
     return domain;
   }
-  explicit TwoBodies(const grid::Domain& domain = TwoBodies::domain()) : level(domain) {
+  explicit TwoBodies(const grid::Domain& domain = TwoBodies::domain()) : grid(domain) {
     for (auto* all : {&records[0], &records[1]}) all->assign(nodes.size(), NodeRecord{});
     for (int m : {0, 1}) {
       const auto k = static_cast<std::size_t>(m);
@@ -83,10 +83,11 @@ struct TwoBodies {
                           .volume = {volume[m].data(), nodes}});
     }
     const FrictionHeats noHeat(surfaces.size());
-    applyFriction<2>(level.patches().front(), contact, 1e-3, views, surfaces, noHeat);
+    applyFriction<2>(grid.patches().front(), contact, 1e-3, views, surfaces, noHeat);
   }
 
-  Level level;
+  Grid grid;
+  const Level& level = grid.level();
   Box nodes = level.nodes();
   Contact contact;
   std::array<std::vector<NodeRecord>, 2> records;
@@ -100,10 +101,10 @@ TEST(SingleVelocity, ActsAtTheStartOfAStepUnlessItActsOnce) {
   bodies.contact.type = Contact::Type::singleVelocity;
   bodies.move(0, {0, -1});
   bodies.contact.actsTwice = false;
-  exchangeMomentum<2>(bodies.level.patches().front(), {}, {bodies.contact}, Moment::start, 0, 1e-3, bodies.views(), {});
+  exchangeMomentum<2>(bodies.grid.patches().front(), {}, {bodies.contact}, Moment::start, 0, 1e-3, bodies.views(), {});
   EXPECT_EQ(bodies.velocity(0), Vec<2>(0, -1));
   bodies.contact.actsTwice = true;
-  exchangeMomentum<2>(bodies.level.patches().front(), {}, {bodies.contact}, Moment::start, 0, 1e-3, bodies.views(), {});
+  exchangeMomentum<2>(bodies.grid.patches().front(), {}, {bodies.contact}, Moment::start, 0, 1e-3, bodies.views(), {});
   EXPECT_EQ(bodies.velocity(0), Vec<2>(0, -0.5));
   EXPECT_EQ(bodies.velocity(1), Vec<2>(0, -0.5));
 }
@@ -113,7 +114,7 @@ TEST(SingleVelocity, DoesNotActWhereAMaterialExcludesIt) {
   bodies.contact.type = Contact::Type::singleVelocity;
   bodies.contact.excluded = 1;
   bodies.move(0, {0, -1});
-  exchangeMomentum<2>(bodies.level.patches().front(), {}, {bodies.contact}, Moment::start, 0, 1e-3, bodies.views(), {});
+  exchangeMomentum<2>(bodies.grid.patches().front(), {}, {bodies.contact}, Moment::start, 0, 1e-3, bodies.views(), {});
   EXPECT_EQ(bodies.velocity(0), Vec<2>(0, -1));
 }
 
@@ -205,9 +206,10 @@ TEST(Friction, DoesNotActWhereTheVolumeIsNotFilled) {
 }
 
 TEST(Surface, PointsOutOfTheBody) {
-  const Level level(TwoBodies::domain());
+  const Grid grid(TwoBodies::domain());
+  const Level& level = grid.level();
   data::ParticleSet set;
-  set.reset(level.patches().front(), LinearShape<2>::reach);
+  set.reset(grid.patches().front(), LinearShape<2>::reach);
   set.at(Index3{{0, 0, 0}}) = {0, 1};
   set.setOwned(1);
   const std::vector<Vec<2>> x{{0.5, 0.25}};
@@ -220,7 +222,7 @@ TEST(Surface, PointsOutOfTheBody) {
   std::vector<Matrix3> nodalStress(level.nodes().size());
   std::vector<double> volume(level.nodes().size());
   const Box nodes = level.nodes(), cells = level.cells();
-  computeSurface<LinearShape<2>>(level.patches().front(), material, Vec3::Ones(),
+  computeSurface<LinearShape<2>>(grid.patches().front(), material, Vec3::Ones(),
                                  {.x = {x.data(), set, cells},
                                   .size = {},
                                   .mass = {mass.data(), set, cells},
@@ -242,7 +244,7 @@ TEST(Specified, MovesTheOthersAlongItsDirectionsOnly) {
   bodies.move(0, {5, -1});
   bodies.move(1, {1, 0});
   const Records views{{bodies.records[0].data(), bodies.nodes}, {bodies.records[1].data(), bodies.nodes}};
-  followMaster<2>(bodies.level.patches().front(), bodies.contact, 0, 1e-3, views);
+  followMaster<2>(bodies.grid.patches().front(), bodies.contact, 0, 1e-3, views);
   EXPECT_EQ(bodies.velocity(1), Vec<2>(1, -1));
   EXPECT_EQ(bodies.velocity(0), Vec<2>(5, -1));
 }
@@ -253,7 +255,7 @@ TEST(Specified, MovesNothingWhereRoundingLeavesATraceOfTheMaster) {
   bodies.contact.direction = {true, true, true};
   bodies.at(bodies.records[0])[lane::mass] = 1e-30;
   bodies.move(0, {5, -1});
-  followMaster<2>(bodies.level.patches().front(), bodies.contact, 0, 1e-3, bodies.views());
+  followMaster<2>(bodies.grid.patches().front(), bodies.contact, 0, 1e-3, bodies.views());
   EXPECT_EQ(bodies.velocity(1), Vec<2>(0, 0));
 }
 
@@ -264,7 +266,7 @@ TEST(Specified, MovesNothingWhereTheExcludedMaterialIs) {
   bodies.contact.excluded = 1;
   bodies.move(0, {5, -1});
   const Records views{{bodies.records[0].data(), bodies.nodes}, {bodies.records[1].data(), bodies.nodes}};
-  followMaster<2>(bodies.level.patches().front(), bodies.contact, 0, 1e-3, views);
+  followMaster<2>(bodies.grid.patches().front(), bodies.contact, 0, 1e-3, views);
   EXPECT_EQ(bodies.velocity(1), Vec<2>(0, 0));
 }
 
@@ -274,7 +276,7 @@ TEST(Specified, FeelsTheForceThatItHoldsTheOthersWith) {
   bodies.move(1, {0, 0.02});  // what a force of 20 N and gravity make of rest in a millisecond
   const Records views{{bodies.records[0].data(), bodies.nodes}, {bodies.records[1].data(), bodies.nodes}};
   VectorSum reaction;
-  sumReaction<2>(bodies.level.patches().front(), bodies.contact, {Vec3(0, 5, 0), 0}, 1e-3, views, reaction);
+  sumReaction<2>(bodies.grid.patches().front(), bodies.contact, {Vec3(0, 5, 0), 0}, 1e-3, views, reaction);
   EXPECT_NEAR(reaction.y.total(), -15, 1e-12);
 }
 
@@ -287,7 +289,7 @@ TEST(Specified, TurnsTheOthersWithIt) {
   bodies.contact.angularVelocity = {{0, Vec3(0, 0, 0)}, {1, Vec3(0, 0, 4)}};
   const Records views = bodies.views();
   const double dt = 1e-8;
-  followMaster<2>(bodies.level.patches().front(), bodies.contact, 0.5, dt, views);
+  followMaster<2>(bodies.grid.patches().front(), bodies.contact, 0.5, dt, views);
   for (const int body : {0, 1})  // at (1, 1), a metre above the centre
     EXPECT_LT((bodies.velocity(body) - Vec<2>(1 - 2, 0)).norm(), 2 * 2 * dt) << "omega^2 r dt / 2 is the chord's";
 }

@@ -50,7 +50,7 @@ struct TwoBodies {
     domain.resolution = {{2, 2, 0}};
     return domain;
   }
-  TwoBodies() : level(domain()) {
+  TwoBodies() : grid(domain()) {
     for (const std::size_t m : {std::size_t{0}, std::size_t{1}}) {
       records[m].assign(nodes.size(), NodeRecord{});
       normal[m].assign(nodes.size(), Vec<2>::Zero());
@@ -81,7 +81,8 @@ struct TwoBodies {
   }
   void slide() { slideAlongPlanes<2>(contact, views(), planes()); }
 
-  Level level;
+  Grid grid;
+  const Level& level = grid.level();
   Box nodes = level.nodes();
   std::size_t centre = nodes.offset(Index3{{1, 1, 0}});
   Contact contact;
@@ -138,7 +139,7 @@ TEST(SpecifiedFriction, SlidesOnAMasterThatMovesAsTold) {
   bodies.contact.friction = 0.5;
   bodies.contact.profile = {{0, Vec3(0, 1, 0)}, {1, Vec3(0, 1, 0)}};
   bodies.move(1, {4, -1});
-  slideOnMaster<2>(bodies.level.patches().front(), bodies.contact, 0, 1e-3, bodies.views(), bodies.planes());
+  slideOnMaster<2>(bodies.grid.patches().front(), bodies.contact, 0, 1e-3, bodies.views(), bodies.planes());
   EXPECT_EQ(bodies.velocity(0), Vec<2>(0, 1));
   EXPECT_LT((bodies.velocity(1) - Vec<2>(4 - 0.5 * 2, 1)).norm(), roundOff);
 }
@@ -148,7 +149,7 @@ TEST(SpecifiedFriction, FeelsTheForceOfThoseThatItStops) {
   bodies.contact.type = Contact::Type::specifiedFriction;
   bodies.move(1, {0, -0.02});  // what 20 N make of rest in a millisecond
   VectorSum reaction;
-  sumSlidingReaction<2>(bodies.level.patches().front(), bodies.contact, {Vec3::Zero(), 0}, 0, 1e-3, bodies.views(),
+  sumSlidingReaction<2>(bodies.grid.patches().front(), bodies.contact, {Vec3::Zero(), 0}, 0, 1e-3, bodies.views(),
                         bodies.planes(), reaction);
   EXPECT_NEAR(reaction.y.total(), 20, 1e-12);
 }

@@ -12,7 +12,8 @@ constexpr double roundOff = 1e-14;  // of a dozen operations on numbers of order
 
 /// Four particles of a cell, of different masses, deformed differently.
 struct Cell {
-  Level level{domain()};
+  Grid grid{domain()};
+  const Level& level = grid.level();
   data::ParticleSet set;
   std::vector<double> mass{1, 2, 3, 4}, volume = std::vector<double>(4);
   std::vector<Matrix3> deformation{diagonal(1.1, 1, 1), diagonal(0.8, 1, 1), diagonal(1, 1.3, 1.2),
@@ -30,7 +31,7 @@ struct Cell {
   static Matrix3 diagonal(double a, double b, double c) { return Vec3(a, b, c).asDiagonal().toDenseMatrix(); }
 
   void share() {
-    set.reset(level.patches().front(), 0);
+    set.reset(grid.patches().front(), 0);
     set.setOwned(4);
     const ParticleView<const Vec<2>> none{nullptr, set, level.cells()};
     for (std::size_t p = 0; p < 4; ++p) volume[p] = mass[p] * before[p].determinant();

@@ -46,10 +46,10 @@ class Block {
 
   /// Fills the `filled` cells next to the lower corner. `stretched` > 1 pulls the block apart before the step.
   Block(std::shared_ptr<const Model> model, const Index3& filled, double stretched = 1)
-      : level_(domainAround(restricted(filled))), state_size_(std::max(1, model->stateSize())) {
+      : grid_(domainAround(restricted(filled))), state_size_(std::max(1, model->stateSize())) {
     material_.density = 1000;
     material_.model = std::move(model);
-    const Patch& patch = level_.patches().front();
+    const Patch& patch = grid_.patches().front();
     set_.reset(patch, 0);
     forEach<D>(patch.cells(), [&](const Index<D>& cell) {
       const int first = static_cast<int>(x_.size());
@@ -87,7 +87,7 @@ class Block {
   double temperatureAfter(double dt, const Vec<D>& x) {
     std::vector<Material> materials{material_};
     materials[0].thermalConductivity = materials[0].specificHeat = 1;
-    const Patch& patch = level_.patches().front();
+    const Patch& patch = grid_.patches().front();
     const HeatedParticles<Shape> heated{.placed = {.x = view(x_), .size = std::nullopt, .deformation = std::nullopt},
                                         .mass = view(mass_),
                                         .temperature = view(temperature_),
@@ -107,7 +107,7 @@ class Block {
   }
 
   ImplicitSystem<Shape> system(bool dynamic, double dt = 0.01) {
-    const Patch& patch = level_.patches().front();
+    const Patch& patch = grid_.patches().front();
     const PointSources<Shape> sources{
         .group = {.material = &material_,
                   .count = static_cast<int>(x_.size()),
@@ -132,7 +132,7 @@ class Block {
  private:
   template <class T>
   ParticleView<const T> view(const std::vector<T>& values) const {
-    return {values.data(), set_, level_.patches().front().cells()};
+    return {values.data(), set_, grid_.patches().front().cells()};
   }
   static Index3 restricted(const Index3& filled) {
     Index3 cells;
@@ -153,7 +153,8 @@ class Block {
     material_.model->initialize(&state_[state_.size() - state_size_], {});
   }
 
-  Level level_;
+  Grid grid_;
+  const Level& level_ = grid_.level();
   int state_size_;
   Material material_;
   data::ParticleSet set_;

@@ -18,7 +18,7 @@ struct TwoParticles : test::Particles {
     return domain;
   }
   TwoParticles() : Particles(domain()) {
-    set.reset(level.patches().front(), 1);
+    set.reset(grid.patches().front(), 1);
     set.at(Index3{{0, 0, 0}}) = {0, 2};
     set.setOwned(2);
   }
@@ -40,7 +40,7 @@ TEST(Load, SharesAPressureAmongTheParticlesOfASurface) {
   TwoParticles two;
   const Loads loads{{onASquare(SurfaceLoad::Kind::pressure)}, {}};
   std::vector<Vec<2>> force(2);
-  applyExternalLoads<2>(two.level.patches().front(), two.material, loads, 1, two.read(two.x), two.read(two.mass),
+  applyExternalLoads<2>(two.grid.patches().front(), two.material, loads, 1, two.read(two.x), two.read(two.mass),
                         two.read(std::vector<int>{0, 1}), std::nullopt, {force.data(), two.set, two.level.cells()});
   EXPECT_EQ(force[0], Vec<2>(0, 0));
   EXPECT_EQ(force[1], Vec<2>(4 * 6 / 4.0, 0)) << "4 Pa at half the time, 6 m^2, 4 particles";
@@ -55,7 +55,7 @@ TEST(Load, TurnsAPressureButNoBodyForceWithTheParticle) {
   stretch(0, 1) = stretch(1, 0) = 0.5;
   const std::vector<Matrix3> deformation{Matrix3::Identity(), quarter * stretch};
   std::vector<Vec<2>> force(2);
-  applyExternalLoads<2>(two.level.patches().front(), two.material, loads, 1, two.read(two.x), two.read(two.mass),
+  applyExternalLoads<2>(two.grid.patches().front(), two.material, loads, 1, two.read(two.x), two.read(two.mass),
                         two.read(std::vector<int>{1, 1 + 256 * 2}), two.read(deformation),
                         {force.data(), two.set, two.level.cells()});
   EXPECT_EQ(force[0], Vec<2>(6, 0));
@@ -66,7 +66,7 @@ TEST(Load, PullsBodiesByTheirMass) {
   TwoParticles two;
   const Loads loads{{onASquare(SurfaceLoad::Kind::heatFlux)}, {{Vec3::Zero(), Vec3::Ones(), Vec3(0, -5, 0)}}};
   std::vector<Vec<2>> force(2);
-  applyExternalLoads<2>(two.level.patches().front(), two.material, loads, 1, two.read(two.x), two.read(two.mass),
+  applyExternalLoads<2>(two.grid.patches().front(), two.material, loads, 1, two.read(two.x), two.read(two.mass),
                         two.read(std::vector<int>{2, 1 + 256 * 2}), std::nullopt,
                         {force.data(), two.set, two.level.cells()});
   EXPECT_EQ(force[0], Vec<2>(0, -10));
@@ -77,7 +77,7 @@ TEST(Load, BringsHeatToTheParticlesOfASurface) {
   TwoParticles two;
   const Loads loads{{onASquare(SurfaceLoad::Kind::heatFlux)}, {{Vec3::Zero(), Vec3::Ones(), Vec3(0, -5, 0)}}};
   std::vector<double> heat(2);
-  applyHeatFlux<2>(two.level.patches().front(), two.material, loads, 1, two.read(two.x),
+  applyHeatFlux<2>(two.grid.patches().front(), two.material, loads, 1, two.read(two.x),
                    two.read(std::vector<int>{2, 1 + 256 * 2}), {heat.data(), two.set, two.level.cells()});
   EXPECT_EQ(heat[0], 0);
   EXPECT_EQ(heat[1], 4 * 6 / 4.0);

@@ -1,11 +1,11 @@
-#include "core/numerics/limiters.hpp"
+#include "core/base/limiters.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <vector>
 
-namespace tushar::numerics {
+namespace tushar {
 
 namespace {
 
@@ -60,4 +60,4 @@ TEST(Limiters, HaveTheirKnownValues) {
   EXPECT_DOUBLE_EQ(Mc::slope(2, 3), 2.5);
 }
 
-}  // namespace tushar::numerics
+}  // namespace tushar

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace tushar::numerics {
+namespace tushar {
 
 // Slopes of a cell from the differences `a` and `b` to its two neighbours. All are symmetric, f(a, b) = f(b, a),
 // odd, f(-a, -b) = -f(a, b), zero at extrema, and TVD: |f| <= 2 min(|a|, |b|).
@@ -36,4 +36,4 @@ struct Mc {
   }
 };
 
-}  // namespace tushar::numerics
+}  // namespace tushar

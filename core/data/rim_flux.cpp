@@ -1,0 +1,34 @@
+#include "core/data/rim_flux.hpp"
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+
+namespace tushar::data {
+
+namespace {
+
+struct OwnedLabel {
+  explicit OwnedLabel(const Label& of) : name("rim." + std::string(of.name)), label(of) {
+    label.name = name;
+    label.description = "flux through the rims of patches";
+    label.centring = Centring::rim;
+    label.bound = Bound::none;
+  }
+  std::string name;
+  Label label;
+};
+
+}  // namespace
+
+const Label& rimLabelOf(const Label& label) {
+  static std::mutex mutex;
+  static std::map<std::string, std::unique_ptr<OwnedLabel>, std::less<>> labels;
+  const std::lock_guard<std::mutex> alone(mutex);
+  std::unique_ptr<OwnedLabel>& owned = labels[std::string(label.name)];
+  if (!owned) owned = std::make_unique<OwnedLabel>(label);
+  return owned->label;
+}
+
+}  // namespace tushar::data

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <span>
+
+#include "core/data/label.hpp"
+#include "core/grid/rim.hpp"
+
+namespace tushar::data {
+
+/// The label of the fluxes of a variable of cells through the rims of patches; it lives as long as the program.
+const Label& rimLabelOf(const Label& label);
+
+/// The fluxes of a variable through the faces of a patch at which its level ends: the amount per area and time, along
+/// the axis. None where there is one level, and where nobody wants them. Several tasks of a step each add their part;
+/// the sum is 0 before the first.
+template <class T>
+class RimFlux {
+ public:
+  RimFlux() = default;
+  RimFlux(T* values, std::span<const grid::RimPiece> pieces) : values_(values), pieces_(pieces) {}
+
+  bool empty() const { return pieces_.empty(); }
+  /// Calls `visit(cell, axis, side, flux through that face of the cell)`.
+  template <int D, class Visit>
+  void forEachFace(Visit&& visit) const {
+    for (const grid::RimPiece& piece : pieces_) {
+      T* through = values_ + piece.first;
+      grid::forEach<D>(piece.cells, [&](const Index<D>& cell) { visit(cell, piece.axis, piece.side, *through++); });
+    }
+  }
+  /// Calls `visit(face, flux)` for the faces across an axis that are in a box of faces, each named by the cell above
+  /// it.
+  template <int D, class Visit>
+  void forEachFaceIn(const grid::Box& faces, int axis, Visit&& visit) const {
+    for (const grid::RimPiece& piece : pieces_) {
+      if (piece.axis != axis) continue;
+      const grid::Box all = piece.cells.shifted(piece.side == 0 ? Index3{} : Index3::unit(axis));
+      grid::forEach<D>(all.intersect(faces), [&](const Index<D>& face) {
+        Index3 at;
+        for (int d = 0; d < D; ++d) at[d] = face[d];
+        visit(face, values_[piece.first + all.offset(at)]);
+      });
+    }
+  }
+
+ private:
+  T* values_ = nullptr;
+  std::span<const grid::RimPiece> pieces_;
+};
+
+}  // namespace tushar::data

@@ -1,0 +1,64 @@
+#include "core/grid/block_tiling.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace tushar::grid {
+
+Box blocksOver(const Box& cells, const Index3& blockCells) {
+  Box blocks;
+  for (int d = 0; d < 3; ++d) {
+    blocks.lower[d] = cells.lower[d] / blockCells[d];
+    blocks.upper[d] = (cells.upper[d] - 1) / blockCells[d] + 1;
+  }
+  return blocks;
+}
+
+BlockTiling::BlockTiling(BlockTree tree, const Index3& blockCells, const Index3& most)
+    : tree_(std::move(tree)),
+      block_cells_(blockCells),
+      patches_(patchesOf(tree_, blockCells, most)),
+      patch_of_leaf_(tree_.leaves().size(), -1) {
+  cells_before_.push_back(0);
+  for (std::size_t id = 0; id < patches_.size(); ++id) {
+    const auto& [level, cells] = patches_[id];
+    forEach<3>(blocksOver(cells, block_cells_), [&, level = level](const Index3& block) {
+      patch_of_leaf_[static_cast<std::size_t>(tree_.placeOf({level, block}))] = static_cast<int>(id);
+    });
+    cells_before_.push_back(cells_before_.back() + cells.size());
+  }
+}
+
+Tile BlockTiling::tile(int id) const {
+  const auto& [level, cells] = patches_[static_cast<std::size_t>(id)];
+  return {id, level, cells};
+}
+
+int BlockTiling::patchOf(const BlockId& block) const {
+  return tree_.levelAt(block) == block.level ? patch_of_leaf_[static_cast<std::size_t>(tree_.placeOf(block))] : -1;
+}
+
+Tile BlockTiling::tileOf(int level, const Index3& cell) const {
+  BlockId block{level, {}};
+  for (int d = 0; d < 3; ++d) block.at[d] = cell[d] / block_cells_[d];
+  const int id = patchOf(block);
+  return id < 0 ? Tile{-1, level, {}} : tile(id);
+}
+
+std::vector<Tile> BlockTiling::overlapping(int level, const Box& cells) const {
+  std::vector<int> ids;
+  forEach<3>(blocksOver(cells, block_cells_), [&](const Index3& block) {
+    if (const int id = patchOf({level, block}); id >= 0 && (ids.empty() || ids.back() != id)) ids.push_back(id);
+  });
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  std::vector<Tile> found;
+  for (const int id : ids) found.push_back(tile(id));
+  return found;
+}
+
+int BlockTiling::patchAfter(std::uint64_t cells) const {
+  return static_cast<int>(std::lower_bound(cells_before_.begin(), cells_before_.end(), cells) - cells_before_.begin());
+}
+
+}  // namespace tushar::grid

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "core/grid/block_patches.hpp"
+#include "core/grid/block_tree.hpp"
+#include "core/grid/tiling.hpp"
+
+namespace tushar::grid {
+
+/// The blocks of a level that hold cells of a box, which lies on the grid.
+Box blocksOver(const Box& cells, const Index3& blockCells);
+
+/// The patches of a grid of several levels: boxes of leaves of a block tree. All of them are kept on each rank.
+class BlockTiling : public Tiling {
+ public:
+  /// Blocks of `blockCells` along the kernel axes, in patches of up to `most` cells along each.
+  BlockTiling(BlockTree tree, const Index3& blockCells, const Index3& most);
+
+  const BlockTree& tree() const { return tree_; }
+  const Index3& blockCells() const { return block_cells_; }
+
+  int count() const override { return static_cast<int>(patches_.size()); }
+  Tile tile(int id) const override;
+  Tile tileOf(int level, const Index3& cell) const override;
+  std::vector<Tile> overlapping(int level, const Box& cells) const override;
+  std::uint64_t cells() const override { return cells_before_.back(); }
+  std::uint64_t cellsBefore(int id) const override { return cells_before_[static_cast<std::size_t>(id)]; }
+  int patchAfter(std::uint64_t cells) const override;
+
+ private:
+  /// The patch of a block that is a leaf; -1 for any other.
+  int patchOf(const BlockId& block) const;
+
+  BlockTree tree_;
+  Index3 block_cells_;
+  std::vector<PatchBox> patches_;
+  std::vector<int> patch_of_leaf_;           ///< by place of the leaf on the curve
+  std::vector<std::uint64_t> cells_before_;  ///< by patch, and of all
+};
+
+}  // namespace tushar::grid

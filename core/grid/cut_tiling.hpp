@@ -1,0 +1,25 @@
+#pragma once
+
+#include "core/grid/morton_curve.hpp"
+#include "core/grid/tiling.hpp"
+
+namespace tushar::grid {
+
+/// The patches that cuts along each axis make of a grid of one level. Nothing is kept for each patch.
+class CutTiling : public Tiling {
+ public:
+  explicit CutTiling(MortonCurve::Cuts cuts) : curve_(std::move(cuts)) {}
+
+  int count() const override { return curve_.blocks(); }
+  Tile tile(int id) const override { return {id, 0, curve_.cellsAt(curve_.blockAt(id))}; }
+  Tile tileOf(int level, const Index3& cell) const override;
+  std::vector<Tile> overlapping(int level, const Box& cells) const override;
+  std::uint64_t cells() const override { return curve_.cells(); }
+  std::uint64_t cellsBefore(int id) const override { return curve_.cellsBefore(id); }
+  int patchAfter(std::uint64_t cells) const override { return curve_.placeAfter(cells); }
+
+ private:
+  MortonCurve curve_;
+};
+
+}  // namespace tushar::grid

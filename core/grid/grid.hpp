@@ -1,0 +1,100 @@
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/grid/block_tiling.hpp"
+#include "core/grid/level.hpp"
+#include "core/grid/partition.hpp"
+#include "core/grid/patch.hpp"
+#include "core/grid/rim.hpp"
+#include "core/grid/tiling.hpp"
+
+namespace tushar::grid {
+
+/// The grid of a run: its levels and its patches, as one of the ranks that share it sees them.
+///
+/// Patches are numbered along Morton's curve; a rank has consecutive ones. Where there is one level, only these are
+/// kept: any other is made when it is asked for, so that a grid of a million patches takes no more memory on a rank
+/// than its own.
+class Grid {
+ public:
+  /// One level is split into patches as the domain says; along an axis with fewer cells than patches asked for, a patch
+  /// per cell. Several are cut into blocks, the regions of `domain.refinement` refined, and patches are boxes of
+  /// blocks.
+  explicit Grid(const Domain& domain, Share share = {});
+  Grid(const Grid&) = delete;
+  Grid& operator=(const Grid&) = delete;
+
+  /// 0: the coarsest.
+  const Level& level(int number = 0) const { return levels_[static_cast<std::size_t>(number)]; }
+  int levels() const { return static_cast<int>(levels_.size()); }
+  const Level& finest() const { return levels_.back(); }
+  int dimension() const { return level().dimension(); }
+
+  /// Which blocks are refined; there must be several levels.
+  const BlockTree& tree() const { return blocks_->tree(); }
+  /// Cells of a block along the kernel axes.
+  const Index3& blockCells() const { return blocks_->blockCells(); }
+  /// Refines other blocks from now on: other patches, in shares of as many cells as they allow. What stands on patches
+  /// is the caller's to move.
+  void refine(BlockTree tree);
+  /// The patches of this rank, by number.
+  const std::vector<Patch>& patches() const { return patches_; }
+  /// Number of patches of all ranks.
+  int patchCount() const { return tiling_->count(); }
+  /// Any patch of the grid.
+  Patch patch(int id) const { return patchOf(tiling_->tile(id)); }
+  /// The number of the first patch of this rank.
+  int firstPatch() const { return first_patch_; }
+  /// Whether this rank has a patch.
+  bool isMine(int patch) const {
+    return patch >= first_patch_ && patch < first_patch_ + static_cast<int>(patches_.size());
+  }
+  /// The rank that has a patch.
+  int ownerOf(int patch) const { return isMine(patch) ? share_.rank : partition_->ownerOf(patch); }
+  const Share& share() const { return share_; }
+  /// Nodes of one of this rank's patches that are its own: all but those on an upper face behind which only patches of
+  /// this rank stand, which have these nodes, too. Each node of a patch is an own node of one of the rank's.
+  const Box& ownNodes(int patch) const { return own_nodes_[patch - first_patch_]; }
+  /// Which patches each rank has.
+  RankOffsets rankOffsets() const;
+  /// Gives the patches to the ranks anew. What stands on them is the caller's to move: see tasks::migratePatches.
+  void share(RankOffsets offsets);
+
+  /// The patch that holds a cell of a level, which must be neither refined nor part of a coarser one.
+  Patch patchOf(const Index3& cell, int level) const { return patchOf(tiling_->tileOf(level, cell)); }
+  /// The patches of a level that hold cells of a box, in the order of their cells.
+  std::vector<Patch> patchesOverlapping(const Box& cells, int level) const;
+  /// Calls `visit(patch, shift)` for each patch of a level, and each of its periodic images, that holds cells of a box:
+  /// an image has the patch's cells shifted.
+  template <class Visit>
+  void forEachOverlapping(const Level& level, const Box& cells, Visit&& visit) const {
+    for (const Index3& shift : level.imagesOverlapping(cells))
+      for (const Patch& patch : patchesOverlapping(cells.shifted(Index3{} - shift), level.number()))
+        visit(patch, shift);
+  }
+  /// Where one of this rank's patches meets other levels.
+  const std::vector<RimPiece>& rims(int patch) const { return rims_[patch - first_patch_]; }
+
+ private:
+  void cutIntoBlocks();
+  Index3 mostCellsOfPatch(const Index3& blockCells) const;
+  Patch patchOf(const Tile& tile) const { return {level(tile.level), tile.id, tile.cells}; }
+  void makePatches();
+  bool sharesUpperFace(const Patch& patch, int kernelAxis) const;
+
+  std::deque<Level> levels_;
+  Share share_;
+  std::unique_ptr<Tiling> tiling_;
+  const BlockTiling* blocks_ = nullptr;  ///< the tiling, where there are several levels
+  std::optional<Partition> partition_;
+  int first_patch_ = 0;
+  std::vector<Patch> patches_;
+  std::vector<Box> own_nodes_;               ///< by place of the patch on this rank
+  std::vector<std::vector<RimPiece>> rims_;  ///< likewise; empty where there is one level
+};
+
+}  // namespace tushar::grid

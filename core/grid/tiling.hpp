@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/grid/box.hpp"
+
+namespace tushar::grid {
+
+/// A patch as a tiling knows it: its number, its level and its cells, counted on that level.
+struct Tile {
+  int id;
+  int level;
+  Box cells;
+};
+
+/// How the cells of a grid are cut into patches, which are numbered along a curve. Every rank has the whole of it.
+class Tiling {
+ public:
+  virtual ~Tiling() = default;
+
+  /// Number of patches.
+  virtual int count() const = 0;
+  virtual Tile tile(int id) const = 0;
+  /// The patch of a level that holds a cell of it; its id is -1 where the cell is refined or belongs to a coarser
+  /// level.
+  virtual Tile tileOf(int level, const Index3& cell) const = 0;
+  /// The patches of a level that hold cells of a box of it, all of which lie on the grid.
+  virtual std::vector<Tile> overlapping(int level, const Box& cells) const = 0;
+
+  /// Number of cells of all patches.
+  virtual std::uint64_t cells() const = 0;
+  /// Cells of all patches before one.
+  virtual std::uint64_t cellsBefore(int id) const = 0;
+  /// The first patch that has `cells` or more before it.
+  virtual int patchAfter(std::uint64_t cells) const = 0;
+};
+
+}  // namespace tushar::grid
