@@ -53,12 +53,19 @@ struct ParticleBlock {
 
 enum class Centring { cell, node };
 
-/// A field over all cells or nodes of the grid, x fastest.
+/// A field over all cells or nodes of the grid, x fastest; where the grid has boxes, box by box.
 struct FieldBlock {
   Centring centring = Centring::cell;
   std::string material;    ///< empty where the field belongs to none
   int materialIndex = -1;  ///< -1 where the field belongs to none
   Array array;
+};
+
+/// Cells of one level, counted from the corner of the domain along x, y, z in cells of that level: [lower, upper). Their
+/// width is that of the grid over 2^level along the axes that the scene uses.
+struct GridBox {
+  int level = 0;
+  Index3 lower{}, upper{};
 };
 
 /// The geometry of the grid. An axis that the scene leaves out has one cell, as wide as the domain, and one node.
@@ -67,6 +74,9 @@ struct GridInfo {
   Vec3 spacing = Vec3::Ones();  ///< cell widths, m
   Index3 cells = Index3::filled(1);
   int dimension = 0;  ///< number of axes that the scene uses
+  /// Where there are several levels, the boxes of cells that tile the domain; none where there is one.
+  std::vector<GridBox> boxes{};
+  int levels = 1;
 };
 
 /// The state at one time, gathered over patches in an order that no layout changes.

@@ -21,6 +21,7 @@ struct Problem {
   std::vector<InputProblem> notes;  ///< on parts of the scene that have no effect
   TimeSettings time;
   ArchiveSettings archive;
+  RegridSettings regrid;
   std::unique_ptr<grid::Grid> grid;
   int threads = 1;
   std::unique_ptr<Component> component;

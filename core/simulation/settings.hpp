@@ -40,6 +40,33 @@ struct ArchiveSettings {
   std::optional<CheckpointSettings> checkpoint;
 };
 
+/// A reason to refine: an indicator of a cell variable, and where it is too great.
+struct Criterion {
+  enum class Indicator {
+    jump,              ///< |q(i+1) - q(i-1)| / 2 over the least |q| of the three, the greatest over axes
+    secondDerivative,  ///< Löhner's, between 0 and 1
+    gradient,          ///< the magnitude of the gradient, unit of the variable over m
+    above,             ///< the value itself
+    below,             ///< the value itself; smaller ones are refined
+  };
+  std::string variable;
+  std::string material;  ///< empty: of none, or of each
+  Indicator indicator = Indicator::jump;
+  double refine = 0;   ///< finer cells where the indicator is beyond this,
+  double coarsen = 0;  ///< and no coarser ones where it is beyond this
+  Location where;
+};
+
+/// When and where a run refines its grid; the sections `AMR/Regridder` and `Refinement_Criteria_Thresholds`.
+struct RegridSettings {
+  bool adaptive = false;
+  bool once = false;    ///< at the start only
+  int interval = 8;     ///< steps from one look at the grid to the next
+  int dilation = 1;     ///< cells around those that signals can reach until then
+  bool refluxes = true;
+  std::vector<Criterion> criteria;
+};
+
 /// The options of a run on the command line.
 struct RunOptions {
   std::string jsonPath;      ///< where the report goes; empty: nowhere
