@@ -44,8 +44,24 @@ void Euler<D>::scheduleDiagnostics(TaskList& tasks) const {
                  requiresOld(c::momentum<D>), requiresOld(c::totalEnergy), computes(c::pressure));
   tasks.perPatch("euler::computeVelocity", computeVelocity<D>, requiresOld(c::density), requiresOld(c::momentum<D>),
                  computes(c::velocity<D>));
+  tasks.perPatch("euler::computeMach", computeMach<D>, with(settings_.gas), requiresOld(c::density),
+                 requiresOld(c::momentum<D>), requiresOld(c::totalEnergy), computes(c::mach<D>));
   tasks.perPatch("euler::computeInternalEnergy", computeInternalEnergy<D>, requiresOld(c::density),
                  requiresOld(c::momentum<D>), requiresOld(c::totalEnergy), computes(c::internalEnergy));
+}
+
+/// Two gases that part have equal densities and pressures at first: the velocity must be looked at, too.
+template <int D>
+std::vector<simulation::Criterion> Euler<D>::criteria() const {
+  std::vector<simulation::Criterion> criteria(3);
+  criteria[0].variable = c::density.name;
+  criteria[1].variable = c::pressure.name;
+  criteria[2].variable = c::mach<D>.name;
+  for (simulation::Criterion& one : criteria) {
+    one.refine = 0.02;
+    one.coarsen = 0.01;
+  }
+  return criteria;
 }
 
 template <int D>

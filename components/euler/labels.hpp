@@ -13,6 +13,8 @@ inline constexpr CellLabel<double> totalEnergy{"c.totalEnergy", "J/m^3", "intern
 inline constexpr CellLabel<double> pressure{"c.pressure", "Pa", "pressure"};
 template <int D>
 inline constexpr CellLabel<Vec<D>> velocity{"c.velocity", "m/s", "velocity"};
+template <int D>
+inline constexpr CellLabel<Vec<D>> mach{"c.mach", "1", "velocity over the speed of sound"};
 inline constexpr CellLabel<double> internalEnergy{"c.internalEnergy", "J/kg", "internal energy per mass"};
 }  // namespace c
 

@@ -44,10 +44,10 @@ Parts collectParticles(data::Warehouse& warehouse, Generation generation, int va
   return parts;
 }
 
-Parts collectGrid(data::Warehouse& warehouse, Generation generation, int variable, const Box& all) {
+Parts collectGrid(data::Warehouse& warehouse, Generation generation, int variable, const GridOrder& order) {
   const data::Label& label = *warehouse.table()[variable].label;
   const std::size_t bytes = label.bytes;
-  const auto sentOf = [&](const Patch& patch) { return ownBox(patch, label).intersect(all); };
+  const auto sentOf = [&](const Patch& patch) { return order.givenBy(ownBox(patch, label)); };
   Parts parts;
   parts.messages = collect(
       warehouse,

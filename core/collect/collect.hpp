@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/base/mpi.hpp"
+#include "core/collect/grid_order.hpp"
 #include "core/data/warehouse.hpp"
 
 namespace tushar::collect {
@@ -55,7 +56,7 @@ std::vector<mpi::Bytes> collect(const data::Warehouse& warehouse, Own&& own, Pac
 /// The particles of a variable, on each patch in its order. All ranks call it.
 Parts collectParticles(data::Warehouse& warehouse, data::Generation generation, int variable);
 
-/// The cells or nodes of a variable within a box. All ranks call it.
-Parts collectGrid(data::Warehouse& warehouse, data::Generation generation, int variable, const grid::Box& all);
+/// The cells or nodes of a variable that are in an order. All ranks call it.
+Parts collectGrid(data::Warehouse& warehouse, data::Generation generation, int variable, const GridOrder& order);
 
 }  // namespace tushar::collect

@@ -29,9 +29,8 @@ output::Array emptyArray(const Label& label) {
   return array;
 }
 
-/// All cells or nodes that a label has a value for.
-Box boxOf(const Label& label, const grid::Level& level) {
-  return label.centring == Centring::node ? level.nodesOfCells() : level.cells();
+GridOrder orderOf(const Label& label, const grid::Grid& grid) {
+  return collect::orderOf(grid, label.centring == Centring::node);
 }
 
 struct HashFree {
@@ -72,22 +71,26 @@ void Gather::streamParticles(Generation generation, int number, output::Array& a
   array.source = sourceAt(places, std::move(parts), EntryForm(*label, warehouse_->grid().level()));
 }
 
-void Gather::streamGrid(Generation generation, int number, const Box& all, output::Array& array) {
+void Gather::streamGrid(Generation generation, int number, const GridOrder& order, output::Array& array) {
   const Label& label = *warehouse_->table()[number].label;
   const grid::Grid& grid = warehouse_->grid();
-  Parts parts = collectGrid(*warehouse_, generation, number, all);
+  Parts parts = collectGrid(*warehouse_, generation, number, order);
   if (!warehouse_->ranks().isFirst()) return;
-  auto runs = std::make_shared<const Runs>(runsOfGrid(grid, label, parts, all));
-  array.source = sourceInRuns(std::move(runs), all.size(), std::move(parts), EntryForm(label, grid.level()));
+  auto runs = std::make_shared<const Runs>(runsOfGrid(grid, label, parts, order));
+  array.source = sourceInRuns(std::move(runs), order.size(), std::move(parts), EntryForm(label, grid.level()));
 }
 
 output::Array Gather::stream(Generation generation, int number) {
+  return stream(generation, number, orderOf(*warehouse_->table()[number].label, warehouse_->grid()));
+}
+
+output::Array Gather::stream(Generation generation, int number, const GridOrder& order) {
   const Label& label = *warehouse_->table()[number].label;
   output::Array array = emptyArray(label);
   if (label.centring == Centring::reduction || !warehouse_->isHeld(generation, number)) return array;
   label.centring == Centring::particle
       ? streamParticles(generation, number, array)
-      : streamGrid(generation, number, boxOf(label, warehouse_->grid().level()), array);
+      : streamGrid(generation, number, order, array);
   return array;
 }
 
@@ -95,10 +98,11 @@ output::Array Gather::stream(Generation generation, int number, const Layer& lay
   const Label& label = *warehouse_->table()[number].label;
   output::Array array = emptyArray(label);
   if (!warehouse_->isHeld(generation, number)) return array;
-  Box part = boxOf(label, warehouse_->grid().level());
+  const grid::Level& level = warehouse_->grid().level();
+  Box part = label.centring == Centring::node ? level.nodesOfCells() : level.cells();
   part.lower[layer.axis] = label.centring == Centring::node ? layer.node : layer.cell;
   part.upper[layer.axis] = part.lower[layer.axis] + 1;
-  streamGrid(generation, number, part, array);
+  streamGrid(generation, number, GridOrder(part), array);
   return array;
 }
 
@@ -121,6 +125,24 @@ output::GridInfo gridInfo(const grid::Level& level) {
   return info;
 }
 
+output::GridInfo gridInfo(const grid::Grid& grid) {
+  const grid::Level& level = grid.level();
+  output::GridInfo info = gridInfo(level);
+  info.levels = grid.levels();
+  if (grid.levels() == 1) return info;
+  const GridOrder order = collect::orderOf(grid, false);
+  for (int id = 0; id < order.boxes()->count(); ++id) {
+    const grid::Tile tile = order.boxes()->tile(id);
+    output::GridBox box{tile.level, {}, Index3::filled(1)};
+    for (int d = 0; d < level.dimension(); ++d) {
+      box.lower[level.axis(d)] = tile.cells.lower[d];
+      box.upper[level.axis(d)] = tile.cells.upper[d];
+    }
+    info.boxes.push_back(box);
+  }
+  return info;
+}
+
 output::GridInfo gridInfo(const grid::Level& level, const Layer& layer) {
   output::GridInfo info = gridInfo(level);
   const int axis = level.axis(layer.axis);
@@ -133,11 +155,15 @@ output::GridInfo gridInfo(const grid::Level& level, const Layer& layer) {
 std::string fingerprint(data::Warehouse& warehouse, const std::vector<std::string>& labels, int materials) {
   XXH64_hash_t hash = 0;
   Gather gather(warehouse);
+  const grid::Grid& grid = warehouse.grid();
   for (const std::string& label : labels)
     for (int material = -1; material < materials; ++material) {
       const int number = warehouse.table().find(label, material);
       if (number < 0) continue;
-      hash = hashOf(gather.stream(Generation::old, number), hash);
+      const bool isByBlock = grid.levels() > 1 && warehouse.table()[number].label->centring == Centring::cell;
+      hash = hashOf(isByBlock ? gather.stream(Generation::old, number, GridOrder(grid, 0))
+                              : gather.stream(Generation::old, number),
+                    hash);
     }
   return fmt::format("{:016x}", hash);
 }

@@ -28,6 +28,8 @@ class Gather {
   output::Array array(data::Generation generation, int variable);
   /// The values of a variable without a copy: they stay where they are, and are good while the state is as it is.
   output::Array stream(data::Generation generation, int variable);
+  /// The same in an order of one's own.
+  output::Array stream(data::Generation generation, int variable, const GridOrder& order);
   /// The same for the part of a variable of cells or nodes that is in a layer; no other part is sent.
   output::Array stream(data::Generation generation, int variable, const Layer& layer);
 
@@ -37,13 +39,14 @@ class Gather {
   /// Where the particles of a material are, by id.
   const Places& placesOf(int material);
   void streamParticles(data::Generation generation, int number, output::Array& array);
-  void streamGrid(data::Generation generation, int number, const grid::Box& all, output::Array& array);
+  void streamGrid(data::Generation generation, int number, const GridOrder& order, output::Array& array);
 
   data::Warehouse* warehouse_;
   std::map<int, Places> places_;  ///< by material
 };
 
 /// The geometry of the grid as the archive keeps it.
+output::GridInfo gridInfo(const grid::Grid& grid);
 output::GridInfo gridInfo(const grid::Level& level);
 /// That of a layer: the axis across it has one cell, and is not in use.
 output::GridInfo gridInfo(const grid::Level& level, const Layer& layer);

@@ -137,13 +137,13 @@ void gatherFixed(const EntryAt& entryAt, std::size_t count, std::byte* to) {
 
 }  // namespace
 
-Runs runsOfGrid(const grid::Grid& grid, const data::Label& label, const Parts& parts, const Box& all) {
+Runs runsOfGrid(const grid::Grid& grid, const data::Label& label, const Parts& parts, const GridOrder& order) {
   Runs runs;
   for (std::size_t id = 0; id < parts.of.size(); ++id) {
-    const Box own = ownBox(grid.patch(static_cast<int>(id)), label).intersect(all);
-    forEachRow(own, [&](const Index3& first) {
-      runs.push_back({all.offset(first), static_cast<std::uint32_t>(id),
-                      static_cast<std::uint32_t>(parts.of[id].stored.offset(first))});
+    const grid::Patch patch = grid.patch(static_cast<int>(id));
+    order.forEachRow(patch.level().number(), ownBox(patch, label), [&](std::size_t place, const Index3& first, int) {
+      runs.push_back(
+          {place, static_cast<std::uint32_t>(id), static_cast<std::uint32_t>(parts.of[id].stored.offset(first))});
     });
   }
   std::sort(runs.begin(), runs.end(), [](const Run& a, const Run& b) { return a.place < b.place; });

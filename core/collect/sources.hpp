@@ -19,8 +19,8 @@ struct Run {
 /// Runs in the order of their places.
 using Runs = std::vector<Run>;
 
-/// The rows of the cells or nodes of a box, the first axis fastest, wherever the patches have them.
-Runs runsOfGrid(const grid::Grid& grid, const data::Label& label, const Parts& parts, const grid::Box& all);
+/// The rows of the cells or nodes in an order, wherever the patches have them.
+Runs runsOfGrid(const grid::Grid& grid, const data::Label& label, const Parts& parts, const GridOrder& order);
 
 /// Where a particle is: the number of its patch, and its place there.
 struct Place {

@@ -56,8 +56,20 @@ const char* folderOf(Centring centring) {
   }
 }
 
-Box allOf(const grid::Level& level, const Label& label) {
-  return label.centring == Centring::node ? level.nodes() : level.cells();
+/// Cells of several levels stand block by block.
+GridOrder orderOf(const grid::Grid& grid, const Label& label) {
+  if (grid.levels() > 1) return {grid, 0};
+  return GridOrder(label.centring == Centring::node ? grid.level().nodes() : grid.level().cells());
+}
+
+/// How a variable is laid out in the file: z, y, x; of several levels block by block.
+std::vector<std::uint64_t> shapeOf(const grid::Grid& grid, const Label& label) {
+  const bool isNode = label.centring == Centring::node;
+  const Box all = grid.levels() > 1 ? Box{{}, grid.blockCells()} : isNode ? grid.level().nodes() : grid.level().cells();
+  std::vector<std::uint64_t> shape;
+  if (grid.levels() > 1) shape.push_back(grid.tree().leaves().size());
+  for (const int axis : {2, 1, 0}) shape.push_back(static_cast<std::uint64_t>(all.extent(axis)));
+  return shape;
 }
 
 std::size_t wordsOf(std::size_t bytes) { return (bytes + sizeof(std::uint64_t) - 1) / sizeof(std::uint64_t); }
@@ -125,14 +137,13 @@ class StateWriter : StateWalk {
   bool isHeld(int number) const { return warehouse_.isHeld(Generation::old, number); }
 
   void writeField(int number, const std::string& path) {
-    const Box all = allOf(grid_.level(), label(number));
-    Parts parts = collectGrid(warehouse_, Generation::old, number, all);
+    const GridOrder order = orderOf(grid_, label(number));
+    Parts parts = collectGrid(warehouse_, Generation::old, number, order);
     if (!file_) return;
-    auto runs = std::make_shared<Runs>(runsOfGrid(grid_, label(number), parts, all));
+    auto runs = std::make_shared<Runs>(runsOfGrid(grid_, label(number), parts, order));
     Array array = arrayOf(label(number));
-    array.source = sourceInRuns(std::move(runs), all.size(), std::move(parts), EntryForm(label(number)));
-    const auto extent = [&](int axis) { return static_cast<std::uint64_t>(all.extent(axis)); };
-    file_->dataset(path, array, {extent(2), extent(1), extent(0)});
+    array.source = sourceInRuns(std::move(runs), order.size(), std::move(parts), EntryForm(label(number)));
+    file_->dataset(path, array, shapeOf(grid_, label(number)));
   }
 
   void writeParticles(int material) {
@@ -222,17 +233,17 @@ class StateReader : StateWalk {
   /// Ghosts are left to the first exchange.
   void readField(int number, const std::string& path) {
     const Label& field = label(number);
-    const Box all = allOf(grid_.level(), field);
-    const output::Hdf5Parts file = partsOf(path, field, all.size());
+    const GridOrder order = orderOf(grid_, field);
+    const output::Hdf5Parts file = partsOf(path, field, order.size());
     std::vector<output::Hdf5Parts::Part> rows;
     warehouse_.allocateGrid(Generation::old, number);
     for (const Patch& patch : grid_.patches()) {
-      const Box own = ownBox(patch, field);
       const Variable to = variable(number, patch);
-      forEachRow(own, [&](const Index3& first) {
-        rows.push_back(partOf(field, all.offset(first), static_cast<std::size_t>(own.extent(0)),
-                              to.values + to.stored.offset(first) * field.bytes));
-      });
+      order.forEachRow(patch.level().number(), ownBox(patch, field),
+                       [&](std::size_t place, const Index3& first, int count) {
+                         rows.push_back(partOf(field, place, static_cast<std::size_t>(count),
+                                               to.values + to.stored.offset(first) * field.bytes));
+                       });
     }
     file.read(std::move(rows));
   }

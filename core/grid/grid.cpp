@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <utility>
 
 #include "core/grid/cut_tiling.hpp"
 
@@ -57,14 +57,13 @@ void Grid::cutIntoBlocks() {
     roots[d] = level().cells().extent(d) / blockCells[d];
     periodic[d] = level().isPeriodic(d);
   }
-  std::set<BlockId> wanted;
   for (const FineRegion& region : refinement.regions)
     for (int number = 0; number < region.level; ++number) {
       const Box cells = cellsWith(level(number), region);
       if (cells.empty()) continue;
-      forEach<3>(blocksOver(cells, blockCells), [&](const Index3& block) { wanted.insert({number, block}); });
+      forEach<3>(blocksOver(cells, blockCells), [&](const Index3& block) { fixed_blocks_.insert({number, block}); });
     }
-  auto tiling = std::make_unique<BlockTiling>(BlockTree(dimension(), roots, periodic, levels()).regridded(wanted, {}),
+  auto tiling = std::make_unique<BlockTiling>(BlockTree(dimension(), roots, periodic, levels()).regridded(fixed_blocks_, {}),
                                               blockCells, mostCellsOfPatch(blockCells));
   blocks_ = tiling.get();
   tiling_ = std::move(tiling);
@@ -81,13 +80,17 @@ Index3 Grid::mostCellsOfPatch(const Index3& blockCells) const {
   return most;
 }
 
-void Grid::refine(BlockTree tree) {
-  auto tiling = std::make_unique<BlockTiling>(std::move(tree), blockCells(), mostCellsOfPatch(blockCells()));
+std::unique_ptr<BlockTiling> Grid::cut(BlockTree tree) const {
+  return std::make_unique<BlockTiling>(std::move(tree), blockCells(), mostCellsOfPatch(blockCells()));
+}
+
+std::unique_ptr<Tiling> Grid::refine(std::unique_ptr<BlockTiling> tiling) {
   partition_.reset();
   blocks_ = tiling.get();
-  tiling_ = std::move(tiling);
+  std::unique_ptr<Tiling> before = std::exchange(tiling_, std::move(tiling));
   partition_.emplace(*tiling_, share_.ranks);
   makePatches();
+  return before;
 }
 
 RankOffsets Grid::rankOffsets() const {

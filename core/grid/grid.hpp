@@ -3,6 +3,7 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "core/grid/block_tiling.hpp"
@@ -38,11 +39,18 @@ class Grid {
   const BlockTree& tree() const { return blocks_->tree(); }
   /// Cells of a block along the kernel axes.
   const Index3& blockCells() const { return blocks_->blockCells(); }
-  /// Refines other blocks from now on: other patches, in shares of as many cells as they allow. What stands on patches
-  /// is the caller's to move.
-  void refine(BlockTree tree);
+  const BlockTiling& tiling() const { return *blocks_; }
+  /// Blocks that stay refined, as the regions of the scene say.
+  const std::set<BlockId>& fixedBlocks() const { return fixed_blocks_; }
+  /// The patches that another tree would make.
+  std::unique_ptr<BlockTiling> cut(BlockTree tree) const;
+  /// Has other patches from now on, in shares of as many cells as they allow; gives those that there were. What stands
+  /// on patches is the caller's to move: see tasks::regrid.
+  std::unique_ptr<Tiling> refine(std::unique_ptr<BlockTiling> tiling);
   /// The patches of this rank, by number.
   const std::vector<Patch>& patches() const { return patches_; }
+  /// Number of cells of all patches.
+  std::uint64_t cellCount() const { return tiling_->cells(); }
   /// Number of patches of all ranks.
   int patchCount() const { return tiling_->count(); }
   /// Any patch of the grid.
@@ -90,6 +98,7 @@ class Grid {
   Share share_;
   std::unique_ptr<Tiling> tiling_;
   const BlockTiling* blocks_ = nullptr;  ///< the tiling, where there are several levels
+  std::set<BlockId> fixed_blocks_;
   std::optional<Partition> partition_;
   int first_patch_ = 0;
   std::vector<Patch> patches_;

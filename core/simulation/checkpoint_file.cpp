@@ -24,6 +24,37 @@ void writeGrid(output::Hdf5File& file, const output::GridInfo& grid) {
   file.attribute("/grid", "dimension", grid.dimension);
 }
 
+/// Which blocks are refined, where there are several levels.
+void writeTree(output::Hdf5File& file, const grid::Grid& grid) {
+  if (grid.levels() == 1) return;
+  file.attribute("/grid", "levels", grid.levels());
+  file.attribute("/grid", "blockCells", grid.blockCells());
+  const std::vector<std::uint64_t>& keys = grid.tree().keys();
+  file.dataset("/grid/leaves", {"leaves", "1", "blocks that are not refined", 1, keys}, {keys.size()});
+}
+
+/// The blocks that were refined.
+void readTree(const output::Hdf5Input& file, RunState& run) {
+  grid::Grid& grid = *run.problem.grid;
+  const bool isRefined = file.has("/grid/leaves");
+  if (isRefined != (grid.levels() > 1) ||
+      (isRefined && (file.integer("/grid", "levels") != grid.levels() ||
+                     !(file.index("/grid", "blockCells") == grid.blockCells()))))
+    refuse(file, "the checkpoint has other levels or blocks than the scene");
+  if (!isRefined) return;
+  Index3 periodic;
+  for (int d = 0; d < grid.dimension(); ++d) periodic[d] = grid.level().isPeriodic(d);
+  const auto keys = std::get<std::vector<std::uint64_t>>(file.dataset("/grid/leaves"));
+  try {
+    grid.refine(grid.cut(
+        grid::BlockTree::fromKeys(grid.dimension(), grid.tree().roots(), periodic, grid.levels(), keys)));
+  } catch (const std::invalid_argument&) {
+    refuse(file, "the blocks of the checkpoint do not tile the grid");
+  }
+  run.warehouse.startAnew(run.materials());
+  run.scheduler.forgetLayout();
+}
+
 bool isSameGrid(const output::Hdf5Input& file, const output::GridInfo& grid) {
   return file.vector("/grid", "lower") == grid.lower && file.vector("/grid", "spacing") == grid.spacing &&
          file.index("/grid", "cells") == grid.cells && file.integer("/grid", "dimension") == grid.dimension;
@@ -55,6 +86,7 @@ void writeHeader(output::Hdf5File& file, const RunState& run, const CheckpointTa
   file.attribute("/", "version", std::string(TUSHAR_VERSION));
   file.attribute("/", "component", run.problem.componentName);
   writeGrid(file, collect::gridInfo(run.problem.grid->level()));
+  writeTree(file, *run.problem.grid);
   file.text("/scene", run.problem.inputXml);
   file.text("/archive/index", target.point.index);
   file.text("/archive/xdmf", target.point.xdmf);
@@ -78,6 +110,7 @@ void writeCheckpoint(RunState& run, const CheckpointTarget* target) {
 void readCheckpoint(RunState& run) {
   const output::Hdf5Input file(run.problem.restart->state());
   checkScene(file, run.problem);
+  readTree(file, run);
   collect::readState(file, run.warehouse, stateNames(run), run.phases.state());
   run.time.resume(file.integer("/", "step"), file.real("/", "time"), file.real("/", "delT"));
   if (run.ranks.isFirst()) run.scheduler.relocation().setDropped(static_cast<long>(file.count("/", "dropped")));

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "core/simulation/settings.hpp"
 #include "core/tasks/task_list.hpp"
 
 namespace tushar::simulation {
@@ -27,6 +29,8 @@ class Component {
   virtual bool mayRepeatStep() const { return false; }
   /// Variables that Uintah's component of this kind computes, whichever of them this one does.
   virtual std::vector<std::string> foreignLabels() const { return {}; }
+  /// Where the grid is to be finer, if the scene refines it and does not say where.
+  virtual std::vector<Criterion> criteria() const { return {}; }
   /// What can be said about a state, from the old state: totals, derived fields. Only what someone asks for is run.
   virtual void scheduleDiagnostics(tasks::TaskList&) const {}
 };

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "core/input/values.hpp"
+#include "core/simulation/refinement_marks.hpp"
 #include "core/tasks/reflux.hpp"
 
 namespace tushar::simulation {
@@ -205,8 +206,47 @@ void Phases::sortSaves(const std::vector<SaveRequest>& saves) {
   }
 }
 
+tasks::TaskList Phases::refinementTasks(const RegridSettings& regrid) const {
+  tasks::TaskList list;
+  if (!regrid.adaptive || regrid.criteria.empty()) return list;
+  for (const tasks::Task& task : lists_.diagnostics.tasks()) list.add(task);
+  const Names diagnosed = producedBy(lists_.diagnostics.tasks());
+  std::vector<std::string> known;
+  for (const std::string& name : saveable())
+    if (name.starts_with("c.")) known.push_back(name);
+  std::vector<BoundCriterion> criteria;
+  std::vector<InputProblem> problems;
+  for (const Criterion& one : regrid.criteria) {
+    const data::Label* label = nullptr;
+    for (const auto* tasks : {&lists_.diagnostics, &lists_.timeAdvance, &lists_.initialize})
+      if (!label) label = findProduced(tasks->tasks(), one.variable);
+    if (label && label->centring == data::Centring::cell && label->number == data::Number::real)
+      criteria.push_back({one, label, diagnosed.contains(one.variable)});
+    else
+      problems.push_back({one.where, "AMR/Refinement_Criteria_Thresholds/Variable",
+                          fmt::format("'{}' is no variable of cells that this component computes{}; there {} {}",
+                                      one.variable, didYouMean(one.variable, known), known.size() == 1 ? "is" : "are",
+                                      allOf(known))});
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+  list.add(markTask(std::move(criteria)));
+  return list;
+}
+
+namespace {
+
+/// Cells are interpolated from those around them.
+void widenForRegridding(const std::vector<std::string>& lasting, data::VariableTable& table) {
+  for (const std::string& name : lasting)
+    if (const int number = table.find(name, -1);
+        number >= 0 && table[number].label->centring == data::Centring::cell)
+      table.widen(number, 1);
+}
+
+}  // namespace
+
 void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, const std::vector<SaveRequest>& saves,
-                     const grid::Grid& grid, data::VariableTable& table) {
+                     const grid::Grid& grid, data::VariableTable& table, const RegridSettings& regrid) {
   if (std::vector<InputProblem> problems = problemsOf(saves); !problems.empty()) throw InputError(std::move(problems));
   const std::vector<SaveRequest> samples = samplesOf(analyses);
   sortSaves(named(saves));
@@ -234,8 +274,9 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   Pruned output = prune(lists.diagnostics.tasks(), derived, false);
   Pruned begin = prune(lists.diagnostics.tasks(), totals, false);
   Pruned end = prune(lists.diagnostics.tasks(), reported, false);
+  Pruned refine = prune(refinementTasks(regrid).tasks(), {std::string(refinementMark.name)}, false);
   Names read = requiredOfState(stable.kept);
-  for (const Pruned* pruned : {&step, &output, &end}) read = united(read, requiredOfState(pruned->kept));
+  for (const Pruned* pruned : {&step, &output, &end, &refine}) read = united(read, requiredOfState(pruned->kept));
   read.emplace(data::recomputeTimeStep.name);
   Names always = united(requiredOfState(stable.kept), requiredOfState(begin.kept));
   always.emplace(data::recomputeTimeStep.name);
@@ -252,7 +293,9 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   everyOutput = tasks::TaskGraph("diagnostics of every output", std::move(output), grid, table);
   startTotals = tasks::TaskGraph("totals of the start", std::move(begin), grid, table);
   report = tasks::TaskGraph("diagnostics of the report", std::move(end), grid, table);
+  refinement = tasks::TaskGraph("refinement", std::move(refine), grid, table);
   table.number(data::delT, -1);
+  if (regrid.adaptive) widenForRegridding(lasting_, table);
 }
 
 void Phases::printSchedule(std::ostream& out) const {

@@ -29,9 +29,10 @@ class Phases {
   /// Compiles the lists. Throws InputError for a saved label that no task computes, TaskError for lists that do not
   /// fit together.
   void compile(const std::vector<std::unique_ptr<Analysis>>& analyses, const std::vector<SaveRequest>& saves,
-               const grid::Grid& grid, data::VariableTable& table);
+               const grid::Grid& grid, data::VariableTable& table, const RegridSettings& regrid = {});
 
   tasks::TaskGraph initialize, stableTimeStep, timeAdvance, startTotals, everyStep, everyOutput, report;
+  tasks::TaskGraph refinement;  ///< where criteria ask for finer cells
 
   /// Names of the variables that a step and the totals need of the step before, sorted: the state of a run, whatever
   /// is saved and measured besides.
@@ -63,6 +64,9 @@ class Phases {
   /// The requests with the names of materials in place of their numbers; the number behind the last stands for all, as
   /// in Uintah, and those behind it for nothing.
   std::vector<SaveRequest> named(const std::vector<SaveRequest>& saves) const;
+  /// The diagnostics with the task behind them that looks where to refine; nothing where the grid stays. Throws
+  /// InputError for a criterion of what is no variable of cells.
+  tasks::TaskList refinementTasks(const RegridSettings& regrid) const;
   void sortSaves(const std::vector<SaveRequest>& saves);
 
   Lists lists_;

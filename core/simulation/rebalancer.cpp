@@ -33,23 +33,13 @@ void Rebalancer::balance(const std::vector<double>& costs) {
   if (!offsets) return;
   const auto started = Clock::now();
   const trace::Span span(trace::Kind::message, "give patches to other ranks");
-  tasks::migratePatches(grid, run_.warehouse, migratedVariables(), *offsets);
+  tasks::migratePatches(grid, run_.warehouse, run_.migratedVariables(), *offsets);
   run_.scheduler.forgetLayout();
   balance_.noteChange(run_.ranks.max(secondsSince(started)));
   const Rebalancing& change = balance_.report();
   run_.progress.line(
       fmt::format("step {:>6}  patches change ranks: the busiest had {:.2f} times its share, and has {:.2f} now",
                   run_.time.step(), change.before, change.after));
-}
-
-tasks::MigratedVariables Rebalancer::migratedVariables() const {
-  tasks::MigratedVariables migrated{run_.materials(), {}};
-  for (const std::string& name : run_.phases.lasting())
-    for (int material = -1; material < migrated.materials; ++material)
-      if (const int number = run_.table.find(name, material);
-          number >= 0 && run_.table[number].label->centring != data::Centring::reduction)
-        migrated.variables.push_back(number);
-  return migrated;
 }
 
 }  // namespace tushar::simulation

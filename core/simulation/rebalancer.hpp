@@ -4,7 +4,6 @@
 
 #include "core/simulation/balance.hpp"
 #include "core/simulation/run_state.hpp"
-#include "core/tasks/patch_migration.hpp"
 
 namespace tushar::simulation {
 
@@ -23,7 +22,6 @@ class Rebalancer {
  private:
   /// `costs`: of the patches of this rank.
   void balance(const std::vector<double>& costs);
-  tasks::MigratedVariables migratedVariables() const;
 
   RunState& run_;
   Balance balance_;

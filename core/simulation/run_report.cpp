@@ -65,7 +65,7 @@ void RunReport::addLayout(Report& report) {
   report.ranks = run_.ranks.size();
   report.threads = run_.scheduler.threads().count();
   report.spacing = problem.grid->finest().minSpacing();
-  report.cells = static_cast<long>(problem.grid->level().cells().size());
+  report.cells = static_cast<long>(problem.grid->cellCount());
 }
 
 void RunReport::addProgress(Report& report) {

@@ -11,7 +11,7 @@ RunState::RunState(Problem givenProblem, bool quiet, Clock::time_point startedAt
       time(problem.time),
       clock(startedAt),
       progress(quiet || !ranks.isFirst(), stdout) {
-  phases.compile(problem.analyses, problem.archive.saves, *problem.grid, table);
+  phases.compile(problem.analyses, problem.archive.saves, *problem.grid, table, problem.regrid);
   warehouse.grow(materials());
 }
 
@@ -34,6 +34,16 @@ Totals RunState::measureTotals(tasks::TaskGraph& graph) {
   Totals totals;
   for (const auto& total : phases.totals()) totals.push_back(reduction(total.second));
   return totals;
+}
+
+tasks::MigratedVariables RunState::migratedVariables() const {
+  tasks::MigratedVariables migrated{materials(), {}};
+  for (const std::string& name : phases.lasting())
+    for (int material = -1; material < migrated.materials; ++material)
+      if (const int number = table.find(name, material);
+          number >= 0 && table[number].label->centring != data::Centring::reduction)
+        migrated.variables.push_back(number);
+  return migrated;
 }
 
 }  // namespace tushar::simulation

@@ -9,6 +9,7 @@
 #include "core/simulation/phases.hpp"
 #include "core/simulation/problem.hpp"
 #include "core/simulation/run_clock.hpp"
+#include "core/tasks/patch_migration.hpp"
 #include "core/tasks/scheduler.hpp"
 
 namespace tushar::simulation {
@@ -33,6 +34,9 @@ struct RunState {
   std::vector<double> reduction(std::string_view label) const;
   /// The totals of the state as it is now, by a graph that computes them.
   Totals measureTotals(tasks::TaskGraph& graph);
+
+  /// What outlives a step.
+  tasks::MigratedVariables migratedVariables() const;
 
   Problem problem;
   const mpi::Communicator& ranks;

@@ -31,6 +31,7 @@ Simulation::Simulation(Problem problem, const RunOptions& options, Clock::time_p
       outputs_(run_, options.outputFolder),
       checkpoints_(run_, outputs_),
       rebalancer_(run_),
+      regridder_(run_),
       report_(run_) {}
 
 long Simulation::tryStart() {
@@ -105,7 +106,19 @@ void Simulation::resume() {
   run_.setTimeOfAnalyses();  // what was due up to now, the run before has sampled
 }
 
+/// On finer and finer cells, as far as the state asks for them: finer cells have the finer state of the scene.
 void Simulation::initialize() {
+  do {
+    initializeOnce();
+  } while (regridder_.refinedStart());
+  run_.warehouse.releaseFreeMemory();  // what particles are made with is not what steps need
+  if (run_.materials() > 0 && collect::particleCount(run_.warehouse, run_.materials()) == 0)
+    throw InputError({{{run_.problem.scenePath, 0, 0},
+                       "MaterialProperties",
+                       "there are no particles: no geom_object has a point on the grid"}});
+}
+
+void Simulation::initializeOnce() {
   Phases& phases = run_.phases;
   try {
     run_.scheduler.run(phases.initialize, {0, run_.time.time()});
@@ -113,11 +126,6 @@ void Simulation::initialize() {
     throw advised(error);
   }
   run_.scheduler.commit(phases.initialize);
-  run_.warehouse.releaseFreeMemory();  // what particles are made with is not what steps need
-  if (run_.materials() > 0 && collect::particleCount(run_.warehouse, run_.materials()) == 0)
-    throw InputError({{{run_.problem.scenePath, 0, 0},
-                       "MaterialProperties",
-                       "there are no particles: no geom_object has a point on the grid"}});
 }
 
 void Simulation::loop() {
@@ -135,6 +143,7 @@ void Simulation::step() {
   advance();
   report_.noteStep();
   if (run_.progress.due()) run_.progress.live(time.step(), time.time(), time.delT(), run_.problem.time.maxTime);
+  regridder_.regridIfDue();
   rebalancer_.balanceIfDue();
   outputs_.saveGlobals();
   outputs_.saveIfDue();

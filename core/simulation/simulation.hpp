@@ -11,6 +11,7 @@
 #include "core/simulation/checkpoints.hpp"
 #include "core/simulation/outputs.hpp"
 #include "core/simulation/rebalancer.hpp"
+#include "core/simulation/regridder.hpp"
 #include "core/simulation/run_report.hpp"
 #include "core/simulation/run_state.hpp"
 
@@ -42,6 +43,7 @@ class Simulation {
   void begin();
   void resume();
   void initialize();
+  void initializeOnce();
   void loop();
   void step();
   /// Advances the state by a time step, which is repeated with a shorter one if a task asks for it.
@@ -63,6 +65,7 @@ class Simulation {
   Outputs outputs_;
   Checkpoints checkpoints_;
   Rebalancer rebalancer_;
+  Regridder regridder_;
   RunReport report_;
   std::optional<NumericalError> failure_;
   output::RunRecord record_;

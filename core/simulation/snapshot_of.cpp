@@ -19,7 +19,7 @@ output::Snapshot emptySnapshot(const RunState& run, output::GridInfo grid) {
 
 /// The particles of every material, with p.x alone.
 output::Snapshot positions(const RunState& run, Gather& gather) {
-  output::Snapshot snapshot = emptySnapshot(run, collect::gridInfo(run.problem.grid->level()));
+  output::Snapshot snapshot = emptySnapshot(run, collect::gridInfo(*run.problem.grid));
   for (std::size_t m = 0; m < run.phases.materials().size(); ++m) {
     const int number = run.table.find(data::positionName, static_cast<int>(m));
     if (number < 0) continue;

@@ -348,6 +348,14 @@ void Scheduler::free(const CompiledTask& task) {
     for (const int number : binding.freed) warehouse_->free(Generation::fresh, number);
 }
 
+void Scheduler::fillGhosts(const std::vector<int>& variables) {
+  std::vector<BoundGhostFill> fills;
+  for (const int number : variables) fills.push_back({number, Generation::old, Generation::old, false});
+  exchange_.send(fills, false);
+  exchange_.begin(false);
+  exchange_.finish();
+}
+
 void Scheduler::commit(TaskGraph& graph) {
   relocation_.commit();
   for (const int number : graph.results()) warehouse_->makeOld(number);

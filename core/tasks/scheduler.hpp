@@ -48,6 +48,8 @@ class Scheduler {
   /// If a task requests a smaller time step by recomputeTimeStep, the graph ends with that task and the factor and
   /// reason come back; running the graph once more repeats the step. Otherwise returns nothing.
   std::optional<data::Minimum> run(TaskGraph& graph, const StepInfo& at);
+  /// Fills the ghosts of old values of variables of cells; all ranks call it.
+  void fillGhosts(const std::vector<int>& variables);
   /// Makes the results of a graph the old state.
   void commit(TaskGraph& graph);
 

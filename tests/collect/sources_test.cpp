@@ -79,7 +79,7 @@ TEST(RunsOfGrid, AreRowsOfPatchesWithoutTheirGhosts) {
   std::vector<Part> parts;
   for (const grid::Patch& patch : grid.patches()) parts.push_back({nullptr, 0, patch.cellsWithin(1)});
 
-  const Runs runs = runsOfGrid(grid, heat, Parts{parts}, grid.level().cells());
+  const Runs runs = runsOfGrid(grid, heat, Parts{parts}, GridOrder(grid.level().cells()));
 
   std::vector<std::size_t> places, firsts;
   for (const auto& run : runs) {

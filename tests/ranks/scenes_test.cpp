@@ -37,14 +37,14 @@ std::string resultOf(const std::string& scene, std::vector<std::string> sets, co
 }
 
 /// The number of axes of a scene with several cells.
-int dimensionOf(const std::string& scene) { return readScene(scene, {}, catalogue()).level->dimension(); }
+int dimensionOf(const std::string& scene) { return readScene(scene, {}, catalogue()).grid->dimension(); }
 
 /// Four layouts of a scene, with no more patches along an axis than cells.
 std::vector<std::string> layoutsOf(const std::string& scene) {
   const Problem problem = readScene(scene, {}, catalogue());
-  const Index3 most = problem.level->domain().resolution;
+  const Index3 most = problem.grid->level().domain().resolution;
   const Index3 last[] = {{{64, 1, 1}}, {{8, 8, 1}}, {{4, 4, 4}}};
-  const int axes = problem.level->dimension();
+  const int axes = problem.grid->dimension();
   std::vector<std::string> layouts;
   for (const Index3& patches :
        {Index3{{1, 1, 1}}, Index3{{2, 1, 1}}, axes == 1 ? Index3{{7, 1, 1}} : Index3{{1, 7, 1}}, last[axes - 1]})

@@ -21,7 +21,8 @@ using test::onRanks;
 /// A field as all ranks see it: for each cell the number there, or the sums over its particles, `width` numbers each.
 std::vector<double> gathered(data::Warehouse& warehouse, const std::string& label, int width,
                              const mpi::Communicator& ranks) {
-  const grid::Level& level = warehouse.level();
+  const grid::Grid& grid = warehouse.grid();
+  const grid::Level& level = grid.level();
   const auto wide = static_cast<std::size_t>(width);
   std::vector<double> field(level.cells().size() * wide, -std::numeric_limits<double>::infinity());
   const bool ofParticles = label.front() == 'p';

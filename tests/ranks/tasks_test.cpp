@@ -118,7 +118,7 @@ class Swarm {
     offsets.push_back(patches);
     const MigratedVariables migrated{
         1, {run.table.find("p.x", 0), run.table.find("p.mark", 0), run.table.find(data::particleId.name, 0)}};
-    migratePatches(run.level, run.warehouse, migrated, offsets);
+    migratePatches(run.grid, run.warehouse, migrated, offsets);
     run.scheduler.forgetLayout();
   }
   static void create(const Patch& patch, const Material&, ParticleMaker& maker, std::vector<Vec<2>>& at,
@@ -219,7 +219,7 @@ TEST(Ranks, UseAsManyThreadsAsTheyHavePatchesFor) {
     EXPECT_EQ(run.scheduler.threads().count(), 4);
 
     for (const int first : {12, 2, 10}) {
-      migratePatches(run.level, run.warehouse, {}, {0, first, 12});
+      migratePatches(run.grid, run.warehouse, {}, {0, first, 12});
       run.scheduler.forgetLayout();
       const int patches = some.isFirst() ? first : 12 - first;
       EXPECT_EQ(run.scheduler.threads().count(), std::clamp(patches, 1, 4)) << patches << " patches";

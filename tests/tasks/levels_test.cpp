@@ -2,6 +2,9 @@
 
 #include <cmath>
 
+#include "core/core.hpp"
+#include "core/tasks/reflux.hpp"
+#include "core/tasks/regrid.hpp"
 #include "tests/support/levels.hpp"
 #include "tests/support/run.hpp"
 
@@ -10,6 +13,7 @@ namespace tushar::tasks {
 namespace {
 
 constexpr CellLabel<double> value{"c.value", "1", "a number in each cell"};
+constexpr ReductionLabel<Sum> total{"total", "1", "integral over the grid"};
 constexpr ReductionLabel<Maximum> greatest{"greatest", "1", "greatest difference"};
 
 /// A grid of 32 cells along each axis in blocks of 8 with the middle refined, twice in its centre.
@@ -116,6 +120,133 @@ TEST(Levels, GhostsOfASmoothFieldAreOfSecondOrderAlsoAcrossPeriodicSides) {
   EXPECT_LT(greatestDifferenceOfWave<1>(), h * h * 4 * M_PI * M_PI / 2);
   EXPECT_LT(greatestDifferenceOfWave<2>(), h * h * 4 * M_PI * M_PI * 2.5);
   EXPECT_LT(greatestDifferenceOfWave<3>(), h * h * 4 * M_PI * M_PI * 2.5 * 2.5 * 1.5);
+}
+
+namespace {
+
+/// Upwind advection along all axes with velocity 1 m/s: dU/dt = - sum_d dU/dx_d.
+template <int D>
+void advect(const Patch& patch, CellView<const double> old, double dt, CellView<double> fresh, RimFlux<double> flux) {
+  const Level& level = patch.level();
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    fresh[cell] = old[cell];
+    for (int d = 0; d < D; ++d) fresh[cell] -= dt / level.spacing(d) * (old[cell] - old[cell - Index<D>::unit(d)]);
+  });
+  flux.forEachFace<D>([&](const Index<D>& cell, int d, int side, double& through) {
+    through += old[side == 0 ? cell - Index<D>::unit(d) : cell];
+  });
+}
+template <int D>
+void setStep(const Patch&, Minimum& dt) {
+  dt.add(0.2 / 128 / D);
+}
+template <int D>
+void integrate(const Patch& patch, CellView<const double> values, Sum& sum) {
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) { sum.add(patch.level().cellVolume() * values[cell]); });
+}
+
+/// What a wave is like after some steps: its integral before and after, and its cells in the order of the curve.
+struct Advected {
+  double before, after;
+  std::vector<double> cells;
+};
+
+template <int D>
+std::vector<double> cellsAlongCurve(test::Runner& run) {
+  std::vector<double> cells;
+  const int number = run.table.find("c.value", -1);
+  for (const grid::BlockId& leaf : run.grid.tree().leaves())
+    forEach<3>(grid::cellsOf(leaf, run.grid.blockCells(), D), [&](const Index3& cell) {
+      const data::Variable held =
+          run.warehouse.variable(data::Generation::old, number, run.grid.patchOf(cell, leaf.level).id());
+      cells.push_back(reinterpret_cast<const double*>(held.values)[held.stored.offset(cell)]);
+    });
+  return cells;
+}
+
+template <int D>
+Advected advected(int blocksPerPatch, int threads = 1) {
+  test::Runner run(refined<D>(3, true, blocksPerPatch), threads);
+  TaskList start, step, limit, sums;
+  start.perPatch("fill", fillWave<D>, computes(value));
+  limit.perPatch("limit", setStep<D>, computes(delT));
+  step.perPatch("advect", advect<D>, requiresOld(value, 1), requiresOld(delT), computes(value), keepsFlux(value));
+  sums.perPatch("integrate", integrate<D>, requiresOld(value), computes(total));
+  TaskGraph starts = run.compile(start, {"c.value"}), steps = run.compile(withRefluxing(step), {"c.value"}, true),
+            limits = run.compile(limit, {"delT"}), integrals = run.compile(sums, {"total"});
+  const auto integral = [&] {
+    run.step(integrals);
+    return run.warehouse.reductionValues(run.table.find("total", -1)).at(0);
+  };
+  run.step(starts);
+  run.step(limits);
+  Advected result{integral(), 0, {}};
+  for (int k = 0; k < 20; ++k) run.step(steps);
+  result.after = integral();
+  result.cells = cellsAlongCurve<D>(run);
+  return result;
+}
+
+template <int D>
+void checkAdvection() {
+  const Advected one = advected<D>(1);
+  EXPECT_NEAR(one.after, one.before, 4e-16 * one.before * D);
+  for (const int blocks : {2, 3, 8}) EXPECT_EQ(advected<D>(blocks).cells, one.cells);
+  EXPECT_EQ(advected<D>(2, 3).cells, one.cells);
+}
+
+}  // namespace
+
+TEST(Levels, KeepWhatFlowsBetweenThemAndHaveTheSameBitsInPatchesOfAnySize) {
+  checkAdvection<1>();
+  checkAdvection<2>();
+  checkAdvection<3>();
+}
+
+TEST(Levels, AreRefluxedByATaskBehindTheOneThatKeepsTheFluxes) {
+  test::Runner run(refined<1>(2, true, 1));
+  TaskList list;
+  list.perPatch("advect", advect<1>, requiresOld(value, 1), requiresOld(delT), computes(value), keepsFlux(value));
+  EXPECT_EQ(withRefluxing(list).tasks().size(), 2U);
+  EXPECT_EQ(withRefluxing(list).tasks().back().name, "reflux c.value");
+}
+
+namespace {
+
+/// Refines the first block, and coarsens the middle by two levels.
+grid::BlockTree otherTree(const grid::Grid& grid) { return grid.tree().regridded({{0, {}}}, {}); }
+
+template <int D>
+void checkRegridding(int blocksPerPatch) {
+  test::Runner run(refined<D>(3, false, blocksPerPatch));
+  TaskList start, sums, compared;
+  start.perPatch("fill", fillLinear<D>, computes(value));
+  sums.perPatch("integrate", integrate<D>, requiresOld(value, 1), computes(total));
+  compared.perPatch("compare", compareLinear<D>, requiresOld(value), computes(greatest));
+  TaskGraph starts = run.compile(start, {"c.value"}), integrals = run.compile(sums, {"total"}),
+            compares = run.compile(compared, {"greatest"});
+  const auto measured = [&](TaskGraph& graph, const char* name) {
+    run.step(graph);
+    return run.warehouse.reductionValues(run.table.find(name, -1)).at(0);
+  };
+  run.step(starts);
+  const double before = measured(integrals, "total");
+  const std::uint64_t cells = run.grid.cellCount();
+  regrid(run.grid, otherTree(run.grid), run.warehouse, {0, {run.table.find("c.value", -1)}});
+  run.scheduler.forgetLayout();
+  EXPECT_NE(run.grid.cellCount(), cells);
+  EXPECT_NEAR(measured(integrals, "total"), before, 4e-15 * before);
+  EXPECT_LT(measured(compares, "greatest"), 1e-13);
+}
+
+}  // namespace
+
+TEST(Levels, RegriddingKeepsTheIntegralAndALinearField) {
+  for (const int blocks : {1, 2, 8}) {
+    checkRegridding<1>(blocks);
+    checkRegridding<2>(blocks);
+    checkRegridding<3>(blocks);
+  }
 }
 
 }  // namespace tushar::tasks

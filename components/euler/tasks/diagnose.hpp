@@ -89,6 +89,15 @@ void computeVelocity(const Patch& patch, CellView<const double> density, CellVie
 }
 
 template <int D>
+void computeMach(const Patch& patch, const Gas& gas, CellView<const double> density, CellView<const Vec<D>> momentum,
+                 CellView<const double> totalEnergy, CellView<Vec<D>> mach) {
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    const double p = gas.pressure(internalEnergyPerVolume<D>(density[cell], momentum[cell], totalEnergy[cell]));
+    mach[cell] = momentum[cell] / (density[cell] * std::sqrt(gas.soundSpeedSquared(density[cell], p)));
+  });
+}
+
+template <int D>
 void computeInternalEnergy(const Patch& patch, CellView<const double> density, CellView<const Vec<D>> momentum,
                            CellView<const double> totalEnergy, CellView<double> internalEnergy) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {

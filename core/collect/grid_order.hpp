@@ -1,0 +1,50 @@
+#pragma once
+
+#include <memory>
+
+#include "core/collect/rows.hpp"
+#include "core/grid/block_tiling.hpp"
+#include "core/grid/grid.hpp"
+
+namespace tushar::collect {
+
+/// An order of the cells or nodes of a grid that no layout changes: the first axis fastest; where there are several
+/// levels, box after box along the curve.
+class GridOrder {
+ public:
+  /// Those of a box of the only level.
+  explicit GridOrder(const grid::Box& all) : all_(all) {}
+  /// All cells of several levels, in boxes of up to `most` cells along an axis; 0: block by block.
+  GridOrder(const grid::Grid& grid, int most);
+
+  std::size_t size() const { return boxes_ ? boxes_->cells() : all_.size(); }
+  /// The cells or nodes that a patch gives, of those that it has.
+  grid::Box givenBy(const grid::Box& own) const { return boxes_ ? own : own.intersect(all_); }
+  /// Calls `visit(place in the order, first cell or node, count)` for each row of a box of a level, of those in the order.
+  template <class Visit>
+  void forEachRow(int level, const grid::Box& box, Visit&& visit) const {
+    if (!boxes_) return rowsOf(0, all_, box.intersect(all_), visit);
+    for (const grid::Tile& tile : boxes_->overlapping(level, box))
+      rowsOf(boxes_->cellsBefore(tile.id), tile.cells, box.intersect(tile.cells), visit);
+  }
+
+  /// The boxes of several levels.
+  const grid::BlockTiling* boxes() const { return boxes_.get(); }
+
+ private:
+  template <class Visit>
+  static void rowsOf(std::size_t before, const grid::Box& all, const grid::Box& part, Visit&& visit) {
+    collect::forEachRow(part, [&](const Index3& first) { visit(before + all.offset(first), first, part.extent(0)); });
+  }
+
+  grid::Box all_;
+  std::shared_ptr<const grid::BlockTiling> boxes_;
+};
+
+/// All cells or nodes that a variable has a value for; of several levels in boxes that suit readers of files.
+GridOrder orderOf(const grid::Grid& grid, bool isNode);
+
+/// The most cells of a box in a file along an axis.
+inline constexpr int mostCellsOfBox = 64;
+
+}  // namespace tushar::collect

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+#include "core/simulation/settings.hpp"
+#include "core/tasks/task_list.hpp"
+
+namespace tushar::simulation {
+
+/// Where criteria ask for finer cells: 0 nowhere, 1 for no coarser ones, 2 for finer ones.
+inline constexpr data::CellLabel<int> refinementMark{"c.refinementMark", "1", "what criteria of refinement ask for"};
+
+/// A criterion with its variable, and whether that is one of the diagnostics or part of the state.
+struct BoundCriterion {
+  Criterion criterion;
+  const data::Label* label;
+  bool isDiagnosed;
+};
+
+/// The numbers of a cell's variable and those of its two neighbours along an axis; null where there is none.
+struct Neighbours {
+  const double *below, *middle, *above;
+};
+
+/// The indicator of a cell from its neighbours along each axis, at distances `spacing` [m]; see Criterion::Indicator. Of
+/// vectors (several `components`) a jump is that of the vector, in its unit. Beyond the grid the cell's own value
+/// counts. Source of the second derivative: R. Löhner, Comput. Methods Appl. Mech. Eng. 61 (1987) 323, with filter 0.01.
+double indicatorOf(Criterion::Indicator indicator, const std::vector<Neighbours>& axes,
+                   const std::vector<double>& spacing, int components);
+
+/// The task that computes refinementMark by all criteria.
+tasks::Task markTask(std::vector<BoundCriterion> criteria);
+
+}  // namespace tushar::simulation

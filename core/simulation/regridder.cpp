@@ -1,0 +1,128 @@
+#include "core/simulation/regridder.hpp"
+
+#include <cstring>
+
+#include "core/base/trace.hpp"
+#include "core/simulation/refinement_marks.hpp"
+#include "core/tasks/regrid.hpp"
+
+namespace tushar::simulation {
+
+using grid::BlockId;
+using grid::Box;
+
+namespace {
+
+BlockId parentOf(BlockId block, int dimension) {
+  --block.level;
+  for (int d = 0; d < dimension; ++d) block.at[d] /= 2;
+  return block;
+}
+
+/// Blocks as text, to be sent.
+std::string textOf(const std::set<BlockId>& blocks) {
+  std::string text;
+  for (const BlockId& block : blocks) text.append(reinterpret_cast<const char*>(&block), sizeof(block));
+  return text;
+}
+
+void addBlocks(const std::string& text, std::set<BlockId>& blocks) {
+  for (std::size_t at = 0; at + sizeof(BlockId) <= text.size(); at += sizeof(BlockId)) {
+    BlockId block;
+    std::memcpy(&block, text.data() + at, sizeof(block));
+    blocks.insert(block);
+  }
+}
+
+}  // namespace
+
+void MarkedBlocks::add(const grid::Level& level, const Index3& cell, int mark) {
+  if (mark == 0) return;
+  const int number = level.number(), finest = grid_.levels() - 1;
+  const int crossed = ((interval_ - 1) >> (finest - number)) + 1;
+  const Box near = level.clipCells(Box{cell, cell + Index3::filled(1)}.grown(crossed + dilation_, level.dimension()));
+  Box blocks;
+  for (int d = 0; d < 3; ++d) {
+    const int cells = grid_.blockCells()[d];
+    const auto blockOf = [&](int at) { return at >= 0 ? at / cells : -((cells - 1 - at) / cells); };
+    blocks.lower[d] = blockOf(near.lower[d]);
+    blocks.upper[d] = blockOf(near.upper[d] - 1) + 1;
+  }
+  const Index3 count = grid_.tree().blocksOf(number);
+  grid::forEach<3>(blocks, [&](Index3 at) {
+    for (int d = 0; d < level.dimension(); ++d) at[d] = (at[d] % count[d] + count[d]) % count[d];
+    const BlockId block{number, at};
+    if (number > 0) kept_.insert(parentOf(block, level.dimension()));
+    if (mark < 2 || number == finest) return;
+    // A block that is not there yet is made first, so that no cell becomes two levels finer at once.
+    const bool isThere = grid_.tree().levelAt(block) >= number;
+    wanted_.insert(isThere ? block : parentOf(block, level.dimension()));
+  });
+}
+
+void MarkedBlocks::unite(const mpi::Communicator& ranks) {
+  if (ranks.isAlone()) return;
+  for (const std::string& text : ranks.gather(textOf(wanted_))) addBlocks(text, wanted_);
+  for (const std::string& text : ranks.gather(textOf(kept_))) addBlocks(text, kept_);
+}
+
+grid::BlockTree MarkedBlocks::tree() const {
+  std::set<BlockId> kept = kept_, wanted = wanted_;
+  wanted.insert(grid_.fixedBlocks().begin(), grid_.fixedBlocks().end());
+  const int dimension = grid_.dimension();
+  for (const BlockId& leaf : grid_.tree().leaves())
+    if (leaf.level > 1) kept.insert(parentOf(parentOf(leaf, dimension), dimension));
+  return grid_.tree().regridded(wanted, kept);
+}
+
+grid::BlockTree Regridder::wantedTree() {
+  const RegridSettings& settings = run_.problem.regrid;
+  run_.diagnose(run_.phases.refinement);
+  MarkedBlocks marked(*run_.problem.grid, settings.interval, settings.dilation);
+  const int number = run_.table.find(refinementMark.name, -1);
+  for (const grid::Patch& patch : run_.problem.grid->patches()) {
+    const data::Variable marks = run_.warehouse.variable(data::Generation::fresh, number, patch.id());
+    grid::forEach<3>(patch.cells(), [&](const Index3& cell) {
+      marked.add(patch.level(), cell, reinterpret_cast<const int*>(marks.values)[marks.stored.offset(cell)]);
+    });
+  }
+  marked.unite(run_.ranks);
+  return marked.tree();
+}
+
+bool Regridder::refinedStart() {
+  if (!run_.problem.regrid.adaptive || starts_++ >= run_.problem.grid->levels()) return false;
+  const auto started = Clock::now();
+  grid::BlockTree tree = wantedTree();
+  const bool isOther = !(tree == run_.problem.grid->tree());
+  if (isOther) {
+    run_.problem.grid->refine(run_.problem.grid->cut(std::move(tree)));
+    run_.warehouse.startAnew(run_.materials());
+    run_.scheduler.forgetLayout();
+  }
+  seconds_ += secondsSince(started);
+  return isOther;
+}
+
+void Regridder::regridIfDue() {
+  const RegridSettings& settings = run_.problem.regrid;
+  if (!settings.adaptive || settings.once || run_.time.step() % settings.interval != 0) return;
+  const auto started = Clock::now();
+  const trace::Span span(trace::Kind::message, "regrid");
+  grid::BlockTree tree = wantedTree();
+  if (!(tree == run_.problem.grid->tree())) {
+    const tasks::MigratedVariables variables = run_.migratedVariables();
+    std::vector<int> cells;
+    for (const int variable : variables.variables)
+      if (run_.table[variable].label->centring == data::Centring::cell &&
+          run_.warehouse.isHeld(data::Generation::old, variable))
+        cells.push_back(variable);
+    run_.scheduler.fillGhosts(cells);
+    tasks::regrid(*run_.problem.grid, std::move(tree), run_.warehouse, variables);
+    run_.scheduler.forgetLayout();
+    ++regrids_;
+  }
+  seconds_ += secondsSince(started);
+}
+
+}  // namespace tushar::simulation

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <set>
+
+#include "core/grid/block_tree.hpp"
+#include "core/simulation/run_state.hpp"
+
+namespace tushar::simulation {
+
+/// Cells of one level that a criterion has marked ask for blocks: those that must be refined, and those whose children
+/// must stay. Both follow from the tree and the marks alone.
+class MarkedBlocks {
+ public:
+  /// Marks count for all blocks within a distance of their cell: what signals cross in `interval` steps, one cell of the
+  /// finest level each, and `dilation` cells more.
+  MarkedBlocks(const grid::Grid& grid, int interval, int dilation)
+      : grid_(grid), interval_(interval), dilation_(dilation) {}
+
+  /// `mark`: see refinementMark.
+  void add(const grid::Level& level, const Index3& cell, int mark);
+  /// Adds those of all ranks, which all call it.
+  void unite(const mpi::Communicator& ranks);
+  /// The tree that they ask for. Of blocks that are refined, only those may be coarsened that have no refined child.
+  grid::BlockTree tree() const;
+
+ private:
+  const grid::Grid& grid_;
+  int interval_, dilation_;
+  std::set<grid::BlockId> wanted_, kept_;
+};
+
+/// Refines the grid of a run where its criteria ask for it. All ranks make the same calls.
+class Regridder {
+ public:
+  explicit Regridder(RunState& run) : run_(run) {}
+
+  /// Whether the state at the start asked for another grid, which the run now has, without values.
+  bool refinedStart();
+  /// Changes the grid between two steps, with its values, if that is due and the state asks for it.
+  void regridIfDue();
+
+  int regrids() const { return regrids_; }
+  double seconds() const { return seconds_; }
+
+ private:
+  grid::BlockTree wantedTree();
+
+  RunState& run_;
+  int starts_ = 0, regrids_ = 0;
+  double seconds_ = 0;
+};
+
+}  // namespace tushar::simulation
