@@ -1,0 +1,113 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "core/simulation/refinement_marks.hpp"
+#include "core/simulation/regridder.hpp"
+#include "tests/support/levels.hpp"
+
+namespace tushar::simulation {
+
+namespace {
+
+using Indicator = Criterion::Indicator;
+
+/// The indicator of the middle one of three numbers in a row, half a metre apart.
+double inRow(Indicator indicator, double a, double b, double c) {
+  return indicatorOf(indicator, {{&a, &b, &c}}, {0.5}, 1);
+}
+
+/// A row of 4 blocks of 8 cells, up to 3 levels, without regions.
+grid::Domain row(bool isPeriodic = false) {
+  grid::Domain domain;
+  domain.upper = {1, 0, 0};
+  domain.resolution = {{32, 1, 1}};
+  domain.periodic[0] = isPeriodic;
+  domain.refinement.levels = 3;
+  return domain;
+}
+
+std::vector<int> levelsOfLeaves(const grid::BlockTree& tree) {
+  std::vector<int> levels;
+  for (const grid::BlockId& leaf : tree.leaves()) levels.push_back(leaf.level);
+  return levels;
+}
+
+}  // namespace
+
+TEST(Indicator, OfAJumpIsHalfTheDifferenceOverTheLeastValue) {
+  EXPECT_DOUBLE_EQ(inRow(Indicator::jump, 1, 2, 4), 1.5);
+  EXPECT_DOUBLE_EQ(inRow(Indicator::jump, 4, 2, 1), 1.5);
+  EXPECT_EQ(inRow(Indicator::jump, 3, 3, 3), 0);
+  EXPECT_EQ(inRow(Indicator::jump, 0, 0, 0), 0);
+  EXPECT_EQ(inRow(Indicator::jump, 0, 1, 1), std::numeric_limits<double>::infinity());
+}
+
+TEST(Indicator, OfAVectorsJumpIsThatOfTheVector) {
+  const double a[] = {1, 0}, b[] = {0, 0}, c[] = {-2, 4};
+  EXPECT_DOUBLE_EQ(indicatorOf(Indicator::jump, {{a, b, c}}, {0.5}, 2), 2.5);
+}
+
+TEST(Indicator, OfASecondDerivativeIsZeroForALineAndNearlyOneForAStep) {
+  EXPECT_EQ(inRow(Indicator::secondDerivative, 1, 2, 3), 0);
+  EXPECT_DOUBLE_EQ(inRow(Indicator::secondDerivative, 0, 0, 1), 1 / 1.01);
+  EXPECT_NEAR(inRow(Indicator::secondDerivative, 1, 1.0001, 1), 0.0002 / 0.0402, 1e-5);  // ripples do not count
+}
+
+TEST(Indicator, OfAGradientIsItsMagnitude) {
+  const double a = 1, b = 2, c = 4, d = 6;
+  EXPECT_DOUBLE_EQ(indicatorOf(Indicator::gradient, {{&a, &b, &c}, {&a, &b, &d}}, {0.5, 1}, 1), std::hypot(3, 2.5));
+}
+
+TEST(Indicator, BesideASideOfTheGridTakesTheCellsOwnValue) {
+  const double b = 2, c = 4;
+  EXPECT_DOUBLE_EQ(indicatorOf(Indicator::jump, {{nullptr, &b, &c}}, {0.5}, 1), 0.5);
+  EXPECT_DOUBLE_EQ(indicatorOf(Indicator::above, {{nullptr, &b, &c}}, {0.5}, 1), 2);
+}
+
+TEST(MarkedBlocks, AreThoseThatSignalsCanReachUntilTheNextLook) {
+  const grid::Grid grid(row());
+  MarkedBlocks near(grid, 1, 1);  // one cell that signals cross, and one more
+  near.add(grid.level(0), {{13, 0, 0}}, 2);
+  EXPECT_EQ(levelsOfLeaves(near.tree()), (std::vector<int>{0, 1, 1, 0, 0}));
+  MarkedBlocks far(grid, 8, 1);  // 8 cells of the finest level are 2 of the coarsest
+  far.add(grid.level(0), {{13, 0, 0}}, 2);
+  EXPECT_EQ(levelsOfLeaves(far.tree()), (std::vector<int>{0, 1, 1, 1, 1, 0}));
+}
+
+TEST(MarkedBlocks, GoAroundAPeriodicSide) {
+  const grid::Grid grid(row(true));
+  MarkedBlocks marked(grid, 1, 1);
+  marked.add(grid.level(0), {{0, 0, 0}}, 2);
+  EXPECT_EQ(levelsOfLeaves(marked.tree()), (std::vector<int>{1, 1, 0, 0, 1, 1}));
+}
+
+TEST(MarkedBlocks, StayWhereTheyAreMarkedAndBecomeCoarserOneLevelAtATime) {
+  grid::Grid grid(row());
+  grid.refine(grid.cut(grid.tree().regridded({{0, {{1, 0, 0}}}, {1, {{2, 0, 0}}}}, {})));
+  EXPECT_EQ(levelsOfLeaves(grid.tree()), (std::vector<int>{1, 1, 2, 2, 1, 0, 0}));  // the first for 2:1
+  const MarkedBlocks nothing(grid, 1, 1);
+  EXPECT_EQ(levelsOfLeaves(nothing.tree()), (std::vector<int>{0, 1, 1, 0, 0}));
+  MarkedBlocks kept(grid, 1, 1);
+  kept.add(grid.level(2), {{36, 0, 0}}, 1);
+  EXPECT_EQ(kept.tree(), grid.tree());
+}
+
+TEST(MarkedBlocks, NeverMakeACellTwoLevelsFinerAtOnce) {
+  grid::Grid grid(row());
+  grid.refine(grid.cut(grid.tree().regridded({{0, {{1, 0, 0}}}}, {})));
+  MarkedBlocks marked(grid, 8, 4);
+  marked.add(grid.level(1), {{30, 0, 0}}, 2);  // reaches into the coarse block behind
+  const grid::BlockTree tree = marked.tree();
+  for (const grid::BlockId& leaf : tree.leaves()) EXPECT_LE(leaf.level, grid.tree().levelAt(leaf) + 1);
+}
+
+TEST(MarkedBlocks, KeepRegionsOfTheScene) {
+  grid::Domain domain = row();
+  domain.refinement.regions.push_back({1, Vec3(0.3, 0, 0), Vec3(0.4, 0, 0)});
+  const grid::Grid grid(domain);
+  EXPECT_EQ(levelsOfLeaves(MarkedBlocks(grid, 8, 1).tree()), (std::vector<int>{0, 1, 1, 0, 0}));
+}
+
+}  // namespace tushar::simulation
