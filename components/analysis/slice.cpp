@@ -164,6 +164,11 @@ class Slice : public Analysis {
       archives_[k]->write(parts[k]);
     }
   }
+  /// The lists of a plane's archive may be behind, and a restart takes away what they lack.
+  void flush() override {
+    for (const auto& archive : archives_)
+      if (archive) archive->flush();
+  }
 
  private:
   /// The archive of a plane, without what a run before has left that is now repeated.

@@ -4,6 +4,7 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
@@ -105,6 +106,22 @@ class Slice(unittest.TestCase):
         ended = sus("-restart", cut, "-t", "4", "--set", "Time/max_Timesteps=10")
         self.assertEqual(ended.returncode, 0, ended.stderr)
         self.assertEqual(self.files_of(cut), expected, "after a restart")
+
+    def test_a_run_that_is_killed_after_a_checkpoint_keeps_its_slices(self):
+        scene = self.scene(VORTEX, PLANES + LABELS + STEPS)
+        many = [*SMALL, "--set", "Time/max_Timesteps=400", "--set", "Time/maxTime=1000", "--set",
+                "DataArchiver/outputTimestepInterval=1000", "--set", "DataArchiver/checkpoint/@timestepInterval=20"]
+        expected = self.files_of(self.run_in("uncut", scene, *many))
+        job = subprocess.Popen([SUS, "--quiet", scene, "--output", self.folder / "cut", *many], cwd=ROOT)
+        latest = self.folder / "cut/vortex_3d.uda/checkpoints/LATEST"
+        while job.poll() is None and not (latest.exists() and latest.read_text().strip() >= "t00020"):
+            time.sleep(.001)
+        job.kill()
+        self.assertNotEqual(job.wait(timeout=300), 0, "the run ended before it was killed")
+        cut = next((self.folder / "cut").glob("*.uda.000"))
+        ended = sus("-restart", cut)
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        self.assertEqual(self.files_of(cut), expected)
 
     def test_slices_by_time_and_after_a_restart(self):
         scene = self.scene(VORTEX, "<plane>z=0</plane><label>c.density</label><outputInterval>.5</outputInterval>")
