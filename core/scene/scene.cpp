@@ -15,7 +15,6 @@ using input::Diagnostics;
 using input::Document;
 using input::Element;
 using simulation::Analysis;
-using simulation::AnalysisKind;
 using simulation::ArchiveSettings;
 using simulation::Catalogue;
 using simulation::Component;
@@ -89,12 +88,10 @@ const ComponentKind* readComponentKind(const Element& root, const Catalogue& cat
   return kind;
 }
 
-void refuseUnknownSections(const Element& root, const ComponentKind* kind, const Catalogue& catalogue,
-                           Diagnostics& diagnostics) {
+void refuseUnknownSections(const Element& root, const ComponentKind& kind, Diagnostics& diagnostics) {
   std::vector<std::string> known = sharedSections;
-  for (const ComponentKind* other : kind ? std::vector{kind} : catalogue.components())
-    for (const std::string& section : other->sections)
-      if (std::find(known.begin(), known.end(), section) == known.end()) known.push_back(section);
+  for (const std::string& section : kind.sections)
+    if (std::find(known.begin(), known.end(), section) == known.end()) known.push_back(section);
   for (const Element& child : root.children())
     if (const auto idle = std::find_if(idleSections().begin(), idleSections().end(),
                                        [&](const auto& section) { return section.first == child.name(); });
@@ -120,7 +117,10 @@ struct ReadModule {
   MakeAnalysis make;
 };
 
-std::vector<ReadModule> readModules(const Element& root, const Catalogue& catalogue, Diagnostics& diagnostics) {
+/// The modules of a scene. Where its component is not known, `loads` is false: then their names alone are looked at, as
+/// a library that is missing may take minutes to build.
+std::vector<ReadModule> readModules(const Element& root, const Catalogue& catalogue, bool loads,
+                                    Diagnostics& diagnostics) {
   std::vector<ReadModule> modules;
   const auto analysis = section(root, "DataAnalysis", false, diagnostics);
   if (!analysis) return modules;
@@ -133,14 +133,12 @@ std::vector<ReadModule> readModules(const Element& root, const Catalogue& catalo
       continue;
     }
     const auto name = child.attribute("name");
-    const AnalysisKind* kind = name ? catalogue.analysis(*name) : nullptr;
     if (!name)
       diagnostics.error(child, "the attribute name is missing; there are " + allOf(catalogue.analysisNames()));
-    else if (!kind)
-      diagnostics.error(child.whereOf("name"), child.path(),
-                        "name: " + input::choiceProblem(*name, catalogue.analysisNames()));
-    else
-      modules.push_back({child, kind->read(child, diagnostics)});
+    else if (const std::string problem = input::choiceProblem(*name, catalogue.analysisNames()); !problem.empty())
+      diagnostics.error(child.whereOf("name"), child.path(), "name: " + problem);
+    else if (loads)
+      modules.push_back({child, catalogue.analysis(*name)->read(child, diagnostics)});
   }
   return modules;
 }
@@ -267,7 +265,7 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   problem.inputXml = document.text();
   refuseLooseWords(root, diagnostics);
   const ComponentKind* kind = readComponentKind(root, catalogue, diagnostics);
-  refuseUnknownSections(root, kind, catalogue, diagnostics);
+  if (kind) refuseUnknownSections(root, *kind, diagnostics);
   if (const auto meta = section(root, "Meta", false, diagnostics))
     problem.title = metaSchema().read(*meta, diagnostics).title;
   if (const auto time = section(root, "Time", true, diagnostics)) problem.time = readTime(*time, diagnostics);
@@ -281,7 +279,7 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   if (kind && kind->nodesBeyond) domain.nodesBeyond = kind->nodesBeyond(root);
   MakeComponent makeComponent;
   if (kind) makeComponent = kind->read(root, diagnostics);
-  const std::vector<ReadModule> modules = readModules(root, catalogue, diagnostics);
+  const std::vector<ReadModule> modules = readModules(root, catalogue, kind != nullptr, diagnostics);
   const bool modulesAreRight = std::all_of(modules.begin(), modules.end(), [](const auto& m) { return m.make; });
   if (makeComponent && modulesAreRight) checkSaves(makeComponent, modules, problem.archive.saves, diagnostics);
   diagnostics.throwIfAny();

@@ -50,9 +50,9 @@ class Missing(unittest.TestCase):
             shutil.copy(file, self.here)
         shutil.copy(INDEX, self.here / "modules")
 
-    def run_scene(self):
+    def run_scene(self, *options):
         libraries = f"{self.here}:{os.environ.get('LD_LIBRARY_PATH', '')}"
-        return modules.run([self.here / "sus", SCENE, "--quiet", "--output", self.here / "output"],
+        return modules.run([self.here / "sus", SCENE, "--quiet", "--output", self.here / "output", *options],
                            LD_LIBRARY_PATH=libraries)
 
     def builder(self, commands):
@@ -70,6 +70,14 @@ class Missing(unittest.TestCase):
             done = self.run_scene()
             self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertEqual(self.calls(), ["tushar_heat", "tushar_analysis"])
+
+    def test_nothing_is_built_for_a_component_that_is_misspelt(self):
+        self.builder("exit 3")
+        done = self.run_scene("--set", "SimulationComponent/@type=hest")
+        self.assertEqual(done.returncode, 3)
+        self.assertRegex(done.stderr, r"found 'hest', expected 'burgers', .* \(did you mean 'heat'\?\) \[T107\]\n\Z")
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        self.assertFalse((self.here / "calls").exists())
 
     def test_a_build_that_fails_is_told(self):
         self.builder("exit 3")
