@@ -207,21 +207,12 @@ Trial tryOut(const MakeComponent& make) {
   return {};
 }
 
-/// Names what is wrong with the saved labels, even where the rest of the scene is wrong, too: the labels of a component
-/// and of its modules do not depend on the grid. Takes out, with a note, what Uintah has and nobody here. Says nothing
-/// where a module cannot be had: its labels are not known.
-void checkSaves(const MakeComponent& make, const std::vector<ReadModule>& modules, std::vector<SaveRequest>& saves,
-                Diagnostics& diagnostics) {
-  const auto [level, component] = tryOut(make);
-  if (!component) return;
-  std::vector<std::unique_ptr<Analysis>> analyses;
-  try {
-    analyses = makeModules(modules, *component, *level);
-  } catch (const InputError&) {
-    return;
-  }
-  const Phases phases(*component, analyses);
-  const std::vector<std::string> foreign = component->foreignLabels();
+/// Names what is wrong with the labels that are saved and sampled. Takes out, with a note, what Uintah has and nobody
+/// here.
+void checkLabels(const Component& component, const std::vector<std::unique_ptr<Analysis>>& analyses,
+                 std::vector<SaveRequest>& saves, Diagnostics& diagnostics) {
+  const Phases phases(component, analyses);
+  const std::vector<std::string> foreign = component.foreignLabels();
   std::erase_if(saves, [&](const SaveRequest& save) {
     const bool isLacking = std::find(foreign.begin(), foreign.end(), save.label) != foreign.end() &&
                            !phases.saveable().contains(save.label);
@@ -233,8 +224,24 @@ void checkSaves(const MakeComponent& make, const std::vector<ReadModule>& module
   for (const SaveRequest& save : saves)
     for (const std::string& remark : phases.remarksOn(save))
       diagnostics.note(save.whereOfMaterial, "DataArchiver/save", remark);
-  for (const InputProblem& problem : phases.problemsOf(saves))
-    diagnostics.error(problem.where, problem.tagPath, problem.sentence);
+  for (const std::vector<InputProblem>& problems : {phases.problemsOf(saves), phases.problemsOf(analyses)})
+    for (const InputProblem& problem : problems) diagnostics.error(problem.where, problem.tagPath, problem.sentence);
+}
+
+/// Checks the labels even where the rest of the scene is wrong, too: those of a component and of its modules do not
+/// depend on the grid. Whether it could: some component or module cannot be had on so small a grid as this takes.
+bool checkLabelsWithoutGrid(const MakeComponent& make, const std::vector<ReadModule>& modules,
+                            std::vector<SaveRequest>& saves, Diagnostics& diagnostics) {
+  const auto [level, component] = tryOut(make);
+  if (!component) return false;
+  std::vector<std::unique_ptr<Analysis>> analyses;
+  try {
+    analyses = makeModules(modules, *component, *level);
+  } catch (const InputError&) {
+    return false;
+  }
+  checkLabels(*component, analyses, saves, diagnostics);
+  return true;
 }
 
 }  // namespace
@@ -281,7 +288,8 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   if (kind) makeComponent = kind->read(root, diagnostics);
   const std::vector<ReadModule> modules = readModules(root, catalogue, kind != nullptr, diagnostics);
   const bool modulesAreRight = std::all_of(modules.begin(), modules.end(), [](const auto& m) { return m.make; });
-  if (makeComponent && modulesAreRight) checkSaves(makeComponent, modules, problem.archive.saves, diagnostics);
+  const bool labelsAreChecked = makeComponent && modulesAreRight &&
+                                checkLabelsWithoutGrid(makeComponent, modules, problem.archive.saves, diagnostics);
   diagnostics.throwIfAny();
 
   problem.componentName = kind->name;
@@ -290,6 +298,8 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   problem.component = makeComponent(*problem.level);
   if (problem.component->mayRepeatStep()) problem.time.recomputeTimeStep = true;
   problem.analyses = makeModules(modules, *problem.component, *problem.level);
+  if (!labelsAreChecked) checkLabels(*problem.component, problem.analyses, problem.archive.saves, diagnostics);
+  diagnostics.throwIfAny();
   problem.notes = diagnostics.notes();
   return problem;
 }

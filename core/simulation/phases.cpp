@@ -61,6 +61,14 @@ std::vector<std::string> namesOfState(Names needed, const Names& decided, const 
   return {needed.begin(), needed.end()};
 }
 
+/// What analysis modules sample.
+std::vector<SaveRequest> samplesOf(const std::vector<std::unique_ptr<Analysis>>& analyses) {
+  std::vector<SaveRequest> samples;
+  for (const auto& analysis : analyses)
+    for (SaveRequest& sample : analysis->samples()) samples.push_back(std::move(sample));
+  return samples;
+}
+
 /// The time step, which every step has, and what tasks compute along with it.
 Names decidedBefore(const std::vector<tasks::Task>& stableTimeStep) {
   return united(producedBy(stableTimeStep), {std::string(data::delT.name)});
@@ -166,16 +174,13 @@ std::vector<InputProblem> Phases::problemsOf(const std::vector<SaveRequest>& sav
   return problems;
 }
 
-std::vector<SaveRequest> Phases::samplesOf(const std::vector<std::unique_ptr<Analysis>>& analyses) const {
-  std::vector<SaveRequest> samples;
-  for (const auto& analysis : analyses)
-    for (SaveRequest& sample : analysis->samples()) samples.push_back(std::move(sample));
+std::vector<InputProblem> Phases::problemsOf(const std::vector<std::unique_ptr<Analysis>>& analyses) const {
+  const std::vector<SaveRequest> samples = samplesOf(analyses);
   std::vector<InputProblem> problems = problemsOf(samples, "DataAnalysis/Module");
   for (const SaveRequest& sample : samples)
     for (const std::string& remark : remarksOn(sample))
       problems.push_back({sample.whereOfMaterial, "DataAnalysis/Module", remark});
-  if (!problems.empty()) throw InputError(std::move(problems));
-  return samples;
+  return problems;
 }
 
 Names Phases::saveable() const {
@@ -207,6 +212,8 @@ void Phases::sortSaves(const std::vector<SaveRequest>& saves) {
 void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, const std::vector<SaveRequest>& saves,
                      const grid::Level& level, data::VariableTable& table) {
   if (std::vector<InputProblem> problems = problemsOf(saves); !problems.empty()) throw InputError(std::move(problems));
+  if (std::vector<InputProblem> problems = problemsOf(analyses); !problems.empty())
+    throw InputError(std::move(problems));
   const std::vector<SaveRequest> samples = samplesOf(analyses);
   sortSaves(named(saves));
   const Lists& lists = lists_;

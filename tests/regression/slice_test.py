@@ -155,6 +155,20 @@ class Slice(unittest.TestCase):
         line = self.scene(ROOT / "ups/euler/sod.ups", "<plane>x=0.5</plane>" + LABELS + STEPS)
         self.assertIn("would be a point", sus(line, "-check").stderr)
 
+    def test_labels_are_checked_where_a_plane_needs_the_grid_of_the_run(self):
+        scene = self.scene(VORTEX, "<plane>x=1.3</plane><label>c.densty</label>" + STEPS)
+        ended = sus(scene, "-check", "--set", "DataArchiver/save[1]/@label=c.presure")
+        self.assertEqual(ended.returncode, 3)
+        self.assertIn("DataArchiver/save: no task of this component computes 'c.presure' (did you mean 'c.pressure'?)",
+                      ended.stderr)
+        self.assertIn("DataAnalysis/Module: no task of this component computes 'c.densty' (did you mean 'c.density'?)",
+                      ended.stderr)
+        discs = self.scene(DISCS, "<plane>y=.52</plane><label>g.mass</label>" + STEPS)
+        ended = subprocess.run([SUS, discs, "-check", "--set", "DataArchiver/save[1]/@label=AccStrainEnergy"], cwd=ROOT,
+                               capture_output=True, text=True, timeout=300)
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        self.assertIn("'AccStrainEnergy' is not saved: nobody computes it here", ended.stderr)
+
     def test_a_film_of_slices(self):
         archive = self.run_in("film", self.scene(VORTEX, PLANES + LABELS + STEPS), *SMALL)
         film = self.folder / "film.gif"
