@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The modules of sus: their index says what they have; one that is not built is built, or is told to be missing."""
+import hashlib
 import os
 import pathlib
 import re
@@ -36,6 +37,24 @@ class Index(unittest.TestCase):
             with self.subTest(module=module, name=name):
                 done = modules.run([SUS, "--describe", name])  # loads this module alone
                 self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+
+class Interface(unittest.TestCase):
+    """The hash by which a module that was built with other headers is told."""
+
+    def setUp(self):
+        self.headers = sorted(str(path) for path in (ROOT / "core").rglob("*.hpp"))
+
+    def test_is_that_of_the_headers_as_they_are(self):
+        hashes = "".join(hashlib.sha256(pathlib.Path(path).read_bytes()).hexdigest() for path in self.headers)
+        self.assertEqual(modules.interface(), hashlib.sha256(hashes.encode()).hexdigest()[:16])
+
+    def test_is_made_anew_when_one_of_them_changes(self):
+        ninja = modules.BUILD / "build.ninja"
+        if not ninja.exists():
+            self.skipTest("this build is not Ninja's")
+        line = next(line for line in ninja.read_text().splitlines() if ": RERUN_CMAKE |" in line)
+        self.assertEqual(set(self.headers) - set(line.split()), set())
 
 
 class Missing(unittest.TestCase):
