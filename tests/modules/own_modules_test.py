@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The modules of sus: their index says what they have; one that is not built is built, or is told to be missing."""
 import hashlib
+import json
 import os
 import pathlib
 import re
@@ -89,6 +90,13 @@ class Missing(unittest.TestCase):
             done = self.run_scene()
             self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertEqual(self.calls(), ["tushar_heat", "tushar_analysis"])
+
+    def test_a_build_is_no_part_of_the_start_up(self):
+        wait = 10  # seconds for both modules, more than a start-up takes on a busy machine
+        self.builder(f"sleep {wait / 2}; cp '{modules.BUILD}/modules/'$1.so '{self.here}/modules/'")
+        done = self.run_scene("--json", self.here / "report.json")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertLess(json.loads((self.here / "report.json").read_text())["wall"]["startup"], wait)
 
     def test_nothing_is_built_for_a_component_that_is_misspelt(self):
         self.builder("exit 3")
