@@ -75,8 +75,10 @@ void checkSettings(const Settings& settings, const Element& module, Diagnostics&
     if (!label.text.starts_with("c.") && !label.text.starts_with("g."))
       diagnostics.error(label.where, module.path() + "/label",
                         fmt::format("found '{}', expected a variable of cells (c.) or nodes (g.)", label.text));
-  if ((settings.interval > 0) == (settings.stepInterval > 0))
-    diagnostics.error(module, "a slice needs one of outputInterval and outputTimestepInterval");
+  if (settings.interval > 0 && settings.stepInterval > 0)
+    diagnostics.error(module, "gives both outputInterval and outputTimestepInterval; keep one");
+  if (settings.interval <= 0 && settings.stepInterval <= 0)
+    diagnostics.error(module, "a slice needs one of outputInterval and outputTimestepInterval: there is no default");
 }
 
 const Schema<Settings>& settingsSchema() {

@@ -171,20 +171,30 @@ std::vector<std::unique_ptr<Analysis>> makeModules(const std::vector<ReadModule>
   return analyses;
 }
 
-/// Refuses intervals that the times of a run could not tell apart.
+/// Refuses an interval [s] that the times of a run could not tell apart.
+void checkInterval(double interval, const TimeSettings& time, const Element& element, const std::string& what,
+                   Diagnostics& diagnostics) {
+  const double least = simulation::timeResolution * std::max(std::abs(time.initTime), std::abs(time.maxTime));
+  if (interval > 0 && interval <= least)
+    diagnostics.error(
+        element, fmt::format("{}found {:g} s, expected more than {:g} s: times up to maxTime cannot tell less apart",
+                             what, interval, least));
+}
+
 void checkIntervals(const TimeSettings& time, const ArchiveSettings& archive, const Element& section,
                     Diagnostics& diagnostics) {
-  const double least = simulation::timeResolution * std::max(std::abs(time.initTime), std::abs(time.maxTime));
-  const auto check = [&](double interval, const Element& element, const std::string& what) {
-    if (interval > 0 && interval <= least)
-      diagnostics.error(element,
-                        fmt::format("{}found {:g} s, expected more than {:g} s: times up to maxTime cannot tell "
-                                    "less apart",
-                                    what, interval, least));
-  };
-  if (const auto tag = section.child("outputInterval")) check(archive.outputInterval, *tag, "");
+  if (const auto tag = section.child("outputInterval"))
+    checkInterval(archive.outputInterval, time, *tag, "", diagnostics);
   if (archive.checkpoint && archive.checkpoint->interval)
-    check(*archive.checkpoint->interval, *section.child("checkpoint"), "attribute 'interval': ");
+    checkInterval(*archive.checkpoint->interval, time, *section.child("checkpoint"),
+                  "attribute 'interval': ", diagnostics);
+}
+
+/// The same of what analysis modules sample by time.
+void checkIntervals(const TimeSettings& time, const std::vector<ReadModule>& modules, Diagnostics& diagnostics) {
+  for (const ReadModule& module : modules)
+    if (const auto tag = module.element.child("outputInterval"))
+      checkInterval(input::parse<double>(tag->text()).value.value_or(0), time, *tag, "", diagnostics);
 }
 
 /// A component on the smallest grid that it takes, of one axis where it can be.
@@ -287,6 +297,7 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   MakeComponent makeComponent;
   if (kind) makeComponent = kind->read(root, diagnostics);
   const std::vector<ReadModule> modules = readModules(root, catalogue, kind != nullptr, diagnostics);
+  checkIntervals(problem.time, modules, diagnostics);
   const bool modulesAreRight = std::all_of(modules.begin(), modules.end(), [](const auto& m) { return m.make; });
   const bool labelsAreChecked = makeComponent && modulesAreRight &&
                                 checkLabelsWithoutGrid(makeComponent, modules, problem.archive.saves, diagnostics);

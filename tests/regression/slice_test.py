@@ -142,7 +142,14 @@ class Slice(unittest.TestCase):
             "<plane>z=2</plane>" + LABELS + STEPS: "plane: found z = 2 m, expected a place on the grid, from -1.25 to",
             PLANES + "<label>p.x</label>" + STEPS: "found 'p.x', expected a variable of cells (c.) or nodes (g.)",
             PLANES + "<label>c.densty</label>" + STEPS: "computes 'c.densty' (did you mean 'c.density'?)",
-            PLANES + LABELS: "a slice needs one of outputInterval and outputTimestepInterval",
+            PLANES + LABELS: "a slice needs one of outputInterval and outputTimestepInterval: there is no default",
+            PLANES + LABELS + STEPS + "<outputInterval>1</outputInterval>":
+                "gives both outputInterval and outputTimestepInterval; keep one",
+            PLANES + LABELS + "<outputInterval>0</outputInterval>": "found '0', expected a value greater than 0 s",
+            PLANES + LABELS + "<outputInterval>5e-12</outputInterval>":
+                "outputInterval: found 5e-12 s, expected more than 1e-11 s: times up to maxTime cannot tell less apart",
+            PLANES + LABELS + "<outputTimestepInterval>0</outputTimestepInterval>":
+                "found '0', expected a value greater than 0",
             PLANES + STEPS: "label",
             LABELS + STEPS: "plane",
         }
