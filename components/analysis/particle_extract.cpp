@@ -10,6 +10,7 @@
 #include "core/data/label.hpp"
 #include "core/input/schema.hpp"
 #include "core/output/archive_files.hpp"
+#include "core/simulation/module_with_tags.hpp"
 
 namespace tushar::analysis {
 
@@ -19,8 +20,6 @@ using input::Schema;
 using output::Array;
 using simulation::Analysis;
 using simulation::AnalysisKind;
-using simulation::Component;
-using simulation::MakeAnalysis;
 using simulation::SaveRequest;
 
 namespace {
@@ -189,14 +188,8 @@ std::string extractLinesBefore(const std::string& text, double time) {
 }
 
 AnalysisKind particleExtractKind() {
-  AnalysisKind kind{"particleExtract", "variables of chosen particles over time, in a file for each", {}, {}};
-  kind.describe = [](std::ostream& out) { settingsSchema().describe(out); };
-  kind.schema = [] { return &settingsSchema(); };
-  kind.read = [](const Element& module, Diagnostics& diagnostics) -> MakeAnalysis {
-    const Settings settings = settingsSchema().read(module, diagnostics);
-    return [settings](const Component&, const grid::Level&) { return std::make_unique<ParticleExtract>(settings); };
-  };
-  return kind;
+  return simulation::moduleWithTags<ParticleExtract>(
+      "particleExtract", "variables of chosen particles over time, in a file for each", settingsSchema());
 }
 
 }  // namespace tushar::analysis

@@ -11,6 +11,7 @@
 
 #include "core/input/schema.hpp"
 #include "core/output/archive.hpp"
+#include "core/simulation/module_with_tags.hpp"
 #include "core/simulation/time_control.hpp"
 
 namespace tushar::analysis {
@@ -24,8 +25,6 @@ using output::Archive;
 using output::Snapshot;
 using simulation::Analysis;
 using simulation::AnalysisKind;
-using simulation::Component;
-using simulation::MakeAnalysis;
 using simulation::SaveRequest;
 
 namespace {
@@ -217,14 +216,7 @@ Layer layerAt(const Plane& plane, const Level& level) {
 }
 
 AnalysisKind sliceKind() {
-  AnalysisKind kind{"slice", "variables of cells and nodes on planes, often", {}, {}};
-  kind.describe = [](std::ostream& out) { settingsSchema().describe(out); };
-  kind.schema = [] { return &settingsSchema(); };
-  kind.read = [](const Element& module, Diagnostics& diagnostics) -> MakeAnalysis {
-    const Settings settings = settingsSchema().read(module, diagnostics);
-    return [settings](const Component&, const Level& level) { return std::make_unique<Slice>(settings, level); };
-  };
-  return kind;
+  return simulation::moduleWithTags<Slice>("slice", "variables of cells and nodes on planes, often", settingsSchema());
 }
 
 }  // namespace tushar::analysis
