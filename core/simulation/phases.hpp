@@ -38,6 +38,9 @@ class Phases {
   /// Names of the variables that a step and the totals need of the step before, sorted: the state of a run, whatever
   /// is saved and measured besides.
   const std::vector<std::string>& state() const { return state_; }
+  /// Names of the variables that the fingerprint covers: the state or, where no step needs anything of the one before,
+  /// what is saved and measured.
+  const std::vector<std::string>& fingerprinted() const { return state_.empty() ? lasting_ : state_; }
   /// Names of the variables that outlive a step, sorted: the state, and what is saved besides.
   const std::vector<std::string>& lasting() const { return lasting_; }
   /// Saved variables of particles, nodes and cells.
