@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
+#include <cstdlib>
 #include <set>
 
 #include "core/data/label.hpp"
 #include "core/input/schema.hpp"
+#include "core/output/archive_files.hpp"
+#include "core/simulation/module_with_tags.hpp"
 
 namespace tushar::analysis {
 
@@ -18,8 +20,6 @@ using input::Schema;
 using output::Array;
 using simulation::Analysis;
 using simulation::AnalysisKind;
-using simulation::Component;
-using simulation::MakeAnalysis;
 using simulation::SaveRequest;
 
 namespace {
@@ -89,15 +89,6 @@ const Array& column(const std::vector<Array>& columns, std::string_view label) {
   return *std::find_if(columns.begin(), columns.end(), [&](const Array& array) { return array.label == label; });
 }
 
-/// Lines of a file that were written before a time [s]: what a run has left that is now repeated from earlier on.
-std::string linesBefore(const std::filesystem::path& file, double time) {
-  std::ifstream in(file);
-  std::string kept, line;
-  while (std::getline(in, line))
-    if (line.starts_with('#') || std::strtod(line.c_str(), nullptr) < time * (1 - 1e-6)) kept += line + '\n';
-  return kept;
-}
-
 class ParticleExtract : public Analysis {
  public:
   explicit ParticleExtract(Settings settings) : settings_(std::move(settings)) {}
@@ -142,12 +133,10 @@ class ParticleExtract : public Analysis {
   }
 
   void write(const std::filesystem::path& file, const std::vector<Array>& columns, std::size_t entry) {
-    const bool isNew = files_.insert(file.filename().string()).second;
-    const std::string before = isNew ? linesBefore(file, time_) : "";
-    std::ofstream out(file, isNew ? std::ios::trunc : std::ios::app);
-    if (isNew) out << (before.empty() ? extractHeader(columns) : before);
-    out << extractLine(time_, columns, entry);
-    if (!out.flush()) throw FileError("cannot write '" + file.string() + "'");
+    std::string line = extractLine(time_, columns, entry);
+    if (!files_.insert(file.filename().string()).second) return output::AppendFile(file).append(line);
+    const std::string before = extractLinesBefore(output::textOf(file).value_or(""), time_);
+    output::replaceFile(file, (before.empty() ? extractHeader(columns) : before) + line);
   }
 
   Settings settings_;
@@ -189,15 +178,18 @@ std::string extractLine(double time, const std::vector<Array>& columns, std::siz
   return line + '\n';
 }
 
+std::string extractLinesBefore(const std::string& text, double time) {
+  std::string kept;
+  for (std::size_t from = 0, end; (end = text.find('\n', from)) != std::string::npos; from = end + 1) {
+    const std::string line = text.substr(from, end + 1 - from);
+    if (line.starts_with('#') || std::strtod(line.c_str(), nullptr) < time * (1 - 1e-6)) kept += line;
+  }
+  return kept;
+}
+
 AnalysisKind particleExtractKind() {
-  AnalysisKind kind{"particleExtract", "variables of chosen particles over time, in a file for each", {}, {}};
-  kind.describe = [](std::ostream& out) { settingsSchema().describe(out); };
-  kind.schema = [] { return &settingsSchema(); };
-  kind.read = [](const Element& module, Diagnostics& diagnostics) -> MakeAnalysis {
-    const Settings settings = settingsSchema().read(module, diagnostics);
-    return [settings](const Component&, const grid::Level&) { return std::make_unique<ParticleExtract>(settings); };
-  };
-  return kind;
+  return simulation::moduleWithTags<ParticleExtract>(
+      "particleExtract", "variables of chosen particles over time, in a file for each", settingsSchema());
 }
 
 }  // namespace tushar::analysis

@@ -11,6 +11,7 @@
 
 #include "core/input/schema.hpp"
 #include "core/output/archive.hpp"
+#include "core/simulation/module_with_tags.hpp"
 #include "core/simulation/time_control.hpp"
 
 namespace tushar::analysis {
@@ -24,8 +25,6 @@ using output::Archive;
 using output::Snapshot;
 using simulation::Analysis;
 using simulation::AnalysisKind;
-using simulation::Component;
-using simulation::MakeAnalysis;
 using simulation::SaveRequest;
 
 namespace {
@@ -75,8 +74,10 @@ void checkSettings(const Settings& settings, const Element& module, Diagnostics&
     if (!label.text.starts_with("c.") && !label.text.starts_with("g."))
       diagnostics.error(label.where, module.path() + "/label",
                         fmt::format("found '{}', expected a variable of cells (c.) or nodes (g.)", label.text));
-  if ((settings.interval > 0) == (settings.stepInterval > 0))
-    diagnostics.error(module, "a slice needs one of outputInterval and outputTimestepInterval");
+  if (settings.interval > 0 && settings.stepInterval > 0)
+    diagnostics.error(module, "gives both outputInterval and outputTimestepInterval; keep one");
+  if (settings.interval <= 0 && settings.stepInterval <= 0)
+    diagnostics.error(module, "a slice needs one of outputInterval and outputTimestepInterval: there is no default");
 }
 
 const Schema<Settings>& settingsSchema() {
@@ -164,6 +165,11 @@ class Slice : public Analysis {
       archives_[k]->write(parts[k]);
     }
   }
+  /// The lists of a plane's archive may be behind, and a restart takes away what they lack.
+  void flush() override {
+    for (const auto& archive : archives_)
+      if (archive) archive->flush();
+  }
 
  private:
   /// The archive of a plane, without what a run before has left that is now repeated.
@@ -210,14 +216,7 @@ Layer layerAt(const Plane& plane, const Level& level) {
 }
 
 AnalysisKind sliceKind() {
-  AnalysisKind kind{"slice", "variables of cells and nodes on planes, often", {}, {}};
-  kind.describe = [](std::ostream& out) { settingsSchema().describe(out); };
-  kind.schema = [] { return &settingsSchema(); };
-  kind.read = [](const Element& module, Diagnostics& diagnostics) -> MakeAnalysis {
-    const Settings settings = settingsSchema().read(module, diagnostics);
-    return [settings](const Component&, const Level& level) { return std::make_unique<Slice>(settings, level); };
-  };
-  return kind;
+  return simulation::moduleWithTags<Slice>("slice", "variables of cells and nodes on planes, often", settingsSchema());
 }
 
 }  // namespace tushar::analysis

@@ -3,10 +3,17 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <stdexcept>
 
 namespace tushar {
+
+namespace {
+
+double secondsSpent = 0;
+
+}  // namespace
 
 std::filesystem::path libraryFolder() {
   Dl_info found;
@@ -18,8 +25,12 @@ std::filesystem::path libraryFolder() {
 void buildMissing(const std::string& name) {
   const std::filesystem::path script = libraryFolder() / "build_missing";
   if (!std::filesystem::exists(script)) return;
-  if (std::system(fmt::format("'{}' tushar_{} 1>&2", script.string(), name).c_str()) != 0)
-    throw std::runtime_error(fmt::format("tushar_{} was not built", name));
+  const auto started = std::chrono::steady_clock::now();
+  const int status = std::system(fmt::format("'{}' tushar_{} 1>&2", script.string(), name).c_str());
+  secondsSpent += std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  if (status != 0) throw std::runtime_error(fmt::format("tushar_{} was not built", name));
 }
+
+double secondsOfBuilds() { return secondsSpent; }
 
 }  // namespace tushar

@@ -12,4 +12,7 @@ std::filesystem::path libraryFolder();
 /// script `build_missing`. Does nothing elsewhere. Throws std::runtime_error if the build fails.
 void buildMissing(const std::string& name);
 
+/// Wall time that this process has waited for such builds, s.
+double secondsOfBuilds();
+
 }  // namespace tushar

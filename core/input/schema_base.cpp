@@ -175,6 +175,15 @@ std::vector<std::string> SchemaBase::tagNames() const {
   return names;
 }
 
+std::vector<std::string> SchemaBase::acceptedTagNames() const {
+  std::vector<std::string> names = tagNames();
+  for (const SchemaEntry& entry : entries_)
+    for (const TagForm& form : entry.forms)
+      if (form.kind == TagForm::Kind::nothing)
+        std::erase_if(names, [&](const std::string& name) { return contains(form.tags, name); });
+  return names;
+}
+
 std::vector<std::string> SchemaBase::attributeNames() const {
   std::vector<std::string> names;
   for (const SchemaEntry& entry : entries_) {
@@ -238,9 +247,9 @@ void SchemaBase::readInto(void* object, const Element& element, Diagnostics& dia
 
 void SchemaBase::reportUnknown(const Element& element, Diagnostics& diagnostics) const {
   refuseAttributes(element, attributeNames(), diagnostics);
-  const std::vector<std::string> tags = tagNames();
+  const std::vector<std::string> known = tagNames(), tags = acceptedTagNames();
   for (const Element& child : element.children()) {
-    if (contains(tags, child.name())) continue;
+    if (contains(known, child.name())) continue;
     diagnostics.error(child, fmt::format("unknown tag <{}> in <{}>{}{}", child.name(), element.name(),
                                          didYouMean(child.name(), tags), allowedHere(tags, "tag")));
   }

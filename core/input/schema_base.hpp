@@ -62,6 +62,8 @@ class SchemaBase {
   const std::vector<SchemaEntry>& entries() const { return entries_; }
   /// The tags that may be given, in the order of their declaration.
   std::vector<std::string> tagNames() const;
+  /// The same without those that are known only to be refused with a sentence of their own.
+  std::vector<std::string> acceptedTagNames() const;
   std::vector<std::string> attributeNames() const;
   /// Writes the manual of the tag and of all that it may contain, indented by that many blanks.
   void describe(std::ostream& out, int indent = 0) const;

@@ -100,7 +100,8 @@ Hdf5Input::Placed Hdf5Input::placed(const std::string& name) const {
   Placed placed{valuesLike(type), static_cast<std::size_t>(numbers)};
   const hid_t native = std::visit([](const auto& values) { return memoryType(typeOfNumber(values)); }, placed.type);
   const haddr_t offset = H5Dget_offset(data);
-  if (offset != HADDR_UNDEF && H5Tequal(type, native) > 0) placed.offset = static_cast<std::int64_t>(offset);
+  const bool isNative = checked(H5Tequal(type, native), name + " of") > 0;
+  if (offset != HADDR_UNDEF && isNative) placed.offset = static_cast<std::int64_t>(offset);
   return placed;
 }
 

@@ -20,10 +20,11 @@ namespace {
 /// The file, open for reading while this lives.
 class OpenFile {
  public:
-  explicit OpenFile(const std::filesystem::path& path) : descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
-  ~OpenFile() {
-    if (descriptor >= 0) ::close(descriptor);
+  explicit OpenFile(const std::filesystem::path& path) : descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+    if (descriptor < 0)
+      throw FileError(fmt::format("cannot read '{}': {}", path.string(), std::generic_category().message(errno)));
   }
+  ~OpenFile() { ::close(descriptor); }
   OpenFile(const OpenFile&) = delete;
   OpenFile& operator=(const OpenFile&) = delete;
 
@@ -71,7 +72,7 @@ void Hdf5Parts::readRun(int descriptor, const Part* first, const Part* last) con
     errno = 0;
     ssize_t done = preadv(descriptor, &to[next], static_cast<int>(count - next), at);
     if (done < 0 && errno == EINTR) continue;
-    if (done <= 0 && to[next].iov_len > 0)
+    if (done < 0 || (done == 0 && to[next].iov_len > 0))
       throw FileError(fmt::format("cannot read {} of '{}': {}", name_, file_->path().string(),
                                   std::generic_category().message(errno ? errno : EIO)));
     at += done;

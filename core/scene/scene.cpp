@@ -15,7 +15,6 @@ using input::Diagnostics;
 using input::Document;
 using input::Element;
 using simulation::Analysis;
-using simulation::AnalysisKind;
 using simulation::ArchiveSettings;
 using simulation::Catalogue;
 using simulation::Component;
@@ -89,12 +88,10 @@ const ComponentKind* readComponentKind(const Element& root, const Catalogue& cat
   return kind;
 }
 
-void refuseUnknownSections(const Element& root, const ComponentKind* kind, const Catalogue& catalogue,
-                           Diagnostics& diagnostics) {
+void refuseUnknownSections(const Element& root, const ComponentKind& kind, Diagnostics& diagnostics) {
   std::vector<std::string> known = sharedSections;
-  for (const ComponentKind* other : kind ? std::vector{kind} : catalogue.components())
-    for (const std::string& section : other->sections)
-      if (std::find(known.begin(), known.end(), section) == known.end()) known.push_back(section);
+  for (const std::string& section : kind.sections)
+    if (std::find(known.begin(), known.end(), section) == known.end()) known.push_back(section);
   for (const Element& child : root.children())
     if (const auto idle = std::find_if(idleSections().begin(), idleSections().end(),
                                        [&](const auto& section) { return section.first == child.name(); });
@@ -120,7 +117,10 @@ struct ReadModule {
   MakeAnalysis make;
 };
 
-std::vector<ReadModule> readModules(const Element& root, const Catalogue& catalogue, Diagnostics& diagnostics) {
+/// The modules of a scene. Where its component is not known, `loads` is false: then their names alone are looked at, as
+/// a library that is missing may take minutes to build.
+std::vector<ReadModule> readModules(const Element& root, const Catalogue& catalogue, bool loads,
+                                    Diagnostics& diagnostics) {
   std::vector<ReadModule> modules;
   const auto analysis = section(root, "DataAnalysis", false, diagnostics);
   if (!analysis) return modules;
@@ -133,14 +133,12 @@ std::vector<ReadModule> readModules(const Element& root, const Catalogue& catalo
       continue;
     }
     const auto name = child.attribute("name");
-    const AnalysisKind* kind = name ? catalogue.analysis(*name) : nullptr;
     if (!name)
       diagnostics.error(child, "the attribute name is missing; there are " + allOf(catalogue.analysisNames()));
-    else if (!kind)
-      diagnostics.error(child.whereOf("name"), child.path(),
-                        "name: " + input::choiceProblem(*name, catalogue.analysisNames()));
-    else
-      modules.push_back({child, kind->read(child, diagnostics)});
+    else if (const std::string problem = input::choiceProblem(*name, catalogue.analysisNames()); !problem.empty())
+      diagnostics.error(child.whereOf("name"), child.path(), "name: " + problem);
+    else if (loads)
+      modules.push_back({child, catalogue.analysis(*name)->read(child, diagnostics)});
   }
   return modules;
 }
@@ -173,20 +171,30 @@ std::vector<std::unique_ptr<Analysis>> makeModules(const std::vector<ReadModule>
   return analyses;
 }
 
-/// Refuses intervals that the times of a run could not tell apart.
+/// Refuses an interval [s] that the times of a run could not tell apart.
+void checkInterval(double interval, const TimeSettings& time, const Element& element, const std::string& what,
+                   Diagnostics& diagnostics) {
+  const double least = simulation::timeResolution * std::max(std::abs(time.initTime), std::abs(time.maxTime));
+  if (interval > 0 && interval <= least)
+    diagnostics.error(
+        element, fmt::format("{}found {:g} s, expected more than {:g} s: times up to maxTime cannot tell less apart",
+                             what, interval, least));
+}
+
 void checkIntervals(const TimeSettings& time, const ArchiveSettings& archive, const Element& section,
                     Diagnostics& diagnostics) {
-  const double least = simulation::timeResolution * std::max(std::abs(time.initTime), std::abs(time.maxTime));
-  const auto check = [&](double interval, const Element& element, const std::string& what) {
-    if (interval > 0 && interval <= least)
-      diagnostics.error(element,
-                        fmt::format("{}found {:g} s, expected more than {:g} s: times up to maxTime cannot tell "
-                                    "less apart",
-                                    what, interval, least));
-  };
-  if (const auto tag = section.child("outputInterval")) check(archive.outputInterval, *tag, "");
+  if (const auto tag = section.child("outputInterval"))
+    checkInterval(archive.outputInterval, time, *tag, "", diagnostics);
   if (archive.checkpoint && archive.checkpoint->interval)
-    check(*archive.checkpoint->interval, *section.child("checkpoint"), "attribute 'interval': ");
+    checkInterval(*archive.checkpoint->interval, time, *section.child("checkpoint"),
+                  "attribute 'interval': ", diagnostics);
+}
+
+/// The same of what analysis modules sample by time.
+void checkIntervals(const TimeSettings& time, const std::vector<ReadModule>& modules, Diagnostics& diagnostics) {
+  for (const ReadModule& module : modules)
+    if (const auto tag = module.element.child("outputInterval"))
+      checkInterval(input::parse<double>(tag->text()).value.value_or(0), time, *tag, "", diagnostics);
 }
 
 /// A component on the smallest grid that it takes, of one axis where it can be.
@@ -209,21 +217,12 @@ Trial tryOut(const MakeComponent& make) {
   return {};
 }
 
-/// Names what is wrong with the saved labels, even where the rest of the scene is wrong, too: the labels of a component
-/// and of its modules do not depend on the grid. Takes out, with a note, what Uintah has and nobody here. Says nothing
-/// where a module cannot be had: its labels are not known.
-void checkSaves(const MakeComponent& make, const std::vector<ReadModule>& modules, std::vector<SaveRequest>& saves,
-                Diagnostics& diagnostics) {
-  const auto [level, component] = tryOut(make);
-  if (!component) return;
-  std::vector<std::unique_ptr<Analysis>> analyses;
-  try {
-    analyses = makeModules(modules, *component, *level);
-  } catch (const InputError&) {
-    return;
-  }
-  const Phases phases(*component, analyses);
-  const std::vector<std::string> foreign = component->foreignLabels();
+/// Names what is wrong with the labels that are saved and sampled. Takes out, with a note, what Uintah has and nobody
+/// here.
+void checkLabels(const Component& component, const std::vector<std::unique_ptr<Analysis>>& analyses,
+                 std::vector<SaveRequest>& saves, Diagnostics& diagnostics) {
+  const Phases phases(component, analyses);
+  const std::vector<std::string> foreign = component.foreignLabels();
   std::erase_if(saves, [&](const SaveRequest& save) {
     const bool isLacking = std::find(foreign.begin(), foreign.end(), save.label) != foreign.end() &&
                            !phases.saveable().contains(save.label);
@@ -235,8 +234,24 @@ void checkSaves(const MakeComponent& make, const std::vector<ReadModule>& module
   for (const SaveRequest& save : saves)
     for (const std::string& remark : phases.remarksOn(save))
       diagnostics.note(save.whereOfMaterial, "DataArchiver/save", remark);
-  for (const InputProblem& problem : phases.problemsOf(saves))
-    diagnostics.error(problem.where, problem.tagPath, problem.sentence);
+  for (const std::vector<InputProblem>& problems : {phases.problemsOf(saves), phases.problemsOf(analyses)})
+    for (const InputProblem& problem : problems) diagnostics.error(problem.where, problem.tagPath, problem.sentence);
+}
+
+/// Checks the labels even where the rest of the scene is wrong, too: those of a component and of its modules do not
+/// depend on the grid. Whether it could: some component or module cannot be had on so small a grid as this takes.
+bool checkLabelsWithoutGrid(const MakeComponent& make, const std::vector<ReadModule>& modules,
+                            std::vector<SaveRequest>& saves, Diagnostics& diagnostics) {
+  const auto [level, component] = tryOut(make);
+  if (!component) return false;
+  std::vector<std::unique_ptr<Analysis>> analyses;
+  try {
+    analyses = makeModules(modules, *component, *level);
+  } catch (const InputError&) {
+    return false;
+  }
+  checkLabels(*component, analyses, saves, diagnostics);
+  return true;
 }
 
 }  // namespace
@@ -267,7 +282,7 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   problem.inputXml = document.text();
   refuseLooseWords(root, diagnostics);
   const ComponentKind* kind = readComponentKind(root, catalogue, diagnostics);
-  refuseUnknownSections(root, kind, catalogue, diagnostics);
+  if (kind) refuseUnknownSections(root, *kind, diagnostics);
   if (const auto meta = section(root, "Meta", false, diagnostics))
     problem.title = metaSchema().read(*meta, diagnostics).title;
   if (const auto time = section(root, "Time", true, diagnostics)) problem.time = readTime(*time, diagnostics);
@@ -281,9 +296,11 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   if (kind && kind->nodesBeyond) domain.nodesBeyond = kind->nodesBeyond(root);
   MakeComponent makeComponent;
   if (kind) makeComponent = kind->read(root, diagnostics);
-  const std::vector<ReadModule> modules = readModules(root, catalogue, diagnostics);
+  const std::vector<ReadModule> modules = readModules(root, catalogue, kind != nullptr, diagnostics);
+  checkIntervals(problem.time, modules, diagnostics);
   const bool modulesAreRight = std::all_of(modules.begin(), modules.end(), [](const auto& m) { return m.make; });
-  if (makeComponent && modulesAreRight) checkSaves(makeComponent, modules, problem.archive.saves, diagnostics);
+  const bool labelsAreChecked = makeComponent && modulesAreRight &&
+                                checkLabelsWithoutGrid(makeComponent, modules, problem.archive.saves, diagnostics);
   diagnostics.throwIfAny();
 
   problem.componentName = kind->name;
@@ -292,6 +309,8 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   problem.component = makeComponent(problem.grid->level());
   if (problem.component->mayRepeatStep()) problem.time.recomputeTimeStep = true;
   problem.analyses = makeModules(modules, *problem.component, problem.grid->level());
+  if (!labelsAreChecked) checkLabels(*problem.component, problem.analyses, problem.archive.saves, diagnostics);
+  diagnostics.throwIfAny();
   problem.notes = diagnostics.notes();
   return problem;
 }

@@ -38,6 +38,9 @@ class Analysis {
   /// Looks at what samples() asks for: in each of the layers(), or all. Files of its own go to the folder of the
   /// archive.
   virtual void sample(const std::vector<output::Snapshot>&, const std::filesystem::path&) {}
+  /// Completes its files, so that a run that goes on from here finds in them what was sampled so far. Called on the
+  /// first rank before each checkpoint is written, and at the end of the run. May throw FileError.
+  virtual void flush() {}
   /// A table of exact values to draw beside the result, one column an array, `x` first; empty where there is none.
   virtual std::vector<output::Array> exactProfile(const grid::Level&) const { return {}; }
 };

@@ -44,7 +44,7 @@ void Checkpoints::write() {
   const PeakGrowth growth(memory_);
   const long dropped = run_.ranks.sum(run_.scheduler.relocation().dropped());
   if (output::Archive* archive = outputs_.archive()) {
-    const output::ArchivePoint point = archive->sync(run_.time.step(), run_.time.time());
+    const output::ArchivePoint point = outputs_.sync();
     const int cycle = run_.problem.archive.checkpoint.value_or(CheckpointSettings{}).cycle;
     output::CheckpointStore(archive->folder(), cycle).write(run_.time.step(), [&](const std::filesystem::path& folder) {
       const CheckpointTarget target{folder / stateFile, point, dropped};

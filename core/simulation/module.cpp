@@ -31,8 +31,18 @@ OwnModules& ownModules() {
   return modules;
 }
 
+/// Whether a file begins as shared libraries do, or cannot be read, of which dlopen says why.
+bool mayBeLibrary(const fs::path& file) {
+  constexpr std::string_view magic = "\177ELF";
+  std::string start(magic.size(), ' ');
+  std::ifstream in(file, std::ios::binary);
+  return !in || (in.read(start.data(), magic.size()) && start == magic);
+}
+
 /// Opens a shared library and finds its card. Throws std::runtime_error if it is no module, or does not fit.
 const ModuleCard& open(const fs::path& file) {
+  if (!mayBeLibrary(file))
+    throw std::runtime_error(fmt::format("{} is no module of Tushar: it is no shared library", file.string()));
   void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   const std::string problem = handle ? "" : dlerror();
   // A module for another version may call what is not there; its card is read all the same.

@@ -119,7 +119,18 @@ void Outputs::save() {
 }
 
 void Outputs::flush() {
-  if (archive_) archive_->flush();
+  if (!archive_) return;
+  flushAnalyses();
+  archive_->flush();
+}
+
+void Outputs::flushAnalyses() {
+  for (const auto& analysis : run_.problem.analyses) analysis->flush();
+}
+
+output::ArchivePoint Outputs::sync() {
+  flushAnalyses();
+  return archive_->sync(run_.time.step(), run_.time.time());
 }
 
 }  // namespace tushar::simulation

@@ -31,8 +31,10 @@ class Outputs {
   void saveIfDue();
   /// Writes an output, if the scene asks for any and this step has none.
   void save();
-  /// Brings the lists of the archive up to date.
+  /// Brings the lists of the archive up to date, and the files of analysis modules.
   void flush();
+  /// The same for a checkpoint, where there is an archive: how far that has come.
+  output::ArchivePoint sync();
 
   /// Passes the output times up to now.
   void passMilestones() { times_.pass(run_.time.time()); }
@@ -54,6 +56,7 @@ class Outputs {
   /// Whether some analysis module samples particles during the run.
   bool samples() const;
   void sample(Analysis& analysis);
+  void flushAnalyses();
   void appendGlobals();
 
   RunState& run_;

@@ -63,6 +63,14 @@ std::vector<std::string> namesOfState(Names needed, const Names& decided, const 
   return {needed.begin(), needed.end()};
 }
 
+/// What analysis modules sample.
+std::vector<SaveRequest> samplesOf(const std::vector<std::unique_ptr<Analysis>>& analyses) {
+  std::vector<SaveRequest> samples;
+  for (const auto& analysis : analyses)
+    for (SaveRequest& sample : analysis->samples()) samples.push_back(std::move(sample));
+  return samples;
+}
+
 /// The time step, which every step has, and what tasks compute along with it.
 Names decidedBefore(const std::vector<tasks::Task>& stableTimeStep) {
   return united(producedBy(stableTimeStep), {std::string(data::delT.name)});
@@ -168,16 +176,13 @@ std::vector<InputProblem> Phases::problemsOf(const std::vector<SaveRequest>& sav
   return problems;
 }
 
-std::vector<SaveRequest> Phases::samplesOf(const std::vector<std::unique_ptr<Analysis>>& analyses) const {
-  std::vector<SaveRequest> samples;
-  for (const auto& analysis : analyses)
-    for (SaveRequest& sample : analysis->samples()) samples.push_back(std::move(sample));
+std::vector<InputProblem> Phases::problemsOf(const std::vector<std::unique_ptr<Analysis>>& analyses) const {
+  const std::vector<SaveRequest> samples = samplesOf(analyses);
   std::vector<InputProblem> problems = problemsOf(samples, "DataAnalysis/Module");
   for (const SaveRequest& sample : samples)
     for (const std::string& remark : remarksOn(sample))
       problems.push_back({sample.whereOfMaterial, "DataAnalysis/Module", remark});
-  if (!problems.empty()) throw InputError(std::move(problems));
-  return samples;
+  return problems;
 }
 
 Names Phases::saveable() const {
@@ -248,6 +253,8 @@ void widenForRegridding(const std::vector<std::string>& lasting, data::VariableT
 void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, const std::vector<SaveRequest>& saves,
                      const grid::Grid& grid, data::VariableTable& table, const RegridSettings& regrid) {
   if (std::vector<InputProblem> problems = problemsOf(saves); !problems.empty()) throw InputError(std::move(problems));
+  if (std::vector<InputProblem> problems = problemsOf(analyses); !problems.empty())
+    throw InputError(std::move(problems));
   const std::vector<SaveRequest> samples = samplesOf(analyses);
   sortSaves(named(saves));
   if (grid.levels() > 1) lists_.timeAdvance = tasks::withRefluxing(lists_.timeAdvance);

@@ -24,10 +24,12 @@ class Phases {
   /// What is wrong with the labels and materials that a scene wants saved.
   std::vector<InputProblem> problemsOf(const std::vector<SaveRequest>& saves,
                                        const std::string& path = "DataArchiver/save") const;
+  /// What is wrong with the labels and materials that analysis modules sample.
+  std::vector<InputProblem> problemsOf(const std::vector<std::unique_ptr<Analysis>>& analyses) const;
   /// What a saved number that is not that of a material means.
   std::vector<std::string> remarksOn(const SaveRequest& save) const;
-  /// Compiles the lists. Throws InputError for a saved label that no task computes, TaskError for lists that do not
-  /// fit together.
+  /// Compiles the lists. Throws InputError for a saved or sampled label that no task computes, TaskError for lists that
+  /// do not fit together.
   void compile(const std::vector<std::unique_ptr<Analysis>>& analyses, const std::vector<SaveRequest>& saves,
                const grid::Grid& grid, data::VariableTable& table, const RegridSettings& regrid = {});
 
@@ -37,6 +39,9 @@ class Phases {
   /// Names of the variables that a step and the totals need of the step before, sorted: the state of a run, whatever
   /// is saved and measured besides.
   const std::vector<std::string>& state() const { return state_; }
+  /// Names of the variables that the fingerprint covers: the state or, where no step needs anything of the one before,
+  /// what is saved and measured.
+  const std::vector<std::string>& fingerprinted() const { return state_.empty() ? lasting_ : state_; }
   /// Names of the variables that outlive a step, sorted: the state, and what is saved besides.
   const std::vector<std::string>& lasting() const { return lasting_; }
   /// Saved variables of particles, nodes and cells.
@@ -58,8 +63,6 @@ class Phases {
   };
   void validateAll() const;
   void noteMaterials();
-  /// The particle variables that analysis modules sample. Throws InputError for one that no task computes.
-  std::vector<SaveRequest> samplesOf(const std::vector<std::unique_ptr<Analysis>>& analyses) const;
   bool isMaterial(const std::string& name) const;
   /// The requests with the names of materials in place of their numbers; the number behind the last stands for all, as
   /// in Uintah, and those behind it for nothing.

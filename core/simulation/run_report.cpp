@@ -36,7 +36,7 @@ Report RunReport::make(double fileMemory) {
   addTasks(report);
   addDrifts(report);
   addErrors(report);
-  report.fingerprint = collect::fingerprint(run_.warehouse, run_.phases.state(), run_.materials());
+  report.fingerprint = collect::fingerprint(run_.warehouse, run_.phases.fingerprinted(), run_.materials());
   return report;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/base/missing.hpp"
 #include "core/base/threads.hpp"
 #include "core/report/report.hpp"
 #include "core/simulation/run_state.hpp"
@@ -12,8 +13,8 @@ class RunReport {
  public:
   explicit RunReport(RunState& run) : run_(run) {}
 
-  /// Notes that the start-up is over.
-  void noteStartUp(double outputSeconds) { start_up_ = run_.clock.now() - outputSeconds; }
+  /// Notes that the start-up is over. Modules that had to be built first are no part of it.
+  void noteStartUp(double outputSeconds) { start_up_ = run_.clock.now() - outputSeconds - secondsOfBuilds(); }
   void beginLoop(double outputSeconds);
   /// Notes that a step has been taken.
   void noteStep();

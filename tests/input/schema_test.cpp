@@ -2,6 +2,7 @@
 
 #include <sstream>
 
+#include "core/input/refuse.hpp"
 #include "tests/input/support.hpp"
 
 namespace tushar::input {
@@ -152,6 +153,17 @@ TEST(Schema, SaysThatATagIsUnknown) {
             Lines{"s.ups:2:2: gas/gama: unknown tag <gama> in <gas> (did you mean 'gamma'?); allowed here: cfl, gamma, "
                   "pressure, velocity, res, on, model, other, redistribute, defaults, save, time, scale, doing, box, "
                   "sphere"});
+}
+
+TEST(Schema, DoesNotCallATagAllowedThatItRefuses) {
+  Schema<Redistribute> schema("gas", "Splits and merges.");
+  schema.value("most", &Redistribute::most, 8, "1", "particles per cell");
+  refuseTag(schema, "least", "there is most");
+  Diagnostics diagnostics;
+  const Document document = documentOf("<gas><leest/><least/></gas>");
+  schema.read(*document.root().child("gas"), diagnostics);
+  EXPECT_EQ(told(diagnostics), (Lines{"s.ups:1:29: gas/leest: unknown tag <leest> in <gas>; allowed here: most",
+                                      "s.ups:1:37: gas/least: is not available; there is most"}));
 }
 
 TEST(Schema, SaysThatNoTagIsAllowed) {

@@ -94,8 +94,13 @@ class Misfits(unittest.TestCase):
                       self.refused("--load", self.module))
 
     def test_a_file_that_is_no_library(self):
-        self.module.write_text("a text\n")
-        self.assertIn(f"the module {self.module} cannot be loaded: ", self.refused("--load", self.module))
+        sentence = f"sus: {self.module} is no module of Tushar: it is no shared library\n"
+        for text in ("a text\n", ""):
+            self.module.write_text(text)
+            self.assertEqual(self.refused("--load", self.module), sentence)
+        self.module.unlink()
+        self.module.mkdir()
+        self.assertEqual(self.refused("--load", self.module), sentence)
 
     def test_a_file_that_is_not_there(self):
         self.assertEqual(self.refused("--load", "nothere.so"), "sus: there is no module nothere.so\n")

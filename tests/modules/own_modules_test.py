@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
 """The modules of sus: their index says what they have; one that is not built is built, or is told to be missing."""
+import hashlib
+import json
 import os
 import pathlib
 import re
@@ -38,6 +40,24 @@ class Index(unittest.TestCase):
                 self.assertEqual((done.returncode, done.stderr), (0, ""))
 
 
+class Interface(unittest.TestCase):
+    """The hash by which a module that was built with other headers is told."""
+
+    def setUp(self):
+        self.headers = sorted(str(path) for path in (ROOT / "core").rglob("*.hpp"))
+
+    def test_is_that_of_the_headers_as_they_are(self):
+        hashes = "".join(hashlib.sha256(pathlib.Path(path).read_bytes()).hexdigest() for path in self.headers)
+        self.assertEqual(modules.interface(), hashlib.sha256(hashes.encode()).hexdigest()[:16])
+
+    def test_is_made_anew_when_one_of_them_changes(self):
+        ninja = modules.BUILD / "build.ninja"
+        if not ninja.exists():
+            self.skipTest("this build is not Ninja's")
+        line = next(line for line in ninja.read_text().splitlines() if ": RERUN_CMAKE |" in line)
+        self.assertEqual(set(self.headers) - set(line.split()), set())
+
+
 class Missing(unittest.TestCase):
     """A copy of sus beside an index, but no modules."""
 
@@ -50,9 +70,9 @@ class Missing(unittest.TestCase):
             shutil.copy(file, self.here)
         shutil.copy(INDEX, self.here / "modules")
 
-    def run_scene(self):
+    def run_scene(self, *options):
         libraries = f"{self.here}:{os.environ.get('LD_LIBRARY_PATH', '')}"
-        return modules.run([self.here / "sus", SCENE, "--quiet", "--output", self.here / "output"],
+        return modules.run([self.here / "sus", SCENE, "--quiet", "--output", self.here / "output", *options],
                            LD_LIBRARY_PATH=libraries)
 
     def builder(self, commands):
@@ -70,6 +90,21 @@ class Missing(unittest.TestCase):
             done = self.run_scene()
             self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertEqual(self.calls(), ["tushar_heat", "tushar_analysis"])
+
+    def test_a_build_is_no_part_of_the_start_up(self):
+        wait = 10  # seconds for both modules, more than a start-up takes on a busy machine
+        self.builder(f"sleep {wait / 2}; cp '{modules.BUILD}/modules/'$1.so '{self.here}/modules/'")
+        done = self.run_scene("--json", self.here / "report.json")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertLess(json.loads((self.here / "report.json").read_text())["wall"]["startup"], wait)
+
+    def test_nothing_is_built_for_a_component_that_is_misspelt(self):
+        self.builder("exit 3")
+        done = self.run_scene("--set", "SimulationComponent/@type=hest")
+        self.assertEqual(done.returncode, 3)
+        self.assertRegex(done.stderr, r"found 'hest', expected 'burgers', .* \(did you mean 'heat'\?\) \[T107\]\n\Z")
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        self.assertFalse((self.here / "calls").exists())
 
     def test_a_build_that_fails_is_told(self):
         self.builder("exit 3")

@@ -66,4 +66,20 @@ TEST(Hdf5Parts, SayWhereAFileIsTooShort) {
   EXPECT_THROW(parts.read({{0, count, reinterpret_cast<std::byte*>(to.data())}}), FileError);
 }
 
+TEST(Hdf5Parts, SayWhereAFileCannotBeReadThoughThePartsBeginWithNothing) {
+  const TemporaryFolder here;
+  writeSample(here / "a.h5", 0);
+  const Hdf5Input file(here / "a.h5");
+  const Hdf5Parts parts(file, "/a");
+  std::vector<double> to(count);
+  auto* const bytes = reinterpret_cast<std::byte*>(to.data());
+  const auto read = [&] { parts.read({{0, 0, bytes}, {0, count, bytes}}); };
+  EXPECT_NO_THROW(read());
+
+  std::filesystem::remove(here / "a.h5");
+  EXPECT_THROW(read(), FileError);
+  std::filesystem::create_directory(here / "a.h5");  // opens, but does not read
+  EXPECT_THROW(read(), FileError);
+}
+
 }  // namespace tushar::output

@@ -42,6 +42,14 @@ class Outputs(unittest.TestCase):
         result = run("ups/heat/sine.ups", "DataArchiver/outputInterval=1e-12", "Time/max_Timesteps=3", outputs=True)
         self.assertEqual(len([name for name in result.files if name.endswith(".h5")]), 4)
 
+    def test_the_fingerprint_of_a_scene_without_state_covers_what_is_saved(self):
+        """No step of Poisson's equation needs one before."""
+        scene = "ups/poisson/sine.ups"
+        found = {run(scene).report["fingerprint"] for _ in range(2)}
+        self.assertEqual(len(found), 1)
+        self.assertNotIn("0" * 16, found)
+        self.assertNotIn(run(scene, "Time/max_Timesteps=5").report["fingerprint"], found)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -4,6 +4,7 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
@@ -106,6 +107,22 @@ class Slice(unittest.TestCase):
         self.assertEqual(ended.returncode, 0, ended.stderr)
         self.assertEqual(self.files_of(cut), expected, "after a restart")
 
+    def test_a_run_that_is_killed_after_a_checkpoint_keeps_its_slices(self):
+        scene = self.scene(VORTEX, PLANES + LABELS + STEPS)
+        many = [*SMALL, "--set", "Time/max_Timesteps=400", "--set", "Time/maxTime=1000", "--set",
+                "DataArchiver/outputTimestepInterval=1000", "--set", "DataArchiver/checkpoint/@timestepInterval=20"]
+        expected = self.files_of(self.run_in("uncut", scene, *many))
+        job = subprocess.Popen([SUS, "--quiet", scene, "--output", self.folder / "cut", *many], cwd=ROOT)
+        latest = self.folder / "cut/vortex_3d.uda/checkpoints/LATEST"
+        while job.poll() is None and not (latest.exists() and latest.read_text().strip() >= "t00020"):
+            time.sleep(.001)
+        job.kill()
+        self.assertNotEqual(job.wait(timeout=300), 0, "the run ended before it was killed")
+        cut = next((self.folder / "cut").glob("*.uda.000"))
+        ended = sus("-restart", cut)
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        self.assertEqual(self.files_of(cut), expected)
+
     def test_slices_by_time_and_after_a_restart(self):
         scene = self.scene(VORTEX, "<plane>z=0</plane><label>c.density</label><outputInterval>.5</outputInterval>")
         archive = self.run_in("time", scene, *SMALL)
@@ -125,7 +142,14 @@ class Slice(unittest.TestCase):
             "<plane>z=2</plane>" + LABELS + STEPS: "plane: found z = 2 m, expected a place on the grid, from -1.25 to",
             PLANES + "<label>p.x</label>" + STEPS: "found 'p.x', expected a variable of cells (c.) or nodes (g.)",
             PLANES + "<label>c.densty</label>" + STEPS: "computes 'c.densty' (did you mean 'c.density'?)",
-            PLANES + LABELS: "a slice needs one of outputInterval and outputTimestepInterval",
+            PLANES + LABELS: "a slice needs one of outputInterval and outputTimestepInterval: there is no default",
+            PLANES + LABELS + STEPS + "<outputInterval>1</outputInterval>":
+                "gives both outputInterval and outputTimestepInterval; keep one",
+            PLANES + LABELS + "<outputInterval>0</outputInterval>": "found '0', expected a value greater than 0 s",
+            PLANES + LABELS + "<outputInterval>5e-12</outputInterval>":
+                "outputInterval: found 5e-12 s, expected more than 1e-11 s: times up to maxTime cannot tell less apart",
+            PLANES + LABELS + "<outputTimestepInterval>0</outputTimestepInterval>":
+                "found '0', expected a value greater than 0",
             PLANES + STEPS: "label",
             LABELS + STEPS: "plane",
         }
@@ -137,6 +161,20 @@ class Slice(unittest.TestCase):
         self.assertIn("the grid has no cells side by side along z", sus(flat, "-check").stderr)
         line = self.scene(ROOT / "ups/euler/sod.ups", "<plane>x=0.5</plane>" + LABELS + STEPS)
         self.assertIn("would be a point", sus(line, "-check").stderr)
+
+    def test_labels_are_checked_where_a_plane_needs_the_grid_of_the_run(self):
+        scene = self.scene(VORTEX, "<plane>x=1.3</plane><label>c.densty</label>" + STEPS)
+        ended = sus(scene, "-check", "--set", "DataArchiver/save[1]/@label=c.presure")
+        self.assertEqual(ended.returncode, 3)
+        self.assertIn("DataArchiver/save: no task of this component computes 'c.presure' (did you mean 'c.pressure'?)",
+                      ended.stderr)
+        self.assertIn("DataAnalysis/Module: no task of this component computes 'c.densty' (did you mean 'c.density'?)",
+                      ended.stderr)
+        discs = self.scene(DISCS, "<plane>y=.52</plane><label>g.mass</label>" + STEPS)
+        ended = subprocess.run([SUS, discs, "-check", "--set", "DataArchiver/save[1]/@label=AccStrainEnergy"], cwd=ROOT,
+                               capture_output=True, text=True, timeout=300)
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        self.assertIn("'AccStrainEnergy' is not saved: nobody computes it here", ended.stderr)
 
     def test_a_film_of_slices(self):
         archive = self.run_in("film", self.scene(VORTEX, PLANES + LABELS + STEPS), *SMALL)

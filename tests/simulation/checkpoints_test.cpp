@@ -16,6 +16,18 @@ Problem withCheckpoints(int everySteps) {
   return problem;
 }
 
+/// Counts how often it is asked to complete its files.
+class Flushed : public Analysis {
+ public:
+  explicit Flushed(int& count) : count_(&count) {}
+  void schedule(tasks::TaskList&) const override {}
+  void setTime(double, double) override {}
+  void flush() override { ++*count_; }
+
+ private:
+  int* count_;
+};
+
 std::string printOf(RunState& run) { return collect::fingerprint(run.warehouse, run.phases.state(), run.materials()); }
 
 }  // namespace
@@ -51,6 +63,25 @@ TEST(Checkpoints, HoldStateTimeAndTotalsOfTheStart) {
   EXPECT_EQ(read.time.time(), 0.5);
   EXPECT_EQ(read.totalsAtStart, (Totals{{8}}));
   EXPECT_EQ(printOf(read), printOf(written));
+}
+
+TEST(Checkpoints, AreWrittenOnceAnalysesHaveCompletedTheirFiles) {
+  int count = 0;
+  Problem problem = withCheckpoints(1);
+  problem.analyses.push_back(std::make_unique<Flushed>(count));
+  test::CoolingRun run(std::move(problem));
+  run.initialize();
+  Outputs outputs(run, test::temporaryFolder() + "flushed");
+  outputs.open();
+  Checkpoints checkpoints(run, outputs);
+  run.step();
+
+  checkpoints.write();
+  EXPECT_EQ(count, 1);
+  checkpoints.write();  // this step has one
+  EXPECT_EQ(count, 1);
+  outputs.flush();
+  EXPECT_EQ(count, 2);
 }
 
 }  // namespace tushar::simulation

@@ -1,6 +1,10 @@
 #!/usr/bin/env python3
 """What tools/run says while it builds, or need not."""
+import fcntl
+import os
 import pathlib
+import shutil
+import signal
 import subprocess
 import tempfile
 import unittest
@@ -14,16 +18,23 @@ class Build(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.here = pathlib.Path(folder.name)
         (self.here / "tools/lib").mkdir(parents=True)
-        (self.here / "tools/lib/build.sh").write_text((ROOT / "tools/lib/build.sh").read_text())
+        for name in ("build.sh", "build_target"):
+            shutil.copy(ROOT / "tools/lib" / name, self.here / "tools/lib")
         (self.here / "build/release").mkdir(parents=True)
         (self.here / "build/release/build.ninja").touch()
 
-    def build(self, ninja):
-        """What `build release` says, and its exit code, if ninja is this script."""
+    def commands(self, ninja):
+        """What builds in the one folder, if ninja is this script: tools/run, and sus for a module."""
         (self.here / "ninja").write_text("#!/bin/sh\n" + ninja)
         (self.here / "ninja").chmod(0o755)
-        script = f"set -euo pipefail; PATH={self.here}:$PATH; . {self.here}/tools/lib/build.sh; build release sus"
-        done = subprocess.run(["bash", "-c", script], capture_output=True, text=True)
+        start = f"set -eu; PATH={self.here}:$PATH; "
+        return {"build": ["bash", "-c", f"{start}. {self.here}/tools/lib/build.sh; build release sus"],
+                "build_target": ["bash", "-c", f"{start}{self.here}/tools/lib/build_target {self.here}/build/release "
+                                               "tushar_heat"]}
+
+    def build(self, ninja):
+        """What `build release` says, and its exit code, if ninja is this script."""
+        done = subprocess.run(self.commands(ninja)["build"], capture_output=True, text=True)
         self.assertEqual(done.stdout, "")
         return done.stderr, done.returncode
 
@@ -40,6 +51,27 @@ class Build(unittest.TestCase):
         self.assertNotEqual(code, 0)
         self.assertIn("a.cpp:1: error", said)
         self.assertIn("tushar: the build failed", said)
+
+    def test_waits_for_another_build_in_the_folder(self):
+        for name, command in self.commands(f"touch {self.here}/built").items():
+            with self.subTest(name), open(self.here / "build/release/.building", "w") as lock:
+                fcntl.flock(lock, fcntl.LOCK_EX)
+                job = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+                self.assertEqual(job.stderr.readline(), "tushar: waiting for another build in build/release to end\n")
+                self.assertFalse((self.here / "built").exists())
+                fcntl.flock(lock, fcntl.LOCK_UN)
+                self.assertEqual((job.communicate()[1], job.returncode), ("", 0))
+                (self.here / "built").unlink()
+
+    def test_what_outlives_a_build_does_not_keep_the_lock(self):
+        sleeper = f"sleep 60 >/dev/null 2>&1 & echo $! > {self.here}/pid"
+        for name, command in self.commands(sleeper).items():
+            with self.subTest(name), open(self.here / "build/release/.building", "w") as lock:
+                subprocess.run(command, check=True)
+                pid = int((self.here / "pid").read_text())
+                os.kill(pid, 0)  # it lives
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                os.kill(pid, signal.SIGTERM)
 
 
 if __name__ == "__main__":

@@ -49,35 +49,56 @@ install_missing() {
   rm -f "$log"
 }
 
+# locked FOLDER COMMAND...: runs the command while no other build in the folder is under way. What it starts must close
+# descriptor 9, or a process that outlives the build keeps the lock.
+locked() (
+  folder=$1
+  shift
+  exec 9>"$folder/.building"
+  if ! flock -n 9; then
+    say "waiting for another build in ${folder#"$root"/} to end"
+    flock 9
+  fi
+  "$@"
+)
+
 # run_ninja FOLDER LOG [TARGET...]: says that it builds once there is something to build, not before. What it builds is
 # $building, else the folder.
 run_ninja() {
   local folder=$1 log=$2 said= line
   shift 2
-  ninja -C "$folder" "$@" 2>&1 | while IFS= read -r line; do
+  ninja -C "$folder" "$@" 2>&1 9>&- | while IFS= read -r line; do
     printf '%s\n' "$line" >>"$log"
     case $line in *Building* | *Linking*)
       [ -n "$said" ] || say "building ${building:-${folder#"$root"/}}"
       said=yes ;;
     esac
   done
+  return "${PIPESTATUS[0]}"
 }
 
-# build PRESET [TARGET...]: configures where that has not been done, then builds.
-build() {
-  local preset=$1 log
-  shift
-  log=$(mktemp)
+# configure_and_build PRESET LOG [TARGET...]: configures where that has not been done, then builds.
+configure_and_build() {
+  local preset=$1 log=$2
+  shift 2
   if [ ! -f "$root/build/$preset/build.ninja" ]; then
     say "configuring and building build/$preset, which takes some minutes the first time"
-    if ! (cd "$root" && cmake --preset "$preset") >"$log" 2>&1; then
-      cat "$log" >&2
-      exit 1
-    fi
+    (cd "$root" && cmake --preset "$preset") >"$log" 2>&1 9>&- || return 1
   fi
-  if [ ! -w "$root/build/$preset" ] && [ -x "$root/build/$preset/sus" ]; then
+  run_ninja "$root/build/$preset" "$log" "$@"
+}
+
+# build PRESET [TARGET...]: configures where that has not been done, then builds. One build in a folder at a time.
+build() {
+  local preset=$1 folder=$root/build/$1 log
+  shift
+  if [ -d "$folder" ] && [ ! -w "$folder" ] && [ -x "$folder/sus" ]; then
     say "build/$preset is not yours to write: sus is taken as it is there"
-  elif ! run_ninja "$root/build/$preset" "$log" "$@"; then
+    return 0
+  fi
+  mkdir -p "$folder"
+  log=$(mktemp)
+  if ! locked "$folder" configure_and_build "$preset" "$log" "$@"; then
     cat "$log" >&2
     say "the build failed"
     exit 1
@@ -90,7 +111,7 @@ built_modules() {
   local folder=$root/build/$1 file name
   [ -f "$folder/build.ninja" ] || return 0
   # A module that was removed from the sources, as by another branch, is no target of the new build.ninja.
-  if [ -w "$folder" ]; then ninja -C "$folder" build.ninja >/dev/null 2>&1 || true; fi
+  if [ -w "$folder" ]; then locked "$folder" run_ninja "$folder" /dev/null build.ninja || true; fi
   for file in "$folder"/modules/tushar_*.so "$folder"/libtushar_petsc.so; do
     name=$(basename "$file" .so)
     if [ -f "$file" ] && grep -q "^build ${name#lib}:" "$folder/build.ninja"; then printf '%s\n' "${name#lib}"; fi
