@@ -42,13 +42,18 @@ def common_ranges(archive: Archive, variables: Sequence[str], view: View) -> Tup
                     continue
                 values = values[values > 0] if view.log else values
                 found.setdefault(quantity.label, []).extend([values.min(), values.max()] if len(values) else [])
+    if not any(found.values()) and not view.log:
+        raise ArchiveError(f"'{archive.folder}' holds no values of {', '.join(labels)}" +
+                           (" in the slice" if view.slices else ""))
     return labels, {label: _round(min(values), max(values), view) for label, values in found.items() if values}
 
 
-def _planes(archive: Archive, label: str, view: View) -> Tuple[float, float, float]:
-    """The places of three slices for all pictures: those of the output in the middle."""
+def _planes(archive: Archive, label: str, view: View) -> Optional[Tuple[float, float, float]]:
+    """The places of three slices for all pictures: those of the output in the middle. None where there are fewer
+    dimensions."""
     with archive[len(archive) // 2] as snapshot:
-        return Output(snapshot, view).planes(Quantity.of(archive, label))
+        output = Output(snapshot, view)
+        return output.planes(Quantity.of(archive, label)) if len(output.axes) == 3 else None
 
 
 def _round(low: float, high: float, view: View) -> Range:
