@@ -26,7 +26,7 @@ void Euler<D>::scheduleTimeAdvance(TaskList& tasks) const {
   tasks.perPatch("euler::advance", chooseAdvance<D>(settings_.method), with(settings_.gas),
                  requiresOld(c::density, ghost), requiresOld(c::momentum<D>, ghost), requiresOld(c::totalEnergy, ghost),
                  requiresOld(delT), computes(c::density), computes(c::momentum<D>), computes(c::totalEnergy),
-                 keepsFlux(c::density), keepsFlux(c::momentum<D>), keepsFlux(c::totalEnergy));
+                 all<RimFluxes<D>>());
 }
 
 template <int D>

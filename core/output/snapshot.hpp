@@ -61,8 +61,8 @@ struct FieldBlock {
   Array array;
 };
 
-/// Cells of one level, counted from the corner of the domain along x, y, z in cells of that level: [lower, upper). Their
-/// width is that of the grid over 2^level along the axes that the scene uses.
+/// Cells of one level, counted from the corner of the domain along x, y, z in cells of that level: [lower, upper).
+/// Their width is that of the grid over 2^level along the axes that the scene uses.
 struct GridBox {
   int level = 0;
   Index3 lower{}, upper{};

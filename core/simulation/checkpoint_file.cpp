@@ -37,17 +37,16 @@ void writeTree(output::Hdf5File& file, const grid::Grid& grid) {
 void readTree(const output::Hdf5Input& file, RunState& run) {
   grid::Grid& grid = *run.problem.grid;
   const bool isRefined = file.has("/grid/leaves");
-  if (isRefined != (grid.levels() > 1) ||
-      (isRefined && (file.integer("/grid", "levels") != grid.levels() ||
-                     !(file.index("/grid", "blockCells") == grid.blockCells()))))
+  if (isRefined != (grid.levels() > 1) || (isRefined && (file.integer("/grid", "levels") != grid.levels() ||
+                                                         !(file.index("/grid", "blockCells") == grid.blockCells()))))
     refuse(file, "the checkpoint has other levels or blocks than the scene");
   if (!isRefined) return;
   Index3 periodic;
   for (int d = 0; d < grid.dimension(); ++d) periodic[d] = grid.level().isPeriodic(d);
   const auto keys = std::get<std::vector<std::uint64_t>>(file.dataset("/grid/leaves"));
   try {
-    grid.refine(grid.cut(
-        grid::BlockTree::fromKeys(grid.dimension(), grid.tree().roots(), periodic, grid.levels(), keys)));
+    grid.refine(
+        grid.cut(grid::BlockTree::fromKeys(grid.dimension(), grid.tree().roots(), periodic, grid.levels(), keys)));
   } catch (const std::invalid_argument&) {
     refuse(file, "the blocks of the checkpoint do not tile the grid");
   }

@@ -228,10 +228,10 @@ tasks::TaskList Phases::refinementTasks(const RegridSettings& regrid) const {
     if (label && label->centring == data::Centring::cell && label->number == data::Number::real)
       criteria.push_back({one, label, diagnosed.contains(one.variable)});
     else
-      problems.push_back({one.where, "AMR/Refinement_Criteria_Thresholds/Variable",
-                          fmt::format("'{}' is no variable of cells that this component computes{}; there {} {}",
-                                      one.variable, didYouMean(one.variable, known), known.size() == 1 ? "is" : "are",
-                                      allOf(known))});
+      problems.push_back(
+          {one.where, "AMR/Refinement_Criteria_Thresholds/Variable",
+           fmt::format("'{}' is no variable of cells that this component computes{}; there {} {}", one.variable,
+                       didYouMean(one.variable, known), known.size() == 1 ? "is" : "are", allOf(known))});
   }
   if (!problems.empty()) throw InputError(std::move(problems));
   list.add(markTask(std::move(criteria)));
@@ -243,8 +243,7 @@ namespace {
 /// Cells are interpolated from those around them.
 void widenForRegridding(const std::vector<std::string>& lasting, data::VariableTable& table) {
   for (const std::string& name : lasting)
-    if (const int number = table.find(name, -1);
-        number >= 0 && table[number].label->centring == data::Centring::cell)
+    if (const int number = table.find(name, -1); number >= 0 && table[number].label->centring == data::Centring::cell)
       table.widen(number, 1);
 }
 

@@ -22,9 +22,10 @@ struct Neighbours {
   const double *below, *middle, *above;
 };
 
-/// The indicator of a cell from its neighbours along each axis, at distances `spacing` [m]; see Criterion::Indicator. Of
-/// vectors (several `components`) a jump is that of the vector, in its unit. Beyond the grid the cell's own value
-/// counts. Source of the second derivative: R. Löhner, Comput. Methods Appl. Mech. Eng. 61 (1987) 323, with filter 0.01.
+/// The indicator of a cell from its neighbours along each axis, at distances `spacing` [m]; see Criterion::Indicator.
+/// Of vectors (several `components`) a jump is that of the vector, in its unit. Beyond the grid the cell's own value
+/// counts. Source of the second derivative: R. Löhner, Comput. Methods Appl. Mech. Eng. 61 (1987) 323, with filter
+/// 0.01.
 double indicatorOf(Criterion::Indicator indicator, const std::vector<Neighbours>& axes,
                    const std::vector<double>& spacing, int components);
 

@@ -11,8 +11,8 @@ namespace tushar::simulation {
 /// must stay. Both follow from the tree and the marks alone.
 class MarkedBlocks {
  public:
-  /// Marks count for all blocks within a distance of their cell: what signals cross in `interval` steps, one cell of the
-  /// finest level each, and `dilation` cells more.
+  /// Marks count for all blocks within a distance of their cell: what signals cross in `interval` steps, one cell of
+  /// the finest level each, and `dilation` cells more.
   MarkedBlocks(const grid::Grid& grid, int interval, int dilation)
       : grid_(grid), interval_(interval), dilation_(dilation) {}
 

@@ -76,6 +76,11 @@ class BindEach {
     number(access.access);
   }
 
+  template <class T>
+  void number(FluxAccess<T>& access) {
+    access.index = next_++;
+  }
+
   const TaskContext* context_;
   int next_;
 };

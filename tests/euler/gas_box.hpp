@@ -61,7 +61,7 @@ class GasBox {
       chooseAdvance<D>(method)(patch, gas, seen<const double>(density, patch, ghost),
                                seen<const Vec<D>>(momentum, patch, ghost), seen<const double>(energy, patch, ghost), dt,
                                seen<double>(newDensity, patch, 0), seen<Vec<D>>(newMomentum, patch, 0),
-                               seen<double>(newEnergy, patch, 0), {}, {}, {});
+                               seen<double>(newEnergy, patch, 0), {});
     density = newDensity;
     momentum = newMomentum;
     energy = newEnergy;

@@ -10,7 +10,7 @@ from tushar.interpreter import python_with
 
 LIBRARIES = ("h5py", "matplotlib", "pandas", "xarray", "pyvista", "yt")
 TESTS = ("python/archive_test.py", "python/run_test.py", "python/frames_test.py", "python/examples_test.py",
-         "tools/uda_test.py", "tools/plot_test.py")
+         "tools/uda_test.py", "tools/plot_test.py", "tools/plot_scene_test.py")
 PYTHON = python_with(LIBRARIES)
 
 

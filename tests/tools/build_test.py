@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 """What tools/run says while it builds, or need not."""
+import contextlib
 import fcntl
 import os
 import pathlib
+import pty
 import shutil
 import signal
 import subprocess
@@ -23,20 +25,35 @@ class Build(unittest.TestCase):
         (self.here / "build/release").mkdir(parents=True)
         (self.here / "build/release/build.ninja").touch()
 
-    def commands(self, ninja):
-        """What builds in the one folder, if ninja is this script: tools/run, and sus for a module."""
+    def commands(self, ninja, each=60):
+        """What builds in the one folder, if ninja is this script, with a line in the log each so many seconds:
+        tools/run, and sus for a module."""
         (self.here / "ninja").write_text("#!/bin/sh\n" + ninja)
         (self.here / "ninja").chmod(0o755)
-        start = f"set -eu; PATH={self.here}:$PATH; "
+        start = f"set -euo pipefail; PATH={self.here}:$PATH; export building_each={each}; "
         return {"build": ["bash", "-c", f"{start}. {self.here}/tools/lib/build.sh; build release sus"],
                 "build_target": ["bash", "-c", f"{start}{self.here}/tools/lib/build_target {self.here}/build/release "
                                                "tushar_heat"]}
 
-    def build(self, ninja):
-        """What `build release` says, and its exit code, if ninja is this script."""
-        done = subprocess.run(self.commands(ninja)["build"], capture_output=True, text=True)
+    def command(self, ninja, each=60):
+        return self.commands(ninja, each)["build"]
+
+    def build(self, ninja, each=60):
+        """What `build release` says, and its exit code."""
+        done = subprocess.run(self.command(ninja, each), capture_output=True, text=True)
         self.assertEqual(done.stdout, "")
         return done.stderr, done.returncode
+
+    def build_on_terminal(self, ninja):
+        """What a terminal gets of the build, its line ends as \\n."""
+        ours, theirs = pty.openpty()
+        subprocess.run(self.command(ninja), stderr=theirs)
+        os.close(theirs)
+        found = b""
+        with open(ours, "rb", buffering=0) as terminal, contextlib.suppress(OSError):  # its end is an error
+            while True:
+                found += terminal.read(1000)
+        return found.decode().replace("\r\n", "\n")
 
     def test_says_nothing_where_nothing_is_to_be_built(self):
         self.assertEqual(self.build("echo '[0/2] Re-checking globbed directories...'; echo 'ninja: no work to do.'"),
@@ -45,6 +62,25 @@ class Build(unittest.TestCase):
     def test_says_once_that_it_builds(self):
         self.assertEqual(self.build("echo '[1/3] Building CXX object a.o'; echo '[2/3] Building CXX object b.o'; "
                                     "echo '[3/3] Linking CXX executable sus'"), ("tushar: building build/release\n", 0))
+
+    def test_says_in_a_log_how_far_it_is_each_minute(self):
+        ninja = "for k in 1 2 3; do echo \"[$k/4] Building CXX object $k.o\"; done; echo '[4/4] Linking CXX shared lib'"
+        self.assertEqual(self.build(ninja, each=0)[0], "tushar: building build/release\n" + "".join(
+            f"tushar: building build/release: {k} of 4\n" for k in (2, 3, 4)))
+
+    def test_shows_on_a_terminal_how_far_it_is_in_one_line(self):
+        ninja = "echo '[0/2] Re-checking globbed directories...'; "
+        self.assertEqual(self.build_on_terminal(ninja + "echo 'ninja: no work to do.'"), "")
+        line = "\r\033[Ktushar: building build/release: "
+        self.assertEqual(self.build_on_terminal(ninja + "echo '[1/2] Building CXX object a.o'; "
+                                                        "echo '[2/2] Linking CXX executable sus'"),
+                         f"{line}1 of 2{line}2 of 2\n")
+        failed = self.build_on_terminal("echo '[1/3] Building CXX object a.o'; echo 'a.cpp:1: error'; exit 1")
+        self.assertTrue(failed.startswith(f"{line}1 of 3\n[1/3] Building"), failed)
+
+    def test_counts_as_it_needs_whatever_the_user_has_set(self):
+        self.assertIn("3 of 7", self.build("echo \"$NINJA_STATUS\" | sed 's/%f/1/; s/%t/7/; s/$/Building a/'; "
+                                           "echo '[3/7] Building b'", each=0)[0])
 
     def test_shows_what_failed(self):
         said, code = self.build("echo '[1/3] Building CXX object a.o'; echo 'a.cpp:1: error'; exit 1")

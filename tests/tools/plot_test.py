@@ -80,6 +80,13 @@ class Slices(WithArchives):
                 Figure(Archive(self.plate), variables=["c.temperature"], view=View(slices))
 
 
+    def test_that_meets_no_particles_is_told(self):
+        with self.assertRaisesRegex(ArchiveError, "no particles lie within half a cell of x = 0.02 m"):
+            Figure(Archive(self.disks), variables=["p.density"], view=View({0: 0.02}))
+        with self.assertRaisesRegex(ArchiveError, "disks.uda' holds no values of p.density in the slice"):
+            list(film.figures(Archive(self.disks), ["p.density"], None, View({0: 0.02})))
+
+
 class Values(WithArchives):
     def colours(self, archive, variables, **choices):
         """The scale and the colour map of the first panel."""
@@ -152,6 +159,7 @@ class Differences(WithArchives):
     def test_that_cannot_be_drawn_are_told(self):
         grids = "the grids differ, 6 x 4 cells here and 100 cells in"
         for options, sentence in (((self.plate, "--diff", self.sod), grids),
+                                  ((self.disks, "--diff", self.sod), "sod.uda' has no particles of 'left'"),
                                   ((self.plate, "--diff", self.plate, "--log"), "--log and --diff do not go together")):
             code, _, err = self.plot(*options)
             self.assertEqual(code, 1, err)
@@ -282,11 +290,26 @@ class Options(WithArchives):
                                         (("--index", "last"), 2, "found 'last', expected a number or 'all'"),
                                         (("--cmap", "virdis"), 1, "no colour map 'virdis' (did you mean 'viridis'?)"),
                                         (("--index", "9"), 1, "no output 9"),
+                                        (("--time", "nan"), 2, "found 'nan', expected a number"),
+                                        (("--slice", "x=inf"), 2, "found 'x=inf', expected an axis and a place"),
+                                        (("--slice", "x=0", "--slice", "x=1"), 2, "two slices at x; keep one"),
+                                        (("--movie", "a.gif", "--out", "a.png"), 2, "--movie the film: keep one"),
+                                        (("--movie", ""), 1, "'' is no film"),
+                                        (("c.temperature.x",), 1, "did you mean 'c.temperature'?"),
                                         (("--movie", "a.gif", "--index", "1"), 2, "not allowed with argument")):
             done = self.plot(self.plate, *options)
             self.assertEqual(done[0], code, done[2])
             self.assertIn(sentence, done[2])
             self.assertNotIn("Traceback", done[2])
+
+    def test_a_global_quantity_is_for_another_tool(self):
+        err = self.plot(self.sod, "KineticEnergy")[2]
+        self.assertIn("'KineticEnergy' is one number for all places", err)
+        self.assertIn(f"tools/uda {self.sod} KineticEnergy prints it over time", err)
+
+    def test_a_picture_without_ending_is_png_and_variables_may_come_last(self):
+        self.assertEqual(self.plot(self.plate, "--out", "mass", "g.mass")[:2], (0, "mass.png\n"))
+        self.assertTrue((self.folder / "mass.png").exists())
 
     def test_a_range_may_begin_below_0(self):
         self.assertEqual(self.plot(self.plate, "--range", "-1,400", "--out", "range.png")[0], 0)

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Tests of tools/uda, tools/plot and the library behind them: python3 tests/tools/uda_test.py"""
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -138,8 +139,26 @@ class Library(WithArchives):
         with self.assertRaisesRegex(ArchiveError, r"is no folder; there is '.*disks.uda.000'"):
             Archive(self.disks)
         os.symlink("disks.uda.000", self.disks)
-        with self.assertRaisesRegex(ArchiveError, "has no index.xml"):
+        with self.assertRaisesRegex(ArchiveError, "has no index.xml, so it is no archive; there is '.*.uda'"):
             Archive(self.folder.name)
+        for path, sentence in ((self.path("plat"), "'.*/plat' is no folder; there is '.*/plate.uda'"),
+                               (self.path("unlike.uda"), "'.*/unlike.uda' is no folder$"),
+                               (self.sod + "/t00000.h5", "is a file of an archive, which is the folder '.*/sod.uda'"),
+                               (__file__, "is a file, and an archive is a folder")):
+            with self.assertRaisesRegex(ArchiveError, sentence):
+                Archive(path)
+
+    def test_says_what_is_wrong_with_an_index(self):
+        folder = fake_uda.make_folder(self.folder.name, "strange")
+        damaged = "<a><timesteps><timestep>one</timestep></timesteps></a>"
+        for index, sentence in (("<Uintah_DataArchive/>", "is an archive of Uintah"),
+                                ("<a", "cannot read '.*index.xml': "), (damaged, "index.xml', which is damaged")):
+            with open(os.path.join(folder, "index.xml"), "w", encoding="utf-8") as file:
+                file.write(index)
+            with self.assertRaisesRegex(ArchiveError, sentence):
+                Archive(folder)
+        shutil.rmtree(folder)
+        os.unlink(folder[:-len(".000")])
 
     def test_reads_an_archive_without_outputs(self):
         folder = fake_uda.make_folder(self.folder.name, "young")
@@ -147,6 +166,8 @@ class Library(WithArchives):
         self.assertEqual(Archive(folder).times, [])
         with self.assertRaisesRegex(ArchiveError, "has no outputs yet"):
             Archive(folder).index_at(0)
+        with self.assertRaisesRegex(ArchiveError, "has no outputs yet"):
+            Archive(folder)[-1]
         self.assertEqual(run("uda", folder)[0], 0)
         self.assertIn("has no outputs yet", run("plot", folder)[2])
 
@@ -170,6 +191,18 @@ class Command(WithArchives):
                 self.assertEqual(out.count("its file is missing"), 1)
                 self.assertIn("\n" + others, out)
 
+    def test_says_which_files_are_damaged(self):
+        with tempfile.TemporaryDirectory() as folder:
+            sod = fake_uda.make_sod(folder)
+            os.truncate(os.path.join(sod, "t00200.h5"), 1000)
+            code, out, err = run("uda", sod)
+            self.assertEqual((code, err), (0, ""))
+            self.assertIn("200   0.2   its file is damaged or not whole\n", out)
+            self.assertIn("p.density", out)
+            self.assertIn("t00200.h5', which is damaged or not whole", run("uda", sod, "p.density")[2])
+            os.remove(os.path.join(sod, "t00200.h5"))
+            self.assertRegex(run("uda", sod, "p.density")[2], "the file of output 2, '.*t00200.h5', is missing\n")
+
     def test_says_that_a_start_holds_nothing_of_a_step(self):
         with tempfile.TemporaryDirectory() as folder:
             plate = fake_uda.make_heat(folder)
@@ -188,6 +221,24 @@ class Command(WithArchives):
 
     def test_prints_a_global_over_time(self):
         self.assertEqual(run("uda", self.sod, "KineticEnergy")[1].split()[-2:], ["0.2", "0.1"])
+
+    def test_prints_a_component(self):
+        rows = run("uda", self.disks, "p.velocity.y", "p.density", "--csv", "-")[1].splitlines()
+        self.assertEqual(rows[0], "x [m],y [m],p.velocity.y [m/s],p.density [kg/m^3]")
+        self.assertEqual(float(rows[1].split(",")[2]), Archive(self.disks)[-1]["p.velocity"][0, 1])
+
+    def test_takes_options_anywhere(self):
+        self.assertIn("p.density [kg/m^3]", run("uda", self.disks, "--material", "left", "p.density", "--stats")[1])
+
+    def test_options_that_choose_nothing_are_told(self):
+        for words, code, sentence in (((self.sod, "--csv", "x.csv"), 2, "name a variable"),
+                                      ((self.sod, "--index", "0"), 2, "name a variable"),
+                                      ((self.sod, "p.density", "--time", "nan"), 2, "found 'nan', expected a number"),
+                                      ((self.sod, "KineticEnergy", "--index", "1"), 1, "printed over all times"),
+                                      ((), 2, "the following arguments are required: archive\n")):
+            found, out, err = run("uda", *words)
+            self.assertEqual((found, out), (code, ""), err)
+            self.assertIn(sentence, err)
 
     def test_writes_csv_with_every_digit(self):
         code, _, _ = run("uda", self.sod, "p.velocity", "--csv", self.path("out.csv"))
@@ -219,7 +270,10 @@ class Command(WithArchives):
         for arguments, sentence in (((self.sod, "p.presure"), "did you mean 'p.pressure'?"),
                                     ((self.path("none.uda"),), "is no folder"),
                                     ((self.sod, "p.density", "KineticEnergy"), "do not fit in one table"),
-                                    ((self.sod, "p.density", "--csv", "/dev/null/x"), "Not a directory")):
+                                    ((self.sod, "p.velocity.w"), "no component of p.velocity 'w'; there is: x, y, z"),
+                                    ((self.sod, "p.density.x"), "did you mean 'p.density'?"),
+                                    ((self.sod, "p.density", "--csv", "/dev/null/x"),
+                                     "cannot write '/dev/null/x': Not a directory")):
             code, _, err = run("uda", *arguments)
             self.assertEqual(code, 1)
             self.assertIn(sentence, err)
@@ -271,8 +325,8 @@ class Plot(WithArchives):
 
     def test_fails_with_a_sentence(self):
         for arguments, sentence in (((self.sod, "p.presure"), "did you mean 'p.pressure'?"),
-                                    ((self.sod, "--out", self.path("out.xyz")), "not supported"),
-                                    ((self.sod, "--out", self.path("no/out.png")), "No such file")):
+                                    ((self.sod, "--out", self.path("out.xyz")), "is no picture: its name must"),
+                                    ((self.sod, "--out", self.path("no/out.png")), "there is no folder '")):
             code, _, err = run("plot", *arguments)
             self.assertEqual(code, 1)
             self.assertIn(sentence, err)

@@ -62,18 +62,31 @@ locked() (
   "$@"
 )
 
-# run_ninja FOLDER LOG [TARGET...]: says that it builds once there is something to build, not before. What it builds is
+# run_ninja FOLDER LOG [TARGET...]: builds, and says how far it is once there is something to build, not before: on a
+# terminal in one line that is rewritten, in a log each minute (or each $building_each seconds). What it builds is
 # $building, else the folder.
 run_ninja() {
-  local folder=$1 log=$2 said= line
+  local folder=$1 log=$2 what=${building:-${1#"$root"/}} said= line
   shift 2
-  ninja -C "$folder" "$@" 2>&1 9>&- | while IFS= read -r line; do
-    printf '%s\n' "$line" >>"$log"
-    case $line in *Building* | *Linking*)
-      [ -n "$said" ] || say "building ${building:-${folder#"$root"/}}"
-      said=yes ;;
-    esac
-  done
+  NINJA_STATUS='[%f/%t] ' ninja -C "$folder" "$@" 2>&1 9>&- | {
+    while IFS= read -r line; do
+      printf '%s\n' "$line" >>"$log"
+      if [[ $line =~ ^\[([0-9]+)/([0-9]+)\]\ (Building|Linking)\  ]]; then
+        local at=": ${BASH_REMATCH[1]} of ${BASH_REMATCH[2]}"
+        if [ -t 2 ]; then
+          printf '\r\033[Ktushar: building %s' "$what$at" >&2
+        elif [ -z "$said" ]; then
+          say "building $what"
+        elif [ $((SECONDS - said)) -ge "${building_each:-60}" ]; then
+          say "building $what$at"
+        else
+          continue
+        fi
+        said=$SECONDS
+      fi
+    done
+    if [ -t 2 ] && [ -n "$said" ]; then printf '\n' >&2; fi
+  }
   return "${PIPESTATUS[0]}"
 }
 

@@ -5,6 +5,20 @@
 
 namespace tushar::euler {
 
+/// The fluxes of the state through the rim of the level, kg/(m² s), Pa and W/m².
+template <int D>
+struct RimFluxes {
+  RimFlux<double> mass;
+  RimFlux<Vec<D>> momentum;
+  RimFlux<double> energy;
+
+  static RimFluxes from(auto& take) {
+    return {.mass = take(keepsFlux(c::density)),
+            .momentum = take(keepsFlux(c::momentum<D>)),
+            .energy = take(keepsFlux(c::totalEnergy))};
+  }
+};
+
 /// One step on a patch: the body of the task, with the gas, the state before [kg/m³, kg/(m² s), J/m³], the time step
 /// [s], the state after and its fluxes through the rim of the level.
 ///
@@ -17,7 +31,7 @@ template <int D>
 using Advance = void (*)(const Patch& patch, const Gas& gas, CellView<const double> density,
                          CellView<const Vec<D>> momentum, CellView<const double> totalEnergy, double dt,
                          CellView<double> newDensity, CellView<Vec<D>> newMomentum, CellView<double> newTotalEnergy,
-                         RimFlux<double> massFlux, RimFlux<Vec<D>> momentumFlux, RimFlux<double> energyFlux);
+                         const RimFluxes<D>& rims);
 
 /// The body for a method: each is compiled on its own, so that no loop over cells branches on the method.
 template <int D>

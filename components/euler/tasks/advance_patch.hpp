@@ -112,25 +112,19 @@ void addFluxes(double ratio, const Box& block, const StateViews<D, const double>
   });
 }
 
-/// The fluxes of the state through the rim of the level.
+/// Keeps those of the fluxes across an axis that are at the rim of the level.
 template <int D>
-struct RimFluxes {
-  RimFlux<double> mass;
-  RimFlux<Vec<D>> momentum;
-  RimFlux<double> energy;
-
-  /// Keeps those across an axis that stand in rows.
-  void keep(const Box& faces, int axis, Rows<D>& flux) const {
-    if (mass.empty()) return;
-    mass.template forEachFaceIn<D>(
-        faces, axis, [&](const Index<D>& face, double& through) { through += flux.at(face)[kDensity][0]; });
-    momentum.template forEachFaceIn<D>(faces, axis, [&](const Index<D>& face, Vec<D>& through) {
-      for (int d = 0; d < D; ++d) through[d] += flux.at(face)[kVelocity(d)][0];
-    });
-    energy.template forEachFaceIn<D>(
-        faces, axis, [&](const Index<D>& face, double& through) { through += flux.at(face)[kPressure<D>][0]; });
-  }
-};
+void keepAtRim(const RimFluxes<D>& rims, const Box& faces, int axis, Rows<D>& flux) {
+  if (rims.mass.empty()) return;
+  const auto at = [&](const Index<D>& face, int number) { return *flux.at(face)[static_cast<std::size_t>(number)]; };
+  rims.mass.template forEachFaceIn<D>(faces, axis,
+                                      [&](const Index<D>& face, double& through) { through += at(face, kDensity); });
+  rims.momentum.template forEachFaceIn<D>(faces, axis, [&](const Index<D>& face, Vec<D>& through) {
+    for (int d = 0; d < D; ++d) through[d] += at(face, kVelocity(d));
+  });
+  rims.energy.template forEachFaceIn<D>(
+      faces, axis, [&](const Index<D>& face, double& through) { through += at(face, kPressure<D>); });
+}
 
 template <int D, class Flux, class Shape, int Axis>
 void sweep(const Gas& gas, const Level& level, const Box& block, double dt, const StateViews<D, const double>& old,
@@ -138,7 +132,7 @@ void sweep(const Gas& gas, const Level& level, const Box& block, double dt, cons
   Box faces = block;
   ++faces.upper[Axis];
   computeFluxes<D, Flux, Shape, Axis>(gas, faces, work);
-  rims.keep(faces, Axis, work.flux);
+  keepAtRim<D>(rims, faces, Axis, work.flux);
   addFluxes<D, Axis>(dt / level.spacing(Axis), block, old, work.flux, fresh);
 }
 
@@ -157,12 +151,10 @@ bool canBe(const Gas& gas, const Box& block, const StateViews<D, double>& fresh)
 template <int D, class Flux, class Shape>
 void advance(const Patch& patch, const Gas& gas, CellView<const double> density, CellView<const Vec<D>> momentum,
              CellView<const double> totalEnergy, double dt, CellView<double> newDensity, CellView<Vec<D>> newMomentum,
-             CellView<double> newTotalEnergy, RimFlux<double> massFlux, RimFlux<Vec<D>> momentumFlux,
-             RimFlux<double> energyFlux) {
+             CellView<double> newTotalEnergy, const RimFluxes<D>& rims) {
   const Level& level = patch.level();
   const StateViews<D, const double> old{density, momentum, totalEnergy};
   const StateViews<D, double> fresh{newDensity, newMomentum, newTotalEnergy};
-  const RimFluxes<D> rims{massFlux, momentumFlux, energyFlux};
   const GhostRules<D> rules = ghostRules<D>(level);
   Work<D> work(patch.cells(), Shape::reach);
   bool fine = true;

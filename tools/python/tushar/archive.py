@@ -1,6 +1,7 @@
 """Reads a `.uda` archive: the one reader of this project."""
 from __future__ import annotations
 
+import difflib
 import glob
 import json
 import os
@@ -120,7 +121,17 @@ class Archive(Sequence[Snapshot]):
 
     def reload(self) -> None:
         """Reads the index again, for an archive that a run still writes."""
-        index = _xml(os.path.join(self.folder, "index.xml"))
+        path = os.path.join(self.folder, "index.xml")
+        index = _xml(path)
+        if index.tag == "Uintah_DataArchive":
+            raise ArchiveError(f"'{self.folder}' is an archive of Uintah, which this reader does not know")
+        try:
+            self._read(index)
+        except ValueError as error:
+            raise ArchiveError(f"cannot read '{path}', which is damaged: {error}") from None
+
+    def _read(self, index: ElementTree.Element) -> None:
+        """What the index says; ValueError for words where numbers belong."""
         self.version = index.get("version", "")
         if int(index.get("format", FORMAT)) > FORMAT:
             raise ArchiveError(f"'{self.folder}' has format {index.get('format')}, and this reader knows formats up to "
@@ -137,10 +148,25 @@ class Archive(Sequence[Snapshot]):
         self.files = [os.path.join(self.folder, name) for _, _, name in outputs]
 
     def _not_an_archive(self) -> str:
+        """What the path is instead, and what may be meant."""
         numbered = sorted(glob.glob(glob.escape(self.folder) + ".[0-9]*"))
-        hint = f"; there is '{numbered[-1]}'" if numbered else ""
-        what = "has no index.xml, so it is no archive" if os.path.isdir(self.folder) else "is no folder"
-        return f"'{self.folder}' {what}{hint}"
+        above, name = os.path.split(self.folder)
+        if os.path.isdir(self.folder):
+            what, near = "has no index.xml, so it is no archive", numbered or self._links(self.folder)
+        elif os.path.exists(self.folder):
+            what, near = "is a file, and an archive is a folder", []
+            if os.path.isfile(os.path.join(above, "index.xml")):
+                what = f"is a file of an archive, which is the folder '{above or '.'}'"
+        else:
+            links = {os.path.basename(path)[:-len(".uda")]: path for path in self._links(above)}
+            alike = difflib.get_close_matches(name.split(".uda")[0], links, 1)
+            what, near = "is no folder", numbered or [links[other] for other in alike]
+        return f"'{self.folder}' {what}" + (f"; there is '{near[-1]}'" if near else "")
+
+    @staticmethod
+    def _links(folder: str) -> List[str]:
+        """The archives in a folder, without those of earlier runs."""
+        return sorted(glob.glob(os.path.join(glob.escape(folder), "*.uda")))
 
     @staticmethod
     def _variable(item: ElementTree.Element) -> Variable:
@@ -165,8 +191,9 @@ class Archive(Sequence[Snapshot]):
             raise ArchiveError(f"outputs go by number: archive[-1]['{index}'], or archive.globals['{index}']")
         count = len(self)
         if not -count <= index < count:
-            held = f"has {count}" + (f", 0 to {count - 1}" if count else "")
-            raise OutputError(f"no output {index}: '{self.folder}' {held}")
+            if not count:
+                raise OutputError(f"'{self.folder}' has no outputs yet")
+            raise OutputError(f"no output {index}: '{self.folder}' has {count}, 0 to {count - 1}")
         index = int(index) % count
         return Snapshot(self, index, self.files[index], self.times[index], self.steps[index])
 

@@ -82,8 +82,18 @@ class Figure:
                 labels, notes = choose(self.output)
                 self.notes += notes
             self.quantities = [Quantity.of(archive, label) for label in labels]
+            self._check_slices()
             with plt.rc_context(STYLE):
                 self._draw(title or self._title())
+
+    def _check_slices(self) -> None:
+        """ArchiveError where a slice meets nothing; in a film, which has common ranges, it may for a while."""
+        slices = self.output.view.slices
+        if not slices or self.output.view.ranges:
+            return
+        if not any(len(self.output.values_of(quantity)) for quantity in self.quantities):
+            places = ", ".join(f"{'xyz'[axis]} = {place:g} m" for axis, place in slices.items())
+            raise ArchiveError(f"no particles lie within half a cell of {places}")
 
     def save(self, path: Any) -> None:
         """Writes PNG, SVG or PDF by the ending of the path."""

@@ -21,6 +21,7 @@ from tushar.view import Output, Quantity, Range, View
 
 SECONDS = 6.0  # a film takes so long, but for few outputs
 ALMOST_WHITE = 248  # what choosing 256 colours makes of white
+Progress = Callable[[int, int], None]  # of pictures: how many are drawn, of how many
 FASTEST, SLOWEST = 25.0, 2.0  # pictures per second
 
 
@@ -41,13 +42,18 @@ def common_ranges(archive: Archive, variables: Sequence[str], view: View) -> Tup
                     continue
                 values = values[values > 0] if view.log else values
                 found.setdefault(quantity.label, []).extend([values.min(), values.max()] if len(values) else [])
+    if not any(found.values()) and not view.log:
+        raise ArchiveError(f"'{archive.folder}' holds no values of {', '.join(labels)}" +
+                           (" in the slice" if view.slices else ""))
     return labels, {label: _round(min(values), max(values), view) for label, values in found.items() if values}
 
 
-def _planes(archive: Archive, label: str, view: View) -> Tuple[float, float, float]:
-    """The places of three slices for all pictures: those of the output in the middle."""
+def _planes(archive: Archive, label: str, view: View) -> Optional[Tuple[float, float, float]]:
+    """The places of three slices for all pictures: those of the output in the middle. None where there are fewer
+    dimensions."""
     with archive[len(archive) // 2] as snapshot:
-        return Output(snapshot, view).planes(Quantity.of(archive, label))
+        output = Output(snapshot, view)
+        return output.planes(Quantity.of(archive, label)) if len(output.axes) == 3 else None
 
 
 def _round(low: float, high: float, view: View) -> Range:
@@ -73,19 +79,28 @@ def figures(archive: Archive, variables: Sequence[str], title: Optional[str], vi
         raise first
 
 
-def write(archive: Archive, path: str, variables: Sequence[str] = (), title: Optional[str] = None,
-          view: Optional[View] = None) -> Tuple[str, List[str]]:
-    """Writes a film, .gif or .mp4 (.gif where there is no ffmpeg): its path, and notes."""
+def check_path(path: str) -> str:
+    """The ending of a film's name; ArchiveError for another, and where there is no such folder."""
     ending = pathlib.Path(path).suffix.lower()
     if ending not in (".gif", ".mp4"):
         raise ArchiveError(f"'{path}' is no film: its name must end in .mp4 or .gif")
+    if not pathlib.Path(path).parent.is_dir():
+        raise ArchiveError(f"'{path}': there is no folder '{pathlib.Path(path).parent}'")
+    return ending
+
+
+def write(archive: Archive, path: str, variables: Sequence[str] = (), title: Optional[str] = None,
+          view: Optional[View] = None, progress: Optional[Progress] = None) -> Tuple[str, List[str]]:
+    """Writes a film, .gif or .mp4 (.gif where there is no ffmpeg): its path, and notes. `progress` hears of each
+    picture."""
+    ending = check_path(path)
     notes: List[str] = []
     program = ffmpeg() if ending == ".mp4" else None
     if ending == ".mp4" and not program:
         path = str(pathlib.Path(path).with_suffix(".gif"))
         notes.append("there is no ffmpeg, which writes .mp4: the film is a .gif")
     rate = float(np.clip(len(archive) / SECONDS, SLOWEST, FASTEST))
-    pictures = _pictures(archive, variables, title, view or View(), notes)
+    pictures = _pictures(archive, figures(archive, variables, title, view or View()), notes, progress)
     if program:
         _write_mp4(program, pictures, rate, path)
     else:
@@ -93,11 +108,13 @@ def write(archive: Archive, path: str, variables: Sequence[str] = (), title: Opt
     return path, notes
 
 
-def _pictures(archive: Archive, variables: Sequence[str], title: Optional[str], view: View,
-              notes: List[str]) -> Iterator[Any]:
+def _pictures(archive: Archive, drawn: Iterator[Figure], notes: List[str],
+              progress: Optional[Progress]) -> Iterator[Any]:
     """The pictures one by one, as bytes; what there is to say of them is added to `notes`."""
-    for figure in figures(archive, variables, title, view):
+    for figure in drawn:
         notes += [note for note in figure.notes if note not in notes]
+        if progress:
+            progress(figure.output.snapshot.index + 1, len(archive))
         yield figure.pixels()
 
 

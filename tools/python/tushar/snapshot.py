@@ -53,7 +53,9 @@ class Snapshot:
             try:
                 self._opened = h5py.File(self.path, "r")
             except OSError as error:
-                raise ArchiveError(f"cannot read '{self.path}': {error}") from None
+                if not os.path.exists(self.path):
+                    raise ArchiveError(f"the file of output {self.index}, '{self.path}', is missing") from None
+                raise ArchiveError(f"cannot read '{self.path}', which is damaged or not whole: {error}") from None
         return self._opened
 
     @property

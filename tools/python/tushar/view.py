@@ -11,7 +11,7 @@ from tushar.archive import Archive, Variable
 from tushar.errors import ArchiveError, check_name
 from tushar.frames import tails
 from tushar.grid import Grid, Values
-from tushar.snapshot import ID, Snapshot
+from tushar.snapshot import ID, Particles, Snapshot
 
 Range = Tuple[Optional[float], Optional[float]]
 
@@ -35,7 +35,7 @@ class View:
     def with_ranges(self, ranges: Dict[str, Range]) -> View:
         return dataclasses.replace(self, ranges=ranges)
 
-    def with_planes(self, planes: Tuple[float, float, float]) -> View:
+    def with_planes(self, planes: Optional[Tuple[float, float, float]]) -> View:
         return dataclasses.replace(self, planes=planes)
 
     def limits(self, label: str) -> Range:
@@ -53,10 +53,14 @@ class Quantity:
     @staticmethod
     def of(archive: Archive, label: str) -> Quantity:
         base, _, tail = label.rpartition(".")
-        if label not in archive.variables and base in archive.variables:
+        several = base in archive.variables and archive.variables[base].components > 1
+        if label not in archive.variables and several:
             names = [name[1:] for name in tails(archive.variables[base].components)]
             check_name(f"component of {base}", tail, names)
             return Quantity(label, archive.variables[base], names.index(tail))
+        if label in archive.globals:
+            raise ArchiveError(f"'{label}' is one number for all places, and a picture shows values in the grid; "
+                               f"tools/uda {archive.folder} {label} prints it over time")
         return Quantity(label, archive.variables[check_name("variable", label, archive.variables)])
 
     @property
@@ -118,12 +122,20 @@ class Output:
         own = self.snapshot.particles(material)
         x, values = own["p.x"].values, own[quantity.variable.name].values
         if self.other:
-            x, values = _minus(own, self.other.particles(material), quantity.variable.name)
+            x, values = _minus(own, self._others(material), quantity.variable.name)
         kept = np.ones(len(x), bool)
         for cut, place in (self.view.slices if slices is None else slices).items():
             self.grid.nearest("cell", cut, place)
             kept &= np.abs(x[:, cut] - place) <= self.grid.spacing[cut] / 2
         return x[kept], quantity.scalar(values[kept], axis)
+
+    def _others(self, material: str) -> Particles:
+        """The particles that are subtracted."""
+        assert self.other
+        if material not in self.other.materials:
+            raise ArchiveError(f"'{self.other.archive.folder}' has no particles of '{material}', so there is no "
+                               "difference to draw")
+        return self.other.particles(material)
 
     def owners(self, quantity: Quantity) -> List[Optional[str]]:
         """The materials whose field is shown; None for a field of no material."""
@@ -182,7 +194,7 @@ def shape_of(grid: Grid) -> str:
     return " x ".join(str(grid.cells[axis]) for axis in grid.axes) + " cells"
 
 
-def _minus(own: Any, other: Any, name: str) -> Tuple[Values, Values]:
+def _minus(own: Particles, other: Particles, name: str) -> Tuple[Values, Values]:
     """Positions and differences of the particles that both have: by id, or, without ids, one by one."""
     x, here, there = own["p.x"].values, own[name].values, other[name].values
     if ID in own.variables and ID in other.variables:
