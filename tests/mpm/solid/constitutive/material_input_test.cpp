@@ -192,6 +192,20 @@ TEST(MaterialInput, RefusesWhatItDoesNotHave) {
   EXPECT_EQ(sentencesOf(sceneOf("MohrCoulomb", "<G>1</G><K>1</K><Use_softening>0.0</Use_softening>")), "");
 }
 
+TEST(MaterialInput, RefusesAStrengthThatFallsFasterThanTheStress) {
+  const auto soil = [](const std::string& softening) {
+    return sceneOf("nonlocal_drucker_prager",
+                   moduli + std::string("<alpha>0.1</alpha><alpha_p>0.5</alpha_p>") + "<k_o>1</k_o>" + softening);
+  };
+  const double limit = (3 + 9 * 7 * 0.1 * 0.5) / std::sqrt(0.5 + 3 * 0.25);
+  EXPECT_EQ(sentencesOf(soil(fmt::format("<h_local>{:g}</h_local>", -0.99 * limit))), "");
+  expectProblem(soil(fmt::format("<h_local>{:g}</h_local>", -1.01 * limit)), "the strength would fall faster than");
+  expectProblem(soil(fmt::format("<h_local>1</h_local><h_nonlocal>{:g}</h_nonlocal>", -1.01 * limit - 1)),
+                "the strength would fall faster than the stress; must be greater than");
+  expectProblem(soil(fmt::format("<h_local>{:g}</h_local><h_nonlocal>9</h_nonlocal>", -1.01 * limit)),
+                "must be greater");
+}
+
 TEST(MaterialInput, ChecksDamageAgainstTheConstitutiveModel) {
   const std::string johnsonCook =
       "<damage_model type='johnson_cook'><D1>1</D1><D2>1</D2><D3>1</D3><D4>0</D4><D5>0</D5>";

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <string_view>
 
+#include "components/mpm/solid/constitutive/root_between.hpp"
 #include "core/input/schema.hpp"
 
 namespace tushar::mpm::solid {
@@ -57,26 +58,6 @@ struct GursonYield {
   /// Kept where cosh is a number; no metal bears that.
   double argument(double p) const { return std::clamp(1.5 * q2 * p, -300.0, 300.0); }
 };
-
-/// A root of f between a and b, where it changes its sign, by false position as the Illinois algorithm corrects it;
-/// Dowell & Jarratt, BIT 11 (1971) 168.
-template <class Function>
-double rootBetween(const Function& f, double a, double b) {
-  double fa = f(a), fb = f(b);
-  for (int k = 0; k < 100 && fa != 0 && std::abs(b - a) > 1e-14 * std::max(std::abs(a), std::abs(b)); ++k) {
-    const double c = b - fb * (b - a) / (fb - fa), fc = f(c);
-    if (fc == 0) return c;
-    if ((fc > 0) != (fb > 0)) {
-      a = b;
-      fa = fb;
-    } else {
-      fa /= 2;
-    }
-    b = c;
-    fb = fc;
-  }
-  return fa == 0 ? a : b;
-}
 
 /// Return to Gurson's surface with associated flow: Aravas, Int. J. Numer. Meth. Engng 24 (1987) 1395. `yieldStress(x)`
 /// is sigma_y after a plastic strain x of the metal, Pa; `meanStress(t)` after a plastic dilatation t, Pa.
