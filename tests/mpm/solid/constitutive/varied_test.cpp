@@ -94,5 +94,23 @@ TEST(MohrCoulomb, GainsCohesionFromTheSuctionOfItsWater) {
   EXPECT_LT(squeezed.suction, 1.7);
 }
 
+TEST(MohrCoulomb, IsFullOfWaterWhereItsPoresHaveClosed) {
+  MaterialPoint<MohrCoulomb> point{soilWith(20)};
+  MohrCoulomb& soil = point.model;
+  soil.retainsWater = true;
+  std::tie(soil.retentionM, soil.retentionN, soil.retentionAlpha) = std::tuple(0.3, 2.5, 0.8);
+  std::tie(soil.suctionAngle, soil.initialSuction, soil.initialSpecificVolume) = std::tuple(15.0, 1.7, 1.02);
+  point.oldState = soil.initialState();
+  const double least = std::pow(std::pow(0.99999, -1 / 0.3) - 1, 1 / 2.5) / 0.8;
+  for (const double stretch : {0.999, 0.99, 0.98, 0.99, 1.0}) {
+    point.advance(stretch * Matrix3::Identity());
+    if (stretch == 0.999 || stretch == 1.0) continue;  // some pores are open
+    EXPECT_LT(point.oldState.specificVolume, 1) << stretch;
+    EXPECT_NEAR(point.oldState.suction, least, 1e-13) << stretch;
+  }
+  EXPECT_GT(point.oldState.specificVolume, 1);
+  EXPECT_NEAR(point.oldState.suction, least, 1e-13) << "pores that open again are full";
+}
+
 }  // namespace
 }  // namespace tushar::mpm::solid::testing
