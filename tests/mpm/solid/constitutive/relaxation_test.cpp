@@ -85,6 +85,15 @@ TEST(ElasticPlastic, RelaxesWithMaxwellElements) {
   EXPECT_EQ(point.oldState.plasticStrain, 0);
 }
 
+TEST(ElasticPlastic, HasTheWavesOfItsMaxwellElementsFromTheStart) {
+  MaterialPoint<ElasticPlasticHp> point{relaxingMetal(IsotropicHardening{0.2, 0.5})};
+  point.model.shearModulus = 0.1;
+  const Deformation still = point.step(Matrix3::Identity());
+  const double speed = point.model.initialWaveSpeed(2);
+  EXPECT_NEAR(speed, std::sqrt((7 + 4.0 / 3.0 * (1 + 2)) / 2), roundOff);
+  EXPECT_NEAR(speed, point.model.waveSpeed(2, still, Matrix3::Zero(), point.oldState), roundOff);
+}
+
 TEST(ElasticPlastic, ReturnsToTheYieldSurfaceWithMaxwellElements) {
   MaterialPoint<ElasticPlasticHp> point{relaxingMetal(IsotropicHardening{0.2, 0.5})};
   point.timeStep = 1e-4;
