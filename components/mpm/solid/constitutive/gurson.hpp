@@ -43,8 +43,9 @@ struct GursonPlastic {
   State initialState(const Birth& birth) const {
     State state = initialState();
     if (base.porositySpreads)
-      state.porosity = std::min(std::abs(base.initialPorosity + base.porosityDeviation * drawnNormal(0, birth.id)),
-                                greatestPorosity);
+      state.porosity = std::min(
+          std::abs(base.initialPorosity + base.porosityDeviation * drawnNormal(Drawing::porosity, 0, birth.id)),
+          greatestPorosity);
     return state;
   }
 

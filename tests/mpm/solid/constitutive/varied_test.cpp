@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include "components/mpm/solid/constitutive/gurson.hpp"
+#include "components/mpm/solid/damage/damage.hpp"
 #include "tests/mpm/solid/constitutive/example_models.hpp"
 #include "tests/mpm/solid/constitutive/material_point.hpp"
 
@@ -49,6 +51,33 @@ TEST(UcnhVar, DrawsYieldStressesByTheIdOfAParticleFromTheRange) {
   EXPECT_NEAR(sum / count, 0.2, 4 * 0.1 / std::sqrt(3.0 * count)) << "four deviations of the mean";
   EXPECT_EQ(model.initialState({77, 0}).yieldStress, model.initialState({77, 5}).yieldStress);
   EXPECT_NE(model.initialState({77, 0}).yieldStress, model.initialState({78, 0}).yieldStress);
+}
+
+/// Correlations of what is drawn for the pores at the start, the damage at the start, thresholds and yield stresses.
+TEST(Drawn, DecidesEachQuantityByAStreamOfItsOwn) {
+  GursonPlastic porous{elasticPlastic(IsotropicHardening{0.2, 0})};
+  porous.base.initialPorosity = 0.5;
+  porous.base.porosityDeviation = 0.01;
+  porous.base.porositySpreads = true;
+  CompNeoHookPlastic common = compNeoHookPlastic(0.5);
+  common.yieldRange = 0.1;
+  const UcnhVar yielding = UcnhVar::spread(common);
+  ThresholdDamage failing;
+  failing.mean = 5;
+  failing.deviation = 1;
+  failing.distribution = ThresholdDamage::Distribution::uniform;
+  const int count = 10000;
+  Eigen::MatrixXd drawn(count, 4);
+  for (int k = 0; k < count; ++k) {
+    const ParticleId id = ParticleId(k) << 16;
+    drawn.row(k) << porous.initialState({id, 0}).porosity, damagedAtStart(0.5, 0.01, id).damage,
+        failing.initial(1, id).threshold, yielding.initialState({id, 0}).yieldStress;
+  }
+  drawn.rowwise() -= drawn.colwise().mean().eval();
+  drawn.colwise().normalize();
+  const Eigen::Matrix4d correlation = drawn.transpose() * drawn;
+  EXPECT_LT((correlation - Eigen::Matrix4d::Identity()).cwiseAbs().maxCoeff(), 4 / std::sqrt(double(count)))
+      << correlation;
 }
 
 MohrCoulomb soilWith(double friction) {
