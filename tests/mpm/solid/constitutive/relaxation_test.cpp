@@ -188,6 +188,20 @@ TEST(ViscoPlastic, IsElasticInAFastStep) {
   EXPECT_NEAR((point.oldStress(2, 2) - point.oldStress(0, 0)) / (2 * 3.52e9 * strain), 1, 1e-3);
 }
 
+TEST(ViscoPlastic, TurnsTheStressThatAFailedParticleKeeps) {
+  ViscoPlastic model = ice();
+  model.canFail = true;
+  model.failureVariable = 1e4;
+  model.losesStress = false;
+  MaterialPoint<ViscoPlastic> point{model};
+  point.timeStep = 1e-6;
+  point.advance(Vec3(1, 1, 1 + 1e-5).asDiagonal());
+  ASSERT_EQ(point.oldState.failed, 1);
+  const Matrix3 kept = point.oldStress, turn = rotation(0.8);
+  point.advance(turn * point.oldDeformation);
+  EXPECT_LT((point.oldStress - turn * kept * turn.transpose()).norm(), roundOff * kept.norm());
+}
+
 TEST(ViscoPlastic, FailsForGoodWhereItsStressExceedsItsStrength) {
   ViscoPlastic model = ice();
   model.canFail = true;
