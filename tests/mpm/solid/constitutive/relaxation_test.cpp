@@ -137,6 +137,20 @@ TEST(ViscoScram, RelaxesByItsMaxwellElements) {
   EXPECT_NEAR(point.oldStress.trace() / 3, 2 * 3 * 1.3 / (3 * 0.4) * strain, roundOff);
 }
 
+/// One long step at rest is two of half its length: exp(-2 x) = exp(-x)².
+TEST(ViscoScram, AdvancesEachMaxwellElementOnceInAStep) {
+  ViscoScram model = explosive();
+  model.initialCrackRadius = 0;
+  MaterialPoint<ViscoScram> whole{model};
+  stretchAtOnce(whole);
+  MaterialPoint<ViscoScram> halves = whole;
+  hold(whole, 0.02);
+  for (const double time : {0.01, 0.01}) hold(halves, time);
+  for (int n = 0; n < 5; ++n)
+    EXPECT_LT((matrixOf(whole.oldState.deviators[n]) - matrixOf(halves.oldState.deviators[n])).norm(), roundOff) << n;
+  EXPECT_GT(matrixOf(whole.oldState.deviators[2]).norm(), 0.1 * strain);
+}
+
 TEST(ViscoScram, IsHalfAsStiffWithCracksOfTheGivenRadius) {
   ViscoScram model = explosive();
   model.greatestCrackSpeed = 0;
