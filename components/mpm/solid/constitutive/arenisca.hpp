@@ -70,7 +70,8 @@ struct Arenisca : arenisca::Constants {
     return t1 > 0 && d.timeStep > 0 ? step.turned(relaxed(d, step, before, after)) : matrixOf(state.quasistatic);
   }
   double waveSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
-    return std::sqrt((matrixBulk() + 4.0 / 3.0 * g0) * d.deformationGradient.determinant() / initialDensity);
+    const double stiffness = matrixBulk() + 4.0 / 3.0 * arenisca::greatestShear(*this);
+    return std::sqrt(stiffness * d.deformationGradient.determinant() / initialDensity);
   }
   double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
     return std::sqrt(matrixBulk() * d.deformationGradient.determinant() / initialDensity);

@@ -111,7 +111,8 @@ struct ElasticPlastic {
     });
   }
   double initialWaveSpeed(double initialDensity) const {
-    return std::sqrt((bulkModulus + 4.0 / 3.0 * shearModulus) / initialDensity);
+    const double modulus = maxwell() ? maxwell()->modulusIn(0) : shearModulus;
+    return std::sqrt((bulkModulus + 4.0 / 3.0 * modulus) / initialDensity);
   }
   double waveSpeed(double initialDensity, const Deformation& d, const Matrix3& stress, const State&) const {
     const double modulus = maxwell() ? maxwell()->modulusIn(0) : shearModulusAt(compressionOf(d, stress));

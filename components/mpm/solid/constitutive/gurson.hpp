@@ -43,7 +43,9 @@ struct GursonPlastic {
   State initialState(const Birth& birth) const {
     State state = initialState();
     if (base.porositySpreads)
-      state.porosity = std::abs(base.initialPorosity + base.porosityDeviation * drawnNormal(0, birth.id));
+      state.porosity = std::min(
+          std::abs(base.initialPorosity + base.porosityDeviation * drawnNormal(Drawing::porosity, 0, birth.id)),
+          greatestPorosity);
     return state;
   }
 
@@ -117,13 +119,14 @@ struct GursonPlastic {
             now.plasticStrainRate = strain / d.timeStep;
             return model.flowStress(now);
           };
-          const double opening = base.poresEvolve && meanStress(0.0) > 0 ? nucleation(state.plasticStrain) : 0;
+          std::optional<double> opening;
+          if (base.poresEvolve) opening = meanStress(0.0) > 0 ? nucleation(state.plasticStrain) : 0;
           const GursonReturn back(std::get<GursonYield>(base.yieldCondition), yieldStress, meanStress,
                                   start.shearModulus, state.porosity, opening);
           const double trial = std::sqrt(1.5) * shear.norm();
           const auto result = back(trial);
           if (trial > 0) shear *= result.equivalent / trial;
-          if (base.poresEvolve) state.porosity = back.porosity(result.dilatation, result.plasticStrain);
+          state.porosity = back.porosity(result.dilatation, result.plasticStrain);
           state.plasticStrain += result.plasticStrain;
           state.plasticStrainRate = result.plasticStrain / d.timeStep;
           state.dilatation += result.dilatation;

@@ -113,11 +113,13 @@ struct MohrCoulomb : IsotropicModuli {
   double saturation(double suction) const {
     return std::pow(1 + std::pow(retentionAlpha * suction, retentionN), -retentionM);
   }
-  /// The suction after a dilatation, Pa: the water that is there fills more of smaller pores.
+  /// The suction after a dilatation, Pa: the water that is there fills more of smaller pores, and all of those that
+  /// have closed or open again.
   void squeeze(double dilatation, State& state) const {
+    constexpr double full = 0.99999;
     const double before = state.specificVolume, now = before * (1 + dilatation);
     const double water = saturation(state.suction) * (before - 1) / before;
-    const double filled = std::clamp(water * now / (now - 1), 1e-4, 0.99999);
+    const double filled = std::min(before, now) > 1 ? std::clamp(water * now / (now - 1), 1e-4, full) : full;
     state.specificVolume = now;
     state.suction = std::pow(std::pow(filled, -1 / retentionM) - 1, 1 / retentionN) / retentionAlpha;
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <fmt/format.h>
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 
 #include "components/mpm/solid/constitutive/constitutive_model.hpp"
 #include "components/mpm/solid/constitutive/polar.hpp"
+#include "components/mpm/solid/constitutive/root_between.hpp"
 #include "core/input/refuse.hpp"
 
 namespace tushar::mpm::solid {
@@ -79,29 +81,41 @@ struct NonlocalDruckerPrager {
   double yield(Matrix3& stress, State& state) const {
     const Matrix3 shear = deviator(stress);
     const double size = shear.norm() / std::sqrt(2.0), mean = stress.trace() / 3;
-    double strengthNow = strength + state.hardening + state.nonlocalHardening, hardening = localModulus;
-    double increment = plasticIncrement(size + 3 * friction * mean - strengthNow, hardening);
-    if (strengthNow + hardening * increment < leastStrength) {
-      strengthNow = leastStrength;
-      hardening = 0;
-      increment = plasticIncrement(size + 3 * friction * mean - strengthNow, hardening);
-    }
+    const double start = strength + state.hardening + state.nonlocalHardening;
+    double increment = plasticIncrement(size + 3 * friction * mean - start, localModulus);
+    if (start + localModulus * increment < leastStrength)
+      increment = plasticIncrement(size + 3 * friction * mean - leastStrength, 0);
     if (increment <= 0) return 0;
     const double toAxis = size * flowScale() / shearModulus;  // where no shear stress is left
     if (increment > toAxis) {
-      const double apex = friction > 0 ? strengthNow / (3 * friction) : mean;
-      stress = apex * Matrix3::Identity();
-      return toAxis;
+      increment = toApex(start, size, toAxis, stress);
+    } else {
+      const Matrix3 isotropic = 3 * bulkModulus * dilation * Matrix3::Identity();
+      stress -= increment / flowScale() * (shearModulus / size * shear + isotropic);
     }
-    stress -=
-        increment / flowScale() * (shearModulus / size * shear + 3 * bulkModulus * dilation * Matrix3::Identity());
-    state.hardening += hardening * increment;
+    state.hardening += localModulus * increment;
     return increment;
   }
-  double plasticIncrement(double excess, double hardening) const {
-    const double stiffness = (shearModulus + 9 * bulkModulus * friction * dilation) / flowScale() + hardening;
-    return std::max(excess / stiffness, 0.0);
+  /// Returns a trial stress, with the root `size` of J2, to the apex of the surface that its plastic strain leaves:
+  /// that strain has (size/(2^(1/2) G))² + (p - p_apex)²/(3 K²) as the square of its length, which is the result.
+  double toApex(double start, double size, double toAxis, Matrix3& stress) const {
+    const double mean = stress.trace() / 3, onAxis = mean - 3 * bulkModulus * dilation * toAxis / flowScale();
+    const auto strainTo = [&](double apex) {
+      return std::hypot(size / (std::sqrt(2.0) * shearModulus), (mean - apex) / (std::sqrt(3.0) * bulkModulus));
+    };
+    double apex = onAxis;
+    if (friction > 0)
+      apex = rootBetween(
+          [&](double p) { return 3 * friction * p - std::max(start + localModulus * strainTo(p), leastStrength); },
+          onAxis, leastStrength / (3 * friction));
+    stress = apex * Matrix3::Identity();
+    return strainTo(apex);
   }
+  double plasticIncrement(double excess, double hardening) const {
+    return std::max(excess / (stiffness() + hardening), 0.0);
+  }
+  /// By how much the trial stress falls towards a surface that stays where it is, by the plastic strain, Pa.
+  double stiffness() const { return (shearModulus + 9 * bulkModulus * friction * dilation) / flowScale(); }
   /// Length of the gradient of the flow potential, 1.
   double flowScale() const { return std::sqrt(0.5 + 3 * dilation * dilation); }
 
@@ -124,7 +138,17 @@ struct NonlocalDruckerPrager {
         .value("initial_zstress", &Self::stressAlongZ, 0, "Pa", "stress along z in which bodies rest at the start")
         .ignored("hardening_type", "Uintah does not use it either");
     refuseTag(tags, "k_o_dist", "all particles have the strength k_o");
+    tags.check(checkConstants);
     return tags;
+  }
+  /// Softening that outruns the fall of the trial stress leaves no stress on the surface.
+  static void checkConstants(const NonlocalDruckerPrager& read, const input::Element& element,
+                             input::Diagnostics& diagnostics) {
+    const double softest = read.localModulus + std::min(read.nonlocalModulus, 0.0), limit = -read.stiffness();
+    if (softest <= limit)
+      diagnostics.error(element, fmt::format("<h_local>, or it and <h_nonlocal>, is {:g} Pa: the strength would fall "
+                                             "faster than the stress; must be greater than {:g} Pa",
+                                             softest, limit));
   }
 };
 static_assert(ConstitutiveModel<NonlocalDruckerPrager>);

@@ -2,6 +2,8 @@
 
 #include <Eigen/LU>
 
+#include <algorithm>
+
 #include "components/mpm/solid/constitutive/constitutive_model.hpp"
 #include "components/mpm/solid/constitutive/explosive.hpp"
 
@@ -45,9 +47,12 @@ struct ProgramBurn {
   }
   /// Of the explosive.
   double initialWaveSpeed(double initialDensity) const { return speed(explosive(), density / initialDensity); }
-  /// c² = -J² dp/dJ / rho_0, of the products as soon as it burns.
+  /// c² = -J² dp/dJ / rho_0, of the products as soon as it burns, and of the explosive as long as some is left, which
+  /// is the stiffer one at high compression.
   double waveSpeed(double, const Deformation& d, const Matrix3&, const State& state) const {
-    return state.burned > 0 ? speed(products(), volumeOf(d)) : speed(explosive(), volumeOf(d));
+    const double j = volumeOf(d);
+    if (state.burned <= 0) return speed(explosive(), j);
+    return state.burned < 1 ? std::max(speed(products(), j), speed(explosive(), j)) : speed(products(), j);
   }
   /// c_b² = J / (kappa rho_0), as in Uintah.
   double bulkSpeed(double, const Deformation& d, const Matrix3&, const State&) const {

@@ -52,17 +52,17 @@ struct ThWater {
   Matrix3 updateStress(const Deformation& d, const Matrix3&, State&) const {
     return (referencePressure - pointAt(d).pressure) * Matrix3::Identity();
   }
-  /// c² = -v² (dp/dv)_s
+  /// c² = -v² (dp/dv)_s = v² (c_v (dp/dv)_T + T (dp/dT)_v²)/c_v
   double waveSpeed(double, const Deformation& d, const Matrix3&, const State&) const {
     const Point at = pointAt(d);
-    return at.volume / std::sqrt(at.byPressure - at.temperature * at.byTemperature * at.byTemperature / at.heat);
+    const double steepness = at.byTemperature / at.byPressure;
+    return at.volume * std::sqrt(1 / at.byPressure + at.temperature * steepness * steepness / heatAtConstantVolume(at));
   }
   double temperatureChange(const Deformation& d, const Matrix3&, const State&) const {
     const Point at = pointAt(d);
     const double growth = 1 - d.oldDeformationGradient.determinant() / d.deformationGradient.determinant();
     const double steepness = at.byTemperature / at.byPressure;  // (dp/dT)_v, Pa/K
-    const double heatAtConstantVolume = at.heat - at.temperature * at.byTemperature * steepness;
-    return -at.temperature * steepness * at.volume * growth / heatAtConstantVolume;
+    return -at.temperature * steepness * at.volume * growth / heatAtConstantVolume(at);
   }
   /// 0 as in Uintah, so that StrainEnergy can be compared.
   double strainEnergyDensity(const Deformation&, const Matrix3&, const Matrix3&, const State&) const { return 0; }
@@ -76,20 +76,34 @@ struct ThWater {
     double byTemperature;  ///< (dv/dT)_p, m^3/(kg K)
     double heat;           ///< c_p, J/(kg K)
   };
-  /// The smaller root of the quadratic equation that v(p, T) is for p: the liquid whose volume falls under pressure.
-  /// Pressed beyond the least volume of that equation, p goes on growing with the density.
+  /// The formula holds to some 1e8 Pa and, without pressure, some 90 K above T_0. Beyond, it would make c_v and then
+  /// the compressibility vanish: at .89 and .86 of the volume at 300 K. This share of the compressibility without
+  /// pressure, and of c_p = c_v + T (dp/dT)_v (dv/dT)_p for c_v, is left.
+  static constexpr double least = 0.25;
+
+  /// c_v, J/(kg K)
+  double heatAtConstantVolume(const Point& at) const {
+    const double difference = at.temperature * at.byTemperature * at.byTemperature / at.byPressure;
+    return std::max(at.heat - difference, least / (1 - least) * difference);
+  }
+  /// The smaller root of the quadratic equation that v(p, T) is for p: the liquid whose volume falls under pressure. It
+  /// ends at the pressure where `least` of its compressibility is left, and goes on along its tangent there.
   Point pointAt(const Deformation& d) const {
     const double volume = d.deformationGradient.determinant() / material.density, t = d.temperature;
     const double warm = t - densestTemperature, bent = 2 * curvature * pressureShift;
     const double slope = compressibility - bent * warm, excess = 1 + curvature * warm * warm - volume / densestVolume;
     const double root = std::sqrt(std::max(slope * slope - 2 * bent * pressureShift * excess, 0.0));
-    const double pressure = 2 * excess / (slope + root), shifted = warm + pressureShift * pressure;
+    const double end = (1 - least) * slope / (bent * pressureShift);
+    const double beyond = root < least * slope ? excess - 0.5 * (1 + least) * slope * end : 0;
+    const double pressure = beyond > 0 ? end + beyond / (least * slope) : 2 * excess / (slope + root);
+    const double curved = std::min(pressure, end), straight = pressure - curved;
     return {volume,
             t,
             pressure,
-            densestVolume * (compressibility - bent * shifted),
-            2 * densestVolume * curvature * shifted,
-            specificHeat - heatSlope * warm - 2 * densestVolume * curvature * t * pressure};
+            densestVolume * (slope - bent * pressureShift * curved),
+            densestVolume * (2 * curvature * (warm + pressureShift * curved) + least * bent * straight),
+            specificHeat - heatSlope * warm -
+                2 * densestVolume * curvature * t * (curved + (1 - (1 - least) * (1 - least)) * straight)};
   }
 };
 static_assert(ConstitutiveModel<ThWater>);

@@ -69,7 +69,8 @@ struct UcnhVar {
   State initialState() const { return initialState({0, table().front().color}); }
   State initialState(const Birth& birth) const {
     const auto of = [&](double Entry::*constant) { return valueByColor(table(), birth.color, constant); };
-    const double shift = yieldRange > 0 ? (2 * drawn(yieldSeed, birth.id, 0) - 1) * yieldRange : 0;
+    const double shift =
+        yieldRange > 0 ? (2 * drawn(Drawing::yieldStress, yieldSeed, birth.id, 0) - 1) * yieldRange : 0;
     return {initialPlasticStrain,
             identityTensor,
             of(&Entry::bulkModulus),

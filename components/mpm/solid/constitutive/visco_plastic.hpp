@@ -64,11 +64,11 @@ struct ViscoPlastic {
   }
 
   Matrix3 updateStress(const Deformation& d, const Matrix3& oldStress, State& state) const {
+    const Corotated step(d, oldStress);
     if (state.failed != 0) {
       state.plasticStrainRate = 0;
-      return left(oldStress);
+      return step.turned(left(step.stress));
     }
-    const Corotated step(d, oldStress);
     Matrix3 stress = deviator(step.stress) + 2 * shearModulus * deviator(step.strain);
     SuvicI::Stresses internal{state.yield, state.drag, step.seen(matrixOf(state.backStress))};
     const double strain =

@@ -69,8 +69,9 @@ struct ViscoScram {
     const CrackLoad load = crackLoadOf(step, d.timeStep);
     const double before = cracked(state.crackRadius);
     state.crackRadius += growthOf(load, state.crackRadius, d.timeStep);
-    const Matrix3 old = deviator(step.stress), stress = advance(step, d, before, state);
-    heat(step, d, cracked(state.crackRadius) * stress - before * old, stress, state);
+    const Elements elements = elementsAt(d.temperature);
+    const Matrix3 old = deviator(step.stress), stress = advance(step, d, elements, before, state);
+    heat(step, d, elements, cracked(state.crackRadius) * stress - before * old, stress, state);
     Matrix3 total = stress;
     total.diagonal().array() += mean + bulkModulus() * step.strain.trace();
     return step.turned(total);
@@ -96,6 +97,7 @@ struct ViscoScram {
     double modulus;  ///< G_n, Pa
     double rate;     ///< 1/tau_n, 1/s
   };
+  using Elements = std::array<Element, 5>;
   /// What opens the cracks in a step.
   struct CrackLoad {
     double pressure;       ///< on the faces of the cracks, Pa; 0 in tension
@@ -113,7 +115,7 @@ struct ViscoScram {
   }
   /// The elements at a temperature: all times of relaxation shift by that of Williams, Landel & Ferry, J. Am. Chem.
   /// Soc. 77 (1955) 3701.
-  std::array<Element, 5> elementsAt(double temperature) const {
+  Elements elementsAt(double temperature) const {
     const double warm = temperature - shiftTemperature;
     const double faster = ratesFollowTemperature ? std::exp(shift1 * warm / (shift2 + warm)) : 1;
     return {
@@ -152,35 +154,33 @@ struct ViscoScram {
   }
   /// The stress deviator at the end of the step, in the rotated axes. With B = (c/a)³:
   /// s_n <- kept_n s_n + gained_n (2 G_n dev D dt - G_n/G (B s - B_old s_old)), a linear equation for s, their sum.
-  Matrix3 advance(const Corotated& step, const Deformation& d, double crackedBefore, State& state) const {
-    const auto elements = elementsAt(d.temperature);
+  Matrix3 advance(const Corotated& step, const Deformation& d, const Elements& elements, double crackedBefore,
+                  State& state) const {
     const Matrix3 strain = deviator(step.strain), old = deviator(step.stress);
     const double cracks = cracked(state.crackRadius);
     std::array<Matrix3, 5> free;
+    std::array<double, 5> gained;
     Matrix3 sum = Matrix3::Zero();
     double share = 0;
     for (int n = 0; n < 5; ++n) {
       const MaxwellStep element(elements[n].rate * d.timeStep);
-      free[n] =
-          element.kept * step.seen(matrixOf(state.deviators[n])) + element.gained * 2 * elements[n].modulus * strain;
+      gained[n] = element.gained;
+      free[n] = element.kept * step.seen(matrixOf(state.deviators[n])) + gained[n] * 2 * elements[n].modulus * strain;
       sum += free[n];
-      share += element.gained * elements[n].modulus / shearModulus();
+      share += gained[n] * elements[n].modulus / shearModulus();
     }
     const Matrix3 stress = (sum + share * crackedBefore * old) / (1 + share * cracks);
     const Matrix3 opened = cracks * stress - crackedBefore * old;
-    for (int n = 0; n < 5; ++n) {
-      const double gained = MaxwellStep(elements[n].rate * d.timeStep).gained;
-      state.deviators[n] = tensorOf(step.turned(free[n] - gained * elements[n].modulus / shearModulus() * opened));
-    }
+    for (int n = 0; n < 5; ++n)
+      state.deviators[n] = tensorOf(step.turned(free[n] - gained[n] * elements[n].modulus / shearModulus() * opened));
     return stress;
   }
   /// Rates of heating, K/s: sum_n s_n:s_n/(2 G_n tau_n), s : d((c/a)³ s)/dt / (2 G), each over rho c_v, and
   /// Gamma T tr D.
-  void heat(const Corotated& step, const Deformation& d, const Matrix3& opened, const Matrix3& stress,
-            State& state) const {
+  void heat(const Corotated& step, const Deformation& d, const Elements& elements, const Matrix3& opened,
+            const Matrix3& stress, State& state) const {
     const double capacity = material.density / d.deformationGradient.determinant() * material.specificHeat;
     double work = 0;
-    const auto elements = elementsAt(d.temperature);
     for (int n = 0; n < 5; ++n)
       if (elements[n].modulus > 0)
         work += matrixOf(state.deviators[n]).squaredNorm() * elements[n].rate / (2 * elements[n].modulus);

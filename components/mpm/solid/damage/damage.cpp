@@ -10,7 +10,7 @@
 namespace tushar::mpm::solid {
 
 DamageState damagedAtStart(double mean, double deviation, ParticleId id) {
-  return {deviation > 0 ? std::abs(mean + deviation * drawnNormal(0, id)) : mean, 0, false};
+  return {deviation > 0 ? std::abs(mean + deviation * drawnNormal(Drawing::damage, 0, id)) : mean, 0, false};
 }
 
 double greatestStrain(const Matrix3& deformation) {
@@ -65,11 +65,11 @@ DamageState ThresholdDamage::initial(double volume, ParticleId id) const {
   const double scale = scalesWithVolume ? std::pow(*referenceVolume / volume, 1 / n) : 1;
   switch (distribution) {
     case Distribution::gauss:
-      return {0, std::abs(mean + deviation * drawnNormal(seed, id)) * scale, false};
+      return {0, std::abs(mean + deviation * drawnNormal(Drawing::threshold, seed, id)) * scale, false};
     case Distribution::uniform:
-      return {0, (mean + (2 * drawn(seed, id, 0) - 1) * deviation) * scale, false};
+      return {0, (mean + (2 * drawn(Drawing::threshold, seed, id, 0) - 1) * deviation) * scale, false};
     case Distribution::weibull: {
-      const double unit = std::pow(-std::log(drawn(seed, id, 0)), 1 / deviation);
+      const double unit = std::pow(-std::log(drawn(Drawing::threshold, seed, id, 0)), 1 / deviation);
       return {0, mean / std::tgamma(1 + 1 / deviation) * unit * scale, false};
     }
     default:

@@ -26,7 +26,7 @@ struct DamageState {
   bool hasFailed;
 };
 
-/// An initial damage of |mean + deviation n|, where n = drawnNormal(0, id).
+/// An initial damage of |mean + deviation n|, where n = drawnNormal(Drawing::damage, 0, id).
 DamageState damagedAtStart(double mean, double deviation, ParticleId id);
 
 /// No damage.

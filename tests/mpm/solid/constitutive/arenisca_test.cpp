@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <tuple>
 
 #include "components/mpm/solid/constitutive/arenisca.hpp"
 #include "tests/mpm/solid/constitutive/material_point.hpp"
@@ -173,6 +174,21 @@ TEST(Arenisca, StiffensUnderPressure) {
   const auto rate = [](double at) { return -9 * (10000 + (at < 0 ? 30000 * std::exp(100 / at) : 0.0)); };
   for (int k = 0; k < 3000; ++k) i1 += 1e-5 * rate(i1 + 0.5e-5 * rate(i1));
   EXPECT_NEAR(point.oldStress.trace(), i1, 1e-3 * std::abs(i1)) << "moduli of the start of each step";
+}
+
+/// The wave speed is that of the greatest moduli that any pressure has, or more, but not by much.
+TEST(Arenisca, HasWavesAsFastAsItsStiffestShearModulus) {
+  for (const auto& [atRest, byPressure] : {std::pair{0.2, 0.2}, {0.4, -0.3}, {0.1, 0.39}, {-0.5, 0.8}, {0.2, 0.0}}) {
+    Arenisca4 model = cone();
+    std::tie(model.b1, model.b2, model.g1, model.g2) = std::tuple(30000, 1500, atRest, byPressure);
+    double greatest = model.g0;
+    for (double i1 = -10; i1 > -1e8; i1 *= 1.01) greatest = std::max(greatest, arenisca::moduli(model, i1, 0).shear);
+    const Matrix3 f = Matrix3::Identity();
+    const double speed = model.waveSpeed(2, {f, f, f, 1, 300}, f, model.initialState());
+    const double shear = 0.75 * (2 * speed * speed - model.matrixBulk());
+    EXPECT_GE(shear, greatest * (1 - 1e-12)) << atRest << ' ' << byPressure;
+    EXPECT_NEAR(shear / greatest, 1, 1e-3) << atRest << ' ' << byPressure;
+  }
 }
 
 TEST(Arenisca, StartsUnderThePressureOfItsFluid) {

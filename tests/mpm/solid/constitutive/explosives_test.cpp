@@ -85,6 +85,21 @@ TEST(ProgramBurn, BurnsWhereTheDetonationHasBeen) {
   EXPECT_EQ(burnedAt(model, arrival + 100 * crossing, there), 1);
 }
 
+/// c² = -J² dp/dJ / rho_0 of either, and the greater one as long as the particle burns.
+TEST(ProgramBurn, HasTheWavesOfTheStifferPartWhileItBurns) {
+  const ProgramBurn model = programmed();
+  for (const double j : {0.45, 1.0}) {
+    const Matrix3 f = std::cbrt(j) * Matrix3::Identity();
+    const auto speed = [&](double burned) { return model.waveSpeed(density, {f, f, f, 1, 300}, f, {burned}); };
+    const double before = j * std::sqrt(explosive.stiffness(j) / density),
+                 after = j * std::sqrt(products.stiffness(j) / density);
+    EXPECT_EQ(before > after, j < 0.5) << "the explosive is the stiffer one where it is highly compressed";
+    EXPECT_NEAR(speed(0), before, 1e-12);
+    EXPECT_NEAR(speed(1), after, 1e-12);
+    EXPECT_NEAR(speed(0.5), std::max(before, after), 1e-12);
+  }
+}
+
 TEST(ProgramBurn, StartsAtAPlaneAndRunsToBothSides) {
   ProgramBurn model = programmed();
   model.origin = {1, 5, 5};

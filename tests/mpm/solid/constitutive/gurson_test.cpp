@@ -85,6 +85,47 @@ TEST(GursonPlastic, ReturnsToTheSurfaceByItsNormal) {
   }
 }
 
+TEST(GursonYield, LosesItsStrengthWithItsPoresForGood) {
+  for (const double q3 : {0.0, 1.0, 2.25, 3.0}) {
+    const GursonYield surface{1.5, 1, q3, 4, 0.05};
+    double before = 1;
+    for (double f = 0; f < 0.999; f += 0.01) {
+      const double now = surface.strength(0, f);
+      EXPECT_LE(now, before + 1e-15) << f;
+      before = now;
+    }
+    EXPECT_NEAR(before, q3 > 2.25 ? std::sqrt(1 - 2.25 / q3) : 0, 1e-7) << "the root of round-off";
+  }
+}
+
+TEST(GursonPlastic, KeepsThePoresThatDoNotEvolve) {
+  for (const double swelling : {-0.05, 0.05}) {
+    MaterialPoint<GursonPlastic> point{porous(0.03, 0.5)};
+    point.model.base.poresEvolve = false;
+    point.model.base.nucleating = 0.1;
+    for (const double strain : {0.1, 0.15}) point.advance((1 + swelling) * generalDeformation(strain));
+    const auto& now = point.oldState;
+    EXPECT_EQ(now.porosity, 0.03);
+    const double yield = yieldStress + 0.5 * now.plasticStrain, mean = point.oldStress.trace() / 3;
+    const double equivalent = std::sqrt(1.5) * deviator(point.oldStress).norm();
+    EXPECT_GT(now.dilatation * mean, 0);
+    EXPECT_NEAR(equivalent / yield, surfaceOf(point.model).strength(mean / yield, 0.03), 1e-9);
+  }
+}
+
+TEST(GursonPlastic, StartsWithLessPoresThanVolume) {
+  GursonPlastic model = porous(0.5);
+  model.base.porositySpreads = true;
+  model.base.porosityDeviation = 1;
+  double greatest = 0;
+  for (ParticleId id = 0; id < 1000; ++id) greatest = std::max(greatest, model.initialState({id, 0}).porosity);
+  EXPECT_EQ(greatest, 0.999);
+  MaterialPoint<GursonPlastic> point{model};
+  point.oldState.porosity = greatest;
+  EXPECT_TRUE(point.stress(1.05 * generalDeformation(0.1)).allFinite());
+  EXPECT_TRUE(point.stress(0.95 * generalDeformation(0.1)).allFinite());
+}
+
 TEST(GursonPlastic, IsObjective) {
   const MaterialPoint<GursonPlastic> point{porous(0.03, 0.5)};
   const Matrix3 turn = rotation(0.8), f = 1.03 * generalDeformation(0.1);

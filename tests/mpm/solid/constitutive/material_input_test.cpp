@@ -192,6 +192,36 @@ TEST(MaterialInput, RefusesWhatItDoesNotHave) {
   EXPECT_EQ(sentencesOf(sceneOf("MohrCoulomb", "<G>1</G><K>1</K><Use_softening>0.0</Use_softening>")), "");
 }
 
+TEST(MaterialInput, RefusesPoissonRatiosWithoutAShearModulus) {
+  const auto rock = [](const std::string& ratios) {
+    return sceneOf("Arenisca3",
+                   "<PEAKI1>600</PEAKI1><FSLOPE>.1</FSLOPE><STREN>0</STREN><YSLOPE>0</YSLOPE>"
+                   "<BETA_nonassociativity>1</BETA_nonassociativity><B0>10</B0><B1>0</B1><B2>0</B2><B3>0</B3><B4>0</B4>"
+                   "<G0>15</G0><p0_crush_curve>-9</p0_crush_curve><p1_crush_curve>1</p1_crush_curve>"
+                   "<p3_crush_curve>.5</p3_crush_curve><CR>.5</CR><fluid_B0>0</fluid_B0>"
+                   "<fluid_pressure_initial>0</fluid_pressure_initial>" +
+                       ratios);
+  };
+  EXPECT_EQ(sentencesOf(rock("<G1>.2</G1><G2>.2</G2>")), "");
+  EXPECT_EQ(sentencesOf(rock("<G1>.6</G1><G2>0</G2>")), "") << "<G0> counts";
+  expectProblem(rock("<G1>.2</G1><G2>.3</G2>"), "Poisson's ratio is 0.5, which leaves no positive shear modulus");
+  expectProblem(rock("<G1>-1</G1><G2>.3</G2>"), "Poisson's ratio is -1, which leaves no positive shear modulus");
+}
+
+TEST(MaterialInput, RefusesAStrengthThatFallsFasterThanTheStress) {
+  const auto soil = [](const std::string& softening) {
+    return sceneOf("nonlocal_drucker_prager",
+                   moduli + std::string("<alpha>0.1</alpha><alpha_p>0.5</alpha_p>") + "<k_o>1</k_o>" + softening);
+  };
+  const double limit = (3 + 9 * 7 * 0.1 * 0.5) / std::sqrt(0.5 + 3 * 0.25);
+  EXPECT_EQ(sentencesOf(soil(fmt::format("<h_local>{:g}</h_local>", -0.99 * limit))), "");
+  expectProblem(soil(fmt::format("<h_local>{:g}</h_local>", -1.01 * limit)), "the strength would fall faster than");
+  expectProblem(soil(fmt::format("<h_local>1</h_local><h_nonlocal>{:g}</h_nonlocal>", -1.01 * limit - 1)),
+                "the strength would fall faster than the stress; must be greater than");
+  expectProblem(soil(fmt::format("<h_local>{:g}</h_local><h_nonlocal>9</h_nonlocal>", -1.01 * limit)),
+                "must be greater");
+}
+
 TEST(MaterialInput, ChecksDamageAgainstTheConstitutiveModel) {
   const std::string johnsonCook =
       "<damage_model type='johnson_cook'><D1>1</D1><D2>1</D2><D3>1</D3><D4>0</D4><D5>0</D5>";

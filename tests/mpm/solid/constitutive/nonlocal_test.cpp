@@ -42,6 +42,37 @@ TEST(NonlocalDruckerPrager, ReturnsToItsApexFromStrongTension) {
   EXPECT_LT((point.oldStress - 0.1 / (3 * 0.2) * Matrix3::Identity()).norm(), roundOff);
 }
 
+/// The whole strain of a return to the apex is plastic but for that of the apex, and hardens as any other.
+TEST(NonlocalDruckerPrager, HardensAndSoftensAtItsApex) {
+  for (const double hardening : {0.5, -0.5}) {
+    NonlocalDruckerPrager model = soil();
+    model.localModulus = hardening;
+    MaterialPoint<NonlocalDruckerPrager> point{model};
+    point.advance(Vec3(1.1, 1.1, 1.12).asDiagonal());
+    const double apex = point.oldStress.trace() / 3, bulk = (0.32 - apex / 7) / 3;
+    const Vec3 strain = Vec3(0.1, 0.1, 0.12) - Vec3::Constant(0.32 / 3);
+    const double plastic = std::sqrt(strain.squaredNorm() + 3 * bulk * bulk);
+    EXPECT_LT(deviator(point.oldStress).norm(), roundOff);
+    EXPECT_NEAR(point.oldState.plasticStrain, plastic, roundOff);
+    EXPECT_NEAR(point.oldState.hardening, hardening * plastic, roundOff);
+    EXPECT_NEAR(3 * 0.2 * apex, std::max(0.1 + hardening * plastic, 0.0), roundOff);
+  }
+}
+
+TEST(NonlocalDruckerPrager, GoesOnHardeningAtThePointWhereItsLeastStrengthHolds) {
+  NonlocalDruckerPrager model = soil();
+  model.friction = model.dilation = 0;
+  model.localModulus = 0.5;
+  model.nonlocalModulus = -2;
+  model.leastStrength = 0.05;
+  MaterialPoint<NonlocalDruckerPrager> point{model};
+  point.oldState.meanIncrement = 1;
+  point.advance(Vec3(1, 1, 0.95).asDiagonal());
+  EXPECT_NEAR(loadOf(model, point.oldStress), 0.05, roundOff);
+  EXPECT_GT(point.oldState.plasticStrain, 0);
+  EXPECT_NEAR(point.oldState.hardening, 0.5 * point.oldState.plasticStrain, roundOff);
+}
+
 /// In uniaxial strain the axial stress exceeds the lateral one by 2 G e, and by 3^(1/2) k once it flows.
 TEST(NonlocalDruckerPrager, FollowsTheUniaxialStrainPathWithoutFriction) {
   NonlocalDruckerPrager model = soil();

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "tests/mpm/solid/constitutive/example_models.hpp"
 
 // What metals of elastic_plastic are made of: yield stresses and shear moduli.
@@ -23,6 +25,18 @@ TEST(SpecificHeat, OfCopperAndSteelIsThatOfTables) {
   EXPECT_NEAR(at(steel, 1560), 465.21 + 267.52 / 2 + 58.16 * std::pow(2, 0.35), 1e-12 * 700);
   EXPECT_TRUE(std::isfinite(at(steel, 1040)));
   EXPECT_EQ(at(ConstantHeat(), 300), 1);
+}
+
+/// u = T/theta is in K, as theta is 1 at the density at the start.
+TEST(SpecificHeat, OfTheCubicHasCoefficientsOfOnePowerOfTheTemperatureEach) {
+  std::ostringstream text;
+  CubicHeat::schema().describeContents(text, 0);
+  for (const auto& [tag, unit] :
+       {std::pair{"c0", "kg K^4/J"}, {"c1", "kg K^3/J"}, {"c2", "kg K^2/J"}, {"c3", "kg K/J"}}) {
+    const std::size_t at = text.str().find(std::string("<") + tag + ">");
+    ASSERT_NE(at, std::string::npos) << text.str();
+    EXPECT_NE(text.str().substr(at, text.str().find('\n', at) - at).find(unit), std::string::npos) << text.str();
+  }
 }
 
 TEST(SpecificHeat, OfTheCubicSaturatesAndFollowsTheDensity) {

@@ -85,6 +85,15 @@ TEST(ElasticPlastic, RelaxesWithMaxwellElements) {
   EXPECT_EQ(point.oldState.plasticStrain, 0);
 }
 
+TEST(ElasticPlastic, HasTheWavesOfItsMaxwellElementsFromTheStart) {
+  MaterialPoint<ElasticPlasticHp> point{relaxingMetal(IsotropicHardening{0.2, 0.5})};
+  point.model.shearModulus = 0.1;
+  const Deformation still = point.step(Matrix3::Identity());
+  const double speed = point.model.initialWaveSpeed(2);
+  EXPECT_NEAR(speed, std::sqrt((7 + 4.0 / 3.0 * (1 + 2)) / 2), roundOff);
+  EXPECT_NEAR(speed, point.model.waveSpeed(2, still, Matrix3::Zero(), point.oldState), roundOff);
+}
+
 TEST(ElasticPlastic, ReturnsToTheYieldSurfaceWithMaxwellElements) {
   MaterialPoint<ElasticPlasticHp> point{relaxingMetal(IsotropicHardening{0.2, 0.5})};
   point.timeStep = 1e-4;
@@ -126,6 +135,20 @@ TEST(ViscoScram, RelaxesByItsMaxwellElements) {
   hold(point, 0.02);
   EXPECT_NEAR((point.oldStress(2, 2) - point.oldStress(0, 0)) / strain, 2 * (1 + 2 * std::exp(-2.0)), 1e-6);
   EXPECT_NEAR(point.oldStress.trace() / 3, 2 * 3 * 1.3 / (3 * 0.4) * strain, roundOff);
+}
+
+/// One long step at rest is two of half its length: exp(-2 x) = exp(-x)².
+TEST(ViscoScram, AdvancesEachMaxwellElementOnceInAStep) {
+  ViscoScram model = explosive();
+  model.initialCrackRadius = 0;
+  MaterialPoint<ViscoScram> whole{model};
+  stretchAtOnce(whole);
+  MaterialPoint<ViscoScram> halves = whole;
+  hold(whole, 0.02);
+  for (const double time : {0.01, 0.01}) hold(halves, time);
+  for (int n = 0; n < 5; ++n)
+    EXPECT_LT((matrixOf(whole.oldState.deviators[n]) - matrixOf(halves.oldState.deviators[n])).norm(), roundOff) << n;
+  EXPECT_GT(matrixOf(whole.oldState.deviators[2]).norm(), 0.1 * strain);
 }
 
 TEST(ViscoScram, IsHalfAsStiffWithCracksOfTheGivenRadius) {
@@ -177,6 +200,20 @@ TEST(ViscoPlastic, IsElasticInAFastStep) {
   MaterialPoint<ViscoPlastic> point{ice()};
   stretchAtOnce(point);
   EXPECT_NEAR((point.oldStress(2, 2) - point.oldStress(0, 0)) / (2 * 3.52e9 * strain), 1, 1e-3);
+}
+
+TEST(ViscoPlastic, TurnsTheStressThatAFailedParticleKeeps) {
+  ViscoPlastic model = ice();
+  model.canFail = true;
+  model.failureVariable = 1e4;
+  model.losesStress = false;
+  MaterialPoint<ViscoPlastic> point{model};
+  point.timeStep = 1e-6;
+  point.advance(Vec3(1, 1, 1 + 1e-5).asDiagonal());
+  ASSERT_EQ(point.oldState.failed, 1);
+  const Matrix3 kept = point.oldStress, turn = rotation(0.8);
+  point.advance(turn * point.oldDeformation);
+  EXPECT_LT((point.oldStress - turn * kept * turn.transpose()).norm(), roundOff * kept.norm());
 }
 
 TEST(ViscoPlastic, FailsForGoodWhereItsStressExceedsItsStrength) {

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include "components/mpm/solid/constitutive/gurson.hpp"
+#include "components/mpm/solid/damage/damage.hpp"
 #include "tests/mpm/solid/constitutive/example_models.hpp"
 #include "tests/mpm/solid/constitutive/material_point.hpp"
 
@@ -51,6 +53,33 @@ TEST(UcnhVar, DrawsYieldStressesByTheIdOfAParticleFromTheRange) {
   EXPECT_NE(model.initialState({77, 0}).yieldStress, model.initialState({78, 0}).yieldStress);
 }
 
+/// Correlations of what is drawn for the pores at the start, the damage at the start, thresholds and yield stresses.
+TEST(Drawn, DecidesEachQuantityByAStreamOfItsOwn) {
+  GursonPlastic porous{elasticPlastic(IsotropicHardening{0.2, 0})};
+  porous.base.initialPorosity = 0.5;
+  porous.base.porosityDeviation = 0.01;
+  porous.base.porositySpreads = true;
+  CompNeoHookPlastic common = compNeoHookPlastic(0.5);
+  common.yieldRange = 0.1;
+  const UcnhVar yielding = UcnhVar::spread(common);
+  ThresholdDamage failing;
+  failing.mean = 5;
+  failing.deviation = 1;
+  failing.distribution = ThresholdDamage::Distribution::uniform;
+  const int count = 10000;
+  Eigen::MatrixXd drawn(count, 4);
+  for (int k = 0; k < count; ++k) {
+    const ParticleId id = ParticleId(k) << 16;
+    drawn.row(k) << porous.initialState({id, 0}).porosity, damagedAtStart(0.5, 0.01, id).damage,
+        failing.initial(1, id).threshold, yielding.initialState({id, 0}).yieldStress;
+  }
+  drawn.rowwise() -= drawn.colwise().mean().eval();
+  drawn.colwise().normalize();
+  const Eigen::Matrix4d correlation = drawn.transpose() * drawn;
+  EXPECT_LT((correlation - Eigen::Matrix4d::Identity()).cwiseAbs().maxCoeff(), 4 / std::sqrt(double(count)))
+      << correlation;
+}
+
 MohrCoulomb soilWith(double friction) {
   auto soil = withModuli<MohrCoulomb>();
   soil.frictionAngle = friction;
@@ -92,6 +121,24 @@ TEST(MohrCoulomb, GainsCohesionFromTheSuctionOfItsWater) {
   const double filled = saturation * (0.9 / 1.9) * squeezed.specificVolume / (squeezed.specificVolume - 1);
   EXPECT_NEAR(std::pow(1 + std::pow(0.8 * squeezed.suction, 2.5), -0.3), filled, 1e-14) << "as much water stays";
   EXPECT_LT(squeezed.suction, 1.7);
+}
+
+TEST(MohrCoulomb, IsFullOfWaterWhereItsPoresHaveClosed) {
+  MaterialPoint<MohrCoulomb> point{soilWith(20)};
+  MohrCoulomb& soil = point.model;
+  soil.retainsWater = true;
+  std::tie(soil.retentionM, soil.retentionN, soil.retentionAlpha) = std::tuple(0.3, 2.5, 0.8);
+  std::tie(soil.suctionAngle, soil.initialSuction, soil.initialSpecificVolume) = std::tuple(15.0, 1.7, 1.02);
+  point.oldState = soil.initialState();
+  const double least = std::pow(std::pow(0.99999, -1 / 0.3) - 1, 1 / 2.5) / 0.8;
+  for (const double stretch : {0.999, 0.99, 0.98, 0.99, 1.0}) {
+    point.advance(stretch * Matrix3::Identity());
+    if (stretch == 0.999 || stretch == 1.0) continue;  // some pores are open
+    EXPECT_LT(point.oldState.specificVolume, 1) << stretch;
+    EXPECT_NEAR(point.oldState.suction, least, 1e-13) << stretch;
+  }
+  EXPECT_GT(point.oldState.specificVolume, 1);
+  EXPECT_NEAR(point.oldState.suction, least, 1e-13) << "pores that open again are full";
 }
 
 }  // namespace

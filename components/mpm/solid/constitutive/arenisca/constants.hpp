@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "core/input/schema.hpp"
@@ -30,6 +32,8 @@ struct Constants {
   int lodeType = 0;      ///< of Lode's angle: 0 none, 1 Gudehus, 3 Mohr and Coulomb
   double lodeRatio = 1;  ///< psi: strength in triaxial compression over that in extension
 
+  /// Whether Poisson's ratio is given; else G = g0.
+  bool hasPoissonRatio() const { return g1 != 0 && g2 != 0; }
   /// K_m: bulk modulus of the grains, Pa.
   double matrixBulk() const { return b0 + b1; }
   /// phi_0: share of pores at the start.
@@ -62,6 +66,13 @@ void check(const M& c, const input::Element& element, input::Diagnostics& diagno
         "> 0 and STREN > YSLOPE PEAKI1");
   if (c.p0 >= 0) diagnostics.error(element, "p0_crush_curve: pores collapse under compression: give it below 0");
   if (c.p1 == 0) diagnostics.error(element, "p1_crush_curve: is 0, so that no pressure would collapse the pores");
+  if (c.hasPoissonRatio())
+    for (const double ratio : {c.g1, c.g1 + c.g2})
+      if (ratio <= -1 || ratio >= 0.5)
+        diagnostics.error(element,
+                          fmt::format("G1 and G1 + G2: Poisson's ratio is {:g}, which leaves no positive shear "
+                                      "modulus; give it between -1 and 0.5",
+                                      ratio));
   if ((c.t1 > 0) != (c.t2 > 0))
     diagnostics.error(element, "T1_rate_dependence and T2_rate_dependence: both are 0, or both are positive");
   if (c.lodeType != 0 && c.lodeType != 1 && c.lodeType != 3)

@@ -54,12 +54,30 @@ inline Moduli moduli(const Constants& c, double i1, double plasticStrain) {
       const double pressed = std::exp(c.b2 / i1);
       result.bulk += c.b1 * pressed;
       const double nu = c.g1 + c.g2 * pressed;
-      if (c.g1 != 0 && c.g2 != 0) result.shear = 1.5 * result.bulk * (1 - 2 * nu) / (1 + nu);
+      if (c.hasPoissonRatio()) result.shear = 1.5 * result.bulk * (1 - 2 * nu) / (1 + nu);
     }
     result.bulk -= lossOfBulk(c, plasticStrain);
   }
   if (c.isSaturated(plasticStrain)) result.bulk = saturatedBulk(c, plasticStrain);
   return result;
+}
+
+/// The greatest shear modulus of moduli(), Pa: that of a pressure between none and all, where g1 and g2 count. With
+/// u = 1 + nu, which is linear in exp(b2 / I1), it is 3/2 (a + b u) (3 / u - 2), whose slope vanishes at
+/// u² = -3/2 a / b.
+inline double greatestShear(const Constants& c) {
+  if (!c.hasPoissonRatio()) return c.g0;
+  const auto shear = [&](double pressed) {
+    const double nu = c.g1 + c.g2 * pressed;
+    return 1.5 * (c.b0 + c.b1 * pressed) * (1 - 2 * nu) / (1 + nu);
+  };
+  double greatest = std::max({c.g0, shear(0), shear(1)});
+  if (c.b1 > 0) {
+    const double b = c.b1 / c.g2, a = c.b0 - b * (1 + c.g1), square = -1.5 * a / b;
+    const double pressed = square > 0 ? (std::sqrt(square) - 1 - c.g1) / c.g2 : 0;
+    if (pressed > 0 && pressed < 1) greatest = std::max(greatest, shear(pressed));
+  }
+  return greatest;
 }
 
 /// I1 less its part of the fluid at the end of the cap, Pa: the crush curve

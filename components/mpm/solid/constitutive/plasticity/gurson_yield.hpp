@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string_view>
 
+#include "components/mpm/solid/constitutive/root_between.hpp"
 #include "core/input/schema.hpp"
 
 namespace tushar::mpm::solid {
@@ -40,10 +42,12 @@ struct GursonYield {
                       input::between(0, 1));
     return schema;
   }
-  /// f*, 1
+  /// f*, 1; at most greatest(), as the formula would give more strength to more pores.
   double effective(double f) const {
-    return f > criticalPorosity ? criticalPorosity + acceleration * (f - criticalPorosity) : f;
+    return std::min(f > criticalPorosity ? criticalPorosity + acceleration * (f - criticalPorosity) : f, greatest());
   }
+  /// The least root of 1 + q3 f*² = 2 q1 f*, where no strength is left, 1/q1 if q3 = q1²; or where it is least.
+  double greatest() const { return q3 > q1 * q1 ? q1 / q3 : 1 / (q1 + std::sqrt(q1 * q1 - q3)); }
   /// (q/sigma_y)² on the yield surface, at p by sigma_y; negative where it bears no q.
   double square(double p, double f) const {
     const double pores = effective(f);
@@ -58,25 +62,8 @@ struct GursonYield {
   double argument(double p) const { return std::clamp(1.5 * q2 * p, -300.0, 300.0); }
 };
 
-/// A root of f between a and b, where it changes its sign, by false position as the Illinois algorithm corrects it;
-/// Dowell & Jarratt, BIT 11 (1971) 168.
-template <class Function>
-double rootBetween(const Function& f, double a, double b) {
-  double fa = f(a), fb = f(b);
-  for (int k = 0; k < 100 && fa != 0 && std::abs(b - a) > 1e-14 * std::max(std::abs(a), std::abs(b)); ++k) {
-    const double c = b - fb * (b - a) / (fb - fa), fc = f(c);
-    if (fc == 0) return c;
-    if ((fc > 0) != (fb > 0)) {
-      a = b;
-      fa = fb;
-    } else {
-      fa /= 2;
-    }
-    b = c;
-    fb = fc;
-  }
-  return fa == 0 ? a : b;
-}
+/// Some metal is left: the equations divide by 1 - f.
+inline constexpr double greatestPorosity = 0.999;
 
 /// Return to Gurson's surface with associated flow: Aravas, Int. J. Numer. Meth. Engng 24 (1987) 1395. `yieldStress(x)`
 /// is sigma_y after a plastic strain x of the metal, Pa; `meanStress(t)` after a plastic dilatation t, Pa.
@@ -92,9 +79,9 @@ class GursonReturn {
     double work = 0;           ///< plastic, J/m^3
   };
 
-  /// `nucleation` is the share of new pores by the plastic strain, 1; `trial` the equivalent trial stress, Pa.
+  /// `nucleation` is the share of new pores by the plastic strain, 1; without a number the pores do not change.
   GursonReturn(const GursonYield& surface, YieldStress yieldStress, MeanStress meanStress, double shearModulus,
-               double porosity, double nucleation)
+               double porosity, std::optional<double> nucleation)
       : surface_(surface),
         yield_stress_(yieldStress),
         mean_stress_(meanStress),
@@ -102,6 +89,7 @@ class GursonReturn {
         porosity_(porosity),
         nucleation_(nucleation) {}
 
+  /// For the equivalent trial stress, Pa.
   Result operator()(double trial) const {
     const double mean = mean_stress_(0.0), yield = yield_stress_(0.0);
     const double square = surface_.square(mean / yield, porosity_);
@@ -112,13 +100,14 @@ class GursonReturn {
   }
   /// f after more plastic dilatation and strain: the pores grow with the one, new ones open with the other in tension.
   double porosity(double dilatation, double strain) const {
-    return std::clamp(1 - (1 - porosity_) * std::exp(-dilatation) + nucleation_ * strain, 0.0, 0.999);
+    if (!nucleation_) return porosity_;
+    return std::clamp(1 - (1 - porosity_) * std::exp(-dilatation) + *nucleation_ * strain, 0.0, greatestPorosity);
   }
 
  private:
   /// The plastic dilatation that takes all of the mean stress away or, in compression, closes the pores.
   double farthest(double mean) const {
-    const double least = std::log1p(-porosity_);
+    const double least = nucleation_ ? std::log1p(-porosity_) : -1;
     double end = mean > 0 ? 1e-6 : std::max(-1e-6, least);
     while (end > least && end < 1 && (mean_stress_(end) > 0) == (mean > 0)) end = std::max(2 * end, least);
     return end;
@@ -152,7 +141,8 @@ class GursonReturn {
   const GursonYield& surface_;
   YieldStress yield_stress_;
   MeanStress mean_stress_;
-  double shear_modulus_, porosity_, nucleation_;
+  double shear_modulus_, porosity_;
+  std::optional<double> nucleation_;
 };
 
 }  // namespace tushar::mpm::solid

@@ -84,14 +84,15 @@ struct SteelHeat {
   }
 };
 
-/// c = u³ / (c_0 + c_1 u + c_2 u² + c_3 u³) + beta² T K / rho, u = T/theta, theta = eta^a exp(b (1 - 1/eta)), eta =
-/// rho/rho_0: Sewell & Menikoff, Shock Compression of Condensed Matter (2003) 157, equations 5 to 7, and the difference
-/// of c_p and c_v. (Uintah's exponent is b (eta - 1), which is the same at small compression.)
+/// c = u³ / (c_0 + c_1 u + c_2 u² + c_3 u³) + beta² T K / rho, u = T/theta in K, theta = eta^a exp(b (1 - 1/eta)), eta
+/// = rho/rho_0: theta is a number, Debye's temperature over that at rho_0, as in Uintah's code. Sewell & Menikoff,
+/// Shock Compression of Condensed Matter (2003) 157, equations 5 to 7, and the difference of c_p and c_v. (Uintah's
+/// exponent is b (eta - 1), which is the same at small compression.)
 struct CubicHeat {
   static constexpr std::string_view name = "cubic_Cp";
   double a = 1, b = 1;                    ///< of Grüneisen's coefficient a + b/eta, 1
   double expansion = 0;                   ///< beta, 1/K
-  double c0 = 0, c1 = 0, c2 = 0, c3 = 0;  ///< kg K/J
+  double c0 = 0, c1 = 0, c2 = 0, c3 = 0;  ///< kg K^4/J, kg K^3/J, kg K^2/J, kg K/J
 
   static const input::Schema<CubicHeat>& schema() {
     using Self = CubicHeat;
@@ -100,9 +101,9 @@ struct CubicHeat {
             .value("a", &Self::a, 1, "1", "constant part of Grüneisen's coefficient")
             .value("b", &Self::b, 1, "1", "its part that grows with the volume")
             .value("beta", &Self::expansion, 0, "1/K", "growth of the volume with the temperature")
-            .required("c0", &Self::c0, "kg K/J", "c_v = u^3 / (c0 + c1 u + c2 u^2 + c3 u^3), u = T/theta")
-            .required("c1", &Self::c1, "kg K/J", "the same")
-            .required("c2", &Self::c2, "kg K/J", "the same")
+            .required("c0", &Self::c0, "kg K^4/J", "c_v = u^3 / (c0 + c1 u + c2 u^2 + c3 u^3), u = T/theta in K")
+            .required("c1", &Self::c1, "kg K^3/J", "the same")
+            .required("c2", &Self::c2, "kg K^2/J", "the same")
             .required("c3", &Self::c3, "kg K/J", "the same");
     return schema;
   }
