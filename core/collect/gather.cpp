@@ -88,9 +88,8 @@ output::Array Gather::stream(Generation generation, int number, const GridOrder&
   const Label& label = *warehouse_->table()[number].label;
   output::Array array = emptyArray(label);
   if (label.centring == Centring::reduction || !warehouse_->isHeld(generation, number)) return array;
-  label.centring == Centring::particle
-      ? streamParticles(generation, number, array)
-      : streamGrid(generation, number, order, array);
+  label.centring == Centring::particle ? streamParticles(generation, number, array)
+                                       : streamGrid(generation, number, order, array);
   return array;
 }
 

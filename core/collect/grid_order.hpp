@@ -20,7 +20,8 @@ class GridOrder {
   std::size_t size() const { return boxes_ ? boxes_->cells() : all_.size(); }
   /// The cells or nodes that a patch gives, of those that it has.
   grid::Box givenBy(const grid::Box& own) const { return boxes_ ? own : own.intersect(all_); }
-  /// Calls `visit(place in the order, first cell or node, count)` for each row of a box of a level, of those in the order.
+  /// Calls `visit(place in the order, first cell or node, count)` for each row of a box of a level, as far as it is in
+  /// the order.
   template <class Visit>
   void forEachRow(int level, const grid::Box& box, Visit&& visit) const {
     if (!boxes_) return rowsOf(0, all_, box.intersect(all_), visit);

@@ -63,8 +63,9 @@ void Grid::cutIntoBlocks() {
       if (cells.empty()) continue;
       forEach<3>(blocksOver(cells, blockCells), [&](const Index3& block) { fixed_blocks_.insert({number, block}); });
     }
-  auto tiling = std::make_unique<BlockTiling>(BlockTree(dimension(), roots, periodic, levels()).regridded(fixed_blocks_, {}),
-                                              blockCells, mostCellsOfPatch(blockCells));
+  auto tiling =
+      std::make_unique<BlockTiling>(BlockTree(dimension(), roots, periodic, levels()).regridded(fixed_blocks_, {}),
+                                    blockCells, mostCellsOfPatch(blockCells));
   blocks_ = tiling.get();
   tiling_ = std::move(tiling);
 }

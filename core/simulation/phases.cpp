@@ -249,6 +249,18 @@ void widenForRegridding(const std::vector<std::string>& lasting, data::VariableT
 
 }  // namespace
 
+Phases::Wants Phases::wantsOf(const std::vector<SaveRequest>& samples, const Names& stepped) const {
+  Wants wants{{saved_globals_.begin(), saved_globals_.end()}, {}, {}};
+  const Names diagnosed = producedBy(lists_.diagnostics.tasks());
+  for (const SaveRequest& save : saved_fields_)
+    (stepped.contains(save.label) ? wants.ofState : wants.everyOutput).insert(save.label);
+  for (const SaveRequest& sample : samples)
+    (stepped.contains(sample.label) ? wants.ofState : wants.everyStep).insert(sample.label);
+  for (const std::string& global : saved_globals_)
+    if (!diagnosed.contains(global)) wants.ofState.insert(global);
+  return wants;
+}
+
 void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, const std::vector<SaveRequest>& saves,
                      const grid::Grid& grid, data::VariableTable& table, const RegridSettings& regrid) {
   if (std::vector<InputProblem> problems = problemsOf(saves); !problems.empty()) throw InputError(std::move(problems));
@@ -258,26 +270,19 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   sortSaves(named(saves));
   if (grid.levels() > 1) lists_.timeAdvance = tasks::withRefluxing(lists_.timeAdvance);
   const Lists& lists = lists_;
-  const Names diagnosed = producedBy(lists.diagnostics.tasks());
   const Names stepped = united(producedBy(lists.initialize.tasks()), producedBy(lists.timeAdvance.tasks()));
-  totals_ = totalsAmong(diagnosed);
-  Names totals, derived, savedState;
+  totals_ = totalsAmong(producedBy(lists.diagnostics.tasks()));
+  Names totals;
   for (const auto& total : totals_) totals.insert(total.second);
   const Names reported = united(totals, measuredBy(analyses));
-  for (const SaveRequest& save : saved_fields_)
-    (stepped.contains(save.label) ? savedState : derived).insert(save.label);
-  Names everyStepWants(saved_globals_.begin(), saved_globals_.end());
-  for (const SaveRequest& sample : samples)
-    (stepped.contains(sample.label) ? savedState : everyStepWants).insert(sample.label);
-  for (const std::string& global : saved_globals_)
-    if (!diagnosed.contains(global)) savedState.insert(global);
+  const Wants wants = wantsOf(samples, stepped);
 
   const Names decided = decidedBefore(lists.stableTimeStep.tasks());
   Names wanted = requiredOfState(lists.timeAdvance.tasks());
   std::erase_if(wanted, [&](const std::string& name) { return !decided.contains(name); });
   Pruned stable = prune(lists.stableTimeStep.tasks(), united(wanted, {std::string(data::delT.name)}), false);
-  Pruned step = prune(lists.diagnostics.tasks(), everyStepWants, false);
-  Pruned output = prune(lists.diagnostics.tasks(), derived, false);
+  Pruned step = prune(lists.diagnostics.tasks(), wants.everyStep, false);
+  Pruned output = prune(lists.diagnostics.tasks(), wants.everyOutput, false);
   Pruned begin = prune(lists.diagnostics.tasks(), totals, false);
   Pruned end = prune(lists.diagnostics.tasks(), reported, false);
   Pruned refine = prune(refinementTasks(regrid).tasks(), {std::string(refinementMark.name)}, false);
@@ -285,9 +290,10 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   for (const Pruned* pruned : {&step, &output, &end, &refine}) read = united(read, requiredOfState(pruned->kept));
   read.emplace(data::recomputeTimeStep.name);
   Names always = united(requiredOfState(stable.kept), requiredOfState(begin.kept));
+  always = united(always, requiredOfState(refine.kept));
   always.emplace(data::recomputeTimeStep.name);
   const Pruned bare = prune(lists.timeAdvance.tasks(), always, true);
-  Pruned advance = prune(lists.timeAdvance.tasks(), united(read, savedState), true);
+  Pruned advance = prune(lists.timeAdvance.tasks(), united(read, wants.ofState), true);
   Pruned init = prune(lists.initialize.tasks(), advance.needed, false);
 
   state_ = namesOfState(bare.needed, decided, stepped);

@@ -101,8 +101,7 @@ void unpack(const data::Label& label, const Piece& piece, const Variable& to, co
 std::vector<int> heldOf(data::Warehouse& warehouse, const MigratedVariables& variables) {
   std::vector<int> held;
   for (const int number : variables.variables)
-    if (warehouse.table()[number].label->centring == data::Centring::cell &&
-        warehouse.isHeld(Generation::old, number))
+    if (warehouse.table()[number].label->centring == data::Centring::cell && warehouse.isHeld(Generation::old, number))
       held.push_back(number);
   return held;
 }

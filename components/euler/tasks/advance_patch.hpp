@@ -116,7 +116,7 @@ void addFluxes(double ratio, const Box& block, const StateViews<D, const double>
 template <int D>
 void keepAtRim(const RimFluxes<D>& rims, const Box& faces, int axis, Rows<D>& flux) {
   if (rims.mass.empty()) return;
-  const auto at = [&](const Index<D>& face, int number) { return *flux.at(face)[static_cast<std::size_t>(number)]; };
+  const auto at = [&](const Index<D>& face, std::size_t number) { return *flux.at(face)[number]; };
   rims.mass.template forEachFaceIn<D>(faces, axis,
                                       [&](const Index<D>& face, double& through) { through += at(face, kDensity); });
   rims.momentum.template forEachFaceIn<D>(faces, axis, [&](const Index<D>& face, Vec<D>& through) {
