@@ -12,9 +12,11 @@ using data::ParticleRange;
 using grid::Patch;
 
 ParticleOrder::ParticleOrder(data::Warehouse& warehouse, int material) : warehouse_(&warehouse), material_(material) {
-  const grid::Box& cells = warehouse.grid().level().cells();
+  const grid::Grid& grid = warehouse.grid();
+  const grid::Box& cells = grid.finest().cells();
   std::vector<std::int32_t> perCell(warehouse.ranks().isFirst() ? cells.size() : 0);
   const auto countsOf = [&](const Patch& patch, auto&& take) {
+    if (!grid.isFinest(patch)) return;
     const data::ParticleSet& set = warehouse.particles(Generation::old, material, patch.id());
     grid::forEach<3>(patch.cells(), [&](const Index3& cell) { take(cell, std::int32_t{set.in(cell).size()}); });
   };
@@ -26,7 +28,8 @@ ParticleOrder::ParticleOrder(data::Warehouse& warehouse, int material) : warehou
       [&](const Patch& patch, mpi::Bytes& bytes) {
         countsOf(patch, [&](const Index3&, std::int32_t count) { mpi::append(bytes, &count, sizeof(count)); });
       },
-      [&](const Patch& patch, const std::byte* from) {
+      [&](const Patch& patch, const std::byte* from) -> std::size_t {
+        if (!grid.isFinest(patch)) return 0;
         const std::size_t length = patch.cells().extent(0) * sizeof(std::int32_t);
         std::size_t read = 0;
         forEachRow(patch.cells(), [&](const Index3& first) {
@@ -59,6 +62,7 @@ Runs ParticleOrder::runs() const {
   Runs runs;
   for (int id = 0; id < grid.patchCount(); ++id) {
     const Patch patch = grid.patch(id);
+    if (!grid.isFinest(patch)) continue;
     std::uint32_t next = 0;
     forEachRow(patch.cells(), [&](const Index3& first) {
       const std::size_t* start = startOf(first);
@@ -75,6 +79,7 @@ void ParticleOrder::install() {
   for (const Patch& patch : warehouse_->grid().patches()) {
     data::ParticleSet& set = warehouse_->particles(Generation::old, material_, patch.id());
     set.reset(patch, warehouse_->table().reach(material_));
+    if (!warehouse_->grid().isFinest(patch)) continue;
     int next = 0;
     forEachRow(patch.cells(), [&](const Index3& first) {
       ParticleRange* row = set.row(first);

@@ -28,6 +28,7 @@ class ParticleOrder {
   /// Calls `visit(place in the order, place on the patch, count)` for each row of cells of a patch of this rank.
   template <class Visit>
   void forEachRun(const grid::Patch& patch, Visit&& visit) const {
+    if (!warehouse_->grid().isFinest(patch)) return;
     const data::ParticleSet& set = warehouse_->particles(data::Generation::old, material_, patch.id());
     collect::forEachRow(patch.cells(), [&](const Index3& first) {
       const std::size_t* start = startOf(first);
@@ -38,7 +39,7 @@ class ParticleOrder {
 
  private:
   const std::size_t* startOf(const Index3& cell) const {
-    return &starts_[warehouse_->grid().level().cells().offset(cell)];
+    return &starts_[warehouse_->grid().finest().cells().offset(cell)];
   }
   void sum(const std::vector<std::int32_t>& perCell);
 

@@ -150,7 +150,7 @@ class StateWriter : StateWalk {
     const ParticleOrder order(warehouse_, material);
     if (file_)
       file_->dataset(perCellPath(material), {"perCell", "1", "particles of each cell", 1, order.perCell()},
-                     {grid_.level().cells().size()});
+                     {grid_.finest().cells().size()});
     const auto runs = std::make_shared<const Runs>(file_ ? order.runs() : Runs{});
     forEachVariable(Centring::particle, material, [&](int number, const std::string& path) {
       if (isHeld(number)) writeColumn(number, path, runs, order.count());
@@ -256,7 +256,7 @@ class StateReader : StateWalk {
 
   void readParticles(int material) {
     const Array::Values perCell =
-        stored(perCellPath(material), std::vector<std::int32_t>{}, grid_.level().cells().size());
+        stored(perCellPath(material), std::vector<std::int32_t>{}, grid_.finest().cells().size());
     ParticleOrder order(warehouse_, material, std::get<std::vector<std::int32_t>>(perCell));
     order.install();
     forEachVariable(Centring::particle, material, [&](int number, const std::string& path) {

@@ -139,6 +139,16 @@ bool Grid::sharesUpperFace(const Patch& patch, int kernelAxis) const {
          std::all_of(others.begin(), others.end(), [&](const Patch& other) { return isMine(other.id()); });
 }
 
+bool Grid::isFinest(const Box& cells) const {
+  if (levels() == 1) return true;
+  const Box near = finest().clipCells(cells);
+  std::size_t covered = 0;
+  forEachOverlapping(finest(), near, [&](const Patch& patch, const Index3& shift) {
+    covered += patch.cells().shifted(shift).intersect(near).size();
+  });
+  return covered == near.size();
+}
+
 std::vector<Patch> Grid::patchesOverlapping(const Box& cells, int level) const {
   std::vector<Patch> found;
   const Box inside = cells.intersect(this->level(level).cells());

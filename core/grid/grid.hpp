@@ -33,6 +33,10 @@ class Grid {
   const Level& level(int number = 0) const { return levels_[static_cast<std::size_t>(number)]; }
   int levels() const { return static_cast<int>(levels_.size()); }
   const Level& finest() const { return levels_.back(); }
+  bool isFinest(const Patch& patch) const { return &patch.level() == &finest(); }
+  /// Whether all cells of a box of the finest level, as far as they are on the grid or its images, are not part of
+  /// coarser ones.
+  bool isFinest(const Box& cells) const;
   int dimension() const { return level().dimension(); }
 
   /// Which blocks are refined; there must be several levels.

@@ -306,9 +306,9 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   problem.componentName = kind->name;
   problem.grid = std::make_unique<grid::Grid>(domain, share);
   problem.threads = workers.threadsFor(domain.resolution);
-  problem.component = makeComponent(problem.grid->level());
+  problem.component = makeComponent(problem.grid->finest());
   if (problem.component->mayRepeatStep()) problem.time.recomputeTimeStep = true;
-  problem.analyses = makeModules(modules, *problem.component, problem.grid->level());
+  problem.analyses = makeModules(modules, *problem.component, problem.grid->finest());
   if (!labelsAreChecked) checkLabels(*problem.component, problem.analyses, problem.archive.saves, diagnostics);
   diagnostics.throwIfAny();
   problem.notes = diagnostics.notes();

@@ -109,7 +109,7 @@ void Outputs::save() {
   const PeakGrowth growth(memory_);
   output::Snapshot state = snapshotOf(run_, run_.phases.savedFields());
   for (const auto& analysis : run_.problem.analyses)
-    for (output::Array& column : analysis->exactProfile(run_.problem.grid->level()))
+    for (output::Array& column : analysis->exactProfile(run_.problem.grid->finest()))
       state.reference.push_back(std::move(column));
   run_.ranks.onFirst([&] { archive_->write(state); });
   last_ = run_.time.step();

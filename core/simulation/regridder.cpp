@@ -36,11 +36,9 @@ void addBlocks(const std::string& text, std::set<BlockId>& blocks) {
 
 }  // namespace
 
-void MarkedBlocks::add(const grid::Level& level, const Index3& cell, int mark) {
-  if (mark == 0) return;
-  const int number = level.number(), finest = grid_.levels() - 1;
-  const int crossed = ((interval_ - 1) >> (finest - number)) + 1;
-  const Box near = level.clipCells(Box{cell, cell + Index3::filled(1)}.grown(crossed + dilation_, level.dimension()));
+std::vector<BlockId> MarkedBlocks::blocksNear(const grid::Level& level, const Index3& cell, int distance) const {
+  const int dimension = level.dimension();
+  const Box near = level.clipCells(Box{cell, cell + Index3::filled(1)}.grown(distance, dimension));
   Box blocks;
   for (int d = 0; d < 3; ++d) {
     const int cells = grid_.blockCells()[d];
@@ -48,16 +46,36 @@ void MarkedBlocks::add(const grid::Level& level, const Index3& cell, int mark) {
     blocks.lower[d] = blockOf(near.lower[d]);
     blocks.upper[d] = blockOf(near.upper[d] - 1) + 1;
   }
-  const Index3 count = grid_.tree().blocksOf(number);
+  const Index3 count = grid_.tree().blocksOf(level.number());
+  std::vector<BlockId> found;
   grid::forEach<3>(blocks, [&](Index3 at) {
-    for (int d = 0; d < level.dimension(); ++d) at[d] = (at[d] % count[d] + count[d]) % count[d];
-    const BlockId block{number, at};
+    for (int d = 0; d < dimension; ++d) at[d] = (at[d] % count[d] + count[d]) % count[d];
+    found.push_back({level.number(), at});
+  });
+  return found;
+}
+
+void MarkedBlocks::add(const grid::Level& level, const Index3& cell, int mark) {
+  if (mark == 0) return;
+  const int number = level.number();
+  for (const BlockId& block : blocksNear(level, cell, crossed(level) + dilation_)) {
     if (number > 0) kept_.insert(parentOf(block, level.dimension()));
-    if (mark < 2 || number == finest) return;
+    if (mark < 2 || number == grid_.levels() - 1) continue;
     // A block that is not there yet is made first, so that no cell becomes two levels finer at once.
     const bool isThere = grid_.tree().levelAt(block) >= number;
     wanted_.insert(isThere ? block : parentOf(block, level.dimension()));
-  });
+  }
+}
+
+void MarkedBlocks::addParticles(const grid::Level& level, const Index3& cell, int margin) {
+  const int finest = grid_.levels() - 1, dimension = level.dimension();
+  if (level.number() < finest) return add(level, cell, 2);
+  for (BlockId block : blocksNear(level, cell, crossed(level) + margin)) {
+    kept_.insert(parentOf(block, dimension));
+    const int there = grid_.tree().levelAt(block);
+    while (block.level > there) block = parentOf(block, dimension);
+    if (there < finest) wanted_.insert(block);
+  }
 }
 
 void MarkedBlocks::unite(const mpi::Communicator& ranks) {
@@ -75,10 +93,9 @@ grid::BlockTree MarkedBlocks::tree() const {
   return grid_.tree().regridded(wanted, kept);
 }
 
-grid::BlockTree Regridder::wantedTree() {
-  const RegridSettings& settings = run_.problem.regrid;
+void Regridder::addMarks(MarkedBlocks& marked) {
+  if (run_.phases.refinement.tasks().empty()) return;
   run_.diagnose(run_.phases.refinement);
-  MarkedBlocks marked(*run_.problem.grid, settings.interval, settings.dilation);
   const int number = run_.table.find(refinementMark.name, -1);
   for (const grid::Patch& patch : run_.problem.grid->patches()) {
     const data::Variable marks = run_.warehouse.variable(data::Generation::fresh, number, patch.id());
@@ -86,6 +103,24 @@ grid::BlockTree Regridder::wantedTree() {
       marked.add(patch.level(), cell, reinterpret_cast<const int*>(marks.values)[marks.stored.offset(cell)]);
     });
   }
+}
+
+void Regridder::addParticles(MarkedBlocks& marked) {
+  for (int material = 0; material < run_.materials(); ++material)
+    for (const grid::Patch& patch : run_.problem.grid->patches()) {
+      const data::ParticleSet& set = run_.warehouse.particles(data::Generation::old, material, patch.id());
+      if (set.owned() == 0) continue;
+      grid::forEach<3>(patch.cells(), [&](const Index3& cell) {
+        if (!set.in(cell).empty()) marked.addParticles(patch.level(), cell, run_.table.reach(material) + 1);
+      });
+    }
+}
+
+grid::BlockTree Regridder::wantedTree() {
+  const RegridSettings& settings = run_.problem.regrid;
+  MarkedBlocks marked(*run_.problem.grid, settings.interval, settings.dilation);
+  addMarks(marked);
+  addParticles(marked);
   marked.unite(run_.ranks);
   return marked.tree();
 }
@@ -110,19 +145,21 @@ void Regridder::regridIfDue() {
   const auto started = Clock::now();
   const trace::Span span(trace::Kind::message, "regrid");
   grid::BlockTree tree = wantedTree();
-  if (!(tree == run_.problem.grid->tree())) {
-    const tasks::MigratedVariables variables = run_.migratedVariables();
-    std::vector<int> cells;
-    for (const int variable : variables.variables)
-      if (run_.table[variable].label->centring == data::Centring::cell &&
-          run_.warehouse.isHeld(data::Generation::old, variable))
-        cells.push_back(variable);
-    run_.scheduler.fillGhosts(cells);
-    tasks::regrid(*run_.problem.grid, std::move(tree), run_.warehouse, variables);
-    run_.scheduler.forgetLayout();
-    ++regrids_;
-  }
+  if (!(tree == run_.problem.grid->tree())) change(std::move(tree));
   seconds_ += secondsSince(started);
+}
+
+void Regridder::change(grid::BlockTree tree) {
+  const tasks::MigratedVariables variables = run_.migratedVariables();
+  std::vector<int> cells;
+  for (const int variable : variables.variables)
+    if (run_.table[variable].label->centring == data::Centring::cell &&
+        run_.warehouse.isHeld(data::Generation::old, variable))
+      cells.push_back(variable);
+  run_.scheduler.fillGhosts(cells);
+  tasks::regrid(*run_.problem.grid, std::move(tree), run_.warehouse, variables);
+  run_.scheduler.forgetLayout();
+  ++regrids_;
 }
 
 }  // namespace tushar::simulation

@@ -18,6 +18,9 @@ class MarkedBlocks {
 
   /// `mark`: see refinementMark.
   void add(const grid::Level& level, const Index3& cell, int mark);
+  /// A cell that holds particles: there, and within `margin` cells of the finest level beyond what they can cross, are
+  /// no coarser cells.
+  void addParticles(const grid::Level& level, const Index3& cell, int margin);
   /// Adds those of all ranks, which all call it.
   void unite(const mpi::Communicator& ranks);
   /// The tree that they ask for. Of blocks that are refined, only those may be coarsened that have no refined child.
@@ -26,6 +29,11 @@ class MarkedBlocks {
  private:
   const grid::Grid& grid_;
   int interval_, dilation_;
+  /// Blocks of a level within a distance of a cell of it, on the grid.
+  std::vector<grid::BlockId> blocksNear(const grid::Level& level, const Index3& cell, int distance) const;
+  /// Steps' worth of cells of a level.
+  int crossed(const grid::Level& level) const { return ((interval_ - 1) >> (grid_.levels() - 1 - level.number())) + 1; }
+
   std::set<grid::BlockId> wanted_, kept_;
 };
 
@@ -44,6 +52,9 @@ class Regridder {
 
  private:
   grid::BlockTree wantedTree();
+  void addMarks(MarkedBlocks& marked);
+  void addParticles(MarkedBlocks& marked);
+  void change(grid::BlockTree tree);
 
   RunState& run_;
   int starts_ = 0, regrids_ = 0;

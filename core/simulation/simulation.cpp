@@ -111,11 +111,36 @@ void Simulation::initialize() {
   do {
     initializeOnce();
   } while (regridder_.refinedStart());
+  refuseCoarseParticles();
   run_.warehouse.releaseFreeMemory();  // what particles are made with is not what steps need
   if (run_.materials() > 0 && collect::particleCount(run_.warehouse, run_.materials()) == 0)
     throw InputError({{{run_.problem.scenePath, 0, 0},
                        "MaterialProperties",
                        "there are no particles: no geom_object has a point on the grid"}});
+}
+
+void Simulation::refuseCoarseParticles() {
+  const grid::Grid& grid = *run_.problem.grid;
+  std::string outside;
+  for (std::size_t m = 0; m < run_.phases.materials().size(); ++m) {
+    const int reach = run_.table.reach(static_cast<int>(m)) + 1;
+    bool isOutside = false;
+    for (const grid::Patch& patch : grid.patches()) {
+      const data::ParticleSet& set = run_.warehouse.particles(data::Generation::old, static_cast<int>(m), patch.id());
+      if (grid.levels() == 1 || set.owned() == 0) continue;
+      grid::forEach<3>(patch.cells(), [&](const Index3& cell) {
+        const grid::Box around = grid::Box{cell, cell + Index3::filled(1)}.grown(reach, grid.dimension());
+        if (!set.in(cell).empty() && !isOutside) isOutside = !grid.isFinest(patch) || !grid.isFinest(around);
+      });
+    }
+    if (run_.ranks.any(isOutside)) outside += (outside.empty() ? "" : ", ") + run_.phases.materials()[m];
+  }
+  if (!outside.empty())
+    throw InputError({{{run_.problem.scenePath, 0, 0},
+                       "Grid/Level",
+                       fmt::format("particles of {} are in coarser cells, or too near to them; particles are on the "
+                                   "finest level only: give a larger <Level>, or <adaptive> in <AMR>",
+                                   outside)}});
 }
 
 void Simulation::initializeOnce() {

@@ -44,6 +44,8 @@ class Simulation {
   void resume();
   void initialize();
   void initializeOnce();
+  /// Throws InputError if there are particles where no particles can be.
+  void refuseCoarseParticles();
   void loop();
   void step();
   /// Advances the state by a time step, which is repeated with a shorter one if a task asks for it.

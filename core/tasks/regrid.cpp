@@ -11,7 +11,9 @@
 
 namespace tushar::tasks {
 
+using data::Centring;
 using data::Generation;
+using data::ParticleSet;
 using data::Variable;
 using grid::Box;
 using grid::Tile;
@@ -22,8 +24,9 @@ namespace {
 /// Cells of a new patch that one old patch has.
 struct Piece {
   int from, to;
-  Box box;      ///< in cells of the new patch
-  int coarser;  ///< how many levels coarser the new cells are; -1: finer by one
+  Box box;        ///< in cells of the new patch
+  int coarser;    ///< how many levels coarser the new cells are; -1: finer by one
+  bool isFinest;  ///< whether the new patch is of the finest level
 };
 
 /// The pieces that new patches are made of.
@@ -41,11 +44,11 @@ class Pieces {
       for (const Tile& old : before_.overlapping(level, cells)) {
         Box box = old.cells;
         for (int k = 0; k < finer; ++k) box = box.coarsened(dimension_);
-        visit(Piece{old.id, to, box.intersect(tile.cells), finer});
+        visit(Piece{old.id, to, box.intersect(tile.cells), finer, tile.level + 1 == levels_});
       }
     if (tile.level > 0)
       for (const Tile& old : before_.overlapping(tile.level - 1, tile.cells.coarsened(dimension_)))
-        visit(Piece{old.id, to, old.cells.refined(dimension_).intersect(tile.cells), -1});
+        visit(Piece{old.id, to, old.cells.refined(dimension_).intersect(tile.cells), -1, tile.level + 1 == levels_});
   }
 
   /// New patches that have cells of an old one.
@@ -64,7 +67,7 @@ class Pieces {
   int dimension_, levels_;
 };
 
-/// Appends the values of a piece, x fastest.
+/// Appends the values of the cells of a piece, x fastest.
 void pack(const data::Label& label, int dimension, const Piece& piece, const Variable& old, Bytes& to) {
   const std::size_t before = to.size();
   to.resize(before + piece.box.size() * label.bytes);
@@ -97,62 +100,179 @@ void unpack(const data::Label& label, const Piece& piece, const Variable& to, co
   });
 }
 
-/// The variables of cells that there are values of.
-std::vector<int> heldOf(data::Warehouse& warehouse, const MigratedVariables& variables) {
-  std::vector<int> held;
-  for (const int number : variables.variables)
-    if (warehouse.table()[number].label->centring == data::Centring::cell && warehouse.isHeld(Generation::old, number))
-      held.push_back(number);
-  return held;
+/// What moves, and how it is written and read; particles are on the finest level only, and stay there.
+class Luggage {
+ public:
+  Luggage(data::Warehouse& warehouse, const MigratedVariables& variables)
+      : warehouse_(warehouse), materials_(variables.materials) {
+    for (const int number : variables.variables) {
+      const Centring centring = label(number).centring;
+      if (centring != Centring::node && warehouse.isHeld(Generation::old, number))
+        (centring == Centring::cell ? cells_ : particles_).push_back(number);
+    }
+  }
+
+  /// Room for the values of cells on all patches.
+  void allocate() const {
+    for (const int number : cells_) warehouse_.allocateGrid(Generation::old, number);
+  }
+  /// Room for those of particles, once the sets are there.
+  void allocateParticles() const {
+    for (int material = 0; material < materials_; ++material)
+      warehouse_.layOut(Generation::old, material, Generation::old);
+    for (const int number : particles_) warehouse_.allocateParticles(Generation::old, number, Generation::old);
+  }
+
+  /// How many particles each cell of a piece has.
+  void packCounts(const Piece& piece, Bytes& to) const {
+    forEachSet(piece, piece.from, [&](const ParticleSet& set) {
+      grid::forEach<3>(piece.box, [&](const Index3& cell) {
+        const std::int32_t count = set.in(cell).size();
+        mpi::append(to, &count, sizeof(count));
+      });
+    });
+  }
+  void packValues(const Piece& piece, Bytes& to) const {
+    for (const int number : cells_)
+      pack(label(number), warehouse_.grid().dimension(), piece, variable(number, piece.from), to);
+    if (!hasParticles(piece)) return;
+    for (const int number : particles_)
+      forEachRange(piece, piece.from, number,
+                   [&](std::byte* values, std::size_t length) { mpi::append(to, values, length); });
+  }
+  /// Sets have all counts before they get their places.
+  void unpackCounts(const Piece& piece, const std::byte*& from) const {
+    forEachSet(piece, piece.to, [&](ParticleSet& set) {
+      grid::forEach<3>(piece.box, [&](const Index3& cell) {
+        std::int32_t count = 0;
+        std::memcpy(&count, from, sizeof(count));
+        from += sizeof(count);
+        set.at(cell) = {0, count};
+      });
+    });
+  }
+  void unpackValues(const Piece& piece, const std::byte*& from) const {
+    for (const int number : cells_) unpack(label(number), piece, variable(number, piece.to), from);
+    if (!hasParticles(piece)) return;
+    for (const int number : particles_)
+      forEachRange(piece, piece.to, number, [&](std::byte* values, std::size_t length) {
+        std::memcpy(values, from, length);
+        from += length;
+      });
+  }
+
+  void beginSets() const {
+    for (int material = 0; material < materials_; ++material)
+      for (const grid::Patch& patch : warehouse_.grid().patches())
+        warehouse_.particles(Generation::old, material, patch.id()).reset(patch, warehouse_.table().reach(material));
+  }
+  /// Gives the particles of each patch their places, cell after cell.
+  void endSets() const {
+    for (int material = 0; material < materials_; ++material)
+      for (const grid::Patch& patch : warehouse_.grid().patches()) {
+        ParticleSet& set = warehouse_.particles(Generation::old, material, patch.id());
+        int next = 0;
+        grid::forEach<3>(patch.cells(), [&](const Index3& cell) {
+          const int count = set.in(cell).size();
+          set.at(cell) = {next, next + count};
+          next += count;
+        });
+        set.setOwned(next);
+      }
+  }
+
+ private:
+  const data::Label& label(int number) const { return *warehouse_.table()[number].label; }
+  Variable variable(int number, int patch) const { return warehouse_.variable(Generation::old, number, patch); }
+  bool hasParticles(const Piece& piece) const { return piece.coarser == 0 && piece.isFinest; }
+  template <class Visit>
+  void forEachSet(const Piece& piece, int patch, const Visit& visit) const {
+    for (int material = 0; hasParticles(piece) && material < materials_; ++material)
+      visit(warehouse_.particles(Generation::old, material, patch));
+  }
+  /// Calls `visit(values, bytes)` for the particles of each cell of a piece.
+  template <class Visit>
+  void forEachRange(const Piece& piece, int patch, int number, const Visit& visit) const {
+    const std::size_t bytes = label(number).bytes;
+    const ParticleSet& set = warehouse_.particles(Generation::old, warehouse_.table()[number].material, patch);
+    std::byte* values = variable(number, patch).values;
+    grid::forEach<3>(piece.box, [&](const Index3& cell) {
+      const data::ParticleRange range = set.in(cell);
+      if (!range.empty())
+        visit(values + static_cast<std::size_t>(range.first) * bytes, static_cast<std::size_t>(range.size()) * bytes);
+    });
+  }
+
+  data::Warehouse& warehouse_;
+  int materials_;
+  std::vector<int> cells_, particles_;
+};
+
+/// What ranks send one another: the counts of all pieces, then the values of all.
+std::map<int, Bytes> packed(const grid::Grid& grid, const grid::Tiling& next, const grid::Partition& owners,
+                            const Luggage& luggage) {
+  const Pieces pieces(grid.tiling(), next, grid.dimension(), grid.levels());
+  std::set<int> readers;
+  for (const grid::Patch& patch : grid.patches()) pieces.findReaders(patch, readers);
+  std::map<int, Bytes> parts;
+  const auto forEachPiece = [&](const auto& visit) {
+    for (const int reader : readers)
+      pieces.of(reader, [&](const Piece& piece) {
+        if (grid.isMine(piece.from)) visit(piece, parts[owners.ownerOf(piece.to)]);
+      });
+  };
+  forEachPiece([&](const Piece& piece, Bytes& to) { luggage.packCounts(piece, to); });
+  forEachPiece([&](const Piece& piece, Bytes& to) { luggage.packValues(piece, to); });
+  return parts;
 }
+
+/// The messages of all ranks, each received when it is first read, from front to back.
+class Messages {
+ public:
+  Messages(const mpi::Communicator& ranks, std::map<int, Bytes>& own) : ranks_(ranks), own_(own) {}
+
+  const std::byte*& of(int rank) {
+    const auto [entry, isNew] = messages_.try_emplace(rank);
+    auto& [bytes, at] = entry->second;
+    if (isNew) {
+      bytes = rank == ranks_.rank() ? std::move(own_[rank]) : ranks_.receive(rank, mpi::Tag::patches);
+      at = bytes.data();
+    }
+    return at;
+  }
+
+ private:
+  const mpi::Communicator& ranks_;
+  std::map<int, Bytes>& own_;
+  std::map<int, std::pair<Bytes, const std::byte*>> messages_;
+};
 
 }  // namespace
 
 void regrid(grid::Grid& grid, grid::BlockTree tree, data::Warehouse& warehouse, const MigratedVariables& variables) {
   const mpi::Communicator& ranks = warehouse.ranks();
-  const std::vector<int> held = heldOf(warehouse, variables);
-  const int dimension = grid.dimension();
+  const Luggage luggage(warehouse, variables);
   std::unique_ptr<grid::BlockTiling> next = grid.cut(std::move(tree));
   const grid::Partition owners(*next, ranks.size());
   const grid::Partition ownersBefore(grid.tiling(), grid.rankOffsets());
-  std::map<int, Bytes> parts;  // by rank that they go to
-  std::set<int> readers;
-  const auto forEachHeld = [&](const auto& visit) {
-    for (const int number : held) visit(number, *warehouse.table()[number].label);
-  };
-  {
-    const Pieces pieces(grid.tiling(), *next, dimension, grid.levels());
-    for (const grid::Patch& patch : grid.patches()) pieces.findReaders(patch, readers);
-    for (const int reader : readers)
-      pieces.of(reader, [&](const Piece& piece) {
-        if (!grid.isMine(piece.from)) return;
-        Bytes& to = parts[owners.ownerOf(piece.to)];
-        forEachHeld([&](int number, const data::Label& label) {
-          pack(label, dimension, piece, warehouse.variable(Generation::old, number, piece.from), to);
-        });
-      });
-  }
+  std::map<int, Bytes> parts = packed(grid, *next, owners, luggage);  // by rank that they go to
   mpi::Outbox outbox(ranks);
   for (auto& [rank, bytes] : parts)
     if (rank != ranks.rank()) outbox.send(rank, mpi::Tag::patches, std::move(bytes));
   const std::unique_ptr<grid::Tiling> before = grid.refine(std::move(next));
   warehouse.startAnew(variables.materials);
-  forEachHeld([&](int number, const data::Label&) { warehouse.allocateGrid(Generation::old, number); });
-  const Pieces pieces(*before, grid.tiling(), dimension, grid.levels());
-  std::map<int, std::pair<Bytes, const std::byte*>> messages;
-  for (const grid::Patch& patch : grid.patches())
-    pieces.of(patch.id(), [&](const Piece& piece) {
-      const int rank = ownersBefore.ownerOf(piece.from);
-      const auto [entry, isNew] = messages.try_emplace(rank);
-      auto& [bytes, at] = entry->second;
-      if (isNew) {
-        bytes = rank == ranks.rank() ? std::move(parts[rank]) : ranks.receive(rank, mpi::Tag::patches);
-        at = bytes.data();
-      }
-      forEachHeld([&](int number, const data::Label& label) {
-        unpack(label, piece, warehouse.variable(Generation::old, number, piece.to), at);
-      });
-    });
+  luggage.allocate();
+  const Pieces pieces(*before, grid.tiling(), grid.dimension(), grid.levels());
+  Messages messages(ranks, parts);
+  const auto forEachPiece = [&](const auto& visit) {
+    for (const grid::Patch& patch : grid.patches())
+      pieces.of(patch.id(), [&](const Piece& piece) { visit(piece, messages.of(ownersBefore.ownerOf(piece.from))); });
+  };
+  luggage.beginSets();
+  forEachPiece([&](const Piece& piece, const std::byte*& from) { luggage.unpackCounts(piece, from); });
+  luggage.endSets();
+  luggage.allocateParticles();
+  forEachPiece([&](const Piece& piece, const std::byte*& from) { luggage.unpackValues(piece, from); });
   outbox.wait();
 }
 

@@ -161,7 +161,11 @@ class Relocation {
   /// Moves the particles that stay to their new places, and inserts those that arrive.
   void moveOn(const Move& move, std::size_t place, Moves& moves);
 
+  /// Whether a cell of the finest level is too near to coarser ones for a particle.
+  bool isNearCoarser(const Index3& cell) const;
+
   data::Warehouse* warehouse_;
+  int margin_ = 0;  ///< cells of the finest level around particles
   Threads* threads_;
   std::deque<Moves> moves_;  ///< by material
   long leaving_ = 0;         ///< in the step in progress

@@ -100,6 +100,7 @@ void Relocation::Verdict::merge(const Verdict& other) {
 template <int D>
 void Relocation::findMoves(int material, int position, int id) {
   Moves& moves = movesOf(material);
+  margin_ = warehouse_->table().reach(material) + 1;
   forEachPatch([&](const Patch& patch) {
     const auto values = [&](Generation generation, int number) {
       return warehouse_->variable(generation, number, patch.id()).values;
@@ -167,10 +168,20 @@ void Relocation::move(const Patch& from, const Index<D>& fromCell, Vec<D>& x, Pa
     return;
   }
   const Index3 wide = widened(cell);
+  if (isNearCoarser(wide)) {
+    const Escape escape{level.cellNumber<D>(fromCell), id, from.id(), place};
+    if (!moves.escape || escape < *moves.escape) moves.escape = escape;
+  }
   if (from.cells().contains(wide))
     receive(from, wide, {id, departed, -1}, moves);
   else
     moves.outgoing.push_back({id, wide, place, departed});
+}
+
+bool Relocation::isNearCoarser(const Index3& cell) const {
+  const grid::Grid& grid = warehouse_->grid();
+  if (grid.levels() == 1) return false;
+  return !grid.isFinest(grid::Box{cell, cell + Index3::filled(1)}.grown(margin_, grid.dimension()));
 }
 
 void Relocation::receive(const Patch& patch, const Index3& cell, const Incoming& particle, PatchMoves& moves) {
@@ -209,7 +220,9 @@ void Relocation::refuseEscape(int position, const Verdict& verdict) const {
     const std::string what = dimension == 1   ? sentence<1>(position, verdict.escape)
                              : dimension == 2 ? sentence<2>(position, verdict.escape)
                                               : sentence<3>(position, verdict.escape);
-    mine.emplace(what, "", "p.x", verdict.escape.cell);
+    const bool isPlane = what.find("symmetry") != std::string::npos;
+    mine.emplace(what, isPlane ? "" : "a larger <Level>, or <Variable name=\"particles\"/> among the criteria of <AMR>",
+                 "p.x", verdict.escape.cell);
   }
   throw broadcastError(warehouse_->ranks(), mine, verdict.rank);
 }
@@ -222,6 +235,9 @@ std::string Relocation::sentence(int position, const Escape& escape) const {
     return reinterpret_cast<const Vec<D>*>(x.values)[escape.place];
   };
   const Vec<D> x = at(Generation::fresh);
+  if (const Index<D> cell = level.cellOf<D>(x); level.cells().contains(cell))
+    return fmt::format("particle {} came within {} of coarser cells, where no particles can be; patch {}", escape.id,
+                       counted(margin_, "cell"), escape.patch);
   int through = 0, side = 0;
   for (int d = 0; d < D; ++d)
     for (const int s : {0, 1})
