@@ -153,9 +153,9 @@ TEST(ThresholdDamage, FailsByMohrAndCoulombUnderShearAndUnderTension) {
 }
 
 TEST(Drawn, GivesTheNumbersOfEarlierRuns) {
-  EXPECT_EQ(drawn(0, 0, 0), 0x1.58abaf01967f6p-1);
-  EXPECT_EQ(drawn(0, 77, 1), 0x1.38872e2f410b2p-1);
-  EXPECT_EQ(drawn(5, ParticleId{3} << 40, 3), 0x1.4048bad370a71p-2);
+  EXPECT_EQ(drawn(Drawing::threshold, 0, 0, 0), 0x1.58abaf01967f6p-1);
+  EXPECT_EQ(drawn(Drawing::threshold, 0, 77, 1), 0x1.38872e2f410b2p-1);
+  EXPECT_EQ(drawn(Drawing::threshold, 5, ParticleId{3} << 40, 3), 0x1.4048bad370a71p-2);
 }
 
 TEST(ThresholdDamage, DrawsThresholdsByTheIdOfAParticleWithTheMeanThatIsAskedFor) {
