@@ -182,7 +182,7 @@ TEST(Ranks, WorkOnPatchesThatNeedNoMessageBeforeThoseThatWaitForOne) {
     run.step(graph);
 
     const auto needsNoMessage = [&](int id) {
-      const std::vector<Patch> near = run.grid.patchesOverlapping(run.grid.patch(id).cellsWithin(1));
+      const std::vector<Patch> near = run.grid.patchesOverlapping(run.grid.patch(id).cellsWithin(1), 0);
       return std::all_of(near.begin(), near.end(), [&](const Patch& patch) { return run.grid.isMine(patch.id()); });
     };
     EXPECT_EQ(order.size(), run.grid.patches().size());
