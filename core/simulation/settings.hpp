@@ -60,9 +60,9 @@ struct Criterion {
 /// When and where a run refines its grid; the sections `AMR/Regridder` and `Refinement_Criteria_Thresholds`.
 struct RegridSettings {
   bool adaptive = false;
-  bool once = false;    ///< at the start only
-  int interval = 8;     ///< steps from one look at the grid to the next
-  int dilation = 1;     ///< cells around those that signals can reach until then
+  bool once = false;  ///< at the start only
+  int interval = 8;   ///< steps from one look at the grid to the next
+  int dilation = 1;   ///< cells around those that signals can reach until then
   bool refluxes = true;
   std::vector<Criterion> criteria;
 };
