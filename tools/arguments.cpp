@@ -89,7 +89,8 @@ void declare(CLI::App& app, Arguments& arguments) {
       ->allow_extra_args(false);
   app.add_option_function<std::string>(
       "--layout", [&](const std::string& text) { setLayout(text, arguments.workers); },
-      "patches along x, y, z, in place of those of the scene: AxBxC, such as 4x2x1");
+      "patches along x, y, z, in place of those of the scene: AxBxC, such as 4x2x1; of a grid of several levels, the "
+      "most blocks of a patch");
   app.add_option_function<int>(
          "--nthreads", [&](int count) { setThreads(count, arguments.workers); },
          "threads to run on; without it as many as there are cores for and as pay")

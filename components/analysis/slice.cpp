@@ -105,6 +105,8 @@ char nameOf(int axis) { return "xyz"[axis]; }
 /// Why a grid has no cells on a plane; empty where it has.
 std::string problemOf(const Plane& plane, const Level& level) {
   const double lower = level.domain().lower[plane.axis], upper = level.domain().upper[plane.axis];
+  if (level.domain().refinement.levels > 1)
+    return "a slice needs a grid of one level; take the module out, or the finer Levels and <AMR>";
   if (level.dimension() < 2) return "a slice of a grid along one axis would be a point; take the module out";
   bool isUsed = false;
   for (int d = 0; d < level.dimension(); ++d) {

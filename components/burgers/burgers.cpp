@@ -178,8 +178,10 @@ const input::Schema<Settings>& schema() {
 }  // namespace
 
 simulation::ComponentKind kind() {
-  return simulation::kindWithSection<Burgers>("burgers", "Burgers' equation by finite volumes", schema(),
-                                              {boundary::velocity, grid::symmetric});
+  simulation::ComponentKind kind = simulation::kindWithSection<Burgers>(
+      "burgers", "Burgers' equation by finite volumes", schema(), {boundary::velocity, grid::symmetric});
+  kind.takesLevels = true;
+  return kind;
 }
 
 template class Burgers<1>;

@@ -43,8 +43,11 @@ simulation::ComponentKind kind() {
                      "explicit steps solve no system; <SimulationComponent type=\"implicit_heat\"/> does");
     return section;
   }();
-  return simulation::kindWithSection<Heat>("heat", "heat conduction, explicit; the smallest complete component", schema,
-                                           {boundary::temperature, grid::symmetric});
+  simulation::ComponentKind kind =
+      simulation::kindWithSection<Heat>("heat", "heat conduction, explicit; the smallest complete component", schema,
+                                        {boundary::temperature, grid::symmetric});
+  kind.takesLevels = true;
+  return kind;
 }
 
 template class Heat<1>;

@@ -45,6 +45,10 @@ bool satisfies(const std::vector<int>& value, const Constraint& constraint) {
   return std::all_of(value.begin(), value.end(), constraint.holds);
 }
 
+bool satisfies(const std::vector<Index3>& value, const Constraint& constraint) {
+  return std::all_of(value.begin(), value.end(), [&](const Index3& one) { return satisfies(one, constraint); });
+}
+
 bool satisfies(const Expression& value, const Constraint& constraint) {
   return !value.isConstant() || constraint.holds(value(Vec3::Zero()));
 }

@@ -35,6 +35,7 @@ bool satisfies(const Vec3& value, const Constraint& constraint);
 bool satisfies(const Index3& value, const Constraint& constraint);
 bool satisfies(const std::vector<double>& value, const Constraint& constraint);
 bool satisfies(const std::vector<int>& value, const Constraint& constraint);
+bool satisfies(const std::vector<Index3>& value, const Constraint& constraint);
 bool satisfies(const Expression& value, const Constraint& constraint);
 bool satisfies(const VectorExpression& value, const Constraint& constraint);
 inline bool satisfies(const Expression& value, const WithoutTime&) { return !value.dependsOnTime(); }

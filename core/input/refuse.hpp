@@ -74,6 +74,18 @@ void refuseTag(input::Schema<S>& schema, const std::string& tag, const std::stri
   schema.forms({noForm({tag})});
 }
 
+/// A tag of Uintah's that means nothing here; `why` is said to whoever gives it.
+template <class S>
+void noteTag(input::Schema<S>& schema, const std::string& tag, const std::string& why) {
+  schema.custom(
+      tag,
+      [tag, why](S&, const input::Element& element, input::Diagnostics& diagnostics) {
+        for (const input::Element& given : element.children(tag)) diagnostics.note(given, "does nothing: " + why);
+      },
+      {tag}, "does nothing: " + why);
+  schema.forms({anyForm({tag})});
+}
+
 /// A choice of Uintah's of which only `available` are there; may be left out.
 template <class S>
 void refuseTypes(input::Schema<S>& schema, const std::string& tag, const std::vector<std::string>& available,

@@ -38,6 +38,7 @@ const std::vector<ValueType>& valueTypes() {
       typeOf<Index3>("integers3", threeOf(integer)),
       typeOf<std::vector<double>>("numbers", anyNumberOf(number)),
       typeOf<std::vector<int>>("integers", anyNumberOf(integer)),
+      typeOf<std::vector<Index3>>("integers3s", fmt::format(R"({0}|\[ ?{0}( ?, ?{0})* ?\])", threeOf(integer))),
       typeOf<std::vector<std::string>>("words", R"(\[.*\])"),
       typeOf<Expression>("formula", formula()),
       typeOf<VectorExpression>("formulas3", R"(\[.+,.+,.+\])"),

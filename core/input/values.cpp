@@ -152,6 +152,24 @@ Parsed<std::vector<std::string>> parse<std::vector<std::string>>(std::string_vie
   return parseList<std::string>(text, "words, as [a,b,c]");
 }
 
+/// One triple without the outer brackets is a list of one.
+template <>
+Parsed<std::vector<Index3>> parse<std::vector<Index3>>(std::string_view given) {
+  const std::string text = trimmed(given);
+  const auto pieces = parts(text, "brackets of three integers, as [[1,2,3]]");
+  if (!pieces) return Parsed<std::vector<Index3>>::wrong(pieces.problem);
+  if ((*pieces).empty())
+    return Parsed<std::vector<Index3>>::wrong(expected(text, "brackets of three integers, as [[1,2,3]]"));
+  const bool isOne = !(*pieces).front().starts_with('[');
+  std::vector<Index3> triples;
+  for (const std::string& piece : isOne ? std::vector{text} : *pieces) {
+    const Parsed<Index3> triple = parse<Index3>(piece);
+    if (!triple) return Parsed<std::vector<Index3>>::wrong(fmt::format("in '{}': {}", text, triple.problem));
+    triples.push_back(*triple);
+  }
+  return Parsed<std::vector<Index3>>::ok(std::move(triples));
+}
+
 template <>
 Parsed<Expression> parse<Expression>(std::string_view text) {
   return Expression::parse(text);
@@ -172,6 +190,11 @@ std::string toText(const Index3& value) { return fmt::format("[{}]", fmt::join(v
 std::string toText(const std::vector<double>& value) { return fmt::format("[{}]", fmt::join(value, ",")); }
 std::string toText(const std::vector<int>& value) { return fmt::format("[{}]", fmt::join(value, ",")); }
 std::string toText(const std::vector<std::string>& value) { return fmt::format("[{}]", fmt::join(value, ",")); }
+std::string toText(const std::vector<Index3>& value) {
+  std::string text;
+  for (const Index3& triple : value) text += (text.empty() ? "" : ",") + toText(triple);
+  return "[" + text + "]";
+}
 std::string toText(const Expression& value) { return value.text(); }
 std::string toText(const VectorExpression& value) { return value.text(); }
 

@@ -11,9 +11,9 @@
 
 namespace tushar::input {
 
-/// Reads text as a T: bool, int, std::int64_t, double, std::string, Vec3, Index3, std::vector of double, int or
-/// std::string, Expression or VectorExpression. Blanks are free at the ends and around commas and brackets. Numbers
-/// are read alike in every locale; infinite and undefined ones are refused.
+/// Reads text as a T: bool, int, std::int64_t, double, std::string, Vec3, Index3, std::vector of double, int,
+/// std::string or Index3, Expression or VectorExpression. Blanks are free at the ends and around commas and brackets.
+/// Numbers are read alike in every locale; infinite and undefined ones are refused.
 template <class T>
 Parsed<T> parse(std::string_view text);
 
@@ -37,6 +37,8 @@ template <>
 Parsed<std::vector<int>> parse<std::vector<int>>(std::string_view text);
 template <>
 Parsed<std::vector<std::string>> parse<std::vector<std::string>>(std::string_view text);
+template <>
+Parsed<std::vector<Index3>> parse<std::vector<Index3>>(std::string_view text);
 template <>
 Parsed<Expression> parse<Expression>(std::string_view text);
 template <>
@@ -66,6 +68,8 @@ inline constexpr std::string_view typeName<std::vector<int>> = "integers [a,b,�
 template <>
 inline constexpr std::string_view typeName<std::vector<std::string>> = "words [a,b,…]";
 template <>
+inline constexpr std::string_view typeName<std::vector<Index3>> = "integers [[a,b,c],…]";
+template <>
 inline constexpr std::string_view typeName<Expression> = "formula in x, y, z, t";
 template <>
 inline constexpr std::string_view typeName<VectorExpression> = "formulas [a,b,c] in x, y, z, t";
@@ -82,6 +86,7 @@ std::string toText(const Index3& value);
 std::string toText(const std::vector<double>& value);
 std::string toText(const std::vector<int>& value);
 std::string toText(const std::vector<std::string>& value);
+std::string toText(const std::vector<Index3>& value);
 std::string toText(const Expression& value);
 std::string toText(const VectorExpression& value);
 

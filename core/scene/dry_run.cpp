@@ -24,10 +24,18 @@ double residentMegabytes() {
   return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
 }
 
+/// The rank of the cell in the middle, which is of one level alone.
 int rankInTheMiddle(const grid::Grid& grid) {
-  Index3 middle;
-  for (int d = 0; d < 3; ++d) middle[d] = grid.level().cells().upper[d] / 2;
-  return grid.ownerOf(grid.patchOf(middle, 0).id());
+  for (int number = 0; number < grid.levels(); ++number) {
+    grid::Box middle = grid.level(number).cells();
+    for (int d = 0; d < 3; ++d) {
+      middle.lower[d] = middle.upper[d] / 2;
+      middle.upper[d] = middle.lower[d] + 1;
+    }
+    const std::vector<grid::Patch> found = grid.patchesOverlapping(middle, number);
+    if (!found.empty()) return grid.ownerOf(found.front().id());
+  }
+  return 0;
 }
 
 /// Plans the messages of graphs, and counts them.

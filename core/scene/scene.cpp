@@ -29,8 +29,8 @@ using simulation::TimeSettings;
 
 namespace {
 
-const std::vector<std::string> sharedSections{"Meta", "SimulationComponent", "Time", "DataArchiver",
-                                              "Grid", "DataAnalysis"};
+const std::vector<std::string> sharedSections{"Meta", "SimulationComponent", "Time", "DataArchiver", "Grid",
+                                              "AMR",  "DataAnalysis"};
 
 struct Meta {
   std::string title;
@@ -197,6 +197,18 @@ void checkIntervals(const TimeSettings& time, const std::vector<ReadModule>& mod
       checkInterval(input::parse<double>(tag->text()).value.value_or(0), time, *tag, "", diagnostics);
 }
 
+/// Refuses several levels for a component that knows of one.
+void checkTakesLevels(const ComponentKind& kind, const Element& grid, const AmrSettings& amr,
+                      const Catalogue& catalogue, Diagnostics& diagnostics) {
+  if (kind.takesLevels) return;
+  std::vector<std::string> others;
+  for (const ComponentKind* other : catalogue.components())
+    if (other->takesLevels) others.push_back(other->name);
+  const std::vector<Element> levels = grid.children("Level");
+  diagnostics.error(levels.size() > 1 ? levels[1] : *amr.tag,
+                    fmt::format("'{}' needs a grid of one level; of several: {}", kind.name, allOf(others)));
+}
+
 /// A component on the smallest grid that it takes, of one axis where it can be.
 struct Trial {
   std::unique_ptr<grid::Level> level;
@@ -290,9 +302,14 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
     problem.archive = readArchive(*archive, diagnostics);
     checkIntervals(problem.time, problem.archive, *archive, diagnostics);
   }
+  AmrSettings amr;
+  if (const auto given = section(root, "AMR", false, diagnostics)) amr = readAmr(*given, diagnostics);
   grid::Domain domain;
-  if (const auto grid = section(root, "Grid", true, diagnostics))
-    domain = readGrid(*grid, kind ? kind->boundaryLabels : std::vector<grid::BoundaryVariable>{}, workers, diagnostics);
+  if (const auto grid = section(root, "Grid", true, diagnostics)) {
+    domain =
+        readGrid(*grid, kind ? kind->boundaryLabels : std::vector<grid::BoundaryVariable>{}, workers, amr, diagnostics);
+    if (kind && domain.refinement.levels > 1) checkTakesLevels(*kind, *grid, amr, catalogue, diagnostics);
+  }
   if (kind && kind->nodesBeyond) domain.nodesBeyond = kind->nodesBeyond(root);
   MakeComponent makeComponent;
   if (kind) makeComponent = kind->read(root, diagnostics);
@@ -307,6 +324,8 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   problem.grid = std::make_unique<grid::Grid>(domain, share);
   problem.threads = workers.threadsFor(domain.resolution);
   problem.component = makeComponent(problem.grid->finest());
+  problem.regrid = settled(std::move(amr), *problem.component, diagnostics);
+  diagnostics.throwIfAny();
   if (problem.component->mayRepeatStep()) problem.time.recomputeTimeStep = true;
   problem.analyses = makeModules(modules, *problem.component, problem.grid->finest());
   if (!labelsAreChecked) checkLabels(*problem.component, problem.analyses, problem.archive.saves, diagnostics);
@@ -324,6 +343,7 @@ void describeSharedSections(std::ostream& out) {
   describeTime(out);
   describeArchive(out);
   describeGrid(out);
+  describeAmr(out);
 }
 
 }  // namespace tushar::scene

@@ -18,25 +18,40 @@ simulation::Problem readScene(const std::string& path, const std::vector<std::st
                               const simulation::Catalogue& catalogue, const grid::Workers& workers = {},
                               grid::Share share = {});
 
-/// The manual of the sections that every component shares: Time, DataArchiver, Grid.
+/// The manual of the sections that every component shares: Time, DataArchiver, Grid, AMR.
 void describeSharedSections(std::ostream& out);
 
 /// The `Time` section.
 simulation::TimeSettings readTime(const input::Element& section, input::Diagnostics& diagnostics);
 /// The `DataArchiver` section.
 simulation::ArchiveSettings readArchive(const input::Element& section, input::Diagnostics& diagnostics);
+/// The `AMR` section, before it is known what grid it is about.
+struct AmrSettings {
+  simulation::RegridSettings regrid;
+  std::optional<int> maxLevels;               ///< with the coarsest
+  std::optional<Index3> block;                ///< cells along x, y, z
+  std::optional<std::vector<Index3>> ratios;  ///< of cell widths from level to level
+  std::optional<input::Element> tag;          ///< `AMR`, where it is given; for messages
+};
+AmrSettings readAmr(const input::Element& section, input::Diagnostics& diagnostics);
+/// When and where a component's grid is refined: by its own criteria where the scene has none. Reports variables that
+/// the component lacks.
+simulation::RegridSettings settled(AmrSettings amr, const simulation::Component& component,
+                                   input::Diagnostics& diagnostics);
 /// The `Grid` section; `boundaryLabels` are those that the component understands.
 grid::Domain readGrid(const input::Element& section, const std::vector<grid::BoundaryVariable>& boundaryLabels,
-                      const grid::Workers& workers, input::Diagnostics& diagnostics);
+                      const grid::Workers& workers, const AmrSettings& amr, input::Diagnostics& diagnostics);
 
 void describeTime(std::ostream& out);
 void describeArchive(std::ostream& out);
 void describeGrid(std::ostream& out);
+void describeAmr(std::ostream& out);
 
 /// How the shared sections are read, for the schemas of editors; Grid with the boundary labels of a component.
 const input::SchemaBase& metaForm();
 const input::SchemaBase& timeForm();
 const input::SchemaBase& archiveForm();
+const input::SchemaBase& amrForm();
 const input::SchemaBase& gridForm(const std::vector<grid::BoundaryVariable>& boundaryLabels);
 /// The tag SimulationComponent; its `type` says which component.
 const input::SchemaBase& componentForm();

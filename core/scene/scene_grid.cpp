@@ -6,7 +6,7 @@
 
 #include "core/grid/choose_patches.hpp"
 #include "core/input/schema.hpp"
-#include "core/scene/scene.hpp"
+#include "core/scene/scene_levels.hpp"
 
 namespace tushar::scene {
 
@@ -17,9 +17,6 @@ using simulation::findKind;
 using simulation::namesOf;
 
 namespace {
-
-/// More cells than this cannot be numbered by an int.
-constexpr double mostCells = 2147483647.0;
 
 const std::vector<std::string> conditionKinds(grid::boundaryKindNames.begin(), grid::boundaryKindNames.end());
 
@@ -35,21 +32,6 @@ const std::vector<std::string> labelsOfFlow{"Density", "Pressure", "SpecificVol"
 bool isOfFlow(const std::string& label) {
   return std::find(labelsOfFlow.begin(), labelsOfFlow.end(), label) != labelsOfFlow.end();
 }
-
-struct GridBox {
-  std::string label;
-  Vec3 lower = Vec3::Zero(), upper = Vec3::Ones();
-  std::optional<Index3> resolution;
-  std::optional<Index3> patches;
-  std::optional<int> autoPatch;
-  Index3 extraCells{};
-};
-
-struct LevelSection {
-  std::vector<GridBox> boxes;
-  std::optional<Vec3> spacing;
-  Index3 periodic{};
-};
 
 struct ConditionSection {
   std::string id, label, var;
@@ -67,61 +49,13 @@ struct FacesSection {
 
 struct GridSection {
   FacesSection boundaries;
-  LevelSection level;
+  std::vector<LevelSection> levels;
 };
 
 /// What is wrong with an attribute.
 void errorOf(const std::string& attribute, const Element& element, const std::string& problem,
              Diagnostics& diagnostics) {
   diagnostics.error(element.whereOf(attribute), element.path(), attribute + ": " + problem);
-}
-
-const Schema<GridBox>& boxSchema() {
-  static const Schema<GridBox> schema =
-      Schema<GridBox>("Box", "The box that is divided into cells.")
-          .attributeValue("label", &GridBox::label, "", "1", "its name")
-          .required("lower", &GridBox::lower, "m", "its lower corner")
-          .required("upper", &GridBox::upper, "m", "its upper corner")
-          .optional("resolution", &GridBox::resolution, "1", "cells along x, y, z (or give <spacing> of the Level)",
-                    input::atLeast(1))
-          .optional(
-              "patches", &GridBox::patches, "1",
-              "patches along x, y, z; where neither this nor autoPatch is given, as many as the threads and ranks need",
-              input::atLeast(1))
-          .optional("autoPatch", &GridBox::autoPatch, "1", "about how many patches to make, in place of patches",
-                    input::atLeast(1))
-          .value("extraCells", &GridBox::extraCells, Index3{}, "1",
-                 "accepted for Uintah's sake: what a shape function needs around the grid follows from it",
-                 input::nonNegative())
-          .check([](const GridBox& box, const Element& element, Diagnostics& diagnostics) {
-            if (box.patches && box.autoPatch) diagnostics.error(element, "gives both patches and autoPatch; keep one");
-            for (int axis = 0; axis < 3; ++axis)
-              if (box.upper[axis] < box.lower[axis])
-                diagnostics.error(element, fmt::format("upper is below lower along {}: {:g} < {:g} m", "xyz"[axis],
-                                                       box.upper[axis], box.lower[axis]));
-          });
-  return schema;
-}
-
-const Schema<LevelSection>& levelSchema() {
-  static const Schema<LevelSection> schema =
-      Schema<LevelSection>("Level", "A grid of cells of one size.")
-          .list("Box", &LevelSection::boxes, boxSchema(), "the box that is divided into cells", 1)
-          .optional("spacing", &LevelSection::spacing, "m", "cell widths, in place of the resolution of the Box",
-                    input::positive())
-          .value("periodic", &LevelSection::periodic, Index3{}, "1", "1 along axes where the grid repeats without end",
-                 input::between(0, 1))
-          .check([](const LevelSection& level, const Element& element, Diagnostics& diagnostics) {
-            if (level.boxes.size() > 1)
-              diagnostics.error(element.children("Box")[1],
-                                fmt::format("a Level has one Box here; this is a second one (the first is at {})",
-                                            element.children("Box")[0].where().text()));
-            for (const GridBox& box : level.boxes)
-              if (box.resolution.has_value() == level.spacing.has_value())
-                diagnostics.error(element, box.resolution ? "gives both spacing and resolution; keep one"
-                                                          : "gives neither <resolution> of its Box nor <spacing>");
-          });
-  return schema;
 }
 
 Schema<ConditionSection> conditionTag() {
@@ -171,7 +105,8 @@ struct GridTags {
                   .list("Face", &FacesSection::faces, face, "a side")),
         grid(Schema<GridSection>("Grid", "The grid and what happens at its sides.")
                  .section("BoundaryConditions", &GridSection::boundaries, faces)
-                 .requiredSection("Level", &GridSection::level, levelSchema())) {}
+                 .list("Level", &GridSection::levels, levelSchema(),
+                       "the grid, and boxes in which it is finer; the coarsest first", 1)) {}
   GridTags(const GridTags&) = delete;
   GridTags& operator=(const GridTags&) = delete;
 
@@ -283,37 +218,54 @@ void readFaces(const Element& section, const FacesSection& faces, const std::vec
   }
 }
 
-Index3 resolutionOf(const GridBox& box, const LevelSection& level, const Element& element, Diagnostics& diagnostics) {
-  if (box.resolution) return *box.resolution;
-  Index3 resolution = Index3::filled(1);
-  for (int axis = 0; level.spacing && axis < 3; ++axis) {
-    const double cells = (box.upper[axis] - box.lower[axis]) / (*level.spacing)[axis];
-    if (cells > mostCells || (cells > 0.5 && std::abs(cells - std::round(cells)) > 1e-6 * cells))
-      diagnostics.error(
-          element, fmt::format("spacing along {} gives {:g} cells, which is not a whole number", "xyz"[axis], cells));
-    else
-      resolution[axis] = std::max(1, static_cast<int>(std::lround(cells)));
-  }
-  return resolution;
-}
-
-/// `asker` says where the patches come from, if not from the scene.
-void checkSize(const grid::Domain& domain, const Element& element, const std::string& asker, Diagnostics& diagnostics) {
+void checkSize(const grid::Domain& domain, const Element& element, Diagnostics& diagnostics) {
   double cells = 1;
   for (int axis = 0; axis < 3; ++axis) {
     cells *= domain.resolution[axis];
     if (domain.upper[axis] == domain.lower[axis] && domain.resolution[axis] > 1)
       diagnostics.error(element, fmt::format("there are {} cells along {}, where the box has no extent",
                                              domain.resolution[axis], "xyz"[axis]));
-    if (domain.patches[axis] > domain.resolution[axis])
-      diagnostics.error(element, fmt::format("there are {} patches along {}{}, but only {}", domain.patches[axis],
-                                             "xyz"[axis], asker, counted(domain.resolution[axis], "cell")));
   }
   if (domain.upper == domain.lower) diagnostics.error(element, "the box has no extent along any axis");
   if (cells > mostCells)
     diagnostics.error(element,
                       fmt::format("resolution [{},{},{}] makes {:.3g} cells; the most is {:.3g}", domain.resolution[0],
                                   domain.resolution[1], domain.resolution[2], cells, mostCells));
+}
+
+/// Of a grid of one level.
+void cutIntoPatches(const GridBox& box, const grid::Workers& workers, const Element& element, grid::Domain& domain,
+                    Diagnostics& diagnostics) {
+  if (!box.patches && !workers.layout) {
+    domain.patches =
+        grid::choosePatches(domain.resolution, box.autoPatch.value_or(workers.patchesFor(domain.resolution)));
+    return;
+  }
+  domain.patches = workers.layout ? *workers.layout : *box.patches;
+  for (int axis = 0; axis < 3; ++axis)
+    if (domain.patches[axis] > domain.resolution[axis])
+      diagnostics.error(element,
+                        fmt::format("there are {} patches along {}{}, but only {}", domain.patches[axis], "xyz"[axis],
+                                    workers.layout ? " in --layout" : "", counted(domain.resolution[axis], "cell")));
+}
+
+/// Of a grid of several levels: boxes of blocks.
+void groupBlocks(const Element& section, const grid::Workers& workers, grid::Domain& domain, Diagnostics& diagnostics) {
+  if (workers.layout) {
+    grid::Refinement& refinement = domain.refinement;
+    refinement.blocksPerPatch = *workers.layout;
+    for (int axis = 0; axis < 3; ++axis) {  // no more than there are, which keeps the number of their cells an int
+      const int blocks = std::max(1, domain.resolution[axis] / refinement.blockCells[axis]) << (refinement.levels - 1);
+      (*refinement.blocksPerPatch)[axis] = std::min((*workers.layout)[axis], blocks);
+    }
+  }
+  for (const Element& level : section.children("Level"))
+    for (const Element& box : level.children("Box"))
+      for (const char* tag : {"patches", "autoPatch"})
+        if (const auto given = box.child(tag))
+          diagnostics.note(*given,
+                           "does nothing: patches of a refined grid are boxes of blocks; -layout sets how many "
+                           "blocks a patch has at the most");
 }
 
 /// A side of a periodic axis takes no conditions; Uintah overlooks them.
@@ -331,25 +283,30 @@ void checkPeriodic(const Element& section, const grid::Domain& domain, Diagnosti
 }  // namespace
 
 grid::Domain readGrid(const Element& section, const std::vector<grid::BoundaryVariable>& boundaryLabels,
-                      const grid::Workers& workers, Diagnostics& diagnostics) {
+                      const grid::Workers& workers, const AmrSettings& amr, Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.size();
   const GridSection read = gridSchema().read(section, diagnostics);
   grid::Domain domain;
   readFaces(section, read.boundaries, boundaryLabels, domain, diagnostics);
-  if (diagnostics.size() > before || read.level.boxes.empty()) return domain;
-  const GridBox& box = read.level.boxes.front();
-  const Element element = section.child("Level")->children("Box").front();
+  if (diagnostics.size() > before) return domain;
+  const std::vector<Element> boxes = section.children("Level").front().children("Box");
+  if (boxes.size() > 1)
+    diagnostics.error(boxes[1], fmt::format("the first Level has one Box; this is a second one (the first is at {})",
+                                            boxes[0].where().text()));
+  const LevelSection& level = read.levels.front();
+  const GridBox& box = level.boxes.front();
   domain.lower = box.lower;
   domain.upper = box.upper;
-  domain.resolution = resolutionOf(box, read.level, element, diagnostics);
-  if (box.patches) domain.patches = *box.patches;
-  if (workers.layout) domain.patches = *workers.layout;
-  domain.periodic = read.level.periodic;
+  domain.resolution = resolutionOf(box, level, boxes.front(), diagnostics);
+  domain.periodic = level.periodic;
   checkPeriodic(section, domain, diagnostics);
-  checkSize(domain, element, workers.layout ? " in --layout" : "", diagnostics);
-  if (!box.patches && !workers.layout && diagnostics.size() == before)
-    domain.patches =
-        grid::choosePatches(domain.resolution, box.autoPatch.value_or(workers.patchesFor(domain.resolution)));
+  checkSize(domain, boxes.front(), diagnostics);
+  if (diagnostics.size() == before) readRefinement(section, read.levels, amr, domain, diagnostics);
+  if (diagnostics.size() > before) return domain;
+  if (domain.refinement.levels > 1)
+    groupBlocks(section, workers, domain, diagnostics);
+  else
+    cutIntoPatches(box, workers, boxes.front(), domain, diagnostics);
   return domain;
 }
 

@@ -73,7 +73,7 @@ const Schema<SaveRequest>& saveSchema() {
       Schema<SaveRequest>("save", "A variable to be saved.")
           .requiredAttribute("label", &SaveRequest::label, "1", "its name, such as p.x or KineticEnergy")
           .attributeValue("material", &SaveRequest::material, "", "1", "only of this material")
-          .ignoredAttribute("levels", "there is one level")
+          .ignoredAttribute("levels", "all levels are saved")
           .ignoredAttribute("compression", "<compression> in <DataArchiver> holds for all")
           .ignoredAttribute("table_lookup", "belongs to components that read tables")
           .location(&SaveRequest::where, "label")

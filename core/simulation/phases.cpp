@@ -268,7 +268,7 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
     throw InputError(std::move(problems));
   const std::vector<SaveRequest> samples = samplesOf(analyses);
   sortSaves(named(saves));
-  if (grid.levels() > 1) lists_.timeAdvance = tasks::withRefluxing(lists_.timeAdvance);
+  if (grid.levels() > 1 && regrid.refluxes) lists_.timeAdvance = tasks::withRefluxing(lists_.timeAdvance);
   const Lists& lists = lists_;
   const Names stepped = united(producedBy(lists.initialize.tasks()), producedBy(lists.timeAdvance.tasks()));
   totals_ = totalsAmong(producedBy(lists.diagnostics.tasks()));

@@ -23,7 +23,7 @@ OVERRIDES = {
     "unknown tag": (BOX + "resolutoin=[3,1,1]", BOX + "resolutoin: unknown tag <resolutoin> in <Box> (did you mean "
                     "'resolution'?); allowed here: lower, upper, resolution, patches, autoPatch, extraCells"),
     "unknown section": ("Gird/x=1", "Gird: unknown section <Gird> (did you mean 'Grid'?); allowed here: Meta, "
-                        "SimulationComponent, Time, DataArchiver, Grid, DataAnalysis, MPM, MaterialProperties"),
+                        "SimulationComponent, Time, DataArchiver, Grid, AMR, DataAnalysis, MPM, MaterialProperties"),
     "unknown constitutive model": (MATERIAL + "constitutive_model/@type=ideal_gaz",
                                    MATERIAL + "constitutive_model: attribute 'type': found 'ideal_gaz', expected "
                                    "'ideal_gas' or 'stiffened_gas' (did you mean 'ideal_gas'?)"),
@@ -164,7 +164,25 @@ TEXTS = {
                           "tag <checkpoint> is given twice"),
     "second Box": (SOD.replace("</Level>", "<Box><lower>[1,0,0]</lower><upper>[2,1,1]</upper>"
                                "<resolution>[9,1,1]</resolution></Box></Level>"), ":33:6",
-                   "a Level has one Box here; this is a second one"),
+                   "the first Level has one Box; this is a second one"),
+    "second Level": (SOD.replace("</Level>", "</Level><Level><Box><lower>[0,0,0]</lower><upper>[.5,1,1]</upper>"
+                                 "<resolution>[100,1,1]</resolution></Box></Level>"), ":33:14",
+                     "'mpm' needs a grid of one level; of several: 'burgers', 'euler' and 'heat'"),
+    "levels of <AMR>": (SOD.replace("</Grid>", '</Grid><AMR><Regridder><adaptive>true</adaptive></Regridder><MPM>'
+                                    '<Refinement_Criteria_Thresholds><Variable name="p.x" value="1"/>'
+                                    '</Refinement_Criteria_Thresholds></MPM></AMR>'), ":34:11",
+                        "'mpm' needs a grid of one level; of several: 'burgers', 'euler' and 'heat'"),
+    "unknown tag of <AMR>": (SOD.replace("</Grid>", "</Grid><AMR><Regridder><max_level>2</max_level></Regridder>"
+                                          "</AMR>"), ":34:27",
+                             "unknown tag <max_level> in <Regridder> (did you mean 'max_levels'?)"),
+    "unknown type of threshold":
+        (SOD.replace("</Grid>", '</Grid><AMR><MPM><Refinement_Criteria_Thresholds><Variable name="c.x" value="1" '
+                     'type="gradiant"/></Refinement_Criteria_Thresholds></MPM></AMR>'), ":34:",
+         "attribute 'type': found 'gradiant', expected 'jump', 'second_derivative', 'gradient', 'above' or 'below' "
+         "(did you mean 'gradient'?)"),
+    "levels of no three integers": (SOD.replace("</Grid>", "</Grid><AMR><Regridder><min_patch_size>8</min_patch_size>"
+                                                "</Regridder></AMR>"), ":34:27",
+                                    "expected brackets of three integers, as [[1,2,3]]"),
     "a solid without density": (SOD[:SOD.index("    <gas_dynamics>")] + SOD[SOD.index("    </gas_dynamics>") + 20:],
                                 ":55:8",
                                 "MaterialProperties/MPM/material: missing tag <density> in <material>"),

@@ -5,6 +5,18 @@
 namespace tushar::input {
 namespace {
 
+TEST(Values, ReadListsOfThreeIntegers) {
+  using Triples = std::vector<Index3>;
+  EXPECT_EQ(*parse<Triples>("[[8,8,1]]"), (Triples{{{8, 8, 1}}}));
+  EXPECT_EQ(*parse<Triples>(" [ [8, 8,1] ,[4,4,1]] "), (Triples{{{8, 8, 1}}, {{4, 4, 1}}}));
+  EXPECT_EQ(*parse<Triples>("[8,8,1]"), (Triples{{{8, 8, 1}}}));
+  EXPECT_EQ(toText(Triples{{{8, 8, 1}}, {{4, 4, 1}}}), "[[8,8,1],[4,4,1]]");
+  EXPECT_EQ(parse<Triples>("8").problem, "found '8', expected brackets of three integers, as [[1,2,3]]");
+  EXPECT_EQ(parse<Triples>("[]").problem, "found '[]', expected brackets of three integers, as [[1,2,3]]");
+  EXPECT_EQ(parse<Triples>("[[8,8]]").problem, "in '[[8,8]]': found '[8,8]', expected three integers, as [1,2,3]");
+  EXPECT_EQ(parse<Triples>("[[8,8,1],4]").problem, "in '[[8,8,1],4]': found '4', expected three integers, as [1,2,3]");
+}
+
 TEST(Values, ReadBooleans) {
   EXPECT_TRUE(*parse<bool>(" true "));
   EXPECT_FALSE(*parse<bool>("false"));

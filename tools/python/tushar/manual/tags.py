@@ -8,8 +8,9 @@ import re
 import subprocess
 
 OURS = " [Tushar's own]"
-TYPES = ("empty, true or false", "true or false", "integers [a,b,c]", "integers [a,b,…]", "integer", "numbers [a,b,c]",
-         "numbers [a,b,…]", "number", "words [a,b,…]", "text", "formulas [a,b,c] in x, y, z, t",
+TYPES = ("empty, true or false", "true or false", "integers [a,b,c]", "integers [a,b,…]",
+         "integers [[a,b,c],…]", "integer", "numbers [a,b,c]", "numbers [a,b,…]",
+         "number", "words [a,b,…]", "text", "formulas [a,b,c] in x, y, z, t",
          "formula in x, y, z, t")
 PRESENCE = re.compile(r"(?:^|, )(ignored|optional|required|any number|at least (?:one|\d+)|default (.*))$", re.DOTALL)
 LIMIT = re.compile(r"(?:greater than|less than|at least|at most|\S+ only|from \S+ to \S+|without t)\b.*$",

@@ -1,0 +1,329 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/input/refuse.hpp"
+#include "core/input/schema.hpp"
+#include "core/scene/scene.hpp"
+#include "core/tasks/task_list.hpp"
+
+namespace tushar::scene {
+
+using input::Diagnostics;
+using input::Element;
+using input::Schema;
+using simulation::Criterion;
+using Indicator = simulation::Criterion::Indicator;
+
+namespace {
+
+/// Names of components that a part of `AMR` may have: ours, and Uintah's.
+const std::vector<std::string> componentNames{"Euler", "Heat", "Burgers", "ICE", "MPM", "MPMICE"};
+
+struct VariableTag {
+  std::string name, material;
+  Indicator indicator = Indicator::jump;
+  double refine = 0;
+  std::optional<double> coarsen;
+  Location where;
+};
+
+struct CriteriaSection {
+  std::vector<VariableTag> variables;
+};
+
+struct ThresholdsSection {
+  bool refluxes = true;
+  CriteriaSection criteria;
+};
+
+struct RegridderSection {
+  std::string type;
+  std::optional<bool> adaptive;
+  bool once = false;
+  std::optional<int> maxLevels;
+  std::optional<std::vector<Index3>> ratios, blocks;
+  int interval = 8;
+  Index3 dilation = Index3::filled(1);
+};
+
+struct AmrSection {
+  bool usesLockStep = true;
+  RegridderSection regridder;
+  std::vector<ThresholdsSection> components;
+};
+
+bool isLower(Indicator indicator) { return indicator == Indicator::below; }
+bool isValue(Indicator indicator) { return indicator == Indicator::above || indicator == Indicator::below; }
+
+/// What is halfway from the threshold to nothing; of values, half their size further.
+double coarsenOf(const VariableTag& tag) {
+  if (tag.coarsen) return *tag.coarsen;
+  return isLower(tag.indicator) ? tag.refine + 0.5 * std::abs(tag.refine) : tag.refine - 0.5 * std::abs(tag.refine);
+}
+
+void checkThresholds(const VariableTag& tag, const Element& element, Diagnostics& diagnostics) {
+  const auto refuse = [&](const char* attribute, double found, const std::string& expected) {
+    diagnostics.error(element.whereOf(attribute), element.path(),
+                      fmt::format("attribute '{}': found '{:g}', expected {}", attribute, found, expected));
+  };
+  if (!isValue(tag.indicator) && tag.refine <= 0) return refuse("value", tag.refine, "a value greater than 0");
+  if (tag.indicator == Indicator::secondDerivative && tag.refine >= 1)
+    return refuse("value", tag.refine, "a value less than 1, which no second_derivative exceeds");
+  if (!tag.coarsen) return;
+  if (!isValue(tag.indicator) && *tag.coarsen < 0) refuse("coarsen", *tag.coarsen, "a value of at least 0");
+  if (isLower(tag.indicator) ? *tag.coarsen < tag.refine : *tag.coarsen > tag.refine)
+    refuse(
+        "coarsen", *tag.coarsen,
+        fmt::format("a value {} that of value, {:g}", isLower(tag.indicator) ? "not below" : "not above", tag.refine));
+}
+
+const Schema<VariableTag>& variableSchema() {
+  static const Schema<VariableTag> schema =
+      Schema<VariableTag>("Variable", "A reason for finer cells.")
+          .location(&VariableTag::where)
+          .requiredAttribute("name", &VariableTag::name, "1", "a variable of cells, such as c.density")
+          .requiredAttribute("value", &VariableTag::refine, "1",
+                             "finer cells where the indicator is above this (of type below: where it is below)")
+          .attributeValue("matl", &VariableTag::material, "all", "1", "name or number of the material, or all")
+          .choiceAttribute("type", &VariableTag::indicator,
+                           {{"jump", Indicator::jump},
+                            {"second_derivative", Indicator::secondDerivative},
+                            {"gradient", Indicator::gradient},
+                            {"above", Indicator::above},
+                            {"below", Indicator::below}},
+                           Indicator::jump,
+                           "the indicator: half the difference of the cells to both sides over the least of the three; "
+                           "Löhner's second difference, from 0 to 1; the gradient, unit of the variable over m, "
+                           "which is Uintah's; the value itself")
+          .ours()
+          .optionalAttribute("coarsen", &VariableTag::coarsen, "1",
+                             "no coarser cells where the indicator is above this (of type below: where it is below); "
+                             "half of value")
+          .ours()
+          .check(checkThresholds);
+  return schema;
+}
+
+const Schema<CriteriaSection>& criteriaSchema() {
+  static const Schema<CriteriaSection> schema =
+      Schema<CriteriaSection>("Refinement_Criteria_Thresholds",
+                              "Where finer cells are wanted; of several reasons the one for the finest counts.")
+          .list("Variable", &CriteriaSection::variables, variableSchema(), "a reason for finer cells", 1);
+  return schema;
+}
+
+const Schema<ThresholdsSection>& thresholdsSchema() {
+  static const Schema<ThresholdsSection> schema = [] {
+    Schema<ThresholdsSection> section("component", "How a component takes to several levels.");
+    section
+        .value("do_Refluxing", &ThresholdsSection::refluxes, true, "1",
+               "what leaves coarse cells is what enters finer ones, to the last bit; without, nothing is conserved")
+        .section("Refinement_Criteria_Thresholds", &ThresholdsSection::criteria, criteriaSchema());
+    const std::string order = "values between levels are of second order";
+    input::noteTag(section, "orderOfInterpolation", order);
+    input::noteTag(section, "orderOf_CFI_Interpolation", order);
+    input::noteTag(section, "CFI_interpolator", order);
+    const std::string region = "a further <Level> of <Grid> says where cells are finer";
+    for (const char* tag : {"min_grid_level", "max_grid_level", "manualGrid", "Refine_Regions"})
+      input::noteTag(section, tag, region);
+    return section;
+  }();
+  return schema;
+}
+
+void noteOldRegridderTags(Schema<RegridderSection>& section) {
+  input::noteTag(section, "max_timestep_interval", "every regrid is due by <min_timestep_interval>");
+  const std::string buffer = "<cell_stability_dilation> alone widens what is refined, by what signals cross besides";
+  for (const char* tag :
+       {"cell_regrid_dilation", "cell_deletion_dilation", "min_boundary_cells", "dynamic_dilation", "max_dilation"})
+    input::noteTag(section, tag, buffer);
+  const std::string cost = "when and what is refined does not depend on what it costs";
+  for (const char* tag : {"amr_overhead_low", "amr_overhead_high"}) input::noteTag(section, tag, cost);
+  input::noteTag(section, "patches_per_level_per_proc", "patches are boxes of blocks; -layout sets how many");
+}
+
+const Schema<RegridderSection>& regridderSchema() {
+  static const Schema<RegridderSection> schema = [] {
+    Schema<RegridderSection> section("Regridder", "How the grid is refined, and when.");
+    section
+        .choiceAttribute("type", &RegridderSection::type, {{"Tiled", "Tiled"}, {"BNR", "BNR"}}, "Tiled",
+                         "Uintah's ways to choose patches; both mean blocks here")
+        .elsewhere("SingleLevel", "patches of one level are chosen by <patches> of its Box, or -layout")
+        .optional("adaptive", &RegridderSection::adaptive, "1",
+                  "whether what is refined follows the state; where it is left out, whether there are thresholds")
+        .value("regrid_once", &RegridderSection::once, false, "1", "only at the start")
+        .optional("max_levels", &RegridderSection::maxLevels, "1",
+                  "the most levels, the coarsest among them; as many as the Levels of Grid make, where it is adaptive "
+                  "at least 2",
+                  input::between(1, 16))
+        .optional("cell_refinement_ratio", &RegridderSection::ratios, "1",
+                  "2 along each axis that the grid uses, for all levels", input::atLeast(1))
+        .optional("min_patch_size", &RegridderSection::blocks, "1",
+                  "cells of a block, of which all are finer or none: an even number from 4 on that divides the "
+                  "resolution, the same for all levels; without it the greatest up to 8, in one dimension 16",
+                  input::atLeast(1))
+        .value("min_timestep_interval", &RegridderSection::interval, 8, "1",
+               "steps from one look at what is refined to the next", input::atLeast(1))
+        .value("cell_stability_dilation", &RegridderSection::dilation, Index3::filled(1), "1",
+               "cells that are refined around those that signals can reach until the next look; the greatest of the "
+               "three holds along all axes",
+               input::nonNegative());
+    input::refuseOtherValues(section, "simple_refinement_ratio", {"2"}, "give one more level instead");
+    noteOldRegridderTags(section);
+    return section;
+  }();
+  return schema;
+}
+
+void readComponents(AmrSection& section, const Element& element, Diagnostics& diagnostics) {
+  for (const std::string& name : componentNames)
+    for (const Element& given : element.children(name))
+      section.components.push_back(thresholdsSchema().read(given, diagnostics));
+}
+
+const Schema<AmrSection>& amrSchema() {
+  static const Schema<AmrSection> schema = [] {
+    Schema<AmrSection> section("AMR", "Adaptive mesh refinement: cells of several sizes.");
+    section.ignoredAttribute("type", "a grid is adaptive where <Regridder> says so")
+        .value("useLockStep", &AmrSection::usesLockStep, true, "1",
+               "all levels take the same time step, as they always do")
+        .section("Regridder", &AmrSection::regridder, regridderSchema())
+        .custom(componentNames.front(), readComponents, componentNames,
+                "how the component takes to several levels; the name is of no account",
+                [](std::ostream& out, int indent) { thresholdsSchema().describeContents(out, indent); });
+    input::TagForm form = input::sectionForm(componentNames, [] {
+      return std::vector<input::Alternative>{{&thresholdsSchema(), {}}};
+    });
+    form.repeats = false;
+    section.forms({std::move(form)});
+    input::noteTag(section, "doMultiTaskgraphing", "one graph of tasks has all levels");
+    input::noteTag(section, "FineCoarseInterfaces", "values between levels are of second order");
+    return section;
+  }();
+  return schema;
+}
+
+Criterion criterionOf(const VariableTag& tag) {
+  Criterion criterion;
+  criterion.variable = tag.name;
+  if (tag.material != "all") criterion.material = tag.material;
+  criterion.indicator = tag.indicator;
+  criterion.refine = tag.refine;
+  criterion.coarsen = coarsenOf(tag);
+  criterion.where = tag.where;
+  return criterion;
+}
+
+void checkBlocks(const Element& amr, const std::optional<std::vector<Index3>>& blocks, Diagnostics& diagnostics) {
+  if (blocks && std::any_of(blocks->begin(), blocks->end(), [&](const Index3& one) { return one != blocks->front(); }))
+    diagnostics.error(
+        *amr.child("Regridder")->child("min_patch_size"),
+        fmt::format("found {}, expected the same for all levels: a block is refined into blocks of as many "
+                    "cells",
+                    input::toText(*blocks)));
+}
+
+/// The materials of the variables of cells that a component has, by name; empty for one that belongs to none.
+std::map<std::string, std::vector<std::string>> cellVariables(const simulation::Component& component) {
+  tasks::TaskList initialize, advance, diagnose;
+  component.scheduleInitialize(initialize);
+  component.scheduleTimeAdvance(advance);
+  component.scheduleDiagnostics(diagnose);
+  std::map<std::string, std::vector<std::string>> found;
+  for (const tasks::TaskList* list : {&initialize, &advance, &diagnose})
+    for (const tasks::Task& task : list->tasks())
+      for (const tasks::Access& access : task.accesses)
+        if (access.writes() && access.label->centring == data::Centring::cell &&
+            access.label->number == data::Number::real)
+          for (std::vector<std::string>& materials = found[std::string(access.label->name)];
+               const std::string& material : task.materials)
+            if (std::find(materials.begin(), materials.end(), material) == materials.end())
+              materials.push_back(material);
+  return found;
+}
+
+/// What is wrong with the variable of a criterion, or nothing. `materials`: those that it belongs to.
+void checkMaterial(const Criterion& criterion, const std::vector<std::string>& materials, const std::string& path,
+                   Diagnostics& diagnostics) {
+  if (!materials.empty())
+    diagnostics.error(criterion.where, path,
+                      fmt::format("'{}' is a variable of materials; the grid is refined by variables of none, and by "
+                                  "'particles'",
+                                  criterion.variable));
+  else if (!criterion.material.empty())
+    diagnostics.note(criterion.where, path,
+                     fmt::format("matl does nothing: '{}' belongs to no material", criterion.variable));
+}
+
+bool hasParticles(const simulation::Component& component) {
+  tasks::TaskList initialize;
+  component.scheduleInitialize(initialize);
+  return std::any_of(initialize.tasks().begin(), initialize.tasks().end(),
+                     [](const tasks::Task& task) { return task.kind == tasks::TaskKind::newParticles; });
+}
+
+}  // namespace
+
+AmrSettings readAmr(const Element& section, Diagnostics& diagnostics) {
+  const std::size_t before = diagnostics.size();
+  const AmrSection read = amrSchema().read(section, diagnostics);
+  AmrSettings amr;
+  amr.tag = section;
+  for (const ThresholdsSection& component : read.components) {
+    amr.regrid.refluxes = amr.regrid.refluxes && component.refluxes;
+    for (const VariableTag& tag : component.criteria.variables) amr.regrid.criteria.push_back(criterionOf(tag));
+  }
+  const RegridderSection& regridder = read.regridder;
+  amr.regrid.adaptive = regridder.adaptive.value_or(!amr.regrid.criteria.empty());
+  amr.regrid.once = regridder.once;
+  amr.regrid.interval = regridder.interval;
+  amr.regrid.dilation = *std::max_element(regridder.dilation.at.begin(), regridder.dilation.at.end());
+  amr.maxLevels = regridder.maxLevels;
+  amr.ratios = regridder.ratios;
+  if (diagnostics.size() > before) return amr;
+  checkBlocks(section, regridder.blocks, diagnostics);
+  if (regridder.blocks) amr.block = regridder.blocks->front();
+  if (!read.usesLockStep)
+    diagnostics.note(*section.child("useLockStep"),
+                     "all levels take the same time step: there are no smaller steps yet "
+                     "for finer levels");
+  if (!amr.regrid.adaptive)
+    for (const Criterion& criterion : amr.regrid.criteria)
+      diagnostics.note(criterion.where, "AMR", "<Variable> does nothing: the grid is not <adaptive>");
+  return amr;
+}
+
+simulation::RegridSettings settled(AmrSettings amr, const simulation::Component& component, Diagnostics& diagnostics) {
+  std::vector<Criterion>& criteria = amr.regrid.criteria;
+  if (!amr.regrid.adaptive) return amr.regrid;
+  const bool followsParticles = hasParticles(component);  // always, and so also where the scene says it
+  if (followsParticles) std::erase_if(criteria, [](const Criterion& one) { return one.variable == "particles"; });
+  if (criteria.empty() && !followsParticles) {
+    criteria = component.criteria();
+    if (criteria.empty())
+      diagnostics.error(*amr.tag->child("Regridder")->child("adaptive"),
+                        "<adaptive> true needs a <Variable> in <Refinement_Criteria_Thresholds>, which says where "
+                        "cells are to be finer");
+    return amr.regrid;
+  }
+  const auto variables = cellVariables(component);
+  std::vector<std::string> names;
+  if (followsParticles) names.emplace_back("particles");
+  for (const auto& [name, materials] : variables)
+    if (materials.empty()) names.push_back(name);
+  const std::string path = "AMR/Refinement_Criteria_Thresholds/Variable";
+  for (const Criterion& criterion : criteria)
+    if (const auto found = variables.find(criterion.variable); found != variables.end())
+      checkMaterial(criterion, found->second, path, diagnostics);
+    else
+      diagnostics.error(criterion.where, path, "name: " + input::choiceProblem(criterion.variable, names));
+  return amr.regrid;
+}
+
+const input::SchemaBase& amrForm() { return amrSchema(); }
+void describeAmr(std::ostream& out) { amrSchema().describe(out); }
+
+}  // namespace tushar::scene

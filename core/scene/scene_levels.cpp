@@ -1,0 +1,348 @@
+#include "core/scene/scene_levels.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tushar::scene {
+
+using input::Diagnostics;
+using input::Element;
+using input::Schema;
+
+namespace {
+
+const Schema<GridBox>& boxSchema() {
+  static const Schema<GridBox> schema =
+      Schema<GridBox>("Box", "The box that is divided into cells.")
+          .attributeValue("label", &GridBox::label, "", "1", "its name")
+          .required("lower", &GridBox::lower, "m", "its lower corner")
+          .required("upper", &GridBox::upper, "m", "its upper corner")
+          .optional("resolution", &GridBox::resolution, "1", "cells along x, y, z (or give <spacing> of the Level)",
+                    input::atLeast(1))
+          .optional(
+              "patches", &GridBox::patches, "1",
+              "patches along x, y, z; where neither this nor autoPatch is given, as many as the threads and ranks need",
+              input::atLeast(1))
+          .optional("autoPatch", &GridBox::autoPatch, "1", "about how many patches to make, in place of patches",
+                    input::atLeast(1))
+          .value("extraCells", &GridBox::extraCells, Index3{}, "1",
+                 "accepted for Uintah's sake: what a shape function needs around the grid follows from it",
+                 input::nonNegative())
+          .check([](const GridBox& box, const Element& element, Diagnostics& diagnostics) {
+            if (box.patches && box.autoPatch) diagnostics.error(element, "gives both patches and autoPatch; keep one");
+            for (int axis = 0; axis < 3; ++axis)
+              if (box.upper[axis] < box.lower[axis])
+                diagnostics.error(element, fmt::format("upper is below lower along {}: {:g} < {:g} m", "xyz"[axis],
+                                                       box.upper[axis], box.lower[axis]));
+          });
+  return schema;
+}
+
+}  // namespace
+
+const Schema<LevelSection>& levelSchema() {
+  static const Schema<LevelSection> schema =
+      Schema<LevelSection>(
+          "Level", "A grid of cells of one size; a further one has boxes in which the grid is at least so fine.")
+          .list("Box", &LevelSection::boxes, boxSchema(),
+                "the box that is divided into cells; of further Levels any number, each grown to whole "
+                "blocks (see AMR/Regridder/min_patch_size)",
+                1)
+          .optional("spacing", &LevelSection::spacing, "m", "cell widths, in place of the resolution of the Box",
+                    input::positive())
+          .value("periodic", &LevelSection::periodic, Index3{}, "1",
+                 "1 along axes where the grid repeats without end; the same for all Levels", input::between(0, 1))
+          .check([](const LevelSection& level, const Element& element, Diagnostics& diagnostics) {
+            for (const GridBox& box : level.boxes)
+              if (box.resolution.has_value() == level.spacing.has_value())
+                diagnostics.error(element, box.resolution ? "gives both spacing and resolution; keep one"
+                                                          : "gives neither <resolution> of its Box nor <spacing>");
+          });
+  return schema;
+}
+
+Index3 resolutionOf(const GridBox& box, const LevelSection& level, const Element& element, Diagnostics& diagnostics) {
+  if (box.resolution) return *box.resolution;
+  Index3 resolution = Index3::filled(1);
+  for (int axis = 0; level.spacing && axis < 3; ++axis) {
+    const double cells = (box.upper[axis] - box.lower[axis]) / (*level.spacing)[axis];
+    if (cells > mostCells || (cells > 0.5 && std::abs(cells - std::round(cells)) > 1e-6 * cells))
+      diagnostics.error(
+          element, fmt::format("spacing along {} gives {:g} cells, which is not a whole number", "xyz"[axis], cells));
+    else
+      resolution[axis] = std::max(1, static_cast<int>(std::lround(cells)));
+  }
+  return resolution;
+}
+
+namespace {
+
+constexpr int mostLevels = 16;         ///< of a tree of blocks,
+constexpr int mostBlocks = 1 << 20;    ///< and the most of its finest blocks along an axis
+constexpr int fewestCellsOfBlock = 4;  ///< along an axis in use
+
+/// A tag of `Regridder` where it is given, else what stands in for it.
+Element tagOr(const AmrSettings& amr, const std::string& tag, const Element& other) {
+  const auto regridder = amr.tag ? amr.tag->child("Regridder") : std::nullopt;
+  const auto given = regridder ? regridder->child(tag) : std::nullopt;
+  return given ? *given : other;
+}
+
+/// Reads the Boxes of further Levels, and sees to their blocks.
+class Refiner {
+ public:
+  Refiner(const Element& grid, const std::vector<LevelSection>& levels, const AmrSettings& amr, grid::Domain& domain,
+          Diagnostics& diagnostics)
+      : elements_(grid.children("Level")),
+        levels_(levels),
+        amr_(amr),
+        coarsest_(domain),
+        refinement_(domain.refinement),
+        diagnostics_(diagnostics) {}
+
+  void read() {
+    const std::size_t before = diagnostics_.size();
+    for (std::size_t k = 1; k < levels_.size(); ++k) readLevel(k);
+    checkRatios();
+    if (diagnostics_.size() > before) return;
+    refinement_.levels = countLevels();
+    if (refinement_.levels == 1 || diagnostics_.size() > before) return;
+    for (int d = 0; d < coarsest_.dimension(); ++d) chooseBlock(coarsest_.axis(d));
+    if (diagnostics_.size() > before) return;
+    for (int d = 0; d < coarsest_.dimension(); ++d) checkCount(coarsest_.axis(d));
+    noteWhatGrows();
+  }
+
+ private:
+  void readLevel(std::size_t k) {
+    const LevelSection& section = levels_[k];
+    const Element& element = elements_[k];
+    const std::vector<Element> boxes = element.children("Box");
+    if (element.child("periodic") && !(section.periodic == levels_.front().periodic))
+      diagnostics_.error(*element.child("periodic"),
+                         fmt::format("found {}, but the first Level has {}; all Levels repeat alike",
+                                     input::toText(section.periodic), input::toText(levels_.front().periodic)));
+    std::optional<int> number;
+    for (std::size_t b = 0; b < boxes.size(); ++b) {
+      const GridBox& box = section.boxes[b];
+      const std::optional<int> of = checkPlace(box, boxes[b]) ? levelOf(box, section, boxes[b]) : std::nullopt;
+      if (of && number && of != number)
+        diagnostics_.error(boxes[b], fmt::format("its cells are {:g} times as fine as those of the first Level, but "
+                                                 "{:g} times in a Box above; give it a Level of its own",
+                                                 std::ldexp(1, *of), std::ldexp(1, *number)));
+      if (!of) continue;
+      number = of;
+      refinement_.regions.push_back({*of, box.lower, box.upper});
+      boxes_.push_back(boxes[b]);
+    }
+    if (number) checkOrder(k, *number);
+  }
+
+  void checkOrder(std::size_t k, int number) {
+    if (number <= finest_)
+      diagnostics_.error(elements_[k], fmt::format("this Level is not finer than the one before, at {}; Levels go from "
+                                                   "coarse to fine",
+                                                   elements_[k - 1].where().text()));
+    else if (number >= mostLevels)
+      diagnostics_.error(elements_[k],
+                         fmt::format("its cells are {:g} times as fine as those of the first Level; the most is {:g}",
+                                     std::ldexp(1, number), std::ldexp(1, mostLevels - 1)));
+    finest_ = std::max(finest_, number);
+  }
+
+  bool checkPlace(const GridBox& box, const Element& element) {
+    const std::size_t before = diagnostics_.size();
+    const grid::Domain& domain = coarsest_.domain();
+    for (int axis = 0; axis < 3; ++axis) {
+      const double slack = 1e-9 * (domain.upper[axis] - domain.lower[axis]);
+      if (box.lower[axis] < domain.lower[axis] - slack || box.upper[axis] > domain.upper[axis] + slack)
+        diagnostics_.error(
+            element,
+            fmt::format("found {:g} to {:g} m along {}, expected a place in the box of the first Level, from "
+                        "{:g} to {:g} m",
+                        box.lower[axis], box.upper[axis], "xyz"[axis], domain.lower[axis], domain.upper[axis]));
+      else if (coarsest_.cellWidth(axis) > 0 && !(box.upper[axis] > box.lower[axis]))
+        diagnostics_.error(element, fmt::format("the box has no extent along {}", "xyz"[axis]));
+    }
+    return diagnostics_.size() == before;
+  }
+
+  /// The level that has cells as wide as those of a box: how often those of the first Level are halved.
+  std::optional<int> levelOf(const GridBox& box, const LevelSection& section, const Element& element) {
+    const std::size_t before = diagnostics_.size();
+    const Index3 cells = resolutionOf(box, section, element, diagnostics_);
+    std::optional<int> first;
+    for (int axis = 0; axis < 3 && diagnostics_.size() == before; ++axis) {
+      if (!isInUse(axis)) {
+        if (cells[axis] > 1)
+          diagnostics_.error(
+              element, fmt::format("found {} cells along {}, expected 1: the grid does not use this axis", cells[axis],
+                                   "xyz"[axis]));
+        continue;
+      }
+      const double ratio = coarsest_.cellWidth(axis) * cells[axis] / (box.upper[axis] - box.lower[axis]);
+      const auto halvings = static_cast<int>(std::lround(std::log2(ratio)));
+      if (std::abs(ratio - std::ldexp(1, halvings)) > 1e-6 * ratio)
+        diagnostics_.error(element, fmt::format("its cells are {:g} times as fine along {} as those of the first "
+                                                "Level, expected 2, 4, 8 or another power of two",
+                                                ratio, "xyz"[axis]));
+      else if (first && *first != halvings)
+        diagnostics_.error(element, fmt::format("its cells are {:g} times as fine along {}, but {:g} times along {}; "
+                                                "refine all axes alike, and give one more Level where one needs more",
+                                                std::ldexp(1, *first), "xyz"[coarsest_.axis(0)],
+                                                std::ldexp(1, halvings), "xyz"[axis]));
+      if (!first) first = halvings;
+    }
+    return diagnostics_.size() == before ? first : std::nullopt;
+  }
+
+  bool isInUse(int axis) const {
+    for (int d = 0; d < coarsest_.dimension(); ++d)
+      if (coarsest_.axis(d) == axis) return coarsest_.cellWidth(axis) > 0;
+    return false;
+  }
+
+  void checkRatios() {
+    if (!amr_.ratios) return;
+    for (const Index3& ratio : *amr_.ratios)
+      for (int d = 0; d < coarsest_.dimension(); ++d)
+        if (const int axis = coarsest_.axis(d); ratio[axis] != 2) {
+          diagnostics_.error(tagOr(amr_, "cell_refinement_ratio", elements_.front()),
+                             fmt::format("found {} along {}, expected 2 along each axis that the grid uses; give one "
+                                         "more level instead",
+                                         ratio[axis], "xyz"[axis]));
+          return;
+        }
+  }
+
+  /// The levels that the run may have, from what the scene says of them.
+  int countLevels() {
+    const int given = finest_ + 1;
+    const bool isAdaptive = amr_.regrid.adaptive;
+    const int asked = amr_.maxLevels.value_or(isAdaptive ? std::max(2, given) : given);
+    const Element place = tagOr(amr_, "max_levels", elements_.front());
+    if (asked < given)
+      diagnostics_.error(place, fmt::format("found {}, but the Levels of <Grid> make {}", asked, given));
+    else if (isAdaptive && asked < 2)
+      diagnostics_.error(place, "found 1, expected at least 2, since the grid is <adaptive>");
+    else if (!isAdaptive && asked > given)
+      diagnostics_.note(place, "does nothing: where the grid is not <adaptive>, its Levels say what is refined");
+    return isAdaptive ? asked : given;
+  }
+
+  void chooseBlock(int axis) {
+    const int cells = coarsest_.domain().resolution[axis];
+    const int wanted = coarsest_.dimension() == 1 ? 16 : 8;
+    const std::vector<int> sizes = blockSizes(cells);
+    if (amr_.block) return checkBlock(axis, cells, sizes);
+    const auto above = std::upper_bound(sizes.begin(), sizes.end(), wanted);
+    if (above != sizes.begin()) {
+      refinement_.blockCells[axis] = *(above - 1);
+      return;
+    }
+    const std::string instead = sizes.empty() ? "choose another <resolution>"
+                                              : fmt::format("choose another <resolution>, or give <min_patch_size> {}",
+                                                            namesOfNearest(sizes, wanted));
+    diagnostics_.error(
+        elements_.front().children("Box").front(),
+        fmt::format("its {} along {} cannot be cut into blocks of an even number of cells from {} to {}; "
+                    "{}",
+                    counted(cells, "cell"), "xyz"[axis], fewestCellsOfBlock, wanted, instead));
+  }
+
+  void checkBlock(int axis, int cells, const std::vector<int>& sizes) {
+    const int size = (*amr_.block)[axis];
+    const Element place = tagOr(amr_, "min_patch_size", elements_.front());
+    refinement_.blockCells[axis] = size;
+    if (size < fewestCellsOfBlock || size % 2 != 0)
+      diagnostics_.error(place, fmt::format("found {} along {}, expected an even number of cells, at least {}", size,
+                                            "xyz"[axis], fewestCellsOfBlock));
+    else if (cells % size != 0)
+      diagnostics_.error(
+          place, fmt::format("blocks of {} cells do not divide the {} of the grid along {}; {}", size,
+                             counted(cells, "cell"), "xyz"[axis],
+                             sizes.empty() ? "no even number of at least 4 does: choose another <resolution>"
+                                           : namesOfNearest(sizes, size) + (sizes.size() > 1 ? " do" : " does")));
+  }
+
+  /// The even divisors of a number of cells from the fewest of a block on, in their order.
+  static std::vector<int> blockSizes(int cells) {
+    std::vector<int> sizes;
+    const auto add = [&](int size) {
+      if (size % 2 == 0 && size >= fewestCellsOfBlock) sizes.push_back(size);
+    };
+    for (int size = 1; static_cast<long>(size) * size <= cells; ++size) {
+      if (cells % size != 0) continue;
+      add(size);
+      if (size * size != cells) add(cells / size);
+    }
+    std::sort(sizes.begin(), sizes.end());
+    return sizes;
+  }
+
+  /// `4, 10 or 20`: of the sizes, those next to one.
+  static std::string namesOfNearest(std::vector<int> sizes, int wanted) {
+    constexpr std::size_t most = 6;
+    std::stable_sort(sizes.begin(), sizes.end(),
+                     [&](int a, int b) { return std::abs(a - wanted) < std::abs(b - wanted); });
+    sizes.resize(std::min(sizes.size(), most));
+    std::sort(sizes.begin(), sizes.end());
+    std::string text;
+    for (std::size_t k = 0; k < sizes.size(); ++k)
+      text += (k == 0 ? "" : k + 1 == sizes.size() ? " or " : ", ") + std::to_string(sizes[k]);
+    return text;
+  }
+
+  void checkCount(int axis) {
+    const double cells = std::ldexp(coarsest_.domain().resolution[axis], refinement_.levels - 1);
+    const double blocks = cells / refinement_.blockCells[axis];
+    if (cells <= mostCells && blocks <= mostBlocks) return;
+    const Element place = tagOr(amr_, "max_levels", elements_.back());
+    diagnostics_.error(place, fmt::format("{} levels make {:.3g} cells in {:.3g} blocks along {}; the most is {:.3g} "
+                                          "cells, and {} blocks",
+                                          refinement_.levels, cells, blocks, "xyz"[axis], mostCells, mostBlocks));
+  }
+
+  void noteWhatGrows() {
+    for (std::size_t k = 0; k < boxes_.size(); ++k) {
+      const grid::FineRegion& region = refinement_.regions[k];
+      grid::FineRegion grown = region;
+      bool grows = false;
+      for (int d = 0; d < coarsest_.dimension(); ++d) {
+        const int axis = coarsest_.axis(d);
+        const double block = std::ldexp(coarsest_.cellWidth(axis) * refinement_.blockCells[axis], 1 - region.level);
+        const double start = coarsest_.domain().lower[axis];
+        const double slack = 1e-3 / refinement_.blockCells[axis];  // as the grid has it
+        grown.lower[axis] = start + block * std::floor((region.lower[axis] - start) / block + slack);
+        grown.upper[axis] = start + block * std::ceil((region.upper[axis] - start) / block - slack);
+        grows = grows || region.lower[axis] - grown.lower[axis] > slack * block ||
+                grown.upper[axis] - region.upper[axis] > slack * block;
+      }
+      if (grows)
+        diagnostics_.note(
+            boxes_[k],
+            fmt::format("is grown to whole blocks: from [{:g},{:g},{:g}] to [{:g},{:g},{:g}] m", grown.lower[0],
+                        grown.lower[1], grown.lower[2], grown.upper[0], grown.upper[1], grown.upper[2]));
+    }
+  }
+
+  std::vector<Element> elements_;
+  const std::vector<LevelSection>& levels_;
+  const AmrSettings& amr_;
+  grid::Level coarsest_;
+  grid::Refinement& refinement_;
+  Diagnostics& diagnostics_;
+  std::vector<Element> boxes_;  ///< of the regions
+  int finest_ = 0;              ///< the level of the finest Box
+};
+
+}  // namespace
+
+void readRefinement(const Element& grid, const std::vector<LevelSection>& levels, const AmrSettings& amr,
+                    grid::Domain& domain, Diagnostics& diagnostics) {
+  Refiner(grid, levels, amr, domain, diagnostics).read();
+}
+
+}  // namespace tushar::scene

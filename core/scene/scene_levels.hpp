@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/input/schema.hpp"
+#include "core/scene/scene.hpp"
+
+namespace tushar::scene {
+
+/// More cells than this cannot be numbered by an int.
+inline constexpr double mostCells = 2147483647.0;
+
+/// The tag `Box`.
+struct GridBox {
+  std::string label;
+  Vec3 lower = Vec3::Zero(), upper = Vec3::Ones();  ///< m
+  std::optional<Index3> resolution;                 ///< cells along x, y, z
+  std::optional<Index3> patches;
+  std::optional<int> autoPatch;
+  Index3 extraCells{};
+};
+
+/// The tag `Level`.
+struct LevelSection {
+  std::vector<GridBox> boxes;
+  std::optional<Vec3> spacing;  ///< m
+  Index3 periodic{};
+};
+
+const input::Schema<LevelSection>& levelSchema();
+
+/// The cells of a box along x, y and z; `element` is its tag.
+Index3 resolutionOf(const GridBox& box, const LevelSection& level, const input::Element& element,
+                    input::Diagnostics& diagnostics);
+
+/// Reads how a grid is refined into `domain`, which has all of the first Level but its patches: `levels` are those of
+/// the section `grid`, the first among them.
+void readRefinement(const input::Element& grid, const std::vector<LevelSection>& levels, const AmrSettings& amr,
+                    grid::Domain& domain, input::Diagnostics& diagnostics);
+
+}  // namespace tushar::scene

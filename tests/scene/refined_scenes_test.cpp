@@ -1,0 +1,107 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "components/components.hpp"
+#include "core/scene/dry_run.hpp"
+#include "core/scene/scene.hpp"
+#include "tests/support/temporary.hpp"
+
+namespace tushar::scene {
+
+namespace {
+
+/// A scene of `ups/` with other text behind the only place where `before` stands; gives its path.
+std::string changed(const std::string& scene, const std::string& before, const std::string& added) {
+  std::ostringstream text;
+  text << std::ifstream(scene).rdbuf();
+  std::string all = text.str();
+  const std::size_t at = all.find(before);
+  EXPECT_EQ(all.rfind(before), at) << before;
+  all.insert(at + before.size(), added);
+  const std::string path = test::temporaryFolder() + std::filesystem::path(scene).filename().string();
+  std::ofstream(path) << all;
+  return path;
+}
+
+std::string withCriterion(const std::string& attributes) {
+  return changed("ups/euler/sod.ups", "</Grid>",
+                 "<AMR><Regridder type=\"Tiled\"><max_levels>3</max_levels></Regridder><Euler>"
+                 "<Refinement_Criteria_Thresholds><Variable " +
+                     attributes + "/></Refinement_Criteria_Thresholds></Euler></AMR>");
+}
+std::string withLevel(const std::string& scene) {
+  return changed(scene, "</Level>",
+                 "<Level><Box><lower>[.25,0,0]</lower><upper>[.75,1,1]</upper><resolution>[64,1,1]</resolution></Box>"
+                 "</Level>");
+}
+
+/// What is wrong with a scene, line by line.
+std::string problemsOf(const std::string& path, const std::vector<std::string>& overrides = {}) {
+  std::string text;
+  try {
+    readScene(path, overrides, catalogue());
+  } catch (const InputError& error) {
+    for (const InputProblem& problem : error.problems()) text += problem.sentence + "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+TEST(RefinedScenes, HaveTheirLevels) {
+  const simulation::Problem problem = readScene(withLevel("ups/heat/sine.ups"), {}, catalogue());
+
+  ASSERT_EQ(problem.grid->levels(), 2);
+  EXPECT_EQ(problem.grid->blockCells()[0], 16);
+  std::size_t cells = 0;
+  for (const grid::Patch& patch : problem.grid->patches()) cells += patch.cells().size();
+  EXPECT_EQ(cells, 32u + 64u);
+  EXPECT_EQ(problem.notes.size(), 1u);  // on <patches>
+}
+
+TEST(RefinedScenes, BringTheirCriteria) {
+  const simulation::Problem problem =
+      readScene(withCriterion("name=\"c.pressure\" value=\".1\" matl=\"0\""), {}, catalogue());
+
+  EXPECT_EQ(problem.grid->levels(), 3);
+  EXPECT_TRUE(problem.regrid.adaptive);
+  ASSERT_EQ(problem.regrid.criteria.size(), 1u);
+  EXPECT_EQ(problem.regrid.criteria[0].variable, "c.pressure");
+  EXPECT_EQ(problem.regrid.criteria[0].material, "");
+  EXPECT_EQ(problem.notes.back().sentence, "matl does nothing: 'c.pressure' belongs to no material");
+}
+
+TEST(RefinedScenes, NameVariablesThatAreThere) {
+  const std::string problems = problemsOf(withCriterion("name=\"c.densty\" value=\".1\""));
+
+  EXPECT_TRUE(problems.starts_with("name: found 'c.densty', expected 'c.density', ")) << problems;
+  EXPECT_TRUE(problems.ends_with("(did you mean 'c.density'?)\n")) << problems;
+}
+
+TEST(RefinedScenes, AreRefusedToComponentsOfOneLevel) {
+  EXPECT_EQ(problemsOf(withLevel("ups/heat/implicit.ups")),
+            "'implicit_heat' needs a grid of one level; of several: 'burgers', 'euler' and 'heat'\n");
+}
+
+TEST(RefinedScenes, AreRefusedToSlices) {
+  const std::string slice =
+      "<Module name=\"slice\"><plane>x = .5</plane><label>c.temperature</label>"
+      "<outputTimestepInterval>1</outputTimestepInterval></Module>";
+  const std::string path = changed("ups/heat/sine.ups", "<DataAnalysis>", slice);
+  const std::string refined = withLevel(path);
+
+  EXPECT_EQ(problemsOf(refined),
+            "a slice needs a grid of one level; take the module out, or the finer Levels and <AMR>\n");
+}
+
+TEST(RefinedScenes, CanBePlannedForManyRanks) {
+  const DryRun planned = dryRun(withLevel("ups/heat/sine.ups"), {}, catalogue(), {1, false, 3, Index3{{1, 1, 1}}});
+
+  EXPECT_EQ(planned.patchesOfAll, 2 + 4);
+  EXPECT_EQ(planned.patches, 2);
+}
+
+}  // namespace tushar::scene
