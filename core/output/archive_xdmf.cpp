@@ -157,7 +157,8 @@ std::string nameOf(const FieldBlock& field) {
   return group + field.array.label;
 }
 
-/// A uniform grid for each box, with its part of each field.
+/// A uniform grid for each box, with its part of each field. A reader would search long for names of its own if grids
+/// of several times had the same.
 void addBoxes(pugi::xml_node collection, const Context& context, const Snapshot& snapshot) {
   set(collection, "CollectionType", "Spatial");
   std::uint64_t first = 0;
@@ -166,7 +167,8 @@ void addBoxes(pugi::xml_node collection, const Context& context, const Snapshot&
     const Shape cells = boxShape(box);
     const Vec3 spacing = spacingOf(snapshot.grid, box.level);
     const Vec3 corner(box.lower[0], box.lower[1], box.lower[2]);
-    pugi::xml_node grid = addGrid(collection, fmt::format("level {} box {}", box.level, number++), "Uniform");
+    pugi::xml_node grid =
+        addGrid(collection, fmt::format("level {} box {}{}{}", box.level, number++, atStep, snapshot.step), "Uniform");
     addMesh(grid, {cells[0] + 1, cells[1] + 1, cells[2] + 1}, snapshot.grid.lower + corner.cwiseProduct(spacing),
             spacing);
     for (const FieldBlock& field : snapshot.fields)

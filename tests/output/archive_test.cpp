@@ -145,7 +145,7 @@ TEST(Archive, ShowsBoxesAsASpatialCollection) {
   archive.write(snapshotRefined(42, 0.1));
   const std::string xdmf = read(archive.folder() / "sod.xdmf");
   EXPECT_TRUE(has(xdmf, "<Grid Name=\"cells at step 42\" GridType=\"Collection\" CollectionType=\"Spatial\">"));
-  EXPECT_TRUE(has(xdmf, "<Grid Name=\"level 2 box 3\" GridType=\"Uniform\">"));
+  EXPECT_TRUE(has(xdmf, "<Grid Name=\"level 2 box 3 at step 42\" GridType=\"Uniform\">"));
   EXPECT_TRUE(has(xdmf, "<DataItem Dimensions=\"3 1\" Format=\"XML\">16 1 16</DataItem>"));
   EXPECT_TRUE(has(xdmf, "<DataItem Dimensions=\"3 2\" Format=\"XML\">4 0 1 1 8 3</DataItem>"));
 }
