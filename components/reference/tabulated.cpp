@@ -39,6 +39,9 @@ std::vector<double> readField(const output::Hdf5Input& file, const std::string& 
 
 GasTable readGasTable(const std::filesystem::path& path, double gamma) {
   const output::Hdf5Input file(path);
+  if (file.has("grid/boxes"))
+    throw FileError(
+        fmt::format("'{}' holds boxes of several levels: tools/coarsen makes a table of it", path.string()));
   GasTable table;
   table.time = file.real("/", "time");
   table.cells = file.index("grid", "cells");

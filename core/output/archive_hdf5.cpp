@@ -99,6 +99,16 @@ class Sequence : public Source {
   std::size_t count_;
 };
 
+/// Chooses what a part shows of its dataset.
+void choose(hid_t space, const VirtualPart& part) {
+  const std::size_t axes = part.source.size();
+  if (axes > part.extent.size()) return;
+  std::vector<hsize_t> from(part.from.begin(), part.from.end());
+  from.resize(axes, 0);
+  const std::vector<hsize_t> extent(part.extent.end() - static_cast<std::ptrdiff_t>(axes), part.extent.end());
+  H5Sselect_hyperslab(space, H5S_SELECT_SET, from.data(), nullptr, extent.data(), nullptr);
+}
+
 /// The type of a dataset of the file.
 Handle typeIn(hid_t file, const std::string& dataset) {
   const Handle data(H5Dopen2(file, dataset.c_str(), H5P_DEFAULT), H5Dclose);
@@ -134,7 +144,8 @@ void Hdf5File::group(const std::string& name) {
   checked<hid_t>(made, name + " in");
 }
 
-void Hdf5File::dataset(const std::string& name, const Array& array, std::vector<std::uint64_t> shape) {
+void Hdf5File::dataset(const std::string& name, const Array& array, std::vector<std::uint64_t> shape,
+                       Precision precision) {
   const Silence silence;
   std::vector<hsize_t> full(shape.begin(), shape.end());
   if (array.components > 1) full.push_back(static_cast<hsize_t>(array.components));
@@ -142,12 +153,13 @@ void Hdf5File::dataset(const std::string& name, const Array& array, std::vector<
   const Handle links = parentsMade();
   const Handle creation = withoutTimes();
   checked(setCompression(creation, full, compression_) ? 0 : -1, name + ", compressed, in");
+  const bool asFloat = double_as_float_ && precision == Precision::asAsked;
   std::visit(
       [&](const auto& values) {
         using Number = typename std::decay_t<decltype(values)>::value_type;
         assert(static_cast<hsize_t>(H5Sget_simple_extent_npoints(space)) == array.entries() * array.components);
         const Handle data(
-            H5Dcreate2(file_, name.c_str(), fileType(Number{}, double_as_float_), space, links, creation, H5P_DEFAULT),
+            H5Dcreate2(file_, name.c_str(), fileType(Number{}, asFloat), space, links, creation, H5P_DEFAULT),
             H5Dclose);
         checked<hid_t>(data, name + " in");
         array.source ? writePieces<Number>(data, array, full, name) : writeValues(data, values, name);
@@ -197,11 +209,10 @@ void Hdf5File::virtualDataset(const std::string& name, const Array::Values& type
   const Silence silence;
   const Handle space = spaceOf(shape), links = parentsMade(), creation = withoutTimes();
   for (const VirtualPart& part : parts) {
-    const std::vector<hsize_t> first(part.first.begin(), part.first.end()), none(part.source.size(), 0);
+    const std::vector<hsize_t> first(part.first.begin(), part.first.end());
     const std::vector<hsize_t> extent(part.extent.begin(), part.extent.end());
     const Handle source = spaceOf(part.source);
-    const std::size_t leading = extent.size() - part.source.size();
-    H5Sselect_hyperslab(source, H5S_SELECT_SET, none.data(), nullptr, extent.data() + leading, nullptr);
+    choose(source, part);
     H5Sselect_hyperslab(space, H5S_SELECT_SET, first.data(), nullptr, extent.data(), nullptr);
     checked(H5Pset_virtual(creation, space, part.file.c_str(), part.dataset.c_str(), source), name + " in");
   }

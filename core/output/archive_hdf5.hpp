@@ -18,9 +18,14 @@ std::string hdf5Version();
 /// or `.` for the same file.
 struct VirtualPart {
   std::string file, dataset;
-  std::vector<std::uint64_t> source;  ///< shape of the dataset, of which as much is shown as the box has room for
+  std::vector<std::uint64_t> source;  ///< shape of the dataset, of which as much is shown as the box has room for; all
+                                      ///< of it where it has more axes than the box
   std::vector<std::uint64_t> first, extent;  ///< corner and size of the box
+  std::vector<std::uint64_t> from{};         ///< where what is shown begins in the dataset; empty: at its start
 };
+
+/// Of real numbers in the file: what the file was opened for, or 8 bytes always.
+enum class Precision { asAsked, full };
 
 /// Writes one HDF5 file. It needs no MPI and never starts it. Each function may throw FileError with the path and the
 /// reason: the system's, or else the innermost of HDF5, whose own printing is kept silent.
@@ -38,7 +43,8 @@ class Hdf5File {
   void group(const std::string& name);
   /// Writes an array as a dataset of shape `shape` × components (the last only where there are several), with the
   /// attributes unit and description. The groups above it are made. Values of a source are written piece by piece.
-  void dataset(const std::string& name, const Array& array, std::vector<std::uint64_t> shape);
+  void dataset(const std::string& name, const Array& array, std::vector<std::uint64_t> shape,
+               Precision precision = Precision::asAsked);
   /// Writes a text of any length as a dataset. The groups above it are made.
   void text(const std::string& name, const std::string& value);
   /// Makes a dataset of real numbers, or of integers like those of `type`, that shows parts of others and holds no

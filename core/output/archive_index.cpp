@@ -34,6 +34,7 @@ ArchiveIndex::ArchiveIndex(std::string version, const std::string& text, int ste
   pugi::xml_document document;
   document.load_string(text.c_str());
   const pugi::xml_node root = document.child(rootName);
+  format_ = root.attribute("format").as_int(uniformFormat);
   const auto word = [](const pugi::xml_node& node, const char* name) { return node.attribute(name).as_string(); };
   for (const pugi::xml_node& node : root.child("variables"))
     variables_[word(node, "name")] = {word(node, "centring"),
@@ -86,6 +87,7 @@ bool ArchiveIndex::add(const Snapshot& snapshot) {
   for (const FieldBlock& field : snapshot.fields)
     isNew |= addVariable(field.array, field.centring == Centring::cell ? "cell" : "node",
                          field.materialIndex < 0 ? "" : groupName(field.material, field.materialIndex));
+  if (!snapshot.grid.boxes.empty()) format_ = format;
   outputs_[snapshot.step] = {snapshot.time, snapshot.delT};
   return isNew;
 }
@@ -97,7 +99,7 @@ void ArchiveIndex::add(const GlobalSample& sample, const std::string& file) {
 std::string ArchiveIndex::text() const {
   pugi::xml_document document;
   pugi::xml_node root = document.append_child(rootName);
-  set(root, "format", format, "version", version_);
+  set(root, "format", format_, "version", version_);
   pugi::xml_node variables = root.append_child("variables");
   for (const auto& [name, variable] : variables_) {
     pugi::xml_node node = variables.append_child("variable");

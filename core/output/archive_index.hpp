@@ -13,7 +13,8 @@ namespace tushar::output {
 class ArchiveIndex {
  public:
   static constexpr const char* rootName = "tushar_archive";
-  static constexpr int format = 1;  ///< of archives; one more where older readers would go wrong
+  static constexpr int format = 2;         ///< of archives, the newest; one more where older readers would go wrong
+  static constexpr int uniformFormat = 1;  ///< of archives whose grids have one level
 
   explicit ArchiveIndex(std::string version) : version_(std::move(version)) {}
   /// Goes on from the text of another index, without its outputs after `step`.
@@ -49,6 +50,7 @@ class ArchiveIndex {
   bool addVariable(const Array& array, const std::string& centring, const std::string& material);
 
   std::string version_;
+  int format_ = uniformFormat;  ///< of this archive
   std::map<std::string, Variable> variables_;
   std::map<std::string, Global> globals_;
   std::map<int, Output> outputs_;  ///< by step

@@ -1,6 +1,10 @@
 #include "core/output/archive_snapshot.hpp"
 
 #include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <functional>
+#include <numeric>
 #include <system_error>
 
 #include "core/output/archive_files.hpp"
@@ -20,6 +24,25 @@ void writeHeader(Hdf5File& out, const Snapshot& snapshot, const std::string& ver
   out.attribute("/grid", "spacing", snapshot.grid.spacing);
   out.attribute("/grid", "cells", snapshot.grid.cells);
   out.attribute("/grid", "dimension", snapshot.grid.dimension);
+}
+
+/// Each box as its level, lower x, y, z and upper x, y, z; each level as the widths of its cells.
+void writeBoxes(Hdf5File& out, const GridInfo& grid) {
+  std::vector<std::int32_t> boxes;
+  for (const GridBox& box : grid.boxes) {
+    boxes.push_back(box.level);
+    for (const Index3* corner : {&box.lower, &box.upper})
+      boxes.insert(boxes.end(), corner->at.begin(), corner->at.end());
+  }
+  out.dataset("/grid/boxes", {"boxes", "", "level, lower x, y, z, upper x, y, z in cells of that level", 7, boxes},
+              {grid.boxes.size()});
+  std::vector<double> widths;
+  for (int level = 0; level < grid.levels; ++level) {
+    const Vec3 spacing = spacingOf(grid, level);
+    widths.insert(widths.end(), spacing.data(), spacing.data() + 3);
+  }
+  out.dataset("/grid/levels", {"levels", "m", "cell widths of each level along x, y, z", 3, widths},
+              {static_cast<std::uint64_t>(grid.levels)}, Precision::full);
 }
 
 void writeParticles(Hdf5File& out, const ParticleBlock& block) {
@@ -43,6 +66,7 @@ void writeReference(Hdf5File& out, const std::vector<Array>& columns) {
 void writeAll(const std::filesystem::path& file, const Snapshot& snapshot, const ArchiveOptions& options) {
   Hdf5File out(file, options.doubleAsFloat, options.compression);
   writeHeader(out, snapshot, options.version);
+  if (!snapshot.grid.boxes.empty()) writeBoxes(out, snapshot.grid);
   for (const ParticleBlock& block : snapshot.particles) writeParticles(out, block);
   for (const FieldBlock& field : snapshot.fields)
     out.dataset(pathInFile(field), field.array, fieldShape(snapshot.grid, field.centring));
@@ -85,7 +109,29 @@ std::vector<int> axesInUse(const GridInfo& grid) {
   return axes;
 }
 
+std::vector<std::uint64_t> boxShape(const GridBox& box) {
+  std::vector<std::uint64_t> shape;
+  for (const int axis : {2, 1, 0}) shape.push_back(static_cast<std::uint64_t>(box.upper[axis] - box.lower[axis]));
+  return shape;
+}
+
+std::uint64_t volumeOf(const std::vector<std::uint64_t>& shape) {
+  return std::accumulate(shape.begin(), shape.end(), std::uint64_t{1}, std::multiplies<>());
+}
+
+Vec3 spacingOf(const GridInfo& grid, int level) {
+  Vec3 spacing = grid.spacing;
+  for (const int axis : axesInUse(grid)) spacing[axis] = std::ldexp(spacing[axis], -level);
+  return spacing;
+}
+
 std::vector<std::uint64_t> fieldShape(const GridInfo& grid, Centring centring) {
+  if (!grid.boxes.empty()) {
+    assert(centring == Centring::cell);
+    std::uint64_t cells = 0;
+    for (const GridBox& box : grid.boxes) cells += volumeOf(boxShape(box));
+    return {cells};
+  }
   Index3 entries = grid.cells;
   if (centring == Centring::node)
     for (const int axis : axesInUse(grid)) ++entries[axis];

@@ -21,8 +21,17 @@ std::string pathInFile(const FieldBlock& field);
 /// Whether the array is part of the file; a variable that is not held at this time has no values.
 bool isHeld(const ParticleBlock& block, const Array& array);
 
-/// Number of entries of a field along z, y, x.
+/// Number of entries of a field along z, y, x; of one on a grid with boxes, which has no nodes, of all boxes together.
 std::vector<std::uint64_t> fieldShape(const GridInfo& grid, Centring centring);
+
+/// Numbers of cells of a box along z, y, x.
+std::vector<std::uint64_t> boxShape(const GridBox& box);
+
+/// Number of entries of an array of some shape.
+std::uint64_t volumeOf(const std::vector<std::uint64_t>& shape);
+
+/// Cell widths of a level [m].
+Vec3 spacingOf(const GridInfo& grid, int level);
 
 /// Axes (0 x, 1 y, 2 z) that the scene uses.
 std::vector<int> axesInUse(const GridInfo& grid);

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <functional>
 #include <map>
-#include <numeric>
 #include <pugixml.hpp>
-#include <sstream>
 #include <vector>
 
 #include "core/output/archive_files.hpp"
-#include "core/output/archive_hdf5.hpp"
+#include "core/output/archive_vtkhdf_boxes.hpp"
+#include "core/output/archive_vtkhdf_items.hpp"
 
 namespace tushar::output {
 
@@ -21,39 +20,11 @@ using Shape = std::vector<std::uint64_t>;
 
 constexpr const char* root = "/VTKHDF";
 
-/// A dataset of an output.
-struct Item {
-  std::string file, path;
-  Shape shape;
-  Array::Values type;
-};
-
 /// What an output shows of a block, by name in the VTKHDF file.
 using Items = std::map<std::string, Item>;
 
 /// Outputs by time [s].
 using Times = std::map<double, Items>;
-
-template <class Number>
-std::vector<Number> numbersIn(const char* text) {
-  std::istringstream words(text);
-  std::vector<Number> numbers;
-  for (Number number; words >> number;) numbers.push_back(number);
-  return numbers;
-}
-
-Array::Values typeOf(const pugi::xml_node& item) {
-  if (std::string(item.attribute("NumberType").as_string()) == "Float") return std::vector<double>{};
-  if (item.attribute("Precision").as_int() == 8) return std::vector<std::uint64_t>{};
-  return std::vector<std::int32_t>{};
-}
-
-Item itemOf(const pugi::xml_node& node) {
-  const std::string place = node.text().as_string();
-  const std::size_t colon = place.find(':');
-  return {place.substr(0, colon), place.substr(colon + 1),
-          numbersIn<std::uint64_t>(node.attribute("Dimensions").as_string()), typeOf(node)};
-}
 
 /// Adds what a temporal collection of XDMF shows; a time without particles has no items.
 void readTimes(const pugi::xml_node& collection, Times& times) {
@@ -61,11 +32,8 @@ void readTimes(const pugi::xml_node& collection, Times& times) {
     Items& items = times[grid.child("Time").attribute("Value").as_double()];
     const pugi::xml_node points = grid.child("Geometry").child("DataItem");
     if (std::string(points.attribute("Format").as_string()) == "HDF") items["Points"] = itemOf(points);
-    for (const pugi::xml_node& attribute : grid.children("Attribute")) {
-      const bool ofCells = std::string(attribute.attribute("Center").as_string()) == "Cell";
-      const std::string name = nameInPath(attribute.attribute("Name").as_string());
-      items[(ofCells ? "CellData/" : "PointData/") + name] = itemOf(attribute.child("DataItem"));
-    }
+    for (const pugi::xml_node& attribute : grid.children("Attribute"))
+      items[nameOf(attribute)] = itemOf(attribute.child("DataItem"));
   }
 }
 
@@ -76,21 +44,10 @@ Items kindsOf(const Times& times) {
   return kinds;
 }
 
-std::string inRoot(const std::string& name) { return std::string(root) + "/" + name; }
-
-void addNumbers(Hdf5File& file, const std::string& name, Array::Values values) {
-  const Array array{name, "", "", 1, std::move(values)};
-  file.dataset(inRoot(name), array, {array.entries()});
-}
-
-void addHead(Hdf5File& file, const char* type, const Times& times) {
-  file.group(inRoot("Steps"));
-  file.attribute(root, "Version", std::vector<int>{2, 0});
-  file.fixedText(root, "Type", type);
-  file.attribute(inRoot("Steps"), "NSteps", static_cast<int>(times.size()));
+std::vector<double> valuesOf(const Times& times) {
   std::vector<double> values;
   for (const auto& time : times) values.push_back(time.first);
-  addNumbers(file, "Steps/Values", values);
+  return values;
 }
 
 // --- particles
@@ -135,7 +92,7 @@ void addVertices(Hdf5File& file, const std::vector<std::uint64_t>& counts, std::
 }
 
 void writeParticles(Hdf5File& file, const Times& times) {
-  addHead(file, "UnstructuredGrid", times);
+  addHead(file, "UnstructuredGrid", {2, 0}, valuesOf(times));
   std::vector<std::uint64_t> counts, starts, part;
   std::uint64_t total = 0;
   for (const auto& [time, items] : times) {
@@ -211,7 +168,7 @@ void addField(Hdf5File& file, const std::string& name, const Item& kind, const T
 }
 
 void writeFields(Hdf5File& file, const Times& times, const Image& image) {
-  addHead(file, "ImageData", times);
+  addHead(file, "ImageData", {2, 0}, valuesOf(times));
   std::vector<int> extent(6, 0);
   for (std::size_t axis = 0; axis < 3; ++axis) extent[2 * axis + 1] = static_cast<int>(image.points[2 - axis]) - 1;
   file.attribute(root, "WholeExtent", extent);
@@ -239,7 +196,9 @@ void writeVtkHdf(const fs::path& xdmfFile, const std::string& xdmf) {
   for (const pugi::xml_node& block : document.document_element().child("Domain")) {
     const std::string name = block.attribute("Name").as_string();
     const pugi::xml_node first = block.child("Grid");
-    if (first.child("Topology").attribute("TopologyType").as_string() == std::string("3DCoRectMesh")) {
+    if (hasBoxes(block)) {
+      putInPlace(fs::path(xdmfFile).replace_extension("vtkhdf"), [&](Hdf5File& file) { writeBoxes(file, block); });
+    } else if (first.child("Topology").attribute("TopologyType").as_string() == std::string("3DCoRectMesh")) {
       if (image.points.empty() || name == "cells") image = imageOf(first);
       readTimes(block, fields);
     } else {

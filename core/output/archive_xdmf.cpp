@@ -17,6 +17,12 @@ namespace {
 
 using Shape = std::vector<std::uint64_t>;
 
+/// A run of entries of a dataset, shown with a shape.
+struct Rows {
+  std::uint64_t first;
+  Shape shape;
+};
+
 /// What the items of one output share.
 struct Context {
   std::string file;  ///< of HDF5, relative to the XDMF file
@@ -61,6 +67,24 @@ void addHeavyItem(pugi::xml_node parent, const Context& context, const std::stri
   item.text() = (context.file + ":" + path).c_str();
 }
 
+/// Some entries of an array that the file has one after the other.
+void addSlab(pugi::xml_node parent, const Context& context, const std::string& path, const Array& array,
+             const Rows& rows) {
+  const bool several = array.components > 1;
+  const std::uint64_t count = volumeOf(rows.shape);
+  pugi::xml_node item = parent.append_child("DataItem");
+  set(item, "ItemType", "HyperSlab");
+  set(item, "Dimensions",
+      fmt::format("{}{}", fmt::join(rows.shape, " "), several ? fmt::format(" {}", array.components) : ""));
+  pugi::xml_node slab = item.append_child("DataItem");
+  set(slab, "Dimensions", several ? "3 2" : "3 1");
+  set(slab, "Format", "XML");
+  slab.text() = (several ? fmt::format("{} 0 1 1 {} {}", rows.first, count, array.components)
+                         : fmt::format("{} 1 {}", rows.first, count))
+                    .c_str();
+  addHeavyItem(item, context, path, array, {array.entries()});
+}
+
 void addLightItem(pugi::xml_node parent, const Vec3& zyx) {
   pugi::xml_node item = parent.append_child("DataItem");
   set(item, "Dimensions", 3);
@@ -70,8 +94,7 @@ void addLightItem(pugi::xml_node parent, const Vec3& zyx) {
   item.text() = fmt::format("{} {} {}", zyx[0], zyx[1], zyx[2]).c_str();
 }
 
-void addAttribute(pugi::xml_node grid, const Context& context, const char* centre, const std::string& name,
-                  const std::string& path, const Array& array, const Shape& shape) {
+pugi::xml_node addAttribute(pugi::xml_node grid, const char* centre, const std::string& name, const Array& array) {
   pugi::xml_node attribute = grid.append_child("Attribute");
   set(attribute, "Name", name);
   set(attribute, "AttributeType",
@@ -80,7 +103,7 @@ void addAttribute(pugi::xml_node grid, const Context& context, const char* centr
       : array.components == 9 ? "Tensor"
                               : "Matrix");
   set(attribute, "Center", centre);
-  addHeavyItem(attribute, context, path, array, shape);
+  return attribute;
 }
 
 void addPointCloud(pugi::xml_node grid, const Context& context, const ParticleBlock& block) {
@@ -95,7 +118,8 @@ void addPointCloud(pugi::xml_node grid, const Context& context, const ParticleBl
   for (std::size_t k = 1; k < block.arrays.size(); ++k) {
     const Array& array = block.arrays[k];
     if (!isHeld(block, array)) continue;
-    addAttribute(grid, context, "Node", array.label, pathInFile(block, array), array, {block.count()});
+    addHeavyItem(addAttribute(grid, "Node", array.label, array), context, pathInFile(block, array), array,
+                 {block.count()});
   }
 }
 
@@ -108,18 +132,50 @@ Vec3 firstNode(const GridInfo& grid) {
   return at;
 }
 
-void addUniformGrid(pugi::xml_node grid, const GridInfo& info, Centring centring) {
-  const bool cells = centring == Centring::cell;
-  Shape points = fieldShape(info, centring);
-  if (cells)
-    for (auto& extent : points) ++extent;
+/// A uniform grid of so many points along z, y, x.
+void addMesh(pugi::xml_node grid, const Shape& points, const Vec3& origin, const Vec3& spacing) {
   pugi::xml_node topology = grid.append_child("Topology");
   set(topology, "TopologyType", "3DCoRectMesh");
   set(topology, "Dimensions", fmt::format("{}", fmt::join(points, " ")));
   pugi::xml_node geometry = grid.append_child("Geometry");
   set(geometry, "GeometryType", "ORIGIN_DXDYDZ");
-  addLightItem(geometry, reversed(cells ? info.lower : firstNode(info)));
-  addLightItem(geometry, reversed(info.spacing));
+  addLightItem(geometry, reversed(origin));
+  addLightItem(geometry, reversed(spacing));
+}
+
+void addUniformGrid(pugi::xml_node grid, const GridInfo& info, Centring centring) {
+  const bool cells = centring == Centring::cell;
+  Shape points = fieldShape(info, centring);
+  if (cells)
+    for (auto& extent : points) ++extent;
+  addMesh(grid, points, cells ? info.lower : firstNode(info), info.spacing);
+}
+
+/// The name of a field in the file that shows it.
+std::string nameOf(const FieldBlock& field) {
+  const std::string group = field.materialIndex < 0 ? "" : groupName(field.material, field.materialIndex) + "/";
+  return group + field.array.label;
+}
+
+/// A uniform grid for each box, with its part of each field. A reader would search long for names of its own if grids
+/// of several times had the same.
+void addBoxes(pugi::xml_node collection, const Context& context, const Snapshot& snapshot) {
+  set(collection, "CollectionType", "Spatial");
+  std::uint64_t first = 0;
+  int number = 0;
+  for (const GridBox& box : snapshot.grid.boxes) {
+    const Shape cells = boxShape(box);
+    const Vec3 spacing = spacingOf(snapshot.grid, box.level);
+    const Vec3 corner(box.lower[0], box.lower[1], box.lower[2]);
+    pugi::xml_node grid =
+        addGrid(collection, fmt::format("level {} box {}{}{}", box.level, number++, atStep, snapshot.step), "Uniform");
+    addMesh(grid, {cells[0] + 1, cells[1] + 1, cells[2] + 1}, snapshot.grid.lower + corner.cwiseProduct(spacing),
+            spacing);
+    for (const FieldBlock& field : snapshot.fields)
+      addSlab(addAttribute(grid, "Cell", nameOf(field), field.array), context, pathInFile(field), field.array,
+              {first, cells});
+    first += volumeOf(cells);
+  }
 }
 
 }  // namespace
@@ -160,13 +216,13 @@ void XdmfIndex::addFields(const Snapshot& snapshot, Centring centring) {
   const bool cells = centring == Centring::cell;
   const auto isHere = [&](const FieldBlock& field) { return field.centring == centring; };
   if (std::none_of(snapshot.fields.begin(), snapshot.fields.end(), isHere)) return;
+  if (!snapshot.grid.boxes.empty()) return addBoxes(addTime("cells", snapshot, "Collection"), context, snapshot);
   pugi::xml_node grid = addTime(cells ? "cells" : "nodes", snapshot, "Uniform");
   addUniformGrid(grid, snapshot.grid, centring);
   for (const FieldBlock& field : snapshot.fields) {
     if (!isHere(field)) continue;
-    const std::string group = field.materialIndex < 0 ? "" : groupName(field.material, field.materialIndex) + "/";
-    addAttribute(grid, context, cells ? "Cell" : "Node", group + field.array.label, pathInFile(field), field.array,
-                 fieldShape(snapshot.grid, centring));
+    addHeavyItem(addAttribute(grid, cells ? "Cell" : "Node", nameOf(field), field.array), context, pathInFile(field),
+                 field.array, fieldShape(snapshot.grid, centring));
   }
 }
 

@@ -8,7 +8,8 @@
 namespace tushar::output {
 
 /// The XDMF file that shows an archive to ParaView: a temporal collection for each material, of point clouds, and one
-/// each for the cells and the nodes, of uniform grids. The numbers stay in the HDF5 files.
+/// each for the cells and the nodes, of uniform grids; of a refined grid, of spatial collections with a uniform grid
+/// for each box. The numbers stay in the HDF5 files.
 class XdmfIndex {
  public:
   static constexpr const char* rootName = "Xdmf";

@@ -108,6 +108,30 @@ TEST(ArchiveHdf5, KeepsTheGrid) {
   EXPECT_EQ(reader.numbers("/grid", "dimension"), std::vector<double>{3});
 }
 
+TEST(ArchiveHdf5, KeepsTheBoxesOfARefinedGridAndTheirCellsOneAfterTheOther) {
+  const Snapshot snapshot = snapshotRefined(42, 0.1);
+  for (const bool doubleAsFloat : {false, true}) {
+    const Written written(snapshot, {.doubleAsFloat = doubleAsFloat, .compression = 4});
+    const Reader reader(written.file);
+    EXPECT_EQ(reader.numbers("/grid", "cells"), (std::vector<double>{4, 2, 1})) << "of the coarsest level";
+    const Dataset boxes = reader.dataset("/grid/boxes"), levels = reader.dataset("/grid/levels");
+    EXPECT_EQ(boxes.shape, (std::vector<hsize_t>{4, 7}));
+    EXPECT_EQ(boxes.values, (std::vector<double>{0, 0, 0, 0, 2, 2, 1, 1, 4,  0, 0, 6,  4, 1,
+                                                 1, 6, 0, 0, 8, 2, 1, 2, 12, 4, 0, 16, 8, 1}));
+    EXPECT_EQ(levels.shape, (std::vector<hsize_t>{3, 3}));
+    EXPECT_EQ(levels.values, (std::vector<double>{0.1, 0.2, 2, 0.05, 0.1, 2, 0.025, 0.05, 2}));
+    EXPECT_EQ(reader.dataset("/cells/c.temperature").shape, std::vector<hsize_t>{32});
+    EXPECT_EQ(reader.dataset("/cells/c.velocity").shape, (std::vector<hsize_t>{32, 3}));
+    if (!doubleAsFloat) EXPECT_EQ(reader.dataset("/cells/gas/c.density").values, reals(snapshot.fields[2].array));
+  }
+}
+
+TEST(ArchiveHdf5, SaysNothingOfBoxesWhereThereIsOneLevel) {
+  const Written written(snapshot3d(42, 0.1));
+  EXPECT_FALSE(Reader(written.file).has("/grid/boxes"));
+  EXPECT_FALSE(Reader(written.file).has("/grid/levels"));
+}
+
 TEST(ArchiveHdf5, ReturnsParticleArraysToTheLastBit) {
   const Snapshot snapshot = snapshot3d(42, 0.1);
   const Written written(snapshot);

@@ -131,6 +131,25 @@ TEST(Archive, ListsVariablesGlobalsAndTimesInTheIndex) {
   EXPECT_TRUE(has(index, "<timestep href=\"t00042.h5\" time=\"0.1\" delT=\"0.125\">42</timestep>"));
 }
 
+/// Readers that know one level alone would take the boxes for something else.
+TEST(Archive, HasANewerFormatWhereTheGridIsRefined) {
+  const TemporaryFolder here;
+  Archive archive(here / "sod.uda", "", {.version = "1.2"});
+  archive.write(snapshotRefined(42, 0.1));
+  EXPECT_TRUE(has(read(archive.folder() / "index.xml"), "<tushar_archive format=\"2\" version=\"1.2\">"));
+}
+
+TEST(Archive, ShowsBoxesAsASpatialCollection) {
+  const TemporaryFolder here;
+  Archive archive(here / "sod.uda", "");
+  archive.write(snapshotRefined(42, 0.1));
+  const std::string xdmf = read(archive.folder() / "sod.xdmf");
+  EXPECT_TRUE(has(xdmf, "<Grid Name=\"cells at step 42\" GridType=\"Collection\" CollectionType=\"Spatial\">"));
+  EXPECT_TRUE(has(xdmf, "<Grid Name=\"level 2 box 3 at step 42\" GridType=\"Uniform\">"));
+  EXPECT_TRUE(has(xdmf, "<DataItem Dimensions=\"3 1\" Format=\"XML\">16 1 16</DataItem>"));
+  EXPECT_TRUE(has(xdmf, "<DataItem Dimensions=\"3 2\" Format=\"XML\">4 0 1 1 8 3</DataItem>"));
+}
+
 TEST(Archive, WritesOneLineOfAGlobalPerSample) {
   const TemporaryFolder here;
   Archive archive(here / "sod.uda", "");
@@ -229,7 +248,7 @@ TEST(Archive, SaysWhichOutputAFullDiskRefusedAndGoesOn) {
   }
 }
 
-/// For `xdmf_test.py`: with the variable set, an archive is left in that folder.
+/// For `xdmf_test.py` and `refined_test.py`: with the variable set, archives are left in that folder.
 TEST(Archive, CanBeLeftForOtherReaders) {
   const char* folder = std::getenv("TUSHAR_TEST_ARCHIVE");
   if (!folder) GTEST_SKIP() << "TUSHAR_TEST_ARCHIVE names no folder";
@@ -239,6 +258,10 @@ TEST(Archive, CanBeLeftForOtherReaders) {
     if (step == 42) snapshot.particles[1] = particles("steel ball", 1, 3, 0);
     archive.write(snapshot);
   }
+  Archive refined(fs::path(folder) / "refined.uda", "<Uintah_specification/>");
+  refined.write(snapshotUnrefined(0, 0));
+  refined.write(snapshotRefined(10, 1));
+  refined.write(snapshotRefined(20, 2));
 }
 
 }  // namespace tushar::output

@@ -76,4 +76,32 @@ inline Snapshot snapshot3d(int step, double time) {
   return snapshot;
 }
 
+/// The left half of 4 × 2 cells, their lower corner (-1, 3), as it is; of the right half, refined once, a quarter
+/// refined twice: 32 cells in 4 boxes. And particles of one material.
+inline Snapshot snapshotRefined(int step, double time) {
+  Snapshot snapshot;
+  snapshot.step = step;
+  snapshot.time = time;
+  snapshot.delT = 0.125;
+  snapshot.grid = {{-1, 3, 0}, {0.1, 0.2, 2}, {{4, 2, 1}}, 2};
+  snapshot.grid.boxes = {{0, {{0, 0, 0}}, {{2, 2, 1}}},
+                         {1, {{4, 0, 0}}, {{6, 4, 1}}},
+                         {1, {{6, 0, 0}}, {{8, 2, 1}}},
+                         {2, {{12, 4, 0}}, {{16, 8, 1}}}};
+  snapshot.grid.levels = 3;
+  snapshot.particles = {particles("gas", 0, 5, 10 + time)};
+  snapshot.fields = {{Centring::cell, "", -1, counting("c.temperature", 1, 32, 300 + time)},
+                     {Centring::cell, "", -1, counting("c.velocity", 3, 32, -time)},
+                     {Centring::cell, "gas", 0, counting("c.density", 1, 32, 1)}};
+  return snapshot;
+}
+
+/// The same before anything was refined: one box.
+inline Snapshot snapshotUnrefined(int step, double time) {
+  Snapshot snapshot = snapshotRefined(step, time);
+  snapshot.grid.boxes = {{0, {{0, 0, 0}}, {{4, 2, 1}}}};
+  snapshot.fields = {{Centring::cell, "", -1, counting("c.temperature", 1, 8, 300 + time)}};
+  return snapshot;
+}
+
 }  // namespace tushar::output
