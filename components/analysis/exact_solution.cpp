@@ -96,7 +96,7 @@ void measure(const Patch& patch, const input::Expression& exact, const double* t
       if (C == Centring::node && at[d] == patch.cells().upper[d] && !patch.isAtBoundary(d, 1)) return;
       x[d] = C == Centring::cell ? level.cellCentre<D>(at)[d] : level.nodePosition(d, at[d]);
     }
-    error.add(field[at] - exact(level.expandPoint<D>(x), *time));
+    error.add(field[at] - exact(level.expandPoint<D>(x), *time), 0, level.weight());
   });
 }
 

@@ -22,8 +22,9 @@ void measure(const Patch& patch, const Exact* exact, CellView<const double> u, N
   if (!exact->wave.holdsAt(exact->time)) return;
   const Level& level = patch.level();
   forEach<1>(patch.cells(), [&](const Index<1>& cell) {
-    error.add(u[cell] -
-              exact->wave.average(level.nodePosition(0, cell[0]), level.nodePosition(0, cell[0] + 1), exact->time));
+    const double exactly =
+        exact->wave.average(level.nodePosition(0, cell[0]), level.nodePosition(0, cell[0] + 1), exact->time);
+    error.add(u[cell] - exactly, 0, level.weight());
   });
 }
 

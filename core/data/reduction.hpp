@@ -138,11 +138,12 @@ struct Norm {
   Sum absolute, squared, count, exact;
   double max = 0;
 
-  void add(double e, double magnitude = 0) {
-    exact.add(std::abs(magnitude));
-    absolute.add(std::abs(e));
-    squared.add(e * e);
-    count.add(1);
+  /// `weight`: of the place among all, such as Level::weight(); a power of two, so that it rounds nothing.
+  void add(double e, double magnitude = 0, double weight = 1) {
+    exact.add(weight * std::abs(magnitude));
+    absolute.add(weight * std::abs(e));
+    squared.add(weight * (e * e));
+    count.add(weight);
     max = std::abs(e) > max || std::isnan(e) ? std::abs(e) : max;
   }
   void merge(const Norm& other) {

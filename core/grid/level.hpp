@@ -74,6 +74,8 @@ class Level {
   double minSpacing() const;
   /// Volume of a cell, m³; an axis without extent counts as 1 m.
   double cellVolume() const { return cellVolume_; }
+  /// The volume of a cell over that of a cell of the coarsest level: a power of two.
+  double weight() const { return std::ldexp(1.0, -number_ * dimension()); }
   /// Position of a node along a kernel axis, m.
   double nodePosition(int kernelAxis, int node) const { return lower_[kernelAxis] + node * spacing(kernelAxis); }
 

@@ -18,7 +18,7 @@ namespace {
 using Shape = std::vector<std::uint64_t>;
 
 /// A run of entries of a dataset, shown with a shape.
-struct Rows {
+struct StoredRows {
   std::uint64_t first;
   Shape shape;
 };
@@ -69,7 +69,7 @@ void addHeavyItem(pugi::xml_node parent, const Context& context, const std::stri
 
 /// Some entries of an array that the file has one after the other.
 void addSlab(pugi::xml_node parent, const Context& context, const std::string& path, const Array& array,
-             const Rows& rows) {
+             const StoredRows& rows) {
   const bool several = array.components > 1;
   const std::uint64_t count = volumeOf(rows.shape);
   pugi::xml_node item = parent.append_child("DataItem");

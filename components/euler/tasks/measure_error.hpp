@@ -21,7 +21,7 @@ void measureCellError(const Patch& patch, const Gas& gas, const reference::GasRe
                 .velocity = level.expandDirection<D>(velocity),
                 .pressure = gas.pressure(internal),
                 .energy = internal / density[cell]},
-               reference::cellMean<D>(*exact, level, cell, clock->time));
+               reference::cellMean<D>(*exact, level, cell, clock->time), level.weight());
   });
 }
 
