@@ -61,8 +61,8 @@ struct FieldBlock {
   Array array;
 };
 
-/// Cells of one level, counted from the corner of the domain along x, y, z in cells of that level: [lower, upper). Their
-/// width is that of the grid over 2^level along the axes that the scene uses.
+/// Cells of one level, counted from the corner of the domain along x, y, z in cells of that level: [lower, upper).
+/// Their width is that of the grid over 2^level along the axes that the scene uses.
 struct GridBox {
   int level = 0;
   Index3 lower{}, upper{};
@@ -74,9 +74,10 @@ struct GridInfo {
   Vec3 spacing = Vec3::Ones();  ///< cell widths, m
   Index3 cells = Index3::filled(1);
   int dimension = 0;  ///< number of axes that the scene uses
-  /// Where there are several levels, the boxes of cells that tile the domain; none where there is one.
+  /// Where the run may have several levels, the boxes of cells that tile the domain, those of the coarsest level first;
+  /// none where it has one.
   std::vector<GridBox> boxes{};
-  int levels = 1;
+  int levels = 1;  ///< one more than the finest level of any box, at least
 };
 
 /// The state at one time, gathered over patches in an order that no layout changes.
