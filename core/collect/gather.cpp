@@ -130,8 +130,7 @@ output::GridInfo gridInfo(const grid::Grid& grid) {
   info.levels = grid.levels();
   if (grid.levels() == 1) return info;
   const GridOrder order = collect::orderOf(grid, false);
-  for (int id = 0; id < order.boxes()->count(); ++id) {
-    const grid::Tile tile = order.boxes()->tile(id);
+  for (const grid::Tile& tile : order.boxes()) {
     output::GridBox box{tile.level, {}, Index3::filled(1)};
     for (int d = 0; d < level.dimension(); ++d) {
       box.lower[level.axis(d)] = tile.cells.lower[d];

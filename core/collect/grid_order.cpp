@@ -4,10 +4,25 @@
 
 namespace tushar::collect {
 
-GridOrder::GridOrder(const grid::Grid& grid, int most) {
+GridOrder::GridOrder(const grid::Grid& grid, int most) : is_by_level_(most > 0) {
   Index3 cells = grid.blockCells();
   for (int d = 0; d < grid.dimension(); ++d) cells[d] *= std::max(1, most / cells[d]);
   boxes_ = std::make_shared<const grid::BlockTiling>(grid.tree(), grid.blockCells(), cells);
+  before_.resize(static_cast<std::size_t>(boxes_->count()));
+  std::size_t next = 0;
+  for (const grid::Tile& tile : boxes()) {
+    before_[static_cast<std::size_t>(tile.id)] = next;
+    next += tile.cells.size();
+  }
+}
+
+std::vector<grid::Tile> GridOrder::boxes() const {
+  std::vector<grid::Tile> tiles;
+  for (int id = 0; id < boxes_->count(); ++id) tiles.push_back(boxes_->tile(id));
+  if (is_by_level_)
+    std::stable_sort(tiles.begin(), tiles.end(),
+                     [](const grid::Tile& a, const grid::Tile& b) { return a.level < b.level; });
+  return tiles;
 }
 
 GridOrder orderOf(const grid::Grid& grid, bool isNode) {

@@ -9,12 +9,12 @@
 namespace tushar::collect {
 
 /// An order of the cells or nodes of a grid that no layout changes: the first axis fastest; where there are several
-/// levels, box after box along the curve.
+/// levels, box after box, the coarsest level first, those of a level along the curve.
 class GridOrder {
  public:
   /// Those of a box of the only level.
   explicit GridOrder(const grid::Box& all) : all_(all) {}
-  /// All cells of several levels, in boxes of up to `most` cells along an axis; 0: block by block.
+  /// All cells of several levels, in boxes of up to `most` cells along an axis; 0: block by block along the curve.
   GridOrder(const grid::Grid& grid, int most);
 
   std::size_t size() const { return boxes_ ? boxes_->cells() : all_.size(); }
@@ -26,11 +26,11 @@ class GridOrder {
   void forEachRow(int level, const grid::Box& box, Visit&& visit) const {
     if (!boxes_) return rowsOf(0, all_, box.intersect(all_), visit);
     for (const grid::Tile& tile : boxes_->overlapping(level, box))
-      rowsOf(boxes_->cellsBefore(tile.id), tile.cells, box.intersect(tile.cells), visit);
+      rowsOf(before_[static_cast<std::size_t>(tile.id)], tile.cells, box.intersect(tile.cells), visit);
   }
 
-  /// The boxes of several levels.
-  const grid::BlockTiling* boxes() const { return boxes_.get(); }
+  /// The boxes of several levels, in the order.
+  std::vector<grid::Tile> boxes() const;
 
  private:
   template <class Visit>
@@ -39,7 +39,9 @@ class GridOrder {
   }
 
   grid::Box all_;
+  bool is_by_level_ = false;
   std::shared_ptr<const grid::BlockTiling> boxes_;
+  std::vector<std::size_t> before_;  ///< place of the first cell of a box
 };
 
 /// All cells or nodes that a variable has a value for; of several levels in boxes that suit readers of files.

@@ -74,9 +74,10 @@ struct GridInfo {
   Vec3 spacing = Vec3::Ones();  ///< cell widths, m
   Index3 cells = Index3::filled(1);
   int dimension = 0;  ///< number of axes that the scene uses
-  /// Where there are several levels, the boxes of cells that tile the domain; none where there is one.
+  /// Where the run may have several levels, the boxes of cells that tile the domain, those of the coarsest level first;
+  /// none where it has one.
   std::vector<GridBox> boxes{};
-  int levels = 1;
+  int levels = 1;  ///< one more than the finest level of any box, at least
 };
 
 /// The state at one time, gathered over patches in an order that no layout changes.

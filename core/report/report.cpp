@@ -21,25 +21,29 @@ Json errorsOf(const Report& report) {
   return errors;
 }
 
+bool isRefined(const Report& report) { return report.levels.size() > 1; }
+
 Json wallOf(const Report& report) {
   Json tasks = Json::object();
   for (const TaskTime& task : report.tasks) tasks[task.name] = tasks.value(task.name, 0.0) + task.seconds;
-  return {{"startup", report.wallStartup},
-          {"loop", report.wallLoop},
-          {"output", report.wallOutput},
-          {"exchange", report.exchange},
-          {"tasks", tasks},
-          {"use",
-           {{"task", report.use.task},
-            {"message", report.use.message},
-            {"output", report.use.output},
-            {"wait", report.use.wait}}},
-          {"imbalance", report.use.imbalance},
-          {"rebalanced",
-           {{"times", report.rebalancing.times},
-            {"step", report.rebalancing.step},
-            {"before", report.rebalancing.before},
-            {"after", report.rebalancing.after}}}};
+  Json wall = {{"startup", report.wallStartup},
+               {"loop", report.wallLoop},
+               {"output", report.wallOutput},
+               {"exchange", report.exchange},
+               {"tasks", tasks},
+               {"use",
+                {{"task", report.use.task},
+                 {"message", report.use.message},
+                 {"output", report.use.output},
+                 {"wait", report.use.wait}}},
+               {"imbalance", report.use.imbalance},
+               {"rebalanced",
+                {{"times", report.rebalancing.times},
+                 {"step", report.rebalancing.step},
+                 {"before", report.rebalancing.before},
+                 {"after", report.rebalancing.after}}}};
+  if (isRefined(report)) wall["regrid"] = report.wallRegrid;
+  return wall;
 }
 
 Json memoryOf(const MemoryUse& use) {
@@ -145,6 +149,15 @@ std::string memoryLine(const Report& report) {
       1e-6 * sum.peak, most, 1e-6 * sum.fields, 1e-6 * sum.particles, 1e-6 * sum.buffers, 1e-6 * sum.files);
 }
 
+/// The cells of each level, and what stepping and changing them took.
+std::string levelsLine(const Report& report) {
+  if (!isRefined(report)) return "";
+  std::string cells;
+  for (const long count : report.levels) cells += fmt::format("{}{}", cells.empty() ? "" : " + ", count);
+  return fmt::format("cells of {} levels: {}; {:.4g} cell updates, {}\n", report.levels.size(), cells, report.updates,
+                     counted(report.regrids, "regrid"));
+}
+
 std::string rebalancingLine(const Report& report) {
   const Rebalancing& change = report.rebalancing;
   if (change.times == 0) return "";
@@ -163,6 +176,7 @@ std::string timeTable(const Report& report) {
   row("time loop", report.wallLoop);
   for (const TaskTime& task : report.tasks) row("  " + task.name, task.seconds);
   if (report.patches > 1) row("  ghost exchange", report.exchange);
+  if (isRefined(report)) row("  regridding", report.wallRegrid);
   row("output", report.wallOutput);
   return text + useLine(report) + memoryLine(report) + rebalancingLine(report);
 }
@@ -192,6 +206,11 @@ std::string toJson(const Report& report) {
   json["build"] = report.build;
   json["layout"] = {{"dimension", report.dimension}, {"cells", report.cells}, {"h", report.spacing},
                     {"patches", report.patches},     {"ranks", report.ranks}, {"threads", report.threads}};
+  if (isRefined(report)) {
+    json["levels"] = report.levels;
+    json["updates"] = report.updates;
+    json["regrids"] = report.regrids;
+  }
   json["steps"] = report.steps;
   json["retries"] = report.retries;
   json["time_step_limits"] = limitsOf(report);
@@ -226,7 +245,8 @@ std::string toText(const Report& report) {
     if (report.wallLoop > 0)
       text += fmt::format(", {:.3g} million particle-steps/s", 1e-6 * report.particleSteps / report.wallLoop);
   }
-  text += "\n" + limitLine(report) + errorTable(report) + driftTable(report) + energyTable(report) + timeTable(report);
+  text += "\n" + levelsLine(report) + limitLine(report) + errorTable(report) + driftTable(report) +
+          energyTable(report) + timeTable(report);
   if (!report.archive.empty()) text += fmt::format("\n  saved in {}\n", report.archive);
   text += fmt::format("\n  fingerprint {}\n", report.fingerprint);
   return text;

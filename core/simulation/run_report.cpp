@@ -17,6 +17,7 @@ void RunReport::beginLoop(double outputSeconds) {
 }
 
 void RunReport::noteStep() {
+  updates_ += static_cast<double>(run_.problem.grid->cellCount());
   for (int material = 0; material < run_.materials(); ++material)
     for (const grid::Patch& patch : run_.problem.grid->patches())
       particle_steps_ += run_.warehouse.particles(data::Generation::old, material, patch.id()).owned();
@@ -66,6 +67,12 @@ void RunReport::addLayout(Report& report) {
   report.threads = run_.scheduler.threads().count();
   report.spacing = problem.grid->finest().minSpacing();
   report.cells = static_cast<long>(problem.grid->cellCount());
+  report.updates = updates_;
+  report.levels.resize(static_cast<std::size_t>(problem.grid->levels()));
+  for (int id = 0; report.levels.size() > 1 && id < problem.grid->patchCount(); ++id) {
+    const grid::Patch patch = problem.grid->patch(id);
+    report.levels[static_cast<std::size_t>(patch.level().number())] += static_cast<long>(patch.cells().size());
+  }
 }
 
 void RunReport::addProgress(Report& report) {

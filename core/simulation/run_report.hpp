@@ -39,6 +39,7 @@ class RunReport {
   double start_up_ = 0, loop_ = 0;  ///< s, without outputs
   report::TimeUse use_;
   long particle_steps_ = 0;  ///< of this rank
+  double updates_ = 0;       ///< of cells, of all ranks
 };
 
 }  // namespace tushar::simulation

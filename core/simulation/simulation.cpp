@@ -239,6 +239,8 @@ report::Report Simulation::makeReport() {
     report.advice = failure_->advice();
   }
   report.rebalancing = rebalancer_.report();
+  report.regrids = regridder_.regrids();
+  report.wallRegrid = regridder_.seconds();
   report.wallOutput = outputSeconds();
   report.archive = outputs_.folder();
   report.unusedOptions = solvers::unusedOptions();

@@ -16,6 +16,7 @@ ensure("h5py", "numpy")
 import h5py
 import numpy as np
 
+import fake_uda
 from sus import ROOT, SUS, run
 from tushar import Archive
 
@@ -91,6 +92,13 @@ class Coarsen(unittest.TestCase):
         result = run(SCENE, "Time/max_Timesteps=2", "Grid/Level/Box/resolution=[16,16,1]")
         self.assertEqual(result.report["errors"], {})
         self.assertRegex(result.report["unmeasured"][0], r"^'tabulated' has no solution at t = 0\.\d+ s$")
+
+    def test_an_output_of_a_refined_grid_is_no_table(self):
+        with tempfile.TemporaryDirectory() as folder:
+            output = pathlib.Path(fake_uda.make_refined(folder), "t00010.h5")
+            result = run(SCENE, f"DataAnalysis/Module/file={output}")
+        self.assertEqual(result.code, 3)
+        self.assertIn("holds boxes of several levels: tools/coarsen makes a table of it", result.err)
 
     def test_a_table_that_is_not_there_is_a_bad_scene(self):
         result = run(SCENE, "DataAnalysis/Module/file=none.h5")

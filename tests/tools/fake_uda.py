@@ -5,7 +5,7 @@ import h5py
 import numpy as np
 
 INDEX = """<?xml version="1.0"?>
-<tushar_archive version="0.1.0">
+<tushar_archive{format} version="0.1.0">
  <variables>
 {variables} </variables>
  <globals>
@@ -35,7 +35,7 @@ def sod(x, time):
     return density, velocity, pressure, pressure / ((gamma - 1) * density)
 
 
-def write_index(folder, variables, globals_, outputs, title):
+def write_index(folder, variables, globals_, outputs, title, form=None):
     """variables: (name, centring, components, unit, materials); globals_: (name, unit); outputs: (step, time)."""
     lines = "".join(f'  <variable name="{name}" centring="{centring}" type="double" components="{components}" '
                     f'unit="{unit}" description="the {name}"' + (f' materials="{materials}"' if materials else "") +
@@ -47,7 +47,8 @@ def write_index(folder, variables, globals_, outputs, title):
     times = "".join(f'  <timestep href="t{step:05}.h5" time="{time}" delT="0.001">{step}</timestep>\n'
                     for step, time in outputs)
     with open(os.path.join(folder, "index.xml"), "w", encoding="utf-8") as file:
-        file.write(INDEX.format(variables=lines, globals=more, outputs=times))
+        file.write(INDEX.format(variables=lines, globals=more, outputs=times,
+                                format="" if form is None else f' format="{form}"'))
     with open(os.path.join(folder, "input.xml"), "w", encoding="utf-8") as file:
         file.write(f"<Uintah_specification><Meta><title>{title}</title></Meta></Uintah_specification>")
 
@@ -149,6 +150,45 @@ def make_moving(where, name="moving"):
                 group["p.x"] = np.array([[number + step, 0, 0] for number in ids], float)
                 if material == "a":
                     group["p.mass"] = np.array(ids, float)
+    return os.path.join(where, name + ".uda")
+
+
+BOXES = {1: [(0, 0, 0, 0, 2, 1, 1), (1, 4, 0, 0, 6, 1, 1), (2, 12, 0, 0, 16, 1, 1)],
+         2: [(0, 0, 0, 0, 2, 2, 1), (1, 4, 0, 0, 6, 4, 1), (1, 6, 0, 0, 8, 2, 1), (2, 12, 4, 0, 16, 8, 1)],
+         3: [(0, 0, 0, 0, 2, 2, 2), (1, 4, 0, 0, 8, 4, 2), (1, 4, 0, 2, 6, 4, 4), (1, 6, 0, 2, 8, 2, 4),
+             (2, 12, 4, 4, 16, 8, 8)]}  # level, lower, upper: the left half as it is, the right half finer
+
+
+def linear(x):
+    """A density (n,) and a velocity (n, 3) at places (n, 3)."""
+    return 1 + x @ [2, 3, 5], np.column_stack([x[:, 0], -x[:, 1], 7 + x[:, 2]])
+
+
+def write_boxes(file, boxes, levels, spacing, dimension):
+    """The boxes of a refined grid, and the values in the middles of their cells, box by box."""
+    widths = np.array([[h / 2**level if axis < dimension else h for axis, h in enumerate(spacing)]
+                       for level in range(levels)])
+    file["grid/boxes"], file["grid/levels"] = np.array(boxes, "i4"), widths
+    places = []
+    for level, *corners in boxes:
+        lines = [(np.arange(corners[axis], corners[3 + axis]) + 0.5) * widths[level, axis] for axis in range(3)]
+        z, y, x = np.meshgrid(*lines[::-1], indexing="ij")
+        places.append(np.column_stack([x.ravel(), y.ravel(), z.ravel()]))
+    density, velocity = linear(np.concatenate(places))
+    file["cells/c.density"], file["cells/gas/c.velocity"] = density, velocity
+
+
+def make_refined(where, dimension=2, name="refined"):
+    """4 coarse cells along x, 2 along y and z: at the first output of one level, at the second of three; a particle."""
+    folder = make_folder(where, name)
+    write_index(folder, [("c.density", "cell", 1, "kg/m^3", ""), ("c.velocity", "cell", 3, "m/s", "gas"),
+                         ("p.x", "particle", 3, "m", "gas")], [], [(0, 0.0), (10, 1.0)], "Refined", 2)
+    cells, spacing = [4, *[2] * (dimension - 1), *[1] * (3 - dimension)], [0.25, 0.5, 0.5]
+    for step, boxes, levels in ((0, [(0, 0, 0, 0, *cells)], 1), (10, BOXES[dimension], 3)):
+        with open_output(folder, step, step / 10, cells, spacing, dimension) as file:
+            write_boxes(file, boxes, levels, spacing, dimension)
+            file["particles/gas/p.x"] = np.array([[0.9, 0.4, 0.3]])
+            file["particles/gas"].attrs["index"] = 0
     return os.path.join(where, name + ".uda")
 
 

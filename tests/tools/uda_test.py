@@ -113,7 +113,7 @@ class Library(WithArchives):
                 text = file.read()
             with open(index, "w", encoding="utf-8") as file:
                 file.write(text.replace("<tushar_archive version", '<tushar_archive format="7" version'))
-            with self.assertRaisesRegex(ArchiveError, "has format 7, and this reader knows formats up to 1; sus 0.1.0"):
+            with self.assertRaisesRegex(ArchiveError, "has format 7, and this reader knows formats up to 2; sus 0.1.0"):
                 Archive(os.path.dirname(index))
 
     def test_lists_its_runs(self):

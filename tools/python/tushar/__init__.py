@@ -15,13 +15,15 @@ __version__ = "0.1.0"
 # The names of each module, loaded when one is first used, so that `tushar.interpreter` needs no numpy.
 _NAMES = {
     "archive": ["Archive", "Variable", "Series", "Globals"], "snapshot": ["Snapshot", "Particles"], "arrays": ["Array"],
+    "refined": ["Refined", "Box"],
     "grid": ["Grid"], "tracks": ["Tracks"], "program": ["find_sus"], "runs": ["run", "Run"],
     "sweeps": ["sweep", "Sweep", "Point"],
     "errors": ["TusharError", "ArchiveError", "MissingLibrary", "SusError", "CommandError", "InputError",
                "NumericalError", "Interrupted"],
 }
 _HOME = {name: module for module, names in _NAMES.items() for name in names}
-__all__ = ["open", "Archive", "Variable", "Series", "Globals", "Snapshot", "Particles", "Array", "Grid", "Tracks",
+__all__ = ["open", "Archive", "Variable", "Series", "Globals", "Snapshot", "Particles", "Array", "Refined",
+           "Box", "Grid", "Tracks",
            "find_sus", "run", "Run", "sweep", "Sweep", "Point", "TusharError", "ArchiveError", "MissingLibrary",
            "SusError", "CommandError", "InputError", "NumericalError", "Interrupted"]
 
@@ -33,6 +35,7 @@ if TYPE_CHECKING:
                                SusError, TusharError)
     from tushar.grid import Grid
     from tushar.program import find_sus
+    from tushar.refined import Box, Refined
     from tushar.runs import Run, run
     from tushar.snapshot import Particles, Snapshot
     from tushar.sweeps import Point, Sweep, sweep

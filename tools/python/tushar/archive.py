@@ -20,7 +20,7 @@ from tushar.snapshot import Snapshot
 from tushar.tracks import Tracks
 
 
-FORMAT = 1  # of archives: the newest that is known here
+FORMAT = 2  # of archives: the newest that is known here
 BY_LETTER = {"p.": ("particle",), "c.": ("cell", "node"), "g.": ("cell", "node")}
 
 

@@ -45,9 +45,9 @@ class Array(NDArrayOperatorsMixin):
 
     def __getitem__(self, key: Any) -> Any:
         """What numpy's indexing of all values gives; slices and numbers read from the disk what they select."""
-        if not _is_basic(key):
+        if not is_basic(key):
             return self.values[key]
-        if any(_runs_backwards(item) for item in (key if isinstance(key, tuple) else (key,))):
+        if any(runs_backwards(item) for item in (key if isinstance(key, tuple) else (key,))):
             return self.values[key]
         if len(self._parts) == 1:
             return self._parts[0][key]
@@ -94,12 +94,13 @@ class Array(NDArrayOperatorsMixin):
         return getattr(self.values, name)
 
 
-def _is_basic(key: Any) -> bool:
+def is_basic(key: Any) -> bool:
     """Whether a key is made of numbers, slices and `...` alone."""
     items = key if isinstance(key, tuple) else (key,)
     return all(item is Ellipsis or isinstance(item, (int, np.integer, slice)) and not isinstance(item, bool)
                for item in items)
 
 
-def _runs_backwards(item: Any) -> bool:
+def runs_backwards(item: Any) -> bool:
+    """Whether an item of a key is a slice with a step below 0."""
     return isinstance(item, slice) and item.step is not None and item.step < 0

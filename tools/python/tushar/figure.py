@@ -14,8 +14,8 @@ import numpy as np
 from tushar import space
 from tushar.archive import Archive
 from tushar.errors import ArchiveError
-from tushar.panels import (COLOURS, GAS, axis_label, bounds, cloud, colouring, image, name_of, plain_marks, profile,
-                           words)
+from tushar.panels import (COLOURS, GAS, axis_label, bounds, cloud, colouring, image, name_of, outlines, plain_marks,
+                           profile, words)
 from tushar.snapshot import ID
 from tushar.view import Output, Quantity, View
 
@@ -161,6 +161,7 @@ class Figure:
                 drawn = cloud(panel, self.output, quantity, self.output.axes, 72 * width)
             else:
                 drawn = image(panel, self.output, quantity, self.output.axes)
+            outlines(panel, self.output, self.output.axes)
             if drawn is not None:
                 self._bar(self.figure, drawn, quantity, panel, "horizontal" if flat else "vertical")
 
@@ -218,6 +219,7 @@ class Figure:
         for cell, axes, cut in ((grid[0, 0], [0, 1], 2), (grid[1, 0], [0, 2], 1), (grid[0, 1], [2, 1], 0)):
             panel = part.add_subplot(cell)
             drawn = _plane(panel, shown, quantity, axes, {cut: middle[cut]})
+            outlines(panel, shown, axes, {cut: middle[cut]})
             panel.set_title(f"{'xyz'[cut]} = {middle[cut]:.4g} m", fontsize=10, loc="left")
             panels.append(panel)
         self._bar(part, drawn, quantity, panels)

@@ -7,6 +7,7 @@ import numpy as np
 
 from tushar.errors import ArchiveError, check_name, need
 from tushar.grid import Grid, Values
+from tushar.refined import Refined, cells_of
 from tushar.snapshot import ID, Particles, Snapshot
 
 if TYPE_CHECKING:
@@ -83,17 +84,30 @@ def of_snapshot(snapshot: Snapshot, of: Optional[str], material: Optional[str]) 
 
 
 def _of_field(snapshot: Snapshot, centring: str, material: Optional[str]) -> Any:
-    grid = snapshot.grid
-    z, y, x = np.meshgrid(*grid.coordinates(centring)[::-1], indexing="ij")
-    columns = {"xyz"[axis]: (x, y, z)[axis].ravel() for axis in grid.axes}
-    units = dict.fromkeys(columns, "m")
+    """A row for each cell or node; of a refined grid for each cell as it is, with its level."""
+    columns = places_of(snapshot.grid, centring)
+    count = len(next(iter(columns.values())))
+    units = {name: "" if name == "level" else "m" for name in columns}
     for name, variable, owner in fields_of(snapshot):
         if variable.centring == centring and material in (None, owner):
-            values = (snapshot[variable.name, owner] if owner else snapshot[variable.name]).values
-            more = columns_of(name, values.reshape(x.size, -1))
+            more = columns_of(name, rows_of(_field(snapshot, variable, owner)).reshape(count, -1))
             columns.update(more)
             units.update(dict.fromkeys(more, variable.unit))
     return _frame(columns, units)
+
+
+def places_of(grid: Grid, centring: str) -> Dict[str, Values]:
+    """The middles of cells, or the nodes, along the axes in use [m], and the levels of the cells of a refined grid."""
+    if grid.is_refined and centring == "cell":
+        centres, levels = cells_of(grid)
+        return {**{"xyz"[axis]: centres[:, axis] for axis in grid.axes}, "level": levels}
+    z, y, x = np.meshgrid(*grid.coordinates(centring)[::-1], indexing="ij")
+    return {"xyz"[axis]: (x, y, z)[axis].ravel() for axis in grid.axes}
+
+
+def rows_of(field: Any) -> Values:
+    """Values of a field in the order of `places_of`."""
+    return np.asarray(field.cell_values if isinstance(field, Refined) else field.values)
 
 
 def fields_of(snapshot: Snapshot) -> List[Tuple[str, Variable, Optional[str]]]:
@@ -153,7 +167,8 @@ def _names_of_components(variable: Variable) -> Dict[str, Any]:
 
 
 def dataset(archive: Archive, snapshots: Sequence[Snapshot], names: Optional[Sequence[str]] = None) -> Any:
-    """Fields over time, lazily. All outputs have the grid and the fields of the last, or not a number."""
+    """Fields over time, lazily. All outputs have the grid and the fields of the last, or not a number; a refined grid
+    is sampled onto the finest level of the last."""
     xarray = need("xarray", "to_xarray")
     if not snapshots:
         raise ArchiveError(f"'{archive.folder}' has no outputs yet")
@@ -211,4 +226,9 @@ def _values(snapshot: Snapshot, variable: Variable, owner: Optional[str], key: A
         held = {name for name, *_ in fields_of(own)}
         if not held & {variable.name, f"{variable.name}.{owner}"}:
             return np.asarray(np.broadcast_to(np.nan, like.shape)[key])
-        return np.asarray(_field(own, variable, owner)[key])
+        field = _field(own, variable, owner)
+        if field.shape == like.shape:
+            return np.asarray(field[key])
+        if not isinstance(field, Refined):
+            raise ArchiveError(f"output {own.index} has other cells than the last: each by itself has its to_xarray()")
+        return np.asarray(field.level(like.grid.levels - 1 if isinstance(like, Refined) else 0)[key])

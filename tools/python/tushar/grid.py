@@ -1,7 +1,7 @@
 """The grid of an output."""
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, List
 
 import numpy as np
@@ -13,11 +13,17 @@ Values = np.ndarray[Any, Any]
 
 @dataclass
 class Grid:
-    """The grid of an output; vectors are x, y, z. An axis that is not in use has one cell and one node."""
+    """The grid of an output; vectors are x, y, z. An axis that is not in use has one cell and one node.
+
+    Of a refined grid, `spacing` and `cells` are those of the finest of its `levels`, as if all cells were such; `boxes`
+    has a row for each box of cells: level, 0 the coarsest, then lower x, y, z and upper x, y, z in cells of that level.
+    The boxes tile the domain. Where there is one level there are none."""
     lower: Values  # corner of the box [m]
     spacing: Values  # widths of a cell [m]
     cells: Values  # numbers of cells
     dimension: int
+    boxes: Values = field(default_factory=lambda: np.zeros((0, 7), int))
+    levels: int = 1
 
     @property
     def upper(self) -> Values:
@@ -28,6 +34,32 @@ class Grid:
     def axes(self) -> List[int]:
         """The axes in use, 0 for x to 2 for z."""
         return sorted(sorted(range(3), key=lambda axis: (self.cells[axis] <= 1, axis))[:self.dimension])
+
+    @property
+    def is_refined(self) -> bool:
+        """Whether the output has boxes of several levels."""
+        return len(self.boxes) > 0
+
+    def factor(self, level: int) -> Values:
+        """How many of the finest cells lie along x, y and z in a cell of a level."""
+        used = [axis in self.axes for axis in range(3)]
+        return np.where(used, 2 ** (self.levels - 1 - level), 1)
+
+    def level(self, number: int) -> Grid:
+        """The grid as if all cells were of a level; beyond the finest, its cells are halved on."""
+        if number < 0:
+            raise ArchiveError(f"no level {number}: the coarsest is 0, the finest {self.levels - 1}")
+        shift = np.where(np.isin(range(3), self.axes), number + 1 - self.levels, 0)
+        cells = np.where(shift < 0, self.cells >> np.maximum(-shift, 0), self.cells << np.maximum(shift, 0))
+        return Grid(self.lower, np.ldexp(self.spacing, -shift), cells, self.dimension)
+
+    @property
+    def counts(self) -> List[int]:
+        """The number of cells of each level, the coarsest first."""
+        if not self.is_refined:
+            return [int(np.prod(self.cells))]
+        sizes = np.prod(self.boxes[:, 4:] - self.boxes[:, 1:4], axis=1)
+        return [int(sizes[self.boxes[:, 0] == level].sum()) for level in range(self.levels)]
 
     def coordinates(self, centring: str) -> List[Values]:
         """Three arrays: the positions of the cells or nodes along x, y and z [m]."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 import re
 from typing import Any, Dict, List, Optional, Tuple
 
+import matplotlib.collections
 import matplotlib.colors
 import matplotlib.ticker
 import numpy as np
@@ -15,6 +16,8 @@ from tushar.view import Output, Quantity, Range
 # The classic four of a shock tube: label in the archive, column of the exact solution, name on the axis.
 GAS = [("p.density", "density", "density"), ("p.velocity", "velocity", "velocity"),
        ("p.pressure", "pressure", "pressure"), ("p.internalEnergy", "energy", "specific internal energy")]
+MARKS, MARK = "os^Dvp", 3.5  # of the levels of a refined grid; size [pt]
+OUTLINE = "#4a5568"
 COLOURS = ["#2b6cb0", "#c05621", "#2f855a", "#6b46c1", "#b83280", "#2c7a7b"]
 
 
@@ -53,6 +56,9 @@ def profile(panel: Any, output: Output, quantity: Quantity) -> None:
         x = output.grid.coordinates(quantity.variable.centring)[axis]
         for colour, owner in zip(COLOURS * 9, output.owners(quantity)):
             values = output.field(quantity, owner, axis).ravel()
+            if output.grid.is_refined and quantity.variable.centring == "cell":
+                _refined_line(panel, output, axis, values, colour, owner)
+                continue
             panel.plot(x, values, "-o" if len(x) <= 200 else "-", color=colour, markersize=3, linewidth=1.4,
                        label=owner or quantity.variable.centring + "s")
     if not output.other and not output.view.slices:
@@ -60,6 +66,31 @@ def profile(panel: Any, output: Output, quantity: Quantity) -> None:
     panel.set_ylabel(axis_label(name_of(output, quantity, on_line=True), quantity.variable.unit))
     panel.set_xlim(output.extent(axis))
     _limit(panel, output.view.limits(quantity.label), output.view.log)
+
+
+def _refined_line(panel: Any, output: Output, axis: int, values: Values, colour: str, owner: Optional[str]) -> None:
+    """The cells of a refined grid where they are, with a mark for each level."""
+    x, levels, cells = output.cells_along(axis)
+    panel.plot(x, values[cells], "-", color=colour, linewidth=1.2, label=owner or "cells")
+    for level in np.unique(levels):
+        here = levels == level
+        panel.plot(x[here], values[cells][here], MARKS[level % len(MARKS)], color=colour, markersize=MARK,
+                   markerfacecolor="white" if level % 2 == 0 else colour, markeredgewidth=0.7,
+                   label=f"level {level}" + (f" of {owner}" if owner else ""))
+    if output.view.boxes:
+        for low, high in output.boxes():
+            panel.axvspan(low[axis], high[axis], fill=False, edgecolor=OUTLINE, linewidth=0.5)
+
+
+def outlines(panel: Any, output: Output, axes: List[int], slices: Optional[Dict[int, float]] = None) -> None:
+    """The boxes of a refined grid in a plane, where the view wants them."""
+    if not output.view.boxes:
+        return
+    across, up = axes
+    corners = [[(low[across], low[up]), (high[across], low[up]), (high[across], high[up]), (low[across], high[up])]
+               for low, high in output.boxes(slices)]
+    panel.add_collection(matplotlib.collections.PolyCollection(corners, facecolor="none", edgecolor=OUTLINE,
+                                                               linewidth=0.4))
 
 
 def _points_on_line(panel: Any, output: Output, quantity: Quantity, axis: int) -> None:

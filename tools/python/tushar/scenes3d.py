@@ -8,15 +8,19 @@ import numpy as np
 from tushar.errors import ArchiveError, need
 from tushar.frames import columns_of, fields_of
 from tushar.grid import Values
+from tushar.refined import Refined
 from tushar.snapshot import Snapshot
 
 
 def to_pyvista(snapshot: Snapshot) -> Any:
     pyvista = need("pyvista", "to_pyvista")
     blocks = pyvista.MultiBlock()
-    cells = _image(pyvista, snapshot)
-    if cells.array_names:
-        blocks["cells"] = cells
+    if snapshot.grid.is_refined:
+        blocks["cells"] = _boxes(pyvista, snapshot)
+    else:
+        cells = _image(pyvista, snapshot)
+        if cells.array_names:
+            blocks["cells"] = cells
     for material, count in snapshot.materials.items():
         if count:
             blocks[material] = _points(pyvista, snapshot, material)
@@ -24,7 +28,7 @@ def to_pyvista(snapshot: Snapshot) -> Any:
 
 
 def _image(pyvista: Any, snapshot: Snapshot) -> Any:
-    """The grid, with the fields on its cells and nodes. VTK has two nodes where an axis of the grid has one."""
+    """A grid of one level, with the fields on its cells and nodes. VTK has two nodes where an axis has one."""
     grid = snapshot.grid
     image = pyvista.ImageData(dimensions=grid.cells + 1, spacing=grid.spacing, origin=grid.lower)
     nodes = tuple(int(count) + 1 for count in grid.cells[::-1])
@@ -36,6 +40,21 @@ def _image(pyvista: Any, snapshot: Snapshot) -> Any:
         else:
             image.point_data[name] = np.broadcast_to(values, (*nodes, *tail)).reshape(-1, *tail)
     return image
+
+
+def _boxes(pyvista: Any, snapshot: Snapshot) -> Any:
+    """An image for each box of a refined grid."""
+    blocks = pyvista.MultiBlock()
+    fields = [(name, snapshot[variable.name, owner]) for name, variable, owner in fields_of(snapshot)]
+    boxes = [(name, field.boxes) for name, field in fields if isinstance(field, Refined)]
+    for name, own in boxes:
+        for number, box in enumerate(own):
+            block = f"level {box.level} box {number}"
+            if block not in blocks.keys():
+                blocks[block] = pyvista.ImageData(dimensions=box.cells + 1, spacing=box.spacing, origin=box.lower)
+            values = box.values
+            blocks[block].cell_data[name] = values.reshape(-1, *values.shape[3:])
+    return blocks
 
 
 def _points(pyvista: Any, snapshot: Snapshot, material: str) -> Any:

@@ -10,6 +10,7 @@ import h5py
 from tushar.arrays import Array
 from tushar.errors import ArchiveError, check_name
 from tushar.grid import Grid, Values
+from tushar.refined import Refined
 
 if TYPE_CHECKING:
     from tushar.archive import Archive, Variable
@@ -22,12 +23,14 @@ class Snapshot:
     """One output of an archive: `snapshot["p.density"]`, `snapshot["c.velocity"]`, `snapshot["g.mass", "gas"]`.
 
     Arrays of particles have the shape (n,) or (n, components); those of cells and nodes (z, y, x) or (z, y, x,
-    components). Nothing is read before values are asked for. Wrong names raise ArchiveError.
+    components), of a refined grid those of its finest level (`Refined`). Nothing is read before values are asked for.
+    Wrong names raise ArchiveError.
     """
 
     def __init__(self, archive: Archive, index: int, path: str, time: float, step: int) -> None:
         self.archive, self.index, self.path, self.time, self.step = archive, index, path, time, step
         self._opened: Optional[h5py.File] = None
+        self._grid: Optional[Grid] = None
 
     def __repr__(self) -> str:
         name = os.path.basename(self.archive.folder)
@@ -60,8 +63,16 @@ class Snapshot:
 
     @property
     def grid(self) -> Grid:
-        kept = self.file["grid"].attrs
-        return Grid(kept["lower"], kept["spacing"], kept["cells"], int(kept["dimension"]))
+        """The grid; of a refined one that of its finest level, with the boxes that there are."""
+        if self._grid is None:
+            group = self.file["grid"]
+            kept = group.attrs
+            self._grid = Grid(kept["lower"], kept["spacing"], kept["cells"], int(kept["dimension"]))
+            if "boxes" in group:
+                levels = len(group["levels"])
+                self._grid = self._grid.level(levels - 1)
+                self._grid.boxes, self._grid.levels = group["boxes"][()].astype(int), levels
+        return self._grid
 
     @property
     def materials(self) -> Dict[str, int]:
@@ -105,14 +116,19 @@ class Snapshot:
         if material:
             check_name("material", material, variable.materials)
         if name in group and not material:
-            return self._array([group[name]], variable)
+            return self._on_grid(group[name], variable)
         names = [material] if material else [other for other in variable.materials if name in group.get(other, {})]
         if len(names) > 1:
             raise ArchiveError(f"'{name}' belongs to several materials; name one: {', '.join(names)}")
         if not names or name not in group.get(names[0], {}):
             why = "; a step computes it, and this is the start" if self.file.attrs["step"] == 0 else ""
             raise ArchiveError(f"output {self.index} holds no '{name}'{why}")
-        return self._array([group[names[0]][name]], variable)
+        return self._on_grid(group[names[0]][name], variable)
+
+    def _on_grid(self, data: h5py.Dataset, variable: Variable) -> Array:
+        if variable.centring == "cell" and self.grid.is_refined:
+            return Refined(data, self.grid, variable.name, variable.unit, variable.description)
+        return self._array([data], variable)
 
     @staticmethod
     def _array(parts: List[h5py.Dataset], variable: Variable) -> Array:

@@ -53,6 +53,10 @@ def render(output: Output, quantity: Quantity) -> Optional[Seen]:
     plotter = pyvista.Plotter(off_screen=True, window_size=list(SIZE))
     plotter.set_background("white")
     plotter.add_mesh(pyvista.Box(bounds=box), style="wireframe", color="#a0aec0", line_width=1)
+    if output.view.boxes and output.grid.is_refined:
+        ends = [np.stack(corners, axis=1).ravel() for corners in output.boxes()]
+        plotter.add_mesh(pyvista.merge([pyvista.Box(bounds=own) for own in ends]), style="wireframe", color="#a0aec0",
+                         line_width=0.5)
     if quantity.variable.centring == "particle":
         _balls(pyvista, plotter, output, quantity)
     else:

@@ -11,6 +11,7 @@ from tushar.archive import Archive, Variable
 from tushar.errors import ArchiveError, check_name
 from tushar.frames import tails
 from tushar.grid import Grid, Values
+from tushar.refined import levels_at
 from tushar.snapshot import ID, Particles, Snapshot
 
 Range = Tuple[Optional[float], Optional[float]]
@@ -27,6 +28,7 @@ class View:
     other: Optional[Archive] = None  # the archive that is subtracted
     ranges: Dict[str, Range] = field(default_factory=dict)  # label -> range, common to the pictures of a film
     planes: Optional[Tuple[float, float, float]] = None  # where the three slices of a film are [m]
+    boxes: bool = False  # outlines of the boxes of a refined grid
 
     def __post_init__(self) -> None:
         if self.log and self.other:
@@ -93,6 +95,8 @@ class Output:
         self.axes = [axis for axis in self.grid.axes if axis not in view.slices]
         if view.material:
             check_name("material", view.material, snapshot.archive.materials)
+        if view.boxes and not self.grid.is_refined:
+            self.notes.append("the grid has one level, so there are no boxes to draw")
         self.other = self._counterpart()
 
     def _counterpart(self) -> Optional[Snapshot]:
@@ -164,6 +168,28 @@ class Output:
         for cut, place in cuts.items():
             rows[cut] = self.grid.nearest(centring, cut, place)
         return tuple(rows[::-1])
+
+    def cells_along(self, axis: int) -> Tuple[Values, Values, Values]:
+        """Of the cells of a refined grid along the one axis that is left: their middles [m], their levels, and which of
+        the finest cells lie there; of a difference all of the finest."""
+        levels = levels_at(self.grid, self.place("cell")).ravel()
+        number = np.arange(len(levels))
+        width = np.where(bool(self.other), 1, 2 ** (self.grid.levels - 1 - levels))
+        first = number % width == 0
+        middles = self.grid.lower[axis] + (number + width / 2) * self.grid.spacing[axis]
+        return middles[first], levels[first], number[first]
+
+    def boxes(self, slices: Optional[Dict[int, float]] = None) -> List[Tuple[Values, Values]]:
+        """The corners [m] of the boxes of a refined grid, of those that slices cut."""
+        cuts = self.view.slices if slices is None else slices
+        rows = {cut: self.grid.nearest("cell", cut, place) for cut, place in cuts.items()}
+        found = []
+        for box in self.grid.boxes:
+            factor = self.grid.factor(int(box[0]))
+            low, high = box[1:4] * factor, box[4:] * factor
+            if all(low[cut] <= row < high[cut] for cut, row in rows.items()):
+                found.append((self.grid.lower + low * self.grid.spacing, self.grid.lower + high * self.grid.spacing))
+        return found
 
     def extent(self, axis: int) -> Tuple[float, float]:
         return float(self.grid.lower[axis]), float(self.grid.upper[axis])
