@@ -4,6 +4,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 
 namespace tushar::data {
 
@@ -24,9 +25,9 @@ struct OwnedLabel {
 
 const Label& rimLabelOf(const Label& label) {
   static std::mutex mutex;
-  static std::map<std::string, std::unique_ptr<OwnedLabel>, std::less<>> labels;
+  static std::map<std::pair<std::string, std::size_t>, std::unique_ptr<OwnedLabel>> labels;  // c.velocity has 1 to 3
   const std::lock_guard<std::mutex> alone(mutex);
-  std::unique_ptr<OwnedLabel>& owned = labels[std::string(label.name)];
+  std::unique_ptr<OwnedLabel>& owned = labels[{std::string(label.name), label.bytes}];
   if (!owned) owned = std::make_unique<OwnedLabel>(label);
   return owned->label;
 }

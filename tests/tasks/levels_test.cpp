@@ -203,6 +203,14 @@ TEST(Levels, KeepWhatFlowsBetweenThemAndHaveTheSameBitsInPatchesOfAnySize) {
   checkAdvection<3>();
 }
 
+TEST(Levels, HaveFluxesOfTheTypeOfTheirVariableThoughOthersHaveItsName) {
+  static constexpr CellLabel<Vec<1>> inOneDimension{"c.flow", "m/s", "a vector"};
+  static constexpr CellLabel<Vec<3>> inThree{"c.flow", "m/s", "a vector"};
+  EXPECT_EQ(data::rimLabelOf(inOneDimension).bytes, sizeof(Vec<1>));
+  EXPECT_EQ(data::rimLabelOf(inThree).bytes, sizeof(Vec<3>));
+  EXPECT_EQ(&data::rimLabelOf(inThree), &data::rimLabelOf(inThree));
+}
+
 TEST(Levels, AreRefluxedByATaskBehindTheOneThatKeepsTheFluxes) {
   test::Runner run(refined<1>(2, true, 1));
   TaskList list;
