@@ -23,7 +23,7 @@ BASE = "Grid/Level/Box/resolution="
 PLANE = (BASE + "[16,16,1]", REGRIDDER + "min_patch_size=[[4,4,1]]", REGRIDDER + "max_levels=3",
          REGRIDDER + "min_timestep_interval=4")
 # Scene -> what makes it small, and steps in which its grid changes several times, unless it stays.
-SCENES = {"ups/euler/sod_levels.ups": ((), 60), "ups/euler/lax_liu_3_levels.ups": (PLANE, 60),
+SCENES = {"ups/euler/sod_levels.ups": ((), 60), "ups/euler/lax_liu_3_levels.ups": (PLANE, 80),
           "ups/euler/blast_levels.ups": (PLANE, 120), "ups/heat/levels.ups": ((), 60),
           "ups/burgers/levels.ups": ((), 60)}
 SIDE_WALLS = "".join(f'<Face side="{side}"><BCType id="all" label="Symmetric" var="symmetry"/></Face>'
