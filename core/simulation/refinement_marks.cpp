@@ -1,6 +1,7 @@
 #include "core/simulation/refinement_marks.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -24,6 +25,7 @@ double norm(const double* values, int components) {
 
 /// |q(i+1) - q(i-1)| / 2.
 double halfJump(const Neighbours& near, int components) {
+  if (components == 1) return 0.5 * std::abs(valueAt(near.above, near.middle, 0) - valueAt(near.below, near.middle, 0));
   double sum = 0;
   for (int k = 0; k < components; ++k) {
     const double jump = valueAt(near.above, near.middle, k) - valueAt(near.below, near.middle, k);
@@ -40,7 +42,7 @@ double relativeJump(const Neighbours& near, int components) {
   return least > 0 ? jump / least : std::numeric_limits<double>::infinity();
 }
 
-double secondDerivative(const std::vector<Neighbours>& axes, int components) {
+double secondDerivative(std::span<const Neighbours> axes, int components) {
   double over = 0, under = 0;
   for (const Neighbours& near : axes)
     for (int k = 0; k < components; ++k) {
@@ -53,7 +55,7 @@ double secondDerivative(const std::vector<Neighbours>& axes, int components) {
   return under > 0 ? std::sqrt(over / under) : 0;
 }
 
-double gradient(const std::vector<Neighbours>& axes, const std::vector<double>& spacing, int components) {
+double gradient(std::span<const Neighbours> axes, std::span<const double> spacing, int components) {
   double sum = 0;
   for (std::size_t d = 0; d < axes.size(); ++d) {
     const double slope = halfJump(axes[d], components) / spacing[d];
@@ -63,7 +65,7 @@ double gradient(const std::vector<Neighbours>& axes, const std::vector<double>& 
 }
 
 /// What one criterion asks for, 0, 1 or 2.
-int markOf(const Criterion& criterion, const std::vector<Neighbours>& axes, const std::vector<double>& spacing,
+int markOf(const Criterion& criterion, std::span<const Neighbours> axes, std::span<const double> spacing,
            int components) {
   const double value = indicatorOf(criterion.indicator, axes, spacing, components);
   const bool isBelow = criterion.indicator == Indicator::below;
@@ -71,36 +73,46 @@ int markOf(const Criterion& criterion, const std::vector<Neighbours>& axes, cons
   return isBeyond(criterion.refine) ? 2 : isBeyond(criterion.coarsen) ? 1 : 0;
 }
 
+/// Raises the marks of a patch to what one criterion asks for. What is stored goes beyond the patch but where the grid
+/// ends.
+void raiseMarks(const grid::Patch& patch, const BoundCriterion& bound, const data::Variable& values,
+                const data::Variable& marks) {
+  const grid::Level& level = patch.level();
+  const auto dimension = static_cast<std::size_t>(level.dimension());
+  const int components = bound.label->components;
+  std::array<Neighbours, 3> axes{};
+  std::array<double, 3> spacing{};
+  std::array<std::ptrdiff_t, 3> stride{components, 0, 0};
+  for (std::size_t d = 0; d < 3; ++d) {
+    const int axis = static_cast<int>(d);
+    if (d > 0) stride[d] = stride[d - 1] * values.stored.extent(axis - 1);
+    if (d < dimension) spacing[d] = level.spacing(axis);
+  }
+  grid::forEach<3>(patch.cells(), [&](const Index3& cell) {
+    const double* here = reinterpret_cast<const double*>(values.values) +
+                         static_cast<std::ptrdiff_t>(values.stored.offset(cell)) * components;
+    for (std::size_t d = 0; d < dimension; ++d) {
+      const int axis = static_cast<int>(d);
+      axes[d] = {cell[axis] > values.stored.lower[axis] ? here - stride[d] : nullptr, here,
+                 cell[axis] + 1 < values.stored.upper[axis] ? here + stride[d] : nullptr};
+    }
+    int& mark = reinterpret_cast<int*>(marks.values)[marks.stored.offset(cell)];
+    mark = std::max(mark, markOf(bound.criterion, std::span(axes).first(dimension), std::span(spacing).first(dimension),
+                                 components));
+  });
+}
+
 /// The last access is that of the marks.
 void findMarks(const tasks::TaskContext& context, const std::vector<BoundCriterion>& criteria) {
-  const grid::Level& level = context.patch().level();
-  const int dimension = level.dimension();
-  std::vector<double> spacing;
-  for (int d = 0; d < dimension; ++d) spacing.push_back(level.spacing(d));
   const data::Variable marks = context.variable(static_cast<int>(criteria.size()));
-  std::vector<Neighbours> axes(static_cast<std::size_t>(dimension));
-  grid::forEach<3>(context.patch().cells(), [&](const Index3& cell) {
-    int mark = 0;
-    for (std::size_t k = 0; k < criteria.size(); ++k) {
-      const int components = criteria[k].label->components;
-      const data::Variable values = context.variable(static_cast<int>(k));
-      const auto at = [&](const Index3& place) -> const double* {
-        if (!values.stored.contains(place) || !level.clipCells({place, place + Index3::filled(1)}).size())
-          return nullptr;
-        return reinterpret_cast<const double*>(values.values) +
-               values.stored.offset(place) * static_cast<std::size_t>(components);
-      };
-      for (int d = 0; d < dimension; ++d)
-        axes[static_cast<std::size_t>(d)] = {at(cell - Index3::unit(d)), at(cell), at(cell + Index3::unit(d))};
-      mark = std::max(mark, markOf(criteria[k].criterion, axes, spacing, components));
-    }
-    reinterpret_cast<int*>(marks.values)[marks.stored.offset(cell)] = mark;
-  });
+  std::fill_n(reinterpret_cast<int*>(marks.values), marks.stored.size(), 0);
+  for (std::size_t k = 0; k < criteria.size(); ++k)
+    raiseMarks(context.patch(), criteria[k], context.variable(static_cast<int>(k)), marks);
 }
 
 }  // namespace
 
-double indicatorOf(Indicator indicator, const std::vector<Neighbours>& axes, const std::vector<double>& spacing,
+double indicatorOf(Indicator indicator, std::span<const Neighbours> axes, std::span<const double> spacing,
                    int components) {
   switch (indicator) {
     case Indicator::secondDerivative:

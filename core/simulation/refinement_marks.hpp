@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "core/simulation/settings.hpp"
@@ -26,8 +27,8 @@ struct Neighbours {
 /// Of vectors (several `components`) a jump is that of the vector, in its unit. Beyond the grid the cell's own value
 /// counts. Source of the second derivative: R. Löhner, Comput. Methods Appl. Mech. Eng. 61 (1987) 323, with filter
 /// 0.01.
-double indicatorOf(Criterion::Indicator indicator, const std::vector<Neighbours>& axes,
-                   const std::vector<double>& spacing, int components);
+double indicatorOf(Criterion::Indicator indicator, std::span<const Neighbours> axes, std::span<const double> spacing,
+                   int components);
 
 /// The task that computes refinementMark by all criteria.
 tasks::Task markTask(std::vector<BoundCriterion> criteria);

@@ -36,9 +36,8 @@ void addBlocks(const std::string& text, std::set<BlockId>& blocks) {
 
 }  // namespace
 
-std::vector<BlockId> MarkedBlocks::blocksNear(const grid::Level& level, const Index3& cell, int distance) const {
-  const int dimension = level.dimension();
-  const Box near = level.clipCells(Box{cell, cell + Index3::filled(1)}.grown(distance, dimension));
+Box MarkedBlocks::blocksNear(const grid::Level& level, const Index3& cell, int distance) const {
+  const Box near = level.clipCells(Box{cell, cell + Index3::filled(1)}.grown(distance, level.dimension()));
   Box blocks;
   for (int d = 0; d < 3; ++d) {
     const int cells = grid_.blockCells()[d];
@@ -46,36 +45,43 @@ std::vector<BlockId> MarkedBlocks::blocksNear(const grid::Level& level, const In
     blocks.lower[d] = blockOf(near.lower[d]);
     blocks.upper[d] = blockOf(near.upper[d] - 1) + 1;
   }
+  return blocks;
+}
+
+template <class Visit>
+void MarkedBlocks::forEachNear(const grid::Level& level, const Index3& cell, int distance, int mark, Visit&& visit) {
+  const Seen now{level.number(), blocksNear(level, cell, distance), mark};
+  if (now == last_) return;
+  last_ = now;
   const Index3 count = grid_.tree().blocksOf(level.number());
-  std::vector<BlockId> found;
-  grid::forEach<3>(blocks, [&](Index3 at) {
-    for (int d = 0; d < dimension; ++d) at[d] = (at[d] % count[d] + count[d]) % count[d];
-    found.push_back({level.number(), at});
+  grid::forEach<3>(now.blocks, [&](Index3 at) {
+    for (int d = 0; d < level.dimension(); ++d) at[d] = (at[d] % count[d] + count[d]) % count[d];
+    visit(BlockId{level.number(), at});
   });
-  return found;
 }
 
 void MarkedBlocks::add(const grid::Level& level, const Index3& cell, int mark) {
   if (mark == 0) return;
   const int number = level.number();
-  for (const BlockId& block : blocksNear(level, cell, crossed(level) + dilation_)) {
+  forEachNear(level, cell, crossed(level) + dilation_, mark, [&](const BlockId& block) {
     if (number > 0) kept_.insert(parentOf(block, level.dimension()));
-    if (mark < 2 || number == grid_.levels() - 1) continue;
+    if (mark < 2 || number == grid_.levels() - 1) return;
     // A block that is not there yet is made first, so that no cell becomes two levels finer at once.
     const bool isThere = grid_.tree().levelAt(block) >= number;
     wanted_.insert(isThere ? block : parentOf(block, level.dimension()));
-  }
+  });
 }
 
 void MarkedBlocks::addParticles(const grid::Level& level, const Index3& cell, int margin) {
   const int finest = grid_.levels() - 1, dimension = level.dimension();
   if (level.number() < finest) return add(level, cell, 2);
-  for (BlockId block : blocksNear(level, cell, crossed(level) + margin)) {
+  constexpr int particles = 3;  // unlike any mark
+  forEachNear(level, cell, crossed(level) + margin, particles, [&](BlockId block) {
     kept_.insert(parentOf(block, dimension));
     const int there = grid_.tree().levelAt(block);
     while (block.level > there) block = parentOf(block, dimension);
     if (there < finest) wanted_.insert(block);
-  }
+  });
 }
 
 void MarkedBlocks::unite(const mpi::Communicator& ranks) {

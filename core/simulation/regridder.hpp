@@ -29,11 +29,22 @@ class MarkedBlocks {
  private:
   const grid::Grid& grid_;
   int interval_, dilation_;
-  /// Blocks of a level within a distance of a cell of it, on the grid.
-  std::vector<grid::BlockId> blocksNear(const grid::Level& level, const Index3& cell, int distance) const;
+  /// Blocks of a level within a distance of a cell of it, on the grid or its images.
+  grid::Box blocksNear(const grid::Level& level, const Index3& cell, int distance) const;
+  /// Calls `visit(block)` for each of them, but not for those of the call before with the same mark.
+  template <class Visit>
+  void forEachNear(const grid::Level& level, const Index3& cell, int distance, int mark, Visit&& visit);
   /// Steps' worth of cells of a level.
   int crossed(const grid::Level& level) const { return ((interval_ - 1) >> (grid_.levels() - 1 - level.number())) + 1; }
 
+  struct Seen {
+    int level = -1;
+    grid::Box blocks{};
+    int mark = 0;
+    friend bool operator==(const Seen&, const Seen&) = default;
+  };
+
+  Seen last_;
   std::set<grid::BlockId> wanted_, kept_;
 };
 

@@ -1,5 +1,6 @@
 #include "core/tasks/transfer.hpp"
 
+#include <array>
 #include <cstring>
 
 #include "core/base/limiters.hpp"
@@ -11,34 +12,68 @@ using grid::Box;
 
 namespace {
 
-const double* numbers(const CellValues& values, const Index3& cell, int components) {
-  return reinterpret_cast<const double*>(values.values) +
-         values.stored.offset(cell) * static_cast<std::size_t>(components);
-}
+/// Numbers of cells in memory, and how far apart those of neighbours are.
+template <class Number>
+class Cells {
+ public:
+  Cells(const CellValues& values, int components)
+      : numbers_(reinterpret_cast<Number*>(values.values)), stored_(values.stored), components_(components) {
+    stride_[0] = components;
+    for (int d = 1; d < 3; ++d) stride_[d] = stride_[d - 1] * stored_.extent(d - 1);
+  }
+  Number* at(const Index3& cell) const {
+    return numbers_ + static_cast<std::ptrdiff_t>(stored_.offset(cell)) * components_;
+  }
+  std::ptrdiff_t stride(int axis) const { return stride_[static_cast<std::size_t>(axis)]; }
+  bool hasBoth(const Index3& cell, int axis) const {
+    return cell[axis] > stored_.lower[axis] && cell[axis] + 1 < stored_.upper[axis];
+  }
 
-/// The change of one number over a coarse cell along an axis.
-double slopeOf(const CellValues& coarse, const Index3& cell, int axis, int components, int component) {
-  Index3 below = cell, above = cell;
-  --below[axis];
-  ++above[axis];
-  if (below[axis] < coarse.stored.lower[axis] || above[axis] >= coarse.stored.upper[axis]) return 0;
-  const double middle = numbers(coarse, cell, components)[component];
-  return Mc::slope(middle - numbers(coarse, below, components)[component],
-                   numbers(coarse, above, components)[component] - middle);
+ private:
+  Number* numbers_;
+  Box stored_;
+  std::ptrdiff_t components_;
+  std::array<std::ptrdiff_t, 3> stride_{};
+};
+
+template <int D>
+void meansOf(const Box& box, const CellValues& values, int components, double* to) {
+  const Cells<const double> fine(values, components);
+  const std::ptrdiff_t x = fine.stride(0), y = fine.stride(1), z = fine.stride(2);
+  grid::forEach<3>(box, [&](const Index3& cell) {
+    Index3 first = cell;
+    for (int d = 0; d < D; ++d) first[d] *= 2;
+    const double* child = fine.at(first);
+    for (int k = 0; k < components; ++k, ++child) {
+      const auto pair = [&](std::ptrdiff_t beside) { return child[beside] + child[beside + x]; };
+      if constexpr (D == 1) *to++ = 0.5 * pair(0);
+      if constexpr (D == 2) *to++ = 0.25 * (pair(0) + pair(y));
+      if constexpr (D == 3) *to++ = 0.125 * ((pair(0) + pair(y)) + (pair(z) + pair(y + z)));
+    }
+  });
 }
 
 template <int D>
-void meansOf(const Box& box, const CellValues& fine, int components, double* to) {
+void interpolate(const CellValues& from, const Box& box, const CellValues& to, int components) {
+  const Cells<const double> coarse(from, components);
+  const Cells<double> fine(to, components);
   grid::forEach<3>(box, [&](const Index3& cell) {
-    const auto child = [&](int x, int y, int z) {
-      return numbers(fine, {{2 * cell[0] + x, D > 1 ? 2 * cell[1] + y : cell[1], D > 2 ? 2 * cell[2] + z : cell[2]}},
-                     components);
-    };
-    for (int k = 0; k < components; ++k) {
-      const auto along = [&](int y, int z) { return child(0, y, z)[k] + child(1, y, z)[k]; };
-      if constexpr (D == 1) *to++ = 0.5 * along(0, 0);
-      if constexpr (D == 2) *to++ = 0.25 * (along(0, 0) + along(1, 0));
-      if constexpr (D == 3) *to++ = 0.125 * ((along(0, 0) + along(1, 0)) + (along(0, 1) + along(1, 1)));
+    Index3 parent = cell;
+    std::array<std::ptrdiff_t, 3> stride{};
+    std::array<double, 3> side{};
+    for (int d = 0; d < D; ++d) {
+      const auto axis = static_cast<std::size_t>(d);
+      parent[d] = grid::coarserCell(cell[d]);
+      stride[axis] = coarse.hasBoth(parent, d) ? coarse.stride(d) : 0;
+      side[axis] = cell[d] == 2 * parent[d] ? -0.25 : 0.25;
+    }
+    const double* middle = coarse.at(parent);
+    double* into = fine.at(cell);
+    for (int k = 0; k < components; ++k, ++middle) {
+      double value = *middle;
+      for (std::size_t d = 0; d < D; ++d)
+        value += side[d] * Mc::slope(*middle - middle[-stride[d]], middle[stride[d]] - *middle);
+      into[k] = value;
     }
   });
 }
@@ -72,20 +107,9 @@ void restrictTo(const Label& label, int dimension, const Box& box, const CellVal
 
 void prolong(const Label& label, int dimension, const CellValues& coarse, const Box& box, const CellValues& fine) {
   if (label.number != data::Number::real) return copyParents(label, dimension, coarse, box, fine);
-  const int components = label.components;
-  grid::forEach<3>(box, [&](const Index3& cell) {
-    Index3 of = cell;
-    for (int d = 0; d < dimension; ++d) of[d] = grid::coarserCell(cell[d]);
-    auto* to = reinterpret_cast<double*>(fine.values + fine.stored.offset(cell) * label.bytes);
-    for (int k = 0; k < components; ++k) {
-      double value = numbers(coarse, of, components)[k];
-      for (int d = 0; d < dimension; ++d) {
-        const double change = 0.25 * slopeOf(coarse, of, d, components, k);
-        value = cell[d] == 2 * of[d] ? value - change : value + change;
-      }
-      to[k] = value;
-    }
-  });
+  if (dimension == 1) return interpolate<1>(coarse, box, fine, label.components);
+  dimension == 2 ? interpolate<2>(coarse, box, fine, label.components)
+                 : interpolate<3>(coarse, box, fine, label.components);
 }
 
 }  // namespace tushar::tasks

@@ -122,7 +122,8 @@ TEST(ArchiveHdf5, KeepsTheBoxesOfARefinedGridAndTheirCellsOneAfterTheOther) {
     EXPECT_EQ(levels.values, (std::vector<double>{0.1, 0.2, 2, 0.05, 0.1, 2, 0.025, 0.05, 2}));
     EXPECT_EQ(reader.dataset("/cells/c.temperature").shape, std::vector<hsize_t>{32});
     EXPECT_EQ(reader.dataset("/cells/c.velocity").shape, (std::vector<hsize_t>{32, 3}));
-    if (!doubleAsFloat) EXPECT_EQ(reader.dataset("/cells/gas/c.density").values, reals(snapshot.fields[2].array));
+    if (doubleAsFloat) continue;
+    EXPECT_EQ(reader.dataset("/cells/gas/c.density").values, reals(snapshot.fields[2].array));
   }
 }
 

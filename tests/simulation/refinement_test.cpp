@@ -13,10 +13,13 @@ namespace {
 
 using Indicator = Criterion::Indicator;
 
-/// The indicator of the middle one of three numbers in a row, half a metre apart.
-double inRow(Indicator indicator, double a, double b, double c) {
-  return indicatorOf(indicator, {{&a, &b, &c}}, {0.5}, 1);
+double of(Indicator indicator, const std::vector<Neighbours>& axes, const std::vector<double>& spacing,
+          int components) {
+  return indicatorOf(indicator, axes, spacing, components);
 }
+
+/// The indicator of the middle one of three numbers in a row, half a metre apart.
+double inRow(Indicator indicator, double a, double b, double c) { return of(indicator, {{&a, &b, &c}}, {0.5}, 1); }
 
 /// A row of 4 blocks of 8 cells, up to 3 levels, without regions.
 grid::Domain row(bool isPeriodic = false) {
@@ -46,7 +49,7 @@ TEST(Indicator, OfAJumpIsHalfTheDifferenceOverTheLeastValue) {
 
 TEST(Indicator, OfAVectorsJumpIsThatOfTheVector) {
   const double a[] = {1, 0}, b[] = {0, 0}, c[] = {-2, 4};
-  EXPECT_DOUBLE_EQ(indicatorOf(Indicator::jump, {{a, b, c}}, {0.5}, 2), 2.5);
+  EXPECT_DOUBLE_EQ(of(Indicator::jump, {{a, b, c}}, {0.5}, 2), 2.5);
 }
 
 TEST(Indicator, OfASecondDerivativeIsZeroForALineAndNearlyOneForAStep) {
@@ -57,13 +60,13 @@ TEST(Indicator, OfASecondDerivativeIsZeroForALineAndNearlyOneForAStep) {
 
 TEST(Indicator, OfAGradientIsItsMagnitude) {
   const double a = 1, b = 2, c = 4, d = 6;
-  EXPECT_DOUBLE_EQ(indicatorOf(Indicator::gradient, {{&a, &b, &c}, {&a, &b, &d}}, {0.5, 1}, 1), std::hypot(3, 2.5));
+  EXPECT_DOUBLE_EQ(of(Indicator::gradient, {{&a, &b, &c}, {&a, &b, &d}}, {0.5, 1}, 1), std::hypot(3, 2.5));
 }
 
 TEST(Indicator, BesideASideOfTheGridTakesTheCellsOwnValue) {
   const double b = 2, c = 4;
-  EXPECT_DOUBLE_EQ(indicatorOf(Indicator::jump, {{nullptr, &b, &c}}, {0.5}, 1), 0.5);
-  EXPECT_DOUBLE_EQ(indicatorOf(Indicator::above, {{nullptr, &b, &c}}, {0.5}, 1), 2);
+  EXPECT_DOUBLE_EQ(of(Indicator::jump, {{nullptr, &b, &c}}, {0.5}, 1), 0.5);
+  EXPECT_DOUBLE_EQ(of(Indicator::above, {{nullptr, &b, &c}}, {0.5}, 1), 2);
 }
 
 TEST(MarkedBlocks, AreThoseThatSignalsCanReachUntilTheNextLook) {
