@@ -66,9 +66,10 @@ void MarkedBlocks::add(const grid::Level& level, const Index3& cell, int mark) {
   forEachNear(level, cell, crossed(level) + dilation_, mark, [&](const BlockId& block) {
     if (number > 0) kept_.insert(parentOf(block, level.dimension()));
     if (mark < 2 || number == grid_.levels() - 1) return;
-    // A block that is not there yet is made first, so that no cell becomes two levels finer at once.
-    const bool isThere = grid_.tree().levelAt(block) >= number;
-    wanted_.insert(isThere ? block : parentOf(block, level.dimension()));
+    // Of a block that is not there yet, the leaf that it lies in is refined: no cell becomes two levels finer at once.
+    BlockId leaf = block;
+    for (const int there = grid_.tree().levelAt(block); leaf.level > there;) leaf = parentOf(leaf, level.dimension());
+    wanted_.insert(leaf);
   });
 }
 

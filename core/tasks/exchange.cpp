@@ -55,10 +55,10 @@ class Packer {
 
   void addGrid(const GhostCopy& copy) {
     const Variable from = variable(copy.from);
-    if (copy.isMean) {
-      const std::size_t before = message_.size();
-      message_.resize(before + copy.box.size() * name_.label->bytes);
-      return means(warehouse_.grid(), *name_.label, copy, from, message_.data() + before);
+    if (copy.isMean) {  // in a message values stand at any byte: numbers are made elsewhere
+      Bytes values(copy.box.size() * name_.label->bytes);
+      means(warehouse_.grid(), *name_.label, copy, from, values.data());
+      return mpi::append(message_, values.data(), values.size());
     }
     forEachRow(copy.box.shifted(Index3{} - copy.shift), name_.label->bytes,
                [&](const Index3& first, std::size_t length) {

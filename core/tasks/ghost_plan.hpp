@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <compare>
 #include <map>
 #include <set>
@@ -47,6 +48,11 @@ struct GhostReach {
 
   friend auto operator<=>(const GhostReach&, const GhostReach&) = default;
 };
+
+/// How many cells a block of a grid of several levels must have along each axis, so that ghosts of a width stand in
+/// blocks of the next levels: those in finer cells within half a block of this level, those in coarser ones and the
+/// cells that their slopes are taken from within half a block of the coarser level.
+constexpr int fewestCellsOfBlock(int width) { return 2 * std::max(width, (width + 1) / 2 + 1); }
 
 /// Each ghost comes from one patch, or from the coarser cells around it.
 GhostPlan planGhosts(const grid::Grid& grid, const GhostReach& reach);

@@ -67,18 +67,8 @@ class Pieces {
   int dimension_, levels_;
 };
 
-/// Appends the values of the cells of a piece, x fastest.
-void pack(const data::Label& label, int dimension, const Piece& piece, const Variable& old, Bytes& to) {
-  const std::size_t before = to.size();
-  to.resize(before + piece.box.size() * label.bytes);
-  std::byte* values = to.data() + before;
-  if (piece.coarser < 0) return prolong(label, dimension, {old.values, old.stored}, piece.box, {values, piece.box});
-  if (piece.coarser == 0)
-    return grid::forEach<3>(piece.box.rowStarts(), [&](const Index3& first) {
-      const std::size_t length = static_cast<std::size_t>(piece.box.extent(0)) * label.bytes;
-      std::memcpy(values, old.values + old.stored.offset(first) * label.bytes, length);
-      values += length;
-    });
+/// The means of cells several levels finer.
+Bytes meansOf(const data::Label& label, int dimension, const Piece& piece, const Variable& old) {
   CellValues fine{old.values, old.stored};
   Bytes means;
   for (int level = piece.coarser - 1; level >= 0; --level) {
@@ -89,7 +79,23 @@ void pack(const data::Label& label, int dimension, const Piece& piece, const Var
     means = std::move(coarse);
     fine = {means.data(), box};
   }
-  std::memcpy(values, means.data(), means.size());
+  return means;
+}
+
+/// Appends the values of the cells of a piece, x fastest. In a message they stand at any byte: numbers are made
+/// elsewhere.
+void pack(const data::Label& label, int dimension, const Piece& piece, const Variable& old, Bytes& to) {
+  if (piece.coarser == 0)
+    return grid::forEach<3>(piece.box.rowStarts(), [&](const Index3& first) {
+      mpi::append(to, old.values + old.stored.offset(first) * label.bytes,
+                  static_cast<std::size_t>(piece.box.extent(0)) * label.bytes);
+    });
+  Bytes values(piece.box.size() * label.bytes);
+  if (piece.coarser < 0)
+    prolong(label, dimension, {old.values, old.stored}, piece.box, {values.data(), piece.box});
+  else
+    values = meansOf(label, dimension, piece, old);
+  mpi::append(to, values.data(), values.size());
 }
 
 void unpack(const data::Label& label, const Piece& piece, const Variable& to, const std::byte*& from) {

@@ -97,13 +97,33 @@ TEST(MarkedBlocks, StayWhereTheyAreMarkedAndBecomeCoarserOneLevelAtATime) {
   EXPECT_EQ(kept.tree(), grid.tree());
 }
 
+namespace {
+
+/// What a marked cell makes of a grid, every leaf of which is one level finer at most.
+std::vector<int> refinedOnce(const grid::Grid& grid, int interval, int level, int cell) {
+  MarkedBlocks marked(grid, interval, 1);
+  marked.add(grid.level(level), {{cell, 0, 0}}, 2);
+  const grid::BlockTree tree = marked.tree();
+  for (const grid::BlockId& leaf : tree.leaves()) EXPECT_LE(leaf.level, grid.tree().levelAt(leaf) + 1);
+  return levelsOfLeaves(tree);
+}
+
+}  // namespace
+
 TEST(MarkedBlocks, NeverMakeACellTwoLevelsFinerAtOnce) {
   grid::Grid grid(row());
   grid.refine(grid.cut(grid.tree().regridded({{0, {{1, 0, 0}}}}, {})));
-  MarkedBlocks marked(grid, 8, 4);
-  marked.add(grid.level(1), {{30, 0, 0}}, 2);  // reaches into the coarse block behind
-  const grid::BlockTree tree = marked.tree();
-  for (const grid::BlockId& leaf : tree.leaves()) EXPECT_LE(leaf.level, grid.tree().levelAt(leaf) + 1);
+  EXPECT_EQ(refinedOnce(grid, 8, 1, 30), (std::vector<int>{0, 1, 2, 2, 1, 1, 0}));  // the coarse block behind
+}
+
+TEST(MarkedBlocks, NeverMakeACellTwoLevelsFinerAtOnceHoweverFarSignalsReach) {
+  grid::Domain domain = row();
+  domain.refinement.levels = 4;
+  grid::Grid grid(domain);
+  grid.refine(grid.cut(grid.tree().regridded({{0, {{1, 0, 0}}}, {1, {{3, 0, 0}}}}, {})));
+  EXPECT_EQ(levelsOfLeaves(grid.tree()), (std::vector<int>{0, 1, 2, 2, 1, 1, 0}));
+  // 17 cells before the first of level 2 is a cell of level 0, beyond the block of level 1 between them.
+  EXPECT_EQ(refinedOnce(grid, 32, 2, 48), (std::vector<int>{1, 1, 2, 2, 3, 3, 3, 3, 2, 2, 1, 0}));
 }
 
 TEST(MarkedBlocks, KeepRegionsOfTheScene) {
