@@ -214,6 +214,15 @@ void checkTakesLevels(const ComponentKind& kind, const Element& grid, const AmrS
                     fmt::format("'{}' needs a grid of one level; of several: {}", kind.name, allOf(others)));
 }
 
+/// Refuses several levels for a component that cannot run on them as the scene has it; what makes the levels.
+Location checkTakesLevels(const ComponentKind& kind, const Component& component, const Element& grid,
+                          const AmrSettings& amr, Diagnostics& diagnostics) {
+  const Element where = whereOfLevels(grid, amr);
+  if (const std::string why = component.whyOneLevel(); !why.empty())
+    diagnostics.error(where, fmt::format("'{}' needs a grid of one level: {}", kind.name, why));
+  return where.where();
+}
+
 /// A component on the smallest grid that it takes, of one axis where it can be.
 struct Trial {
   std::unique_ptr<grid::Level> level;
@@ -329,9 +338,8 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   problem.grid = std::make_unique<grid::Grid>(domain, share);
   problem.threads = workers.threadsFor(domain.resolution);
   problem.component = makeComponent(problem.grid->finest());
-  if (const std::string why = problem.component->whyOneLevel(); !why.empty() && domain.refinement.levels > 1)
-    diagnostics.error(whereOfLevels(*root.child("Grid"), amr),
-                      fmt::format("'{}' needs a grid of one level: {}", kind->name, why));
+  if (domain.refinement.levels > 1)
+    amr.regrid.where = checkTakesLevels(*kind, *problem.component, *root.child("Grid"), amr, diagnostics);
   problem.regrid = settled(std::move(amr), *problem.component, diagnostics);
   diagnostics.throwIfAny();
   if (problem.component->mayRepeatStep()) problem.time.recomputeTimeStep = true;
