@@ -280,6 +280,17 @@ bool checkLabelsWithoutGrid(const MakeComponent& make, const std::vector<ReadMod
   return true;
 }
 
+/// What every scene has besides its grid and its component.
+void readSharedSections(const Element& root, Problem& problem, Diagnostics& diagnostics) {
+  if (const auto meta = section(root, "Meta", false, diagnostics))
+    problem.title = metaSchema().read(*meta, diagnostics).title;
+  if (const auto time = section(root, "Time", true, diagnostics)) problem.time = readTime(*time, diagnostics);
+  if (const auto archive = section(root, "DataArchiver", false, diagnostics)) {
+    problem.archive = readArchive(*archive, diagnostics);
+    checkIntervals(problem.time, problem.archive, *archive, diagnostics);
+  }
+}
+
 }  // namespace
 
 const std::vector<std::pair<std::string, std::string>>& idleSections() {
@@ -309,13 +320,7 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   refuseLooseWords(root, diagnostics);
   const ComponentKind* kind = readComponentKind(root, catalogue, diagnostics);
   if (kind) refuseUnknownSections(root, *kind, diagnostics);
-  if (const auto meta = section(root, "Meta", false, diagnostics))
-    problem.title = metaSchema().read(*meta, diagnostics).title;
-  if (const auto time = section(root, "Time", true, diagnostics)) problem.time = readTime(*time, diagnostics);
-  if (const auto archive = section(root, "DataArchiver", false, diagnostics)) {
-    problem.archive = readArchive(*archive, diagnostics);
-    checkIntervals(problem.time, problem.archive, *archive, diagnostics);
-  }
+  readSharedSections(root, problem, diagnostics);
   AmrSettings amr;
   if (const auto given = section(root, "AMR", false, diagnostics)) amr = readAmr(*given, diagnostics);
   grid::Domain domain;

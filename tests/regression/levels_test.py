@@ -42,7 +42,9 @@ def scene_of(levels="", amr="", pressure="1", density="1", velocity="[0,0,0]", c
   <Time><maxTime>0.2</maxTime></Time>
   <Grid>
     <BoundaryConditions>{SIDE_WALLS}</BoundaryConditions>
-    <Level><Box><lower>[-.5,-.5,0]</lower><upper>[.5,.5,1]</upper><resolution>[{cells},{cells},1]</resolution></Box></Level>
+    <Level>
+      <Box><lower>[-.5,-.5,0]</lower><upper>[.5,.5,1]</upper><resolution>[{cells},{cells},1]</resolution></Box>
+    </Level>
     {levels}
   </Grid>
   <AMR><Regridder><min_patch_size>[[4,4,1]]</min_patch_size>{amr}</AMR>
