@@ -197,6 +197,12 @@ void checkIntervals(const TimeSettings& time, const std::vector<ReadModule>& mod
       checkInterval(input::parse<double>(tag->text()).value.value_or(0), time, *tag, "", diagnostics);
 }
 
+/// What makes several levels of a grid.
+Element whereOfLevels(const Element& grid, const AmrSettings& amr) {
+  const std::vector<Element> levels = grid.children("Level");
+  return levels.size() > 1 ? levels[1] : *amr.tag;
+}
+
 /// Refuses several levels for a component that knows of one.
 void checkTakesLevels(const ComponentKind& kind, const Element& grid, const AmrSettings& amr,
                       const Catalogue& catalogue, Diagnostics& diagnostics) {
@@ -204,8 +210,7 @@ void checkTakesLevels(const ComponentKind& kind, const Element& grid, const AmrS
   std::vector<std::string> others;
   for (const ComponentKind* other : catalogue.components())
     if (other->takesLevels) others.push_back(other->name);
-  const std::vector<Element> levels = grid.children("Level");
-  diagnostics.error(levels.size() > 1 ? levels[1] : *amr.tag,
+  diagnostics.error(whereOfLevels(grid, amr),
                     fmt::format("'{}' needs a grid of one level; of several: {}", kind.name, allOf(others)));
 }
 
@@ -324,6 +329,7 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   problem.grid = std::make_unique<grid::Grid>(domain, share);
   problem.threads = workers.threadsFor(domain.resolution);
   problem.component = makeComponent(problem.grid->finest());
+  if (domain.refinement.levels > 1) amr.regrid.where = whereOfLevels(*root.child("Grid"), amr).where();
   problem.regrid = settled(std::move(amr), *problem.component, diagnostics);
   diagnostics.throwIfAny();
   if (problem.component->mayRepeatStep()) problem.time.recomputeTimeStep = true;
