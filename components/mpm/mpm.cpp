@@ -51,6 +51,7 @@ simulation::ComponentKind kind() {
     all.back().front().demands = {{"time_integrator", {"implicit"}}};
     return all;
   };
+  kind.takesLevels = true;
   kind.nodesBeyond = [](const input::Element& root) {
     const auto& nodesBeyond = kindOf(methodOf(root)).nodesBeyond;
     return nodesBeyond ? nodesBeyond(root) : 0;

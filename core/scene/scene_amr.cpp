@@ -246,16 +246,17 @@ std::map<std::string, std::vector<std::string>> cellVariables(const simulation::
 }
 
 /// What is wrong with the variable of a criterion, or nothing. `materials`: those that it belongs to.
-void checkMaterial(const Criterion& criterion, const std::vector<std::string>& materials, const std::string& path,
+void checkMaterial(Criterion& criterion, const std::vector<std::string>& materials, const std::string& path,
                    Diagnostics& diagnostics) {
   if (!materials.empty())
     diagnostics.error(criterion.where, path,
                       fmt::format("'{}' is a variable of materials; the grid is refined by variables of none, and by "
                                   "'particles'",
                                   criterion.variable));
-  else if (!criterion.material.empty())
-    diagnostics.note(criterion.where, path,
-                     fmt::format("matl does nothing: '{}' belongs to no material", criterion.variable));
+  if (!materials.empty() || criterion.material.empty()) return;
+  diagnostics.note(criterion.where, path,
+                   fmt::format("matl does nothing: '{}' belongs to no material", criterion.variable));
+  criterion.material.clear();
 }
 
 bool hasParticles(const simulation::Component& component) {
@@ -315,7 +316,7 @@ simulation::RegridSettings settled(AmrSettings amr, const simulation::Component&
   for (const auto& [name, materials] : variables)
     if (materials.empty()) names.push_back(name);
   const std::string path = "AMR/Refinement_Criteria_Thresholds/Variable";
-  for (const Criterion& criterion : criteria)
+  for (Criterion& criterion : criteria)
     if (const auto found = variables.find(criterion.variable); found != variables.end())
       checkMaterial(criterion, found->second, path, diagnostics);
     else

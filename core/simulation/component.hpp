@@ -29,6 +29,9 @@ class Component {
   virtual bool mayRepeatStep() const { return false; }
   /// Variables that Uintah's component of this kind computes, whichever of them this one does.
   virtual std::vector<std::string> foreignLabels() const { return {}; }
+  /// Why it cannot run on a grid of several levels, if its kind can; empty where it can: continues `needs a grid of one
+  /// level: `.
+  virtual std::string whyOneLevel() const { return ""; }
   /// Where the grid is to be finer, if the scene refines it and does not say where.
   virtual std::vector<Criterion> criteria() const { return {}; }
   /// What can be said about a state, from the old state: totals, derived fields. Only what someone asks for is run.

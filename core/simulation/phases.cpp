@@ -261,6 +261,17 @@ void checkOnLevels(std::initializer_list<const Pruned*> lists, const grid::Grid&
 
 }  // namespace
 
+void Phases::refuseSavedNodes() const {
+  std::vector<InputProblem> problems;
+  for (const SaveRequest& save : saved_fields_)
+    if (save.label.starts_with(data::NodeLabel<double>::prefix()))
+      problems.push_back({save.where, "DataArchiver/save",
+                          fmt::format("'{}' is a variable of nodes; on several levels only those of cells and "
+                                      "particles are saved",
+                                      save.label)});
+  if (!problems.empty()) throw InputError(std::move(problems));
+}
+
 Phases::Wants Phases::wantsOf(const std::vector<SaveRequest>& samples, const Names& stepped) const {
   Wants wants{{saved_globals_.begin(), saved_globals_.end()}, {}, {}};
   const Names diagnosed = producedBy(lists_.diagnostics.tasks());
@@ -280,6 +291,7 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
     throw InputError(std::move(problems));
   const std::vector<SaveRequest> samples = samplesOf(analyses);
   sortSaves(named(saves));
+  if (grid.levels() > 1) refuseSavedNodes();
   if (grid.levels() > 1 && regrid.refluxes) lists_.timeAdvance = tasks::withRefluxing(lists_.timeAdvance);
   const Lists& lists = lists_;
   const Names stepped = united(producedBy(lists.initialize.tasks()), producedBy(lists.timeAdvance.tasks()));

@@ -70,6 +70,7 @@ class Phases {
   /// The diagnostics with the task behind them that looks where to refine; nothing where the grid stays. Throws
   /// InputError for a criterion of what is no variable of cells.
   tasks::TaskList refinementTasks(const RegridSettings& regrid) const;
+  void refuseSavedNodes() const;
   /// What is saved and sampled: of diagnostics in every step and at outputs, and of the state.
   struct Wants {
     tasks::Names everyStep, everyOutput, ofState;

@@ -28,7 +28,6 @@ const double* numbersOf(const Variable& variable) { return reinterpret_cast<cons
 
 bool keepsBound(Warehouse& warehouse, const Bounded& written, const Patch& patch) {
   const auto [label, material] = warehouse.table()[written.variable];
-  if (material >= 0 && !warehouse.grid().isFinest(patch)) return true;  // nothing was written there
   const Variable variable = warehouse.variable(Generation::fresh, written.variable, patch.id());
   const auto components = static_cast<std::size_t>(label->components);
   if (label->centring == Centring::particle) {
@@ -83,8 +82,7 @@ class Search {
         material_(warehouse.table()[written.variable].material) {}
 
   std::optional<BrokenValue> run() {
-    for (const Patch& patch : grid_.patches())
-      if (material_ < 0 || grid_.isFinest(patch)) isParticle() ? lookAtParticles(patch) : lookAtGrid(patch);
+    for (const Patch& patch : grid_.patches()) isParticle() ? lookAtParticles(patch) : lookAtGrid(patch);
     warehouse_.ranks().merge(found_);
     if (found_.broken == 0) return std::nullopt;
     return BrokenValue{std::string(label_.name), found_.patch, isParticle() ? particleSentence() : gridSentence()};

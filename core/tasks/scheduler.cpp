@@ -67,15 +67,9 @@ std::string placeOf(const CompiledTask& task, int patch, int material, const Ste
   return text;
 }
 
-/// Particles are on the finest level only, but for new ones, which are looked for everywhere.
-bool Scheduler::isIdle(const Task& task, const grid::Patch& patch) const {
-  return task.perMaterial() && task.kind != TaskKind::newParticles && !warehouse_->grid().isFinest(patch);
-}
-
 template <class Work>
 void Scheduler::workOn(std::size_t place, const CompiledTask& task, const Work& work) {
   const grid::Patch& patch = warehouse_->grid().patches()[place];
-  if (isIdle(task.task, patch)) return;
   const trace::Span span(trace::Kind::task, task.task.name, patch.id());
   if (warehouse_->ranks().isAlone()) return work(patch);
   const auto started = Clock::now();

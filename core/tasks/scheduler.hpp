@@ -63,7 +63,6 @@ class Scheduler {
   const Threads& threads() const { return threads_; }
 
  private:
-  bool isIdle(const Task& task, const grid::Patch& patch) const;
   int usefulThreads() const { return std::clamp(most_threads_, 1, std::max(1, warehouse_->patches())); }
   bool hasStopped() const { return !outcome_.isNone() || heard_stop_; }
   bool mayRunTogether();

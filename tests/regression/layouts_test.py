@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The same bits on any patches and threads: every scene, every variant, in one, two and three dimensions."""
+"""The same bits on any patches and threads: every scene, every variant, in one, two and three dimensions. Of a grid of
+several levels a layout is what a patch has of blocks at the most."""
 import pathlib
 import re
 import sys
@@ -7,6 +8,7 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from sus import ROOT, run
+from uda import words_of
 
 TRACKED = "MPM/gas_dynamics/volume_model=tracked"
 RESEED = "MPM/gas_dynamics/redistribute/mode=reseed"
@@ -45,8 +47,8 @@ class Layouts(unittest.TestCase):
         prints = {}
         for place, layout in enumerate(layouts):
             threads = THREADS[(turn + place) % len(THREADS)]
-            options = ("--quiet", "-nthreads", str(threads))
-            result = run(scene, *sets, f"Grid/Level/Box/patches={layout}", options=options)
+            options = ("--quiet", "-nthreads", str(threads), "-layout", words_of(layout))
+            result = run(scene, *sets, options=options)
             self.assertIsNotNone(result.report, result.err)
             found = (result.code, result.report["fingerprint"], result.report["steps"])
             prints.setdefault(found, []).append((layout, threads))

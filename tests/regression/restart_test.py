@@ -8,7 +8,6 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from uda import Folder
 
 EVERY = "DataArchiver/checkpoint/@timestepInterval={}"
-PATCHES = "Grid/Level/Box/patches={}"
 ALL = "Time/max_Timesteps=100000"
 TRACKED = "MPM/gas_dynamics/volume_model=tracked"
 RESEED = "MPM/gas_dynamics/redistribute/mode=reseed"
@@ -39,11 +38,11 @@ class Restart(unittest.TestCase):
         uncut, pieces = self.folder(), self.folder()
         every = EVERY.format(max(1, cut // 3))
         expected = self.assert_well(uncut.run(scene, until, *sets))
-        self.assert_well(pieces.run(scene, every, f"Time/max_Timesteps={cut}", PATCHES.format(before),
-                                    "DataArchiver/outputLastTimestep=false", *sets))
+        self.assert_well(pieces.run(scene, every, f"Time/max_Timesteps={cut}",
+                                    "DataArchiver/outputLastTimestep=false", *sets, layout=before))
         step = int(pieces.checkpoints[0].name[1:])
         self.assertLess(step, cut)
-        report = self.assert_well(pieces.restart(until, PATCHES.format(after), step=step))
+        report = self.assert_well(pieces.restart(until, step=step, layout=after))
         for key in ("fingerprint", "steps", "time", "particles", "particles_dropped", "drift", "errors"):
             self.assertEqual(report[key], expected[key], f"{scene} {sets} {key}")
         return uncut, pieces

@@ -28,7 +28,7 @@ TEST(Levels, AreInTheReportOfARefinedGrid) {
   const std::string text = toText(refined());
   EXPECT_NE(text.find("cells of 3 levels: 40 + 30 + 100; 1.235e+05 cell updates, 3 regrids\n"), std::string::npos)
       << text;
-  EXPECT_NE(text.find("regridding                               250.00\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("regridding                             250.00\n"), std::string::npos) << text;
 }
 
 TEST(Levels, AreNotToldOfWhereThereIsOne) {

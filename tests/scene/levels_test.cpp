@@ -302,10 +302,6 @@ TEST(Regridder, IsAdaptiveWhereThereAreThresholdsUnlessTheSceneSaysOtherwise) {
   const Read still = read(square, amr("<adaptive>false</adaptive>", criteria));
   EXPECT_FALSE(still.amr.regrid.adaptive);
   EXPECT_EQ(still.notes, (Strings{"AMR: <Variable> does nothing: the grid is not <adaptive>"}));
-
-  EXPECT_EQ(read(square, amr(adaptive)).problems,
-            (Strings{"AMR/Regridder/adaptive: <adaptive> true needs a <Variable> in <Refinement_Criteria_Thresholds>, "
-                     "which says where cells are to be finer"}));
 }
 
 TEST(Regridder, NotesWhatOfUintahsDoesNothing) {

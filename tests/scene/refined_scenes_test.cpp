@@ -75,6 +75,16 @@ TEST(RefinedScenes, BringTheirCriteria) {
   EXPECT_EQ(problem.notes.back().sentence, "matl does nothing: 'c.pressure' belongs to no material");
 }
 
+TEST(RefinedScenes, AreRefinedByTheCriteriaOfTheirComponentWhereTheyGiveNone) {
+  const std::string adaptive = "<AMR><Regridder type=\"Tiled\"><adaptive>true</adaptive></Regridder></AMR>";
+  const simulation::Problem gas = readScene(changed("ups/euler/sod.ups", "</Grid>", adaptive), {}, catalogue());
+  ASSERT_EQ(gas.regrid.criteria.size(), 3u);
+  EXPECT_EQ(gas.regrid.criteria[2].variable, "c.mach");
+  EXPECT_EQ(problemsOf(changed("ups/heat/sine.ups", "</Grid>", adaptive)),
+            "<adaptive> true needs a <Variable> in <Refinement_Criteria_Thresholds>, which says where cells are to be "
+            "finer\n");
+}
+
 TEST(RefinedScenes, NameVariablesThatAreThere) {
   const std::string problems = problemsOf(withCriterion("name=\"c.densty\" value=\".1\""));
 

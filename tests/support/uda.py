@@ -12,6 +12,11 @@ PATIENCE = 1200  # seconds after which a run hangs, even on a machine with much 
 MEMORY = next((path for path in ("/dev/shm",) if os.access(path, os.W_OK)), None)
 
 
+def words_of(layout):
+    """[2,3,1] as -layout wants it."""
+    return "x".join(layout.strip("[]").split(","))
+
+
 class Folder:
     """A temporary folder for the .uda of a scene; `folder.cleanup()` removes it. It is in memory, where waiting for the
     disk takes no time, unless it is wanted on the disk."""
@@ -35,11 +40,16 @@ class Folder:
         report = self.path / "report.json"
         return done.returncode, done.stderr, json.loads(report.read_text()) if report.exists() else None
 
-    def run(self, scene, *sets):
-        return self.finish([scene, "--output", self.path], sets)
+    def run(self, scene, *sets, layout=None):
+        return self.finish([scene, "--output", self.path, *self._laid_out(layout)], sets)
 
-    def restart(self, *sets, step=None):
-        return self.finish(["-restart", self.uda, *([] if step is None else ["-t", step])], sets)
+    def restart(self, *sets, step=None, layout=None):
+        steps = [] if step is None else ["-t", step]
+        return self.finish(["-restart", self.uda, *steps, *self._laid_out(layout)], sets)
+
+    @staticmethod
+    def _laid_out(layout):
+        return [] if layout is None else ["-layout", words_of(layout)]
 
     @property
     def uda(self):

@@ -29,6 +29,7 @@ class ConservingMpm : public Component, public reference::GasSolution {
   ConservingMpm(const ConservingGasDynamics& method, std::vector<Gas> materials)
       : method_(method), materials_(std::move(materials)) {}
 
+  std::string whyOneLevel() const override { return "its gas fills the grid, and particles are on the finest level"; }
   void scheduleInitialize(TaskList& tasks) const override;
   void scheduleComputeStableTimeStep(TaskList& tasks) const override;
   void scheduleTimeAdvance(TaskList& tasks) const override;

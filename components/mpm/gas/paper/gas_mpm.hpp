@@ -20,6 +20,7 @@ class GasMpm : public Component, public reference::GasSolution {
   const GasDynamics& method() const { return method_; }
   const std::vector<Gas>& materials() const { return materials_; }
 
+  std::string whyOneLevel() const override { return "its gas fills the grid, and particles are on the finest level"; }
   void scheduleInitialize(TaskList& tasks) const override;
   void scheduleComputeStableTimeStep(TaskList& tasks) const override;
   void scheduleTimeAdvance(TaskList& tasks) const override;

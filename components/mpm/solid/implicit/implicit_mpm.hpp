@@ -13,6 +13,7 @@ class ImplicitMpm : public Solids {
  public:
   ImplicitMpm(Problem problem, ImplicitMethod how);
 
+  std::string whyOneLevel() const override { return "implicit steps solve one system over the whole grid"; }
   void scheduleInitialize(TaskList& tasks) const override;
   void scheduleComputeStableTimeStep(TaskList& tasks) const override;
   void scheduleTimeAdvance(TaskList& tasks) const override;

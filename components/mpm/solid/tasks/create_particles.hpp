@@ -226,6 +226,7 @@ inline void initializeStress(const Patch&, const Material& material, int stateSi
     const Matrix3& f = points.deformation[p];
     points.volume[p] = points.mass[p] / density * f.determinant();
     double* const internal = points.state ? &(*points.state)[0] + p * stateSize : nullptr;
+    if (internal) std::fill_n(internal, stateSize, 0.0);  // another material's model may have more of it
     if (internal)
       material.model->initialize(internal, points.id ? Birth{(*points.id)[p], (*points.color)[p]} : Birth{});
     points.stress[p] = startStress(material, f, points.temperature[p], internal);

@@ -85,6 +85,8 @@ def _parts(entry, known):
     if entry.children:
         meanings[names] = {child.name: child for child in entry.children if child.kind == "tag"}
     defined = meanings.get(names, {})
+    if entry.children and not set(defined) & set(names):  # the same stands in each of them
+        return [unfolded(dataclasses.replace(entry, names=[name]), known) for name in names]
     known = tuple(meanings.items())
     parts = []
     for name in names:
