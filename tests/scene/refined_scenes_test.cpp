@@ -71,6 +71,7 @@ TEST(RefinedScenes, BringTheirCriteria) {
   ASSERT_EQ(problem.regrid.criteria.size(), 1u);
   EXPECT_EQ(problem.regrid.criteria[0].variable, "c.pressure");
   EXPECT_EQ(problem.regrid.criteria[0].material, "");
+  EXPECT_EQ(problem.regrid.where.line, problem.regrid.criteria[0].where.line);  // all of <AMR> stands in one line
   EXPECT_EQ(problem.notes.back().sentence, "matl does nothing: 'c.pressure' belongs to no material");
 }
 
