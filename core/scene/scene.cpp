@@ -214,6 +214,15 @@ void checkTakesLevels(const ComponentKind& kind, const Element& grid, const AmrS
                     fmt::format("'{}' needs a grid of one level; of several: {}", kind.name, allOf(others)));
 }
 
+/// Refuses several levels for a component that cannot run on them as the scene has it; what makes the levels.
+Location checkTakesLevels(const ComponentKind& kind, const Component& component, const Element& grid,
+                          const AmrSettings& amr, Diagnostics& diagnostics) {
+  const Element where = whereOfLevels(grid, amr);
+  if (const std::string why = component.whyOneLevel(); !why.empty())
+    diagnostics.error(where, fmt::format("'{}' needs a grid of one level: {}", kind.name, why));
+  return where.where();
+}
+
 /// A component on the smallest grid that it takes, of one axis where it can be.
 struct Trial {
   std::unique_ptr<grid::Level> level;
@@ -271,6 +280,17 @@ bool checkLabelsWithoutGrid(const MakeComponent& make, const std::vector<ReadMod
   return true;
 }
 
+/// What every scene has besides its grid and its component.
+void readSharedSections(const Element& root, Problem& problem, Diagnostics& diagnostics) {
+  if (const auto meta = section(root, "Meta", false, diagnostics))
+    problem.title = metaSchema().read(*meta, diagnostics).title;
+  if (const auto time = section(root, "Time", true, diagnostics)) problem.time = readTime(*time, diagnostics);
+  if (const auto archive = section(root, "DataArchiver", false, diagnostics)) {
+    problem.archive = readArchive(*archive, diagnostics);
+    checkIntervals(problem.time, problem.archive, *archive, diagnostics);
+  }
+}
+
 }  // namespace
 
 const std::vector<std::pair<std::string, std::string>>& idleSections() {
@@ -300,13 +320,7 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   refuseLooseWords(root, diagnostics);
   const ComponentKind* kind = readComponentKind(root, catalogue, diagnostics);
   if (kind) refuseUnknownSections(root, *kind, diagnostics);
-  if (const auto meta = section(root, "Meta", false, diagnostics))
-    problem.title = metaSchema().read(*meta, diagnostics).title;
-  if (const auto time = section(root, "Time", true, diagnostics)) problem.time = readTime(*time, diagnostics);
-  if (const auto archive = section(root, "DataArchiver", false, diagnostics)) {
-    problem.archive = readArchive(*archive, diagnostics);
-    checkIntervals(problem.time, problem.archive, *archive, diagnostics);
-  }
+  readSharedSections(root, problem, diagnostics);
   AmrSettings amr;
   if (const auto given = section(root, "AMR", false, diagnostics)) amr = readAmr(*given, diagnostics);
   grid::Domain domain;
@@ -329,9 +343,8 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   problem.grid = std::make_unique<grid::Grid>(domain, share);
   problem.threads = workers.threadsFor(domain.resolution);
   problem.component = makeComponent(problem.grid->finest());
-  if (const std::string why = problem.component->whyOneLevel(); !why.empty() && domain.refinement.levels > 1)
-    diagnostics.error(whereOfLevels(*root.child("Grid"), amr),
-                      fmt::format("'{}' needs a grid of one level: {}", kind->name, why));
+  if (domain.refinement.levels > 1)
+    amr.regrid.where = checkTakesLevels(*kind, *problem.component, *root.child("Grid"), amr, diagnostics);
   problem.regrid = settled(std::move(amr), *problem.component, diagnostics);
   diagnostics.throwIfAny();
   if (problem.component->mayRepeatStep()) problem.time.recomputeTimeStep = true;

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "core/input/values.hpp"
+#include "core/simulation/level_limits.hpp"
 #include "core/simulation/refinement_marks.hpp"
 #include "core/tasks/reflux.hpp"
 
@@ -247,6 +248,17 @@ void widenForRegridding(const std::vector<std::string>& lasting, data::VariableT
       table.widen(number, 1);
 }
 
+/// Throws InputError if lists have tasks that a grid of several levels is not for.
+void checkOnLevels(std::initializer_list<const Pruned*> lists, const grid::Grid& grid, const Location& where) {
+  std::vector<InputProblem> problems;
+  for (const Pruned* list : lists)
+    for (InputProblem& problem : problemsOnLevels(list->kept, grid, where))
+      if (std::none_of(problems.begin(), problems.end(),
+                       [&](const InputProblem& other) { return other.sentence == problem.sentence; }))
+        problems.push_back(std::move(problem));
+  if (!problems.empty()) throw InputError(std::move(problems));
+}
+
 }  // namespace
 
 void Phases::refuseSavedNodes() const {
@@ -307,6 +319,7 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   const Pruned bare = prune(lists.timeAdvance.tasks(), always, true);
   Pruned advance = prune(lists.timeAdvance.tasks(), united(read, wants.ofState), true);
   Pruned init = prune(lists.initialize.tasks(), advance.needed, false);
+  checkOnLevels({&init, &stable, &advance, &step, &output, &begin, &end, &refine}, grid, regrid.where);
 
   state_ = namesOfState(bare.needed, decided, stepped);
   lasting_ = namesOfState(advance.needed, decided, stepped);

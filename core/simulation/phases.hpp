@@ -28,8 +28,8 @@ class Phases {
   std::vector<InputProblem> problemsOf(const std::vector<std::unique_ptr<Analysis>>& analyses) const;
   /// What a saved number that is not that of a material means.
   std::vector<std::string> remarksOn(const SaveRequest& save) const;
-  /// Compiles the lists. Throws InputError for a saved or sampled label that no task computes, TaskError for lists that
-  /// do not fit together.
+  /// Compiles the lists. Throws InputError for a saved or sampled label that no task computes, and for a task that the
+  /// levels of the grid are not for; TaskError for lists that do not fit together.
   void compile(const std::vector<std::unique_ptr<Analysis>>& analyses, const std::vector<SaveRequest>& saves,
                const grid::Grid& grid, data::VariableTable& table, const RegridSettings& regrid = {});
 

@@ -65,6 +65,7 @@ struct RegridSettings {
   int dilation = 1;   ///< cells around those that signals can reach until then
   bool refluxes = true;
   std::vector<Criterion> criteria;
+  Location where;  ///< of what makes several levels, for messages
 };
 
 /// The options of a run on the command line.

@@ -1,0 +1,54 @@
+#include "core/simulation/level_limits.hpp"
+
+#include <fmt/format.h>
+
+#include "core/tasks/ghost_plan.hpp"
+
+namespace tushar::simulation {
+
+namespace {
+
+using data::Centring;
+
+/// What is wrong with blocks for the ghosts of an access, or nothing.
+std::string blockProblem(const tasks::Task& task, const tasks::Access& access, const grid::Grid& grid) {
+  const int fewest = tasks::fewestCellsOfBlock(access.ghost);
+  for (int d = 0; d < grid.dimension(); ++d)
+    if (const int cells = grid.blockCells()[d]; cells < fewest)
+      return fmt::format(
+          "task {} reads {} up to {} beyond a patch, for which blocks must have {} cells along each axis; they have {} "
+          "along {}: give <min_patch_size> in <Regridder> of <AMR>",
+          task.name, access.label->name, counted(access.ghost, "cell"), fewest, cells, "xyz"[grid.level().axis(d)]);
+  return "";
+}
+
+std::string accessProblem(const tasks::Task& task, const tasks::Access& access, const grid::Grid& grid) {
+  const Centring centring = access.label->centring;
+  if (centring == Centring::cell && access.ghost > 0) return blockProblem(task, access, grid);
+  if (centring == Centring::node && access.ghost > 0 && !task.perMaterial())
+    return fmt::format("task {} reads {} of nodes beyond a patch, which needs a grid of one level", task.name,
+                       access.label->name);
+  if (access.keeps && task.perMaterial())
+    return fmt::format("task {} keeps the flux of {} of materials, which needs a grid of one level", task.name,
+                       access.keeps->name);
+  return "";
+}
+
+}  // namespace
+
+std::vector<InputProblem> problemsOnLevels(const std::vector<tasks::Task>& tasks, const grid::Grid& grid,
+                                           const Location& where) {
+  std::vector<InputProblem> problems;
+  if (grid.levels() == 1) return problems;
+  for (const tasks::Task& task : tasks) {
+    if (task.perRank)
+      problems.push_back(
+          {where, "", fmt::format("task {} sees all patches at once, which needs a grid of one level", task.name)});
+    for (const tasks::Access& access : task.accesses)
+      if (std::string problem = task.perRank ? "" : accessProblem(task, access, grid); !problem.empty())
+        problems.push_back({where, "", std::move(problem)});
+  }
+  return problems;
+}
+
+}  // namespace tushar::simulation

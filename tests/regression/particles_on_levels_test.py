@@ -1,0 +1,80 @@
+#!/usr/bin/env python3
+"""Particles on the finest of several levels: the bits of the uniform fine grid, and where they cannot be."""
+import pathlib
+import re
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from solids import archive_of, columns
+from sus import run
+from uda import Folder
+
+SCENE = "ups/solid/penetration_levels.ups"
+SHORT = ("MaterialProperties/MPM/material[1]/geom_object/velocity=[4000,0,0]", "Time/max_Timesteps=160")
+
+
+def changed(folder, *changes):
+    """The scene with texts replaced: [(pattern, text)]; its path."""
+    text = pathlib.Path(SCENE).read_text()
+    for pattern, replacement in changes:
+        text, count = re.subn(pattern, replacement, text, flags=re.DOTALL)
+        assert count, pattern
+    path = pathlib.Path(folder) / "scene.ups"
+    path.write_text(text)
+    return str(path)
+
+
+class ParticlesOnLevels(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def particles(self, scene, name):
+        """Place, velocity and stress of all particles at the end of a short run."""
+        pathlib.Path(self.folder, name).mkdir()
+        archive = archive_of(scene, f"{self.folder}/{name}", *SHORT)
+        return [columns(archive, label, time=1) for label in ("p.velocity", "p.stress")]
+
+    def test_have_the_bits_of_the_uniform_fine_grid(self):
+        uniform = changed(self.folder, (r"  <AMR>.*</AMR>\n", ""), (r"\[32,32,1\]", "[256,256,1]"))
+        self.assertEqual(self.particles(SCENE, "levels"), self.particles(uniform, "uniform"))
+
+    def test_the_finest_level_follows_them(self):
+        report = run(SCENE, *SHORT).report
+        self.assertGreater(report["regrids"], 0)
+        self.assertLess(sum(report["levels"]), .3 * 256 * 256)
+
+    def test_layouts_threads_and_a_restart_change_no_bit(self):
+        expected = run(SCENE, *SHORT).report["fingerprint"]
+        for options in (("-layout", "1x1x1"), ("-layout", "4x4x1", "-nthreads", "2")):
+            self.assertEqual(run(SCENE, *SHORT, options=options).report["fingerprint"], expected, options)
+        folder = Folder()
+        self.addCleanup(folder.cleanup)
+        folder.run(SCENE, *SHORT[:1], "DataArchiver/checkpoint/@timestepInterval=52", "Time/max_Timesteps=60")
+        code, errors, report = folder.restart(SHORT[1], step=52)
+        self.assertEqual((code, errors), (0, ""))
+        self.assertEqual(report["fingerprint"], expected)
+
+    def still(self, upper, resolution):
+        """The scene with finer cells up to a corner, which stay."""
+        blocks = "<AMR><Regridder><min_patch_size>[[8,8,1]]</min_patch_size></Regridder></AMR>"
+        level = (f"</Level>\n<Level><Box label=\"fine\"><lower>[0.1,0.1,0]</lower><upper>{upper}</upper>"
+                 f"<resolution>{resolution}</resolution></Box></Level>")
+        return changed(self.folder, (r"<AMR>.*</AMR>", blocks), (r"</Level>", level))
+
+    def test_bodies_in_coarse_cells_are_refused(self):
+        result = run(self.still("[0.2,0.2,0.0015625]", "[16,16,1]"))
+        self.assertEqual(result.code, 3)
+        self.assertIn("particles of ball, plate are in coarser cells, or too near to them", result.err)
+
+    def test_one_that_leaves_the_finest_cells_ends_the_run(self):
+        result = run(self.still("[0.25,0.3,0.0015625]", "[24,32,1]"), SHORT[0])
+        self.assertEqual(result.code, 4)
+        self.assertRegex(result.err, r"particle \d+ came within \d cells of coarser cells, where no particles can be")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,116 @@
+#include "core/simulation/level_limits.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/core.hpp"
+#include "core/simulation/phases.hpp"
+#include "tests/simulation/cooling.hpp"
+
+namespace tushar::simulation {
+
+namespace {
+
+using tasks::Task;
+using tasks::TaskList;
+
+constexpr CellLabel<double> value{"c.value", "1", "a number in each cell"};
+constexpr NodeLabel<double> corner{"g.corner", "1", "a number on each node"};
+
+struct Gas {
+  std::string name;
+};
+const std::vector<Gas> gases{{"gas"}};
+
+void readCells(const Patch&, CellView<const double>) {}
+void readNodes(const Patch&, NodeView<const double>) {}
+void readNodesOfGas(const Patch&, const Gas&, NodeView<const double>) {}
+void readAll(const tasks::RankPatches&, const std::vector<CellView<const double>>&) {}
+void flow(const Patch&, CellView<double>, RimFlux<double>) {}
+void flowOfGas(const Patch&, const Gas&, CellView<double>, RimFlux<double>) {}
+
+/// A strip of blocks of 4 x 8 cells.
+grid::Domain strip(int levels) {
+  grid::Domain domain;
+  domain.upper = {1, 1, 0};
+  domain.resolution = {{16, 16, 1}};
+  domain.refinement.levels = levels;
+  domain.refinement.blockCells = {{4, 8, 1}};
+  return domain;
+}
+
+/// What is wrong with the tasks on a grid of some levels, line by line.
+std::string problemsOf(const TaskList& list, int levels = 2) {
+  std::string text;
+  for (const InputProblem& problem : problemsOnLevels(list.tasks(), grid::Grid(strip(levels)), {"a.ups", 7, 3}))
+    text += problem.text() + "\n";
+  return text;
+}
+
+}  // namespace
+
+TEST(LevelLimits, AskForBlocksThatHaveTheGhostsOfATask) {
+  TaskList narrow, wide;
+  narrow.perPatch("near", readCells, requiresOld(value, 2));
+  wide.perPatch("far", readCells, requiresOld(value, 3));
+  EXPECT_EQ(problemsOf(narrow), "");
+  EXPECT_EQ(problemsOf(wide),
+            "a.ups:7:3: task far reads c.value up to 3 cells beyond a patch, for which blocks must have 6 cells along "
+            "each axis; they have 4 along x: give <min_patch_size> in <Regridder> of <AMR>\n");
+  EXPECT_EQ(problemsOf(wide, 1), "");
+}
+
+TEST(LevelLimits, RefuseGhostsOfNodesButAroundParticles) {
+  TaskList own, beyond, ofGas;
+  own.perPatch("own", readNodes, requiresOld(corner));
+  beyond.perPatch("beyond", readNodes, requiresOld(corner, 1));
+  ofGas.perMaterial("ofGas", readNodesOfGas, gases, requiresOld(corner, 1));
+  EXPECT_EQ(problemsOf(own), "");
+  EXPECT_EQ(problemsOf(beyond),
+            "a.ups:7:3: task beyond reads g.corner of nodes beyond a patch, which needs a grid of one level\n");
+  EXPECT_EQ(problemsOf(ofGas), "");
+  EXPECT_EQ(problemsOf(beyond, 1), "");
+}
+
+TEST(LevelLimits, RefuseTasksThatSeeAllPatchesAndFluxesOfMaterials) {
+  TaskList solve, ofNone, ofGas;
+  solve.perRank("solve", readAll, requiresOld(value));
+  ofNone.perPatch("flow", flow, computes(value), keepsFlux(value));
+  ofGas.perMaterial("flow", flowOfGas, gases, computes(value), keepsFlux(value));
+  EXPECT_EQ(problemsOf(solve), "a.ups:7:3: task solve sees all patches at once, which needs a grid of one level\n");
+  EXPECT_EQ(problemsOf(ofNone), "");
+  EXPECT_EQ(problemsOf(ofGas),
+            "a.ups:7:3: task flow keeps the flux of c.value of materials, which needs a grid of one level\n");
+  EXPECT_EQ(problemsOf(solve, 1) + problemsOf(ofGas, 1), "");
+}
+
+namespace {
+
+/// Reads its cells from far away.
+class FarCooling : public test::Cooling {
+ public:
+  void scheduleTimeAdvance(TaskList& tasks) const override {
+    tasks.perPatch(
+        "cooling::cool", [](const Patch&, CellView<const double>, CellView<double>) {}, requiresOld(test::heat, 3),
+        computes(test::heat));
+  }
+};
+
+}  // namespace
+
+TEST(LevelLimits, AreToldOnceWhenListsAreCompiled) {
+  const grid::Grid grid(strip(2));
+  Phases phases(FarCooling{}, {});
+  data::VariableTable table;
+  RegridSettings regrid;
+  regrid.where = {"far.ups", 12, 5};
+  try {
+    phases.compile({}, {}, grid, table, regrid);
+    FAIL() << "blocks of 4 cells have no three ghosts";
+  } catch (const InputError& error) {
+    ASSERT_EQ(error.problems().size(), 1u);
+    EXPECT_TRUE(error.problems()[0].text().starts_with("far.ups:12:5: task cooling::cool reads c.heat up to 3 cells"))
+        << error.problems()[0].text();
+  }
+}
+
+}  // namespace tushar::simulation
