@@ -138,12 +138,11 @@ class Levels(unittest.TestCase):
                     np.testing.assert_array_equal(ours[name].values, theirs[name].values, f"{scene} {name}")
 
     def test_a_run_goes_on_on_other_ranks(self):
-        scene, here = "ups/euler/blast_levels.ups", self.folder(3)
-        every = ("DataArchiver/checkpoint/@timestepInterval=50", "DataArchiver/checkpoint/@cycle=3")
-        self.well(here.run(scene, *PLANE, *every, steps(60)))
-        here.ranks = 2
-        report = self.well(here.restart(steps(80), step=50))
-        self.assertEqual(report["fingerprint"], run(scene, *PLANE, steps(80)).report["fingerprint"])
+        scene, here = "ups/euler/lax_liu_3_levels.ups", self.folder(3)
+        self.well(here.run(scene, *PLANE, "DataArchiver/checkpoint/@timestepInterval=10", steps(12)))
+        here.ranks = 1
+        report = self.well(here.restart(steps(60), step=10))
+        self.assertEqual(report["fingerprint"], run(scene, *PLANE, steps(60)).report["fingerprint"])
 
     def test_a_run_that_is_cut_at_a_regrid_or_between_two_goes_on_to_the_same_bits(self):
         for scene, (sets, count) in SCENES.items():
