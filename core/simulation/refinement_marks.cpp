@@ -73,6 +73,29 @@ int markOf(const Criterion& criterion, std::span<const Neighbours> axes, std::sp
   return isBeyond(criterion.refine) ? 2 : isBeyond(criterion.coarsen) ? 1 : 0;
 }
 
+/// The same as raiseMarks for jumps of one number, in rows along the first axis: most criteria are of this kind.
+void raiseMarksOfJumps(const grid::Patch& patch, const Criterion& criterion, const data::Variable& values,
+                       const data::Variable& marks) {
+  const int dimension = patch.level().dimension();
+  const grid::Box& stored = values.stored;
+  const auto* numbers = reinterpret_cast<const double*>(values.values);
+  grid::forEachRow<3>(patch.cells(), [&](const Index3& first, int count) {
+    const double* row = numbers + stored.offset(first);
+    int* mark = reinterpret_cast<int*>(marks.values) + marks.stored.offset(first);
+    std::ptrdiff_t stride = 1;
+    for (int d = 0; d < dimension; stride *= stored.extent(d), ++d)
+      for (int k = 0; k < count; ++k) {
+        const int at = first[d] + (d == 0 ? k : 0);
+        const double middle = row[k], below = at > stored.lower[d] ? row[k - stride] : middle,
+                     above = at + 1 < stored.upper[d] ? row[k + stride] : middle;
+        const double jump = 0.5 * std::abs(above - below);
+        const double least = std::min({std::abs(below), std::abs(middle), std::abs(above)});
+        const double value = jump == 0 ? 0 : jump / least;
+        mark[k] = std::max(mark[k], value > criterion.refine ? 2 : value > criterion.coarsen ? 1 : 0);
+      }
+  });
+}
+
 /// Raises the marks of a patch to what one criterion asks for. What is stored goes beyond the patch but where the grid
 /// ends.
 void raiseMarks(const grid::Patch& patch, const BoundCriterion& bound, const data::Variable& values,
@@ -80,6 +103,8 @@ void raiseMarks(const grid::Patch& patch, const BoundCriterion& bound, const dat
   const grid::Level& level = patch.level();
   const auto dimension = static_cast<std::size_t>(level.dimension());
   const int components = bound.label->components;
+  if (components == 1 && bound.criterion.indicator == Indicator::jump)
+    return raiseMarksOfJumps(patch, bound.criterion, values, marks);
   std::array<Neighbours, 3> axes{};
   std::array<double, 3> spacing{};
   std::array<std::ptrdiff_t, 3> stride{components, 0, 0};

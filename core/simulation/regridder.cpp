@@ -1,6 +1,10 @@
 #include "core/simulation/regridder.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cstring>
+#include <tuple>
+#include <vector>
 
 #include "core/base/trace.hpp"
 #include "core/simulation/refinement_marks.hpp"
@@ -36,21 +40,27 @@ void addBlocks(const std::string& text, std::set<BlockId>& blocks) {
 
 }  // namespace
 
-Box MarkedBlocks::blocksNear(const grid::Level& level, const Index3& cell, int distance) const {
-  const Box near = level.clipCells(Box{cell, cell + Index3::filled(1)}.grown(distance, level.dimension()));
-  Box blocks;
-  for (int d = 0; d < 3; ++d) {
-    const int cells = grid_.blockCells()[d];
-    const auto blockOf = [&](int at) { return at >= 0 ? at / cells : -((cells - 1 - at) / cells); };
-    blocks.lower[d] = blockOf(near.lower[d]);
-    blocks.upper[d] = blockOf(near.upper[d] - 1) + 1;
+std::pair<int, int> MarkedBlocks::blocksAlong(const grid::Level& level, int axis, int cell, int distance) const {
+  if (axis >= level.dimension()) return {0, 1};
+  const int cells = grid_.blockCells()[axis];
+  const auto blockOf = [&](int at) { return at >= 0 ? at / cells : -((cells - 1 - at) / cells); };
+  int lower = cell - distance, upper = cell + distance;
+  if (!level.isPeriodic(axis)) {
+    lower = std::max(lower, 0);
+    upper = std::min(upper, level.cells().upper[axis] - 1);
   }
+  return {blockOf(lower), blockOf(upper) + 1};
+}
+
+Box MarkedBlocks::blocksNear(const grid::Level& level, const Index3& cell, int distance) const {
+  Box blocks;
+  for (int d = 0; d < 3; ++d) std::tie(blocks.lower[d], blocks.upper[d]) = blocksAlong(level, d, cell[d], distance);
   return blocks;
 }
 
 template <class Visit>
-void MarkedBlocks::forEachNear(const grid::Level& level, const Index3& cell, int distance, int mark, Visit&& visit) {
-  const Seen now{level.number(), blocksNear(level, cell, distance), mark};
+void MarkedBlocks::forEachNear(const grid::Level& level, const Box& blocks, int mark, Visit&& visit) {
+  const Seen now{level.number(), blocks, mark};
   if (now == last_) return;
   last_ = now;
   const Index3 count = grid_.tree().blocksOf(level.number());
@@ -61,9 +71,39 @@ void MarkedBlocks::forEachNear(const grid::Level& level, const Index3& cell, int
 }
 
 void MarkedBlocks::add(const grid::Level& level, const Index3& cell, int mark) {
-  if (mark == 0) return;
+  if (mark > 0) ask(level, blocksNear(level, cell, crossed(level) + dilation_), mark);
+}
+
+void MarkedBlocks::add(const grid::Patch& patch, const int* marks, const Box& stored) {
+  const grid::Level& level = patch.level();
+  const Box& cells = patch.cells();
+  std::array<std::vector<std::pair<int, int>>, 3> along;
+  for (int d = 0; d < 3; ++d)
+    for (int at = cells.lower[d]; at < cells.upper[d]; ++at)
+      along[static_cast<std::size_t>(d)].push_back(blocksAlong(level, d, at, crossed(level) + dilation_));
+  const auto rangeOf = [&](int axis, int at) {
+    return along[static_cast<std::size_t>(axis)][static_cast<std::size_t>(at - cells.lower[axis])];
+  };
+  grid::forEachRow<3>(cells, [&](const Index3& first, int count) {
+    const int* row = marks + stored.offset(first);
+    Box blocks;
+    for (const int d : {1, 2}) std::tie(blocks.lower[d], blocks.upper[d]) = rangeOf(d, first[d]);
+    std::pair<int, int> last;
+    int lastMark = 0;
+    for (int k = 0; k < count; ++k) {
+      const std::pair<int, int> now = along[0][static_cast<std::size_t>(k)];
+      if (row[k] == 0 || (row[k] == lastMark && now == last)) continue;
+      last = now;
+      lastMark = row[k];
+      std::tie(blocks.lower[0], blocks.upper[0]) = now;
+      ask(level, blocks, lastMark);
+    }
+  });
+}
+
+void MarkedBlocks::ask(const grid::Level& level, const Box& blocks, int mark) {
   const int number = level.number();
-  forEachNear(level, cell, crossed(level) + dilation_, mark, [&](const BlockId& block) {
+  forEachNear(level, blocks, mark, [&](const BlockId& block) {
     if (number > 0) kept_.insert(parentOf(block, level.dimension()));
     if (mark < 2 || number == grid_.levels() - 1) return;
     // Of a block that is not there yet, the leaf that it lies in is refined: no cell becomes two levels finer at once.
@@ -77,7 +117,7 @@ void MarkedBlocks::addParticles(const grid::Level& level, const Index3& cell, in
   const int finest = grid_.levels() - 1, dimension = level.dimension();
   if (level.number() < finest) return add(level, cell, 2);
   constexpr int particles = 3;  // unlike any mark
-  forEachNear(level, cell, crossed(level) + margin, particles, [&](BlockId block) {
+  forEachNear(level, blocksNear(level, cell, crossed(level) + margin), particles, [&](BlockId block) {
     kept_.insert(parentOf(block, dimension));
     const int there = grid_.tree().levelAt(block);
     while (block.level > there) block = parentOf(block, dimension);
@@ -106,9 +146,7 @@ void Regridder::addMarks(MarkedBlocks& marked) {
   const int number = run_.table.find(refinementMark.name, -1);
   for (const grid::Patch& patch : run_.problem.grid->patches()) {
     const data::Variable marks = run_.warehouse.variable(data::Generation::fresh, number, patch.id());
-    grid::forEach<3>(patch.cells(), [&](const Index3& cell) {
-      marked.add(patch.level(), cell, reinterpret_cast<const int*>(marks.values)[marks.stored.offset(cell)]);
-    });
+    marked.add(patch, reinterpret_cast<const int*>(marks.values), marks.stored);
   }
 }
 

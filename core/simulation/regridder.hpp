@@ -1,6 +1,7 @@
 #pragma once
 
 #include <set>
+#include <utility>
 
 #include "core/grid/block_tree.hpp"
 #include "core/simulation/run_state.hpp"
@@ -18,6 +19,8 @@ class MarkedBlocks {
 
   /// `mark`: see refinementMark.
   void add(const grid::Level& level, const Index3& cell, int mark);
+  /// Those of all cells of a patch.
+  void add(const grid::Patch& patch, const int* marks, const grid::Box& stored);
   /// A cell that holds particles: there, and within `margin` cells of the finest level beyond what they can cross, are
   /// no coarser cells.
   void addParticles(const grid::Level& level, const Index3& cell, int margin);
@@ -29,11 +32,15 @@ class MarkedBlocks {
  private:
   const grid::Grid& grid_;
   int interval_, dilation_;
+  /// Asks for blocks of a level that are near a cell with a mark.
+  void ask(const grid::Level& level, const grid::Box& blocks, int mark);
+  /// The blocks along an axis, [lower, upper), within a distance of a cell of a level, on the grid or its images.
+  std::pair<int, int> blocksAlong(const grid::Level& level, int axis, int cell, int distance) const;
   /// Blocks of a level within a distance of a cell of it, on the grid or its images.
   grid::Box blocksNear(const grid::Level& level, const Index3& cell, int distance) const;
-  /// Calls `visit(block)` for each of them, but not for those of the call before with the same mark.
+  /// Calls `visit(block)` for each of a box of them, but not for those of the call before with the same mark.
   template <class Visit>
-  void forEachNear(const grid::Level& level, const Index3& cell, int distance, int mark, Visit&& visit);
+  void forEachNear(const grid::Level& level, const grid::Box& blocks, int mark, Visit&& visit);
   /// Steps' worth of cells of a level.
   int crossed(const grid::Level& level) const { return ((interval_ - 1) >> (grid_.levels() - 1 - level.number())) + 1; }
 

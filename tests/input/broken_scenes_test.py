@@ -167,11 +167,11 @@ TEXTS = {
                    "the first Level has one Box; this is a second one"),
     "second Level": (SOD.replace("</Level>", "</Level><Level><Box><lower>[0,0,0]</lower><upper>[.5,1,1]</upper>"
                                  "<resolution>[100,1,1]</resolution></Box></Level>"), ":33:14",
-                     "'mpm' needs a grid of one level; of several: 'burgers', 'euler' and 'heat'"),
+                     "'mpm' needs a grid of one level: its gas fills the grid"),
     "levels of <AMR>": (SOD.replace("</Grid>", '</Grid><AMR><Regridder><adaptive>true</adaptive></Regridder><MPM>'
                                     '<Refinement_Criteria_Thresholds><Variable name="p.x" value="1"/>'
                                     '</Refinement_Criteria_Thresholds></MPM></AMR>'), ":34:11",
-                        "'mpm' needs a grid of one level; of several: 'burgers', 'euler' and 'heat'"),
+                        "'mpm' needs a grid of one level: its gas fills the grid"),
     "unknown tag of <AMR>": (SOD.replace("</Grid>", "</Grid><AMR><Regridder><max_level>2</max_level></Regridder>"
                                           "</AMR>"), ":34:27",
                              "unknown tag <max_level> in <Regridder> (did you mean 'max_levels'?)"),
