@@ -10,10 +10,10 @@ namespace tushar::simulation {
 
 /// What is wrong with tasks on a grid of several levels, each with the task and its label; nothing where there is one:
 /// - blocks that are too small for the ghosts that a task reads (see tasks::fewestCellsOfBlock);
-/// - ghosts of nodes, which patches of the same level alone could give. Tasks of materials may read them: they run on
-///   the finest level, around particles, and these keep away from coarser cells;
+/// - ghosts of nodes, which patches of the same level alone could give. Tasks of materials may read them for their
+///   particles, which are on the finest level and keep away from coarser cells;
 /// - tasks that see all patches of a rank at once, whose bodies know of one level;
-/// - fluxes of materials, whose variables coarser levels do not have.
+/// - fluxes of materials: refluxing is for variables of none.
 /// `where`: what makes the levels.
 std::vector<InputProblem> problemsOnLevels(const std::vector<tasks::Task>& tasks, const grid::Grid& grid,
                                            const Location& where);

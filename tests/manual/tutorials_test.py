@@ -96,6 +96,9 @@ class Tutorials(unittest.TestCase):
     def test_restart_and_ranks(self):
         self.check("restart_and_ranks")
 
+    def test_refined_grids(self):
+        self.check("refined_grids")
+
     def test_from_uintah(self):
         self.check("from_uintah")
 

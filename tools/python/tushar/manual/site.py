@@ -10,7 +10,7 @@ from tushar.manual import (api, markdown, messages, pages_gallery, pages_other, 
 from tushar.program import ROOT
 
 SOURCES = "tools/manual_pages"
-TUTORIALS = ("first_run", "own_material", "component", "restart_and_ranks", "from_uintah")
+TUTORIALS = ("first_run", "own_material", "component", "restart_and_ranks", "refined_grids", "from_uintah")
 HOME_PICTURE = "ups/mpm/sod.png"
 
 
