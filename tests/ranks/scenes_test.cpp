@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,11 +20,14 @@ namespace {
 using test::onRanks;
 namespace fs = std::filesystem;
 
-/// Number of steps and fingerprint of a scene on some ranks with so many threads each, told to all of them.
-std::string resultOf(const std::string& scene, std::vector<std::string> sets, const mpi::Communicator& ranks,
-                     int threads) {
+/// Number of steps and fingerprint of a scene in patches along x, y, z (of several levels: blocks of a patch) on some
+/// ranks with so many threads each, told to all of them.
+std::string resultOf(const std::string& scene, std::vector<std::string> sets, const Index3& layout,
+                     const mpi::Communicator& ranks, int threads) {
   sets.push_back("DataArchiver/outputInterval=0");
-  Problem problem = readScene(scene, sets, catalogue(), {}, test::shareOf(ranks));
+  grid::Workers workers;
+  workers.layout = layout;
+  Problem problem = readScene(scene, sets, catalogue(), workers, test::shareOf(ranks));
   problem.threads = threads;
   problem.archive.saves.clear();
   problem.archive.checkpoint.reset();
@@ -40,39 +42,33 @@ std::string resultOf(const std::string& scene, std::vector<std::string> sets, co
 int dimensionOf(const std::string& scene) { return readScene(scene, {}, catalogue()).grid->dimension(); }
 
 /// Four layouts of a scene, with no more patches along an axis than cells.
-std::vector<std::string> layoutsOf(const std::string& scene) {
+std::vector<Index3> layoutsOf(const std::string& scene) {
   const Problem problem = readScene(scene, {}, catalogue());
   const Index3 most = problem.grid->level().domain().resolution;
   const Index3 last[] = {{{64, 1, 1}}, {{8, 8, 1}}, {{4, 4, 4}}};
   const int axes = problem.grid->dimension();
-  std::vector<std::string> layouts;
+  std::vector<Index3> layouts;
   for (const Index3& patches :
        {Index3{{1, 1, 1}}, Index3{{2, 1, 1}}, axes == 1 ? Index3{{7, 1, 1}} : Index3{{1, 7, 1}}, last[axes - 1]})
-    layouts.push_back(fmt::format("[{},{},{}]", std::min(patches[0], most[0]), std::min(patches[1], most[1]),
-                                  std::min(patches[2], most[2])));
+    layouts.push_back({{std::min(patches[0], most[0]), std::min(patches[1], most[1]), std::min(patches[2], most[2])}});
   return layouts;
 }
 
 /// On 2, 3 and 4 ranks, each with another of the layouts and numbers of threads from the `first` on, comes what one
 /// rank and one patch give.
-void expectSame(const std::string& scene, const std::vector<std::string>& layouts, std::vector<std::string> sets,
+void expectSame(const std::string& scene, const std::vector<Index3>& layouts, const std::vector<std::string>& sets,
                 std::size_t first = 0) {
   SCOPED_TRACE(scene);
   std::string expected;
-  const auto withLayout = [&](const std::string& layout) {
-    std::vector<std::string> all = sets;
-    all.push_back("Grid/Level/Box/patches=" + layout);
-    return all;
-  };
-  onRanks(1, [&](const mpi::Communicator& one) { expected = resultOf(scene, withLayout("[1,1,1]"), one, 1); });
+  onRanks(1, [&](const mpi::Communicator& one) { expected = resultOf(scene, sets, Index3::filled(1), one, 1); });
   expected = test::allRanks().broadcast(expected);
   for (int count = 2; count <= test::allRanks().size(); ++count)
     onRanks(count, [&](const mpi::Communicator& ranks) {
       const std::size_t turn = first + count;
-      const std::string& layout = layouts[turn % layouts.size()];
+      const Index3& layout = layouts[turn % layouts.size()];
       const int threads = std::array{1, 2, 4}[turn % 3];
-      EXPECT_EQ(resultOf(scene, withLayout(layout), ranks, threads), expected)
-          << count << " ranks, " << threads << " threads, patches " << layout;
+      EXPECT_EQ(resultOf(scene, sets, layout, ranks, threads), expected)
+          << count << " ranks, " << threads << " threads, layout " << layout[0] << "x" << layout[1] << "x" << layout[2];
     });
 }
 
@@ -111,8 +107,8 @@ TEST(Ranks, GiveTheSameBitsOnEveryScene) {
 TEST(Ranks, GiveTheSameBitsWhereParticlesAreRedistributed) {
   const std::string mode = "MPM/gas_dynamics/redistribute/mode=reseed",
                     tracked = "MPM/gas_dynamics/volume_model=tracked";
-  expectSame("ups/mpm/sod_redistribute.ups", {"[7,1,1]", "[64,1,1]"}, {"Time/max_Timesteps=40"});
-  expectSame("ups/mpm/sod_redistribute.ups", {"[64,1,1]"}, {"Time/max_Timesteps=40", mode, tracked});
+  expectSame("ups/mpm/sod_redistribute.ups", {{{7, 1, 1}}, {{64, 1, 1}}}, {"Time/max_Timesteps=40"});
+  expectSame("ups/mpm/sod_redistribute.ups", {{{64, 1, 1}}}, {"Time/max_Timesteps=40", mode, tracked});
 }
 
 }  // namespace tushar::simulation
