@@ -25,6 +25,9 @@ std::string blockProblem(const tasks::Task& task, const tasks::Access& access, c
 std::string accessProblem(const tasks::Task& task, const tasks::Access& access, const grid::Grid& grid) {
   const Centring centring = access.label->centring;
   if (centring == Centring::cell && access.ghost > 0) return blockProblem(task, access, grid);
+  if (centring == Centring::node && !access.isNew())
+    return fmt::format("task {} reads {} of nodes from the step before, which needs a grid of one level", task.name,
+                       access.label->name);
   if (centring == Centring::node && access.ghost > 0 && !task.perMaterial())
     return fmt::format("task {} reads {} of nodes beyond a patch, which needs a grid of one level", task.name,
                        access.label->name);

@@ -59,11 +59,22 @@ TEST(LevelLimits, AskForBlocksThatHaveTheGhostsOfATask) {
   EXPECT_EQ(problemsOf(wide, 1), "");
 }
 
+TEST(LevelLimits, RefuseNodesOfTheStepBefore) {
+  TaskList ofNone, ofGas;
+  ofNone.perPatch("read", readNodes, requiresOld(corner));
+  ofGas.perMaterial("read", readNodesOfGas, gases, requiresOld(corner));
+  const std::string refused =
+      "a.ups:7:3: task read reads g.corner of nodes from the step before, which needs a grid of one level\n";
+  EXPECT_EQ(problemsOf(ofNone), refused);
+  EXPECT_EQ(problemsOf(ofGas), refused);
+  EXPECT_EQ(problemsOf(ofGas, 1), "");
+}
+
 TEST(LevelLimits, RefuseGhostsOfNodesButAroundParticles) {
   TaskList own, beyond, ofGas;
-  own.perPatch("own", readNodes, requiresOld(corner));
-  beyond.perPatch("beyond", readNodes, requiresOld(corner, 1));
-  ofGas.perMaterial("ofGas", readNodesOfGas, gases, requiresOld(corner, 1));
+  own.perPatch("own", readNodes, requiresNew(corner));
+  beyond.perPatch("beyond", readNodes, requiresNew(corner, 1));
+  ofGas.perMaterial("ofGas", readNodesOfGas, gases, requiresNew(corner, 1));
   EXPECT_EQ(problemsOf(own), "");
   EXPECT_EQ(problemsOf(beyond),
             "a.ups:7:3: task beyond reads g.corner of nodes beyond a patch, which needs a grid of one level\n");
