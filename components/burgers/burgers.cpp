@@ -125,7 +125,7 @@ void computeStableTimeStep(const Patch& patch, const Settings& settings, CellVie
     spread += 2 * settings.viscosity * perSpacing * perSpacing;
   }
   forEach<D>(patch.cells(),
-             [&](const Index<D>& cell) { dt.add(settings.cfl / (std::abs(u[cell]) * across + spread)); });
+             [&](const Index<D>& cell) { dt.add(settings.cfl / (std::abs(u[cell]) * across + spread), "CFL"); });
 }
 
 template <int D>

@@ -340,7 +340,7 @@ void Phases::printSchedule(std::ostream& out) const {
     graph->print(out);
     graph->printLeftOut(out);
   }
-  for (const tasks::TaskGraph* graph : {&everyStep, &everyOutput, &report})
+  for (const tasks::TaskGraph* graph : {&everyStep, &everyOutput, &report, &refinement})
     if (!graph->tasks().empty()) graph->print(out);
   out << "diagnostics that are never run\n";
   for (const tasks::LeftOut& task : everyStep.leftOut()) {
@@ -348,7 +348,9 @@ void Phases::printSchedule(std::ostream& out) const {
       return std::any_of(graph.leftOut().begin(), graph.leftOut().end(),
                          [&](const tasks::LeftOut& other) { return other.task == task.task; });
     };
-    if (leavesOut(everyOutput) && leavesOut(report)) fmt::print(out, "  --  {} left out: {}\n", task.task, task.reason);
+    const bool isForRefinement = !refinement.tasks().empty() && !leavesOut(refinement);
+    if (leavesOut(everyOutput) && leavesOut(report) && !isForRefinement)
+      fmt::print(out, "  --  {} left out: {}\n", task.task, task.reason);
   }
 }
 
