@@ -44,6 +44,7 @@ std::pair<int, int> MarkedBlocks::blocksAlong(const grid::Level& level, int axis
   if (axis >= level.dimension()) return {0, 1};
   const int cells = grid_.blockCells()[axis];
   const auto blockOf = [&](int at) { return at >= 0 ? at / cells : -((cells - 1 - at) / cells); };
+  distance = std::min(distance, level.cells().extent(axis));  // once around is enough
   int lower = cell - distance, upper = cell + distance;
   if (!level.isPeriodic(axis)) {
     lower = std::max(lower, 0);

@@ -86,6 +86,15 @@ TEST(MarkedBlocks, GoAroundAPeriodicSide) {
   EXPECT_EQ(levelsOfLeaves(marked.tree()), (std::vector<int>{1, 1, 0, 0, 1, 1}));
 }
 
+TEST(MarkedBlocks, GoAroundOnceHoweverLongTheInterval) {
+  for (const bool isPeriodic : {false, true}) {
+    const grid::Grid grid(row(isPeriodic));
+    MarkedBlocks marked(grid, 1'000'000'000, 1);
+    marked.add(grid.level(0), {{0, 0, 0}}, 2);
+    EXPECT_EQ(levelsOfLeaves(marked.tree()), std::vector<int>(8, 1));
+  }
+}
+
 TEST(MarkedBlocks, StayWhereTheyAreMarkedAndBecomeCoarserOneLevelAtATime) {
   grid::Grid grid(row());
   grid.refine(grid.cut(grid.tree().regridded({{0, {{1, 0, 0}}}, {1, {{2, 0, 0}}}}, {})));
