@@ -190,6 +190,7 @@ Names Phases::saveable() const {
   Names names;
   for (const auto* list : {&lists_.initialize, &lists_.timeAdvance, &lists_.diagnostics})
     names.merge(producedBy(list->tasks()));
+  std::erase_if(names, [](const std::string& name) { return name.starts_with("rim."); });  // fluxes live for a task
   return names;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <set>
 #include <utility>
 
@@ -15,7 +16,7 @@ class MarkedBlocks {
   /// Marks count for all blocks within a distance of their cell: what signals cross in `interval` steps, one cell of
   /// the finest level each, and `dilation` cells more.
   MarkedBlocks(const grid::Grid& grid, int interval, int dilation)
-      : grid_(grid), interval_(interval), dilation_(dilation) {}
+      : grid_(grid), interval_(std::min(interval, farthest)), dilation_(std::min(dilation, farthest)) {}
 
   /// `mark`: see refinementMark.
   void add(const grid::Level& level, const Index3& cell, int mark);
@@ -30,6 +31,8 @@ class MarkedBlocks {
   grid::BlockTree tree() const;
 
  private:
+  static constexpr int farthest = 1 << 28;  // cells: beyond any grid, and two of them are still a number
+
   const grid::Grid& grid_;
   int interval_, dilation_;
   /// Asks for blocks of a level that are near a cell with a mark.

@@ -97,6 +97,13 @@ TEST(RefinedScenes, AreRefusedToComponentsOfOneLevel) {
             "'implicit_heat' needs a grid of one level; of several: 'burgers', 'euler', 'heat' and 'mpm'\n");
 }
 
+TEST(RefinedScenes, SaveNoFluxesThroughRims) {
+  const std::string rim = "<save label=\"rim.c.temperature\"/>";
+  const std::string problems = problemsOf(changed("ups/heat/sine.ups", "<save label=\"c.temperature\"/>", rim));
+  EXPECT_TRUE(problems.starts_with("no task of this component computes 'rim.c.temperature'")) << problems;
+  EXPECT_EQ(problems.find("and 'rim"), std::string::npos) << problems;
+}
+
 TEST(RefinedScenes, AreRefusedToSlices) {
   const std::string slice =
       "<Module name=\"slice\"><plane>x = .5</plane><label>c.temperature</label>"

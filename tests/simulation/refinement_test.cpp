@@ -89,7 +89,7 @@ TEST(MarkedBlocks, GoAroundAPeriodicSide) {
 TEST(MarkedBlocks, GoAroundOnceHoweverLongTheInterval) {
   for (const bool isPeriodic : {false, true}) {
     const grid::Grid grid(row(isPeriodic));
-    MarkedBlocks marked(grid, 1'000'000'000, 1);
+    MarkedBlocks marked(grid, 2147483647, 2147483647);
     marked.add(grid.level(0), {{0, 0, 0}}, 2);
     EXPECT_EQ(levelsOfLeaves(marked.tree()), std::vector<int>(8, 1));
   }
