@@ -215,6 +215,34 @@ inline constexpr bool isOfLabel = isOfMaterialAndPatch<Argument>;
 template <class R, AccessKind Kind>
 inline constexpr bool isOfLabel<FieldAccess<data::ReductionLabel<R>, Kind>> = true;
 
+/// An access to a variable that belongs to no material, for tasks of materials.
+template <class Argument>
+struct WithoutMaterial {
+  Argument argument;
+
+  template <bool makesParticles>
+  void declareFor(std::vector<Access>& accesses) {
+    const std::size_t first = accesses.size();
+    if constexpr (requires { argument.template declareFor<makesParticles>(accesses); })
+      argument.template declareFor<makesParticles>(accesses);
+    else
+      argument.declare(accesses);
+    for (std::size_t k = first; k < accesses.size(); ++k) accesses[k].ofNone = true;
+  }
+  decltype(auto) bind(const TaskContext& context) const { return argument.bind(context); }
+};
+/// In a task of materials, stands for a variable that belongs to none of them: the body gets a single view, or a single
+/// group. perMaterial may only read such variables.
+template <class Argument>
+WithoutMaterial<Argument> withoutMaterial(Argument argument) {
+  static_assert(isOfMaterialAndPatch<Argument>, "withoutMaterial(...) takes an access to a variable of a patch");
+  return {std::move(argument)};
+}
+template <class Argument>
+inline constexpr bool isWithoutMaterial = false;
+template <class Argument>
+inline constexpr bool isWithoutMaterial<WithoutMaterial<Argument>> = true;
+
 /// Whether an argument only makes sense where a task makes particles, or runs once on a rank.
 template <class Argument>
 inline constexpr bool isCreation = false;

@@ -49,7 +49,7 @@ class Needs {
     int ready = access.isNew() && written != last_write_.end() ? written->second : -1;
     if (access.isNew() && access.label->centring == data::Centring::particle)
       ready = std::max(ready, last_change_of_set_);
-    const Need wanted{{access.label, generation, set, task.perMaterial()}, ready, t};
+    const Need wanted{{access.label, generation, set, task.perMaterial(access)}, ready, t};
     const bool known = std::any_of(needs_.begin(), needs_.end(),
                                    [&](const Need& n) { return n.fill == wanted.fill && n.ready == wanted.ready; });
     if (!known) needs_.push_back(wanted);

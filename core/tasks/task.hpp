@@ -28,6 +28,7 @@ struct Access {
   bool own = false;                    ///< of nodes: whether it writes only those that are the patch's own
   bool offered = false;                ///< whether a kept task can do without it
   const data::Label* keeps = nullptr;  ///< of fluxes: the variable that flows
+  bool ofNone = false;                 ///< whether the variable belongs to no material, whichever the task sees
 
   bool reads() const {
     return kind == AccessKind::requiresOld || kind == AccessKind::requiresNew || kind == AccessKind::modifies;
@@ -55,6 +56,8 @@ struct Task {
   bool perRank = false;          ///< the body sees all materials of all patches of the rank at once
 
   bool perMaterial() const { return !materials.empty(); }
+  /// Whether the variable of an access is one of each material.
+  bool perMaterial(const Access& access) const { return perMaterial() && !access.ofNone; }
 };
 
 }  // namespace tushar::tasks

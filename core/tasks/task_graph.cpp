@@ -43,7 +43,7 @@ bool mayStartEarly(const CompiledTask& task, const data::VariableTable& table) {
 }
 
 int materialOf(const Access& access, int material) {
-  return access.label->centring == Centring::reduction ? -1 : material;
+  return access.label->centring == Centring::reduction || access.ofNone ? -1 : material;
 }
 
 }  // namespace
@@ -102,8 +102,9 @@ MaterialBinding TaskGraph::bindMaterial(std::size_t t, int material, data::Varia
     const Generation generation = access.isNew() ? Generation::fresh : Generation::old;
     const Generation set = access.isNew() ? sets_[t] : Generation::old;
     binding.accesses.push_back({number, generation, set, access.ghost, access.own});
-    if (access.own) binding.shared.push_back(number);
     table.widen(number, access.ghost);
+    if (access.ofNone && material > 0) continue;  // once for all materials
+    if (access.own) binding.shared.push_back(number);
     if (access.kind == AccessKind::computes && access.label->centring != Centring::reduction)
       binding.outputs.push_back({number, set});
     if (access.writes() && access.label->bound != data::Bound::none)
@@ -111,7 +112,10 @@ MaterialBinding TaskGraph::bindMaterial(std::size_t t, int material, data::Varia
   }
   if (task.kind != TaskKind::work) table.number(data::particleId, material);
   if (task.kind == TaskKind::relocate) binding.carried = carriedBy(t, material, table);
-  for (const std::string& label : lifetimes_[t]) binding.freed.push_back(table.find(label, material));
+  for (const std::string& label : lifetimes_[t]) {
+    binding.freed.push_back(table.find(label, material));
+    if (material == 0) binding.freed.push_back(table.find(label, -1));
+  }
   std::erase(binding.freed, -1);
   return binding;
 }

@@ -19,6 +19,7 @@ class TaskList {
   template <class Body, class... Arguments>
   void perPatch(std::string name, Body body, Arguments... arguments) {
     check<false, false, Arguments...>();
+    static_assert(!(isWithoutMaterial<Arguments> || ...), "a task of perPatch has no materials to leave out");
     std::vector<Access> accesses = declare<false>(arguments...);
     add({std::move(name),
          TaskKind::work,
@@ -127,6 +128,8 @@ class TaskList {
     static_assert(makesParticles || !(isCreation<Arguments> || ...), "creates(...) belongs to newParticles");
     static_assert(isOnRank || !(isOfRanks<Arguments> || ...),
                   "togetherOnRanks() belongs to perRank and perRankAcrossMaterials");
+    static_assert(!isOnRank || !(isWithoutMaterial<Arguments> || ...),
+                  "withoutMaterial(...) belongs to perMaterial and acrossMaterials");
   }
   template <bool makesParticles, class Argument>
   static void declareOne(Argument& argument, std::vector<Access>& accesses) {

@@ -36,9 +36,11 @@ class Validator {
 
   void checkMaterial(const Task& task, const Access& access) {
     if (access.label->centring == data::Centring::reduction) return;
-    const auto [entry, added] = per_material_.try_emplace(std::string(access.label->name), task.perMaterial());
-    if (entry->second != task.perMaterial())
+    const auto [entry, added] = per_material_.try_emplace(std::string(access.label->name), task.perMaterial(access));
+    if (entry->second != task.perMaterial(access))
       complain(task, access, "is used both with and without a material; use two labels");
+    if (access.ofNone && access.writes() && !task.acrossMaterials)
+      complain(task, access, "is written once for each material, but belongs to none; use acrossMaterials");
   }
 
   void checkProducer(const Task& task, const Access& access) {
