@@ -69,6 +69,9 @@ inline constexpr NodeLabel<Vec<D>> velocityOfContact{"g.velocityOfContact", "m/s
 template <int D>
 inline constexpr NodeLabel<Vec<D>> transmittedForce{"g.transmittedForce", "N",
                                                     "what contact takes for a material that transmits force"};
+template <int D>
+inline constexpr NodeLabel<Vec<D>> surroundingForce{"g.surroundingForce", "N",
+                                                    "force of what surrounds the body, such as a gas"};
 inline constexpr NodeLabel<NodeRecord> workRecord{"g.workRecord", "SI units",
                                                   "mean velocity of a step, and work for a unit of mass"};
 template <int D>

@@ -266,7 +266,7 @@ void checkContacts(const MaterialProperties::List& list, const Element& element,
 
 }  // namespace
 
-const Schema<MaterialProperties>& propertiesSchema() {
+const Schema<MaterialProperties>& propertiesSchema(bool besideGas) {
   static const Schema<MaterialProperties::ThermalContact> thermalContact(
       "thermal_contact", "Materials that share nodes share a temperature there.");
   static const Schema<MaterialProperties::List> list =
@@ -282,9 +282,15 @@ const Schema<MaterialProperties>& propertiesSchema() {
           .section("thermal_contact", &MaterialProperties::List::thermalContact, thermalContact)
           .check(noteCommonNames)
           .check(checkContacts);
-  static const Schema<MaterialProperties> schema = Schema<MaterialProperties>("MaterialProperties", "What there is.")
-                                                       .requiredSection("MPM", &MaterialProperties::mpm, list);
-  return schema;
+  static const auto make = [] {
+    return Schema<MaterialProperties>("MaterialProperties", "What there is.")
+        .requiredSection("MPM", &MaterialProperties::mpm, list);
+  };
+  static const Schema<MaterialProperties> alone = make();
+  static const Schema<MaterialProperties> beside = make().custom(
+      "ICE", [](MaterialProperties&, const Element&, Diagnostics&) {}, {"ICE", "exchange_properties"},
+      "the gas and what it exchanges with bodies");
+  return besideGas ? beside : alone;
 }
 
 }  // namespace tushar::mpm::solid

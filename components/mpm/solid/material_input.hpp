@@ -20,6 +20,7 @@ struct MaterialProperties {
   } mpm;
 };
 
-const input::Schema<MaterialProperties>& propertiesSchema();
+/// How the section is read; `besideGas`: it also says something of a gas, which another schema reads.
+const input::Schema<MaterialProperties>& propertiesSchema(bool besideGas = false);
 
 }  // namespace tushar::mpm::solid

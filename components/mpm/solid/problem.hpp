@@ -3,6 +3,7 @@
 #include "components/mpm/solid/contact/contact.hpp"
 #include "components/mpm/solid/loads/prescribed_deformation.hpp"
 #include "components/mpm/solid/method.hpp"
+#include "components/mpm/solid/surroundings.hpp"
 #include "components/mpm/solid/tasks/create_particles.hpp"
 #include "components/mpm/solid/tasks/show_state.hpp"
 #include "core/core.hpp"
@@ -16,6 +17,7 @@ struct Problem {
   std::vector<Contact> contacts;
   Start start;
   std::shared_ptr<const PrescribedDeformation> motion = nullptr;  ///< of all bodies; null: by forces
+  std::shared_ptr<const Surroundings> surroundings = nullptr;     ///< null: nothing surrounds them
 };
 
 /// Solids of any shape function, by explicit or implicit steps.

@@ -11,16 +11,19 @@ using input::Diagnostics;
 using input::Element;
 using input::Schema;
 
-const Schema<PhysicalConstants>& constantsSchema() {
-  static const Schema<PhysicalConstants> schema = [] {
+const Schema<PhysicalConstants>& constantsSchema(bool besideGas) {
+  static const auto make = [] {
     Schema<PhysicalConstants> tags("PhysicalConstants", "What acts everywhere.");
     tags.value("gravity", &PhysicalConstants::gravity, Vec3::Zero(), "m/s^2", "acceleration of all that has mass");
     for (const char* tag : {"reference_point", "viscosity", "ideal_gas_constant", "pressure"})
       tags.ignored(tag, "belongs to components of flow");
-    tags.ignored("reference_pressure", "nothing here depends on it");
     return tags;
-  }();
-  return schema;
+  };
+  static const Schema<PhysicalConstants> alone = make().ignored("reference_pressure", "nothing here depends on it");
+  static const Schema<PhysicalConstants> beside =
+      make().custom("reference_pressure", [](PhysicalConstants&, const Element&, Diagnostics&) {},
+                    {"reference_pressure"}, "the pressure that exerts no force on bodies");
+  return besideGas ? beside : alone;
 }
 
 std::vector<simulation::SectionForm> sectionForms(const input::SchemaBase& mpm) {

@@ -10,7 +10,8 @@ namespace tushar::mpm::solid {
 struct PhysicalConstants {
   Vec3 gravity = Vec3::Zero();  ///< m/s^2
 };
-const input::Schema<PhysicalConstants>& constantsSchema();
+/// How the section is read; `besideGas`: it also says something of a gas, which another schema reads.
+const input::Schema<PhysicalConstants>& constantsSchema(bool besideGas = false);
 
 /// The sections of a scene of solids whose <MPM> is read by `mpm`, for the schemas of editors.
 std::vector<simulation::SectionForm> sectionForms(const input::SchemaBase& mpm);

@@ -309,12 +309,19 @@ void checkLoads(const Problem& problem, const Element& root, Diagnostics& diagno
     diagnostics.error(root.child("PhysicalBC").value(), "heat_flux: needs <DoExplicitHeatConduction> true");
 }
 
-/// Reads a scene of solids; every problem goes to the diagnostics.
-simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostics) {
+/// What a scene says of its solids.
+struct ReadSolids {
+  Interpolator interpolator;
+  Problem problem;
+  Location where;  ///< of <MPM>
+};
+
+/// What a scene of solids says; nothing if it has problems, which all go to the diagnostics.
+std::optional<ReadSolids> readSolids(const Element& root, bool besideGas, Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.size();
   const MpmSection read = simulation::readSection(root, mpmSchema(), diagnostics);
-  const Method method = settle(read, simulation::readOptionalSection(root, constantsSchema(), diagnostics));
-  const MaterialProperties properties = simulation::readSection(root, propertiesSchema(), diagnostics);
+  const Method method = settle(read, simulation::readOptionalSection(root, constantsSchema(besideGas), diagnostics));
+  const MaterialProperties properties = simulation::readSection(root, propertiesSchema(besideGas), diagnostics);
   if (diagnostics.size() > before) return {};
   Problem problem{method, properties.mpm.materials, properties.mpm.contacts, {}};
   for (Contact& contact : problem.contacts) {
@@ -338,11 +345,19 @@ simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostic
                             std::string(material.model->name()));
   }
   if (diagnostics.size() > before) return {};
-  return [interpolator = read.interpolator, problem, where = root.child("MPM")->where()](const Level& level) {
-    if (problem.start.axisymmetric) refuseCellsAround(level, where);
-    if (problem.motion) refuseFlat(level, where);
-    return makeComponent(level, interpolator, problem);
-  };
+  return ReadSolids{read.interpolator, std::move(problem), root.child("MPM")->where()};
+}
+
+std::unique_ptr<Component> makeComponent(const Level& level, const ReadSolids& read) {
+  if (read.problem.start.axisymmetric) refuseCellsAround(level, read.where);
+  if (read.problem.motion) refuseFlat(level, read.where);
+  return makeComponent(level, read.interpolator, read.problem);
+}
+
+simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostics) {
+  const std::optional<ReadSolids> read = readSolids(root, false, diagnostics);
+  if (!read) return {};
+  return [read = *read](const Level& level) { return makeComponent(level, read); };
 }
 
 /// The sections of such a scene, for the schemas of editors.
@@ -351,11 +366,24 @@ std::vector<std::vector<simulation::SectionForm>> forms() { return {sectionForms
 void describe(std::ostream& out) {
   mpmSchema().describe(out);
   constantsSchema().describe(out);
-  propertiesSchema().describe(out);
+  propertiesSchema(false).describe(out);
   describeLoads(out);
 }
 
 }  // namespace
+
+MakeSurrounded readSurrounded(const Element& root, Diagnostics& diagnostics) {
+  std::optional<ReadSolids> read = readSolids(root, true, diagnostics);
+  if (!read) return {};
+  return [read = *read](const Level& level, bool areRigid, std::shared_ptr<const Surroundings> surroundings) {
+    ReadSolids solids = read;
+    for (Material& material : solids.problem.materials) material.isRigid |= areRigid;
+    solids.problem.surroundings = std::move(surroundings);
+    return makeComponent(level, solids);
+  };
+}
+
+std::vector<simulation::SectionForm> surroundedForms() { return sectionForms(mpmSchema()); }
 
 simulation::ComponentKind kind() {
   simulation::ComponentKind kind;

@@ -23,6 +23,7 @@
 #include "components/mpm/solid/tasks/displacement.hpp"
 #include "components/mpm/solid/tasks/nonlocal.hpp"
 #include "components/mpm/solid/tasks/show_grid.hpp"
+#include "components/mpm/solid/tasks/surrounding_force.hpp"
 
 // The schedule of SolidMpm: included by the files that instantiate it, one for each kind of shape function.
 
@@ -61,6 +62,7 @@ void SolidMpm<Shape>::scheduleInitialize(TaskList& tasks) const {
   tasks.perMaterial("mpm::startWork", startWork<D>, problem_.materials, requiresNew(p::mass),
                     requiresNew(p::velocity<D>), computes(p::work));
   if (is_damageable_) scheduleInitialDamage(tasks, problem_.materials);
+  if (problem_.surroundings) problem_.surroundings->scheduleStart(tasks, problem_.materials);
 }
 
 template <class Shape>
@@ -103,6 +105,7 @@ void SolidMpm<Shape>::scheduleTimeAdvance(TaskList& tasks) const {
   scheduleNonlocalPlasticity(tasks);
   tasks.perMaterial("mpm::addDisplacement", addDisplacement<D>, problem_.materials, requiresOld(p::x<D>),
                     requiresNew(p::x<D>), requiresOld(p::displacement<D>), computes(p::displacement<D>));
+  if (problem_.surroundings) problem_.surroundings->scheduleMotion(tasks, problem_.materials);
   tasks.relocate(p::x<D>, problem_.materials);
 }
 
@@ -141,7 +144,7 @@ void SolidMpm<Shape>::scheduleInterpolateParticlesToGrid(TaskList& tasks, Reads 
   scattered.externalForce = isLoaded() && !problem_.method.loadsAtCorners;
   tasks.perMaterial(
       "mpm::interpolateParticlesToGrid", interpolateParticlesToGrid<Shape>, problem_.materials,
-      with(problem_.method.commonSize), with(!problem_.contacts.empty() || problem_.method.loadsAtCorners),
+      with(problem_.method.commonSize), with(clearsAllNodes()),
       all<MomentumSources<Shape>>(keepsSizes(), requiresOld(p::velocity<D>, reach),
                                   when(!keeps_stress_ || Shape::deforms, stressed(p::deformationMeasure, reach))),
       all<ForceSources<Shape>>(scattered, stressed), computesOwn(g::record));
@@ -179,6 +182,11 @@ void SolidMpm<Shape>::scheduleFriction(TaskList& tasks, const std::string& name,
 
 template <class Shape>
 void SolidMpm<Shape>::scheduleIntegrateAcceleration(TaskList& tasks) const {
+  if (problem_.surroundings) {
+    problem_.surroundings->scheduleForces(tasks, problem_.materials);
+    tasks.perMaterial("mpm::addSurroundingForce", addSurroundingForce<D>, problem_.materials,
+                      requiresNew(g::surroundingForce<D>), modifies(g::record));
+  }
   tasks.perMaterial("mpm::computeAndIntegrateAcceleration", computeAndIntegrateAcceleration<Shape>, problem_.materials,
                     with(problem_.method), requiresOld(p::x<D>, Shape::reach), requiresOld(delT), modifies(g::record));
   scheduleKeepVelocity(tasks, g::velocityOfForces<D>);

@@ -45,7 +45,8 @@ void SolidMpm<Shape>::scheduleContactAtEnd(TaskList& tasks) const {
 template <class Shape>
 void SolidMpm<Shape>::scheduleTransmittedForce(TaskList& tasks) const {
   tasks.perRankAcrossMaterials("mpm::computeGridVelocityForFTM", computeGridVelocityForFTM<Shape>, problem_.materials,
-                               togetherOnRanks(), requiresOld(delT), all<RigidMotion<Shape>>());
+                               togetherOnRanks(), requiresOld(delT),
+                               all<RigidMotion<Shape>>(problem_.surroundings != nullptr));
 }
 
 }  // namespace tushar::mpm::solid

@@ -76,6 +76,10 @@ class SolidMpm : public Solids {
     return std::any_of(problem_.materials.begin(), problem_.materials.end(),
                        [](const Material& material) { return material.transmitsForce; });
   }
+  /// Whether nodes that no particle touches must be 0, as other tasks than the solids' own read them.
+  bool clearsAllNodes() const {
+    return !problem_.contacts.empty() || problem_.method.loadsAtCorners || problem_.surroundings;
+  }
   bool isLoaded() const { return problem_.start.loads.hasForces() || problem_.start.solution || transmitsForce(); }
   KeptSizes keepsSizes() const {
     const bool domains = Shape::deforms && problem_.method.keepsDomains;

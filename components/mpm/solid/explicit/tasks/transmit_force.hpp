@@ -28,18 +28,20 @@ struct RigidMotion {
   ParticleView<const double> mass;
   ParticleView<const Vec<D>> externalForce;
   NodeView<const Vec<D>> transmitted;
+  std::optional<NodeView<const Vec<D>>> surrounding;  ///< the force of what surrounds it, where something does
   NodeView<NodeRecord> record;
 
-  static RigidMotion from(auto& take) {
+  static RigidMotion from(auto& take, bool isSurrounded) {
     return {.x = take(requiresOld(p::x<D>, Shape::reach)),
             .mass = take(requiresOld(p::mass)),
             .externalForce = take(requiresNew(p::externalForce<D>)),
             .transmitted = take(requiresNew(g::transmittedForce<D>)),
+            .surrounding = take(when(isSurrounded, requiresNew(g::surroundingForce<D>))),
             .record = take(modifies(g::record))};
   }
 };
 
-/// Adds the loads on a material within a patch, and the forces that contact transmits to it.
+/// Adds the loads on a material within a patch, and the forces that contact and what surrounds it transmit to it.
 template <class Shape, int D = Shape::dimension>
 void addPull(const Patch& patch, const RigidMotion<Shape>& u, Pull& pull) {
   for (int p = 0; p < u.mass.owned(); ++p) {
@@ -47,7 +49,9 @@ void addPull(const Patch& patch, const RigidMotion<Shape>& u, Pull& pull) {
     pull.force.add(patch.level().expandDirection<D>(u.externalForce[p]));
   }
   forEach<D>(u.transmitted.box().intersect(patch.level().nodesOfCells()), [&](const Index<D>& node) {
-    if (isOwned<D>(patch, node)) pull.force.add(patch.level().expandDirection<D>(u.transmitted[node]));
+    if (!isOwned<D>(patch, node)) return;
+    pull.force.add(patch.level().expandDirection<D>(u.transmitted[node]));
+    if (u.surrounding) pull.force.add(patch.level().expandDirection<D>((*u.surrounding)[node]));
   });
 }
 

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "components/mpm/solid/material.hpp"
+#include "core/core.hpp"
+
+namespace tushar::mpm::solid {
+
+/// What surrounds solids and acts on them, such as a gas: its tasks among those of the solids' own.
+class Surroundings {
+ public:
+  virtual ~Surroundings() = default;
+  /// Behind the tasks that make the particles of `materials`, which outlive the list.
+  virtual void scheduleStart(TaskList& tasks, const std::vector<Material>& materials) const = 0;
+  /// Behind the task that gives g.record velocities and masses, and before forces move anything: computes
+  /// g.surroundingForce.
+  virtual void scheduleForces(TaskList& tasks, const std::vector<Material>& materials) const = 0;
+  /// When p.x has both its values, of the start and of the end of the step, and g.record the velocities of both, before
+  /// particles are relocated.
+  virtual void scheduleMotion(TaskList& tasks, const std::vector<Material>& materials) const = 0;
+};
+
+}  // namespace tushar::mpm::solid

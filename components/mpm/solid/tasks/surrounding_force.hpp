@@ -1,0 +1,18 @@
+#pragma once
+
+#include "components/mpm/solid/material.hpp"
+#include "components/mpm/solid/transfer/extent.hpp"
+#include "components/mpm/solid/transfer/node_record.hpp"
+
+namespace tushar::mpm::solid {
+
+/// f_i = f_i + the force of what surrounds the body, N.
+template <int D>
+void addSurroundingForce(const Patch&, const Material&, NodeView<const Vec<D>> force, NodeView<NodeRecord> record) {
+  forEach<D>(record.box(), [&](const Index<D>& node) {
+    NodeRecord& at = record[node];
+    for (int d = 0; d < D; ++d) at[lane::force + d] += force[node][d];
+  });
+}
+
+}  // namespace tushar::mpm::solid
