@@ -147,6 +147,20 @@ bool canBe(const Gas& gas, const Box& block, const StateViews<D, double>& fresh)
   return fine;
 }
 
+/// A step of a block of cells.
+template <int D, class Flux, class Shape>
+void advanceBlock(const Gas& gas, const Level& level, const GhostRules<D>& rules, const Box& block, double dt,
+                  const StateViews<D, const double>& old, Work<D>& work, const StateViews<D, double>& fresh,
+                  const RimFluxes<D>& rims) {
+  work.hold(block.grown(Shape::reach, D));
+  recover<D>(gas, level, old, work.w);
+  fillBeyondGrid<D>(level, rules, work.w);
+  predict<D>(gas, level, block.grown(1, D), dt, work, Shape{});
+  sweep<D, Flux, Shape, 0>(gas, level, block, dt, old, work, fresh, rims);
+  if constexpr (D > 1) sweep<D, Flux, Shape, 1>(gas, level, block, dt, old, work, fresh, rims);
+  if constexpr (D > 2) sweep<D, Flux, Shape, 2>(gas, level, block, dt, old, work, fresh, rims);
+}
+
 /// Advance<D> of one method.
 template <int D, class Flux, class Shape>
 void advance(const Patch& patch, const Gas& gas, CellView<const double> density, CellView<const Vec<D>> momentum,
@@ -159,13 +173,7 @@ void advance(const Patch& patch, const Gas& gas, CellView<const double> density,
   Work<D> work(patch.cells(), Shape::reach);
   bool fine = true;
   forEachBlock<D>(patch.cells(), [&](const Box& block) {
-    work.hold(block.grown(Shape::reach, D));
-    recover<D>(gas, level, old, work.w);
-    fillBeyondGrid<D>(level, rules, work.w);
-    predict<D>(gas, level, block.grown(1, D), dt, work, Shape{});
-    sweep<D, Flux, Shape, 0>(gas, level, block, dt, old, work, fresh, rims);
-    if constexpr (D > 1) sweep<D, Flux, Shape, 1>(gas, level, block, dt, old, work, fresh, rims);
-    if constexpr (D > 2) sweep<D, Flux, Shape, 2>(gas, level, block, dt, old, work, fresh, rims);
+    advanceBlock<D, Flux, Shape>(gas, level, rules, block, dt, old, work, fresh, rims);
     fine &= canBe<D>(gas, block, fresh);
   });
   if (!fine) refuseBroken<D>(patch, gas, fresh, &old);
