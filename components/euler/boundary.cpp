@@ -37,6 +37,35 @@ GhostRule<D> ghostRule(const Level& level, const Gas& gas, int axis, int side) {
   return rule;
 }
 
+/// The temperature [K] that is given at a side, or that a density and a pressure make.
+std::optional<double> temperatureAt(const Level& level, const Gas& gas, int axis, int side) {
+  if (const auto given = givenAt(level, gas, axis, side, boundary::temperature)) return given;
+  const auto density = givenAt(level, gas, axis, side, boundary::density),
+             pressure = pressureAt(level, gas, axis, side);
+  if (!density || !pressure || gas.specificHeat == 0) return {};
+  return *pressure / (gas.gasConstant() * *density);
+}
+
+template <int D>
+GhostRule<D> diffusionRule(const Level& level, const Gas& gas, int axis, int side) {
+  GhostRule<D> rule;
+  rule.mirrored = true;
+  rule.factor.fill(1);
+  rule.value.fill(0);
+  const auto hold = [&](std::size_t k, double value) {
+    rule.factor[k] = -1;
+    rule.value[k] = 2 * value;
+  };
+  if (level.isSymmetry(axis, side, gas.material)) {
+    hold(kVelocity(axis), 0);
+    return rule;
+  }
+  if (const auto velocity = givenAt(level, gas, axis, side, boundary::velocity))
+    for (int k = 0; k < D; ++k) hold(kVelocity(k), level.reduce<D>(*velocity)[k]);
+  if (const auto temperature = temperatureAt(level, gas, axis, side)) hold(kDensity, *temperature);
+  return rule;
+}
+
 /// The cell along an axis of `cells` cells that a cell beyond its ends is made from.
 int sourceOf(int cell, int cells, bool mirrored) {
   const int inside = cell < 0 ? (mirrored ? -1 - cell : 0) : (mirrored ? 2 * cells - 1 - cell : cells - 1);
@@ -69,6 +98,14 @@ GhostRules<D> ghostRules(const Level& level, const Gas& gas) {
 }
 
 template <int D>
+GhostRules<D> diffusionRules(const Level& level, const Gas& gas) {
+  GhostRules<D> rules;
+  for (int d = 0; d < D; ++d)
+    for (int side = 0; side < 2; ++side) rules[d][side] = diffusionRule<D>(level, gas, d, side);
+  return rules;
+}
+
+template <int D>
 void fillBeyondGrid(const Level& level, const GhostRules<D>& rules, Rows<D>& rows) {
   const Box grid = level.cells();
   Box known = level.clipCells(rows.box());
@@ -96,6 +133,9 @@ void fillBeyondGrid(const Level& level, const GhostRules<D>& rules, Rows<D>& row
 template GhostRules<1> ghostRules<1>(const Level&, const Gas&);
 template GhostRules<2> ghostRules<2>(const Level&, const Gas&);
 template GhostRules<3> ghostRules<3>(const Level&, const Gas&);
+template GhostRules<1> diffusionRules<1>(const Level&, const Gas&);
+template GhostRules<2> diffusionRules<2>(const Level&, const Gas&);
+template GhostRules<3> diffusionRules<3>(const Level&, const Gas&);
 template bool isWall<1>(const Level&, const Gas&, int, int);
 template bool isWall<2>(const Level&, const Gas&, int, int);
 template bool isWall<3>(const Level&, const Gas&, int, int);

@@ -38,6 +38,11 @@ bool isWall(const Level& level, const Gas& gas, int axis, int side);
 template <int D>
 GhostRules<D> ghostRules(const Level& level, const Gas& gas);
 
+/// The same for differences across the sides, of velocities and, in place of densities, temperatures: what is given
+/// holds at the side itself, and the rest is mirrored.
+template <int D>
+GhostRules<D> diffusionRules(const Level& level, const Gas& gas);
+
 /// Fills the cells of `rows` that lie beyond the grid; those on the grid must be known.
 template <int D>
 void fillBeyondGrid(const Level& level, const GhostRules<D>& rules, Rows<D>& rows);
