@@ -36,7 +36,8 @@ void checkCondition(const Element& condition, Diagnostics& diagnostics) {
     return;
   }
   const auto limit = [&](const grid::BoundaryVariable& of, const std::string& unit) {
-    if (label == of.name && number && !input::satisfies(*number, input::positive()))
+    if (label == of.name && var == nameOf(BoundaryKind::dirichlet) && number &&
+        !input::satisfies(*number, input::positive()))
       diagnostics.error(*text, input::violation(text->text(), input::positive(), unit));
   };
   limit(euler::boundary::density, "kg/m^3");

@@ -104,6 +104,7 @@ struct GridTags {
                                    "What happens at the sides of the grid; a side that is not named is free.")
                   .list("Face", &FacesSection::faces, face, "a side")),
         grid(Schema<GridSection>("Grid", "The grid and what happens at its sides.")
+                 .ignoredAttribute("doAMR", "a grid is refined where it has several levels")
                  .section("BoundaryConditions", &GridSection::boundaries, faces)
                  .list("Level", &GridSection::levels, levelSchema(),
                        "the grid, and boxes in which it is finer; the coarsest first", 1)) {}
