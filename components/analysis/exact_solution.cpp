@@ -1,7 +1,11 @@
 #include "components/analysis/exact_solution.hpp"
 
+#include <fmt/format.h>
+
 #include <map>
 #include <optional>
+#include <type_traits>
+#include <variant>
 
 #include "core/data/reduction.hpp"
 #include "core/input/schema.hpp"
@@ -36,7 +40,13 @@ namespace {
 
 struct Settings {
   std::string name, label;
+  std::optional<int> component;
   input::Expression value{0.0};
+
+  /// What the report calls the variable.
+  std::string field() const {
+    return component ? label.substr(2) + "." + std::string(1, "xyz"[*component]) : label.substr(2);
+  }
 };
 
 const Schema<Settings>& schema() {
@@ -44,7 +54,10 @@ const Schema<Settings>& schema() {
       Schema<Settings>("Module", "Errors of a variable against a formula, in the middle of cells or at nodes.")
           .requiredAttribute("name", &Settings::name, "1", "exactSolution")
           .required("label", &Settings::label, "1",
-                    "a scalar variable of cells (c.) or nodes (g.) that belongs to no material")
+                    "a variable of cells (c.) or nodes (g.) that belongs to no material")
+          .ours()
+          .optionalChoice("component", &Settings::component, {{"x", 0}, {"y", 1}, {"z", 2}},
+                          "which one, of a variable that is a vector")
           .ours()
           .required("value", &Settings::value, "SI unit of the variable", "its exact value")
           .ours();
@@ -57,8 +70,8 @@ struct Measurable {
   bool derived;
 };
 
-/// The scalar variables of cells and nodes that a component has without a material, by name.
-std::map<std::string, Measurable> measurables(const Component& component) {
+/// The variables of cells and nodes, vectors or scalars, that a component has without a material, by name.
+std::map<std::string, Measurable> measurables(const Component& component, bool vectors) {
   TaskList state, derived;
   component.scheduleInitialize(state);
   component.scheduleDiagnostics(derived);
@@ -68,35 +81,48 @@ std::map<std::string, Measurable> measurables(const Component& component) {
       for (const tasks::Access& access : task.accesses) {
         const Label& label = *access.label;
         const bool onGrid = label.centring == Centring::cell || label.centring == Centring::node;
-        const bool scalar = label.number == data::Number::real && label.components == 1 && !label.isVector;
-        if (access.writes() && onGrid && scalar && !task.perMaterial())
+        const bool isReal = label.number == data::Number::real;
+        const bool fits = isReal && (vectors ? label.isVector : label.components == 1 && !label.isVector);
+        if (access.writes() && onGrid && fits && !task.perMaterial())
           found.try_emplace(std::string(label.name), Measurable{label, list == &derived});
       }
   return found;
 }
 
 /// The variable of that name. Throws InputError naming those that there are.
-Measurable findMeasurable(const Component& component, const std::string& name, const Location& where) {
-  const std::map<std::string, Measurable> found = measurables(component);
+Measurable findMeasurable(const Component& component, const Settings& settings, const Location& where) {
+  const std::string& name = settings.label;
+  const std::map<std::string, Measurable> found = measurables(component, settings.component.has_value());
   if (const auto entry = found.find(name); entry != found.end()) return entry->second;
+  if (!settings.component && measurables(component, true).contains(name))
+    throw InputError({{where, "DataAnalysis/Module/label",
+                       fmt::format("'{}' is a vector: <component> says which of x, y and z", name)}});
   std::vector<std::string> names;
   for (const auto& entry : found) names.push_back(entry.first);
   const std::string none =
-      "this component has no scalar variable of cells or nodes without a material; take the module out";
+      fmt::format("this component has no {} variable of cells or nodes without a material; take the module out",
+                  settings.component ? "vector" : "scalar");
   throw InputError({{where, "DataAnalysis/Module/label", names.empty() ? none : input::choiceProblem(name, names)}});
 }
 
-template <Centring C, int D>
-void measure(const Patch& patch, const input::Expression& exact, const double* time,
-             data::GridView<C, const double> field, Norm& error) {
+/// Errors of a number, or of a component of a vector along an axis of the scene.
+template <Centring C, int D, class T>
+void measure(const Patch& patch, const Settings& settings, const double* time, data::GridView<C, const T> field,
+             Norm& error) {
   const Level& level = patch.level();
+  const auto found = [&](const T& value) {
+    if constexpr (std::is_same_v<T, double>)
+      return value;
+    else
+      return level.expandDirection<D>(value)[*settings.component];
+  };
   forEach<D>(C == Centring::cell ? patch.cells() : patch.nodes(), [&](const Index<D>& at) {
     Vec<D> x;
     for (int d = 0; d < D; ++d) {
       if (C == Centring::node && at[d] == patch.cells().upper[d] && !patch.isAtBoundary(d, 1)) return;
       x[d] = C == Centring::cell ? level.cellCentre<D>(at)[d] : level.nodePosition(d, at[d]);
     }
-    error.add(field[at] - exact(level.expandPoint<D>(x), *time), 0, level.weight());
+    error.add(found(field[at]) - settings.value(level.expandPoint<D>(x), *time), 0, level.weight());
   });
 }
 
@@ -106,24 +132,17 @@ class ExactSolution : public Analysis {
   ExactSolution(Settings settings, const Measurable& measured)
       : settings_(std::move(settings)),
         derived_(measured.derived),
-        error_name_(settings_.label + " error"),
-        error_(error_name_, measured.label.unit, "error against the formula") {
-    const Label& label = measured.label;
-    if (label.centring == Centring::cell)
-      cell_.emplace(label.name, label.unit, label.description);
-    else
-      node_.emplace(label.name, label.unit, label.description);
-  }
+        label_(labelOf(measured.label)),
+        error_name_(settings_.label.substr(0, 2) + settings_.field() + " error"),
+        error_(error_name_, measured.label.unit, "error against the formula") {}
 
   void schedule(TaskList& tasks) const override {
-    if (cell_)
-      add(tasks, *cell_);
-    else
-      add(tasks, *node_);
+    std::visit([&](const auto& label) { add(tasks, label); }, label_);
   }
   void setTime(double time, double) override { time_ = time; }
   std::vector<MeasuredError> errors() const override {
-    return {{settings_.label.substr(2), cell_ ? "cell" : "node", &error_, {"L1", "L2", "max"}}};
+    const bool ofCells = label_.index() < 2;
+    return {{settings_.field(), ofCells ? "cell" : "node", &error_, {"L1", "L2", "max"}}};
   }
   std::vector<output::Array> exactProfile(const Level& level) const override {
     if constexpr (D > 1) return {};
@@ -136,15 +155,25 @@ class ExactSolution : public Analysis {
       x.push_back(at[0]);
       value.push_back(settings_.value(level.expandPoint<1>(at), time_));
     }
-    return {{"x", "m", "position", 1, x},
-            {settings_.label.substr(2), std::string(error_.unit), "exact value", 1, value}};
+    return {{"x", "m", "position", 1, x}, {settings_.field(), std::string(error_.unit), "exact value", 1, value}};
   }
 
  private:
-  template <Centring C>
-  void add(TaskList& tasks, const data::FieldLabel<C, double>& field) const {
+  using AnyLabel = std::variant<CellLabel<double>, CellLabel<Vec<D>>, NodeLabel<double>, NodeLabel<Vec<D>>>;
+
+  static AnyLabel labelOf(const Label& label) {
+    const bool ofCells = label.centring == Centring::cell;
+    if (label.isVector)
+      return ofCells ? AnyLabel(CellLabel<Vec<D>>(label.name, label.unit, label.description))
+                     : AnyLabel(NodeLabel<Vec<D>>(label.name, label.unit, label.description));
+    return ofCells ? AnyLabel(CellLabel<double>(label.name, label.unit, label.description))
+                   : AnyLabel(NodeLabel<double>(label.name, label.unit, label.description));
+  }
+
+  template <Centring C, class T>
+  void add(TaskList& tasks, const data::FieldLabel<C, T>& field) const {
     const auto measureFrom = [&](const auto& access) {
-      tasks.perPatch("exactSolution::measure", measure<C, D>, with(settings_.value), with(&time_), access,
+      tasks.perPatch("exactSolution::measure", measure<C, D, T>, with(settings_), with(&time_), access,
                      computes(error_));
     };
     derived_ ? measureFrom(requiresNew(field)) : measureFrom(requiresOld(field));
@@ -152,8 +181,7 @@ class ExactSolution : public Analysis {
 
   Settings settings_;
   bool derived_;
-  std::optional<CellLabel<double>> cell_;
-  std::optional<NodeLabel<double>> node_;
+  AnyLabel label_;
   std::string error_name_;
   ReductionLabel<Norm> error_;
   double time_ = 0;
@@ -169,7 +197,7 @@ AnalysisKind exactSolutionKind() {
     const Settings settings = schema().read(module, diagnostics);
     const Location where = (module.child("label") ? *module.child("label") : module).where();
     return [=](const Component& component, const Level& level) -> std::unique_ptr<Analysis> {
-      const Measurable measured = findMeasurable(component, settings.label, where);
+      const Measurable measured = findMeasurable(component, settings, where);
       if (level.dimension() == 1) return std::make_unique<ExactSolution<1>>(settings, measured);
       if (level.dimension() == 2) return std::make_unique<ExactSolution<2>>(settings, measured);
       return std::make_unique<ExactSolution<3>>(settings, measured);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "components/euler/labels.hpp"
 #include "components/euler/rows.hpp"
 
@@ -10,16 +12,36 @@ template <int D>
 struct GhostRule {
   bool mirrored = false;
   State<D> factor, value;
+  double densityOfPressure = 0;  ///< where above 0, rho is that times p, kg/(m³ Pa)
 };
 
 /// The rules of both sides of each axis.
 template <int D>
 using GhostRules = std::array<std::array<GhostRule<D>, 2>, D>;
 
-/// From the scene's conditions: Symmetric is a wall, with Density, Velocity or Pressure gas of these values flows in;
-/// whatever is not given continues with no gradient, so that a side without conditions is an outflow.
+/// The value that a scene gives for a variable of a gas at a side, if it does.
+template <class T>
+std::optional<T> givenAt(const Level& level, const Gas& gas, int axis, int side, const BoundaryLabel<T>& label) {
+  const auto condition = level.boundary(axis, side, label, gas.material);
+  return condition && condition->isDirichlet() ? std::optional(condition->value) : std::nullopt;
+}
+/// The same of the pressure, which all materials share: Uintah's scenes give it for material 0.
+std::optional<double> pressureAt(const Level& level, const Gas& gas, int axis, int side);
+
+/// Whether a side is a wall: Symmetric, or with a Velocity alone that lies in the side.
 template <int D>
-GhostRules<D> ghostRules(const Level& level);
+bool isWall(const Level& level, const Gas& gas, int axis, int side);
+
+/// From the scene's conditions: a wall mirrors the gas. Where Density, Velocity or Pressure is given, gas of these
+/// values flows in; a Temperature makes the third of it, density and pressure. Whatever is not given continues with no
+/// gradient, so that a side without conditions is an outflow.
+template <int D>
+GhostRules<D> ghostRules(const Level& level, const Gas& gas);
+
+/// The same for differences across the sides, of velocities and, in place of densities, temperatures: what is given
+/// holds at the side itself, and the rest is mirrored.
+template <int D>
+GhostRules<D> diffusionRules(const Level& level, const Gas& gas);
 
 /// Fills the cells of `rows` that lie beyond the grid; those on the grid must be known.
 template <int D>

@@ -22,8 +22,10 @@ inline constexpr std::size_t kPressure = D + 1;
 /// With P = p + p_inf all waves are those of an ideal gas of pressure P.
 /// Source: F. H. Harlow & A. A. Amsden, Fluid Dynamics, LANL report LA-4700 (1971).
 struct Gas {
-  double gamma = 1.4;    ///< ratio of specific heats, above 1
-  double pInfinity = 0;  ///< Pa
+  double gamma = 1.4;       ///< ratio of specific heats, above 1
+  double pInfinity = 0;     ///< Pa
+  double specificHeat = 0;  ///< c_v, J/(kg K); 0: no temperature is known
+  int material = 0;         ///< its number in the scene, where sides of the grid have conditions for it
 
   /// c² [m²/s²] = gamma (p + p_inf) / rho.
   double soundSpeedSquared(double density, double pressure) const { return gamma * (pressure + pInfinity) / density; }
@@ -33,6 +35,8 @@ struct Gas {
   double pressure(double internalEnergyPerVolume) const {
     return (gamma - 1) * internalEnergyPerVolume - gamma * pInfinity;
   }
+  /// R [J/(kg K)] = (gamma - 1) c_v of p + p_inf = rho R T.
+  double gasConstant() const { return (gamma - 1) * specificHeat; }
 };
 
 /// |v|² of a primitive state.

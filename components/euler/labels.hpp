@@ -23,6 +23,7 @@ namespace boundary {
 inline constexpr BoundaryLabel<double> density{"Density"};
 inline constexpr BoundaryLabel<Vec3> velocity{"Velocity"};
 inline constexpr BoundaryLabel<double> pressure{"Pressure"};
+inline constexpr BoundaryLabel<double> temperature{"Temperature"};
 }  // namespace boundary
 
 /// Totals over all cells.

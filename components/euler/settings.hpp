@@ -1,6 +1,8 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "components/euler/gas.hpp"
@@ -14,9 +16,10 @@ namespace tushar::euler {
 struct GasObject {
   Location where;  ///< in the scene
   std::shared_ptr<const input::GeometryPiece> shape;
-  input::Expression density;         ///< kg/m³
-  input::Expression pressure;        ///< Pa
-  input::VectorExpression velocity;  ///< m/s
+  input::Expression density;                          ///< kg/m³
+  input::Expression pressure;                         ///< Pa; of no account where there is a temperature
+  input::VectorExpression velocity;                   ///< m/s
+  std::optional<input::Expression> temperature = {};  ///< K
 };
 
 enum class FluxKind { exact, hllc };
@@ -32,7 +35,8 @@ struct Method {
 
 /// The `Euler` section.
 struct Settings {
-  Location where;  ///< in the scene
+  Location where;                 ///< in the scene
+  std::string section = "Euler";  ///< that has the objects
   Method method;
   double cfl = 0.8;  ///< dt max(sum_d (|v_d| + c) / h_d)
   Gas gas;

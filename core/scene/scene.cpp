@@ -93,11 +93,13 @@ void refuseUnknownSections(const Element& root, const ComponentKind& kind, Diagn
   for (const std::string& section : kind.sections)
     if (std::find(known.begin(), known.end(), section) == known.end()) known.push_back(section);
   for (const Element& child : root.children())
-    if (const auto idle = std::find_if(idleSections().begin(), idleSections().end(),
-                                       [&](const auto& section) { return section.first == child.name(); });
-        idle != idleSections().end())
+    if (std::find(known.begin(), known.end(), child.name()) != known.end())
+      continue;
+    else if (const auto idle = std::find_if(idleSections().begin(), idleSections().end(),
+                                            [&](const auto& section) { return section.first == child.name(); });
+             idle != idleSections().end())
       diagnostics.note(child, idle->second);
-    else if (std::find(known.begin(), known.end(), child.name()) == known.end())
+    else
       diagnostics.error(child, fmt::format("unknown section <{}>{}; allowed here: {}", child.name(),
                                            didYouMean(child.name(), known), fmt::join(known, ", ")));
 }
@@ -243,10 +245,30 @@ Trial tryOut(const MakeComponent& make) {
   return {};
 }
 
+/// Gives variables that Uintah calls otherwise their name here, with a note; each is saved once.
+void renameLabels(const Component& component, std::vector<SaveRequest>& saves, Diagnostics& diagnostics) {
+  const auto names = component.otherNames();
+  std::vector<SaveRequest> kept;
+  for (SaveRequest& save : saves) {
+    const auto name =
+        std::find_if(names.begin(), names.end(), [&](const auto& one) { return one.first == save.label; });
+    if (name != names.end()) {
+      diagnostics.note(save.where, "DataArchiver/save",
+                       fmt::format("'{}' is saved as '{}'", name->first, name->second));
+      save.label = name->second;
+    }
+    const bool isThere =
+        std::any_of(kept.begin(), kept.end(), [&](const SaveRequest& other) { return other.label == save.label; });
+    if (name == names.end() || !isThere) kept.push_back(save);
+  }
+  saves = std::move(kept);
+}
+
 /// Names what is wrong with the labels that are saved and sampled. Takes out, with a note, what Uintah has and nobody
 /// here.
 void checkLabels(const Component& component, const std::vector<std::unique_ptr<Analysis>>& analyses,
                  std::vector<SaveRequest>& saves, Diagnostics& diagnostics) {
+  renameLabels(component, saves, diagnostics);
   const Phases phases(component, analyses);
   const std::vector<std::string> foreign = component.foreignLabels();
   std::erase_if(saves, [&](const SaveRequest& save) {

@@ -81,7 +81,9 @@ void addShared(Schema<Unread>& root, const ComponentKind& kind, const SchemaBase
   addSection(root, "Grid", grid, true);
   addSection(root, "AMR", amrForm(), false);
   addSection(root, "DataAnalysis", analyses, false);
-  for (const auto& [tag, why] : idleSections()) addTag(root, input::anyForm({tag}), why);
+  for (const auto& [tag, why] : idleSections())
+    if (std::find(kind.sections.begin(), kind.sections.end(), tag) == kind.sections.end())
+      addTag(root, input::anyForm({tag}), why);
 }
 
 }  // namespace

@@ -104,6 +104,7 @@ struct GridTags {
                                    "What happens at the sides of the grid; a side that is not named is free.")
                   .list("Face", &FacesSection::faces, face, "a side")),
         grid(Schema<GridSection>("Grid", "The grid and what happens at its sides.")
+                 .ignoredAttribute("doAMR", "a grid is refined where it has several levels")
                  .section("BoundaryConditions", &GridSection::boundaries, faces)
                  .list("Level", &GridSection::levels, levelSchema(),
                        "the grid, and boxes in which it is finer; the coarsest first", 1)) {}
@@ -180,6 +181,8 @@ void readConditions(const std::vector<ConditionSection>& given, const std::vecto
   std::map<std::string, Location> seen;
   for (std::size_t k = 0; k < given.size() && k < tags.size(); ++k) {
     const grid::BoundaryVariable* label = findKind(labels, given[k].label);
+    const bool followsDensity = given[k].label == "SpecificVol" && findKind(labels, "Density");
+    if (followsDensity) continue;
     if (!label && isOfFlow(given[k].label))
       diagnostics.note(tags[k], given[k].label + " belongs to components of flow: nothing here depends on it");
     else if (!label && !labels.empty())
@@ -280,13 +283,30 @@ void checkPeriodic(const Element& section, const grid::Domain& domain, Diagnosti
                          fmt::format("does nothing: {} is periodic, so this side can have no condition", "xyz"[k / 2]));
 }
 
+/// Faces that are a part of a side, as Uintah has them; whether there are none.
+bool refusePartsOfSides(const Element& section, Diagnostics& diagnostics) {
+  bool none = true;
+  const auto group = section.child("BoundaryConditions");
+  for (const Element& face : group ? group->children("Face") : std::vector<Element>{})
+    for (const char* shape : {"circle", "annulus", "ellipse", "rectangle", "rectangulus"})
+      if (const auto side = face.attribute(shape)) {
+        diagnostics.error(face.whereOf(shape), face.path(),
+                          fmt::format("conditions on a part of a side ({}) are not available; give side=\"{}\" to have "
+                                      "them on all of it",
+                                      shape, *side));
+        none = false;
+      }
+  return none;
+}
+
 }  // namespace
 
 grid::Domain readGrid(const Element& section, const std::vector<grid::BoundaryVariable>& boundaryLabels,
                       const grid::Workers& workers, const AmrSettings& amr, Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.size();
-  const GridSection read = gridSchema().read(section, diagnostics);
   grid::Domain domain;
+  if (!refusePartsOfSides(section, diagnostics)) return domain;
+  const GridSection read = gridSchema().read(section, diagnostics);
   readFaces(section, read.boundaries, boundaryLabels, domain, diagnostics);
   if (diagnostics.size() > before) return domain;
   const std::vector<Element> boxes = section.children("Level").front().children("Box");

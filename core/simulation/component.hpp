@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/simulation/settings.hpp"
@@ -29,6 +30,8 @@ class Component {
   virtual bool mayRepeatStep() const { return false; }
   /// Variables that Uintah's component of this kind computes, whichever of them this one does.
   virtual std::vector<std::string> foreignLabels() const { return {}; }
+  /// What Uintah's component of this kind calls variables that have another name here, and that name.
+  virtual std::vector<std::pair<std::string, std::string>> otherNames() const { return {}; }
   /// Why it cannot run on a grid of several levels, if its kind can; empty where it can: continues `needs a grid of one
   /// level: `.
   virtual std::string whyOneLevel() const { return ""; }

@@ -169,7 +169,7 @@ void advance(const Patch& patch, const Gas& gas, CellView<const double> density,
   const Level& level = patch.level();
   const StateViews<D, const double> old{density, momentum, totalEnergy};
   const StateViews<D, double> fresh{newDensity, newMomentum, newTotalEnergy};
-  const GhostRules<D> rules = ghostRules<D>(level);
+  const GhostRules<D> rules = ghostRules<D>(level, gas);
   Work<D> work(patch.cells(), Shape::reach);
   bool fine = true;
   forEachBlock<D>(patch.cells(), [&](const Box& block) {

@@ -9,7 +9,7 @@ namespace {
 const GasObject& objectAt(const Settings& settings, const Vec3& point) {
   for (auto object = settings.objects.rbegin(); object != settings.objects.rend(); ++object)
     if (object->shape->owns(point)) return *object;
-  throw InputError({{settings.where, "Euler",
+  throw InputError({{settings.where, settings.section,
                      fmt::format("no geom_object contains the middle of the cell at ({:g}, {:g}, {:g}); every cell "
                                  "needs a gas at the start",
                                  point[0], point[1], point[2])}});
@@ -26,18 +26,21 @@ void checkObjects(const Level& level, const Settings& settings) {
       found = found || object.shape->owns(level.expandPoint<D>(level.cellCentre<D>(cell)));
     });
     if (!found)
-      problems.push_back({object.where, "Euler/geom_object", "its shape contains the middle of no cell of the grid"});
+      problems.push_back(
+          {object.where, settings.section + "/geom_object", "its shape contains the middle of no cell of the grid"});
   }
   if (!problems.empty()) throw InputError(std::move(problems));
 }
 
-void checkState(const Gas& gas, const GasObject& object, const Vec3& point, double density, double pressure,
+void checkState(const Settings& settings, const GasObject& object, const Vec3& point, double density, double pressure,
                 const Vec3& velocity) {
   const bool finite = std::isfinite(density) && std::isfinite(pressure) && velocity.allFinite();
-  if (finite && density > 0 && pressure + gas.pInfinity > 0) return;
+  if (finite && density > 0 && pressure + settings.gas.pInfinity > 0) return;
   throw InputError(
-      {{placeOf({&object.density.where(), &object.pressure.where(), &object.velocity.where()}, object.where),
-        "Euler/geom_object",
+      {{placeOf({&object.density.where(), &(object.temperature ? *object.temperature : object.pressure).where(),
+                 &object.velocity.where()},
+                object.where),
+        settings.section + "/geom_object",
         fmt::format("density {:g} kg/m^3, pressure {:g} Pa and velocity ({:g}, {:g}, {:g}) m/s at ({:g}, "
                     "{:g}, {:g}); the density and the pressure + p_infinity must be positive, and all finite",
                     density, pressure, velocity[0], velocity[1], velocity[2], point[0], point[1], point[2])}});
@@ -53,9 +56,11 @@ void initialize(const Patch& patch, const Settings& settings, CellView<double> d
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     const Vec3 point = level.expandPoint<D>(level.cellCentre<D>(cell));
     const GasObject& object = objectAt(settings, point);
-    const double rho = object.density(point), p = object.pressure(point);
+    const double rho = object.density(point);
+    const double p =
+        object.temperature ? settings.gas.gasConstant() * rho * (*object.temperature)(point) : object.pressure(point);
     const Vec3 wide = object.velocity(point);
-    checkState(settings.gas, object, point, rho, p, wide);
+    checkState(settings, object, point, rho, p, wide);
     const Vec<D> v = level.reduce<D>(wide);
     density[cell] = rho;
     momentum[cell] = rho * v;

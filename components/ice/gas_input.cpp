@@ -1,0 +1,147 @@
+#include "components/ice/gas_input.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "components/euler/labels.hpp"
+#include "components/ice/gas_schemas.hpp"
+#include "core/simulation/by_dimension.hpp"
+
+namespace tushar::ice {
+
+using input::Diagnostics;
+using input::Element;
+
+namespace {
+
+constexpr const char* solverTag = "Solver";
+
+/// The number of the material that a condition holds for; -1: all, or what the grid has complained of.
+int materialOf(const Element& condition) {
+  return input::parse<int>(condition.attribute("id").value_or("all")).value.value_or(-1);
+}
+
+/// What is wrong with a condition of the gas: its value, and derivatives other than 0.
+void checkCondition(const Element& condition, Diagnostics& diagnostics) {
+  const std::string label = condition.attribute("label").value_or(""), var = condition.attribute("var").value_or("");
+  const auto text = condition.child("value");
+  if (!text) return;
+  const auto number = input::parse<double>(text->text());
+  const auto vector = input::parse<Vec3>(text->text());
+  if (var == nameOf(BoundaryKind::neumann)) {
+    if ((number && *number != 0) || (vector && *vector != Vec3::Zero()))
+      diagnostics.error(*text, fmt::format("found '{}', expected 0: a Neumann condition lets {} continue as it is",
+                                           text->text(), label));
+    return;
+  }
+  const auto limit = [&](const grid::BoundaryVariable& of, const std::string& unit) {
+    if (label == of.name && var == nameOf(BoundaryKind::dirichlet) && number &&
+        !input::satisfies(*number, input::positive()))
+      diagnostics.error(*text, input::violation(text->text(), input::positive(), unit));
+  };
+  limit(euler::boundary::density, "kg/m^3");
+  limit(euler::boundary::pressure, "Pa");
+  limit(euler::boundary::temperature, "K");
+}
+
+/// The conditions of the gas, material `gas` of the scene.
+void checkConditions(const Element& root, int gas, Diagnostics& diagnostics) {
+  const auto grid = root.child("Grid");
+  const auto group = grid ? grid->child("BoundaryConditions") : std::nullopt;
+  if (!group) return;
+  for (const Element& face : group->children("Face"))
+    for (const Element& condition : face.children("BCType")) {
+      const int material = materialOf(condition);
+      if (material > gas)
+        diagnostics.error(condition.whereOf("id"), condition.path(),
+                          fmt::format("there is no material {}: the gas is number {}", material, gas));
+      const bool isShared = condition.attribute("label") == euler::boundary::pressure.name;
+      if (material < 0 || material == gas || isShared) checkCondition(condition, diagnostics);
+    }
+}
+
+/// A pressure that is given does not count, as in Uintah: says so where it is another one than follows.
+void noteOtherPressure(const GasBody& body, const euler::Gas& gas, const Element& element, Diagnostics& diagnostics) {
+  if (!body.pressure) return;
+  if (!body.pressure->isConstant() || !body.density.isConstant() || !body.temperature.isConstant()) return;
+  const double given = (*body.pressure)(Vec3::Zero());
+  const double pressure = gas.gasConstant() * body.density(Vec3::Zero()) * body.temperature(Vec3::Zero());
+  if (std::abs(given - pressure) > 1e-3 * pressure)
+    diagnostics.note(*element.child("pressure"),
+                     fmt::format("does nothing: density and temperature make {:g} Pa", pressure));
+}
+
+void readMaterial(const GasMaterial& material, const Element& element, GasScene& scene, Diagnostics& diagnostics) {
+  scene.specificHeat = material.specificHeat;
+  scene.viscosity = material.viscosity;
+  scene.conductivity = material.conductivity;
+  euler::Gas& gas = scene.gas.gas;
+  gas.gamma = material.gamma;
+  gas.specificHeat = material.specificHeat;
+  const auto tags = element.children("geom_object");
+  for (std::size_t k = 0; k < material.bodies.size(); ++k) {
+    const GasBody& body = material.bodies[k];
+    scene.gas.objects.push_back({.where = body.where,
+                                 .shape = body.shape,
+                                 .density = body.density,
+                                 .pressure = {},
+                                 .velocity = body.velocity,
+                                 .temperature = body.temperature});
+    if (k < tags.size()) noteOtherPressure(body, gas, tags[k], diagnostics);
+  }
+}
+
+}  // namespace
+
+GasScene readGas(const Element& root, int solids, Diagnostics& diagnostics) {
+  const std::size_t before = diagnostics.size();
+  const CfdSection cfd = simulation::readSection(root, cfdSchema(), diagnostics);
+  const ConstantsSection constants = simulation::readOptionalSection(root, constantsSchema(), diagnostics);
+  const PropertiesSection properties = simulation::readSection(root, propertiesSchema(), diagnostics);
+  simulation::readOptionalSection(root, modelsSchema(), diagnostics);
+  if (const auto solver = root.child(solverTag))
+    diagnostics.note(*solver, "does nothing: steps are explicit, without a system of equations");
+  checkConditions(root, solids, diagnostics);
+  GasScene scene;
+  if (diagnostics.size() > before) return scene;
+  scene.where = root.child("CFD")->where();
+  scene.gas.where = scene.where;
+  scene.gas.section = "MaterialProperties/ICE/material";
+  scene.gas.method.reconstruction = cfd.ice.advection.reconstruction;
+  scene.gas.cfl = cfd.cfl;
+  scene.gas.gas.material = solids;
+  scene.gravity = constants.gravity;
+  scene.referencePressure = constants.referencePressure;
+  if (properties.exchange) scene.exchange = properties.exchange->coefficients;
+  readMaterial(properties.ice.materials.front(), *root.child("MaterialProperties")->child("ICE")->child("material"),
+               scene, diagnostics);
+  return scene;
+}
+
+std::vector<simulation::SectionForm> gasForms() {
+  return {{"CFD", &cfdSchema()},
+          {"PhysicalConstants", &constantsSchema(), false},
+          {"MaterialProperties", &propertiesSchema()},
+          {"Models", &modelsSchema(), false},
+          {solverTag, nullptr, false}};
+}
+
+std::vector<std::string> gasSections() {
+  std::vector<std::string> names;
+  for (const simulation::SectionForm& form : gasForms()) names.push_back(form.name);
+  return names;
+}
+
+std::vector<grid::BoundaryVariable> gasBoundaryLabels() {
+  return {grid::symmetric, euler::boundary::density, euler::boundary::velocity, euler::boundary::pressure,
+          euler::boundary::temperature};
+}
+
+void describeGas(std::ostream& out) {
+  cfdSchema().describe(out);
+  constantsSchema().describe(out);
+  propertiesSchema().describe(out);
+}
+
+}  // namespace tushar::ice

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <iosfwd>
+#include <vector>
+
+#include "components/euler/settings.hpp"
+#include "core/input/diagnostics.hpp"
+#include "core/simulation/catalogue.hpp"
+
+namespace tushar::ice {
+
+/// What is given for each pair of materials, the upper triangle of their matrix row by row: Uintah's
+/// `exchange_coefficients`.
+struct Exchange {
+  Location where;                ///< in the scene
+  std::vector<double> momentum;  ///< kg/(m³ s)
+  std::vector<double> heat;      ///< W/(m³ K)
+};
+
+/// A gas, as the sections of a scene of Uintah's ICE have it.
+struct GasScene {
+  Location where;                         ///< of <CFD>, in the scene
+  euler::Settings gas;                    ///< the method, the gas and its state at the start
+  double specificHeat = 0;                ///< c_v, J/(kg K)
+  double referencePressure = 0;           ///< Pa
+  Vec3 gravity = Vec3::Zero();            ///< m/s²
+  double viscosity = 0;                   ///< Pa s
+  double conductivity = 0;                ///< W/(m K)
+  std::optional<Exchange> exchange = {};  ///< with other materials
+};
+
+/// Reads <CFD>, <PhysicalConstants>, <MaterialProperties>, but what it has of MPM, and the conditions at the sides of
+/// the grid. In all of the scene `solids` materials of MPM are counted before the gas. Every problem goes to the
+/// diagnostics.
+GasScene readGas(const input::Element& root, int solids, input::Diagnostics& diagnostics);
+
+/// The sections that readGas reads or knows, for a component that has no others.
+std::vector<simulation::SectionForm> gasForms();
+/// Their names.
+std::vector<std::string> gasSections();
+/// What the sides of the grid may have conditions for.
+std::vector<grid::BoundaryVariable> gasBoundaryLabels();
+/// The manual of the sections.
+void describeGas(std::ostream& out);
+
+}  // namespace tushar::ice

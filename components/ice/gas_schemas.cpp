@@ -1,0 +1,187 @@
+#include "components/ice/gas_schemas.hpp"
+
+#include "core/input/geometry.hpp"
+#include "core/input/refuse.hpp"
+
+namespace tushar::ice {
+
+using input::Diagnostics;
+using input::Element;
+using input::Schema;
+
+namespace {
+
+const Schema<Advection>& advectionSchema() {
+  static const Schema<Advection> schema =
+      Schema<Advection>("advection", "How what flows is reconstructed at the faces of cells.")
+          .requiredChoiceAttribute(
+              "type", &Advection::reconstruction,
+              {{"FirstOrder", euler::Reconstruction::firstOrder}, {"SecondOrder", euler::Reconstruction::musclHancock}},
+              "constant cells, or cells with van Leer's slopes and a half step")
+          .ignoredAttribute("useCompatibleFluxes", "all that a cell has flows with its mass")
+          .ignoredAttribute("compatibleFluxes", "all that a cell has flows with its mass");
+  return schema;
+}
+
+void refuseImplicit(IceSection&, const Element& element, Diagnostics& diagnostics) {
+  const auto given = element.child("ImplicitSolver");
+  const auto isExplicit = element.child("explicit");
+  if (given && !(isExplicit && isExplicit->text() == "true"))
+    diagnostics.error(*given,
+                      "is not available: steps are explicit, and as short as sound allows. Take it out, or run with "
+                      "--set CFD/ICE/explicit=true");
+}
+
+const Schema<IceSection>& iceSchema() {
+  static const Schema<IceSection> schema = [] {
+    Schema<IceSection> tags("ICE", "The method.");
+    tags.requiredSection("advection", &IceSection::advection, advectionSchema())
+        .value("explicit", &IceSection::isExplicit, false, "1", "steps are explicit in spite of an <ImplicitSolver>")
+        .ours()
+        .custom("ImplicitSolver", refuseImplicit, {"ImplicitSolver"}, "only with <explicit>, which passes over it")
+        .forms({input::anyForm({"ImplicitSolver"})});
+    input::noteTag(tags, "TimeStepControl", "steps follow from <cfl>, the sound and the diffusion in each cell");
+    input::noteTag(tags, "max_iteration_equilibration", "the pressure follows from density and energy");
+    input::noteTag(tags, "ClampSpecificVolume", "the specific volume is that of the density");
+    input::refuseTag(tags, "customInitialization", "give <velocity> or <temperature> a formula in x, y, z");
+    input::refuseTag(tags, "fixedPressureGradient", "a <gravity> of the gradient over the density drives a flow, too");
+    input::refuseTag(tags, "turbulence", "the viscosity is <dynamic_viscosity>");
+    input::refuseTag(tags, "wallShearStress", "at a wall with a Velocity the gas sticks");
+    input::refuseTag(tags, "ADD_HEAT", "give <temperature> a formula at the start");
+    input::refuseSwitch(tags, "applyHydrostaticPressure", "give <density> a formula at the start");
+    return tags;
+  }();
+  return schema;
+}
+
+struct IdealGas {};
+
+/// The equation of state; the tags of those that are missing are not looked at.
+void readState(GasMaterial&, const Element& element, Diagnostics& diagnostics) {
+  static const Schema<IdealGas> idealGas =
+      Schema<IdealGas>("EOS", "p = (gamma - 1) c_v rho T.").foreignAttribute("type", "ideal_gas");
+  const auto given = element.child("EOS");
+  if (!given) return diagnostics.error(element, "missing tag <EOS> in <material>");
+  const std::string problem = input::choiceProblem(given->attribute("type").value_or(""), {"ideal_gas"});
+  if (!problem.empty()) return diagnostics.error(given->whereOf("type"), given->path(), "attribute 'type': " + problem);
+  idealGas.read(*given, diagnostics);
+}
+
+const Schema<GasBody>& bodySchema() {
+  static const Schema<GasBody> schema = [] {
+    Schema<GasBody> tags("geom_object",
+                         "The gas of a region at the start; where regions overlap, the last one counts.");
+    input::addShape(tags, &GasBody::where, &GasBody::shape,
+                    "the region: cells whose middle is inside; several are united")
+        .required("density", &GasBody::density, "kg/m^3", "density at the start", input::positive(),
+                  input::WithoutTime())
+        .required("temperature", &GasBody::temperature, "K", "temperature at the start", input::positive(),
+                  input::WithoutTime())
+        .value("velocity", &GasBody::velocity, input::VectorExpression(), "m/s", "velocity at the start",
+               input::WithoutTime())
+        .optional("pressure", &GasBody::pressure, "Pa", "of no account: it follows from density and temperature")
+        .ignored("res", "a cell has the gas at its middle")
+        .ignoredAttribute("name", "for readers");
+    input::refuseOtherValues(tags, "volumeFraction", {"1"}, "the gas fills the region");
+    return tags;
+  }();
+  return schema;
+}
+
+const Schema<GasMaterial>& materialSchema() {
+  static const Schema<GasMaterial> schema = [] {
+    Schema<GasMaterial> tags("material", "A gas, and where it is at the start.");
+    tags.attributeValue("name", &GasMaterial::name, "", "1", "its name")
+        .ignoredAttribute("index", "there is one gas")
+        .custom("EOS", readState, {"EOS"}, "type=\"ideal_gas\": p = (gamma - 1) c_v rho T")
+        .forms({{.tags = {"EOS"}, .demands = {{"type", {"ideal_gas"}}}, .atLeast = 1, .repeats = false}})
+        .required("gamma", &GasMaterial::gamma, "1", "ratio of specific heats", input::greaterThan(1))
+        .required("specific_heat", &GasMaterial::specificHeat, "J/(kg K)", "c_v", input::positive())
+        .value("dynamic_viscosity", &GasMaterial::viscosity, 0, "Pa s",
+               "viscosity against shear; none against "
+               "a change of volume",
+               input::nonNegative())
+        .value("thermal_conductivity", &GasMaterial::conductivity, 0, "W/(m K)", "conductivity", input::nonNegative())
+        .list("geom_object", &GasMaterial::bodies, bodySchema(),
+              "the gas of a region at the start; where regions overlap, the last one counts; they must cover the grid",
+              1)
+        .ignored("isSurroundingMatl", "nothing depends on it")
+        .ignored("tiny_rho", "nothing depends on it");
+    input::refuseSwitch(tags, "includeFlowWork", "the total energy is conserved, with all work in it");
+    input::refuseTag(tags, "SpecificHeatModel", "c_v is the <specific_heat> at all temperatures");
+    input::refuseTag(tags, "dynamicViscosityModels", "the viscosity is <dynamic_viscosity> everywhere");
+    return tags;
+  }();
+  return schema;
+}
+
+const Schema<Exchange>& coefficientsSchema() {
+  static const Schema<Exchange> schema =
+      Schema<Exchange>("exchange_coefficients", "For pairs of materials: 0 and 1, 0 and 2, …, 1 and 2, …")
+          .location(&Exchange::where)
+          .value("momentum", &Exchange::momentum, {}, "kg/(m^3 s)", "of momentum", input::nonNegative())
+          .value("heat", &Exchange::heat, {}, "W/(m^3 K)", "of heat", input::nonNegative())
+          .ignoredAttribute("type", "coefficients are constant");
+  return schema;
+}
+
+const Schema<ExchangeSection>& exchangeSchema() {
+  static const Schema<ExchangeSection> schema = [] {
+    Schema<ExchangeSection> tags("exchange_properties", "What materials exchange.");
+    tags.requiredSection("exchange_coefficients", &ExchangeSection::coefficients, coefficientsSchema());
+    input::refuseSwitch(tags, "do_convective_heat_transfer", "walls are adiabatic");
+    for (const char* tag : {"convective_fluid", "convective_solid"})
+      tags.ignored(tag, "belongs to do_convective_heat_transfer");
+    for (const char* tag : {"CoefficientModel", "Model"}) input::refuseTag(tags, tag, "coefficients are constant");
+    return tags;
+  }();
+  return schema;
+}
+
+}  // namespace
+
+const Schema<CfdSection>& cfdSchema() {
+  static const Schema<CfdSection> schema =
+      Schema<CfdSection>("CFD", "The flow of the gas.")
+          .required("cfl", &CfdSection::cfl, "1", "dt times the greatest sum over axes of (|v| + c) / h",
+                    input::positive(), input::atMost(1))
+          .requiredSection("ICE", &CfdSection::ice, iceSchema());
+  return schema;
+}
+
+const Schema<PropertiesSection>& propertiesSchema() {
+  static const Schema<GasMaterials> list =
+      Schema<GasMaterials>("ICE", "The gas.")
+          .list("material", &GasMaterials::materials, materialSchema(), "the gas; there is one", 1)
+          .check([](const GasMaterials& read, const Element& element, Diagnostics& diagnostics) {
+            if (read.materials.size() > 1)
+              diagnostics.error(element.children("material")[1], "a second gas is not available; keep one <material>");
+          });
+  static const Schema<PropertiesSection> schema =
+      Schema<PropertiesSection>("MaterialProperties", "What there is.")
+          .requiredSection("ICE", &PropertiesSection::ice, list)
+          .section("exchange_properties", &PropertiesSection::exchange, exchangeSchema())
+          .ignored("MPM", "the solids of a scene that has them");
+  return schema;
+}
+
+const Schema<ConstantsSection>& constantsSchema() {
+  static const Schema<ConstantsSection> schema =
+      Schema<ConstantsSection>("PhysicalConstants", "What acts everywhere.")
+          .value("gravity", &ConstantsSection::gravity, Vec3::Zero(), "m/s^2", "acceleration of all that has mass")
+          .value("reference_pressure", &ConstantsSection::referencePressure, 0, "Pa",
+                 "what acts on solids from where there is no gas; a gas alone does not depend on it",
+                 input::nonNegative());
+  return schema;
+}
+
+const Schema<ModelsSection>& modelsSchema() {
+  static const Schema<ModelsSection> schema = [] {
+    Schema<ModelsSection> tags("Models", "Sources of mass, momentum and energy.");
+    input::refuseTag(tags, "Model", "take it out: nothing burns or is carried along");
+    return tags;
+  }();
+  return schema;
+}
+
+}  // namespace tushar::ice

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "components/ice/gas_input.hpp"
+#include "core/input/schema.hpp"
+
+// The sections of a scene of Uintah's ICE, as they are written.
+
+namespace tushar::ice {
+
+struct Advection {
+  euler::Reconstruction reconstruction = euler::Reconstruction::musclHancock;
+};
+
+/// `CFD/ICE`.
+struct IceSection {
+  Advection advection;
+  bool isExplicit = false;
+};
+
+/// `CFD`.
+struct CfdSection {
+  double cfl = 0;
+  IceSection ice;
+};
+
+/// The gas of a region at the start.
+struct GasBody {
+  Location where;  ///< in the scene
+  std::shared_ptr<const input::GeometryPiece> shape;
+  input::Expression density;                  ///< kg/m³
+  input::Expression temperature;              ///< K
+  input::VectorExpression velocity;           ///< m/s
+  std::optional<input::Expression> pressure;  ///< Pa; follows from the others
+};
+
+/// `MaterialProperties/ICE/material`.
+struct GasMaterial {
+  std::string name;
+  double gamma = 0;         ///< ratio of specific heats
+  double specificHeat = 0;  ///< c_v, J/(kg K)
+  double viscosity = 0;     ///< Pa s
+  double conductivity = 0;  ///< W/(m K)
+  std::vector<GasBody> bodies;
+};
+
+struct GasMaterials {
+  std::vector<GasMaterial> materials;
+};
+
+struct ExchangeSection {
+  Exchange coefficients;
+};
+
+/// `MaterialProperties`.
+struct PropertiesSection {
+  GasMaterials ice;
+  std::optional<ExchangeSection> exchange;
+};
+
+/// `PhysicalConstants`.
+struct ConstantsSection {
+  Vec3 gravity = Vec3::Zero();   ///< m/s²
+  double referencePressure = 0;  ///< Pa
+};
+
+const input::Schema<CfdSection>& cfdSchema();
+const input::Schema<PropertiesSection>& propertiesSchema();
+const input::Schema<ConstantsSection>& constantsSchema();
+
+struct ModelsSection {};
+const input::Schema<ModelsSection>& modelsSchema();
+
+}  // namespace tushar::ice

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "core/core.hpp"
+
+namespace tushar::ice {
+
+/// Variables of cells that only a gas with a specific heat has, and those that Uintah's ICE saves.
+namespace c {
+inline constexpr CellLabel<double> temperature{"c.temperature", "K", "temperature"};
+inline constexpr CellLabel<double> specificVolume{"c.specificVolume", "m^3/kg", "volume per mass"};
+inline constexpr CellLabel<double> soundSpeed{"c.soundSpeed", "m/s", "speed of sound"};
+}  // namespace c
+
+namespace total {
+inline constexpr ReductionLabel<Sum> internalEnergy{"TotalIntEng", "J", "internal energy in all cells"};
+}  // namespace total
+
+}  // namespace tushar::ice
