@@ -1,0 +1,83 @@
+#pragma once
+
+#include "components/mpmice/labels.hpp"
+#include "components/mpmice/settings.hpp"
+
+namespace tushar::mpmice {
+
+/// How much of cells and faces bodies leave to the gas, from the shares that bodies fill: c.freeVolume and c.coverage.
+///
+/// A face is open in part, or closed: then there is a wall. Areas close in each cell: along each axis it has the same
+/// area on both sides, open or wall, so that a gas at rest exerts no force.
+template <int D>
+class FreeSpace {
+ public:
+  /// `mass` per volume of the cell says where gas is.
+  FreeSpace(const Level& level, bool thinWalls, CellView<const double> free, CellView<const Vec<D>> coverage,
+            CellView<const double> mass)
+      : level_(&level), thin_walls_(thinWalls), free_(free), coverage_(coverage), mass_(mass) {}
+
+  double volume(const Index<D>& cell) const { return free_[cell]; }
+  /// Whether a cell has no room for gas, or no gas.
+  bool isEmpty(const Index<D>& cell) const { return free_[cell] < leastFreeVolume || !(mass_[cell] > 0); }
+  /// Whether the lower (0) or upper (1) face of a cell is on a side of the grid.
+  bool isAtSide(const Index<D>& cell, int axis, int side) const {
+    if (level_->isPeriodic(axis)) return false;
+    return side == 0 ? cell[axis] == level_->cells().lower[axis] : cell[axis] == level_->cells().upper[axis] - 1;
+  }
+
+  /// Open share of a face. More than `steepest` times the free volume beside it is closed: gas cannot rush out of what
+  /// is all but full.
+  double aperture(const Index<D>& cell, int axis, int side) const {
+    if (isAtSide(cell, axis, side)) return isEmpty(cell) ? 0 : free_[cell];
+    const Index<D> above = side == 0 ? cell : cell + Index<D>::unit(axis), below = above - Index<D>::unit(axis);
+    if (isEmpty(below) || isEmpty(above)) return 0;
+    constexpr double steepest = 8;
+    double most = steepest * std::min(free_[below], free_[above]);
+    if (thin_walls_) most = std::min(most, std::max(0.0, 1 - 4 * ((1 - free_[below]) + (1 - free_[above]))));
+    return std::max(0.0, std::min(1 - coverage_[above][axis], most));
+  }
+  /// Open and walled share of each of the two faces of a cell across an axis.
+  double area(const Index<D>& cell, int axis) const {
+    return std::max(std::max(aperture(cell, axis, 0), aperture(cell, axis, 1)), free_[cell]);
+  }
+  double wall(const Index<D>& cell, int axis, int side) const {
+    return isEmpty(cell) ? 0 : area(cell, axis) - aperture(cell, axis, side);
+  }
+
+  /// Unit vector into the body: the gradient of 1 - free volume over the cells around, weighted 1 2 1 across; 0 where
+  /// it has none. Source: D. L. Youngs, AWRE report 44/92/35 (1984).
+  Vec<D> normal(const Index<D>& cell) const {
+    Vec<D> gradient = Vec<D>::Zero();
+    Box around{{}, Index3::filled(1)};
+    for (int d = 0; d < D; ++d) around.upper[d] = 3;
+    forEach<D>(around, [&](const Index<D>& at) {
+      const double filled = 1 - free_[onGrid(cell + at - Index<D>::filled(1))];
+      for (int d = 0; d < D; ++d) {
+        if (at[d] == 1) continue;
+        double weight = at[d] == 0 ? -1 : 1;
+        for (int k = 0; k < D; ++k)
+          if (k != d && at[k] == 1) weight *= 2;
+        gradient[d] += weight * filled * level_->inverseSpacing(d);
+      }
+    });
+    const double length = gradient.norm();
+    return length > 0 ? Vec<D>(gradient / length) : gradient;
+  }
+
+ private:
+  /// The cell, or the one on the grid that is nearest to it.
+  Index<D> onGrid(Index<D> cell) const {
+    for (int d = 0; d < D; ++d)
+      if (!level_->isPeriodic(d)) cell[d] = std::clamp(cell[d], level_->cells().lower[d], level_->cells().upper[d] - 1);
+    return cell;
+  }
+
+  const Level* level_;
+  bool thin_walls_;
+  CellView<const double> free_;
+  CellView<const Vec<D>> coverage_;
+  CellView<const double> mass_;
+};
+
+}  // namespace tushar::mpmice

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "components/euler/tasks/check_state.hpp"
+#include "components/mpmice/free_space.hpp"
+
+namespace tushar::mpmice {
+
+/// How much room the gas has, and where it is.
+template <int D>
+struct RoomViews {
+  CellView<const double> free;
+  CellView<const Vec<D>> coverage;
+  CellView<const double> mass;
+
+  static RoomViews from(auto& take, auto reads, int ghost) {
+    return {.free = take(reads(c::freeVolume, ghost)),
+            .coverage = take(reads(c::coverage<D>, ghost)),
+            .mass = take(reads(c::density, ghost))};
+  }
+  FreeSpace<D> space(const Level& level, bool thinWalls) const { return {level, thinWalls, free, coverage, mass}; }
+};
+
+/// The gas in the free part of cells: what it holds, per volume of the cell, and how much room it has.
+template <int D>
+struct GasInCells {
+  euler::StateViews<D, const double> held;
+  CellView<const double> free;
+  CellView<const Vec<D>> coverage;
+
+  /// `reads` makes accesses of the state at the start of a step, or as the step has it.
+  static GasInCells from(auto& take, auto reads, int ghost, int ghostFree) {
+    return {.held = {take(reads(c::density, ghost)), take(reads(c::momentum<D>, ghost)),
+                     take(reads(c::totalEnergy, ghost))},
+            .free = take(reads(c::freeVolume, ghostFree)),
+            .coverage = take(reads(c::coverage<D>, ghostFree))};
+  }
+  FreeSpace<D> space(const Level& level, bool thinWalls) const {
+    return {level, thinWalls, free, coverage, held.density};
+  }
+  bool isEmpty(const Index<D>& cell) const { return free[cell] < leastFreeVolume || !(held.density[cell] > 0); }
+  /// rho, rho v, E of the gas alone; the cell must hold some.
+  euler::State<D> conserved(const Index<D>& cell) const {
+    const double inverse = 1 / free[cell];
+    euler::State<D> u;
+    u[euler::kDensity] = held.density[cell] * inverse;
+    for (int d = 0; d < D; ++d) u[euler::kVelocity(d)] = held.momentum[cell][d] * inverse;
+    u[euler::kPressure<D>] = held.totalEnergy[cell] * inverse;
+    return u;
+  }
+  /// rho, v, p of the gas alone.
+  euler::State<D> primitive(const euler::Gas& gas, const Index<D>& cell) const {
+    return euler::primitive<D>(gas, conserved(cell));
+  }
+};
+
+inline constexpr auto readsOld = [](const auto& label, int ghost) { return requiresOld(label, ghost); };
+inline constexpr auto readsNew = [](const auto& label, int ghost) { return requiresNew(label, ghost); };
+
+}  // namespace tushar::mpmice

@@ -1,0 +1,110 @@
+#include "components/mpmice/input.hpp"
+
+#include <fmt/format.h>
+
+#include "components/ice/gas_input.hpp"
+#include "components/mpm/boundary_labels.hpp"
+#include "components/mpm/solid/explicit/input.hpp"
+#include "components/mpm/solid/scene_input.hpp"
+#include "components/mpmice/mpmice.hpp"
+
+namespace tushar::mpmice {
+
+using input::Diagnostics;
+using input::Element;
+
+namespace {
+
+/// Of pairs of materials, those of a body and the gas; Uintah's matrices have the pairs row by row.
+template <class Visit>
+void forEachPairWithGas(const std::vector<double>& pairs, int solids, Visit&& visit) {
+  std::size_t at = 0;
+  for (int row = 0; row < solids; ++row)
+    for (int column = row + 1; column <= solids; ++column, ++at)
+      if (column == solids && at < pairs.size()) visit(row, pairs[at]);
+}
+
+/// Momentum goes by walls, or bodies are rigid; heat does not go.
+void checkExchange(const ice::Exchange& exchange, int solids, bool areRigid, const Element& root,
+                   Diagnostics& diagnostics) {
+  const auto tag = root.child("MaterialProperties")->child("exchange_properties")->child("exchange_coefficients");
+  constexpr double walls = 1e9;
+  forEachPairWithGas(exchange.momentum, solids, [&](int body, double k) {
+    if (k >= walls || (areRigid && k == 0)) return;
+    diagnostics.error(tag->child("momentum").value_or(*tag),
+                      fmt::format("{:g} between body {} and the gas is not available: bodies have walls, which is 1e9 "
+                                  "and more",
+                                  k, body));
+  });
+  forEachPairWithGas(exchange.heat, solids, [&](int body, double h) {
+    if (h == 0) return;
+    diagnostics.error(
+        tag->child("heat").value_or(*tag),
+        fmt::format("{:g} between body {} and the gas is not available: walls are adiabatic; set it to 0", h, body));
+  });
+}
+
+int countSolids(const Element& root) {
+  const auto properties = root.child("MaterialProperties");
+  const auto solids = properties ? properties->child("MPM") : std::nullopt;
+  return solids ? static_cast<int>(solids->children("material").size()) : 0;
+}
+
+/// What the gas has that it cannot have beside bodies.
+void checkGas(const ice::GasScene& scene, const Element& root, Diagnostics& diagnostics) {
+  const Element material = *root.child("MaterialProperties")->child("ICE")->child("material");
+  for (const auto& [tag, value] :
+       {std::pair("dynamic_viscosity", scene.viscosity), std::pair("thermal_conductivity", scene.conductivity)})
+    if (value > 0)
+      diagnostics.error(material.child(tag).value_or(material),
+                        "not beside bodies: set it to 0, or run the gas alone as component 'ice'");
+}
+
+template <int D>
+std::unique_ptr<Component> make(const Level& level, const Settings& settings,
+                                const mpm::solid::MakeSurrounded& makeSolids) {
+  auto gas = std::make_shared<const GasAround<D>>(settings);
+  std::unique_ptr<Component> solids = makeSolids(level, settings.areRigid, gas);
+  return std::make_unique<MpmIce<D>>(std::move(gas), std::move(solids));
+}
+
+simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnostics& diagnostics) {
+  const std::size_t before = diagnostics.size();
+  const int solids = countSolids(root);
+  const ice::GasScene scene = ice::readGas(root, solids, diagnostics);
+  const mpm::solid::MakeSurrounded makeSolids = mpm::solid::readSurrounded(root, diagnostics);
+  if (diagnostics.size() > before || !makeSolids) return {};
+  if (scene.exchange) checkExchange(*scene.exchange, solids, areRigid, root, diagnostics);
+  checkGas(scene, root, diagnostics);
+  if (diagnostics.size() > before) return {};
+  const Settings settings{scene.gas, scene.referencePressure, scene.gravity, false, areRigid};
+  return [settings, makeSolids](const Level& level) -> std::unique_ptr<Component> {
+    if (level.dimension() == 1) return make<1>(level, settings, makeSolids);
+    if (level.dimension() == 2) return make<2>(level, settings, makeSolids);
+    return make<3>(level, settings, makeSolids);
+  };
+}
+
+}  // namespace
+
+simulation::ComponentKind kind(bool areRigid) {
+  simulation::ComponentKind kind;
+  kind.name = areRigid ? "rmpmice" : "mpmice";
+  kind.sentence = areRigid ? "a compressible gas around bodies of particles that move as they started"
+                           : "a compressible gas and bodies of particles that act on each other";
+  kind.sections = {"CFD", "MPM", "MaterialProperties", "PhysicalConstants", "PhysicalBC", "Models", "Solver"};
+  kind.boundaryLabels = {grid::symmetric, euler::boundary::density, euler::boundary::pressure,
+                         mpm::boundary::velocity.evenOnPlanes(), mpm::boundary::temperature.evenOnPlanes()};
+  kind.describe = [](std::ostream& out) {
+    ice::describeGas(out);
+    out << "The bodies have <MPM>, <MaterialProperties>/<MPM> and <PhysicalBC> of the component mpm: sus --describe "
+           "mpm\n";
+  };
+  kind.nodesBeyond = mpm::solid::nodesBeyond;
+  kind.read = [areRigid](const Element& root, Diagnostics& diagnostics) {
+    return readScene(root, areRigid, diagnostics);
+  };
+  return kind;
+}
+
+}  // namespace tushar::mpmice

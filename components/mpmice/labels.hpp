@@ -1,0 +1,52 @@
+#pragma once
+
+#include "components/euler/labels.hpp"
+#include "components/ice/labels.hpp"
+#include "components/mpm/solid/labels.hpp"
+
+namespace tushar::mpmice {
+
+/// Cell variables. Of the gas, c.density, c.momentum and c.totalEnergy of `euler` are per volume of the cell, not of
+/// the gas in it. What belongs to faces belongs to the lower faces of a cell, one number for each axis.
+namespace c {
+using namespace euler::c;
+using namespace ice::c;
+inline constexpr CellLabel<double> freeVolume{"c.freeVolume", "1", "share of the cell that bodies leave to the gas"};
+template <int D>
+inline constexpr CellLabel<Vec<D>> coverage{"c.coverage", "1", "share of the lower faces that bodies cover"};
+template <int D>
+inline constexpr CellLabel<Vec<D>> swept{"c.swept", "1",
+                                         "volume of bodies that went up through the lower faces, over that of a cell"};
+/// Of a cell's gas on the walls at its faces.
+template <int D>
+inline constexpr CellLabel<Vec<D>> wallPressureBelow{"c.wallPressureBelow", "Pa", "on walls at the lower faces"};
+template <int D>
+inline constexpr CellLabel<Vec<D>> wallPressureAbove{"c.wallPressureAbove", "Pa", "on walls at the upper faces"};
+/// The state before small cells share theirs with others.
+inline constexpr CellLabel<double> unsharedDensity{"c.unsharedDensity", "kg/m^3", "before small cells share it"};
+template <int D>
+inline constexpr CellLabel<Vec<D>> unsharedMomentum{"c.unsharedMomentum", "kg/(m^2 s)", "before small cells share it"};
+inline constexpr CellLabel<double> unsharedEnergy{"c.unsharedEnergy", "J/m^3", "before small cells share it"};
+inline constexpr CellLabel<double> gasDensity{"c.gasDensity", "kg/m^3", "mass per volume of the gas; 0 where none is"};
+}  // namespace c
+
+namespace p {
+using namespace mpm::solid::p;
+}
+namespace g {
+using namespace mpm::solid::g;
+}
+
+/// Totals. Those of `euler` and of the solids that have the same name add up.
+namespace total {
+inline constexpr ReductionLabel<Sum> gasMass{"GasMass", "kg", "mass of the gas"};
+inline constexpr ReductionLabel<VectorSum> gasMomentum{"GasMomentum", "kg m/s", "momentum of the gas"};
+inline constexpr ReductionLabel<Sum> gasEnergy{"GasEnergy", "J", "internal and kinetic energy of the gas"};
+inline constexpr ReductionLabel<Sum> gasKineticEnergy{"GasKineticEnergy", "J", "kinetic energy of the gas"};
+inline constexpr ReductionLabel<VectorSum> forceOnBodies{"GasForceOnBodies", "N",
+                                                         "force of the gas on all bodies, above reference_pressure"};
+inline constexpr ReductionLabel<Minimum> leastFreeVolume{"LeastFreeVolume", "1",
+                                                         "least share of a cell that holds gas"};
+}  // namespace total
+
+}  // namespace tushar::mpmice

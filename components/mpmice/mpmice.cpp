@@ -1,0 +1,88 @@
+#include "components/mpmice/mpmice.hpp"
+
+#include "components/euler/tasks/add_gravity.hpp"
+#include "components/euler/tasks/diagnose.hpp"
+#include "components/mpmice/tasks/advance_gas.hpp"
+#include "components/mpmice/tasks/compute_stable_time_step.hpp"
+#include "components/mpmice/tasks/diagnose.hpp"
+#include "components/mpmice/tasks/initialize.hpp"
+#include "components/mpmice/tasks/measure_bodies.hpp"
+#include "components/mpmice/tasks/share_small_cells.hpp"
+
+namespace tushar::mpmice {
+
+namespace {
+
+/// The body of advanceGas for a method.
+template <int D>
+auto advanceBody(const euler::Method& method) {
+  return method.reconstruction == euler::Reconstruction::firstOrder
+             ? advanceGas<D, euler::Hllc, euler::Constant>
+             : advanceGas<D, euler::Hllc, euler::Sloped<VanLeer>>;
+}
+
+}  // namespace
+
+template <int D>
+void GasAround<D>::scheduleStart(TaskList& tasks, const Materials& materials) const {
+  tasks.acrossMaterials("mpmice::measureFreeSpace", measureFreeSpace<D>, materials, all<Boxes<D>>(readsNew, readsNew),
+                        withoutMaterial(all<FreeShares<D>>()));
+  tasks.perPatch("mpmice::initialize", euler::initialize<D>, with(settings_.gas), computes(c::density),
+                 computes(c::momentum<D>), computes(c::totalEnergy));
+  tasks.perPatch("mpmice::fillFreeSpace", fillFreeSpace<D>, requiresNew(c::freeVolume), modifies(c::density),
+                 modifies(c::momentum<D>), modifies(c::totalEnergy));
+}
+
+template <int D>
+void GasAround<D>::scheduleForces(TaskList& tasks, const Materials& materials) const {
+  tasks.acrossMaterials("mpmice::computeWallPressure", computeWallPressure<D>, materials, with(settings_),
+                        withoutMaterial(all<GasInCells<D>>(readsOld, 1, 2)), requiresNew(g::record, 1),
+                        withoutMaterial(all<WallPressures<D>>()));
+  tasks.acrossMaterials("mpmice::addWallForce", addWallForce<D>, materials, with(settings_),
+                        withoutMaterial(all<RoomViews<D>>(readsOld, 3)), withoutMaterial(all<KnownWalls<D>>(2)),
+                        requiresNew(g::record, 2), computes(total::forceOnBodies), computes(g::surroundingForce<D>));
+}
+
+template <int D>
+void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) const {
+  tasks.acrossMaterials("mpmice::measureMotion", measureMotion<D>, materials, all<MovedBoxes<D>>(),
+                        withoutMaterial(all<FreeShares<D>>()), withoutMaterial(computes(c::swept<D>)));
+  tasks.acrossMaterials("mpmice::advanceGas", advanceBody<D>(settings_.gas.method), materials, with(settings_),
+                        requiresOld(delT), withoutMaterial(all<GasInCells<D>>(readsOld, 2, 3)),
+                        withoutMaterial(all<BodiesInStep<D>>()), requiresNew(g::record, 2),
+                        withoutMaterial(all<UnsharedGas<D>>()));
+  tasks.perPatch("mpmice::shareSmallCells", shareSmallCells<D>, with(settings_), all<Unshared<D>>(), all<NewGas<D>>());
+  if (!settings_.gravity.isZero(0))
+    tasks.perPatch("euler::addGravity", euler::addGravity<D>, with(settings_.gravity), requiresNew(c::density),
+                   requiresOld(delT), modifies(c::momentum<D>), modifies(c::totalEnergy));
+}
+
+template <int D>
+void GasAround<D>::scheduleStableTimeStep(TaskList& tasks) const {
+  tasks.perPatch("mpmice::computeStableTimeStep", computeStableTimeStep<D>, with(settings_),
+                 all<GasInCells<D>>(readsOld, 0, 0), computes(delT));
+}
+
+template <int D>
+void GasAround<D>::scheduleDiagnostics(TaskList& tasks) const {
+  const auto gas = all<GasInCells<D>>(readsOld, 0, 0);
+  tasks.perPatch("mpmice::computePressure", computePressure<D>, with(settings_), gas, computes(c::pressure));
+  tasks.perPatch("mpmice::computeVelocity", computeVelocity<D>, gas, computes(c::velocity<D>));
+  tasks.perPatch("mpmice::computeMach", computeMach<D>, with(settings_), gas, computes(c::mach<D>));
+  tasks.perPatch("mpmice::computeGasDensity", computeGasDensity<D>, gas, computes(c::gasDensity));
+  tasks.perPatch("mpmice::computeTemperature", computeTemperature<D>, with(settings_), gas, computes(c::temperature));
+  for (const auto* mass : {&total::gasMass, &euler::total::mass})
+    tasks.perPatch("mpmice::sumMass", euler::sumMass<D>, requiresOld(c::density), computes(*mass));
+  for (const auto* momentum : {&total::gasMomentum, &euler::total::momentum})
+    tasks.perPatch("mpmice::sumMomentum", euler::sumMomentum<D>, requiresOld(c::momentum<D>), computes(*momentum));
+  tasks.perPatch("mpmice::sumEnergy", euler::sumEnergy<D>, requiresOld(c::totalEnergy), computes(total::gasEnergy));
+  for (const auto* energy : {&total::gasKineticEnergy, &euler::total::kineticEnergy})
+    tasks.perPatch("mpmice::sumKineticEnergy", sumKineticEnergy<D>, gas, computes(*energy));
+  tasks.perPatch("mpmice::findLeastFreeVolume", findLeastFreeVolume<D>, gas, computes(total::leastFreeVolume));
+}
+
+template class GasAround<1>;
+template class GasAround<2>;
+template class GasAround<3>;
+
+}  // namespace tushar::mpmice

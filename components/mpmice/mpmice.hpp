@@ -1,0 +1,57 @@
+#pragma once
+
+#include "components/mpm/solid/surroundings.hpp"
+#include "components/mpmice/labels.hpp"
+#include "components/mpmice/settings.hpp"
+
+namespace tushar::mpmice {
+
+/// A gas in the space that bodies of particles leave free, in D dimensions: finite volumes with walls.
+///
+/// Its tasks stand among those of the solids, which call them: see schedule.cpp, which reads as the method.
+template <int D>
+class GasAround : public mpm::solid::Surroundings {
+ public:
+  using Materials = std::vector<mpm::solid::Material>;
+
+  explicit GasAround(Settings settings) : settings_(std::move(settings)) {}
+
+  const Settings& settings() const { return settings_; }
+  void scheduleStart(TaskList& tasks, const Materials& materials) const override;
+  void scheduleForces(TaskList& tasks, const Materials& materials) const override;
+  void scheduleMotion(TaskList& tasks, const Materials& materials) const override;
+  void scheduleStableTimeStep(TaskList& tasks) const;
+  void scheduleDiagnostics(TaskList& tasks) const;
+
+ private:
+  Settings settings_;
+};
+
+/// Solids and a gas on one grid.
+template <int D>
+class MpmIce : public Component {
+ public:
+  /// `solids` are those that `gas` is around.
+  MpmIce(std::shared_ptr<const GasAround<D>> gas, std::unique_ptr<Component> solids)
+      : gas_(std::move(gas)), solids_(std::move(solids)) {}
+
+  void scheduleInitialize(TaskList& tasks) const override { solids_->scheduleInitialize(tasks); }
+  void scheduleComputeStableTimeStep(TaskList& tasks) const override {
+    solids_->scheduleComputeStableTimeStep(tasks);
+    gas_->scheduleStableTimeStep(tasks);
+  }
+  void scheduleTimeAdvance(TaskList& tasks) const override { solids_->scheduleTimeAdvance(tasks); }
+  void scheduleDiagnostics(TaskList& tasks) const override {
+    solids_->scheduleDiagnostics(tasks);
+    gas_->scheduleDiagnostics(tasks);
+  }
+  std::string advice() const override { return "a smaller CFD/cfl, or more particles per cell along surfaces (res)"; }
+  bool mayRepeatStep() const override { return true; }
+  std::vector<std::string> foreignLabels() const override { return solids_->foreignLabels(); }
+
+ private:
+  std::shared_ptr<const GasAround<D>> gas_;
+  std::unique_ptr<Component> solids_;
+};
+
+}  // namespace tushar::mpmice

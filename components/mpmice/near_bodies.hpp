@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/core.hpp"
+
+namespace tushar::mpmice {
+
+/// Which cells have bodies near them: all others are plain gas.
+template <int D>
+class NearBodies {
+ public:
+  /// Of the cells of a box, those within `layers` of a cell with a free volume below 1. `free` may end at the grid.
+  NearBodies(const Box& box, int layers, CellView<const double> free) : box_(box), is_near_(box.size(), 0) {
+    forEach<D>(free.box().intersect(box.grown(layers, D)), [&](const Index<D>& cell) {
+      if (!(free[cell] < 1)) return;
+      has_any_ = true;
+      Box around{{}, Index3::filled(1)};
+      for (int d = 0; d < D; ++d) {
+        around.lower[d] = cell[d] - layers;
+        around.upper[d] = cell[d] + layers + 1;
+      }
+      around = around.intersect(box_);
+      forEach<D>(around, [&](const Index<D>& at) { is_near_[offset(at)] = 1; });
+    });
+  }
+
+  bool hasAny() const { return has_any_; }
+  bool operator()(const Index<D>& cell) const { return is_near_[offset(cell)] != 0; }
+  /// Calls `visit(cell)` for the cells of a box that are near a body.
+  template <class Visit>
+  void forEachIn(const Box& box, Visit&& visit) const {
+    if (!has_any_) return;
+    forEach<D>(box, [&](const Index<D>& cell) {
+      if ((*this)(cell)) visit(cell);
+    });
+  }
+  bool anyIn(const Box& box) const {
+    bool any = false;
+    forEachIn(box, [&](const Index<D>&) { any = true; });
+    return any;
+  }
+
+ private:
+  std::size_t offset(const Index<D>& cell) const {
+    Index3 wide{};
+    for (int d = 0; d < D; ++d) wide[d] = cell[d];
+    return box_.offset(wide);
+  }
+
+  Box box_;
+  std::vector<std::uint8_t> is_near_;
+  bool has_any_ = false;
+};
+
+}  // namespace tushar::mpmice

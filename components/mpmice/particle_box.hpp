@@ -1,0 +1,65 @@
+#pragma once
+
+#include <Eigen/LU>
+
+#include "components/mpm/solid/transfer/extent.hpp"
+
+namespace tushar::mpmice {
+
+/// The box that stands for a particle: its middle and its edges along the axes, in cells, from the lower corner of the
+/// cell in which the particle started the step.
+template <int D>
+struct ParticleBox {
+  Vec<D> middle, edges;
+
+  /// Length along an axis, in cells, of what lies in the cell `k`.
+  double lengthIn(int axis, int k) const {
+    const double lower = std::max(middle[axis] - 0.5 * edges[axis], double(k));
+    const double upper = std::min(middle[axis] + 0.5 * edges[axis], k + 1.0);
+    return std::max(0.0, upper - lower);
+  }
+  /// Length along an axis of what lies above the lower face of the cell `k`.
+  double lengthAbove(int axis, int k) const {
+    return std::clamp(middle[axis] + 0.5 * edges[axis] - k, 0.0, edges[axis]);
+  }
+  /// Weight of the lower face of the cell `k` across an axis: 1 in the middle, falling to 0 where the middle is as far
+  /// away as the box is long, so that boxes side by side cover a face wholly.
+  double hatAt(int axis, int k) const { return std::max(0.0, 1 - std::abs(k - middle[axis]) / edges[axis]); }
+
+  /// The cells that the box may reach into, or whose lower faces have a weight.
+  Box reach() const {
+    Box cells{{}, Index3::filled(1)};
+    for (int d = 0; d < D; ++d) {
+      cells.lower[d] = static_cast<int>(std::floor(middle[d] - edges[d]));
+      cells.upper[d] = static_cast<int>(std::floor(middle[d] + edges[d])) + 1;
+    }
+    return cells;
+  }
+};
+
+/// Longest edge of a box, in cells; a particle that is longer counts as one of that length.
+inline constexpr double longestEdge = 1.5;
+
+/// Edges, in cells, of the box of a particle that started with the edges `size`, in cells, and was deformed by F: those
+/// of F along the axes where it turns nothing, else |F S e_a| along each axis, scaled to the volume det F.
+template <int D>
+Vec<D> edgesOf(const Level& level, const Vec<D>& size, const mpm::solid::Matrix3& deformation) {
+  Eigen::Matrix<double, D, D> edges;
+  bool isTurned = false;
+  for (int i = 0; i < D; ++i)
+    for (int j = 0; j < D; ++j) {
+      edges(i, j) = deformation(mpm::solid::sceneAxis<D>(level, i), mpm::solid::sceneAxis<D>(level, j)) * size[j];
+      if (i == j) continue;
+      isTurned |= edges(i, j) != 0;
+      edges(i, j) *= level.spacing(j) * level.inverseSpacing(i);
+    }
+  Vec<D> lengths = edges.diagonal();
+  if (isTurned) {
+    for (int i = 0; i < D; ++i) lengths[i] = edges.row(i).norm();
+    const double volume = std::abs(edges.determinant());
+    lengths *= std::pow(volume / lengths.prod(), 1.0 / D);
+  }
+  return lengths.cwiseAbs().cwiseMin(longestEdge);
+}
+
+}  // namespace tushar::mpmice

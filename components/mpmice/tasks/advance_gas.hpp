@@ -1,0 +1,246 @@
+#pragma once
+
+#include "components/euler/tasks/advance_patch.hpp"
+#include "components/mpmice/tasks/wall_force.hpp"
+
+namespace tushar::mpmice {
+
+/// What the bodies did in a step, as the gas sees it: walls, and how free volume and faces changed.
+template <int D>
+struct BodiesInStep {
+  KnownWalls<D> walls;
+  CellView<const double> newFree;
+  CellView<const Vec<D>> swept;
+
+  static BodiesInStep from(auto& take) {
+    return {.walls = KnownWalls<D>::from(take, 1),
+            .newFree = take(requiresNew(c::freeVolume, 3)),
+            .swept = take(requiresNew(c::swept<D>, 1))};
+  }
+};
+
+/// The state after a step, before small cells share theirs.
+template <int D>
+struct UnsharedGas {
+  euler::StateViews<D, double> held;
+
+  static UnsharedGas from(auto& take) {
+    return {.held = {take(computes(c::unsharedDensity)), take(computes(c::unsharedMomentum<D>)),
+                     take(computes(c::unsharedEnergy))}};
+  }
+};
+
+/// What happens to the gas at walls in a step.
+template <int D>
+class WallExchange {
+ public:
+  WallExchange(const Level& level, const Settings& settings, const GasInCells<D>& cells, const BodiesInStep<D>& bodies,
+               const typename BodiesAtNodes<D>::Records& records, double dt)
+      : level_(level),
+        gas_(settings.gas.gas),
+        cells_(cells),
+        space_(cells.space(level, settings.thinWalls)),
+        step_(bodies),
+        nodes_(level, records),
+        dt_(dt) {}
+
+  const FreeSpace<D>& space() const { return space_; }
+
+  /// Adds to the content of a cell what walls at its faces push, and what gas flows in behind walls that move.
+  void addTo(const Index<D>& cell, const euler::StateViews<D, double>& held) const {
+    for (int d = 0; d < D; ++d)
+      for (int side = 0; side < 2; ++side) {
+        const Index<D> face = side == 0 ? cell : cell + Index<D>::unit(d);
+        const double wall = space_.wall(cell, d, side);
+        const bool flows = !space_.isAtSide(cell, d, side) && mayFlow(face, d);
+        if (!(wall > 0) && !flows) continue;
+        const Vec<D> after = nodes_.velocityAt(face, d, mpm::solid::lane::velocity);
+        if (wall > 0) push(cell, d, side, wall, after, held);
+        if (flows) flow(cell, d, side, after[d], held);
+      }
+  }
+
+ private:
+  /// Momentum and work of a wall: its pressure, at the mean of its velocities before and after the step.
+  void push(const Index<D>& cell, int axis, int side, double wall, const Vec<D>& after,
+            const euler::StateViews<D, double>& held) const {
+    const Index<D> face = side == 0 ? cell : cell + Index<D>::unit(axis);
+    const Vec<D> before = nodes_.velocityAt(face, axis, mpm::solid::lane::before);
+    const double pressure = side == 0 ? step_.walls.below[cell][axis] : step_.walls.above[cell][axis];
+    const double impulse = (side == 0 ? wall : -wall) * pressure * dt_ * level_.inverseSpacing(axis);
+    held.momentum[cell][axis] += impulse;
+    held.totalEnergy[cell] += impulse * (0.5 * (before[axis] + after[axis]));
+  }
+
+  /// Whether bodies are at the face below a cell, or went through it.
+  bool mayFlow(const Index<D>& face, int axis) const {
+    const Index<D> below = face - Index<D>::unit(axis);
+    return cells_.free[face] < 1 || cells_.free[below] < 1 || step_.swept[face][axis] != 0;
+  }
+
+  /// Gas follows a wall that draws back, and makes way for one that comes, with all it holds: what the covered share of
+  /// the face would sweep less what bodies swept.
+  void flow(const Index<D>& cell, int axis, int side, double wallVelocity,
+            const euler::StateViews<D, double>& held) const {
+    const Index<D> above = side == 0 ? cell : cell + Index<D>::unit(axis), below = above - Index<D>::unit(axis);
+    const double up = (1 - space_.aperture(above, axis, 0)) * wallVelocity * dt_ * level_.inverseSpacing(axis) -
+                      step_.swept[above][axis];
+    if (up == 0) return;
+    const Index<D>&donor = up > 0 ? below : above, &receiver = up > 0 ? above : below;
+    if (isClosedPore(receiver)) return;
+    const std::optional<euler::State<D>> u = stateOf(donor, receiver);
+    if (!u) return;
+    const double volume = side == 0 ? up : -up;
+    held.density[cell] += volume * (*u)[euler::kDensity];
+    for (int d = 0; d < D; ++d) held.momentum[cell][d] += volume * (*u)[euler::kVelocity(d)];
+    held.totalEnergy[cell] += volume * (*u)[euler::kPressure<D>];
+  }
+
+  /// Of the donor's gas; where it has none, the receiver's; where that has none either, the mean of what is around the
+  /// donor.
+  std::optional<euler::State<D>> stateOf(const Index<D>& donor, const Index<D>& receiver) const {
+    if (!cells_.isEmpty(donor)) return cells_.conserved(donor);
+    if (!cells_.isEmpty(receiver)) return cells_.conserved(receiver);
+    euler::State<D> sum{};
+    int count = 0;
+    for (int d = 0; d < D; ++d)
+      for (int side = 0; side < 2; ++side) {
+        if (space_.isAtSide(donor, d, side)) continue;
+        const Index<D> next = side == 0 ? donor - Index<D>::unit(d) : donor + Index<D>::unit(d);
+        if (cells_.isEmpty(next)) continue;
+        const euler::State<D> u = cells_.conserved(next);
+        for (std::size_t k = 0; k < u.size(); ++k) sum[k] += u[k];
+        ++count;
+      }
+    if (count == 0) return std::nullopt;
+    for (double& value : sum) value /= count;
+    return sum;
+  }
+
+  /// A hole in a body: hardly free, and no cell within two that is free for the most part.
+  bool isClosedPore(const Index<D>& cell) const {
+    constexpr double narrow = 0.2, wide = 0.5;
+    if (!(step_.newFree[cell] < narrow)) return false;
+    Box around{{}, Index3::filled(1)};
+    for (int d = 0; d < D; ++d) {
+      around.lower[d] = cell[d] - 2;
+      around.upper[d] = cell[d] + 3;
+    }
+    bool closed = true;
+    forEach<D>(level_.clipCells(around), [&](const Index<D>& at) { closed &= !(step_.newFree[at] > wide); });
+    return closed;
+  }
+
+  const Level& level_;
+  const euler::Gas& gas_;
+  const GasInCells<D>& cells_;
+  FreeSpace<D> space_;
+  const BodiesInStep<D>& step_;
+  BodiesAtNodes<D> nodes_;
+  double dt_;
+};
+
+/// rho, v, p of the gas in the cells of the work's box; where there is none, of some gas that moves nowhere: what flows
+/// from there is closed off.
+template <int D>
+void recoverGas(const euler::Gas& gas, const Level& level, const GasInCells<D>& cells, euler::Rows<D>& w) {
+  forEach<D>(level.clipCells(w.box()), [&](const Index<D>& cell) {
+    euler::State<D> state{};
+    state[euler::kDensity] = 1;
+    state[euler::kPressure<D>] = 1;
+    if (!cells.isEmpty(cell)) state = cells.primitive(gas, cell);
+    euler::store<D>(w.at(cell), 0, state);
+  });
+}
+
+/// Cells with a body in them or beside them are taken as constant.
+template <int D>
+void flattenAtBodies(const Level& level, const Box& box, CellView<const double> free, euler::Work<D>& work) {
+  const auto hasBody = [&](const Index<D>& cell) {
+    return level.clipCells(box.grown(1, D)).contains(cell) && free[cell] < 1;
+  };
+  forEach<D>(level.clipCells(box), [&](const Index<D>& cell) {
+    bool isPlain = !hasBody(cell);
+    for (int d = 0; d < D && isPlain; ++d)
+      isPlain = !hasBody(cell - Index<D>::unit(d)) && !hasBody(cell + Index<D>::unit(d));
+    if (isPlain) return;
+    const euler::State<D> w = euler::load<D>(work.w.at(cell), 0);
+    for (std::size_t d = 0; d < work.lower.size(); ++d) {
+      euler::store<D>(work.lower[d].at(cell), 0, w);
+      euler::store<D>(work.upper[d].at(cell), 0, w);
+    }
+  });
+}
+
+/// Lets the fluxes through the lower faces of the cells of `faces` pass as far as these are open.
+template <int D>
+void closeFaces(const Level& level, const FreeSpace<D>& space, const NearBodies<D>& near, const Box& faces, int axis,
+                euler::Rows<D>& flux) {
+  const bool periodic = level.isPeriodic(axis);
+  near.forEachIn(faces, [&](const Index<D>& cell) {
+    const bool isUpperSide = !periodic && cell[axis] == level.cells().upper[axis];
+    const double open =
+        isUpperSide ? space.aperture(cell - Index<D>::unit(axis), axis, 1) : space.aperture(cell, axis, 0);
+    if (open == 1) return;
+    const typename euler::Rows<D>::Pointers f = flux.at(cell);
+    for (double* number : f) *number = open > 0 ? open * *number : 0.0;
+  });
+}
+
+/// What flows through the faces of a block across an axis, as far as these are open.
+template <int D, class Flux, class Shape, int Axis>
+void sweepOpen(const euler::Gas& gas, const WallExchange<D>& exchange, const NearBodies<D>& near, const Level& level,
+               const Box& block, double ratio, const euler::StateViews<D, const double>& old, euler::Work<D>& work,
+               const euler::StateViews<D, double>& fresh) {
+  Box faces = block;
+  ++faces.upper[Axis];
+  euler::computeFluxes<D, Flux, Shape, Axis>(gas, faces, work);
+  closeFaces<D>(level, exchange.space(), near, faces, Axis, work.flux);
+  euler::addFluxes<D, Axis>(ratio, block, old, work.flux, fresh);
+}
+
+/// A step of a block with bodies in it or around: `euler`'s, through open faces alone, and what walls do.
+template <int D, class Flux, class Shape>
+void advanceAtBodies(const Level& level, const Settings& settings, double dt, const Box& block,
+                     const GasInCells<D>& cells, const WallExchange<D>& exchange, const NearBodies<D>& near,
+                     euler::Work<D>& work, const euler::StateViews<D, double>& fresh) {
+  const euler::Gas& gas = settings.gas.gas;
+  work.hold(block.grown(Shape::reach, D));
+  recoverGas<D>(gas, level, cells, work.w);
+  euler::fillBeyondGrid<D>(level, euler::ghostRules<D>(level, gas), work.w);
+  euler::predict<D>(gas, level, block.grown(1, D), dt, work, Shape{});
+  flattenAtBodies<D>(level, block.grown(1, D), cells.free, work);
+  const auto sweep = [&]<int Axis>() {
+    sweepOpen<D, Flux, Shape, Axis>(gas, exchange, near, level, block, dt / level.spacing(Axis), cells.held, work,
+                                    fresh);
+  };
+  sweep.template operator()<0>();
+  if constexpr (D > 1) sweep.template operator()<1>();
+  if constexpr (D > 2) sweep.template operator()<2>();
+  near.forEachIn(block, [&](const Index<D>& cell) { exchange.addTo(cell, fresh); });
+}
+
+/// One step of the gas: that of `euler` where no body is near, to the last bit; at bodies, fluxes go through the open
+/// share of faces, walls push by their pressure and do work by the mean of their velocities before and after the step,
+/// and gas follows walls that move.
+template <int D, class Flux, class Shape>
+void advanceGas(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings, double dt,
+                const GasInCells<D>& cells, const BodiesInStep<D>& bodies,
+                const typename BodiesAtNodes<D>::Records& records, const UnsharedGas<D>& fresh) {
+  const Level& level = patch.level();
+  const euler::Gas& gas = settings.gas.gas;
+  const euler::GhostRules<D> rules = euler::ghostRules<D>(level, gas);
+  const NearBodies<D> near(patch.cells().grown(1, D), nearLayers, cells.free);
+  const WallExchange<D> exchange(level, settings, cells, bodies, records, dt);
+  euler::Work<D> work(patch.cells(), Shape::reach);
+  bool fine = true;
+  euler::forEachBlock<D>(patch.cells(), [&](const Box& block) {
+    if (near.anyIn(block.grown(1, D)))
+      return advanceAtBodies<D, Flux, Shape>(level, settings, dt, block, cells, exchange, near, work, fresh.held);
+    euler::advanceBlock<D, Flux, Shape>(gas, level, rules, block, dt, cells.held, work, fresh.held, {});
+    fine &= euler::canBe<D>(gas, block, fresh.held);
+  });
+  if (!fine) euler::refuseBroken<D>(patch, gas, fresh.held, &cells.held);
+}
+
+}  // namespace tushar::mpmice

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "components/mpmice/gas_in_cells.hpp"
+
+namespace tushar::mpmice {
+
+/// dt = cfl / max(sum_d (|v_d| + c) / h_d) of the gas.
+/// Throws NumericalError where its density, or p + p_inf, is not positive.
+template <int D>
+void computeStableTimeStep(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, Minimum& dt) {
+  const euler::Gas& gas = settings.gas.gas;
+  const Level& level = patch.level();
+  double widths = 0, most = 0;
+  for (int d = 0; d < D; ++d) widths += level.inverseSpacing(d);
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    if (cells.isEmpty(cell)) return;
+    const double free = 1 / cells.free[cell], rho = cells.held.density[cell] * free, inverse = 1 / rho;
+    const Vec<D>& m = cells.held.momentum[cell];
+    double squared = 0, sum = 0;
+    for (int d = 0; d < D; ++d) {
+      squared += (m[d] * free) * (m[d] * free);
+      sum += std::abs(m[d] * free) * level.inverseSpacing(d);
+    }
+    const double p = gas.pressure(cells.held.totalEnergy[cell] * free - 0.5 * squared * inverse) + gas.pInfinity;
+    if (!(p > 0)) euler::refuseState<D, const double>(level, gas, cell, cells.held, nullptr);
+    const double rate = sum * inverse + std::sqrt(gas.gamma * p * inverse) * widths;
+    most = rate > most ? rate : most;
+  });
+  if (most > 0) dt.add(settings.gas.cfl / most, "CFL");
+}
+
+/// dt = cfl times what the solids take: the gas sees bodies move only once a step.
+inline void limitSolidStep(const Patch& patch, const mpm::solid::Material&, double cfl,
+                           CellView<const double> stableTimeStep, Minimum& dt) {
+  double least = std::numeric_limits<double>::infinity();
+  const Box& cells = patch.cells();
+  forEach<3>(cells, [&](const Index3& cell) { least = std::min(least, stableTimeStep[cell]); });
+  if (std::isfinite(least)) dt.add(cfl * least, "CFL of solids beside a gas");
+}
+
+}  // namespace tushar::mpmice

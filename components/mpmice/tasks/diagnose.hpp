@@ -1,0 +1,77 @@
+#pragma once
+
+#include "components/mpmice/gas_in_cells.hpp"
+
+namespace tushar::mpmice {
+
+/// The state of the gas in cells that hold some; else 0.
+template <int D, class Show>
+void showGas(const Patch& patch, const GasInCells<D>& cells, Show&& show) {
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) { show(cell, !cells.isEmpty(cell)); });
+}
+
+template <int D>
+void computePressure(const Patch& patch, const Settings& settings, const GasInCells<D>& cells,
+                     CellView<double> pressure) {
+  showGas<D>(patch, cells, [&](const Index<D>& cell, bool hasGas) {
+    pressure[cell] = hasGas ? cells.primitive(settings.gas.gas, cell)[euler::kPressure<D>] : 0;
+  });
+}
+
+template <int D>
+void computeVelocity(const Patch& patch, const GasInCells<D>& cells, CellView<Vec<D>> velocity) {
+  showGas<D>(patch, cells, [&](const Index<D>& cell, bool hasGas) {
+    velocity[cell] = hasGas ? Vec<D>(cells.held.momentum[cell] / cells.held.density[cell]) : Vec<D>(Vec<D>::Zero());
+  });
+}
+
+template <int D>
+void computeMach(const Patch& patch, const Settings& settings, const GasInCells<D>& cells, CellView<Vec<D>> mach) {
+  showGas<D>(patch, cells, [&](const Index<D>& cell, bool hasGas) {
+    mach[cell] = Vec<D>::Zero();
+    if (!hasGas) return;
+    const euler::State<D> w = cells.primitive(settings.gas.gas, cell);
+    const double c2 = settings.gas.gas.soundSpeedSquared(w[euler::kDensity], w[euler::kPressure<D>]);
+    for (int d = 0; d < D; ++d) mach[cell][d] = w[euler::kVelocity(d)] / std::sqrt(c2);
+  });
+}
+
+template <int D>
+void computeGasDensity(const Patch& patch, const GasInCells<D>& cells, CellView<double> density) {
+  showGas<D>(patch, cells, [&](const Index<D>& cell, bool hasGas) {
+    density[cell] = hasGas ? cells.held.density[cell] / cells.free[cell] : 0;
+  });
+}
+
+/// T = (p + p_inf) / ((gamma - 1) c_v rho), K.
+template <int D>
+void computeTemperature(const Patch& patch, const Settings& settings, const GasInCells<D>& cells,
+                        CellView<double> temperature) {
+  const euler::Gas& gas = settings.gas.gas;
+  showGas<D>(patch, cells, [&](const Index<D>& cell, bool hasGas) {
+    temperature[cell] = 0;
+    if (!hasGas) return;
+    const euler::State<D> w = cells.primitive(gas, cell);
+    temperature[cell] = (w[euler::kPressure<D>] + gas.pInfinity) / (gas.gasConstant() * w[euler::kDensity]);
+  });
+}
+
+/// Kinetic energy of the gas, J.
+template <int D>
+void sumKineticEnergy(const Patch& patch, const GasInCells<D>& cells, Sum& energy) {
+  WideSum sum(energy);
+  const double half = 0.5 * patch.level().cellVolume();
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    if (!cells.isEmpty(cell)) sum.add(half * cells.held.momentum[cell].squaredNorm() / cells.held.density[cell]);
+  });
+}
+
+/// The least share of a cell that holds gas.
+template <int D>
+void findLeastFreeVolume(const Patch& patch, const GasInCells<D>& cells, Minimum& least) {
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    if (!cells.isEmpty(cell)) least.add(cells.free[cell]);
+  });
+}
+
+}  // namespace tushar::mpmice

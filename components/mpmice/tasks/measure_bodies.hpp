@@ -1,0 +1,148 @@
+#pragma once
+
+#include "components/mpmice/labels.hpp"
+#include "components/mpmice/particle_box.hpp"
+
+namespace tushar::mpmice {
+
+/// How many cells beyond a patch hold particles whose boxes reach into it, before or after a step.
+inline constexpr int boxReach = 2;
+
+/// Where the particles of a material are, and how large, on a patch and around it.
+template <int D>
+struct Boxes {
+  ParticleView<const Vec<D>> x, size;
+  ParticleView<const mpm::solid::Matrix3> deformation;
+
+  /// `reads` makes accesses of what a step changes, `readsSize` that of p.size.
+  static Boxes from(auto& take, auto reads, auto readsSize) {
+    return {.x = take(reads(p::x<D>, boxReach)),
+            .size = take(readsSize(p::size<D>, boxReach)),
+            .deformation = take(reads(p::deformationMeasure, boxReach))};
+  }
+  ParticleBox<D> of(const Level& level, const mpm::CellFrame<D>& frame, int p) const {
+    return {frame.coordinates(x[p]), edgesOf<D>(level, size[p], deformation[p])};
+  }
+};
+
+/// Before and after a step.
+template <int D>
+struct MovedBoxes {
+  Boxes<D> before;
+  ParticleView<const Vec<D>> x;
+  ParticleView<const mpm::solid::Matrix3> deformation;
+
+  static MovedBoxes from(auto& take) {
+    constexpr auto old = [](const auto& label, int ghost) { return requiresOld(label, ghost); };
+    return {.before = Boxes<D>::from(take, old, old),
+            .x = take(requiresNew(p::x<D>, boxReach)),
+            .deformation = take(requiresNew(p::deformationMeasure, boxReach))};
+  }
+};
+
+/// What bodies leave free, on a patch.
+template <int D>
+struct FreeShares {
+  CellView<double> volume;
+  CellView<Vec<D>> coverage;
+
+  static FreeShares from(auto& take) {
+    return {.volume = take(computes(c::freeVolume)), .coverage = take(computes(c::coverage<D>))};
+  }
+  void clear() const {
+    volume.fill(1);
+    coverage.fill(Vec<D>::Zero());
+  }
+  /// Takes the share of a box whose coordinates start at `origin`.
+  void take(const Index<D>& origin, const ParticleBox<D>& box) const {
+    forEach<D>(box.reach(), [&](const Index<D>& k) {
+      const Index<D> cell = origin + k;
+      if (!volume.box().contains(cell)) return;
+      std::array<double, D> inside;
+      for (int d = 0; d < D; ++d) inside[d] = box.lengthIn(d, k[d]);
+      double filled = 1;
+      for (int d = 0; d < D; ++d) filled *= inside[d];
+      volume[cell] -= filled;
+      for (int a = 0; a < D; ++a) {
+        double covered = box.hatAt(a, k[a]);
+        for (int d = 0; d < D; ++d)
+          if (d != a) covered *= inside[d];
+        coverage[cell][a] += covered;
+      }
+    });
+  }
+  /// Where bodies overlap there is no room, not less than none.
+  void settle() const {
+    forEach<D>(volume.box(), [&](const Index<D>& cell) { volume[cell] = std::max(0.0, volume[cell]); });
+  }
+};
+
+/// Calls `visit(origin, frame, particle)` for the particles around a patch, cell by cell and by id, with the cell.
+template <int D, class Visit>
+void forEachParticle(const Level& level, const ParticleView<const Vec<D>>& x, Visit&& visit) {
+  x.template forEachOccupied<D>(x.cells(), [&](const Index<D>& cell, const data::ParticleRange& range) {
+    const mpm::CellFrame<D> frame(level, cell);
+    for (const int p : range) visit(cell, frame, p);
+  });
+}
+
+/// The share of cells and faces that bodies leave free.
+template <int D>
+void measureFreeSpace(const Patch& patch, const std::vector<mpm::solid::Material>&,
+                      const std::vector<Boxes<D>>& materials, const FreeShares<D>& free) {
+  free.clear();
+  for (const Boxes<D>& boxes : materials)
+    forEachParticle<D>(patch.level(), boxes.x, [&](const Index<D>& cell, const mpm::CellFrame<D>& frame, int p) {
+      free.take(cell, boxes.of(patch.level(), frame, p));
+    });
+  free.settle();
+}
+
+/// Adds the volume, in cells, that a box moving from `before` to `after` takes up through the lower faces of the cells
+/// around: once axis by axis in rising and once in falling order, the mean of both.
+template <int D>
+void addSwept(const Index<D>& origin, const ParticleBox<D>& before, const ParticleBox<D>& after,
+              CellView<Vec<D>> swept) {
+  const Box from = before.reach(), to = after.reach();
+  Box cells = from;
+  for (int d = 0; d < D; ++d) {
+    cells.lower[d] = std::min(from.lower[d], to.lower[d]);
+    cells.upper[d] = std::max(from.upper[d], to.upper[d]);
+  }
+  forEach<D>(cells, [&](const Index<D>& k) {
+    const Index<D> cell = origin + k;
+    if (!swept.box().contains(cell)) return;
+    for (int a = 0; a < D; ++a) {
+      const double up = after.lengthAbove(a, k[a]) - before.lengthAbove(a, k[a]);
+      double rising = 1, falling = 1;
+      for (int d = 0; d < D; ++d) {
+        if (d == a) continue;
+        const double old = before.lengthIn(d, k[d]), fresh = after.lengthIn(d, k[d]);
+        rising *= d < a ? fresh : old;
+        falling *= d < a ? old : fresh;
+      }
+      swept[cell][a] += 0.5 * up * (rising + falling);
+    }
+  });
+}
+
+/// The same at the end of a step, before particles are relocated, and the volume of bodies that went through faces:
+/// each box moves as it was at the start of the step.
+template <int D>
+void measureMotion(const Patch& patch, const std::vector<mpm::solid::Material>&,
+                   const std::vector<MovedBoxes<D>>& materials, const FreeShares<D>& free, CellView<Vec<D>> swept) {
+  const Level& level = patch.level();
+  free.clear();
+  swept.fill(Vec<D>::Zero());
+  for (const MovedBoxes<D>& boxes : materials)
+    forEachParticle<D>(level, boxes.x, [&](const Index<D>& cell, const mpm::CellFrame<D>& frame, int p) {
+      const ParticleBox<D> before = boxes.before.of(level, frame, p);
+      ParticleBox<D> after{frame.coordinates(boxes.x[p]), before.edges};
+      addSwept<D>(cell, before, after, swept);
+      after.edges = edgesOf<D>(level, boxes.before.size[p], boxes.deformation[p]);
+      free.take(cell, after);
+    });
+  free.settle();
+}
+
+}  // namespace tushar::mpmice

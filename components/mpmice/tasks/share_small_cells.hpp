@@ -1,0 +1,175 @@
+#pragma once
+
+#include "components/mpmice/gas_in_cells.hpp"
+#include "components/mpmice/near_bodies.hpp"
+
+namespace tushar::mpmice {
+
+/// Cells beyond a patch that decide what one of its own shares with whom.
+inline constexpr int shareReach = 3;
+
+/// The state after a step and the room it has, as small cells are to share it.
+template <int D>
+struct Unshared {
+  euler::StateViews<D, const double> held;
+  CellView<const double> free;
+  CellView<const Vec<D>> coverage;
+
+  static Unshared from(auto& take) {
+    return {.held = {take(requiresNew(c::unsharedDensity, shareReach)), take(requiresNew(c::unsharedMomentum<D>, 2)),
+                     take(requiresNew(c::unsharedEnergy, 2))},
+            .free = take(requiresNew(c::freeVolume, shareReach)),
+            .coverage = take(requiresNew(c::coverage<D>, shareReach))};
+  }
+};
+
+/// Who shares with whom: a cell with little free volume gives what it holds to the neighbour, over a corner too, with
+/// the widest way to it, and gets back its part by volume. So small cells limit no time step, and cells may appear and
+/// vanish.
+template <int D>
+class SmallCells {
+ public:
+  SmallCells(const Level& level, const Unshared<D>& state) : level_(level), state_(state) {}
+
+  /// The neighbour that a small cell gives its gas to, or the cell itself: one with room enough, else one that has more
+  /// and is no small cell's neighbour itself. Ties go to the lower one.
+  Index<D> targetOf(const Index<D>& cell) const {
+    const Index<D> chosen = choiceOf(cell);
+    return chosen == cell || !isSmall(chosen) || choiceOf(chosen) == chosen ? chosen : cell;
+  }
+  /// Whether a cell has little room, and something in it.
+  bool isSmall(const Index<D>& cell) const {
+    return state_.free[cell] < smallFreeVolume && state_.held.density[cell] != 0;
+  }
+
+  /// Calls `visit(neighbour)` for the cells around one, on the grid.
+  template <class Visit>
+  void forEachAround(const Index<D>& cell, Visit&& visit) const {
+    Box around{{}, Index3::filled(1)};
+    for (int d = 0; d < D; ++d) {
+      around.lower[d] = cell[d] - 1;
+      around.upper[d] = cell[d] + 2;
+    }
+    forEach<D>(level_.clipCells(around), [&](const Index<D>& at) {
+      if (!(at == cell)) visit(at);
+    });
+  }
+
+ private:
+  Index<D> choiceOf(const Index<D>& cell) const {
+    if (!isSmall(cell)) return cell;
+    Index<D> best = cell;
+    double most = -1;
+    forEachAround(cell, [&](const Index<D>& at) {
+      const double score = scoreOf(cell, at);
+      if (score > most) {
+        most = score;
+        best = at;
+      }
+    });
+    return best;
+  }
+  /// Of a neighbour with more room; -1 of others. Neighbours that are not small come first.
+  double scoreOf(const Index<D>& cell, const Index<D>& at) const {
+    const double room = state_.free[at], own = state_.free[cell];
+    if (!(room > own) || room < leastFreeVolume) return -1;
+    if (room < smallFreeVolume && state_.held.density[at] == 0) return -1;  // a hole that nothing has got into
+    double score = room >= smallFreeVolume ? 100 : 0;
+    int apart = 0, axis = 0;
+    for (int d = 0; d < D; ++d)
+      if (at[d] != cell[d]) {
+        ++apart;
+        axis = d;
+      }
+    if (apart > 1) return score + 1e-4 * room;
+    const Index<D>& above = at[axis] > cell[axis] ? at : cell;
+    const double open = std::max(0.0, std::min(1 - state_.coverage[above][axis], 8 * std::min(room, own)));
+    return score + 2 * open + 1e-2 * std::max(0.0, 1 - (1 - own) - (1 - room)) + 1e-3 * room;
+  }
+
+  const Level& level_;
+  const Unshared<D>& state_;
+};
+
+/// The state after a step.
+template <int D>
+struct NewGas {
+  euler::StateViews<D, double> held;
+
+  static NewGas from(auto& take) {
+    return {.held = {take(computes(c::density)), take(computes(c::momentum<D>)), take(computes(c::totalEnergy))}};
+  }
+};
+
+/// The sum of what cells hold, and of their free volumes.
+template <int D>
+struct Pool {
+  double volume = 0, mass = 0, energy = 0;
+  Vec<D> momentum = Vec<D>::Zero();
+
+  void add(const Unshared<D>& state, const Index<D>& cell) {
+    volume += state.free[cell];
+    mass += state.held.density[cell];
+    momentum += state.held.momentum[cell];
+    energy += state.held.totalEnergy[cell];
+  }
+};
+
+/// Gives a cell its part of what it shares with others.
+template <int D>
+void shareAt(const SmallCells<D>& small, const Unshared<D>& state, const Index<D>& cell,
+             const euler::StateViews<D, double>& fresh) {
+  const Index<D> centre = small.targetOf(cell);
+  Pool<D> pool;
+  pool.add(state, centre);
+  bool shares = !(centre == cell);
+  if (!small.isSmall(centre) || small.targetOf(centre) == centre)
+    small.forEachAround(centre, [&](const Index<D>& at) {
+      if (!small.isSmall(at) || !(small.targetOf(at) == centre)) return;
+      pool.add(state, at);
+      shares = true;
+    });
+  if (!shares || !(pool.volume > 0)) return;
+  const double part = state.free[cell] / pool.volume;
+  fresh.density[cell] = pool.mass * part;
+  fresh.momentum[cell] = pool.momentum * part;
+  fresh.totalEnergy[cell] = pool.energy * part;
+}
+
+/// Throws NumericalError for a cell whose gas cannot be: the step is repeated with a smaller time step.
+template <int D>
+void checkGas(const Level& level, const euler::Gas& gas, const Index<D>& cell, double free,
+              const euler::StateViews<D, double>& held) {
+  const double mass = held.density[cell];
+  if (free < leastFreeVolume || mass == 0) return;
+  const double internal = held.totalEnergy[cell] - 0.5 * held.momentum[cell].squaredNorm() / mass;
+  const double stiff = gas.pressure(internal / free) + gas.pInfinity;
+  if (mass > 0 && stiff > 0 && std::isfinite(stiff)) return;
+  Vec3 at = level.expandPoint<D>(level.cellCentre<D>(cell));
+  throw NumericalError(
+      fmt::format("the gas beside a body became impossible: {:.6g} kg/m^3 and {:.6g} Pa in the free {:.3g} of the cell "
+                  "at ({:g}, {:g}, {:g}) m",
+                  mass / free, stiff - gas.pInfinity, free, at[0], at[1], at[2]),
+      "", "c.density", level.cellNumber<D>(cell));
+}
+
+/// The state after a step: small cells share theirs with neighbours.
+template <int D>
+void shareSmallCells(const Patch& patch, const Settings& settings, const Unshared<D>& state, const NewGas<D>& fresh) {
+  const Level& level = patch.level();
+  forEachRow<D>(patch.cells(), [&](const Index<D>& first, int count) {
+    std::copy_n(euler::rowOf(state.held.density, first, count), count, euler::rowOf(fresh.held.density, first, count));
+    std::copy_n(euler::rowOf(state.held.momentum, first, count), count,
+                euler::rowOf(fresh.held.momentum, first, count));
+    std::copy_n(euler::rowOf(state.held.totalEnergy, first, count), count,
+                euler::rowOf(fresh.held.totalEnergy, first, count));
+  });
+  const NearBodies<D> near(patch.cells(), 2, state.free);
+  const SmallCells<D> small(level, state);
+  near.forEachIn(patch.cells(), [&](const Index<D>& cell) { shareAt<D>(small, state, cell, fresh.held); });
+  near.forEachIn(patch.cells(), [&](const Index<D>& cell) {
+    checkGas<D>(level, settings.gas.gas, cell, state.free[cell], fresh.held);
+  });
+}
+
+}  // namespace tushar::mpmice

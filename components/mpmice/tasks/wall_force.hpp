@@ -1,0 +1,154 @@
+#pragma once
+
+#include "components/mpmice/bodies_at_nodes.hpp"
+#include "components/mpmice/gas_in_cells.hpp"
+#include "components/mpmice/near_bodies.hpp"
+#include "components/mpmice/wall_pressure.hpp"
+
+namespace tushar::mpmice {
+
+/// Cells around a patch whose free volume tells what a cell beside it does.
+inline constexpr int nearLayers = 2;
+
+/// The pressure of a cell's gas on the walls at its lower and upper faces, Pa.
+template <int D>
+struct WallPressures {
+  CellView<Vec<D>> below, above;
+  static WallPressures from(auto& take) {
+    return {.below = take(computes(c::wallPressureBelow<D>)), .above = take(computes(c::wallPressureAbove<D>))};
+  }
+};
+
+/// The pressure on one wall of a cell. The gas meets the body along its surface's normal, so that it slips along an
+/// oblique wall; between two walls, where no normal is, it meets each along the axis.
+template <int D>
+class CellWalls {
+ public:
+  CellWalls(const Level& level, const FreeSpace<D>& space, const Index<D>& cell, const euler::State<D>& w)
+      : normal_(space.normal(cell)), w_(w) {
+    double open = 0, all = 0;
+    for (int d = 0; d < D; ++d) {
+      const double lower = space.aperture(cell, d, 0), upper = space.aperture(cell, d, 1);
+      const double tilt = (upper - lower) * level.inverseSpacing(d);
+      const double walls = (2 * space.area(cell, d) - upper - lower) * level.inverseSpacing(d);
+      open += tilt * tilt;
+      all += walls * walls;
+    }
+    slip_ = all > 0 ? std::min(1.0, std::sqrt(open / all)) : 0;
+  }
+  double pressure(const euler::Gas& gas, const Vec<D>& wallVelocity, int axis, int side) const {
+    Vec<D> relative;
+    for (int d = 0; d < D; ++d) relative[d] = w_[euler::kVelocity(d)] - wallVelocity[d];
+    const double outward = side == 0 ? -relative[axis] : relative[axis];
+    const double closing = slip_ * relative.dot(normal_) + (1 - slip_) * outward;
+    return wallPressure(gas, w_[euler::kDensity], w_[euler::kPressure<D>], closing);
+  }
+
+ private:
+  Vec<D> normal_;
+  euler::State<D> w_;
+  double slip_;
+};
+
+/// Pressure of the gas on walls, by the velocities of gas and bodies at the start of the step.
+template <int D>
+void computeWallPressure(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings,
+                         const GasInCells<D>& cells, const typename BodiesAtNodes<D>::Records& records,
+                         const WallPressures<D>& walls) {
+  const Level& level = patch.level();
+  walls.below.fill(Vec<D>::Zero());
+  walls.above.fill(Vec<D>::Zero());
+  const NearBodies<D> near(patch.cells(), nearLayers, cells.free);
+  const FreeSpace<D> space = cells.space(level, settings.thinWalls);
+  const BodiesAtNodes<D> bodies(level, records);
+  near.forEachIn(patch.cells(), [&](const Index<D>& cell) {
+    if (cells.isEmpty(cell)) return;
+    const CellWalls<D> ofCell(level, space, cell, cells.primitive(settings.gas.gas, cell));
+    for (int d = 0; d < D; ++d) {
+      const auto on = [&](const Index<D>& face, int side) {
+        if (!(space.wall(cell, d, side) > 0)) return 0.0;
+        const Vec<D> velocity = bodies.velocityAt(face, d, mpm::solid::lane::velocity);
+        return ofCell.pressure(settings.gas.gas, velocity, d, side);
+      };
+      walls.below[cell][d] = on(cell, 0);
+      walls.above[cell][d] = on(cell + Index<D>::unit(d), 1);
+    }
+  });
+}
+
+/// The pressures that computeWallPressure found.
+template <int D>
+struct KnownWalls {
+  CellView<const Vec<D>> below, above;
+  static KnownWalls from(auto& take, int ghost) {
+    return {.below = take(requiresNew(c::wallPressureBelow<D>, ghost)),
+            .above = take(requiresNew(c::wallPressureAbove<D>, ghost))};
+  }
+};
+
+/// Force of the gas along an axis on the walls at the lower face of a cell, N; from its gas and from that of the
+/// cell below, where there is one.
+template <int D>
+double forceAt(const Level& level, const FreeSpace<D>& space, const KnownWalls<D>& walls, double reference,
+               const Index<D>& cell, int axis) {
+  const Box& grid = level.cells();
+  const bool periodic = level.isPeriodic(axis);
+  double force = 0;
+  if (const Index<D> below = cell - Index<D>::unit(axis); periodic || below[axis] >= grid.lower[axis])
+    if (const double wall = space.wall(below, axis, 1); wall > 0)
+      force += wall * (walls.above[below][axis] - reference);
+  if (periodic || cell[axis] < grid.upper[axis])
+    if (const double wall = space.wall(cell, axis, 0); wall > 0) force -= wall * (walls.below[cell][axis] - reference);
+  return force * level.cellVolume() * level.inverseSpacing(axis);
+}
+
+/// Whether the grid has a face below the cell across an axis, its upper side included.
+template <int D>
+bool isFace(const Level& level, const Index<D>& cell, int axis) {
+  for (int d = 0; d < D; ++d) {
+    const int end = level.cells().upper[d] + (d == axis ? 1 : 0);
+    if (!level.isPeriodic(d) && (cell[d] < level.cells().lower[d] || cell[d] >= end)) return false;
+  }
+  return true;
+}
+/// Whether a patch counts a face as its own: the lower ones of its cells, and those on an upper side of the grid.
+template <int D>
+bool ownsFace(const Patch& patch, const Index<D>& cell, int axis) {
+  const Level& level = patch.level();
+  const bool isOnSide = !level.isPeriodic(axis) && cell[axis] == level.cells().upper[axis];
+  return patch.cells().contains(isOnSide ? cell - Index<D>::unit(axis) : cell);
+}
+
+/// Shares the force of the gas at each face between the nodes and the materials there, by their masses, N.
+template <int D>
+void addWallForce(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings,
+                  const RoomViews<D>& room, const KnownWalls<D>& walls,
+                  const typename BodiesAtNodes<D>::Records& records, VectorSum& total,
+                  const std::vector<NodeView<Vec<D>>>& forces) {
+  const Level& level = patch.level();
+  for (const auto& force : forces) force.fill(Vec<D>::Zero());
+  const FreeSpace<D> space = room.space(level, settings.thinWalls);
+  const BodiesAtNodes<D> bodies(level, records);
+  Box around = patch.cells().grown(1, D);
+  for (int d = 0; d < D; ++d) ++around.upper[d];
+  const NearBodies<D> near(around, nearLayers, room.free);
+  const auto addAt = [&](const Index<D>& cell, int axis) {
+    const double force = forceAt<D>(level, space, walls, settings.referencePressure, cell, axis);
+    const double mass = force != 0 ? bodies.massAt(cell, axis) : 0;
+    if (!(mass > 0)) return;
+    forEach<D>(bodies.nodesAt(cell, axis), [&](const Index<D>& node) {
+      for (std::size_t m = 0; m < forces.size(); ++m)
+        if (const double own = records[m][node][mpm::solid::lane::mass]; own > 0 && forces[m].box().contains(node))
+          forces[m][node][axis] += force * (own / mass);
+    });
+    Vec<D> along = Vec<D>::Zero();
+    along[axis] = force;
+    if (ownsFace<D>(patch, cell, axis)) total.add(level.expandDirection<D>(along));
+  };
+  near.forEachIn(around, [&](const Index<D>& cell) {
+    for (int axis = 0; axis < D; ++axis)
+      if (isFace<D>(level, cell, axis)) addAt(cell, axis);
+  });
+}
+
+}  // namespace tushar::mpmice
