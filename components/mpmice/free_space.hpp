@@ -1,7 +1,6 @@
 #pragma once
 
-#include "components/mpmice/labels.hpp"
-#include "components/mpmice/settings.hpp"
+#include "components/mpmice/gas_in_cells.hpp"
 
 namespace tushar::mpmice {
 
@@ -12,14 +11,10 @@ namespace tushar::mpmice {
 template <int D>
 class FreeSpace {
  public:
-  /// `mass` per volume of the cell says where gas is.
-  FreeSpace(const Level& level, bool thinWalls, CellView<const double> free, CellView<const Vec<D>> coverage,
-            CellView<const double> mass)
-      : level_(&level), thin_walls_(thinWalls), free_(free), coverage_(coverage), mass_(mass) {}
+  FreeSpace(const Level& level, const Settings& settings, const GasInCells<D>& cells)
+      : level_(&level), thin_walls_(settings.thinWalls), cells_(cells) {}
 
-  double volume(const Index<D>& cell) const { return free_[cell]; }
-  /// Whether a cell has no room for gas, or no gas.
-  bool isEmpty(const Index<D>& cell) const { return free_[cell] < leastFreeVolume || !(mass_[cell] > 0); }
+  bool isEmpty(const Index<D>& cell) const { return cells_.isEmpty(cell); }
   /// Whether the lower (0) or upper (1) face of a cell is on a side of the grid.
   bool isAtSide(const Index<D>& cell, int axis, int side) const {
     if (level_->isPeriodic(axis)) return false;
@@ -29,17 +24,18 @@ class FreeSpace {
   /// Open share of a face. More than `steepest` times the free volume beside it is closed: gas cannot rush out of what
   /// is all but full.
   double aperture(const Index<D>& cell, int axis, int side) const {
-    if (isAtSide(cell, axis, side)) return isEmpty(cell) ? 0 : free_[cell];
+    if (isAtSide(cell, axis, side)) return isEmpty(cell) ? 0 : cells_.free[cell];
     const Index<D> above = side == 0 ? cell : cell + Index<D>::unit(axis), below = above - Index<D>::unit(axis);
     if (isEmpty(below) || isEmpty(above)) return 0;
     constexpr double steepest = 8;
-    double most = steepest * std::min(free_[below], free_[above]);
-    if (thin_walls_) most = std::min(most, std::max(0.0, 1 - 4 * ((1 - free_[below]) + (1 - free_[above]))));
-    return std::max(0.0, std::min(1 - coverage_[above][axis], most));
+    double most = steepest * std::min(cells_.free[below], cells_.free[above]);
+    if (thin_walls_)
+      most = std::min(most, std::max(0.0, 1 - 4 * ((1 - cells_.free[below]) + (1 - cells_.free[above]))));
+    return std::max(0.0, std::min(1 - cells_.coverage[above][axis], most));
   }
   /// Open and walled share of each of the two faces of a cell across an axis.
   double area(const Index<D>& cell, int axis) const {
-    return std::max(std::max(aperture(cell, axis, 0), aperture(cell, axis, 1)), free_[cell]);
+    return std::max(std::max(aperture(cell, axis, 0), aperture(cell, axis, 1)), cells_.free[cell]);
   }
   double wall(const Index<D>& cell, int axis, int side) const {
     return isEmpty(cell) ? 0 : area(cell, axis) - aperture(cell, axis, side);
@@ -52,7 +48,7 @@ class FreeSpace {
     Box around{{}, Index3::filled(1)};
     for (int d = 0; d < D; ++d) around.upper[d] = 3;
     forEach<D>(around, [&](const Index<D>& at) {
-      const double filled = 1 - free_[onGrid(cell + at - Index<D>::filled(1))];
+      const double filled = 1 - cells_.free[onGrid(cell + at - Index<D>::filled(1))];
       for (int d = 0; d < D; ++d) {
         if (at[d] == 1) continue;
         double weight = at[d] == 0 ? -1 : 1;
@@ -75,9 +71,7 @@ class FreeSpace {
 
   const Level* level_;
   bool thin_walls_;
-  CellView<const double> free_;
-  CellView<const Vec<D>> coverage_;
-  CellView<const double> mass_;
+  GasInCells<D> cells_;
 };
 
 }  // namespace tushar::mpmice

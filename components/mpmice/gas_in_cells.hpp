@@ -1,24 +1,10 @@
 #pragma once
 
 #include "components/euler/tasks/check_state.hpp"
-#include "components/mpmice/free_space.hpp"
+#include "components/mpmice/labels.hpp"
+#include "components/mpmice/settings.hpp"
 
 namespace tushar::mpmice {
-
-/// How much room the gas has, and where it is.
-template <int D>
-struct RoomViews {
-  CellView<const double> free;
-  CellView<const Vec<D>> coverage;
-  CellView<const double> mass;
-
-  static RoomViews from(auto& take, auto reads, int ghost) {
-    return {.free = take(reads(c::freeVolume, ghost)),
-            .coverage = take(reads(c::coverage<D>, ghost)),
-            .mass = take(reads(c::density, ghost))};
-  }
-  FreeSpace<D> space(const Level& level, bool thinWalls) const { return {level, thinWalls, free, coverage, mass}; }
-};
 
 /// The gas in the free part of cells: what it holds, per volume of the cell, and how much room it has.
 template <int D>
@@ -33,9 +19,6 @@ struct GasInCells {
                      take(reads(c::totalEnergy, ghost))},
             .free = take(reads(c::freeVolume, ghostFree)),
             .coverage = take(reads(c::coverage<D>, ghostFree))};
-  }
-  FreeSpace<D> space(const Level& level, bool thinWalls) const {
-    return {level, thinWalls, free, coverage, held.density};
   }
   bool isEmpty(const Index<D>& cell) const { return free[cell] < leastFreeVolume || !(held.density[cell] > 0); }
   /// rho, rho v, E of the gas alone; the cell must hold some.

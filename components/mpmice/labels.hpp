@@ -11,7 +11,10 @@ namespace tushar::mpmice {
 namespace c {
 using namespace euler::c;
 using namespace ice::c;
-inline constexpr CellLabel<double> freeVolume{"c.freeVolume", "1", "share of the cell that bodies leave to the gas"};
+inline constexpr CellLabel<double> freeVolume{"c.freeVolume", "1",
+                                              "share of the cell that bodies leave to the gas; 0 in narrow holes"};
+inline constexpr CellLabel<double> unfilledVolume{"c.unfilledVolume", "1",
+                                                  "share of the cell that bodies do not fill, holes included"};
 template <int D>
 inline constexpr CellLabel<Vec<D>> coverage{"c.coverage", "1", "share of the lower faces that bodies cover"};
 template <int D>

@@ -26,7 +26,7 @@ auto advanceBody(const euler::Method& method) {
 template <int D>
 void GasAround<D>::scheduleStart(TaskList& tasks, const Materials& materials) const {
   tasks.acrossMaterials("mpmice::measureFreeSpace", measureFreeSpace<D>, materials, all<Boxes<D>>(readsNew, readsNew),
-                        withoutMaterial(all<FreeShares<D>>()));
+                        withoutMaterial(all<FreeShares<D>>(&c::freeVolume)));
   tasks.perPatch("mpmice::initialize", euler::initialize<D>, with(settings_.gas), computes(c::density),
                  computes(c::momentum<D>), computes(c::totalEnergy));
   tasks.perPatch("mpmice::fillFreeSpace", fillFreeSpace<D>, requiresNew(c::freeVolume), modifies(c::density),
@@ -39,14 +39,15 @@ void GasAround<D>::scheduleForces(TaskList& tasks, const Materials& materials) c
                         withoutMaterial(all<GasInCells<D>>(readsOld, 1, 2)), requiresNew(g::record, 1),
                         withoutMaterial(all<WallPressures<D>>()));
   tasks.acrossMaterials("mpmice::addWallForce", addWallForce<D>, materials, with(settings_),
-                        withoutMaterial(all<RoomViews<D>>(readsOld, 3)), withoutMaterial(all<KnownWalls<D>>(2)),
+                        withoutMaterial(all<GasInCells<D>>(readsOld, 3, 3)), withoutMaterial(all<KnownWalls<D>>(2)),
                         requiresNew(g::record, 2), computes(total::forceOnBodies), computes(g::surroundingForce<D>));
 }
 
 template <int D>
 void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) const {
   tasks.acrossMaterials("mpmice::measureMotion", measureMotion<D>, materials, all<MovedBoxes<D>>(),
-                        withoutMaterial(all<FreeShares<D>>()), withoutMaterial(computes(c::swept<D>)));
+                        withoutMaterial(all<FreeShares<D>>(&c::unfilledVolume)),
+                        withoutMaterial(computes(c::swept<D>)));
   tasks.acrossMaterials("mpmice::advanceGas", advanceBody<D>(settings_.gas.method), materials, with(settings_),
                         requiresOld(delT), withoutMaterial(all<GasInCells<D>>(readsOld, 2, 3)),
                         withoutMaterial(all<BodiesInStep<D>>()), requiresNew(g::record, 2),

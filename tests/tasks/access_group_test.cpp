@@ -121,6 +121,48 @@ TEST(AccessGroup, BecomesOneForEachPatchAndMaterialWhereATaskSeesTheRank) {
   EXPECT_EQ(totalOf(list, run), cells * (1 + 10));
 }
 
+/// What belongs to no material, as one view among those of materials.
+struct Common {
+  CellView<double> mean;
+
+  static Common from(auto& take) { return {.mean = take(computes(sum))}; }
+};
+
+TEST(WithoutMaterial, IsOneViewAmongThoseOfMaterialsWithTheGhostsOfItsNeighbours) {
+  test::Runner run(test::domain({{cells, 1, 1}}, {{4, 1, 1}}));
+  TaskList list;
+  list.perMaterial("fill", fill, two, computes(first), computes(second));
+  const auto mean = [](const Patch& patch, const std::vector<Material>& materials,
+                       const std::vector<CellView<const double>>& of, const Common& common) {
+    forEach<1>(patch.cells(), [&](const Index<1>& cell) {
+      common.mean[cell] = patch.id();
+      for (std::size_t m = 0; m < materials.size(); ++m) common.mean[cell] += 100 * of[m][cell];
+    });
+  };
+  list.acrossMaterials("mean", mean, two, requiresNew(first), withoutMaterial(all<Common>()));
+  const auto addUp = [](const Patch& patch, const std::vector<Material>&, CellView<const double> common, Sum& result) {
+    const Box around = patch.level().clipCells(patch.cells().grown(1, 1));
+    forEach<1>(around, [&](const Index<1>& cell) { result.add(common[cell]); });
+  };
+  list.acrossMaterials("addUp", addUp, two, withoutMaterial(requiresNew(sum, 1)), computes(total));
+
+  const double patches = 2 * (0 + 1 + 2 + 3), ghosts = 1 + 0 + 2 + 1 + 3 + 2;
+  EXPECT_EQ(totalOf(list, run), patches + ghosts + (cells + 6) * 1100);
+}
+
+TEST(WithoutMaterial, IsReadByEachMaterial) {
+  test::Runner run(test::domain({{cells, 1, 1}}, {{2, 1, 1}}));
+  TaskList list;
+  list.perPatch(
+      "fill", [](const Patch&, CellView<double> field) { field.fill(2); }, computes(sum));
+  const auto add = [](const Patch& patch, const Material& material, CellView<const double> common, Sum& result) {
+    forEach<1>(patch.cells(), [&](const Index<1>& cell) { result.add(material.value * common[cell]); });
+  };
+  list.perMaterial("add", add, two, withoutMaterial(requiresNew(sum)), computes(total));
+
+  EXPECT_EQ(totalOf(list, run), cells * 2 * (1 + 10));
+}
+
 TEST(When, SeesEveryMaterial) {
   test::Runner run(test::domain({{cells, 1, 1}}, {{2, 1, 1}}));
   TaskList list = listOf(true);

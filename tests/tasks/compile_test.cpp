@@ -86,6 +86,25 @@ TEST(Validate, RefusesTwoProducersAndUseWithAndWithoutAMaterial) {
             "task third: c.a is computed a second time; use modifies to change it");
 }
 
+TEST(Validate, LetsTasksOfMaterialsUseWhatBelongsToNone) {
+  const auto body = [](const auto&...) {};
+  TaskList list;
+  list.perPatch("makeA", write, computes(a));
+  list.perMaterial("read", body, gas, withoutMaterial(requiresNew(a)), computes(b));
+  list.acrossMaterials("write", body, gas, requiresNew(b), withoutMaterial(computes(c)));
+
+  EXPECT_EQ(complaint(list), "");
+}
+
+TEST(Validate, RefusesToWriteOnceForEachMaterialWhatBelongsToNone) {
+  TaskList list;
+  list.perMaterial(
+      "write", [](const auto&...) {}, gas, withoutMaterial(computes(c)));
+
+  EXPECT_EQ(complaint(list),
+            "task write: c.c is written once for each material, but belongs to none; use acrossMaterials");
+}
+
 TEST(Validate, RefusesATaskThatChangesParticlesWhichItsNeighboursRead) {
   const auto complaintAbout = [](int ghost) {
     TaskList list;
@@ -131,6 +150,16 @@ TEST(Prune, KeepsAChangeOnlyWhereItIsSeen) {
 
   EXPECT_EQ(names(prune(list.tasks(), {"c.b"}, false).kept), (std::vector<std::string>{"makeA", "useA"}));
   EXPECT_EQ(names(prune(list.tasks(), {"c.a"}, false).kept), (std::vector<std::string>{"makeA", "changeA"}));
+}
+
+TEST(Prune, KeepsEveryTaskThatAddsToATotal) {
+  constexpr data::ReductionLabel<data::Sum> total{"total", "1", "sum"};
+  const auto addTo = [](const Patch&, data::Sum&) {};
+  TaskList list;
+  list.perPatch("one", addTo, computes(total));
+  list.perPatch("other", addTo, computes(total));
+
+  EXPECT_EQ(names(prune(list.tasks(), {"total"}, false).kept), (std::vector<std::string>{"one", "other"}));
 }
 
 TEST(Prune, KeepsWhatTheNextStepNeeds) {

@@ -49,6 +49,12 @@ class RefusedAccesses(unittest.TestCase):
         said = complaints(piece(task='list.perPatch("sum", body, when(true, computes(total)))'))
         self.assertIn("a reducer or a list of new values cannot be optional", said)
 
+    def test_what_belongs_to_no_material_is_left_out_of_tasks_of_materials_alone(self):
+        said = complaints(piece(task='list.perPatch("read", body, withoutMaterial(requiresNew(::density)))'))
+        self.assertIn("a task of perPatch has no materials to leave out", said)
+        said = complaints(piece(task='list.perRank("read", body, withoutMaterial(requiresNew(::density)))'))
+        self.assertIn("withoutMaterial(...) belongs to perMaterial and acrossMaterials", said)
+
     def test_new_particles_belong_to_the_task_that_makes_them(self):
         said = complaints(piece(task='list.perMaterial("make", body, materials, creates(mass))'))
         self.assertIn("creates(...) belongs to newParticles", said)

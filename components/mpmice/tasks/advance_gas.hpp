@@ -14,7 +14,7 @@ struct BodiesInStep {
 
   static BodiesInStep from(auto& take) {
     return {.walls = KnownWalls<D>::from(take, 1),
-            .newFree = take(requiresNew(c::freeVolume, 3)),
+            .newFree = take(requiresNew(c::unfilledVolume, 3)),
             .swept = take(requiresNew(c::swept<D>, 1))};
   }
 };
@@ -39,7 +39,7 @@ class WallExchange {
       : level_(level),
         gas_(settings.gas.gas),
         cells_(cells),
-        space_(cells.space(level, settings.thinWalls)),
+        space_(level, settings, cells),
         step_(bodies),
         nodes_(level, records),
         dt_(dt) {}
@@ -99,15 +99,15 @@ class WallExchange {
   /// Of the donor's gas; where it has none, the receiver's; where that has none either, the mean of what is around the
   /// donor.
   std::optional<euler::State<D>> stateOf(const Index<D>& donor, const Index<D>& receiver) const {
-    if (!cells_.isEmpty(donor)) return cells_.conserved(donor);
-    if (!cells_.isEmpty(receiver)) return cells_.conserved(receiver);
+    if (!space_.isEmpty(donor)) return cells_.conserved(donor);
+    if (!space_.isEmpty(receiver)) return cells_.conserved(receiver);
     euler::State<D> sum{};
     int count = 0;
     for (int d = 0; d < D; ++d)
       for (int side = 0; side < 2; ++side) {
         if (space_.isAtSide(donor, d, side)) continue;
         const Index<D> next = side == 0 ? donor - Index<D>::unit(d) : donor + Index<D>::unit(d);
-        if (cells_.isEmpty(next)) continue;
+        if (space_.isEmpty(next)) continue;
         const euler::State<D> u = cells_.conserved(next);
         for (std::size_t k = 0; k < u.size(); ++k) sum[k] += u[k];
         ++count;

@@ -46,8 +46,9 @@ struct FreeShares {
   CellView<double> volume;
   CellView<Vec<D>> coverage;
 
-  static FreeShares from(auto& take) {
-    return {.volume = take(computes(c::freeVolume)), .coverage = take(computes(c::coverage<D>))};
+  /// `volume` is where the free volume goes.
+  static FreeShares from(auto& take, const CellLabel<double>* volume) {
+    return {.volume = take(computes(*volume)), .coverage = take(computes(c::coverage<D>))};
   }
   void clear() const {
     volume.fill(1);

@@ -18,7 +18,7 @@ struct Unshared {
   static Unshared from(auto& take) {
     return {.held = {take(requiresNew(c::unsharedDensity, shareReach)), take(requiresNew(c::unsharedMomentum<D>, 2)),
                      take(requiresNew(c::unsharedEnergy, 2))},
-            .free = take(requiresNew(c::freeVolume, shareReach)),
+            .free = take(requiresNew(c::unfilledVolume, shareReach)),
             .coverage = take(requiresNew(c::coverage<D>, shareReach))};
   }
 };
@@ -38,6 +38,13 @@ class SmallCells {
     return chosen == cell || !isSmall(chosen) || choiceOf(chosen) == chosen ? chosen : cell;
   }
   /// Whether a cell has little room, and something in it.
+  /// Whether a cell is a narrow hole without a way out, or shares with one: what it holds stays, and is no gas, until
+  /// there is room again.
+  bool isHole(const Index<D>& cell) const {
+    constexpr double narrow = 0.2;
+    const Index<D> target = targetOf(cell);
+    return state_.free[target] < narrow && targetOf(target) == target;
+  }
   bool isSmall(const Index<D>& cell) const {
     return state_.free[cell] < smallFreeVolume && state_.held.density[cell] != 0;
   }
@@ -95,9 +102,11 @@ class SmallCells {
 template <int D>
 struct NewGas {
   euler::StateViews<D, double> held;
+  CellView<double> free;
 
   static NewGas from(auto& take) {
-    return {.held = {take(computes(c::density)), take(computes(c::momentum<D>)), take(computes(c::totalEnergy))}};
+    return {.held = {take(computes(c::density)), take(computes(c::momentum<D>)), take(computes(c::totalEnergy))},
+            .free = take(computes(c::freeVolume))};
   }
 };
 
@@ -136,20 +145,32 @@ void shareAt(const SmallCells<D>& small, const Unshared<D>& state, const Index<D
   fresh.totalEnergy[cell] = pool.energy * part;
 }
 
-/// Throws NumericalError for a cell whose gas cannot be: the step is repeated with a smaller time step.
+/// Density and p + p_inf of a cell's gas, kg/m³ and Pa.
 template <int D>
-void checkGas(const Level& level, const euler::Gas& gas, const Index<D>& cell, double free,
-              const euler::StateViews<D, double>& held) {
+std::pair<double, double> densityAndPressure(const euler::Gas& gas, const Index<D>& cell, double free,
+                                             const euler::StateViews<D, double>& held) {
   const double mass = held.density[cell];
-  if (free < leastFreeVolume || mass == 0) return;
   const double internal = held.totalEnergy[cell] - 0.5 * held.momentum[cell].squaredNorm() / mass;
-  const double stiff = gas.pressure(internal / free) + gas.pInfinity;
-  if (mass > 0 && stiff > 0 && std::isfinite(stiff)) return;
-  Vec3 at = level.expandPoint<D>(level.cellCentre<D>(cell));
+  return {mass / free, gas.pressure(internal / free) + gas.pInfinity};
+}
+
+/// Looks at what a cell holds after a step. Throws NumericalError where it cannot be, so that the step is repeated with
+/// a smaller time step; in a small cell it waits as in a hole.
+template <int D>
+void checkGas(const Level& level, const euler::Gas& gas, const Index<D>& cell, const NewGas<D>& fresh) {
+  const double free = fresh.free[cell];
+  if (free < leastFreeVolume || fresh.held.density[cell] == 0) return;
+  const auto [density, stiff] = densityAndPressure<D>(gas, cell, free, fresh.held);
+  if (density > 0 && stiff > 0 && std::isfinite(stiff)) return;
+  if (free < smallFreeVolume) {
+    fresh.free[cell] = 0;
+    return;
+  }
+  const Vec3 at = level.expandPoint<D>(level.cellCentre<D>(cell));
   throw NumericalError(
       fmt::format("the gas beside a body became impossible: {:.6g} kg/m^3 and {:.6g} Pa in the free {:.3g} of the cell "
                   "at ({:g}, {:g}, {:g}) m",
-                  mass / free, stiff - gas.pInfinity, free, at[0], at[1], at[2]),
+                  density, stiff - gas.pInfinity, free, at[0], at[1], at[2]),
       "", "c.density", level.cellNumber<D>(cell));
 }
 
@@ -161,15 +182,17 @@ void shareSmallCells(const Patch& patch, const Settings& settings, const Unshare
     std::copy_n(euler::rowOf(state.held.density, first, count), count, euler::rowOf(fresh.held.density, first, count));
     std::copy_n(euler::rowOf(state.held.momentum, first, count), count,
                 euler::rowOf(fresh.held.momentum, first, count));
+    std::copy_n(euler::rowOf(state.free, first, count), count, euler::rowOf(fresh.free, first, count));
     std::copy_n(euler::rowOf(state.held.totalEnergy, first, count), count,
                 euler::rowOf(fresh.held.totalEnergy, first, count));
   });
   const NearBodies<D> near(patch.cells(), 2, state.free);
   const SmallCells<D> small(level, state);
-  near.forEachIn(patch.cells(), [&](const Index<D>& cell) { shareAt<D>(small, state, cell, fresh.held); });
   near.forEachIn(patch.cells(), [&](const Index<D>& cell) {
-    checkGas<D>(level, settings.gas.gas, cell, state.free[cell], fresh.held);
+    shareAt<D>(small, state, cell, fresh.held);
+    if (small.isHole(cell)) fresh.free[cell] = 0;
   });
+  near.forEachIn(patch.cells(), [&](const Index<D>& cell) { checkGas<D>(level, settings.gas.gas, cell, fresh); });
 }
 
 }  // namespace tushar::mpmice

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "components/mpmice/bodies_at_nodes.hpp"
-#include "components/mpmice/gas_in_cells.hpp"
+#include "components/mpmice/free_space.hpp"
 #include "components/mpmice/near_bodies.hpp"
 #include "components/mpmice/wall_pressure.hpp"
 
@@ -59,10 +59,10 @@ void computeWallPressure(const Patch& patch, const std::vector<mpm::solid::Mater
   walls.below.fill(Vec<D>::Zero());
   walls.above.fill(Vec<D>::Zero());
   const NearBodies<D> near(patch.cells(), nearLayers, cells.free);
-  const FreeSpace<D> space = cells.space(level, settings.thinWalls);
+  const FreeSpace<D> space(level, settings, cells);
   const BodiesAtNodes<D> bodies(level, records);
   near.forEachIn(patch.cells(), [&](const Index<D>& cell) {
-    if (cells.isEmpty(cell)) return;
+    if (space.isEmpty(cell)) return;
     const CellWalls<D> ofCell(level, space, cell, cells.primitive(settings.gas.gas, cell));
     for (int d = 0; d < D; ++d) {
       const auto on = [&](const Index<D>& face, int side) {
@@ -122,16 +122,16 @@ bool ownsFace(const Patch& patch, const Index<D>& cell, int axis) {
 /// Shares the force of the gas at each face between the nodes and the materials there, by their masses, N.
 template <int D>
 void addWallForce(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings,
-                  const RoomViews<D>& room, const KnownWalls<D>& walls,
+                  const GasInCells<D>& cells, const KnownWalls<D>& walls,
                   const typename BodiesAtNodes<D>::Records& records, VectorSum& total,
                   const std::vector<NodeView<Vec<D>>>& forces) {
   const Level& level = patch.level();
   for (const auto& force : forces) force.fill(Vec<D>::Zero());
-  const FreeSpace<D> space = room.space(level, settings.thinWalls);
+  const FreeSpace<D> space(level, settings, cells);
   const BodiesAtNodes<D> bodies(level, records);
   Box around = patch.cells().grown(1, D);
   for (int d = 0; d < D; ++d) ++around.upper[d];
-  const NearBodies<D> near(around, nearLayers, room.free);
+  const NearBodies<D> near(around, nearLayers, cells.free);
   const auto addAt = [&](const Index<D>& cell, int axis) {
     const double force = forceAt<D>(level, space, walls, settings.referencePressure, cell, axis);
     const double mass = force != 0 ? bodies.massAt(cell, axis) : 0;

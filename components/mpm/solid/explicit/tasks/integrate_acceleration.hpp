@@ -32,7 +32,7 @@ template <class Shape, int D = Shape::dimension>
 void setGridBoundaryConditions(const Patch& patch, const Material& material, ParticleView<const Vec<D>> x,
                                NodeView<NodeRecord> record) {
   setVelocity<D>(patch, material.index, TouchedRows<D>(x, x.cells(), Shape::ghostNodes, record.stored()), record);
-  setSymmetry<D>(patch, material.index, record);
+  if (!material.transmitsForce) setSymmetry<D>(patch, material.index, record);
 }
 
 }  // namespace tushar::mpm::solid

@@ -186,7 +186,7 @@ void scatterParticles(const Patch& patch, const Material& material, bool clearsA
       if ((*node)[lane::mass] > 0)
         setLanes<D>(*node, lane::velocity, lanes<D>(*node, lane::velocity) / (*node)[lane::mass]);
   });
-  setSymmetry<D>(patch, material.index, record);
+  if (!material.transmitsForce) setSymmetry<D>(patch, material.index, record);  // sides do not act on what does
 }
 
 /// m_i = sum_p S_i m_p,   v_i = sum_p S_i m_p v_p / m_i,
