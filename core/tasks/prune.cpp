@@ -18,10 +18,11 @@ bool isNeeded(const Task& task, const Names& live) {
                      [&](const Access& access) { return access.writes() && live.contains(access.label->name); });
 }
 
-/// What is live before a kept task, from what is live after it.
+/// What is live before a kept task, from what is live after it. Reductions stay: several tasks may add to one.
 void stepBack(const Task& task, Names& live) {
   for (const Access& access : task.accesses)
-    if (access.kind == AccessKind::computes || access.kind == AccessKind::creates)
+    if (access.label->centring != data::Centring::reduction &&
+        (access.kind == AccessKind::computes || access.kind == AccessKind::creates))
       live.erase(std::string(access.label->name));
   for (const Access& access : task.accesses)
     if (access.kind == AccessKind::requiresNew || access.kind == AccessKind::modifies) live.emplace(access.label->name);
