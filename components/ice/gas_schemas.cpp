@@ -58,8 +58,12 @@ struct IdealGas {};
 
 /// The equation of state; the tags of those that are missing are not looked at.
 void readState(GasMaterial&, const Element& element, Diagnostics& diagnostics) {
-  static const Schema<IdealGas> idealGas =
-      Schema<IdealGas>("EOS", "p = (gamma - 1) c_v rho T.").foreignAttribute("type", "ideal_gas");
+  static const Schema<IdealGas> idealGas = [] {
+    Schema<IdealGas> tags("EOS", "p = (gamma - 1) c_v rho T.");
+    tags.foreignAttribute("type", "ideal_gas");
+    for (const char* tag : {"A", "B", "C", "R1", "R2", "om", "rho0"}) tags.ignored(tag, "belongs to explosives");
+    return tags;
+  }();
   const auto given = element.child("EOS");
   if (!given) return diagnostics.error(element, "missing tag <EOS> in <material>");
   const std::string problem = input::choiceProblem(given->attribute("type").value_or(""), {"ideal_gas"});

@@ -310,6 +310,9 @@ simulation::RegridSettings settled(AmrSettings amr, const simulation::Component&
                         "cells are to be finer");
     return amr.regrid;
   }
+  for (const auto& [other, name] : component.otherNames())
+    for (Criterion& criterion : criteria)
+      if (criterion.variable == other) criterion.variable = name;
   const auto variables = cellVariables(component);
   std::vector<std::string> names;
   if (followsParticles) names.emplace_back("particles");

@@ -15,13 +15,14 @@ using simulation::Simulation;
 namespace {
 
 /// The error of a variable of the shock and the bubble after a step of a nanosecond, against a formula.
-report::ErrorNorms errorOf(const std::string& label, const std::string& formula) {
+report::ErrorNorms errorOf(const std::string& label, const std::string& formula,
+                           const std::vector<std::string>& more = {}) {
   const std::string module = "DataAnalysis/Module/";
-  Problem problem =
-      scene::readScene("ups/euler/shock_bubble.ups",
-                       {"Time/max_Timesteps=1", "Time/delt_max=1e-9", "Grid/Level/Box/resolution=[20,10,1]",
-                        module + "@name=exactSolution", module + "label=" + label, module + "value=" + formula},
-                       catalogue());
+  std::vector<std::string> overrides{
+      "Time/max_Timesteps=1",         "Time/delt_max=1e-9",      "Grid/Level/Box/resolution=[20,10,1]",
+      module + "@name=exactSolution", module + "label=" + label, module + "value=" + formula};
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  Problem problem = scene::readScene("ups/euler/shock_bubble.ups", overrides, catalogue());
   problem.archive.saves.clear();
   RunOptions options;
   options.quiet = true;
@@ -35,6 +36,25 @@ TEST(ExactSolution, MeasuresTheStateAndWhatDiagnosticsComputeOfIt) {
 
   EXPECT_NEAR(density.norms.at("max"), 3.8125, 1e-6);
   EXPECT_NEAR(pressure.norms.at("max"), 10, 1e-6);
+}
+
+TEST(ExactSolution, MeasuresAComponentOfAVector) {
+  const auto speed = [](const std::string& axis) {
+    return errorOf("c.velocity", "0", {"DataAnalysis/Module/component=" + axis});
+  };
+  EXPECT_NEAR(speed("x").norms.at("max"), 2.576693, 1e-6);
+  EXPECT_EQ(speed("y").norms.at("max"), 0);
+  EXPECT_EQ(speed("z").norms.at("max"), 0);
+  EXPECT_EQ(speed("x").field, "velocity.x");
+}
+
+TEST(ExactSolution, AsksForTheComponentOfAVector) {
+  try {
+    errorOf("c.velocity", "0");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.problems().at(0).sentence, "'c.velocity' is a vector: <component> says which of x, y and z");
+  }
 }
 
 TEST(ExactSolution, HasTheUnitOfWhatItMeasures) {

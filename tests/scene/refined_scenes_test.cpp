@@ -94,7 +94,7 @@ TEST(RefinedScenes, NameVariablesThatAreThere) {
 
 TEST(RefinedScenes, AreRefusedToComponentsOfOneLevel) {
   EXPECT_EQ(problemsOf(withLevel("ups/heat/implicit.ups")),
-            "'implicit_heat' needs a grid of one level; of several: 'burgers', 'euler', 'heat' and 'mpm'\n");
+            "'implicit_heat' needs a grid of one level; of several: 'burgers', 'euler', 'heat', 'ice' and 'mpm'\n");
 }
 
 TEST(RefinedScenes, SaveNoFluxesThroughRims) {

@@ -142,6 +142,16 @@ TEST(Prune, KeepsTheChainToAWantedVariableAndSaysWhyTheRestIsLeftOut) {
   EXPECT_EQ(pruned.leftOut[0].reason, "nobody reads or saves c.c");
 }
 
+TEST(Prune, KeepsAllTasksThatAddToAReduction) {
+  TaskList list;
+  for (const char* name : {"limit", "limitFurther"})
+    list.perPatch(
+        name, [](const Patch&, data::Minimum& dt) { dt.add(1); }, computes(data::delT));
+
+  EXPECT_EQ(names(prune(list.tasks(), {std::string(data::delT.name)}, false).kept),
+            (std::vector<std::string>{"limit", "limitFurther"}));
+}
+
 TEST(Prune, KeepsAChangeOnlyWhereItIsSeen) {
   TaskList list;
   list.perPatch("makeA", write, computes(a));

@@ -1,0 +1,76 @@
+#include <gtest/gtest.h>
+
+#include "components/ice/gas_input.hpp"
+#include "core/input/document.hpp"
+
+// What other components read of a gas.
+
+namespace tushar::ice {
+
+namespace {
+
+const std::string scene = R"(<Uintah_specification>
+  <Grid><BoundaryConditions><Face side="x-">
+    <BCType id="0" label="Velocity" var="Dirichlet"><value>[1,2,3]</value></BCType>
+    <BCType id="1" label="Temperature" var="Dirichlet"><value>300</value></BCType>
+  </Face></BoundaryConditions></Grid>
+  <CFD><cfl>0.25</cfl><ICE><advection type="FirstOrder" useCompatibleFluxes="true"/></ICE></CFD>
+  <PhysicalConstants><gravity>[0,-9.81,0]</gravity><reference_pressure>101325</reference_pressure></PhysicalConstants>
+  <MaterialProperties>
+    <MPM><material/></MPM>
+    <ICE><material name="air">
+      <EOS type="ideal_gas"/>
+      <gamma>1.4</gamma>
+      <specific_heat>716</specific_heat>
+      <dynamic_viscosity>2e-5</dynamic_viscosity>
+      <thermal_conductivity>0.03</thermal_conductivity>
+      <isSurroundingMatl>true</isSurroundingMatl>
+      <geom_object>
+        <box label="all"><min>[0,0,0]</min><max>[1,1,1]</max></box>
+        <res>[2,2,2]</res>
+        <velocity>[1,0,0]</velocity>
+        <density>1.2</density>
+        <temperature>300</temperature>
+        <pressure>103104</pressure>
+      </geom_object>
+    </material></ICE>
+    <exchange_properties><exchange_coefficients>
+      <momentum>[0,1e15,1e15]</momentum>
+      <heat>[0,1,1]</heat>
+    </exchange_coefficients></exchange_properties>
+  </MaterialProperties>
+</Uintah_specification>)";
+
+}  // namespace
+
+TEST(GasScene, HasWhatTheSceneSays) {
+  input::Diagnostics diagnostics;
+  const input::Document document = input::Document::parse(scene, "gas.ups", diagnostics);
+  const GasScene gas = readGas(document.root(), 1, diagnostics);
+  ASSERT_FALSE(diagnostics.any()) << diagnostics.sorted()[0].sentence;
+  EXPECT_TRUE(diagnostics.notes().empty());
+  EXPECT_EQ(gas.gas.cfl, 0.25);
+  EXPECT_EQ(gas.gas.method.reconstruction, euler::Reconstruction::firstOrder);
+  EXPECT_EQ(gas.gas.gas.gamma, 1.4);
+  EXPECT_EQ(gas.gas.gas.material, 1);
+  EXPECT_EQ(gas.specificHeat, 716);
+  EXPECT_EQ(gas.viscosity, 2e-5);
+  EXPECT_EQ(gas.conductivity, 0.03);
+  EXPECT_EQ(gas.gravity, Vec3(0, -9.81, 0));
+  EXPECT_EQ(gas.referencePressure, 101325);
+  ASSERT_EQ(gas.gas.objects.size(), 1U);
+  EXPECT_EQ((*gas.gas.objects[0].temperature)(Vec3::Zero()), 300);
+  ASSERT_TRUE(gas.exchange);
+  EXPECT_EQ(gas.exchange->momentum, (std::vector<double>{0, 1e15, 1e15}));
+  EXPECT_EQ(gas.exchange->heat, (std::vector<double>{0, 1, 1}));
+}
+
+TEST(GasScene, CountsSolidsBeforeTheGas) {
+  input::Diagnostics diagnostics;
+  const input::Document document = input::Document::parse(scene, "gas.ups", diagnostics);
+  readGas(document.root(), 0, diagnostics);
+  ASSERT_EQ(diagnostics.size(), 1U);
+  EXPECT_EQ(diagnostics.sorted()[0].sentence, "there is no material 1: the gas is number 0");
+}
+
+}  // namespace tushar::ice

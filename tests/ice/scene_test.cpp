@@ -1,0 +1,204 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "tests/support/scenes.hpp"
+#include "tests/support/temporary.hpp"
+
+namespace tushar::ice {
+
+namespace {
+
+using Overrides = std::vector<std::string>;
+
+const std::string sod = "ups/ice/sod.ups", shear = "ups/ice/shear_wave.ups", channel = "ups/ice/channel.ups",
+                  heat = "ups/ice/heat_wave.ups";
+
+/// A scene with a piece of text replaced.
+std::string changedScene(const std::string& scene, const std::string& from, const std::string& to) {
+  std::stringstream text;
+  text << std::ifstream(scene).rdbuf();
+  std::string changed = text.str();
+  const std::size_t at = changed.find(from);
+  if (at == std::string::npos) throw std::logic_error("the scene has no " + from);
+  const std::string path = test::temporaryFolder() + "changed.ups";
+  std::ofstream(path) << changed.replace(at, from.size(), to);
+  return path;
+}
+
+/// What is wrong with the scene, without its place; what is noted, if nothing is.
+std::string problemOf(const std::string& scene, const Overrides& overrides = {}) {
+  try {
+    const simulation::Problem problem = scene::readScene(scene, overrides, catalogue());
+    std::string notes;
+    for (const InputProblem& note : problem.notes)
+      if (note.sentence.find("is saved as") == std::string::npos) notes += note.sentence;
+    return notes;
+  } catch (const InputError& error) {
+    return error.problems().size() == 1 ? error.problems()[0].sentence : std::string(error.what());
+  }
+}
+
+double errorOf(const std::string& scene, const Overrides& overrides) {
+  return test::runScene(scene, overrides).errors.at(0).norms.at("max");
+}
+
+double driftOf(const report::Report& report, const std::string& name) {
+  for (const report::Drift& drift : report.drifts)
+    if (drift.name == name) return drift.change;
+  return NAN;
+}
+
+const std::string side = R"(<Face side="x-"><BCType id="all" label="Symmetric" var="symmetry"/></Face>)";
+
+/// Sod's scene with other conditions at x-.
+std::string withSide(const std::string& conditions) {
+  return changedScene(sod, side, "<Face side=\"x-\">" + conditions + "</Face>");
+}
+
+}  // namespace
+
+TEST(IceScene, HasTheBitsOfEuler) {
+  // gamma = 1.5 and c_v = 2 make R = 1 without round-off.
+  const std::string gamma = "DataAnalysis/Module/gamma=1.5";
+  EXPECT_EQ(test::runScene(sod, {"MaterialProperties/ICE/material/gamma=1.5",
+                                 "MaterialProperties/ICE/material/specific_heat=2", gamma})
+                .fingerprint,
+            test::runScene("ups/euler/sod.ups", {"Euler/gas/gamma=1.5", "Euler/cfl=0.4", gamma}).fingerprint);
+}
+
+TEST(IceScene, KeepsTheEnergyOfSodsTube) { EXPECT_NEAR(driftOf(test::runScene(sod, {}), "energy"), 0, 1e-14); }
+
+TEST(IceScene, DampsAShearWave) {
+  // .0067 m/s are left; second order of h, with steps of h².
+  const double coarse = errorOf(shear, {"Grid/Level/Box/resolution=[32,8,1]"});
+  const double fine = errorOf(shear, {});
+  EXPECT_LT(fine, 1.6e-6);
+  EXPECT_GT(coarse / fine, 4);
+  EXPECT_NEAR(driftOf(test::runScene(shear, {}), "energy"), 0, 1e-14);
+}
+
+TEST(IceScene, KeepsMomentumAndEnergyOfAPeriodicBox) {
+  const report::Report report = test::runScene(
+      shear,
+      {"Time/max_Timesteps=50", "MaterialProperties/ICE/material/thermal_conductivity=0.1",
+       "MaterialProperties/ICE/material/geom_object/velocity=[0.3+0.1*sin(2*pi*x)*cos(16*pi*y),0.2*cos(2*pi*x),0]"});
+  for (const char* name : {"mass", "momentum", "energy"}) EXPECT_NEAR(driftOf(report, name), 0, 1e-14) << name;
+}
+
+TEST(IceScene, DampsAWaveOfTemperature) {
+  // .0454 K are left of it.
+  EXPECT_LT(errorOf(heat, {}), 2.3e-4);
+}
+
+TEST(IceScene, HasTheParabolaOfAChannel) {
+  EXPECT_NEAR(errorOf(channel, {"Grid/Level/Box/resolution=[4,8,1]"}), 0.05 / 64, 1e-5);
+}
+
+TEST(IceScene, HasOneFingerprintOnAnyPatches) {
+  const Overrides shortened{"Time/maxTime=0.02"};
+  for (const std::string& scene : {shear, channel}) {
+    const std::string whole = test::runScene(scene, shortened).fingerprint;
+    for (const char* patches : {"[2,1,1]", "[1,4,1]", "[4,8,1]"}) {
+      Overrides overrides = shortened;
+      overrides.push_back("Grid/Level/Box/patches=" + std::string(patches));
+      EXPECT_EQ(test::runScene(scene, overrides).fingerprint, whole) << scene << patches;
+    }
+  }
+}
+
+TEST(IceScene, KeepsEnergyOnTwoLevels) {
+  const std::string scene =
+      changedScene(heat, "    </Level>\n",
+                   "    </Level>\n    <Level><Box label=\"fine\"><lower>[0.25,0,0]</lower><upper>[0.5,1,1]</upper>"
+                   "<resolution>[32,1,1]</resolution></Box></Level>\n");
+  const report::Report report = test::runScene(scene, {"Time/maxTime=0.1"});
+  EXPECT_NEAR(driftOf(report, "energy"), 0, 1e-14);
+  EXPECT_NEAR(driftOf(report, "mass"), 0, 1e-14);
+}
+
+TEST(IceScene, TakesNeumannConditionsForAnOpenSide) {
+  const std::string open = R"(<BCType id="0" label="Pressure" var="Neumann"><value>0.0</value></BCType>)"
+                           R"(<BCType id="0" label="Velocity" var="Neumann"><value>[0.,0.,0.]</value></BCType>)"
+                           R"(<BCType id="0" label="SpecificVol" var="computeFromDensity"><value>0.0</value></BCType>)";
+  EXPECT_EQ(test::runScene(withSide(open), {}).fingerprint, test::runScene(withSide(""), {}).fingerprint);
+  EXPECT_EQ(problemOf(withSide(open)), "");
+}
+
+TEST(IceScene, RefusesAGradientAtASide) {
+  EXPECT_EQ(problemOf(withSide(R"(<BCType id="0" label="Density" var="Neumann"><value>1</value></BCType>)")),
+            "found '1', expected 0: a Neumann condition lets Density continue as it is");
+}
+
+TEST(IceScene, RefusesAnInflowOfNoTemperature) {
+  EXPECT_EQ(problemOf(withSide(R"(<BCType id="0" label="Temperature" var="Dirichlet"><value>0</value></BCType>)")),
+            "found '0', expected a value greater than 0 K");
+}
+
+TEST(IceScene, RefusesConditionsOfAnotherMaterial) {
+  EXPECT_EQ(problemOf(withSide(R"(<BCType id="1" label="Density" var="Dirichlet"><value>1</value></BCType>)")),
+            "there is no material 1: the gas is number 0");
+}
+
+TEST(IceScene, RefusesAPartOfASide) {
+  EXPECT_EQ(problemOf(changedScene(sod, "<Face side=\"x-\">", "<Face circle=\"x-\" origin=\"0 0 0\" radius=\"1\">")),
+            "conditions on a part of a side (circle) are not available; give side=\"x-\" to have them on all of it");
+}
+
+TEST(IceScene, RefusesImplicitStepsUnlessTold) {
+  const std::string scene = changedScene(sod, "<ICE><advection", "<ICE><ImplicitSolver/><advection");
+  EXPECT_EQ(problemOf(scene),
+            "is not available: steps are explicit, and as short as sound allows. Take it out, or run with --set "
+            "CFD/ICE/explicit=true");
+  EXPECT_EQ(problemOf(scene, {"CFD/ICE/explicit=true"}), "");
+}
+
+TEST(IceScene, RefusesASecondGas) {
+  EXPECT_EQ(problemOf(changedScene(sod, "      </material>\n",
+                                   "      </material>\n<material><EOS type=\"ideal_gas\"/><gamma>1.4</gamma>"
+                                   "<specific_heat>1</specific_heat><geom_object><sphere><origin>[0,0,0]</origin>"
+                                   "<radius>1</radius></sphere><density>1</density><temperature>1</temperature>"
+                                   "</geom_object></material>\n")),
+            "a second gas is not available; keep one <material>");
+}
+
+TEST(IceScene, RefusesSolids) {
+  EXPECT_EQ(problemOf(changedScene(sod, "<MaterialProperties>", "<MaterialProperties><MPM/>")),
+            "'ice' has no solids: keep the gas alone");
+}
+
+TEST(IceScene, RefusesOtherEquationsOfState) {
+  EXPECT_EQ(problemOf(changedScene(sod, "<EOS type=\"ideal_gas\"/>", "<EOS type=\"JWL\"><A>1</A></EOS>")),
+            "attribute 'type': found 'JWL', expected 'ideal_gas'");
+}
+
+TEST(IceScene, RefusesModels) {
+  EXPECT_EQ(problemOf(changedScene(sod, "  <CFD>", "  <Models><Model type=\"PassiveScalar\"/></Models>\n  <CFD>")),
+            "is not available; take it out: nothing burns or is carried along");
+}
+
+TEST(IceScene, NotesAPressureThatDensityAndTemperatureDoNotMake) {
+  EXPECT_EQ(problemOf(changedScene(sod, "<density>0.125</density>", "<density>0.125</density><pressure>2</pressure>")),
+            "does nothing: density and temperature make 0.1 Pa");
+  EXPECT_EQ(problemOf(changedScene(sod, "<density>0.125</density>", "<density>0.125</density><pressure>.1</pressure>")),
+            "");
+}
+
+TEST(IceScene, SavesUintahsNamesAsItsOwnOnce) {
+  simulation::Problem problem = scene::readScene(
+      changedScene(sod, "<save label=\"rho_CC\"/>", "<save label=\"press_equil_CC\"/><save label=\"rho_CC\"/>"), {},
+      catalogue());
+  std::vector<std::string> labels;
+  for (const simulation::SaveRequest& save : problem.archive.saves) labels.push_back(save.label);
+  EXPECT_EQ(labels, (std::vector<std::string>{"c.pressure", "c.density", "c.velocity", "c.temperature", "TotalMass",
+                                              "TotalIntEng", "KineticEnergy"}));
+}
+
+TEST(IceScene, LeavesOutWhatUintahAloneComputes) {
+  EXPECT_EQ(problemOf(changedScene(sod, "rho_CC", "delP_Dilatate")),
+            "'delP_Dilatate' is not saved: nobody computes it here");
+}
+
+}  // namespace tushar::ice
