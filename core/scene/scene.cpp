@@ -322,7 +322,7 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   if (kind) refuseUnknownSections(root, *kind, diagnostics);
   readSharedSections(root, problem, diagnostics);
   AmrSettings amr;
-  if (const auto given = section(root, "AMR", false, diagnostics)) amr = readAmr(*given, diagnostics);
+  if (const auto given = section(root, "AMR", false, diagnostics)) amr = readAmr(*given, kind, diagnostics);
   grid::Domain domain;
   if (const auto grid = section(root, "Grid", true, diagnostics)) {
     domain =

@@ -231,7 +231,7 @@ tasks::TaskList Phases::refinementTasks(const RegridSettings& regrid) const {
       criteria.push_back({one, label, diagnosed.contains(one.variable)});
     else
       problems.push_back(
-          {one.where, "AMR/Refinement_Criteria_Thresholds/Variable",
+          {one.where, one.path,
            fmt::format("'{}' is no variable of cells that this component computes{}; there {} {}", one.variable,
                        didYouMean(one.variable, known), known.size() == 1 ? "is" : "are", allOf(known))});
   }
