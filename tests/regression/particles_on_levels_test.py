@@ -58,6 +58,13 @@ class ParticlesOnLevels(unittest.TestCase):
         self.assertEqual((code, errors), (0, ""))
         self.assertEqual(report["fingerprint"], expected)
 
+    def test_a_body_that_is_too_thin_for_coarse_cells_is_there(self):
+        thin = (r"\[0.1875,0.26,1\]", "[0.1775,0.26,1]")
+        uniform = changed(self.folder, thin, (r"  <AMR>.*</AMR>\n", ""), (r"\[32,32,1\]", "[256,256,1]"))
+        expected = run(uniform, "Time/max_Timesteps=1").report["particles"]
+        levels = changed(self.folder, thin)
+        self.assertEqual(run(levels, "Time/max_Timesteps=1").report["particles"], expected)
+
     def still(self, upper, resolution):
         """The scene with finer cells up to a corner, which stay."""
         blocks = "<AMR><Regridder><min_patch_size>[[8,8,1]]</min_patch_size></Regridder></AMR>"
