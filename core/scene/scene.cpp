@@ -341,7 +341,8 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
 
   problem.componentName = kind->name;
   problem.grid = std::make_unique<grid::Grid>(domain, share);
-  problem.threads = workers.threadsFor(domain.resolution);
+  problem.threads = workers.threads;
+  if (workers.mayBeFewer) problem.cellsPerThread = grid::cellsPerThread;
   problem.component = makeComponent(problem.grid->finest());
   if (domain.refinement.levels > 1)
     amr.regrid.where = checkTakesLevels(*kind, *problem.component, *root.child("Grid"), amr, diagnostics);
