@@ -30,4 +30,9 @@ GridOrder orderOf(const grid::Grid& grid, bool isNode) {
   return GridOrder(isNode ? grid.level().nodesOfCells() : grid.level().cells());
 }
 
+GridOrder orderOfState(const grid::Grid& grid, bool isNode) {
+  if (grid.levels() > 1) return {grid, 0};
+  return GridOrder(isNode ? grid.level().nodes() : grid.level().cells());
+}
+
 }  // namespace tushar::collect

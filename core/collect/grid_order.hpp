@@ -21,7 +21,7 @@ class GridOrder {
   /// The cells or nodes that a patch gives, of those that it has.
   grid::Box givenBy(const grid::Box& own) const { return boxes_ ? own : own.intersect(all_); }
   /// Calls `visit(place in the order, first cell or node, count)` for each row of a box of a level, as far as it is in
-  /// the order.
+  /// the order; box by box along the curve, so from left to right for a single row.
   template <class Visit>
   void forEachRow(int level, const grid::Box& box, Visit&& visit) const {
     if (!boxes_) return rowsOf(0, all_, box.intersect(all_), visit);
@@ -46,6 +46,9 @@ class GridOrder {
 
 /// All cells or nodes that a variable has a value for; of several levels in boxes that suit readers of files.
 GridOrder orderOf(const grid::Grid& grid, bool isNode);
+
+/// The same in a checkpoint: of several levels block by block, of one with the nodes beyond the sides of the grid.
+GridOrder orderOfState(const grid::Grid& grid, bool isNode);
 
 /// The most cells of a box in a file along an axis.
 inline constexpr int mostCellsOfBox = 64;

@@ -11,29 +11,32 @@ using data::Generation;
 using data::ParticleRange;
 using grid::Patch;
 
-ParticleOrder::ParticleOrder(data::Warehouse& warehouse, int material) : warehouse_(&warehouse), material_(material) {
+ParticleOrder::ParticleOrder(data::Warehouse& warehouse, int material)
+    : warehouse_(&warehouse), material_(material), order_(orderOfState(warehouse.grid(), false)) {
   const grid::Grid& grid = warehouse.grid();
-  const grid::Box& cells = grid.finest().cells();
-  std::vector<std::int32_t> perCell(warehouse.ranks().isFirst() ? cells.size() : 0);
+  std::vector<std::int32_t> perCell(warehouse.ranks().isFirst() ? order_.size() : 0);
   const auto countsOf = [&](const Patch& patch, auto&& take) {
     if (!grid.isFinest(patch)) return;
     const data::ParticleSet& set = warehouse.particles(Generation::old, material, patch.id());
-    grid::forEach<3>(patch.cells(), [&](const Index3& cell) { take(cell, std::int32_t{set.in(cell).size()}); });
+    forEachRowPiece(patch, [&](std::size_t place, const Index3& first, int cells) {
+      const ParticleRange* row = set.row(first);
+      for (int k = 0; k < cells; ++k) take(place + static_cast<std::size_t>(k), std::int32_t{row[k].size()});
+    });
   };
   collect(
       warehouse,
       [&](const Patch& patch) {
-        countsOf(patch, [&](const Index3& cell, std::int32_t count) { perCell[cells.offset(cell)] = count; });
+        countsOf(patch, [&](std::size_t place, std::int32_t count) { perCell[place] = count; });
       },
       [&](const Patch& patch, mpi::Bytes& bytes) {
-        countsOf(patch, [&](const Index3&, std::int32_t count) { mpi::append(bytes, &count, sizeof(count)); });
+        countsOf(patch, [&](std::size_t, std::int32_t count) { mpi::append(bytes, &count, sizeof(count)); });
       },
       [&](const Patch& patch, const std::byte* from) -> std::size_t {
-        if (!grid.isFinest(patch)) return 0;
-        const std::size_t length = patch.cells().extent(0) * sizeof(std::int32_t);
         std::size_t read = 0;
-        forEachRow(patch.cells(), [&](const Index3& first) {
-          std::memcpy(&perCell[cells.offset(first)], from + read, length);
+        if (!grid.isFinest(patch)) return read;
+        forEachRowPiece(patch, [&](std::size_t place, const Index3&, int cells) {
+          const std::size_t length = static_cast<std::size_t>(cells) * sizeof(std::int32_t);
+          std::memcpy(&perCell[place], from + read, length);
           read += length;
         });
         return read;
@@ -42,7 +45,7 @@ ParticleOrder::ParticleOrder(data::Warehouse& warehouse, int material) : warehou
 }
 
 ParticleOrder::ParticleOrder(data::Warehouse& warehouse, int material, const std::vector<std::int32_t>& perCell)
-    : warehouse_(&warehouse), material_(material) {
+    : warehouse_(&warehouse), material_(material), order_(orderOfState(warehouse.grid(), false)) {
   sum(perCell);
 }
 
@@ -64,9 +67,8 @@ Runs ParticleOrder::runs() const {
     const Patch patch = grid.patch(id);
     if (!grid.isFinest(patch)) continue;
     std::uint32_t next = 0;
-    forEachRow(patch.cells(), [&](const Index3& first) {
-      const std::size_t* start = startOf(first);
-      const std::size_t count = start[patch.cells().extent(0)] - start[0];
+    forEachPiece(patch, [&](const std::size_t* start, const Index3&, int cells) {
+      const std::size_t count = start[cells] - start[0];
       if (count > 0) runs.push_back({start[0], static_cast<std::uint32_t>(id), next});
       next += static_cast<std::uint32_t>(count);
     });
@@ -81,10 +83,9 @@ void ParticleOrder::install() {
     set.reset(patch, warehouse_->table().reach(material_));
     if (!warehouse_->grid().isFinest(patch)) continue;
     int next = 0;
-    forEachRow(patch.cells(), [&](const Index3& first) {
+    forEachPiece(patch, [&](const std::size_t* start, const Index3& first, int cells) {
       ParticleRange* row = set.row(first);
-      const std::size_t* start = startOf(first);
-      for (int k = 0; k < patch.cells().extent(0); ++k) {
+      for (int k = 0; k < cells; ++k) {
         const int count = static_cast<int>(start[k + 1] - start[k]);
         row[k] = {next, next + count};
         next += count;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/collect/grid_order.hpp"
 #include "core/collect/rows.hpp"
 #include "core/collect/sources.hpp"
 #include "core/data/warehouse.hpp"
@@ -10,12 +11,12 @@
 namespace tushar::collect {
 
 /// The order (cell, id) of the old particles of a material over the whole grid, which no layout changes, and where each
-/// patch has them.
+/// patch has them. Cells come with the first axis fastest; where there are several levels, block by block.
 class ParticleOrder {
  public:
   /// Orders the particles that the warehouses of all ranks hold; the order is on rank 0. Collective.
   ParticleOrder(data::Warehouse& warehouse, int material);
-  /// Takes the number of particles in each cell, the first axis fastest.
+  /// Takes the number of particles in each cell of the grid, in the order of the cells.
   ParticleOrder(data::Warehouse& warehouse, int material, const std::vector<std::int32_t>& perCell);
 
   /// Number of particles.
@@ -30,21 +31,37 @@ class ParticleOrder {
   void forEachRun(const grid::Patch& patch, Visit&& visit) const {
     if (!warehouse_->grid().isFinest(patch)) return;
     const data::ParticleSet& set = warehouse_->particles(data::Generation::old, material_, patch.id());
-    collect::forEachRow(patch.cells(), [&](const Index3& first) {
-      const std::size_t* start = startOf(first);
-      const std::size_t count = start[patch.cells().extent(0)] - start[0];
+    forEachPiece(patch, [&](const std::size_t* start, const Index3& first, int cells) {
+      const std::size_t count = start[cells] - start[0];
       if (count > 0) visit(start[0], static_cast<std::size_t>(set.row(first)->first), count);
     });
   }
 
  private:
-  const std::size_t* startOf(const Index3& cell) const {
-    return &starts_[warehouse_->grid().finest().cells().offset(cell)];
+  /// Calls `visit(place of the first cell among all, first cell, count)` for the pieces of each row of cells of a patch
+  /// that stand together in the order, row by row, from left to right.
+  template <class Visit>
+  void forEachRowPiece(const grid::Patch& patch, Visit&& visit) const {
+    collect::forEachRow(patch.cells(), [&](const Index3& first) {
+      grid::Box row = patch.cells();
+      for (const int d : {1, 2}) {
+        row.lower[d] = first[d];
+        row.upper[d] = first[d] + 1;
+      }
+      order_.forEachRow(patch.level().number(), row, visit);
+    });
+  }
+  /// The same with where the particles of the first cell start, and of the cells behind it.
+  template <class Visit>
+  void forEachPiece(const grid::Patch& patch, Visit&& visit) const {
+    forEachRowPiece(patch,
+                    [&](std::size_t place, const Index3& first, int cells) { visit(&starts_[place], first, cells); });
   }
   void sum(const std::vector<std::int32_t>& perCell);
 
   data::Warehouse* warehouse_;
   int material_;
+  GridOrder order_;
   std::vector<std::size_t> starts_{0};  ///< place of the first particle of each cell, then of the end
 };
 

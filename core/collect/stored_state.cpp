@@ -56,10 +56,8 @@ const char* folderOf(Centring centring) {
   }
 }
 
-/// Cells of several levels stand block by block.
-GridOrder orderOf(const grid::Grid& grid, const Label& label) {
-  if (grid.levels() > 1) return {grid, 0};
-  return GridOrder(label.centring == Centring::node ? grid.level().nodes() : grid.level().cells());
+GridOrder orderOfState(const grid::Grid& grid, const Label& label) {
+  return collect::orderOfState(grid, label.centring == Centring::node);
 }
 
 /// How a variable is laid out in the file: z, y, x; of several levels block by block.
@@ -137,7 +135,7 @@ class StateWriter : StateWalk {
   bool isHeld(int number) const { return warehouse_.isHeld(Generation::old, number); }
 
   void writeField(int number, const std::string& path) {
-    const GridOrder order = orderOf(grid_, label(number));
+    const GridOrder order = orderOfState(grid_, label(number));
     Parts parts = collectGrid(warehouse_, Generation::old, number, order);
     if (!file_) return;
     auto runs = std::make_shared<Runs>(runsOfGrid(grid_, label(number), parts, order));
@@ -150,7 +148,7 @@ class StateWriter : StateWalk {
     const ParticleOrder order(warehouse_, material);
     if (file_)
       file_->dataset(perCellPath(material), {"perCell", "1", "particles of each cell", 1, order.perCell()},
-                     {grid_.finest().cells().size()});
+                     {grid_.cellCount()});
     const auto runs = std::make_shared<const Runs>(file_ ? order.runs() : Runs{});
     forEachVariable(Centring::particle, material, [&](int number, const std::string& path) {
       if (isHeld(number)) writeColumn(number, path, runs, order.count());
@@ -233,7 +231,7 @@ class StateReader : StateWalk {
   /// Ghosts are left to the first exchange.
   void readField(int number, const std::string& path) {
     const Label& field = label(number);
-    const GridOrder order = orderOf(grid_, field);
+    const GridOrder order = orderOfState(grid_, field);
     const output::Hdf5Parts file = partsOf(path, field, order.size());
     std::vector<output::Hdf5Parts::Part> rows;
     warehouse_.allocateGrid(Generation::old, number);
@@ -255,8 +253,7 @@ class StateReader : StateWalk {
   }
 
   void readParticles(int material) {
-    const Array::Values perCell =
-        stored(perCellPath(material), std::vector<std::int32_t>{}, grid_.finest().cells().size());
+    const Array::Values perCell = stored(perCellPath(material), std::vector<std::int32_t>{}, grid_.cellCount());
     ParticleOrder order(warehouse_, material, std::get<std::vector<std::int32_t>>(perCell));
     order.install();
     forEachVariable(Centring::particle, material, [&](int number, const std::string& path) {

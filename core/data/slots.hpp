@@ -29,9 +29,9 @@ struct Slots {
 using SharedSlots = std::shared_ptr<const Slots>;
 
 /// For a node or cell variable that is read `ghost` beyond each patch.
+SharedSlots slotsOfGrid(const grid::Grid& grid, const Label& label, int ghost);
 /// For the faces of patches behind which other levels stand.
 SharedSlots slotsOfRims(const grid::Grid& grid);
-SharedSlots slotsOfGrid(const grid::Grid& grid, const Label& label, int ghost);
 
 /// For so many particles on each patch. Slots of `base` (which may be null) stay where the particles fit; a patch that
 /// has outgrown its slot gets one behind the others, with room for an eighth more. Where the memory would then be more

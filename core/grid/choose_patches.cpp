@@ -8,8 +8,7 @@ namespace tushar::grid {
 
 namespace {
 
-constexpr int cellsPerThread = 8192;  ///< fewer are not worth a thread
-constexpr int patchesPerWorker = 4;   ///< so that one with less work can take over from another
+constexpr int patchesPerWorker = 4;  ///< so that one with less work can take over from another
 
 double countOf(const Index3& cells) { return static_cast<double>(cells[0]) * cells[1] * cells[2]; }
 

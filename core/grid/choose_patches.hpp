@@ -7,6 +7,8 @@
 
 namespace tushar::grid {
 
+inline constexpr int cellsPerThread = 8192;  ///< fewer are not worth a thread
+
 /// The ranks and threads that work on a grid.
 struct Workers {
   int threads = 1;          ///< of each rank

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/grid/grid.hpp"
+
 namespace tushar::grid {
 
 Level::Level(const Domain& domain, int number, int levels, const Grid* grid)
@@ -45,6 +47,8 @@ void Level::measure() {
     if (const double extent = domain_.upper[axis] - domain_.lower[axis]; extent != 0)
       cellVolume_ *= extent / domain_.resolution[axis];
 }
+
+const Level& Level::finest() const { return halvings_ > 0 ? grid_->finest() : *this; }
 
 Box Level::nodes() const {
   Box nodes = nodesOfCells();

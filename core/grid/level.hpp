@@ -48,6 +48,8 @@ class Level {
   int number() const { return number_; }
   /// The grid that it is a level of, which knows its patches; there must be one.
   const Grid& grid() const { return *grid_; }
+  /// The finest level of that grid; this one, where it has no finer ones.
+  const Level& finest() const;
   int dimension() const { return static_cast<int>(axes_.size()); }
   /// The scene's axis (0 for x, 1 for y, 2 for z) behind a kernel axis.
   int axis(int kernelAxis) const { return axes_[kernelAxis]; }

@@ -344,7 +344,7 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   if (kind) refuseUnknownSections(root, *kind, diagnostics);
   readSharedSections(root, problem, diagnostics);
   AmrSettings amr;
-  if (const auto given = section(root, "AMR", false, diagnostics)) amr = readAmr(*given, diagnostics);
+  if (const auto given = section(root, "AMR", false, diagnostics)) amr = readAmr(*given, kind, diagnostics);
   grid::Domain domain;
   if (const auto grid = section(root, "Grid", true, diagnostics)) {
     domain =
@@ -363,7 +363,8 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
 
   problem.componentName = kind->name;
   problem.grid = std::make_unique<grid::Grid>(domain, share);
-  problem.threads = workers.threadsFor(domain.resolution);
+  problem.threads = workers.threads;
+  if (workers.mayBeFewer) problem.cellsPerThread = grid::cellsPerThread;
   problem.component = makeComponent(problem.grid->finest());
   if (domain.refinement.levels > 1)
     amr.regrid.where = checkTakesLevels(*kind, *problem.component, *root.child("Grid"), amr, diagnostics);

@@ -33,7 +33,9 @@ struct AmrSettings {
   std::optional<std::vector<Index3>> ratios;  ///< of cell widths from level to level
   std::optional<input::Element> tag;          ///< `AMR`, where it is given; for messages
 };
-AmrSettings readAmr(const input::Element& section, input::Diagnostics& diagnostics);
+/// `kind`: the component of the scene, null where it is not known.
+AmrSettings readAmr(const input::Element& section, const simulation::ComponentKind* kind,
+                    input::Diagnostics& diagnostics);
 /// When and where a component's grid is refined: by its own criteria where the scene has none. Reports variables that
 /// the component lacks.
 simulation::RegridSettings settled(AmrSettings amr, const simulation::Component& component,
@@ -47,11 +49,12 @@ void describeArchive(std::ostream& out);
 void describeGrid(std::ostream& out);
 void describeAmr(std::ostream& out);
 
-/// How the shared sections are read, for the schemas of editors; Grid with the boundary labels of a component.
+/// How the shared sections are read, for the schemas of editors; Grid with the boundary labels of a component, AMR with
+/// its name.
 const input::SchemaBase& metaForm();
 const input::SchemaBase& timeForm();
 const input::SchemaBase& archiveForm();
-const input::SchemaBase& amrForm();
+const input::SchemaBase& amrForm(const simulation::ComponentKind& kind);
 const input::SchemaBase& gridForm(const std::vector<grid::BoundaryVariable>& boundaryLabels);
 /// The tag SimulationComponent; its `type` says which component.
 const input::SchemaBase& componentForm();

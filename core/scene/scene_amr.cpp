@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <map>
 
@@ -19,15 +20,18 @@ using Indicator = simulation::Criterion::Indicator;
 
 namespace {
 
-/// Names of components that a part of `AMR` may have: ours, and Uintah's.
+/// Names of components that a part of `AMR` may have in every scene: ours, and Uintah's.
 const std::vector<std::string> componentNames{"Euler", "Heat", "Burgers", "ICE", "MPM", "MPMICE"};
+
+/// The name of a criterion that is no variable: cells with particles, of any material.
+constexpr std::string_view cellsWithParticles = "particles";
 
 struct VariableTag {
   std::string name, material;
   Indicator indicator = Indicator::jump;
-  double refine = 0;
-  std::optional<double> coarsen;
+  std::optional<double> refine, coarsen;
   Location where;
+  std::string path;
 };
 
 struct CriteriaSection {
@@ -59,34 +63,49 @@ bool isLower(Indicator indicator) { return indicator == Indicator::below; }
 bool isValue(Indicator indicator) { return indicator == Indicator::above || indicator == Indicator::below; }
 
 /// What is halfway from the threshold to nothing; of values, half their size further.
-double coarsenOf(const VariableTag& tag) {
+double coarsenOf(const VariableTag& tag, double refine) {
   if (tag.coarsen) return *tag.coarsen;
-  return isLower(tag.indicator) ? tag.refine + 0.5 * std::abs(tag.refine) : tag.refine - 0.5 * std::abs(tag.refine);
+  return isLower(tag.indicator) ? refine + 0.5 * std::abs(refine) : refine - 0.5 * std::abs(refine);
+}
+
+void noteIdle(const Element& particles, Diagnostics& diagnostics) {
+  for (const input::Attribute& given : particles.attributes())
+    if (given.name != "name")
+      diagnostics.note(given.where, particles.path(),
+                       fmt::format("{} does nothing: all cells with particles are of the finest level", given.name));
 }
 
 void checkThresholds(const VariableTag& tag, const Element& element, Diagnostics& diagnostics) {
+  if (tag.name == cellsWithParticles) return noteIdle(element, diagnostics);
+  if (!tag.refine)
+    return diagnostics.error(element, fmt::format("missing attribute 'value' of <{}> (finer cells where the indicator "
+                                                  "is above this)",
+                                                  element.name()));
+  const double refine = *tag.refine;
   const auto refuse = [&](const char* attribute, double found, const std::string& expected) {
     diagnostics.error(element.whereOf(attribute), element.path(),
                       fmt::format("attribute '{}': found '{:g}', expected {}", attribute, found, expected));
   };
-  if (!isValue(tag.indicator) && tag.refine <= 0) return refuse("value", tag.refine, "a value greater than 0");
-  if (tag.indicator == Indicator::secondDerivative && tag.refine >= 1)
-    return refuse("value", tag.refine, "a value less than 1, which no second_derivative exceeds");
+  if (!isValue(tag.indicator) && refine <= 0) return refuse("value", refine, "a value greater than 0");
+  if (tag.indicator == Indicator::secondDerivative && refine >= 1)
+    return refuse("value", refine, "a value less than 1, which no second_derivative exceeds");
   if (!tag.coarsen) return;
   if (!isValue(tag.indicator) && *tag.coarsen < 0) refuse("coarsen", *tag.coarsen, "a value of at least 0");
-  if (isLower(tag.indicator) ? *tag.coarsen < tag.refine : *tag.coarsen > tag.refine)
-    refuse(
-        "coarsen", *tag.coarsen,
-        fmt::format("a value {} that of value, {:g}", isLower(tag.indicator) ? "not below" : "not above", tag.refine));
+  if (isLower(tag.indicator) ? *tag.coarsen < refine : *tag.coarsen > refine)
+    refuse("coarsen", *tag.coarsen,
+           fmt::format("a value {} that of value, {:g}", isLower(tag.indicator) ? "not below" : "not above", refine));
 }
 
 const Schema<VariableTag>& variableSchema() {
   static const Schema<VariableTag> schema =
       Schema<VariableTag>("Variable", "A reason for finer cells.")
           .location(&VariableTag::where)
-          .requiredAttribute("name", &VariableTag::name, "1", "a variable of cells, such as c.density")
-          .requiredAttribute("value", &VariableTag::refine, "1",
-                             "finer cells where the indicator is above this (of type below: where it is below)")
+          .requiredAttribute("name", &VariableTag::name, "1",
+                             "a variable of cells, such as c.density; or particles, which need nothing else: the "
+                             "finest level follows them in any case")
+          .optionalAttribute("value", &VariableTag::refine, "1",
+                             "finer cells where the indicator is above this (of type below: where it is below); all "
+                             "but particles must have it")
           .attributeValue("matl", &VariableTag::material, "all", "1", "name or number of the material, or all")
           .choiceAttribute("type", &VariableTag::indicator,
                            {{"jump", Indicator::jump},
@@ -95,9 +114,10 @@ const Schema<VariableTag>& variableSchema() {
                             {"above", Indicator::above},
                             {"below", Indicator::below}},
                            Indicator::jump,
-                           "the indicator: half the difference of the cells to both sides over the least of the three; "
-                           "Löhner's second difference, from 0 to 1; the gradient, unit of the variable over m, "
-                           "which is Uintah's; the value itself")
+                           "the indicator: half the difference of the cells to both sides over the least size of the "
+                           "three, for what stays away from 0, as it is infinite beside 0; Löhner's second "
+                           "difference, from 0 to 1; the gradient, unit of the variable over m, which is Uintah's; "
+                           "the value itself")
           .ours()
           .optionalAttribute("coarsen", &VariableTag::coarsen, "1",
                              "no coarser cells where the indicator is above this (of type below: where it is below); "
@@ -120,7 +140,7 @@ const Schema<ThresholdsSection>& thresholdsSchema() {
     Schema<ThresholdsSection> section("component", "How a component takes to several levels.");
     section
         .value("do_Refluxing", &ThresholdsSection::refluxes, true, "1",
-               "what leaves coarse cells is what enters finer ones, to the last bit; without, nothing is conserved")
+               "what leaves coarse cells is what enters finer ones, to round-off; without, totals drift")
         .section("Refinement_Criteria_Thresholds", &ThresholdsSection::criteria, criteriaSchema());
     const std::string order = "values between levels are of second order";
     input::noteTag(section, "orderOfInterpolation", order);
@@ -153,7 +173,9 @@ const Schema<RegridderSection>& regridderSchema() {
                          "Uintah's ways to choose patches; both mean blocks here")
         .elsewhere("SingleLevel", "patches of one level are chosen by <patches> of its Box, or -layout")
         .optional("adaptive", &RegridderSection::adaptive, "1",
-                  "whether what is refined follows the state; where it is left out, whether there are thresholds")
+                  "whether what is refined follows the state; where it is left out, whether there is a <Variable>. "
+                  "Without one, euler takes jumps above 0.02 of c.density, c.pressure and c.mach; mpm needs none, as "
+                  "the finest level follows its particles")
         .value("regrid_once", &RegridderSection::once, false, "1", "only at the start")
         .optional("max_levels", &RegridderSection::maxLevels, "1",
                   "the most levels, the coarsest among them; as many as the Levels of Grid make, where it is adaptive "
@@ -178,32 +200,55 @@ const Schema<RegridderSection>& regridderSchema() {
   return schema;
 }
 
-void readComponents(AmrSection& section, const Element& element, Diagnostics& diagnostics) {
-  for (const std::string& name : componentNames)
-    for (const Element& given : element.children(name))
-      section.components.push_back(thresholdsSchema().read(given, diagnostics));
+ThresholdsSection readThresholds(const Element& given, Diagnostics& diagnostics) {
+  ThresholdsSection read = thresholdsSchema().read(given, diagnostics);
+  for (VariableTag& tag : read.criteria.variables) tag.path = given.path() + "/Refinement_Criteria_Thresholds/Variable";
+  return read;
 }
 
-const Schema<AmrSection>& amrSchema() {
-  static const Schema<AmrSection> schema = [] {
-    Schema<AmrSection> section("AMR", "Adaptive mesh refinement: cells of several sizes.");
-    section.ignoredAttribute("type", "a grid is adaptive where <Regridder> says so")
-        .value("useLockStep", &AmrSection::usesLockStep, true, "1",
-               "all levels take the same time step, as they always do")
-        .section("Regridder", &AmrSection::regridder, regridderSchema())
-        .custom(componentNames.front(), readComponents, componentNames,
-                "how the component takes to several levels; the name is of no account",
-                [](std::ostream& out, int indent) { thresholdsSchema().describeContents(out, indent); });
-    input::TagForm form = input::sectionForm(componentNames, [] {
-      return std::vector<input::Alternative>{{&thresholdsSchema(), {}}};
-    });
-    form.repeats = false;
-    section.forms({std::move(form)});
-    input::noteTag(section, "doMultiTaskgraphing", "one graph of tasks has all levels");
-    input::noteTag(section, "FineCoarseInterfaces", "values between levels are of second order");
-    return section;
-  }();
-  return schema;
+/// `AMR` with the sections of components that have these names.
+Schema<AmrSection> makeAmrSchema(const std::vector<std::string>& names) {
+  Schema<AmrSection> section("AMR", "Adaptive mesh refinement: cells of several sizes.");
+  const auto readComponents = [names](AmrSection& read, const Element& element, Diagnostics& diagnostics) {
+    for (const std::string& name : names)
+      for (const Element& given : element.children(name)) read.components.push_back(readThresholds(given, diagnostics));
+  };
+  section.ignoredAttribute("type", "a grid is adaptive where <Regridder> says so")
+      .value("useLockStep", &AmrSection::usesLockStep, true, "1",
+             "all levels take the same time step, as they always do")
+      .section("Regridder", &AmrSection::regridder, regridderSchema())
+      .custom(names.front(), readComponents, names,
+              "how the component takes to several levels; the name is of no account",
+              [](std::ostream& out, int indent) { thresholdsSchema().describeContents(out, indent); });
+  input::TagForm form = input::sectionForm(names, [] {
+    return std::vector<input::Alternative>{{&thresholdsSchema(), {}}};
+  });
+  form.repeats = false;
+  section.forms({std::move(form)});
+  input::noteTag(section, "doMultiTaskgraphing", "one graph of tasks has all levels");
+  input::noteTag(section, "FineCoarseInterfaces", "values between levels are of second order");
+  return section;
+}
+
+const Schema<AmrSection>& amrSchema(const std::vector<std::string>& names) {
+  static std::map<std::vector<std::string>, Schema<AmrSection>> schemas;
+  const auto known = schemas.find(names);
+  return known != schemas.end() ? known->second : schemas.emplace(names, makeAmrSchema(names)).first->second;
+}
+
+/// The names of `componentNames`, and that of the section of a component of one's own: `MyFlow` of `my_flow`.
+std::vector<std::string> namesFor(const simulation::ComponentKind* kind) {
+  std::vector<std::string> names = componentNames;
+  if (!kind || !kind->takesLevels) return names;
+  const auto plain = [](std::string name) {
+    std::erase(name, '_');
+    std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+    return name;
+  };
+  for (const std::string& section : kind->sections)
+    if (plain(section) == plain(kind->name) && std::find(names.begin(), names.end(), section) == names.end())
+      names.push_back(section);
+  return names;
 }
 
 Criterion criterionOf(const VariableTag& tag) {
@@ -211,9 +256,10 @@ Criterion criterionOf(const VariableTag& tag) {
   criterion.variable = tag.name;
   if (tag.material != "all") criterion.material = tag.material;
   criterion.indicator = tag.indicator;
-  criterion.refine = tag.refine;
-  criterion.coarsen = coarsenOf(tag);
+  criterion.refine = tag.refine.value_or(0);
+  criterion.coarsen = coarsenOf(tag, criterion.refine);
   criterion.where = tag.where;
+  criterion.path = tag.path;
   return criterion;
 }
 
@@ -246,15 +292,14 @@ std::map<std::string, std::vector<std::string>> cellVariables(const simulation::
 }
 
 /// What is wrong with the variable of a criterion, or nothing. `materials`: those that it belongs to.
-void checkMaterial(Criterion& criterion, const std::vector<std::string>& materials, const std::string& path,
-                   Diagnostics& diagnostics) {
+void checkMaterial(Criterion& criterion, const std::vector<std::string>& materials, Diagnostics& diagnostics) {
   if (!materials.empty())
-    diagnostics.error(criterion.where, path,
+    diagnostics.error(criterion.where, criterion.path,
                       fmt::format("'{}' is a variable of materials; the grid is refined by variables of none, and by "
                                   "'particles'",
                                   criterion.variable));
   if (!materials.empty() || criterion.material.empty()) return;
-  diagnostics.note(criterion.where, path,
+  diagnostics.note(criterion.where, criterion.path,
                    fmt::format("matl does nothing: '{}' belongs to no material", criterion.variable));
   criterion.material.clear();
 }
@@ -268,9 +313,9 @@ bool hasParticles(const simulation::Component& component) {
 
 }  // namespace
 
-AmrSettings readAmr(const Element& section, Diagnostics& diagnostics) {
+AmrSettings readAmr(const Element& section, const simulation::ComponentKind* kind, Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.size();
-  const AmrSection read = amrSchema().read(section, diagnostics);
+  const AmrSection read = amrSchema(namesFor(kind)).read(section, diagnostics);
   AmrSettings amr;
   amr.tag = section;
   for (const ThresholdsSection& component : read.components) {
@@ -293,7 +338,7 @@ AmrSettings readAmr(const Element& section, Diagnostics& diagnostics) {
                      "for finer levels");
   if (!amr.regrid.adaptive)
     for (const Criterion& criterion : amr.regrid.criteria)
-      diagnostics.note(criterion.where, "AMR", "<Variable> does nothing: the grid is not <adaptive>");
+      diagnostics.note(criterion.where, criterion.path, "does nothing: the grid is not <adaptive>");
   return amr;
 }
 
@@ -301,7 +346,8 @@ simulation::RegridSettings settled(AmrSettings amr, const simulation::Component&
   std::vector<Criterion>& criteria = amr.regrid.criteria;
   if (!amr.regrid.adaptive) return amr.regrid;
   const bool followsParticles = hasParticles(component);  // always, and so also where the scene says it
-  if (followsParticles) std::erase_if(criteria, [](const Criterion& one) { return one.variable == "particles"; });
+  if (followsParticles)
+    std::erase_if(criteria, [](const Criterion& one) { return one.variable == cellsWithParticles; });
   if (criteria.empty() && !followsParticles) {
     criteria = component.criteria();
     if (criteria.empty())
@@ -315,19 +361,18 @@ simulation::RegridSettings settled(AmrSettings amr, const simulation::Component&
       if (criterion.variable == other) criterion.variable = name;
   const auto variables = cellVariables(component);
   std::vector<std::string> names;
-  if (followsParticles) names.emplace_back("particles");
+  if (followsParticles) names.emplace_back(cellsWithParticles);
   for (const auto& [name, materials] : variables)
     if (materials.empty()) names.push_back(name);
-  const std::string path = "AMR/Refinement_Criteria_Thresholds/Variable";
   for (Criterion& criterion : criteria)
     if (const auto found = variables.find(criterion.variable); found != variables.end())
-      checkMaterial(criterion, found->second, path, diagnostics);
+      checkMaterial(criterion, found->second, diagnostics);
     else
-      diagnostics.error(criterion.where, path, "name: " + input::choiceProblem(criterion.variable, names));
+      diagnostics.error(criterion.where, criterion.path, "name: " + input::choiceProblem(criterion.variable, names));
   return amr.regrid;
 }
 
-const input::SchemaBase& amrForm() { return amrSchema(); }
-void describeAmr(std::ostream& out) { amrSchema().describe(out); }
+const input::SchemaBase& amrForm(const simulation::ComponentKind& kind) { return amrSchema(namesFor(&kind)); }
+void describeAmr(std::ostream& out) { amrSchema(componentNames).describe(out); }
 
 }  // namespace tushar::scene

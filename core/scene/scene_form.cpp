@@ -79,7 +79,7 @@ void addShared(Schema<Unread>& root, const ComponentKind& kind, const SchemaBase
   addSection(root, "Time", timeForm(), true);
   addSection(root, "DataArchiver", archiveForm(), false);
   addSection(root, "Grid", grid, true);
-  addSection(root, "AMR", amrForm(), false);
+  addSection(root, "AMR", amrForm(kind), false);
   addSection(root, "DataAnalysis", analyses, false);
   for (const auto& [tag, why] : idleSections())
     if (std::find(kind.sections.begin(), kind.sections.end(), tag) == kind.sections.end())

@@ -231,7 +231,7 @@ tasks::TaskList Phases::refinementTasks(const RegridSettings& regrid) const {
       criteria.push_back({one, label, diagnosed.contains(one.variable)});
     else
       problems.push_back(
-          {one.where, "AMR/Refinement_Criteria_Thresholds/Variable",
+          {one.where, one.path,
            fmt::format("'{}' is no variable of cells that this component computes{}; there {} {}", one.variable,
                        didYouMean(one.variable, known), known.size() == 1 ? "is" : "are", allOf(known))});
   }
@@ -242,11 +242,13 @@ tasks::TaskList Phases::refinementTasks(const RegridSettings& regrid) const {
 
 namespace {
 
-/// Cells are interpolated from those around them.
-void widenForRegridding(const std::vector<std::string>& lasting, data::VariableTable& table) {
+/// Cells are interpolated from those around them, also of materials.
+void widenForRegridding(const std::vector<std::string>& lasting, int materials, data::VariableTable& table) {
   for (const std::string& name : lasting)
-    if (const int number = table.find(name, -1); number >= 0 && table[number].label->centring == data::Centring::cell)
-      table.widen(number, 1);
+    for (int material = -1; material < materials; ++material)
+      if (const int number = table.find(name, material);
+          number >= 0 && table[number].label->centring == data::Centring::cell)
+        table.widen(number, 1);
 }
 
 /// Throws InputError if lists have tasks that a grid of several levels is not for.
@@ -333,7 +335,7 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   report = tasks::TaskGraph("diagnostics of the report", std::move(end), grid, table);
   refinement = tasks::TaskGraph("refinement", std::move(refine), grid, table);
   table.number(data::delT, -1);
-  if (regrid.adaptive) widenForRegridding(lasting_, table);
+  if (regrid.adaptive) widenForRegridding(lasting_, static_cast<int>(materials_.size()), table);
 }
 
 void Phases::printSchedule(std::ostream& out) const {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace tushar::simulation {
 
@@ -34,12 +33,15 @@ double halfJump(const Neighbours& near, int components) {
   return 0.5 * std::sqrt(sum);
 }
 
+/// Half the difference of the outer two over the least size of the three: infinite beside 0.
+double relativeJump(double below, double middle, double above) {
+  const double jump = 0.5 * std::abs(above - below);
+  return jump == 0 ? 0 : jump / std::min({std::abs(below), std::abs(middle), std::abs(above)});
+}
+
 double relativeJump(const Neighbours& near, int components) {
-  const double jump = halfJump(near, components);
-  if (components > 1 || jump == 0) return jump;
-  const double least = std::min({std::abs(valueAt(near.below, near.middle, 0)), std::abs(near.middle[0]),
-                                 std::abs(valueAt(near.above, near.middle, 0))});
-  return least > 0 ? jump / least : std::numeric_limits<double>::infinity();
+  if (components > 1) return halfJump(near, components);
+  return relativeJump(valueAt(near.below, near.middle, 0), near.middle[0], valueAt(near.above, near.middle, 0));
 }
 
 double secondDerivative(std::span<const Neighbours> axes, int components) {
@@ -88,9 +90,7 @@ void raiseMarksOfJumps(const grid::Patch& patch, const Criterion& criterion, con
         const int at = first[d] + (d == 0 ? k : 0);
         const double middle = row[k], below = at > stored.lower[d] ? row[k - stride] : middle,
                      above = at + 1 < stored.upper[d] ? row[k + stride] : middle;
-        const double jump = 0.5 * std::abs(above - below);
-        const double least = std::min({std::abs(below), std::abs(middle), std::abs(above)});
-        const double value = jump == 0 ? 0 : jump / least;
+        const double value = relativeJump(below, middle, above);
         mark[k] = std::max(mark[k], value > criterion.refine ? 2 : value > criterion.coarsen ? 1 : 0);
       }
   });

@@ -42,13 +42,13 @@ void addBlocks(const std::string& text, std::set<BlockId>& blocks) {
 
 std::pair<int, int> MarkedBlocks::blocksAlong(const grid::Level& level, int axis, int cell, int distance) const {
   if (axis >= level.dimension()) return {0, 1};
-  const int cells = grid_.blockCells()[axis];
-  const auto blockOf = [&](int at) { return at >= 0 ? at / cells : -((cells - 1 - at) / cells); };
+  const long cells = grid_.blockCells()[axis];
+  const auto blockOf = [&](long at) { return static_cast<int>(at >= 0 ? at / cells : -((cells - 1 - at) / cells)); };
   distance = std::min(distance, level.cells().extent(axis));  // once around is enough
-  int lower = cell - distance, upper = cell + distance;
+  long lower = long{cell} - distance, upper = long{cell} + distance;
   if (!level.isPeriodic(axis)) {
-    lower = std::max(lower, 0);
-    upper = std::min(upper, level.cells().upper[axis] - 1);
+    lower = std::max(lower, 0L);
+    upper = std::min(upper, level.cells().upper[axis] - 1L);
   }
   return {blockOf(lower), blockOf(upper) + 1};
 }
@@ -61,11 +61,11 @@ Box MarkedBlocks::blocksNear(const grid::Level& level, const Index3& cell, int d
 
 template <class Visit>
 void MarkedBlocks::forEachNear(const grid::Level& level, const Box& blocks, int mark, Visit&& visit) {
-  const Seen now{level.number(), blocks, mark};
-  if (now == last_) return;
-  last_ = now;
+  const Seen now{level.number(),  mark,           blocks.lower[0], blocks.lower[1], blocks.lower[2], blocks.upper[0],
+                 blocks.upper[1], blocks.upper[2]};
+  if (!seen_.insert(now).second) return;
   const Index3 count = grid_.tree().blocksOf(level.number());
-  grid::forEach<3>(now.blocks, [&](Index3 at) {
+  grid::forEach<3>(blocks, [&](Index3 at) {
     for (int d = 0; d < level.dimension(); ++d) at[d] = (at[d] % count[d] + count[d]) % count[d];
     visit(BlockId{level.number(), at});
   });

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <set>
 #include <utility>
 
@@ -41,20 +42,15 @@ class MarkedBlocks {
   std::pair<int, int> blocksAlong(const grid::Level& level, int axis, int cell, int distance) const;
   /// Blocks of a level within a distance of a cell of it, on the grid or its images.
   grid::Box blocksNear(const grid::Level& level, const Index3& cell, int distance) const;
-  /// Calls `visit(block)` for each of a box of them, but not for those of the call before with the same mark.
+  /// Calls `visit(block)` for each of a box of them, once for each mark: rows of cells ask for the same boxes again.
   template <class Visit>
   void forEachNear(const grid::Level& level, const grid::Box& blocks, int mark, Visit&& visit);
   /// Steps' worth of cells of a level.
   int crossed(const grid::Level& level) const { return ((interval_ - 1) >> (grid_.levels() - 1 - level.number())) + 1; }
 
-  struct Seen {
-    int level = -1;
-    grid::Box blocks{};
-    int mark = 0;
-    friend bool operator==(const Seen&, const Seen&) = default;
-  };
+  using Seen = std::array<int, 8>;  ///< level, mark, and corners of a box of blocks
 
-  Seen last_;
+  std::set<Seen> seen_;
   std::set<grid::BlockId> wanted_, kept_;
 };
 

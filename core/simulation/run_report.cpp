@@ -1,6 +1,8 @@
 #include "core/simulation/run_report.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <string_view>
 
 #include "core/collect/gather.hpp"
 #include "core/report/drift.hpp"
@@ -102,13 +104,29 @@ void RunReport::addTasks(Report& report) {
   }
 }
 
+namespace {
+
+/// The greatest momentum that the mass could have by the energy, sqrt(2 m E); 0 where one of them is not known.
+double greatestMomentum(const Totals& totals, const std::vector<std::pair<std::string, std::string>>& names) {
+  double twice = 2;
+  for (const std::string_view factor : {"mass", "energy"}) {
+    const auto isFactor = [&](const auto& total) { return total.first == factor; };
+    const auto found = static_cast<std::size_t>(std::find_if(names.begin(), names.end(), isFactor) - names.begin());
+    twice *= found < totals.size() && !totals[found].empty() ? std::abs(totals[found].front()) : 0;
+  }
+  return std::sqrt(twice);
+}
+
+}  // namespace
+
 void RunReport::addDrifts(Report& report) {
   const Totals& before = run_.totalsAtStart;
   const Totals after = run_.measureTotals(run_.phases.report);
   for (std::size_t k = 0; k < before.size(); ++k) {
     const auto& [name, label] = run_.phases.totals()[k];
     const std::string unit(run_.table[run_.table.find(label, -1)].label->unit);
-    report.drifts.push_back(report::driftOf(name, before[k], after[k], unit));
+    const double scale = name == "momentum" ? greatestMomentum(before, run_.phases.totals()) : 0;
+    report.drifts.push_back(report::driftOf(name, before[k], after[k], unit, scale));
   }
 }
 

@@ -7,7 +7,7 @@ RunState::RunState(Problem givenProblem, bool quiet, Clock::time_point startedAt
       ranks(givenRanks),
       phases(*problem.component, problem.analyses),
       warehouse(*problem.grid, table, ranks),
-      scheduler(warehouse, problem.threads),
+      scheduler(warehouse, problem.threads, problem.cellsPerThread),
       time(problem.time),
       clock(startedAt),
       progress(quiet || !ranks.isFirst(), stdout) {

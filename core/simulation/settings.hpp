@@ -43,7 +43,8 @@ struct ArchiveSettings {
 /// A reason to refine: an indicator of a cell variable, and where it is too great.
 struct Criterion {
   enum class Indicator {
-    jump,              ///< |q(i+1) - q(i-1)| / 2 over the least |q| of the three, the greatest over axes
+    jump,              ///< |q(i+1) - q(i-1)| / 2 over the least |q| of the three, infinite if that is 0; the greatest
+                       ///< over axes
     secondDerivative,  ///< Löhner's, between 0 and 1
     gradient,          ///< the magnitude of the gradient, unit of the variable over m
     above,             ///< the value itself
@@ -54,7 +55,8 @@ struct Criterion {
   Indicator indicator = Indicator::jump;
   double refine = 0;   ///< finer cells where the indicator is beyond this,
   double coarsen = 0;  ///< and no coarser ones where it is beyond this
-  Location where;
+  Location where;      ///< in the scene, and the path of its tag there; empty for a component's own
+  std::string path;
 };
 
 /// When and where a run refines its grid; the sections `AMR/Regridder` and `Refinement_Criteria_Thresholds`.

@@ -20,6 +20,14 @@ std::string hostName() {
   return name;
 }
 
+/// What keeps particles among the finest cells that the scene does not do yet.
+std::string adviceNearCoarser(const RegridSettings& regrid) {
+  if (!regrid.adaptive)
+    return "<adaptive>true</adaptive> in <AMR>, so that the finest cells follow; or a larger <Level>";
+  if (regrid.once) return "no <regrid_once> in <AMR>, so that the finest cells follow";
+  return "a smaller <min_timestep_interval> in <AMR>, so that the finest cells follow in time";
+}
+
 }  // namespace
 
 Simulation::Simulation(Problem problem, const RunOptions& options, Clock::time_point startedAt)
@@ -32,7 +40,9 @@ Simulation::Simulation(Problem problem, const RunOptions& options, Clock::time_p
       checkpoints_(run_, outputs_),
       rebalancer_(run_),
       regridder_(run_),
-      report_(run_) {}
+      report_(run_) {
+  run_.scheduler.relocation().setAdviceNearCoarser(adviceNearCoarser(run_.problem.regrid));
+}
 
 long Simulation::tryStart() {
   run_.problem.restart ? resume() : initialize();
@@ -136,8 +146,7 @@ void Simulation::refuseCoarseParticles() {
     if (run_.ranks.any(isOutside)) outside += (outside.empty() ? "" : ", ") + run_.phases.materials()[m];
   }
   if (!outside.empty())
-    throw InputError({{{run_.problem.scenePath, 0, 0},
-                       "Grid/Level",
+    throw InputError({{run_.problem.regrid.where, "",
                        fmt::format("particles of {} are in coarser cells, or too near to them; particles are on the "
                                    "finest level only: give a larger <Level>, or <adaptive> in <AMR>",
                                    outside)}});

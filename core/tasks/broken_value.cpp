@@ -105,9 +105,15 @@ class Search {
   std::size_t gridPlace(int patch, const Index3& at) const {
     return warehouse_.variable(Generation::fresh, written_.variable, patch).stored.offset(at);
   }
-  /// The patch that a cell, or the node at its lower corner, belongs to.
+  /// The patch that a cell, or the node at its lower corner, belongs to. Where other levels are behind a node, it is
+  /// that of one of the cells before it; its number is -1 where there is none.
   Patch ownerOf(Index3 at, const Level& level) const {
     for (int d = 0; d < 3; ++d) at[d] = std::min(at[d], level.cells().upper[d] - 1);
+    for (int corner = 0; isNode() && corner < 1 << level.dimension(); ++corner) {
+      Index3 cell = at;
+      for (int d = 0; d < level.dimension(); ++d) cell[d] = std::max(0, at[d] - (corner >> d & 1));
+      if (const Patch patch = grid_.patchOf(cell, level.number()); patch.id() >= 0) return patch;
+    }
     return grid_.patchOf(at, level.number());
   }
   bool isNode() const { return label_.centring == Centring::node; }
@@ -209,7 +215,7 @@ class Search {
       for (const int side : {-1, 1}) {
         Index3 cell = found_.at;
         cell[d] += side;
-        if (level().cells().contains(cell))
+        if (level().cells().contains(cell) && grid_.patchOf(cell, level().number()).id() >= 0)
           text += fmt::format(", {} in {}", said(valuesIn(cell)), nameOf(level(), cell));
       }
     return text + "; " + howMany("particles");

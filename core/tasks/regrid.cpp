@@ -35,20 +35,28 @@ class Pieces {
   Pieces(const grid::Tiling& before, const grid::Tiling& after, int dimension, int levels)
       : before_(before), after_(after), dimension_(dimension), levels_(levels) {}
 
-  /// Calls `visit(piece)` for each of a new patch, in an order that does not depend on the rank.
+  /// Calls `visit(piece)` for each of a new patch, in an order that does not depend on the rank. Looks for cells of
+  /// finer and finer levels until it has all: a search of the finest would visit as many blocks as fill the grid.
   template <class Visit>
   void of(int to, const Visit& visit) const {
     const Tile tile = after_.tile(to);
-    Box cells = tile.cells;
-    for (int level = tile.level, finer = 0; level < levels_; ++level, ++finer, cells = cells.refined(dimension_))
-      for (const Tile& old : before_.overlapping(level, cells)) {
-        Box box = old.cells;
-        for (int k = 0; k < finer; ++k) box = box.coarsened(dimension_);
-        visit(Piece{old.id, to, box.intersect(tile.cells), finer, tile.level + 1 == levels_});
-      }
+    std::size_t found = 0;
+    const auto add = [&](const Tile& old, Box box, int coarser) {
+      box = box.intersect(tile.cells);
+      found += box.size();
+      visit(Piece{old.id, to, box, coarser, tile.level + 1 == levels_});
+    };
     if (tile.level > 0)
       for (const Tile& old : before_.overlapping(tile.level - 1, tile.cells.coarsened(dimension_)))
-        visit(Piece{old.id, to, old.cells.refined(dimension_).intersect(tile.cells), -1, tile.level + 1 == levels_});
+        add(old, old.cells.refined(dimension_), -1);
+    Box cells = tile.cells;
+    for (int finer = 0; found < tile.cells.size() && tile.level + finer < levels_;
+         ++finer, cells = cells.refined(dimension_))
+      for (const Tile& old : before_.overlapping(tile.level + finer, cells)) {
+        Box box = old.cells;
+        for (int k = 0; k < finer; ++k) box = box.coarsened(dimension_);
+        add(old, box, finer);
+      }
   }
 
   /// New patches that have cells of an old one.

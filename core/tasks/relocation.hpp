@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/error.hpp"
 #include "core/base/threads.hpp"
 #include "core/data/warehouse.hpp"
 #include "core/tasks/particle_migration.hpp"
@@ -25,7 +26,8 @@ class Relocation {
   /// periodic face come in at the opposite one; those that left through a free face are to be dropped.
   ///
   /// All ranks run it together. False if one of them has stopped before: then nothing is done on any.
-  /// Throws NumericalError, on all ranks, for a position that is not finite or lies behind a symmetry plane.
+  /// Throws NumericalError, on all ranks, for a position that is not finite, lies behind a symmetry plane, or in
+  /// coarser cells than the finest or too near to them.
   bool find(int material, int position, bool hasStopped);
   /// Builds the new particle set of a material as found, from the old one; every carried variable then follows it in
   /// generation `to`. What is in that generation already moves within its memory. All ranks run it together.
@@ -42,6 +44,8 @@ class Relocation {
   long dropped() const { return dropped_; }
   /// Goes on counting from what another run had dropped.
   void setDropped(long dropped) { dropped_ = dropped; }
+  /// What to try where a particle comes too near to coarser cells.
+  void setAdviceNearCoarser(std::string advice) { advice_near_coarser_ = std::move(advice); }
 
  private:
   /// A particle that comes into a cell, from this patch or another.
@@ -145,8 +149,9 @@ class Relocation {
   /// Sorts the particles that left their patch: which escaped first, how many left the grid, which go to another rank.
   Verdict gather(Moves& moves, bool hasStopped);
   [[noreturn]] void refuseEscape(int position, const Verdict& verdict) const;
+  /// What a particle did that went where none can be.
   template <int D>
-  std::string sentence(int position, const Escape& escape) const;
+  NumericalError refusal(int position, const Escape& escape) const;
   /// Hands particles over to the patches that they come into.
   void receiveAll(Moves& moves);
   static void receive(const grid::Patch& patch, const Index3& cell, const Incoming& particle, PatchMoves& moves);
@@ -161,8 +166,8 @@ class Relocation {
   /// Moves the particles that stay to their new places, and inserts those that arrive.
   void moveOn(const Move& move, std::size_t place, Moves& moves);
 
-  /// Whether a cell of the finest level is too near to coarser ones for a particle.
-  bool isNearCoarser(const Index3& cell) const;
+  /// Whether a cell of the finest level is too near to coarser ones for a particle that comes from a patch.
+  bool isNearCoarser(const grid::Patch& from, const Index3& cell) const;
 
   data::Warehouse* warehouse_;
   int margin_ = 0;  ///< cells of the finest level around particles
@@ -170,6 +175,7 @@ class Relocation {
   std::deque<Moves> moves_;  ///< by material
   long leaving_ = 0;         ///< in the step in progress
   long dropped_ = 0;
+  std::string advice_near_coarser_;
 };
 
 }  // namespace tushar::tasks

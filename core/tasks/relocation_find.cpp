@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "core/base/error.hpp"
 #include "core/tasks/broken_value.hpp"
 #include "core/tasks/outcome.hpp"
 
@@ -168,9 +167,10 @@ void Relocation::move(const Patch& from, const Index<D>& fromCell, Vec<D>& x, Pa
     return;
   }
   const Index3 wide = widened(cell);
-  if (isNearCoarser(wide)) {
+  if (isNearCoarser(from, wide)) {  // no patch may have it
     const Escape escape{level.cellNumber<D>(fromCell), id, from.id(), place};
     if (!moves.escape || escape < *moves.escape) moves.escape = escape;
+    return;
   }
   if (from.cells().contains(wide))
     receive(from, wide, {id, departed, -1}, moves);
@@ -178,10 +178,11 @@ void Relocation::move(const Patch& from, const Index<D>& fromCell, Vec<D>& x, Pa
     moves.outgoing.push_back({id, wide, place, departed});
 }
 
-bool Relocation::isNearCoarser(const Index3& cell) const {
+bool Relocation::isNearCoarser(const Patch& from, const Index3& cell) const {
   const grid::Grid& grid = warehouse_->grid();
   if (grid.levels() == 1) return false;
-  return !grid.isFinest(grid::Box{cell, cell + Index3::filled(1)}.grown(margin_, grid.dimension()));
+  const grid::Box around = grid::Box{cell, cell + Index3::filled(1)}.grown(margin_, grid.dimension());
+  return !(around.intersect(from.cells()) == around) && !grid.isFinest(around);
 }
 
 void Relocation::receive(const Patch& patch, const Index3& cell, const Incoming& particle, PatchMoves& moves) {
@@ -217,18 +218,15 @@ void Relocation::refuseEscape(int position, const Verdict& verdict) const {
   std::optional<NumericalError> mine;
   if (verdict.rank == warehouse_->ranks().rank()) {
     const int dimension = warehouse_->grid().dimension();
-    const std::string what = dimension == 1   ? sentence<1>(position, verdict.escape)
-                             : dimension == 2 ? sentence<2>(position, verdict.escape)
-                                              : sentence<3>(position, verdict.escape);
-    const bool isPlane = what.find("symmetry") != std::string::npos;
-    mine.emplace(what, isPlane ? "" : "a larger <Level>, or <Variable name=\"particles\"/> among the criteria of <AMR>",
-                 "p.x", verdict.escape.cell);
+    mine = dimension == 1   ? refusal<1>(position, verdict.escape)
+           : dimension == 2 ? refusal<2>(position, verdict.escape)
+                            : refusal<3>(position, verdict.escape);
   }
   throw broadcastError(warehouse_->ranks(), mine, verdict.rank);
 }
 
 template <int D>
-std::string Relocation::sentence(int position, const Escape& escape) const {
+NumericalError Relocation::refusal(int position, const Escape& escape) const {
   const grid::Level& level = warehouse_->grid().finest();
   const auto at = [&](Generation generation) {
     const Variable x = warehouse_->variable(generation, position, escape.patch);
@@ -236,8 +234,9 @@ std::string Relocation::sentence(int position, const Escape& escape) const {
   };
   const Vec<D> x = at(Generation::fresh);
   if (const Index<D> cell = level.cellOf<D>(x); level.cells().contains(cell))
-    return fmt::format("particle {} came within {} of coarser cells, where no particles can be; patch {}", escape.id,
-                       counted(margin_, "cell"), escape.patch);
+    return {fmt::format("particle {} came within {} of coarser cells, where no particles can be; patch {}", escape.id,
+                        counted(margin_, "cell"), escape.patch),
+            advice_near_coarser_, "p.x", escape.cell};
   int through = 0, side = 0;
   for (int d = 0; d < D; ++d)
     for (const int s : {0, 1})
@@ -246,8 +245,9 @@ std::string Relocation::sentence(int position, const Escape& escape) const {
         side = s;
       }
   const char axis = "xyz"[level.axis(through)];
-  return fmt::format("particle {} passed through the symmetry plane {}{}, from {} = {:.6g} m to {:.6g} m; patch {}",
-                     escape.id, axis, "-+"[side], axis, at(Generation::old)[through], x[through], escape.patch);
+  return {fmt::format("particle {} passed through the symmetry plane {}{}, from {} = {:.6g} m to {:.6g} m; patch {}",
+                      escape.id, axis, "-+"[side], axis, at(Generation::old)[through], x[through], escape.patch),
+          "", "p.x", escape.cell};
 }
 
 }  // namespace tushar::tasks

@@ -109,6 +109,15 @@ std::vector<double> Scheduler::takeCosts() {
   return std::exchange(costs_, std::vector<double>(costs_.size()));
 }
 
+int Scheduler::usefulThreads() const {
+  int useful = std::min(most_threads_, warehouse_->patches());
+  if (cells_per_thread_ > 0) {
+    const double cells = static_cast<double>(warehouse_->grid().cellCount()) / warehouse_->ranks().size();
+    useful = static_cast<int>(std::min<double>(useful, cells / cells_per_thread_));
+  }
+  return std::max(1, useful);
+}
+
 void Scheduler::forgetLayout() {
   exchange_.forgetLayout();
   relocation_.forgetLayout();

@@ -31,10 +31,12 @@ std::string placeOf(const CompiledTask& task, int patch, int material, const Ste
 /// for all patches at once is run by all ranks that have patches, or by none.
 class Scheduler {
  public:
-  /// Uses up to `threads` threads, but no more than this rank has patches.
-  explicit Scheduler(data::Warehouse& warehouse, int threads = 1)
+  /// Uses up to `threads` threads, but no more than this rank has patches, and one for each `cellsPerThread` cells of a
+  /// rank (if that is not 0): of a grid that is refined these become more and fewer.
+  explicit Scheduler(data::Warehouse& warehouse, int threads = 1, int cellsPerThread = 0)
       : warehouse_(&warehouse),
         most_threads_(threads),
+        cells_per_thread_(cellsPerThread),
         threads_(usefulThreads()),
         exchange_(warehouse, threads_),
         relocation_(warehouse, threads_) {}
@@ -63,7 +65,7 @@ class Scheduler {
   const Threads& threads() const { return threads_; }
 
  private:
-  int usefulThreads() const { return std::clamp(most_threads_, 1, std::max(1, warehouse_->patches())); }
+  int usefulThreads() const;
   bool hasStopped() const { return !outcome_.isNone() || heard_stop_; }
   bool mayRunTogether();
   const mpi::Communicator& ranksWithPatches();
@@ -100,7 +102,7 @@ class Scheduler {
   NumericalError whatBroke(TaskGraph& graph, const StepInfo& at);
 
   data::Warehouse* warehouse_;
-  int most_threads_;
+  int most_threads_, cells_per_thread_;
   Threads threads_;
   Exchange exchange_;
   Relocation relocation_;

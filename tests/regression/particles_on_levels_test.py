@@ -58,6 +58,13 @@ class ParticlesOnLevels(unittest.TestCase):
         self.assertEqual((code, errors), (0, ""))
         self.assertEqual(report["fingerprint"], expected)
 
+    def test_a_body_that_is_too_thin_for_coarse_cells_is_there(self):
+        thin = (r"\[0.1875,0.26,1\]", "[0.1775,0.26,1]")
+        uniform = changed(self.folder, thin, (r"  <AMR>.*</AMR>\n", ""), (r"\[32,32,1\]", "[256,256,1]"))
+        expected = run(uniform, "Time/max_Timesteps=1").report["particles"]
+        levels = changed(self.folder, thin)
+        self.assertEqual(run(levels, "Time/max_Timesteps=1").report["particles"], expected)
+
     def still(self, upper, resolution):
         """The scene with finer cells up to a corner, which stay."""
         blocks = "<AMR><Regridder><min_patch_size>[[8,8,1]]</min_patch_size></Regridder></AMR>"
@@ -68,12 +75,20 @@ class ParticlesOnLevels(unittest.TestCase):
     def test_bodies_in_coarse_cells_are_refused(self):
         result = run(self.still("[0.2,0.2,0.0015625]", "[16,16,1]"))
         self.assertEqual(result.code, 3)
-        self.assertIn("particles of ball, plate are in coarser cells, or too near to them", result.err)
+        self.assertRegex(result.err, r"scene\.ups:\d+:\d+: particles of ball, plate are in coarser cells, or too near")
 
     def test_one_that_leaves_the_finest_cells_ends_the_run(self):
         result = run(self.still("[0.25,0.3,0.0015625]", "[24,32,1]"), SHORT[0])
         self.assertEqual(result.code, 4)
         self.assertRegex(result.err, r"particle \d+ came within \d cells of coarser cells, where no particles can be")
+        self.assertIn("try <adaptive>true</adaptive> in <AMR>", result.err)
+
+    def test_one_that_leaves_cells_that_were_refined_once_ends_the_run(self):
+        once = "<adaptive>true</adaptive><regrid_once>true</regrid_once>"
+        result = run(changed(self.folder, ("<adaptive>true</adaptive>", once)), SHORT[0])
+        self.assertEqual(result.code, 4)
+        self.assertIn("of coarser cells, where no particles can be", result.err)
+        self.assertIn("try no <regrid_once> in <AMR>", result.err)
 
 
 if __name__ == "__main__":

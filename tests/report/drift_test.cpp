@@ -31,4 +31,15 @@ TEST(Drift, FromNothingIsAbsolute) {
   EXPECT_EQ(drift.change, 2);
 }
 
+TEST(Drift, FromRoundOffIsAbsolute) {
+  const Drift grown = driftOf("momentum", {1.3e-17, 0}, {0, 2}, "kg m/s");
+  EXPECT_FALSE(grown.relative);
+  EXPECT_EQ(grown.change, 2);
+
+  const Drift still = driftOf("momentum", {1.3e-17}, {2.3e-17}, "kg m/s", 0.5);
+  EXPECT_FALSE(still.relative);
+  EXPECT_DOUBLE_EQ(still.change, 1e-17);
+  EXPECT_TRUE(driftOf("momentum", {1e-9}, {2e-9}, "kg m/s", 0.5).relative);
+}
+
 }  // namespace tushar::report

@@ -28,7 +28,7 @@ Read read(const std::string& grid, const std::string& amr = "", const grid::Work
   const input::Document document =
       input::Document::parse(input::scene("<Grid>" + grid + "</Grid>" + amr), "s.ups", diagnostics);
   Read read;
-  if (const auto section = document.root().child("AMR")) read.amr = readAmr(*section, diagnostics);
+  if (const auto section = document.root().child("AMR")) read.amr = readAmr(*section, nullptr, diagnostics);
   read.domain = readGrid(*document.root().child("Grid"), {}, workers, read.amr, diagnostics);
   read.problems = sentencesOf(diagnostics.sorted());
   read.notes = sentencesOf(diagnostics.notes());
@@ -301,7 +301,8 @@ TEST(Regridder, IsAdaptiveWhereThereAreThresholdsUnlessTheSceneSaysOtherwise) {
 
   const Read still = read(square, amr("<adaptive>false</adaptive>", criteria));
   EXPECT_FALSE(still.amr.regrid.adaptive);
-  EXPECT_EQ(still.notes, (Strings{"AMR: <Variable> does nothing: the grid is not <adaptive>"}));
+  EXPECT_EQ(still.notes,
+            (Strings{"AMR/Euler/Refinement_Criteria_Thresholds/Variable: does nothing: the grid is not <adaptive>"}));
 }
 
 TEST(Regridder, NotesWhatOfUintahsDoesNothing) {
@@ -374,6 +375,21 @@ TEST(Criteria, ThatCannotBeGetASentence) {
       refused("value=\"1\" type=\"gradiant\""),
       Strings{path + "'type': found 'gradiant', expected 'jump', 'second_derivative', 'gradient', 'above' or 'below' "
                      "(did you mean 'gradient'?)"});
+}
+
+TEST(Criteria, NeedAThresholdIfTheyAreOfAVariable) {
+  const std::string path = "AMR/ICE/Refinement_Criteria_Thresholds/Variable: ";
+
+  EXPECT_EQ(read(square, variable("name=\"c.p\"")).problems,
+            Strings{path + "missing attribute 'value' of <Variable> (finer cells where the indicator is above this)"});
+
+  const Read particles = read(square, variable("name=\"particles\""));
+  EXPECT_EQ(particles.problems, Strings{});
+  EXPECT_EQ(particles.notes, Strings{});
+  EXPECT_TRUE(particles.amr.regrid.adaptive);
+  const std::string why = " does nothing: all cells with particles are of the finest level";
+  EXPECT_EQ(read(square, variable("name=\"particles\" value=\"1\" matl=\"0\"")).notes,
+            (Strings{path + "value" + why, path + "matl" + why}));
 }
 
 }  // namespace tushar::scene

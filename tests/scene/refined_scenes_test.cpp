@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -80,16 +81,28 @@ TEST(RefinedScenes, AreRefinedByTheCriteriaOfTheirComponentWhereTheyGiveNone) {
   const simulation::Problem gas = readScene(changed("ups/euler/sod.ups", "</Grid>", adaptive), {}, catalogue());
   ASSERT_EQ(gas.regrid.criteria.size(), 3u);
   EXPECT_EQ(gas.regrid.criteria[2].variable, "c.mach");
+  std::ostringstream manual;
+  describeAmr(manual);
+  const std::string told =
+      fmt::format("jumps above {:g} of {}, {} and {}", gas.regrid.criteria[0].refine, gas.regrid.criteria[0].variable,
+                  gas.regrid.criteria[1].variable, gas.regrid.criteria[2].variable);
+  EXPECT_NE(manual.str().find(told), std::string::npos) << told;
   EXPECT_EQ(problemsOf(changed("ups/heat/sine.ups", "</Grid>", adaptive)),
             "<adaptive> true needs a <Variable> in <Refinement_Criteria_Thresholds>, which says where cells are to be "
             "finer\n");
 }
 
 TEST(RefinedScenes, NameVariablesThatAreThere) {
-  const std::string problems = problemsOf(withCriterion("name=\"c.densty\" value=\".1\""));
+  const std::string misspelt = withCriterion("name=\"c.densty\" value=\".1\"");
+  const std::string problems = problemsOf(misspelt);
 
   EXPECT_TRUE(problems.starts_with("name: found 'c.densty', expected 'c.density', ")) << problems;
   EXPECT_TRUE(problems.ends_with("(did you mean 'c.density'?)\n")) << problems;
+  try {
+    readScene(misspelt, {}, catalogue());
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.problems().front().tagPath, "AMR/Euler/Refinement_Criteria_Thresholds/Variable");
+  }
 }
 
 TEST(RefinedScenes, AreRefusedToComponentsOfOneLevel) {

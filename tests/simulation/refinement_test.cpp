@@ -5,6 +5,7 @@
 
 #include "core/simulation/refinement_marks.hpp"
 #include "core/simulation/regridder.hpp"
+#include "tests/simulation/cooling.hpp"
 #include "tests/support/levels.hpp"
 
 namespace tushar::simulation {
@@ -133,6 +134,44 @@ TEST(MarkedBlocks, NeverMakeACellTwoLevelsFinerAtOnceHoweverFarSignalsReach) {
   EXPECT_EQ(levelsOfLeaves(grid.tree()), (std::vector<int>{0, 1, 2, 2, 1, 1, 0}));
   // 17 cells before the first of level 2 is a cell of level 0, beyond the block of level 1 between them.
   EXPECT_EQ(refinedOnce(grid, 32, 2, 48), (std::vector<int>{1, 1, 2, 2, 3, 3, 3, 3, 2, 2, 1, 0}));
+}
+
+namespace {
+
+struct Gas {
+  std::string name;
+};
+const std::vector<Gas> gas{{"gas"}};
+constexpr CellLabel<double> heatOfGas{"c.heatOfGas", "J", "heat of a gas in a cell"};
+
+class CoolingGas : public test::Cooling {
+ public:
+  void scheduleInitialize(TaskList& tasks) const override {
+    Cooling::scheduleInitialize(tasks);
+    tasks.perMaterial(
+        "warm", [](const Patch&, const Gas&, CellView<double>) {}, gas, computes(heatOfGas));
+  }
+  void scheduleTimeAdvance(TaskList& tasks) const override {
+    Cooling::scheduleTimeAdvance(tasks);
+    tasks.perMaterial(
+        "cool", [](const Patch&, const Gas&, CellView<const double>, CellView<double>) {}, gas, requiresOld(heatOfGas),
+        computes(heatOfGas));
+  }
+};
+
+}  // namespace
+
+TEST(Regridding, HasGhostsOfAllCellsThatOutliveAStep) {
+  const grid::Grid grid(row());
+  Phases phases(CoolingGas{}, {});
+  data::VariableTable table;
+  RegridSettings regrid;
+  regrid.adaptive = true;
+
+  phases.compile({}, {{std::string(heatOfGas.name), "", {}, {}}}, grid, table, regrid);
+
+  EXPECT_EQ(table.ghost(table.find("c.heat", -1)), 1);
+  EXPECT_EQ(table.ghost(table.find("c.heatOfGas", 0)), 1);
 }
 
 TEST(MarkedBlocks, KeepRegionsOfTheScene) {

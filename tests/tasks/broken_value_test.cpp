@@ -271,4 +271,25 @@ TEST(BrokenValue, IsFoundInNewParticles) {
       "material gas, step 7, time 0.5 s)");
 }
 
+TEST(BrokenValue, IsFoundOnNodesBehindWhichTheirLevelEnds) {
+  grid::Domain domain = test::domain({{32, 1, 1}});
+  domain.refinement.levels = 2;
+  domain.refinement.regions.push_back({1, Vec3(0.25, 0, 0), Vec3(0.75, 1, 1)});  // nodes 16 to 48 of the finer level
+  test::Runner run(domain);
+  TaskList list;
+  list.perPatch(
+      "weigh",
+      [](const Patch& patch, NodeView<double> masses) {
+        forEach<1>(patch.nodes(),
+                   [&](const Index<1>& node) { masses[node] = patch.level().number() == 1 && node[0] == 48 ? -1 : 1; });
+      },
+      computes(mass));
+  TaskGraph graph = run.compile(list, {"g.mass"});
+
+  const std::string said = failure(run, graph);
+
+  EXPECT_TRUE(said.starts_with("g.mass became -1 kg, but must be")) << said;
+  EXPECT_NE(said.find("node (48) at x = 0.75 m"), std::string::npos) << said;
+}
+
 }  // namespace tushar::tasks

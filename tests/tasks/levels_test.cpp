@@ -257,4 +257,20 @@ TEST(Levels, RegriddingKeepsTheIntegralAndALinearField) {
   }
 }
 
+// All blocks of the finest level would be 2^28.
+TEST(Levels, RegriddingTakesAsLongAsThereAreCellsHoweverManyLevelsThereMayBe) {
+  grid::Domain domain = refined<2>(14, false, 8);
+  domain.refinement.regions.clear();
+  domain.resolution = {{16, 16, 1}};
+  test::Runner run(domain);
+  TaskList start;
+  start.perPatch("fill", fillLinear<2>, computes(value));
+  TaskGraph starts = run.compile(start, {"c.value"});
+  run.table.widen(run.table.find("c.value", -1), 1);
+  run.step(starts);
+  run.scheduler.fillGhosts({run.table.find("c.value", -1)});
+  regrid(run.grid, otherTree(run.grid), run.warehouse, {0, {run.table.find("c.value", -1)}});
+  EXPECT_EQ(run.grid.cellCount(), (3u + 4u) * 64u);
+}
+
 }  // namespace tushar::tasks

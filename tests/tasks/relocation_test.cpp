@@ -218,4 +218,53 @@ TEST(Relocation, RefusesToLetParticlesThroughASymmetryPlaneOrToNowhere) {
       "7, time 0.5 s)");
 }
 
+namespace {
+
+/// The sentence and the advice of an advance in which the one particle, in cell 32 of 64, moves by some finest cells.
+/// Cells 16 to 47 are there, those around them are of the coarser level.
+std::string movedOnLevels(double cells) {
+  grid::Domain domain = test::domain({{32, 1, 1}});
+  domain.refinement.levels = 2;
+  domain.refinement.regions.push_back({1, Vec3(0.25, 0, 0), Vec3(0.75, 1, 1)});
+  test::Runner run(domain);
+  run.scheduler.relocation().setAdviceNearCoarser("a wider grid");
+  TaskList start, advance;
+  start.newParticles(
+      "create",
+      [](const Patch& patch, const Material&, ParticleMaker& maker, std::vector<Vec<1>>& at) {
+        if (!patch.cells().contains(Index<1>{{32}}) || patch.level().number() == 0) return;
+        maker.add(Index<1>{{32}}, 5);
+        at.push_back(Vec<1>(32.5 / 64));
+      },
+      gas, creates(x<1>));
+  advance.perMaterial(
+      "shift",
+      [cells](const Patch&, const Material&, ParticleView<const Vec<1>> from, ParticleView<Vec<1>> to) {
+        for (int p = 0; p < from.owned(); ++p) to[p] = Vec<1>(from[p][0] + cells / 64);
+      },
+      gas, requiresOld(x<1>), computes(x<1>));
+  advance.relocate(x<1>, gas);
+  TaskGraph begin = run.compile(start, {"p.x"}), step = run.compile(advance, {"p.x"}, true);
+  run.step(begin);
+  try {
+    run.step(step);
+  } catch (const NumericalError& error) {
+    return error.what() + ("; try " + error.advice());
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST(Relocation, RefusesParticlesBesideCoarserCellsAndInThem) {
+  const std::string refused =
+      "particle 5 came within 1 cell of coarser cells, where no particles can be; patch 1 (task relocate, material "
+      "gas, step 7, time 0.5 s); try a wider grid";
+
+  EXPECT_EQ(movedOnLevels(14), "");
+  EXPECT_EQ(movedOnLevels(15), refused);
+  EXPECT_EQ(movedOnLevels(-16), refused);
+  EXPECT_EQ(movedOnLevels(24), refused);
+}
+
 }  // namespace tushar::tasks

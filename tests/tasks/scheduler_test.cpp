@@ -240,4 +240,23 @@ TEST(Scheduler, NeverAllocatesWhatNobodyReads) {
   EXPECT_EQ(allocations({}), 0u);
 }
 
+TEST(Scheduler, UsesAsManyThreadsAsTheCellsAreWorthAlsoWhenTheseBecomeMore) {
+  grid::Domain domain = test::domain({{32, 1, 1}});
+  domain.refinement.levels = 2;
+  domain.refinement.blocksPerPatch = Index3::filled(1);
+  grid::Grid grid(domain);
+  data::VariableTable table;
+  data::Warehouse warehouse(grid, table);
+  Scheduler given(warehouse, 4), asPay(warehouse, 4, 16);
+  EXPECT_EQ(given.threads().count(), 4);
+  EXPECT_EQ(asPay.threads().count(), 2);
+
+  std::set<grid::BlockId> all;
+  for (int block = 0; block < 4; ++block) all.insert({0, {{block, 0, 0}}});
+  grid.refine(grid.cut(grid.tree().regridded(all, {})));
+  asPay.forgetLayout();
+
+  EXPECT_EQ(asPay.threads().count(), 4);
+}
+
 }  // namespace tushar::tasks

@@ -4,6 +4,9 @@
 
 #include <Eigen/LU>
 
+#include <optional>
+#include <utility>
+
 #include "components/mpm/particles/ids.hpp"
 #include "components/mpm/solid/labels.hpp"
 #include "components/mpm/solid/loads/load.hpp"
@@ -117,19 +120,75 @@ void addSeeds(const Level& level, const Start& start, const Material& material, 
   }
 }
 
+/// How many cells particles may be moved from where they are made.
+inline int cellsMovedAtStart(const Level& level, const Start& start) {
+  const double farthest = start.solution ? start.solution->farthestAtStart() : 0.0;
+  return static_cast<int>(std::ceil(farthest / level.minSpacing()));
+}
+
+/// Where a particle of a body starts among some cells of the finest level, and its part of a cell; none if there is no
+/// such particle.
+template <int D>
+std::optional<std::pair<Vec<D>, Seed>> particleIn(const Level& finest, const Body& body, const Box& cells) {
+  std::optional<std::pair<Vec<D>, Seed>> found;
+  const auto take = [&](const Seed& seed) { found.emplace(finest.reduce<D>(seed.at), seed); };
+  if (body.seeds) {
+    forEachRow<D>(cells, [&](const Index<D>& first, int count) {  // whose numbers are consecutive
+      const std::uint64_t number = finest.cellNumber<D>(first);
+      const auto next = body.seeds->lower_bound(number);
+      if (!found && next != body.seeds->end() && next->first < number + static_cast<std::uint64_t>(count))
+        take(next->second.front());
+    });
+    return found;
+  }
+  const Seed part = partOfCell<D>(finest, body.particlesPerCell);
+  const input::Box3 bounds = body.shape->bounds();
+  forEach<D>(finest.cellsNear(bounds.min, bounds.max).intersect(cells), [&](const Index<D>& cell) {
+    if (!found)
+      forEachParticleIn<D>(finest, body, cell, [&](const Index<D>&, const Vec3& at) {
+        take({at, part.domain, part.volume});
+      });
+  });
+  return found;
+}
+
+/// In a cell of a coarser level, one particle of each body that has some in the finest cells there: so these come to
+/// be, or the scene is refused. Points of the coarser cell itself would miss a thin body.
+template <int D>
+void standIn(const Patch& patch, const Material& material, ParticleMaker& maker, const Start& start,
+             const NewParticles<D>& particles) {
+  const Level &level = patch.level(), &finest = level.finest();
+  const int halvings = finest.number() - level.number(), around = cellsMovedAtStart(finest, start);
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    Box inside{{}, Index3::filled(1)};
+    for (int d = 0; d < D; ++d) {
+      inside.lower[d] = cell[d] << halvings;
+      inside.upper[d] = (cell[d] + 1) << halvings;
+    }
+    inside = inside.grown(around, D).intersect(finest.cells());
+    ParticleId inCell = 0;
+    for (const Body& body : material.bodies)
+      if (const auto found = particleIn<D>(finest, body, inside)) {
+        maker.add(cell, idOf<D>(level, cell, inCell++, body.where));
+        particles.add(finest, start, material, body, found->first, found->second);
+      }
+  });
+}
+
 /// Fills each body with its particles, `particlesPerCell` along each axis in the middle of equal parts of a cell, if
 /// the shape contains that point. As in Uintah, bodies may overlap, and two bodies that share a face with such points
 /// both have particles there.
 ///
 /// The id of a particle is made of the number of its cell and its place in the cell: it does not depend on the patches.
+/// Particles are on the finest level; see standIn for cells of coarser ones.
 template <int D>
 void actuallyInitialize(const Patch& patch, const Material& material, ParticleMaker& maker, const Start& start,
                         const NewParticles<D>& particles) {
   const Level& level = patch.level();
   if (patch.id() == 0) refuseIdle(start.loads.surfaces);
+  if (&level != &level.finest()) return standIn<D>(patch, material, maker, start, particles);
   // A displaced particle may start in another cell than the one that made it, hence on another patch.
-  const double farthest = start.solution ? start.solution->farthestAtStart() : 0.0;
-  const int around = static_cast<int>(std::ceil(farthest / level.minSpacing()));
+  const int around = cellsMovedAtStart(level, start);
   forEach<D>(patch.cellsWithin(around), [&](const Index<D>& cell) {
     ParticleId inCell = 0;
     for (const Body& body : material.bodies) {

@@ -1,0 +1,74 @@
+#include "components/mpm/solid/tasks/create_particles.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "core/input/geometry/shapes.hpp"
+#include "tests/support/run.hpp"
+
+namespace tushar::mpm::solid {
+
+namespace {
+
+/// A row of 32 cells of 1/32 m, each of up to 4 finest ones; of these those between two places.
+grid::Domain row(double lower, double upper) {
+  grid::Domain domain;
+  domain.upper = {1, 0, 0};
+  domain.resolution = {{32, 1, 1}};
+  domain.refinement.levels = 3;
+  if (upper > lower) domain.refinement.regions.push_back({2, Vec3(lower, 0, 0), Vec3(upper, 0, 0)});
+  return domain;
+}
+
+/// A plate in the finest cells 39 and 40, of the coarsest ones 9 and 10, in whose middles it is not; moved by a little.
+Material plate(double shift) {
+  auto shape = std::make_shared<input::Box>();
+  shape->min = Vec3(39.0 / 128, -1, -1);
+  shape->max = Vec3(41.0 / 128, 1, 1);
+  Body body;
+  body.shape = shape;
+  body.velocity = *input::VectorExpression::parse("[0,0,0]");
+  body.temperature = *input::Expression::parse("300");
+  body.affineShift = Vec3(shift, 0, 0);
+  Material material;
+  material.name = "plate";
+  material.density = 1;
+  material.bodies.push_back(std::move(body));
+  return material;
+}
+
+/// Particles by level and cell.
+std::map<std::pair<int, int>, int> made(const grid::Domain& domain, double shift) {
+  test::Runner run(domain);
+  std::vector<Material> materials{plate(shift)};
+  placeParticles(run.grid.finest(), materials[0].bodies);
+  TaskList list;
+  list.newParticles("create", actuallyInitialize<1>, materials, with(Start()), all<NewParticles<1>>());
+  tasks::TaskGraph graph = run.compile(list, {"p.x", "p.mass", "p.particleID"});
+  run.step(graph);
+  std::map<std::pair<int, int>, int> counts;
+  for (const Patch& patch : run.grid.patches())
+    forEach<1>(patch.cells(), [&](const Index<1>& cell) {
+      const data::ParticleSet& set = run.warehouse.particles(data::Generation::old, 0, patch.id());
+      if (const int count = set.in(Index3{{cell[0], 0, 0}}).size(); count > 0)
+        counts[{patch.level().number(), cell[0]}] = count;
+    });
+  return counts;
+}
+
+using Counts = std::map<std::pair<int, int>, int>;
+
+}  // namespace
+
+TEST(CreateParticles, MakeThemInTheFinestCells) {
+  EXPECT_EQ(made(row(0.25, 0.5), 0), (Counts{{{2, 39}, 1}, {{2, 40}, 1}}));
+  EXPECT_EQ(made(row(0.25, 0.5), 1.0 / 1024), (Counts{{{2, 39}, 1}, {{2, 40}, 1}}));
+}
+
+TEST(CreateParticles, HaveOneInACoarserCellForAllThatAreTooFineForIt) {
+  EXPECT_EQ(made(row(0, 0), 0), (Counts{{{0, 9}, 1}, {{0, 10}, 1}}));
+  EXPECT_EQ(made(row(0, 0), 1.0 / 1024), (Counts{{{0, 9}, 1}, {{0, 10}, 1}}));
+}
+
+}  // namespace tushar::mpm::solid

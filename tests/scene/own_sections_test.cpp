@@ -1,0 +1,27 @@
+#include "core/scene/scene.hpp"
+#include "tests/input/support.hpp"
+
+namespace tushar::scene {
+
+TEST(Regridder, TakesTheSectionOfAComponentOfOnesOwn) {
+  simulation::ComponentKind flow;
+  flow.name = "my_flow";
+  flow.sections = {"MyFlow", "Tables"};
+  flow.takesLevels = true;
+  const auto problemsOf = [&](const std::string& section, const simulation::ComponentKind* kind) {
+    input::Diagnostics diagnostics;
+    const input::Document document =
+        input::documentOf("<AMR><" + section + "><do_Refluxing>false</do_Refluxing></" + section + "></AMR>");
+    const AmrSettings read = readAmr(*document.root().child("AMR"), kind, diagnostics);
+    EXPECT_EQ(read.regrid.refluxes, diagnostics.any());
+    return diagnostics.size();
+  };
+
+  EXPECT_EQ(problemsOf("MyFlow", &flow), 0u);
+  EXPECT_EQ(problemsOf("MyFlow", nullptr), 1u);
+  EXPECT_EQ(problemsOf("Tables", &flow), 1u);
+  flow.takesLevels = false;
+  EXPECT_EQ(problemsOf("MyFlow", &flow), 1u);
+}
+
+}  // namespace tushar::scene
