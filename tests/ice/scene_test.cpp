@@ -94,7 +94,7 @@ TEST(IceScene, DampsAWaveOfTemperature) {
 }
 
 TEST(IceScene, HasTheParabolaOfAChannel) {
-  EXPECT_NEAR(errorOf(channel, {"Grid/Level/Box/resolution=[4,8,1]"}), 0.05 / 64, 1e-5);
+  EXPECT_NEAR(errorOf(channel, {"Grid/Level/Box/resolution=[8,8,1]"}), 0.05 / 64, 1e-5);
 }
 
 TEST(IceScene, HasOneFingerprintOnAnyPatches) {
