@@ -196,6 +196,17 @@ TEST(IceScene, SavesUintahsNamesAsItsOwnOnce) {
                                               "TotalIntEng", "KineticEnergy"}));
 }
 
+TEST(IceScene, RefinesByUintahsNames) {
+  const std::string adaptive =
+      "<AMR><Regridder><max_levels>2</max_levels><min_patch_size>[[10,1,1]]</min_patch_size></Regridder>"
+      "<ICE><Refinement_Criteria_Thresholds><Variable name=\"rho_CC\" value=\"0.01\" matl=\"0\"/>"
+      "</Refinement_Criteria_Thresholds></ICE></AMR>";
+  const simulation::Problem problem =
+      scene::readScene(changedScene(sod, "  <CFD>", adaptive + "  <CFD>"), {"Grid/@doAMR=true"}, catalogue());
+  ASSERT_EQ(problem.regrid.criteria.size(), 1U);
+  EXPECT_EQ(problem.regrid.criteria[0].variable, "c.density");
+}
+
 TEST(IceScene, LeavesOutWhatUintahAloneComputes) {
   EXPECT_EQ(problemOf(changedScene(sod, "rho_CC", "delP_Dilatate")),
             "'delP_Dilatate' is not saved: nobody computes it here");
