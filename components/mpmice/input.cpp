@@ -82,7 +82,7 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
   const ice::GasScene scene = ice::readGas(root, solids, diagnostics);
   const mpm::solid::MakeSurrounded makeSolids = mpm::solid::readSurrounded(root, diagnostics);
   if (diagnostics.size() > before || !makeSolids) return {};
-  Settings settings{scene.gas, scene.referencePressure, scene.gravity, {}, false, areRigid};
+  Settings settings{scene.gas, scene.referencePressure, scene.gravity, {}, scene.thinWalls.value_or(false), areRigid};
   if (scene.exchange) {
     const Element exchange = *root.child("MaterialProperties")->child("exchange_properties");
     checkMomentum(*scene.exchange, solids, areRigid, *exchange.child("exchange_coefficients"), diagnostics);
