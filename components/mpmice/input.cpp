@@ -109,8 +109,9 @@ simulation::ComponentKind kind(bool areRigid) {
                          mpm::boundary::velocity.evenOnPlanes(), mpm::boundary::temperature.evenOnPlanes()};
   kind.describe = [](std::ostream& out) {
     ice::describeGas(out);
-    out << "The bodies have <MPM>, <MaterialProperties>/<MPM> and <PhysicalBC> of the component mpm: sus --describe "
-           "mpm\n";
+    out << "Where it is about bodies, instead:
+";
+    mpm::solid::describe(out);
   };
   kind.nodesBeyond = mpm::solid::nodesBeyond;
   kind.read = [areRigid](const Element& root, Diagnostics& diagnostics) {

@@ -364,13 +364,6 @@ simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostic
 /// The sections of such a scene, for the schemas of editors.
 std::vector<std::vector<simulation::SectionForm>> forms() { return {sectionForms(mpmSchema())}; }
 
-void describe(std::ostream& out) {
-  mpmSchema().describe(out);
-  constantsSchema().describe(out);
-  propertiesSchema(false).describe(out);
-  describeLoads(out);
-}
-
 }  // namespace
 
 MakeSurrounded readSurrounded(const Element& root, Diagnostics& diagnostics) {
@@ -384,7 +377,12 @@ MakeSurrounded readSurrounded(const Element& root, Diagnostics& diagnostics) {
   };
 }
 
-std::vector<simulation::SectionForm> surroundedForms() { return sectionForms(mpmSchema()); }
+void describe(std::ostream& out) {
+  mpmSchema().describe(out);
+  constantsSchema().describe(out);
+  propertiesSchema(false).describe(out);
+  describeLoads(out);
+}
 
 simulation::ComponentKind kind() {
   simulation::ComponentKind kind;
