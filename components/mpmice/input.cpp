@@ -109,8 +109,7 @@ simulation::ComponentKind kind(bool areRigid) {
                          mpm::boundary::velocity.evenOnPlanes(), mpm::boundary::temperature.evenOnPlanes()};
   kind.describe = [](std::ostream& out) {
     ice::describeGas(out);
-    out << "Where it is about bodies, instead:
-";
+    out << "Where it is about bodies, instead:\n";
     mpm::solid::describe(out);
   };
   kind.nodesBeyond = mpm::solid::nodesBeyond;
