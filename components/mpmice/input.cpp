@@ -72,7 +72,7 @@ template <int D>
 std::unique_ptr<Component> make(const Level& level, const Settings& settings,
                                 const mpm::solid::MakeSurrounded& makeSolids) {
   auto gas = std::make_shared<const GasAround<D>>(settings);
-  std::unique_ptr<Component> solids = makeSolids(level, settings.areRigid, gas);
+  std::unique_ptr<mpm::solid::Solids> solids = makeSolids(level, settings.areRigid, gas);
   return std::make_unique<MpmIce<D>>(std::move(gas), std::move(solids));
 }
 

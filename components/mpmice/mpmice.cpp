@@ -64,7 +64,9 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
 }
 
 template <int D>
-void GasAround<D>::scheduleStableTimeStep(TaskList& tasks) const {
+void GasAround<D>::scheduleStableTimeStep(TaskList& tasks, const Materials& materials) const {
+  tasks.perMaterial("mpmice::limitStepOfBodies", limitStepOfBodies<D>, materials, with(settings_.gas.cfl),
+                    requiresOld(mpm::solid::c::stableTimeStep), computes(delT));
   tasks.perPatch("mpmice::computeStableTimeStep", computeStableTimeStep<D>, with(settings_),
                  all<GasInCells<D>>(readsOld, 0, 0), computes(delT));
 }
