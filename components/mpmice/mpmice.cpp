@@ -51,7 +51,7 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
   tasks.acrossMaterials("mpmice::advanceGas", advanceBody<D>(settings_.gas.method), materials, with(settings_),
                         requiresOld(delT), withoutMaterial(all<GasInCells<D>>(readsOld, 2, 3)),
                         withoutMaterial(all<BodiesInStep<D>>()), requiresNew(g::record, 2),
-                        withoutMaterial(all<UnsharedGas<D>>()));
+                        withoutMaterial(all<UnsharedGas<D>>()), computes(total::powerOnBodies));
   tasks.perPatch("mpmice::shareSmallCells", shareSmallCells<D>, with(settings_), all<Unshared<D>>(), all<NewGas<D>>());
   if (exchangesHeat())
     tasks.acrossMaterials("mpmice::exchangeHeat", exchangeHeat<D>, materials, with(settings_), requiresOld(delT),
