@@ -1,6 +1,7 @@
 #pragma once
 
 #include "components/euler/tasks/advance_patch.hpp"
+#include "components/mpm/solid/material.hpp"
 #include "components/mpmice/tasks/wall_force.hpp"
 
 namespace tushar::mpmice {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "components/mpm/solid/material.hpp"
 #include "components/mpmice/gas_in_cells.hpp"
 
 namespace tushar::mpmice {
