@@ -35,7 +35,10 @@ inline constexpr CellLabel<double> gasDensity{"c.gasDensity", "kg/m^3", "mass pe
 
 namespace p {
 using namespace mpm::solid::p;
-}
+template <int D>
+inline constexpr ParticleLabel<Vec<D>> boxEdges{"p.boxEdges", "1",
+                                                "edges of the box that stands for the particle, in cells"};
+}  // namespace p
 namespace g {
 using namespace mpm::solid::g;
 }

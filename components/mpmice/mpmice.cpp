@@ -27,7 +27,9 @@ auto advanceBody(const euler::Method& method) {
 
 template <int D>
 void GasAround<D>::scheduleStart(TaskList& tasks, const Materials& materials) const {
-  tasks.acrossMaterials("mpmice::measureFreeSpace", measureFreeSpace<D>, materials, all<Boxes<D>>(readsNew, readsNew),
+  tasks.perMaterial("mpmice::findBoxes", findBoxes<D>, materials, requiresNew(p::size<D>),
+                    requiresNew(p::deformationMeasure), computes(p::boxEdges<D>));
+  tasks.acrossMaterials("mpmice::measureFreeSpace", measureFreeSpace<D>, materials, all<Boxes<D>>(readsNew),
                         withoutMaterial(all<FreeShares<D>>(&c::freeVolume)));
   tasks.perPatch("mpmice::initialize", initialize<D>, with(settings_), requiresNew(c::freeVolume), computes(c::density),
                  computes(c::momentum<D>), computes(c::totalEnergy));
@@ -45,6 +47,8 @@ void GasAround<D>::scheduleForces(TaskList& tasks, const Materials& materials) c
 
 template <int D>
 void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) const {
+  tasks.perMaterial("mpmice::findBoxes", findBoxes<D>, materials, requiresOld(p::size<D>),
+                    requiresNew(p::deformationMeasure), computes(p::boxEdges<D>));
   tasks.acrossMaterials("mpmice::measureMotion", measureMotion<D>, materials, all<MovedBoxes<D>>(),
                         withoutMaterial(all<FreeShares<D>>(&c::unfilledVolume)),
                         withoutMaterial(computes(c::swept<D>)));

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "components/mpm/solid/material.hpp"
-#include "components/mpmice/labels.hpp"
+#include "components/mpmice/gas_in_cells.hpp"
 #include "components/mpmice/particle_box.hpp"
 
 namespace tushar::mpmice {
@@ -9,35 +9,33 @@ namespace tushar::mpmice {
 /// How many cells beyond a patch hold particles whose boxes reach into it, before or after a step.
 inline constexpr int boxReach = 2;
 
+/// The box of each particle, from its size at the start, in cells, and F.
+template <int D>
+void findBoxes(const Patch& patch, const mpm::solid::Material&, ParticleView<const Vec<D>> size,
+               ParticleView<const mpm::solid::Matrix3> deformation, ParticleView<Vec<D>> edges) {
+  for (int p = 0; p < edges.owned(); ++p) edges[p] = edgesOf<D>(patch.level(), size[p], deformation[p]);
+}
+
 /// Where the particles of a material are, and how large, on a patch and around it.
 template <int D>
 struct Boxes {
-  ParticleView<const Vec<D>> x, size;
-  ParticleView<const mpm::solid::Matrix3> deformation;
+  ParticleView<const Vec<D>> x, edges;
 
-  /// `reads` makes accesses of what a step changes, `readsSize` that of p.size.
-  static Boxes from(auto& take, auto reads, auto readsSize) {
-    return {.x = take(reads(p::x<D>, boxReach)),
-            .size = take(readsSize(p::size<D>, boxReach)),
-            .deformation = take(reads(p::deformationMeasure, boxReach))};
+  /// `reads` makes accesses of how a step has them, or of how they were at its start.
+  static Boxes from(auto& take, auto reads) {
+    return {.x = take(reads(p::x<D>, boxReach)), .edges = take(reads(p::boxEdges<D>, boxReach))};
   }
-  ParticleBox<D> of(const Level& level, const mpm::CellFrame<D>& frame, int p) const {
-    return {frame.coordinates(x[p]), edgesOf<D>(level, size[p], deformation[p])};
-  }
+  ParticleBox<D> of(const mpm::CellFrame<D>& frame, int p) const { return {frame.coordinates(x[p]), edges[p]}; }
 };
 
 /// Before and after a step.
 template <int D>
 struct MovedBoxes {
-  Boxes<D> before;
-  ParticleView<const Vec<D>> x;
-  ParticleView<const mpm::solid::Matrix3> deformation;
+  Boxes<D> before, after;
 
   static MovedBoxes from(auto& take) {
-    constexpr auto old = [](const auto& label, int ghost) { return requiresOld(label, ghost); };
-    return {.before = Boxes<D>::from(take, old, old),
-            .x = take(requiresNew(p::x<D>, boxReach)),
-            .deformation = take(requiresNew(p::deformationMeasure, boxReach))};
+    Boxes<D> before = Boxes<D>::from(take, readsOld);
+    return {.before = std::move(before), .after = Boxes<D>::from(take, readsNew)};
   }
 };
 
@@ -105,7 +103,7 @@ void measureFreeSpace(const Patch& patch, const std::vector<mpm::solid::Material
   free.clear();
   for (const Boxes<D>& boxes : materials)
     forEachParticle<D>(patch.level(), boxes.x, [&](const Index<D>& cell, const mpm::CellFrame<D>& frame, int p) {
-      free.take(cell, boxes.of(patch.level(), frame, p));
+      free.take(cell, boxes.of(frame, p));
     });
   free.settle();
 }
@@ -158,11 +156,11 @@ void measureMotion(const Patch& patch, const std::vector<mpm::solid::Material>&,
   free.clear();
   swept.fill(Vec<D>::Zero());
   for (const MovedBoxes<D>& boxes : materials)
-    forEachParticle<D>(level, boxes.x, [&](const Index<D>& cell, const mpm::CellFrame<D>& frame, int p) {
-      const ParticleBox<D> before = boxes.before.of(level, frame, p);
-      ParticleBox<D> after{withinReach<D>(frame.coordinates(boxes.x[p]), before.edges), before.edges};
-      addSwept<D>(cell, before, after, swept);
-      after.edges = edgesOf<D>(level, boxes.before.size[p], boxes.deformation[p]);
+    forEachParticle<D>(level, boxes.before.x, [&](const Index<D>& cell, const mpm::CellFrame<D>& frame, int p) {
+      const ParticleBox<D> before = boxes.before.of(frame, p);
+      ParticleBox<D> after = boxes.after.of(frame, p);
+      after.middle = withinReach<D>(after.middle, before.edges.cwiseMax(after.edges));
+      addSwept<D>(cell, before, {after.middle, before.edges}, swept);
       free.take(cell, after);
     });
   free.settle();
