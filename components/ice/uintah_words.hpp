@@ -8,6 +8,7 @@
 
 namespace tushar::ice {
 
+inline constexpr const char* thinWallsPath = "CFD/ICE/thin_walls";
 inline constexpr const char* exchangePath = "MaterialProperties/exchange_properties/exchange_coefficients";
 
 /// Variables that are here by another name.

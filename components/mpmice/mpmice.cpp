@@ -2,7 +2,6 @@
 
 #include "components/euler/tasks/add_gravity.hpp"
 #include "components/euler/tasks/diagnose.hpp"
-#include "components/ice/uintah_words.hpp"
 #include "components/mpmice/tasks/advance_gas.hpp"
 #include "components/mpmice/tasks/compute_stable_time_step.hpp"
 #include "components/mpmice/tasks/diagnose.hpp"
@@ -10,6 +9,7 @@
 #include "components/mpmice/tasks/initialize.hpp"
 #include "components/mpmice/tasks/measure_bodies.hpp"
 #include "components/mpmice/tasks/share_small_cells.hpp"
+#include "components/mpmice/uintah_words.hpp"
 
 namespace tushar::mpmice {
 
@@ -105,11 +105,8 @@ std::vector<std::string> MpmIce<D>::foreignLabels() const {
 
 template <int D>
 std::vector<std::pair<std::string, std::string>> MpmIce<D>::otherNames() const {
-  std::vector<std::pair<std::string, std::string>> names = solids_->otherNames();
+  std::vector<std::pair<std::string, std::string>> names = uintahsNames;
   names.insert(names.end(), ice::uintahsNames.begin(), ice::uintahsNames.end());
-  std::erase_if(names, [](const auto& name) { return name.first == "rho_micro_CC"; });
-  names.emplace_back("rho_micro_CC", c::gasDensity.name);
-  names.emplace_back("vol_frac_CC", c::freeVolume.name);
   return names;
 }
 

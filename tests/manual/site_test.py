@@ -92,7 +92,7 @@ class Pages(unittest.TestCase):
 
     def test_tags_of_a_scene_lead_to_their_descriptions(self):
         discs = SITE.files["gallery/solid-two_discs.html"]
-        self.assertRegex(discs, r'&lt;<a href="\.\./reference/mpm-MPM\.html#interpolator"[^>]*>interpolator</a>&gt;')
+        self.assertRegex(discs, r'&lt;<a href="\.\./reference/shared-MPM\.html#interpolator"[^>]*>interpolator</a>&gt;')
         self.assertRegex(discs, r'<a href="\.\./reference/constitutive_model-comp_mooney_rivlin\.html"')
 
     def test_pages_need_no_network(self):
