@@ -111,6 +111,7 @@ GasScene readGas(const Element& root, int solids, Diagnostics& diagnostics) {
   scene.gas.method.reconstruction = cfd.ice.advection.reconstruction;
   scene.gas.cfl = cfd.cfl;
   scene.gas.gas.material = solids;
+  scene.thinWalls = cfd.ice.thinWalls;
   scene.gravity = constants.gravity;
   scene.referencePressure = constants.referencePressure;
   if (properties.exchange) scene.exchange = properties.exchange->coefficients;

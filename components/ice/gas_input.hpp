@@ -26,6 +26,7 @@ struct GasScene {
   Vec3 gravity = Vec3::Zero();            ///< m/s²
   double viscosity = 0;                   ///< Pa s
   double conductivity = 0;                ///< W/(m K)
+  std::optional<bool> thinWalls = {};     ///< whether bodies thinner than a cell hold the gas back
   std::optional<Exchange> exchange = {};  ///< with other materials
 };
 

@@ -38,6 +38,11 @@ const Schema<IceSection>& iceSchema() {
     tags.requiredSection("advection", &IceSection::advection, advectionSchema())
         .value("explicit", &IceSection::isExplicit, false, "1", "steps are explicit in spite of an <ImplicitSolver>")
         .ours()
+        .optional(
+            "thin_walls", &IceSection::thinWalls, "1",
+            "bodies thinner than a cell hold the gas back, too; oblique walls are rougher then. Without it, bodies "
+            "of less than 1.25 cells leak")
+        .ours()
         .custom("ImplicitSolver", refuseImplicit, {"ImplicitSolver"}, "only with <explicit>, which passes over it")
         .forms({input::anyForm({"ImplicitSolver"})});
     input::noteTag(tags, "TimeStepControl", "steps follow from <cfl>, the sound and the diffusion in each cell");

@@ -19,6 +19,7 @@ struct Advection {
 struct IceSection {
   Advection advection;
   bool isExplicit = false;
+  std::optional<bool> thinWalls;
 };
 
 /// `CFD`.

@@ -73,6 +73,7 @@ simulation::ComponentKind kind() {
     const auto properties = root.child("MaterialProperties");
     if (const auto solids = properties ? properties->child("MPM") : std::nullopt)
       diagnostics.error(*solids, "'ice' has no solids: keep the gas alone");
+    if (scene.thinWalls) diagnostics.note(scene.where, "CFD/ICE/thin_walls", "does nothing: there are no bodies");
     if (scene.exchange) diagnostics.note(scene.exchange->where, exchangePath, "does nothing: there is one material");
     if (diagnostics.size() > before) return {};
     return [scene](const Level& level) { return simulation::makeByDimension<Ice>(level, scene); };

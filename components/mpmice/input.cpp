@@ -24,24 +24,32 @@ void forEachPairWithGas(const std::vector<double>& pairs, int solids, Visit&& vi
       if (column == solids && at < pairs.size()) visit(row, pairs[at]);
 }
 
-/// Momentum goes by walls, or bodies are rigid; heat does not go.
-void checkExchange(const ice::Exchange& exchange, int solids, bool areRigid, const Element& root,
+/// Momentum goes by walls, or bodies are rigid.
+void checkMomentum(const ice::Exchange& exchange, int solids, bool areRigid, const Element& tag,
                    Diagnostics& diagnostics) {
-  const auto tag = root.child("MaterialProperties")->child("exchange_properties")->child("exchange_coefficients");
   constexpr double walls = 1e9;
   forEachPairWithGas(exchange.momentum, solids, [&](int body, double k) {
     if (k >= walls || (areRigid && k == 0)) return;
-    diagnostics.error(tag->child("momentum").value_or(*tag),
+    diagnostics.error(tag.child("momentum").value_or(tag),
                       fmt::format("{:g} between body {} and the gas is not available: bodies have walls, which is 1e9 "
                                   "and more",
                                   k, body));
   });
-  forEachPairWithGas(exchange.heat, solids, [&](int body, double h) {
-    if (h == 0) return;
-    diagnostics.error(
-        tag->child("heat").value_or(*tag),
-        fmt::format("{:g} between body {} and the gas is not available: walls are adiabatic; set it to 0", h, body));
-  });
+}
+
+/// The coefficients of heat of all pairs; empty where none flows.
+std::vector<double> heatOf(const ice::Exchange& exchange, int solids, const Element& root, Diagnostics& diagnostics) {
+  const auto& heat = exchange.heat;
+  const std::size_t pairs = static_cast<std::size_t>(solids) * (solids + 1) / 2;
+  if (std::all_of(heat.begin(), heat.end(), [](double h) { return h == 0; })) return {};
+  const Element tag = *root.child("MaterialProperties")->child("exchange_properties")->child("exchange_coefficients");
+  if (heat.size() < pairs)
+    diagnostics.error(*tag.child("heat"),
+                      fmt::format("found {} numbers, expected {}: one for each pair of {} materials", heat.size(),
+                                  pairs, solids + 1));
+  for (const Element& material : root.child("MaterialProperties")->child("MPM")->children("material"))
+    if (!material.child("specific_heat")) diagnostics.error(material, "missing tag <specific_heat>: it exchanges heat");
+  return heat;
 }
 
 int countSolids(const Element& root) {
@@ -74,10 +82,14 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
   const ice::GasScene scene = ice::readGas(root, solids, diagnostics);
   const mpm::solid::MakeSurrounded makeSolids = mpm::solid::readSurrounded(root, diagnostics);
   if (diagnostics.size() > before || !makeSolids) return {};
-  if (scene.exchange) checkExchange(*scene.exchange, solids, areRigid, root, diagnostics);
+  Settings settings{scene.gas, scene.referencePressure, scene.gravity, {}, scene.thinWalls.value_or(false), areRigid};
+  if (scene.exchange) {
+    const Element exchange = *root.child("MaterialProperties")->child("exchange_properties");
+    checkMomentum(*scene.exchange, solids, areRigid, *exchange.child("exchange_coefficients"), diagnostics);
+    settings.heat = heatOf(*scene.exchange, solids, root, diagnostics);
+  }
   checkGas(scene, root, diagnostics);
   if (diagnostics.size() > before) return {};
-  const Settings settings{scene.gas, scene.referencePressure, scene.gravity, false, areRigid};
   return [settings, makeSolids](const Level& level) -> std::unique_ptr<Component> {
     if (level.dimension() == 1) return make<1>(level, settings, makeSolids);
     if (level.dimension() == 2) return make<2>(level, settings, makeSolids);
@@ -97,8 +109,9 @@ simulation::ComponentKind kind(bool areRigid) {
                          mpm::boundary::velocity.evenOnPlanes(), mpm::boundary::temperature.evenOnPlanes()};
   kind.describe = [](std::ostream& out) {
     ice::describeGas(out);
-    out << "The bodies have <MPM>, <MaterialProperties>/<MPM> and <PhysicalBC> of the component mpm: sus --describe "
-           "mpm\n";
+    out << "Where it is about bodies, instead:
+";
+    mpm::solid::describe(out);
   };
   kind.nodesBeyond = mpm::solid::nodesBeyond;
   kind.read = [areRigid](const Element& root, Diagnostics& diagnostics) {

@@ -2,9 +2,11 @@
 
 #include "components/euler/tasks/add_gravity.hpp"
 #include "components/euler/tasks/diagnose.hpp"
+#include "components/ice/uintah_words.hpp"
 #include "components/mpmice/tasks/advance_gas.hpp"
 #include "components/mpmice/tasks/compute_stable_time_step.hpp"
 #include "components/mpmice/tasks/diagnose.hpp"
+#include "components/mpmice/tasks/exchange_heat.hpp"
 #include "components/mpmice/tasks/initialize.hpp"
 #include "components/mpmice/tasks/measure_bodies.hpp"
 #include "components/mpmice/tasks/share_small_cells.hpp"
@@ -27,10 +29,8 @@ template <int D>
 void GasAround<D>::scheduleStart(TaskList& tasks, const Materials& materials) const {
   tasks.acrossMaterials("mpmice::measureFreeSpace", measureFreeSpace<D>, materials, all<Boxes<D>>(readsNew, readsNew),
                         withoutMaterial(all<FreeShares<D>>(&c::freeVolume)));
-  tasks.perPatch("mpmice::initialize", euler::initialize<D>, with(settings_.gas), computes(c::density),
+  tasks.perPatch("mpmice::initialize", initialize<D>, with(settings_), requiresNew(c::freeVolume), computes(c::density),
                  computes(c::momentum<D>), computes(c::totalEnergy));
-  tasks.perPatch("mpmice::fillFreeSpace", fillFreeSpace<D>, requiresNew(c::freeVolume), modifies(c::density),
-                 modifies(c::momentum<D>), modifies(c::totalEnergy));
 }
 
 template <int D>
@@ -53,6 +53,11 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
                         withoutMaterial(all<BodiesInStep<D>>()), requiresNew(g::record, 2),
                         withoutMaterial(all<UnsharedGas<D>>()));
   tasks.perPatch("mpmice::shareSmallCells", shareSmallCells<D>, with(settings_), all<Unshared<D>>(), all<NewGas<D>>());
+  if (exchangesHeat())
+    tasks.acrossMaterials("mpmice::exchangeHeat", exchangeHeat<D>, materials, with(settings_), requiresOld(delT),
+                          withoutMaterial(requiresNew(c::freeVolume)), withoutMaterial(requiresNew(c::density)),
+                          withoutMaterial(requiresNew(c::momentum<D>)), withoutMaterial(modifies(c::totalEnergy)),
+                          all<WarmBodies>());
   if (!settings_.gravity.isZero(0))
     tasks.perPatch("euler::addGravity", euler::addGravity<D>, with(settings_.gravity), requiresNew(c::density),
                    requiresOld(delT), modifies(c::momentum<D>), modifies(c::totalEnergy));
@@ -72,6 +77,9 @@ void GasAround<D>::scheduleDiagnostics(TaskList& tasks) const {
   tasks.perPatch("mpmice::computeMach", computeMach<D>, with(settings_), gas, computes(c::mach<D>));
   tasks.perPatch("mpmice::computeGasDensity", computeGasDensity<D>, gas, computes(c::gasDensity));
   tasks.perPatch("mpmice::computeTemperature", computeTemperature<D>, with(settings_), gas, computes(c::temperature));
+  tasks.perPatch("mpmice::computeSoundSpeed", computeSoundSpeed<D>, with(settings_), gas, computes(c::soundSpeed));
+  tasks.perPatch("mpmice::computeSpecificVolume", computeSpecificVolume<D>, gas, computes(c::specificVolume));
+  tasks.perPatch("mpmice::sumInternalEnergy", sumInternalEnergy<D>, gas, computes(ice::total::internalEnergy));
   for (const auto* mass : {&total::gasMass, &euler::total::mass})
     tasks.perPatch("mpmice::sumMass", euler::sumMass<D>, requiresOld(c::density), computes(*mass));
   for (const auto* momentum : {&total::gasMomentum, &euler::total::momentum})
@@ -82,6 +90,26 @@ void GasAround<D>::scheduleDiagnostics(TaskList& tasks) const {
   tasks.perPatch("mpmice::findLeastFreeVolume", findLeastFreeVolume<D>, gas, computes(total::leastFreeVolume));
 }
 
+template <int D>
+std::vector<std::string> MpmIce<D>::foreignLabels() const {
+  std::vector<std::string> labels = solids_->foreignLabels();
+  labels.insert(labels.end(), ice::uintahsLabels.begin(), ice::uintahsLabels.end());
+  return labels;
+}
+
+template <int D>
+std::vector<std::pair<std::string, std::string>> MpmIce<D>::otherNames() const {
+  std::vector<std::pair<std::string, std::string>> names = solids_->otherNames();
+  names.insert(names.end(), ice::uintahsNames.begin(), ice::uintahsNames.end());
+  std::erase_if(names, [](const auto& name) { return name.first == "rho_micro_CC"; });
+  names.emplace_back("rho_micro_CC", c::gasDensity.name);
+  names.emplace_back("vol_frac_CC", c::freeVolume.name);
+  return names;
+}
+
+template class MpmIce<1>;
+template class MpmIce<2>;
+template class MpmIce<3>;
 template class GasAround<1>;
 template class GasAround<2>;
 template class GasAround<3>;

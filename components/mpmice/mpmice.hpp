@@ -17,6 +17,7 @@ class GasAround : public mpm::solid::Surroundings {
   explicit GasAround(Settings settings) : settings_(std::move(settings)) {}
 
   const Settings& settings() const { return settings_; }
+  bool exchangesHeat() const override { return !settings_.heat.empty(); }
   void scheduleStart(TaskList& tasks, const Materials& materials) const override;
   void scheduleForces(TaskList& tasks, const Materials& materials) const override;
   void scheduleMotion(TaskList& tasks, const Materials& materials) const override;
@@ -47,11 +48,16 @@ class MpmIce : public Component {
   }
   std::string advice() const override { return "a smaller CFD/cfl, or more particles per cell along surfaces (res)"; }
   bool mayRepeatStep() const override { return true; }
-  std::vector<std::string> foreignLabels() const override { return solids_->foreignLabels(); }
+  std::vector<std::string> foreignLabels() const override;
+  std::vector<std::pair<std::string, std::string>> otherNames() const override;
 
  private:
   std::shared_ptr<const GasAround<D>> gas_;
   std::unique_ptr<Component> solids_;
 };
+
+extern template class MpmIce<1>;
+extern template class MpmIce<2>;
+extern template class MpmIce<3>;
 
 }  // namespace tushar::mpmice

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 #include "core/core.hpp"
@@ -32,13 +33,24 @@ class NearBodies {
   template <class Visit>
   void forEachIn(const Box& box, Visit&& visit) const {
     if (!has_any_) return;
-    forEach<D>(box, [&](const Index<D>& cell) {
-      if ((*this)(cell)) visit(cell);
+    grid::forEachRow<D>(box, [&](Index<D> cell, int count) {
+      const std::uint8_t* row = &is_near_[offset(cell)];
+      const std::uint8_t* end = row + count;
+      const int start = cell[0];
+      for (const std::uint8_t* at = row; at < end; ++at) {
+        at = static_cast<const std::uint8_t*>(std::memchr(at, 1, end - at));
+        if (!at) return;
+        cell[0] = start + static_cast<int>(at - row);
+        visit(cell);
+      }
     });
   }
   bool anyIn(const Box& box) const {
     bool any = false;
-    forEachIn(box, [&](const Index<D>&) { any = true; });
+    if (has_any_)
+      grid::forEachRow<D>(box, [&](const Index<D>& first, int count) {
+        any = any || std::memchr(&is_near_[offset(first)], 1, count) != nullptr;
+      });
     return any;
   }
 

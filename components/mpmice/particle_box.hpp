@@ -57,7 +57,8 @@ Vec<D> edgesOf(const Level& level, const Vec<D>& size, const mpm::solid::Matrix3
   if (isTurned) {
     for (int i = 0; i < D; ++i) lengths[i] = edges.row(i).norm();
     const double volume = std::abs(edges.determinant());
-    lengths *= std::pow(volume / lengths.prod(), 1.0 / D);
+    const double ratio = volume / lengths.prod();
+    lengths *= D == 1 ? ratio : D == 2 ? std::sqrt(ratio) : std::cbrt(ratio);
   }
   return lengths.cwiseAbs().cwiseMin(longestEdge);
 }

@@ -9,6 +9,7 @@ struct Settings {
   euler::Settings gas;
   double referencePressure = 0;  ///< exerts no force on bodies, Pa
   Vec3 gravity = Vec3::Zero();   ///< m/s²
+  std::vector<double> heat;      ///< W/(m³ K) between pairs of materials, row by row, the gas last; empty: none flows
   bool thinWalls = false;        ///< bodies thinner than a cell hold the gas back, too
   bool areRigid = false;         ///< bodies move as they started, whatever the gas does
 };

@@ -196,12 +196,18 @@ bool collectAbove(const Element& from, const Element& until, std::vector<Element
   return false;
 }
 
-/// In the same section of the scene (MaterialProperties, PhysicalBC, …), as each has labels of its own.
+/// In the same section of the scene (MaterialProperties, PhysicalBC, …), as each has labels of its own. The shapes of a
+/// gas in <ICE> know those of bodies in <MPM>, wherever that stands, as Uintah reads bodies first.
 std::vector<Element> labelledAbove(const Element& shape) {
-  Element section = shape;
-  while (section.parent() && section.parent()->parent()) section = *section.parent();
+  Element section = shape, part = shape;
+  while (section.parent() && section.parent()->parent()) {
+    part = section;
+    section = *section.parent();
+  }
   std::vector<Element> found;
   collectAbove(section, shape, found);
+  const auto bodies = part.name() == "ICE" ? section.child("MPM") : std::nullopt;
+  if (bodies && bodies->where().line > part.where().line) collectAbove(*bodies, shape, found);
   return found;
 }
 

@@ -53,7 +53,9 @@ class SilentMistakes(unittest.TestCase):
         self.assert_edited_is_refused("ups/heat/sine.ups", "c.temperature</label>", "p.x</label>",
                                       f"SCENE:49:8: {label}: found 'p.x', expected 'c.temperature'")
         self.assert_edited_is_refused("ups/euler/sod.ups", "</DataAnalysis>", exact_solution("c.momentum"),
-                                      "found 'c.momentum', expected 'c.density', 'c.internalEnergy', 'c.pressure' or "
+                                      "'c.momentum' is a vector: <component> says which of x, y and z")
+        self.assert_edited_is_refused("ups/euler/sod.ups", "</DataAnalysis>", exact_solution("c.speed"),
+                                      "found 'c.speed', expected 'c.density', 'c.internalEnergy', 'c.pressure' or "
                                       "'c.totalEnergy'")
         self.assert_edited_is_refused("ups/mpm/sod.ups", "</DataAnalysis>", exact_solution("g.mass"),
                                       "this component has no scalar variable of cells or nodes without a material")

@@ -162,16 +162,6 @@ TEST(Prune, KeepsAChangeOnlyWhereItIsSeen) {
   EXPECT_EQ(names(prune(list.tasks(), {"c.a"}, false).kept), (std::vector<std::string>{"makeA", "changeA"}));
 }
 
-TEST(Prune, KeepsEveryTaskThatAddsToATotal) {
-  constexpr data::ReductionLabel<data::Sum> total{"total", "1", "sum"};
-  const auto addTo = [](const Patch&, data::Sum&) {};
-  TaskList list;
-  list.perPatch("one", addTo, computes(total));
-  list.perPatch("other", addTo, computes(total));
-
-  EXPECT_EQ(names(prune(list.tasks(), {"total"}, false).kept), (std::vector<std::string>{"one", "other"}));
-}
-
 TEST(Prune, KeepsWhatTheNextStepNeeds) {
   TaskList list;
   list.perPatch("makeA", readWrite, requiresOld(b), computes(a));

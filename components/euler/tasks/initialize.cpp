@@ -2,18 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace tushar::euler {
 
 namespace {
-
-const GasObject& objectAt(const Settings& settings, const Vec3& point) {
-  for (auto object = settings.objects.rbegin(); object != settings.objects.rend(); ++object)
-    if (object->shape->owns(point)) return *object;
-  throw InputError({{settings.where, settings.section,
-                     fmt::format("no geom_object contains the middle of the cell at ({:g}, {:g}, {:g}); every cell "
-                                 "needs a gas at the start",
-                                 point[0], point[1], point[2])}});
-}
 
 /// Throws InputError for objects that contain the middle of no cell on the whole grid.
 template <int D>
@@ -49,25 +42,49 @@ void checkState(const Settings& settings, const GasObject& object, const Vec3& p
 }  // namespace
 
 template <int D>
+std::optional<State<D>> stateAt(const Level& level, const Settings& settings, const Vec3& point) {
+  const auto& objects = settings.objects;
+  const auto object =
+      std::find_if(objects.rbegin(), objects.rend(), [&](const GasObject& one) { return one.shape->owns(point); });
+  if (object == objects.rend()) return std::nullopt;
+  const double rho = object->density(point);
+  const double p =
+      object->temperature ? settings.gas.gasConstant() * rho * (*object->temperature)(point) : object->pressure(point);
+  const Vec3 wide = object->velocity(point);
+  checkState(settings, *object, point, rho, p, wide);
+  const Vec<D> v = level.reduce<D>(wide);
+  State<D> state;
+  state[kDensity] = rho;
+  for (int d = 0; d < D; ++d) state[kVelocity(d)] = rho * v[d];
+  state[kPressure<D>] = settings.gas.internalEnergy(p) + 0.5 * rho * v.squaredNorm();
+  return state;
+}
+
+void refuseUncovered(const Settings& settings, const Vec3& point) {
+  throw InputError({{settings.where, settings.section,
+                     fmt::format("no geom_object contains the middle of the cell at ({:g}, {:g}, {:g}); every cell "
+                                 "needs a gas at the start",
+                                 point[0], point[1], point[2])}});
+}
+
+template <int D>
 void initialize(const Patch& patch, const Settings& settings, CellView<double> density, CellView<Vec<D>> momentum,
                 CellView<double> totalEnergy) {
   const Level& level = patch.level();
   if (patch.id() == 0) checkObjects<D>(level, settings);
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     const Vec3 point = level.expandPoint<D>(level.cellCentre<D>(cell));
-    const GasObject& object = objectAt(settings, point);
-    const double rho = object.density(point);
-    const double p =
-        object.temperature ? settings.gas.gasConstant() * rho * (*object.temperature)(point) : object.pressure(point);
-    const Vec3 wide = object.velocity(point);
-    checkState(settings, object, point, rho, p, wide);
-    const Vec<D> v = level.reduce<D>(wide);
-    density[cell] = rho;
-    momentum[cell] = rho * v;
-    totalEnergy[cell] = settings.gas.internalEnergy(p) + 0.5 * rho * v.squaredNorm();
+    const std::optional<State<D>> state = stateAt<D>(level, settings, point);
+    if (!state) refuseUncovered(settings, point);
+    density[cell] = (*state)[kDensity];
+    for (int d = 0; d < D; ++d) momentum[cell][d] = (*state)[kVelocity(d)];
+    totalEnergy[cell] = (*state)[kPressure<D>];
   });
 }
 
+template std::optional<State<1>> stateAt<1>(const Level&, const Settings&, const Vec3&);
+template std::optional<State<2>> stateAt<2>(const Level&, const Settings&, const Vec3&);
+template std::optional<State<3>> stateAt<3>(const Level&, const Settings&, const Vec3&);
 template void initialize<1>(const Patch&, const Settings&, CellView<double>, CellView<Vec<1>>, CellView<double>);
 template void initialize<2>(const Patch&, const Settings&, CellView<double>, CellView<Vec<2>>, CellView<double>);
 template void initialize<3>(const Patch&, const Settings&, CellView<double>, CellView<Vec<3>>, CellView<double>);

@@ -1,9 +1,19 @@
 #pragma once
 
+#include <optional>
+
 #include "components/euler/labels.hpp"
 #include "components/euler/settings.hpp"
 
 namespace tushar::euler {
+
+/// rho, rho v and E at a point: of the last object that owns it; nothing where none does. Throws InputError where
+/// density or p + p_inf is not positive or the state not finite.
+template <int D>
+std::optional<State<D>> stateAt(const Level& level, const Settings& settings, const Vec3& point);
+
+/// Throws InputError: a cell at `point` has no gas at the start.
+[[noreturn]] void refuseUncovered(const Settings& settings, const Vec3& point);
 
 /// The state of the last object that owns the middle of each cell (a face belongs to the object above it), there.
 /// Throws InputError for objects that contain none, where no object does, and where density or p + p_inf is not

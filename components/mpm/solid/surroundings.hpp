@@ -9,6 +9,8 @@ namespace tushar::mpm::solid {
 class Surroundings {
  public:
   virtual ~Surroundings() = default;
+  /// Whether they change p.temperature.
+  virtual bool exchangesHeat() const { return false; }
   /// Behind the tasks that make the particles of `materials`, which outlive the list.
   virtual void scheduleStart(TaskList& tasks, const std::vector<Material>& materials) const = 0;
   /// Behind the task that gives g.record velocities and masses, and before forces move anything: computes

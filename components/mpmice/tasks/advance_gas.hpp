@@ -143,8 +143,11 @@ class WallExchange {
 /// rho, v, p of the gas in the cells of the work's box; where there is none, of some gas that moves nowhere: what flows
 /// from there is closed off.
 template <int D>
-void recoverGas(const euler::Gas& gas, const Level& level, const GasInCells<D>& cells, euler::Rows<D>& w) {
-  forEach<D>(level.clipCells(w.box()), [&](const Index<D>& cell) {
+void recoverGas(const euler::Gas& gas, const Level& level, const GasInCells<D>& cells, const NearBodies<D>& near,
+                euler::Rows<D>& w) {
+  euler::recover<D>(gas, level, cells.held, w);
+  near.forEachIn(level.clipCells(w.box()), [&](const Index<D>& cell) {
+    if (!(cells.free[cell] < 1)) return;
     euler::State<D> state{};
     state[euler::kDensity] = 1;
     state[euler::kPressure<D>] = 1;
@@ -155,11 +158,11 @@ void recoverGas(const euler::Gas& gas, const Level& level, const GasInCells<D>& 
 
 /// Cells with a body in them or beside them are taken as constant.
 template <int D>
-void flattenAtBodies(const Level& level, const Box& box, CellView<const double> free, euler::Work<D>& work) {
-  const auto hasBody = [&](const Index<D>& cell) {
-    return level.clipCells(box.grown(1, D)).contains(cell) && free[cell] < 1;
-  };
-  forEach<D>(level.clipCells(box), [&](const Index<D>& cell) {
+void flattenAtBodies(const Level& level, const Box& box, CellView<const double> free, const NearBodies<D>& near,
+                     euler::Work<D>& work) {
+  const Box known = level.clipCells(box.grown(1, D));
+  const auto hasBody = [&](const Index<D>& cell) { return known.contains(cell) && free[cell] < 1; };
+  near.forEachIn(level.clipCells(box), [&](const Index<D>& cell) {
     bool isPlain = !hasBody(cell);
     for (int d = 0; d < D && isPlain; ++d)
       isPlain = !hasBody(cell - Index<D>::unit(d)) && !hasBody(cell + Index<D>::unit(d));
@@ -206,10 +209,10 @@ void advanceAtBodies(const Level& level, const Settings& settings, double dt, co
                      euler::Work<D>& work, const euler::StateViews<D, double>& fresh) {
   const euler::Gas& gas = settings.gas.gas;
   work.hold(block.grown(Shape::reach, D));
-  recoverGas<D>(gas, level, cells, work.w);
+  recoverGas<D>(gas, level, cells, near, work.w);
   euler::fillBeyondGrid<D>(level, euler::ghostRules<D>(level, gas), work.w);
   euler::predict<D>(gas, level, block.grown(1, D), dt, work, Shape{});
-  flattenAtBodies<D>(level, block.grown(1, D), cells.free, work);
+  flattenAtBodies<D>(level, block.grown(1, D), cells.free, near, work);
   const auto sweep = [&]<int Axis>() {
     sweepOpen<D, Flux, Shape, Axis>(gas, exchange, near, level, block, dt / level.spacing(Axis), cells.held, work,
                                     fresh);
@@ -230,7 +233,7 @@ void advanceGas(const Patch& patch, const std::vector<mpm::solid::Material>&, co
   const Level& level = patch.level();
   const euler::Gas& gas = settings.gas.gas;
   const euler::GhostRules<D> rules = euler::ghostRules<D>(level, gas);
-  const NearBodies<D> near(patch.cells().grown(1, D), nearLayers, cells.free);
+  const NearBodies<D> near(patch.cells().grown(2, D), nearLayers, cells.free);
   const WallExchange<D> exchange(level, settings, cells, bodies, records, dt);
   euler::Work<D> work(patch.cells(), Shape::reach);
   bool fine = true;

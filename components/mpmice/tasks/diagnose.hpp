@@ -56,6 +56,37 @@ void computeTemperature(const Patch& patch, const Settings& settings, const GasI
   });
 }
 
+template <int D>
+void computeSoundSpeed(const Patch& patch, const Settings& settings, const GasInCells<D>& cells,
+                       CellView<double> speed) {
+  const euler::Gas& gas = settings.gas.gas;
+  showGas<D>(patch, cells, [&](const Index<D>& cell, bool hasGas) {
+    speed[cell] = 0;
+    if (!hasGas) return;
+    const euler::State<D> w = cells.primitive(gas, cell);
+    speed[cell] = std::sqrt(gas.soundSpeedSquared(w[euler::kDensity], w[euler::kPressure<D>]));
+  });
+}
+
+template <int D>
+void computeSpecificVolume(const Patch& patch, const GasInCells<D>& cells, CellView<double> volume) {
+  showGas<D>(patch, cells, [&](const Index<D>& cell, bool hasGas) {
+    volume[cell] = hasGas ? cells.free[cell] / cells.held.density[cell] : 0;
+  });
+}
+
+/// Internal energy of the gas, J.
+template <int D>
+void sumInternalEnergy(const Patch& patch, const GasInCells<D>& cells, Sum& energy) {
+  WideSum sum(energy);
+  const double volume = patch.level().cellVolume();
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    if (cells.isEmpty(cell)) return;
+    const double kinetic = 0.5 * cells.held.momentum[cell].squaredNorm() / cells.held.density[cell];
+    sum.add(volume * (cells.held.totalEnergy[cell] - kinetic));
+  });
+}
+
 /// Kinetic energy of the gas, J.
 template <int D>
 void sumKineticEnergy(const Patch& patch, const GasInCells<D>& cells, Sum& energy) {

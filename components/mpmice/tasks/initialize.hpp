@@ -5,15 +5,49 @@
 
 namespace tushar::mpmice {
 
-/// What the gas of a scene fills: the free part of cells.
+/// How far, in cells, a cell that bodies fill in part looks for a gas where its middle has none.
+inline constexpr int gasNearby = 3;
+
+/// The gas of a cell with some room: that at its middle or, as scenes leave out the bodies' shapes, at the nearest
+/// middle of a cell that has one. Throws InputError where there is none.
 template <int D>
-void fillFreeSpace(const Patch& patch, CellView<const double> free, CellView<double> density, CellView<Vec<D>> momentum,
-                   CellView<double> totalEnergy) {
+euler::State<D> gasOf(const Level& level, const euler::Settings& settings, const Index<D>& cell) {
+  const auto at = [&](const Index<D>& of) {
+    return euler::stateAt<D>(level, settings, level.expandPoint<D>(level.cellCentre<D>(of)));
+  };
+  if (const auto own = at(cell)) return *own;
+  std::optional<euler::State<D>> nearest;
+  int least = std::numeric_limits<int>::max();
+  Box around{{}, Index3::filled(1)};
+  for (int d = 0; d < D; ++d) {
+    around.lower[d] = cell[d] - gasNearby;
+    around.upper[d] = cell[d] + gasNearby + 1;
+  }
+  forEach<D>(level.clipCells(around), [&](const Index<D>& other) {
+    int apart = 0;
+    for (int d = 0; d < D; ++d) apart += (other[d] - cell[d]) * (other[d] - cell[d]);
+    if (apart >= least) return;
+    if (const auto state = at(other)) {
+      nearest = state;
+      least = apart;
+    }
+  });
+  if (!nearest) euler::refuseUncovered(settings, level.expandPoint<D>(level.cellCentre<D>(cell)));
+  return *nearest;
+}
+
+/// The gas of a scene in the free part of cells.
+template <int D>
+void initialize(const Patch& patch, const Settings& settings, CellView<const double> free, CellView<double> density,
+                CellView<Vec<D>> momentum, CellView<double> totalEnergy) {
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    const double room = free[cell] < leastFreeVolume ? 0 : free[cell];
-    density[cell] *= room;
-    momentum[cell] *= room;
-    totalEnergy[cell] *= room;
+    density[cell] = totalEnergy[cell] = 0;
+    momentum[cell] = Vec<D>::Zero();
+    if (free[cell] < leastFreeVolume) return;
+    const euler::State<D> state = gasOf<D>(patch.level(), settings.gas, cell);
+    density[cell] = free[cell] * state[euler::kDensity];
+    for (int d = 0; d < D; ++d) momentum[cell][d] = free[cell] * state[euler::kVelocity(d)];
+    totalEnergy[cell] = free[cell] * state[euler::kPressure<D>];
   });
 }
 

@@ -40,6 +40,15 @@ struct MovedBoxes {
   }
 };
 
+/// A number for each place of a box along each axis; boxes of particles reach over a few cells, also while they move.
+template <int D, class Make>
+auto alongAxes(const Box& reach, Make&& make) {
+  std::array<std::array<double, 2 * (boxReach + 2)>, D> values;
+  for (int d = 0; d < D; ++d)
+    for (int k = reach.lower[d]; k < reach.upper[d]; ++k) values[d][k - reach.lower[d]] = make(d, k);
+  return values;
+}
+
 /// What bodies leave free, on a patch.
 template <int D>
 struct FreeShares {
@@ -56,18 +65,19 @@ struct FreeShares {
   }
   /// Takes the share of a box whose coordinates start at `origin`.
   void take(const Index<D>& origin, const ParticleBox<D>& box) const {
-    forEach<D>(box.reach(), [&](const Index<D>& k) {
+    const Box reach = box.reach();
+    const auto inside = alongAxes<D>(reach, [&](int axis, int k) { return box.lengthIn(axis, k); });
+    const auto hat = alongAxes<D>(reach, [&](int axis, int k) { return box.hatAt(axis, k); });
+    forEach<D>(reach, [&](const Index<D>& k) {
       const Index<D> cell = origin + k;
       if (!volume.box().contains(cell)) return;
-      std::array<double, D> inside;
-      for (int d = 0; d < D; ++d) inside[d] = box.lengthIn(d, k[d]);
       double filled = 1;
-      for (int d = 0; d < D; ++d) filled *= inside[d];
+      for (int d = 0; d < D; ++d) filled *= inside[d][k[d] - reach.lower[d]];
       volume[cell] -= filled;
       for (int a = 0; a < D; ++a) {
-        double covered = box.hatAt(a, k[a]);
+        double covered = hat[a][k[a] - reach.lower[a]];
         for (int d = 0; d < D; ++d)
-          if (d != a) covered *= inside[d];
+          if (d != a) covered *= inside[d][k[d] - reach.lower[d]];
         coverage[cell][a] += covered;
       }
     });
@@ -105,26 +115,37 @@ template <int D>
 void addSwept(const Index<D>& origin, const ParticleBox<D>& before, const ParticleBox<D>& after,
               CellView<Vec<D>> swept) {
   const Box from = before.reach(), to = after.reach();
-  Box cells = from;
+  Box reach = from;
   for (int d = 0; d < D; ++d) {
-    cells.lower[d] = std::min(from.lower[d], to.lower[d]);
-    cells.upper[d] = std::max(from.upper[d], to.upper[d]);
+    reach.lower[d] = std::min(from.lower[d], to.lower[d]);
+    reach.upper[d] = std::max(from.upper[d], to.upper[d]);
   }
-  forEach<D>(cells, [&](const Index<D>& k) {
+  const auto old = alongAxes<D>(reach, [&](int axis, int k) { return before.lengthIn(axis, k); });
+  const auto fresh = alongAxes<D>(reach, [&](int axis, int k) { return after.lengthIn(axis, k); });
+  const auto up =
+      alongAxes<D>(reach, [&](int axis, int k) { return after.lengthAbove(axis, k) - before.lengthAbove(axis, k); });
+  forEach<D>(reach, [&](const Index<D>& k) {
     const Index<D> cell = origin + k;
     if (!swept.box().contains(cell)) return;
     for (int a = 0; a < D; ++a) {
-      const double up = after.lengthAbove(a, k[a]) - before.lengthAbove(a, k[a]);
       double rising = 1, falling = 1;
       for (int d = 0; d < D; ++d) {
         if (d == a) continue;
-        const double old = before.lengthIn(d, k[d]), fresh = after.lengthIn(d, k[d]);
-        rising *= d < a ? fresh : old;
-        falling *= d < a ? old : fresh;
+        const double was = old[d][k[d] - reach.lower[d]], is = fresh[d][k[d] - reach.lower[d]];
+        rising *= d < a ? is : was;
+        falling *= d < a ? was : is;
       }
-      swept[cell][a] += 0.5 * up * (rising + falling);
+      swept[cell][a] += 0.5 * up[a][k[a] - reach.lower[a]] * (rising + falling);
     }
   });
+}
+
+/// Where a particle is, not farther from the cell in which it started the step than patches see: time steps keep it
+/// nearer.
+template <int D>
+Vec<D> withinReach(const Vec<D>& coordinates, const Vec<D>& edges) {
+  const Vec<D> least = edges.array() - boxReach, most = boxReach + 1 - edges.array();
+  return coordinates.cwiseMax(least).cwiseMin(most);
 }
 
 /// The same at the end of a step, before particles are relocated, and the volume of bodies that went through faces:
@@ -138,7 +159,7 @@ void measureMotion(const Patch& patch, const std::vector<mpm::solid::Material>&,
   for (const MovedBoxes<D>& boxes : materials)
     forEachParticle<D>(level, boxes.x, [&](const Index<D>& cell, const mpm::CellFrame<D>& frame, int p) {
       const ParticleBox<D> before = boxes.before.of(level, frame, p);
-      ParticleBox<D> after{frame.coordinates(boxes.x[p]), before.edges};
+      ParticleBox<D> after{withinReach<D>(frame.coordinates(boxes.x[p]), before.edges), before.edges};
       addSwept<D>(cell, before, after, swept);
       after.edges = edgesOf<D>(level, boxes.before.size[p], boxes.deformation[p]);
       free.take(cell, after);

@@ -62,7 +62,9 @@ struct NeoHookPlastic {
           .value("yield_range", &Self::yieldRange, 0, "Pa", "of uniform: to both sides of <yield_stress>",
                  input::nonNegative())
           .value("yield_seed", &Self::yieldSeed, 0, "1", "other numbers, other yield stresses; not those of Uintah")
-          .ignored("useModifiedEOS", "only Uintah's coupled fluid reads it")
+          .ignored("useModifiedEOS", "bodies beside a gas keep their own equation of state")
+          .ignored("strain_limit", "of older versions of Uintah")
+          .ignored("reduction_factor", "of older versions of Uintah")
           .check([](const Self& read, const input::Element& element, input::Diagnostics& diagnostics) {
             if (read.isPlastic && !(read.yieldStress && read.hardeningModulus))
               diagnostics.error(element, "where it yields, <yield_stress> and <hardening_modulus> must be given");

@@ -319,7 +319,8 @@ struct ReadSolids {
 /// What a scene of solids says; nothing if it has problems, which all go to the diagnostics.
 std::optional<ReadSolids> readSolids(const Element& root, bool besideGas, Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.size();
-  const MpmSection read = simulation::readSection(root, mpmSchema(), diagnostics);
+  const MpmSection read = besideGas ? simulation::readOptionalSection(root, mpmSchema(), diagnostics)
+                                    : simulation::readSection(root, mpmSchema(), diagnostics);
   const Method method = settle(read, simulation::readOptionalSection(root, constantsSchema(besideGas), diagnostics));
   const MaterialProperties properties = simulation::readSection(root, propertiesSchema(besideGas), diagnostics);
   if (diagnostics.size() > before) return {};
@@ -345,7 +346,7 @@ std::optional<ReadSolids> readSolids(const Element& root, bool besideGas, Diagno
                             std::string(material.model->name()));
   }
   if (diagnostics.size() > before) return {};
-  return ReadSolids{read.interpolator, std::move(problem), root.child("MPM")->where()};
+  return ReadSolids{read.interpolator, std::move(problem), root.child("MPM").value_or(root).where()};
 }
 
 std::unique_ptr<Component> makeComponent(const Level& level, const ReadSolids& read) {
@@ -363,13 +364,6 @@ simulation::MakeComponent readScene(const Element& root, Diagnostics& diagnostic
 /// The sections of such a scene, for the schemas of editors.
 std::vector<std::vector<simulation::SectionForm>> forms() { return {sectionForms(mpmSchema())}; }
 
-void describe(std::ostream& out) {
-  mpmSchema().describe(out);
-  constantsSchema().describe(out);
-  propertiesSchema(false).describe(out);
-  describeLoads(out);
-}
-
 }  // namespace
 
 MakeSurrounded readSurrounded(const Element& root, Diagnostics& diagnostics) {
@@ -383,7 +377,12 @@ MakeSurrounded readSurrounded(const Element& root, Diagnostics& diagnostics) {
   };
 }
 
-std::vector<simulation::SectionForm> surroundedForms() { return sectionForms(mpmSchema()); }
+void describe(std::ostream& out) {
+  mpmSchema().describe(out);
+  constantsSchema().describe(out);
+  propertiesSchema(false).describe(out);
+  describeLoads(out);
+}
 
 simulation::ComponentKind kind() {
   simulation::ComponentKind kind;

@@ -8,12 +8,13 @@ namespace tushar::mpm::solid {
 /// Solids with explicit time steps, as a part of the component mpm.
 simulation::ComponentKind kind();
 
+/// Prints the manual of the sections.
+void describe(std::ostream& out);
+
 /// Makes solids that something surrounds; where `areRigid`, their stresses exert no force.
 using MakeSurrounded = std::function<std::unique_ptr<Component>(const Level& level, bool areRigid,
                                                                 std::shared_ptr<const Surroundings> surroundings)>;
 /// Reads the solids of a scene that also has a gas; empty if there are problems, which go to the diagnostics.
 MakeSurrounded readSurrounded(const input::Element& root, input::Diagnostics& diagnostics);
-/// The sections of such a scene that are about its solids, for the schemas of editors.
-std::vector<simulation::SectionForm> surroundedForms();
 
 }  // namespace tushar::mpm::solid

@@ -15,4 +15,10 @@ void addSurroundingForce(const Patch&, const Material&, NodeView<const Vec<D>> f
   });
 }
 
+/// T_p as it was, for what surrounds the body to change.
+inline void keepTemperature(const Patch&, const Material&, ParticleView<const double> old,
+                            ParticleView<double> temperature) {
+  std::copy_n(old.values(), old.owned(), temperature.values());
+}
+
 }  // namespace tushar::mpm::solid
