@@ -11,11 +11,11 @@ using input::Schema;
 
 namespace {
 
-const Schema<Advection>& advectionSchema() {
-  static const Schema<Advection> schema =
-      Schema<Advection>("advection", "How what flows is reconstructed at the faces of cells.")
+const Schema<AdvectionSection>& advectionSchema() {
+  static const Schema<AdvectionSection> schema =
+      Schema<AdvectionSection>("advection", "How what flows is reconstructed at the faces of cells.")
           .requiredChoiceAttribute(
-              "type", &Advection::reconstruction,
+              "type", &AdvectionSection::reconstruction,
               {{"FirstOrder", euler::Reconstruction::firstOrder}, {"SecondOrder", euler::Reconstruction::musclHancock}},
               "constant cells, or cells with van Leer's slopes and a half step")
           .ignoredAttribute("useCompatibleFluxes", "all that a cell has flows with its mass")

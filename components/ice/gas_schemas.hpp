@@ -11,13 +11,13 @@
 
 namespace tushar::ice {
 
-struct Advection {
+struct AdvectionSection {
   euler::Reconstruction reconstruction = euler::Reconstruction::musclHancock;
 };
 
 /// `CFD/ICE`.
 struct IceSection {
-  Advection advection;
+  AdvectionSection advection;
   bool isExplicit = false;
   std::optional<bool> thinWalls;
 };

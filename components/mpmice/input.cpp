@@ -72,7 +72,7 @@ template <int D>
 std::unique_ptr<Component> make(const Level& level, const Settings& settings,
                                 const mpm::solid::MakeSurrounded& makeSolids) {
   auto gas = std::make_shared<const GasAround<D>>(settings);
-  std::unique_ptr<Component> solids = makeSolids(level, settings.areRigid, gas);
+  std::unique_ptr<mpm::solid::Solids> solids = makeSolids(level, settings.areRigid, gas);
   return std::make_unique<MpmIce<D>>(std::move(gas), std::move(solids));
 }
 
@@ -109,8 +109,7 @@ simulation::ComponentKind kind(bool areRigid) {
                          mpm::boundary::velocity.evenOnPlanes(), mpm::boundary::temperature.evenOnPlanes()};
   kind.describe = [](std::ostream& out) {
     ice::describeGas(out);
-    out << "Where it is about bodies, instead:
-";
+    out << "Where it is about bodies, instead:\n";
     mpm::solid::describe(out);
   };
   kind.nodesBeyond = mpm::solid::nodesBeyond;

@@ -48,6 +48,7 @@ inline constexpr ReductionLabel<Sum> gasEnergy{"GasEnergy", "J", "internal and k
 inline constexpr ReductionLabel<Sum> gasKineticEnergy{"GasKineticEnergy", "J", "kinetic energy of the gas"};
 inline constexpr ReductionLabel<VectorSum> forceOnBodies{"GasForceOnBodies", "N",
                                                          "force of the gas on all bodies, above reference_pressure"};
+inline constexpr ReductionLabel<Sum> powerOnBodies{"GasPowerOnBodies", "W", "work of the gas on all bodies, over time"};
 inline constexpr ReductionLabel<Minimum> leastFreeVolume{"LeastFreeVolume", "1",
                                                          "least share of a cell that holds gas"};
 }  // namespace total

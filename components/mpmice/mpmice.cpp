@@ -51,7 +51,7 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
   tasks.acrossMaterials("mpmice::advanceGas", advanceBody<D>(settings_.gas.method), materials, with(settings_),
                         requiresOld(delT), withoutMaterial(all<GasInCells<D>>(readsOld, 2, 3)),
                         withoutMaterial(all<BodiesInStep<D>>()), requiresNew(g::record, 2),
-                        withoutMaterial(all<UnsharedGas<D>>()));
+                        withoutMaterial(all<UnsharedGas<D>>()), computes(total::powerOnBodies));
   tasks.perPatch("mpmice::shareSmallCells", shareSmallCells<D>, with(settings_), all<Unshared<D>>(), all<NewGas<D>>());
   if (exchangesHeat())
     tasks.acrossMaterials("mpmice::exchangeHeat", exchangeHeat<D>, materials, with(settings_), requiresOld(delT),
@@ -64,7 +64,9 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
 }
 
 template <int D>
-void GasAround<D>::scheduleStableTimeStep(TaskList& tasks) const {
+void GasAround<D>::scheduleStableTimeStep(TaskList& tasks, const Materials& materials) const {
+  tasks.perMaterial("mpmice::limitStepOfBodies", limitStepOfBodies<D>, materials, with(settings_.gas.cfl),
+                    requiresOld(mpm::solid::c::stableTimeStep), computes(delT));
   tasks.perPatch("mpmice::computeStableTimeStep", computeStableTimeStep<D>, with(settings_),
                  all<GasInCells<D>>(readsOld, 0, 0), computes(delT));
 }

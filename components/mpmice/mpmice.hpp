@@ -1,6 +1,6 @@
 #pragma once
 
-#include "components/mpm/solid/surroundings.hpp"
+#include "components/mpm/solid/problem.hpp"
 #include "components/mpmice/labels.hpp"
 #include "components/mpmice/settings.hpp"
 
@@ -8,7 +8,7 @@ namespace tushar::mpmice {
 
 /// A gas in the space that bodies of particles leave free, in D dimensions: finite volumes with walls.
 ///
-/// Its tasks stand among those of the solids, which call them: see schedule.cpp, which reads as the method.
+/// Its tasks stand among those of the solids, which call for them. mpmice.cpp has the schedule.
 template <int D>
 class GasAround : public mpm::solid::Surroundings {
  public:
@@ -21,7 +21,7 @@ class GasAround : public mpm::solid::Surroundings {
   void scheduleStart(TaskList& tasks, const Materials& materials) const override;
   void scheduleForces(TaskList& tasks, const Materials& materials) const override;
   void scheduleMotion(TaskList& tasks, const Materials& materials) const override;
-  void scheduleStableTimeStep(TaskList& tasks) const;
+  void scheduleStableTimeStep(TaskList& tasks, const Materials& materials) const;
   void scheduleDiagnostics(TaskList& tasks) const;
 
  private:
@@ -33,13 +33,12 @@ template <int D>
 class MpmIce : public Component {
  public:
   /// `solids` are those that `gas` is around.
-  MpmIce(std::shared_ptr<const GasAround<D>> gas, std::unique_ptr<Component> solids)
+  MpmIce(std::shared_ptr<const GasAround<D>> gas, std::unique_ptr<mpm::solid::Solids> solids)
       : gas_(std::move(gas)), solids_(std::move(solids)) {}
 
   void scheduleInitialize(TaskList& tasks) const override { solids_->scheduleInitialize(tasks); }
   void scheduleComputeStableTimeStep(TaskList& tasks) const override {
-    solids_->scheduleComputeStableTimeStep(tasks);
-    gas_->scheduleStableTimeStep(tasks);
+    gas_->scheduleStableTimeStep(tasks, solids_->problem().materials);
   }
   void scheduleTimeAdvance(TaskList& tasks) const override { solids_->scheduleTimeAdvance(tasks); }
   void scheduleDiagnostics(TaskList& tasks) const override {
@@ -53,7 +52,7 @@ class MpmIce : public Component {
 
  private:
   std::shared_ptr<const GasAround<D>> gas_;
-  std::unique_ptr<Component> solids_;
+  std::unique_ptr<mpm::solid::Solids> solids_;
 };
 
 extern template class MpmIce<1>;

@@ -60,7 +60,7 @@ class Completion(unittest.TestCase):
         self.assertEqual(self.offered("sus ups/mpm/sod.p"), [])
 
     def test_manuals_and_schemas(self):
-        self.assertEqual(sorted(self.offered("sus --describe m")), ["manufacturedError", "massProjection", "mpm"])
+        self.assertEqual(sorted(self.offered("sus --describe m")), ["manufacturedError", "massProjection", "mpm", "mpmice"])
         self.assertIn("scene", self.offered("sus -describe "))
         self.assertEqual(self.offered("sus --schema "), ["rng", "xsd"])
         self.assertEqual(self.offered("sus --completion "), ["bash"])

@@ -20,9 +20,9 @@ const Schema<PhysicalConstants>& constantsSchema(bool besideGas) {
     return tags;
   };
   static const Schema<PhysicalConstants> alone = make().ignored("reference_pressure", "nothing here depends on it");
-  static const Schema<PhysicalConstants> beside =
-      make().custom("reference_pressure", [](PhysicalConstants&, const Element&, Diagnostics&) {},
-                    {"reference_pressure"}, "the pressure that exerts no force on bodies");
+  static const Schema<PhysicalConstants> beside = make().custom(
+      "reference_pressure", [](PhysicalConstants&, const Element&, Diagnostics&) {}, {"reference_pressure"},
+      "the pressure that exerts no force on bodies");
   return besideGas ? beside : alone;
 }
 

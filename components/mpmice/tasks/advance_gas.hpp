@@ -1,6 +1,7 @@
 #pragma once
 
 #include "components/euler/tasks/advance_patch.hpp"
+#include "components/mpm/solid/material.hpp"
 #include "components/mpmice/tasks/wall_force.hpp"
 
 namespace tushar::mpmice {
@@ -46,8 +47,10 @@ class WallExchange {
 
   const FreeSpace<D>& space() const { return space_; }
 
-  /// Adds to the content of a cell what walls at its faces push, and what gas flows in behind walls that move.
-  void addTo(const Index<D>& cell, const euler::StateViews<D, double>& held) const {
+  /// Adds to the content of a cell what walls at its faces push, and what gas flows in behind walls that move. Returns
+  /// the work of the gas on the walls, J/m³ of the cell.
+  double addTo(const Index<D>& cell, const euler::StateViews<D, double>& held) const {
+    double work = 0;
     for (int d = 0; d < D; ++d)
       for (int side = 0; side < 2; ++side) {
         const Index<D> face = side == 0 ? cell : cell + Index<D>::unit(d);
@@ -55,21 +58,25 @@ class WallExchange {
         const bool flows = !space_.isAtSide(cell, d, side) && mayFlow(face, d);
         if (!(wall > 0) && !flows) continue;
         const Vec<D> after = nodes_.velocityAt(face, d, mpm::solid::lane::velocity);
-        if (wall > 0) push(cell, d, side, wall, after, held);
+        if (wall > 0) work += push(cell, d, side, wall, after, held);
         if (flows) flow(cell, d, side, after[d], held);
       }
+    return work;
   }
 
  private:
-  /// Momentum and work of a wall: its pressure, at the mean of its velocities before and after the step.
-  void push(const Index<D>& cell, int axis, int side, double wall, const Vec<D>& after,
-            const euler::StateViews<D, double>& held) const {
+  /// Momentum and work of a wall: its pressure, at the mean of its velocities before and after the step. Returns the
+  /// work of the gas.
+  double push(const Index<D>& cell, int axis, int side, double wall, const Vec<D>& after,
+              const euler::StateViews<D, double>& held) const {
     const Index<D> face = side == 0 ? cell : cell + Index<D>::unit(axis);
     const Vec<D> before = nodes_.velocityAt(face, axis, mpm::solid::lane::before);
     const double pressure = side == 0 ? step_.walls.below[cell][axis] : step_.walls.above[cell][axis];
     const double impulse = (side == 0 ? wall : -wall) * pressure * dt_ * level_.inverseSpacing(axis);
     held.momentum[cell][axis] += impulse;
-    held.totalEnergy[cell] += impulse * (0.5 * (before[axis] + after[axis]));
+    const double work = impulse * (0.5 * (before[axis] + after[axis]));
+    held.totalEnergy[cell] += work;
+    return -work;
   }
 
   /// Whether bodies are at the face below a cell, or went through it.
@@ -206,8 +213,9 @@ void sweepOpen(const euler::Gas& gas, const WallExchange<D>& exchange, const Nea
 template <int D, class Flux, class Shape>
 void advanceAtBodies(const Level& level, const Settings& settings, double dt, const Box& block,
                      const GasInCells<D>& cells, const WallExchange<D>& exchange, const NearBodies<D>& near,
-                     euler::Work<D>& work, const euler::StateViews<D, double>& fresh) {
+                     euler::Work<D>& work, const euler::StateViews<D, double>& fresh, Sum& power) {
   const euler::Gas& gas = settings.gas.gas;
+  const double perStep = level.cellVolume() / dt;
   work.hold(block.grown(Shape::reach, D));
   recoverGas<D>(gas, level, cells, near, work.w);
   euler::fillBeyondGrid<D>(level, euler::ghostRules<D>(level, gas), work.w);
@@ -220,16 +228,18 @@ void advanceAtBodies(const Level& level, const Settings& settings, double dt, co
   sweep.template operator()<0>();
   if constexpr (D > 1) sweep.template operator()<1>();
   if constexpr (D > 2) sweep.template operator()<2>();
-  near.forEachIn(block, [&](const Index<D>& cell) { exchange.addTo(cell, fresh); });
+  near.forEachIn(block, [&](const Index<D>& cell) {
+    if (const double done = exchange.addTo(cell, fresh); done != 0) power.add(done * perStep);
+  });
 }
 
 /// One step of the gas: that of `euler` where no body is near, to the last bit; at bodies, fluxes go through the open
 /// share of faces, walls push by their pressure and do work by the mean of their velocities before and after the step,
-/// and gas follows walls that move.
+/// and gas follows walls that move. Adds the power of the gas on bodies, W.
 template <int D, class Flux, class Shape>
 void advanceGas(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings, double dt,
                 const GasInCells<D>& cells, const BodiesInStep<D>& bodies,
-                const typename BodiesAtNodes<D>::Records& records, const UnsharedGas<D>& fresh) {
+                const typename BodiesAtNodes<D>::Records& records, const UnsharedGas<D>& fresh, Sum& power) {
   const Level& level = patch.level();
   const euler::Gas& gas = settings.gas.gas;
   const euler::GhostRules<D> rules = euler::ghostRules<D>(level, gas);
@@ -239,7 +249,8 @@ void advanceGas(const Patch& patch, const std::vector<mpm::solid::Material>&, co
   bool fine = true;
   euler::forEachBlock<D>(patch.cells(), [&](const Box& block) {
     if (near.anyIn(block.grown(1, D)))
-      return advanceAtBodies<D, Flux, Shape>(level, settings, dt, block, cells, exchange, near, work, fresh.held);
+      return advanceAtBodies<D, Flux, Shape>(level, settings, dt, block, cells, exchange, near, work, fresh.held,
+                                             power);
     euler::advanceBlock<D, Flux, Shape>(gas, level, rules, block, dt, cells.held, work, fresh.held, {});
     fine &= euler::canBe<D>(gas, block, fresh.held);
   });

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "components/mpm/solid/material.hpp"
 #include "components/mpmice/gas_in_cells.hpp"
 
 namespace tushar::mpmice {
@@ -29,13 +30,13 @@ void computeStableTimeStep(const Patch& patch, const Settings& settings, const G
   if (most > 0) dt.add(settings.gas.cfl / most, "CFL");
 }
 
-/// dt = cfl times what the solids take: the gas sees bodies move only once a step.
-inline void limitSolidStep(const Patch& patch, const mpm::solid::Material&, double cfl,
-                           CellView<const double> stableTimeStep, Minimum& dt) {
+/// dt = cfl times the time in which the fastest wave of a body crosses a cell: the gas sees bodies move once a step.
+template <int D>
+void limitStepOfBodies(const Patch& patch, const mpm::solid::Material&, double cfl,
+                       CellView<const double> stableTimeStep, Minimum& dt) {
   double least = std::numeric_limits<double>::infinity();
-  const Box& cells = patch.cells();
-  forEach<3>(cells, [&](const Index3& cell) { least = std::min(least, stableTimeStep[cell]); });
-  if (std::isfinite(least)) dt.add(cfl * least, "CFL of solids beside a gas");
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) { least = std::min(least, stableTimeStep[cell]); });
+  dt.add(cfl * least, "wave speed of bodies");
 }
 
 }  // namespace tushar::mpmice

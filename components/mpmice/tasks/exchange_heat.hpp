@@ -2,8 +2,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "components/mpm/solid/material.hpp"
 #include "components/mpmice/gas_in_cells.hpp"
-#include "components/mpmice/near_bodies.hpp"
 
 namespace tushar::mpmice {
 

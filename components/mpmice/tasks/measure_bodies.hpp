@@ -1,5 +1,6 @@
 #pragma once
 
+#include "components/mpm/solid/material.hpp"
 #include "components/mpmice/labels.hpp"
 #include "components/mpmice/particle_box.hpp"
 

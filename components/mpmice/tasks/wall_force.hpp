@@ -1,5 +1,6 @@
 #pragma once
 
+#include "components/mpm/solid/material.hpp"
 #include "components/mpmice/bodies_at_nodes.hpp"
 #include "components/mpmice/free_space.hpp"
 #include "components/mpmice/near_bodies.hpp"

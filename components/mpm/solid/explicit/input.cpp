@@ -221,7 +221,7 @@ const Schema<MpmSection>& mpmSchema() {
   return schema;
 }
 
-std::unique_ptr<Component> makeComponent(const Level& level, Interpolator interpolator, Problem problem) {
+std::unique_ptr<Solids> makeComponent(const Level& level, Interpolator interpolator, Problem problem) {
   settleParticles(level, problem);
   problem.start.domainsDeform = interpolator == Interpolator::cpdi;
   const MakeSolids make = solidsOf(interpolator, problem.start.axisymmetric);
@@ -349,7 +349,7 @@ std::optional<ReadSolids> readSolids(const Element& root, bool besideGas, Diagno
   return ReadSolids{read.interpolator, std::move(problem), root.child("MPM").value_or(root).where()};
 }
 
-std::unique_ptr<Component> makeComponent(const Level& level, const ReadSolids& read) {
+std::unique_ptr<Solids> makeComponent(const Level& level, const ReadSolids& read) {
   if (read.problem.start.axisymmetric) refuseCellsAround(level, read.where);
   if (read.problem.motion) refuseFlat(level, read.where);
   return makeComponent(level, read.interpolator, read.problem);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "components/mpm/solid/surroundings.hpp"
+#include "components/mpm/solid/problem.hpp"
 #include "core/simulation/catalogue.hpp"
 
 namespace tushar::mpm::solid {
@@ -12,8 +12,8 @@ simulation::ComponentKind kind();
 void describe(std::ostream& out);
 
 /// Makes solids that something surrounds; where `areRigid`, their stresses exert no force.
-using MakeSurrounded = std::function<std::unique_ptr<Component>(const Level& level, bool areRigid,
-                                                                std::shared_ptr<const Surroundings> surroundings)>;
+using MakeSurrounded = std::function<std::unique_ptr<Solids>(const Level& level, bool areRigid,
+                                                             std::shared_ptr<const Surroundings> surroundings)>;
 /// Reads the solids of a scene that also has a gas; empty if there are problems, which go to the diagnostics.
 MakeSurrounded readSurrounded(const input::Element& root, input::Diagnostics& diagnostics);
 

@@ -11,7 +11,7 @@ namespace tushar::mpm::solid {
 enum class Interpolator { linear, gimp, cpdi, quadratic, cubic };
 
 /// Makes the method on a grid of 1, 2 or 3 dimensions.
-using MakeSolids = std::unique_ptr<Component> (*)(int dimension, const Problem& problem);
+using MakeSolids = std::unique_ptr<Solids> (*)(int dimension, const Problem& problem);
 
 /// What makes the method with these shape functions; loads their module.
 MakeSolids solidsOf(Interpolator interpolator, bool isAxisymmetric);

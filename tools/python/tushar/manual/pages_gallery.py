@@ -5,6 +5,7 @@ from tushar.manual.html import code, escape, link, page, prose, relative
 from tushar.manual.pictures import bound_of, value_at
 
 FOLDERS = {"mpm": "Gas by particles", "euler": "Gas by finite volumes", "ice": "Gas in the words of ICE",
+           "fsi": "Gas and bodies",
            "solid": "Solids", "stability": "Hard cases", "heat": "Heat", "burgers": "Burgers’ equation",
            "poisson": "Poisson’s equation"}
 TAG = re.compile(r"<!--.*?-->|<(/?)([\w.-]+)((?:\s+[\w:.-]+\s*=\s*(?:\"[^\"]*\"|'[^']*'))*)\s*(/?)>", re.DOTALL)
