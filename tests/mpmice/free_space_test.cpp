@@ -1,0 +1,147 @@
+#include "components/mpmice/free_space.hpp"
+
+#include "components/mpmice/near_bodies.hpp"
+#include "tests/mpmice/fields.hpp"
+
+namespace tushar::mpmice {
+
+namespace {
+
+template <class T>
+class FreeSpaceAlongAxes : public testing::Test {};
+TYPED_TEST_SUITE(FreeSpaceAlongAxes, AllAxes);
+
+/// Cells of which a third is empty, a third plain gas, and the others are filled in part.
+template <int D>
+GasFields<D> porous(const Level& level) {
+  GasFields<D> fields(level.cells());
+  for (std::size_t k = 0; k < fields.free.values.size(); ++k) {
+    const double number = wild(k + 0.3);
+    fields.free.values[k] = number < 0.3 ? 0 : number < 0.6 ? 1 : number - 0.6;
+    for (int d = 0; d < D; ++d) fields.coverage.values[k][d] = 1.2 * wild(k + 0.17 * d);
+  }
+  return fields;
+}
+
+/// A grid of 6 cells along each axis.
+template <int D>
+struct Cube {
+  Level level{euler::closedBox(D, 6)};
+  Settings settings;
+};
+
+}  // namespace
+
+TYPED_TEST(FreeSpaceAlongAxes, HasTheSameAreaOnBothSidesOfACell) {
+  constexpr int D = TypeParam::value;
+  const Cube<D> cube;
+  const GasFields<D> fields = porous<D>(cube.level);
+  const FreeSpace<D> space(cube.level, cube.settings, fields.gas());
+  forEach<D>(cube.level.cells(), [&](const Index<D>& cell) {
+    if (space.isEmpty(cell)) return;
+    for (int d = 0; d < D; ++d) {
+      for (int side = 0; side < 2; ++side) {
+        EXPECT_GE(space.wall(cell, d, side), 0);
+        EXPECT_GE(space.aperture(cell, d, side), 0);
+        EXPECT_LE(space.aperture(cell, d, side), 1);
+      }
+      const double lower = space.wall(cell, d, 0) + space.aperture(cell, d, 0);
+      EXPECT_NEAR(space.wall(cell, d, 1) + space.aperture(cell, d, 1), lower, 1e-15);
+      EXPECT_GE(space.area(cell, d), fields.free.seen()[cell]);
+    }
+  });
+}
+
+TYPED_TEST(FreeSpaceAlongAxes, IsAsOpenFromOneSideOfAFaceAsFromTheOther) {
+  constexpr int D = TypeParam::value;
+  const Cube<D> cube;
+  const GasFields<D> fields = porous<D>(cube.level);
+  const FreeSpace<D> space(cube.level, cube.settings, fields.gas());
+  forEach<D>(cube.level.cells(), [&](const Index<D>& cell) {
+    for (int d = 0; d < D; ++d) {
+      if (space.isAtSide(cell, d, 0)) continue;
+      EXPECT_EQ(space.aperture(cell, d, 0), space.aperture(cell - Index<D>::unit(d), d, 1));
+    }
+  });
+}
+
+TYPED_TEST(FreeSpaceAlongAxes, IsClosedBesideEmptyCellsAndOpenWhereNoBodyIs) {
+  constexpr int D = TypeParam::value;
+  const Cube<D> cube;
+  GasFields<D> fields(cube.level.cells());
+  const Index<D> empty = Index<D>::filled(3);
+  fields.free.cells()[empty] = 0;
+  const FreeSpace<D> space(cube.level, cube.settings, fields.gas());
+  forEach<D>(cube.level.cells(), [&](const Index<D>& cell) {
+    for (int d = 0; d < D; ++d)
+      for (int side = 0; side < 2; ++side) {
+        const Index<D> next = side == 0 ? cell - Index<D>::unit(d) : cell + Index<D>::unit(d);
+        const bool isClosed = cell == empty || next == empty;
+        EXPECT_EQ(space.aperture(cell, d, side), isClosed ? 0 : 1);
+        EXPECT_EQ(space.wall(cell, d, side), isClosed && !(cell == empty) ? 1 : 0);
+      }
+  });
+}
+
+TYPED_TEST(FreeSpaceAlongAxes, HasANormalIntoABodyAcrossAnyPlane) {
+  constexpr int D = TypeParam::value;
+  const Cube<D> cube;
+  GasFields<D> fields(cube.level.cells());
+  Vec<D> into;
+  for (int d = 0; d < D; ++d) into[d] = 1 - 1.3 * d;
+  into.normalize();
+  // Filled ever more along `into`: the gradient of a straight line is exact, away from the sides.
+  forEach<D>(cube.level.cells(), [&](const Index<D>& cell) {
+    double along = 0;
+    for (int d = 0; d < D; ++d) along += into[d] * (cell[d] - 2);
+    fields.free.cells()[cell] = 0.5 - 0.04 * along;
+  });
+  const FreeSpace<D> space(cube.level, cube.settings, fields.gas());
+  EXPECT_NEAR((space.normal(Index<D>::filled(2)) - into).norm(), 0, 1e-14);
+}
+
+TEST(FreeSpace, LetsNoGasRushOutOfCellsThatAreAllButFull) {
+  const Level level(euler::closedBox(1, 4));
+  GasFields<1> fields(level.cells());
+  fields.free.values[1] = 0.01;
+  const FreeSpace<1> space(level, {}, fields.gas());
+  EXPECT_DOUBLE_EQ(space.aperture({1}, 0, 0), 0.08);
+  EXPECT_DOUBLE_EQ(space.aperture({1}, 0, 1), 0.08);
+}
+
+TEST(FreeSpace, IsClosedByThinBodiesWhereAskedTo) {
+  const Level level(euler::closedBox(1, 6));
+  GasFields<1> fields(level.cells());
+  fields.free.values[2] = 0.65;  // a plate of .35 of a cell, in the middle of one: its boxes cover no face
+  Settings settings;
+  EXPECT_EQ(FreeSpace<1>(level, settings, fields.gas()).aperture({2}, 0, 0), 1);
+  settings.thinWalls = true;
+  const FreeSpace<1> space(level, settings, fields.gas());
+  EXPECT_EQ(space.aperture({2}, 0, 0), 0);
+  EXPECT_EQ(space.aperture({2}, 0, 1), 0);
+  EXPECT_EQ(space.aperture({4}, 0, 1), 1);
+}
+
+TYPED_TEST(FreeSpaceAlongAxes, KnowsTheCellsNearBodies) {
+  constexpr int D = TypeParam::value;
+  Field<double> free(cube<D>(9), 1);
+  free.cells()[Index<D>::filled(4)] = 0.99;
+  const NearBodies<D> near(cube<D>(9), 2, free.seen());
+  const auto isNear = [](const Index<D>& cell) {
+    bool inside = true;
+    for (int d = 0; d < D; ++d) inside &= std::abs(cell[d] - 4) <= 2;
+    return inside;
+  };
+  int visits = 0;
+  near.forEachIn(cube<D>(9), [&](const Index<D>& cell) {
+    EXPECT_TRUE(isNear(cell));
+    ++visits;
+  });
+  EXPECT_EQ(visits, std::pow(5, D));
+  forEach<D>(cube<D>(9), [&](const Index<D>& cell) { EXPECT_EQ(near(cell), isNear(cell)); });
+  EXPECT_TRUE(near.anyIn(cube<D>(3)));
+  EXPECT_FALSE(near.anyIn(cube<D>(2)));
+  EXPECT_FALSE(NearBodies<D>(cube<D>(2), 1, free.seen()).hasAny());
+}
+
+}  // namespace tushar::mpmice

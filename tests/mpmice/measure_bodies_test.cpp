@@ -1,0 +1,111 @@
+#include "tests/mpmice/fields.hpp"
+
+#include "components/mpmice/tasks/measure_bodies.hpp"
+
+namespace tushar::mpmice {
+
+namespace {
+
+template <class T>
+class BodiesAlongAxes : public testing::Test {};
+TYPED_TEST_SUITE(BodiesAlongAxes, AllAxes);
+
+/// What boxes leave free of a cube of cells.
+template <int D>
+struct Shares {
+  explicit Shares(int size) : volume(cube<D>(size), 1), coverage(cube<D>(size), Vec<D>::Zero()) {}
+  FreeShares<D> views() { return {volume.cells(), coverage.cells()}; }
+
+  Field<double> volume;
+  Field<Vec<D>> coverage;
+};
+
+/// A box whose middle is in a cell, as that cell sees it.
+template <int D>
+ParticleBox<D> boxAt(double seed) {
+  ParticleBox<D> box;
+  for (int d = 0; d < D; ++d) {
+    box.middle[d] = 0.999 * wild(seed + d);
+    box.edges[d] = 0.1 + 1.3 * wild(3 * seed + d + 0.5);
+  }
+  return box;
+}
+
+}  // namespace
+
+TYPED_TEST(BodiesAlongAxes, LeaveNothingFreeWhereTheyTileTheCells) {
+  constexpr int D = TypeParam::value;
+  Shares<D> shares(5);
+  // Three boxes along each axis of the cells 0 to 4; the faces of 1 to 4 are within.
+  forEach<D>(cube<D>(15), [&](const Index<D>& at) {
+    Index<D> cell;
+    ParticleBox<D> box;
+    for (int d = 0; d < D; ++d) {
+      cell[d] = at[d] / 3;
+      box.middle[d] = (at[d] % 3 + 0.5) / 3;
+      box.edges[d] = 1.0 / 3;
+    }
+    shares.views().take(cell, box);
+  });
+  shares.views().settle();
+  forEach<D>(cube<D>(5), [&](const Index<D>& cell) {
+    EXPECT_NEAR(shares.volume.seen()[cell], 0, 4e-15);
+    for (int d = 0; d < D; ++d) EXPECT_NEAR(shares.coverage.seen()[cell][d], cell[d] == 0 ? 0.5 : 1.0, 1e-14);
+  });
+}
+
+TYPED_TEST(BodiesAlongAxes, TakeTheirVolume) {
+  constexpr int D = TypeParam::value;
+  for (int seed = 0; seed < 50; ++seed) {
+    Shares<D> shares(7);
+    const ParticleBox<D> box = boxAt<D>(seed);
+    shares.views().take(Index<D>::filled(3), box);
+    double taken = 0;
+    for (const double left : shares.volume.values) taken += 1 - left;
+    EXPECT_NEAR(taken, box.edges.prod(), 1e-13);
+  }
+}
+
+TYPED_TEST(BodiesAlongAxes, ThatOverlapLeaveNoLessThanNothing) {
+  constexpr int D = TypeParam::value;
+  Shares<D> shares(3);
+  ParticleBox<D> box{Vec<D>::Constant(0.5), Vec<D>::Ones()};
+  for (int k = 0; k < 3; ++k) shares.views().take(Index<D>::filled(1), box);
+  shares.views().settle();
+  EXPECT_EQ(shares.volume.seen()[Index<D>::filled(1)], 0);
+}
+
+TYPED_TEST(BodiesAlongAxes, SweepWhatCellsGainOrLose) {
+  constexpr int D = TypeParam::value;
+  for (int seed = 0; seed < 50; ++seed) {
+    Shares<D> old(9), fresh(9);
+    Field<Vec<D>> swept(cube<D>(9), Vec<D>::Zero());
+    const ParticleBox<D> before = boxAt<D>(seed);
+    ParticleBox<D> after = before;
+    for (int d = 0; d < D; ++d) after.middle[d] += 1.6 * wild(7 * seed + d) - 0.8;
+    const Index<D> origin = Index<D>::filled(4);
+    old.views().take(origin, before);
+    fresh.views().take(origin, after);
+    addSwept<D>(origin, before, after, swept.cells());
+    forEach<D>(cube<D>(8), [&](const Index<D>& cell) {
+      double left = 0;
+      for (int d = 0; d < D; ++d) left += swept.seen()[cell + Index<D>::unit(d)][d] - swept.seen()[cell][d];
+      EXPECT_NEAR(fresh.volume.seen()[cell] - old.volume.seen()[cell], left, 4e-15) << seed;
+    });
+  }
+}
+
+TYPED_TEST(BodiesAlongAxes, SweepTheirCrossSectionTimesTheirWay) {
+  constexpr int D = TypeParam::value;
+  Field<Vec<D>> swept(cube<D>(5), Vec<D>::Zero());
+  const ParticleBox<D> before{Vec<D>::Constant(0.5), Vec<D>::Constant(0.5)};
+  ParticleBox<D> after = before;
+  after.middle[0] += 0.5;  // half of it through the upper face of its cell
+  addSwept<D>(Index<D>::filled(2), before, after, swept.cells());
+  forEach<D>(cube<D>(5), [&](const Index<D>& cell) {
+    const bool isFace = cell == Index<D>::filled(2) + Index<D>::unit(0);
+    for (int d = 0; d < D; ++d) EXPECT_EQ(swept.seen()[cell][d], isFace && d == 0 ? 0.25 * std::pow(0.5, D - 1) : 0.0);
+  });
+}
+
+}  // namespace tushar::mpmice

@@ -1,0 +1,131 @@
+#include "tests/mpmice/fields.hpp"
+
+#include "components/mpmice/tasks/share_small_cells.hpp"
+
+namespace tushar::mpmice {
+
+namespace {
+
+template <class T>
+class SmallCellsAlongAxes : public testing::Test {};
+TYPED_TEST_SUITE(SmallCellsAlongAxes, AllAxes);
+
+/// A grid, and a gas before and after small cells share.
+template <int D>
+struct Sharing {
+  explicit Sharing(int cells) : grid(euler::closedBox(D, cells)), before(box()), after(box()) {}
+
+  const Level& level() const { return grid.level(); }
+  const Box& box() const { return grid.level().cells(); }
+  Unshared<D> unshared() const {
+    return {.held = before.gas().held, .free = before.free.seen(), .coverage = before.coverage.seen()};
+  }
+  void share() {
+    const NewGas<D> fresh{{after.density.cells(), after.momentum.cells(), after.energy.cells()}, after.free.cells()};
+    for (const Patch& patch : grid.patches()) shareSmallCells<D>(patch, Settings{}, unshared(), fresh);
+  }
+  /// Gives a cell so much room, filled with gas of a density at rest of pressure 1.
+  void fill(const Index<D>& cell, double free, double density = 1) {
+    before.free.cells()[cell] = free;
+    before.density.cells()[cell] = free * density;
+    before.energy.cells()[cell] = free * 2.5;
+  }
+  Index<D> targetOf(const Index<D>& cell) const {
+    const Unshared<D> state = unshared();
+    return SmallCells<D>(level(), state).targetOf(cell);
+  }
+
+  Grid grid;
+  GasFields<D> before, after;
+};
+
+double sumOf(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum;
+}
+
+}  // namespace
+
+TEST(SmallCells, GiveTheirGasToTheNeighbourWithTheWidestWay) {
+  Sharing<1> gas(8);
+  gas.fill({2}, 0.3);
+  gas.fill({3}, 0);
+  gas.fill({4}, 0);
+  gas.fill({5}, 0.4);
+  EXPECT_EQ(gas.targetOf({2}), Index<1>{1});
+  EXPECT_EQ(gas.targetOf({5}), Index<1>{6});
+  EXPECT_EQ(gas.targetOf({1}), Index<1>{1});
+  EXPECT_EQ(gas.targetOf({3}), Index<1>{3});
+  gas.fill({3}, 0.6);  // room on both sides: the lower one
+  gas.fill({4}, 1);
+  gas.fill({1}, 0.6);
+  EXPECT_EQ(gas.targetOf({2}), Index<1>{1});
+  gas.before.coverage.cells()[Index<1>{2}] = Vec<1>(0.5);  // unless the way there is narrower
+  EXPECT_EQ(gas.targetOf({2}), Index<1>{3});
+}
+
+TEST(SmallCells, GiveAcrossACornerWhereThereIsNoOtherRoom) {
+  Sharing<2> gas(5);
+  forEach<2>(gas.box(), [&](const Index<2>& cell) { gas.fill(cell, 0); });
+  gas.fill({2, 2}, 0.1);
+  gas.fill({3, 3}, 0.9);
+  EXPECT_EQ(gas.targetOf({2, 2}), (Index<2>{3, 3}));
+  gas.fill({1, 2}, 0.6);  // across a face it is nearer
+  EXPECT_EQ(gas.targetOf({2, 2}), (Index<2>{1, 2}));
+}
+
+TEST(SmallCells, ThatGiveTakeNothing) {
+  Sharing<1> gas(6);
+  gas.fill({3}, 0.3);
+  gas.fill({4}, 0.2);
+  gas.fill({5}, 0);
+  EXPECT_EQ(gas.targetOf({3}), Index<1>{2});
+  EXPECT_EQ(gas.targetOf({4}), Index<1>{4});
+}
+
+TEST(SmallCells, WithoutAWayOutAreHoles) {
+  Sharing<1> gas(7);
+  for (int cell = 2; cell < 6; ++cell) gas.fill({cell}, 0);
+  gas.fill({4}, 0.1);
+  const Unshared<1> state = gas.unshared();
+  const SmallCells<1> small(gas.level(), state);
+  EXPECT_TRUE(small.isHole({4}));
+  EXPECT_FALSE(small.isHole({1}));
+  gas.share();
+  EXPECT_EQ(gas.after.free.values[4], 0);
+  EXPECT_DOUBLE_EQ(gas.after.density.values[4], 0.1) << "what it holds waits";
+}
+
+TEST(SmallCells, ShareByVolume) {
+  Sharing<1> gas(6);
+  gas.fill({2}, 0.25, 3);
+  gas.fill({3}, 0);
+  gas.share();
+  for (const int cell : {1, 2})
+    EXPECT_DOUBLE_EQ(gas.after.density.values[cell] / gas.after.free.values[cell], 1.75 / 1.25);
+  EXPECT_EQ(gas.after.density.values[0], 1);
+  EXPECT_EQ(gas.after.density.values[4], 1);
+}
+
+TYPED_TEST(SmallCellsAlongAxes, KeepMassMomentumAndEnergy) {
+  constexpr int D = TypeParam::value;
+  Sharing<D> gas(D == 1 ? 200 : D == 2 ? 20 : 8);
+  int number = 0;
+  forEach<D>(gas.box(), [&](const Index<D>& cell) {
+    const double seed = wild(++number);
+    gas.fill(cell, seed < 0.2 ? 0 : seed < 0.5 ? 1 : wild(3 * number), 0.5 + wild(5 * number));
+    for (int d = 0; d < D; ++d) gas.before.momentum.cells()[cell][d] = 0.1 * gas.before.density.seen()[cell] * seed;
+    for (int d = 0; d < D; ++d) gas.before.coverage.cells()[cell][d] = wild(7 * number + d);
+  });
+  gas.share();
+  EXPECT_NE(gas.after.density.values, gas.before.density.values);
+  EXPECT_NEAR(sumOf(gas.after.density.values) / sumOf(gas.before.density.values), 1, 1e-13);
+  EXPECT_NEAR(sumOf(gas.after.energy.values) / sumOf(gas.before.energy.values), 1, 1e-13);
+  Vec<D> momentum = Vec<D>::Zero();
+  for (std::size_t k = 0; k < gas.before.momentum.values.size(); ++k)
+    momentum += gas.after.momentum.values[k] - gas.before.momentum.values[k];
+  EXPECT_NEAR(momentum.norm(), 0, 1e-13);
+}
+
+}  // namespace tushar::mpmice

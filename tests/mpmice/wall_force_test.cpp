@@ -1,0 +1,129 @@
+#include "tests/mpmice/fields.hpp"
+
+#include "components/mpmice/tasks/wall_force.hpp"
+
+namespace tushar::mpmice {
+
+namespace {
+
+template <class T>
+class WallForceAlongAxes : public testing::Test {};
+TYPED_TEST_SUITE(WallForceAlongAxes, AllAxes);
+
+namespace lane = mpm::solid::lane;
+using mpm::solid::NodeRecord;
+
+/// A body in the middle cells of a grid of 6 along each axis: two materials at its nodes, all of one velocity.
+template <int D>
+struct Walled {
+  Walled() : gas(level().cells()), below(level().cells(), Vec<D>::Zero()), above(below) {
+    forEach<D>(level().cells(), [&](const Index<D>& cell) {
+      bool isBody = true;
+      for (int d = 0; d < D; ++d) isBody &= cell[d] == 2 || cell[d] == 3;
+      if (!isBody) return;
+      gas.free.cells()[cell] = 0;
+      gas.density.cells()[cell] = 0;
+    });
+    for (int m = 0; m < 2; ++m) {
+      records.emplace_back(level().nodes(), NodeRecord{});
+      forces.emplace_back(level().nodes(), Vec<D>::Zero());
+    }
+    int number = 0;
+    forEach<D>(level().nodes(), [&](const Index<D>& node) {
+      for (int d = 0; d < D; ++d)
+        if (node[d] < 2 || node[d] > 4) return;
+      for (int m = 0; m < 2; ++m) {
+        NodeRecord& record = records[m].nodes()[node];
+        record[lane::mass] = 0.1 + wild(++number);
+        mpm::solid::setLanes<D>(record, lane::velocity, Vec<D>::Constant(0.7));
+      }
+    });
+  }
+  const Level& level() const { return grid.level(); }
+  typename BodiesAtNodes<D>::Records seen() const {
+    typename BodiesAtNodes<D>::Records views;
+    for (const auto& field : records) views.push_back(field.seenNodes());
+    return views;
+  }
+
+  Grid grid{euler::closedBox(D, 6)};
+  GasFields<D> gas;
+  Field<Vec<D>> below, above;
+  std::vector<Field<NodeRecord>> records;
+  std::vector<Field<Vec<D>>> forces;
+};
+
+/// Finds wall pressures and their force; gives the force in all.
+template <int D>
+Vec3 forceOf(Walled<D>& walled, const Settings& settings) {
+  VectorSum sum;
+  for (const Patch& patch : walled.grid.patches()) {
+    std::vector<NodeView<Vec<D>>> forces;
+    for (auto& field : walled.forces) forces.push_back(field.nodes());
+    computeWallPressure<D>(patch, {}, settings, walled.gas.gas(), walled.seen(),
+                           {walled.below.cells(), walled.above.cells()});
+    addWallForce<D>(patch, {}, settings, walled.gas.gas(), {walled.below.seen(), walled.above.seen()}, walled.seen(),
+                    sum, forces);
+  }
+  const std::vector<double> values = sum.values();
+  return {values[0], values[1], values[2]};
+}
+
+}  // namespace
+
+TYPED_TEST(WallForceAlongAxes, SeesTheVelocityAndTheMassOfAllBodiesAtAFace) {
+  constexpr int D = TypeParam::value;
+  const Walled<D> walled;
+  const auto views = walled.seen();
+  const BodiesAtNodes<D> bodies(walled.level(), views);
+  const Index<D> face = Index<D>::filled(2);
+  EXPECT_NEAR((bodies.velocityAt(face, 0, lane::velocity) - Vec<D>::Constant(0.7)).norm(), 0, 1e-15);
+  EXPECT_EQ(bodies.velocityAt(Index<D>::filled(0), 0, lane::velocity), Vec<D>(Vec<D>::Zero()));
+  double mass = 0;
+  forEach<D>(bodies.nodesAt(face, 0), [&](const Index<D>& node) {
+    for (const auto& records : views) mass += records[node][lane::mass];
+  });
+  EXPECT_DOUBLE_EQ(bodies.massAt(face, 0), mass);
+  EXPECT_EQ(bodies.nodesAt(face, 0).size(), 3 * std::pow(2, D - 1));
+  EXPECT_EQ(bodies.nodesAt(Index<D>::filled(0), 0).size(), 2 * std::pow(2, D - 1)) << "at the side of the grid";
+}
+
+TYPED_TEST(WallForceAlongAxes, IsNoneInAUniformGasThatMovesWithTheBody) {
+  constexpr int D = TypeParam::value;
+  Walled<D> walled;
+  for (std::size_t k = 0; k < walled.gas.momentum.values.size(); ++k) {
+    walled.gas.momentum.values[k].setConstant(0.7 * walled.gas.density.values[k]);
+    walled.gas.energy.values[k] = 2.5 + 0.5 * D * 0.49;
+  }
+  EXPECT_NEAR(forceOf(walled, {}).norm(), 0, 1e-14);
+}
+
+TYPED_TEST(WallForceAlongAxes, GoesToTheNodesWholly) {
+  constexpr int D = TypeParam::value;
+  Walled<D> walled;
+  for (std::size_t k = 0; k < walled.gas.energy.values.size(); ++k) walled.gas.energy.values[k] = 1 + 3 * wild(k);
+  const Vec3 whole = forceOf(walled, {});
+  EXPECT_GT(whole.norm(), 1e-3);
+  Vec<D> atNodes = Vec<D>::Zero();
+  for (const auto& field : walled.forces)
+    for (const Vec<D>& force : field.values) atNodes += force;
+  EXPECT_NEAR((walled.level().template expandDirection<D>(atNodes) - whole).norm(), 0, 1e-13);
+}
+
+TYPED_TEST(WallForceAlongAxes, IsThatOfThePressureWhateverTheReferenceIfGasIsAllAround) {
+  constexpr int D = TypeParam::value;
+  Walled<D> walled;
+  for (auto& record : walled.records)  // at rest
+    for (NodeRecord& one : record.values) mpm::solid::setLanes<D>(one, lane::velocity, Vec<D>::Zero());
+  // Pressure 3 in the cells below the body along the first axis, 1 elsewhere.
+  forEach<D>(walled.level().cells(), [&](const Index<D>& cell) {
+    if (cell[0] < 2) walled.gas.energy.cells()[cell] = 7.5;
+  });
+  const double side = std::pow(2.0 / 6, D - 1);
+  EXPECT_NEAR((forceOf(walled, {}) - Vec3(2 * side, 0, 0)).norm(), 0, 1e-14);
+  Settings above;
+  above.referencePressure = 1;
+  EXPECT_NEAR((forceOf(walled, above) - Vec3(2 * side, 0, 0)).norm(), 0, 1e-14);
+}
+
+}  // namespace tushar::mpmice

@@ -1,0 +1,64 @@
+#include "components/mpmice/wall_pressure.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace tushar::mpmice {
+
+namespace {
+
+const euler::Gas air{};  // gamma = 1.4
+// p = 1, rho = 1.4: the speed of sound is 1.
+constexpr double density = 1.4, pressure = 1;
+
+double on(double closing) { return wallPressure(air, density, pressure, closing); }
+
+}  // namespace
+
+TEST(WallPressure, IsThatOfTheGasOnAWallThatMovesWithIt) { EXPECT_EQ(on(0), 1); }
+
+TEST(WallPressure, IsThatBehindTheShockThatThrowsTheGasBack) {
+  // A shock of Mach number M gives the gas 2 (M - 1/M) / (gamma + 1) and 1 + 2 gamma (M^2 - 1) / (gamma + 1).
+  for (const double mach : {1.001, 1.5, 3.0, 100.0}) {
+    const double closing = 2 * (mach - 1 / mach) / 2.4, expected = 1 + 2.8 * (mach * mach - 1) / 2.4;
+    EXPECT_NEAR(on(closing) / expected, 1, 1e-14) << mach;
+  }
+}
+
+TEST(WallPressure, IsThatOfAnIsentropicFanBehindAWallThatDrawsBack) {
+  // u + 2 c / (gamma - 1) stays: at half the speed of sound the wall draws back by 2.5.
+  EXPECT_NEAR(on(-2.5), 1.0 / 128, 1e-16);
+  EXPECT_NEAR(on(-1), std::pow(0.8, 7), 1e-15);
+}
+
+TEST(WallPressure, IsNoneWhereTheWallOutrunsTheGas) {
+  EXPECT_EQ(on(-5.001), 0);
+  EXPECT_EQ(on(-1e9), 0);
+  EXPECT_EQ(wallPressure({4.4, 6}, 1, 2, -1e9), -6);
+}
+
+TEST(WallPressure, OfSlowWallsIsThatOfSound) {
+  for (const double closing : {1e-6, -1e-6}) EXPECT_NEAR((on(closing) - 1) / (density * closing), 1, 2e-6);
+}
+
+TEST(WallPressure, GrowsWithTheSpeedAndIsNeverNegative) {
+  double before = 0;
+  for (double closing = -6; closing < 6; closing += 0.01) {
+    const double now = on(closing);
+    EXPECT_GE(now, before) << closing;
+    before = now;
+  }
+}
+
+TEST(WallPressure, OfStrongShocksIsThatOfTheMomentumAlone) {
+  EXPECT_NEAR(on(1e6) / (1.2 * density * 1e12), 1, 1e-6);  // (gamma + 1) / 2 rho u^2
+}
+
+TEST(WallPressure, OfAStiffenedGasIsThatOfAnIdealOneWithTheStiffnessAdded) {
+  const euler::Gas water{4.4, 6}, ideal{4.4, 0};
+  for (const double closing : {-1.0, -0.1, 0.3, 20.0})
+    EXPECT_NEAR(wallPressure(water, 2, 1, closing), wallPressure(ideal, 2, 7, closing) - 6, 1e-11);
+}
+
+}  // namespace tushar::mpmice

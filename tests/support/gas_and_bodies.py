@@ -1,0 +1,186 @@
+#!/usr/bin/env python3
+"""What scenes of ups/fsi get wrong, against exact values: python3 tests/support/gas_and_bodies.py plug 100 200
+
+Each name below is a scene; the numbers are cells along x, and each gives a line.
+"""
+import math
+import sys
+import tempfile
+
+from solids import archive_of, columns
+from sus import ROOT, run  # noqa: F401 (tests take it from here)
+
+PRESSURE, DENSITY, FREE = "c.pressure [Pa]", "c.density [kg/m^3]", "c.freeVolume [1]"
+# Cells along x and y of those that have more than x; heights follow.
+PLANE = {"rest": (1, 1), "carried_disc": (1, 1), "cylinder": (1, .2), "wedge": (1, .8)}
+
+
+def scene(name):
+    return ROOT / f"ups/fsi/{name}.ups"
+
+
+def resolution(name, cells):
+    """The overrides for so many cells along x."""
+    across = [max(1, round(cells * part)) for part in PLANE.get(name, (1, 0))[1:]][0]
+    sets = [f"Grid/Level/Box/resolution=[{cells},{across},1]"]
+    if name in PLANE:
+        width, height = PLANE[name]
+        sets.append(f"Grid/Level/Box/upper=[{width},{height},{width / cells}]")
+    return sets
+
+
+class Outcome:
+    """What a run left behind."""
+
+    def __init__(self, name, cells=None, sets=()):
+        self.cells = cells
+        with tempfile.TemporaryDirectory() as folder:
+            sets = [*(resolution(name, cells) if cells else []), *sets]
+            archive = archive_of(scene(name), folder, *sets)
+            self.totals = {file.stem: [[float(word) for word in line.split()] for line in file.read_text().splitlines()
+                                       if not line.startswith("#")] for file in archive.glob("*.dat")}
+            self.fields = columns(archive, "c.pressure", "c.velocity", "c.density", "c.freeVolume")
+            self.bodies = columns(archive, "p.velocity", "p.stress") if name == "elastic_wall" else {}
+
+    def last(self, name, component=0):
+        return self.totals[name][-1][1 + component]
+
+    def first(self, name, component=0):
+        return self.totals[name][0][1 + component]
+
+    def of_gas(self, column):
+        """A column of the cells that hold gas."""
+        return [value for value, mass, free in zip(self.fields[column], self.fields[DENSITY], self.fields[FREE])
+                if mass > 0 and free >= 1e-9]
+
+    def of_bodies(self, name, component=0):
+        """A total of the bodies alone: less that of the gas."""
+        gas = {"TotalMass": "GasMass", "TotalMomentum": "GasMomentum", "KineticEnergy": "GasKineticEnergy"}[name]
+        return [whole[1 + component] - part[1 + component] for whole, part in zip(self.totals[name], self.totals[gas])]
+
+    def worst(self, column, value):
+        """The greatest difference from a value in the gas."""
+        return max(abs(found - value) for found in self.of_gas(column))
+
+    def energies(self):
+        """Of the gas and kinetic of the bodies, J, over time."""
+        return [gas[1] + body for gas, body in zip(self.totals["GasEnergy"], self.of_bodies("KineticEnergy"))]
+
+    def drift(self, values):
+        return max(abs(value / values[0] - 1) for value in values)
+
+
+def uniform(name, cells, velocity):
+    """Largest errors of pressure and velocity where both should stay as they were, and of the energy."""
+    run_of = Outcome(name, cells)
+    errors = {"p": run_of.worst(PRESSURE, 1)}
+    for axis, value in zip("xy", velocity):
+        errors["u" + axis] = run_of.worst(f"c.velocity.{axis} [m/s]", value)
+    errors["energy"] = run_of.drift([line[1] for line in run_of.totals["GasEnergy"]])
+    return errors
+
+
+def rest(cells):
+    return uniform("rest", cells, (0, 0))
+
+
+def contact(cells):
+    return uniform("contact", cells, (1,))
+
+
+def carried_disc(cells):
+    return uniform("carried_disc", cells, (1, .618))
+
+
+def moved(name, cells, mass, velocity, way):
+    """Errors of the velocity and the way of a rigid body, and the drift of all energy."""
+    run_of = Outcome(name, cells)
+    start, end = (line[1] for line in (run_of.totals["CenterOfMassPosition"][k] for k in (0, -1)))
+    return {"v": run_of.of_bodies("TotalMomentum")[-1] / mass - velocity, "x": (end - start) / mass - way,
+            "energy": run_of.drift(run_of.energies())}
+
+
+def gun(cells):
+    return moved("gun", cells, 1, .78825284, .70748862)
+
+
+def plug(cells):
+    return moved("plug", cells, .5, .28778364, .13371990)
+
+
+def sod_plate(cells):
+    errors = moved("sod_plate", cells, .03, .918035, .151810)
+    return errors
+
+
+def elastic_wall(cells):
+    """Relative errors of the gas' pressure at the wall, and of the stress and speed behind the wave in it."""
+    run_of = Outcome("elastic_wall", cells)
+    pressure, speed = 51.361597, .01007232
+    places = run_of.fields["x [m]"]
+    gas = [p for x, p in zip(places, run_of.fields[PRESSURE]) if .9 < x < 1 - 4 / cells]
+    behind = [k for k, x in enumerate(run_of.bodies["x [m]"]) if 1.1 < x < 1.4]
+    stress = [-run_of.bodies["p.stress.xx [Pa]"][k] for k in behind]
+    speeds = [run_of.bodies["p.velocity.x [m/s]"][k] for k in behind]
+    load = pressure - 1
+    return {"gas": mean(gas) / pressure - 1, "stress": mean(stress) / load - 1,
+            "worst stress": max(abs(s / load - 1) for s in stress), "v": mean(speeds) / speed - 1}
+
+
+def mean(values):
+    return math.fsum(values) / len(values)
+
+
+def moving_piston(cells):
+    """Relative errors of the pressure on both faces of a piston of speed 1."""
+    run_of = Outcome("moving_piston", cells)
+    x, p = run_of.fields["x [m]"], run_of.fields[PRESSURE]
+    shock = 1 + 1.4 * (.6 + math.sqrt(.36 + 1))  # of p = 1, c = 1, gamma = 1.4
+    pushed = [one for place, one in zip(x, p) if 1.75 < place < 1.95]
+    drawn = [one for place, one in zip(x, p) if 1.3 < place < 1.45]
+    return {"ahead": mean(pushed) / shock - 1, "behind": mean(drawn) / .8 ** 7 - 1}
+
+
+def oblique_shock(mach, angle, gamma=1.4):
+    """Angle and pressure ratio of the weak shock that turns a flow, angles in rad. Source: theta-beta-M relation."""
+    def turned(beta):
+        across = mach * mach * math.sin(beta) ** 2 - 1
+        return math.atan(2 / math.tan(beta) * across / (mach * mach * (gamma + math.cos(2 * beta)) + 2))
+    low, high = math.asin(1 / mach), math.radians(60)
+    for _ in range(100):
+        middle = .5 * (low + high)
+        low, high = (low, middle) if turned(middle) > angle else (middle, high)
+    return low, 1 + 2 * gamma / (gamma + 1) * ((mach * math.sin(low)) ** 2 - 1)
+
+
+def wedge(cells):
+    """Relative error of the mean pressure from 4 cells above the surface up to .6 of the layer behind the shock."""
+    run_of = Outcome("wedge", cells)
+    angle = math.radians(15)
+    beta, ratio = oblique_shock(2, angle)
+    inside = []
+    for x, y, p in zip(run_of.fields["x [m]"], run_of.fields["y [m]"], run_of.fields[PRESSURE]):
+        surface, shock = (x - .2) * math.tan(angle), (x - .2) * math.tan(beta)
+        if .5 < x < .9 and surface + 4 / cells < y < surface + .6 * (shock - surface):
+            inside.append(p)
+    return {"p": mean(inside) / ratio - 1}
+
+
+def cylinder(cells):
+    """Where its centre is at the end, and how much of the energy of gas and cylinder came otherwise than through sides."""
+    run_of = Outcome("cylinder", cells)
+    mass = run_of.of_bodies("TotalMass")[0]
+    return {axis: run_of.last("CenterOfMassPosition", k) / mass for k, axis in enumerate("xy")}
+
+
+def closed_box(cells):
+    """How much mass and momentum change, relative, and how much energy, that of strain included."""
+    run_of = Outcome("closed_box", cells)
+    energies = [one + strain[1] for one, strain in zip(run_of.energies(), run_of.totals["StrainEnergy"])]
+    return {"mass": run_of.drift([line[1] for line in run_of.totals["GasMass"]]), "energy": energies[-1] / energies[0] - 1}
+
+
+if __name__ == "__main__":
+    for count in sys.argv[2:]:
+        found = globals()[sys.argv[1]](int(count))
+        print(f"{sys.argv[1]} {count}:", ", ".join(f"{name} {value:.4g}" for name, value in found.items()))
