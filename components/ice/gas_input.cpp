@@ -56,6 +56,9 @@ void checkConditions(const Element& root, int gas, Diagnostics& diagnostics) {
       if (material > gas)
         diagnostics.error(condition.whereOf("id"), condition.path(),
                           fmt::format("there is no material {}: the gas is number {}", material, gas));
+      if (material >= 0 && material < gas && condition.attribute("label") == euler::boundary::density.name)
+        diagnostics.note(condition,
+                         fmt::format("does nothing: material {} is a body; the gas is number {}", material, gas));
       const bool isShared = condition.attribute("label") == euler::boundary::pressure.name;
       if (material < 0 || material == gas || isShared) checkCondition(condition, diagnostics);
     }
