@@ -14,7 +14,7 @@ namespace tushar::mpmice {
 /// Values of a box of cells or nodes.
 template <class T>
 struct Field {
-  Field(const Box& box, const T& value) : box(box), values(box.size(), value) {}
+  Field(const Box& of, const T& value) : box(of), values(of.size(), value) {}
 
   CellView<T> cells() { return {values.data(), box}; }
   CellView<const T> seen() const { return {values.data(), box}; }
