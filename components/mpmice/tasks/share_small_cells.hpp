@@ -35,9 +35,13 @@ class SmallCells {
   /// and is no small cell's neighbour itself. Ties go to the lower one.
   Index<D> targetOf(const Index<D>& cell) const {
     const Index<D> chosen = choiceOf(cell);
-    return chosen == cell || !isSmall(chosen) || choiceOf(chosen) == chosen ? chosen : cell;
+    return isTarget(chosen) ? chosen : cell;
   }
   /// Whether a cell has little room, and something in it.
+  /// Whether others may give their gas to a cell: it gives its own to none.
+  bool isTarget(const Index<D>& cell) const { return choiceOf(cell) == cell; }
+  /// Whether a small cell gives its gas to a neighbour that is a target.
+  bool gives(const Index<D>& cell, const Index<D>& to) const { return isSmall(cell) && choiceOf(cell) == to; }
   /// Whether a cell is a narrow hole without a way out, or shares with one: what it holds stays, and is no gas, until
   /// there is room again.
   bool isHole(const Index<D>& cell) const {
@@ -132,9 +136,9 @@ void shareAt(const SmallCells<D>& small, const Unshared<D>& state, const Index<D
   Pool<D> pool;
   pool.add(state, centre);
   bool shares = !(centre == cell);
-  if (!small.isSmall(centre) || small.targetOf(centre) == centre)
+  if (small.isTarget(centre))
     small.forEachAround(centre, [&](const Index<D>& at) {
-      if (!small.isSmall(at) || !(small.targetOf(at) == centre)) return;
+      if (!small.gives(at, centre)) return;
       pool.add(state, at);
       shares = true;
     });
