@@ -132,6 +132,7 @@ std::vector<Carried> TaskGraph::carriedBy(std::size_t t, int material, data::Var
   for (const std::string& name : live) {
     // What no task of this list names, an earlier list has made: it is only carried.
     const auto known = labels.find(name);
+    if (known != labels.end() && known->second.first->centring != Centring::particle) continue;
     const int number =
         known == labels.end() ? table.find(name, material) : table.number(*known->second.first, material);
     if (number < 0 || table[number].label->centring != Centring::particle) continue;

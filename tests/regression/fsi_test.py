@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Gas and bodies on one grid: exactness, errors, what is conserved, the same bits on any layout, scenes that are wrong."""
+"""Gas and bodies on one grid: exactness, errors, what is conserved, the same bits on any layout, wrong scenes."""
 import pathlib
 import re
 import sys
@@ -163,7 +163,8 @@ class Bits(unittest.TestCase):
         self.assert_same("ball")
 
 
-TUBE = changed(PLUG, ("[2,1,1]</upper>", "[3,1,1]</upper>"), ("[0.95,0,0]", "[2.5,0,0]"), ("[1.05,1,1]", "[2.7,1,1]"), ("<density>5<", "<density>5000<"),
+TUBE = changed(PLUG, ("[2,1,1]</upper>", "[3,1,1]</upper>"), ("[0.95,0,0]", "[2.5,0,0]"), ("[1.05,1,1]", "[2.7,1,1]"),
+               ("<density>5<", "<density>5000<"),
                ("<box label=\"right\"><min>[1,0,0]</min><max>[2,1,1]</max></box>",
                 "<box label=\"right\"><min>[1,0,0]</min><max>[3,1,1]</max></box>"))
 STATE = "".join(f'<save label="c.{name}"/>' for name in ("density", "momentum", "totalEnergy"))

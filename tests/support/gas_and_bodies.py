@@ -8,10 +8,10 @@ import sys
 import tempfile
 
 from solids import archive_of, columns
-from sus import ROOT, run  # noqa: F401 (tests take it from here)
+from sus import ROOT
 
 PRESSURE, DENSITY, FREE = "c.pressure [Pa]", "c.density [kg/m^3]", "c.freeVolume [1]"
-# Cells along x and y of those that have more than x; heights follow.
+# Width and height of scenes in a plane, m.
 PLANE = {"rest": (1, 1), "carried_disc": (1, 1), "cylinder": (1, .2), "wedge": (1, .8)}
 
 
@@ -21,7 +21,7 @@ def scene(name):
 
 def resolution(name, cells):
     """The overrides for so many cells along x."""
-    across = [max(1, round(cells * part)) for part in PLANE.get(name, (1, 0))[1:]][0]
+    across = max(1, round(cells * PLANE.get(name, (1, 0))[1]))
     sets = [f"Grid/Level/Box/resolution=[{cells},{across},1]"]
     if name in PLANE:
         width, height = PLANE[name]
@@ -109,8 +109,7 @@ def plug(cells):
 
 
 def sod_plate(cells):
-    errors = moved("sod_plate", cells, .03, .918035, .151810)
-    return errors
+    return moved("sod_plate", cells, .03, .918035, .151810)
 
 
 def elastic_wall(cells):

@@ -163,16 +163,19 @@ void recoverGas(const euler::Gas& gas, const Level& level, const GasInCells<D>& 
   });
 }
 
-/// Cells with a body in them or beside them are taken as constant.
+/// Cells with a body in them or beside them are taken as constant, and beyond a side of the grid those that mirror
+/// them.
 template <int D>
 void flattenAtBodies(const Level& level, const Box& box, CellView<const double> free, const NearBodies<D>& near,
                      euler::Work<D>& work) {
   const Box known = level.clipCells(box.grown(1, D));
   const auto hasBody = [&](const Index<D>& cell) { return known.contains(cell) && free[cell] < 1; };
-  near.forEachIn(level.clipCells(box), [&](const Index<D>& cell) {
-    bool isPlain = !hasBody(cell);
+  near.forEachIn(box, [&](const Index<D>& cell) {
+    Index<D> source = cell;
+    for (int d = 0; d < D; ++d) source[d] = std::clamp(cell[d], known.lower[d], known.upper[d] - 1);
+    bool isPlain = !hasBody(source);
     for (int d = 0; d < D && isPlain; ++d)
-      isPlain = !hasBody(cell - Index<D>::unit(d)) && !hasBody(cell + Index<D>::unit(d));
+      isPlain = !hasBody(source - Index<D>::unit(d)) && !hasBody(source + Index<D>::unit(d));
     if (isPlain) return;
     const euler::State<D> w = euler::load<D>(work.w.at(cell), 0);
     for (std::size_t d = 0; d < work.lower.size(); ++d) {

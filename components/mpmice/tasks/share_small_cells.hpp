@@ -37,7 +37,6 @@ class SmallCells {
     const Index<D> chosen = choiceOf(cell);
     return isTarget(chosen) ? chosen : cell;
   }
-  /// Whether a cell has little room, and something in it.
   /// Whether others may give their gas to a cell: it gives its own to none.
   bool isTarget(const Index<D>& cell) const { return choiceOf(cell) == cell; }
   /// Whether a small cell gives its gas to a neighbour that is a target.
@@ -49,6 +48,7 @@ class SmallCells {
     const Index<D> target = targetOf(cell);
     return state_.free[target] < narrow && targetOf(target) == target;
   }
+  /// Whether a cell has little room, and something in it.
   bool isSmall(const Index<D>& cell) const {
     return state_.free[cell] < smallFreeVolume && state_.held.density[cell] != 0;
   }

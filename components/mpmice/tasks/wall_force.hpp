@@ -120,7 +120,8 @@ bool ownsFace(const Patch& patch, const Index<D>& cell, int axis) {
   return patch.cells().contains(isOnSide ? cell - Index<D>::unit(axis) : cell);
 }
 
-/// Shares the force of the gas at each face between the nodes and the materials there, by their masses, N.
+/// Shares the force of the gas at each face between the nodes and the materials there, by their masses, N. Bodies that
+/// the gas cannot move get none.
 template <int D>
 void addWallForce(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings,
                   const GasInCells<D>& cells, const KnownWalls<D>& walls,
@@ -137,11 +138,12 @@ void addWallForce(const Patch& patch, const std::vector<mpm::solid::Material>&, 
     const double force = forceAt<D>(level, space, walls, settings.referencePressure, cell, axis);
     const double mass = force != 0 ? bodies.massAt(cell, axis) : 0;
     if (!(mass > 0)) return;
-    forEach<D>(bodies.nodesAt(cell, axis), [&](const Index<D>& node) {
-      for (std::size_t m = 0; m < forces.size(); ++m)
-        if (const double own = records[m][node][mpm::solid::lane::mass]; own > 0 && forces[m].box().contains(node))
-          forces[m][node][axis] += force * (own / mass);
-    });
+    if (!settings.areRigid)
+      forEach<D>(bodies.nodesAt(cell, axis), [&](const Index<D>& node) {
+        for (std::size_t m = 0; m < forces.size(); ++m)
+          if (const double own = records[m][node][mpm::solid::lane::mass]; own > 0 && forces[m].box().contains(node))
+            forces[m][node][axis] += force * (own / mass);
+      });
     Vec<D> along = Vec<D>::Zero();
     along[axis] = force;
     if (ownsFace<D>(patch, cell, axis)) total.add(level.expandDirection<D>(along));
