@@ -84,7 +84,8 @@ def sections_of(scene, reference, sections):
                 section = next((s for s in sections if s.kind == "module" and s.name == module.get("name")), None)
                 yield section and reference.root(section, "Module"), module
         else:
-            yield reference.root(reader, element.tag) or reference.root(shared, element.tag), element
+            pages = (reference.root(section, element.tag) for section in (reader, *readers, shared))
+            yield next((page for page in pages if page), None), element
 
 
 def _walk(scene, page, element, path):
