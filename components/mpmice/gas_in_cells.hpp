@@ -13,12 +13,16 @@ struct GasInCells {
   CellView<const double> free;
   CellView<const Vec<D>> coverage;
 
+  /// How far beyond a patch: the state, where gas is, and how much room it has.
+  struct Reach {
+    int state = 0, mass = 0, room = 0;
+  };
   /// `reads` makes accesses of the state at the start of a step, or as the step has it.
-  static GasInCells from(auto& take, auto reads, int ghost, int ghostFree) {
-    return {.held = {take(reads(c::density, ghost)), take(reads(c::momentum<D>, ghost)),
-                     take(reads(c::totalEnergy, ghost))},
-            .free = take(reads(c::freeVolume, ghostFree)),
-            .coverage = take(reads(c::coverage<D>, ghostFree))};
+  static GasInCells from(auto& take, auto reads, const Reach& ghost) {
+    return {.held = {take(reads(c::density, ghost.mass)), take(reads(c::momentum<D>, ghost.state)),
+                     take(reads(c::totalEnergy, ghost.state))},
+            .free = take(reads(c::freeVolume, ghost.room)),
+            .coverage = take(reads(c::coverage<D>, ghost.room))};
   }
   bool isEmpty(const Index<D>& cell) const { return free[cell] < leastFreeVolume || !(held.density[cell] > 0); }
   /// rho, rho v, E of the gas alone; the cell must hold some.

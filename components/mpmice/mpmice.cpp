@@ -37,12 +37,15 @@ void GasAround<D>::scheduleStart(TaskList& tasks, const Materials& materials) co
 
 template <int D>
 void GasAround<D>::scheduleForces(TaskList& tasks, const Materials& materials) const {
-  tasks.acrossMaterials("mpmice::computeWallPressure", computeWallPressure<D>, materials, with(settings_),
-                        withoutMaterial(all<GasInCells<D>>(readsOld, 1, 2)), requiresNew(g::record, 1),
-                        withoutMaterial(all<WallPressures<D>>()));
-  tasks.acrossMaterials("mpmice::addWallForce", addWallForce<D>, materials, with(settings_),
-                        withoutMaterial(all<GasInCells<D>>(readsOld, 3, 3)), withoutMaterial(all<KnownWalls<D>>(2)),
-                        requiresNew(g::record, 2), computes(total::forceOnBodies), computes(g::surroundingForce<D>));
+  tasks.acrossMaterials(
+      "mpmice::computeWallPressure", computeWallPressure<D>, materials, with(settings_),
+      withoutMaterial(all<GasInCells<D>>(readsOld, typename GasInCells<D>::Reach{.mass = 1, .room = 2})),
+      requiresNew(g::record, 1), withoutMaterial(all<WallPressures<D>>()));
+  tasks.acrossMaterials(
+      "mpmice::addWallForce", addWallForce<D>, materials, with(settings_),
+      withoutMaterial(all<GasInCells<D>>(readsOld, typename GasInCells<D>::Reach{.mass = 3, .room = 3})),
+      withoutMaterial(all<KnownWalls<D>>(2)), requiresNew(g::record, 2), computes(total::forceOnBodies),
+      computes(g::surroundingForce<D>));
 }
 
 template <int D>
@@ -52,10 +55,11 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
   tasks.acrossMaterials("mpmice::measureMotion", measureMotion<D>, materials, all<MovedBoxes<D>>(),
                         withoutMaterial(all<FreeShares<D>>(&c::unfilledVolume)),
                         withoutMaterial(computes(c::swept<D>)));
-  tasks.acrossMaterials("mpmice::advanceGas", advanceBody<D>(settings_.gas.method), materials, with(settings_),
-                        requiresOld(delT), withoutMaterial(all<GasInCells<D>>(readsOld, 2, 3)),
-                        withoutMaterial(all<BodiesInStep<D>>()), requiresNew(g::record, 2),
-                        withoutMaterial(all<UnsharedGas<D>>()), computes(total::powerOnBodies));
+  tasks.acrossMaterials(
+      "mpmice::advanceGas", advanceBody<D>(settings_.gas.method), materials, with(settings_), requiresOld(delT),
+      withoutMaterial(all<GasInCells<D>>(readsOld, typename GasInCells<D>::Reach{.state = 2, .mass = 2, .room = 3})),
+      withoutMaterial(all<BodiesInStep<D>>()), requiresNew(g::record, 2), withoutMaterial(all<UnsharedGas<D>>()),
+      computes(total::powerOnBodies));
   tasks.perPatch("mpmice::shareSmallCells", shareSmallCells<D>, with(settings_), all<Unshared<D>>(), all<NewGas<D>>());
   if (exchangesHeat())
     tasks.acrossMaterials("mpmice::exchangeHeat", exchangeHeat<D>, materials, with(settings_), requiresOld(delT),
@@ -72,12 +76,12 @@ void GasAround<D>::scheduleStableTimeStep(TaskList& tasks, const Materials& mate
   tasks.perMaterial("mpmice::limitStepOfBodies", limitStepOfBodies<D>, materials, with(settings_.gas.cfl),
                     requiresOld(mpm::solid::c::stableTimeStep), computes(delT));
   tasks.perPatch("mpmice::computeStableTimeStep", computeStableTimeStep<D>, with(settings_),
-                 all<GasInCells<D>>(readsOld, 0, 0), computes(delT));
+                 all<GasInCells<D>>(readsOld, typename GasInCells<D>::Reach{}), computes(delT));
 }
 
 template <int D>
 void GasAround<D>::scheduleDiagnostics(TaskList& tasks) const {
-  const auto gas = all<GasInCells<D>>(readsOld, 0, 0);
+  const auto gas = all<GasInCells<D>>(readsOld, typename GasInCells<D>::Reach{});
   tasks.perPatch("mpmice::computePressure", computePressure<D>, with(settings_), gas, computes(c::pressure));
   tasks.perPatch("mpmice::computeVelocity", computeVelocity<D>, gas, computes(c::velocity<D>));
   tasks.perPatch("mpmice::computeMach", computeMach<D>, with(settings_), gas, computes(c::mach<D>));
