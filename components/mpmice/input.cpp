@@ -24,7 +24,7 @@ void forEachPairWithGas(const std::vector<double>& pairs, int solids, Visit&& vi
       if (column == solids && at < pairs.size()) visit(row, pairs[at]);
 }
 
-/// Momentum goes by walls, or bodies are rigid.
+/// Momentum between the gas and bodies goes by walls, or bodies are rigid; between bodies by their contacts.
 void checkMomentum(const ice::Exchange& exchange, int solids, bool areRigid, const Element& tag,
                    Diagnostics& diagnostics) {
   constexpr double walls = 1e9;
@@ -35,6 +35,8 @@ void checkMomentum(const ice::Exchange& exchange, int solids, bool areRigid, con
                                   "and more",
                                   k, body));
   });
+  if (solids > 1)
+    diagnostics.note(tag.child("momentum").value_or(tag), "means nothing between bodies: they act by their <contact>");
 }
 
 /// The coefficients of heat of all pairs; empty where none flows.
