@@ -36,7 +36,7 @@ void checkMomentum(const ice::Exchange& exchange, int solids, bool areRigid, con
                                   k, body));
   });
   if (solids > 1)
-    diagnostics.note(tag.child("momentum").value_or(tag), "means nothing between bodies: they act by their <contact>");
+    diagnostics.note(tag.child("momentum").value_or(tag), "does nothing between bodies: they act by their <contact>");
 }
 
 /// The coefficients of heat of all pairs; empty where none flows.
