@@ -143,7 +143,7 @@ TYPED_TEST(FreeSpaceAlongAxes, KnowsTheCellsNearBodies) {
   EXPECT_TRUE(near.anyIn(cube<D>(3)));
   EXPECT_FALSE(near.anyIn(cube<D>(2)));
   EXPECT_FALSE(NearBodies<D>(cube<D>(2), 1, free.seen(), mass.seen()).hasAny());
-  mass.cells()[{}] = 0;
+  mass.cells()[Index<D>{}] = 0;
   EXPECT_TRUE(NearBodies<D>(cube<D>(2), 1, free.seen(), mass.seen()).hasAny());
 }
 
