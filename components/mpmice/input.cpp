@@ -36,7 +36,7 @@ void checkMomentum(const ice::Exchange& exchange, int solids, bool areRigid, con
                                   k, body));
   });
   if (solids > 1)
-    diagnostics.note(tag.child("momentum").value_or(tag), "means nothing between bodies: they act by their <contact>");
+    diagnostics.note(tag.child("momentum").value_or(tag), "does nothing between bodies: they act by their <contact>");
 }
 
 /// The coefficients of heat of all pairs; empty where none flows.
@@ -60,8 +60,11 @@ int countSolids(const Element& root) {
   return solids ? static_cast<int>(solids->children("material").size()) : 0;
 }
 
-/// What the gas has that it cannot have beside bodies.
+/// What the gas or the bodies have that they cannot have beside one another.
 void checkGas(const ice::GasScene& scene, const Element& root, Diagnostics& diagnostics) {
+  const auto mpm = root.child("MPM");
+  if (const auto radial = mpm ? mpm->child("axisymmetric") : std::nullopt; radial && radial->text() == "true")
+    diagnostics.error(*radial, "not beside a gas: its cells are in a plane or in space");
   const Element material = *root.child("MaterialProperties")->child("ICE")->child("material");
   for (const auto& [tag, value] :
        {std::pair("dynamic_viscosity", scene.viscosity), std::pair("thermal_conductivity", scene.conductivity)})

@@ -12,10 +12,12 @@ namespace tushar::mpmice {
 template <int D>
 class NearBodies {
  public:
-  /// Of the cells of a box, those within `layers` of a cell with a free volume below 1. `free` may end at the grid.
-  NearBodies(const Box& box, int layers, CellView<const double> free) : box_(box), is_near_(box.size(), 0) {
+  /// Of the cells of a box, those within `layers` of a cell with a free volume below 1, or without gas. Both views may
+  /// end at the grid.
+  NearBodies(const Box& box, int layers, CellView<const double> free, CellView<const double> mass)
+      : box_(box), is_near_(box.size(), 0) {
     forEach<D>(free.box().intersect(box.grown(layers, D)), [&](const Index<D>& cell) {
-      if (!(free[cell] < 1)) return;
+      if (!(free[cell] < 1) && (!mass.box().contains(cell) || mass[cell] > 0)) return;
       has_any_ = true;
       Box around{{}, Index3::filled(1)};
       for (int d = 0; d < D; ++d) {

@@ -125,8 +125,9 @@ TEST(FreeSpace, IsClosedByThinBodiesWhereAskedTo) {
 TYPED_TEST(FreeSpaceAlongAxes, KnowsTheCellsNearBodies) {
   constexpr int D = TypeParam::value;
   Field<double> free(cube<D>(9), 1);
+  Field<double> mass(cube<D>(9), 1);
   free.cells()[Index<D>::filled(4)] = 0.99;
-  const NearBodies<D> near(cube<D>(9), 2, free.seen());
+  const NearBodies<D> near(cube<D>(9), 2, free.seen(), mass.seen());
   const auto isNear = [](const Index<D>& cell) {
     bool inside = true;
     for (int d = 0; d < D; ++d) inside &= std::abs(cell[d] - 4) <= 2;
@@ -141,7 +142,9 @@ TYPED_TEST(FreeSpaceAlongAxes, KnowsTheCellsNearBodies) {
   forEach<D>(cube<D>(9), [&](const Index<D>& cell) { EXPECT_EQ(near(cell), isNear(cell)); });
   EXPECT_TRUE(near.anyIn(cube<D>(3)));
   EXPECT_FALSE(near.anyIn(cube<D>(2)));
-  EXPECT_FALSE(NearBodies<D>(cube<D>(2), 1, free.seen()).hasAny());
+  EXPECT_FALSE(NearBodies<D>(cube<D>(2), 1, free.seen(), mass.seen()).hasAny());
+  mass.cells()[Index<D>{}] = 0;
+  EXPECT_TRUE(NearBodies<D>(cube<D>(2), 1, free.seen(), mass.seen()).hasAny());
 }
 
 }  // namespace tushar::mpmice

@@ -154,7 +154,7 @@ void recoverGas(const euler::Gas& gas, const Level& level, const GasInCells<D>& 
                 euler::Rows<D>& w) {
   euler::recover<D>(gas, level, cells.held, w);
   near.forEachIn(level.clipCells(w.box()), [&](const Index<D>& cell) {
-    if (!(cells.free[cell] < 1)) return;
+    if (!(cells.free[cell] < 1) && !cells.isEmpty(cell)) return;
     euler::State<D> state{};
     state[euler::kDensity] = 1;
     state[euler::kPressure<D>] = 1;
@@ -166,10 +166,12 @@ void recoverGas(const euler::Gas& gas, const Level& level, const GasInCells<D>& 
 /// Cells with a body in them or beside them are taken as constant, and beyond a side of the grid those that mirror
 /// them.
 template <int D>
-void flattenAtBodies(const Level& level, const Box& box, CellView<const double> free, const NearBodies<D>& near,
+void flattenAtBodies(const Level& level, const Box& box, const GasInCells<D>& cells, const NearBodies<D>& near,
                      euler::Work<D>& work) {
   const Box known = level.clipCells(box.grown(1, D));
-  const auto hasBody = [&](const Index<D>& cell) { return known.contains(cell) && free[cell] < 1; };
+  const auto hasBody = [&](const Index<D>& cell) {
+    return known.contains(cell) && (cells.free[cell] < 1 || cells.isEmpty(cell));
+  };
   near.forEachIn(box, [&](const Index<D>& cell) {
     Index<D> source = cell;
     for (int d = 0; d < D; ++d) source[d] = std::clamp(cell[d], known.lower[d], known.upper[d] - 1);
@@ -212,9 +214,10 @@ void sweepOpen(const euler::Gas& gas, const WallExchange<D>& exchange, const Nea
   euler::addFluxes<D, Axis>(ratio, block, old, work.flux, fresh);
 }
 
-/// A step of a block with bodies in it or around: `euler`'s, through open faces alone, and what walls do.
+/// A step of a block with bodies in it or around: `euler`'s, through open faces alone, and what walls do. Returns
+/// whether the gas away from bodies can be; beside them small cells have still to share.
 template <int D, class Flux, class Shape>
-void advanceAtBodies(const Level& level, const Settings& settings, double dt, const Box& block,
+bool advanceAtBodies(const Level& level, const Settings& settings, double dt, const Box& block,
                      const GasInCells<D>& cells, const WallExchange<D>& exchange, const NearBodies<D>& near,
                      euler::Work<D>& work, const euler::StateViews<D, double>& fresh, Sum& power) {
   const euler::Gas& gas = settings.gas.gas;
@@ -223,7 +226,7 @@ void advanceAtBodies(const Level& level, const Settings& settings, double dt, co
   recoverGas<D>(gas, level, cells, near, work.w);
   euler::fillBeyondGrid<D>(level, euler::ghostRules<D>(level, gas), work.w);
   euler::predict<D>(gas, level, block.grown(1, D), dt, work, Shape{});
-  flattenAtBodies<D>(level, block.grown(1, D), cells.free, near, work);
+  flattenAtBodies<D>(level, block.grown(1, D), cells, near, work);
   const auto sweep = [&]<int Axis>() {
     sweepOpen<D, Flux, Shape, Axis>(gas, exchange, near, level, block, dt / level.spacing(Axis), cells.held, work,
                                     fresh);
@@ -234,6 +237,12 @@ void advanceAtBodies(const Level& level, const Settings& settings, double dt, co
   near.forEachIn(block, [&](const Index<D>& cell) {
     if (const double done = exchange.addTo(cell, fresh); done != 0) power.add(done * perStep);
   });
+  bool fine = true;
+  forEach<D>(block, [&](const Index<D>& cell) {
+    fine &= near(cell) ||
+            euler::canBe<D>(gas, &fresh.density[cell], fresh.momentum[cell].data(), &fresh.totalEnergy[cell], 1);
+  });
+  return fine;
 }
 
 /// One step of the gas: that of `euler` where no body is near, to the last bit; at bodies, fluxes go through the open
@@ -246,18 +255,26 @@ void advanceGas(const Patch& patch, const std::vector<mpm::solid::Material>&, co
   const Level& level = patch.level();
   const euler::Gas& gas = settings.gas.gas;
   const euler::GhostRules<D> rules = euler::ghostRules<D>(level, gas);
-  const NearBodies<D> near(patch.cells().grown(2, D), nearLayers, cells.free);
+  const NearBodies<D> near(patch.cells().grown(2, D), nearLayers, cells.free, cells.held.density);
   const WallExchange<D> exchange(level, settings, cells, bodies, records, dt);
   euler::Work<D> work(patch.cells(), Shape::reach);
   bool fine = true;
   euler::forEachBlock<D>(patch.cells(), [&](const Box& block) {
-    if (near.anyIn(block.grown(1, D)))
-      return advanceAtBodies<D, Flux, Shape>(level, settings, dt, block, cells, exchange, near, work, fresh.held,
-                                             power);
+    if (near.anyIn(block.grown(1, D))) {
+      fine &=
+          advanceAtBodies<D, Flux, Shape>(level, settings, dt, block, cells, exchange, near, work, fresh.held, power);
+      return;
+    }
     euler::advanceBlock<D, Flux, Shape>(gas, level, rules, block, dt, cells.held, work, fresh.held, {});
     fine &= euler::canBe<D>(gas, block, fresh.held);
   });
-  if (!fine) euler::refuseBroken<D>(patch, gas, fresh.held, &cells.held);
+  if (fine) return;
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    if (near(cell) || euler::canBe<D>(gas, &fresh.held.density[cell], fresh.held.momentum[cell].data(),
+                                      &fresh.held.totalEnergy[cell], 1))
+      return;
+    euler::refuseState<D>(level, gas, cell, fresh.held, &cells.held);
+  });
 }
 
 }  // namespace tushar::mpmice

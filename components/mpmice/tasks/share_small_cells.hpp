@@ -190,7 +190,7 @@ void shareSmallCells(const Patch& patch, const Settings& settings, const Unshare
     std::copy_n(euler::rowOf(state.held.totalEnergy, first, count), count,
                 euler::rowOf(fresh.held.totalEnergy, first, count));
   });
-  const NearBodies<D> near(patch.cells(), 2, state.free);
+  const NearBodies<D> near(patch.cells(), 2, state.free, state.held.density);
   const SmallCells<D> small(level, state);
   near.forEachIn(patch.cells(), [&](const Index<D>& cell) {
     shareAt<D>(small, state, cell, fresh.held);

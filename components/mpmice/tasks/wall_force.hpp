@@ -59,7 +59,7 @@ void computeWallPressure(const Patch& patch, const std::vector<mpm::solid::Mater
   const Level& level = patch.level();
   walls.below.fill(Vec<D>::Zero());
   walls.above.fill(Vec<D>::Zero());
-  const NearBodies<D> near(patch.cells(), nearLayers, cells.free);
+  const NearBodies<D> near(patch.cells(), nearLayers, cells.free, cells.held.density);
   const FreeSpace<D> space(level, settings, cells);
   const BodiesAtNodes<D> bodies(level, records);
   near.forEachIn(patch.cells(), [&](const Index<D>& cell) {
@@ -133,7 +133,7 @@ void addWallForce(const Patch& patch, const std::vector<mpm::solid::Material>&, 
   const BodiesAtNodes<D> bodies(level, records);
   Box around = patch.cells().grown(1, D);
   for (int d = 0; d < D; ++d) ++around.upper[d];
-  const NearBodies<D> near(around, nearLayers, cells.free);
+  const NearBodies<D> near(around, nearLayers, cells.free, cells.held.density);
   const auto addAt = [&](const Index<D>& cell, int axis) {
     const double force = forceAt<D>(level, space, walls, settings.referencePressure, cell, axis);
     const double mass = force != 0 ? bodies.massAt(cell, axis) : 0;
