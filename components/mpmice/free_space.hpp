@@ -1,10 +1,28 @@
 #pragma once
 
+#include <array>
+
 #include "components/mpmice/gas_in_cells.hpp"
 
 namespace tushar::mpmice {
 
-/// How much of cells and faces bodies leave to the gas, from the shares that bodies fill: c.freeVolume and c.coverage.
+/// Open share of a face between two cells with gas, of which bodies cover `coverage` and leave free `below` and
+/// `above`. More than eight times the free volume beside it is closed: gas cannot rush out of what is all but full.
+inline double openShare(double coverage, double below, double above, bool thinWalls) {
+  double most = 8 * std::min(below, above);
+  if (thinWalls) most = std::min(most, std::max(0.0, 1 - 4 * ((1 - below) + (1 - above))));
+  return std::max(0.0, std::min(1 - coverage, most));
+}
+
+/// The two faces of a cell across an axis: how much of each is open; open and walled share are the same of both.
+struct OpenFaces {
+  std::array<double, 2> open{};
+  double area = 0;  ///< 0 where the cell has no gas
+
+  double wall(int side) const { return area - open[side]; }
+};
+
+/// Where the gas can go: cells have free volumes, and faces are open as far as bodies do not cover them.
 ///
 /// A face is open in part, or closed: then there is a wall. Areas close in each cell: along each axis it has the same
 /// area on both sides, open or wall, so that a gas at rest exerts no force.
@@ -21,24 +39,18 @@ class FreeSpace {
     return side == 0 ? cell[axis] == level_->cells().lower[axis] : cell[axis] == level_->cells().upper[axis] - 1;
   }
 
-  /// Open share of a face. More than `steepest` times the free volume beside it is closed: gas cannot rush out of what
-  /// is all but full.
+  /// Open share of a face.
   double aperture(const Index<D>& cell, int axis, int side) const {
     if (isAtSide(cell, axis, side)) return isEmpty(cell) ? 0 : cells_.free[cell];
     const Index<D> above = side == 0 ? cell : cell + Index<D>::unit(axis), below = above - Index<D>::unit(axis);
     if (isEmpty(below) || isEmpty(above)) return 0;
-    constexpr double steepest = 8;
-    double most = steepest * std::min(cells_.free[below], cells_.free[above]);
-    if (thin_walls_)
-      most = std::min(most, std::max(0.0, 1 - 4 * ((1 - cells_.free[below]) + (1 - cells_.free[above]))));
-    return std::max(0.0, std::min(1 - cells_.coverage[above][axis], most));
+    return openShare(cells_.coverage[above][axis], cells_.free[below], cells_.free[above], thin_walls_);
   }
-  /// Open and walled share of each of the two faces of a cell across an axis.
-  double area(const Index<D>& cell, int axis) const {
-    return std::max(std::max(aperture(cell, axis, 0), aperture(cell, axis, 1)), cells_.free[cell]);
-  }
-  double wall(const Index<D>& cell, int axis, int side) const {
-    return isEmpty(cell) ? 0 : area(cell, axis) - aperture(cell, axis, side);
+  OpenFaces faces(const Index<D>& cell, int axis) const {
+    if (isEmpty(cell)) return {};
+    OpenFaces both{{aperture(cell, axis, 0), aperture(cell, axis, 1)}};
+    both.area = std::max(std::max(both.open[0], both.open[1]), cells_.free[cell]);
+    return both;
   }
 
   /// Unit vector into the body: the gradient of 1 - free volume over the cells around, weighted 1 2 1 across; 0 where

@@ -40,6 +40,19 @@ struct GasInCells {
   }
 };
 
+/// Throws NumericalError for a cell of which `free` is left to a gas that cannot be: of a density [kg/m³] and p + p_inf
+/// [Pa].
+template <int D>
+[[noreturn]] void refuseGas(const Level& level, const euler::Gas& gas, const Index<D>& cell, double free,
+                            double density, double stiff) {
+  const Vec3 at = level.expandPoint<D>(level.cellCentre<D>(cell));
+  throw NumericalError(
+      fmt::format("the gas beside a body became impossible: {:.6g} kg/m^3 and {:.6g} Pa in the free {:.3g} of the cell "
+                  "at ({:g}, {:g}, {:g}) m",
+                  density, stiff - gas.pInfinity, free, at[0], at[1], at[2]),
+      "", "c.density", level.cellNumber<D>(cell));
+}
+
 inline constexpr auto readsOld = [](const auto& label, int ghost) { return requiresOld(label, ghost); };
 inline constexpr auto readsNew = [](const auto& label, int ghost) { return requiresNew(label, ghost); };
 

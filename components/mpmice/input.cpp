@@ -21,13 +21,25 @@ void forEachPairWithGas(const std::vector<double>& pairs, int solids, Visit&& vi
   std::size_t at = 0;
   for (int row = 0; row < solids; ++row)
     for (int column = row + 1; column <= solids; ++column, ++at)
-      if (column == solids && at < pairs.size()) visit(row, pairs[at]);
+      if (column == solids) visit(row, pairs[at]);
+}
+
+/// Whether a list has a number for each pair of materials.
+bool hasAllPairs(const std::vector<double>& given, const char* name, int solids, const Element& tag,
+                 Diagnostics& diagnostics) {
+  const std::size_t pairs = static_cast<std::size_t>(solids) * (solids + 1) / 2;
+  if (given.size() == pairs) return true;
+  diagnostics.error(
+      tag.child(name).value_or(tag),
+      fmt::format("found {} numbers, expected {}: one for each pair of {} materials", given.size(), pairs, solids + 1));
+  return false;
 }
 
 /// Momentum between the gas and bodies goes by walls, or bodies are rigid; between bodies by their contacts.
 void checkMomentum(const ice::Exchange& exchange, int solids, bool areRigid, const Element& tag,
                    Diagnostics& diagnostics) {
   constexpr double walls = 1e9;
+  if (exchange.momentum.empty() || !hasAllPairs(exchange.momentum, "momentum", solids, tag, diagnostics)) return;
   forEachPairWithGas(exchange.momentum, solids, [&](int body, double k) {
     if (k >= walls || (areRigid && k == 0)) return;
     diagnostics.error(tag.child("momentum").value_or(tag),
@@ -40,15 +52,11 @@ void checkMomentum(const ice::Exchange& exchange, int solids, bool areRigid, con
 }
 
 /// The coefficients of heat of all pairs; empty where none flows.
-std::vector<double> heatOf(const ice::Exchange& exchange, int solids, const Element& root, Diagnostics& diagnostics) {
+std::vector<double> heatOf(const ice::Exchange& exchange, int solids, const Element& root, const Element& tag,
+                           Diagnostics& diagnostics) {
   const auto& heat = exchange.heat;
-  const std::size_t pairs = static_cast<std::size_t>(solids) * (solids + 1) / 2;
+  if (heat.empty() || !hasAllPairs(heat, "heat", solids, tag, diagnostics)) return {};
   if (std::all_of(heat.begin(), heat.end(), [](double h) { return h == 0; })) return {};
-  const Element tag = *root.child("MaterialProperties")->child("exchange_properties")->child("exchange_coefficients");
-  if (heat.size() < pairs)
-    diagnostics.error(*tag.child("heat"),
-                      fmt::format("found {} numbers, expected {}: one for each pair of {} materials", heat.size(),
-                                  pairs, solids + 1));
   for (const Element& material : root.child("MaterialProperties")->child("MPM")->children("material"))
     if (!material.child("specific_heat")) diagnostics.error(material, "missing tag <specific_heat>: it exchanges heat");
   return heat;
@@ -65,6 +73,10 @@ void checkGas(const ice::GasScene& scene, const Element& root, Diagnostics& diag
   const auto mpm = root.child("MPM");
   if (const auto radial = mpm ? mpm->child("axisymmetric") : std::nullopt; radial && radial->text() == "true")
     diagnostics.error(*radial, "not beside a gas: its cells are in a plane or in space");
+  if (scene.gas.cfl > smallFreeVolume)
+    diagnostics.error(*root.child("CFD")->child("cfl"),
+                      fmt::format("found {:g}, expected at most {:g} beside bodies: cells may be half full",
+                                  scene.gas.cfl, smallFreeVolume));
   const Element material = *root.child("MaterialProperties")->child("ICE")->child("material");
   for (const auto& [tag, value] :
        {std::pair("dynamic_viscosity", scene.viscosity), std::pair("thermal_conductivity", scene.conductivity)})
@@ -89,9 +101,9 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
   if (diagnostics.size() > before || !makeSolids) return {};
   Settings settings{scene.gas, scene.referencePressure, scene.gravity, {}, scene.thinWalls.value_or(false), areRigid};
   if (scene.exchange) {
-    const Element exchange = *root.child("MaterialProperties")->child("exchange_properties");
-    checkMomentum(*scene.exchange, solids, areRigid, *exchange.child("exchange_coefficients"), diagnostics);
-    settings.heat = heatOf(*scene.exchange, solids, root, diagnostics);
+    const Element tag = *root.child("MaterialProperties")->child("exchange_properties")->child("exchange_coefficients");
+    checkMomentum(*scene.exchange, solids, areRigid, tag, diagnostics);
+    settings.heat = heatOf(*scene.exchange, solids, root, tag, diagnostics);
   }
   checkGas(scene, root, diagnostics);
   if (diagnostics.size() > before) return {};
@@ -109,7 +121,8 @@ simulation::ComponentKind kind(bool areRigid) {
   kind.name = areRigid ? "rmpmice" : "mpmice";
   kind.sentence = areRigid ? "a compressible gas around bodies of particles that move as they started"
                            : "a compressible gas and bodies of particles that act on each other";
-  kind.sections = {"CFD", "MPM", "MaterialProperties", "PhysicalConstants", "PhysicalBC", "Models", "Solver"};
+  kind.sections = ice::gasSections();
+  kind.sections.insert(kind.sections.end(), {"MPM", "PhysicalBC"});
   kind.boundaryLabels = {grid::symmetric, euler::boundary::density, euler::boundary::pressure,
                          mpm::boundary::velocity.evenOnPlanes(), mpm::boundary::temperature.evenOnPlanes()};
   kind.describe = [](std::ostream& out) {

@@ -1,7 +1,6 @@
 #include "components/mpmice/mpmice.hpp"
 
-#include "components/euler/tasks/add_gravity.hpp"
-#include "components/euler/tasks/diagnose.hpp"
+#include "components/mpmice/tasks/add_gravity.hpp"
 #include "components/mpmice/tasks/advance_gas.hpp"
 #include "components/mpmice/tasks/compute_stable_time_step.hpp"
 #include "components/mpmice/tasks/diagnose.hpp"
@@ -58,7 +57,7 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
   tasks.acrossMaterials(
       "mpmice::advanceGas", advanceBody<D>(settings_.gas.method), materials, with(settings_), requiresOld(delT),
       withoutMaterial(all<GasInCells<D>>(readsOld, typename GasInCells<D>::Reach{.state = 2, .mass = 2, .room = 3})),
-      withoutMaterial(all<BodiesInStep<D>>()), requiresNew(g::record, 2), withoutMaterial(all<UnsharedGas<D>>()),
+      withoutMaterial(all<BodiesInStep<D>>()), requiresNew(g::record, 1), withoutMaterial(all<UnsharedGas<D>>()),
       computes(total::powerOnBodies));
   tasks.perPatch("mpmice::shareSmallCells", shareSmallCells<D>, with(settings_), all<Unshared<D>>(), all<NewGas<D>>());
   if (exchangesHeat())
@@ -67,8 +66,8 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
                           withoutMaterial(requiresNew(c::momentum<D>)), withoutMaterial(modifies(c::totalEnergy)),
                           all<WarmBodies>());
   if (!settings_.gravity.isZero(0))
-    tasks.perPatch("euler::addGravity", euler::addGravity<D>, with(settings_.gravity), requiresNew(c::density),
-                   requiresOld(delT), modifies(c::momentum<D>), modifies(c::totalEnergy));
+    tasks.perPatch("mpmice::addGravity", addGravity<D>, with(settings_.gravity), requiresNew(c::freeVolume),
+                   requiresNew(c::density), requiresOld(delT), modifies(c::momentum<D>), modifies(c::totalEnergy));
 }
 
 template <int D>
@@ -90,13 +89,13 @@ void GasAround<D>::scheduleDiagnostics(TaskList& tasks) const {
   tasks.perPatch("mpmice::computeSoundSpeed", computeSoundSpeed<D>, with(settings_), gas, computes(c::soundSpeed));
   tasks.perPatch("mpmice::computeSpecificVolume", computeSpecificVolume<D>, gas, computes(c::specificVolume));
   tasks.perPatch("mpmice::sumInternalEnergy", sumInternalEnergy<D>, gas, computes(ice::total::internalEnergy));
-  for (const auto* mass : {&total::gasMass, &euler::total::mass})
-    tasks.perPatch("mpmice::sumMass", euler::sumMass<D>, requiresOld(c::density), computes(*mass));
-  for (const auto* momentum : {&total::gasMomentum, &euler::total::momentum})
-    tasks.perPatch("mpmice::sumMomentum", euler::sumMomentum<D>, requiresOld(c::momentum<D>), computes(*momentum));
+  tasks.perPatch("mpmice::sumMass", sumMass<D>, requiresOld(c::density), computes(total::gasMass),
+                 computes(euler::total::mass));
+  tasks.perPatch("mpmice::sumMomentum", sumMomentum<D>, requiresOld(c::momentum<D>), computes(total::gasMomentum),
+                 computes(euler::total::momentum));
   tasks.perPatch("mpmice::sumEnergy", euler::sumEnergy<D>, requiresOld(c::totalEnergy), computes(total::gasEnergy));
-  for (const auto* energy : {&total::gasKineticEnergy, &euler::total::kineticEnergy})
-    tasks.perPatch("mpmice::sumKineticEnergy", sumKineticEnergy<D>, gas, computes(*energy));
+  tasks.perPatch("mpmice::sumKineticEnergy", sumKineticEnergy<D>, gas, computes(total::gasKineticEnergy),
+                 computes(euler::total::kineticEnergy));
   tasks.perPatch("mpmice::findLeastFreeVolume", findLeastFreeVolume<D>, gas, computes(total::leastFreeVolume));
 }
 

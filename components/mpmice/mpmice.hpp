@@ -16,7 +16,6 @@ class GasAround : public mpm::solid::Surroundings {
 
   explicit GasAround(Settings settings) : settings_(std::move(settings)) {}
 
-  const Settings& settings() const { return settings_; }
   bool exchangesHeat() const override { return !settings_.heat.empty(); }
   void scheduleStart(TaskList& tasks, const Materials& materials) const override;
   void scheduleForces(TaskList& tasks, const Materials& materials) const override;

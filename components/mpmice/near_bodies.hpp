@@ -4,7 +4,7 @@
 #include <cstring>
 #include <vector>
 
-#include "core/core.hpp"
+#include "components/mpmice/settings.hpp"
 
 namespace tushar::mpmice {
 
@@ -19,13 +19,7 @@ class NearBodies {
     forEach<D>(free.box().intersect(box.grown(layers, D)), [&](const Index<D>& cell) {
       if (!(free[cell] < 1) && (!mass.box().contains(cell) || mass[cell] > 0)) return;
       has_any_ = true;
-      Box around{{}, Index3::filled(1)};
-      for (int d = 0; d < D; ++d) {
-        around.lower[d] = cell[d] - layers;
-        around.upper[d] = cell[d] + layers + 1;
-      }
-      around = around.intersect(box_);
-      forEach<D>(around, [&](const Index<D>& at) { is_near_[offset(at)] = 1; });
+      forEach<D>(cellsAround<D>(cell, layers).intersect(box_), [&](const Index<D>& at) { is_near_[offset(at)] = 1; });
     });
   }
 

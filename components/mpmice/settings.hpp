@@ -1,6 +1,7 @@
 #pragma once
 
 #include "components/euler/settings.hpp"
+#include "core/core.hpp"
 
 namespace tushar::mpmice {
 
@@ -16,7 +17,21 @@ struct Settings {
 
 /// Free volumes below this are none.
 inline constexpr double leastFreeVolume = 1e-9;
-/// A cell with a smaller share of free volume gives its gas to a neighbour.
+/// A cell with a smaller share of free volume gives its gas to a neighbour. An open face lets out, in a step, up to cfl
+/// over this share of what a cell has, so that it is also the greatest cfl.
 inline constexpr double smallFreeVolume = 0.5;
+/// A smaller hole without a way out keeps what it has.
+inline constexpr double narrowFreeVolume = 0.2;
+
+/// The cells within some layers of a cell.
+template <int D>
+Box cellsAround(const Index<D>& cell, int layers) {
+  Box cells{{}, Index3::filled(1)};
+  for (int d = 0; d < D; ++d) {
+    cells.lower[d] = cell[d] - layers;
+    cells.upper[d] = cell[d] + layers + 1;
+  }
+  return cells;
+}
 
 }  // namespace tushar::mpmice

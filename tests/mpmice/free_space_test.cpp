@@ -41,13 +41,13 @@ TYPED_TEST(FreeSpaceAlongAxes, HasTheSameAreaOnBothSidesOfACell) {
     if (space.isEmpty(cell)) return;
     for (int d = 0; d < D; ++d) {
       for (int side = 0; side < 2; ++side) {
-        EXPECT_GE(space.wall(cell, d, side), 0);
+        EXPECT_GE(space.faces(cell, d).wall(side), 0);
         EXPECT_GE(space.aperture(cell, d, side), 0);
         EXPECT_LE(space.aperture(cell, d, side), 1);
       }
-      const double lower = space.wall(cell, d, 0) + space.aperture(cell, d, 0);
-      EXPECT_NEAR(space.wall(cell, d, 1) + space.aperture(cell, d, 1), lower, 1e-15);
-      EXPECT_GE(space.area(cell, d), fields.free.seen()[cell]);
+      const double lower = space.faces(cell, d).wall(0) + space.aperture(cell, d, 0);
+      EXPECT_NEAR(space.faces(cell, d).wall(1) + space.aperture(cell, d, 1), lower, 1e-15);
+      EXPECT_GE(space.faces(cell, d).area, fields.free.seen()[cell]);
     }
   });
 }
@@ -78,7 +78,7 @@ TYPED_TEST(FreeSpaceAlongAxes, IsClosedBesideEmptyCellsAndOpenWhereNoBodyIs) {
         const Index<D> next = side == 0 ? cell - Index<D>::unit(d) : cell + Index<D>::unit(d);
         const bool isClosed = cell == empty || next == empty;
         EXPECT_EQ(space.aperture(cell, d, side), isClosed ? 0 : 1);
-        EXPECT_EQ(space.wall(cell, d, side), isClosed && !(cell == empty) ? 1 : 0);
+        EXPECT_EQ(space.faces(cell, d).wall(side), isClosed && !(cell == empty) ? 1 : 0);
       }
   });
 }

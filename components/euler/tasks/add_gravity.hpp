@@ -4,17 +4,23 @@
 
 namespace tushar::euler {
 
-/// Adds rho g dt to the momentum and g . (m + m') / 2 dt to the energy, m and m' the momentum before and after: the
-/// kinetic energy changes by the work of gravity [m/s²], the internal energy does not.
+/// What gravity g [m/s²] changes in a cell in a step: rho g dt is added to the momentum and g . (m + m') / 2 dt to the
+/// energy, m and m' the momentum before and after. The kinetic energy changes by the work of gravity, the internal
+/// energy does not.
+template <int D>
+void fall(const Vec<D>& gravity, double density, double dt, Vec<D>& momentum, double& totalEnergy) {
+  const Vec<D> half = 0.5 * dt * density * gravity;
+  totalEnergy += dt * gravity.dot(momentum + half);
+  momentum += 2 * half;
+}
+
+/// The same in all cells.
 template <int D>
 void addGravity(const Patch& patch, const Vec3& gravity, CellView<const double> density, double dt,
                 CellView<Vec<D>> momentum, CellView<double> totalEnergy) {
   const Vec<D> g = patch.level().template reduce<D>(gravity);
-  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    const Vec<D> half = 0.5 * dt * density[cell] * g;
-    totalEnergy[cell] += dt * g.dot(momentum[cell] + half);
-    momentum[cell] += 2 * half;
-  });
+  forEach<D>(patch.cells(),
+             [&](const Index<D>& cell) { fall<D>(g, density[cell], dt, momentum[cell], totalEnergy[cell]); });
 }
 
 }  // namespace tushar::euler

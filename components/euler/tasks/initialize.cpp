@@ -8,23 +8,6 @@ namespace tushar::euler {
 
 namespace {
 
-/// Throws InputError for objects that contain the middle of no cell on the whole grid.
-template <int D>
-void checkObjects(const Level& level, const Settings& settings) {
-  std::vector<InputProblem> problems;
-  for (const GasObject& object : settings.objects) {
-    const input::Box3 bounds = object.shape->bounds();
-    bool found = false;
-    forEach<D>(level.cellsNear(bounds.min, bounds.max), [&](const Index<D>& cell) {
-      found = found || object.shape->owns(level.expandPoint<D>(level.cellCentre<D>(cell)));
-    });
-    if (!found)
-      problems.push_back(
-          {object.where, settings.section + "/geom_object", "its shape contains the middle of no cell of the grid"});
-  }
-  if (!problems.empty()) throw InputError(std::move(problems));
-}
-
 void checkState(const Settings& settings, const GasObject& object, const Vec3& point, double density, double pressure,
                 const Vec3& velocity) {
   const bool finite = std::isfinite(density) && std::isfinite(pressure) && velocity.allFinite();
@@ -40,6 +23,22 @@ void checkState(const Settings& settings, const GasObject& object, const Vec3& p
 }
 
 }  // namespace
+
+template <int D>
+void checkObjects(const Level& level, const Settings& settings) {
+  std::vector<InputProblem> problems;
+  for (const GasObject& object : settings.objects) {
+    const input::Box3 bounds = object.shape->bounds();
+    bool found = false;
+    forEach<D>(level.cellsNear(bounds.min, bounds.max), [&](const Index<D>& cell) {
+      found = found || object.shape->owns(level.expandPoint<D>(level.cellCentre<D>(cell)));
+    });
+    if (!found)
+      problems.push_back(
+          {object.where, settings.section + "/geom_object", "its shape contains the middle of no cell of the grid"});
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+}
 
 template <int D>
 std::optional<State<D>> stateAt(const Level& level, const Settings& settings, const Vec3& point) {
@@ -82,6 +81,9 @@ void initialize(const Patch& patch, const Settings& settings, CellView<double> d
   });
 }
 
+template void checkObjects<1>(const Level&, const Settings&);
+template void checkObjects<2>(const Level&, const Settings&);
+template void checkObjects<3>(const Level&, const Settings&);
 template std::optional<State<1>> stateAt<1>(const Level&, const Settings&, const Vec3&);
 template std::optional<State<2>> stateAt<2>(const Level&, const Settings&, const Vec3&);
 template std::optional<State<3>> stateAt<3>(const Level&, const Settings&, const Vec3&);

@@ -7,6 +7,10 @@
 
 namespace tushar::euler {
 
+/// Throws InputError for objects that contain the middle of no cell on the whole grid.
+template <int D>
+void checkObjects(const Level& level, const Settings& settings);
+
 /// rho, rho v and E at a point: of the last object that owns it; nothing where none does. Throws InputError where
 /// density or p + p_inf is not positive or the state not finite.
 template <int D>

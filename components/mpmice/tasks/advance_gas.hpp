@@ -14,7 +14,7 @@ struct BodiesInStep {
   CellView<const Vec<D>> swept;
 
   static BodiesInStep from(auto& take) {
-    return {.walls = KnownWalls<D>::from(take, 1),
+    return {.walls = KnownWalls<D>::from(take, 0),
             .newFree = take(requiresNew(c::unfilledVolume, 3)),
             .swept = take(requiresNew(c::swept<D>, 1))};
   }
@@ -39,28 +39,34 @@ class WallExchange {
                const typename BodiesAtNodes<D>::Records& records, double dt)
       : level_(level),
         gas_(settings.gas.gas),
+        rules_(euler::ghostRules<D>(level, settings.gas.gas)),
         cells_(cells),
         space_(level, settings, cells),
         step_(bodies),
         nodes_(level, records),
         dt_(dt) {}
 
+  const euler::Gas& gas() const { return gas_; }
+  /// Of the state beyond the sides of the grid.
+  const euler::GhostRules<D>& rules() const { return rules_; }
   const FreeSpace<D>& space() const { return space_; }
 
   /// Adds to the content of a cell what walls at its faces push, and what gas flows in behind walls that move. Returns
   /// the work of the gas on the walls, J/m³ of the cell.
   double addTo(const Index<D>& cell, const euler::StateViews<D, double>& held) const {
     double work = 0;
-    for (int d = 0; d < D; ++d)
+    for (int d = 0; d < D; ++d) {
+      const OpenFaces faces = space_.faces(cell, d);
       for (int side = 0; side < 2; ++side) {
         const Index<D> face = side == 0 ? cell : cell + Index<D>::unit(d);
-        const double wall = space_.wall(cell, d, side);
+        const double wall = faces.wall(side);
         const bool flows = !space_.isAtSide(cell, d, side) && mayFlow(face, d);
         if (!(wall > 0) && !flows) continue;
         const Vec<D> after = nodes_.velocityAt(face, d, mpm::solid::lane::velocity);
         if (wall > 0) work += push(cell, d, side, wall, after, held);
         if (flows) flow(cell, d, side, after[d], held);
       }
+    }
     return work;
   }
 
@@ -126,20 +132,16 @@ class WallExchange {
 
   /// A hole in a body: hardly free, and no cell within two that is free for the most part.
   bool isClosedPore(const Index<D>& cell) const {
-    constexpr double narrow = 0.2, wide = 0.5;
-    if (!(step_.newFree[cell] < narrow)) return false;
-    Box around{{}, Index3::filled(1)};
-    for (int d = 0; d < D; ++d) {
-      around.lower[d] = cell[d] - 2;
-      around.upper[d] = cell[d] + 3;
-    }
+    if (!(step_.newFree[cell] < narrowFreeVolume)) return false;
     bool closed = true;
-    forEach<D>(level_.clipCells(around), [&](const Index<D>& at) { closed &= !(step_.newFree[at] > wide); });
+    forEach<D>(level_.clipCells(cellsAround<D>(cell, 2)),
+               [&](const Index<D>& at) { closed &= !(step_.newFree[at] > smallFreeVolume); });
     return closed;
   }
 
   const Level& level_;
   const euler::Gas& gas_;
+  euler::GhostRules<D> rules_;
   const GasInCells<D>& cells_;
   FreeSpace<D> space_;
   const BodiesInStep<D>& step_;
@@ -217,14 +219,14 @@ void sweepOpen(const euler::Gas& gas, const WallExchange<D>& exchange, const Nea
 /// A step of a block with bodies in it or around: `euler`'s, through open faces alone, and what walls do. Returns
 /// whether the gas away from bodies can be; beside them small cells have still to share.
 template <int D, class Flux, class Shape>
-bool advanceAtBodies(const Level& level, const Settings& settings, double dt, const Box& block,
-                     const GasInCells<D>& cells, const WallExchange<D>& exchange, const NearBodies<D>& near,
-                     euler::Work<D>& work, const euler::StateViews<D, double>& fresh, Sum& power) {
-  const euler::Gas& gas = settings.gas.gas;
+bool advanceAtBodies(const Level& level, double dt, const Box& block, const GasInCells<D>& cells,
+                     const WallExchange<D>& exchange, const NearBodies<D>& near, euler::Work<D>& work,
+                     const euler::StateViews<D, double>& fresh, Sum& power) {
+  const euler::Gas& gas = exchange.gas();
   const double perStep = level.cellVolume() / dt;
   work.hold(block.grown(Shape::reach, D));
   recoverGas<D>(gas, level, cells, near, work.w);
-  euler::fillBeyondGrid<D>(level, euler::ghostRules<D>(level, gas), work.w);
+  euler::fillBeyondGrid<D>(level, exchange.rules(), work.w);
   euler::predict<D>(gas, level, block.grown(1, D), dt, work, Shape{});
   flattenAtBodies<D>(level, block.grown(1, D), cells, near, work);
   const auto sweep = [&]<int Axis>() {
@@ -254,18 +256,16 @@ void advanceGas(const Patch& patch, const std::vector<mpm::solid::Material>&, co
                 const typename BodiesAtNodes<D>::Records& records, const UnsharedGas<D>& fresh, Sum& power) {
   const Level& level = patch.level();
   const euler::Gas& gas = settings.gas.gas;
-  const euler::GhostRules<D> rules = euler::ghostRules<D>(level, gas);
   const NearBodies<D> near(patch.cells().grown(2, D), nearLayers, cells.free, cells.held.density);
   const WallExchange<D> exchange(level, settings, cells, bodies, records, dt);
   euler::Work<D> work(patch.cells(), Shape::reach);
   bool fine = true;
   euler::forEachBlock<D>(patch.cells(), [&](const Box& block) {
     if (near.anyIn(block.grown(1, D))) {
-      fine &=
-          advanceAtBodies<D, Flux, Shape>(level, settings, dt, block, cells, exchange, near, work, fresh.held, power);
+      fine &= advanceAtBodies<D, Flux, Shape>(level, dt, block, cells, exchange, near, work, fresh.held, power);
       return;
     }
-    euler::advanceBlock<D, Flux, Shape>(gas, level, rules, block, dt, cells.held, work, fresh.held, {});
+    euler::advanceBlock<D, Flux, Shape>(gas, level, exchange.rules(), block, dt, cells.held, work, fresh.held, {});
     fine &= euler::canBe<D>(gas, block, fresh.held);
   });
   if (fine) return;

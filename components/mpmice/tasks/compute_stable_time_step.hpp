@@ -23,7 +23,7 @@ void computeStableTimeStep(const Patch& patch, const Settings& settings, const G
       sum += std::abs(m[d] * free) * level.inverseSpacing(d);
     }
     const double p = gas.pressure(cells.held.totalEnergy[cell] * free - 0.5 * squared * inverse) + gas.pInfinity;
-    if (!(p > 0)) euler::refuseState<D, const double>(level, gas, cell, cells.held, nullptr);
+    if (!(p > 0)) refuseGas<D>(level, gas, cell, cells.free[cell], rho, p);
     const double rate = sum * inverse + std::sqrt(gas.gamma * p * inverse) * widths;
     most = rate > most ? rate : most;
   });

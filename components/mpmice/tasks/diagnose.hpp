@@ -1,5 +1,6 @@
 #pragma once
 
+#include "components/euler/tasks/diagnose.hpp"
 #include "components/mpmice/gas_in_cells.hpp"
 
 namespace tushar::mpmice {
@@ -87,14 +88,39 @@ void sumInternalEnergy(const Patch& patch, const GasInCells<D>& cells, Sum& ener
   });
 }
 
+// Each of these sums goes into a total of the gas, and into one of gas and bodies.
+
+/// Mass of the gas, kg.
+template <int D>
+void sumMass(const Patch& patch, CellView<const double> density, Sum& ofGas, Sum& ofAll) {
+  Sum sum;
+  euler::sumMass<D>(patch, density, sum);
+  ofGas.merge(sum);
+  ofAll.merge(sum);
+}
+
+/// Momentum of the gas, kg m/s.
+template <int D>
+void sumMomentum(const Patch& patch, CellView<const Vec<D>> momentum, VectorSum& ofGas, VectorSum& ofAll) {
+  VectorSum sum;
+  euler::sumMomentum<D>(patch, momentum, sum);
+  ofGas.merge(sum);
+  ofAll.merge(sum);
+}
+
 /// Kinetic energy of the gas, J.
 template <int D>
-void sumKineticEnergy(const Patch& patch, const GasInCells<D>& cells, Sum& energy) {
-  WideSum sum(energy);
-  const double half = 0.5 * patch.level().cellVolume();
-  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    if (!cells.isEmpty(cell)) sum.add(half * cells.held.momentum[cell].squaredNorm() / cells.held.density[cell]);
-  });
+void sumKineticEnergy(const Patch& patch, const GasInCells<D>& cells, Sum& ofGas, Sum& ofAll) {
+  Sum sum;
+  {
+    WideSum wide(sum);
+    const double half = 0.5 * patch.level().cellVolume();
+    forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+      if (!cells.isEmpty(cell)) wide.add(half * cells.held.momentum[cell].squaredNorm() / cells.held.density[cell]);
+    });
+  }
+  ofGas.merge(sum);
+  ofAll.merge(sum);
 }
 
 /// The least share of a cell that holds gas.

@@ -52,8 +52,8 @@ inline Eigen::VectorXd temperaturesAfter(const WarmThings& things, const std::ve
   return system.ldlt().solve(heat);
 }
 
-/// Heat between bodies and the gas in the cells where both are, in the manner of Uintah's exchange coefficients: what
-/// one gives, the other gets.
+/// Heat between bodies and the gas, and between bodies, in the cells where they are together, in the manner of Uintah's
+/// exchange coefficients: what one gives, the others get.
 template <int D>
 class HeatExchange {
  public:
@@ -65,7 +65,6 @@ class HeatExchange {
              CellView<double> totalEnergy) const {
     const auto gas = static_cast<Eigen::Index>(bodies_.size());
     WarmThings things = bodiesIn(cell);
-    if (!(things.capacity.head(gas).sum() > 0)) return;
     if (free_[cell] >= leastFreeVolume && density[cell] > 0) {
       const double specific = settings_.gas.gas.specificHeat, mass = density[cell];
       const double internal = totalEnergy[cell] - 0.5 * momentum[cell].squaredNorm() / mass;
@@ -73,11 +72,12 @@ class HeatExchange {
       things.temperature[gas] = internal / (mass * specific);
       things.volume[gas] = free_[cell];
     }
+    if ((things.capacity.array() > 0).count() < 2) return;
     const Eigen::VectorXd after = temperaturesAfter(things, settings_.heat, dt);
     for (Eigen::Index m = 0; m < gas; ++m) {
       if (!(things.capacity[m] > 0)) continue;
       const double change = after[m] - things.temperature[m];
-      totalEnergy[cell] -= things.capacity[m] * change;
+      if (things.capacity[gas] > 0) totalEnergy[cell] -= things.capacity[m] * change;
       for (const int p : bodies_[m].mass.template in<D>(cell)) bodies_[m].temperature[p] += change;
     }
   }

@@ -18,12 +18,7 @@ euler::State<D> gasOf(const Level& level, const euler::Settings& settings, const
   if (const auto own = at(cell)) return *own;
   std::optional<euler::State<D>> nearest;
   int least = std::numeric_limits<int>::max();
-  Box around{{}, Index3::filled(1)};
-  for (int d = 0; d < D; ++d) {
-    around.lower[d] = cell[d] - gasNearby;
-    around.upper[d] = cell[d] + gasNearby + 1;
-  }
-  forEach<D>(level.clipCells(around), [&](const Index<D>& other) {
+  forEach<D>(level.clipCells(cellsAround<D>(cell, gasNearby)), [&](const Index<D>& other) {
     int apart = 0;
     for (int d = 0; d < D; ++d) apart += (other[d] - cell[d]) * (other[d] - cell[d]);
     if (apart >= least) return;
@@ -40,6 +35,7 @@ euler::State<D> gasOf(const Level& level, const euler::Settings& settings, const
 template <int D>
 void initialize(const Patch& patch, const Settings& settings, CellView<const double> free, CellView<double> density,
                 CellView<Vec<D>> momentum, CellView<double> totalEnergy) {
+  if (patch.id() == 0) euler::checkObjects<D>(patch.level(), settings.gas);
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     density[cell] = totalEnergy[cell] = 0;
     momentum[cell] = Vec<D>::Zero();

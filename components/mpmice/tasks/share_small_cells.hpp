@@ -1,6 +1,6 @@
 #pragma once
 
-#include "components/mpmice/gas_in_cells.hpp"
+#include "components/mpmice/free_space.hpp"
 #include "components/mpmice/near_bodies.hpp"
 
 namespace tushar::mpmice {
@@ -29,10 +29,11 @@ struct Unshared {
 template <int D>
 class SmallCells {
  public:
-  SmallCells(const Level& level, const Unshared<D>& state) : level_(level), state_(state) {}
+  SmallCells(const Level& level, bool thinWalls, const Unshared<D>& state)
+      : level_(level), thin_walls_(thinWalls), state_(state) {}
 
   /// The neighbour that a small cell gives its gas to, or the cell itself: one with room enough, else one that has more
-  /// and is no small cell's neighbour itself. Ties go to the lower one.
+  /// room and gives its own gas to none. Ties go to the lower one.
   Index<D> targetOf(const Index<D>& cell) const {
     const Index<D> chosen = choiceOf(cell);
     return isTarget(chosen) ? chosen : cell;
@@ -41,13 +42,6 @@ class SmallCells {
   bool isTarget(const Index<D>& cell) const { return choiceOf(cell) == cell; }
   /// Whether a small cell gives its gas to a neighbour that is a target.
   bool gives(const Index<D>& cell, const Index<D>& to) const { return isSmall(cell) && choiceOf(cell) == to; }
-  /// Whether a cell is a narrow hole without a way out, or shares with one: what it holds stays, and is no gas, until
-  /// there is room again.
-  bool isHole(const Index<D>& cell) const {
-    constexpr double narrow = 0.2;
-    const Index<D> target = targetOf(cell);
-    return state_.free[target] < narrow && targetOf(target) == target;
-  }
   /// Whether a cell has little room, and something in it.
   bool isSmall(const Index<D>& cell) const {
     return state_.free[cell] < smallFreeVolume && state_.held.density[cell] != 0;
@@ -56,12 +50,7 @@ class SmallCells {
   /// Calls `visit(neighbour)` for the cells around one, on the grid.
   template <class Visit>
   void forEachAround(const Index<D>& cell, Visit&& visit) const {
-    Box around{{}, Index3::filled(1)};
-    for (int d = 0; d < D; ++d) {
-      around.lower[d] = cell[d] - 1;
-      around.upper[d] = cell[d] + 2;
-    }
-    forEach<D>(level_.clipCells(around), [&](const Index<D>& at) {
+    forEach<D>(level_.clipCells(cellsAround<D>(cell, 1)), [&](const Index<D>& at) {
       if (!(at == cell)) visit(at);
     });
   }
@@ -94,11 +83,12 @@ class SmallCells {
       }
     if (apart > 1) return score + 1e-4 * room;
     const Index<D>& above = at[axis] > cell[axis] ? at : cell;
-    const double open = std::max(0.0, std::min(1 - state_.coverage[above][axis], 8 * std::min(room, own)));
+    const double open = openShare(state_.coverage[above][axis], room, own, thin_walls_);
     return score + 2 * open + 1e-2 * std::max(0.0, 1 - (1 - own) - (1 - room)) + 1e-3 * room;
   }
 
   const Level& level_;
+  bool thin_walls_;
   const Unshared<D>& state_;
 };
 
@@ -128,11 +118,10 @@ struct Pool {
   }
 };
 
-/// Gives a cell its part of what it shares with others.
+/// Gives a cell its part of what it shares with others, through the cell `centre`.
 template <int D>
-void shareAt(const SmallCells<D>& small, const Unshared<D>& state, const Index<D>& cell,
+void shareAt(const SmallCells<D>& small, const Unshared<D>& state, const Index<D>& cell, const Index<D>& centre,
              const euler::StateViews<D, double>& fresh) {
-  const Index<D> centre = small.targetOf(cell);
   Pool<D> pool;
   pool.add(state, centre);
   bool shares = !(centre == cell);
@@ -166,16 +155,11 @@ void checkGas(const Level& level, const euler::Gas& gas, const Index<D>& cell, c
   if (free < leastFreeVolume || fresh.held.density[cell] == 0) return;
   const auto [density, stiff] = densityAndPressure<D>(gas, cell, free, fresh.held);
   if (density > 0 && stiff > 0 && std::isfinite(stiff)) return;
-  if (free < smallFreeVolume) {
+  if (free < smallFreeVolume && std::isfinite(density) && std::isfinite(stiff)) {
     fresh.free[cell] = 0;
     return;
   }
-  const Vec3 at = level.expandPoint<D>(level.cellCentre<D>(cell));
-  throw NumericalError(
-      fmt::format("the gas beside a body became impossible: {:.6g} kg/m^3 and {:.6g} Pa in the free {:.3g} of the cell "
-                  "at ({:g}, {:g}, {:g}) m",
-                  density, stiff - gas.pInfinity, free, at[0], at[1], at[2]),
-      "", "c.density", level.cellNumber<D>(cell));
+  refuseGas<D>(level, gas, cell, free, density, stiff);
 }
 
 /// The state after a step: small cells share theirs with neighbours.
@@ -190,11 +174,12 @@ void shareSmallCells(const Patch& patch, const Settings& settings, const Unshare
     std::copy_n(euler::rowOf(state.held.totalEnergy, first, count), count,
                 euler::rowOf(fresh.held.totalEnergy, first, count));
   });
-  const NearBodies<D> near(patch.cells(), 2, state.free, state.held.density);
-  const SmallCells<D> small(level, state);
+  const NearBodies<D> near(patch.cells(), shareReach, state.free, state.held.density);
+  const SmallCells<D> small(level, settings.thinWalls, state);
   near.forEachIn(patch.cells(), [&](const Index<D>& cell) {
-    shareAt<D>(small, state, cell, fresh.held);
-    if (small.isHole(cell)) fresh.free[cell] = 0;
+    const Index<D> centre = small.targetOf(cell);
+    shareAt<D>(small, state, cell, centre, fresh.held);
+    if (state.free[centre] < narrowFreeVolume) fresh.free[cell] = 0;  // a hole: what it holds waits until there is room
   });
   near.forEachIn(patch.cells(), [&](const Index<D>& cell) { checkGas<D>(level, settings.gas.gas, cell, fresh); });
 }

@@ -29,14 +29,15 @@ class CellWalls {
       : normal_(space.normal(cell)), w_(w) {
     double open = 0, all = 0;
     for (int d = 0; d < D; ++d) {
-      const double lower = space.aperture(cell, d, 0), upper = space.aperture(cell, d, 1);
-      const double tilt = (upper - lower) * level.inverseSpacing(d);
-      const double walls = (2 * space.area(cell, d) - upper - lower) * level.inverseSpacing(d);
+      const OpenFaces faces = faces_[d] = space.faces(cell, d);
+      const double tilt = (faces.open[1] - faces.open[0]) * level.inverseSpacing(d);
+      const double walls = (2 * faces.area - faces.open[1] - faces.open[0]) * level.inverseSpacing(d);
       open += tilt * tilt;
       all += walls * walls;
     }
     slip_ = all > 0 ? std::min(1.0, std::sqrt(open / all)) : 0;
   }
+  bool hasWall(int axis, int side) const { return faces_[axis].wall(side) > 0; }
   double pressure(const euler::Gas& gas, const Vec<D>& wallVelocity, int axis, int side) const {
     Vec<D> relative;
     for (int d = 0; d < D; ++d) relative[d] = w_[euler::kVelocity(d)] - wallVelocity[d];
@@ -48,6 +49,7 @@ class CellWalls {
  private:
   Vec<D> normal_;
   euler::State<D> w_;
+  std::array<OpenFaces, D> faces_;
   double slip_;
 };
 
@@ -67,7 +69,7 @@ void computeWallPressure(const Patch& patch, const std::vector<mpm::solid::Mater
     const CellWalls<D> ofCell(level, space, cell, cells.primitive(settings.gas.gas, cell));
     for (int d = 0; d < D; ++d) {
       const auto on = [&](const Index<D>& face, int side) {
-        if (!(space.wall(cell, d, side) > 0)) return 0.0;
+        if (!ofCell.hasWall(d, side)) return 0.0;
         const Vec<D> velocity = bodies.velocityAt(face, d, mpm::solid::lane::velocity);
         return ofCell.pressure(settings.gas.gas, velocity, d, side);
       };
@@ -96,10 +98,11 @@ double forceAt(const Level& level, const FreeSpace<D>& space, const KnownWalls<D
   const bool periodic = level.isPeriodic(axis);
   double force = 0;
   if (const Index<D> below = cell - Index<D>::unit(axis); periodic || below[axis] >= grid.lower[axis])
-    if (const double wall = space.wall(below, axis, 1); wall > 0)
+    if (const double wall = space.faces(below, axis).wall(1); wall > 0)
       force += wall * (walls.above[below][axis] - reference);
   if (periodic || cell[axis] < grid.upper[axis])
-    if (const double wall = space.wall(cell, axis, 0); wall > 0) force -= wall * (walls.below[cell][axis] - reference);
+    if (const double wall = space.faces(cell, axis).wall(0); wall > 0)
+      force -= wall * (walls.below[cell][axis] - reference);
   return force * level.cellVolume() * level.inverseSpacing(axis);
 }
 
