@@ -24,9 +24,13 @@ double costOf(const Index3& cells, const Index3& patches) {
 
 }  // namespace
 
+int usefulThreads(double cells, int cellsPerThread, int most) {
+  return std::max(1, static_cast<int>(std::min<double>(cells / cellsPerThread, most)));
+}
+
 int Workers::threadsFor(const Index3& cells) const {
   if (!mayBeFewer) return threads;
-  return std::max(1, static_cast<int>(std::min<double>(countOf(cells) / ranks / cellsPerThread, threads)));
+  return usefulThreads(countOf(cells) / ranks, cellsPerThread, threads);
 }
 
 int Workers::patchesFor(const Index3& cells) const {

@@ -9,6 +9,9 @@ namespace tushar::grid {
 
 inline constexpr int cellsPerThread = 8192;  ///< fewer are not worth a thread
 
+/// How many threads of at most `most` are worth having for so many cells: one at least.
+int usefulThreads(double cells, int cellsPerThread, int most);
+
 /// The ranks and threads that work on a grid.
 struct Workers {
   int threads = 1;          ///< of each rank

@@ -182,7 +182,11 @@ void readConditions(const std::vector<ConditionSection>& given, const std::vecto
   for (std::size_t k = 0; k < given.size() && k < tags.size(); ++k) {
     const grid::BoundaryVariable* label = findKind(labels, given[k].label);
     const bool followsDensity = given[k].label == "SpecificVol" && findKind(labels, "Density");
-    if (followsDensity) continue;
+    if (followsDensity && given[k].var == "computeFromDensity") continue;  // as it does anyway
+    if (followsDensity) {
+      diagnostics.note(tags[k], "does nothing: the specific volume follows from the Density");
+      continue;
+    }
     if (!label && isOfFlow(given[k].label))
       diagnostics.note(tags[k], given[k].label + " belongs to components of flow: nothing here depends on it");
     else if (!label && !labels.empty())

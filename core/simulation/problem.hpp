@@ -24,7 +24,7 @@ struct Problem {
   RegridSettings regrid;
   std::unique_ptr<grid::Grid> grid;
   int threads = 1;         ///< at the most
-  int cellsPerThread = 0;  ///< with so many cells of a rank a further thread pays; 0: with any
+  int cellsPerThread = 0;  ///< cells of a rank for each of its threads; 0: however few
   std::unique_ptr<Component> component;
   std::vector<std::unique_ptr<Analysis>> analyses;
   std::optional<Restart> restart;  ///< where the run goes on; none where it starts

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/grid/choose_patches.hpp"
 
 namespace tushar::tasks {
 
@@ -110,12 +111,10 @@ std::vector<double> Scheduler::takeCosts() {
 }
 
 int Scheduler::usefulThreads() const {
-  int useful = std::min(most_threads_, warehouse_->patches());
-  if (cells_per_thread_ > 0) {
-    const double cells = static_cast<double>(warehouse_->grid().cellCount()) / warehouse_->ranks().size();
-    useful = static_cast<int>(std::min<double>(useful, cells / cells_per_thread_));
-  }
-  return std::max(1, useful);
+  const int most = std::max(1, std::min(most_threads_, warehouse_->patches()));
+  if (cells_per_thread_ == 0) return most;
+  const double cells = static_cast<double>(warehouse_->grid().cellCount()) / warehouse_->ranks().size();
+  return grid::usefulThreads(cells, cells_per_thread_, most);
 }
 
 void Scheduler::forgetLayout() {

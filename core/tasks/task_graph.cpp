@@ -16,15 +16,12 @@ using data::Generation;
 
 namespace {
 
-/// Every label that the tasks name, and the materials it has (0: belongs to none).
-std::map<std::string, std::pair<const data::Label*, int>, std::less<>> labelsOf(const std::vector<Task>& tasks) {
-  std::map<std::string, std::pair<const data::Label*, int>, std::less<>> labels;
+/// Every label that the tasks name.
+std::map<std::string, const data::Label*, std::less<>> labelsOf(const std::vector<Task>& tasks) {
+  std::map<std::string, const data::Label*, std::less<>> labels;
   for (const Task& task : tasks) {
-    const int materials = static_cast<int>(task.materials.size());
-    for (const Access& access : task.accesses)
-      labels.try_emplace(std::string(access.label->name), access.label, materials);
-    if (task.kind != TaskKind::work)
-      labels.try_emplace(std::string(data::particleId.name), &data::particleId, materials);
+    for (const Access& access : task.accesses) labels.try_emplace(std::string(access.label->name), access.label);
+    if (task.kind != TaskKind::work) labels.try_emplace(std::string(data::particleId.name), &data::particleId);
   }
   return labels;
 }
@@ -132,9 +129,8 @@ std::vector<Carried> TaskGraph::carriedBy(std::size_t t, int material, data::Var
   for (const std::string& name : live) {
     // What no task of this list names, an earlier list has made: it is only carried.
     const auto known = labels.find(name);
-    if (known != labels.end() && known->second.first->centring != Centring::particle) continue;
-    const int number =
-        known == labels.end() ? table.find(name, material) : table.number(*known->second.first, material);
+    if (known != labels.end() && known->second->centring != Centring::particle) continue;
+    const int number = known == labels.end() ? table.find(name, material) : table.number(*known->second, material);
     if (number < 0 || table[number].label->centring != Centring::particle) continue;
     const bool isNew =
         produced.contains(name) && t + 1 < pruned_.kept.size();  // the last task moves what counts already

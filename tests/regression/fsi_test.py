@@ -51,48 +51,57 @@ class Exactness(unittest.TestCase):
 
 
 class References(unittest.TestCase):
-    """Half as much again as a prototype of the method has at these widths of cells."""
+    """Half as much again as the table of ups/fsi/README.md. Where an error changes its sign from width to width, so that
+    the table has it small by chance, the limit is half as much again as the next coarser width has."""
 
     def assert_within(self, errors, **most):
         for name, limit in most.items():
             self.assertLess(abs(errors[name]), limit, errors)
 
     def test_a_piston_that_gas_drives(self):
-        self.assert_within(fsi.gun(150), v=1.5 * 6.1e-4, x=1.5 * 1.7e-3, energy=1e-12)
+        self.assert_within(fsi.gun(150), v=1.5 * 4.8e-4, x=1.5 * 1.2e-3, energy=1e-14)
 
     def test_a_plug_between_two_pressures(self):
-        self.assert_within(fsi.plug(100), v=1.5 * 8.8e-4, x=1.5 * 2.1e-3, energy=1e-12)
+        self.assert_within(fsi.plug(100), v=1.5 * 2.6e-4, x=1.5 * 2.8e-4, energy=1e-14)
 
     def test_a_plate_in_a_shock_tube(self):
-        self.assert_within(fsi.sod_plate(103), v=1e-3, x=1.5 * 3.2e-3, energy=1e-12)
+        self.assert_within(fsi.sod_plate(206), v=1.5 * 8e-5, x=1.5 * 2.5e-4, energy=1e-14)
 
     def test_errors_fall_with_the_width_of_cells(self):
         coarse, fine = fsi.plug(50), fsi.plug(200)
-        self.assertLess(abs(fine["v"]), .35 * abs(coarse["v"]))
-        self.assertLess(abs(fine["x"]), .35 * abs(coarse["x"]))
+        self.assertLess(abs(fine["v"]), .3 * abs(coarse["v"]))
+        self.assertLess(abs(fine["x"]), .3 * abs(coarse["x"]))
 
     def test_a_shock_on_an_elastic_wall(self):
-        self.assert_within(fsi.elastic_wall(200), gas=3.4e-3, stress=1.1e-3, v=5e-3)
+        self.assert_within(fsi.elastic_wall(100), gas=1.5 * 3.5e-3, stress=1.5 * 5.2e-3, v=1.5 * 4.8e-3)
+        self.assert_within(fsi.elastic_wall(200), stress=1.5 * 2e-4, v=1.5 * 7e-4)
 
     def test_a_piston_of_given_speed(self):
-        self.assert_within(fsi.moving_piston(150), ahead=1e-3, behind=5e-3)
+        self.assert_within(fsi.moving_piston(150), ahead=1.5 * 1.9e-4, behind=1.5 * 1.2e-3)
+
+    def test_a_plug_that_swings_in_a_box(self):
+        self.assert_within(fsi.closed_box(50), mass=1e-14, energy=1.5 * 8e-6)
+
+    def test_flow_past_a_wedge(self):
+        self.assert_within(fsi.wedge(100), p=1.5 * 1.5e-2)
 
 
 class Conservation(SceneTest):
     def assert_kept(self, text, *sets, elastic=False):
         found = globals_of(self.scene(text), *TOTALS, sets=sets)
         rows = list(zip(*(found[name] for name in TOTALS)))
-        start, size = None, 0
+        start = None
         for mass, momentum, kinetic, gas, _, energy, ofGas in rows:
             kept = [gas[1], mass[1], *momentum[1:], energy[1] + kinetic[1] - ofGas[1]]
             start = start or kept
-            size = max(size, *(abs(one) for one in found["GasMomentum"][0][1:]))
+            fastest = (2 * start[1] * start[-1]) ** .5  # momentum that this mass has with all of the energy
             for number, (value, before) in enumerate(zip(kept, start)):
                 if elastic and number == len(kept) - 1:
                     continue  # strain is not summed
-                unit = max(abs(before), size, abs(start[1])) if 2 <= number < 5 else abs(before)
+                unit = fastest if 2 <= number < 5 else abs(before)
                 self.assertLess(abs(value - before), 1e-12 * unit, f"number {number} at t = {mass[0]}")
-        self.assertGreater(abs(rows[-1][2][1] / rows[0][2][1] - 1), 1e-3, "nothing happened")
+        of_body = [row[2][1] - row[6][1] for row in (rows[0], rows[-1])]
+        self.assertGreater(abs(of_body[1] / of_body[0] - 1), 1e-3, "the body did not notice")
 
     def test_of_a_rigid_body_between_waves_on_a_line(self):
         text = changed(saving(rigid(CONTACT), *TOTALS), ("<temperature>10<", "<temperature>30<"), LIGHT,
@@ -208,10 +217,15 @@ class FarBodies(SceneTest):
 
 class RigidBodies(SceneTest):
     def test_move_as_they_started_whatever_the_gas_does(self):
-        with self.subTest("one that moves"):
-            scene = self.scene(fsi.scene("moving_piston").read_text())
-            speeds = columns(archive_of(scene, scene.parent), "p.velocity")["p.velocity.x [m/s]"]
-            self.assertLess(max(abs(speed - 1) for speed in speeds), 1e-12)
+        scene = self.scene(fsi.scene("moving_piston").read_text())
+        speeds = columns(archive_of(scene, scene.parent), "p.velocity")["p.velocity.x [m/s]"]
+        self.assertLess(max(abs(speed - 1) for speed in speeds), 1e-12)
+
+    def test_stay_where_they_are_in_a_flow(self):
+        save = '<save label="c.pressure"/>'
+        scene = self.scene(changed(fsi.scene("wedge").read_text(), (save, save + '<save label="p.velocity"/>')))
+        found = columns(archive_of(scene, scene.parent, "Time/maxTime=0.2", *fsi.resolution("wedge", 40)), "p.velocity")
+        self.assertEqual({speed for axis in "xy" for speed in found[f"p.velocity.{axis} [m/s]"]}, {0})
 
 
 class WrongScenes(SceneTest):
@@ -236,6 +250,24 @@ class WrongScenes(SceneTest):
     def test_bodies_have_walls(self):
         self.assert_refused(PLUG.replace("<momentum>[1e15]", "<momentum>[1e3]"),
                             "1000 between body 0 and the gas is not available: bodies have walls")
+
+    def test_a_number_for_each_pair_of_materials(self):
+        self.assert_refused(PLUG.replace("<momentum>[1e15]", "<momentum>[1e15,1e15]"),
+                            "found 2 numbers, expected 1: one for each pair of 2 materials")
+        self.assert_refused(PLUG.replace("<heat>[0]", "<heat>[0,0]"), "found 2 numbers, expected 1")
+
+    def test_cells_may_be_half_full(self):
+        self.assert_refused(PLUG.replace("<cfl>0.4", "<cfl>0.6"), "found 0.6, expected at most 0.5 beside bodies")
+
+    def test_a_gas_is_not_axisymmetric(self):
+        self.assert_refused(PLUG.replace("<MPM>\n", "<MPM>\n    <axisymmetric>true</axisymmetric>\n", 1),
+                            "not beside a gas")
+
+    def test_a_region_without_a_cell(self):
+        self.assert_refused(PLUG.replace("</geom_object>\n      </material>\n    </ICE>", "</geom_object>"
+                                         "<geom_object><box><min>[8,0,0]</min><max>[9,1,1]</max></box>"
+                                         "<density>1</density><temperature>1</temperature></geom_object>"
+                                         "</material></ICE>"), "its shape contains the middle of no cell")
 
     def test_gas_beside_bodies_has_no_viscosity(self):
         self.assert_refused(PLUG.replace("<dynamic_viscosity>0", "<dynamic_viscosity>1e-5"), "not beside bodies")

@@ -173,7 +173,7 @@ def cylinder(cells):
 
 
 def closed_box(cells):
-    """How much mass and momentum change, relative, and how much energy, that of strain included."""
+    """How much the mass of the gas and all energy, that of strain included, change, relative."""
     run_of = Outcome("closed_box", cells)
     energies = [one + strain[1] for one, strain in zip(run_of.energies(), run_of.totals["StrainEnergy"])]
     return {"mass": run_of.drift([line[1] for line in run_of.totals["GasMass"]]),
