@@ -24,8 +24,8 @@ double costOf(const Index3& cells, const Index3& patches) {
 
 }  // namespace
 
-int usefulThreads(double cells, int cellsPerThread, int most) {
-  return std::max(1, static_cast<int>(std::min<double>(cells / cellsPerThread, most)));
+int usefulThreads(double cells, int cellsOfThread, int most) {
+  return std::max(1, static_cast<int>(std::min<double>(cells / cellsOfThread, most)));
 }
 
 int Workers::threadsFor(const Index3& cells) const {

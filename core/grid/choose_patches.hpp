@@ -10,7 +10,7 @@ namespace tushar::grid {
 inline constexpr int cellsPerThread = 8192;  ///< fewer are not worth a thread
 
 /// How many threads of at most `most` are worth having for so many cells: one at least.
-int usefulThreads(double cells, int cellsPerThread, int most);
+int usefulThreads(double cells, int cellsOfThread, int most);
 
 /// The ranks and threads that work on a grid.
 struct Workers {
