@@ -52,8 +52,7 @@ class Exactness(unittest.TestCase):
 
 class References(unittest.TestCase):
     """Half as much again as the table of ups/fsi/README.md. Where an error changes its sign from width to width, so
-    that
-    the table has it small by chance, the limit is half as much again as the next coarser width has."""
+    that the table has it small by chance, the limit is half as much again as the next coarser width has."""
 
     def assert_within(self, errors, **most):
         for name, limit in most.items():
