@@ -36,8 +36,10 @@ SharedSlots laidOutAnew(const std::vector<std::size_t>& counts) {
 
 bool Slots::extends(const Slots& other) const {
   if (first.size() != other.first.size() || end < other.end) return false;
-  for (std::size_t place = 0; place < first.size(); ++place)
-    if (first[place] != other.first[place] && first[place] < other.end) return false;
+  for (std::size_t place = 0; place < first.size(); ++place) {
+    const bool stays = first[place] == other.first[place];
+    if (stays ? room[place] > other.room[place] : first[place] < other.end) return false;
+  }
   return true;
 }
 

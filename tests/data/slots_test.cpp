@@ -38,6 +38,40 @@ TEST(Slots, MoveBehindAllOthersWhereAPatchHasOutgrownItsOwn) {
   EXPECT_TRUE(areDisjoint(*grown));
 }
 
+/// Whether no slot reaches over one that another patch had before.
+bool leavesOthersAlone(const Slots& now, const Slots& before) {
+  for (std::size_t a = 0; a < now.first.size(); ++a)
+    for (std::size_t b = 0; b < now.first.size(); ++b)
+      if (a != b && now.first[a] < before.first[b] + before.room[b] && before.first[b] < now.first[a] + now.room[a])
+        return false;
+  return true;
+}
+
+TEST(Slots, ThatAreLaidOutAnewFromTheSamePlaceOnDoNotExtendTheOldOnes) {
+  const SharedSlots base = slotsThatFit(nullptr, {214, 0});
+
+  const SharedSlots anew = slotsThatFit(base, {242, 1});
+
+  ASSERT_EQ(anew->first[0], base->first[0]);
+  ASSERT_GE(anew->first[1], base->end) << "so that the second patch seems to have moved behind all others";
+  ASSERT_FALSE(leavesOthersAlone(*anew, *base));
+  EXPECT_FALSE(anew->extends(*base));
+}
+
+TEST(Slots, ThatExtendOthersLeaveAloneWhatOtherPatchesHaveStillToFetch) {
+  int extended = 0;
+  for (std::size_t third : {0, 2000})
+    for (std::size_t large = 100; large < 400; large += 3)
+      for (std::size_t more = 0; more < 60; more += 4) {
+        const SharedSlots base = slotsThatFit(nullptr, {large, 0, third});
+        const SharedSlots next = slotsThatFit(base, {large + more, more / 8, third});
+        if (next == base || !next->extends(*base)) continue;
+        ++extended;
+        ASSERT_TRUE(leavesOthersAlone(*next, *base)) << large << ' ' << more << ' ' << third;
+      }
+  EXPECT_GT(extended, 100);
+}
+
 TEST(Slots, NeverTakeMuchMoreThanTheParticlesHoweverTheyMove) {
   constexpr std::size_t all = 100'000, patches = 10;
   SharedSlots slots;
