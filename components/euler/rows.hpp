@@ -58,14 +58,26 @@ class Rows {
 
   /// The numbers of a cell; those of the next cell of its row follow.
   Pointers at(const Index<D>& cell) {
-    std::ptrdiff_t offset = 0;
-    for (int d = 0; d < D; ++d) offset += (cell[d] - box_.lower[d]) * stride(d);
+    const std::ptrdiff_t offset = offsetOf(cell);
     Pointers pointers;
     for (std::size_t k = 0; k < numbers; ++k) pointers[k] = values_.data() + k * cells_ + offset;
     return pointers;
   }
+  /// One number of a cell, and all of them.
+  double number(const Index<D>& cell, std::size_t k) const { return values_[k * cells_ + offsetOf(cell)]; }
+  State<D> state(const Index<D>& cell) const {
+    State<D> state;
+    for (std::size_t k = 0; k < numbers; ++k) state[k] = number(cell, k);
+    return state;
+  }
 
  private:
+  std::ptrdiff_t offsetOf(const Index<D>& cell) const {
+    std::ptrdiff_t offset = 0;
+    for (int d = 0; d < D; ++d) offset += (cell[d] - box_.lower[d]) * stride(d);
+    return offset;
+  }
+
   std::size_t cells_;
   std::vector<double> values_;
   Box box_;

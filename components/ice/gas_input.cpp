@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "components/euler/labels.hpp"
@@ -95,6 +96,35 @@ void readMaterial(const GasMaterial& material, const Element& element, GasScene&
   }
 }
 
+bool isImplicit(const IceSection& ice) { return ice.implicit && !ice.isExplicit; }
+
+/// Sections of implicit steps that do nothing here.
+void noteIdle(const Element& root, const IceSection& ice, Diagnostics& diagnostics) {
+  if (const auto solver = root.child(solverTag))
+    diagnostics.note(*solver, isImplicit(ice) ? "does nothing: <ImplicitSolver> has what its solve needs"
+                                              : "does nothing: steps are explicit, without a system of equations");
+  if (ice.steps && !isImplicit(ice))
+    diagnostics.note(*root.child("CFD")->child("ICE")->child("TimeStepControl"),
+                     "does nothing: steps follow from <cfl>, the sound and the diffusion in each cell");
+}
+
+/// Uintah's scenes ask for residuals as small as 1e-22; rounding leaves more.
+constexpr double leastTolerance = 1e-12;
+
+ImplicitPressure implicitPressureOf(const IceSection& ice) {
+  ImplicitPressure read;
+  read.where = ice.implicit->where;
+  read.soundSpeedKnob = ice.steps ? ice.steps->soundSpeedKnob : 0.5;
+  if (const auto& hypre = ice.implicit->hypre) {
+    read.solver.solver = hypre->solver;
+    read.solver.preconditioner = hypre->preconditioner;
+    read.solver.tolerance = std::clamp(hypre->tolerance, leastTolerance, 0.1);
+    read.solver.maxIterations = hypre->maxIterations;
+  }
+  if (ice.implicit->solver) read.solver = *ice.implicit->solver;
+  return read;
+}
+
 }  // namespace
 
 GasScene readGas(const Element& root, int solids, Diagnostics& diagnostics) {
@@ -103,8 +133,7 @@ GasScene readGas(const Element& root, int solids, Diagnostics& diagnostics) {
   const ConstantsSection constants = simulation::readOptionalSection(root, constantsSchema(), diagnostics);
   const PropertiesSection properties = simulation::readSection(root, propertiesSchema(), diagnostics);
   simulation::readOptionalSection(root, modelsSchema(), diagnostics);
-  if (const auto solver = root.child(solverTag))
-    diagnostics.note(*solver, "does nothing: steps are explicit, without a system of equations");
+  noteIdle(root, cfd.ice, diagnostics);
   checkConditions(root, solids, diagnostics);
   GasScene scene;
   if (diagnostics.size() > before) return scene;
@@ -117,6 +146,7 @@ GasScene readGas(const Element& root, int solids, Diagnostics& diagnostics) {
   scene.thinWalls = cfd.ice.thinWalls;
   scene.gravity = constants.gravity;
   scene.referencePressure = constants.referencePressure;
+  if (isImplicit(cfd.ice)) scene.implicit = implicitPressureOf(cfd.ice);
   if (properties.exchange) scene.exchange = properties.exchange->coefficients;
   readMaterial(properties.ice.materials.front(), *root.child("MaterialProperties")->child("ICE")->child("material"),
                scene, diagnostics);

@@ -6,6 +6,7 @@
 #include "components/euler/settings.hpp"
 #include "core/input/diagnostics.hpp"
 #include "core/simulation/catalogue.hpp"
+#include "core/solvers/solver.hpp"
 
 namespace tushar::ice {
 
@@ -15,6 +16,13 @@ struct Exchange {
   Location where;                ///< in the scene
   std::vector<double> momentum;  ///< kg/(m³ s)
   std::vector<double> heat;      ///< W/(m³ K)
+};
+
+/// How the pressure is solved for, where sound is not to limit the steps.
+struct ImplicitPressure {
+  Location where;             ///< in the scene
+  double soundSpeedKnob = 0;  ///< part of the speed of sound that limits the steps
+  solvers::LinearSettings solver;
 };
 
 /// A gas, as the sections of a scene of Uintah's ICE have it.
@@ -28,6 +36,7 @@ struct GasScene {
   double conductivity = 0;                ///< W/(m K)
   std::optional<bool> thinWalls = {};     ///< whether bodies thinner than a cell hold the gas back
   std::optional<Exchange> exchange = {};  ///< with other materials
+  std::optional<ImplicitPressure> implicit = {};
 };
 
 /// Reads <CFD>, <PhysicalConstants>, <MaterialProperties>, but what it has of MPM, and the conditions at the sides of

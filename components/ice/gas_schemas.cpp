@@ -2,6 +2,7 @@
 
 #include "core/input/geometry.hpp"
 #include "core/input/refuse.hpp"
+#include "core/solvers/input.hpp"
 
 namespace tushar::ice {
 
@@ -23,13 +24,68 @@ const Schema<AdvectionSection>& advectionSchema() {
   return schema;
 }
 
-void refuseImplicit(IceSection&, const Element& element, Diagnostics& diagnostics) {
-  const auto given = element.child("ImplicitSolver");
-  const auto isExplicit = element.child("explicit");
-  if (given && !(isExplicit && isExplicit->text() == "true"))
-    diagnostics.error(*given,
-                      "is not available: steps are explicit, and as short as sound allows. Take it out, or run with "
-                      "--set CFD/ICE/explicit=true");
+const Schema<StepSection>& stepSchema() {
+  static const Schema<StepSection> schema =
+      Schema<StepSection>("TimeStepControl", "How long the steps of an <ImplicitSolver> are.")
+          .value("knob_for_speedSound", &StepSection::soundSpeedKnob, 0, "1",
+                 "part of the speed of sound that limits the steps, beside the flow and what accelerates it",
+                 input::between(0, 1))
+          .ignored("knob_for_diffusion", "viscosity and conduction are explicit, and limit the steps in full")
+          .ignored("Scheme_for_delT_calc", "there is one scheme: dt = cfl over the rate at which cells are crossed");
+  return schema;
+}
+
+const Schema<HypreSection>& hypreSchema() {
+  static const Schema<HypreSection> schema = [] {
+    Schema<HypreSection> tags("Parameters", "How the pressure is solved for, in the words of hypre.");
+    const std::string cg = "cg", multigrid = "hypre";
+    tags.foreignAttribute("variable", "implicitPressure")
+        .choice("solver", &HypreSection::solver,
+                {{"cg", cg},
+                 {"pcg", cg},
+                 {"conjugategradient", cg},
+                 {"gmres", "gmres"},
+                 {"amg", cg},
+                 {"smg", cg},
+                 {"pfmg", cg},
+                 {"sparsemsg", cg},
+                 {"hybrid", cg},
+                 {"jacobi", cg}},
+                cg, "conjugate gradients or GMRES; any other word: conjugate gradients")
+        .choice("preconditioner", &HypreSection::preconditioner,
+                {{"none", "none"},
+                 {"jacobi", "jacobi"},
+                 {"diagonal", "jacobi"},
+                 {"pfmg", multigrid},
+                 {"smg", multigrid},
+                 {"sparsemsg", multigrid},
+                 {"amg", multigrid}},
+                multigrid, "BoomerAMG of hypre for any of its multigrids, the diagonal, or none")
+        .value("tolerance", &HypreSection::tolerance, 1e-10, "1", "residual over right-hand side, at least 1e-12",
+               input::positive())
+        .value("maxiterations", &HypreSection::maxIterations, 1000, "1", "more of them are a failure",
+               input::atLeast(1));
+    for (const char* tag : {"npre", "npost", "skip", "jump", "logging", "norm", "criteria", "relax_type",
+                            "initial_tolerance", "setupFrequency", "updateCoefFrequency", "solveFrequency"})
+      tags.ignored(tag, "belongs to hypre's own solvers");
+    return tags;
+  }();
+  return schema;
+}
+
+const Schema<ImplicitSection>& implicitSchema() {
+  static const Schema<ImplicitSection> schema = [] {
+    Schema<ImplicitSection> tags("ImplicitSolver", "Steps that sound does not limit: the pressure is solved for.");
+    tags.location(&ImplicitSection::where)
+        .section("Parameters", &ImplicitSection::hypre, hypreSchema(), "how, as in Uintah's scenes")
+        .section("Solver", &ImplicitSection::solver, solvers::linearSchema(), "how, in the words of PETSc")
+        .ours();
+    for (const char* tag : {"max_outer_iterations", "outer_iteration_tolerance", "iters_before_timestep_restart",
+                            "iters_before_timestep_recompute"})
+      tags.ignored(tag, "a step has one solve: mass, momentum and energy are kept whatever the pressure is");
+    return tags;
+  }();
+  return schema;
 }
 
 const Schema<IceSection>& iceSchema() {
@@ -43,9 +99,9 @@ const Schema<IceSection>& iceSchema() {
             "bodies thinner than a cell hold the gas back, too; oblique walls are rougher then. Without it, bodies "
             "of less than 1.25 cells leak")
         .ours()
-        .custom("ImplicitSolver", refuseImplicit, {"ImplicitSolver"}, "only with <explicit>, which passes over it")
-        .forms({input::anyForm({"ImplicitSolver"})});
-    input::noteTag(tags, "TimeStepControl", "steps follow from <cfl>, the sound and the diffusion in each cell");
+        .section("ImplicitSolver", &IceSection::implicit, implicitSchema(),
+                 "the pressure is solved for, so that sound does not limit the steps; <explicit> passes over it")
+        .section("TimeStepControl", &IceSection::steps, stepSchema(), "the steps of an <ImplicitSolver>");
     input::noteTag(tags, "max_iteration_equilibration", "the pressure follows from density and energy");
     input::noteTag(tags, "ClampSpecificVolume", "the specific volume is that of the density");
     input::refuseTag(tags, "customInitialization", "give <velocity> or <temperature> a formula in x, y, z");

@@ -15,10 +15,31 @@ struct AdvectionSection {
   euler::Reconstruction reconstruction = euler::Reconstruction::musclHancock;
 };
 
+/// `CFD/ICE/TimeStepControl`.
+struct StepSection {
+  double soundSpeedKnob = 0;
+};
+
+/// `CFD/ICE/ImplicitSolver/Parameters`, in hypre's words.
+struct HypreSection {
+  std::string solver, preconditioner;
+  double tolerance = 0;
+  int maxIterations = 0;
+};
+
+/// `CFD/ICE/ImplicitSolver`.
+struct ImplicitSection {
+  Location where;  ///< in the scene
+  std::optional<HypreSection> hypre;
+  std::optional<solvers::LinearSettings> solver;
+};
+
 /// `CFD/ICE`.
 struct IceSection {
   AdvectionSection advection;
   bool isExplicit = false;
+  std::optional<StepSection> steps;
+  std::optional<ImplicitSection> implicit;
   std::optional<bool> thinWalls;
 };
 

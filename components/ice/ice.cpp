@@ -3,10 +3,27 @@
 #include "components/euler/tasks/add_diffusion.hpp"
 #include "components/euler/tasks/add_gravity.hpp"
 #include "components/ice/diagnose.hpp"
+#include "components/ice/tasks/advance_implicitly.hpp"
+#include "components/ice/tasks/limit_implicit_step.hpp"
+#include "components/ice/tasks/solve_pressure.hpp"
 #include "components/ice/uintah_words.hpp"
 #include "core/simulation/by_dimension.hpp"
 
 namespace tushar::ice {
+
+namespace {
+
+/// Behind the step of the gas; `gas` and `diffusion` outlive the tasks.
+template <int D>
+void scheduleDiffusion(TaskList& tasks, const euler::Gas& gas, const euler::Diffusion& diffusion) {
+  if (!diffusion.acts()) return;
+  tasks.perPatch("euler::addDiffusion", euler::addDiffusion<D>, with(gas), with(diffusion),
+                 requiresOld(euler::c::density, 1), requiresOld(euler::c::momentum<D>, 1),
+                 requiresOld(euler::c::totalEnergy, 1), requiresOld(delT), modifies(euler::c::momentum<D>),
+                 modifies(euler::c::totalEnergy), all<euler::DiffusionRims<D>>());
+}
+
+}  // namespace
 
 template <int D>
 void Ice<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
@@ -20,11 +37,7 @@ void Ice<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
 template <int D>
 void Ice<D>::scheduleTimeAdvance(TaskList& tasks) const {
   euler::Euler<D>::scheduleTimeAdvance(tasks);
-  if (diffusion_.acts())
-    tasks.perPatch("euler::addDiffusion", euler::addDiffusion<D>, with(gas_), with(diffusion_),
-                   requiresOld(euler::c::density, 1), requiresOld(euler::c::momentum<D>, 1),
-                   requiresOld(euler::c::totalEnergy, 1), requiresOld(delT), modifies(euler::c::momentum<D>),
-                   modifies(euler::c::totalEnergy), all<euler::DiffusionRims<D>>());
+  scheduleDiffusion<D>(tasks, gas_, diffusion_);
   if (!gravity_.isZero(0))
     tasks.perPatch("euler::addGravity", euler::addGravity<D>, with(gravity_), requiresNew(euler::c::density),
                    requiresOld(delT), modifies(euler::c::momentum<D>), modifies(euler::c::totalEnergy));
@@ -54,6 +67,47 @@ std::vector<std::pair<std::string, std::string>> Ice<D>::otherNames() const {
   return uintahsNames;
 }
 
+template <int D>
+ImplicitIce<D>::ImplicitIce(const GasScene& scene)
+    : Ice<D>(scene),
+      settings_{.gas = scene.gas.gas,
+                .diffusion = {scene.viscosity, scene.conductivity},
+                .gravity = scene.gravity,
+                .cfl = scene.gas.cfl,
+                .soundSpeedKnob = scene.implicit->soundSpeedKnob,
+                .hasSlopes = scene.gas.method.reconstruction != euler::Reconstruction::firstOrder,
+                .solver = scene.implicit->solver} {}
+
+template <int D>
+void ImplicitIce<D>::scheduleInitialize(TaskList& tasks) const {
+  Ice<D>::scheduleInitialize(tasks);
+  tasks.perPatch("ice::initializePressure", initializePressure<D>, with(settings_.gas), requiresNew(euler::c::density),
+                 requiresNew(euler::c::momentum<D>), requiresNew(euler::c::totalEnergy), computes(c::pressureAtEnd));
+}
+
+template <int D>
+void ImplicitIce<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
+  tasks.perPatch("ice::limitImplicitStep", limitImplicitStep<D>, with(settings_), requiresOld(euler::c::density, 2),
+                 requiresOld(euler::c::momentum<D>, 2), requiresOld(euler::c::totalEnergy, 2),
+                 requiresOld(c::pressureAtEnd, 2), computes(delT));
+}
+
+template <int D>
+void ImplicitIce<D>::scheduleTimeAdvance(TaskList& tasks) const {
+  tasks.perRank("ice::solvePressure", solvePressure<D>, togetherOnRanks(), with(settings_), requiresOld(delT),
+                requiresOld(euler::c::density, 2), requiresOld(euler::c::momentum<D>, 2),
+                requiresOld(euler::c::totalEnergy, 2), requiresOld(c::pressureAtEnd), computes(c::pressureAtEnd),
+                totals<SolveTotals>());
+  tasks.perPatch("ice::advanceImplicitly", advanceImplicitly<D>, with(settings_), requiresOld(euler::c::density, 2),
+                 requiresOld(euler::c::momentum<D>, 2), requiresOld(euler::c::totalEnergy, 2), requiresOld(delT),
+                 requiresNew(c::pressureAtEnd, 2), computes(euler::c::density), computes(euler::c::momentum<D>),
+                 computes(euler::c::totalEnergy));
+  scheduleDiffusion<D>(tasks, settings_.gas, settings_.diffusion);
+}
+
+template class ImplicitIce<1>;
+template class ImplicitIce<2>;
+template class ImplicitIce<3>;
 template class Ice<1>;
 template class Ice<2>;
 template class Ice<3>;
@@ -76,7 +130,10 @@ simulation::ComponentKind kind() {
     if (scene.thinWalls) diagnostics.note(scene.where, thinWallsPath, "does nothing: there are no bodies");
     if (scene.exchange) diagnostics.note(scene.exchange->where, exchangePath, "does nothing: there is one material");
     if (diagnostics.size() > before) return {};
-    return [scene](const Level& level) { return simulation::makeByDimension<Ice>(level, scene); };
+    return [scene](const Level& level) {
+      return scene.implicit ? simulation::makeByDimension<ImplicitIce>(level, scene)
+                            : simulation::makeByDimension<Ice>(level, scene);
+    };
   };
   return kind;
 }

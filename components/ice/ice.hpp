@@ -2,6 +2,7 @@
 
 #include "components/euler/diffusion.hpp"
 #include "components/euler/euler.hpp"
+#include "components/ice/face_flow.hpp"
 #include "components/ice/gas_input.hpp"
 #include "core/simulation/catalogue.hpp"
 
@@ -33,9 +34,31 @@ class Ice : public euler::Euler<D> {
   Vec3 gravity_;
 };
 
+/// The same in steps that sound does not limit: the pressure at the end of a step is the solution of a linear system,
+/// and mass, momentum and energy flow by it.
+template <int D>
+class ImplicitIce : public Ice<D> {
+ public:
+  explicit ImplicitIce(const GasScene& scene);
+
+  void scheduleInitialize(TaskList& tasks) const override;
+  void scheduleComputeStableTimeStep(TaskList& tasks) const override;
+  void scheduleTimeAdvance(TaskList& tasks) const override;
+  bool mayRepeatStep() const override { return true; }
+  std::string whyOneLevel() const override {
+    return "the pressure of an <ImplicitSolver> is solved for on one; CFD/ICE/explicit=true passes over it";
+  }
+
+ private:
+  ImplicitGas settings_;
+};
+
 extern template class Ice<1>;
 extern template class Ice<2>;
 extern template class Ice<3>;
+extern template class ImplicitIce<1>;
+extern template class ImplicitIce<2>;
+extern template class ImplicitIce<3>;
 
 /// The entry of this component in the table of sus.
 simulation::ComponentKind kind();

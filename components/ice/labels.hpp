@@ -9,10 +9,12 @@ namespace c {
 inline constexpr CellLabel<double> temperature{"c.temperature", "K", "temperature"};
 inline constexpr CellLabel<double> specificVolume{"c.specificVolume", "m^3/kg", "volume per mass"};
 inline constexpr CellLabel<double> soundSpeed{"c.soundSpeed", "m/s", "speed of sound"};
+inline constexpr CellLabel<double> pressureAtEnd{"c.pressureAtEnd", "Pa", "pressure that an implicit step ends with"};
 }  // namespace c
 
 namespace total {
 inline constexpr ReductionLabel<Sum> internalEnergy{"TotalIntEng", "J", "internal energy in all cells"};
+inline constexpr ReductionLabel<Maximum> iterations{"KrylovIterations", "1", "iterations of the linear solve"};
 }  // namespace total
 
 }  // namespace tushar::ice

@@ -97,6 +97,10 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
   const std::size_t before = diagnostics.size();
   const int solids = countSolids(root);
   const ice::GasScene scene = ice::readGas(root, solids, diagnostics);
+  if (scene.implicit)
+    diagnostics.error(scene.implicit->where, "CFD/ICE/ImplicitSolver",
+                      "is not available beside bodies: steps are explicit, and as short as sound allows. Take it out, "
+                      "or run with --set CFD/ICE/explicit=true");
   const mpm::solid::MakeSurrounded makeSolids = mpm::solid::readSurrounded(root, diagnostics);
   if (diagnostics.size() > before || !makeSolids) return {};
   Settings settings{scene.gas, scene.referencePressure, scene.gravity, {}, scene.thinWalls.value_or(false), areRigid};

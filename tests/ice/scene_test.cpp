@@ -1,11 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <fstream>
-#include <sstream>
-
 #include "tests/support/scenes.hpp"
-#include "tests/support/temporary.hpp"
 
 namespace tushar::ice {
 
@@ -16,17 +11,8 @@ using Overrides = std::vector<std::string>;
 const std::string sod = "ups/ice/sod.ups", shear = "ups/ice/shear_wave.ups", channel = "ups/ice/channel.ups",
                   heat = "ups/ice/heat_wave.ups";
 
-/// A scene with a piece of text replaced.
-std::string changedScene(const std::string& scene, const std::string& from, const std::string& to) {
-  std::stringstream text;
-  text << std::ifstream(scene).rdbuf();
-  std::string changed = text.str();
-  const std::size_t at = changed.find(from);
-  if (at == std::string::npos) throw std::logic_error("the scene has no " + from);
-  const std::string path = test::temporaryFolder() + "changed.ups";
-  std::ofstream(path) << changed.replace(at, from.size(), to);
-  return path;
-}
+using test::changedScene;
+using test::driftOf;
 
 /// What is wrong with the scene, without its place; what is noted, if nothing is.
 std::string problemOf(const std::string& scene, const Overrides& overrides = {}) {
@@ -43,12 +29,6 @@ std::string problemOf(const std::string& scene, const Overrides& overrides = {})
 
 double errorOf(const std::string& scene, const Overrides& overrides) {
   return test::runScene(scene, overrides).errors.at(0).norms.at("max");
-}
-
-double driftOf(const report::Report& report, const std::string& name) {
-  for (const report::Drift& drift : report.drifts)
-    if (drift.name == name) return drift.change;
-  return NAN;
 }
 
 const std::string side = R"(<Face side="x-"><BCType id="all" label="Symmetric" var="symmetry"/></Face>)";
@@ -145,14 +125,6 @@ TEST(IceScene, RefusesConditionsOfAnotherMaterial) {
 TEST(IceScene, RefusesAPartOfASide) {
   EXPECT_EQ(problemOf(changedScene(sod, "<Face side=\"x-\">", "<Face circle=\"x-\" origin=\"0 0 0\" radius=\"1\">")),
             "conditions on a part of a side (circle) are not available; give side=\"x-\" to have them on all of it");
-}
-
-TEST(IceScene, RefusesImplicitStepsUnlessTold) {
-  const std::string scene = changedScene(sod, "<ICE><advection", "<ICE><ImplicitSolver/><advection");
-  EXPECT_EQ(problemOf(scene),
-            "is not available: steps are explicit, and as short as sound allows. Take it out, or run with --set "
-            "CFD/ICE/explicit=true");
-  EXPECT_EQ(problemOf(scene, {"CFD/ICE/explicit=true"}), "");
 }
 
 TEST(IceScene, RefusesASecondGas) {

@@ -1,12 +1,16 @@
 #pragma once
 
 #include <chrono>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "components/components.hpp"
 #include "core/scene/scene.hpp"
 #include "core/simulation/simulation.hpp"
+#include "tests/support/temporary.hpp"
 
 namespace tushar::test {
 
@@ -17,6 +21,25 @@ inline report::Report runScene(const std::string& scene, const std::vector<std::
   simulation::RunOptions options;
   options.quiet = true;
   return simulation::Simulation(std::move(problem), options, std::chrono::steady_clock::now()).run();
+}
+
+/// A copy of a scene with a piece of text replaced.
+inline std::string changedScene(const std::string& scene, const std::string& from, const std::string& to) {
+  std::stringstream text;
+  text << std::ifstream(scene).rdbuf();
+  std::string changed = text.str();
+  const std::size_t at = changed.find(from);
+  if (at == std::string::npos) throw std::logic_error("the scene has no " + from);
+  const std::string path = temporaryFolder() + "changed.ups";
+  std::ofstream(path) << changed.replace(at, from.size(), to);
+  return path;
+}
+
+/// The drift of a quantity that a report has.
+inline double driftOf(const report::Report& report, const std::string& name) {
+  for (const report::Drift& drift : report.drifts)
+    if (drift.name == name) return drift.change;
+  throw std::logic_error("the report has no drift of " + name);
 }
 
 }  // namespace tushar::test

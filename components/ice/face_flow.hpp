@@ -1,0 +1,137 @@
+#pragma once
+
+#include <optional>
+
+#include "components/euler/diffusion.hpp"
+#include "components/euler/tasks/advance_patch.hpp"
+#include "core/solvers/solver.hpp"
+
+namespace tushar::ice {
+
+/// How a gas goes on in steps that sound does not limit.
+struct ImplicitGas {
+  euler::Gas gas;
+  euler::Diffusion diffusion;
+  Vec3 gravity = Vec3::Zero();  ///< m/s²
+  double cfl = 0.5;             ///< dt times the greatest rate at which cells are crossed
+  double soundSpeedKnob = 0;    ///< part of the speed of sound in that rate; 0: steps follow the flow alone
+  bool hasSlopes = true;        ///< whether cells have van Leer's slopes, or are constant
+  solvers::LinearSettings solver;
+};
+
+/// The normal velocities at the faces of cells, as the pressure p' at the end of a step makes them:
+///
+///   u_f = u*_f - dt / (rho_f h) (p'_R - p'_L),   u*_f = the mean of v - dt (v . grad) v of both cells + dt g,
+///
+/// rho_f the mean density. A face is named by an axis and the cell above it. Walls, and sides with a Velocity, have
+/// that velocity whatever the pressure; at other sides without a Pressure it is that of the cell next to them, and
+/// nothing pushes.
+/// Source: F. H. Harlow & A. A. Amsden, J. Comput. Phys. 8 (1971) 197; N. Kwatra, J. Su, J. T. Gretarsson & R. Fedkiw,
+/// J. Comput. Phys. 228 (2009) 4146.
+template <int D>
+class FaceFlow {
+ public:
+  /// For the faces of the cells in `box`, from the state in two more layers.
+  FaceFlow(const Level& level, const ImplicitGas& settings, const Box& box,
+           const euler::StateViews<D, const double>& before, double dt)
+      : level_(level),
+        gas_(settings.gas),
+        gravity_(level.reduce<D>(settings.gravity)),
+        dt_(dt),
+        rules_(euler::ghostRules<D>(level, gas_)),
+        old_(box.grown(2, D).size()),
+        ahead_(old_) {
+    old_.hold(box.grown(2, D));
+    euler::recover<D>(gas_, level, before, old_);
+    euler::fillBeyondGrid<D>(level, rules_, old_);
+    ahead_ = old_;
+    if (settings.hasSlopes) carryVelocities(level.clipCells(box.grown(1, D)));
+  }
+
+  const euler::Gas& gas() const { return gas_; }
+  const Vec<D>& gravity() const { return gravity_; }
+  const euler::GhostRules<D>& rules() const { return rules_; }
+  /// rho, v and p before the step, beyond sides of the grid too.
+  const euler::Rows<D>& old() const { return old_; }
+  /// The old state with another pressure in the cells of the grid, beyond sides too.
+  euler::Rows<D> withPressure(const CellView<const double>& pressure) const {
+    euler::Rows<D> rows = old_;
+    forEach<D>(level_.clipCells(rows.box()),
+               [&](const Index<D>& cell) { *rows.at(cell)[euler::kPressure<D>] = pressure[cell]; });
+    euler::fillBeyondGrid<D>(level_, rules_, rows);
+    return rows;
+  }
+  /// Whether a cell is on the grid, or an image of one that is.
+  bool isOnGrid(const Index<D>& cell) const {
+    for (int d = 0; d < D; ++d)
+      if (!level_.isPeriodic(d) && (cell[d] < 0 || cell[d] >= level_.cells().upper[d])) return false;
+    return true;
+  }
+  /// The limited difference of a number of the old state across a cell.
+  double slope(const Index<D>& cell, int axis, std::size_t number) const {
+    const Index<D> step = Index<D>::unit(axis);
+    const double middle = old_.number(cell, number);
+    return VanLeer::slope(middle - old_.number(cell - step, number), old_.number(cell + step, number) - middle);
+  }
+
+  /// The normal velocity of a face that has one whatever the pressure, m/s.
+  std::optional<double> givenVelocity(const Index<D>& cell, int axis) const {
+    const euler::GhostRule<D>* rule = ruleOf(cell, axis);
+    if (rule && rule->mirrored) return 0.0;
+    if (rule && rule->factor[euler::kVelocity(axis)] == 0) return rule->value[euler::kVelocity(axis)];
+    return {};
+  }
+  /// rho_f, kg/m³.
+  double density(const Index<D>& cell, int axis) const { return mean(old_, cell, axis, euler::kDensity); }
+  /// The mean of p + p_inf on both sides before the step, Pa.
+  double stiffPressure(const Index<D>& cell, int axis) const {
+    return mean(old_, cell, axis, euler::kPressure<D>) + gas_.pInfinity;
+  }
+  /// u*_f, m/s.
+  double withoutPressure(const Index<D>& cell, int axis) const {
+    if (const auto given = givenVelocity(cell, axis)) return *given;
+    const double carried = mean(ahead_, cell, axis, euler::kVelocity(axis));
+    return isFree(cell, axis) ? carried : carried + dt_ * gravity_[axis];
+  }
+  /// dt / (rho_f h), m/(s Pa); 0 where no pressure pushes.
+  double mobility(const Index<D>& cell, int axis) const {
+    if (isFree(cell, axis) || givenVelocity(cell, axis)) return 0;
+    return dt_ * level_.inverseSpacing(axis) / density(cell, axis);
+  }
+
+ private:
+  static double mean(const euler::Rows<D>& of, const Index<D>& cell, int axis, std::size_t number) {
+    return 0.5 * (of.number(cell - Index<D>::unit(axis), number) + of.number(cell, number));
+  }
+  /// The rule of the side of the grid that a face lies in, or null.
+  const euler::GhostRule<D>* ruleOf(const Index<D>& cell, int axis) const {
+    if (level_.isPeriodic(axis)) return nullptr;
+    if (cell[axis] == 0) return &rules_[axis][0];
+    return cell[axis] == level_.cells().upper[axis] ? &rules_[axis][1] : nullptr;
+  }
+  /// Whether a face lies in a side without a pressure.
+  bool isFree(const Index<D>& cell, int axis) const {
+    const euler::GhostRule<D>* rule = ruleOf(cell, axis);
+    return rule && rule->factor[euler::kPressure<D>] != 0;
+  }
+  /// The velocities of cells become v - dt (v . grad) v.
+  void carryVelocities(const Box& cells) {
+    forEach<D>(cells, [&](const Index<D>& cell) {
+      const euler::State<D> w = old_.state(cell);
+      const auto ahead = ahead_.at(cell);
+      for (int k = 0; k < D; ++k)
+        for (int d = 0; d < D; ++d)
+          *ahead[euler::kVelocity(k)] -=
+              dt_ * level_.inverseSpacing(d) * w[euler::kVelocity(d)] * slope(cell, d, euler::kVelocity(k));
+    });
+  }
+
+  const Level& level_;
+  euler::Gas gas_;
+  Vec<D> gravity_;
+  double dt_;
+  euler::GhostRules<D> rules_;
+  euler::Rows<D> old_, ahead_;
+};
+
+}  // namespace tushar::ice

@@ -1,0 +1,141 @@
+#pragma once
+
+#include "components/ice/face_flow.hpp"
+
+namespace tushar::ice {
+
+/// What a step does to the cells of a block, once the pressure at its end is known.
+template <int D>
+class ImplicitStep {
+ public:
+  ImplicitStep(const Level& level, const ImplicitGas& settings, const Box& block,
+               const euler::StateViews<D, const double>& before, const CellView<const double>& pressure, double dt)
+      : level_(level),
+        dt_(dt),
+        flow_(level, settings, block, before, dt),
+        after_(flow_.withPressure(pressure)),
+        middle_(flow_.old()),
+        flux_(flow_.old()),
+        hasSlopes_(settings.hasSlopes) {
+    if (hasSlopes_) forEach<D>(level.clipCells(block.grown(1, D)), [&](const Index<D>& cell) { goHalfway(cell); });
+  }
+
+  /// The fluxes through the lower faces of `faces` across an axis: what flows with u_f is that of the cell that it
+  /// leaves, half a step later; the pressure is the mean of p' and, where the gas is compressed, von Neumann's and
+  /// Richtmyer's viscosity of a strong shock, (gamma + 1) / 2 rho (dv)². Returns the greatest part of a cell that flows
+  /// through a face.
+  double computeFluxes(const Box& faces, int axis) {
+    double most = 0;
+    forEach<D>(faces, [&](const Index<D>& face) {
+      const double u = velocity(face, axis);
+      const bool isFromBelow = u >= 0;
+      const Index<D> from = isFromBelow ? face - Index<D>::unit(axis) : face;
+      const euler::State<D> w = atFace(from, axis, isFromBelow ? 1 : -1);
+      const double push = pressure(face, axis), mass = u * w[euler::kDensity];
+      euler::State<D> flux;
+      flux[euler::kDensity] = mass;
+      for (int k = 0; k < D; ++k) flux[euler::kVelocity(k)] = mass * w[euler::kVelocity(k)];
+      flux[euler::kVelocity(axis)] += push;
+      flux[euler::kPressure<D>] = u * (euler::conserved<D>(flow_.gas(), w)[euler::kPressure<D>] + push);
+      euler::store<D>(flux_.at(face), 0, flux);
+      most = std::max(most, std::abs(u) * dt_ * level_.inverseSpacing(axis));
+    });
+    return most;
+  }
+  euler::Rows<D>& flux() { return flux_; }
+
+  /// Adds the weight of what is at both faces of each cell of a block across an axis, and its work on what flows
+  /// through them, so that gas at rest in layers stays at rest.
+  void addGravity(const Box& block, int axis, const euler::StateViews<D, double>& fresh) {
+    const double g = flow_.gravity()[axis];
+    if (g == 0) return;
+    forEach<D>(block, [&](const Index<D>& cell) {
+      const Index<D> above = cell + Index<D>::unit(axis);
+      fresh.momentum[cell][axis] += 0.5 * dt_ * g * (flow_.density(cell, axis) + flow_.density(above, axis));
+      const std::size_t mass = euler::kDensity;
+      fresh.totalEnergy[cell] += 0.5 * dt_ * g * (flux_.number(cell, mass) + flux_.number(above, mass));
+    });
+  }
+
+ private:
+  double velocity(const Index<D>& face, int axis) const {
+    const std::size_t p = euler::kPressure<D>;
+    return flow_.withoutPressure(face, axis) -
+           flow_.mobility(face, axis) * (after_.number(face, p) - after_.number(face - Index<D>::unit(axis), p));
+  }
+  double pressure(const Index<D>& face, int axis) const {
+    const std::size_t p = euler::kPressure<D>, v = euler::kVelocity(axis);
+    const Index<D> below = face - Index<D>::unit(axis);
+    const double together = flow_.old().number(below, v) - flow_.old().number(face, v);
+    const double rho = flow_.density(face, axis);
+    const double viscous = together > 0 ? 0.5 * (flow_.gas().gamma + 1) * rho * together * together : 0;
+    // At a wall p' is that of the cell, half a cell away.
+    double weight = 0;
+    if (flow_.givenVelocity(face, axis)) weight = 0.5 * level_.spacing(axis) * rho * flow_.gravity()[axis];
+    return 0.5 * (after_.number(below, p) + after_.number(face, p)) + viscous + (face[axis] == 0 ? -weight : weight);
+  }
+  /// rho, v, p of a cell at the face above (1) or below it (-1), half a step later.
+  euler::State<D> atFace(const Index<D>& cell, int axis, int side) const {
+    euler::State<D> w = middle_.state(cell);
+    if (!hasSlopes_ || !flow_.isOnGrid(cell)) return w;
+    for (std::size_t k = 0; k < w.size(); ++k) w[k] += 0.5 * side * flow_.slope(cell, axis, k);
+    const bool fine = w[euler::kDensity] > 0 && w[euler::kPressure<D>] + flow_.gas().pInfinity > 0;
+    return fine ? w : flow_.old().state(cell);
+  }
+  /// What flow, pressure and gravity change in a cell in half a step.
+  void goHalfway(const Index<D>& cell) {
+    const euler::State<D> w = flow_.old().state(cell);
+    const auto middle = middle_.at(cell);
+    for (int d = 0; d < D; ++d) {
+      const double ratio = 0.5 * dt_ * level_.inverseSpacing(d);
+      for (std::size_t k = 0; k < w.size(); ++k) *middle[k] -= ratio * w[euler::kVelocity(d)] * flow_.slope(cell, d, k);
+      const Index<D> step = Index<D>::unit(d);
+      const std::size_t p = euler::kPressure<D>;
+      const double push = 0.5 * (after_.number(cell + step, p) - after_.number(cell - step, p));
+      *middle[euler::kVelocity(d)] += 0.5 * dt_ * flow_.gravity()[d] - ratio * push / w[euler::kDensity];
+    }
+  }
+
+  const Level& level_;
+  double dt_;
+  FaceFlow<D> flow_;
+  euler::Rows<D> after_, middle_, flux_;
+  bool hasSlopes_;
+};
+
+/// One step on a patch with the pressure at its end, p' [Pa]: U' = U - dt sum_d (F_{d,i+1/2} - F_{d,i-1/2}) / h_d with
+/// F = u_f (rho, rho v, E + p_f) + (0, p_f n, 0). Mass, momentum and total energy are kept whatever p' is; a contact
+/// stays at one pressure and velocity. Of second order in space, of first in time.
+/// Throws NumericalError where a density or p + p_inf would not be positive, or gas would cross more than a cell.
+/// Source: as FaceFlow; J. von Neumann & R. D. Richtmyer, J. Appl. Phys. 21 (1950) 232, for the shocks.
+template <int D>
+void advanceImplicitly(const Patch& patch, const ImplicitGas& settings, CellView<const double> density,
+                       CellView<const Vec<D>> momentum, CellView<const double> totalEnergy, double dt,
+                       CellView<const double> pressure, CellView<double> newDensity, CellView<Vec<D>> newMomentum,
+                       CellView<double> newTotalEnergy) {
+  const Level& level = patch.level();
+  const euler::StateViews<D, const double> before{density, momentum, totalEnergy};
+  const euler::StateViews<D, double> fresh{newDensity, newMomentum, newTotalEnergy};
+  double most = 0;
+  bool fine = true;
+  euler::forEachBlock<D>(patch.cells(), [&](const Box& block) {
+    ImplicitStep<D> step(level, settings, block, before, pressure, dt);
+    const auto sweep = [&]<int Axis>() {
+      Box faces = block;
+      ++faces.upper[Axis];
+      most = std::max(most, step.computeFluxes(faces, Axis));
+      euler::addFluxes<D, Axis>(dt / level.spacing(Axis), block, before, step.flux(), fresh);
+      step.addGravity(block, Axis, fresh);
+    };
+    sweep.template operator()<0>();
+    if constexpr (D > 1) sweep.template operator()<1>();
+    if constexpr (D > 2) sweep.template operator()<2>();
+    fine &= euler::canBe<D>(settings.gas, block, fresh);
+  });
+  if (!fine) euler::refuseBroken<D>(patch, settings.gas, fresh, &before);
+  if (!(most <= 1))
+    throw NumericalError(fmt::format("gas would cross {:.3g} cells in a step of {:.3g} s", most, dt),
+                         "a smaller CFD/cfl", "c.velocity");
+}
+
+}  // namespace tushar::ice

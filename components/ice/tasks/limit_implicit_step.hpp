@@ -1,0 +1,57 @@
+#pragma once
+
+#include "components/ice/face_flow.hpp"
+
+namespace tushar::ice {
+
+/// The pressure of the first step [Pa], that of the gas.
+template <int D>
+void initializePressure(const Patch& patch, const euler::Gas& gas, CellView<const double> density,
+                        CellView<const Vec<D>> momentum, CellView<const double> totalEnergy,
+                        CellView<double> pressure) {
+  const euler::StateViews<D, const double> state{density, momentum, totalEnergy};
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) { pressure[cell] = euler::pressureIn(gas, state, cell); });
+}
+
+/// dt = cfl / s, s = (r + sqrt(r² + 4 sum_d a_d / h_d)) / 2, r = sum_d (|v_d| + k c) / h_d + 2 nu / h_d²: the rate at
+/// which gas crosses a cell, with the acceleration a_d = |g_d - (dp/dx_d) / rho| that it has, so that it does not from
+/// rest cross cells within the step. p is the pressure that the last step ended with: that of the gas has besides what
+/// conduction brought in, which sound evens out before it moves anything. k is Uintah's `knob_for_speedSound`, nu the
+/// greatest diffusivity. Throws NumericalError where a density, or p + p_inf, is not positive. Source: N. Kwatra & al.,
+/// J. Comput. Phys. 228 (2009) 4146, section 3.3.
+template <int D>
+void limitImplicitStep(const Patch& patch, const ImplicitGas& settings, CellView<const double> density,
+                       CellView<const Vec<D>> momentum, CellView<const double> totalEnergy,
+                       CellView<const double> pressure, Minimum& dt) {
+  const Level& level = patch.level();
+  const euler::StateViews<D, const double> before{density, momentum, totalEnergy};
+  euler::refuseBroken<D, const double>(patch, settings.gas, before, nullptr);
+  const double second = 1;
+  const FaceFlow<D> flow(level, settings, patch.cells(), before, second);
+  const euler::Rows<D> pushing = flow.withPressure(pressure);
+  const auto acceleration = [&](const Index<D>& face, int axis) {
+    const std::size_t p = euler::kPressure<D>;
+    const double gained = flow.mobility(face, axis);
+    if (gained == 0) return 0.0;
+    const double rise = pushing.number(face, p) - pushing.number(face - Index<D>::unit(axis), p);
+    return std::abs(flow.gravity()[axis] - gained * rise);
+  };
+  double greatest = 0;
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    const euler::State<D> w = flow.old().state(cell);
+    const double rho = w[euler::kDensity];
+    const double sound =
+        settings.soundSpeedKnob * std::sqrt(settings.gas.soundSpeedSquared(rho, w[euler::kPressure<D>]));
+    double rate = 0, rates = 0;
+    for (int d = 0; d < D; ++d) {
+      const double perWidth = level.inverseSpacing(d);
+      rate += (std::abs(w[euler::kVelocity(d)]) + sound) * perWidth;
+      if (settings.diffusion.acts()) rate += 2 * settings.diffusion.greatest(settings.gas, rho) * perWidth * perWidth;
+      rates += perWidth * std::max(acceleration(cell, d), acceleration(cell + Index<D>::unit(d), d));
+    }
+    greatest = std::max(greatest, 0.5 * (rate + std::sqrt(rate * rate + 4 * rates)));
+  });
+  if (greatest > 0) dt.add(settings.cfl / greatest, "CFL");
+}
+
+}  // namespace tushar::ice

@@ -1,0 +1,90 @@
+#pragma once
+
+#include "components/ice/face_flow.hpp"
+#include "components/ice/labels.hpp"
+#include "core/numerics/cell_system.hpp"
+
+namespace tushar::ice {
+
+/// How the last solve went.
+struct SolveTotals {
+  Maximum &iterations, &assembly, &preconditioner, &solution;
+
+  static SolveTotals from(auto& take) {
+    return {.iterations = take(computes(total::iterations)),
+            .assembly = take(computes(solvers::assemblyTime)),
+            .preconditioner = take(computes(solvers::preconditionerTime)),
+            .solution = take(computes(solvers::solveTime))};
+  }
+};
+
+/// The equation of a cell's pressure p' at the end of the step: the internal energy
+/// (rho e)' = rho e - dt div((rho e + p) u_f) + dt v . grad p, with u_f of p', the enthalpy at faces and v . grad p
+/// before the step. In gas rho e + p = gamma (p + p_inf) / (gamma - 1), so that
+///
+///   p' - dt div(gamma P_f mobility_f (p'_R - p'_L)) = p - dt div(gamma P_f u*_f) + (gamma - 1) dt v . grad p,
+///
+/// symmetric and positive definite.
+template <int D>
+numerics::CellEquation<D> pressureEquation(const Level& level, const FaceFlow<D>& flow, const Index<D>& cell,
+                                           double dt) {
+  const std::size_t p = euler::kPressure<D>;
+  const double gamma = flow.gas().gamma;
+  numerics::CellEquation<D> equation{{}, flow.old().number(cell, p)};
+  numerics::Balance<D>& left = equation.left;
+  left.cells[0] = cell;
+  left.weights[0] = 1;
+  for (int d = 0; d < D; ++d) {
+    const double ratio = dt * level.inverseSpacing(d);
+    const double velocity = flow.old().number(cell, euler::kVelocity(d));
+    for (const int side : {0, 1}) {
+      const Index<D> face = side == 0 ? cell : cell + Index<D>::unit(d);
+      const Index<D> next = side == 0 ? cell - Index<D>::unit(d) : face;
+      const double enthalpy = gamma * flow.stiffPressure(face, d);
+      const double out = (side == 0 ? -1 : 1) * ratio;
+      const double beyond = flow.old().number(next, p);
+      equation.right -= out * enthalpy * flow.withoutPressure(face, d);
+      equation.right += 0.5 * (gamma - 1) * out * velocity * (beyond - flow.old().number(cell, p));
+      const double weight = ratio * enthalpy * flow.mobility(face, d);
+      left.weights[0] += weight;
+      if (flow.isOnGrid(next)) {
+        left.cells[left.count] = next;
+        left.weights[left.count++] = -weight;
+      } else {
+        equation.right += weight * beyond;
+      }
+    }
+  }
+  return equation;
+}
+
+/// Solves for the pressure at the end of the step in all cells, Pa, from the state before it [kg/m³, kg/(m² s), J/m³],
+/// where the last step's is a first guess.
+/// Throws NumericalError if the solver gives up.
+template <int D>
+void solvePressure(const RankPatches& patches, const mpi::Communicator& ranks, const ImplicitGas& settings, double dt,
+                   const std::vector<CellView<const double>>& density,
+                   const std::vector<CellView<const Vec<D>>>& momentum,
+                   const std::vector<CellView<const double>>& totalEnergy,
+                   const std::vector<CellView<const double>>& guess, const std::vector<CellView<double>>& pressure,
+                   const SolveTotals& totals) {
+  const Level& level = patches.front()->level();
+  std::vector<FaceFlow<D>> flows;
+  for (std::size_t p = 0; p < patches.size(); ++p) {
+    const Box& cells = patches[p]->cells();
+    flows.emplace_back(level, settings, cells,
+                       euler::StateViews<D, const double>{density[p], momentum[p], totalEnergy[p]}, dt);
+  }
+  numerics::CellSystem<D> system(patches, ranks);
+  const auto equationOf = [&](std::size_t p, const Index<D>& cell) {
+    return pressureEquation<D>(level, flows[p], cell, dt);
+  };
+  const solvers::Outcome outcome = system.solve(settings.solver, guess, equationOf);
+  system.requireConvergence(outcome, "the pressure", "CFD/ICE/ImplicitSolver", "c.pressure",
+                            ", or a smaller <delt_max>");
+  system.take(pressure);
+  totals.iterations.add(outcome.krylovIterations);
+  solvers::addTimes(outcome, totals.assembly, totals.preconditioner, totals.solution);
+}
+
+}  // namespace tushar::ice

@@ -1,0 +1,145 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/scenes.hpp"
+
+namespace tushar::ice {
+
+namespace {
+
+using test::changedScene;
+using test::driftOf;
+using Overrides = std::vector<std::string>;
+
+const std::string sod = "ups/ice/sod_implicit.ups", vortex = "ups/ice/vortex_slow.ups",
+                  gresho = "ups/ice/gresho_slow.ups", bubble = "ups/ice/hot_bubble.ups";
+
+Overrides cells(int x, int y) { return {fmt::format("Grid/Level/Box/resolution=[{},{},1]", x, y)}; }
+
+/// L1 of a measured quantity.
+double errorOf(const report::Report& report, const std::string& quantity) {
+  for (const report::ErrorNorms& error : report.errors)
+    if (error.field == quantity) return error.norms.at("L1");
+  throw std::logic_error("nothing measured the " + quantity);
+}
+
+/// What is wrong with the scene, without its place.
+std::string problemOf(const std::string& scene, const Overrides& overrides = {}) {
+  try {
+    scene::readScene(scene, overrides, catalogue());
+    return "";
+  } catch (const InputError& error) {
+    return error.problems().size() == 1 ? error.problems()[0].sentence : std::string(error.what());
+  }
+}
+
+const std::string control = "<knob_for_speedSound>0</knob_for_speedSound>";
+
+}  // namespace
+
+TEST(ImplicitIce, HasTheWavesOfSodsTube) {
+  const report::Report report = test::runScene(sod, {});
+  EXPECT_LT(errorOf(report, "density"), 0.0105);
+  EXPECT_LT(errorOf(test::runScene(sod, cells(400, 1)), "density"), 0.0035);
+  for (const char* name : {"mass", "energy"}) EXPECT_NEAR(driftOf(report, name), 0, 1e-14) << name;
+}
+
+TEST(ImplicitIce, ConvergesInASlowVortex) {
+  const report::Report coarse = test::runScene(vortex, cells(32, 32)), fine = test::runScene(vortex, {});
+  EXPECT_GT(errorOf(coarse, "velocity") / errorOf(fine, "velocity"), 3.2);
+  EXPECT_LT(errorOf(fine, "velocity"), 1.8e-3);
+  EXPECT_LT(fine.steps, 60);
+  for (const char* name : {"mass", "momentum", "energy"}) EXPECT_NEAR(driftOf(fine, name), 0, 1e-14) << name;
+}
+
+TEST(ImplicitIce, HasOneErrorAtAnyLowMachNumber) {
+  const double slow = errorOf(test::runScene(gresho, cells(20, 20)), "velocity");
+  const std::string faster = changedScene(changedScene(gresho, "714280.714285714", "7137.857142857"),
+                                          "<pressure>714285.714285714", "<pressure>7142.857142857");
+  EXPECT_NEAR(errorOf(test::runScene(faster, cells(20, 20)), "velocity"), slow, 1e-4 * slow);
+}
+
+TEST(ImplicitIce, CarriesAContactAtOnePressure) {
+  // p = 100 Pa; the error of the pressure that the scene's formula of the temperature stands for.
+  std::string scene =
+      changedScene("ups/ice/heat_wave.ups", "<ICE><advection",
+                   "<ICE><ImplicitSolver/><TimeStepControl>" + control + "</TimeStepControl><advection");
+  scene = changedScene(scene, "<label>c.temperature</label>", "<label>c.pressure</label>");
+  const report::Report report =
+      test::runScene(scene, {"MaterialProperties/ICE/material/thermal_conductivity=0", "DataAnalysis/Module/value=100",
+                             "MaterialProperties/ICE/material/geom_object/velocity=[1,0,0]", "Time/maxTime=0.5"});
+  EXPECT_LT(report.errors.at(0).norms.at("max"), 1e-8);
+}
+
+TEST(ImplicitIce, KeepsLayersAtRest) {
+  const std::string still = changedScene(bubble, "(287*(300 + 30*exp(-((x-0.5)^2 + (y-0.4)^2)/0.02)))", "(287*300)");
+  Overrides overrides = cells(4, 32);
+  overrides.push_back("MaterialProperties/ICE/material/geom_object/temperature=300");
+  const report::Report report = test::runScene(still, overrides);
+  EXPECT_NEAR(driftOf(report, "momentum"), 0, 1e-6);
+  EXPECT_NEAR(driftOf(report, "mass"), 0, 1e-14);
+  EXPECT_LT(report.steps, 200);
+}
+
+TEST(ImplicitIce, HasOneFingerprintOnAnyPatches) {
+  Overrides overrides = cells(16, 24);
+  overrides.push_back("Time/maxTime=0.2");
+  const std::string whole = test::runScene(bubble, overrides).fingerprint;
+  for (const char* patches : {"[2,1,1]", "[1,4,1]", "[4,3,1]"}) {
+    Overrides cut = overrides;
+    cut.push_back("Grid/Level/Box/patches=" + std::string(patches));
+    EXPECT_EQ(test::runScene(bubble, cut).fingerprint, whole) << patches;
+  }
+}
+
+TEST(ImplicitIce, HasTheSameFlowAlongEachAxis) {
+  const Overrides turned{"Grid/Level/Box/resolution=[1,100,1]"};
+  std::string scene = changedScene(sod, "<min>[0.5,0,0]</min>", "<min>[0,0.5,0]</min>");
+  scene = changedScene(scene, "<max>[0.5,1,1]</max>", "<max>[1,0.5,1]</max>");
+  scene =
+      changedScene(scene, "<gamma>1.4</gamma>\n    </Module>", "<gamma>1.4</gamma><normal>[0,1,0]</normal></Module>");
+  EXPECT_EQ(errorOf(test::runScene(scene, turned), "density"), errorOf(test::runScene(sod, {}), "density"));
+}
+
+TEST(ImplicitIce, RepeatsAStepThatIsTooLong) {
+  const std::string strong = changedScene(sod, "<temperature>0.8</temperature>", "<temperature>1e-5</temperature>");
+  const report::Report report = test::runScene(strong, {"CFD/cfl=1", "Time/maxTime=0.1"});
+  EXPECT_NEAR(driftOf(report, "energy"), 0, 1e-13);
+}
+
+TEST(ImplicitIce, IsPassedOverWhereTold) {
+  EXPECT_EQ(test::runScene(sod, {"CFD/ICE/explicit=true"}).fingerprint,
+            test::runScene("ups/ice/sod.ups", {"CFD/cfl=0.25"}).fingerprint);
+}
+
+TEST(ImplicitIce, LimitsStepsByAPartOfSound) {
+  EXPECT_GT(test::runScene(sod, {"CFD/ICE/TimeStepControl/knob_for_speedSound=1"}).steps,
+            test::runScene(sod, {}).steps);
+  EXPECT_EQ(problemOf(changedScene(sod, control, "<knob_for_speedSound>2</knob_for_speedSound>")),
+            "found '2', expected a value between 0 and 1");
+}
+
+TEST(ImplicitIce, TakesTheWordsOfUintahsScenes) {
+  const std::string words =
+      "<ImplicitSolver><max_outer_iterations>20</max_outer_iterations><outer_iteration_tolerance>1e-8"
+      "</outer_iteration_tolerance><iters_before_timestep_restart>5</iters_before_timestep_restart>"
+      "<Parameters variable=\"implicitPressure\"><tolerance>1.e-22</tolerance><solver>cg</solver>"
+      "<preconditioner>pfmg</preconditioner><maxiterations>7500</maxiterations><npre>1</npre><npost>1</npost>"
+      "<skip>0</skip><jump>0</jump></Parameters></ImplicitSolver>";
+  const std::string scene =
+      changedScene("ups/ice/sod.ups", "<ICE><advection",
+                   "<ICE>" + words + "<TimeStepControl>" + control + "</TimeStepControl><advection");
+  EXPECT_NEAR(errorOf(test::runScene(scene, {"CFD/cfl=0.25"}), "density"), errorOf(test::runScene(sod, {}), "density"),
+              1e-8);
+  EXPECT_EQ(problemOf(changedScene(scene, "pfmg", "pfng")).substr(0, 41), "found 'pfng', expected 'none', 'jacobi', ");
+}
+
+TEST(ImplicitIce, RefusesSeveralLevels) {
+  EXPECT_EQ(problemOf(changedScene(sod, "    </Level>\n",
+                                   "    </Level>\n    <Level><Box label=\"fine\"><lower>[0.25,0,0]</lower>"
+                                   "<upper>[0.5,1,1]</upper><resolution>[50,1,1]</resolution></Box></Level>\n")),
+            "'ice' needs a grid of one level: the pressure of an <ImplicitSolver> is solved for on one; "
+            "CFD/ICE/explicit=true passes over it");
+}
+
+}  // namespace tushar::ice
