@@ -86,6 +86,12 @@ TEST(Solves, GiveTheSameTemperatureOnAnyRanks) {
              {"Grid/Level/Box/patches=[5,1,1]", "Heat/thermal_conductivity=1 + x", "Heat/Solver/tolerance=1e-13"});
 }
 
+TEST(Solves, GiveTheSameSlowGasOnAnyRanks) {
+  expectSame("ups/ice/gresho_slow.ups", "c.velocity", 2,
+             {patches, "Grid/Level/Box/resolution=[20,20,1]", "CFD/ICE/ImplicitSolver/Solver/tolerance=1e-13",
+              "Time/max_Timesteps=5"});
+}
+
 TEST(Solves, GiveTheSamePlacesOfASolidOnAnyRanks) {
   expectSame("ups/solid/implicit_cantilever.ups", "p.x", 2, {patches});
 }
