@@ -18,11 +18,11 @@ struct SolveTotals {
   }
 };
 
-/// The equation of a cell's pressure p' at the end of the step: the internal energy
+/// The equation of what a cell's pressure changes by, p' - p, of the internal energy
 /// (rho e)' = rho e - dt div((rho e + p) u_f) + dt v . grad p, with u_f of p', the enthalpy at faces and v . grad p
 /// before the step. In gas rho e + p = gamma (p + p_inf) / (gamma - 1), so that
 ///
-///   p' - dt div(gamma P_f mobility_f (p'_R - p'_L)) = p - dt div(gamma P_f u*_f) + (gamma - 1) dt v . grad p,
+///   p' - p - dt div(gamma P_f mobility_f (p'_R - p'_L)) = -dt div(gamma P_f u*_f) + (gamma - 1) dt v . grad p,
 ///
 /// symmetric and positive definite.
 template <int D>
@@ -30,7 +30,7 @@ numerics::CellEquation<D> pressureEquation(const Level& level, const FaceFlow<D>
                                            double dt) {
   const std::size_t p = euler::kPressure<D>;
   const double gamma = flow.gas().gamma;
-  numerics::CellEquation<D> equation{{}, flow.old().number(cell, p)};
+  numerics::CellEquation<D> equation{{}, 0};
   numerics::Balance<D>& left = equation.left;
   left.cells[0] = cell;
   left.weights[0] = 1;
@@ -42,17 +42,15 @@ numerics::CellEquation<D> pressureEquation(const Level& level, const FaceFlow<D>
       const Index<D> next = side == 0 ? cell - Index<D>::unit(d) : face;
       const double enthalpy = gamma * flow.stiffPressure(face, d);
       const double out = (side == 0 ? -1 : 1) * ratio;
-      const double beyond = flow.old().number(next, p);
+      const double rise = flow.old().number(next, p) - flow.old().number(cell, p);
       equation.right -= out * enthalpy * flow.withoutPressure(face, d);
-      equation.right += 0.5 * (gamma - 1) * out * velocity * (beyond - flow.old().number(cell, p));
+      equation.right += 0.5 * (gamma - 1) * out * velocity * rise;
       const double weight = ratio * enthalpy * flow.mobility(face, d);
+      equation.right += weight * rise;
       left.weights[0] += weight;
-      if (flow.isOnGrid(next)) {
-        left.cells[left.count] = next;
-        left.weights[left.count++] = -weight;
-      } else {
-        equation.right += weight * beyond;
-      }
+      if (!flow.isOnGrid(next)) continue;
+      left.cells[left.count] = next;
+      left.weights[left.count++] = -weight;
     }
   }
   return equation;
@@ -69,20 +67,28 @@ void solvePressure(const RankPatches& patches, const mpi::Communicator& ranks, c
                    const std::vector<CellView<const double>>& guess, const std::vector<CellView<double>>& pressure,
                    const SolveTotals& totals) {
   const Level& level = patches.front()->level();
+  const std::size_t number = euler::kPressure<D>;
   std::vector<FaceFlow<D>> flows;
+  std::vector<CellView<const double>> rise;
   for (std::size_t p = 0; p < patches.size(); ++p) {
-    const Box& cells = patches[p]->cells();
-    flows.emplace_back(level, settings, cells,
-                       euler::StateViews<D, const double>{density[p], momentum[p], totalEnergy[p]}, dt);
+    const euler::StateViews<D, const double> before{density[p], momentum[p], totalEnergy[p]};
+    const CellView<double>& view = pressure[p];
+    flows.emplace_back(level, settings, patches[p]->cells(), before, dt);
+    forEach<D>(patches[p]->cells(),
+               [&](const Index<D>& cell) { view[cell] = guess[p][cell] - flows[p].old().number(cell, number); });
+    rise.emplace_back(view.values(), view.stored(), view.box());
   }
   numerics::CellSystem<D> system(patches, ranks);
   const auto equationOf = [&](std::size_t p, const Index<D>& cell) {
     return pressureEquation<D>(level, flows[p], cell, dt);
   };
-  const solvers::Outcome outcome = system.solve(settings.solver, guess, equationOf);
+  const solvers::Outcome outcome = system.solve(settings.solver, rise, equationOf);
   system.requireConvergence(outcome, "the pressure", "CFD/ICE/ImplicitSolver", "c.pressure",
                             ", or a smaller <delt_max>");
   system.take(pressure);
+  for (std::size_t p = 0; p < patches.size(); ++p)
+    forEach<D>(patches[p]->cells(),
+               [&](const Index<D>& cell) { pressure[p][cell] += flows[p].old().number(cell, number); });
   totals.iterations.add(outcome.krylovIterations);
   solvers::addTimes(outcome, totals.assembly, totals.preconditioner, totals.solution);
 }
