@@ -38,7 +38,7 @@ using tasks::with;
 
 namespace {
 
-struct Settings {
+struct ExactSolutionSettings {
   std::string name, label;
   std::optional<int> component;
   input::Expression value{0.0};
@@ -49,17 +49,18 @@ struct Settings {
   }
 };
 
-const Schema<Settings>& schema() {
-  static const Schema<Settings> schema =
-      Schema<Settings>("Module", "Errors of a variable against a formula, in the middle of cells or at nodes.")
-          .requiredAttribute("name", &Settings::name, "1", "exactSolution")
-          .required("label", &Settings::label, "1",
+const Schema<ExactSolutionSettings>& schema() {
+  static const Schema<ExactSolutionSettings> schema =
+      Schema<ExactSolutionSettings>("Module",
+                                    "Errors of a variable against a formula, in the middle of cells or at nodes.")
+          .requiredAttribute("name", &ExactSolutionSettings::name, "1", "exactSolution")
+          .required("label", &ExactSolutionSettings::label, "1",
                     "a variable of cells (c.) or nodes (g.) that belongs to no material")
           .ours()
-          .optionalChoice("component", &Settings::component, {{"x", 0}, {"y", 1}, {"z", 2}},
+          .optionalChoice("component", &ExactSolutionSettings::component, {{"x", 0}, {"y", 1}, {"z", 2}},
                           "which one, of a variable that is a vector")
           .ours()
-          .required("value", &Settings::value, "SI unit of the variable", "its exact value")
+          .required("value", &ExactSolutionSettings::value, "SI unit of the variable", "its exact value")
           .ours();
   return schema;
 }
@@ -90,7 +91,7 @@ std::map<std::string, Measurable> measurables(const Component& component, bool v
 }
 
 /// The variable of that name. Throws InputError naming those that there are.
-Measurable findMeasurable(const Component& component, const Settings& settings, const Location& where) {
+Measurable findMeasurable(const Component& component, const ExactSolutionSettings& settings, const Location& where) {
   const std::string& name = settings.label;
   const std::map<std::string, Measurable> found = measurables(component, settings.component.has_value());
   if (const auto entry = found.find(name); entry != found.end()) return entry->second;
@@ -107,8 +108,8 @@ Measurable findMeasurable(const Component& component, const Settings& settings, 
 
 /// Errors of a number, or of a component of a vector along an axis of the scene.
 template <Centring C, int D, class T>
-void measure(const Patch& patch, const Settings& settings, const double* time, data::GridView<C, const T> field,
-             Norm& error) {
+void measure(const Patch& patch, const ExactSolutionSettings& settings, const double* time,
+             data::GridView<C, const T> field, Norm& error) {
   const Level& level = patch.level();
   const auto found = [&](const T& value) {
     if constexpr (std::is_same_v<T, double>)
@@ -129,7 +130,7 @@ void measure(const Patch& patch, const Settings& settings, const double* time, d
 template <int D>
 class ExactSolution : public Analysis {
  public:
-  ExactSolution(Settings settings, const Measurable& measured)
+  ExactSolution(ExactSolutionSettings settings, const Measurable& measured)
       : settings_(std::move(settings)),
         derived_(measured.derived),
         label_(labelOf(measured.label)),
@@ -179,7 +180,7 @@ class ExactSolution : public Analysis {
     derived_ ? measureFrom(requiresNew(field)) : measureFrom(requiresOld(field));
   }
 
-  Settings settings_;
+  ExactSolutionSettings settings_;
   bool derived_;
   AnyLabel label_;
   std::string error_name_;
@@ -194,7 +195,7 @@ AnalysisKind exactSolutionKind() {
   kind.describe = [](std::ostream& out) { schema().describe(out); };
   kind.schema = [] { return &schema(); };
   kind.read = [](const Element& module, Diagnostics& diagnostics) -> MakeAnalysis {
-    const Settings settings = schema().read(module, diagnostics);
+    const ExactSolutionSettings settings = schema().read(module, diagnostics);
     const Location where = (module.child("label") ? *module.child("label") : module).where();
     return [=](const Component& component, const Level& level) -> std::unique_ptr<Analysis> {
       const Measurable measured = findMeasurable(component, settings, where);

@@ -31,7 +31,7 @@ struct Variable {
   std::string label;
 };
 
-struct Settings {
+struct ExtractSettings {
   std::string name;
   Location where;
   std::string material;
@@ -55,21 +55,22 @@ const Schema<Variables>& variablesSchema() {
   return schema;
 }
 
-const Schema<Settings>& settingsSchema() {
-  static const Schema<Settings> schema =
-      Schema<Settings>("Module", "Variables of chosen particles over time, in a file for each.")
-          .requiredAttribute("name", &Settings::name, "1", "particleExtract")
-          .location(&Settings::where)
-          .value("material", &Settings::material, "", "1",
+const Schema<ExtractSettings>& extractSchema() {
+  static const Schema<ExtractSettings> schema =
+      Schema<ExtractSettings>("Module", "Variables of chosen particles over time, in a file for each.")
+          .requiredAttribute("name", &ExtractSettings::name, "1", "particleExtract")
+          .location(&ExtractSettings::where)
+          .value("material", &ExtractSettings::material, "", "1",
                  "name of the material whose particles are looked at; the first")
-          .required("samplingFrequency", &Settings::frequency, "1/s", "samples per second of simulated time",
+          .required("samplingFrequency", &ExtractSettings::frequency, "1/s", "samples per second of simulated time",
                     input::positive())
-          .required("timeStart", &Settings::start, "s", "no sample before")
-          .required("timeStop", &Settings::stop, "s", "no sample after")
-          .required("colorThreshold", &Settings::threshold, "1", "particles whose p.color is greater are written")
+          .required("timeStart", &ExtractSettings::start, "s", "no sample before")
+          .required("timeStop", &ExtractSettings::stop, "s", "no sample after")
+          .required("colorThreshold", &ExtractSettings::threshold, "1",
+                    "particles whose p.color is greater are written")
           .custom(
               "Variables",
-              [](Settings& settings, const Element& element, Diagnostics& diagnostics) {
+              [](ExtractSettings& settings, const Element& element, Diagnostics& diagnostics) {
                 const auto tag = element.child("Variables");
                 if (!tag) return diagnostics.error(element, "missing tag <Variables> with <analyze label=\"…\"/>");
                 settings.variables = variablesSchema().read(*tag, diagnostics).list;
@@ -91,7 +92,7 @@ const Array& column(const std::vector<Array>& columns, std::string_view label) {
 
 class ParticleExtract : public Analysis {
  public:
-  explicit ParticleExtract(Settings settings) : settings_(std::move(settings)) {}
+  explicit ParticleExtract(ExtractSettings settings) : settings_(std::move(settings)) {}
 
   void schedule(tasks::TaskList&) const override {}
   void setTime(double time, double) override {
@@ -139,7 +140,7 @@ class ParticleExtract : public Analysis {
     output::replaceFile(file, (before.empty() ? extractHeader(columns) : before) + line);
   }
 
-  Settings settings_;
+  ExtractSettings settings_;
   double time_ = 0, last_count_ = 0;
   bool due_ = false;
   std::set<std::string> files_;  ///< that this run has written to
@@ -189,7 +190,7 @@ std::string extractLinesBefore(const std::string& text, double time) {
 
 AnalysisKind particleExtractKind() {
   return simulation::moduleWithTags<ParticleExtract>(
-      "particleExtract", "variables of chosen particles over time, in a file for each", settingsSchema());
+      "particleExtract", "variables of chosen particles over time, in a file for each", extractSchema());
 }
 
 }  // namespace tushar::analysis

@@ -35,7 +35,7 @@ struct Word {
   std::string text;
 };
 
-struct Settings {
+struct SliceSettings {
   std::string name;
   Location where;
   std::vector<Word> planes, labels;
@@ -59,7 +59,7 @@ const Schema<Word>& labelSchema() {
   return schema;
 }
 
-void checkSettings(const Settings& settings, const Element& module, Diagnostics& diagnostics) {
+void checkSettings(const SliceSettings& settings, const Element& module, Diagnostics& diagnostics) {
   std::set<std::string> names;
   for (const Word& plane : settings.planes) {
     const auto read = planeOf(plane.text);
@@ -80,20 +80,21 @@ void checkSettings(const Settings& settings, const Element& module, Diagnostics&
     diagnostics.error(module, "a slice needs one of outputInterval and outputTimestepInterval: there is no default");
 }
 
-const Schema<Settings>& settingsSchema() {
-  static const Schema<Settings> schema =
-      Schema<Settings>("Module", "Variables on planes, often: archives of their own in slice/<plane>.")
-          .requiredAttribute("name", &Settings::name, "1", "slice")
-          .location(&Settings::where)
-          .list("plane", &Settings::planes, planeSchema(), "a plane, whose cells and nearest nodes are written", 1)
+const Schema<SliceSettings>& sliceSchema() {
+  static const Schema<SliceSettings> schema =
+      Schema<SliceSettings>("Module", "Variables on planes, often: archives of their own in slice/<plane>.")
+          .requiredAttribute("name", &SliceSettings::name, "1", "slice")
+          .location(&SliceSettings::where)
+          .list("plane", &SliceSettings::planes, planeSchema(), "a plane, whose cells and nearest nodes are written", 1)
           .ours()
-          .list("label", &Settings::labels, labelSchema(), "a variable of cells or nodes", 1)
+          .list("label", &SliceSettings::labels, labelSchema(), "a variable of cells or nodes", 1)
           .ours()
-          .value("material", &Settings::material, "", "1", "name of the material whose variables are written; all")
+          .value("material", &SliceSettings::material, "", "1", "name of the material whose variables are written; all")
           .ours()
-          .value("outputInterval", &Settings::interval, 0, "s", "simulated time between two slices", input::positive())
+          .value("outputInterval", &SliceSettings::interval, 0, "s", "simulated time between two slices",
+                 input::positive())
           .ours()
-          .value("outputTimestepInterval", &Settings::stepInterval, 0, "1", "steps between two slices",
+          .value("outputTimestepInterval", &SliceSettings::stepInterval, 0, "1", "steps between two slices",
                  input::positive())
           .ours()
           .check(checkSettings);
@@ -121,7 +122,7 @@ std::string problemOf(const Plane& plane, const Level& level) {
 }
 
 /// The layers of the planes. Throws InputError for planes that the grid has no cells on.
-std::vector<Layer> layersOf(const Settings& settings, const Level& level) {
+std::vector<Layer> layersOf(const SliceSettings& settings, const Level& level) {
   std::vector<Layer> layers;
   std::vector<InputProblem> problems;
   for (const Word& word : settings.planes) {
@@ -138,7 +139,7 @@ std::vector<Layer> layersOf(const Settings& settings, const Level& level) {
 
 class Slice : public Analysis {
  public:
-  Slice(Settings settings, const Level& level)
+  Slice(SliceSettings settings, const Level& level)
       : settings_(std::move(settings)), layers_(layersOf(settings_, level)), times_(0, settings_.interval) {
     archives_.resize(layers_.size());
   }
@@ -187,7 +188,7 @@ class Slice : public Analysis {
                                      scene.str(), output::ArchiveOptions{.version = TUSHAR_VERSION});
   }
 
-  Settings settings_;
+  SliceSettings settings_;
   std::vector<Layer> layers_;
   simulation::Milestones times_;  ///< since the start of the first run, s
   double since_start_ = -1;
@@ -218,7 +219,7 @@ Layer layerAt(const Plane& plane, const Level& level) {
 }
 
 AnalysisKind sliceKind() {
-  return simulation::moduleWithTags<Slice>("slice", "variables of cells and nodes on planes, often", settingsSchema());
+  return simulation::moduleWithTags<Slice>("slice", "variables of cells and nodes on planes, often", sliceSchema());
 }
 
 }  // namespace tushar::analysis

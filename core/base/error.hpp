@@ -34,6 +34,7 @@ struct Location {
 /// Where to look for what several `parts` of a tag got wrong together: the option that overrides one of them, else
 /// `tag`.
 const Location& placeOf(std::initializer_list<const Location*> parts, const Location& tag);
+const Location& placeOf(std::initializer_list<const Location*> parts, const Location&& tag) = delete;  // would dangle
 
 /// One thing wrong with a scene, in one sentence.
 struct InputProblem {

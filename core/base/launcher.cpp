@@ -11,7 +11,7 @@ namespace {
 
 int numberFrom(std::initializer_list<const char*> names, int otherwise) {
   for (const char* name : names)
-    if (const char* value = std::getenv(name)) return std::atoi(value);
+    if (const char* value = std::getenv(name)) return static_cast<int>(std::strtol(value, nullptr, 10));
   return otherwise;
 }
 

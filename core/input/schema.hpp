@@ -54,28 +54,29 @@ class Schema : public SchemaBase {
 
   /// A tag with a value; `byDefault` if it is left out.
   template <class T, class... C>
-  Schema& value(std::string name, T S::*member, std::type_identity_t<T> byDefault, std::string unit,
-                std::string sentence, const C&... constraints) {
+  Schema& value(const std::string& name, T S::*member, const std::type_identity_t<T>& byDefault,
+                const std::string& unit, const std::string& sentence, const C&... constraints) {
     return put(withDefault(valueEntry<T>(member, name, unit, sentence, constraints...), member, byDefault));
   }
 
   /// A tag with a value that must be given.
   template <class T, class... C>
-  Schema& required(std::string name, T S::*member, std::string unit, std::string sentence, const C&... constraints) {
+  Schema& required(const std::string& name, T S::*member, const std::string& unit, const std::string& sentence,
+                   const C&... constraints) {
     return put(mandatory(valueEntry<T>(member, name, unit, sentence, constraints...)));
   }
 
   /// A tag with a value that may be left out.
   template <class T, class... C>
-  Schema& optional(std::string name, std::optional<T> S::*member, std::string unit, std::string sentence,
-                   const C&... constraints) {
+  Schema& optional(const std::string& name, std::optional<T> S::*member, const std::string& unit,
+                   const std::string& sentence, const C&... constraints) {
     return put(valueEntry<T>(member, name, unit, sentence, constraints...));
   }
 
   /// A tag with a value that may be given any number of times, at least `atLeast` times.
   template <class T, class... C>
-  Schema& values(std::string name, std::vector<T> S::*member, std::string unit, std::string sentence, int atLeast,
-                 const C&... constraints) {
+  Schema& values(const std::string& name, std::vector<T> S::*member, const std::string& unit,
+                 const std::string& sentence, int atLeast, const C&... constraints) {
     SchemaEntry entry = valueEntry<T>(member, name, unit, sentence, constraints...);
     entry.repeatable = true;
     entry.atLeast = atLeast;
@@ -83,7 +84,7 @@ class Schema : public SchemaBase {
   }
 
   /// A flag: an empty tag means true; otherwise its text is true or false.
-  Schema& flag(std::string name, bool S::*member, std::string sentence) {
+  Schema& flag(const std::string& name, bool S::*member, const std::string& sentence) {
     SchemaEntry entry = valueEntry<bool>(member, name, "1", sentence);
     entry.type = "empty, true or false";
     entry.assign = [read = entry.assign](void* object, const std::string& text, const Location& where) {
@@ -94,7 +95,7 @@ class Schema : public SchemaBase {
 
   /// The tag's own text, which must be given.
   template <class T, class... C>
-  Schema& text(T S::*member, std::string unit, std::string sentence, const C&... constraints) {
+  Schema& text(T S::*member, const std::string& unit, const std::string& sentence, const C&... constraints) {
     SchemaEntry entry = mandatory(valueEntry<T>(member, "", unit, sentence, constraints...));
     entry.place = SchemaEntry::Place::text;
     return put(std::move(entry));
@@ -102,57 +103,58 @@ class Schema : public SchemaBase {
 
   /// A tag with one of several words.
   template <class E>
-  Schema& choice(std::string name, E S::*member, std::type_identity_t<Choices<E>> choices,
-                 std::type_identity_t<E> byDefault, std::string sentence) {
+  Schema& choice(const std::string& name, E S::*member, const std::type_identity_t<Choices<E>>& choices,
+                 std::type_identity_t<E> byDefault, const std::string& sentence) {
     return put(withDefaultChoice(choiceEntry<E>(member, name, choices, sentence), member, choices, byDefault));
   }
   template <class E>
-  Schema& requiredChoice(std::string name, E S::*member, std::type_identity_t<Choices<E>> choices,
-                         std::string sentence) {
+  Schema& requiredChoice(const std::string& name, E S::*member, const std::type_identity_t<Choices<E>>& choices,
+                         const std::string& sentence) {
     return put(mandatory(choiceEntry<E>(member, name, choices, sentence)));
   }
   template <class E>
-  Schema& optionalChoice(std::string name, std::optional<E> S::*member, std::type_identity_t<Choices<E>> choices,
-                         std::string sentence) {
+  Schema& optionalChoice(const std::string& name, std::optional<E> S::*member,
+                         const std::type_identity_t<Choices<E>>& choices, const std::string& sentence) {
     return put(choiceEntry<E>(member, name, choices, sentence));
   }
 
   /// The same for attributes.
   template <class T, class... C>
-  Schema& attributeValue(std::string name, T S::*member, std::type_identity_t<T> byDefault, std::string unit,
-                         std::string sentence, const C&... constraints) {
+  Schema& attributeValue(const std::string& name, T S::*member, const std::type_identity_t<T>& byDefault,
+                         const std::string& unit, const std::string& sentence, const C&... constraints) {
     return put(attribute(withDefault(valueEntry<T>(member, name, unit, sentence, constraints...), member, byDefault)));
   }
   template <class T, class... C>
-  Schema& requiredAttribute(std::string name, T S::*member, std::string unit, std::string sentence,
+  Schema& requiredAttribute(const std::string& name, T S::*member, const std::string& unit, const std::string& sentence,
                             const C&... constraints) {
     return put(attribute(mandatory(valueEntry<T>(member, name, unit, sentence, constraints...))));
   }
   template <class T, class... C>
-  Schema& optionalAttribute(std::string name, std::optional<T> S::*member, std::string unit, std::string sentence,
-                            const C&... constraints) {
+  Schema& optionalAttribute(const std::string& name, std::optional<T> S::*member, const std::string& unit,
+                            const std::string& sentence, const C&... constraints) {
     return put(attribute(valueEntry<T>(member, name, unit, sentence, constraints...)));
   }
   template <class E>
-  Schema& choiceAttribute(std::string name, E S::*member, std::type_identity_t<Choices<E>> choices,
-                          std::type_identity_t<E> byDefault, std::string sentence) {
+  Schema& choiceAttribute(const std::string& name, E S::*member, const std::type_identity_t<Choices<E>>& choices,
+                          std::type_identity_t<E> byDefault, const std::string& sentence) {
     return put(
         attribute(withDefaultChoice(choiceEntry<E>(member, name, choices, sentence), member, choices, byDefault)));
   }
   template <class E>
-  Schema& requiredChoiceAttribute(std::string name, E S::*member, std::type_identity_t<Choices<E>> choices,
-                                  std::string sentence) {
+  Schema& requiredChoiceAttribute(const std::string& name, E S::*member,
+                                  const std::type_identity_t<Choices<E>>& choices, const std::string& sentence) {
     return put(attribute(mandatory(choiceEntry<E>(member, name, choices, sentence))));
   }
 
   /// A tag read by another schema, which may be left out: the member is then empty.
   template <class T>
-  Schema& section(std::string name, std::optional<T> S::*member, const Schema<T>& schema, std::string sentence = "") {
+  Schema& section(const std::string& name, std::optional<T> S::*member, const Schema<T>& schema,
+                  const std::string& sentence = "") {
     return put(nestedEntry<T>(name, schema, sentence, [member](S& s, T value) { s.*member = std::move(value); }));
   }
   /// A tag read by another schema, which may be left out: the member then has that schema's defaults.
   template <class T>
-  Schema& section(std::string name, T S::*member, const Schema<T>& schema, std::string sentence = "") {
+  Schema& section(const std::string& name, T S::*member, const Schema<T>& schema, const std::string& sentence = "") {
     SchemaEntry entry =
         nestedEntry<T>(name, schema, sentence, [member](S& s, T value) { s.*member = std::move(value); });
     entry.setDefault = [member, &schema](void* object) { static_cast<S*>(object)->*member = schema.defaults(); };
@@ -160,14 +162,15 @@ class Schema : public SchemaBase {
   }
   /// A tag read by another schema, which must be given.
   template <class T>
-  Schema& requiredSection(std::string name, T S::*member, const Schema<T>& schema, std::string sentence = "") {
+  Schema& requiredSection(const std::string& name, T S::*member, const Schema<T>& schema,
+                          const std::string& sentence = "") {
     return put(
         mandatory(nestedEntry<T>(name, schema, sentence, [member](S& s, T value) { s.*member = std::move(value); })));
   }
   /// A tag read by another schema, any number of times, at least `atLeast` times.
   template <class T>
-  Schema& list(std::string name, std::vector<T> S::*member, const Schema<T>& schema, std::string sentence = "",
-               int atLeast = 0) {
+  Schema& list(const std::string& name, std::vector<T> S::*member, const Schema<T>& schema,
+               const std::string& sentence = "", int atLeast = 0) {
     SchemaEntry entry =
         nestedEntry<T>(name, schema, sentence, [member](S& s, T value) { (s.*member).push_back(std::move(value)); });
     entry.repeatable = true;
@@ -321,7 +324,7 @@ class Schema : public SchemaBase {
     SchemaEntry entry = named(name, sentence);
     for (const auto& [word, meaning] : choices) entry.choices.push_back(word);
     entry.assign = [member, choices, words = entry.choices](void* object, const std::string& text, const Location&) {
-      const std::string problem = choiceProblem(text, words);
+      std::string problem = choiceProblem(text, words);
       if (!problem.empty()) return problem;
       const auto found = std::find(words.begin(), words.end(), text) - words.begin();
       store(member, object, E(choices[found].second));

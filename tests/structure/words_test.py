@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
-"""Words that C++ has better ones for: what of .clang-tidy's checks can be seen in the text alone (tools/tidy runs them
-all, which takes too long for every test)."""
+"""Words that C++ has better ones for, and that can be seen in the text alone (tidy_test.py runs clang-tidy)."""
 import re
 import unittest
 

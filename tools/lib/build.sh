@@ -143,3 +143,14 @@ vtk_python() {
     say "that did not work; the tests that need them will be skipped"
   fi
 }
+
+# python_tool NAME VERSION: a program from PyPI, in this very version, in build/python/bin. Without a network it stays away.
+python_tool() {
+  local python=$root/build/python
+  "$python/bin/$1" --version 2>/dev/null | grep -qwF "$2" && return 0
+  say "installing $1 $2 into build/python"
+  if ! { { [ -x "$python/bin/python3" ] || python3 -m venv "$python"; } &&
+    "$python/bin/python3" -m pip install --quiet --disable-pip-version-check "$1==$2"; } >&2; then
+    say "that did not work; what needs $1 will be skipped"
+  fi
+}

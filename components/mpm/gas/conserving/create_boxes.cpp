@@ -19,12 +19,12 @@ const GasObject& objectAt(const Gas& gas, const Vec3& point) {
 
 /// Integrals over a box.
 template <int D>
-struct Contents {
+struct BoxContents {
   double mass = 0, energy = 0;
   Vec<D> momentum = Vec<D>::Zero();
   Modes<D> moments = Modes<D>::Zero();  ///< column a - 1: momentum times phi_a
 
-  Contents& operator+=(const Contents& other) {
+  BoxContents& operator+=(const BoxContents& other) {
     mass += other.mass;
     energy += other.energy;
     momentum += other.momentum;
@@ -35,13 +35,13 @@ struct Contents {
 
 /// The integrands at `offset` from `x`, times a volume [m³].
 template <int D>
-Contents<D> contentsAt(const Level& level, const Gas& gas, const GasObject& object, const Vec<D>& x,
-                       const Vec<D>& offset, double volume) {
+BoxContents<D> contentsAt(const Level& level, const Gas& gas, const GasObject& object, const Vec<D>& x,
+                          const Vec<D>& offset, double volume) {
   const Vec3 point = level.expandPoint<D>(x + offset);
   const double rho = object.density(point), p = object.pressure(point);
   const Vec<D> u = level.reduce<D>(object.velocity(point));
   refuseImpossible(object, point, rho, p, object.velocity(point));
-  Contents<D> held;
+  BoxContents<D> held;
   held.mass = volume * rho;
   held.momentum = held.mass * u;
   held.energy = held.mass * (gas.internalEnergy(rho, p) + 0.5 * u.squaredNorm());
@@ -53,14 +53,14 @@ Contents<D> contentsAt(const Level& level, const Gas& gas, const GasObject& obje
 
 /// Sum of `held(offset, volume)` over the Gauss-Legendre points, 3 per axis, of a box; the same for a mirrored one.
 template <int D, class Held>
-Contents<D> sumOverPoints(const Vec<D>& edges, double volume, const Held& held, Vec<D> offset = Vec<D>::Zero(),
-                          int axis = 0) {
+BoxContents<D> sumOverPoints(const Vec<D>& edges, double volume, const Held& held, Vec<D> offset = Vec<D>::Zero(),
+                             int axis = 0) {
   if (axis == D) return held(offset, volume);
   const auto along = [&](double at, double weight) {
     offset[axis] = 0.5 * edges[axis] * at;
     return sumOverPoints<D>(edges, volume * weight, held, offset, axis + 1);
   };
-  Contents<D> sum = along(-std::sqrt(0.6), 5.0 / 18);
+  BoxContents<D> sum = along(-std::sqrt(0.6), 5.0 / 18);
   sum += along(std::sqrt(0.6), 5.0 / 18);
   sum += along(0, 8.0 / 18);
   return sum;
@@ -68,8 +68,8 @@ Contents<D> sumOverPoints(const Vec<D>& edges, double volume, const Held& held, 
 
 /// Integrals over a box about `x`.
 template <int D>
-Contents<D> integrate(const Level& level, const Gas& gas, const GasObject& object, const Vec<D>& x,
-                      const Vec<D>& edges) {
+BoxContents<D> integrate(const Level& level, const Gas& gas, const GasObject& object, const Vec<D>& x,
+                         const Vec<D>& edges) {
   return sumOverPoints<D>(edges, edges.prod() * crossSection<D>(level), [&](const Vec<D>& offset, double volume) {
     return contentsAt<D>(level, gas, object, x, offset, volume);
   });
@@ -116,7 +116,7 @@ void createBoxes(const Patch& patch, const Gas& gas, ParticleMaker& maker, const
     boxes.modes.push_back(Modes<D>::Zero());
     boxes.affineEnergy.push_back(0);
     if (isUniform(object)) continue;
-    const Contents<D> held = integrate<D>(level, gas, object, boxes.x[k], edges);
+    const BoxContents<D> held = integrate<D>(level, gas, object, boxes.x[k], edges);
     boxes.mass[k] = held.mass;
     boxes.velocity[k] = held.momentum / held.mass;
     const auto products = productsOver(inertia);
