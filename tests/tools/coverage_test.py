@@ -70,7 +70,14 @@ class Coverage(unittest.TestCase):
         problem = wrong["problems"][0]
         self.assertTrue(problem["sentence"].startswith("Heat/density: "), problem)
         self.assertRegex(problem["number"], r"^T\d+$")
-        self.assertRegex(problem["place"], r"wrong\.ups:\d+:\d+$")
+        self.assertRegex(problem["place"], r"^wrong\.ups:\d+:\d+$")
+
+    def test_a_value_of_several_lines_is_part_of_its_sentence(self):
+        self.scene("wrong.ups", SINE.replace("<density>1<", "<density>1,\n  2<"))
+        problems = self.covered()["wrong.ups"]["problems"]
+        self.assertEqual(len(problems), 1)
+        self.assertTrue(problems[0]["sentence"].startswith("Heat/density: found '1, 2'"), problems)
+        self.assertRegex(problems[0]["number"], r"^T\d+$")
 
     def test_a_scene_that_fails_has_its_sentence(self):
         self.scene("dying.ups", dying())

@@ -20,6 +20,7 @@ NUMBER = re.compile(r"\s*\[(T\d+)\]\s*$")
 PLACE = re.compile(r"^(.+?:\d+(?::\d+)?): ")
 REFUSED, SIGNALLED = 3, 5  # exit codes of sus
 GRACE = 10  # s, in which a run that has reached its limit may write its output
+LONGEST = 130  # characters of a sentence in tables
 GRAIN = .01  # s, between two looks at a run
 
 
@@ -58,14 +59,6 @@ class Outcome:
     notes: int = 0
     problems: list = dataclasses.field(default_factory=list)
 
-    @property
-    def reason(self):
-        """The first sentence, and its number; empty for a scene that ran."""
-        if not self.problems:
-            return ""
-        first = self.problems[0]
-        return first["sentence"] + (f" [{first['number']}]" if first["number"] else "")
-
 
 def type_of(path):
     """The component that a file asks for, in small letters; empty for one that is no scene."""
@@ -93,16 +86,22 @@ def scenes_of(folder, types=()):
 
 
 def problems_of(said):
-    """The sentences that sus ended with, without notes and advice."""
+    """The sentences that sus ended with, without notes and advice. A value that a sentence repeats may have several
+    lines."""
     problems = []
     for line in said.splitlines():
-        if line.startswith(("note: ", "tushar: ", " ", "[")) or not line.strip():
+        place = PLACE.match(line)
+        if place or line.startswith("sus: "):
+            text = line[place.end():] if place else line.removeprefix("sus: ")
+            problems.append({"sentence": text, "number": "", "place": place[1] if place else ""})
+        elif problems and not problems[-1]["number"] and not line.startswith(("note: ", "tushar: ", "     ")):
+            problems[-1]["sentence"] += " " + line.strip()
+        else:
             continue
-        number, place = NUMBER.search(line), PLACE.match(line)
-        text = NUMBER.sub("", line)
-        text = text[place.end():] if place else text.removeprefix("sus: ")
-        problems.append({"sentence": text, "number": number[1] if number else "", "place": place[1] if place else ""})
-    return problems
+        number = NUMBER.search(problems[-1]["sentence"])
+        if number:
+            problems[-1].update(sentence=problems[-1]["sentence"][:number.start()], number=number[1])
+    return [problem for problem in problems if not problem["place"].startswith("note: ")]
 
 
 def result_of(code, limited):
@@ -172,7 +171,8 @@ class Runner:
             time.sleep(GRAIN)
 
     def _outcome(self, scene, code, limited, seconds, folder):
-        said = (folder / "said.txt").read_text(errors="replace")
+        above = str(scene.path).removesuffix(scene.name)
+        said = (folder / "said.txt").read_text(errors="replace").replace(above, "")
         report = read_report(folder) or {}
         outcome = Outcome(scene.name, scene.type, result_of(code, limited), code, *seconds)
         outcome.notes = sum(line.startswith("note: ") for line in said.splitlines())
@@ -197,8 +197,17 @@ def ended_by(code):
 
 
 def short(sentence):
-    """A sentence without what is allowed and what is advised, and without the numbers of tags."""
-    return re.sub(r"(?<=\w)\[\d+\](?=[/:])", "", sentence.split(";")[0])
+    """The first part of a sentence, without what is allowed and what is advised, and without the numbers of lines."""
+    text = re.sub(r" on line \d+| of \S+:\d+:\d+(?= is still open)", "", sentence.split(";")[0])
+    return text if len(text) <= LONGEST else text[:LONGEST].rsplit(" ", 1)[0].rstrip(",") + " …"
+
+
+def reason_of(outcome):
+    """The first sentence, and its number; nothing for a scene that ran."""
+    if not outcome.problems:
+        return ""
+    first = outcome.problems[0]
+    return short(first["sentence"]) + (f" [{first['number']}]" if first["number"] else "")
 
 
 def blockers(outcomes, result):
@@ -268,5 +277,5 @@ def table(outcomes):
     for one in outcomes:
         size = one.particles or one.cells or ""
         lines.append(f"| {one.scene} | {one.type} | {one.result} | {size} | {one.steps or ''} | {one.wall:.2f} | "
-                     f"{one.processor:.2f} | {one.notes or ''} | {escaped(short(one.reason))} |")
+                     f"{one.processor:.2f} | {one.notes or ''} | {escaped(reason_of(one))} |")
     return "\n".join(lines) + "\n"
