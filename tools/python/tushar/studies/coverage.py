@@ -86,8 +86,8 @@ def scenes_of(folder, types=()):
 
 
 def problems_of(said):
-    """The sentences that sus ended with, without notes and advice. A value that a sentence repeats may have several
-    lines."""
+    """The sentences that sus ended with, each kind once, without notes and advice. A value that a sentence repeats may
+    have several lines."""
     problems = []
     for line in said.splitlines():
         place = PLACE.match(line)
@@ -101,7 +101,9 @@ def problems_of(said):
         number = NUMBER.search(problems[-1]["sentence"])
         if number:
             problems[-1].update(sentence=problems[-1]["sentence"][:number.start()], number=number[1])
-    return [problem for problem in problems if not problem["place"].startswith("note: ")]
+    kinds = {short(problem["sentence"]): problem for problem in reversed(problems)
+             if not problem["place"].startswith("note: ")}
+    return list(reversed(kinds.values()))
 
 
 def result_of(code, limited):
@@ -186,8 +188,8 @@ class Runner:
 
 
 def stopped_by(limit, report):
-    """Why a run was stopped, and how far it had come."""
-    far = f" at t = {report['time']:.4g} s" if report.get("steps") else " before its first step was done"
+    """Why a run was stopped and, if it wrote a report, how far it had come."""
+    far = f" at t = {report['time']:.4g} s" if report.get("steps") else ""
     return f"stopped after {limit:g} s{far}"
 
 
