@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <csignal>
 #include <limits>
 #include <numeric>
 
@@ -22,10 +23,24 @@ PetscErrorCode keepMessage(MPI_Comm, int, const char*, const char*, PetscErrorCo
   return code;
 }
 
+/// Keeps what the program does on SIGTERM, which ends a run with its output written: PETSc takes that signal for
+/// itself when it starts, and leaves the system's default when it gives it back.
+class KeptTermination {
+ public:
+  KeptTermination() { sigaction(SIGTERM, nullptr, &before_); }
+  ~KeptTermination() { sigaction(SIGTERM, &before_, nullptr); }
+  KeptTermination(const KeptTermination&) = delete;
+  KeptTermination& operator=(const KeptTermination&) = delete;
+
+ private:
+  struct sigaction before_ {};
+};
+
 /// PETSc from the first solve to the end of the program.
 class Session {
  public:
   Session() {
+    const KeptTermination kept;
     PetscBool started = PETSC_FALSE;
     PetscInitialized(&started);
     int underLauncher = 0;

@@ -42,6 +42,22 @@ class Interrupt(unittest.TestCase):
             self.assertLess(report["time"], 0.2)
             self.assertIn(f"t{report['steps']:05d}.h5", outputs)
 
+    def test_sigterm_ends_implicit_steps_like_any_other(self):
+        with tempfile.TemporaryDirectory() as folder:
+            report = pathlib.Path(folder, "report.json")
+            run = subprocess.Popen([SUS, "ups/solid/implicit_cantilever.ups", "--output", folder, "--json", report,
+                                    "--set", "Time/maxTime=1e9", "--set", "DataArchiver/outputTimestepInterval=1",
+                                    "--set", "DataArchiver/outputInterval=0"], stdout=subprocess.PIPE, text=True)
+            for line in run.stdout:  # PETSc starts in the first step
+                if line.startswith("step") and not line.split()[1] == "0":
+                    break
+            run.send_signal(signal.SIGTERM)
+            run.communicate(timeout=60)
+            self.assertEqual(run.returncode, 5)
+            known = json.loads(report.read_text())
+            self.assertEqual(known["ended"], "interrupted")
+            self.assertGreater(known["steps"], 0)
+
     def test_a_second_signal_of_either_kind_ends_at_once_whatever_the_run_is_at(self):
         large = "Grid/Level/Box/resolution=[100,100,25]"
         for options, apart in (((), 0.5), (("-check",), 0.5), ((), 0)):

@@ -10,8 +10,8 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from solids import columns, globals_of, archive_of
 from sus import ROOT, run
 
-DISCS, BEAM, BILLET, SPALL = (f"ups/solid/{name}.ups" for name in ("two_discs", "implicit_cantilever", "billet",
-                                                                   "spall"))
+DISCS, BEAM, BILLET, SPALL, COLUMN = (f"ups/solid/{name}.ups" for name in (
+    "two_discs", "implicit_cantilever", "billet", "spall", "column_collapse"))
 FEW = ("Time/max_Timesteps=3",)
 FLAGS = """<cpdi_lcrit>1e10</cpdi_lcrit><minimum_mass_for_acc>1e-20</minimum_mass_for_acc><XPIC2>false</XPIC2>
   <artificial_viscosity_coeff1>.3</artificial_viscosity_coeff1><refine_particles>false</refine_particles>
@@ -109,6 +109,24 @@ class UintahsWords(unittest.TestCase):
             self.assertEqual(result.err.count("is saved by"), 3, result.err)
             lines = globals_of(path, "TotalMass", sets=FEW)["TotalMass"]
             self.assertEqual(len(lines), len({time for time, mass in lines}))
+
+    def test_variables_of_soils_are_saved_by_their_names_here(self):
+        water = ("<UseWaterRetention>1</UseWaterRetention><WR_Param1>.02</WR_Param1><WR_Param2>200</WR_Param2>"
+                 "<WR_Param3>3.6e-4</WR_Param3><PhiB>12</PhiB><suction>3500</suction><SpecVol>1.9</SpecVol>")
+        labels = "Suction", "SpecificVol", "c"
+        saves = "<outputInitTimestep/>" + "".join(f'<save label="{label}"/>' for label in labels)
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "scene.ups")
+            text = (ROOT / COLUMN).read_text().replace("<save ", saves + "<save ", 1)
+            path.write_text(text.replace("<c>0</c>", "<c>0</c>" + water))
+            found = columns(archive_of(path, folder, *FEW), "p.Suction", "p.SpecificVol", time=1e-30)
+            self.assertEqual(set(found["p.Suction [Pa]"]), {3500})
+            self.assertEqual(set(found["p.SpecificVol [1]"]), {1.9})
+            said = run(path, *FEW, options=()).err
+            self.assertIn("'c' is saved as 'p.cohesion'", said)
+            path.write_text(text)
+            said = run(path, *FEW, options=()).err
+            self.assertIn("'p.Suction' is not saved: nobody computes it here", said)
 
     def test_what_is_saved_of_all_materials_is_saved_once_of_each(self):
         for order in ("all", "billet"), ("billet", "all"):

@@ -57,6 +57,9 @@ inline const std::vector<std::string> uintahsLabels{"AccStrainEnergy",
                                                     "p.volumedeformed",
                                                     "p.temperatureGradient",
                                                     "p.currentsize",
+                                                    "p.Suction",
+                                                    "p.SpecificVol",
+                                                    "p.cohesion",
                                                     "frictionalWork",
                                                     "RigidReactionTorque",
                                                     "SumTransmittedForce",
@@ -73,6 +76,10 @@ inline const std::vector<std::string> uintahsLabels{"AccStrainEnergy",
                                                     "BndyContactCellArea_yplus",
                                                     "BndyContactCellArea_zminus",
                                                     "BndyContactCellArea_zplus"};
+
+/// Variables of particles that Uintah's MohrCoulomb saves by names without p.
+inline const std::vector<std::pair<std::string, std::string>> soilNames{
+    {"Suction", "p.Suction"}, {"SpecificVol", "p.SpecificVol"}, {"c", "p.cohesion"}};
 
 template <class S>
 void addForeignTags(input::Schema<S>& mpm) {

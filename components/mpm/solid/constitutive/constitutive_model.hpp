@@ -52,6 +52,12 @@ consteval bool checkState() {
       };
       static_assert(size() == sizeof(typename M::State),
                     "stateVariables must name every double and every Tensor of the State, in their order");
+      constexpr auto areOfParticles = [] {
+        for (const StateVariable& variable : M::stateVariables)
+          if (!variable.label.starts_with("p.")) return false;
+        return true;
+      };
+      static_assert(areOfParticles(), "the names of stateVariables start with p.");
     }
   }
   return true;

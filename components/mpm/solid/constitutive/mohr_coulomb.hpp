@@ -31,9 +31,9 @@ struct MohrCoulomb : IsotropicModuli {
   };
   using Capabilities = CapabilityList<capability::IgnoresTemperature, capability::BulkSpeed, capability::OptionalState>;
   static constexpr std::array<StateVariable, 3> stateVariables{
-      {{"Suction", "Pa", "suction of the water in the pores"},
-       {"SpecificVol", "1", "volume of the soil with its pores, by that of its grains"},
-       {"c", "Pa", "cohesion"}}};
+      {{"p.Suction", "Pa", "suction of the water in the pores"},
+       {"p.SpecificVol", "1", "volume of the soil with its pores, by that of its grains"},
+       {"p.cohesion", "Pa", "cohesion"}}};
   static constexpr std::string_view name = "MohrCoulomb";
   static constexpr bool strainEnergyIsRate = true;
 

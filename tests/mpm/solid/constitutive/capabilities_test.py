@@ -49,6 +49,10 @@ SLIPS = {
                          "<StateVariable, 1> stateVariables{{{\"p.alpha\", \"1\", \"\"}}};",
                          "<capability::DependsOnDeformationOnly, ": "<"},
                         "stateVariables must name every double and every Tensor of the State"),
+    "VariableOfNobody": ({"struct State {};": "struct State { double alpha; };\n  static constexpr std::array"
+                          "<StateVariable, 1> stateVariables{{{\"alpha\", \"1\", \"\"}}};",
+                          "<capability::DependsOnDeformationOnly, ": "<"},
+                         "the names of stateVariables start with p."),
     "WithoutCapabilities": ({"using Capabilities": "using Capabilites"},
                             "a constitutive model needs `using Capabilities = CapabilityList<...>`"),
     "ForeignCapability": ({"capability::BulkSpeed>": "capability::BulkSpeed, std::array<int, 2>>"},
