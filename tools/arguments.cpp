@@ -73,6 +73,22 @@ void reportUnknown(const CLI::App& app, const std::vector<std::string>& words, c
   if (!options) complain(fmt::format("runs one scene at a time: found '{}' after '{}'", unknown.front(), scene));
 }
 
+/// Declares the options that say who does the work of a run.
+void declareWorkers(CLI::App& app, Arguments& arguments) {
+  app.add_option_function<std::string>(
+      "--layout", [&](const std::string& text) { setLayout(text, arguments.workers); },
+      "patches along x, y, z, in place of those of the scene: AxBxC, such as 4x2x1; of a grid of several levels, the "
+      "most blocks of a patch");
+  app.add_option_function<int>(
+         "--nthreads", [&](int count) { setThreads(count, arguments.workers); },
+         "threads to run on; without it as many as there are cores for and as pay")
+      ->check(CLI::Range(1, 1024));
+  app.add_option("--writers", arguments.run.writers,
+                 "ranks that put outputs and checkpoints on the disk; without it one on each node. No number changes a "
+                 "byte of a file")
+      ->check(CLI::Range(1, 1'000'000));
+}
+
 /// Declares all options of sus; `arguments` must outlive `app`.
 void declare(CLI::App& app, Arguments& arguments) {
   app.footer(
@@ -87,14 +103,7 @@ void declare(CLI::App& app, Arguments& arguments) {
                  "override a value of the scene: PATH=VALUE, e.g.\n"
                  "Grid/Level/Box/resolution=[200,1,1]; may be repeated")
       ->allow_extra_args(false);
-  app.add_option_function<std::string>(
-      "--layout", [&](const std::string& text) { setLayout(text, arguments.workers); },
-      "patches along x, y, z, in place of those of the scene: AxBxC, such as 4x2x1; of a grid of several levels, the "
-      "most blocks of a patch");
-  app.add_option_function<int>(
-         "--nthreads", [&](int count) { setThreads(count, arguments.workers); },
-         "threads to run on; without it as many as there are cores for and as pay")
-      ->check(CLI::Range(1, 1024));
+  declareWorkers(app, arguments);
   app.add_option("--trace", arguments.trace,
                  "write what each thread did when to a file, for ui.perfetto.dev or chrome://tracing");
   app.add_option("--json", arguments.run.jsonPath,

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "core/collect/collect.hpp"
+#include "core/output/pieces.hpp"
 
 namespace tushar::collect {
 
@@ -37,20 +38,19 @@ struct HashFree {
   void operator()(XXH64_state_t* state) const { XXH64_freeState(state); }
 };
 
-/// The hash of an array, which is read piece by piece.
-XXH64_hash_t hashOf(const output::Array& array, XXH64_hash_t seed) {
-  constexpr std::size_t piece = 1 << 14;
+/// The hash of an array, which comes to the first rank piece by piece; 0 on the others.
+XXH64_hash_t hashOf(const output::Array& array, XXH64_hash_t seed, const output::Writers& first) {
+  const std::size_t bytes = output::entryBytes(array);
+  const std::size_t piece = first.ranks().isAlone() ? 1 << 14 : std::max<std::size_t>(1, mostOfPiece(first) / bytes);
+  output::Pieces pieces(first);
   const std::unique_ptr<XXH64_state_t, HashFree> state(XXH64_createState());
   XXH64_reset(state.get(), seed);
-  const std::size_t number = std::visit([](const auto& values) { return sizeof(values[0]); }, array.values);
-  const std::size_t bytes = number * static_cast<std::size_t>(array.components);
-  std::vector<std::byte> memory(piece * bytes);
-  for (std::size_t first = 0; first < array.entries(); first += piece) {
-    const std::size_t count = std::min(piece, array.entries() - first);
-    array.source->read(first, count, memory.data());
-    XXH64_update(state.get(), memory.data(), count * bytes);
+  for (output::Piece next; next.first < array.entries(); next.first += next.count) {
+    next.count = std::min(piece, array.entries() - next.first);
+    const std::span<const std::byte> entries = pieces.bring(array, {&next, 1});
+    XXH64_update(state.get(), entries.data(), entries.size());
   }
-  return XXH64_digest(state.get());
+  return first.mine() == 0 ? XXH64_digest(state.get()) : 0;
 }
 
 }  // namespace
@@ -60,22 +60,19 @@ const Gather::Places& Gather::placesOf(int material) {
   if (!isNew) return entry->second;
   const int number = warehouse_->table().find(data::particleId.name, material);
   const Parts ids = collectParticles(*warehouse_, Generation::old, number);
-  return entry->second = std::make_shared<const std::vector<Place>>(placesById(ids));
+  return entry->second = std::make_shared<const ParticlePlaces>(rankedById(warehouse_->ranks(), ids));
 }
 
 void Gather::streamParticles(Generation generation, int number, output::Array& array) {
   const auto [label, material] = warehouse_->table()[number];
-  const Places& places = placesOf(material);
-  Parts parts = collectParticles(*warehouse_, generation, number);
-  if (!warehouse_->ranks().isFirst()) return;
-  array.source = sourceAt(places, std::move(parts), EntryForm(*label, warehouse_->grid().level()));
+  array.source = sourceAt(placesOf(material), collectParticles(*warehouse_, generation, number),
+                          EntryForm(*label, warehouse_->grid().level()));
 }
 
 void Gather::streamGrid(Generation generation, int number, const GridOrder& order, output::Array& array) {
   const Label& label = *warehouse_->table()[number].label;
   const grid::Grid& grid = warehouse_->grid();
-  Parts parts = collectGrid(*warehouse_, generation, number, order);
-  if (!warehouse_->ranks().isFirst()) return;
+  Parts parts = collectGrid(*warehouse_, generation, number);
   auto runs = std::make_shared<const Runs>(runsOfGrid(grid, label, parts, order));
   array.source = sourceInRuns(std::move(runs), order.size(), std::move(parts), EntryForm(label, grid.level()));
 }
@@ -153,6 +150,7 @@ output::GridInfo gridInfo(const grid::Level& level, const Layer& layer) {
 std::string fingerprint(data::Warehouse& warehouse, const std::vector<std::string>& labels, int materials) {
   XXH64_hash_t hash = 0;
   Gather gather(warehouse);
+  const output::Writers first(warehouse.ranks(), {0});
   const grid::Grid& grid = warehouse.grid();
   for (const std::string& label : labels)
     for (int material = -1; material < materials; ++material) {
@@ -161,7 +159,7 @@ std::string fingerprint(data::Warehouse& warehouse, const std::vector<std::strin
       const bool isByBlock = grid.levels() > 1 && warehouse.table()[number].label->centring == Centring::cell;
       hash = hashOf(isByBlock ? gather.stream(Generation::old, number, GridOrder(grid, 0))
                               : gather.stream(Generation::old, number),
-                    hash);
+                    hash, first);
     }
   return fmt::format("{:016x}", hash);
 }

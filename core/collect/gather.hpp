@@ -17,24 +17,24 @@ struct Layer {
   int axis = 0, cell = 0, node = 0;
 };
 
-/// Gathers variables over the whole grid on rank 0, in an order that no layout changes: particles by id, nodes
-/// and cells with x fastest. Vectors come out in x, y, z. All ranks ask for the same, while the state is as it is.
+/// Variables over the whole grid, in an order that no layout changes: particles by id, nodes and cells with x fastest.
+/// Vectors come out in x, y, z. All ranks ask for the same, while the state is as it is.
 class Gather {
  public:
   explicit Gather(data::Warehouse& warehouse) : warehouse_(&warehouse) {}
 
-  /// The values of a variable of a generation; none if it is not held, and on every rank but the first. They are in
-  /// memory.
+  /// The values of a variable of a generation, in memory; none if it is not held. For one rank on its own.
   output::Array array(data::Generation generation, int variable);
-  /// The values of a variable without a copy: they stay where they are, and are good while the state is as it is.
+  /// The values of a variable without a copy, on each rank its own: they stay where they are, and are good while the
+  /// state is as it is. None if no rank holds it.
   output::Array stream(data::Generation generation, int variable);
   /// The same in an order of one's own.
   output::Array stream(data::Generation generation, int variable, const GridOrder& order);
-  /// The same for the part of a variable of cells or nodes that is in a layer; no other part is sent.
+  /// The same for the part of a variable of cells or nodes that is in a layer; no other part is asked for.
   output::Array stream(data::Generation generation, int variable, const Layer& layer);
 
  private:
-  using Places = std::shared_ptr<const std::vector<Place>>;
+  using Places = std::shared_ptr<const ParticlePlaces>;
 
   /// Where the particles of a material are, by id.
   const Places& placesOf(int material);

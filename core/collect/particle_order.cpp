@@ -1,9 +1,9 @@
 #include "core/collect/particle_order.hpp"
 
 #include <algorithm>
-#include <cstring>
+#include <numeric>
 
-#include "core/collect/collect.hpp"
+#include "core/collect/sums_before.hpp"
 
 namespace tushar::collect {
 
@@ -13,86 +13,110 @@ using grid::Patch;
 
 ParticleOrder::ParticleOrder(data::Warehouse& warehouse, int material)
     : warehouse_(&warehouse), material_(material), order_(orderOfState(warehouse.grid(), false)) {
+  findRows();
   const grid::Grid& grid = warehouse.grid();
-  std::vector<std::int32_t> perCell(warehouse.ranks().isFirst() ? order_.size() : 0);
-  const auto countsOf = [&](const Patch& patch, auto&& take) {
-    if (!grid.isFinest(patch)) return;
-    const data::ParticleSet& set = warehouse.particles(Generation::old, material, patch.id());
-    forEachRowPiece(patch, [&](std::size_t place, const Index3& first, int cells) {
-      const ParticleRange* row = set.row(first);
-      for (int k = 0; k < cells; ++k) take(place + static_cast<std::size_t>(k), std::int32_t{row[k].size()});
-    });
-  };
-  collect(
-      warehouse,
-      [&](const Patch& patch) {
-        countsOf(patch, [&](std::size_t place, std::int32_t count) { perCell[place] = count; });
-      },
-      [&](const Patch& patch, mpi::Bytes& bytes) {
-        countsOf(patch, [&](std::size_t, std::int32_t count) { mpi::append(bytes, &count, sizeof(count)); });
-      },
-      [&](const Patch& patch, const std::byte* from) -> std::size_t {
-        std::size_t read = 0;
-        if (!grid.isFinest(patch)) return read;
-        forEachRowPiece(patch, [&](std::size_t place, const Index3&, int cells) {
-          const std::size_t length = static_cast<std::size_t>(cells) * sizeof(std::int32_t);
-          std::memcpy(&perCell[place], from + read, length);
-          read += length;
-        });
-        return read;
-      });
-  if (!perCell.empty()) sum(perCell);
+  for (const Row& row : rows_) {
+    const Patch& patch = grid.patches()[row.patch];
+    if (!grid.isFinest(patch)) continue;
+    const ParticleRange* ranges = warehouse.particles(Generation::old, material, patch.id()).row(row.first);
+    for (std::uint32_t k = 0; k < row.cells; ++k) counts_[row.patch][row.from + k] = std::int32_t{ranges[k].size()};
+  }
+  sum();
 }
 
-ParticleOrder::ParticleOrder(data::Warehouse& warehouse, int material, const std::vector<std::int32_t>& perCell)
+ParticleOrder::ParticleOrder(data::Warehouse& warehouse, int material,
+                             const std::function<void(const std::vector<Wanted>&)>& read)
     : warehouse_(&warehouse), material_(material), order_(orderOfState(warehouse.grid(), false)) {
-  sum(perCell);
+  findRows();
+  std::vector<Wanted> wanted;
+  for (const Row& row : rows_) wanted.push_back({row.place, row.cells, &counts_[row.patch][row.from]});
+  read(wanted);
+  sum();
 }
 
-void ParticleOrder::sum(const std::vector<std::int32_t>& perCell) {
-  starts_.assign(perCell.size() + 1, 0);
-  for (std::size_t k = 0; k < perCell.size(); ++k) starts_[k + 1] = starts_[k] + static_cast<std::size_t>(perCell[k]);
+void ParticleOrder::findRows() {
+  const std::vector<Patch>& patches = warehouse_->grid().patches();
+  for (std::uint32_t patch = 0; patch < patches.size(); ++patch) {
+    const grid::Box& cells = patches[patch].cells();
+    counts_.emplace_back(cells.size(), 0);
+    std::uint32_t from = 0;
+    collect::forEachRow(cells, [&](const Index3& first) {
+      grid::Box row = cells;
+      for (const int d : {1, 2}) {
+        row.lower[d] = first[d];
+        row.upper[d] = first[d] + 1;
+      }
+      order_.forEachRow(patches[patch].level().number(), row, [&](std::size_t place, const Index3& cell, int count) {
+        rows_.push_back({place, 0, 0, static_cast<std::uint32_t>(count), patch, from, cell});
+        from += static_cast<std::uint32_t>(count);
+      });
+    });
+  }
 }
 
-std::vector<std::int32_t> ParticleOrder::perCell() const {
-  std::vector<std::int32_t> counts(starts_.size() - 1);
-  for (std::size_t k = 0; k < counts.size(); ++k) counts[k] = static_cast<std::int32_t>(starts_[k + 1] - starts_[k]);
-  return counts;
+/// Where the particles of each row start: behind those of all rows before it, whichever ranks have them.
+void ParticleOrder::sum() {
+  std::vector<std::uint32_t> order(rows_.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return rows_[a].place < rows_[b].place; });
+  std::vector<std::uint64_t> keys, weights;
+  std::uint64_t mine = 0;
+  for (const std::uint32_t k : order) {
+    Row& row = rows_[k];
+    const std::int32_t* first = counts_[row.patch].data() + row.from;
+    row.particles = std::accumulate(first, first + row.cells, 0u);
+    keys.push_back(row.place);
+    weights.push_back(row.particles);
+    mine += row.particles;
+  }
+  const mpi::Communicator& ranks = warehouse_->ranks();
+  const std::vector<std::uint64_t> starts = sumsBefore(ranks, keys, weights);
+  for (std::size_t k = 0; k < order.size(); ++k) rows_[order[k]].start = starts[k];
+  count_ = static_cast<std::size_t>(ranks.sum(static_cast<long>(mine)));
+}
+
+std::shared_ptr<const output::Source> ParticleOrder::perCell() const {
+  auto runs = std::make_shared<Runs>();
+  for (const Row& row : rows_) runs->push_back({row.place, row.patch, row.from, row.cells});
+  std::sort(runs->begin(), runs->end(), [](const Run& a, const Run& b) { return a.place < b.place; });
+  Parts parts;
+  for (const auto& counts : counts_) parts.of.push_back({reinterpret_cast<const std::byte*>(counts.data()), 0});
+  return sourceInRuns(std::move(runs), order_.size(), std::move(parts), EntryForm(sizeof(std::int32_t)));
 }
 
 Runs ParticleOrder::runs() const {
-  const grid::Grid& grid = warehouse_->grid();
   Runs runs;
-  for (int id = 0; id < grid.patchCount(); ++id) {
-    const Patch patch = grid.patch(id);
-    if (!grid.isFinest(patch)) continue;
-    std::uint32_t next = 0;
-    forEachPiece(patch, [&](const std::size_t* start, const Index3&, int cells) {
-      const std::size_t count = start[cells] - start[0];
-      if (count > 0) runs.push_back({start[0], static_cast<std::uint32_t>(id), next});
-      next += static_cast<std::uint32_t>(count);
-    });
+  std::uint32_t patch = 0, next = 0;
+  for (const Row& row : rows_) {
+    if (row.patch != patch) next = 0;
+    patch = row.patch;
+    if (row.particles > 0) runs.push_back({row.start, patch, next, row.particles});
+    next += row.particles;
   }
   std::sort(runs.begin(), runs.end(), [](const Run& a, const Run& b) { return a.place < b.place; });
   return runs;
 }
 
 void ParticleOrder::install() {
-  for (const Patch& patch : warehouse_->grid().patches()) {
-    data::ParticleSet& set = warehouse_->particles(Generation::old, material_, patch.id());
-    set.reset(patch, warehouse_->table().reach(material_));
-    if (!warehouse_->grid().isFinest(patch)) continue;
-    int next = 0;
-    forEachPiece(patch, [&](const std::size_t* start, const Index3& first, int cells) {
-      ParticleRange* row = set.row(first);
-      for (int k = 0; k < cells; ++k) {
-        const int count = static_cast<int>(start[k + 1] - start[k]);
-        row[k] = {next, next + count};
-        next += count;
-      }
-    });
-    set.setOwned(next);
+  const grid::Grid& grid = warehouse_->grid();
+  const auto setOf = [&](const Patch& patch) -> data::ParticleSet& {
+    return warehouse_->particles(Generation::old, material_, patch.id());
+  };
+  for (const Patch& patch : grid.patches()) setOf(patch).reset(patch, warehouse_->table().reach(material_));
+  std::vector<int> next(grid.patches().size(), 0);
+  for (const Row& row : rows_) {
+    const Patch& patch = grid.patches()[row.patch];
+    if (!grid.isFinest(patch)) continue;
+    ParticleRange* ranges = setOf(patch).row(row.first);
+    for (std::uint32_t k = 0; k < row.cells; ++k) {
+      const int first = next[row.patch];
+      next[row.patch] += counts_[row.patch][row.from + k];
+      ranges[k] = {first, next[row.patch]};
+    }
   }
+  for (std::size_t k = 0; k < next.size(); ++k)
+    if (grid.isFinest(grid.patches()[k])) setOf(grid.patches()[k]).setOwned(next[k]);
   warehouse_->layOut(Generation::old, material_, Generation::old);
 }
 

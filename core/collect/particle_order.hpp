@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <vector>
 
 #include "core/collect/grid_order.hpp"
@@ -10,59 +12,51 @@
 
 namespace tushar::collect {
 
-/// The order (cell, id) of the old particles of a material over the whole grid, which no layout changes, and where each
-/// patch has them. Cells come with the first axis fastest; where there are several levels, block by block.
+/// The order (cell, id) of the old particles of a material over the whole grid, which no layout changes, and where the
+/// patches of this rank have theirs. Cells come with the first axis fastest; where there are several levels, block by
+/// block. A rank knows the counts of its own cells alone.
 class ParticleOrder {
  public:
-  /// Orders the particles that the warehouses of all ranks hold; the order is on rank 0. Collective.
+  /// Orders the particles that the warehouses of all ranks hold. Collective.
   ParticleOrder(data::Warehouse& warehouse, int material);
-  /// Takes the number of particles in each cell of the grid, in the order of the cells.
-  ParticleOrder(data::Warehouse& warehouse, int material, const std::vector<std::int32_t>& perCell);
 
-  /// Number of particles.
-  std::size_t count() const { return starts_.back(); }
-  std::vector<std::int32_t> perCell() const;
+  /// Numbers of particles that are wanted: of so many cells from a place in the order of all cells on.
+  struct Wanted {
+    std::size_t first, count;
+    std::int32_t* to;
+  };
+  /// Takes the number of particles in each cell from `read`, which is called once. Collective.
+  ParticleOrder(data::Warehouse& warehouse, int material, const std::function<void(const std::vector<Wanted>&)>& read);
+
+  /// Number of particles of all ranks.
+  std::size_t count() const { return count_; }
+  /// The number of particles in each cell of the grid, in the order of the cells; good while this lives.
+  std::shared_ptr<const output::Source> perCell() const;
   /// Gives each patch its particles, without values.
   void install();
-  /// The rows of cells that have particles, of all patches of the grid.
+  /// The rows of cells that have particles, of the patches of this rank.
   Runs runs() const;
-  /// Calls `visit(place in the order, place on the patch, count)` for each row of cells of a patch of this rank.
-  template <class Visit>
-  void forEachRun(const grid::Patch& patch, Visit&& visit) const {
-    if (!warehouse_->grid().isFinest(patch)) return;
-    const data::ParticleSet& set = warehouse_->particles(data::Generation::old, material_, patch.id());
-    forEachPiece(patch, [&](const std::size_t* start, const Index3& first, int cells) {
-      const std::size_t count = start[cells] - start[0];
-      if (count > 0) visit(start[0], static_cast<std::size_t>(set.row(first)->first), count);
-    });
-  }
 
  private:
-  /// Calls `visit(place of the first cell among all, first cell, count)` for the pieces of each row of cells of a patch
-  /// that stand together in the order, row by row, from left to right.
-  template <class Visit>
-  void forEachRowPiece(const grid::Patch& patch, Visit&& visit) const {
-    collect::forEachRow(patch.cells(), [&](const Index3& first) {
-      grid::Box row = patch.cells();
-      for (const int d : {1, 2}) {
-        row.lower[d] = first[d];
-        row.upper[d] = first[d] + 1;
-      }
-      order_.forEachRow(patch.level().number(), row, visit);
-    });
-  }
-  /// The same with where the particles of the first cell start, and of the cells behind it.
-  template <class Visit>
-  void forEachPiece(const grid::Patch& patch, Visit&& visit) const {
-    forEachRowPiece(patch,
-                    [&](std::size_t place, const Index3& first, int cells) { visit(&starts_[place], first, cells); });
-  }
-  void sum(const std::vector<std::int32_t>& perCell);
+  /// Cells of a row that stand together in the order.
+  struct Row {
+    std::size_t place;    ///< of the first cell in the order of the cells
+    std::uint64_t start;  ///< place of its first particle in the order of the particles
+    std::uint32_t particles, cells;
+    std::uint32_t patch;  ///< among those of this rank
+    std::uint32_t from;   ///< place of the first cell among the counts of the patch
+    Index3 first;         ///< cell
+  };
+
+  void findRows();
+  void sum();
 
   data::Warehouse* warehouse_;
   int material_;
   GridOrder order_;
-  std::vector<std::size_t> starts_{0};  ///< place of the first particle of each cell, then of the end
+  std::vector<Row> rows_;                          ///< patch by patch, row by row, from left to right
+  std::vector<std::vector<std::int32_t>> counts_;  ///< of each patch: of its cells, in the order of the rows
+  std::size_t count_ = 0;
 };
 
 }  // namespace tushar::collect

@@ -4,8 +4,10 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <utility>
 
 #include "core/collect/rows.hpp"
+#include "core/collect/sums_before.hpp"
 
 namespace tushar::collect {
 
@@ -14,25 +16,53 @@ using grid::Level;
 
 namespace {
 
+/// Adds entries behind those that there are.
+void addStretch(std::vector<output::Stretch>& all, std::size_t first, std::size_t count) {
+  if (!all.empty() && all.back().first + all.back().count == first)
+    all.back().count += static_cast<std::uint32_t>(count);
+  else
+    all.push_back({static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count)});
+}
+
 class InRuns : public output::Source {
  public:
   InRuns(std::shared_ptr<const Runs> runs, std::size_t entries, Parts parts, const EntryForm& form)
       : runs_(std::move(runs)), entries_(entries), parts_(std::move(parts)), form_(form) {}
 
   std::size_t entries() const override { return entries_; }
+
   void read(std::size_t first, std::size_t count, std::byte* to) const override {
-    const auto isBefore = [](std::size_t place, const Run& run) { return place < run.place; };
-    auto run = std::upper_bound(runs_->begin(), runs_->end(), first, isBefore) - 1;
-    for (const std::size_t end = first + count; first < end; ++run) {
-      const std::size_t runEnd = run + 1 == runs_->end() ? entries_ : (run + 1)->place;
-      const std::size_t taken = std::min(runEnd, end) - first;
-      form_.copy(parts_.of[run->patch].values + (run->first + first - run->place) * form_.bytes(), taken, to);
+    forEachPart(first, count, [&](const std::byte* from, std::size_t place, std::size_t taken) {
+      form_.copy(from, taken, to + (place - first) * form_.bytesOut());
+    });
+  }
+
+  std::vector<output::Stretch> stretches(std::size_t first, std::size_t count) const override {
+    std::vector<output::Stretch> all;
+    forEachPart(first, count,
+                [&](const std::byte*, std::size_t place, std::size_t taken) { addStretch(all, place - first, taken); });
+    return all;
+  }
+
+  void pack(std::size_t first, std::size_t count, std::byte* to) const override {
+    forEachPart(first, count, [&](const std::byte* from, std::size_t, std::size_t taken) {
+      form_.copy(from, taken, to);
       to += taken * form_.bytesOut();
-      first += taken;
-    }
+    });
   }
 
  private:
+  /// Calls `visit(values, place of the first, count)` for what each run has of some entries.
+  template <class Visit>
+  void forEachPart(std::size_t first, std::size_t count, Visit&& visit) const {
+    const auto isBefore = [](std::size_t place, const Run& run) { return place < run.place + run.count; };
+    auto run = std::upper_bound(runs_->begin(), runs_->end(), first, isBefore);
+    for (const std::size_t end = first + count; run != runs_->end() && run->place < end; ++run) {
+      const std::size_t from = std::max(first, run->place), to = std::min(end, run->place + run->count);
+      visit(parts_.of[run->patch].values + (run->first + from - run->place) * form_.bytes(), from, to - from);
+    }
+  }
+
   std::shared_ptr<const Runs> runs_;
   std::size_t entries_;
   Parts parts_;
@@ -41,19 +71,59 @@ class InRuns : public output::Source {
 
 class AtPlaces : public output::Source {
  public:
-  AtPlaces(std::shared_ptr<const std::vector<Place>> places, Parts parts, const EntryForm& form)
+  AtPlaces(std::shared_ptr<const ParticlePlaces> places, Parts parts, const EntryForm& form)
       : places_(std::move(places)), parts_(std::move(parts)), form_(form) {}
 
-  std::size_t entries() const override { return places_->size(); }
+  std::size_t entries() const override { return places_->count; }
+
   void read(std::size_t first, std::size_t count, std::byte* to) const override {
-    form_.gather(parts_.of, std::span(*places_).subspan(first, count), to);
+    if (places_->ranked.empty() && !places_->places.empty()) return gather(first, count, to);
+    const auto [from, end] = own(first, count);
+    for (std::size_t k = from; k < end; ++k) gather(k, 1, to + (places_->ranked[k] - first) * form_.bytesOut());
+  }
+
+  std::vector<output::Stretch> stretches(std::size_t first, std::size_t count) const override {
+    std::vector<output::Stretch> all;
+    const auto [from, end] = own(first, count);
+    for (std::size_t k = from; k < end; ++k) addStretch(all, places_->ranked[k] - first, 1);
+    return all;
+  }
+
+  void pack(std::size_t first, std::size_t count, std::byte* to) const override {
+    const auto [from, end] = own(first, count);
+    gather(from, end - from, to);
   }
 
  private:
-  std::shared_ptr<const std::vector<Place>> places_;
+  void gather(std::size_t first, std::size_t count, std::byte* to) const {
+    form_.gather(parts_.of, std::span(places_->places).subspan(first, count), to);
+  }
+  /// Which of the places of this rank are among these entries: from, end.
+  std::pair<std::size_t, std::size_t> own(std::size_t first, std::size_t count) const {
+    const auto begin = places_->ranked.begin(), end = places_->ranked.end();
+    const auto from = std::lower_bound(begin, end, first);
+    return {from - begin, std::lower_bound(from, end, first + count) - begin};
+  }
+
+  std::shared_ptr<const ParticlePlaces> places_;
   Parts parts_;
   EntryForm form_;
 };
+
+/// Runs in the order of their places, without what an earlier one has: nodes on a face belong to patches on both sides.
+Runs withoutOverlaps(Runs runs) {
+  std::sort(runs.begin(), runs.end(), [](const Run& a, const Run& b) { return a.place < b.place; });
+  std::size_t end = 0;
+  for (Run& run : runs) {
+    const auto covered = static_cast<std::uint32_t>(std::min<std::size_t>(run.count, end - std::min(end, run.place)));
+    run.place += covered;
+    run.first += covered;
+    run.count -= covered;
+    end = std::max(end, run.place + run.count);
+  }
+  std::erase_if(runs, [](const Run& run) { return run.count == 0; });
+  return runs;
+}
 
 /// Calls `visit(id, place)` for each particle.
 template <class Visit>
@@ -139,15 +209,16 @@ void gatherFixed(const EntryAt& entryAt, std::size_t count, std::byte* to) {
 
 Runs runsOfGrid(const grid::Grid& grid, const data::Label& label, const Parts& parts, const GridOrder& order) {
   Runs runs;
-  for (std::size_t id = 0; id < parts.of.size(); ++id) {
-    const grid::Patch patch = grid.patch(static_cast<int>(id));
-    order.forEachRow(patch.level().number(), ownBox(patch, label), [&](std::size_t place, const Index3& first, int) {
-      runs.push_back(
-          {place, static_cast<std::uint32_t>(id), static_cast<std::uint32_t>(parts.of[id].stored.offset(first))});
-    });
+  for (std::size_t k = 0; k < parts.of.size(); ++k) {
+    const grid::Patch& patch = grid.patches()[k];
+    order.forEachRow(patch.level().number(), ownBox(patch, label),
+                     [&](std::size_t place, const Index3& first, int count) {
+                       runs.push_back({place, static_cast<std::uint32_t>(k),
+                                       static_cast<std::uint32_t>(parts.of[k].stored.offset(first)),
+                                       static_cast<std::uint32_t>(count)});
+                     });
   }
-  std::sort(runs.begin(), runs.end(), [](const Run& a, const Run& b) { return a.place < b.place; });
-  return runs;
+  return withoutOverlaps(std::move(runs));
 }
 
 std::vector<Place> placesById(const Parts& ids) {
@@ -161,6 +232,20 @@ std::vector<Place> placesById(const Parts& ids) {
   const Packing keyOf(all & ~common);
   const bool dense = keyOf.bits() < 48 && std::uint64_t{1} << keyOf.bits() <= 4 * count;
   return dense ? sortedByTable(ids, keyOf) : sortedByDigits(ids, keyOf, count);
+}
+
+ParticlePlaces rankedById(const mpi::Communicator& ranks, const Parts& ids) {
+  ParticlePlaces ranked{placesById(ids)};
+  ranked.count = ranked.places.size();
+  if (ranks.isAlone()) return ranked;
+  std::vector<std::uint64_t> sorted(ranked.places.size());
+  for (std::size_t k = 0; k < sorted.size(); ++k) {
+    const auto [patch, index] = ranked.places[k];
+    std::memcpy(&sorted[k], ids.of[patch].values + index * sizeof(std::uint64_t), sizeof(std::uint64_t));
+  }
+  ranked.ranked = sumsBefore(ranks, sorted);
+  ranked.count = static_cast<std::size_t>(ranks.sum(static_cast<long>(sorted.size())));
+  return ranked;
 }
 
 EntryForm::EntryForm(const data::Label& label, const Level& level) : bytes_(label.bytes) {
@@ -199,7 +284,7 @@ std::shared_ptr<const output::Source> sourceInRuns(std::shared_ptr<const Runs> r
   return std::make_shared<InRuns>(std::move(runs), entries, std::move(parts), form);
 }
 
-std::shared_ptr<const output::Source> sourceAt(std::shared_ptr<const std::vector<Place>> places, Parts parts,
+std::shared_ptr<const output::Source> sourceAt(std::shared_ptr<const ParticlePlaces> places, Parts parts,
                                                const EntryForm& form) {
   return std::make_shared<AtPlaces>(std::move(places), std::move(parts), form);
 }

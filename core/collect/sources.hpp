@@ -5,24 +5,25 @@
 #include <span>
 #include <vector>
 
+#include "core/base/mpi.hpp"
 #include "core/collect/collect.hpp"
 #include "core/output/snapshot.hpp"
 
 namespace tushar::collect {
 
-/// Entries that stand one after the other on a patch as in the order of the whole grid, up to the next run.
+/// Entries that stand one after the other on a patch as in the order of the whole grid.
 struct Run {
-  std::size_t place;           ///< of the first in the order of the whole grid
-  std::uint32_t patch, first;  ///< where that is on its patch
+  std::size_t place;                  ///< of the first in the order of the whole grid
+  std::uint32_t patch, first, count;  ///< where that is among the parts and on its patch, and how many there are
 };
 
 /// Runs in the order of their places.
 using Runs = std::vector<Run>;
 
-/// The rows of the cells or nodes in an order, wherever the patches have them.
+/// The rows of the cells or nodes in an order that this rank's patches have.
 Runs runsOfGrid(const grid::Grid& grid, const data::Label& label, const Parts& parts, const GridOrder& order);
 
-/// Where a particle is: the number of its patch, and its place there.
+/// Where a particle is: its patch among the parts, and its place there.
 struct Place {
   std::uint32_t patch, index;
 };
@@ -33,8 +34,9 @@ std::vector<Place> placesById(const Parts& ids);
 /// What becomes of an entry of a variable on its way into an array: it stays as it is, or is widened to x, y, z.
 class EntryForm {
  public:
-  /// Entries stay as they are.
-  explicit EntryForm(const data::Label& label) : bytes_(label.bytes) {}
+  /// Entries of so many bytes stay as they are.
+  explicit EntryForm(std::size_t bytes) : bytes_(bytes) {}
+  explicit EntryForm(const data::Label& label) : EntryForm(label.bytes) {}
   /// Vectors get 0 along the axes that the grid leaves out, and positions the middle of the domain.
   EntryForm(const data::Label& label, const grid::Level& level);
 
@@ -55,12 +57,22 @@ class EntryForm {
   double rest_[3] = {0, 0, 0};  ///< what x, y, z are along the others
 };
 
-/// The entries in the order of runs.
+/// Where the particles of this rank are, and where they stand in an order of those of all ranks.
+struct ParticlePlaces {
+  std::vector<Place> places;            ///< in the order
+  std::vector<std::uint64_t> ranked{};  ///< place of each among those of all ranks; empty where there are no others
+  std::size_t count = 0;                ///< on all ranks
+};
+
+/// The particles with these ids, in ascending order of the ids. Collective.
+ParticlePlaces rankedById(const mpi::Communicator& ranks, const Parts& ids);
+
+/// The entries in the order of runs; `entries` is how many all ranks have.
 std::shared_ptr<const output::Source> sourceInRuns(std::shared_ptr<const Runs> runs, std::size_t entries, Parts parts,
                                                    const EntryForm& form);
 
-/// The entries at these places, one after the other.
-std::shared_ptr<const output::Source> sourceAt(std::shared_ptr<const std::vector<Place>> places, Parts parts,
+/// The entries at these places.
+std::shared_ptr<const output::Source> sourceAt(std::shared_ptr<const ParticlePlaces> places, Parts parts,
                                                const EntryForm& form);
 
 }  // namespace tushar::collect

@@ -115,65 +115,61 @@ class StateWalk {
   const StateNames& names_;
 };
 
-/// Every rank walks; the first has the file.
 class StateWriter : StateWalk {
  public:
-  StateWriter(output::Hdf5File* file, data::Warehouse& warehouse, const StateNames& names)
-      : StateWalk(warehouse, names), file_(file) {}
+  StateWriter(data::Warehouse& warehouse, const StateNames& names, std::deque<ParticleOrder>& orders,
+              std::vector<output::Dataset>& datasets)
+      : StateWalk(warehouse, names), orders_(orders), datasets_(datasets) {}
 
   void run() {
     forEachField([&](int number, const std::string& path) {
-      if (isHeld(number)) writeField(number, path);
+      if (isHeld(number)) addField(number, path);
     });
     for (int m = 0; m < materials(); ++m)
-      if (hasParticles(m)) writeParticles(m);
-    forEachVariable(Centring::reduction, -1,
-                    [&](int number, const std::string& path) { writeReduction(number, path); });
+      if (hasParticles(m)) addParticles(m);
+    forEachVariable(Centring::reduction, -1, [&](int number, const std::string& path) { addReduction(number, path); });
   }
 
  private:
   bool isHeld(int number) const { return warehouse_.isHeld(Generation::old, number); }
 
-  void writeField(int number, const std::string& path) {
+  void addField(int number, const std::string& path) {
     const GridOrder order = orderOfState(grid_, label(number));
-    Parts parts = collectGrid(warehouse_, Generation::old, number, order);
-    if (!file_) return;
+    Parts parts = collectGrid(warehouse_, Generation::old, number);
     auto runs = std::make_shared<Runs>(runsOfGrid(grid_, label(number), parts, order));
     Array array = arrayOf(label(number));
     array.source = sourceInRuns(std::move(runs), order.size(), std::move(parts), EntryForm(label(number)));
-    file_->dataset(path, array, shapeOf(grid_, label(number)));
+    datasets_.push_back({path, std::move(array), shapeOf(grid_, label(number))});
   }
 
-  void writeParticles(int material) {
-    const ParticleOrder order(warehouse_, material);
-    if (file_)
-      file_->dataset(perCellPath(material), {"perCell", "1", "particles of each cell", 1, order.perCell()},
-                     {grid_.cellCount()});
-    const auto runs = std::make_shared<const Runs>(file_ ? order.runs() : Runs{});
+  void addParticles(int material) {
+    const ParticleOrder& order = orders_.emplace_back(warehouse_, material);
+    datasets_.push_back({perCellPath(material),
+                         {"perCell", "1", "particles of each cell", 1, std::vector<std::int32_t>{}, order.perCell()},
+                         {grid_.cellCount()}});
+    const auto runs = std::make_shared<const Runs>(order.runs());
     forEachVariable(Centring::particle, material, [&](int number, const std::string& path) {
-      if (isHeld(number)) writeColumn(number, path, runs, order.count());
+      if (!isHeld(number)) return;
+      Array array = arrayOf(label(number));
+      array.source = sourceInRuns(runs, order.count(), collectParticles(warehouse_, Generation::old, number),
+                                  EntryForm(label(number)));
+      datasets_.push_back({path, std::move(array), {order.count()}});
     });
   }
 
-  void writeColumn(int number, const std::string& path, const std::shared_ptr<const Runs>& runs, std::size_t count) {
-    Parts parts = collectParticles(warehouse_, Generation::old, number);
-    if (!file_) return;
-    Array array = arrayOf(label(number));
-    array.source = sourceInRuns(runs, count, std::move(parts), EntryForm(label(number)));
-    file_->dataset(path, array, {count});
-  }
-
-  void writeReduction(int number, const std::string& path) {
+  void addReduction(int number, const std::string& path) {
     const std::span<const std::byte> bytes = warehouse_.reductionBytes(number);
-    if (bytes.empty() || !file_) return;
+    if (bytes.empty()) return;
     std::vector<std::uint64_t> words(wordsOf(bytes.size()));
     std::memcpy(words.data(), bytes.data(), bytes.size());
     Array array = arrayOf(label(number));
     array.values = std::move(words);
-    file_->dataset(path, array, {array.entries()});
+    const std::uint64_t count = array.entries();
+    datasets_.push_back({path, std::move(array), {count}});
   }
 
-  output::Hdf5File* file_;
+  std::deque<ParticleOrder>& orders_;
+  std::vector<output::Dataset>& datasets_;
 };
 
 class StateReader : StateWalk {
@@ -253,8 +249,14 @@ class StateReader : StateWalk {
   }
 
   void readParticles(int material) {
-    const Array::Values perCell = stored(perCellPath(material), std::vector<std::int32_t>{}, grid_.cellCount());
-    ParticleOrder order(warehouse_, material, std::get<std::vector<std::int32_t>>(perCell));
+    const std::string perCell = perCellPath(material);
+    const output::Hdf5Parts counts(file_, perCell);
+    check(perCell, counts.type(), counts.count(), std::vector<std::int32_t>{}, grid_.cellCount());
+    ParticleOrder order(warehouse_, material, [&](const std::vector<ParticleOrder::Wanted>& wanted) {
+      std::vector<output::Hdf5Parts::Part> parts;
+      for (const auto& [first, count, to] : wanted) parts.push_back({first, count, reinterpret_cast<std::byte*>(to)});
+      counts.read(std::move(parts));
+    });
     order.install();
     forEachVariable(Centring::particle, material, [&](int number, const std::string& path) {
       if (isStored(label(number), path)) readColumn(number, path, order);
@@ -266,12 +268,9 @@ class StateReader : StateWalk {
     const output::Hdf5Parts file = partsOf(path, column, order.count());
     std::vector<output::Hdf5Parts::Part> rows;
     warehouse_.allocateParticles(Generation::old, number, Generation::old);
-    for (const Patch& patch : grid_.patches()) {
-      const Variable to = variable(number, patch);
-      order.forEachRun(patch, [&](std::size_t place, std::size_t held, std::size_t count) {
-        rows.push_back(partOf(column, place, count, to.values + held * column.bytes));
-      });
-    }
+    for (const Run& run : order.runs())
+      rows.push_back(partOf(column, run.place, run.count,
+                            variable(number, grid_.patches()[run.patch]).values + run.first * column.bytes));
     file.read(std::move(rows));
   }
 
@@ -287,8 +286,8 @@ class StateReader : StateWalk {
 
 }  // namespace
 
-void writeState(output::Hdf5File* file, data::Warehouse& warehouse, const StateNames& names) {
-  StateWriter(file, warehouse, names).run();
+StoredState::StoredState(data::Warehouse& warehouse, const StateNames& names) {
+  StateWriter(warehouse, names, orders_, datasets_).run();
 }
 
 void readState(const output::Hdf5Input& file, data::Warehouse& warehouse, const StateNames& names,

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <deque>
 #include <string>
 #include <vector>
 
+#include "core/collect/particle_order.hpp"
 #include "core/data/warehouse.hpp"
-#include "core/output/archive_hdf5.hpp"
 #include "core/output/archive_hdf5_input.hpp"
+#include "core/output/shared_hdf5.hpp"
 
 namespace tushar::collect {
 
@@ -14,18 +16,29 @@ struct StateNames {
   std::vector<std::string> labels, materials;
 };
 
-/// Writes the old values of the variables to the last bit, in an order that no layout changes: nodes and cells with x
-/// fastest, particles by (cell, id). Variables that are not held are left out. Rank 0 has the file, and all
-/// call this; the others hand over null.
+/// The old values of the variables to the last bit, in an order that no layout changes: nodes and cells with x fastest,
+/// particles by (cell, id). Variables that are not held are left out. The values stay where they are, and are good
+/// while the state is as it is.
 ///
 ///     /particles/<material>/perCell    number of particles of each cell
 ///     /particles/<material>/<label>    shape: particles × components along the axes in use
 ///     /cells/[<material>/]<label>, /nodes/…    shape: z × y × x × components
 ///     /reductions/<label>              the reducer's bytes, eight to a number
-void writeState(output::Hdf5File* file, data::Warehouse& warehouse, const StateNames& names);
+class StoredState {
+ public:
+  /// Collective.
+  StoredState(data::Warehouse& warehouse, const StateNames& names);
+  /// For output::writeTogether.
+  const std::vector<output::Dataset>& datasets() const { return datasets_; }
 
-/// Makes what writeState wrote the old values, on whatever patches the warehouse has. Throws InputError for a variable
-/// of `required` that the file lacks or has in another form, or that has another number of values.
+ private:
+  std::deque<ParticleOrder> orders_;
+  std::vector<output::Dataset> datasets_;
+};
+
+/// Makes a stored state the old values, on whatever patches the warehouse has; each rank reads what its own need.
+/// Collective. Throws InputError for a variable of `required` that the file lacks or has in another form, or that has
+/// another number of values.
 void readState(const output::Hdf5Input& file, data::Warehouse& warehouse, const StateNames& names,
                const std::vector<std::string>& required);
 

@@ -94,6 +94,10 @@ Archive::~Archive() {
 
 void Archive::write(const Snapshot& snapshot) {
   writeSnapshot(state_->folder / outputName(snapshot.step), snapshot, state_->options);
+  list(snapshot);
+}
+
+void Archive::list(const Snapshot& snapshot) {
   const bool hasNewNames = state_->index.add(snapshot);
   state_->xdmf.add(snapshot);
   state_->last_step = snapshot.step;

@@ -31,7 +31,8 @@ struct ArchivePoint {
 };
 
 /// The `.uda` folder of a run: the scene, an index, an HDF5 file per output, an XDMF file that shows them to ParaView,
-/// and a text file per global quantity. One process writes it. Any function may throw FileError, which names the file
+/// and a text file per global quantity. One process writes it, with other ranks that help with the
+/// outputs. Any function may throw FileError, which names the file
 /// and the system's reason.
 ///
 ///     sod.uda -> sod.uda.001      link to the newest run
@@ -61,6 +62,8 @@ class Archive {
 
   /// Writes an output. A step that is written again replaces what was there.
   void write(const Snapshot& snapshot);
+  /// Lists an output that is in the folder already: ranks have written it together.
+  void list(const Snapshot& snapshot);
   /// Adds a line to `<name>.dat`.
   void appendGlobal(const GlobalSample& sample);
   /// Writes index.xml and the XDMF file if they have been behind for long enough. To be called after each step.

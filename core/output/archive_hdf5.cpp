@@ -12,6 +12,7 @@
 #include <type_traits>
 
 #include "core/base/error.hpp"
+#include "core/output/archive_hdf5_chunks.hpp"
 #include "core/output/archive_hdf5_handles.hpp"
 
 namespace tushar::output {
@@ -24,17 +25,9 @@ std::string hdf5Version() {
 
 namespace {
 
-hid_t fileType(double, bool asFloat) { return asFloat ? H5T_IEEE_F32LE : H5T_IEEE_F64LE; }
-hid_t fileType(std::uint64_t, bool) { return H5T_STD_U64LE; }
-hid_t fileType(std::int32_t, bool) { return H5T_STD_I32LE; }
-
 hid_t fileTypeLike(const Array::Values& type) {
   return std::visit([](const auto& all) { return fileType(typename std::decay_t<decltype(all)>::value_type{}, false); },
                     type);
-}
-
-hsize_t volume(const std::vector<hsize_t>& extent) {
-  return std::accumulate(extent.begin(), extent.end(), hsize_t{1}, std::multiplies<>());
 }
 
 /// The first of the next piece: along the axis that varies fastest where there is one, else along the next.
@@ -46,22 +39,8 @@ void advance(std::vector<hsize_t>& first, const std::vector<hsize_t>& piece, con
   }
 }
 
-/// The part of a dataset that is written at once, and compressed by itself: about a megabyte, whole along the axes that
-/// vary fastest.
-std::vector<hsize_t> pieceOf(const std::vector<hsize_t>& shape) {
-  std::vector<hsize_t> chunk(shape.size());
-  hsize_t room = 1 << 17;
-  for (std::size_t k = shape.size(); k-- > 0;) {
-    chunk[k] = std::clamp<hsize_t>(room, 1, shape[k]);
-    room /= chunk[k];
-  }
-  return chunk;
-}
-
-bool setCompression(hid_t creation, const std::vector<hsize_t>& shape, int level) {
-  if (level <= 0 || std::count(shape.begin(), shape.end(), hsize_t{0}) > 0) return true;
-  return H5Pset_chunk(creation, static_cast<int>(shape.size()), pieceOf(shape).data()) >= 0 &&
-         H5Pset_shuffle(creation) >= 0 && H5Pset_deflate(creation, static_cast<unsigned>(level)) >= 0;
+bool setCompression(hid_t creation, const Extents& shape, int level) {
+  return level <= 0 || numbersOf(shape) == 0 || setPacking(creation, chunkOf(shape), level);
 }
 
 Handle parentsMade() {
@@ -144,29 +123,59 @@ void Hdf5File::group(const std::string& name) {
   checked<hid_t>(made, name + " in");
 }
 
-void Hdf5File::dataset(const std::string& name, const Array& array, std::vector<std::uint64_t> shape,
+/// To be closed by the caller.
+Hdf5File::Id Hdf5File::makeDataset(const std::string& name, const Array& array, const Shape& shape, bool asFloat,
+                                   Id creation) {
+  const Handle space = spaceOf(shape);
+  const Handle links = parentsMade();
+  assert(static_cast<hsize_t>(H5Sget_simple_extent_npoints(space)) == array.entries() * array.components);
+  const hid_t type = std::visit(
+      [&](const auto& values) { return fileType(typename std::decay_t<decltype(values)>::value_type{}, asFloat); },
+      array.values);
+  return checked(H5Dcreate2(file_, name.c_str(), type, space, links, creation, H5P_DEFAULT), name + " in");
+}
+
+void Hdf5File::dataset(const std::string& name, const Array& array, const std::vector<std::uint64_t>& shape,
                        Precision precision) {
   const Silence silence;
-  std::vector<hsize_t> full(shape.begin(), shape.end());
-  if (array.components > 1) full.push_back(static_cast<hsize_t>(array.components));
-  const Handle space = spaceOf(full);
-  const Handle links = parentsMade();
+  const Shape full = fullShape(shape, array);
   const Handle creation = withoutTimes();
   checked(setCompression(creation, full, compression_) ? 0 : -1, name + ", compressed, in");
   const bool asFloat = double_as_float_ && precision == Precision::asAsked;
+  const Handle data(makeDataset(name, array, full, asFloat, creation), H5Dclose);
   std::visit(
       [&](const auto& values) {
         using Number = typename std::decay_t<decltype(values)>::value_type;
-        assert(static_cast<hsize_t>(H5Sget_simple_extent_npoints(space)) == array.entries() * array.components);
-        const Handle data(
-            H5Dcreate2(file_, name.c_str(), fileType(Number{}, asFloat), space, links, creation, H5P_DEFAULT),
-            H5Dclose);
-        checked<hid_t>(data, name + " in");
         array.source ? writePieces<Number>(data, array, full, name) : writeValues(data, values, name);
       },
       array.values);
   attribute(name, "unit", array.unit);
   attribute(name, "description", array.description);
+}
+
+std::uint64_t Hdf5File::room(const std::string& name, const Array& array, const std::vector<std::uint64_t>& shape) {
+  const Silence silence;
+  const Shape full = fullShape(shape, array);
+  const Handle creation = withoutTimes();
+  checked(setCompression(creation, full, compression_) ? 0 : -1, name + ", compressed, in");
+  if (compression_ <= 0) {
+    H5Pset_alloc_time(creation, H5D_ALLOC_TIME_EARLY);
+    H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER);
+  }
+  const Handle data(makeDataset(name, array, full, double_as_float_, creation), H5Dclose);
+  attribute(name, "unit", array.unit);
+  attribute(name, "description", array.description);
+  if (compression_ > 0 || array.entries() == 0) return 0;
+  const haddr_t offset = H5Dget_offset(data);
+  checked(offset == HADDR_UNDEF ? -1 : 0, name + " in");
+  return offset;
+}
+
+void Hdf5File::chunk(const std::string& name, const std::vector<unsigned long long>& corner, std::uint32_t skipped,
+                     std::span<const std::byte> bytes) {
+  const Silence silence;
+  const Handle data(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
+  checked(H5Dwrite_chunk(data, H5P_DEFAULT, skipped, corner.data(), bytes.size(), bytes.data()), name + " in");
 }
 
 template <class Number>
@@ -179,14 +188,14 @@ template <class Number>
 void Hdf5File::writePieces(Id data, const Array& array, const Shape& shape, const std::string& what) {
   if (array.entries() == 0) return;
   const Handle space(H5Dget_space(data), H5Sclose);
-  const std::vector<hsize_t> most = pieceOf(shape);
+  const std::vector<hsize_t> most = chunkOf(shape);
   std::vector<hsize_t> first(shape.size(), 0), extent(shape.size());
-  piece_.resize(std::max<std::size_t>(piece_.size(), volume(most) * sizeof(Number)));
+  piece_.resize(std::max<std::size_t>(piece_.size(), numbersOf(most) * sizeof(Number)));
   for (std::size_t read = 0; read < array.entries();) {
     for (std::size_t k = 0; k < shape.size(); ++k) extent[k] = std::min(most[k], shape[k] - first[k]);
-    const std::size_t entries = volume(extent) / array.components;
+    const std::size_t entries = numbersOf(extent) / array.components;
     array.source->read(read, entries, piece_.data());
-    const Handle memory = vectorSpace(volume(extent));
+    const Handle memory = vectorSpace(numbersOf(extent));
     H5Sselect_hyperslab(space, H5S_SELECT_SET, first.data(), nullptr, extent.data(), nullptr);
     checked(H5Dwrite(data, memoryType(Number{}), memory, space, H5P_DEFAULT, piece_.data()), what + " in");
     read += entries;

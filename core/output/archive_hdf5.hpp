@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -43,8 +44,15 @@ class Hdf5File {
   void group(const std::string& name);
   /// Writes an array as a dataset of shape `shape` × components (the last only where there are several), with the
   /// attributes unit and description. The groups above it are made. Values of a source are written piece by piece.
-  void dataset(const std::string& name, const Array& array, std::vector<std::uint64_t> shape,
+  void dataset(const std::string& name, const Array& array, const std::vector<std::uint64_t>& shape,
                Precision precision = Precision::asAsked);
+  /// The same for an array whose values are written later, as asked: makes room for them, without gaps, and says where
+  /// in the file that begins; of a compressed file 0, as there each chunk gets its room when it comes.
+  std::uint64_t room(const std::string& name, const Array& array, const std::vector<std::uint64_t>& shape);
+  /// Writes a packed chunk of a dataset that has been given room; `corner` is where its first number stands, `skipped`
+  /// HDF5's mask of filters.
+  void chunk(const std::string& name, const std::vector<unsigned long long>& corner, std::uint32_t skipped,
+             std::span<const std::byte> bytes);
   /// Writes a text of any length as a dataset. The groups above it are made.
   void text(const std::string& name, const std::string& value);
   /// Makes a dataset of real numbers, or of integers like those of `type`, that shows parts of others and holds no
@@ -74,6 +82,7 @@ class Hdf5File {
   using Shape = std::vector<unsigned long long>;  ///< of its hsize_t
   template <class Result>
   Result checked(Result result, const std::string& what) const;
+  Id makeDataset(const std::string& name, const Array& array, const Shape& shape, bool asFloat, Id creation);
   template <class Number>
   void writeValues(Id data, const std::vector<Number>& values, const std::string& what);
   template <class Number>

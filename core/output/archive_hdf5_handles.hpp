@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 namespace tushar::output {
 
@@ -48,6 +49,16 @@ std::string hdf5Reason();
 inline hid_t memoryType(double) { return H5T_NATIVE_DOUBLE; }
 inline hid_t memoryType(std::uint64_t) { return H5T_NATIVE_UINT64; }
 inline hid_t memoryType(std::int32_t) { return H5T_NATIVE_INT32; }
+
+inline hid_t fileType(double, bool asFloat) { return asFloat ? H5T_IEEE_F32LE : H5T_IEEE_F64LE; }
+inline hid_t fileType(std::uint64_t, bool) { return H5T_STD_U64LE; }
+inline hid_t fileType(std::int32_t, bool) { return H5T_STD_I32LE; }
+
+/// Sets how the chunks of a dataset are packed; false if HDF5 refuses.
+inline bool setPacking(hid_t creation, const std::vector<hsize_t>& chunk, int level) {
+  return H5Pset_chunk(creation, static_cast<int>(chunk.size()), chunk.data()) >= 0 && H5Pset_shuffle(creation) >= 0 &&
+         H5Pset_deflate(creation, static_cast<unsigned>(level)) >= 0;
+}
 
 /// Text of any length.
 inline Handle stringType() {

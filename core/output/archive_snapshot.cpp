@@ -8,7 +8,7 @@
 #include <system_error>
 
 #include "core/output/archive_files.hpp"
-#include "core/output/archive_hdf5.hpp"
+#include "core/output/shared_hdf5.hpp"
 
 namespace tushar::output {
 
@@ -45,45 +45,53 @@ void writeBoxes(Hdf5File& out, const GridInfo& grid) {
               {static_cast<std::uint64_t>(grid.levels)}, Precision::full);
 }
 
-void writeParticles(Hdf5File& out, const ParticleBlock& block) {
+void writeGroup(Hdf5File& out, const ParticleBlock& block) {
   const std::string group = "/particles/" + groupName(block.material, block.materialIndex);
   out.group(group);
   out.attribute(group, "index", block.materialIndex);
-  for (const Array& array : block.arrays)
-    if (isHeld(block, array)) out.dataset(pathInFile(block, array), array, {array.entries()});
 }
 
 /// Modules that compare with the same solution hand over the same table: the first of each column is kept.
-void writeReference(Hdf5File& out, const std::vector<Array>& columns) {
-  std::vector<std::string> written;
+void addReference(std::vector<Dataset>& all, const std::vector<Array>& columns) {
+  std::vector<std::string> added;
   for (const Array& column : columns) {
-    if (std::find(written.begin(), written.end(), column.label) != written.end()) continue;
-    written.push_back(column.label);
-    out.dataset("/reference/" + nameInPath(column.label), column, {column.entries()});
+    if (std::find(added.begin(), added.end(), column.label) != added.end()) continue;
+    added.push_back(column.label);
+    all.push_back({"/reference/" + nameInPath(column.label), column, {column.entries()}});
   }
 }
 
-void writeAll(const std::filesystem::path& file, const Snapshot& snapshot, const ArchiveOptions& options) {
-  Hdf5File out(file, options.doubleAsFloat, options.compression);
-  writeHeader(out, snapshot, options.version);
-  if (!snapshot.grid.boxes.empty()) writeBoxes(out, snapshot.grid);
-  for (const ParticleBlock& block : snapshot.particles) writeParticles(out, block);
+std::vector<Dataset> datasetsOf(const Snapshot& snapshot) {
+  std::vector<Dataset> all;
+  for (const ParticleBlock& block : snapshot.particles)
+    for (const Array& array : block.arrays)
+      if (isHeld(block, array)) all.push_back({pathInFile(block, array), array, {array.entries()}});
   for (const FieldBlock& field : snapshot.fields)
-    out.dataset(pathInFile(field), field.array, fieldShape(snapshot.grid, field.centring));
-  writeReference(out, snapshot.reference);
-  out.close();
+    all.push_back({pathInFile(field), field.array, fieldShape(snapshot.grid, field.centring)});
+  addReference(all, snapshot.reference);
+  return all;
+}
+
+void writeFirst(Hdf5File& out, const Snapshot& snapshot, const std::string& version) {
+  writeHeader(out, snapshot, version);
+  if (!snapshot.grid.boxes.empty()) writeBoxes(out, snapshot.grid);
+  for (const ParticleBlock& block : snapshot.particles) writeGroup(out, block);
 }
 
 }  // namespace
 
-void writeSnapshot(const std::filesystem::path& file, const Snapshot& snapshot, const ArchiveOptions& options) {
+void writeSnapshot(const std::filesystem::path& file, const Snapshot& snapshot, const ArchiveOptions& options,
+                   const Writers& writers) {
   const std::filesystem::path temporary = temporaryOf(file);
+  const mpi::Communicator& ranks = writers.ranks();
   try {
-    writeAll(temporary, snapshot, options);
-    moveInto(temporary, file);
+    writeTogether(
+        writers, temporary, {options.doubleAsFloat, options.compression},
+        [&](Hdf5File& out) { writeFirst(out, snapshot, options.version); }, datasetsOf(snapshot));
+    ranks.onFirst([&] { moveInto(temporary, file); });
   } catch (...) {
     std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
+    if (ranks.isFirst()) std::filesystem::remove(temporary, ignored);
     throw;
   }
 }

@@ -6,11 +6,14 @@
 #include <vector>
 
 #include "core/output/archive.hpp"
+#include "core/output/writers.hpp"
 
 namespace tushar::output {
 
-/// Writes a snapshot as an HDF5 file, first under a temporary name. FileError if it cannot.
-void writeSnapshot(const std::filesystem::path& file, const Snapshot& snapshot, const ArchiveOptions& options);
+/// Writes a snapshot as an HDF5 file, first under a temporary name. All ranks call it, each with the values that it
+/// has. FileError on a rank that cannot, FailedElsewhere on the others.
+void writeSnapshot(const std::filesystem::path& file, const Snapshot& snapshot, const ArchiveOptions& options,
+                   const Writers& writers = {});
 
 /// Where a particle array stands in the HDF5 file: `/particles/gas/p.density`.
 std::string pathInFile(const ParticleBlock& block, const Array& array);

@@ -3,11 +3,15 @@
 #include <filesystem>
 #include <string>
 
+#include "core/output/writers.hpp"
+
 namespace tushar::output {
 
-/// Writes the file `manifest` into a folder: name, size and XXH64 hash of each file there, and in its last line the
-/// hash of the lines before. Everything is then on the disk. FileError if it cannot be written.
-void writeManifest(const std::filesystem::path& folder);
+/// Writes the file `manifest` into a folder: hash, size and name of each file there, and in its last line the hash of
+/// the lines before. The hash of a file is the XXH64 of the XXH64 of its blocks of 2^24 bytes, which the writers share
+/// among themselves; of a file of one block, of that alone. Everything is then on the disk. Collective. FileError on a
+/// rank that cannot, FailedElsewhere on the others.
+void writeManifest(const std::filesystem::path& folder, const Writers& writers = {});
 
 /// What is wrong with a folder that has been given a manifest: which file is missing, shorter, longer or has other
 /// bytes. Empty if it is as it was.

@@ -25,7 +25,8 @@ void makeFolder(const fs::path& folder) {
 
 }  // namespace
 
-CheckpointStore::CheckpointStore(fs::path archive, int cycle) : folder_(archive / "checkpoints"), cycle_(cycle) {}
+CheckpointStore::CheckpointStore(fs::path archive, int cycle, const Writers& writers)
+    : folder_(archive / "checkpoints"), cycle_(cycle), writers_(writers) {}
 
 fs::path CheckpointStore::folder(int step) const { return folder_ / stepName(step); }
 
@@ -48,18 +49,25 @@ int CheckpointStore::latest() const {
 }
 
 void CheckpointStore::write(int step, const std::function<void(const fs::path&)>& fill) const {
-  makeFolder(folder_);
-  removeLeftovers();
+  const mpi::Communicator& ranks = writers_.ranks();
   const fs::path temporary = temporaryOf(folder(step));
   try {
-    makeFolder(temporary);
+    ranks.onFirst([&] {
+      makeFolder(folder_);
+      removeLeftovers();
+      makeFolder(temporary);
+    });
     fill(temporary);
-    writeManifest(temporary);
-    moveInto(temporary, folder(step));
+    writeManifest(temporary, writers_);
+    ranks.onFirst([&] { moveInto(temporary, folder(step)); });
   } catch (...) {
-    removeLeftovers();
+    if (ranks.isFirst()) removeLeftovers();
     throw;
   }
+  ranks.onFirst([&] { makeLatest(step); });
+}
+
+void CheckpointStore::makeLatest(int step) const {
   syncToDisk(folder_);
   setLatest(step);
   const std::vector<int> all = steps();

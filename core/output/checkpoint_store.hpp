@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "core/output/writers.hpp"
+
 namespace tushar::output {
 
 /// The folder `checkpoints` of an archive. It knows nothing of what a checkpoint holds.
@@ -19,10 +21,11 @@ namespace tushar::output {
 class CheckpointStore {
  public:
   /// `cycle` is how many checkpoints are kept, at least 1. Nothing is made before the first write().
-  explicit CheckpointStore(std::filesystem::path archive, int cycle);
+  explicit CheckpointStore(std::filesystem::path archive, int cycle, const Writers& writers = {});
 
-  /// Writes a checkpoint: `fill` puts its files into the folder that it is given. Throws FileError, or what `fill`
-  /// throws; no trace of the checkpoint is left then.
+  /// Writes a checkpoint: `fill` puts its files into the folder that it is given. All ranks of the writers call it.
+  /// Throws FileError on a rank that cannot, FailedElsewhere on the others, or what `fill` throws, which must throw on
+  /// all ranks if on any; no trace of the checkpoint is left then.
   void write(int step, const std::function<void(const std::filesystem::path& folder)>& fill) const;
   /// Makes the checkpoint of a step the latest, and removes those after it.
   void goBackTo(int step) const;
@@ -35,12 +38,14 @@ class CheckpointStore {
   int latest() const;
 
  private:
+  void makeLatest(int step) const;
   void setLatest(int step) const;
   void remove(int step) const;
   void removeLeftovers() const;
 
   std::filesystem::path folder_;
   int cycle_;
+  Writers writers_;
 };
 
 }  // namespace tushar::output

@@ -14,10 +14,4 @@ void load(Array& array) {
   array.source.reset();
 }
 
-void load(Snapshot& snapshot) {
-  for (ParticleBlock& block : snapshot.particles)
-    for (Array& array : block.arrays) load(array);
-  for (FieldBlock& field : snapshot.fields) load(field.array);
-}
-
 }  // namespace tushar::output

@@ -8,17 +8,9 @@
 #include <vector>
 
 #include "core/base/vec.hpp"
+#include "core/output/source.hpp"
 
 namespace tushar::output {
-
-/// Makes the values of an array while they are written, so that they are never in memory all at once.
-class Source {
- public:
-  virtual ~Source() = default;
-  virtual std::size_t entries() const = 0;
-  /// Puts `count` entries, from `first` on, one after the other to `to`.
-  virtual void read(std::size_t first, std::size_t count, std::byte* to) const = 0;
-};
 
 /// A named column of numbers, as it goes to the archive.
 struct Array {
@@ -30,7 +22,7 @@ struct Array {
   /// Where it is set, it has the values, and `values` has their type alone.
   std::shared_ptr<const Source> source{};
 
-  /// Number of particles, cells, nodes or rows that have a value.
+  /// Number of particles, cells, nodes or rows that have a value, on all ranks together.
   std::size_t entries() const {
     if (source) return source->entries();
     const std::size_t numbers = std::visit([](const auto& all) { return all.size(); }, values);
@@ -38,7 +30,7 @@ struct Array {
   }
 };
 
-/// Brings the values of an array into memory.
+/// Brings the values of an array that no other rank has a part of into memory.
 void load(Array& array);
 
 /// The particles of a material. The first array is p.x [m], with 3 components always; the others have as many entries
@@ -89,8 +81,5 @@ struct Snapshot {
   std::vector<FieldBlock> fields;
   std::vector<Array> reference;  ///< table of exact values: columns of 1 component, `x` first; often empty
 };
-
-/// Brings the values of all arrays into memory.
-void load(Snapshot& snapshot);
 
 }  // namespace tushar::output

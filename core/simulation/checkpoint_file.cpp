@@ -98,12 +98,10 @@ void writeHeader(output::Hdf5File& file, const RunState& run, const CheckpointTa
 
 }  // namespace
 
-void writeCheckpoint(RunState& run, const CheckpointTarget* target) {
-  if (!target) return collect::writeState(nullptr, run.warehouse, stateNames(run));
-  output::Hdf5File file(target->path, false, 0);
-  writeHeader(file, run, *target);
-  collect::writeState(&file, run.warehouse, stateNames(run));
-  file.close();
+void writeCheckpoint(RunState& run, const CheckpointTarget& target) {
+  const collect::StoredState state(run.warehouse, stateNames(run));
+  output::writeTogether(
+      run.writers, target.path, {}, [&](output::Hdf5File& file) { writeHeader(file, run, target); }, state.datasets());
 }
 
 void readCheckpoint(RunState& run) {

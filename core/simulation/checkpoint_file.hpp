@@ -19,12 +19,13 @@ namespace tushar::simulation {
 /// A place for the file of a checkpoint, and what it holds beside the state.
 struct CheckpointTarget {
   std::filesystem::path path;
-  output::ArchivePoint point;  ///< how far the archive is
+  output::ArchivePoint point;  ///< how far the archive is; rank 0 knows
   long dropped = 0;            ///< particles that have left the grid, on all ranks
 };
 
-/// Writes the state of a run as it is now. All ranks call it: rank 0 with the target, the others with null.
-void writeCheckpoint(RunState& run, const CheckpointTarget* target);
+/// Writes the state of a run as it is now. All ranks call it. Throws FileError on a rank that cannot write, and
+/// FailedElsewhere on the others.
+void writeCheckpoint(RunState& run, const CheckpointTarget& target);
 
 /// Restores a run from the checkpoint named in its problem: the variables, step and time, dropped particles, and totals
 /// at the start. Throws InputError for a checkpoint of another format, step, component or grid. All ranks call it.

@@ -43,16 +43,13 @@ void Checkpoints::write() {
   const trace::Span span(trace::Kind::output, "checkpoint");
   const PeakGrowth growth(memory_);
   const long dropped = run_.ranks.sum(run_.scheduler.relocation().dropped());
-  if (output::Archive* archive = outputs_.archive()) {
-    const output::ArchivePoint point = outputs_.sync();
-    const int cycle = run_.problem.archive.checkpoint.value_or(CheckpointSettings{}).cycle;
-    output::CheckpointStore(archive->folder(), cycle).write(run_.time.step(), [&](const std::filesystem::path& folder) {
-      const CheckpointTarget target{folder / stateFile, point, dropped};
-      writeCheckpoint(run_, &target);
-    });
-  } else {
-    writeCheckpoint(run_, nullptr);
-  }
+  output::ArchivePoint point;
+  run_.ranks.onFirst([&] { point = outputs_.sync(); });
+  const int cycle = run_.problem.archive.checkpoint.value_or(CheckpointSettings{}).cycle;
+  output::CheckpointStore(outputs_.folder(), cycle, run_.writers)
+      .write(run_.time.step(), [&](const std::filesystem::path& folder) {
+        writeCheckpoint(run_, {folder / stateFile, point, dropped});
+      });
   run_.clock.agree(run_.ranks);
   last_ = run_.time.step();
   if (control_) control_->note(run_.time.time(), run_.clock.elapsed());

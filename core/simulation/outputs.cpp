@@ -6,11 +6,22 @@
 
 #include "core/base/memory.hpp"
 #include "core/base/trace.hpp"
+#include "core/output/archive_files.hpp"
+#include "core/output/archive_snapshot.hpp"
 #include "core/output/checkpoint_store.hpp"
+#include "core/output/pieces.hpp"
 #include "core/simulation/checkpoint_file.hpp"
 #include "core/simulation/snapshot_of.hpp"
 
 namespace tushar::simulation {
+
+namespace {
+
+output::ArchiveOptions howOf(const ArchiveSettings& settings) {
+  return {settings.doubleAsFloat, settings.compression, TUSHAR_VERSION};
+}
+
+}  // namespace
 
 Outputs::Outputs(RunState& run, std::filesystem::path parent)
     : run_(run),
@@ -26,11 +37,12 @@ void Outputs::open() {
   const ArchiveSettings& settings = run_.problem.archive;
   const bool goesOn = run_.problem.restart.has_value();
   if (!goesOn && !saves_ && !settings.checkpoint) return;
-  const output::ArchiveOptions how{settings.doubleAsFloat, settings.compression, TUSHAR_VERSION};
+  const output::ArchiveOptions how = howOf(settings);
   run_.ranks.onFirst([&] { goesOn ? reopenArchive(how) : makeArchive(how); });
   folder_ = run_.ranks.broadcast(archive_ ? archive_->folder().string() : "");
   last_ = run_.ranks.broadcast(archive_ ? archive_->lastStep() : -1);
   if (archive_) run_.clock.watch(archive_->folder());
+  run_.writers = run_.writers.only(std::filesystem::exists(folder_));  // it may be a disk of the first rank's node
 }
 
 void Outputs::makeArchive(const output::ArchiveOptions& how) {
@@ -84,7 +96,7 @@ void Outputs::sample(Analysis& analysis) {
   std::vector<output::Snapshot> parts;
   for (const collect::Layer& layer : analysis.layers()) parts.push_back(snapshotOf(run_, analysis.samples(), layer));
   if (parts.empty()) parts.push_back(snapshotOf(run_, analysis.samples()));
-  for (output::Snapshot& part : parts) output::load(part);
+  for (output::Snapshot& part : parts) output::load(part, run_.ranks);
   run_.ranks.onFirst([&] { analysis.sample(parts, folder_); });
   seconds_ += secondsSince(started);
 }
@@ -111,7 +123,10 @@ void Outputs::save() {
   for (const auto& analysis : run_.problem.analyses)
     for (output::Array& column : analysis->exactProfile(run_.problem.grid->finest()))
       state.reference.push_back(std::move(column));
-  run_.ranks.onFirst([&] { archive_->write(state); });
+  const ArchiveSettings& settings = run_.problem.archive;
+  const std::filesystem::path file = std::filesystem::path(folder_) / output::outputName(run_.time.step());
+  output::writeSnapshot(file, state, howOf(settings), run_.writers);
+  run_.ranks.onFirst([&] { archive_->list(state); });
   last_ = run_.time.step();
   seconds_ += secondsSince(started);
   run_.progress.line(fmt::format("step {:>6}  t = {:<12.6g} dt = {:<10.4g} saved in {}", run_.time.step(),

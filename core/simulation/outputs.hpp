@@ -12,7 +12,7 @@
 namespace tushar::simulation {
 
 /// The archive of a run, and what is saved in its folder: outputs, globals, and the samples of analysis modules. All
-/// ranks make the same calls; rank 0 writes.
+/// ranks make the same calls; rank 0 writes, with the writers of the run for outputs.
 class Outputs {
  public:
   /// A new archive will be made in this folder; empty: the current one.

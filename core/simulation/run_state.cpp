@@ -2,15 +2,17 @@
 
 namespace tushar::simulation {
 
-RunState::RunState(Problem givenProblem, bool quiet, Clock::time_point startedAt, const mpi::Communicator& givenRanks)
+RunState::RunState(Problem givenProblem, const RunOptions& options, Clock::time_point startedAt,
+                   const mpi::Communicator& givenRanks)
     : problem(std::move(givenProblem)),
       ranks(givenRanks),
+      writers(output::Writers::spread(givenRanks, options.writers)),
       phases(*problem.component, problem.analyses),
       warehouse(*problem.grid, table, ranks),
       scheduler(warehouse, problem.threads, problem.cellsPerThread),
       time(problem.time),
       clock(startedAt),
-      progress(quiet || !ranks.isFirst(), stdout) {
+      progress(options.quiet || !ranks.isFirst(), stdout) {
   phases.compile(problem.analyses, problem.archive.saves, *problem.grid, table, problem.regrid);
   warehouse.grow(materials());
 }

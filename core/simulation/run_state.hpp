@@ -6,6 +6,7 @@
 #include "core/base/mpi.hpp"
 #include "core/base/progress.hpp"
 #include "core/data/warehouse.hpp"
+#include "core/output/writers.hpp"
 #include "core/simulation/phases.hpp"
 #include "core/simulation/problem.hpp"
 #include "core/simulation/run_clock.hpp"
@@ -20,7 +21,7 @@ using Totals = std::vector<std::vector<double>>;
 /// What the parts of a run share: the problem, its compiled tasks and variables, and how far the run is.
 struct RunState {
   /// Compiles the task graphs. Throws what Phases throws.
-  RunState(Problem problem, bool quiet, Clock::time_point startedAt, const mpi::Communicator& ranks);
+  RunState(Problem problem, const RunOptions& options, Clock::time_point startedAt, const mpi::Communicator& ranks);
   RunState(const RunState&) = delete;
   RunState& operator=(const RunState&) = delete;
 
@@ -40,6 +41,7 @@ struct RunState {
 
   Problem problem;
   const mpi::Communicator& ranks;
+  output::Writers writers;
   data::VariableTable table;
   Phases phases;
   data::Warehouse warehouse;

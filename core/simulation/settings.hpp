@@ -75,6 +75,7 @@ struct RunOptions {
   std::string jsonPath;      ///< where the report goes; empty: nowhere
   std::string outputFolder;  ///< instead of the current folder
   bool quiet = false;        ///< no progress
+  int writers = 0;           ///< ranks that put files on the disk; 0: one on each node
 };
 
 }  // namespace tushar::simulation

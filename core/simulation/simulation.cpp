@@ -35,7 +35,7 @@ Simulation::Simulation(Problem problem, const RunOptions& options, Clock::time_p
 
 Simulation::Simulation(Problem problem, const RunOptions& options, Clock::time_point startedAt,
                        const mpi::Communicator& ranks)
-    : run_(std::move(problem), options.quiet, startedAt, ranks),
+    : run_(std::move(problem), options, startedAt, ranks),
       outputs_(run_, options.outputFolder),
       checkpoints_(run_, outputs_),
       rebalancer_(run_),

@@ -51,13 +51,21 @@ class Scattered : public test::Runner {
   std::vector<ParticleId> idsInOrder() {
     const ParticleOrder order(warehouse, 0);
     std::vector<ParticleId> ids(order.count());
-    for (const Patch& patch : grid.patches()) {
-      const data::Variable held = warehouse.variable(data::Generation::old, table.find("p.particleID", 0), patch.id());
-      order.forEachRun(patch, [&](std::size_t place, std::size_t from, std::size_t count) {
-        std::copy_n(reinterpret_cast<const ParticleId*>(held.values) + from, count, &ids[place]);
-      });
+    for (const Run& run : order.runs()) {
+      const int patch = grid.patches()[run.patch].id();
+      const data::Variable held = warehouse.variable(data::Generation::old, table.find("p.particleID", 0), patch);
+      std::copy_n(reinterpret_cast<const ParticleId*>(held.values) + run.first, run.count, &ids[run.place]);
     }
     return ids;
+  }
+
+  /// Number of particles of each cell.
+  std::vector<std::int32_t> perCell() {
+    const ParticleOrder order(warehouse, 0);
+    const auto source = order.perCell();
+    std::vector<std::int32_t> counts(source->entries());
+    source->read(0, counts.size(), reinterpret_cast<std::byte*>(counts.data()));
+    return counts;
   }
 };
 
@@ -65,11 +73,10 @@ class Scattered : public test::Runner {
 
 TEST(ParticleOrder, OfSeveralLevelsIsThatOfTheCellsThatThereAreOnAnyPatches) {
   Scattered small(1), large(4);
-  const ParticleOrder order(small.warehouse, 0);
 
-  EXPECT_EQ(order.perCell().size(), small.grid.cellCount());
+  EXPECT_EQ(small.perCell().size(), small.grid.cellCount());
   EXPECT_LT(small.grid.cellCount(), small.grid.finest().cells().size() / 2);
-  EXPECT_EQ(order.perCell(), ParticleOrder(large.warehouse, 0).perCell());
+  EXPECT_EQ(small.perCell(), large.perCell());
   const std::vector<ParticleId> ids = small.idsInOrder();
   EXPECT_GT(ids.size(), 1000u);
   EXPECT_EQ(std::count(ids.begin(), ids.end(), ParticleId{0}), 0);
@@ -78,11 +85,13 @@ TEST(ParticleOrder, OfSeveralLevelsIsThatOfTheCellsThatThereAreOnAnyPatches) {
 
 TEST(ParticleOrder, IsInstalledOnOtherPatches) {
   Scattered small(1), large(4);
-  const std::vector<std::int32_t> perCell = ParticleOrder(small.warehouse, 0).perCell();
+  const std::vector<std::int32_t> perCell = small.perCell();
 
-  ParticleOrder(large.warehouse, 0, perCell).install();
+  ParticleOrder(large.warehouse, 0, [&](const std::vector<ParticleOrder::Wanted>& wanted) {
+    for (const auto& [first, count, to] : wanted) std::copy_n(&perCell[first], count, to);
+  }).install();
 
-  EXPECT_EQ(ParticleOrder(large.warehouse, 0).perCell(), perCell);
+  EXPECT_EQ(large.perCell(), perCell);
 }
 
 }  // namespace tushar::collect

@@ -30,6 +30,7 @@ const data::ParticleLabel<double> mass{"p.mass", "kg", "mass"};
 const data::ParticleLabel<Vec<2>> position{"p.x", "m", "position"};
 const data::ParticleLabel<Vec<2>> velocity{"p.velocity", "m/s", "velocity"};
 const data::CellLabel<double> heat{"c.heat", "K", "temperature"};
+const data::NodeLabel<double> speed{"g.speed", "m/s", "speed"};
 
 }  // namespace
 
@@ -66,12 +67,45 @@ TEST(PlacesById, AreNoneWithoutParticles) { EXPECT_TRUE(placesById(Parts{{Part{}
 
 TEST(SourceInRuns, GivesTheSameForPiecesThatCutRuns) {
   const std::vector<double> left{1, 2, 5, 6, 9, 10}, right{3, 4, 7, 8, 11, 12};
-  const auto runs =
-      std::make_shared<const Runs>(Runs{{0, 0, 0}, {2, 1, 0}, {4, 0, 2}, {6, 1, 2}, {8, 0, 4}, {10, 1, 4}});
+  const auto runs = std::make_shared<const Runs>(
+      Runs{{0, 0, 0, 2}, {2, 1, 0, 2}, {4, 0, 2, 2}, {6, 1, 2, 2}, {8, 0, 4, 2}, {10, 1, 4, 2}});
   const auto source = sourceInRuns(runs, 12, Parts{{partOf(left), partOf(right)}}, EntryForm(mass));
 
   for (const std::size_t piece : {1, 3, 5, 12})
     EXPECT_EQ(readBy(*source, piece, 1), (std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12})) << piece;
+}
+
+TEST(SourceInRuns, SaysWhatOfAPieceThisRankHas) {
+  const std::vector<double> own{1, 2, 5, 6, 9, 10};
+  const auto runs = std::make_shared<const Runs>(Runs{{0, 0, 0, 2}, {4, 0, 2, 2}, {6, 0, 4, 1}, {8, 0, 5, 1}});
+  const auto source = sourceInRuns(runs, 12, Parts{{partOf(own)}}, EntryForm(mass));
+  std::vector<double> packed(4), placed(8, -1);
+
+  const std::vector<output::Stretch> stretches = source->stretches(1, 7);
+  source->pack(1, 7, reinterpret_cast<std::byte*>(packed.data()));
+  source->read(1, 7, reinterpret_cast<std::byte*>(placed.data()));
+
+  ASSERT_EQ(stretches.size(), 2u);
+  EXPECT_EQ(
+      (std::vector<std::uint32_t>{stretches[0].first, stretches[0].count, stretches[1].first, stretches[1].count}),
+      (std::vector<std::uint32_t>{0, 1, 3, 3}));
+  EXPECT_EQ(packed, (std::vector<double>{2, 5, 6, 9}));
+  EXPECT_EQ(placed, (std::vector<double>{2, -1, -1, 5, 6, 9, -1, -1}));
+}
+
+TEST(RunsOfGrid, GiveNodesOnFacesBetweenPatchesOnce) {
+  const grid::Grid grid(test::domain({{5, 4, 1}}, {{2, 2, 1}}));
+  std::vector<Part> parts;
+  for (const grid::Patch& patch : grid.patches()) parts.push_back({nullptr, 0, patch.nodes()});
+
+  const Runs runs = runsOfGrid(grid, speed, Parts{parts}, GridOrder(grid.level().nodesOfCells()));
+
+  std::size_t next = 0;
+  for (const auto& run : runs) {
+    EXPECT_EQ(run.place, next);
+    next += run.count;
+  }
+  EXPECT_EQ(next, 30u);
 }
 
 TEST(RunsOfGrid, AreRowsOfPatchesWithoutTheirGhosts) {
@@ -95,7 +129,7 @@ TEST(EntryForm, WidensPositionsToTheMiddleOfTheAxisLeftOut) {
   const grid::Level& level = grid.level();
   const std::vector<double> entries{0.1, 0.2, 0.3, 0.4};
   const Parts parts{{partOf(entries)}};
-  const auto places = std::make_shared<const std::vector<Place>>(std::vector<Place>{{0, 1}, {0, 0}});
+  const auto places = std::make_shared<const ParticlePlaces>(ParticlePlaces{{{0, 1}, {0, 0}}, {}, 2});
 
   const auto x = sourceAt(places, parts, EntryForm(position, level));
   const auto v = sourceAt(places, parts, EntryForm(velocity, level));

@@ -77,9 +77,9 @@ class Weather : public test::Runner {
 
 std::string fileOf(Weather& weather) {
   const std::string path = test::temporaryFolder() + "state.h5";
-  output::Hdf5File file(path, false, 0);
-  writeState(&file, weather.warehouse, weather.names);
-  file.close();
+  const StoredState state(weather.warehouse, weather.names);
+  output::writeTogether(
+      {}, path, {}, [](output::Hdf5File&) {}, state.datasets());
   std::ostringstream text;
   text << std::ifstream(path).rdbuf();
   return text.str();

@@ -63,7 +63,7 @@ inline simulation::Problem cooling() {
 class CoolingRun : public simulation::RunState {
  public:
   explicit CoolingRun(simulation::Problem given = cooling())
-      : RunState(std::move(given), true, simulation::Clock::now(), mpi::Communicator::alone()) {}
+      : RunState(std::move(given), {{}, {}, true}, simulation::Clock::now(), mpi::Communicator::alone()) {}
 
   void initialize() {
     scheduler.run(phases.initialize, {0, 0});

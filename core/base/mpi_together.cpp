@@ -1,0 +1,75 @@
+#include "core/base/mpi_together.hpp"
+
+#include <exception>
+
+#include "core/base/mpi_native.hpp"
+
+namespace tushar::mpi {
+
+void together(const Communicator& ranks, const std::function<void()>& action) {
+  std::exception_ptr thrown;
+  try {
+    action();
+  } catch (...) {
+    thrown = std::current_exception();
+  }
+  const bool failed = ranks.any(thrown != nullptr);
+  if (thrown) std::rethrow_exception(thrown);
+  if (failed) throw FailedElsewhere();
+}
+
+int sumForMe(const Communicator& ranks, std::span<const int> of) {
+  if (ranks.isAlone()) return of.front();
+  int sum = 0;
+  MPI_Reduce_scatter_block(of.data(), &sum, 1, MPI_INT, MPI_SUM, ranks.native()->ranks);
+  return sum;
+}
+
+std::uint64_t sumBefore(const Communicator& ranks, std::uint64_t mine) {
+  if (ranks.isAlone()) return 0;
+  std::uint64_t sum = 0;
+  MPI_Exscan(&mine, &sum, 1, MPI_UINT64_T, MPI_SUM, ranks.native()->ranks);
+  return ranks.isFirst() ? 0 : sum;
+}
+
+std::vector<std::uint64_t> allOf(const Communicator& ranks, std::span<const std::uint64_t> mine) {
+  if (ranks.isAlone()) return {mine.begin(), mine.end()};
+  const int count = static_cast<int>(mine.size());
+  std::vector<int> counts(static_cast<std::size_t>(ranks.size())), before(counts.size() + 1, 0);
+  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, ranks.native()->ranks);
+  for (std::size_t rank = 0; rank < counts.size(); ++rank) before[rank + 1] = before[rank] + counts[rank];
+  std::vector<std::uint64_t> all(static_cast<std::size_t>(before.back()));
+  MPI_Allgatherv(mine.data(), count, MPI_UINT64_T, all.data(), counts.data(), before.data(), MPI_UINT64_T,
+                 ranks.native()->ranks);
+  return all;
+}
+
+std::vector<int> firstOfNodes(const Communicator& ranks) {
+  if (ranks.isAlone()) return {0};
+  MPI_Comm node = MPI_COMM_NULL;
+  MPI_Comm_split_type(ranks.native()->ranks, MPI_COMM_TYPE_SHARED, ranks.rank(), MPI_INFO_NULL, &node);
+  int place = 0;
+  MPI_Comm_rank(node, &place);
+  MPI_Comm_free(&node);
+  const auto mine = static_cast<std::uint64_t>(ranks.rank());
+  const std::vector<std::uint64_t> firsts = allOf(ranks, {&mine, place == 0 ? 1u : 0u});
+  return {firsts.begin(), firsts.end()};
+}
+
+/// Nobody sends letters of the next exchange before all have begun it, which they do when they have all of this one.
+void exchange(const Communicator& ranks, Outbox& outbox, std::vector<Letter> letters,
+              const std::function<void(int, const Bytes&)>& take) {
+  if (ranks.isAlone()) return;
+  std::vector<int> counts(static_cast<std::size_t>(ranks.size()), 0);
+  for (const Letter& letter : letters) ++counts[static_cast<std::size_t>(letter.rank)];
+  const int expected = sumForMe(ranks, counts);
+  for (Letter& letter : letters) outbox.send(letter.rank, Tag::output, std::move(letter.bytes));
+  for (int k = 0; k < expected; ++k) {
+    MPI_Status status;
+    MPI_Probe(MPI_ANY_SOURCE, static_cast<int>(Tag::output), ranks.native()->ranks, &status);
+    take(status.MPI_SOURCE, ranks.receive(status.MPI_SOURCE, Tag::output));
+  }
+  outbox.wait();
+}
+
+}  // namespace tushar::mpi

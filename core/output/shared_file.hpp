@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace tushar::output {
+
+/// A file that there is, of which this process writes parts; others may write other parts at the same time. The first
+/// failure is kept, and what comes after it is let go: so a process that fails still takes part in what others wait
+/// for.
+class SharedFile {
+ public:
+  explicit SharedFile(std::filesystem::path path);
+  ~SharedFile();
+  SharedFile(const SharedFile&) = delete;
+  SharedFile& operator=(const SharedFile&) = delete;
+
+  /// Puts bytes at a place; `what` they are is for the sentence of a failure.
+  void write(std::uint64_t at, const std::byte* from, std::size_t count, const std::string& what);
+  /// Throws FileError if anything has failed, with what, the path and the system's reason.
+  void close();
+
+ private:
+  void note(const std::string& what);
+
+  std::filesystem::path path_;
+  int descriptor_;
+  std::string failure_;
+};
+
+}  // namespace tushar::output

@@ -1,0 +1,203 @@
+#!/usr/bin/env python3
+"""Ranks that write together: the same bytes by any ranks and writers, little memory on each, and one sentence where one
+writer cannot write."""
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from sus import ROOT, SUS
+from uda import Folder
+
+BOX = "Grid/Level/Box"
+SOD, SINE = "ups/mpm/sod.ups", "ups/heat/sine.ups"
+PLANE = (f"{BOX}/resolution=[150,60,1]", f"{BOX}/upper=[1,.4,1]")
+EVERY = ("DataArchiver/outputInterval=0", "DataArchiver/outputTimestepInterval=2",
+         "DataArchiver/checkpoint/@timestepInterval=2", "Time/max_Timesteps=4")
+# Scene, overrides, layout: particles, nodes and cells of some megabytes; packed; with 4 bytes to a number; fields whose
+# slabs are cut; boxes of several levels.
+CASES = {
+    "particles": (SOD, PLANE, "6x4x1"),
+    "packed particles": (SOD, (*PLANE, "DataArchiver/compression=gzip"), "6x4x1"),
+    "short particles": (SOD, (*PLANE, "DataArchiver/outputDoubleAsFloat=true"), "5x4x1"),
+    "fields": (SINE, (f"{BOX}/resolution=[900,700,1]",), "5x3x1"),
+    "packed fields": (SINE, (f"{BOX}/resolution=[900,700,1]", "DataArchiver/compression=gzip"), "3x4x1"),
+    "levels": ("ups/heat/levels.ups", (), "1x1x1"),
+}
+RANKS_AND_WRITERS = ((2, 1), (2, 2), (3, 2), (3, 3), (5, 1), (5, 4), (5, 5))
+LITTLE = 64e6  # bytes that a rank may need beyond its state to write
+PATIENCE = 200  # seconds after which a job hangs, even on a machine with much else to do
+
+
+class Writers(unittest.TestCase):
+    def folder(self, ranks, on_disk=False):
+        here = Folder(on_disk, ranks)
+        self.addCleanup(here.cleanup)
+        return here
+
+    def run_by(self, here, scene, sets, writers, layout):
+        words = [scene, "--output", here.path, "-layout", layout, *(["-writers", writers] if here.ranks > 1 else [])]
+        code, errors, report = here.finish(words, (*sets, *EVERY))
+        self.assertEqual((code, errors), (0, ""))
+        return report
+
+    def files(self, here):
+        uda = here.uda.resolve()
+        names = [*uda.glob("t*.h5"), *uda.glob("checkpoints/*/*")]
+        return {str(name.relative_to(uda)): name.read_bytes() for name in names}
+
+    def test_the_same_bytes_by_any_ranks_and_writers(self):
+        for name, (scene, sets, layout) in CASES.items():
+            alone = self.folder(1)
+            expected = self.run_by(alone, scene, sets, 1, layout)
+            files = self.files(alone)
+            self.assertEqual(len(files), 3 + 2 * 2)
+            for ranks, writers in RANKS_AND_WRITERS:
+                with self.subTest(name, ranks=ranks, writers=writers):
+                    here = self.folder(ranks)
+                    report = self.run_by(here, scene, sets, writers, layout)
+                    self.assertEqual(report["fingerprint"], expected["fingerprint"])
+                    found = self.files(here)
+                    self.assertEqual(found.keys(), files.keys())
+                    for file, content in files.items():
+                        self.assertTrue(found[file] == content, file)
+                    here.cleanup()
+
+    def test_a_run_goes_on_by_other_ranks_and_writers_to_the_same_bits(self):
+        alone = self.folder(1)
+        expected = self.run_by(alone, SOD, PLANE, 1, "6x4x1")
+        for ranks, writers, again, others in ((1, 1, 3, 2), (3, 3, 1, 1), (2, 2, 5, 3)):
+            here = self.folder(ranks)
+            words = [SOD, "--output", here.path, "-writers", writers]
+            self.assertEqual(here.finish(words, (*PLANE, *EVERY, "Time/max_Timesteps=2"))[:2], (0, ""))
+            here.ranks = again
+            words = ["-restart", here.uda, "-writers", others, "-layout", "3x5x1"]
+            code, errors, report = here.finish(words, ("Time/max_Timesteps=4",))
+            self.assertEqual((code, errors, report["fingerprint"]), (0, "", expected["fingerprint"]))
+
+    def start(self, here, words, sets, ranks_run=(), **environment):
+        """A job whose ranks are started by `ranks_run`, words of a command that starts them."""
+        command = here.command(words, sets)
+        at = command.index(SUS)
+        return subprocess.Popen([*command[:at], *ranks_run, *command[at:]], cwd=ROOT, stderr=subprocess.PIPE, text=True,
+                                env={**os.environ, **environment})
+
+    def most_space(self, here, words, sets):
+        """The most address space of a rank of a job, bytes, as the system counts it."""
+        job, most = self.start(here, words, sets), 0
+        while job.poll() is None:
+            for pid in subprocess.run(["pgrep", "-P", str(job.pid)], capture_output=True, text=True).stdout.split():
+                try:
+                    status = pathlib.Path(f"/proc/{pid}/status").read_text()
+                except OSError:
+                    continue
+                most = max([most, *(1024 * int(line.split()[1]) for line in status.splitlines()
+                                    if line.startswith("VmPeak:"))])
+            time.sleep(0.05)
+        self.assertEqual((job.returncode, job.communicate()[1]), (0, ""))
+        return most
+
+    def test_outputs_checkpoints_and_a_restart_need_little_memory_on_any_rank(self):
+        large = (f"{BOX}/resolution=[4000,4000,1]", "Time/max_Timesteps=2")
+        silent = (*large, "DataArchiver/outputInterval=0", "DataArchiver/outputInitTimestep=false")
+        here = self.folder(8)
+        words = [SINE, "--output", here.path, "-layout", "2x4x1"]
+        limit = (self.most_space(here, words, silent) + LITTLE) // 1024
+        bounded = ("sh", "-c", f'ulimit -v {limit:.0f}; exec "$@"', "sh")
+        saves = (*silent, "DataArchiver/outputInitTimestep=true", "DataArchiver/outputTimestepInterval=1",
+                 "DataArchiver/checkpoint/@timestepInterval=1")
+        for writers in (1, 3):
+            job = self.start(here, [*words, "-writers", writers], saves, bounded)
+            self.assertEqual((job.communicate()[1], job.returncode), ("", 0))
+            self.assertEqual(len(list(here.uda.glob("t*.h5"))), 3)
+        job = self.start(here, ["-restart", here.uda, "-layout", "2x4x1"], ("Time/max_Timesteps=3",), bounded)
+        self.assertEqual((job.communicate()[1], job.returncode), ("", 0))
+
+    def end_of(self, here, sets, rank, limit, *words):
+        """A job in which one rank may write no further than so many bytes into a file: what it says."""
+        bound = f'if [ "$OMPI_COMM_WORLD_RANK" = {rank} ]; then ulimit -f {limit // 512}; trap "" XFSZ; fi; exec "$@"'
+        small = ("sh", "-c", bound, "sh")
+        # Messages through sockets: those in memory need files, too.
+        job = self.start(here, [*words, "-writers", here.ranks], sets, small, OMPI_MCA_btl="self,tcp")
+        errors = job.communicate(timeout=PATIENCE)[1]
+        self.assertEqual(job.returncode, 1, errors)
+        self.assertEqual(errors.count("File too large"), 1, errors)
+
+    def test_a_writer_that_cannot_write_is_told_once_and_the_checkpoint_before_stays(self):
+        for rank, packed in ((1, "0"), (2, "0"), (2, "gzip")):
+            with self.subTest(rank=rank, compression=packed):
+                here = self.folder(3)
+                sets = (*PLANE, *EVERY, f"DataArchiver/compression={packed}")
+                self.run_by(here, SOD, sets, 3, "6x4x1")
+                # A file of an output is longer than this, and that of a checkpoint still longer.
+                limit = 1_100_000 if packed == "0" else 2_900_000
+                self.end_of(here, ("Time/max_Timesteps=8",), rank, limit, "-restart", here.uda)
+                self.assertEqual([path.name for path in here.checkpoints], ["t00002", "t00004"])
+                self.assertEqual(list(here.uda.resolve().rglob("*.tmp")), [])
+                here.ranks = 1
+                expected = self.folder(1)
+                words = [SOD, "--output", expected.path]
+                code, _, report = expected.finish(words, (*sets, "Time/max_Timesteps=8"))
+                again = here.restart("Time/max_Timesteps=8")
+                self.assertEqual((code, again[0], again[1]), (0, 0, ""))
+                self.assertEqual(again[2]["fingerprint"], report["fingerprint"])
+
+    def test_a_full_disk_is_told_once_by_several_writers(self):
+        here = self.folder(3)
+        small = here.path / "small"
+        small.mkdir()
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=14m", "none", small], capture_output=True).returncode:
+            self.skipTest("only root may make a small disk")
+        self.addCleanup(subprocess.run, ["umount", small], check=True)
+        job = self.start(here, [SOD, "--output", small, "-writers", "3"],
+                         (*PLANE, *EVERY, "DataArchiver/outputTimestepInterval=1", "Time/max_Timesteps=100"))
+        errors = job.communicate(timeout=PATIENCE)[1]
+        self.assertEqual(job.returncode, 1, errors)
+        self.assertEqual(errors.count("No space left on device"), 1, errors)
+        for output in small.glob("*.uda.000/t*.h5"):
+            output.unlink()
+        done = subprocess.run([SUS, "-restart", next(small.glob("*.uda")), "--quiet", "--set", "Time/max_Timesteps=1"],
+                              cwd=ROOT, capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_a_folder_that_vanishes_is_told_once(self):
+        here = self.folder(3)
+        job = self.start(here, [SOD, "--output", here.path, "-writers", "3"],
+                         (*PLANE, *EVERY, "Time/max_Timesteps=100000"))
+        while not list(here.path.glob("*.uda/checkpoints/LATEST")):
+            time.sleep(0.01)
+        here.uda.resolve().rename(here.path / "elsewhere")
+        errors = job.communicate(timeout=PATIENCE)[1]
+        self.assertEqual(job.returncode, 1, errors)
+        self.assertEqual(errors.count("No such file or directory"), 1, errors)
+        done = subprocess.run([SUS, "-restart", here.path / "elsewhere", "--quiet", "--set", "Time/max_Timesteps=1"],
+                              cwd=ROOT, capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_a_writer_that_is_killed_while_it_writes_ends_the_job_and_the_checkpoint_before_restarts(self):
+        here = self.folder(3, on_disk=True)
+        sets = (*PLANE, *EVERY, "DataArchiver/outputTimestepInterval=1", "DataArchiver/checkpoint/@timestepInterval=1",
+                "Time/max_Timesteps=100000")
+        job = self.start(here, [SOD, "--output", here.path, "-writers", "3", "-layout", "6x4x1"], sets)
+        while not (list(here.path.glob("*.uda/checkpoints/LATEST")) and list(here.path.glob("*.uda.000/**/*.tmp"))):
+            time.sleep(0.0005)
+        rank = subprocess.run(["pgrep", "-P", str(job.pid)], capture_output=True, text=True).stdout.split()[-1]
+        os.kill(int(rank), signal.SIGKILL)
+        errors = job.communicate(timeout=PATIENCE)[1]
+        self.assertNotEqual(job.returncode, 0)
+        self.assertEqual(errors.count("signal 9 (Killed)"), 1, errors)
+        end = f"Time/max_Timesteps={int(here.checkpoints[-1].name[1:]) + 2}"
+        here.ranks = 2
+        code, errors, report = here.restart(end)
+        self.assertEqual((code, errors), (0, ""))
+        uncut = self.folder(1)
+        expected = uncut.finish([SOD, "--output", uncut.path], (*sets, end))[2]
+        self.assertEqual(report["fingerprint"], expected["fingerprint"])
+
+
+if __name__ == "__main__":
+    unittest.main()
