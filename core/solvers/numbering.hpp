@@ -63,8 +63,8 @@ class CellNumbering {
   /// Patch by patch, so that every rank knows the numbers of all.
   void numberOwnPatches();
   void numberGhosts(const grid::Patch& patch, const std::vector<int>& firstOf);
-  /// Of a cell of several levels: block by block on one rank, else patch by patch. Throws std::logic_error for one that
-  /// is refined or part of a coarser one.
+  /// Of a cell of several levels: block by block on one rank, else patch by patch. Throws data::AccessError for one
+  /// that is refined or part of a coarser one.
   std::uint64_t numberAmongAll(int level, const Index3& cell) const;
   Run runAround(int level, const Index3& cell) const;
 

@@ -42,8 +42,8 @@ def without_levels(scene):
 
 
 def adaptive(scene, section, criterion):
-    regridder = ('<Regridder type="Tiled"><adaptive>true</adaptive><max_levels>3</max_levels>'
-                 "<min_patch_size>[[4,4,1]]</min_patch_size><min_timestep_interval>2</min_timestep_interval></Regridder>")
+    regridder = ('<Regridder type="Tiled"><adaptive>true</adaptive><max_levels>3</max_levels><min_patch_size>[[4,4,1]]'
+                 "</min_patch_size><min_timestep_interval>2</min_timestep_interval></Regridder>")
     thresholds = f"<Refinement_Criteria_Thresholds>{criterion}</Refinement_Criteria_Thresholds>"
     return without_levels(scene).replace("  <DataArchiver>", f"  <AMR>{regridder}<{section}>{thresholds}</{section}>"
                                                              "</AMR>\n  <DataArchiver>")
@@ -97,8 +97,8 @@ class SolvesOnLevels(unittest.TestCase):
         uniform = self.written(without_levels(POISSON))
         for preconditioner in ("gamg", "hypre"):
             with_it = f"Poisson/Solver/preconditioner={preconditioner}"
-            limit = self.iterations(uniform, "Grid/Level/Box/resolution=[128,128,1]", "Poisson/Solver/solver=cg", with_it,
-                                    *ONE_SOLVE)
+            limit = self.iterations(uniform, "Grid/Level/Box/resolution=[128,128,1]", "Poisson/Solver/solver=cg",
+                                    with_it, *ONE_SOLVE)
             for times in (1, 2):
                 self.assertLessEqual(self.iterations(POISSON, with_it, *finer(POISSON, times)), 1.5 * limit)
 

@@ -4,8 +4,8 @@
 
 #include <map>
 #include <memory>
-#include <stdexcept>
 
+#include "core/data/views.hpp"
 #include "tests/support/levels.hpp"
 
 namespace tushar::solvers {
@@ -80,7 +80,7 @@ TEST(CellNumbering, GoesBlockByBlockThroughLevelsOnOneRankWhateverThePatches) {
     EXPECT_EQ(number(0, Index<2>{{4, 1}}), 4 * 16 + 4);
     EXPECT_EQ(number(0, Index<2>{{-4, 1}}), 4 * 16 + 4);  // the image beyond the periodic face
     EXPECT_EQ(number(1, Index<2>{{0, -1}}), -1);
-    EXPECT_THROW(number(0, (Index<2>{{0, 0}})), std::logic_error);  // refined
+    EXPECT_THROW(number(0, (Index<2>{{0, 0}})), data::AccessError);  // refined
   }
 }
 
