@@ -3,6 +3,7 @@
 #include "core/input/schema.hpp"
 #include "core/numerics/cell_system.hpp"
 #include "core/numerics/checked_formula.hpp"
+#include "core/numerics/composite_diffusion.hpp"
 #include "core/simulation/by_dimension.hpp"
 #include "core/solvers/input.hpp"
 
@@ -16,7 +17,7 @@ void ImplicitHeat<D>::scheduleInitialize(TaskList& tasks) const {
 template <int D>
 void ImplicitHeat<D>::scheduleTimeAdvance(TaskList& tasks) const {
   tasks.perRank("implicit_heat::conduct", conduct<D>, togetherOnRanks(), with(settings_), requiresOld(delT),
-                requiresOld(c::temperature, 1), computes(c::temperature), computes(iterations),
+                requiresOld(c::temperature), computes(c::temperature), computes(iterations),
                 computes(solvers::assemblyTime), computes(solvers::preconditionerTime), computes(solvers::solveTime));
 }
 
@@ -32,26 +33,42 @@ void initialize(const Patch& patch, const Settings& settings, CellView<double> t
   numerics::CheckedFormula{settings.conductivity, "Heat/thermal_conductivity", "W/(m K)"}.requirePositive<D>(patch);
 }
 
+namespace {
+
+/// From T at theta dt in `newTemperature` to T at dt: all of the step changes T as its first part did.
+template <int D>
+void goOn(const RankPatches& patches, double theta, const std::vector<CellView<const double>>& temperature,
+          const std::vector<CellView<double>>& newTemperature) {
+  for (std::size_t p = 0; p < patches.size(); ++p)
+    forEach<D>(patches[p]->cells(), [&](const Index<D>& cell) {
+      newTemperature[p][cell] = temperature[p][cell] + (newTemperature[p][cell] - temperature[p][cell]) / theta;
+    });
+}
+
+}  // namespace
+
 template <int D>
 void conduct(const RankPatches& patches, const mpi::Communicator& ranks, const Settings& settings, double dt,
              const std::vector<CellView<const double>>& temperature,
              const std::vector<CellView<double>>& newTemperature, Maximum& iterationsTaken, Maximum& assembly,
              Maximum& setup, Maximum& solution) {
-  const Level& level = patches.front()->level();
-  const double theta = settings.theta, capacity = settings.capacity() * level.cellVolume() / dt;
-  const numerics::Diffusion<D> diffusion(level, settings.conductivity, boundary::temperature);
+  const double theta = settings.theta;
+  const numerics::CompositeDiffusion<D> diffusion(patches.front()->level().grid(), settings.conductivity,
+                                                  boundary::temperature);
   const auto equationOf = [&](std::size_t p, const Index<D>& cell) {
-    numerics::Balance<D> balance = diffusion.balance(cell);
-    const double before = theta < 1 ? (1 - theta) * balance(temperature[p]) : 0.0;
-    const double right = capacity * temperature[p][cell] + before + theta * balance.constant;
-    for (double& weight : balance.weights) weight *= -theta;
+    const Level& level = patches[p]->level();
+    const double capacity = settings.capacity() * level.cellVolume() / (theta * dt);
+    numerics::Balance<D> balance = diffusion.balance(level.number(), cell);
+    balance.scale(-1);
     balance.weights[0] += capacity;
-    return numerics::CellEquation<D>{balance, right};
+    const double right = capacity * temperature[p][cell] + balance.constant;
+    return numerics::CellEquation<D>{std::move(balance), right};
   };
   numerics::CellSystem<D> system(patches, ranks);
   const solvers::Outcome outcome = system.solve(settings.solver, temperature, equationOf);
   system.requireConvergence(outcome, "the conduction of heat", "Heat", "c.temperature", ", or a smaller <delt_max>");
   system.take(newTemperature);
+  if (theta < 1) goOn<D>(patches, theta, temperature, newTemperature);
   iterationsTaken.add(outcome.krylovIterations);
   solvers::addTimes(outcome, assembly, setup, solution);
 }
@@ -84,8 +101,11 @@ const input::Schema<Settings>& schema() {
 }  // namespace
 
 simulation::ComponentKind kind() {
-  return simulation::kindWithSection<ImplicitHeat>("implicit_heat", "heat conduction, implicit: stable with any step",
-                                                   schema(), {boundary::temperature, grid::symmetric});
+  simulation::ComponentKind kind =
+      simulation::kindWithSection<ImplicitHeat>("implicit_heat", "heat conduction, implicit: stable with any step",
+                                                schema(), {boundary::temperature, grid::symmetric});
+  kind.takesLevels = true;
+  return kind;
 }
 
 template class ImplicitHeat<1>;

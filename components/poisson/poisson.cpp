@@ -3,6 +3,7 @@
 #include "core/input/schema.hpp"
 #include "core/numerics/cell_system.hpp"
 #include "core/numerics/checked_formula.hpp"
+#include "core/numerics/composite_diffusion.hpp"
 #include "core/simulation/by_dimension.hpp"
 #include "core/solvers/input.hpp"
 
@@ -57,13 +58,15 @@ void solve(const RankPatches& patches, const mpi::Communicator& ranks, const Set
            const std::vector<CellView<const double>>& oldPhi, const std::vector<CellView<double>>& phi,
            const SolveTotals& totals) {
   const Level& level = patches.front()->level();
-  const numerics::Diffusion<D> diffusion(level, settings.coefficient, boundary::phi);
+  const numerics::CompositeDiffusion<D> diffusion(level.grid(), settings.coefficient, boundary::phi);
   // The negative of the balance is positive definite.
-  const auto equationOf = [&](std::size_t, const Index<D>& cell) {
-    numerics::Balance<D> balance = diffusion.balance(cell);
-    for (double& weight : balance.weights) weight = -weight;
-    const double f = settings.source(level.expandPoint<D>(level.cellCentre<D>(cell)), time + dt);
-    return numerics::CellEquation<D>{balance, balance.constant - level.cellVolume() * f};
+  const auto equationOf = [&](std::size_t p, const Index<D>& cell) {
+    const Level& own = patches[p]->level();
+    numerics::Balance<D> balance = diffusion.balance(own.number(), cell);
+    balance.scale(-1);
+    const double f = settings.source(own.expandPoint<D>(own.cellCentre<D>(cell)), time + dt);
+    const double right = balance.constant - own.cellVolume() * f;
+    return numerics::CellEquation<D>{std::move(balance), right};
   };
   numerics::CellSystem<D> system(patches, ranks);
   if (!keepsValueSomewhere(level)) system.freeConstant();
@@ -93,9 +96,11 @@ const input::Schema<Settings>& schema() {
 }  // namespace
 
 simulation::ComponentKind kind() {
-  return simulation::kindWithSection<Poisson>("poisson",
-                                              "Poisson's equation; the smallest component with a global solve",
-                                              schema(), {boundary::phi, grid::symmetric});
+  simulation::ComponentKind kind =
+      simulation::kindWithSection<Poisson>("poisson", "Poisson's equation; the smallest component with a global solve",
+                                           schema(), {boundary::phi, grid::symmetric});
+  kind.takesLevels = true;
+  return kind;
 }
 
 template class Poisson<1>;

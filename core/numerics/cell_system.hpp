@@ -8,6 +8,7 @@
 #include "core/numerics/diffusion.hpp"
 #include "core/solvers/numbering.hpp"
 #include "core/solvers/report.hpp"
+#include "core/solvers/unsymmetric.hpp"
 #include "core/tasks/access.hpp"
 
 namespace tushar::numerics {
@@ -19,14 +20,15 @@ struct CellEquation {
   double right;
 };
 
-/// A linear system with one unknown and one equation for each cell of the grid, solved by all ranks together. One step
-/// makes it, solves it, and takes the solution out.
+/// A linear system with one unknown and one equation for each cell of the grid, of all levels, solved by all ranks
+/// together. One step makes it, solves it, and takes the solution out. Where there are several levels it need not be
+/// symmetric, and is solved as one that is not.
 template <int D>
 class CellSystem {
  public:
   /// `ranks` are those of togetherOnRanks().
   CellSystem(const tasks::RankPatches& patches, const mpi::Communicator& ranks)
-      : patches_(patches), number_(patches.front()->level()) {
+      : patches_(patches), grid_(patches.front()->level().grid()), number_(grid_) {
     unknowns_.ranks = &ranks;
     unknowns_.owned = number_.owned();
     unknowns_.ghosts = number_.ghosts();
@@ -37,21 +39,26 @@ class CellSystem {
   void freeConstant() { unknowns_.constantIsFree = true; }
 
   /// Solves for the unknowns, from the values in `guess` of each patch. `equationOf(p, cell)` gives the CellEquation of
-  /// a cell of patch number p of the rank.
+  /// a cell of patch number p of the rank; on several levels it is asked twice for cells at the faces of a patch.
   template <class EquationOf>
   solvers::Outcome solve(const solvers::LinearSettings& settings,
                          const std::vector<data::CellView<const double>>& guess, EquationOf&& equationOf) {
+    const bool isRefined = grid_.levels() > 1;
+    if (isRefined) meetOthers(equationOf);
     std::vector<double> right(unknowns_.entries.size());
     solution_.resize(right.size());
     const auto assemble = [&](solvers::Matrix& matrix) {
       forEachCell([&](std::size_t p, const Index<D>& cell) {
         const CellEquation<D> equation = equationOf(p, cell);
         add(equation.left, matrix);
-        right[rowOf(cell)] = equation.right;
+        right[rowOf(p, cell)] = equation.right;
       });
     };
-    forEachCell([&](std::size_t p, const Index<D>& cell) { solution_[rowOf(cell)] = guess[p][cell]; });
-    return solvers::solver().solve(unknowns_, {assemble, right}, settings, solution_);
+    forEachCell([&](std::size_t p, const Index<D>& cell) { solution_[rowOf(p, cell)] = guess[p][cell]; });
+    const solvers::Outcome outcome = solvers::solver().solve(
+        unknowns_, {assemble, right}, isRefined ? solvers::withoutSymmetry(settings) : settings, solution_);
+    if (isRefined && unknowns_.constantIsFree) takeOutMean();
+    return outcome;
   }
   /// Throws NumericalError if the solver gave up on `what`; `section` holds the settings of the solver, `quantity` is
   /// the label of the solution, and `also` is one more thing to try.
@@ -66,7 +73,7 @@ class CellSystem {
   }
   /// Writes the solution to the fields of the patches.
   void take(const std::vector<data::CellView<double>>& values) const {
-    forEachCell([&](std::size_t p, const Index<D>& cell) { values[p][cell] = solution_[rowOf(cell)]; });
+    forEachCell([&](std::size_t p, const Index<D>& cell) { values[p][cell] = solution_[rowOf(p, cell)]; });
   }
 
  private:
@@ -75,24 +82,61 @@ class CellSystem {
     for (std::size_t p = 0; p < patches_.size(); ++p)
       grid::forEach<D>(patches_[p]->cells(), [&](const Index<D>& cell) { visit(p, cell); });
   }
-  std::size_t rowOf(const Index<D>& cell) const { return static_cast<std::size_t>(number_(cell)); }
+  int levelOf(std::size_t p) const { return patches_[p]->level().number(); }
+  std::size_t rowOf(std::size_t p, const Index<D>& cell) const {
+    return static_cast<std::size_t>(number_(levelOf(p), cell));
+  }
+  /// Learns from the equations of cells at the faces of patches which cells of other ranks they look at, and how many
+  /// cells there are in a row: all others look at those beside them.
+  template <class EquationOf>
+  void meetOthers(EquationOf&& equationOf) {
+    forEachCell([&](std::size_t p, const Index<D>& cell) {
+      const grid::Box& cells = patches_[p]->cells();
+      bool isInside = true;
+      for (int d = 0; d < D; ++d) isInside &= cell[d] > cells.lower[d] && cell[d] < cells.upper[d] - 1;
+      if (isInside) return;
+      const Balance<D> left = equationOf(p, cell).left;
+      for (std::size_t k = 0; k < left.count; ++k) number_.meet(left.level, left.cells[k]);
+      for (const auto& far : left.far) number_.meet(far.level, far.cell);
+      const auto inRow = static_cast<int>(left.count + left.far.size());
+      unknowns_.entries[rowOf(p, cell)] = std::min(inRow, unknowns_.owned);
+    });
+    unknowns_.ghosts = number_.ghosts();
+  }
   void add(const Balance<D>& left, solvers::Matrix& matrix) const {
     std::array<int, Balance<D>::most> columns;
-    for (std::size_t k = 0; k < left.count; ++k) columns[k] = number_(left.cells[k]);
+    for (std::size_t k = 0; k < left.count; ++k) columns[k] = number_(left.level, left.cells[k]);
     matrix.add({columns.data(), 1}, {columns.data(), left.count}, {left.weights.data(), left.count});
+    for (const auto& far : left.far) {
+      const int column = number_(far.level, far.cell);
+      matrix.add({columns.data(), 1}, {&column, 1}, {&far.weight, 1});
+    }
+  }
+  /// Cells count by their volume.
+  void takeOutMean() {
+    data::Sum sum, volume;
+    forEachCell([&](std::size_t p, const Index<D>& cell) {
+      const double weight = patches_[p]->level().weight();
+      sum.add(weight * solution_[rowOf(p, cell)]);
+      volume.add(weight);
+    });
+    unknowns_.ranks->merge(sum);
+    unknowns_.ranks->merge(volume);
+    for (double& value : solution_) value -= sum.total() / volume.total();
   }
   /// The middle of the cell with a number, m; none for one of another rank.
   std::optional<Vec3> middleOf(int wanted) const {
     std::optional<Vec3> middle;
     forEachCell([&](std::size_t p, const Index<D>& cell) {
       const grid::Level& level = patches_[p]->level();
-      if (wanted >= 0 && number_(cell) == wanted)
+      if (wanted >= 0 && number_(level.number(), cell) == wanted)
         middle = level.template expandPoint<D>(level.template cellCentre<D>(cell));
     });
     return middle;
   }
 
   const tasks::RankPatches& patches_;
+  const grid::Grid& grid_;
   solvers::CellNumbering number_;
   solvers::Unknowns unknowns_;
   std::vector<double> solution_;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include "core/data/views.hpp"
 #include "core/grid/level.hpp"
@@ -13,21 +14,41 @@ namespace tushar::numerics {
 /// Numerical Heat Transfer and Fluid Flow, 4.2).
 inline double harmonicMean(double a, double b) { return 2 * a * b / (a + b); }
 
-/// A linear function of the values in a cell and those next to it: sum_n weight_n phi_n + constant.
+/// A linear function of the values in a cell and others: sum_n weight_n phi_n + constant.
 template <int D>
 struct Balance {
   static constexpr std::size_t most = 2 * D + 1;
+  /// A cell of any level.
+  struct Far {
+    int level;
+    Index<D> cell;
+    double weight;
+  };
 
-  std::array<Index<D>, most> cells{};  ///< the cell itself first; of the grid or their periodic images
+  int level = 0;                       ///< of the cell
+  std::array<Index<D>, most> cells{};  ///< the cell itself first, then some next to it; of the grid or their images
   std::array<double, most> weights{};
   std::size_t count = 1;
+  std::vector<Far> far;  ///< what stands at faces where the level ends; none where there is one level
   double constant = 0;
 
-  /// With the values of a field that has a ghost cell.
-  double operator()(const data::CellView<const double>& phi) const {
-    double sum = constant;
-    for (std::size_t k = 0; k < count; ++k) sum += weights[k] * phi[cells[k]];
-    return sum;
+  /// Adds to the weight of a cell.
+  void add(int ofLevel, const Index<D>& cell, double weight) {
+    if (ofLevel == level && cell == cells[0]) {
+      weights[0] += weight;
+      return;
+    }
+    for (Far& one : far)
+      if (one.level == ofLevel && one.cell == cell) {
+        one.weight += weight;
+        return;
+      }
+    far.push_back({ofLevel, cell, weight});
+  }
+  /// Multiplies all weights.
+  void scale(double factor) {
+    for (double& weight : weights) weight *= factor;
+    for (Far& one : far) one.weight *= factor;
   }
 };
 
@@ -73,17 +94,18 @@ class Diffusion {
     Balance<D> balance;
     balance.cells[0] = cell;
     forEachFace(cell, [&](int d, int side, const Index<D>& next, bool isInside) {
-      if (!isInside) return addSide(d, side, balance);
-      const double weight =
-          harmonicMean(own, inCell(next)) * level_.cellVolume() / (level_.spacing(d) * level_.spacing(d));
-      balance.cells[balance.count] = next;
-      balance.weights[balance.count++] = weight;
-      balance.weights[0] -= weight;
+      if (isInside)
+        addNext(own, d, next, balance);
+      else
+        addSide(d, side, balance);
     });
     return balance;
   }
 
  private:
+  template <int>
+  friend class CompositeDiffusion;
+
   /// Calls `visit(axis, side, next cell, whether that is of the grid or an image of its cells)`.
   template <class Visit>
   void forEachFace(const Index<D>& cell, Visit&& visit) const {
@@ -106,6 +128,14 @@ class Diffusion {
     const auto& given = sides_(d, side);
     if (!given) return phi;
     return given->isDirichlet() ? 2 * given->value - phi : phi + level_.spacing(d) * given->value;
+  }
+  /// Adds k A (phi_n - phi) / h for the next cell along an axis; `own` is k in the cell.
+  void addNext(double own, int d, const Index<D>& next, Balance<D>& balance) const {
+    const double weight =
+        harmonicMean(own, inCell(next)) * level_.cellVolume() / (level_.spacing(d) * level_.spacing(d));
+    balance.cells[balance.count] = next;
+    balance.weights[balance.count++] = weight;
+    balance.weights[0] -= weight;
   }
   /// Adds k A (value - phi) / (h/2) for a given value, k A times a given derivative.
   void addSide(int d, int side, Balance<D>& balance) const {

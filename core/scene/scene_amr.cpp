@@ -21,7 +21,7 @@ using Indicator = simulation::Criterion::Indicator;
 namespace {
 
 /// Names of components that a part of `AMR` may have in every scene: ours, and Uintah's.
-const std::vector<std::string> componentNames{"Euler", "Heat", "Burgers", "ICE", "MPM", "MPMICE"};
+const std::vector<std::string> componentNames{"Euler", "Heat", "Burgers", "Poisson", "ICE", "MPM", "MPMICE"};
 
 /// The name of a criterion that is no variable: cells with particles, of any material.
 constexpr std::string_view cellsWithParticles = "particles";

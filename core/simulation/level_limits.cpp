@@ -44,11 +44,12 @@ std::vector<InputProblem> problemsOnLevels(const std::vector<tasks::Task>& tasks
   std::vector<InputProblem> problems;
   if (grid.levels() == 1) return problems;
   for (const tasks::Task& task : tasks) {
-    if (task.perRank)
+    const bool seesTooMuch = task.perRank && task.perMaterial();
+    if (seesTooMuch)
       problems.push_back(
           {where, "", fmt::format("task {} sees all patches at once, which needs a grid of one level", task.name)});
     for (const tasks::Access& access : task.accesses)
-      if (std::string problem = task.perRank ? "" : accessProblem(task, access, grid); !problem.empty())
+      if (std::string problem = seesTooMuch ? "" : accessProblem(task, access, grid); !problem.empty())
         problems.push_back({where, "", std::move(problem)});
   }
   return problems;

@@ -13,7 +13,7 @@ namespace tushar::simulation {
 /// - ghosts of nodes, which patches of the same level alone could give. Tasks of materials may read them for their
 ///   particles, which are on the finest level and keep away from coarser cells;
 /// - variables of nodes from the step before, which regridding and checkpoints leave out;
-/// - tasks that see all patches of a rank at once, whose bodies know of one level;
+/// - tasks that see all patches of a rank and all materials at once, whose bodies know of one level;
 /// - fluxes of materials: refluxing is for variables of none.
 /// `where`: what makes the levels.
 std::vector<InputProblem> problemsOnLevels(const std::vector<tasks::Task>& tasks, const grid::Grid& grid,

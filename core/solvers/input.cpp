@@ -9,7 +9,9 @@ input::Schema<LinearSettings> schemaOf(const LinearSettings& defaults) {
   return input::Schema<LinearSettings>("Solver", "How linear systems are solved.")
       .choice("solver", &LinearSettings::solver,
               {{"cg", "cg"}, {"gmres", "gmres"}, {"fgmres", "fgmres"}, {"bicgstab", "bcgs"}, {"direct", "preonly"}},
-              defaults.solver, "Krylov method; direct: none, the preconditioner lu or cholesky solves")
+              defaults.solver,
+              "Krylov method; direct: none, the preconditioner lu or cholesky solves; where a grid has several levels, "
+              "gmres and lu take the places of cg and cholesky")
       .ours()
       .choice("preconditioner", &LinearSettings::preconditioner,
               {{"gamg", "gamg"},

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -8,38 +10,71 @@
 namespace tushar::solvers {
 
 /// Gives each cell that a rank deals with its number in a global system, as Unknowns wants it: its own cells, then
-/// those of other ranks that share a face with them. On one rank the order is lexicographic, so that the patches do not
-/// matter.
+/// those of other ranks. On one rank the order is lexicographic, and on several levels that of blocks along the curve,
+/// so that the patches do not matter.
 class CellNumbering {
  public:
-  explicit CellNumbering(const grid::Level& level) : level_(&level) {
-    if (level.grid().share().ranks > 1) numberOwnPatches();
-  }
+  /// Where there is one level, the cells of other ranks that share a face with own ones are known from the start.
+  explicit CellNumbering(const grid::Grid& grid);
 
-  int owned() const { return level_->grid().share().ranks > 1 ? owned_ : static_cast<int>(level_->cells().size()); }
+  int owned() const { return owned_; }
   /// The cells of other ranks: their numbers among those of all ranks.
   const std::vector<int>& ghosts() const { return ghosts_; }
-  /// The number of a cell of the grid or, along periodic axes, of a periodic image; -1 beyond the grid and far from the
-  /// patches of this rank.
+  /// Makes a cell of a grid of several levels, or its image, one that this rank deals with.
   template <int D>
-  int operator()(const Index<D>& image) const {
-    const Index<D> cell = level_->wrapped(image);
-    if (!level_->cells().contains(cell)) return -1;
-    const std::uint64_t place = level_->cellNumber<D>(cell);
-    if (level_->grid().share().ranks == 1) return static_cast<int>(place);
-    const auto found = numbers_.find(place);
-    return found == numbers_.end() ? -1 : found->second;
+  void meet(int level, const Index<D>& image) {
+    const std::uint64_t among = numberAmongAll(level, expanded(grid_->level(level).template wrapped<D>(image)));
+    if (isOwn(among)) return;
+    if (numbers_.emplace(among, owned_ + static_cast<int>(ghosts_.size())).second)
+      ghosts_.push_back(static_cast<int>(among));
+  }
+  /// The number of a cell of the grid or, along periodic axes, of a periodic image; -1 beyond the grid and for cells of
+  /// other ranks that are not known.
+  template <int D>
+  int operator()(int level, const Index<D>& image) const {
+    const grid::Level& of = grid_->level(level);
+    const Index<D> cell = of.template wrapped<D>(image);
+    if (!of.cells().contains(cell)) return -1;
+    if (grid_->levels() == 1 && grid_->share().ranks == 1) return static_cast<int>(of.template cellNumber<D>(cell));
+    if (grid_->levels() == 1) return known(of.template cellNumber<D>(cell));
+    const std::uint64_t among = numberAmongAll(level, expanded(cell));
+    return isOwn(among) ? static_cast<int>(among - first_) : known(among);
   }
 
  private:
+  /// Cells that are numbered one after the other.
+  struct Run {
+    int level;
+    grid::Box cells;
+    std::uint64_t first;
+  };
+
+  template <int D>
+  static Index3 expanded(const Index<D>& cell) {
+    Index3 full;
+    std::copy(cell.at.begin(), cell.at.end(), full.at.begin());
+    return full;
+  }
+  bool isOwn(std::uint64_t among) const { return among >= first_ && among - first_ < std::uint64_t(owned_); }
+  int known(std::uint64_t key) const {
+    const auto found = numbers_.find(key);
+    return found == numbers_.end() ? -1 : found->second;
+  }
   /// Patch by patch, so that every rank knows the numbers of all.
   void numberOwnPatches();
   void numberGhosts(const grid::Patch& patch, const std::vector<int>& firstOf);
+  /// Of a cell of several levels: block by block on one rank, else patch by patch. Throws data::AccessError for one
+  /// that is refined or part of a coarser one.
+  std::uint64_t numberAmongAll(int level, const Index3& cell) const;
+  Run runAround(int level, const Index3& cell) const;
 
-  const grid::Level* level_;
+  const grid::Grid* grid_;
   int owned_ = 0;
+  std::uint64_t first_ = 0;  ///< own cell of several levels, among those of all ranks
   std::vector<int> ghosts_;
+  /// By place of the cell; on several levels only those of other ranks, by number among all.
   std::unordered_map<std::uint64_t, int> numbers_;
+  mutable std::optional<Run> last_;  ///< the run that was looked up last
 };
 
 }  // namespace tushar::solvers

@@ -33,7 +33,9 @@ double diffusionIn(int cell, const grid::Domain& domain, const input::Expression
 double balanceIn(int cell, const grid::Domain& domain, const input::Expression& k, std::vector<double> phi) {
   const grid::Level level(domain);
   const Balance<1> balance = Diffusion<1>(level, k, phiLabel).balance(Index<1>{{cell}});
-  return balance(data::CellView<const double>(phi.data(), level.cells())) / level.cellVolume();
+  double sum = balance.constant;
+  for (std::size_t n = 0; n < balance.count; ++n) sum += balance.weights[n] * phi[std::size_t(balance.cells[n][0])];
+  return sum / level.cellVolume();
 }
 
 }  // namespace

@@ -3,59 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <map>
 
-#include "tests/support/run.hpp"
+#include "tests/poisson/solved.hpp"
 
 namespace tushar::poisson {
 
 namespace {
-
-void condition(grid::Domain& domain, int axis, int side, BoundaryKind kind, double value) {
-  domain.boundaries.face(axis, side).push_back({boundary::phi, kind, Vec3(value, 0, 0)});
-}
-
-Settings settingsOf(const std::string& source, const std::string& coefficient = "1") {
-  Settings settings;
-  settings.source = *input::Expression::parse(source);
-  settings.coefficient = *input::Expression::parse(coefficient);
-  return settings;
-}
-
-struct Solved {
-  double error;  ///< mean of |phi - exact|
-  double iterations;
-  std::map<std::uint64_t, double> phi;  ///< by the number of the cell
-};
-
-template <int D>
-Solved solved(const grid::Domain& domain, const Settings& settings, const std::string& exact) {
-  test::Runner run(domain);
-  const Poisson<D> poisson(settings);
-  TaskList start, advance;
-  poisson.scheduleInitialize(start);
-  poisson.scheduleTimeAdvance(advance);
-  tasks::TaskGraph begin = run.compile(start, {"c.phi"});
-  tasks::TaskGraph step = run.compile(advance, {"c.phi", "KrylovIterations"}, true);
-  run.warehouse.grow(0);
-  run.warehouse.reduction<Minimum>(run.table.number(delT, -1)).value = 0.5;
-  run.step(begin);
-  run.step(step);
-  const input::Expression phi = *input::Expression::parse(exact);
-  Norm error;
-  std::map<std::uint64_t, double> found;
-  for (const Patch& patch : run.grid.patches()) {
-    const auto held = run.warehouse.variable(data::Generation::old, run.table.find("c.phi", -1), patch.id());
-    const auto* values = reinterpret_cast<const double*>(held.values);
-    forEach<3>(patch.cells(), [&](const Index3& cell) {
-      Vec3 x = Vec3::Zero();
-      for (int d = 0; d < D; ++d) x[d] = run.level.nodePosition(d, cell[d]) + run.level.spacing(d) / 2;
-      error.add(values[held.stored.offset(cell)] - phi(x, 1.0));
-      found[run.level.cellNumber<3>(cell)] = values[held.stored.offset(cell)];
-    });
-  }
-  return {error.l1(), run.warehouse.reductionValues(run.table.find("KrylovIterations", -1)).at(0), found};
-}
 
 /// Order between `cells` and twice as many.
 template <int D, class Make>
@@ -70,24 +23,9 @@ grid::Domain oneDimension(int cells) {
   condition(domain, 0, 1, BoundaryKind::neumann, 1 - M_PI);
   return domain;
 }
-template <int D>
-grid::Domain keptAtOne(int cells) {
-  grid::Domain domain = test::unitBox<D>(cells);
-  for (int d = 0; d < D; ++d)
-    for (const int side : {0, 1}) condition(domain, d, side, BoundaryKind::dirichlet, 1);
-  return domain;
-}
 grid::Domain repeated(int cells) {
   grid::Domain domain = test::unitBox<2>(cells);
   domain.periodic = {{1, 1, 0}};
-  return domain;
-}
-
-/// The outward derivative is kept at both ends.
-grid::Domain betweenSlopes(int cells, double lower, double upper) {
-  grid::Domain domain = test::unitBox<1>(cells);
-  condition(domain, 0, 0, BoundaryKind::neumann, lower);
-  condition(domain, 0, 1, BoundaryKind::neumann, upper);
   return domain;
 }
 

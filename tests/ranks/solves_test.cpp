@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -22,16 +23,16 @@ using test::onRanks;
 std::vector<double> gathered(data::Warehouse& warehouse, const std::string& label, int width,
                              const mpi::Communicator& ranks) {
   const grid::Grid& grid = warehouse.grid();
-  const grid::Level& level = grid.level();
   const auto wide = static_cast<std::size_t>(width);
-  std::vector<double> field(level.cells().size() * wide, -std::numeric_limits<double>::infinity());
+  constexpr double none = -std::numeric_limits<double>::infinity();
+  std::vector<double> field(grid.finest().cells().size() * wide, none);
   const bool ofParticles = label.front() == 'p';
   const int number = warehouse.table().find(label, ofParticles ? 0 : -1);
   for (const grid::Patch& patch : grid.patches()) {
     const data::Variable held = warehouse.variable(Generation::old, number, patch.id());
     const auto* values = reinterpret_cast<const double*>(held.values);
     grid::forEach<3>(patch.cells(), [&](const Index3& cell) {
-      double* into = &field[level.cellNumber<3>(cell) * wide];
+      double* into = &field[patch.level().cellNumber<3>(cell) * wide];
       std::fill_n(into, width, 0.0);
       if (!ofParticles) into[0] = values[held.stored.offset(cell)];
       if (ofParticles)
@@ -40,6 +41,7 @@ std::vector<double> gathered(data::Warehouse& warehouse, const std::string& labe
     });
   }
   ranks.max(field);
+  std::replace(field.begin(), field.end(), none, 0.0);  // where there is no lower corner of a cell
   return field;
 }
 
@@ -90,6 +92,12 @@ TEST(Solves, GiveTheSameSlowGasOnAnyRanks) {
   expectSame("ups/ice/gresho_slow.ups", "c.velocity", 2,
              {patches, "Grid/Level/Box/resolution=[20,20,1]", "CFD/ICE/ImplicitSolver/Solver/tolerance=1e-13",
               "Time/max_Timesteps=5"});
+}
+
+TEST(Solves, GiveTheSameFieldsOverSeveralLevelsOnAnyRanks) {
+  expectSame("ups/poisson/levels.ups", "c.phi", 1, {"Poisson/Solver/tolerance=1e-13", "Time/max_Timesteps=1"});
+  expectSame("ups/heat/implicit_levels.ups", "c.temperature", 1,
+             {"Heat/Solver/tolerance=1e-13", "Heat/thermal_conductivity=1 + x/2", "Time/max_Timesteps=2"});
 }
 
 TEST(Solves, GiveTheSamePlacesOfASolidOnAnyRanks) {

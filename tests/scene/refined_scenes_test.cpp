@@ -106,8 +106,10 @@ TEST(RefinedScenes, NameVariablesThatAreThere) {
 }
 
 TEST(RefinedScenes, AreRefusedToComponentsOfOneLevel) {
-  EXPECT_EQ(problemsOf(withLevel("ups/heat/implicit.ups")),
-            "'implicit_heat' needs a grid of one level; of several: 'burgers', 'euler', 'heat', 'ice' and 'mpm'\n");
+  EXPECT_EQ(
+      problemsOf(withLevel("ups/fsi/closed_box.ups"), {"Grid/Level[1]/Box/resolution=[64,1,1]"}),
+      "'mpmice' needs a grid of one level; of several: 'burgers', 'euler', 'heat', 'ice', 'implicit_heat', 'mpm' and "
+      "'poisson'\n");
 }
 
 TEST(RefinedScenes, SaveNoFluxesThroughRims) {

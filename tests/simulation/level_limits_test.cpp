@@ -25,6 +25,8 @@ void readCells(const Patch&, CellView<const double>) {}
 void readNodes(const Patch&, NodeView<const double>) {}
 void readNodesOfGas(const Patch&, const Gas&, NodeView<const double>) {}
 void readAll(const tasks::RankPatches&, const std::vector<CellView<const double>>&) {}
+void readAllOfGas(const tasks::RankPatches&, const std::vector<Gas>&,
+                  const std::vector<std::vector<CellView<const double>>>&) {}
 void flow(const Patch&, CellView<double>, RimFlux<double>) {}
 void flowOfGas(const Patch&, const Gas&, CellView<double>, RimFlux<double>) {}
 
@@ -82,16 +84,20 @@ TEST(LevelLimits, RefuseGhostsOfNodesButAroundParticles) {
   EXPECT_EQ(problemsOf(beyond, 1), "");
 }
 
-TEST(LevelLimits, RefuseTasksThatSeeAllPatchesAndFluxesOfMaterials) {
-  TaskList solve, ofNone, ofGas;
+TEST(LevelLimits, RefuseTasksThatSeeAllPatchesOfMaterialsAndFluxesOfMaterials) {
+  TaskList solve, solveFar, solveGas, ofNone, ofGas;
   solve.perRank("solve", readAll, requiresOld(value));
+  solveFar.perRank("solve", readAll, requiresOld(value, 3));
+  solveGas.perRankAcrossMaterials("solve", readAllOfGas, gases, requiresOld(value));
   ofNone.perPatch("flow", flow, computes(value), keepsFlux(value));
   ofGas.perMaterial("flow", flowOfGas, gases, computes(value), keepsFlux(value));
-  EXPECT_EQ(problemsOf(solve), "a.ups:7:3: task solve sees all patches at once, which needs a grid of one level\n");
+  EXPECT_EQ(problemsOf(solve), "");
+  EXPECT_TRUE(problemsOf(solveFar).starts_with("a.ups:7:3: task solve reads c.value up to 3 cells beyond a patch"));
+  EXPECT_EQ(problemsOf(solveGas), "a.ups:7:3: task solve sees all patches at once, which needs a grid of one level\n");
   EXPECT_EQ(problemsOf(ofNone), "");
   EXPECT_EQ(problemsOf(ofGas),
             "a.ups:7:3: task flow keeps the flux of c.value of materials, which needs a grid of one level\n");
-  EXPECT_EQ(problemsOf(solve, 1) + problemsOf(ofGas, 1), "");
+  EXPECT_EQ(problemsOf(solveGas, 1) + problemsOf(ofGas, 1), "");
 }
 
 namespace {

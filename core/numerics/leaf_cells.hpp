@@ -1,0 +1,108 @@
+#pragma once
+
+#include <array>
+
+#include "core/grid/grid.hpp"
+
+namespace tushar::numerics {
+
+/// Which cells of a grid of several levels are there: those that are neither refined nor part of coarser ones.
+template <int D>
+class LeafCells {
+ public:
+  /// The grid must outlive it.
+  explicit LeafCells(const grid::Grid& grid) : grid_(&grid) {}
+
+  /// The level of the cells where a cell of a level is, or would be: its own, a coarser one, or the next finer one.
+  /// Images along periodic axes count; outside the grid: -1.
+  int levelAt(int level, const Index<D>& cell) const { return grid_->tree().levelAt(blockOf(level, cell)); }
+  bool isThere(int level, const Index<D>& cell) const { return levelAt(level, cell) == level; }
+  bool areInOneBlock(const Index<D>& a, const Index<D>& b) const { return blockOf(0, a).at == blockOf(0, b).at; }
+
+ private:
+  grid::BlockId blockOf(int level, const Index<D>& cell) const {
+    grid::BlockId block{level, {}};
+    for (int d = 0; d < D; ++d) {
+      const int cells = grid_->blockCells()[d];
+      block.at[d] = cell[d] >= 0 ? cell[d] / cells : -((cells - 1 - cell[d]) / cells);
+    }
+    return block;
+  }
+
+  const grid::Grid* grid_;
+};
+
+/// A field of a level, beside a face behind which cells are finer, by a polynomial through the cells of the level: of
+/// second degree along each axis of the face, with their mixed term. Cells that are not there are not used: beside
+/// finer ones, and at sides of the grid, it leans on those of the other side.
+template <int D>
+class FaceInterpolation {
+ public:
+  explicit FaceInterpolation(const LeafCells<D>& leaves) : leaves_(leaves) {}
+
+  /// Calls `visit(cell, weight)` for what the value at the middle of `cell` plus `shift` widths is the sum of; the
+  /// shift along the axis `normal` counts for 0.
+  template <class Visit>
+  void forEachTerm(int level, const Index<D>& cell, int normal, const std::array<double, D>& shift,
+                   Visit&& visit) const {
+    double own = 1;
+    for (int d = 0; d < D; ++d)
+      if (d != normal) own += addAlong(level, cell, d, shift[d], visit);
+    if constexpr (D == 3) own += addMixed(level, cell, (normal + 1) % 3, (normal + 2) % 3, shift, visit);
+    visit(cell, own);
+  }
+
+ private:
+  /// Visits the cells beside along an axis; gives what the cell's own weight gets.
+  template <class Visit>
+  double addAlong(int level, const Index<D>& cell, int d, double s, Visit&& visit) const {
+    const Index<D> one = Index<D>::unit(d);
+    const bool below = leaves_.isThere(level, cell - one), above = leaves_.isThere(level, cell + one);
+    if (below && above) {
+      visit(cell - one, s * (s - 1) / 2);
+      visit(cell + one, s * (s + 1) / 2);
+      return -s * s;
+    }
+    if (!below && !above) return 0;
+    const Index<D> inwards = above ? one : one * -1;
+    const double u = above ? s : -s;
+    if (!leaves_.isThere(level, cell + inwards * 2)) {
+      visit(cell + inwards, u);
+      return -u;
+    }
+    visit(cell + inwards, u * (2 - u));
+    visit(cell + inwards * 2, u * (u - 1) / 2);
+    return (u - 1) * (u - 2) / 2 - 1;
+  }
+  /// The same of s_a s_b times the mixed difference: the mean over the corners of the cell whose other cells are there.
+  template <class Visit>
+  double addMixed(int level, const Index<D>& cell, int a, int b, const std::array<double, D>& shift,
+                  Visit&& visit) const {
+    std::array<std::array<Index<D>, 2>, 4> corners;
+    std::array<double, 4> signs{};
+    std::size_t count = 0;
+    for (const int p : {-1, 1})
+      for (const int q : {-1, 1}) {
+        const Index<D> alongA = Index<D>::unit(a) * p, alongB = Index<D>::unit(b) * q;
+        if (!leaves_.isThere(level, cell + alongA) || !leaves_.isThere(level, cell + alongB) ||
+            !leaves_.isThere(level, cell + alongA + alongB))
+          continue;
+        corners[count] = {alongA, alongB};
+        signs[count++] = p * q;
+      }
+    double own = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      const double weight = signs[k] * shift[a] * shift[b] / static_cast<double>(count);
+      const auto& [alongA, alongB] = corners[k];
+      visit(cell + alongA + alongB, weight);
+      visit(cell + alongA, -weight);
+      visit(cell + alongB, -weight);
+      own += weight;
+    }
+    return own;
+  }
+
+  const LeafCells<D>& leaves_;
+};
+
+}  // namespace tushar::numerics

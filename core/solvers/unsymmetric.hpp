@@ -1,0 +1,14 @@
+#pragma once
+
+#include "core/solvers/solver.hpp"
+
+namespace tushar::solvers {
+
+/// The settings for a system that is not symmetric: gmres takes the place of cg, and lu that of cholesky.
+inline LinearSettings withoutSymmetry(LinearSettings settings) {
+  if (settings.solver == "cg") settings.solver = "gmres";
+  if (settings.preconditioner == "cholesky") settings.preconditioner = "lu";
+  return settings;
+}
+
+}  // namespace tushar::solvers
