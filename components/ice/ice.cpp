@@ -22,8 +22,7 @@ void Ice<D>::scheduleTimeAdvance(TaskList& tasks) const {
   euler::Euler<D>::scheduleTimeAdvance(tasks);
   if (diffusion_.acts())
     tasks.perPatch("euler::addDiffusion", euler::addDiffusion<D>, with(gas_), with(diffusion_),
-                   requiresOld(euler::c::density, 1), requiresOld(euler::c::momentum<D>, 1),
-                   requiresOld(euler::c::totalEnergy, 1), requiresOld(delT), modifies(euler::c::momentum<D>),
+                   all<euler::OldState<D>>(1), startTime(), requiresOld(delT), modifies(euler::c::momentum<D>),
                    modifies(euler::c::totalEnergy), all<euler::DiffusionRims<D>>());
   if (!gravity_.isZero(0))
     tasks.perPatch("euler::addGravity", euler::addGravity<D>, with(gravity_), requiresNew(euler::c::density),
@@ -64,6 +63,8 @@ simulation::ComponentKind kind() {
   kind.sentence = "a compressible gas in the words of Uintah's ICE, by the method of euler";
   kind.sections = gasSections();
   kind.takesLevels = true;
+  kind.takesPartsOfSides = true;
+  kind.takesFormulasAtSides = true;
   kind.boundaryLabels = gasBoundaryLabels();
   kind.describe = describeGas;
   kind.forms = [] { return std::vector<std::vector<simulation::SectionForm>>{gasForms()}; };

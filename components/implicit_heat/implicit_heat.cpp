@@ -84,8 +84,11 @@ const input::Schema<Settings>& schema() {
 }  // namespace
 
 simulation::ComponentKind kind() {
-  return simulation::kindWithSection<ImplicitHeat>("implicit_heat", "heat conduction, implicit: stable with any step",
-                                                   schema(), {boundary::temperature, grid::symmetric});
+  simulation::ComponentKind kind =
+      simulation::kindWithSection<ImplicitHeat>("implicit_heat", "heat conduction, implicit: stable with any step",
+                                                schema(), {boundary::temperature, grid::symmetric});
+  kind.takesPartsOfSides = true;
+  return kind;
 }
 
 template class ImplicitHeat<1>;
