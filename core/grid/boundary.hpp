@@ -91,7 +91,7 @@ inline constexpr int restOfSide = -1;
 /// The conditions of the six faces x-, x+, y-, y+, z-, z+ in this order. A face with none is free.
 ///
 /// Parts of a side have conditions of their own. There those of the whole side hold for no material that a part has
-/// conditions for.
+/// conditions for; where a part has none at all, for none.
 struct BoundaryConditions {
   std::array<std::vector<BoundaryCondition>, 6> faces;
   std::array<std::vector<ConditionsOfPart>, 6> parts;

@@ -127,7 +127,8 @@ const BoundaryCondition* Level::condition(int kernelAxis, int side, const Bounda
   const auto* conditions = &domain_.boundaries.face(axis(kernelAxis), side);
   if (part != restOfSide) {
     const auto& own = parts(kernelAxis, side)[static_cast<std::size_t>(part)].conditions;
-    if (std::any_of(own.begin(), own.end(), [&](const BoundaryCondition& one) { return one.isOf(material); }))
+    if (own.empty() ||
+        std::any_of(own.begin(), own.end(), [&](const BoundaryCondition& one) { return one.isOf(material); }))
       conditions = &own;
   }
   for (const BoundaryCondition& condition : *conditions)

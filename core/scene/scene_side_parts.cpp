@@ -158,37 +158,42 @@ int kernelAxisOf(const grid::Level& level, int axis) {
   return -1;
 }
 
-/// Calls `visit(middle)` for each face at a side whose middle is near a part of it.
-template <class Visit>
-void forEachFaceNear(const grid::SidePart& shape, const grid::Level& level, int kernelAxis, int side, Visit&& visit) {
+/// The middles of the faces at a side that belong to a part of it, m.
+template <int D>
+std::vector<Vec3> middlesOf(const grid::SidePart& shape, const grid::Level& level, int kernelAxis, int side) {
   grid::Box faces = level.cellsNear(shape.lower(), shape.upper());
   faces.lower[kernelAxis] = 0;
   faces.upper[kernelAxis] = 1;
-  grid::forEach<3>(faces, [&](const Index3& cell) { visit(level.middleOfSide<3>(kernelAxis, side, cell)); });
+  std::vector<Vec3> middles;
+  grid::forEach<D>(faces, [&](const Index<D>& cell) {
+    const Vec3 middle = level.middleOfSide<D>(kernelAxis, side, cell);
+    if (shape.holds(middle)) middles.push_back(middle);
+  });
+  return middles;
+}
+std::vector<Vec3> middlesOf(const grid::SidePart& shape, const grid::Level& level, int kernelAxis, int side) {
+  if (level.dimension() == 1) return middlesOf<1>(shape, level, kernelAxis, side);
+  if (level.dimension() == 2) return middlesOf<2>(shape, level, kernelAxis, side);
+  return middlesOf<3>(shape, level, kernelAxis, side);
 }
 
 /// How many faces a part has, on a level. Refuses one that another part has, too.
 std::size_t countFaces(const GivenPart& part, const std::vector<GivenPart>& all, const grid::Level& level,
                        Diagnostics& diagnostics) {
-  std::size_t count = 0;
-  const int d = kernelAxisOf(level, part.face / 2);
-  if (d < 0) return count;
-  const auto& shapes = level.parts(d, part.face % 2);
-  const GivenPart* other = nullptr;
-  Vec3 shared;
-  forEachFaceNear(shapes[part.part].shape, level, d, part.face % 2, [&](const Vec3& middle) {
-    if (!shapes[part.part].shape.holds(middle)) return;
-    ++count;
-    for (const GivenPart& one : all)
-      if (!other && one.face == part.face && one.part < part.part && shapes[one.part].shape.holds(middle)) {
-        other = &one;
-        shared = middle;
-      }
-  });
-  if (other)
+  const int d = kernelAxisOf(level, part.face / 2), side = part.face % 2;
+  if (d < 0) return 0;
+  const auto& shapes = level.parts(d, side);
+  const std::vector<Vec3> middles = middlesOf(shapes[part.part].shape, level, d, side);
+  for (const GivenPart& other : all) {
+    if (other.face != part.face || other.part >= part.part) continue;
+    const auto shared = std::find_if(middles.begin(), middles.end(),
+                                     [&](const Vec3& middle) { return shapes[other.part].shape.holds(middle); });
+    if (shared == middles.end()) continue;
     diagnostics.error(part.tag, fmt::format("overlaps the part at {}: both have the face at ({:g}, {:g}, {:g})",
-                                            other->tag.where().text(), shared[0], shared[1], shared[2]));
-  return count;
+                                            other.tag.where().text(), (*shared)[0], (*shared)[1], (*shared)[2]));
+    break;
+  }
+  return middles.size();
 }
 
 }  // namespace

@@ -124,6 +124,8 @@ TEST(PartsOfSides, HaveConditionsInPlaceOfThoseOfTheSide) {
   // The part says nothing of material 0.
   EXPECT_EQ(level.boundary(0, 0, heat, 0, 0)->value, 1);
   EXPECT_EQ(level.boundary(0, 0, pressure, 0, 0)->value, 2);
+  domain.boundaries.parts[0][0].conditions.clear();
+  EXPECT_FALSE(Level(domain).boundary(0, 0, heat, 0, 0)) << "a hole in the side";
   const BoundarySides<double> sides = level.sides(heat, 1);
   EXPECT_EQ(sides(0, 0, Index3{{0, 3, 3}})->value, 3);
   EXPECT_EQ(sides(0, 0, Index3{{0, 0, 0}})->value, 1);

@@ -90,9 +90,10 @@ class Sides(SceneTest):
             self.assertEqual(self.print_of(text, steps(12), ranks=2), plain)
             folder = Folder()
             self.addCleanup(folder.cleanup)
-            self.assertEqual(folder.run(self.scene(text), steps(9))[0], 0)
-            code, errors, report = folder.restart(steps(12), step=4)
-            self.assertEqual((code, errors, report["fingerprint"]), (0, "", plain))
+            self.assertEqual(folder.run(self.scene(text), steps(9))[:2], (0, ""))
+            code, errors, report = folder.restart(steps(12), step=8)
+            self.assertEqual((code, errors), (0, ""))
+            self.assertEqual(report["fingerprint"], plain)
 
     def test_the_jet_is_its_own_mirror_image(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -116,7 +117,7 @@ class Sides(SceneTest):
             text = gas(faces + inlet, cells=f"[{cells},1,1]", velocity="[1,0,0]")
             result = run(self.scene(text.replace("</Uintah_specification>", exact)))
             self.assertEqual(result.code, 0, result.err)
-            errors.append(next(error for error in result.report["errors"])["norms"]["L1"])
+            errors.append(result.report["errors"]["density"]["cell"]["L1"])
         self.assertGreater(errors[0] / errors[1], 3.2, errors)
 
     def test_heat_through_a_part(self):
