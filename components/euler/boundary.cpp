@@ -77,45 +77,48 @@ bool hasFormulas(const Level& level, int axis, int side) {
          std::any_of(parts.begin(), parts.end(), [&](const auto& part) { return hasSome(part.conditions); });
 }
 
-/// Throws NumericalError unless what formulas give can be.
-void checkGiven(const Place& place, const Gas& gas) {
-  const auto require = [&](const std::optional<double>& given, double least, const grid::BoundaryVariable& label,
-                           const char* unit) {
-    if (!given || (std::isfinite(*given) && *given > least)) return;
-    throw NumericalError(
-        fmt::format("{} at side {}{} is {:g} {} at ({:g}, {:g}, {:g}), t = {:g} s, but must be greater than {:g} {}",
-                    label.name, "xyz"[place.level.axis(place.axis)], "-+"[place.side], *given, unit, place.x[0],
-                    place.x[1], place.x[2], place.time, least, unit),
-        "another formula in its <value>");
+/// Throws NumericalError unless what formulas give beside a cell can be.
+void checkGiven(const Place& place, const Gas& gas, std::uint64_t cell) {
+  const auto require = [&](bool isFine, const grid::BoundaryVariable& label, const std::string& found) {
+    if (isFine) return;
+    throw NumericalError(fmt::format("{} at side {}{} is {} at ({:g}, {:g}, {:g}), t = {:g} s", label.name,
+                                     "xyz"[place.level.axis(place.axis)], "-+"[place.side], found, place.x[0],
+                                     place.x[1], place.x[2], place.time),
+                         "another formula in its <value>", std::string(label.name), cell);
   };
-  require(givenAt(place, gas, boundary::density), 0, boundary::density, "kg/m^3");
-  require(pressureAt(place, gas), 0 - gas.pInfinity, boundary::pressure, "Pa");
-  require(givenAt(place, gas, boundary::temperature), 0, boundary::temperature, "K");
-  if (const auto velocity = givenAt(place, gas, boundary::velocity); velocity && !velocity->allFinite())
-    throw NumericalError(fmt::format("{} at side {}{} is not finite at ({:g}, {:g}, {:g}), t = {:g} s",
-                                     boundary::velocity.name, "xyz"[place.level.axis(place.axis)], "-+"[place.side],
-                                     place.x[0], place.x[1], place.x[2], place.time),
-                         "another formula in its <value>");
+  const auto requireAbove = [&](double least, const BoundaryLabel<double>& label, const std::optional<double>& given,
+                                const char* unit) {
+    require(!given || (std::isfinite(*given) && *given > least), label,
+            fmt::format("{:g} {}, but must be greater than {:g} {},", given.value_or(0), unit, least, unit));
+  };
+  requireAbove(0, boundary::density, givenAt(place, gas, boundary::density), "kg/m^3");
+  requireAbove(0 - gas.pInfinity, boundary::pressure, pressureAt(place, gas), "Pa");
+  requireAbove(0, boundary::temperature, givenAt(place, gas, boundary::temperature), "K");
+  const auto velocity = givenAt(place, gas, boundary::velocity);
+  require(!velocity || velocity->allFinite(), boundary::velocity, "not finite");
 }
 
-/// The rules of all sides, where `ruleAt(place)` gives one, and `pointAt(axis, side, cell)` says where formulas count.
-template <int D, class RuleAt, class PointAt>
-GhostRules<D> rulesOf(const Level& level, const Gas& gas, double time, RuleAt ruleAt, PointAt pointAt) {
+/// The rules of all sides, where `makeRule(place, gas)` gives one, and `pointAt(axis, side, cell)` says where formulas
+/// count.
+template <int D, class MakeRule, class PointAt>
+GhostRules<D> rulesOf(const Level& level, const Gas& gas, double time, MakeRule makeRule, PointAt pointAt) {
   GhostRules<D> rules;
   for (int d = 0; d < D; ++d)
     for (int side = 0; side < 2; ++side) {
       SideRules<D>& of = rules[d][side];
       if (hasFormulas(level, d, side)) {
-        of.varying = [&level, &gas, d, side, time, ruleAt, pointAt](int part, const Index<D>& cell) {
+        of.varying = [&level, gas, d, side, time, makeRule, pointAt](int part, const Index<D>& cell) {
           const Place place{level, d, side, part, pointAt(d, side, cell), time};
-          checkGiven(place, gas);
-          return ruleAt(place, gas);
+          Index<D> nearest = level.wrapped<D>(cell);
+          for (int k = 0; k < D; ++k) nearest[k] = std::clamp(nearest[k], 0, level.cells().upper[k] - 1);
+          checkGiven(place, gas, level.cellNumber<D>(nearest));
+          return makeRule(place, gas);
         };
         continue;
       }
-      static_cast<GhostRule<D>&>(of) = ruleAt({level, d, side}, gas);
+      of = {makeRule({level, d, side}, gas)};
       for (int part = 0; part < std::ssize(level.parts(d, side)); ++part)
-        of.parts.push_back(ruleAt({level, d, side, part}, gas));
+        of.parts.push_back(makeRule({level, d, side, part}, gas));
     }
   return rules;
 }
@@ -148,14 +151,9 @@ State<D> beyondSide(const GhostRule<D>& rule, State<D> w) {
 /// Fills the cells of a box beyond a side by rules that differ from cell to cell.
 template <int D>
 void fillByPlace(const Level& level, const GhostRules<D>& rules, const Box& beyond, int axis, int side, Rows<D>& rows) {
-  const SideRules<D>& of = rules[axis][side];
   const int cells = level.cells().upper[axis];
   forEach<D>(beyond, [&](const Index<D>& cell) {
-    const Index<D> beside = inGrid<D>(level, rules, cell, axis);
-    const int part = level.partAt<D>(axis, side, beside);
-    const GhostRule<D> rule = of.varying                 ? of.varying(part, beside)
-                              : part == grid::restOfSide ? of
-                                                         : of.parts[static_cast<std::size_t>(part)];
+    const GhostRule<D> rule = ruleAt<D>(level, rules, axis, side, inGrid<D>(level, rules, cell, axis));
     Index<D> source = cell;
     source[axis] = sourceOf(cell[axis], cells, rule.mirrored);
     store<D>(rows.at(cell), 0, beyondSide<D>(rule, load<D>(rows.at(source), 0)));
@@ -195,6 +193,15 @@ GhostRules<D> diffusionRules(const Level& level, const Gas& gas, double time) {
 }
 
 template <int D>
+GhostRule<D> ruleAt(const Level& level, const GhostRules<D>& rules, int axis, int side, const Index<D>& cell) {
+  const SideRules<D>& of = rules[axis][side];
+  if (of.areOne()) return of;
+  const int part = level.partAt<D>(axis, side, cell);
+  if (of.varying) return of.varying(part, cell);
+  return part == grid::restOfSide ? of : of.parts[part];
+}
+
+template <int D>
 void fillBeyondGrid(const Level& level, const GhostRules<D>& rules, Rows<D>& rows) {
   const Box grid = level.cells();
   Box known = level.clipCells(rows.box());
@@ -226,6 +233,9 @@ template GhostRules<3> ghostRules<3>(const Level&, const Gas&, double);
 template GhostRules<1> diffusionRules<1>(const Level&, const Gas&, double);
 template GhostRules<2> diffusionRules<2>(const Level&, const Gas&, double);
 template GhostRules<3> diffusionRules<3>(const Level&, const Gas&, double);
+template GhostRule<1> ruleAt<1>(const Level&, const GhostRules<1>&, int, int, const Index<1>&);
+template GhostRule<2> ruleAt<2>(const Level&, const GhostRules<2>&, int, int, const Index<2>&);
+template GhostRule<3> ruleAt<3>(const Level&, const GhostRules<3>&, int, int, const Index<3>&);
 template bool isWall<1>(const Place&, const Gas&);
 template bool isWall<2>(const Place&, const Gas&);
 template bool isWall<3>(const Place&, const Gas&);

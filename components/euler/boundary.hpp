@@ -69,6 +69,10 @@ GhostRules<D> ghostRules(const Level& level, const Gas& gas, double time = 0);
 template <int D>
 GhostRules<D> diffusionRules(const Level& level, const Gas& gas, double time = 0);
 
+/// The rule for a cell beyond a side, or beside it: that of the part that the face between both belongs to.
+template <int D>
+GhostRule<D> ruleAt(const Level& level, const GhostRules<D>& rules, int axis, int side, const Index<D>& cell);
+
 /// Fills the cells of `rows` that lie beyond the grid; those on the grid must be known.
 template <int D>
 void fillBeyondGrid(const Level& level, const GhostRules<D>& rules, Rows<D>& rows);

@@ -126,7 +126,7 @@ const BoundaryCondition* Level::condition(int kernelAxis, int side, const Bounda
                                           int part) const {
   const auto* conditions = &domain_.boundaries.face(axis(kernelAxis), side);
   if (part != restOfSide) {
-    const auto& own = parts(kernelAxis, side)[static_cast<std::size_t>(part)].conditions;
+    const auto& own = parts(kernelAxis, side)[part].conditions;
     if (own.empty() ||
         std::any_of(own.begin(), own.end(), [&](const BoundaryCondition& one) { return one.isOf(material); }))
       conditions = &own;

@@ -234,7 +234,7 @@ class BoundarySides {
   const std::optional<BoundaryValue<T>>& operator()(int kernelAxis, int side, const Index<D>& cell) const {
     const Side& at = sides_[numberOf(kernelAxis, side)];
     const int part = at.parts.empty() ? restOfSide : level_->partAt<D>(kernelAxis, side, cell);
-    return part == restOfSide ? at.rest : at.parts[static_cast<std::size_t>(part)];
+    return part == restOfSide ? at.rest : at.parts[part];
   }
 
  private:
@@ -242,7 +242,7 @@ class BoundarySides {
     std::optional<BoundaryValue<T>> rest;
     std::vector<std::optional<BoundaryValue<T>>> parts;
   };
-  static std::size_t numberOf(int kernelAxis, int side) { return static_cast<std::size_t>(2 * kernelAxis + side); }
+  static int numberOf(int kernelAxis, int side) { return 2 * kernelAxis + side; }
 
   const Level* level_;
   std::array<Side, 6> sides_;

@@ -31,9 +31,7 @@ const std::vector<FaceWord>& faceWords() {
   return words;
 }
 
-const char* sideName(int face) {
-  return std::array{"x-", "x+", "y-", "y+", "z-", "z+"}[static_cast<std::size_t>(face)];
-}
+const char* sideName(int face) { return std::array{"x-", "x+", "y-", "y+", "z-", "z+"}[face]; }
 
 /// Three numbers between blanks or commas, as Uintah has them; also in brackets.
 std::optional<Vec3> pointOf(const std::optional<std::string>& text, const Element& tag, const char* attribute,

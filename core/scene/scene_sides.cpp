@@ -228,7 +228,7 @@ void readConditions(const FaceSection& given, const Element& tag, const ReadFace
 /// The part of a side with this shape, which is one with those of the same shape before.
 std::size_t partWith(const grid::SidePart& shape, std::vector<grid::ConditionsOfPart>& parts) {
   const auto same = std::find_if(parts.begin(), parts.end(), [&](const auto& part) { return part.shape == shape; });
-  if (same != parts.end()) return static_cast<std::size_t>(same - parts.begin());
+  if (same != parts.end()) return same - parts.begin();
   parts.push_back({shape, {}});
   return parts.size() - 1;
 }
@@ -246,11 +246,10 @@ std::vector<GivenPart> readFaces(const Element& section, const FacesSection& fac
   for (std::size_t f = 0; f < faces.faces.size() && f < elements.size(); ++f) {
     const FaceSection& given = faces.faces[f];
     const int face = given.face();
-    const auto number = static_cast<std::size_t>(face);
     if (!checkFaceWords(elements[f], diagnostics)) continue;
     if (const auto side = elements[f].attribute("side")) {
       std::map<std::string, Location> seen;
-      readConditions(given, elements[f], {words, face / 2, boundaries.faces[number], seen}, diagnostics);
+      readConditions(given, elements[f], {words, face / 2, boundaries.faces[face], seen}, diagnostics);
       if (const auto [first, isNew] = sides.emplace(*side, elements[f].where()); !isNew)
         diagnostics.error(elements[f],
                           fmt::format("side {} is given twice, the first time at {}", *side, first->second.text()));
@@ -259,10 +258,9 @@ std::vector<GivenPart> readFaces(const Element& section, const FacesSection& fac
     if (!words.takesParts) refuseParts(elements[f], diagnostics);
     const auto shape = words.takesParts ? readShape(given, elements[f], diagnostics) : std::nullopt;
     if (!shape) continue;
-    const std::size_t part = partWith(*shape, boundaries.parts[number]);
+    const std::size_t part = partWith(*shape, boundaries.parts[face]);
     readConditions(given, elements[f],
-                   {words, face / 2, boundaries.parts[number][part].conditions, seenOnParts[{face, part}]},
-                   diagnostics);
+                   {words, face / 2, boundaries.parts[face][part].conditions, seenOnParts[{face, part}]}, diagnostics);
     parts.push_back({elements[f], face, part});
   }
   return parts;

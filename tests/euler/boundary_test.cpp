@@ -77,6 +77,15 @@ TEST(GasSides, LetAJetInThroughAPart) {
   EXPECT_EQ(square.at(4, 1), (State<2>{8, -0.3, 0.2, 2}));
 }
 
+TEST(GasSides, TellTheRuleOfTheFaceOfACell) {
+  const Grid grid(withJet());
+  const GhostRules<2> rules = ghostRules<2>(grid.level(), air());
+  EXPECT_FALSE(ruleAt<2>(grid.level(), rules, 0, 0, Index<2>{{0, 1}}).mirrored);
+  EXPECT_EQ(ruleAt<2>(grid.level(), rules, 0, 0, Index<2>{{0, 1}}).value[kDensity], 9);
+  EXPECT_TRUE(ruleAt<2>(grid.level(), rules, 0, 0, Index<2>{{0, 2}}).mirrored);
+  EXPECT_TRUE(ruleAt<2>(grid.level(), rules, 1, 0, Index<2>{{0, 0}}).mirrored);
+}
+
 TEST(GasSides, MirrorAPartInAWallAcross) {
   Square square(withJet());
   EXPECT_EQ(square.at(-1, -1), (State<2>{9, 4, 0, 2}));
@@ -108,7 +117,7 @@ TEST(GasSides, RefuseAFormulaThatGivesNoDensity) {
     Square(domain, 2);
     FAIL() << "a density of 0";
   } catch (const NumericalError& error) {
-    EXPECT_EQ(std::string(error.what()).substr(0, 34), "Density at side x+ is 0 kg/m^3 at (");
+    EXPECT_EQ(std::string(error.what()).substr(0, 34), "Density at side x+ is 0 kg/m^3, bu");
   }
 }
 
