@@ -16,7 +16,7 @@ SECOND = f'</Face><Face {CIRCLE}><BCType id="0" label="Velocity" var="Dirichlet"
 
 # What stands in place of the slot's attributes, and its sentence.
 FACES = {
-    '':
+    "":
         ("missing attribute 'side' of <Face>, or that of a part of a side: 'circle', 'annulus', 'ellipse', "
          "'rectangle' and 'rectangulus'"),
     'rectangel="x-" lower="0 0 0" upper="0 1 1"':
@@ -64,7 +64,8 @@ class Sides(SceneTest):
                                     f"Face: {sentence}")
 
     def test_parts_that_overlap(self):
-        self.assert_refused(JET.replace("</Face>", SECOND, 1), "overlaps the part at SCENE", "both have the face at (0, ")
+        self.assert_refused(JET.replace("</Face>", SECOND, 1), "overlaps the part at SCENE",
+                            "both have the face at (0, ")
 
     def test_the_same_part_twice_with_one_condition(self):
         again = SECOND.replace(CIRCLE, SLOT)

@@ -2,6 +2,7 @@
 """Conditions on parts of sides, and formulas in them: the same bits as on whole sides where both say the same, on any
 layout, ranks, levels and after a restart; what comes in is what formulas say."""
 import pathlib
+import re
 import sys
 import tempfile
 import unittest
@@ -15,7 +16,6 @@ JET = (ROOT / "ups/ice/jet.ups").read_text()
 SLOT = '<Face rectangle="x-" lower="0 -0.125 0" upper="0 0.125 1">'
 SMALL = "Grid/Level/Box/resolution=[32,24,1]"
 MIRROR = '<BCType id="all" label="Symmetric" var="symmetry"/>'
-WAVE = (ROOT / "ups/heat/sine.ups").read_text()
 
 
 def steps(count):
@@ -120,14 +120,57 @@ class Sides(SceneTest):
             errors.append(result.report["errors"]["density"]["cell"]["L1"])
         self.assertGreater(errors[0] / errors[1], 3.2, errors)
 
-    def test_heat_through_a_part(self):
-        face = '<Face {}><BCType label="Temperature" var="Dirichlet"><value>2</value></BCType></Face>'
-        start = WAVE.index('<Face side="x+">')
-        end = WAVE.index("</Face>", start) + len("</Face>")
-        texts = [WAVE[:start] + faces + WAVE[end:]
-                 for faces in (face.format('side="x+"'), face.format('circle="x+" origin="1 0.5 0.5" radius="2"'),
-                               face.format('rectangle="x+" lower="1 0 0" upper="1 0.5 1"') + face.format('side="x+"'))]
-        self.assert_same(texts, "Grid/Level/Box/resolution=[16,8,1]", steps(6))
+    def test_gas_around_bodies(self):
+        text = (ROOT / "ups/fsi/cylinder.ups").read_text()
+        parts = ['<Face rectangle="x-" lower="0 0 0" upper="0 0.1 0.005">', '<Face side="x-">']
+        start = text.index(parts[1])
+        inlet = text[start:text.index("</Face>", start) + len("</Face>")]
+        both = text.replace(inlet, inlet.replace(parts[1], parts[0]) + inlet)
+        whole = text.replace(parts[1], '<Face circle="x-" origin="0 0 0" radius="1">')
+        jet = text.replace(inlet, inlet.replace(parts[1], parts[0]))
+        self.assert_same([text, both, whole], "Grid/Level/Box/resolution=[50,10,1]", steps(20))
+        small = ("Grid/Level/Box/resolution=[50,10,1]", steps(20))
+        self.assertNotEqual(self.print_of(jet, *small), self.print_of(text, *small))
+        self.assertEqual(self.print_of(jet, *small, options=("--quiet", "-layout", "4x3x1")),
+                         self.print_of(jet, *small))
+
+    def assert_takes_parts(self, scene, label, *changes):
+        """In a plane, where the scene has no condition on x+ of its own."""
+        text = re.sub("<DataAnalysis>.*</DataAnalysis>", "", (ROOT / scene).read_text(), flags=re.DOTALL)
+        for before, after in changes:
+            self.assertIn(before, text)
+            text = text.replace(before, after)
+        faces = f'<Face {{}}><BCType label="{label}" var="Dirichlet"><value>2</value></BCType></Face>'.format
+        with_faces = [text.replace("<BoundaryConditions>", "<BoundaryConditions>" + more) for more in (
+            faces('side="x+"'), faces('circle="x+" origin="1 0.5 0.5" radius="2"'),
+            faces('rectangle="x+" lower="1 0 0" upper="1 0.5 1"') + faces('side="x+"'),
+            faces('rectangle="x+" lower="1 0 0" upper="1 0.5 1"'), "")]
+        plane = ("Grid/Level/Box/resolution=[16,8,1]", steps(4))
+        prints = [self.print_of(one, *plane) for one in with_faces]
+        self.assertEqual(len(set(prints[:3])), 1)
+        self.assertEqual(len(set(prints[2:])), 3)
+        self.assertEqual(self.print_of(with_faces[3], *plane, options=("--quiet", "-layout", "2x3x1")), prints[3])
+
+    def test_burgers(self):
+        self.assert_takes_parts("ups/burgers/sine.ups", "Velocity", ("[1,0,0]</periodic>", "[0,0,0]</periodic>"))
+
+    def test_heat(self):
+        side = '<Face side="x+"><BCType id="all" label="Temperature" var="Dirichlet"><value>0</value></BCType></Face>'
+        self.assert_takes_parts("ups/heat/sine.ups", "Temperature", (side, ""))
+
+    def test_double_mach_reflection_has_the_undisturbed_shock_along_its_upper_side(self):
+        with tempfile.TemporaryDirectory() as folder:
+            fields = columns(archive_of(ROOT / "ups/euler/double_mach.ups", folder, "AMR/Regridder/max_levels=1",
+                                        "Time/maxTime=0.1"), "c.density")
+        width = 1 / 32
+        top = {x: rho for x, y, rho in zip(fields["x [m]"], fields["y [m]"], fields["c.density [kg/m^3]"])
+               if y > 1 - width}
+        shock = 1 / 6 + (1 - width / 2 + 20 * .1) / 3 ** .5
+        self.assertEqual(len(top), 128)
+        for x, rho in top.items():
+            if abs(x - shock) > 2 * width:
+                self.assertAlmostEqual(rho, 8 if x < shock else 1.4, delta=.25, msg=x)
+        self.assertGreater(max(fields["c.density [kg/m^3]"]), 15, "no reflection")
 
 
 if __name__ == "__main__":
