@@ -17,7 +17,7 @@ template <int D>
 double valueAt(const Patch& patch, const BoundarySides<double>& sides, CellView<const double> u, Index<D> cell, int d) {
   if (patch.cellsWithin(kReach).contains(cell)) return u[cell];
   const int side = cell[d] < 0 ? 0 : 1;
-  if (const auto& given = sides(d, side)) return given->value;
+  if (const auto& given = sides(d, side, cell)) return given->value;
   cell[d] = std::clamp(cell[d], 0, patch.level().cells().upper[d] - 1);
   return u[cell];
 }
@@ -181,6 +181,7 @@ simulation::ComponentKind kind() {
   simulation::ComponentKind kind = simulation::kindWithSection<Burgers>(
       "burgers", "Burgers' equation by finite volumes", schema(), {boundary::velocity, grid::symmetric});
   kind.takesLevels = true;
+  kind.takesPartsOfSides = true;
   return kind;
 }
 

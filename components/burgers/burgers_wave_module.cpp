@@ -72,7 +72,7 @@ BurgersWave waveOf(const Burgers<1>& burgers, const Level& level) {
   problem.upper = level.nodePosition(0, level.cells().upper[0]);
   problem.periodic = level.isPeriodic(0);
   for (const int side : {0, 1})
-    if (const auto given = level.boundary(0, side, boundary::velocity))
+    if (const auto given = level.sides(boundary::velocity)(0, side, Index<1>{}))
       if (const double end = problem.velocity(side == 0 ? problem.lower : problem.upper);
           std::abs(given->value - end) > 1e-9 * std::max(1.0, std::abs(end)))
         throw std::invalid_argument(fmt::format(

@@ -1,29 +1,31 @@
 #include "components/euler/boundary.hpp"
 
+#include <fmt/format.h>
+
 namespace tushar::euler {
 
 namespace {
 
 template <int D>
-GhostRule<D> ghostRule(const Level& level, const Gas& gas, int axis, int side) {
+GhostRule<D> ghostRule(const Place& place, const Gas& gas) {
   GhostRule<D> rule;
   rule.factor.fill(1);
   rule.value.fill(0);
-  if (isWall<D>(level, gas, axis, side)) {
+  if (isWall<D>(place, gas)) {
     rule.mirrored = true;
-    rule.factor[kVelocity(axis)] = -1;
+    rule.factor[kVelocity(place.axis)] = -1;
     return rule;
   }
   const auto prescribe = [&](std::size_t k, double value) {
     rule.factor[k] = 0;
     rule.value[k] = value;
   };
-  if (const auto velocity = givenAt(level, gas, axis, side, boundary::velocity)) {
-    const Vec<D> v = level.reduce<D>(*velocity);
+  if (const auto velocity = givenAt(place, gas, boundary::velocity)) {
+    const Vec<D> v = place.level.template reduce<D>(*velocity);
     for (int k = 0; k < D; ++k) prescribe(kVelocity(k), v[k]);
   }
-  auto density = givenAt(level, gas, axis, side, boundary::density), pressure = pressureAt(level, gas, axis, side);
-  if (const auto temperature = givenAt(level, gas, axis, side, boundary::temperature)) {
+  auto density = givenAt(place, gas, boundary::density), pressure = pressureAt(place, gas);
+  if (const auto temperature = givenAt(place, gas, boundary::temperature)) {
     const double pressureOfDensity = gas.gasConstant() * *temperature;
     if (density && !pressure)
       pressure = pressureOfDensity * *density;
@@ -37,17 +39,16 @@ GhostRule<D> ghostRule(const Level& level, const Gas& gas, int axis, int side) {
   return rule;
 }
 
-/// The temperature [K] that is given at a side, or that a density and a pressure make.
-std::optional<double> temperatureAt(const Level& level, const Gas& gas, int axis, int side) {
-  if (const auto given = givenAt(level, gas, axis, side, boundary::temperature)) return given;
-  const auto density = givenAt(level, gas, axis, side, boundary::density),
-             pressure = pressureAt(level, gas, axis, side);
+/// The temperature [K] that is given at a place, or that a density and a pressure make.
+std::optional<double> temperatureAt(const Place& place, const Gas& gas) {
+  if (const auto given = givenAt(place, gas, boundary::temperature)) return given;
+  const auto density = givenAt(place, gas, boundary::density), pressure = pressureAt(place, gas);
   if (!density || !pressure || gas.specificHeat == 0) return {};
   return *pressure / (gas.gasConstant() * *density);
 }
 
 template <int D>
-GhostRule<D> diffusionRule(const Level& level, const Gas& gas, int axis, int side) {
+GhostRule<D> diffusionRule(const Place& place, const Gas& gas) {
   GhostRule<D> rule;
   rule.mirrored = true;
   rule.factor.fill(1);
@@ -56,14 +57,70 @@ GhostRule<D> diffusionRule(const Level& level, const Gas& gas, int axis, int sid
     rule.factor[k] = -1;
     rule.value[k] = 2 * value;
   };
-  if (level.isSymmetry(axis, side, gas.material)) {
-    hold(kVelocity(axis), 0);
+  if (place.level.isSymmetry(place.axis, place.side, gas.material, place.part)) {
+    hold(kVelocity(place.axis), 0);
     return rule;
   }
-  if (const auto velocity = givenAt(level, gas, axis, side, boundary::velocity))
-    for (int k = 0; k < D; ++k) hold(kVelocity(k), level.reduce<D>(*velocity)[k]);
-  if (const auto temperature = temperatureAt(level, gas, axis, side)) hold(kDensity, *temperature);
+  if (const auto velocity = givenAt(place, gas, boundary::velocity))
+    for (int k = 0; k < D; ++k) hold(kVelocity(k), place.level.template reduce<D>(*velocity)[k]);
+  if (const auto temperature = temperatureAt(place, gas)) hold(kDensity, *temperature);
   return rule;
+}
+
+/// Whether any of the conditions at a side that may be of a gas is a formula.
+bool hasFormulas(const Level& level, int axis, int side) {
+  const auto hasSome = [](const std::vector<grid::BoundaryCondition>& conditions) {
+    return std::any_of(conditions.begin(), conditions.end(), [](const auto& one) { return one.formula != nullptr; });
+  };
+  const auto& parts = level.parts(axis, side);
+  return hasSome(level.domain().boundaries.face(level.axis(axis), side)) ||
+         std::any_of(parts.begin(), parts.end(), [&](const auto& part) { return hasSome(part.conditions); });
+}
+
+/// Throws NumericalError unless what formulas give beside a cell can be.
+void checkGiven(const Place& place, const Gas& gas, std::uint64_t cell) {
+  const auto require = [&](bool isFine, const grid::BoundaryVariable& label, const std::string& found) {
+    if (isFine) return;
+    throw NumericalError(fmt::format("{} at side {}{} is {} at ({:g}, {:g}, {:g}), t = {:g} s", label.name,
+                                     "xyz"[place.level.axis(place.axis)], "-+"[place.side], found, place.x[0],
+                                     place.x[1], place.x[2], place.time),
+                         "another formula in its <value>", std::string(label.name), cell);
+  };
+  const auto requireAbove = [&](double least, const BoundaryLabel<double>& label, const std::optional<double>& given,
+                                const char* unit) {
+    require(!given || (std::isfinite(*given) && *given > least), label,
+            fmt::format("{:g} {}, but must be greater than {:g} {},", given.value_or(0), unit, least, unit));
+  };
+  requireAbove(0, boundary::density, givenAt(place, gas, boundary::density), "kg/m^3");
+  requireAbove(0 - gas.pInfinity, boundary::pressure, pressureAt(place, gas), "Pa");
+  requireAbove(0, boundary::temperature, givenAt(place, gas, boundary::temperature), "K");
+  const auto velocity = givenAt(place, gas, boundary::velocity);
+  require(!velocity || velocity->allFinite(), boundary::velocity, "not finite");
+}
+
+/// The rules of all sides, where `makeRule(place, gas)` gives one, and `pointAt(axis, side, cell)` says where formulas
+/// count.
+template <int D, class MakeRule, class PointAt>
+GhostRules<D> rulesOf(const Level& level, const Gas& gas, double time, MakeRule makeRule, PointAt pointAt) {
+  GhostRules<D> rules;
+  for (int d = 0; d < D; ++d)
+    for (int side = 0; side < 2; ++side) {
+      SideRules<D>& of = rules[d][side];
+      if (hasFormulas(level, d, side)) {
+        of.varying = [&level, gas, d, side, time, makeRule, pointAt](int part, const Index<D>& cell) {
+          const Place place{level, d, side, part, pointAt(d, side, cell), time};
+          Index<D> nearest = level.wrapped<D>(cell);
+          for (int k = 0; k < D; ++k) nearest[k] = std::clamp(nearest[k], 0, level.cells().upper[k] - 1);
+          checkGiven(place, gas, level.cellNumber<D>(nearest));
+          return makeRule(place, gas);
+        };
+        continue;
+      }
+      of = {makeRule({level, d, side}, gas)};
+      for (int part = 0; part < std::ssize(level.parts(d, side)); ++part)
+        of.parts.push_back(makeRule({level, d, side, part}, gas));
+    }
+  return rules;
 }
 
 /// The cell along an axis of `cells` cells that a cell beyond its ends is made from.
@@ -72,37 +129,76 @@ int sourceOf(int cell, int cells, bool mirrored) {
   return std::clamp(inside, 0, cells - 1);
 }
 
+/// The cell of the grid that a cell beyond its sides is made from along axes before `axis`.
+template <int D>
+Index<D> inGrid(const Level& level, const GhostRules<D>& rules, Index<D> cell, int axis) {
+  for (int d = 0; d < axis; ++d) {
+    const int cells = level.cells().upper[d];
+    if (!level.isPeriodic(d) && (cell[d] < 0 || cell[d] >= cells))
+      cell[d] = sourceOf(cell[d], cells, rules[d][cell[d] < 0 ? 0 : 1].mirrored);
+  }
+  return cell;
+}
+
+/// The state beyond a side, by a rule and the state of the cell that it is made from.
+template <int D>
+State<D> beyondSide(const GhostRule<D>& rule, State<D> w) {
+  for (std::size_t k = 0; k < w.size(); ++k) w[k] = rule.factor[k] * w[k] + rule.value[k];
+  if (rule.densityOfPressure > 0) w[kDensity] = rule.densityOfPressure * w[kPressure<D>];
+  return w;
+}
+
+/// Fills the cells of a box beyond a side by rules that differ from cell to cell.
+template <int D>
+void fillByPlace(const Level& level, const GhostRules<D>& rules, const Box& beyond, int axis, int side, Rows<D>& rows) {
+  const int cells = level.cells().upper[axis];
+  forEach<D>(beyond, [&](const Index<D>& cell) {
+    const GhostRule<D> rule = ruleAt<D>(level, rules, axis, side, inGrid<D>(level, rules, cell, axis));
+    Index<D> source = cell;
+    source[axis] = sourceOf(cell[axis], cells, rule.mirrored);
+    store<D>(rows.at(cell), 0, beyondSide<D>(rule, load<D>(rows.at(source), 0)));
+  });
+}
+
 }  // namespace
 
-std::optional<double> pressureAt(const Level& level, const Gas& gas, int axis, int side) {
-  const auto own = givenAt(level, gas, axis, side, boundary::pressure);
+std::optional<double> pressureAt(const Place& place, const Gas& gas) {
+  const auto own = givenAt(place, gas, boundary::pressure);
   if (own || gas.material == 0) return own;
-  const auto shared = level.boundary(axis, side, boundary::pressure);
-  return shared && shared->isDirichlet() ? std::optional(shared->value) : std::nullopt;
+  Gas first = gas;
+  first.material = 0;
+  return givenAt(place, first, boundary::pressure);
 }
 
 template <int D>
-bool isWall(const Level& level, const Gas& gas, int axis, int side) {
-  if (level.isSymmetry(axis, side, gas.material)) return true;
-  const auto velocity = givenAt(level, gas, axis, side, boundary::velocity);
-  return velocity && level.reduce<D>(*velocity)[axis] == 0 && !pressureAt(level, gas, axis, side) &&
-         !givenAt(level, gas, axis, side, boundary::density);
+bool isWall(const Place& place, const Gas& gas) {
+  if (place.level.isSymmetry(place.axis, place.side, gas.material, place.part)) return true;
+  const auto velocity = givenAt(place, gas, boundary::velocity);
+  return velocity && place.level.template reduce<D>(*velocity)[place.axis] == 0 && !pressureAt(place, gas) &&
+         !givenAt(place, gas, boundary::density);
 }
 
 template <int D>
-GhostRules<D> ghostRules(const Level& level, const Gas& gas) {
-  GhostRules<D> rules;
-  for (int d = 0; d < D; ++d)
-    for (int side = 0; side < 2; ++side) rules[d][side] = ghostRule<D>(level, gas, d, side);
-  return rules;
+GhostRules<D> ghostRules(const Level& level, const Gas& gas, double time) {
+  return rulesOf<D>(level, gas, time, ghostRule<D>, [&level](int, int, const Index<D>& cell) {
+    return level.expandPoint<D>(level.cellCentre<D>(level.wrapped<D>(cell)));
+  });
 }
 
 template <int D>
-GhostRules<D> diffusionRules(const Level& level, const Gas& gas) {
-  GhostRules<D> rules;
-  for (int d = 0; d < D; ++d)
-    for (int side = 0; side < 2; ++side) rules[d][side] = diffusionRule<D>(level, gas, d, side);
-  return rules;
+GhostRules<D> diffusionRules(const Level& level, const Gas& gas, double time) {
+  return rulesOf<D>(level, gas, time, diffusionRule<D>, [&level](int axis, int side, const Index<D>& cell) {
+    return level.middleOfSide<D>(axis, side, cell);
+  });
+}
+
+template <int D>
+GhostRule<D> ruleAt(const Level& level, const GhostRules<D>& rules, int axis, int side, const Index<D>& cell) {
+  const SideRules<D>& of = rules[axis][side];
+  if (of.areOne()) return of;
+  const int part = level.partAt<D>(axis, side, cell);
+  if (of.varying) return of.varying(part, cell);
+  return part == grid::restOfSide ? of : of.parts[part];
 }
 
 template <int D>
@@ -111,18 +207,19 @@ void fillBeyondGrid(const Level& level, const GhostRules<D>& rules, Rows<D>& row
   Box known = level.clipCells(rows.box());
   for (int d = 0; d < D; ++d) {
     if (level.isPeriodic(d)) continue;
-    for (std::size_t side = 0; side < 2; ++side) {
+    for (int side = 0; side < 2; ++side) {
       Box beyond = known;
       beyond.lower[d] = side == 0 ? rows.box().lower[d] : grid.upper[d];
       beyond.upper[d] = side == 0 ? 0 : rows.box().upper[d];
-      const GhostRule<D>& rule = rules[d][side];
+      const SideRules<D>& rule = rules[d][side];
+      if (!rule.areOne()) {
+        fillByPlace<D>(level, rules, beyond, d, side, rows);
+        continue;
+      }
       forEach<D>(beyond, [&](const Index<D>& cell) {
         Index<D> source = cell;
         source[d] = sourceOf(cell[d], grid.upper[d], rule.mirrored);
-        State<D> w = load<D>(rows.at(source), 0);
-        for (std::size_t k = 0; k < w.size(); ++k) w[k] = rule.factor[k] * w[k] + rule.value[k];
-        if (rule.densityOfPressure > 0) w[kDensity] = rule.densityOfPressure * w[kPressure<D>];
-        store<D>(rows.at(cell), 0, w);
+        store<D>(rows.at(cell), 0, beyondSide<D>(rule, load<D>(rows.at(source), 0)));
       });
     }
     known.lower[d] = rows.box().lower[d];
@@ -130,15 +227,18 @@ void fillBeyondGrid(const Level& level, const GhostRules<D>& rules, Rows<D>& row
   }
 }
 
-template GhostRules<1> ghostRules<1>(const Level&, const Gas&);
-template GhostRules<2> ghostRules<2>(const Level&, const Gas&);
-template GhostRules<3> ghostRules<3>(const Level&, const Gas&);
-template GhostRules<1> diffusionRules<1>(const Level&, const Gas&);
-template GhostRules<2> diffusionRules<2>(const Level&, const Gas&);
-template GhostRules<3> diffusionRules<3>(const Level&, const Gas&);
-template bool isWall<1>(const Level&, const Gas&, int, int);
-template bool isWall<2>(const Level&, const Gas&, int, int);
-template bool isWall<3>(const Level&, const Gas&, int, int);
+template GhostRules<1> ghostRules<1>(const Level&, const Gas&, double);
+template GhostRules<2> ghostRules<2>(const Level&, const Gas&, double);
+template GhostRules<3> ghostRules<3>(const Level&, const Gas&, double);
+template GhostRules<1> diffusionRules<1>(const Level&, const Gas&, double);
+template GhostRules<2> diffusionRules<2>(const Level&, const Gas&, double);
+template GhostRules<3> diffusionRules<3>(const Level&, const Gas&, double);
+template GhostRule<1> ruleAt<1>(const Level&, const GhostRules<1>&, int, int, const Index<1>&);
+template GhostRule<2> ruleAt<2>(const Level&, const GhostRules<2>&, int, int, const Index<2>&);
+template GhostRule<3> ruleAt<3>(const Level&, const GhostRules<3>&, int, int, const Index<3>&);
+template bool isWall<1>(const Place&, const Gas&);
+template bool isWall<2>(const Place&, const Gas&);
+template bool isWall<3>(const Place&, const Gas&);
 template void fillBeyondGrid<1>(const Level&, const GhostRules<1>&, Rows<1>&);
 template void fillBeyondGrid<2>(const Level&, const GhostRules<2>&, Rows<2>&);
 template void fillBeyondGrid<3>(const Level&, const GhostRules<3>&, Rows<3>&);

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
+#include <functional>
 #include <optional>
+#include <vector>
 
 #include "components/euler/labels.hpp"
 #include "components/euler/rows.hpp"
@@ -15,33 +18,60 @@ struct GhostRule {
   double densityOfPressure = 0;  ///< where above 0, rho is that times p, kg/(m³ Pa)
 };
 
+/// The rules of a side: of what is outside of its parts, and of each part.
+template <int D>
+struct SideRules : GhostRule<D> {
+  std::vector<GhostRule<D>> parts = {};
+  /// Where the scene gives formulas: the rule for a cell beyond a part of the side; else empty.
+  std::function<GhostRule<D>(int part, const Index<D>& cell)> varying = {};
+
+  /// Whether the first is the rule for all cells.
+  bool areOne() const { return parts.empty() && !varying; }
+};
+
 /// The rules of both sides of each axis.
 template <int D>
-using GhostRules = std::array<std::array<GhostRule<D>, 2>, D>;
+using GhostRules = std::array<std::array<SideRules<D>, 2>, D>;
 
-/// The value that a scene gives for a variable of a gas at a side, if it does.
+/// A place at a side of the grid where conditions are asked for: a part of the side, or the rest of it. Where formulas
+/// stand for values they count at a point [m] and a time [s].
+struct Place {
+  const Level& level;
+  int axis = 0, side = 0, part = grid::restOfSide;
+  Vec3 x = Vec3::Zero();
+  double time = 0;
+};
+
+/// The value that a scene gives for a variable of a gas at a place, if it does.
 template <class T>
-std::optional<T> givenAt(const Level& level, const Gas& gas, int axis, int side, const BoundaryLabel<T>& label) {
-  const auto condition = level.boundary(axis, side, label, gas.material);
-  return condition && condition->isDirichlet() ? std::optional(condition->value) : std::nullopt;
+std::optional<T> givenAt(const Place& place, const Gas& gas, const BoundaryLabel<T>& label) {
+  const auto condition = place.level.boundary(place.axis, place.side, label, gas.material, place.part);
+  return condition && condition->isDirichlet() ? std::optional(condition->at(place.x, place.time)) : std::nullopt;
 }
 /// The same of the pressure, which all materials share: Uintah's scenes give it for material 0.
-std::optional<double> pressureAt(const Level& level, const Gas& gas, int axis, int side);
+std::optional<double> pressureAt(const Place& place, const Gas& gas);
 
-/// Whether a side is a wall: Symmetric, or with a Velocity alone that lies in the side.
+/// Whether there is a wall: Symmetric, or with a Velocity alone that lies in the side.
 template <int D>
-bool isWall(const Level& level, const Gas& gas, int axis, int side);
+bool isWall(const Place& place, const Gas& gas);
 
 /// From the scene's conditions: a wall mirrors the gas. Where Density, Velocity or Pressure is given, gas of these
 /// values flows in; a Temperature makes the third of it, density and pressure. Whatever is not given continues with no
 /// gradient, so that a side without conditions is an outflow.
+///
+/// Formulas count at `time` [s], in the middle of each cell beyond the side, and mean there what their values would.
+/// Throws NumericalError where one gives a density, or a p + p_inf, that cannot be.
 template <int D>
-GhostRules<D> ghostRules(const Level& level, const Gas& gas);
+GhostRules<D> ghostRules(const Level& level, const Gas& gas, double time = 0);
 
 /// The same for differences across the sides, of velocities and, in place of densities, temperatures: what is given
-/// holds at the side itself, and the rest is mirrored.
+/// holds at the side itself, and the rest is mirrored. Formulas count in the middle of each face.
 template <int D>
-GhostRules<D> diffusionRules(const Level& level, const Gas& gas);
+GhostRules<D> diffusionRules(const Level& level, const Gas& gas, double time = 0);
+
+/// The rule for a cell beyond a side, or beside it: that of the part that the face between both belongs to.
+template <int D>
+GhostRule<D> ruleAt(const Level& level, const GhostRules<D>& rules, int axis, int side, const Index<D>& cell);
 
 /// Fills the cells of `rows` that lie beyond the grid; those on the grid must be known.
 template <int D>

@@ -22,10 +22,8 @@ void Euler<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
 
 template <int D>
 void Euler<D>::scheduleTimeAdvance(TaskList& tasks) const {
-  const int ghost = reach(settings_.method);
   tasks.perPatch("euler::advance", chooseAdvance<D>(settings_.method), with(settings_.gas),
-                 requiresOld(c::density, ghost), requiresOld(c::momentum<D>, ghost), requiresOld(c::totalEnergy, ghost),
-                 requiresOld(delT), computes(c::density), computes(c::momentum<D>), computes(c::totalEnergy),
+                 all<OldState<D>>(reach(settings_.method)), startTime(), requiresOld(delT), all<NewState<D>>(),
                  all<RimFluxes<D>>());
 }
 

@@ -115,6 +115,8 @@ simulation::ComponentKind kind() {
   kind.sentence = "finite-volume gas dynamics: Godunov's method and MUSCL-Hancock";
   kind.sections = {"Euler"};
   kind.takesLevels = true;
+  kind.takesPartsOfSides = true;
+  kind.takesFormulasAtSides = true;
   kind.boundaryLabels = {grid::symmetric, boundary::density, boundary::velocity, boundary::pressure};
   kind.describe = [](std::ostream& out) { schema().describe(out); };
   kind.forms = [] { return std::vector<std::vector<simulation::SectionForm>>{{{"Euler", &schema()}}}; };

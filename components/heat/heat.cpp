@@ -47,6 +47,7 @@ simulation::ComponentKind kind() {
       simulation::kindWithSection<Heat>("heat", "heat conduction, explicit; the smallest complete component", schema,
                                         {boundary::temperature, grid::symmetric});
   kind.takesLevels = true;
+  kind.takesPartsOfSides = true;
   return kind;
 }
 

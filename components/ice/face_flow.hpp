@@ -31,14 +31,14 @@ struct ImplicitGas {
 template <int D>
 class FaceFlow {
  public:
-  /// For the faces of the cells in `box`, from the state in two more layers.
+  /// For the faces of the cells in `box`, from the state in two more layers. Formulas at sides count at `time` [s].
   FaceFlow(const Level& level, const ImplicitGas& settings, const Box& box,
-           const euler::StateViews<D, const double>& before, double dt)
+           const euler::StateViews<D, const double>& before, double time, double dt)
       : level_(level),
         gas_(settings.gas),
         gravity_(level.reduce<D>(settings.gravity)),
         dt_(dt),
-        rules_(euler::ghostRules<D>(level, gas_)),
+        rules_(euler::ghostRules<D>(level, gas_, time)),
         old_(box.grown(2, D).size()),
         ahead_(old_) {
     old_.hold(box.grown(2, D));
@@ -76,7 +76,7 @@ class FaceFlow {
 
   /// The normal velocity of a face that has one whatever the pressure, m/s.
   std::optional<double> givenVelocity(const Index<D>& cell, int axis) const {
-    const euler::GhostRule<D>* rule = ruleOf(cell, axis);
+    const std::optional<euler::GhostRule<D>> rule = ruleOf(cell, axis);
     if (rule && rule->mirrored) return 0.0;
     if (rule && rule->factor[euler::kVelocity(axis)] == 0) return rule->value[euler::kVelocity(axis)];
     return {};
@@ -103,15 +103,15 @@ class FaceFlow {
   static double mean(const euler::Rows<D>& of, const Index<D>& cell, int axis, std::size_t number) {
     return 0.5 * (of.number(cell - Index<D>::unit(axis), number) + of.number(cell, number));
   }
-  /// The rule of the side of the grid that a face lies in, or null.
-  const euler::GhostRule<D>* ruleOf(const Index<D>& cell, int axis) const {
-    if (level_.isPeriodic(axis)) return nullptr;
-    if (cell[axis] == 0) return &rules_[axis][0];
-    return cell[axis] == level_.cells().upper[axis] ? &rules_[axis][1] : nullptr;
+  /// The rule at a face that lies in a side of the grid.
+  std::optional<euler::GhostRule<D>> ruleOf(const Index<D>& cell, int axis) const {
+    const bool isUpper = cell[axis] == level_.cells().upper[axis];
+    if (level_.isPeriodic(axis) || (cell[axis] != 0 && !isUpper)) return {};
+    return euler::ruleAt<D>(level_, rules_, axis, isUpper ? 1 : 0, cell);
   }
   /// Whether a face lies in a side without a pressure.
   bool isFree(const Index<D>& cell, int axis) const {
-    const euler::GhostRule<D>* rule = ruleOf(cell, axis);
+    const std::optional<euler::GhostRule<D>> rule = ruleOf(cell, axis);
     return rule && rule->factor[euler::kPressure<D>] != 0;
   }
   /// The velocities of cells become v - dt (v . grad) v.

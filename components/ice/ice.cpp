@@ -17,10 +17,9 @@ namespace {
 template <int D>
 void scheduleDiffusion(TaskList& tasks, const euler::Gas& gas, const euler::Diffusion& diffusion) {
   if (!diffusion.acts()) return;
-  tasks.perPatch("euler::addDiffusion", euler::addDiffusion<D>, with(gas), with(diffusion),
-                 requiresOld(euler::c::density, 1), requiresOld(euler::c::momentum<D>, 1),
-                 requiresOld(euler::c::totalEnergy, 1), requiresOld(delT), modifies(euler::c::momentum<D>),
-                 modifies(euler::c::totalEnergy), all<euler::DiffusionRims<D>>());
+  tasks.perPatch("euler::addDiffusion", euler::addDiffusion<D>, with(gas), with(diffusion), all<euler::OldState<D>>(1),
+                 startTime(), requiresOld(delT), modifies(euler::c::momentum<D>), modifies(euler::c::totalEnergy),
+                 all<euler::DiffusionRims<D>>());
 }
 
 }  // namespace
@@ -87,21 +86,17 @@ void ImplicitIce<D>::scheduleInitialize(TaskList& tasks) const {
 
 template <int D>
 void ImplicitIce<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
-  tasks.perPatch("ice::limitImplicitStep", limitImplicitStep<D>, with(settings_), requiresOld(euler::c::density, 2),
-                 requiresOld(euler::c::momentum<D>, 2), requiresOld(euler::c::totalEnergy, 2),
-                 requiresOld(c::pressureAtEnd, 2), computes(delT));
+  tasks.perPatch("ice::limitImplicitStep", limitImplicitStep<D>, with(settings_), all<euler::OldState<D>>(2),
+                 startTime(), requiresOld(c::pressureAtEnd, 2), computes(delT));
 }
 
 template <int D>
 void ImplicitIce<D>::scheduleTimeAdvance(TaskList& tasks) const {
-  tasks.perRank("ice::solvePressure", solvePressure<D>, togetherOnRanks(), with(settings_), requiresOld(delT),
-                requiresOld(euler::c::density, 2), requiresOld(euler::c::momentum<D>, 2),
-                requiresOld(euler::c::totalEnergy, 2), requiresOld(c::pressureAtEnd), computes(c::pressureAtEnd),
-                totals<SolveTotals>());
-  tasks.perPatch("ice::advanceImplicitly", advanceImplicitly<D>, with(settings_), requiresOld(euler::c::density, 2),
-                 requiresOld(euler::c::momentum<D>, 2), requiresOld(euler::c::totalEnergy, 2), requiresOld(delT),
-                 requiresNew(c::pressureAtEnd, 2), computes(euler::c::density), computes(euler::c::momentum<D>),
-                 computes(euler::c::totalEnergy));
+  tasks.perRank("ice::solvePressure", solvePressure<D>, togetherOnRanks(), with(settings_), startTime(),
+                requiresOld(delT), all<euler::OldState<D>>(2), requiresOld(c::pressureAtEnd),
+                computes(c::pressureAtEnd), totals<SolveTotals>());
+  tasks.perPatch("ice::advanceImplicitly", advanceImplicitly<D>, with(settings_), all<euler::OldState<D>>(2),
+                 startTime(), requiresOld(delT), requiresNew(c::pressureAtEnd, 2), all<euler::NewState<D>>());
   scheduleDiffusion<D>(tasks, settings_.gas, settings_.diffusion);
 }
 
@@ -118,6 +113,8 @@ simulation::ComponentKind kind() {
   kind.sentence = "a compressible gas in the words of Uintah's ICE, by the method of euler";
   kind.sections = gasSections();
   kind.takesLevels = true;
+  kind.takesPartsOfSides = true;
+  kind.takesFormulasAtSides = true;
   kind.boundaryLabels = gasBoundaryLabels();
   kind.describe = describeGas;
   kind.forms = [] { return std::vector<std::vector<simulation::SectionForm>>{gasForms()}; };

@@ -85,6 +85,22 @@ void checkGas(const ice::GasScene& scene, const Element& root, Diagnostics& diag
                         "not beside bodies: set it to 0, or run the gas alone as component 'ice'");
 }
 
+/// Conditions on a part of a side are of the gas alone, and bodies have those of whole sides: says so.
+void noteConditionsOfBodies(const Element& root, int solids, Diagnostics& diagnostics) {
+  const auto grid = root.child("Grid");
+  const auto group = grid ? grid->child("BoundaryConditions") : std::nullopt;
+  for (const Element& face : group ? group->children("Face") : std::vector<Element>{}) {
+    if (face.attribute("side")) continue;
+    for (const Element& condition : face.children("BCType")) {
+      const std::string label = condition.attribute("label").value_or("");
+      const bool isOfGas = label == euler::boundary::density.name || label == euler::boundary::pressure.name;
+      const int material = input::parse<int>(condition.attribute("id").value_or("all")).value.value_or(-1);
+      if (isOfGas || material >= solids || condition.attribute("var") == nameOf(BoundaryKind::neumann)) continue;
+      diagnostics.note(condition, "holds for the gas alone: bodies have the conditions of whole sides");
+    }
+  }
+}
+
 template <int D>
 std::unique_ptr<Component> make(const Level& level, const Settings& settings,
                                 const mpm::solid::MakeSurrounded& makeSolids) {
@@ -110,6 +126,7 @@ simulation::MakeComponent readScene(const Element& root, bool areRigid, Diagnost
     settings.heat = heatOf(*scene.exchange, solids, root, tag, diagnostics);
   }
   checkGas(scene, root, diagnostics);
+  noteConditionsOfBodies(root, solids, diagnostics);
   if (diagnostics.size() > before) return {};
   return [settings, makeSolids](const Level& level) -> std::unique_ptr<Component> {
     if (level.dimension() == 1) return make<1>(level, settings, makeSolids);
@@ -129,6 +146,7 @@ simulation::ComponentKind kind(bool areRigid) {
   kind.sections.insert(kind.sections.end(), {"MPM", "PhysicalBC"});
   kind.boundaryLabels = {grid::symmetric, euler::boundary::density, euler::boundary::pressure,
                          mpm::boundary::velocity.evenOnPlanes(), mpm::boundary::temperature.evenOnPlanes()};
+  kind.takesPartsOfSides = true;
   kind.describe = [](std::ostream& out) {
     ice::describeGas(out);
     out << "Where it is about bodies, instead:\n";

@@ -28,12 +28,22 @@ void initialize(const Patch& patch, const Settings& settings, CellView<double> p
 
 namespace {
 
+template <int D>
 bool keepsValueSomewhere(const Level& level) {
-  for (int d = 0; d < level.dimension(); ++d)
-    for (const int side : {0, 1})
-      if (const auto given = level.boundary(d, side, boundary::phi); given && !level.isPeriodic(d))
-        if (given->isDirichlet()) return true;
-  return false;
+  const BoundarySides<double> sides = level.sides(boundary::phi);
+  bool keeps = false;
+  for (int d = 0; d < D; ++d)
+    for (const int side : {0, 1}) {
+      if (level.isPeriodic(d)) continue;
+      Box faces = level.cells();
+      if (level.parts(d, side).empty()) faces.upper = Index3::filled(1);
+      faces.upper[d] = 1;
+      forEach<D>(faces, [&](const Index<D>& cell) {
+        const auto& given = sides(d, side, cell);
+        keeps |= given && given->isDirichlet();
+      });
+    }
+  return keeps;
 }
 
 /// Where no face keeps a value, integral f dV must be what the slopes at the faces bring in, k dphi/dn dA; or else
@@ -69,7 +79,7 @@ void solve(const RankPatches& patches, const mpi::Communicator& ranks, const Set
     return numerics::CellEquation<D>{std::move(balance), right};
   };
   numerics::CellSystem<D> system(patches, ranks);
-  if (!keepsValueSomewhere(level)) system.freeConstant();
+  if (!keepsValueSomewhere<D>(level)) system.freeConstant();
   const solvers::Outcome outcome = system.solve(settings.solver, oldPhi, equationOf);
   refuseImbalance(level, outcome, settings.solver.tolerance);
   system.requireConvergence(outcome, "Poisson's equation", "Poisson", "c.phi");
@@ -100,6 +110,7 @@ simulation::ComponentKind kind() {
       simulation::kindWithSection<Poisson>("poisson", "Poisson's equation; the smallest component with a global solve",
                                            schema(), {boundary::phi, grid::symmetric});
   kind.takesLevels = true;
+  kind.takesPartsOfSides = true;
   return kind;
 }
 

@@ -1,12 +1,15 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <type_traits>
 #include <vector>
 
 #include "core/base/vec.hpp"
+#include "core/grid/side_part.hpp"
+#include "core/input/expression.hpp"
 
 namespace tushar::grid {
 
@@ -45,42 +48,53 @@ struct BoundaryCondition {
   BoundaryKind kind;
   Vec3 value = Vec3::Zero();  ///< a number stands in the first component; the unit is the variable's
   int material = -1;          ///< the number of the one that it holds for; -1: all
+  /// In place of the value, for components that take formulas; a number is its first component.
+  std::shared_ptr<const input::VectorExpression> formula = {};
+
+  /// Whether it holds for a material.
+  bool isOf(int number) const { return material < 0 || material == number; }
 };
 
 /// A condition as a kernel reads it.
 template <class T>
 struct BoundaryValue {
   BoundaryKind kind;
-  T value;  ///< the unit is the variable's, per metre for Neumann
+  T value;                                           ///< the unit is the variable's, per metre for Neumann
+  const input::VectorExpression* formula = nullptr;  ///< in place of the value, or null
 
   bool isDirichlet() const { return kind == BoundaryKind::dirichlet; }
+  /// The value at a place [m] and a time [s].
+  T at(const Vec3& x, double time) const { return formula ? of((*formula)(x, time)) : value; }
   /// Takes a condition as the scene gives it.
   static BoundaryValue of(const BoundaryCondition& condition) {
-    if constexpr (std::is_same_v<T, double>)
-      return {condition.kind, condition.value[0]};
-    else
-      return {condition.kind, condition.value};
-  }
-};
-
-/// The conditions for one variable at both sides of each kernel axis, looked up once: see Level::sides.
-template <class T>
-class BoundarySides {
- public:
-  std::optional<BoundaryValue<T>>& operator()(int kernelAxis, int side) {
-    return values_[static_cast<std::size_t>(2 * kernelAxis + side)];
-  }
-  const std::optional<BoundaryValue<T>>& operator()(int kernelAxis, int side) const {
-    return values_[static_cast<std::size_t>(2 * kernelAxis + side)];
+    return {condition.kind, of(condition.value), condition.formula.get()};
   }
 
  private:
-  std::array<std::optional<BoundaryValue<T>>, 6> values_;
+  static T of(const Vec3& given) {
+    if constexpr (std::is_same_v<T, double>)
+      return given[0];
+    else
+      return given;
+  }
 };
 
+/// A part of a side, and the conditions there.
+struct ConditionsOfPart {
+  SidePart shape;
+  std::vector<BoundaryCondition> conditions;
+};
+
+/// Stands for the rest of a side, outside of all its parts, where there may be the number of a part.
+inline constexpr int restOfSide = -1;
+
 /// The conditions of the six faces x-, x+, y-, y+, z-, z+ in this order. A face with none is free.
+///
+/// Parts of a side have conditions of their own. There those of the whole side hold for no material that a part has
+/// conditions for; where a part has none at all, for none.
 struct BoundaryConditions {
   std::array<std::vector<BoundaryCondition>, 6> faces;
+  std::array<std::vector<ConditionsOfPart>, 6> parts;
 
   std::vector<BoundaryCondition>& face(int axis, int side) { return faces[2 * axis + side]; }
   const std::vector<BoundaryCondition>& face(int axis, int side) const { return faces[2 * axis + side]; }

@@ -20,7 +20,8 @@ void Level::chooseAxes() {
       return std::any_of(conditions.begin(), conditions.end(),
                          [&](const BoundaryCondition& c) { return c.kind == kind; });
     };
-    return has(BoundaryKind::symmetry) && !has(BoundaryKind::dirichlet);
+    return has(BoundaryKind::symmetry) && !has(BoundaryKind::dirichlet) &&
+           domain_.boundaries.parts[2 * axis + side].empty();
   };
   for (int axis = 0; axis < 3; ++axis) {
     const double extent = domain_.upper[axis] - domain_.lower[axis];
@@ -121,11 +122,25 @@ std::vector<Index3> Level::imagesOverlapping(const Box& cells) const {
   return shifts;
 }
 
-const BoundaryCondition* Level::condition(int kernelAxis, int side, const BoundaryVariable& variable,
-                                          int material) const {
-  for (const BoundaryCondition& condition : domain_.boundaries.face(axis(kernelAxis), side))
-    if (condition.variable == variable && (condition.material < 0 || condition.material == material)) return &condition;
+const BoundaryCondition* Level::condition(int kernelAxis, int side, const BoundaryVariable& variable, int material,
+                                          int part) const {
+  const auto* conditions = &domain_.boundaries.face(axis(kernelAxis), side);
+  if (part != restOfSide) {
+    const auto& own = parts(kernelAxis, side)[part].conditions;
+    if (own.empty() ||
+        std::any_of(own.begin(), own.end(), [&](const BoundaryCondition& one) { return one.isOf(material); }))
+      conditions = &own;
+  }
+  for (const BoundaryCondition& condition : *conditions)
+    if (condition.variable == variable && condition.isOf(material)) return &condition;
   return nullptr;
+}
+
+int Level::partOf(int kernelAxis, int side, const Vec3& x) const {
+  const auto& all = parts(kernelAxis, side);
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const ConditionsOfPart& part) { return part.shape.holds(x); });
+  return found == all.end() ? restOfSide : static_cast<int>(found - all.begin());
 }
 
 }  // namespace tushar::grid

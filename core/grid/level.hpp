@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <string>
@@ -14,6 +16,8 @@
 namespace tushar::grid {
 
 class Grid;
+template <class T>
+class BoundarySides;
 
 /// A uniform grid as a scene describes it, in metres along x, y and z.
 struct Domain {
@@ -148,21 +152,36 @@ class Level {
     return full;
   }
 
-  /// The condition for a variable of a material on a face of the grid (`side` 0: lower, 1: upper), if the scene gives
-  /// one.
+  /// The condition for a variable of a material on a side of the grid (`side` 0: lower, 1: upper), if the scene gives
+  /// one; on one of its parts, or the rest of it.
   template <class T>
-  std::optional<BoundaryValue<T>> boundary(int kernelAxis, int side, const BoundaryLabel<T>& variable,
-                                           int material = 0) const {
-    const BoundaryCondition* found = condition(kernelAxis, side, variable, material);
+  std::optional<BoundaryValue<T>> boundary(int kernelAxis, int side, const BoundaryLabel<T>& variable, int material = 0,
+                                           int part = restOfSide) const {
+    const BoundaryCondition* found = condition(kernelAxis, side, variable, material, part);
     return found ? std::optional(BoundaryValue<T>::of(*found)) : std::nullopt;
   }
-  /// The conditions for a variable on all faces, for kernels that visit the cells of a patch.
+  /// The conditions for a variable on all sides, for kernels that visit the cells of a patch.
   template <class T>
-  BoundarySides<T> sides(const BoundaryLabel<T>& variable, int material = 0) const {
-    BoundarySides<T> sides;
-    for (int d = 0; d < dimension(); ++d)
-      for (const int side : {0, 1}) sides(d, side) = boundary(d, side, variable, material);
-    return sides;
+  BoundarySides<T> sides(const BoundaryLabel<T>& variable, int material = 0) const;
+  /// The parts of a side that have conditions of their own.
+  const std::vector<ConditionsOfPart>& parts(int kernelAxis, int side) const {
+    return domain_.boundaries.parts[2 * axis(kernelAxis) + side];
+  }
+  /// The number of the part of a side that has the face of a cell, by its middle; restOfSide where none does. Only
+  /// where the cell is across the side counts; beyond the grid that of the nearest cell, or the one it is an image of.
+  template <int D>
+  int partAt(int kernelAxis, int side, const Index<D>& cell) const {
+    return parts(kernelAxis, side).empty() ? restOfSide
+                                           : partOf(kernelAxis, side, middleOfSide<D>(kernelAxis, side, cell));
+  }
+  /// The middle of the face on a side of the grid of a cell, which may be beyond others, m.
+  template <int D>
+  Vec3 middleOfSide(int kernelAxis, int side, const Index<D>& cell) const {
+    Index<D> nearest = wrapped<D>(cell);
+    for (int d = 0; d < std::min(D, dimension()); ++d) nearest[d] = std::clamp(nearest[d], 0, cells_.upper[d] - 1);
+    Vec<D> middle = cellCentre<D>(nearest);
+    middle[kernelAxis] = nodePosition(kernelAxis, side == 0 ? 0 : cells_.upper[kernelAxis]);
+    return expandPoint<D>(middle);
   }
   bool isPeriodic(int kernelAxis) const { return domain_.periodic[axis(kernelAxis)] != 0; }
   bool isPeriodic() const { return is_periodic_; }
@@ -170,12 +189,14 @@ class Level {
   double period(int kernelAxis) const {
     return nodePosition(kernelAxis, cells_.upper[kernelAxis]) - nodePosition(kernelAxis, 0);
   }
-  bool isSymmetry(int kernelAxis, int side, int material = 0) const {
-    return condition(kernelAxis, side, symmetric, material) != nullptr;
+  bool isSymmetry(int kernelAxis, int side, int material = 0, int part = restOfSide) const {
+    return condition(kernelAxis, side, symmetric, material, part) != nullptr;
   }
 
  private:
-  const BoundaryCondition* condition(int kernelAxis, int side, const BoundaryVariable& variable, int material) const;
+  const BoundaryCondition* condition(int kernelAxis, int side, const BoundaryVariable& variable, int material,
+                                     int part) const;
+  int partOf(int kernelAxis, int side, const Vec3& x) const;
   void chooseAxes();
   Box clip(const Box& box, const Box& grid) const;
   void measure();
@@ -189,5 +210,47 @@ class Level {
   bool is_periodic_ = false;
   Box cells_;
 };
+
+/// The conditions for one variable at both sides of each kernel axis, looked up once: see Level::sides.
+template <class T>
+class BoundarySides {
+ public:
+  BoundarySides(const Level& level, const BoundaryLabel<T>& variable, int material) : level_(&level) {
+    for (int d = 0; d < level.dimension(); ++d)
+      for (const int side : {0, 1}) {
+        Side& at = sides_[numberOf(d, side)];
+        at.rest = level.boundary(d, side, variable, material);
+        for (int part = 0; part < std::ssize(level.parts(d, side)); ++part)
+          at.parts.push_back(level.boundary(d, side, variable, material, part));
+      }
+  }
+
+  /// Of the rest of a side, outside of its parts.
+  const std::optional<BoundaryValue<T>>& operator()(int kernelAxis, int side) const {
+    return sides_[numberOf(kernelAxis, side)].rest;
+  }
+  /// Of the face of a cell at a side.
+  template <int D>
+  const std::optional<BoundaryValue<T>>& operator()(int kernelAxis, int side, const Index<D>& cell) const {
+    const Side& at = sides_[numberOf(kernelAxis, side)];
+    const int part = at.parts.empty() ? restOfSide : level_->partAt<D>(kernelAxis, side, cell);
+    return part == restOfSide ? at.rest : at.parts[part];
+  }
+
+ private:
+  struct Side {
+    std::optional<BoundaryValue<T>> rest;
+    std::vector<std::optional<BoundaryValue<T>>> parts;
+  };
+  static int numberOf(int kernelAxis, int side) { return 2 * kernelAxis + side; }
+
+  const Level* level_;
+  std::array<Side, 6> sides_;
+};
+
+template <class T>
+BoundarySides<T> Level::sides(const BoundaryLabel<T>& variable, int material) const {
+  return {*this, variable, material};
+}
 
 }  // namespace tushar::grid

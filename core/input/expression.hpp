@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "core/base/vec.hpp"
@@ -55,6 +56,7 @@ class VectorExpression {
  public:
   /// The constant `value`.
   VectorExpression(const Vec3& value = Vec3::Zero());
+  explicit VectorExpression(std::array<Expression, 3> components) : components_(std::move(components)) {}
 
   static Parsed<VectorExpression> parse(std::string_view text);
 

@@ -146,6 +146,12 @@ class Schema : public SchemaBase {
     return put(attribute(mandatory(choiceEntry<E>(member, name, choices, sentence))));
   }
 
+  template <class E>
+  Schema& optionalChoiceAttribute(std::string name, std::optional<E> S::*member,
+                                  std::type_identity_t<Choices<E>> choices, std::string sentence) {
+    return put(attribute(choiceEntry<E>(member, name, choices, sentence)));
+  }
+
   /// A tag read by another schema, which may be left out: the member is then empty.
   template <class T>
   Schema& section(const std::string& name, std::optional<T> S::*member, const Schema<T>& schema,

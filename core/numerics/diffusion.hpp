@@ -53,8 +53,8 @@ struct Balance {
 };
 
 /// div(k grad phi) by finite volumes, centred: of second order. At a side of the grid with a Dirichlet condition phi is
-/// given, with a Neumann condition its outward derivative; through any other goes no flux. Between cells k is the
-/// harmonic mean.
+/// given, with a Neumann condition its outward derivative; through any other goes no flux. Parts of a side may have
+/// conditions of their own. Between cells k is the harmonic mean.
 template <int D>
 class Diffusion {
  public:
@@ -67,7 +67,7 @@ class Diffusion {
   double operator()(const data::CellView<const double>& phi, const Index<D>& cell) const {
     double sum = 0;
     forEachFace(cell, [&](int d, int side, const Index<D>& next, bool isInside) {
-      const double other = isInside ? phi[next] : mirrored(phi[cell], d, side);
+      const double other = isInside ? phi[next] : mirrored(phi[cell], cell, d, side);
       sum += atFace(cell, next, isInside) * (other - phi[cell]) / (level_.spacing(d) * level_.spacing(d));
     });
     return sum;
@@ -124,8 +124,8 @@ class Diffusion {
     return k_.isConstant() || !isInside ? own : harmonicMean(own, inCell(next));
   }
   /// phi beyond a side of the grid, such that the condition holds on the side.
-  double mirrored(double phi, int d, int side) const {
-    const auto& given = sides_(d, side);
+  double mirrored(double phi, const Index<D>& cell, int d, int side) const {
+    const auto& given = sides_(d, side, cell);
     if (!given) return phi;
     return given->isDirichlet() ? 2 * given->value - phi : phi + level_.spacing(d) * given->value;
   }
@@ -139,7 +139,7 @@ class Diffusion {
   }
   /// Adds k A (value - phi) / (h/2) for a given value, k A times a given derivative.
   void addSide(int d, int side, Balance<D>& balance) const {
-    const auto& given = sides_(d, side);
+    const auto& given = sides_(d, side, balance.cells[0]);
     if (!given) return;
     Vec<D> x = level_.template cellCentre<D>(balance.cells[0]);
     x[d] = level_.nodePosition(d, side == 0 ? 0 : level_.cells().upper[d]);

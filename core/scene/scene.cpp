@@ -347,8 +347,9 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   if (const auto given = section(root, "AMR", false, diagnostics)) amr = readAmr(*given, kind, diagnostics);
   grid::Domain domain;
   if (const auto grid = section(root, "Grid", true, diagnostics)) {
-    domain =
-        readGrid(*grid, kind ? kind->boundaryLabels : std::vector<grid::BoundaryVariable>{}, workers, amr, diagnostics);
+    SideWords words{{}, true, true};
+    if (kind) words = {kind->boundaryLabels, kind->takesPartsOfSides, kind->takesFormulasAtSides};
+    domain = readGrid(*grid, words, workers, amr, diagnostics);
     if (kind && domain.refinement.levels > 1) checkTakesLevels(*kind, *grid, amr, catalogue, diagnostics);
   }
   if (kind && kind->nodesBeyond) domain.nodesBeyond = kind->nodesBeyond(root);

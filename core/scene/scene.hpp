@@ -40,9 +40,15 @@ AmrSettings readAmr(const input::Element& section, const simulation::ComponentKi
 /// the component lacks.
 simulation::RegridSettings settled(AmrSettings amr, const simulation::Component& component,
                                    input::Diagnostics& diagnostics);
-/// The `Grid` section; `boundaryLabels` are those that the component understands.
-grid::Domain readGrid(const input::Element& section, const std::vector<grid::BoundaryVariable>& boundaryLabels,
-                      const grid::Workers& workers, const AmrSettings& amr, input::Diagnostics& diagnostics);
+/// What a component understands of the sides of a grid.
+struct SideWords {
+  std::vector<grid::BoundaryVariable> labels = {};
+  bool takesParts = false;     ///< parts of a side with conditions of their own
+  bool takesFormulas = false;  ///< for Dirichlet values
+};
+/// The `Grid` section.
+grid::Domain readGrid(const input::Element& section, const SideWords& words, const grid::Workers& workers,
+                      const AmrSettings& amr, input::Diagnostics& diagnostics);
 
 void describeTime(std::ostream& out);
 void describeArchive(std::ostream& out);

@@ -40,7 +40,9 @@ struct ComponentKind {
   std::function<int(const input::Element& root)> nodesBeyond;
   /// The sections of a scene, for each way to write one; if the function is empty, `sections` may hold anything.
   std::function<std::vector<std::vector<SectionForm>>()> forms;
-  bool takesLevels = false;  ///< whether its tasks run on grids of several levels
+  bool takesLevels = false;           ///< whether its tasks run on grids of several levels
+  bool takesPartsOfSides = false;     ///< whether a part of a side may have conditions of its own
+  bool takesFormulasAtSides = false;  ///< whether what its conditions give may be formulas
 };
 
 /// Builds a module for a component; throws InputError if the two do not go together.

@@ -33,7 +33,93 @@ State<1> beyond(const Conditions& conditions, Gas gas = air()) {
   return load<1>(rows.at(Index<1>{{-1}}), 0);
 }
 
+grid::BoundaryCondition varying(const grid::BoundaryVariable& label, const std::string& formula) {
+  grid::BoundaryCondition condition = given(label, 0);
+  condition.formula = std::make_shared<const input::VectorExpression>(
+      input::VectorExpression({*input::Expression::parse(formula), input::Expression(), input::Expression()}));
+  return condition;
+}
+
+/// The state of a square of 4 x 4 cells, and of two beyond each side, with parts on x-; its density counts the cells.
+class Square {
+ public:
+  explicit Square(const grid::Domain& domain, double time = 0) : grid_(domain) {
+    rows_.hold(grid_.level().cells().grown(2, 2));
+    forEach<2>(grid_.level().cells(), [&](const Index<2>& cell) {
+      store<2>(rows_.at(cell), 0, {1.0 + 4 * cell[1] + cell[0], 0.3, 0.2, 2});
+    });
+    fillBeyondGrid<2>(grid_.level(), ghostRules<2>(grid_.level(), gas_, time), rows_);
+  }
+  State<2> at(int x, int y) { return load<2>(rows_.at(Index<2>{{x, y}}), 0); }
+
+ private:
+  Gas gas_ = air();
+  Grid grid_;
+  Rows<2> rows_{64};
+};
+
+/// Walls around, and a jet of density 9 through the faces of cells (0, 0) and (0, 1) on x-.
+grid::Domain withJet() {
+  grid::Domain domain = closedBox(2, 4);
+  domain.boundaries.parts[0] = {{grid::SidePart::rectangle(0, Vec3::Zero(), Vec3(0, 0.5, 1)),
+                                 {given(boundary::density, 9), given(boundary::velocity, 4)}}};
+  return domain;
+}
+
 }  // namespace
+
+TEST(GasSides, LetAJetInThroughAPart) {
+  Square square(withJet());
+  for (const int x : {-1, -2}) {
+    EXPECT_EQ(square.at(x, 1), (State<2>{9, 4, 0, 2}));
+    EXPECT_EQ(square.at(x, 2), (State<2>{9.0 - 1 - x, -0.3, 0.2, 2}));
+  }
+  EXPECT_EQ(square.at(4, 1), (State<2>{8, -0.3, 0.2, 2}));
+}
+
+TEST(GasSides, TellTheRuleOfTheFaceOfACell) {
+  const Grid grid(withJet());
+  const GhostRules<2> rules = ghostRules<2>(grid.level(), air());
+  EXPECT_FALSE(ruleAt<2>(grid.level(), rules, 0, 0, Index<2>{{0, 1}}).mirrored);
+  EXPECT_EQ(ruleAt<2>(grid.level(), rules, 0, 0, Index<2>{{0, 1}}).value[kDensity], 9);
+  EXPECT_TRUE(ruleAt<2>(grid.level(), rules, 0, 0, Index<2>{{0, 2}}).mirrored);
+  EXPECT_TRUE(ruleAt<2>(grid.level(), rules, 1, 0, Index<2>{{0, 0}}).mirrored);
+}
+
+TEST(GasSides, MirrorAPartInAWallAcross) {
+  Square square(withJet());
+  EXPECT_EQ(square.at(-1, -1), (State<2>{9, 4, 0, 2}));
+  grid::Domain turned =
+      closedBox(2, 4);  // the jet on y-, through the second face: beyond x- the axis before is mirrored
+  turned.boundaries.parts[2] = {
+      {grid::SidePart::rectangle(1, Vec3(0.25, 0, 0), Vec3(0.5, 0, 1)), {given(boundary::density, 9)}}};
+  Square other(turned);
+  EXPECT_EQ(other.at(1, -1)[kDensity], 9);
+  EXPECT_EQ(other.at(-2, -1)[kDensity], 9);
+  EXPECT_EQ(other.at(-1, -1), (State<2>{1, -0.3, -0.2, 2}));
+}
+
+TEST(GasSides, TakeFormulasInTheMiddleOfCellsBeyond) {
+  grid::Domain domain = closedBox(2, 4);
+  domain.boundaries.face(0, 1) = {varying(boundary::density, "100*x + 10*y + t")};
+  Square square(domain, 3);
+  EXPECT_DOUBLE_EQ(square.at(4, 1)[kDensity], 112.5 + 3.75 + 3);
+  EXPECT_DOUBLE_EQ(square.at(5, 2)[kDensity], 137.5 + 6.25 + 3);
+  EXPECT_EQ(square.at(4, 1)[kPressure<2>], 2);
+  EXPECT_DOUBLE_EQ(square.at(4, -1)[kDensity], 112.5 + 1.25 + 3) << "mirrored";
+}
+
+TEST(GasSides, RefuseAFormulaThatGivesNoDensity) {
+  grid::Domain domain = closedBox(2, 4);
+  domain.boundaries.face(0, 1) = {varying(boundary::density, "2 - t")};
+  EXPECT_NO_THROW(Square(domain, 1));
+  try {
+    Square(domain, 2);
+    FAIL() << "a density of 0";
+  } catch (const NumericalError& error) {
+    EXPECT_EQ(std::string(error.what()).substr(0, 34), "Density at side x+ is 0 kg/m^3, bu");
+  }
+}
 
 TEST(GasSides, LetGasOutWhereNothingIsGiven) { EXPECT_EQ(beyond({}), gasAt(1, 0.3, 2)); }
 

@@ -34,9 +34,10 @@ class StillBox : public GasBox<D> {
     const auto oldMomentum = momentum;
     const auto oldEnergy = energy;
     for (const Patch& patch : grid.patches())
-      addDiffusion<D>(patch, this->gas, diffusion, view<const double>(density, patch, 1),
-                      view<const Vec<D>>(oldMomentum, patch, 1), view<const double>(oldEnergy, patch, 1), dt,
-                      view<Vec<D>>(momentum, patch, 0), view<double>(energy, patch, 0), {});
+      addDiffusion<D>(patch, this->gas, diffusion,
+                      {{view<const double>(density, patch, 1), view<const Vec<D>>(oldMomentum, patch, 1),
+                        view<const double>(oldEnergy, patch, 1)}},
+                      0, dt, view<Vec<D>>(momentum, patch, 0), view<double>(energy, patch, 0), {});
   }
   double stableDiffusion(double cfl) {
     Minimum dt;

@@ -58,10 +58,14 @@ class GasBox {
     std::vector<Vec<D>> newMomentum(density.size());
     const int ghost = reach(method);
     for (const Patch& patch : grid.patches())
-      chooseAdvance<D>(method)(patch, gas, seen<const double>(density, patch, ghost),
-                               seen<const Vec<D>>(momentum, patch, ghost), seen<const double>(energy, patch, ghost), dt,
-                               seen<double>(newDensity, patch, 0), seen<Vec<D>>(newMomentum, patch, 0),
-                               seen<double>(newEnergy, patch, 0), {});
+      chooseAdvance<D>(method)(patch, gas,
+                               {{seen<const double>(density, patch, ghost), seen<const Vec<D>>(momentum, patch, ghost),
+                                 seen<const double>(energy, patch, ghost)}},
+                               time, dt,
+                               {{seen<double>(newDensity, patch, 0), seen<Vec<D>>(newMomentum, patch, 0),
+                                 seen<double>(newEnergy, patch, 0)}},
+                               {});
+    time += dt;
     density = newDensity;
     momentum = newMomentum;
     energy = newEnergy;
@@ -92,6 +96,7 @@ class GasBox {
   Method method;
   std::vector<double> density, energy;
   std::vector<Vec<D>> momentum;
+  double time = 0;
 
  private:
   template <class T, class Values>

@@ -122,9 +122,9 @@ TEST(IceScene, RefusesConditionsOfAnotherMaterial) {
             "there is no material 1: the gas is number 0");
 }
 
-TEST(IceScene, RefusesAPartOfASide) {
+TEST(IceScene, TakesConditionsOnAPartOfASide) {
   EXPECT_EQ(problemOf(changedScene(sod, "<Face side=\"x-\">", "<Face circle=\"x-\" origin=\"0 0 0\" radius=\"1\">")),
-            "conditions on a part of a side (circle) are not available; give side=\"x-\" to have them on all of it");
+            "");
 }
 
 TEST(IceScene, RefusesASecondGas) {

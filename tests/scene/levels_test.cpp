@@ -115,7 +115,7 @@ TEST(Levels, LeaveOutAxesThatTheGridDoesNotUse) {
   input::Diagnostics diagnostics;
   const input::Document document = input::documentOf("<Grid>" + walls + level(box("0,0,0", "1,1,1", "32,32,1")) +
                                                      level(box("0,0,0", ".5,.5,1", "32,32,1")) + "</Grid>");
-  const grid::Domain domain = readGrid(*document.root().child("Grid"), {grid::symmetric}, {}, {}, diagnostics);
+  const grid::Domain domain = readGrid(*document.root().child("Grid"), {{grid::symmetric}}, {}, {}, diagnostics);
 
   EXPECT_EQ(sentencesOf(diagnostics.sorted()), Strings{});
   EXPECT_EQ(domain.refinement.levels, 2);

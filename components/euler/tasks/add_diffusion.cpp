@@ -91,18 +91,18 @@ void addDiffused(double ratio, const Box& block, int axis, Rows<D>& flux, CellVi
 }  // namespace
 
 template <int D>
-void addDiffusion(const Patch& patch, const Gas& gas, const Diffusion& diffusion, CellView<const double> density,
-                  CellView<const Vec<D>> momentum, CellView<const double> totalEnergy, double dt,
-                  CellView<Vec<D>> newMomentum, CellView<double> newTotalEnergy, const DiffusionRims<D>& rims) {
+void addDiffusion(const Patch& patch, const Gas& gas, const Diffusion& diffusion, const OldState<D>& old, double time,
+                  double dt, CellView<Vec<D>> newMomentum, CellView<double> newTotalEnergy,
+                  const DiffusionRims<D>& rims) {
   const Level& level = patch.level();
-  const GhostRules<D> rules = diffusionRules<D>(level, gas);
+  const GhostRules<D> rules = diffusionRules<D>(level, gas, time);
   std::size_t room = 1;
   for (int d = 0; d < D; ++d) room *= std::min(patch.cells().extent(d), kBlock<D>[d]) + 2;
   Rows<D> w(room), flux(room);
   forEachBlock<D>(patch.cells(), [&](const Box& block) {
     w.hold(block.grown(1, D));
     flux.hold(w.box());
-    findTemperature<D>(gas, level, {density, momentum, totalEnergy}, w);
+    findTemperature<D>(gas, level, old, w);
     fillBeyondGrid<D>(level, rules, w);
     const Spacing<D> spacing(level, w);
     for (int axis = 0; axis < D; ++axis) {
@@ -136,11 +136,10 @@ void limitDiffusion(const Patch& patch, const Gas& gas, const Diffusion& diffusi
   if (greatest > 0) dt.add(cfl / greatest, "diffusion");
 }
 
-#define TUSHAR_DIFFUSION(D)                                                                                   \
-  template void addDiffusion<D>(const Patch&, const Gas&, const Diffusion&, CellView<const double>,           \
-                                CellView<const Vec<D>>, CellView<const double>, double, CellView<Vec<D>>,     \
-                                CellView<double>, const DiffusionRims<D>&);                                   \
-  template void limitDiffusion<D>(const Patch&, const Gas&, const Diffusion&, double, CellView<const double>, \
+#define TUSHAR_DIFFUSION(D)                                                                                     \
+  template void addDiffusion<D>(const Patch&, const Gas&, const Diffusion&, const OldState<D>&, double, double, \
+                                CellView<Vec<D>>, CellView<double>, const DiffusionRims<D>&);                   \
+  template void limitDiffusion<D>(const Patch&, const Gas&, const Diffusion&, double, CellView<const double>,   \
                                   CellView<const Vec<D>>, CellView<const double>, Minimum&);
 TUSHAR_DIFFUSION(1)
 TUSHAR_DIFFUSION(2)

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "components/euler/diffusion.hpp"
-#include "components/euler/labels.hpp"
+#include "components/euler/state_views.hpp"
 
 namespace tushar::euler {
 
@@ -16,7 +16,8 @@ struct DiffusionRims {
   }
 };
 
-/// Adds what viscosity and heat conduction change in a step, from the state at its start [kg/m³, kg/(m² s), J/m³].
+/// Adds what viscosity and heat conduction change in a step, from the state [kg/m³, kg/(m² s), J/m³] and the time at
+/// its start.
 ///
 /// Through a face across d flow -tau_d of momentum and -(tau_d . v + k dT/dx_d) of energy, tau = mu (grad v +
 /// (grad v)^T - 2/3 div v I): Newton's and Fourier's laws, by centred differences. What leaves a cell enters its
@@ -24,9 +25,9 @@ struct DiffusionRims {
 /// Sides: no stress along a plane of symmetry, and no heat through it. The gas sticks to a wall with a `Velocity`; a
 /// `Temperature` is that of the wall, without one it is adiabatic. Nothing diffuses through an open side.
 template <int D>
-void addDiffusion(const Patch& patch, const Gas& gas, const Diffusion& diffusion, CellView<const double> density,
-                  CellView<const Vec<D>> momentum, CellView<const double> totalEnergy, double dt,
-                  CellView<Vec<D>> newMomentum, CellView<double> newTotalEnergy, const DiffusionRims<D>& rims);
+void addDiffusion(const Patch& patch, const Gas& gas, const Diffusion& diffusion, const OldState<D>& old, double time,
+                  double dt, CellView<Vec<D>> newMomentum, CellView<double> newTotalEnergy,
+                  const DiffusionRims<D>& rims);
 
 /// dt = cfl / max(sum_d (|v_d| + c) / h_d + 2 nu / h_d²), nu the greatest diffusivity.
 template <int D>

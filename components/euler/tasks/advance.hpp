@@ -1,7 +1,7 @@
 #pragma once
 
-#include "components/euler/labels.hpp"
 #include "components/euler/settings.hpp"
+#include "components/euler/state_views.hpp"
 
 namespace tushar::euler {
 
@@ -19,8 +19,8 @@ struct RimFluxes {
   }
 };
 
-/// One step on a patch: the body of the task, with the gas, the state before [kg/m³, kg/(m² s), J/m³], the time step
-/// [s], the state after and its fluxes through the rim of the level.
+/// One step on a patch: the body of the task, with the gas, the state before [kg/m³, kg/(m² s), J/m³], its time and the
+/// time step [s], the state after and its fluxes through the rim of the level.
 ///
 /// U' = U - dt sum_d (F_{d,i+1/2} - F_{d,i-1/2}) / h_d, all axes at once (unsplit). First order: F of the cells on
 /// both sides of a face. MUSCL-Hancock: limited slopes of rho, v, p along each axis; what the fluxes of a cell's own
@@ -28,10 +28,8 @@ struct RimFluxes {
 /// whose values at a face would lose their positive density or p + p_inf is taken as constant for this step.
 /// Source: B. van Leer, SIAM J. Sci. Stat. Comput. 5 (1984) 1; Toro, sections 6.3, 14.4 and 16.5.
 template <int D>
-using Advance = void (*)(const Patch& patch, const Gas& gas, CellView<const double> density,
-                         CellView<const Vec<D>> momentum, CellView<const double> totalEnergy, double dt,
-                         CellView<double> newDensity, CellView<Vec<D>> newMomentum, CellView<double> newTotalEnergy,
-                         const RimFluxes<D>& rims);
+using Advance = void (*)(const Patch& patch, const Gas& gas, const OldState<D>& old, double time, double dt,
+                         const NewState<D>& fresh, const RimFluxes<D>& rims);
 
 /// The body for a method: each is compiled on its own, so that no loop over cells branches on the method.
 template <int D>

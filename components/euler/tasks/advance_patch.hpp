@@ -163,13 +163,10 @@ void advanceBlock(const Gas& gas, const Level& level, const GhostRules<D>& rules
 
 /// Advance<D> of one method.
 template <int D, class Flux, class Shape>
-void advance(const Patch& patch, const Gas& gas, CellView<const double> density, CellView<const Vec<D>> momentum,
-             CellView<const double> totalEnergy, double dt, CellView<double> newDensity, CellView<Vec<D>> newMomentum,
-             CellView<double> newTotalEnergy, const RimFluxes<D>& rims) {
+void advance(const Patch& patch, const Gas& gas, const OldState<D>& old, double time, double dt,
+             const NewState<D>& fresh, const RimFluxes<D>& rims) {
   const Level& level = patch.level();
-  const StateViews<D, const double> old{density, momentum, totalEnergy};
-  const StateViews<D, double> fresh{newDensity, newMomentum, newTotalEnergy};
-  const GhostRules<D> rules = ghostRules<D>(level, gas);
+  const GhostRules<D> rules = ghostRules<D>(level, gas, time);
   Work<D> work(patch.cells(), Shape::reach);
   bool fine = true;
   forEachBlock<D>(patch.cells(), [&](const Box& block) {

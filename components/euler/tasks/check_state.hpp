@@ -4,21 +4,12 @@
 
 #include <cstdint>
 #include <limits>
-#include <type_traits>
 
-#include "components/euler/labels.hpp"
 #include "components/euler/rows.hpp"
+#include "components/euler/state_views.hpp"
 #include "core/tasks/broken_value.hpp"
 
 namespace tushar::euler {
-
-/// The state that a step reads or writes: T is double or const double.
-template <int D, class T>
-struct StateViews {
-  CellView<T> density;
-  CellView<std::conditional_t<std::is_const_v<T>, const Vec<D>, Vec<D>>> momentum;
-  CellView<T> totalEnergy;
-};
 
 /// Whether the states of a row of cells can be: rho > 0 and, without a division, p + p_inf > 0, which is
 /// rho (E - p_inf) > |rho v|² / 2; all of it finite.

@@ -8,11 +8,11 @@ namespace tushar::ice {
 template <int D>
 class ImplicitStep {
  public:
-  ImplicitStep(const Level& level, const ImplicitGas& settings, const Box& block,
-               const euler::StateViews<D, const double>& before, const CellView<const double>& pressure, double dt)
+  ImplicitStep(const Level& level, const ImplicitGas& settings, const Box& block, const euler::OldState<D>& before,
+               const CellView<const double>& pressure, double time, double dt)
       : level_(level),
         dt_(dt),
-        flow_(level, settings, block, before, dt),
+        flow_(level, settings, block, before, time, dt),
         after_(flow_.withPressure(pressure)),
         middle_(flow_.old()),
         flux_(flow_.old()),
@@ -109,17 +109,13 @@ class ImplicitStep {
 /// Throws NumericalError where a density or p + p_inf would not be positive, or gas would cross more than a cell.
 /// Source: as FaceFlow; J. von Neumann & R. D. Richtmyer, J. Appl. Phys. 21 (1950) 232, for the shocks.
 template <int D>
-void advanceImplicitly(const Patch& patch, const ImplicitGas& settings, CellView<const double> density,
-                       CellView<const Vec<D>> momentum, CellView<const double> totalEnergy, double dt,
-                       CellView<const double> pressure, CellView<double> newDensity, CellView<Vec<D>> newMomentum,
-                       CellView<double> newTotalEnergy) {
+void advanceImplicitly(const Patch& patch, const ImplicitGas& settings, const euler::OldState<D>& before, double time,
+                       double dt, CellView<const double> pressure, const euler::NewState<D>& fresh) {
   const Level& level = patch.level();
-  const euler::StateViews<D, const double> before{density, momentum, totalEnergy};
-  const euler::StateViews<D, double> fresh{newDensity, newMomentum, newTotalEnergy};
   double most = 0;
   bool fine = true;
   euler::forEachBlock<D>(patch.cells(), [&](const Box& block) {
-    ImplicitStep<D> step(level, settings, block, before, pressure, dt);
+    ImplicitStep<D> step(level, settings, block, before, pressure, time, dt);
     const auto sweep = [&]<int Axis>() {
       Box faces = block;
       ++faces.upper[Axis];
@@ -132,7 +128,7 @@ void advanceImplicitly(const Patch& patch, const ImplicitGas& settings, CellView
     if constexpr (D > 2) sweep.template operator()<2>();
     fine &= euler::canBe<D>(settings.gas, block, fresh);
   });
-  if (!fine) euler::refuseBroken<D>(patch, settings.gas, fresh, &before);
+  if (!fine) euler::refuseBroken<D, double>(patch, settings.gas, fresh, &before);
   if (!(most <= 1))
     throw NumericalError(fmt::format("gas would cross {:.3g} cells in a step of {:.3g} s", most, dt),
                          "a smaller CFD/cfl", "c.velocity");

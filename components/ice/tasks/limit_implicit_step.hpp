@@ -20,14 +20,12 @@ void initializePressure(const Patch& patch, const euler::Gas& gas, CellView<cons
 /// greatest diffusivity. Throws NumericalError where a density, or p + p_inf, is not positive. Source: N. Kwatra & al.,
 /// J. Comput. Phys. 228 (2009) 4146, section 3.3.
 template <int D>
-void limitImplicitStep(const Patch& patch, const ImplicitGas& settings, CellView<const double> density,
-                       CellView<const Vec<D>> momentum, CellView<const double> totalEnergy,
+void limitImplicitStep(const Patch& patch, const ImplicitGas& settings, const euler::OldState<D>& before, double time,
                        CellView<const double> pressure, Minimum& dt) {
   const Level& level = patch.level();
-  const euler::StateViews<D, const double> before{density, momentum, totalEnergy};
   euler::refuseBroken<D, const double>(patch, settings.gas, before, nullptr);
   const double second = 1;
-  const FaceFlow<D> flow(level, settings, patch.cells(), before, second);
+  const FaceFlow<D> flow(level, settings, patch.cells(), before, time, second);
   const euler::Rows<D> pushing = flow.withPressure(pressure);
   const auto acceleration = [&](const Index<D>& face, int axis) {
     const std::size_t p = euler::kPressure<D>;

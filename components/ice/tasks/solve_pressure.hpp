@@ -56,14 +56,12 @@ numerics::CellEquation<D> pressureEquation(const Level& level, const FaceFlow<D>
   return equation;
 }
 
-/// Solves for the pressure at the end of the step in all cells, Pa, from the state before it [kg/m³, kg/(m² s), J/m³],
+/// Solves for the pressure at the end of the step in all cells, Pa, from the state before it,
 /// where the last step's is a first guess.
 /// Throws NumericalError if the solver gives up.
 template <int D>
-void solvePressure(const RankPatches& patches, const mpi::Communicator& ranks, const ImplicitGas& settings, double dt,
-                   const std::vector<CellView<const double>>& density,
-                   const std::vector<CellView<const Vec<D>>>& momentum,
-                   const std::vector<CellView<const double>>& totalEnergy,
+void solvePressure(const RankPatches& patches, const mpi::Communicator& ranks, const ImplicitGas& settings, double time,
+                   double dt, const std::vector<euler::OldState<D>>& before,
                    const std::vector<CellView<const double>>& guess, const std::vector<CellView<double>>& pressure,
                    const SolveTotals& totals) {
   const Level& level = patches.front()->level();
@@ -71,9 +69,8 @@ void solvePressure(const RankPatches& patches, const mpi::Communicator& ranks, c
   std::vector<FaceFlow<D>> flows;
   std::vector<CellView<const double>> rise;
   for (std::size_t p = 0; p < patches.size(); ++p) {
-    const euler::StateViews<D, const double> before{density[p], momentum[p], totalEnergy[p]};
     const CellView<double>& view = pressure[p];
-    flows.emplace_back(level, settings, patches[p]->cells(), before, dt);
+    flows.emplace_back(level, settings, patches[p]->cells(), before[p], time, dt);
     forEach<D>(patches[p]->cells(),
                [&](const Index<D>& cell) { view[cell] = guess[p][cell] - flows[p].old().number(cell, number); });
     rise.emplace_back(view.values(), view.stored(), view.box());

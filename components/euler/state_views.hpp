@@ -1,0 +1,34 @@
+#pragma once
+
+#include <type_traits>
+
+#include "components/euler/labels.hpp"
+
+namespace tushar::euler {
+
+/// The state that a step reads or writes: T is double or const double.
+template <int D, class T>
+struct StateViews {
+  CellView<T> density;
+  CellView<std::conditional_t<std::is_const_v<T>, const Vec<D>, Vec<D>>> momentum;
+  CellView<T> totalEnergy;
+};
+
+/// The state at the start of a step, with `ghost` cells around the patch.
+template <int D>
+struct OldState : StateViews<D, const double> {
+  static OldState from(auto& take, int ghost) {
+    return {{take(requiresOld(c::density, ghost)), take(requiresOld(c::momentum<D>, ghost)),
+             take(requiresOld(c::totalEnergy, ghost))}};
+  }
+};
+
+/// The state that a step makes.
+template <int D>
+struct NewState : StateViews<D, double> {
+  static NewState from(auto& take) {
+    return {{take(computes(c::density)), take(computes(c::momentum<D>)), take(computes(c::totalEnergy))}};
+  }
+};
+
+}  // namespace tushar::euler

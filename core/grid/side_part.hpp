@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "core/base/vec.hpp"
+
+namespace tushar::grid {
+
+/// The shapes of a part of a side: the attributes of a `Face` that name its side.
+inline constexpr std::array<std::string_view, 5> sidePartNames{"circle", "annulus", "ellipse", "rectangle",
+                                                               "rectangulus"};
+
+/// A part of a side of the grid. Its rim belongs to it, the rim of its hole does not, each to within a billionth of its
+/// size: so round-off does not make a jet lopsided. What it is told across the side counts for nothing.
+class SidePart {
+ public:
+  /// Points within `radius` of `origin`, m, on a side across `axis`.
+  static SidePart circle(int axis, const Vec3& origin, double radius);
+  /// A circle without a smaller one.
+  static SidePart annulus(int axis, const Vec3& origin, double inner, double outer);
+  /// Half as wide along its longer axis as `longer`, and `shorter` across, m. The longer axis is turned by `degrees`
+  /// from y towards z on x+, from z towards x on y+, from x towards y on z+, and the other way round on the opposite
+  /// sides.
+  static SidePart ellipse(int axis, int side, const Vec3& origin, double shorter, double longer, double degrees);
+  /// Between two corners, m.
+  static SidePart rectangle(int axis, const Vec3& lower, const Vec3& upper);
+  /// A rectangle without a smaller one.
+  static SidePart rectangulus(int axis, const std::array<Vec3, 2>& inner, const std::array<Vec3, 2>& outer);
+
+  bool holds(const Vec3& x) const;
+  /// The corners of a box that holds it; along the axis across the side they are of no account.
+  const Vec3& lower() const { return outer_.lower; }
+  const Vec3& upper() const { return outer_.upper; }
+
+  friend bool operator==(const SidePart&, const SidePart&) = default;
+
+ private:
+  struct Corners {
+    Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();
+    friend bool operator==(const Corners&, const Corners&) = default;
+  };
+  /// Two foci, and the sum of the distances to them, m; of a circle they are one.
+  struct Oval {
+    Vec3 first = Vec3::Zero(), second = Vec3::Zero();
+    double sum = 0;
+    friend bool operator==(const Oval&, const Oval&) = default;
+  };
+  bool isIn(const Corners& corners, const Vec3& x) const;
+  bool isIn(const Oval& oval, const Vec3& x) const;
+
+  int axis_ = 0;
+  Corners outer_;                ///< of a rectangle, or around the rest
+  std::optional<Corners> hole_;  ///< of a rectangulus
+  std::optional<Oval> oval_, ovalHole_;
+};
+
+}  // namespace tushar::grid

@@ -1,0 +1,280 @@
+#include "core/scene/scene_sides.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+namespace tushar::scene {
+
+using input::Diagnostics;
+using input::Element;
+using input::Schema;
+using simulation::findKind;
+using simulation::namesOf;
+
+namespace {
+
+const std::vector<std::string> conditionKinds(grid::boundaryKindNames.begin(), grid::boundaryKindNames.end());
+
+/// The kind that `var`, one of `conditionKinds`, names.
+grid::BoundaryKind kindOf(const std::string& var) {
+  return static_cast<grid::BoundaryKind>(std::find(conditionKinds.begin(), conditionKinds.end(), var) -
+                                         conditionKinds.begin());
+}
+bool isSymmetry(const std::string& var) { return var == nameOf(grid::BoundaryKind::symmetry); }
+
+/// Labels of Uintah's components of flow, which scenes of others carry along.
+const std::vector<std::string> labelsOfFlow{"Density", "Pressure", "SpecificVol"};
+bool isOfFlow(const std::string& label) {
+  return std::find(labelsOfFlow.begin(), labelsOfFlow.end(), label) != labelsOfFlow.end();
+}
+
+/// What is wrong with an attribute.
+void errorOf(const std::string& attribute, const Element& element, const std::string& problem,
+             Diagnostics& diagnostics) {
+  diagnostics.error(element.whereOf(attribute), element.path(), attribute + ": " + problem);
+}
+
+Schema<ConditionSection> conditionTag() {
+  return Schema<ConditionSection>("BCType", "What a variable does at a face.")
+      .attributeValue("id", &ConditionSection::id, "all", "1", "number of the material that it holds for, or all");
+}
+
+/// `var`, and the value that it may need.
+void checkKind(const ConditionSection& condition, const Element& element, Diagnostics& diagnostics) {
+  if (const std::string problem = input::choiceProblem(condition.var, conditionKinds); !problem.empty())
+    errorOf("var", element, problem, diagnostics);
+  else if (!isSymmetry(condition.var) && !condition.value)
+    diagnostics.error(element, "a " + condition.var + " condition needs a <value>");
+}
+
+/// Choices whose words stand for themselves.
+input::Choices<std::string> wordsOf(const std::vector<std::string>& words) {
+  input::Choices<std::string> choices;
+  for (const std::string& word : words) choices.emplace_back(word, word);
+  return choices;
+}
+
+}  // namespace
+
+const Schema<ConditionSection>& conditionSchema() {
+  static const Schema<ConditionSection> schema =
+      conditionTag()
+          .requiredAttribute("label", &ConditionSection::label, "1", "the variable")
+          .requiredAttribute("var", &ConditionSection::var, "1", "symmetry, Dirichlet or Neumann")
+          .optional("value", &ConditionSection::value, "SI unit of the variable", "a number or a vector")
+          .check([](const ConditionSection& condition, const Element& element, Diagnostics& diagnostics) {
+            if (!isOfFlow(condition.label)) checkKind(condition, element, diagnostics);
+            if (const auto number = input::parse<int>(condition.id); condition.id != "all" && !(number && *number >= 0))
+              errorOf("id", element, "found '" + condition.id + "', expected 'all' or the number of a material",
+                      diagnostics);
+          });
+  return schema;
+}
+
+Schema<ConditionSection> conditionFor(const std::vector<grid::BoundaryVariable>& labels) {
+  Schema<ConditionSection> tag = conditionTag();
+  std::vector<std::string> names = namesOf(labels), kinds(conditionKinds.begin(), conditionKinds.end());
+  for (const std::string& label : labelsOfFlow)
+    if (std::find(names.begin(), names.end(), label) == names.end()) names.push_back(label);
+  kinds.emplace_back("computeFromDensity");  // of SpecificVol
+  if (labels.empty())
+    tag.requiredAttribute("label", &ConditionSection::label, "1", "the variable");
+  else
+    tag.requiredChoiceAttribute("label", &ConditionSection::label, wordsOf(names), "the variable");
+  return tag.requiredChoiceAttribute("var", &ConditionSection::var, wordsOf(kinds), "what it does")
+      .optional("value", &ConditionSection::value, "SI unit of the variable", "a number or a vector");
+}
+
+Schema<FaceSection> faceTag(const Schema<ConditionSection>& condition) {
+  const input::Choices<int> sides{{"x-", 0}, {"x+", 1}, {"y-", 2}, {"y+", 3}, {"z-", 4}, {"z+", 5}};
+  const auto point = [](const char* what) { return std::string(what) + ", as 0 0.5 0.5"; };
+  return Schema<FaceSection>("Face", "A side of the grid, or a part of one.")
+      .optionalChoiceAttribute("side", &FaceSection::side, sides, "all of this side but its parts")
+      .optionalChoiceAttribute("circle", &FaceSection::circle, sides, "the part of this side in a circle")
+      .optionalChoiceAttribute("annulus", &FaceSection::annulus, sides, "the part between two circles")
+      .optionalChoiceAttribute("ellipse", &FaceSection::ellipse, sides, "the part in an ellipse")
+      .optionalChoiceAttribute("rectangle", &FaceSection::rectangle, sides, "the part in a rectangle")
+      .optionalChoiceAttribute("rectangulus", &FaceSection::rectangulus, sides, "the part between two rectangles")
+      .optionalAttribute("origin", &FaceSection::origin, "m", point("the middle of a circle, annulus or ellipse"))
+      .optionalAttribute("radius", &FaceSection::radius, "m", "of a circle", input::positive())
+      .optionalAttribute("inner_radius", &FaceSection::innerRadius, "m", "of an annulus", input::positive())
+      .optionalAttribute("outer_radius", &FaceSection::outerRadius, "m", "of an annulus", input::positive())
+      .optionalAttribute("minor_radius", &FaceSection::minorRadius, "m", "of an ellipse, half its shorter axis",
+                         input::positive())
+      .optionalAttribute("major_radius", &FaceSection::majorRadius, "m", "of an ellipse, half its longer axis",
+                         input::positive())
+      .optionalAttribute(
+          "angle", &FaceSection::angle, "degree",
+          "of the longer axis of an ellipse, seen from outside, to y on x+ and x-, to z on y+ and y-, to "
+          "x on z+ and z-")
+      .optionalAttribute("lower", &FaceSection::lower, "m", point("a corner of a rectangle"))
+      .optionalAttribute("upper", &FaceSection::upper, "m", point("the opposite one"))
+      .optionalAttribute("inner_lower", &FaceSection::innerLower, "m", point("a corner of the hole of a rectangulus"))
+      .optionalAttribute("inner_upper", &FaceSection::innerUpper, "m", point("the opposite one"))
+      .optionalAttribute("outer_lower", &FaceSection::outerLower, "m", point("a corner of a rectangulus"))
+      .optionalAttribute("outer_upper", &FaceSection::outerUpper, "m", point("the opposite one"))
+      .ignoredAttribute("name", "for readers")
+      .list("BCType", &FaceSection::conditions, condition, "what a variable does there");
+}
+
+namespace {
+
+/// The text of a value that may be a formula, where the component takes formulas.
+template <class T, class Formula>
+std::string readValue(const std::string& text, bool mayVary, T& value, std::optional<Formula>& formula) {
+  const auto plain = input::parse<T>(text);
+  if (plain || !mayVary) {
+    value = plain.value.value_or(value);
+    return plain.problem;
+  }
+  const auto given = input::parse<Formula>(text);
+  if (!given) return given.problem;
+  if (given.value->isConstant())
+    value = (*given.value)(Vec3::Zero());
+  else
+    formula = given.value;
+  return {};
+}
+
+/// Sets the value of a condition, or its formula.
+void takeValue(const ConditionSection& given, const Element& tag, bool mayVary, grid::BoundaryCondition& condition,
+               Diagnostics& diagnostics) {
+  if (!given.value) return;
+  const Location& where = tag.child("value")->where();
+  std::string problem;
+  std::optional<input::VectorExpression> formula;
+  if (condition.variable.isVector) {
+    problem = readValue(*given.value, mayVary, condition.value, formula);
+  } else {
+    std::optional<input::Expression> one;
+    problem = readValue(*given.value, mayVary, condition.value[0], one);
+    if (one) formula = input::VectorExpression({*one, input::Expression(), input::Expression()});
+  }
+  if (!problem.empty()) diagnostics.error(where, tag.path(), "value: " + problem);
+  if (!formula) return;
+  formula->readAt(where);
+  condition.formula = std::make_shared<const input::VectorExpression>(*std::move(formula));
+}
+
+/// Why a condition contradicts itself or, on a plane of symmetry, the plane; or nothing.
+std::string contradiction(const grid::BoundaryCondition& condition, bool onOddPlane) {
+  const bool symmetry = condition.kind == grid::BoundaryKind::symmetry;
+  if (symmetry != (condition.variable == grid::symmetric))
+    return fmt::format("found label '{}' with var '{}'; 'Symmetric' goes with 'symmetry', and with nothing else",
+                       condition.variable.name, nameOf(condition.kind));
+  if (!symmetry && onOddPlane &&
+      (condition.kind == grid::BoundaryKind::dirichlet || condition.formula || condition.value != Vec3::Zero()))
+    return "this face is a plane of symmetry: beside it only a Neumann condition of 0 is right";
+  return {};
+}
+
+/// Whether a value may be given on a plane of symmetry: the images of its vector have the same where it lies in the
+/// plane.
+bool fitsPlane(const grid::BoundaryVariable& label, const grid::BoundaryCondition& condition, int axis) {
+  return label.isEven && condition.kind == grid::BoundaryKind::dirichlet &&
+         (!label.isVector || (!condition.formula && condition.value[axis] == 0));
+}
+
+/// What is read of a face.
+struct ReadFace {
+  const SideWords& words;
+  int axis;                                          ///< across it
+  std::vector<grid::BoundaryCondition>& conditions;  ///< of it, and of the same part read before
+  std::map<std::string, Location>& seen;             ///< where each of them was given
+};
+
+/// Adds the condition of a tag, unless its label is none that has an effect.
+void readCondition(const ConditionSection& given, const Element& tag, bool onPlane, const ReadFace& face,
+                   Diagnostics& diagnostics) {
+  const auto& labels = face.words.labels;
+  const grid::BoundaryVariable* label = findKind(labels, given.label);
+  if (given.label == "SpecificVol" && findKind(labels, "Density")) {
+    if (given.var != "computeFromDensity")  // as it does anyway
+      diagnostics.note(tag, "does nothing: the specific volume follows from the Density");
+    return;
+  }
+  if (!label && isOfFlow(given.label))
+    diagnostics.note(tag, given.label + " belongs to components of flow: nothing here depends on it");
+  else if (!label && !labels.empty())
+    errorOf("label", tag, input::choiceProblem(given.label, namesOf(labels)), diagnostics);
+  if (label && isOfFlow(given.label)) checkKind(given, tag, diagnostics);
+  if (!label || !input::choiceProblem(given.var, conditionKinds).empty()) return;
+  const bool isPlane = isSymmetry(given.var);
+  if (isPlane && given.value) diagnostics.note(tag, "<value> does nothing on a plane of symmetry");
+  grid::BoundaryCondition condition{*label, kindOf(given.var), Vec3::Zero(),
+                                    input::parse<int>(given.id).value.value_or(-1)};
+  const bool mayVary = face.words.takesFormulas && condition.kind == grid::BoundaryKind::dirichlet;
+  if (!isPlane) takeValue(given, tag, mayVary, condition, diagnostics);
+  const bool onOddPlane = onPlane && !fitsPlane(*label, condition, face.axis);
+  if (const std::string problem = contradiction(condition, onOddPlane); !problem.empty())
+    diagnostics.error(placeOf({&tag.whereOf("var"), &tag.whereOf("label")}, tag.where()), tag.path(), problem);
+  if (const auto [first, isNew] = face.seen.emplace(given.label + given.id, tag.where()); !isNew)
+    diagnostics.error(tag, fmt::format("{} has a condition on this face already, at {}; keep one", label->name,
+                                       first->second.text()));
+  face.conditions.push_back(std::move(condition));
+}
+
+void readConditions(const FaceSection& given, const Element& tag, const ReadFace& face, Diagnostics& diagnostics) {
+  const std::vector<Element> tags = tag.children("BCType");
+  const auto& conditions = given.conditions;
+  const bool onPlane =
+      std::any_of(conditions.begin(), conditions.end(), [](const auto& one) { return isSymmetry(one.var); });
+  for (std::size_t k = 0; k < conditions.size() && k < tags.size(); ++k)
+    readCondition(conditions[k], tags[k], onPlane, face, diagnostics);
+}
+
+/// The part of a side with this shape, which is one with those of the same shape before.
+std::size_t partWith(const grid::SidePart& shape, std::vector<grid::ConditionsOfPart>& parts) {
+  const auto same = std::find_if(parts.begin(), parts.end(), [&](const auto& part) { return part.shape == shape; });
+  if (same != parts.end()) return same - parts.begin();
+  parts.push_back({shape, {}});
+  return parts.size() - 1;
+}
+
+}  // namespace
+
+std::vector<GivenPart> readFaces(const Element& section, const FacesSection& faces, const SideWords& words,
+                                 grid::BoundaryConditions& boundaries, Diagnostics& diagnostics) {
+  std::vector<GivenPart> parts;
+  const auto group = section.child("BoundaryConditions");
+  if (!group) return parts;
+  const std::vector<Element> elements = group->children("Face");
+  std::map<std::string, Location> sides;
+  std::map<std::pair<int, std::size_t>, std::map<std::string, Location>> seenOnParts;
+  for (std::size_t f = 0; f < faces.faces.size() && f < elements.size(); ++f) {
+    const FaceSection& given = faces.faces[f];
+    const int face = given.face();
+    if (!checkFaceWords(elements[f], diagnostics)) continue;
+    if (const auto side = elements[f].attribute("side")) {
+      std::map<std::string, Location> seen;
+      readConditions(given, elements[f], {words, face / 2, boundaries.faces[face], seen}, diagnostics);
+      if (const auto [first, isNew] = sides.emplace(*side, elements[f].where()); !isNew)
+        diagnostics.error(elements[f],
+                          fmt::format("side {} is given twice, the first time at {}", *side, first->second.text()));
+      continue;
+    }
+    if (!words.takesParts) refuseParts(elements[f], diagnostics);
+    const auto shape = words.takesParts ? readShape(given, elements[f], diagnostics) : std::nullopt;
+    if (!shape) continue;
+    const std::size_t part = partWith(*shape, boundaries.parts[face]);
+    readConditions(given, elements[f],
+                   {words, face / 2, boundaries.parts[face][part].conditions, seenOnParts[{face, part}]}, diagnostics);
+    parts.push_back({elements[f], face, part});
+  }
+  return parts;
+}
+
+void checkPeriodic(const Element& section, const grid::Domain& domain, Diagnostics& diagnostics) {
+  const auto group = section.child("BoundaryConditions");
+  if (!group) return;
+  const std::string sides[] = {"x-", "x+", "y-", "y+", "z-", "z+"};
+  for (const Element& face : group->children("Face"))
+    for (int k = 0; k < 6; ++k)
+      if (domain.periodic[k / 2] != 0 && face.attribute("side") == sides[k])
+        diagnostics.note(face,
+                         fmt::format("does nothing: {} is periodic, so this side can have no condition", "xyz"[k / 2]));
+}
+
+}  // namespace tushar::scene

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/input/schema.hpp"
+#include "core/scene/scene.hpp"
+
+namespace tushar::scene {
+
+/// The tag `BCType`.
+struct ConditionSection {
+  std::string id, label, var;
+  std::optional<std::string> value;
+};
+
+/// The tag `Face`: a side of the grid, 0 to 5 for x-, x+, y-, y+, z-, z+, or a part of one. Points are as written.
+struct FaceSection {
+  std::optional<int> side, circle, annulus, ellipse, rectangle, rectangulus;
+  std::optional<double> radius, innerRadius, outerRadius, minorRadius, majorRadius, angle;
+  std::optional<std::string> origin, lower, upper, innerLower, innerUpper, outerLower, outerUpper;
+  std::vector<ConditionSection> conditions;
+
+  /// The side that it is, or is a part of.
+  int face() const {
+    for (const auto& given : {side, circle, annulus, ellipse, rectangle, rectangulus})
+      if (given) return *given;
+    return 0;
+  }
+};
+
+/// The tag `BoundaryConditions`.
+struct FacesSection {
+  std::vector<FaceSection> faces;
+};
+
+const input::Schema<ConditionSection>& conditionSchema();
+/// The conditions of a component as an editor is to see them: of its labels.
+input::Schema<ConditionSection> conditionFor(const std::vector<grid::BoundaryVariable>& labels);
+/// The tag `Face`, with a tag for conditions, which must outlive it.
+input::Schema<FaceSection> faceTag(const input::Schema<ConditionSection>& condition);
+
+/// A part of a side, where a scene gives it.
+struct GivenPart {
+  input::Element tag;
+  int face = 0;          ///< the side, 0 to 5
+  std::size_t part = 0;  ///< its number on that side
+};
+
+/// Whether a face is one side or one part of a side, with the attributes that go with it.
+bool checkFaceWords(const input::Element& tag, input::Diagnostics& diagnostics);
+/// The shape of a face that is a part of a side; nothing where its numbers make none, which goes to the diagnostics.
+std::optional<grid::SidePart> readShape(const FaceSection& face, const input::Element& tag,
+                                        input::Diagnostics& diagnostics);
+/// Refuses parts of sides for components that do not take them.
+void refuseParts(const input::Element& tag, input::Diagnostics& diagnostics);
+/// The conditions of a `Grid` section. Returns the parts of sides that have some.
+std::vector<GivenPart> readFaces(const input::Element& section, const FacesSection& faces, const SideWords& words,
+                                 grid::BoundaryConditions& boundaries, input::Diagnostics& diagnostics);
+/// A side of a periodic axis takes no conditions; Uintah overlooks them.
+void checkPeriodic(const input::Element& section, const grid::Domain& domain, input::Diagnostics& diagnostics);
+/// Whether parts of sides lie in their sides, none overlaps another one, and all have faces.
+void checkParts(const std::vector<GivenPart>& parts, const grid::Domain& domain, input::Diagnostics& diagnostics);
+
+}  // namespace tushar::scene
