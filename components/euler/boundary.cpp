@@ -66,6 +66,15 @@ GhostRule<D> diffusionRule(const Level& level, const Gas& gas, int axis, int sid
   return rule;
 }
 
+/// `ruleOf(level, gas, axis, side)` for each side of the grid.
+template <int D>
+GhostRules<D> rulesOfSides(auto ruleOf, const Level& level, const Gas& gas) {
+  GhostRules<D> rules;
+  for (int d = 0; d < D; ++d)
+    for (int side = 0; side < 2; ++side) rules[d][side] = ruleOf(level, gas, d, side);
+  return rules;
+}
+
 /// The cell along an axis of `cells` cells that a cell beyond its ends is made from.
 int sourceOf(int cell, int cells, bool mirrored) {
   const int inside = cell < 0 ? (mirrored ? -1 - cell : 0) : (mirrored ? 2 * cells - 1 - cell : cells - 1);
@@ -91,18 +100,12 @@ bool isWall(const Level& level, const Gas& gas, int axis, int side) {
 
 template <int D>
 GhostRules<D> ghostRules(const Level& level, const Gas& gas) {
-  GhostRules<D> rules;
-  for (int d = 0; d < D; ++d)
-    for (int side = 0; side < 2; ++side) rules[d][side] = ghostRule<D>(level, gas, d, side);
-  return rules;
+  return rulesOfSides<D>(ghostRule<D>, level, gas);
 }
 
 template <int D>
 GhostRules<D> diffusionRules(const Level& level, const Gas& gas) {
-  GhostRules<D> rules;
-  for (int d = 0; d < D; ++d)
-    for (int side = 0; side < 2; ++side) rules[d][side] = diffusionRule<D>(level, gas, d, side);
-  return rules;
+  return rulesOfSides<D>(diffusionRule<D>, level, gas);
 }
 
 template <int D>

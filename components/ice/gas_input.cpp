@@ -47,21 +47,17 @@ void checkCondition(const Element& condition, Diagnostics& diagnostics) {
 
 /// The conditions of the gas, material `gas` of the scene.
 void checkConditions(const Element& root, int gas, Diagnostics& diagnostics) {
-  const auto grid = root.child("Grid");
-  const auto group = grid ? grid->child("BoundaryConditions") : std::nullopt;
-  if (!group) return;
-  for (const Element& face : group->children("Face"))
-    for (const Element& condition : face.children("BCType")) {
-      const int material = materialOf(condition);
-      if (material > gas)
-        diagnostics.error(condition.whereOf("id"), condition.path(),
-                          fmt::format("there is no material {}: the gas is number {}", material, gas));
-      if (material >= 0 && material < gas && condition.attribute("label") == euler::boundary::density.name)
-        diagnostics.note(condition,
-                         fmt::format("does nothing: material {} is a body; the gas is number {}", material, gas));
-      const bool isShared = condition.attribute("label") == euler::boundary::pressure.name;
-      if (material < 0 || material == gas || isShared) checkCondition(condition, diagnostics);
-    }
+  for (const Element& condition : simulation::boundaryConditions(root)) {
+    const int material = materialOf(condition);
+    if (material > gas)
+      diagnostics.error(condition.whereOf("id"), condition.path(),
+                        fmt::format("there is no material {}: the gas is number {}", material, gas));
+    if (material >= 0 && material < gas && condition.attribute("label") == euler::boundary::density.name)
+      diagnostics.note(condition,
+                       fmt::format("does nothing: material {} is a body; the gas is number {}", material, gas));
+    const bool isShared = condition.attribute("label") == euler::boundary::pressure.name;
+    if (material < 0 || material == gas || isShared) checkCondition(condition, diagnostics);
+  }
 }
 
 /// A pressure that is given does not count, as in Uintah: says so where it is another one than follows.

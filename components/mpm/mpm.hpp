@@ -10,8 +10,16 @@ enum class Method { gas, solid, implicitSolid };
 /// The method that the <MPM> section of a scene asks for.
 Method methodOf(const input::Element& root);
 
-/// What a method reads, describes and makes; its module calls this when it is loaded.
-void define(Method method, simulation::ComponentKind kind);
+/// What a method reads, describes and makes: its part of the ComponentKind, whose fields have the same names.
+struct MethodKind {
+  std::function<simulation::MakeComponent(const input::Element& root, input::Diagnostics&)> read;
+  std::function<void(std::ostream&)> describe;
+  std::function<std::vector<std::vector<simulation::SectionForm>>()> forms;
+  std::function<int(const input::Element& root)> nodesBeyond = {};
+};
+
+/// The module of a method calls this when it is loaded.
+void define(Method method, MethodKind kind);
 
 /// All methods as one component.
 simulation::ComponentKind kind();

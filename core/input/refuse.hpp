@@ -62,6 +62,14 @@ void refuseOtherValues(input::Schema<S>& schema, const std::string& tag, const s
   schema.forms({std::move(form)});
 }
 
+/// Refuses each entry of a list whose `member` is not above that of the entry before it. `tags` are the entries' own.
+template <class T, class Member>
+void refuseDescent(const std::vector<T>& entries, Member T::*member, const std::vector<Element>& tags,
+                   const std::string& problem, Diagnostics& diagnostics) {
+  for (std::size_t k = 1; k < entries.size(); ++k)
+    if (entries[k].*member <= entries[k - 1].*member) diagnostics.error(tags[k], problem);
+}
+
 /// A tag of Uintah's that is missing here; `instead` says what there is.
 template <class S>
 void refuseTag(input::Schema<S>& schema, const std::string& tag, const std::string& instead) {

@@ -45,6 +45,7 @@ class Hdf5Input {
 
  private:
   using Id = std::int64_t;  ///< HDF5's hid_t
+  struct Dataset;
   template <class Result>
   Result checked(Result result, const std::string& what) const;
   void readAttribute(const std::string& object, const char* name, Id type, std::size_t numbers, void* data) const;

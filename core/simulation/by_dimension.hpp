@@ -38,6 +38,17 @@ S readOptionalSection(const input::Element& root, const input::Schema<S>& schema
   return root.child(schema.name()) ? readSection(root, schema, diagnostics) : schema.defaults();
 }
 
+/// The conditions (`BCType`) of all faces of the grid, in the order of the scene.
+inline std::vector<input::Element> boundaryConditions(const input::Element& root) {
+  std::vector<input::Element> all;
+  const auto grid = root.child("Grid");
+  const auto group = grid ? grid->child("BoundaryConditions") : std::nullopt;
+  if (!group) return all;
+  for (const input::Element& face : group->children("Face"))
+    for (const input::Element& condition : face.children("BCType")) all.push_back(condition);
+  return all;
+}
+
 /// A component of as many dimensions as the grid has axes that is made of the settings of its one section.
 template <template <int> class C, class S>
 ComponentKind kindWithSection(std::string name, std::string sentence, const input::Schema<S>& schema,

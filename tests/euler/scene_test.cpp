@@ -1,10 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <sstream>
-
 #include "tests/support/scenes.hpp"
-#include "tests/support/temporary.hpp"
 
 namespace tushar::euler {
 
@@ -21,14 +17,7 @@ double densityError(Overrides overrides, int cells) {
 
 /// Sod's scene with a piece of text replaced.
 std::string changedScene(const std::string& from, const std::string& to) {
-  std::stringstream text;
-  text << std::ifstream("ups/euler/sod.ups").rdbuf();
-  std::string scene = text.str();
-  const std::size_t at = scene.find(from);
-  if (at == std::string::npos) throw std::logic_error("the scene has no " + from);
-  const std::string path = test::temporaryFolder() + "changed.ups";
-  std::ofstream(path) << scene.replace(at, from.size(), to);
-  return path;
+  return test::changedScene("ups/euler/sod.ups", from, to);
 }
 
 /// What is wrong with the scene, without its place.

@@ -1,32 +1,18 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
 #include "tests/support/scenes.hpp"
-#include "tests/support/temporary.hpp"
 
 namespace tushar::ice {
 
 namespace {
 
 using Overrides = std::vector<std::string>;
+using test::changedScene;
 
 const std::string sod = "ups/ice/sod.ups", shear = "ups/ice/shear_wave.ups", channel = "ups/ice/channel.ups",
                   heat = "ups/ice/heat_wave.ups";
-
-/// A scene with a piece of text replaced.
-std::string changedScene(const std::string& scene, const std::string& from, const std::string& to) {
-  std::stringstream text;
-  text << std::ifstream(scene).rdbuf();
-  std::string changed = text.str();
-  const std::size_t at = changed.find(from);
-  if (at == std::string::npos) throw std::logic_error("the scene has no " + from);
-  const std::string path = test::temporaryFolder() + "changed.ups";
-  std::ofstream(path) << changed.replace(at, from.size(), to);
-  return path;
-}
 
 /// What is wrong with the scene, without its place; what is noted, if nothing is.
 std::string problemOf(const std::string& scene, const Overrides& overrides = {}) {

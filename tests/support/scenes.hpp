@@ -1,12 +1,16 @@
 #pragma once
 
 #include <chrono>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "components/components.hpp"
 #include "core/scene/scene.hpp"
 #include "core/simulation/simulation.hpp"
+#include "tests/support/temporary.hpp"
 
 namespace tushar::test {
 
@@ -17,6 +21,18 @@ inline report::Report runScene(const std::string& scene, const std::vector<std::
   simulation::RunOptions options;
   options.quiet = true;
   return simulation::Simulation(std::move(problem), options, std::chrono::steady_clock::now()).run();
+}
+
+/// A copy of a scene with a piece of its text replaced; gives its path.
+inline std::string changedScene(const std::string& scene, const std::string& from, const std::string& to) {
+  std::stringstream text;
+  text << std::ifstream(scene).rdbuf();
+  std::string changed = text.str();
+  const std::size_t at = changed.find(from);
+  if (at == std::string::npos) throw std::logic_error("the scene has no " + from);
+  const std::string path = temporaryFolder() + "changed.ups";
+  std::ofstream(path) << changed.replace(at, from.size(), to);
+  return path;
 }
 
 }  // namespace tushar::test

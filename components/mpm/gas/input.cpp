@@ -83,14 +83,10 @@ void refuseSolidsOnly(const Element& root, Diagnostics& diagnostics) {
     diagnostics.error(*constants, "a gas knows no <PhysicalConstants>: nothing acts on it but its pressure");
   if (const auto loads = root.child("PhysicalBC"))
     diagnostics.error(*loads, "a gas takes no <PhysicalBC>: no load acts on it but the pressure of its sides");
-  const auto grid = root.child("Grid");
-  const auto conditions = grid ? grid->child("BoundaryConditions") : std::nullopt;
-  if (!conditions) return;
-  for (const Element& face : conditions->children("Face"))
-    for (const Element& condition : face.children("BCType"))
-      if (const auto label = condition.attribute("label");
-          label && (*label == boundary::velocity.name || *label == boundary::temperature.name))
-        diagnostics.error(condition, "label: found '" + *label + "', expected 'Symmetric': a gas takes no other");
+  for (const Element& condition : simulation::boundaryConditions(root))
+    if (const auto label = condition.attribute("label");
+        label && (*label == boundary::velocity.name || *label == boundary::temperature.name))
+      diagnostics.error(condition, "label: found '" + *label + "', expected 'Symmetric': a gas takes no other");
 }
 
 std::unique_ptr<Component> makeComponent(const Level& level, const MpmSection& method, const std::vector<Gas>& gases) {
@@ -130,13 +126,6 @@ void describe(std::ostream& out) {
 
 }  // namespace
 
-simulation::ComponentKind kind() {
-  simulation::ComponentKind kind;
-  kind.name = "mpm";
-  kind.read = readScene;
-  kind.forms = forms;
-  kind.describe = describe;
-  return kind;
-}
+MethodKind kind() { return {readScene, describe, forms}; }
 
 }  // namespace tushar::mpm::gas

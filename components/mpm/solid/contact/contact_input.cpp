@@ -87,9 +87,8 @@ const Schema<FrictionTable>& frictionTableSchema() {
       Schema<FrictionTable>("variable_friction", "Friction by the color of the master.")
           .list("entry", &FrictionTable::entries, entry, "colors ascend; straight between two, constant beyond", 2)
           .check([](const FrictionTable& table, const Element& element, Diagnostics& diagnostics) {
-            for (std::size_t k = 1; k < table.entries.size(); ++k)
-              if (table.entries[k].color <= table.entries[k - 1].color)
-                diagnostics.error(element.children("entry")[k], "its color is not above that of the one before");
+            input::refuseDescent(table.entries, &FrictionEntry::color, element.children("entry"),
+                                 "its color is not above that of the one before", diagnostics);
           });
   return schema;
 }

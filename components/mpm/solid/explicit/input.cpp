@@ -384,14 +384,6 @@ void describe(std::ostream& out) {
   describeLoads(out);
 }
 
-simulation::ComponentKind kind() {
-  simulation::ComponentKind kind;
-  kind.name = "mpm";
-  kind.read = readScene;
-  kind.forms = forms;
-  kind.describe = describe;
-  kind.nodesBeyond = nodesBeyond;
-  return kind;
-}
+MethodKind kind() { return {readScene, describe, forms, nodesBeyond}; }
 
 }  // namespace tushar::mpm::solid

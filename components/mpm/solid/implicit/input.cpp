@@ -197,23 +197,19 @@ void refuseExplicitOnly(const Problem& problem, const Element& root, Diagnostics
 
 /// Boundary conditions that implicit steps would ignore: those of one material out of several, and a heat flux.
 void refuseConditions(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
-  const auto grid = root.child("Grid");
-  const auto conditions = grid ? grid->child("BoundaryConditions") : std::nullopt;
-  if (!conditions) return;
-  for (const Element& face : conditions->children("Face"))
-    for (const Element& condition : face.children("BCType")) {
-      const std::string id = condition.attribute("id").value_or("all");
-      if (id != "all" && problem.materials.size() > 1)
-        diagnostics.error(condition, "id: found '" + id +
-                                         "'; with <time_integrator> implicit materials share their nodes, and "
-                                         "a condition holds for all of them");
-      const auto value = condition.child("value");
-      const bool flows = value && input::parse<double>(value->text()).value != 0.0;
-      if (condition.attribute("label") == boundary::temperature.name &&
-          condition.attribute("var") == nameOf(grid::BoundaryKind::neumann) && flows)
-        diagnostics.error(condition,
-                          "var: Neumann for Temperature only with <time_integrator> explicit, unless its value is 0");
-    }
+  for (const Element& condition : simulation::boundaryConditions(root)) {
+    const std::string id = condition.attribute("id").value_or("all");
+    if (id != "all" && problem.materials.size() > 1)
+      diagnostics.error(condition, "id: found '" + id +
+                                       "'; with <time_integrator> implicit materials share their nodes, and "
+                                       "a condition holds for all of them");
+    const auto value = condition.child("value");
+    const bool flows = value && input::parse<double>(value->text()).value != 0.0;
+    if (condition.attribute("label") == boundary::temperature.name &&
+        condition.attribute("var") == nameOf(grid::BoundaryKind::neumann) && flows)
+      diagnostics.error(condition,
+                        "var: Neumann for Temperature only with <time_integrator> explicit, unless its value is 0");
+  }
 }
 
 template <template <int> class Shape>

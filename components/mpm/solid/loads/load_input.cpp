@@ -101,9 +101,8 @@ const Schema<CurveSection>& curveSchema() {
                     input::nonNegative())
           .list("time_point", &CurveSection::points, point, "a load at a time", 1)
           .check([](const CurveSection& curve, const Element& element, Diagnostics& diagnostics) {
-            for (std::size_t k = 1; k < curve.points.size(); ++k)
-              if (curve.points[k].time <= curve.points[k - 1].time)
-                diagnostics.error(element.children("time_point")[k], "its time is not after that of the one before");
+            input::refuseDescent(curve.points, &TimePoint::time, element.children("time_point"),
+                                 "its time is not after that of the one before", diagnostics);
           });
   return schema;
 }
