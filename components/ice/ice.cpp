@@ -64,6 +64,7 @@ simulation::ComponentKind kind() {
   kind.sentence = "a compressible gas in the words of Uintah's ICE, by the method of euler";
   kind.sections = gasSections();
   kind.takesLevels = true;
+  kind.amrSections = {"ICE"};
   kind.boundaryLabels = gasBoundaryLabels();
   kind.describe = describeGas;
   kind.forms = [] { return std::vector<std::vector<simulation::SectionForm>>{gasForms()}; };

@@ -123,6 +123,8 @@ simulation::ComponentKind kind(bool areRigid) {
                            : "a compressible gas and bodies of particles that act on each other";
   kind.sections = ice::gasSections();
   kind.sections.insert(kind.sections.end(), {"MPM", "PhysicalBC"});
+  kind.amrSections = {"ICE", "MPM", "MPMICE"};
+  kind.readFirst = {"MaterialProperties/MPM"};  // as in Uintah
   kind.boundaryLabels = {grid::symmetric, euler::boundary::density, euler::boundary::pressure,
                          mpm::boundary::velocity.evenOnPlanes(), mpm::boundary::temperature.evenOnPlanes()};
   kind.describe = [](std::ostream& out) {

@@ -227,6 +227,19 @@ void Document::set(const std::string& change, Diagnostics& diagnostics) {
   if (const auto parsed = parseOverride(change, where, diagnostics)) apply(*parsed, *root_, where, diagnostics);
 }
 
+void Document::readFirst(std::string_view path) {
+  std::vector<Node*> found{root_.get()};
+  std::istringstream names{std::string(path)};
+  for (std::string name; std::getline(names, name, '/');) {
+    std::vector<Node*> below;
+    for (const Node* node : found)
+      for (const auto& child : node->children)
+        if (child->name == name) below.push_back(child.get());
+    found = std::move(below);
+  }
+  for (Node* node : found) node->isReadFirst = true;
+}
+
 std::string Document::text() const {
   pugi::xml_document document;
   auto declaration = document.append_child(pugi::node_declaration);

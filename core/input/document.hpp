@@ -28,6 +28,10 @@ class Document {
   /// created. What is overridden is from then on at the location `--set PATH=VALUE`.
   void set(const std::string& change, Diagnostics& diagnostics);
 
+  /// From now on the tags at `path`, such as `MaterialProperties/MPM`, count as standing above their siblings: these
+  /// can refer to labels in them, wherever they stand.
+  void readFirst(std::string_view path);
+
   /// `<Uintah_specification>`.
   Element root() const { return Element(*root_); }
   /// The scene as XML with includes resolved and overrides applied.

@@ -35,6 +35,8 @@ class Element {
   std::vector<Element> children(std::string_view name) const;
   /// None for the root.
   std::optional<Element> parent() const;
+  /// Whether it counts as standing above its siblings (Document::readFirst).
+  bool isReadFirst() const { return node_->isReadFirst; }
 
   /// The same tag of the same document.
   friend bool operator==(const Element&, const Element&) = default;

@@ -196,8 +196,8 @@ bool collectAbove(const Element& from, const Element& until, std::vector<Element
   return false;
 }
 
-/// In the same section of the scene (MaterialProperties, PhysicalBC, …), as each has labels of its own. The shapes of a
-/// gas in <ICE> know those of bodies in <MPM>, wherever that stands, as Uintah reads bodies first.
+/// In the same section of the scene (MaterialProperties, PhysicalBC, …), as each has labels of its own; with those in
+/// parts of the section that are read first.
 std::vector<Element> labelledAbove(const Element& shape) {
   Element section = shape, part = shape;
   while (section.parent() && section.parent()->parent()) {
@@ -206,8 +206,11 @@ std::vector<Element> labelledAbove(const Element& shape) {
   }
   std::vector<Element> found;
   collectAbove(section, shape, found);
-  const auto bodies = part.name() == "ICE" ? section.child("MPM") : std::nullopt;
-  if (bodies && bodies->where().line > part.where().line) collectAbove(*bodies, shape, found);
+  bool isBelow = false;
+  for (const Element& other : section.children()) {
+    if (isBelow && other.isReadFirst() && !part.isReadFirst()) collectAbove(other, shape, found);
+    isBelow |= other == part;
+  }
   return found;
 }
 

@@ -342,6 +342,8 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   refuseLooseWords(root, diagnostics);
   const ComponentKind* kind = readComponentKind(root, catalogue, diagnostics);
   if (kind) refuseUnknownSections(root, *kind, diagnostics);
+  if (kind)
+    for (const std::string& first : kind->readFirst) document.readFirst(first);
   readSharedSections(root, problem, diagnostics);
   AmrSettings amr;
   if (const auto given = section(root, "AMR", false, diagnostics)) amr = readAmr(*given, kind, diagnostics);
@@ -381,13 +383,13 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
 const input::SchemaBase& metaForm() { return metaSchema(); }
 const input::SchemaBase& componentForm() { return componentSchema(); }
 
-void describeSharedSections(std::ostream& out) {
+void describeSharedSections(std::ostream& out, const Catalogue& catalogue) {
   metaSchema().describe(out);
   componentSchema().describe(out);
   describeTime(out);
   describeArchive(out);
   describeGrid(out);
-  describeAmr(out);
+  describeAmr(out, catalogue);
 }
 
 }  // namespace tushar::scene

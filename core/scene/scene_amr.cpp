@@ -20,9 +20,6 @@ using Indicator = simulation::Criterion::Indicator;
 
 namespace {
 
-/// Names of components that a part of `AMR` may have in every scene: ours, and Uintah's.
-const std::vector<std::string> componentNames{"Euler", "Heat", "Burgers", "ICE", "MPM", "MPMICE"};
-
 /// The name of a criterion that is no variable: cells with particles, of any material.
 constexpr std::string_view cellsWithParticles = "particles";
 
@@ -137,7 +134,7 @@ const Schema<CriteriaSection>& criteriaSchema() {
 
 const Schema<ThresholdsSection>& thresholdsSchema() {
   static const Schema<ThresholdsSection> schema = [] {
-    Schema<ThresholdsSection> section("component", "How a component takes to several levels.");
+    Schema<ThresholdsSection> section("component", "How a component runs on several levels.");
     section
         .value("do_Refluxing", &ThresholdsSection::refluxes, true, "1",
                "what leaves coarse cells is what enters finer ones, to round-off; without, totals drift")
@@ -216,15 +213,17 @@ Schema<AmrSection> makeAmrSchema(const std::vector<std::string>& names) {
   section.ignoredAttribute("type", "a grid is adaptive where <Regridder> says so")
       .value("useLockStep", &AmrSection::usesLockStep, true, "1",
              "all levels take the same time step, as they always do")
-      .section("Regridder", &AmrSection::regridder, regridderSchema())
-      .custom(names.front(), readComponents, names,
-              "how the component takes to several levels; the name is of no account",
-              [](std::ostream& out, int indent) { thresholdsSchema().describeContents(out, indent); });
-  input::TagForm form = input::sectionForm(names, [] {
-    return std::vector<input::Alternative>{{&thresholdsSchema(), {}}};
-  });
-  form.repeats = false;
-  section.forms({std::move(form)});
+      .section("Regridder", &AmrSection::regridder, regridderSchema());
+  if (!names.empty()) {
+    input::TagForm form = input::sectionForm(names, [] {
+      return std::vector<input::Alternative>{{&thresholdsSchema(), {}}};
+    });
+    form.repeats = false;
+    section
+        .custom(names.front(), readComponents, names, "how the component runs on several levels",
+                [](std::ostream& out, int indent) { thresholdsSchema().describeContents(out, indent); })
+        .forms({std::move(form)});
+  }
   input::noteTag(section, "doMultiTaskgraphing", "one graph of tasks has all levels");
   input::noteTag(section, "FineCoarseInterfaces", "values between levels are of second order");
   return section;
@@ -236,18 +235,29 @@ const Schema<AmrSection>& amrSchema(const std::vector<std::string>& names) {
   return known != schemas.end() ? known->second : schemas.emplace(names, makeAmrSchema(names)).first->second;
 }
 
-/// The names of `componentNames`, and that of the section of a component of one's own: `MyFlow` of `my_flow`.
-std::vector<std::string> namesFor(const simulation::ComponentKind* kind) {
-  std::vector<std::string> names = componentNames;
-  if (!kind || !kind->takesLevels) return names;
+/// The sections of `AMR` that belong to a component: those that it names, and one with its own name, `MyFlow` of
+/// `my_flow`.
+std::vector<std::string> amrSectionsOf(const simulation::ComponentKind& kind) {
+  std::vector<std::string> names = kind.amrSections;
+  if (!kind.takesLevels) return names;
   const auto plain = [](std::string name) {
     std::erase(name, '_');
     std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
     return name;
   };
-  for (const std::string& section : kind->sections)
-    if (plain(section) == plain(kind->name) && std::find(names.begin(), names.end(), section) == names.end())
-      names.push_back(section);
+  for (const std::string& section : kind.sections)
+    if (plain(section) == plain(kind.name)) names.push_back(section);
+  return names;
+}
+
+/// Where the component is not known, every tag that is not one of `AMR` itself.
+std::vector<std::string> unknownTagsOf(const Element& amr) {
+  std::vector<std::string> names;
+  const std::vector<std::string> own = amrSchema({}).tagNames();
+  for (const Element& child : amr.children())
+    if (std::find(own.begin(), own.end(), child.name()) == own.end() &&
+        std::find(names.begin(), names.end(), child.name()) == names.end())
+      names.push_back(child.name());
   return names;
 }
 
@@ -315,7 +325,7 @@ bool hasParticles(const simulation::Component& component) {
 
 AmrSettings readAmr(const Element& section, const simulation::ComponentKind* kind, Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.size();
-  const AmrSection read = amrSchema(namesFor(kind)).read(section, diagnostics);
+  const AmrSection read = amrSchema(kind ? amrSectionsOf(*kind) : unknownTagsOf(section)).read(section, diagnostics);
   AmrSettings amr;
   amr.tag = section;
   for (const ThresholdsSection& component : read.components) {
@@ -372,7 +382,14 @@ simulation::RegridSettings settled(AmrSettings amr, const simulation::Component&
   return amr.regrid;
 }
 
-const input::SchemaBase& amrForm(const simulation::ComponentKind& kind) { return amrSchema(namesFor(&kind)); }
-void describeAmr(std::ostream& out) { amrSchema(componentNames).describe(out); }
+const input::SchemaBase& amrForm(const simulation::ComponentKind& kind) { return amrSchema(amrSectionsOf(kind)); }
+
+void describeAmr(std::ostream& out, const simulation::Catalogue& catalogue) {
+  std::vector<std::string> names;
+  for (const simulation::ComponentKind* kind : catalogue.components())
+    for (std::string& name : amrSectionsOf(*kind))
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(std::move(name));
+  amrSchema(names).describe(out);
+}
 
 }  // namespace tushar::scene

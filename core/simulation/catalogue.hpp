@@ -41,6 +41,10 @@ struct ComponentKind {
   /// The sections of a scene, for each way to write one; if the function is empty, `sections` may hold anything.
   std::function<std::vector<std::vector<SectionForm>>()> forms;
   bool takesLevels = false;  ///< whether its tasks run on grids of several levels
+  /// Tags of AMR for its thresholds, besides the one of `sections` that has its name.
+  std::vector<std::string> amrSections;
+  /// Paths of tags whose labelled shapes their siblings can use, even those that stand above: `MaterialProperties/MPM`.
+  std::vector<std::string> readFirst;
 };
 
 /// Builds a module for a component; throws InputError if the two do not go together.

@@ -223,6 +223,20 @@ TEST(Geometry, KeepsTheLabelsOfSectionsApart) {
   expectBounds(*piece, {0, 0, 0}, {2, 2, 2});
 }
 
+TEST(Geometry, FindsLabelsBelowInAPartThatIsReadFirst) {
+  Document document =
+      documentOf("<M><gas><box label='g'/></gas><bodies>" + box("[0,0,0]", "[2,2,2]", "g") + "</bodies></M>");
+  const Element gas = *document.root().child("M")->child("gas");
+  Diagnostics before, after;
+
+  EXPECT_EQ(readGeometry(gas, before), nullptr);
+  document.readFirst("M/bodies");
+  const PiecePtr piece = readGeometry(gas, after);
+
+  ASSERT_NE(piece, nullptr);
+  expectBounds(*piece, {0, 0, 0}, {2, 2, 2});
+}
+
 TEST(Geometry, DoesNotFindAShapeWithinItself) {
   EXPECT_EQ(problemsOf("<a><union label='u'><union label='u'/></union></a>"),
             Lines{"s.ups:2:22: M/a/union/union: there is no shape labelled 'u' above"});

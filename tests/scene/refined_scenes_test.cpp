@@ -82,7 +82,7 @@ TEST(RefinedScenes, AreRefinedByTheCriteriaOfTheirComponentWhereTheyGiveNone) {
   ASSERT_EQ(gas.regrid.criteria.size(), 3u);
   EXPECT_EQ(gas.regrid.criteria[2].variable, "c.mach");
   std::ostringstream manual;
-  describeAmr(manual);
+  describeAmr(manual, catalogue());
   const std::string told =
       fmt::format("jumps above {:g} of {}, {} and {}", gas.regrid.criteria[0].refine, gas.regrid.criteria[0].variable,
                   gas.regrid.criteria[1].variable, gas.regrid.criteria[2].variable);

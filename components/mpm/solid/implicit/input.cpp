@@ -265,6 +265,7 @@ simulation::ComponentKind implicitKind() {
   kind.name = "impm";
   kind.sentence = "the Material Point Method for solids, with implicit time steps";
   kind.sections = {"MPM", "MaterialProperties", "PhysicalConstants", "PhysicalBC"};
+  kind.amrSections = {"MPM"};
   kind.boundaryLabels = {grid::symmetric, boundary::velocity, boundary::temperature};
   kind.describe = [](std::ostream& out) {
     sectionSchema().describe(out);
