@@ -88,8 +88,8 @@ void checkBoundaries(const Element& root, double pInfinity, Diagnostics& diagnos
   for (const Element& condition : simulation::boundaryConditions(root)) {
     const std::string label = condition.attribute("label").value_or(""), var = condition.attribute("var").value_or("");
     if (label != grid::symmetric.name && var != nameOf(BoundaryKind::dirichlet))
-      diagnostics.error(condition, fmt::format("var: found '{}', expected 'Dirichlet' for {} of gas that flows in; a "
-                                               "face with no condition lets gas out",
+      diagnostics.error(condition, fmt::format("var: found '{}', expected 'Dirichlet' for {} of inflowing gas; through "
+                                               "a face without a condition gas flows out",
                                                var, label));
     const auto text = condition.child("value");
     const auto value = text ? input::parse<double>(text->text()) : input::parse<double>("1");

@@ -31,8 +31,9 @@ void checkCondition(const Element& condition, Diagnostics& diagnostics) {
   const auto vector = input::parse<Vec3>(text->text());
   if (var == nameOf(BoundaryKind::neumann)) {
     if ((number && *number != 0) || (vector && *vector != Vec3::Zero()))
-      diagnostics.error(*text, fmt::format("found '{}', expected 0: a Neumann condition lets {} continue as it is",
-                                           text->text(), label));
+      diagnostics.error(
+          *text, fmt::format("found '{}', expected 0: a Neumann condition only extends {} beyond the grid as it is",
+                             text->text(), label));
     return;
   }
   const auto limit = [&](const grid::BoundaryVariable& of, const std::string& unit) {
@@ -68,7 +69,7 @@ void noteOtherPressure(const GasBody& body, const euler::Gas& gas, const Element
   const double pressure = gas.gasConstant() * body.density(Vec3::Zero()) * body.temperature(Vec3::Zero());
   if (std::abs(given - pressure) > 1e-3 * pressure)
     diagnostics.note(*element.child("pressure"),
-                     fmt::format("does nothing: density and temperature make {:g} Pa", pressure));
+                     fmt::format("does nothing: density and temperature give {:g} Pa", pressure));
 }
 
 void readMaterial(const GasMaterial& material, const Element& element, GasScene& scene, Diagnostics& diagnostics) {

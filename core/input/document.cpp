@@ -121,7 +121,7 @@ bool TreeBuilder::isCycle(const std::string& path, const Location& where) {
   };
   if (std::none_of(including_.begin(), including_.end(), same)) return false;
   diagnostics_.error(where, {},
-                     fmt::format("cannot include '{}': it is being included already, so it would never end", path));
+                     fmt::format("cannot include '{}': it includes itself, directly or through other files", path));
   return true;
 }
 

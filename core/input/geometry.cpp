@@ -249,7 +249,7 @@ PiecePtr readReference(const Element& reference, const std::string& label, Diagn
 void noteIfTaken(const Element& shape, const std::string& label, Diagnostics& diagnostics) {
   const std::vector<Element> others = definitions(label, labelledAbove(shape));
   if (others.empty()) return;
-  diagnostics.note(shape, fmt::format("the label '{}' is that of the <{}> at {}, too: no tag can refer to it", label,
+  diagnostics.note(shape, fmt::format("the label '{}' is that of the <{}> at {}, too, so no tag can refer to it", label,
                                       others.front().name(), others.front().where().text()));
 }
 

@@ -126,7 +126,7 @@ void Hdf5Input::readAttribute(const std::string& object, const char* name, Id ty
   checked<hid_t>(open, what);
   const Handle space(H5Aget_space(open), H5Sclose);
   if (H5Sget_simple_extent_npoints(space) != static_cast<hssize_t>(numbers))
-    throw FileError(fmt::format("cannot read {} '{}': it has another number of components", what, path_.string()));
+    throw FileError(fmt::format("cannot read {} '{}': it has the wrong number of components", what, path_.string()));
   checked(H5Aread(open, type, data), what);
 }
 

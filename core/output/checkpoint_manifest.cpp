@@ -59,7 +59,7 @@ std::string damageOfLine(const fs::path& folder, const std::string& line) {
   std::error_code error;
   const std::uintmax_t found = fs::file_size(folder / name, error);
   if (error) return fmt::format("{} is missing", name);
-  if (found != size) return fmt::format("{} has {} bytes, and had {}", name, found, size);
+  if (found != size) return fmt::format("{} has {} bytes instead of {}", name, found, size);
   const auto now = hashOf(folder / name);
   if (!now) return fmt::format("{} cannot be read", name);
   return fmt::format("{:016x}", *now) == hash ? "" : fmt::format("the content of {} has changed", name);

@@ -69,7 +69,7 @@ void noteIdle(const Element& particles, Diagnostics& diagnostics) {
   for (const input::Attribute& given : particles.attributes())
     if (given.name != "name")
       diagnostics.note(given.where, particles.path(),
-                       fmt::format("{} does nothing: all cells with particles are of the finest level", given.name));
+                       fmt::format("{} does nothing: all cells with particles are on the finest level", given.name));
 }
 
 void checkThresholds(const VariableTag& tag, const Element& element, Diagnostics& diagnostics) {
@@ -277,9 +277,9 @@ void checkBlocks(const Element& amr, const std::optional<std::vector<Index3>>& b
   if (blocks && std::any_of(blocks->begin(), blocks->end(), [&](const Index3& one) { return one != blocks->front(); }))
     diagnostics.error(
         *amr.child("Regridder")->child("min_patch_size"),
-        fmt::format("found {}, expected the same for all levels: a block is refined into blocks of as many "
-                    "cells",
-                    input::toText(*blocks)));
+        fmt::format(
+            "found {}, expected the same for all levels: a block is refined into blocks with as many cells as it has",
+            input::toText(*blocks)));
 }
 
 /// The materials of the variables of cells that a component has, by name; empty for one that belongs to none.
@@ -304,10 +304,11 @@ std::map<std::string, std::vector<std::string>> cellVariables(const simulation::
 /// What is wrong with the variable of a criterion, or nothing. `materials`: those that it belongs to.
 void checkMaterial(Criterion& criterion, const std::vector<std::string>& materials, Diagnostics& diagnostics) {
   if (!materials.empty())
-    diagnostics.error(criterion.where, criterion.path,
-                      fmt::format("'{}' is a variable of materials; the grid is refined by variables of none, and by "
-                                  "'particles'",
-                                  criterion.variable));
+    diagnostics.error(
+        criterion.where, criterion.path,
+        fmt::format(
+            "'{}' belongs to materials; the grid is refined by variables that belong to none, and by 'particles'",
+            criterion.variable));
   if (!materials.empty() || criterion.material.empty()) return;
   diagnostics.note(criterion.where, criterion.path,
                    fmt::format("matl does nothing: '{}' belongs to no material", criterion.variable));
@@ -344,8 +345,7 @@ AmrSettings readAmr(const Element& section, const simulation::ComponentKind* kin
   if (regridder.blocks) amr.block = regridder.blocks->front();
   if (!read.usesLockStep)
     diagnostics.note(*section.child("useLockStep"),
-                     "all levels take the same time step: there are no smaller steps yet "
-                     "for finer levels");
+                     "all levels take the same time step: smaller steps on finer levels are not available yet");
   if (!amr.regrid.adaptive)
     for (const Criterion& criterion : amr.regrid.criteria)
       diagnostics.note(criterion.where, criterion.path, "does nothing: the grid is not <adaptive>");
@@ -361,9 +361,9 @@ simulation::RegridSettings settled(AmrSettings amr, const simulation::Component&
   if (criteria.empty() && !followsParticles) {
     criteria = component.criteria();
     if (criteria.empty())
-      diagnostics.error(*amr.tag->child("Regridder")->child("adaptive"),
-                        "<adaptive> true needs a <Variable> in <Refinement_Criteria_Thresholds>, which says where "
-                        "cells are to be finer");
+      diagnostics.error(
+          *amr.tag->child("Regridder")->child("adaptive"),
+          "<adaptive> true needs a <Variable> in <Refinement_Criteria_Thresholds>, which says where to refine");
     return amr.regrid;
   }
   for (const auto& [other, name] : component.otherNames())

@@ -162,7 +162,7 @@ std::string contradiction(const grid::BoundaryCondition& condition, bool onOddPl
     return fmt::format("found label '{}' with var '{}'; 'Symmetric' goes with 'symmetry', and with nothing else",
                        condition.variable.name, nameOf(condition.kind));
   if (!symmetry && onOddPlane && (condition.kind == grid::BoundaryKind::dirichlet || condition.value != Vec3::Zero()))
-    return "this face is a plane of symmetry: beside it only a Neumann condition of 0 is right";
+    return "this face is a plane of symmetry: the only other condition that it allows is a Neumann condition of 0";
   return {};
 }
 
@@ -188,7 +188,7 @@ void readConditions(const std::vector<ConditionSection>& given, const std::vecto
       continue;
     }
     if (!label && isOfFlow(given[k].label))
-      diagnostics.note(tags[k], given[k].label + " belongs to components of flow: nothing here depends on it");
+      diagnostics.note(tags[k], given[k].label + " is for components of flow: nothing here depends on it");
     else if (!label && !labels.empty())
       errorOf("label", tags[k], input::choiceProblem(given[k].label, namesOf(labels)), diagnostics);
     if (label && isOfFlow(given[k].label)) checkKind(given[k], tags[k], diagnostics);
@@ -204,7 +204,7 @@ void readConditions(const std::vector<ConditionSection>& given, const std::vecto
       diagnostics.error(placeOf({&tags[k].whereOf("var"), &tags[k].whereOf("label")}, tags[k].where()), tags[k].path(),
                         problem);
     if (const auto [first, isNew] = seen.emplace(given[k].label + given[k].id, tags[k].where()); !isNew)
-      diagnostics.error(tags[k], fmt::format("{} has a condition on this face already, at {}; keep one", label->name,
+      diagnostics.error(tags[k], fmt::format("{} already has a condition on this face, at {}; keep one", label->name,
                                              first->second.text()));
   }
 }
@@ -294,10 +294,11 @@ bool refusePartsOfSides(const Element& section, Diagnostics& diagnostics) {
   for (const Element& face : group ? group->children("Face") : std::vector<Element>{})
     for (const char* shape : {"circle", "annulus", "ellipse", "rectangle", "rectangulus"})
       if (const auto side = face.attribute(shape)) {
-        diagnostics.error(face.whereOf(shape), face.path(),
-                          fmt::format("conditions on a part of a side ({}) are not available; give side=\"{}\" to have "
-                                      "them on all of it",
-                                      shape, *side));
+        diagnostics.error(
+            face.whereOf(shape), face.path(),
+            fmt::format(
+                "conditions on a part of a side ({}) are not available; give side=\"{}\" for conditions on all of it",
+                shape, *side));
         none = false;
       }
   return none;

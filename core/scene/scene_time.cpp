@@ -24,7 +24,7 @@ void refuseRestartStep(TimeSettings&, const Element& element, Diagnostics& diagn
   const auto given = element.child("override_restart_delt");
   if (given && input::parse<double>(given->text()).value != 0.0)
     diagnostics.error(*given,
-                      fmt::format("found '{}', expected 0: a restart goes on as the run would have", given->text()));
+                      fmt::format("found '{}', expected 0: a restart continues as the run would have", given->text()));
 }
 
 const Schema<TimeSettings>& timeSchema() {
@@ -56,7 +56,7 @@ const Schema<TimeSettings>& timeSchema() {
                  "time up to which delt_init holds; the first step at least", input::nonNegative())
           .custom(
               "override_restart_delt", refuseRestartStep, {"override_restart_delt"},
-              "only 0: a restart goes on as the run would have; sus --restart --set Time/delt_max=… makes its steps "
+              "only 0: a restart continues as the run would have; sus --restart --set Time/delt_max=… makes its steps "
               "shorter")
           .forms({input::patternForm({"override_restart_delt"}, input::zeroPattern)})
           .check([](const TimeSettings& time, const Element& element, Diagnostics& diagnostics) {
@@ -203,8 +203,9 @@ ArchiveSettings readArchive(const Element& section, Diagnostics& diagnostics) {
   ArchiveSettings archive = archiveSchema().read(section, diagnostics);
   const std::string name = nameOf(archive.filebase);
   if (name != archive.filebase)
-    diagnostics.note(*section.child("filebase"),
-                     fmt::format("the folder is called '{}'; it stands where sus is started or --output says", name));
+    diagnostics.note(
+        *section.child("filebase"),
+        fmt::format("the folder is called '{}'; sus makes it where it is started, or where --output says", name));
   archive.filebase = name;
   takeOutRepeated(archive.saves, section.children("save"), diagnostics);
   return archive;

@@ -79,7 +79,7 @@ TEST(EulerScene, MeasuresCellsAlone) {
 
 TEST(EulerScene, NamesACellThatNoObjectContains) {
   EXPECT_EQ(problemOf(changedScene("<max>[0.5,1,1]</max>", "<max>[0.4,1,1]</max>")),
-            "no geom_object contains the middle of the cell at (0.405, 0.5, 0.5); every cell needs a gas at the start");
+            "no geom_object contains the centre of the cell at (0.405, 0.5, 0.5); every cell needs a gas at the start");
 }
 
 TEST(EulerScene, LetsALaterObjectCountWhereTwoOverlap) {
@@ -107,11 +107,10 @@ TEST(EulerScene, TakesAStiffenedGas) {
 }
 
 TEST(EulerScene, RefusesAFluxAtAFace) {
-  EXPECT_EQ(
-      problemOf(changedScene("<BCType id=\"all\" label=\"Symmetric\" var=\"symmetry\"/>",
-                             "<BCType label=\"Density\" var=\"Neumann\"><value>1</value></BCType>")),
-      "var: found 'Neumann', expected 'Dirichlet' for Density of gas that flows in; a face with no condition lets "
-      "gas out");
+  EXPECT_EQ(problemOf(changedScene("<BCType id=\"all\" label=\"Symmetric\" var=\"symmetry\"/>",
+                                   "<BCType label=\"Density\" var=\"Neumann\"><value>1</value></BCType>")),
+            "var: found 'Neumann', expected 'Dirichlet' for Density of inflowing gas; through a face without a "
+            "condition gas flows out");
 }
 
 TEST(EulerScene, RefusesAnInflowOfNoPressure) {

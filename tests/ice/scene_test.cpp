@@ -115,7 +115,7 @@ TEST(IceScene, TakesNeumannConditionsForAnOpenSide) {
 
 TEST(IceScene, RefusesAGradientAtASide) {
   EXPECT_EQ(problemOf(withSide(R"(<BCType id="0" label="Density" var="Neumann"><value>1</value></BCType>)")),
-            "found '1', expected 0: a Neumann condition lets Density continue as it is");
+            "found '1', expected 0: a Neumann condition only extends Density beyond the grid as it is");
 }
 
 TEST(IceScene, RefusesAnInflowOfNoTemperature) {
@@ -130,7 +130,7 @@ TEST(IceScene, RefusesConditionsOfAnotherMaterial) {
 
 TEST(IceScene, RefusesAPartOfASide) {
   EXPECT_EQ(problemOf(changedScene(sod, "<Face side=\"x-\">", "<Face circle=\"x-\" origin=\"0 0 0\" radius=\"1\">")),
-            "conditions on a part of a side (circle) are not available; give side=\"x-\" to have them on all of it");
+            "conditions on a part of a side (circle) are not available; give side=\"x-\" for conditions on all of it");
 }
 
 TEST(IceScene, RefusesImplicitStepsUnlessTold) {
@@ -167,7 +167,7 @@ TEST(IceScene, RefusesModels) {
 
 TEST(IceScene, NotesAPressureThatDensityAndTemperatureDoNotMake) {
   EXPECT_EQ(problemOf(changedScene(sod, "<density>0.125</density>", "<density>0.125</density><pressure>2</pressure>")),
-            "does nothing: density and temperature make 0.1 Pa");
+            "does nothing: density and temperature give 0.1 Pa");
   EXPECT_EQ(problemOf(changedScene(sod, "<density>0.125</density>", "<density>0.125</density><pressure>.1</pressure>")),
             "");
 }
@@ -195,7 +195,7 @@ TEST(IceScene, RefinesByUintahsNames) {
 
 TEST(IceScene, LeavesOutWhatUintahAloneComputes) {
   EXPECT_EQ(problemOf(changedScene(sod, "rho_CC", "delP_Dilatate")),
-            "'delP_Dilatate' is not saved: nobody computes it here");
+            "'delP_Dilatate' is not saved: no task computes it here");
 }
 
 }  // namespace tushar::ice

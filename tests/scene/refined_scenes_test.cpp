@@ -88,8 +88,7 @@ TEST(RefinedScenes, AreRefinedByTheCriteriaOfTheirComponentWhereTheyGiveNone) {
                   gas.regrid.criteria[1].variable, gas.regrid.criteria[2].variable);
   EXPECT_NE(manual.str().find(told), std::string::npos) << told;
   EXPECT_EQ(problemsOf(changed("ups/heat/sine.ups", "</Grid>", adaptive)),
-            "<adaptive> true needs a <Variable> in <Refinement_Criteria_Thresholds>, which says where cells are to be "
-            "finer\n");
+            "<adaptive> true needs a <Variable> in <Refinement_Criteria_Thresholds>, which says where to refine\n");
 }
 
 TEST(RefinedScenes, NameVariablesThatAreThere) {
@@ -107,7 +106,8 @@ TEST(RefinedScenes, NameVariablesThatAreThere) {
 
 TEST(RefinedScenes, AreRefusedToComponentsOfOneLevel) {
   EXPECT_EQ(problemsOf(withLevel("ups/heat/implicit.ups")),
-            "'implicit_heat' needs a grid of one level; of several: 'burgers', 'euler', 'heat', 'ice' and 'mpm'\n");
+            "'implicit_heat' needs a grid of one level; these run on several:  'burgers', 'euler', 'heat', 'ice' and "
+            "'mpm'\n");
 }
 
 TEST(RefinedScenes, SaveNoFluxesThroughRims) {

@@ -67,8 +67,8 @@ const std::vector<std::pair<std::string, std::string>> lackingModels{
 void refuseModel(const Element& tag, const std::string& type, Diagnostics& diagnostics) {
   for (const auto& [name, instead] : lackingModels)
     if (type == name)
-      return diagnostics.error(tag,
-                               fmt::format("the model '{}' of Uintah is not available; nearest is {}", name, instead));
+      return diagnostics.error(
+          tag, fmt::format("the model '{}' of Uintah is not available; the nearest is {}", name, instead));
   diagnostics.error(tag, "attribute 'type': " + input::choiceProblem(type, modelNames()));
 }
 
@@ -151,7 +151,7 @@ void describeModels(std::ostream& out, int indent) {
 
 void checkAffine(const Body& body, const Element& element, Diagnostics& diagnostics) {
   if (!(body.affineMatrix().determinant() > 0))
-    diagnostics.error(element, "affineTransformation_A0, …_A1 and …_A2: the determinant of A must be above 0");
+    diagnostics.error(element, "affineTransformation_A0, …_A1 and …_A2: the determinant of A must be positive");
 }
 
 Schema<Body> bodyTags() {
@@ -259,8 +259,8 @@ void checkContacts(const MaterialProperties::List& list, const Element& element,
       const auto given = tag.child(name);
       const int number = given ? input::parse<int>(given->text()).value.value_or(0) : 0;
       if (number < 0 || number >= count)
-        diagnostics.error(*given,
-                          fmt::format("there is no material {}: they are counted from 0 to {}", number, count - 1));
+        diagnostics.error(
+            *given, fmt::format("there is no material {}; materials are numbered from 0 to {}", number, count - 1));
     }
 }
 

@@ -197,12 +197,11 @@ struct ElasticPlastic {
         [](ElasticPlastic&, const input::Element& element, input::Diagnostics& diagnostics) {
           const auto given = element.child("plastic_convergence_algo");
           if (given && given->text() == "biswajit")
-            diagnostics.note(*given, "stresses go back to the yield surface exactly, as with radialReturn");
+            diagnostics.note(*given, "stresses end exactly on the yield surface, as with radialReturn");
           else if (given && given->text() != "radialReturn")
             diagnostics.error(*given, input::choiceProblem(given->text(), {"radialReturn", "biswajit"}));
         },
-        {"plastic_convergence_algo"},
-        "radialReturn or biswajit: stresses go back to the yield surface exactly with both");
+        {"plastic_convergence_algo"}, "radialReturn or biswajit: stresses end exactly on the yield surface with both");
     tags.forms({input::choiceForm({"plastic_convergence_algo"}, {"radialReturn", "biswajit"})});
     typedTag(tags, "yield_condition", &ElasticPlastic::yieldCondition, "the yield surface; vonMises if left out",
              false);

@@ -88,7 +88,7 @@ const Schema<FrictionTable>& frictionTableSchema() {
           .list("entry", &FrictionTable::entries, entry, "colors ascend; straight between two, constant beyond", 2)
           .check([](const FrictionTable& table, const Element& element, Diagnostics& diagnostics) {
             input::refuseDescent(table.entries, &FrictionEntry::color, element.children("entry"),
-                                 "its color is not above that of the one before", diagnostics);
+                                 "its color is not above that of the previous one", diagnostics);
           });
   return schema;
 }
@@ -227,14 +227,14 @@ void readMotion(const Element& tag, const ContactSection& read, Contact& contact
       return Vec3(numbers[k + first], numbers[k + first + 1], numbers[k + first + 2]);
     };
     if (!contact.profile.empty() && t <= contact.profile.back().first)
-      diagnostics.error(tag, fmt::format("filename: the times in '{}' do not ascend at {:g} s", path, t));
+      diagnostics.error(tag, fmt::format("filename: the times in '{}' do not increase at {:g} s", path, t));
     contact.profile.emplace_back(t, vector(1));
     if (!read.turns) continue;
     contact.centres.emplace_back(t, vector(4));
     contact.angularVelocity.emplace_back(t, vector(7));
   }
   if (contact.profile.size() < 2)
-    diagnostics.error(tag, fmt::format("filename: '{}' has no two lines `time vx vy vz`", path));
+    diagnostics.error(tag, fmt::format("filename: '{}' has fewer than two lines `time vx vy vz`", path));
 }
 
 Contact::Type typeOf(Kind kind) {

@@ -150,13 +150,13 @@ void checkUpdates(const MpmSection& read, const Element& element, Diagnostics& d
                       "axisymmetric and apic");
   if (read.projectsGradient && read.conductsHeat)
     diagnostics.error(element,
-                      "UseGradientEnhancedVelocityProjection: temperatures do not go to the grid with their "
-                      "gradients; set <DoExplicitHeatConduction> to false");
+                      "UseGradientEnhancedVelocityProjection: temperatures are interpolated without their gradients; "
+                      "set <DoExplicitHeatConduction> to false");
   if (read.affine && read.stressUpdate != StressUpdate::last)
     diagnostics.error(element, "apic: only with stress_update usl");
   if (read.momentumForm && read.affine) diagnostics.error(element, "UseMomentumForm: not with apic");
   if (read.affine + read.xpic + (read.picFraction > 0) > 1)
-    diagnostics.error(element, "apic, XPIC2 and pic_fraction are three ways to take the velocity: pick one");
+    diagnostics.error(element, "apic, XPIC2 and pic_fraction are three ways to update the velocity: choose one");
 }
 
 /// Tags of Uintah's that only implicit steps look at.
@@ -183,7 +183,7 @@ void refuseShortDomains(MpmSection& read, const Element& element, Diagnostics& d
   if (!given || read.interpolator != Interpolator::cpdi) return;
   const auto longest = input::parse<double>(given->text()).value;
   if (!longest) return diagnostics.error(*given, "'" + given->text() + "' is not a number");
-  if (read.axisymmetric) return diagnostics.note(*given, "means nothing where axisymmetric, as in Uintah");
+  if (read.axisymmetric) return diagnostics.note(*given, "does nothing with axisymmetric, as in Uintah");
   if (*longest < std::numbers::sqrt3)
     diagnostics.error(*given,
                       "less than 3^(1/2) is not available; a domain of cpdi that reaches farther than a cell "
@@ -303,7 +303,7 @@ void checkLoads(const Problem& problem, const Element& root, Diagnostics& diagno
   for (const SurfaceLoad& load : loads.surfaces)
     if (load.material >= static_cast<int>(problem.materials.size()))
       diagnostics.error(root.child("PhysicalBC").value(),
-                        fmt::format("load_curve/material: there is no material {}: they are counted from 0 to {}",
+                        fmt::format("load_curve/material: there is no material {}; materials are numbered from 0 to {}",
                                     load.material, problem.materials.size() - 1));
   if (loads.hasHeat() && !problem.method.conductsHeat)
     diagnostics.error(root.child("PhysicalBC").value(), "heat_flux: needs <DoExplicitHeatConduction> true");

@@ -61,20 +61,20 @@ void check(const M& c, const input::Element& element, input::Diagnostics& diagno
   if (!hasLimit(c))
     diagnostics.error(
         element,
-        "PEAKI1, FSLOPE, STREN and YSLOPE make no limit of strength; allowed: FSLOPE > 0, the other two "
+        "PEAKI1, FSLOPE, STREN and YSLOPE define no limit of strength; allowed: FSLOPE > 0, the other two "
         "0 (a cone); STREN > 0 alone (a cylinder); FSLOPE and STREN > 0, the other two 0; FSLOPE > YSLOPE "
         "> 0 and STREN > YSLOPE PEAKI1");
-  if (c.p0 >= 0) diagnostics.error(element, "p0_crush_curve: pores collapse under compression: give it below 0");
-  if (c.p1 == 0) diagnostics.error(element, "p1_crush_curve: is 0, so that no pressure would collapse the pores");
+  if (c.p0 >= 0) diagnostics.error(element, "p0_crush_curve: must be below 0, as pores collapse under compression");
+  if (c.p1 == 0) diagnostics.error(element, "p1_crush_curve: is 0, so no pressure would collapse the pores");
   if (c.hasPoissonRatio())
     for (const double ratio : {c.g1, c.g1 + c.g2})
       if (ratio <= -1 || ratio >= 0.5)
         diagnostics.error(element,
                           fmt::format("G1 and G1 + G2: Poisson's ratio is {:g}, which leaves no positive shear "
-                                      "modulus; give it between -1 and 0.5",
+                                      "modulus; keep it between -1 and 0.5",
                                       ratio));
   if ((c.t1 > 0) != (c.t2 > 0))
-    diagnostics.error(element, "T1_rate_dependence and T2_rate_dependence: both are 0, or both are positive");
+    diagnostics.error(element, "T1_rate_dependence and T2_rate_dependence: must both be 0 or both be positive");
   if (c.lodeType != 0 && c.lodeType != 1 && c.lodeType != 3)
     diagnostics.error(element, "J3_type: allowed are 0, 1 (Gudehus) and 3 (Mohr and Coulomb)");
 }

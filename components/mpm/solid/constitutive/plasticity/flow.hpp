@@ -133,7 +133,7 @@ struct ZerilliArmstrong {
       values[k++] = value.value.value_or(0);
     }
     if (!element.child("c_0") && !element.child("sigma_g"))
-      diagnostics.error(element, "missing tag <c_0> in <flow_model> (part that nothing changes)");
+      diagnostics.error(element, "missing tag <c_0> in <flow_model> (the constant part)");
     read.c0 = values[0] + values[1] + values[2] * values[3];
     if (read.c0 < 0) diagnostics.error(element, "c_0 must be at least 0 Pa");
   }
