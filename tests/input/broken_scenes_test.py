@@ -252,8 +252,10 @@ class BrokenScenes(unittest.TestCase):
                 ((air + "relaxation/rate=1", air + "relaxation/internal_energy=1"),
                  "several gases cannot have <relaxation>"),
                 ((air + "@name=water",), "two materials are called 'water'; give each a name of its own"),
-                ((air + "geom_object/box/min=[0.6,0,0]",), "several gases must fill the grid without overlap, but they fill 2 of"),
-                ((air + "geom_object/box/min=[0.8,0,0]",), "several gases must fill the grid without overlap, but they fill 0 of"),
+                ((air + "geom_object/box/min=[0.6,0,0]",),
+                  "several gases must fill the grid without overlap, but they fill 2 of"),
+                ((air + "geom_object/box/min=[0.8,0,0]",),
+                  "several gases must fill the grid without overlap, but they fill 0 of"),
                 (("DataAnalysis/Module/right/gamma=1.5",),
                  "Module: gamma and p_infinity: found 1.5 and 0 Pa, but no gas of the scene has both")):
             with self.subTest(sentence):

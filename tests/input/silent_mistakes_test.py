@@ -102,7 +102,8 @@ class SilentMistakes(unittest.TestCase):
         refused(plane, plane.replace('symmetry"/>', 'Dirichlet"><value>3</value></BCType>'),
                 "found label 'Symmetric' with var 'Dirichlet'; 'Symmetric' goes with 'symmetry', and with nothing else")
         refused(plane, plane.replace("Symmetric", "Temperature"), "found label 'Temperature' with var 'symmetry'")
-        refused(plane, plane + cold, "this face is a plane of symmetry: the only other condition that it allows is a Neumann condition of 0")
+        refused(plane, plane + cold, "this face is a plane of symmetry: the only other condition that it allows is a "
+                                     "Neumann condition of 0")
         refused(cold, cold.replace("0<", "[1,2,3]<"), "value: found '[1,2,3]', expected a number")
         refused("[2.576693,0,0]", "2.576693", "value: found '2.576693', expected three numbers, as [1,2,3]",
                 scene="ups/euler/shock_bubble.ups")

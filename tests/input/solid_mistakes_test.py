@@ -132,8 +132,8 @@ REFUSED = {
          "for comp_neo_hook, comp_mooney_rivlin, UCNH and comp_neo_hook_plastic; 'rubber' is",
          "MPM/DoPressureStabilization=true"),
     "an energy budget of implicit steps":
-        (BEAM, ("<dynamic>", " <dynamic>"), "only solids with explicit time steps have an energy budget; take the module "
-                                            "out",
+        (BEAM, ("<dynamic>", " <dynamic>"),
+         "only solids with explicit time steps have an energy budget; take the module out",
          "DataAnalysis/Module/@name=energyBudget"),
     "the heat of a viscosity that is not there":
         (SPALL, ("<artificial_viscosity>true", "<artificial_viscosity>false"),

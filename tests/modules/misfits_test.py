@@ -76,7 +76,8 @@ class Misfits(unittest.TestCase):
                       "-march", self.misfit(None, *flags))
 
     def test_other_headers(self):
-        self.assertIn("it was built with different headers of the same version", self.misfit('abiWith("0123456789abcdef")'))
+        self.assertIn("it was built with different headers of the same version",
+                      self.misfit('abiWith("0123456789abcdef")'))
 
     def test_the_card_is_read_before_calls_are_looked_up(self):
         self.build((CARD % 'abiWith("0")') + "void nowhere();\nvoid f() { nowhere(); }\n")

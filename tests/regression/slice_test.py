@@ -137,7 +137,8 @@ class Slice(unittest.TestCase):
 
     def test_what_a_module_cannot_show_is_refused(self):
         wrong = {
-            "<plane>z</plane>" + LABELS + STEPS: "plane: found 'z', expected an axis and a coordinate in m, such as z = 0.5",
+            "<plane>z</plane>" + LABELS + STEPS:
+                "plane: found 'z', expected an axis and a coordinate in m, such as z = 0.5",
             "<plane>z=0</plane><plane>z = 0.0</plane>" + LABELS + STEPS: "plane: the plane z = 0.0 is given twice",
             "<plane>z=2</plane>" + LABELS + STEPS: "plane: found z = 2 m, expected a place on the grid, from -1.25 to",
             PLANES + "<label>p.x</label>" + STEPS: "found 'p.x', expected a variable of cells (c.) or nodes (g.)",
