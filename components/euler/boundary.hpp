@@ -25,7 +25,7 @@ std::optional<T> givenAt(const Level& level, const Gas& gas, int axis, int side,
   const auto condition = level.boundary(axis, side, label, gas.material);
   return condition && condition->isDirichlet() ? std::optional(condition->value) : std::nullopt;
 }
-/// The same of the pressure, which all materials share: Uintah's scenes give it for material 0.
+/// The pressure that a scene gives there. All materials share it: Uintah's scenes give it for material 0.
 std::optional<double> pressureAt(const Level& level, const Gas& gas, int axis, int side);
 
 /// Whether a side is a wall: Symmetric, or with a Velocity alone that lies in the side.
@@ -38,8 +38,8 @@ bool isWall(const Level& level, const Gas& gas, int axis, int side);
 template <int D>
 GhostRules<D> ghostRules(const Level& level, const Gas& gas);
 
-/// The same for differences across the sides, of velocities and, in place of densities, temperatures: what is given
-/// holds at the side itself, and the rest is mirrored.
+/// Ghost rules for diffusion: for differences across the sides of velocities and of temperatures, which replace
+/// densities. A given value holds at the side itself; the other values are mirrored.
 template <int D>
 GhostRules<D> diffusionRules(const Level& level, const Gas& gas);
 

@@ -17,7 +17,7 @@ inline const std::vector<std::pair<std::string, std::string>> uintahsNames{
     {"press_equil_CC", "c.pressure"},  {"vel_CC", "c.velocity"},          {"temp_CC", "c.temperature"},
     {"sp_vol_CC", "c.specificVolume"}, {"speedSound_CC", "c.soundSpeed"}, {"mach", "c.mach"}};
 
-/// Variables that nobody computes here.
+/// Variables of Uintah that no task computes here.
 inline const std::vector<std::string> uintahsLabels{"vol_frac_CC",
                                                     "delP_Dilatate",
                                                     "delP_MassX",

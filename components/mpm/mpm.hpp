@@ -4,13 +4,13 @@
 
 namespace tushar::mpm {
 
-/// The methods of this component, each in a module of its own.
+/// The methods of this component, each in a separate module.
 enum class Method { gas, solid, implicitSolid };
 
-/// The method that the <MPM> section of a scene asks for.
+/// The method that the <MPM> section of a scene selects.
 Method methodOf(const input::Element& root);
 
-/// What a method reads, describes and makes: its part of the ComponentKind, whose fields have the same names.
+/// How a method is read, described and made: its part of the ComponentKind, whose fields have the same names.
 struct MethodKind {
   std::function<simulation::MakeComponent(const input::Element& root, input::Diagnostics&)> read;
   std::function<void(std::ostream&)> describe;

@@ -25,13 +25,13 @@ struct Parts {
 
 /// Sends to rank 0 what this rank has packed for each of its patches; see `collect`.
 void sendPatches(const mpi::Communicator& ranks, mpi::Bytes bytes);
-/// Waits for what a rank has sent.
+/// Waits for the message of a rank.
 mpi::Bytes receivePatches(const mpi::Communicator& ranks, int from);
 
-/// Brings what all ranks have of their patches to the first: `pack(patch, bytes)` appends it on a rank that is not the
-/// first, `unpack(patch, first byte)` takes it on the first, and returns how many bytes it has taken. What the first
-/// rank has itself is not copied: there `own(patch)` is called. Rank 0 gets the messages, which hold the bytes.
-/// Every rank calls it.
+/// Sends what each rank has on its patches to rank 0: `pack(patch, bytes)` appends it on a rank that is not the first,
+/// `unpack(patch, first byte)` takes it on the first, and returns how many bytes it has taken. What the first rank has
+/// itself is not copied: there `own(patch)` is called. Rank 0 gets the messages, which hold the bytes. Every rank calls
+/// it.
 template <class Own, class Pack, class Unpack>
 std::vector<mpi::Bytes> collect(const data::Warehouse& warehouse, Own&& own, Pack&& pack, Unpack&& unpack) {
   const grid::Grid& grid = warehouse.grid();

@@ -51,7 +51,7 @@ class ParticleOrder {
       order_.forEachRow(patch.level().number(), row, visit);
     });
   }
-  /// The same with where the particles of the first cell start, and of the cells behind it.
+  /// As above, with the places where the particles of each of these cells start.
   template <class Visit>
   void forEachPiece(const grid::Patch& patch, Visit&& visit) const {
     forEachRowPiece(patch,

@@ -21,9 +21,9 @@ struct BlockId {
   friend std::strong_ordering operator<=>(const BlockId& a, const BlockId& b);
 };
 
-/// Which blocks of a grid are leaves: every cell of the grid is in one of them. A block is refined into two along each
-/// axis. Leaves that touch, over an edge or a corner too, differ by one level at most; along periodic axes, their
-/// images do. A tree never changes: regridding makes another.
+/// The tree of blocks of a grid and its leaves: every cell of the grid is in one of them. A block is refined into two
+/// along each axis. Leaves that touch, over an edge or a corner too, differ by one level at most; along periodic axes,
+/// their images do. A tree never changes: regridding makes another.
 class BlockTree {
  public:
   /// Nothing refined yet. `roots`: blocks of level 0 along the kernel axes (1 beyond `dimension`); `periodic[d]` != 0
@@ -62,7 +62,7 @@ class BlockTree {
   static BlockTree fromKeys(int dimension, const Index3& roots, const Index3& periodic, int levels,
                             const std::vector<std::uint64_t>& keys);
 
-  /// The same grid, levels and leaves.
+  /// Equal grid, levels and leaves.
   friend bool operator==(const BlockTree&, const BlockTree&) = default;
 
  private:

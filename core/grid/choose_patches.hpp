@@ -30,7 +30,7 @@ struct Workers {
 /// more patches along an axis than cells. Along x, where memory is contiguous, it is cut last.
 Index3 choosePatches(const Index3& cells, int count);
 
-/// The patches along x, y, z that `4x2x1` stands for; none for what is not three whole numbers from 1 on.
+/// Parses a layout such as `4x2x1`, patches along x, y, z; none unless it is three positive integers.
 std::optional<Index3> parseLayout(std::string_view text);
 
 }  // namespace tushar::grid

@@ -46,7 +46,7 @@ class Level {
 
   /// 0 for the coarsest.
   int number() const { return number_; }
-  /// The grid that it is a level of, which knows its patches; there must be one.
+  /// The grid to which this level belongs, which has the patches; there must be one.
   const Grid& grid() const { return *grid_; }
   /// The finest level of that grid; this one, where it has no finer ones.
   const Level& finest() const;
@@ -63,7 +63,7 @@ class Level {
   /// The part of a box of cells that lies on the grid or, along periodic axes, on its images.
   Box clipCells(const Box& cells) const { return clip(cells, cells_); }
   Box clipNodes(const Box& nodes) const { return clip(nodes, this->nodes()); }
-  /// What the scene says of the grid, with the cells of this level.
+  /// The scene's description of the grid, with the cells of this level.
   const Domain& domain() const { return domain_; }
 
   /// Cell width along a kernel axis, m.

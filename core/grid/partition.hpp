@@ -12,7 +12,7 @@ struct Share {
   int rank = 0, ranks = 1;
 };
 
-/// Which rank has which patches: each a run of consecutive ones.
+/// The distribution of patches to ranks: each rank has consecutive ones.
 class Partition {
  public:
   /// Shares of as many cells as whole patches allow. Nothing is kept for each rank. Rank 0 has a patch always.

@@ -4,7 +4,7 @@
 
 namespace tushar::grid {
 
-/// Which patches go to which rank: rank r has those from `offsets[r]` to `offsets[r + 1]`.
+/// A distribution of patches to ranks: rank r has those from `offsets[r]` to `offsets[r + 1]`.
 using RankOffsets = std::vector<int>;
 
 /// Gives consecutive patches to `ranks` ranks so that the busiest rank has as little of the `costs` as possible. Rank 0

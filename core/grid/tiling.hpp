@@ -7,7 +7,7 @@
 
 namespace tushar::grid {
 
-/// A patch as a tiling knows it: its number, its level and its cells, counted on that level.
+/// A patch of a tiling: its number, its level and its cells, counted on that level.
 struct Tile {
   int id;
   int level;

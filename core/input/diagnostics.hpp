@@ -16,7 +16,7 @@ class Diagnostics {
   /// A problem of a tag or of its value.
   void error(const Element& element, std::string sentence);
 
-  /// Something that is accepted but does nothing: the user should know.
+  /// Reports something that is accepted but has no effect.
   void note(const Element& element, std::string sentence);
   void note(const Location& where, std::string tagPath, std::string sentence);
   const std::vector<InputProblem>& notes() const { return notes_; }

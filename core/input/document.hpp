@@ -18,7 +18,7 @@ namespace tushar::input {
 /// that the scene as text() gives it finds the file from any folder.
 class Document {
  public:
-  /// Reads a file. Whatever is wrong with it goes to `diagnostics`; the document then has a bare root.
+  /// Reads a file. All problems go to `diagnostics`; the document then has a bare root.
   static Document load(const std::string& path, Diagnostics& diagnostics);
   /// Reads a scene from memory; messages and included files treat it as the file `name`.
   static Document parse(std::string_view text, const std::string& name, Diagnostics& diagnostics);
@@ -36,7 +36,7 @@ class Document {
   Element root() const { return Element(*root_); }
   /// The scene as XML with includes resolved and overrides applied.
   std::string text() const;
-  /// As given to load or parse.
+  /// The path or name given to load or parse.
   const std::string& path() const { return path_; }
 
  private:

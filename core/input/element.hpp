@@ -38,7 +38,7 @@ class Element {
   /// Whether it counts as standing above its siblings (Document::readFirst).
   bool isReadFirst() const { return node_->isReadFirst; }
 
-  /// The same tag of the same document.
+  /// Whether both are the same tag of the same document.
   friend bool operator==(const Element&, const Element&) = default;
 
  private:

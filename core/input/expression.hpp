@@ -32,7 +32,7 @@ class Expression {
   /// Whether it is the same everywhere and always.
   bool isConstant() const { return constant_; }
   bool dependsOnTime() const { return dependsOnTime_; }
-  /// As it was written.
+  /// The formula as written in the scene.
   const std::string& text() const { return text_; }
   /// The tag that it was read from, or the option that overrides it.
   const Location& where() const { return where_; }

@@ -17,7 +17,7 @@
 
 namespace tushar::input {
 
-/// The names of a choice and what each stands for.
+/// The names of a choice and their values.
 template <class E>
 using Choices = std::vector<std::pair<std::string, E>>;
 
@@ -117,7 +117,7 @@ class Schema : public SchemaBase {
     return put(choiceEntry<E>(member, name, choices, sentence));
   }
 
-  /// The same for attributes.
+  /// As above, for attributes.
   template <class T, class... C>
   Schema& attributeValue(std::string name, T S::*member, std::type_identity_t<T> byDefault, std::string unit,
                          std::string sentence, const C&... constraints) {
@@ -203,14 +203,14 @@ class Schema : public SchemaBase {
     return put(std::move(entry));
   }
 
-  /// What may stand in the tags of the last declaration, a custom one, for the schemas of editors; of all of them
-  /// together at least `atLeast` must be given.
+  /// The allowed content of the tags of the last declaration, a custom one, for the schemas of editors; at least
+  /// `atLeast` of these tags must be given in all.
   Schema& forms(std::vector<TagForm> forms, int atLeast = 0) {
     setFormsOfLast(std::move(forms), atLeast);
     return *this;
   }
 
-  /// Keeps where the tag stands or, with the name of an attribute, where that was given.
+  /// Stores the location of the tag or, with the name of an attribute, that of the attribute.
   Schema& location(Location S::*member, std::string attribute = "") {
     addLocate([member, attribute = std::move(attribute)](void* object, const Element& element) {
       static_cast<S*>(object)->*member = element.whereOf(attribute);

@@ -17,7 +17,7 @@ class GlobalFiles {
 
   /// The name of a global's file.
   static std::string nameOf(const std::string& global);
-  /// Adds a line to the file of a global; its first sample makes the file anew. Whether this was the first.
+  /// Adds a line to the file of a global; the first sample replaces the file. Returns whether this was the first.
   bool append(const GlobalSample& sample);
   /// Goes on in the files of these globals, without the lines after `time` [s].
   void resume(const std::vector<std::string>& globals, double time);

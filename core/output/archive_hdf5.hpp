@@ -24,7 +24,7 @@ struct VirtualPart {
   std::vector<std::uint64_t> from{};         ///< where what is shown begins in the dataset; empty: at its start
 };
 
-/// Of real numbers in the file: what the file was opened for, or 8 bytes always.
+/// Precision of real numbers in the file: that with which it was opened, or always 8 bytes.
 enum class Precision { asAsked, full };
 
 /// Writes one HDF5 file. It needs no MPI and never starts it. Each function may throw FileError with the path and the

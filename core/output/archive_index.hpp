@@ -9,7 +9,7 @@
 
 namespace tushar::output {
 
-/// What `index.xml` says of an archive: its variables, globals and outputs.
+/// The contents of `index.xml`: the variables, globals and outputs of an archive.
 class ArchiveIndex {
  public:
   static constexpr const char* rootName = "tushar_archive";

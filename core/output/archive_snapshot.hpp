@@ -12,7 +12,7 @@ namespace tushar::output {
 /// Writes a snapshot as an HDF5 file, first under a temporary name. FileError if it cannot.
 void writeSnapshot(const std::filesystem::path& file, const Snapshot& snapshot, const ArchiveOptions& options);
 
-/// Where a particle array stands in the HDF5 file: `/particles/gas/p.density`.
+/// The path of a particle array in the HDF5 file: `/particles/gas/p.density`.
 std::string pathInFile(const ParticleBlock& block, const Array& array);
 
 /// Where a field stands: `/cells/c.temperature` or `/nodes/gas/g.mass`.

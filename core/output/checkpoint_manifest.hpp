@@ -9,8 +9,8 @@ namespace tushar::output {
 /// hash of the lines before. Everything is then on the disk. FileError if it cannot be written.
 void writeManifest(const std::filesystem::path& folder);
 
-/// What is wrong with a folder that has been given a manifest: which file is missing, shorter, longer or has other
-/// bytes. Empty if it is as it was.
+/// The damage in a folder that has a manifest: which file is missing, shorter, longer or has other bytes. Empty if it
+/// is as it was.
 std::string damageOf(const std::filesystem::path& folder);
 
 }  // namespace tushar::output

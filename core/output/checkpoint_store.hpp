@@ -7,7 +7,7 @@
 
 namespace tushar::output {
 
-/// The folder `checkpoints` of an archive. It knows nothing of what a checkpoint holds.
+/// The folder `checkpoints` of an archive. It does not depend on the contents of a checkpoint.
 ///
 ///     sod.uda.001/checkpoints/LATEST     the name of the newest, `t00050`
 ///                             t00040/    the one before

@@ -7,7 +7,7 @@
 
 namespace tushar::output {
 
-/// What program a run is of, and how it was started.
+/// The program of a run, and how it was started.
 struct RunRecord {
   std::string version, build, commit, compiler, flags;
   std::vector<std::pair<std::string, std::string>> libraries;  ///< name and version

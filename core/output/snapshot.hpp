@@ -20,7 +20,7 @@ class Source {
   virtual void read(std::size_t first, std::size_t count, std::byte* to) const = 0;
 };
 
-/// A named column of numbers, as it goes to the archive.
+/// A named column of numbers, as the archive stores it.
 struct Array {
   std::string label, unit, description;
   int components = 1;  ///< 1 scalar, 3 vector, 9 tensor by rows

@@ -28,7 +28,7 @@ struct Drift {
   std::string unit;
 };
 
-/// What energy came and went over a run, J.
+/// The energy budget of a run, J.
 struct EnergyBudget {
   std::vector<std::pair<std::string, double>> came, went;  ///< names and amounts; work done on others is negative
 
@@ -85,9 +85,9 @@ struct Report {
   std::vector<std::string> unusedOptions;  ///< given to PETSc, which no solve has looked at
 };
 
-/// As JSON: the keys are listed in tools/README.md.
+/// The report as JSON, with the keys that tools/README.md lists.
 std::string toJson(const Report& report);
-/// As a table for a terminal.
+/// The report as a table for a terminal.
 std::string toText(const Report& report);
 
 }  // namespace tushar::report

@@ -19,7 +19,7 @@ class Balance {
  public:
   explicit Balance(int ranks) : ranks_(ranks) {}
 
-  /// What a patch costs at the start, in cells.
+  /// The cost of a patch at the start, in cells.
   static double costOf(std::size_t cells, int particles) {
     return static_cast<double>(cells) + particleCost * particles;
   }

@@ -18,7 +18,7 @@ std::unique_ptr<Component> makeByDimension(const grid::Level& level, const Argum
   return std::make_unique<C<3>>(arguments...);
 }
 
-/// Reads the section that a schema describes from the root of a scene; a missing one is a problem, a second one too.
+/// Reads the section that a schema describes from the root of a scene; a missing one or a second one is a problem.
 template <class S>
 S readSection(const input::Element& root, const input::Schema<S>& schema, input::Diagnostics& diagnostics) {
   const auto sections = root.children(schema.name());
@@ -32,7 +32,7 @@ S readSection(const input::Element& root, const input::Schema<S>& schema, input:
   return schema.read(sections.front(), diagnostics);
 }
 
-/// The same for a section that may be missing: it then has its defaults.
+/// As readSection, but a missing section has its defaults.
 template <class S>
 S readOptionalSection(const input::Element& root, const input::Schema<S>& schema, input::Diagnostics& diagnostics) {
   return root.child(schema.name()) ? readSection(root, schema, diagnostics) : schema.defaults();

@@ -27,7 +27,7 @@ struct SectionForm {
   std::vector<input::Demand> demands = {};  ///< what else it takes for the schema to read it
 };
 
-/// A component that sus knows.
+/// The description of a component that sus can run.
 struct ComponentKind {
   std::string name;                                    ///< the `type` of SimulationComponent
   std::string sentence;                                ///< what it is
@@ -50,7 +50,7 @@ struct ComponentKind {
 /// Builds a module for a component; throws InputError if the two do not go together.
 using MakeAnalysis = std::function<std::unique_ptr<Analysis>(const Component&, const grid::Level&)>;
 
-/// An on-the-fly analysis that sus knows: a `DataAnalysis/Module name=`.
+/// The description of an on-the-fly analysis: a `DataAnalysis/Module name=`.
 struct AnalysisKind {
   std::string name;
   std::string sentence;
@@ -94,7 +94,7 @@ class Catalogue {
   std::vector<std::string> analysisNames() const;
   /// The component of that name, for as long as the catalogue lives; null if there is none. Loads its module.
   const ComponentKind* component(std::string_view name) const;
-  /// As component().
+  /// The analysis of that name, as component().
   const AnalysisKind* analysis(std::string_view name) const;
   /// All in the order of their names; loads all modules.
   std::vector<const ComponentKind*> components() const;

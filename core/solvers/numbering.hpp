@@ -32,7 +32,7 @@ class CellNumbering {
   }
 
  private:
-  /// Patch by patch, so that every rank knows the numbers of all.
+  /// Numbers patch by patch, so that every rank has the numbers of all.
   void numberOwnPatches();
   void numberGhosts(const grid::Patch& patch, const std::vector<int>& firstOf);
 

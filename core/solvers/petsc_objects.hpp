@@ -76,7 +76,7 @@ class PetscMatrix : public Matrix {
     check(MatAssemblyBegin(matrix_, MAT_FINAL_ASSEMBLY));
     check(MatAssemblyEnd(matrix_, MAT_FINAL_ASSEMBLY));
   }
-  /// A becomes S A S with the diagonal S; what multigrid is told goes along.
+  /// Scales A to S A S with the diagonal S, and the near-null space of multigrid with it.
   void scale(Vec s);
   operator Mat() const { return matrix_; }
 

@@ -79,7 +79,7 @@ struct NewtonSettings {
   int maxIterations = 25;
 };
 
-/// Solves systems. There is one, in a library that is loaded when the first scene asks for it.
+/// Solves systems. There is one implementation, in a library that is loaded when a scene first needs it.
 class Solver {
  public:
   virtual ~Solver() = default;

@@ -29,7 +29,7 @@ struct CoarseGhosts {
   grid::Box cells;   ///< of the coarser level
 };
 
-/// What moves between patches so that each has its ghosts, settled once for a layout. Every rank works out its part
+/// The copies and messages between patches that fill ghosts, planned once for a layout. Every rank works out its part
 /// from the geometry: a receiver and a sender list the copies between them in the same order, without a message.
 ///
 /// All of it comes from cells that patches own, so that one round does for all levels.
@@ -41,7 +41,7 @@ struct GhostPlan {
   std::set<int> incoming;                          ///< ranks that others come from
 };
 
-/// Which ghosts a patch needs. Particles and nodes come from patches of the same level only.
+/// The ghosts that a patch needs. Particles and nodes come from patches of the same level only.
 struct GhostReach {
   data::Centring centring;
   int width;

@@ -44,7 +44,7 @@ class Relocation {
   long dropped() const { return dropped_; }
   /// Goes on counting from what another run had dropped.
   void setDropped(long dropped) { dropped_ = dropped; }
-  /// What to try where a particle comes too near to coarser cells.
+  /// Advice for a particle that comes too close to coarser cells.
   void setAdviceNearCoarser(std::string advice) { advice_near_coarser_ = std::move(advice); }
 
  private:
@@ -72,7 +72,7 @@ class Relocation {
 
     friend auto operator<=>(const Escape&, const Escape&) = default;
   };
-  /// What all ranks must know before any continues.
+  /// The outcome that all ranks need before any continues.
   struct Verdict {
     bool hasStopped, hasEscape, goFar;
     int rank;  ///< of the escape
@@ -149,7 +149,7 @@ class Relocation {
   /// Sorts the particles that left their patch: which escaped first, how many left the grid, which go to another rank.
   Verdict gather(Moves& moves, bool hasStopped);
   [[noreturn]] void refuseEscape(int position, const Verdict& verdict) const;
-  /// What a particle did that went where none can be.
+  /// The error for a particle that went where none can be.
   template <int D>
   NumericalError refusal(int position, const Escape& escape) const;
   /// Hands particles over to the patches that they come into.

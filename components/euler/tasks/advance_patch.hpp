@@ -18,7 +18,7 @@ struct Sloped {
   static constexpr int reach = 2;
 };
 
-/// What a block of cells needs on the way, around it too.
+/// Work arrays for a block of cells and the cells around it.
 template <int D>
 struct Work {
   /// Room for blocks of a patch.

@@ -37,7 +37,7 @@ struct HalfSpace {
   std::optional<Vec3> offset;         ///< relative: of the point from the centre of the body (m)
 };
 
-/// What lies on the inner side of all of its planes, or on them.
+/// The points on the inner side of all of its planes, or on them.
 struct Polyhedron : GeometryPiece {
   struct Planes {
     std::vector<HalfSpace> list;

@@ -14,7 +14,7 @@ namespace tushar::input {
 /// Corners of triangles (m).
 using Triangles = std::vector<std::array<Vec3, 3>>;
 
-/// What lies within a closed surface of triangles.
+/// The points within a closed surface of triangles.
 ///
 /// A line along x through the point crosses the surface an odd number of times on one side. Edges that triangles share
 /// are cut in the same way for both, so that no line slips through between them.

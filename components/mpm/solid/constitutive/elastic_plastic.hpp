@@ -179,7 +179,7 @@ struct ElasticPlastic {
     });
     return tags;
   }
-  /// Accepts tags of Uintah that have no effect with radial return, and choices of which one is available.
+  /// Accepts tags of Uintah that have no effect with radial return, and choices with only one available option.
   static void acceptWhatDoesNotMatter(input::Schema<ElasticPlastic>& tags) {
     tags.ignored("tolerance", "the return is exact to round-off")
         .ignored("coeff_thermal_expansion", "the equation of state knows of the temperature")
@@ -209,7 +209,7 @@ struct ElasticPlastic {
                 "nothing comes of it: only none where there is an <erosion>");
   }
 
-  /// What only the yield condition gurson looks at.
+  /// Tags that only the yield condition gurson uses.
   static void declarePores(input::Schema<ElasticPlastic>& tags) {
     using Self = ElasticPlastic;
     tags.value("evolve_porosity", &Self::poresEvolve, true, "1", "of gurson: pores grow, close and open")
@@ -244,7 +244,7 @@ struct ElasticPlastic {
     return {state.plasticStrain, state.strainRate, c.temperature, modulus, c.density, c.meltTemperature};
   }
   const MaxwellDeviator* maxwell() const { return std::get_if<MaxwellDeviator>(&deviatorModel); }
-  /// What a step leaves of the deviator without strain, in the rotated axes, Pa.
+  /// The relaxed deviator after a step without strain, in the rotated axes, Pa.
   Matrix3 oldDeviator(const Corotated& step, const Deformation& d, const State& state) const {
     if (!maxwell()) return deviator(step.stress);
     Matrix3 sum = Matrix3::Zero();

@@ -94,7 +94,7 @@ struct FibreElasticity {
     change.diagonal().array() += bulkModulus * h.trace();
     return change;
   }
-  /// Of the undeformed body, Pa.
+  /// P-wave modulus of the undeformed body, Pa.
   double initialModulus() const {
     const RubberSlopes w = rubberSlopes(3);
     return bulkModulus + 8.0 / 3.0 * (w.byFirst + w.bySecond) + fibreSlope(1);

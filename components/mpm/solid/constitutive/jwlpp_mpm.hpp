@@ -54,9 +54,10 @@ struct JwlppMpm {
     state.growth = state.burned - before;
     return -pressure(state.burned, d.deformationGradient.determinant()) * Matrix3::Identity();
   }
-  /// Of the explosive: J = 1 at the density of the material.
+  /// Wave speed of the unburned explosive, m/s: J = 1 at the density of the material.
   double initialWaveSpeed(double initialDensity) const { return speed(material.density / initialDensity); }
-  /// That of the explosive, also where it has burned, as in Uintah; the products' may be three times as fast.
+  /// Wave speed of the unburned explosive, m/s, even after it has burned, as in Uintah; waves in the products may be
+  /// three times as fast.
   double waveSpeed(double, const Deformation& d, const Matrix3&, const State&) const {
     return speed(d.deformationGradient.determinant());
   }

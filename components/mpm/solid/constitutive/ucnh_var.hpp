@@ -85,7 +85,7 @@ struct UcnhVar {
     state.bElBar = common.bElBar;
     return stress;
   }
-  /// Of the stiffest particles.
+  /// Wave speed of the stiffest particles, m/s.
   double initialWaveSpeed(double initialDensity) const {
     double modulus = 0;
     for (const Entry& entry : table()) modulus = std::max(modulus, entry.bulkModulus + 4.0 / 3.0 * entry.shearModulus);

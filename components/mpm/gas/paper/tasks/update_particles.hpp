@@ -29,7 +29,7 @@ struct CellNodes {
   }
 };
 
-/// What updateParticles reads and writes.
+/// The variables that updateParticles reads and writes.
 template <int D>
 struct ParticleUpdate {
   // Particles at t_n.

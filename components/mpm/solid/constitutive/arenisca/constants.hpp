@@ -8,8 +8,8 @@
 
 namespace tushar::mpm::solid::arenisca {
 
-/// What a scene gives for Arenisca, by the symbols of its publications. Stresses are positive in tension; I1 is the
-/// trace of the stress, J2 the second invariant of its deviator.
+/// The constants of Arenisca in a scene, by the symbols of its publications. Stresses are positive in tension; I1 is
+/// the trace of the stress, J2 the second invariant of its deviator.
 struct Constants {
   double peakI1 = 0;         ///< I1 at the vertex of the yield surface, Pa
   double vertexSlope = 0;    ///< FSLOPE: -d(sqrt J2)/dI1 at the vertex, 1
@@ -46,7 +46,7 @@ struct Constants {
   }
 };
 
-/// Whether the four constants of the limit of strength are one of the forms that YieldSurface knows.
+/// Whether the four constants of the limit of strength have one of the forms that YieldSurface supports.
 inline bool hasLimit(const Constants& c) {
   const bool cone = c.vertexSlope > 0 && c.peakI1 >= 0 && c.strength == 0 && c.pressureSlope == 0;
   const bool cylinder = c.vertexSlope == 0 && c.peakI1 == 0 && c.strength > 0 && c.pressureSlope == 0;
