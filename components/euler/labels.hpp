@@ -4,7 +4,7 @@
 
 namespace tushar::euler {
 
-/// Cell variables. The first three are the state; the others are derived when a scene saves them.
+/// Cell variables. The first three are the state; the others are derived if a scene saves them.
 namespace c {
 inline constexpr CellLabel<double> density{"c.density", "kg/m^3", "mass density"};
 template <int D>

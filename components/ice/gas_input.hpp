@@ -16,7 +16,7 @@ struct Exchange {
   std::vector<double> heat;      ///< W/(m³ K)
 };
 
-/// A gas, as the sections of a scene of Uintah's ICE have it.
+/// A gas as given by the sections of a scene of Uintah's ICE.
 struct GasScene {
   Location where;                         ///< of <CFD>, in the scene
   euler::Settings gas;                    ///< the method, the gas and its state at the start
@@ -29,9 +29,8 @@ struct GasScene {
   std::optional<Exchange> exchange = {};  ///< with other materials
 };
 
-/// Reads <CFD>, <PhysicalConstants>, <MaterialProperties>, but what it has of MPM, and the conditions at the sides of
-/// the grid. Throughout the scene the gas is numbered after the `solids` materials of MPM. Every problem goes to the
-/// diagnostics.
+/// Reads <CFD>, <PhysicalConstants>, <MaterialProperties> except its MPM, and the conditions at the sides of the grid.
+/// Throughout the scene the gas is numbered after the `solids` materials of MPM. Every problem goes to the diagnostics.
 GasScene readGas(const input::Element& root, int solids, input::Diagnostics& diagnostics);
 
 /// The sections that readGas reads or accepts, for a component without further ones.

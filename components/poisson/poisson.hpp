@@ -64,7 +64,7 @@ void solve(const RankPatches& patches, const mpi::Communicator& ranks, const Set
            const std::vector<CellView<const double>>& oldPhi, const std::vector<CellView<double>>& phi,
            const SolveTotals& totals);
 
-/// The entry of this component in the table of sus.
+/// The description of this component for sus.
 simulation::ComponentKind kind();
 
 }  // namespace tushar::poisson

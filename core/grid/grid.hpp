@@ -48,7 +48,7 @@ class Grid {
   const std::set<BlockId>& fixedBlocks() const { return fixed_blocks_; }
   /// The patches that another tree would make.
   std::unique_ptr<BlockTiling> cut(BlockTree tree) const;
-  /// Has other patches from now on, in shares of as many cells as they allow; gives those that there were. What stands
+  /// Replaces the patches, in shares that are as equal in cells as they allow; returns the previous ones. What stands
   /// on patches is the caller's to move: see tasks::regrid.
   std::unique_ptr<Tiling> refine(std::unique_ptr<BlockTiling> tiling);
   /// The patches of this rank, by number.

@@ -68,7 +68,7 @@ class Level {
 
   /// Cell width along a kernel axis, m.
   double spacing(int kernelAxis) const { return spacing_[kernelAxis]; }
-  /// One over the cell width, 1/m: a division saved wherever kernels go from metres to cells.
+  /// One over the cell width, 1/m: saves a division wherever kernels convert metres to cells.
   double inverseSpacing(int kernelAxis) const { return inverse_spacing_[kernelAxis]; }
   /// Cell width along an axis of the scene, m; 0 where the grid has no extent.
   double cellWidth(int axis) const { return (domain_.upper[axis] - domain_.lower[axis]) / domain_.resolution[axis]; }
@@ -81,7 +81,7 @@ class Level {
   /// Position of a node along a kernel axis, m.
   double nodePosition(int kernelAxis, int node) const { return lower_[kernelAxis] + node * spacing(kernelAxis); }
 
-  /// The middle of a cell, m.
+  /// The centre of a cell, m.
   template <int D>
   Vec<D> cellCentre(const Index<D>& cell) const {
     Vec<D> centre;
@@ -99,7 +99,7 @@ class Level {
     return cell;
   }
 
-  /// The cells of the grid near a box in space [m]: at least all that it reaches.
+  /// The cells of the grid near a box in space [m]: at least all that it touches.
   Box cellsNear(const Vec3& lower, const Vec3& upper) const;
   /// The axes that are left out: `y, z`, or nothing.
   std::string axesLeftOut() const;
@@ -166,7 +166,7 @@ class Level {
   }
   bool isPeriodic(int kernelAxis) const { return domain_.periodic[axis(kernelAxis)] != 0; }
   bool isPeriodic() const { return is_periodic_; }
-  /// How far apart the images of a point are along a kernel axis, m.
+  /// The period along a kernel axis, m.
   double period(int kernelAxis) const {
     return nodePosition(kernelAxis, cells_.upper[kernelAxis]) - nodePosition(kernelAxis, 0);
   }

@@ -41,7 +41,7 @@ bool satisfies(const VectorExpression& value, const Constraint& constraint);
 inline bool satisfies(const Expression& value, const WithoutTime&) { return !value.dependsOnTime(); }
 inline bool satisfies(const VectorExpression& value, const WithoutTime&) { return !value.dependsOnTime(); }
 
-/// `found '-1', expected a value greater than 0 m`; the unit "1" is not said.
+/// `found '-1', expected a value greater than 0 m`; the unit "1" is omitted.
 std::string violation(const std::string& found, const Constraint& constraint, const std::string& unit);
 std::string violation(const std::string& found, const WithoutTime& constraint, const std::string& unit);
 

@@ -8,7 +8,7 @@
 
 namespace tushar::input {
 
-/// Collects everything wrong with a scene, so that the user sees all of it at once.
+/// Collects all problems of a scene, so that the user sees them at once.
 class Diagnostics {
  public:
   /// `tagPath` may be empty.
@@ -23,7 +23,7 @@ class Diagnostics {
 
   bool any() const { return !problems_.empty(); }
   std::size_t size() const { return problems_.size(); }
-  /// Grouped by file in the order in which files were first complained of, then by line and column.
+  /// All problems, grouped by file in the order of each file's first problem, then by line and column.
   std::vector<InputProblem> sorted() const;
   /// Throws InputError with all problems, sorted, if there is any.
   void throwIfAny() const;

@@ -10,7 +10,7 @@
 
 namespace tushar::input {
 
-/// A scene file as a tree of tags that remember where they stand.
+/// A scene file as a tree of tags with their locations.
 ///
 /// `<include href="other.xml" section="A/B"/>` is replaced by that section of the other file, its tag included (by what
 /// is below the root where no section is given; by what is below the tag with `excludeSectionTag="true"`). `href` is
@@ -28,8 +28,8 @@ class Document {
   /// created. What is overridden is from then on at the location `--set PATH=VALUE`.
   void set(const std::string& change, Diagnostics& diagnostics);
 
-  /// From now on the tags at `path`, such as `MaterialProperties/MPM`, count as standing above their siblings: these
-  /// can refer to labels in them, wherever they stand.
+  /// Makes the tags at `path`, such as `MaterialProperties/MPM`, count as if they were above their siblings, which can
+  /// then refer to labels in them.
   void readFirst(std::string_view path);
 
   /// `<Uintah_specification>`.

@@ -29,7 +29,7 @@ class Expression {
   static Parsed<Expression> parse(std::string_view text);
 
   double operator()(const Vec3& x, double t = 0) const { return constant_ ? value_ : evaluate(x, t); }
-  /// Whether it is the same everywhere and always.
+  /// Whether it is constant in space and time.
   bool isConstant() const { return constant_; }
   bool dependsOnTime() const { return dependsOnTime_; }
   /// The formula as written in the scene.

@@ -175,7 +175,7 @@ class Schema : public SchemaBase {
     return put(std::move(entry));
   }
 
-  /// A tag (with all that is in it) that is accepted and means nothing here; `sentence` says why.
+  /// A tag (with its content) that is accepted but has no effect; `sentence` says why.
   Schema& ignored(const std::string& name, const std::string& sentence) { return put(ignoredEntry(name, sentence)); }
   Schema& ignoredAttribute(const std::string& name, const std::string& sentence) {
     return put(attribute(ignoredEntry(name, sentence)));
@@ -188,8 +188,8 @@ class Schema : public SchemaBase {
     return put(attribute(std::move(entry)));
   }
 
-  /// Reads what declarations cannot say. `read` is called once with the element of *this* schema, whether or not any
-  /// of the tags that it `takes` over (`name` itself if none are listed) is given.
+  /// Reads what declarations cannot express. `read` is called once with the element of *this* schema, whether or not
+  /// any of the tags that it `takes` over (`name` itself if none are listed) is given.
   Schema& custom(const std::string& name, std::function<void(S&, const Element&, Diagnostics&)> read,
                  std::vector<std::string> takes, const std::string& sentence,
                  std::function<void(std::ostream&, int)> describeBelow = {}) {

@@ -81,7 +81,7 @@ class CellSystem {
     for (std::size_t k = 0; k < left.count; ++k) columns[k] = number_(left.cells[k]);
     matrix.add({columns.data(), 1}, {columns.data(), left.count}, {left.weights.data(), left.count});
   }
-  /// The middle of the cell with a number, m; none for one of another rank.
+  /// The centre of the cell with a number, m; none for one of another rank.
   std::optional<Vec3> middleOf(int wanted) const {
     std::optional<Vec3> middle;
     forEachCell([&](std::size_t p, const Index<D>& cell) {

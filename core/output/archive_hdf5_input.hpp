@@ -25,7 +25,7 @@ class Hdf5Input {
   std::vector<std::string> names(const std::string& group) const;
   /// The numbers of a dataset, whatever its shape, as they were written.
   Array::Values dataset(const std::string& name) const;
-  /// Where a dataset stands.
+  /// The place of a dataset in the file.
   struct Placed {
     Array::Values type;        ///< no values, of the type that it has
     std::size_t count = 0;     ///< of numbers, whatever the shape

@@ -29,7 +29,7 @@ class CheckpointStore {
 
   /// The folder of a step's checkpoint.
   std::filesystem::path folder(int step) const;
-  /// Steps of the checkpoints that there are, whole or not, ascending.
+  /// Steps of the existing checkpoints, intact or not, ascending.
   std::vector<int> steps() const;
   /// The step that LATEST names, or the last that there is where LATEST says nothing; -1 where there are none.
   int latest() const;

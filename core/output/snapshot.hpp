@@ -11,7 +11,7 @@
 
 namespace tushar::output {
 
-/// Makes the values of an array while they are written, so that they are never in memory all at once.
+/// Produces the values of an array while they are written, so that they are never all in memory.
 class Source {
  public:
   virtual ~Source() = default;
@@ -27,7 +27,7 @@ struct Array {
   using Values = std::variant<std::vector<double>, std::vector<std::uint64_t>, std::vector<std::int32_t>>;
   /// Entry by entry: values[entry * components + k].
   Values values;
-  /// Where it is set, it has the values, and `values` has their type alone.
+  /// If set, it has the values, and `values` has only their type.
   std::shared_ptr<const Source> source{};
 
   /// Number of particles, cells, nodes or rows that have a value.

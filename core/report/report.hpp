@@ -32,9 +32,9 @@ struct Drift {
 struct EnergyBudget {
   std::vector<std::pair<std::string, double>> came, went;  ///< names and amounts; work done on others is negative
 
-  /// The energy that came and is not accounted for.
+  /// The energy that is not accounted for.
   double unaccounted() const;
-  /// The greatest amount: what `unaccounted` is small or great against.
+  /// The greatest amount, the scale for `unaccounted`.
   double greatest() const;
 };
 

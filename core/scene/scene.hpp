@@ -26,7 +26,7 @@ void describeSharedSections(std::ostream& out, const simulation::Catalogue& cata
 simulation::TimeSettings readTime(const input::Element& section, input::Diagnostics& diagnostics);
 /// The `DataArchiver` section.
 simulation::ArchiveSettings readArchive(const input::Element& section, input::Diagnostics& diagnostics);
-/// The `AMR` section, before it is known what grid it is about.
+/// The `AMR` section, read before the grid is known.
 struct AmrSettings {
   simulation::RegridSettings regrid;
   std::optional<int> maxLevels;               ///< with the coarsest

@@ -15,7 +15,7 @@ namespace tushar::simulation {
 using report::EnergyTerm;
 using report::MeasuredError;
 
-/// A `DataAnalysis/Module`: it looks at the state of a run through diagnostic tasks.
+/// A `DataAnalysis/Module`: it measures the state of a run by diagnostic tasks.
 class Analysis {
  public:
   virtual ~Analysis() = default;
@@ -27,11 +27,11 @@ class Analysis {
   virtual std::vector<MeasuredError> errors() const { return {}; }
   /// The terms of the energy budget, which the report adds up.
   virtual std::vector<EnergyTerm> energies() const { return {}; }
-  /// Why errors mean nothing at the time that is set, in a sentence; empty where they do.
+  /// Why errors have no meaning at the time that is set, in a sentence; empty if they have.
   virtual std::string whyUnmeasured() const { return {}; }
   /// Variables that sample() needs, and where the scene names them.
   virtual std::vector<SaveRequest> samples() const { return {}; }
-  /// The layers of the grid in which it wants to see them, without particles; where there are none: all.
+  /// The layers of the grid in which sample() needs them, without particles; if there are none, everywhere.
   virtual std::vector<collect::Layer> layers() const { return {}; }
   /// Whether sample() is to be called after this step, at the time that is set.
   virtual bool isSampleDue(int /*step*/) const { return false; }

@@ -73,13 +73,13 @@ std::vector<std::string> namesOf(const std::vector<Kind>& kinds) {
   return names;
 }
 
-/// A shared library of components and analyses, and what it has by name; loaded when one of them is first asked for.
+/// A shared library of components and analyses, with their names; loaded when one of them is first needed.
 struct Module {
   std::string name;
   std::vector<std::string> components, analyses;
 };
 
-/// Everything that a scene can pick.
+/// The components and analyses that a scene can select.
 class Catalogue {
  public:
   Catalogue() = default;
@@ -87,7 +87,7 @@ class Catalogue {
 
   /// Adds what another catalogue has, but modules. Throws std::invalid_argument if a name is taken.
   void add(const Catalogue& other);
-  /// `load` brings what the module has. Throws std::invalid_argument if a name is taken.
+  /// `load` returns the contents of the module. Throws std::invalid_argument if a name is taken.
   void addModule(Module module, std::function<Catalogue()> load);
 
   std::vector<std::string> componentNames() const;
@@ -102,7 +102,7 @@ class Catalogue {
 
  private:
   using LoadModule = std::function<Catalogue()>;
-  /// A kind that is there, or the module that brings it.
+  /// A kind, or the module that provides it.
   template <class Kind>
   using Entries = std::map<std::string, std::variant<Kind, std::shared_ptr<LoadModule>>, std::less<>>;
 

@@ -27,7 +27,7 @@ class Checkpoints {
 
   /// Wall time spent writing, s.
   double seconds() const { return seconds_; }
-  /// By how much that has raised the peak of this rank's memory, bytes.
+  /// The increase of this rank's peak memory by writing, bytes.
   double memory() const { return memory_; }
 
  private:

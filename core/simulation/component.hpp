@@ -19,8 +19,8 @@ class Component {
 
   /// The state at the start of a run: `computes` and `newParticles` tasks.
   virtual void scheduleInitialize(tasks::TaskList& tasks) const = 0;
-  /// From the old state, lower `delT` to what the next step may take. A method that is stable with any step adds no
-  /// task: then `Time` alone limits the steps.
+  /// Limits `delT` for the next step, from the old state. A method that is stable with any step adds no task: then
+  /// `Time` alone limits the steps.
   virtual void scheduleComputeStableTimeStep(tasks::TaskList&) const {}
   /// One step, from the old state to a new one.
   virtual void scheduleTimeAdvance(tasks::TaskList& tasks) const = 0;

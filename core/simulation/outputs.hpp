@@ -36,7 +36,7 @@ class Outputs {
   /// As above for a checkpoint; if there is an archive, with its current extent.
   output::ArchivePoint sync();
 
-  /// Passes the output times up to now.
+  /// Skips the output times up to now.
   void passMilestones() { times_.pass(run_.time.time()); }
   /// The next output time, s; infinity if the scene gives no interval.
   double nextTime() const { return times_.next(); }
@@ -46,7 +46,7 @@ class Outputs {
   output::Archive* archive() const { return archive_.get(); }
   /// Wall time spent collecting and writing, s.
   double seconds() const { return seconds_; }
-  /// By how much that has raised the peak of this rank's memory, bytes.
+  /// The increase of this rank's peak memory by collecting and writing, bytes.
   double memory() const { return memory_; }
 
  private:

@@ -12,7 +12,7 @@
 
 namespace tushar::simulation {
 
-/// The task lists of a run, compiled against each other: what a later one reads, an earlier one must leave behind.
+/// The task lists of a run, compiled against each other: an earlier one must provide what a later one reads.
 ///
 /// The diagnostics are compiled four times from one list, each time for what is asked for then: the totals at the
 /// start, the globals saved in every step, the derived fields of an output, the totals and errors of the report.

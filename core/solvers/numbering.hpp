@@ -7,9 +7,8 @@
 
 namespace tushar::solvers {
 
-/// Gives each cell that a rank deals with its number in a global system, as Unknowns wants it: its own cells, then
-/// those of other ranks that share a face with them. On one rank the order is lexicographic, so that the patches do not
-/// matter.
+/// Numbers the cells of a rank in a global system, as Unknowns requires: its own cells, then those of other ranks that
+/// share a face with them. On one rank the order is lexicographic, so that the patches do not matter.
 class CellNumbering {
  public:
   explicit CellNumbering(const grid::Level& level) : level_(&level) {

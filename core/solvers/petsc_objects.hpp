@@ -51,7 +51,7 @@ class PetscOptionsOfSolve {
   PetscOptionsOfSolve& operator=(const PetscOptionsOfSolve&) = delete;
   ~PetscOptionsOfSolve();
 
-  /// The options of all solves so far that neither one of them nor PETSc's own start has looked at.
+  /// The options of all solves so far that neither a solve nor the start of PETSc has used.
   static std::vector<std::string> unused();
 
  private:
@@ -108,7 +108,7 @@ class Balance {
   OwnedVec s_, b_;
 };
 
-/// A vector over numbers that somebody else holds: those of the owned unknowns.
+/// A vector over numbers in foreign memory: those of the owned unknowns.
 class PetscVector {
  public:
   PetscVector(const Unknowns& unknowns, std::span<double> values);

@@ -144,7 +144,7 @@ OptionalAccess<FieldAccess<Label, Kind>> when(bool on, FieldAccess<Label, Kind> 
   return {on, access};
 }
 
-/// An output that a task computes only where something reads it; see `offers`.
+/// An output that a task computes only if something reads it; see `offers`.
 template <class Access>
 struct OfferedAccess {
   Access access;
@@ -154,7 +154,7 @@ struct OfferedAccess {
     return context.isWanted(access.index) ? std::optional(access.bind(context)) : std::nullopt;
   }
 };
-/// An output that costs something and that only some scenes want: as `computes` where a later task, another list or the
+/// An output that is costly and that only some scenes need: as `computes` where a later task, another list or the
 /// scene's outputs read it, else not allocated. The body gets a std::optional view.
 template <data::Centring C, class T>
 OfferedAccess<FieldAccess<data::FieldLabel<C, T>, AccessKind::computes>> offers(const data::FieldLabel<C, T>& label) {

@@ -23,7 +23,7 @@ struct GhostCopy {
   int axis = 0, side = 0;  ///< of that piece
 };
 
-/// Ghosts of a patch that stand in coarser cells: they are interpolated from these and those around them.
+/// Ghosts of a patch that lie in coarser cells: they are interpolated from these and those around them.
 struct CoarseGhosts {
   grid::Box ghosts;  ///< cells of the patch's level
   grid::Box cells;   ///< of the coarser level
@@ -60,7 +60,7 @@ GhostPlan planGhosts(const grid::Grid& grid, const GhostReach& reach);
 /// Nodes that patches of this rank have and do not own, by patch: each from one that does.
 std::vector<std::vector<GhostCopy>> planFaces(const grid::Grid& grid);
 
-/// The plans of a layout, each made when it is asked for.
+/// The plans of a layout, each made when it is first needed.
 class GhostPlans {
  public:
   const GhostPlan& of(const grid::Grid& grid, GhostReach reach);

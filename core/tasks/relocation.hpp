@@ -22,7 +22,7 @@ class Relocation {
  public:
   Relocation(data::Warehouse& warehouse, Threads& threads) : warehouse_(&warehouse), threads_(&threads) {}
 
-  /// Finds out where the particles of a material belong by the new values of `position`. Those that left through a
+  /// Finds the new cells of a material's particles from the new values of `position`. Those that left through a
   /// periodic face come in at the opposite one; those that left through a free face are to be dropped.
   ///
   /// All ranks run it together. False if one of them has stopped before: then nothing is done on any.
@@ -42,7 +42,7 @@ class Relocation {
   void commit() { dropped_ += std::exchange(leaving_, 0); }
   /// Particles that have left the grid from this rank since the start.
   long dropped() const { return dropped_; }
-  /// Goes on counting from what another run had dropped.
+  /// Continues the count from that of another run.
   void setDropped(long dropped) { dropped_ = dropped; }
   /// Advice for a particle that comes too close to coarser cells.
   void setAdviceNearCoarser(std::string advice) { advice_near_coarser_ = std::move(advice); }
@@ -166,7 +166,7 @@ class Relocation {
   /// Moves the particles that stay to their new places, and inserts those that arrive.
   void moveOn(const Move& move, std::size_t place, Moves& moves);
 
-  /// Whether a cell of the finest level is too near to coarser ones for a particle that comes from a patch.
+  /// Whether a cell of the finest level is too close to coarser ones for a particle that comes from a patch.
   bool isNearCoarser(const grid::Patch& from, const Index3& cell) const;
 
   data::Warehouse* warehouse_;

@@ -16,7 +16,7 @@ struct DiffusionRims {
   }
 };
 
-/// Adds what viscosity and heat conduction change in a step, from the state at its start [kg/m³, kg/(m² s), J/m³].
+/// Adds the change by viscosity and heat conduction in a step, from the state at its start [kg/m³, kg/(m² s), J/m³].
 ///
 /// Through a face across d flow -tau_d of momentum and -(tau_d . v + k dT/dx_d) of energy, tau = mu (grad v +
 /// (grad v)^T - 2/3 div v I): Newton's and Fourier's laws, by centred differences. What leaves a cell enters its
