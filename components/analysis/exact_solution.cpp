@@ -51,13 +51,13 @@ struct Settings {
 
 const Schema<Settings>& schema() {
   static const Schema<Settings> schema =
-      Schema<Settings>("Module", "Errors of a variable against a formula, in the middle of cells or at nodes.")
+      Schema<Settings>("Module", "Errors of a variable against a formula, at the centres of cells or at nodes.")
           .requiredAttribute("name", &Settings::name, "1", "exactSolution")
           .required("label", &Settings::label, "1",
                     "a variable of cells (c.) or nodes (g.) that belongs to no material")
           .ours()
           .optionalChoice("component", &Settings::component, {{"x", 0}, {"y", 1}, {"z", 2}},
-                          "which one, of a variable that is a vector")
+                          "the component of a vector variable")
           .ours()
           .required("value", &Settings::value, "SI unit of the variable", "its exact value")
           .ours();

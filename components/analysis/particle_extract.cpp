@@ -61,7 +61,7 @@ const Schema<Settings>& settingsSchema() {
           .requiredAttribute("name", &Settings::name, "1", "particleExtract")
           .location(&Settings::where)
           .value("material", &Settings::material, "", "1",
-                 "name of the material whose particles are looked at; the first")
+                 "name of the material whose particles are written; the first")
           .required("samplingFrequency", &Settings::frequency, "1/s", "samples per second of simulated time",
                     input::positive())
           .required("timeStart", &Settings::start, "s", "no sample before")

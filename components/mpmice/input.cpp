@@ -122,7 +122,7 @@ simulation::ComponentKind kind(bool areRigid) {
   simulation::ComponentKind kind;
   kind.name = areRigid ? "rmpmice" : "mpmice";
   kind.sentence = areRigid ? "a compressible gas around bodies of particles that move as they started"
-                           : "a compressible gas and bodies of particles that act on each other";
+                           : "a compressible gas and bodies of particles, which interact";
   kind.sections = ice::gasSections();
   kind.sections.insert(kind.sections.end(), {"MPM", "PhysicalBC"});
   kind.amrSections = {"ICE", "MPM", "MPMICE"};

@@ -126,7 +126,7 @@ Kind fromFile(const std::string& name, const std::string& sentence, const std::s
 
 Kind surface() {
   return fromFile(
-      "tri", "What lies within a closed surface of triangles.",
+      "tri", "The inside of a closed surface of triangles.",
       "a file beside the scene: STL (text or binary) if it ends in .stl, else what NAME.pts, a point `x y z` a line, "
       "and NAME.tri, three numbers of points (from 0) a line, hold together",
       [](const std::string& path, const Element& tag, Diagnostics& diagnostics) -> PiecePtr {
@@ -158,11 +158,11 @@ const std::vector<Kind>& kinds() {
       polygon(),
       simple<Polyhedron>(),
       simple<SmoothCylinder>(),
-      combined(operandsSchema("union", "What is in any of its shapes.", false),
+      combined(operandsSchema("union", "The union of its shapes.", false),
                [](std::vector<PiecePtr> pieces) { return std::make_shared<Union>(std::move(pieces)); }),
-      combined(operandsSchema("difference", "What is in its first shape but not in its second.", true),
+      combined(operandsSchema("difference", "The points in its first shape but not in its second.", true),
                [](std::vector<PiecePtr> pieces) { return std::make_shared<Difference>(pieces[0], pieces[1]); }),
-      combined(operandsSchema("intersection", "What is in all of its shapes.", false),
+      combined(operandsSchema("intersection", "The intersection of its shapes.", false),
                [](std::vector<PiecePtr> pieces) { return std::make_shared<Intersection>(std::move(pieces)); })};
   return all;
 }

@@ -111,8 +111,8 @@ const Schema<VariableTag>& variableSchema() {
                             {"above", Indicator::above},
                             {"below", Indicator::below}},
                            Indicator::jump,
-                           "the indicator: half the difference of the cells to both sides over the least size of the "
-                           "three, for what stays away from 0, as it is infinite beside 0; Löhner's second "
+                           "the indicator: half the difference of the neighbours over the least magnitude of the three "
+                           "cells, for quantities that stay away from 0, where it is infinite; Löhner's second "
                            "difference, from 0 to 1; the gradient, unit of the variable over m, which is Uintah's; "
                            "the value itself")
           .ours()
@@ -127,7 +127,7 @@ const Schema<VariableTag>& variableSchema() {
 const Schema<CriteriaSection>& criteriaSchema() {
   static const Schema<CriteriaSection> schema =
       Schema<CriteriaSection>("Refinement_Criteria_Thresholds",
-                              "Where finer cells are wanted; of several reasons the one for the finest counts.")
+                              "Where finer cells are needed; of several reasons, the one for the finest cells decides.")
           .list("Variable", &CriteriaSection::variables, variableSchema(), "a reason for finer cells", 1);
   return schema;
 }
@@ -137,7 +137,7 @@ const Schema<ThresholdsSection>& thresholdsSchema() {
     Schema<ThresholdsSection> section("component", "How a component runs on several levels.");
     section
         .value("do_Refluxing", &ThresholdsSection::refluxes, true, "1",
-               "what leaves coarse cells is what enters finer ones, to round-off; without, totals drift")
+               "the flux out of coarse cells equals that into finer ones, to round-off; otherwise totals drift")
         .section("Refinement_Criteria_Thresholds", &ThresholdsSection::criteria, criteriaSchema());
     const std::string order = "values between levels are of second order";
     input::noteTag(section, "orderOfInterpolation", order);
@@ -153,11 +153,12 @@ const Schema<ThresholdsSection>& thresholdsSchema() {
 
 void noteOldRegridderTags(Schema<RegridderSection>& section) {
   input::noteTag(section, "max_timestep_interval", "every regrid is due by <min_timestep_interval>");
-  const std::string buffer = "<cell_stability_dilation> alone widens what is refined, by what signals cross besides";
+  const std::string buffer =
+      "<cell_stability_dilation> alone widens the refined region, besides the distance that signals travel";
   for (const char* tag :
        {"cell_regrid_dilation", "cell_deletion_dilation", "min_boundary_cells", "dynamic_dilation", "max_dilation"})
     input::noteTag(section, tag, buffer);
-  const std::string cost = "when and what is refined does not depend on what it costs";
+  const std::string cost = "the refinement does not depend on its cost";
   for (const char* tag : {"amr_overhead_low", "amr_overhead_high"}) input::noteTag(section, tag, cost);
   input::noteTag(section, "patches_per_level_per_proc", "patches are boxes of blocks; -layout sets how many");
 }
@@ -170,8 +171,8 @@ const Schema<RegridderSection>& regridderSchema() {
                          "Uintah's ways to choose patches; both mean blocks here")
         .elsewhere("SingleLevel", "patches of one level are chosen by <patches> of its Box, or -layout")
         .optional("adaptive", &RegridderSection::adaptive, "1",
-                  "whether what is refined follows the state; where it is left out, whether there is a <Variable>. "
-                  "Without one, euler takes jumps above 0.02 of c.density, c.pressure and c.mach; mpm needs none, as "
+                  "whether the refinement follows the state; by default, whether there is a <Variable>. Without one, "
+                  "euler takes jumps above 0.02 of c.density, c.pressure and c.mach; mpm needs none, as "
                   "the finest level follows its particles")
         .value("regrid_once", &RegridderSection::once, false, "1", "only at the start")
         .optional("max_levels", &RegridderSection::maxLevels, "1",
@@ -181,13 +182,13 @@ const Schema<RegridderSection>& regridderSchema() {
         .optional("cell_refinement_ratio", &RegridderSection::ratios, "1",
                   "2 along each axis that the grid uses, for all levels", input::atLeast(1))
         .optional("min_patch_size", &RegridderSection::blocks, "1",
-                  "cells of a block, of which all are finer or none: an even number from 4 on that divides the "
+                  "cells of a block, which is refined as a whole: an even number from 4 on that divides the "
                   "resolution, the same for all levels; without it the greatest up to 8, in one dimension 16",
                   input::atLeast(1))
-        .value("min_timestep_interval", &RegridderSection::interval, 8, "1",
-               "steps from one look at what is refined to the next", input::atLeast(1))
+        .value("min_timestep_interval", &RegridderSection::interval, 8, "1", "steps from one regridding to the next",
+               input::atLeast(1))
         .value("cell_stability_dilation", &RegridderSection::dilation, Index3::filled(1), "1",
-               "cells that are refined around those that signals can reach until the next look; the greatest of the "
+               "cells to refine around those that signals can reach until the next regridding; the greatest of the "
                "three holds along all axes",
                input::nonNegative());
     input::refuseOtherValues(section, "simple_refinement_ratio", {"2"}, "give one more level instead");
@@ -211,8 +212,7 @@ Schema<AmrSection> makeAmrSchema(const std::vector<std::string>& names) {
       for (const Element& given : element.children(name)) read.components.push_back(readThresholds(given, diagnostics));
   };
   section.ignoredAttribute("type", "a grid is adaptive where <Regridder> says so")
-      .value("useLockStep", &AmrSection::usesLockStep, true, "1",
-             "all levels take the same time step, as they always do")
+      .value("useLockStep", &AmrSection::usesLockStep, true, "1", "all levels take the same time step; always true")
       .section("Regridder", &AmrSection::regridder, regridderSchema());
   if (!names.empty()) {
     input::TagForm form = input::sectionForm(names, [] {

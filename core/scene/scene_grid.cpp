@@ -59,7 +59,7 @@ void errorOf(const std::string& attribute, const Element& element, const std::st
 }
 
 Schema<ConditionSection> conditionTag() {
-  return Schema<ConditionSection>("BCType", "What a variable does at a face.")
+  return Schema<ConditionSection>("BCType", "The condition for a variable at a face.")
       .attributeValue("id", &ConditionSection::id, "all", "1", "number of the material that it holds for, or all");
 }
 
@@ -101,9 +101,9 @@ struct GridTags {
                                           {{"x-", 0}, {"x+", 1}, {"y-", 2}, {"y+", 3}, {"z-", 4}, {"z+", 5}}, "which")
                  .list("BCType", &FaceSection::conditions, condition, "what a variable does there")),
         faces(Schema<FacesSection>("BoundaryConditions",
-                                   "What happens at the sides of the grid; a side that is not named is free.")
+                                   "The conditions at the sides of the grid; a side that is not named is free.")
                   .list("Face", &FacesSection::faces, face, "a side")),
-        grid(Schema<GridSection>("Grid", "The grid and what happens at its sides.")
+        grid(Schema<GridSection>("Grid", "The grid and the conditions at its sides.")
                  .ignoredAttribute("doAMR", "a grid is refined where it has several levels")
                  .section("BoundaryConditions", &GridSection::boundaries, faces)
                  .list("Level", &GridSection::levels, levelSchema(),

@@ -25,10 +25,10 @@ const Schema<GridBox>& boxSchema() {
               "patches", &GridBox::patches, "1",
               "patches along x, y, z; where neither this nor autoPatch is given, as many as the threads and ranks need",
               input::atLeast(1))
-          .optional("autoPatch", &GridBox::autoPatch, "1", "about how many patches to make, in place of patches",
+          .optional("autoPatch", &GridBox::autoPatch, "1", "approximate number of patches, in place of patches",
                     input::atLeast(1))
           .value("extraCells", &GridBox::extraCells, Index3{}, "1",
-                 "accepted for Uintah's sake: what a shape function needs around the grid follows from it",
+                 "accepted for Uintah's sake: the shape function determines the extra cells around the grid",
                  input::nonNegative())
           .check([](const GridBox& box, const Element& element, Diagnostics& diagnostics) {
             if (box.patches && box.autoPatch) diagnostics.error(element, "gives both patches and autoPatch; keep one");
@@ -45,7 +45,7 @@ const Schema<GridBox>& boxSchema() {
 const Schema<LevelSection>& levelSchema() {
   static const Schema<LevelSection> schema =
       Schema<LevelSection>(
-          "Level", "A grid of cells of one size; a further one has boxes in which the grid is at least so fine.")
+          "Level", "A grid of cells of one size; each further Level has boxes in which the grid is at least as fine.")
           .list("Box", &LevelSection::boxes, boxSchema(),
                 "the box that is divided into cells; of further Levels any number, each grown to whole "
                 "blocks (see AMR/Regridder/min_patch_size)",

@@ -37,7 +37,7 @@ const Schema<TimeSettings>& timeSchema() {
                  input::nonNegative())
           .value("delt_init", &TimeSettings::deltInit, unlimited, "s", "greatest first time step", input::positive())
           .value("max_delt_increase", &TimeSettings::maxDeltIncrease, unlimited, "1",
-                 "by how much of the one before a time step may be longer; 0 or less is no limit")
+                 "greatest relative growth of the time step from one step to the next; 0 or less is no limit")
           .value("timestep_multiplier", &TimeSettings::timestepMultiplier, 1, "1",
                  "factor on the time step that the physics allow", input::positive())
           .value("max_Timesteps", &TimeSettings::maxTimesteps, std::numeric_limits<int>::max(), "1",
@@ -48,9 +48,8 @@ const Schema<TimeSettings>& timeSchema() {
                  "shorten the last step so that it ends at maxTime")
           .value("clamp_time_to_output", &TimeSettings::clampTimeToOutput, false, "1",
                  "shorten steps so that outputs are at multiples of outputInterval")
-          .value(
-              "recompute_timestep", &TimeSettings::recomputeTimeStep, false, "1",
-              "where a value becomes impossible, undo the step and repeat it with half the time step, up to 20 times")
+          .value("recompute_timestep", &TimeSettings::recomputeTimeStep, false, "1",
+                 "if a value becomes impossible, undo the step and repeat it with half the time step, up to 20 times")
           .ours()
           .value("initial_delt_range", &TimeSettings::initialDeltRange, 0, "s",
                  "time up to which delt_init holds; the first step at least", input::nonNegative())

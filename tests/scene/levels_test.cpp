@@ -317,8 +317,8 @@ TEST(Regridder, NotesWhatOfUintahsDoesNothing) {
       found.notes,
       (Strings{
           "AMR/Regridder/max_timestep_interval: does nothing: every regrid is due by <min_timestep_interval>",
-          "AMR/Regridder/min_boundary_cells: does nothing: <cell_stability_dilation> alone widens what is "
-          "refined, by what signals cross besides",
+          "AMR/Regridder/min_boundary_cells: does nothing: <cell_stability_dilation> alone widens the refined region, "
+          "besides the distance that signals travel",
           "AMR/ICE/orderOfInterpolation: does nothing: values between levels are of second order",
           "AMR/useLockStep: all levels take the same time step: smaller steps on finer levels are not available yet"}));
 }

@@ -24,7 +24,7 @@ const Schema<Redistribution>& redistributeSchema() {
           .value("max_particles", &Redistribution::maxParticles, 16, "1", "greatest number in a cell",
                  input::positive())
           .ours()
-          .value("target_particles", &Redistribution::targetParticles, 4, "1", "number in a cell that is seeded anew",
+          .value("target_particles", &Redistribution::targetParticles, 4, "1", "number in a reseeded cell",
                  input::positive())
           .ours()
           .check([](const Redistribution& r, const Element& element, Diagnostics& diagnostics) {

@@ -55,7 +55,7 @@ std::unique_ptr<simulation::Analysis> makeModule(const Component& component, con
 
 simulation::AnalysisKind energyBudgetKind() {
   return simulation::plainModule("energyBudget", "where the energy of solids came from and where it went",
-                                 "Where the energy of solids came from and where it went, in the report.", makeModule);
+                                 "The energy budget of solids in the report.", makeModule);
 }
 
 }  // namespace tushar::mpm::solid

@@ -182,7 +182,7 @@ struct ElasticPlastic {
   /// Accepts tags of Uintah that have no effect with radial return, and choices with only one available option.
   static void acceptWhatDoesNotMatter(input::Schema<ElasticPlastic>& tags) {
     tags.ignored("tolerance", "the return is exact to round-off")
-        .ignored("coeff_thermal_expansion", "the equation of state knows of the temperature")
+        .ignored("coeff_thermal_expansion", "the equation of state includes the temperature")
         .ignored("critical_stress", "Uintah does not read it either")
         .ignored("isothermal", "Uintah does not read it either")
         .ignored("check_failure", "Uintah does not read it either")
@@ -206,7 +206,7 @@ struct ElasticPlastic {
     typedTag(tags, "yield_condition", &ElasticPlastic::yieldCondition, "the yield surface; vonMises if left out",
              false);
     refuseTypes(tags, "stability_check", {"none", "drucker", "becker", "drucker_becker"},
-                "nothing comes of it: only none where there is an <erosion>");
+                "has no effect; with an <erosion>, only none");
   }
 
   /// Tags that only the yield condition gurson uses.

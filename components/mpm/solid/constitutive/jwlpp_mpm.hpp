@@ -122,7 +122,7 @@ struct JwlppMpm {
         .value("max_burned_fraction", &Self::greatestFraction, 1, "1", "no more burns", input::between(0, 1))
         .value("useInitialStress", &Self::startsUnderPressure, false, "1", "bodies start under <initial_pressure>")
         .value("initial_pressure", &Self::initialPressure, 0, "Pa", "pressure at the start", input::nonNegative())
-        .ignored("jwl_rho0", "the material's density is taken, as in Uintah");
+        .ignored("jwl_rho0", "the material's density is used, as in Uintah");
     for (const char* tag : {"max_burn_timestep_size", "doFastStressCompute", "tolerance_for_Newton_iterations",
                             "max_number_of_Newton_iterations"})
       tags.ignored(tag, "the burning is integrated to 1e-9 of the particle, in as many parts as that takes");

@@ -129,13 +129,14 @@ void checkContact(const ContactSection& read, const Element& element, Diagnostic
 void addKinds(Schema<ContactSection>& contact) {
   requiredChoiceOrRefusal(
       contact, "type", &ContactSection::kind, kinds, lackingKinds,
-      "not at all; as one body; they follow a master, which is free or moves as told (two words for it); they part "
-      "freely and slide with friction as in Uintah, which asks each body alone whether its stress presses (two words "
-      "for it); the same, but all have one normal and are pressed where the stresses of all press, which keeps "
+      "not at all; as one body; they follow a master, which is free or moves as prescribed (two words for it); they "
+      "part "
+      "freely and slide with friction as in Uintah, which tests the pressure of each body by itself (two words for "
+      "it); the same, but all have one normal and are pressed where the stresses of all press, which keeps "
       "momentum; as in Uintah, but only while they approach each other; they part freely, keep momentum and slide with "
       "friction along the plane that separates their particles, found by logistic regression (Nairn, Hammerquist & "
       "Smith 2020); the same with mu by the color of the master; they part from a master, which is free or moves as "
-      "told, and slide on it along such planes");
+      "prescribed, and slide on it along such planes");
   contact.optional("materials", &ContactSection::materials, "1", "numbers of the materials that take part; else all")
       .optional("OneOrTwoStep", &ContactSection::steps, "1",
                 "1: acts on the velocities at the end of a step only; 2: on those at its start, too. Left out: 1 with "
@@ -173,8 +174,8 @@ void addFriction(Schema<ContactSection>& contact) {
                 input::nonNegative())
       .section("variable_friction", &ContactSection::frictionTable, frictionTableSchema())
       .value("separation_factor", &ContactSection::separationFactor, 9.9e99, "1",
-             "friction, approach (friction_LR and its like need none): what lies farther apart than so many cells "
-             "does not touch",
+             "friction, approach (friction_LR and its like need none): bodies farther apart than so many cells do not "
+             "touch",
              input::positive())
       .value("volume_constraint", &ContactSection::volumeConstraint, 0, "1",
              "friction, approach (friction_LR and its like need none): share of the volume around a node that bodies "
@@ -184,7 +185,7 @@ void addFriction(Schema<ContactSection>& contact) {
 
 const Schema<ContactSection>& contactSchema() {
   static const Schema<ContactSection> schema = [] {
-    Schema<ContactSection> contact("contact", "How materials act on each other where they share nodes.");
+    Schema<ContactSection> contact("contact", "How materials interact where they share nodes.");
     addKinds(contact);
     addMaster(contact);
     addFriction(contact);

@@ -172,14 +172,15 @@ namespace {
 const Schema<Erosion>& erosionSchema() {
   using Algorithm = Erosion::Algorithm;
   static const Schema<Erosion> schema =
-      Schema<Erosion>("erosion", "What becomes of particles that fail.")
-          .requiredChoiceAttribute("algorithm", &Erosion::algorithm,
-                                   {{"none", Algorithm::none},
-                                    {"AllowNoTension", Algorithm::allowNoTension},
-                                    {"ZeroStress", Algorithm::zeroStress},
-                                    {"AllowNoShear", Algorithm::allowNoShear},
-                                    {"PreserveStress", Algorithm::preserveStress}},
-                                   "bears pressure only, nothing, mean stress only, or is only marked")
+      Schema<Erosion>("erosion", "The treatment of particles that fail.")
+          .requiredChoiceAttribute(
+              "algorithm", &Erosion::algorithm,
+              {{"none", Algorithm::none},
+               {"AllowNoTension", Algorithm::allowNoTension},
+               {"ZeroStress", Algorithm::zeroStress},
+               {"AllowNoShear", Algorithm::allowNoShear},
+               {"PreserveStress", Algorithm::preserveStress}},
+              "a failed particle bears pressure only, nothing, mean stress only, or is only marked")
           .value("char_time", &Erosion::relaxationTime, 1e-99, "s", "time in which lost stress fades to 1/e",
                  input::positive());
   return schema;

@@ -95,7 +95,7 @@ const Schema<CurveSection>& curveSchema() {
                                              .required("load", &TimePoint::load, "SI unit of the load", "how much");
   static const Schema<CurveSection> schema =
       Schema<CurveSection>("load_curve", "A load over time, straight between its points.")
-          .value("id", &CurveSection::id, 1, "1", "its number; loads are counted from 1 as they stand in the scene",
+          .value("id", &CurveSection::id, 1, "1", "its number; loads are numbered from 1 in the order of the scene",
                  input::positive())
           .optional("material", &CurveSection::material, "1", "number of the material that it acts on; else all",
                     input::nonNegative())

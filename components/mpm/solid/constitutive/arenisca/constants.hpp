@@ -18,7 +18,7 @@ struct Constants {
   double flowFactor = 1;     ///< beta: of the deviator in the space of closest points; 1: associated flow
   double b0 = 0, b1 = 0;     ///< bulk modulus at low pressure, and what high pressure adds, Pa
   double b2 = 0;             ///< pressure that takes, times 3, Pa
-  double b3 = 0, b4 = 0;     ///< what plastic compaction takes off the bulk modulus, Pa; strain that takes, 1
+  double b3 = 0, b4 = 0;     ///< reduction of the bulk modulus by plastic compaction, Pa; strain that takes, 1
   double g0 = 0;             ///< shear modulus, Pa
   double g1 = 0, g2 = 0;     ///< Poisson's ratio at low pressure, and what high pressure adds, 1; 0: G = g0
   double p0 = 0;             ///< I1 at which pores begin to collapse, Pa
@@ -128,12 +128,12 @@ void addSoilTags(input::Schema<M>& schema) {
                input::nonNegative());
   tags.require("BETA_nonassociativity", &Constants::flowFactor, "1", "1: plastic flow is normal to the yield surface",
                input::positive());
-  tags.require("B1", &Constants::b1, "Pa", "what high pressure adds to the bulk modulus", input::nonNegative());
+  tags.require("B1", &Constants::b1, "Pa", "increase of the bulk modulus by high pressure", input::nonNegative());
   tags.require("B2", &Constants::b2, "Pa", "trace of the stress that this takes", input::nonNegative());
-  tags.require("B3", &Constants::b3, "Pa", "what plastic compaction takes off the bulk modulus", input::nonNegative());
+  tags.require("B3", &Constants::b3, "Pa", "reduction of the bulk modulus by plastic compaction", input::nonNegative());
   tags.require("B4", &Constants::b4, "1", "volumetric strain that this takes", input::nonNegative());
   tags.require("G1", &Constants::g1, "1", "Poisson's ratio at low pressure, instead of <G0>");
-  tags.require("G2", &Constants::g2, "1", "what high pressure adds to it; where one of both is 0, <G0> counts");
+  tags.require("G2", &Constants::g2, "1", "increase by high pressure; if one of both is 0, <G0> is used");
   for (const char* unused : {"G3", "G4", "p2_crush_curve"})
     schema.ignored(unused, "as in Uintah, nothing depends on it");
   tags.require("fluid_B0", &Constants::fluidBulk, "Pa", "bulk modulus of the fluid in the pores; 0: they are empty",

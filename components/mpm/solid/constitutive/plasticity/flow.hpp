@@ -103,7 +103,7 @@ struct ZerilliArmstrong {
     static const input::Schema<Self> schema =
         input::Schema<Self>("flow_model", "The yield stress of Zerilli and Armstrong.")
             .custom("c_0", readConstantPart, {"c_0", "sigma_g", "k_H", "sqrt_l_inv"},
-                    "part that nothing changes, Pa; or <sigma_g> + <k_H> <sqrt_l_inv>, by the size of the grains")
+                    "constant part, Pa; or <sigma_g> + <k_H> <sqrt_l_inv>, by the size of the grains")
             .forms({input::typeForm({"c_0", "sigma_g", "k_H", "sqrt_l_inv"}, std::string(input::typeName<double>))})
             .required("B", &Self::b, "Pa", "part without hardening", input::nonNegative())
             .required("beta_0", &Self::beta0, "1/K", "its fall with the temperature", input::nonNegative())
