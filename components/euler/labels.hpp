@@ -35,7 +35,7 @@ inline constexpr ReductionLabel<Sum> kineticEnergy{"KineticEnergy", "J", "kineti
 inline constexpr ReductionLabel<Minimum> leastDensity{"LeastDensity", "kg/m^3", "least density of any cell"};
 inline constexpr ReductionLabel<Minimum> leastEnergy{"LeastInternalEnergy", "J/kg",
                                                      "least internal energy of any cell"};
-inline constexpr ReductionLabel<Sum> entropy{"TotalEntropy", "kg", "entropy of all cells over c_v, but for a constant"};
+inline constexpr ReductionLabel<Sum> entropy{"TotalEntropy", "kg", "entropy of all cells over c_v, up to a constant"};
 }  // namespace total
 
 }  // namespace tushar::euler

@@ -104,6 +104,6 @@ struct ReductionLabel : Label {
 inline constexpr std::string_view positionName = "p.x";
 
 /// Names every particle; kept by the framework in every particle set.
-inline constexpr ParticleLabel<ParticleId> particleId{"p.particleID", "1", "name of the particle for its whole life"};
+inline constexpr ParticleLabel<ParticleId> particleId{"p.particleID", "1", "name of the particle, which never changes"};
 
 }  // namespace tushar::data
