@@ -67,8 +67,8 @@ template <int D>
 inline constexpr NodeLabel<Vec<D>> velocityOfContact{"g.velocityOfContact", "m/s",
                                                      "velocity after the forces of a step and contact"};
 template <int D>
-inline constexpr NodeLabel<Vec<D>> transmittedForce{
-    "g.transmittedForce", "N", "force that contact receives in place of a material that transmits it"};
+inline constexpr NodeLabel<Vec<D>> transmittedForce{"g.transmittedForce", "N",
+                                                    "force of contact on a material that transmits force"};
 template <int D>
 inline constexpr NodeLabel<Vec<D>> surroundingForce{"g.surroundingForce", "N",
                                                     "force of what surrounds the body, such as a gas"};
