@@ -96,7 +96,7 @@ void declare(CLI::App& app, Arguments& arguments) {
       "            4 a value became impossible during the run, 5 interrupted (output written)");
   app.add_option("scene", arguments.scene, "the scene to run (.ups), or with --restart the folder of a run (.uda)");
   CLI::Option* restart = app.add_flag("--restart", arguments.restart,
-                                      "go on with the run of a .uda, in that folder, from its last whole checkpoint");
+                                      "continue the run of a .uda, in that folder, from its last intact checkpoint");
   app.add_option("-t", arguments.checkpoint, "with --restart: from the checkpoint of this step; later ones are removed")
       ->needs(restart);
   app.add_option("--set", arguments.overrides,

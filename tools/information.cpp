@@ -42,7 +42,7 @@ std::vector<std::string> manualNames(const simulation::Catalogue& known) {
 
 ExitCode describe(const std::string& name, const simulation::Catalogue& known) {
   if (name == "scene") {
-    scene::describeSharedSections(std::cout);
+    scene::describeSharedSections(std::cout, known);
   } else if (const auto* component = known.component(name)) {
     component->describe(std::cout);
   } else if (const auto* analysis = known.analysis(name)) {

@@ -54,7 +54,7 @@ simulation::Restart findRestart(const Arguments& arguments, const mpi::Communica
   simulation::Restart restart;
   ranks.onFirst([&] { restart = scene::findRestart(arguments.scene, arguments.checkpoint); });
   for (const std::string& note : restart.notes) fmt::print(stderr, "sus: {}\n", withNumber(note));
-  if (!restart.notes.empty()) fmt::print(stderr, "sus: goes on from the checkpoint of step {}\n", restart.step);
+  if (!restart.notes.empty()) fmt::print(stderr, "sus: continues from the checkpoint of step {}\n", restart.step);
   restart.archive = ranks.broadcast(restart.archive.string());
   restart.step = ranks.broadcast(restart.step);
   return restart;
@@ -127,9 +127,9 @@ void inspect(const Arguments& arguments, simulation::Simulation& run, bool isFir
 /// Options that a typing error may have made useless.
 void noteUnused(const Arguments& arguments, const report::Report& report) {
   for (const std::string& option : report.unusedOptions)
-    fmt::print(stderr, "note: {}\n", withNumber(fmt::format("PETSc: no solve has looked at the option {}", option)));
+    fmt::print(stderr, "note: {}\n", withNumber(fmt::format("PETSc: no solve has used the option {}", option)));
   if (!arguments.petsc.empty() && !solvers::isLoaded())
-    fmt::print(stderr, "note: {}\n", withNumber("--petsc: this run has not solved anything by PETSc"));
+    fmt::print(stderr, "note: {}\n", withNumber("--petsc: this run has not used PETSc"));
 }
 
 output::RunRecord recordOf(const Arguments& arguments) {
@@ -179,16 +179,16 @@ ExitCode dispatch(const Arguments& arguments, const OpenCatalogue& open,
   if (arguments.isQuestion()) return answer(arguments, open(arguments.modules));
   if (arguments.scene.empty()) {
     return refuse(
-        "no scene given; sus scene.ups runs one, sus --restart x.uda goes on with one, sus -h lists the options");
+        "no scene given; sus scene.ups runs one, sus --restart x.uda continues one, sus -h lists the options");
   }
   if (!arguments.restart && std::filesystem::is_directory(arguments.scene + "/checkpoints"))
-    return refuse(fmt::format("{0} is the folder of a run; sus --restart {0} goes on with it", arguments.scene));
+    return refuse(fmt::format("{0} is the folder of a run; sus --restart {0} continues it", arguments.scene));
   if (arguments.asksForJson && !arguments.check && arguments.run.jsonPath.empty())
-    return refuse("--json needs the name of a file, where the report goes");
+    return refuse("--json needs the name of a file for the report");
   if (arguments.check && arguments.asksForJson && !arguments.showsJson() && launchedRank() == 0)
     checkWritable(arguments.run.jsonPath);
   if (arguments.restart && !arguments.run.outputFolder.empty())
-    return refuse("--output has no meaning with --restart: a run goes on in its own folder");
+    return refuse("--output has no meaning with --restart: a run continues in its own folder");
   if (arguments.dryRun) {
     const grid::Workers workers{arguments.workers.threads, true, *arguments.dryRun, arguments.workers.layout};
     if (launchedRank() == 0)

@@ -66,7 +66,7 @@ void checkSettings(const SliceSettings& settings, const Element& module, Diagnos
     const std::string path = module.path() + "/plane";
     if (!read)
       diagnostics.error(plane.where, path,
-                        fmt::format("found '{}', expected an axis and a coordinate in m, as z = 0.5", plane.text));
+                        fmt::format("found '{}', expected an axis and a coordinate in m, such as z = 0.5", plane.text));
     else if (!names.insert(fmt::format("{} {}", read->axis, read->at)).second)
       diagnostics.error(plane.where, path, fmt::format("the plane {} is given twice", plane.text));
   }

@@ -7,8 +7,8 @@
 
 namespace tushar::analysis {
 
-/// `slice`: variables of cells and nodes on planes, often. Each plane is an archive of its own in that of the run,
-/// `sod.uda/slice/z=0`, with a grid that is one cell thick. It shows the cells that the plane cuts, and the nodes
+/// `slice`: samples cell and node variables on planes, frequently. Each plane has a separate archive in that of the
+/// run, `sod.uda/slice/z=0`, with a grid that is one cell thick. It shows the cells that the plane cuts, and the nodes
 /// nearest to it, as they are; of two at the same distance those with the smaller coordinate.
 simulation::AnalysisKind sliceKind();
 
@@ -18,7 +18,7 @@ struct Plane {
   double at;
 };
 
-/// What `z = 0.5` says; none where it is something else.
+/// Parses a plane such as `z = 0.5`; none for any other text.
 std::optional<Plane> planeOf(const std::string& text);
 
 /// The layer of the grid that a plane shows. The grid uses the plane's axis, and the plane is within its sides.

@@ -52,7 +52,7 @@ class Burgers : public Component {
   Settings settings_;
 };
 
-/// u at the middle of each cell, from the scene's formula.
+/// u at the centre of each cell, from the scene's formula.
 template <int D>
 void initialize(const Patch& patch, const Settings& settings, CellView<double> u);
 
@@ -77,7 +77,7 @@ void correct(const Patch& patch, const Settings& settings, CellView<const double
 template <int D>
 void sumTotals(const Patch& patch, CellView<const double> u, Sum& momentum, Sum& energy);
 
-/// The entry of this component in the table of sus.
+/// The description of this component for sus.
 simulation::ComponentKind kind();
 
 }  // namespace tushar::burgers

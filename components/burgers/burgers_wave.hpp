@@ -7,7 +7,7 @@
 
 namespace tushar::burgers {
 
-/// A profile that Burgers' equation carries along.
+/// An initial profile for Burgers' equation.
 struct BurgersProblem {
   std::function<double(double)> velocity;  ///< u at t = 0, m/s, over x in m; bounded
   double viscosity = 0;                    ///< nu, m²/s

@@ -76,7 +76,7 @@ BurgersWave waveOf(const Burgers<1>& burgers, const Level& level) {
       if (const double end = problem.velocity(side == 0 ? problem.lower : problem.upper);
           std::abs(given->value - end) > 1e-9 * std::max(1.0, std::abs(end)))
         throw std::invalid_argument(fmt::format(
-            "{:g} m/s comes in at an end of the grid where u is {:g} m/s at the start; there is no exact solution",
+            "{:g} m/s flows in at an end of the grid where u is {:g} m/s at the start; there is no exact solution",
             given->value, end));
   return BurgersWave(std::move(problem));
 }

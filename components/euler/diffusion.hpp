@@ -6,7 +6,7 @@
 
 namespace tushar::euler {
 
-/// What spreads momentum and heat, the same everywhere.
+/// Coefficients of viscosity and heat conduction, uniform in space.
 struct Diffusion {
   double viscosity = 0;     ///< mu, Pa s
   double conductivity = 0;  ///< k, W/(m K)

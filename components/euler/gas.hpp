@@ -6,7 +6,7 @@
 
 namespace tushar::euler {
 
-/// What a cell holds in D dimensions, as numbers that loops over rows keep in registers. Primitive: density [kg/m³],
+/// The state of a cell in D dimensions, as numbers that loops over rows keep in registers. Primitive: density [kg/m³],
 /// velocity along each axis [m/s], pressure [Pa]. Conserved, and fluxes: density, momentum, total energy per volume.
 template <int D>
 using State = std::array<double, D + 2>;

@@ -85,26 +85,21 @@ const Schema<EulerSection>& schema() {
 
 /// The values that a face may prescribe: Dirichlet ones, with a positive density and p + p_infinity.
 void checkBoundaries(const Element& root, double pInfinity, Diagnostics& diagnostics) {
-  const auto grid = root.child("Grid");
-  const auto group = grid ? grid->child("BoundaryConditions") : std::nullopt;
-  if (!group) return;
-  for (const Element& face : group->children("Face"))
-    for (const Element& condition : face.children("BCType")) {
-      const std::string label = condition.attribute("label").value_or(""),
-                        var = condition.attribute("var").value_or("");
-      if (label != grid::symmetric.name && var != nameOf(BoundaryKind::dirichlet))
-        diagnostics.error(condition, fmt::format("var: found '{}', expected 'Dirichlet' for {} of gas that flows in; a "
-                                                 "face with no condition lets gas out",
-                                                 var, label));
-      const auto text = condition.child("value");
-      const auto value = text ? input::parse<double>(text->text()) : input::parse<double>("1");
-      const auto limit = [&](const grid::BoundaryVariable& of, double least, const std::string& unit) {
-        if (label == of.name && value && !input::satisfies(*value, input::greaterThan(least)))
-          diagnostics.error(condition, "value: " + input::violation(text->text(), input::greaterThan(least), unit));
-      };
-      limit(boundary::density, 0, "kg/m^3");
-      limit(boundary::pressure, 0 - pInfinity, "Pa");
-    }
+  for (const Element& condition : simulation::boundaryConditions(root)) {
+    const std::string label = condition.attribute("label").value_or(""), var = condition.attribute("var").value_or("");
+    if (label != grid::symmetric.name && var != nameOf(BoundaryKind::dirichlet))
+      diagnostics.error(condition, fmt::format("var: found '{}', expected 'Dirichlet' for {} of inflowing gas; through "
+                                               "a face without a condition gas flows out",
+                                               var, label));
+    const auto text = condition.child("value");
+    const auto value = text ? input::parse<double>(text->text()) : input::parse<double>("1");
+    const auto limit = [&](const grid::BoundaryVariable& of, double least, const std::string& unit) {
+      if (label == of.name && value && !input::satisfies(*value, input::greaterThan(least)))
+        diagnostics.error(condition, "value: " + input::violation(text->text(), input::greaterThan(least), unit));
+    };
+    limit(boundary::density, 0, "kg/m^3");
+    limit(boundary::pressure, 0 - pInfinity, "Pa");
+  }
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 namespace tushar::euler {
 
-/// The entry of this component in the table of sus.
+/// The description of this component for sus.
 simulation::ComponentKind kind();
 
 }  // namespace tushar::euler

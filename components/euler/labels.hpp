@@ -4,7 +4,7 @@
 
 namespace tushar::euler {
 
-/// Cell variables. The first three are the state; the others are derived when a scene saves them.
+/// Cell variables. The first three are the state; the others are derived if a scene saves them.
 namespace c {
 inline constexpr CellLabel<double> density{"c.density", "kg/m^3", "mass density"};
 template <int D>
@@ -35,7 +35,7 @@ inline constexpr ReductionLabel<Sum> kineticEnergy{"KineticEnergy", "J", "kineti
 inline constexpr ReductionLabel<Minimum> leastDensity{"LeastDensity", "kg/m^3", "least density of any cell"};
 inline constexpr ReductionLabel<Minimum> leastEnergy{"LeastInternalEnergy", "J/kg",
                                                      "least internal energy of any cell"};
-inline constexpr ReductionLabel<Sum> entropy{"TotalEntropy", "kg", "entropy of all cells over c_v, but for a constant"};
+inline constexpr ReductionLabel<Sum> entropy{"TotalEntropy", "kg", "entropy of all cells over c_v, up to a constant"};
 }  // namespace total
 
 }  // namespace tushar::euler

@@ -26,7 +26,7 @@ enum class FluxKind { exact, hllc };
 enum class Reconstruction { firstOrder, musclHancock };
 enum class Limiter { minmod, vanLeer, mc };
 
-/// Which of the methods.
+/// The choices of the method.
 struct Method {
   FluxKind flux = FluxKind::hllc;
   Reconstruction reconstruction = Reconstruction::musclHancock;

@@ -46,7 +46,7 @@ class Heat : public Component {
   Settings settings_;
 };
 
-/// T at the middle of each cell, from the scene's formula. Throws InputError if it is not finite, or k is not greater
+/// T at the centre of each cell, from the scene's formula. Throws InputError if it is not finite, or k is not greater
 /// than 0.
 template <int D>
 void initialize(const Patch& patch, const Settings& settings, CellView<double> temperature) {
@@ -85,7 +85,7 @@ void sumEnergy(const Patch& patch, const Settings& settings, CellView<const doub
   forEach<D>(patch.cells(), [&](const Index<D>& cell) { energy.add(capacity * temperature[cell]); });
 }
 
-/// The entry of this component in the table of sus.
+/// The description of this component for sus.
 simulation::ComponentKind kind();
 
 }  // namespace tushar::heat

@@ -32,8 +32,9 @@ void checkCondition(const Element& condition, Diagnostics& diagnostics) {
   const auto vector = input::parse<Vec3>(text->text());
   if (var == nameOf(BoundaryKind::neumann)) {
     if ((number && *number != 0) || (vector && *vector != Vec3::Zero()))
-      diagnostics.error(*text, fmt::format("found '{}', expected 0: a Neumann condition lets {} continue as it is",
-                                           text->text(), label));
+      diagnostics.error(
+          *text, fmt::format("found '{}', expected 0: a Neumann condition only extends {} beyond the grid as it is",
+                             text->text(), label));
     return;
   }
   const auto limit = [&](const grid::BoundaryVariable& of, const std::string& unit) {
@@ -48,21 +49,17 @@ void checkCondition(const Element& condition, Diagnostics& diagnostics) {
 
 /// The conditions of the gas, material `gas` of the scene.
 void checkConditions(const Element& root, int gas, Diagnostics& diagnostics) {
-  const auto grid = root.child("Grid");
-  const auto group = grid ? grid->child("BoundaryConditions") : std::nullopt;
-  if (!group) return;
-  for (const Element& face : group->children("Face"))
-    for (const Element& condition : face.children("BCType")) {
-      const int material = materialOf(condition);
-      if (material > gas)
-        diagnostics.error(condition.whereOf("id"), condition.path(),
-                          fmt::format("there is no material {}: the gas is number {}", material, gas));
-      if (material >= 0 && material < gas && condition.attribute("label") == euler::boundary::density.name)
-        diagnostics.note(condition,
-                         fmt::format("does nothing: material {} is a body; the gas is number {}", material, gas));
-      const bool isShared = condition.attribute("label") == euler::boundary::pressure.name;
-      if (material < 0 || material == gas || isShared) checkCondition(condition, diagnostics);
-    }
+  for (const Element& condition : simulation::boundaryConditions(root)) {
+    const int material = materialOf(condition);
+    if (material > gas)
+      diagnostics.error(condition.whereOf("id"), condition.path(),
+                        fmt::format("there is no material {}: the gas is number {}", material, gas));
+    if (material >= 0 && material < gas && condition.attribute("label") == euler::boundary::density.name)
+      diagnostics.note(condition,
+                       fmt::format("does nothing: material {} is a body; the gas is number {}", material, gas));
+    const bool isShared = condition.attribute("label") == euler::boundary::pressure.name;
+    if (material < 0 || material == gas || isShared) checkCondition(condition, diagnostics);
+  }
 }
 
 /// A pressure that is given does not count, as in Uintah: says so where it is another one than follows.
@@ -73,7 +70,7 @@ void noteOtherPressure(const GasBody& body, const euler::Gas& gas, const Element
   const double pressure = gas.gasConstant() * body.density(Vec3::Zero()) * body.temperature(Vec3::Zero());
   if (std::abs(given - pressure) > 1e-3 * pressure)
     diagnostics.note(*element.child("pressure"),
-                     fmt::format("does nothing: density and temperature make {:g} Pa", pressure));
+                     fmt::format("does nothing: density and temperature give {:g} Pa", pressure));
 }
 
 void readMaterial(const GasMaterial& material, const Element& element, GasScene& scene, Diagnostics& diagnostics) {

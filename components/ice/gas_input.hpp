@@ -10,8 +10,7 @@
 
 namespace tushar::ice {
 
-/// What is given for each pair of materials, the upper triangle of their matrix row by row: Uintah's
-/// `exchange_coefficients`.
+/// Values for each pair of materials, the upper triangle of their matrix row by row: Uintah's `exchange_coefficients`.
 struct Exchange {
   Location where;                ///< in the scene
   std::vector<double> momentum;  ///< kg/(m³ s)
@@ -39,16 +38,15 @@ struct GasScene {
   std::optional<ImplicitPressure> implicit = {};
 };
 
-/// Reads <CFD>, <PhysicalConstants>, <MaterialProperties>, but what it has of MPM, and the conditions at the sides of
-/// the grid. In all of the scene `solids` materials of MPM are counted before the gas. Every problem goes to the
-/// diagnostics.
+/// Reads <CFD>, <PhysicalConstants>, <MaterialProperties> except its MPM, and the conditions at the sides of the grid.
+/// Throughout the scene the gas is numbered after the `solids` materials of MPM. Every problem goes to the diagnostics.
 GasScene readGas(const input::Element& root, int solids, input::Diagnostics& diagnostics);
 
-/// The sections that readGas reads or knows, for a component that has no others.
+/// The sections that readGas reads or accepts, for a component without further ones.
 std::vector<simulation::SectionForm> gasForms();
 /// Their names.
 std::vector<std::string> gasSections();
-/// What the sides of the grid may have conditions for.
+/// The variables for which the sides of the grid may have conditions.
 std::vector<grid::BoundaryVariable> gasBoundaryLabels();
 /// The manual of the sections.
 void describeGas(std::ostream& out);

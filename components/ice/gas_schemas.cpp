@@ -14,7 +14,7 @@ namespace {
 
 const Schema<AdvectionSection>& advectionSchema() {
   static const Schema<AdvectionSection> schema =
-      Schema<AdvectionSection>("advection", "How what flows is reconstructed at the faces of cells.")
+      Schema<AdvectionSection>("advection", "How the flow is reconstructed at the faces of cells.")
           .requiredChoiceAttribute(
               "type", &AdvectionSection::reconstruction,
               {{"FirstOrder", euler::Reconstruction::firstOrder}, {"SecondOrder", euler::Reconstruction::musclHancock}},
@@ -94,10 +94,9 @@ const Schema<IceSection>& iceSchema() {
     tags.requiredSection("advection", &IceSection::advection, advectionSchema())
         .value("explicit", &IceSection::isExplicit, false, "1", "steps are explicit in spite of an <ImplicitSolver>")
         .ours()
-        .optional(
-            "thin_walls", &IceSection::thinWalls, "1",
-            "bodies thinner than a cell hold the gas back, too; oblique walls are rougher then. Without it, bodies "
-            "of less than 1.25 cells leak")
+        .optional("thin_walls", &IceSection::thinWalls, "1",
+                  "bodies thinner than a cell also hold back the gas, but oblique walls are rougher. Without it, "
+                  "bodies thinner than 1.25 cells leak")
         .ours()
         .section("ImplicitSolver", &IceSection::implicit, implicitSchema(),
                  "the pressure is solved for, so that sound does not limit the steps; <explicit> passes over it")
@@ -192,7 +191,7 @@ const Schema<Exchange>& coefficientsSchema() {
 
 const Schema<ExchangeSection>& exchangeSchema() {
   static const Schema<ExchangeSection> schema = [] {
-    Schema<ExchangeSection> tags("exchange_properties", "What materials exchange.");
+    Schema<ExchangeSection> tags("exchange_properties", "The exchange between materials.");
     tags.requiredSection("exchange_coefficients", &ExchangeSection::coefficients, coefficientsSchema());
     input::refuseSwitch(tags, "do_convective_heat_transfer", "walls are adiabatic");
     for (const char* tag : {"convective_fluid", "convective_solid"})
@@ -232,10 +231,10 @@ const Schema<PropertiesSection>& propertiesSchema() {
 
 const Schema<ConstantsSection>& constantsSchema() {
   static const Schema<ConstantsSection> schema =
-      Schema<ConstantsSection>("PhysicalConstants", "What acts everywhere.")
+      Schema<ConstantsSection>("PhysicalConstants", "Quantities that hold everywhere.")
           .value("gravity", &ConstantsSection::gravity, Vec3::Zero(), "m/s^2", "acceleration of all that has mass")
           .value("reference_pressure", &ConstantsSection::referencePressure, 0, "Pa",
-                 "what acts on solids from where there is no gas; a gas alone does not depend on it",
+                 "the pressure on solids where there is no gas; a gas alone does not depend on it",
                  input::nonNegative());
   return schema;
 }

@@ -115,6 +115,7 @@ simulation::ComponentKind kind() {
   kind.takesLevels = true;
   kind.takesPartsOfSides = true;
   kind.takesFormulasAtSides = true;
+  kind.amrSections = {"ICE"};
   kind.boundaryLabels = gasBoundaryLabels();
   kind.describe = describeGas;
   kind.forms = [] { return std::vector<std::vector<simulation::SectionForm>>{gasForms()}; };

@@ -8,7 +8,7 @@
 
 namespace tushar::ice {
 
-/// A compressible gas by the words of Uintah's ICE: the schedule of `euler`, and behind it viscosity, conduction of
+/// A compressible gas with the input of Uintah's ICE: the schedule of `euler`, and behind it viscosity, conduction of
 /// heat and gravity where a scene has them.
 template <int D>
 class Ice : public euler::Euler<D> {
@@ -60,7 +60,7 @@ extern template class ImplicitIce<1>;
 extern template class ImplicitIce<2>;
 extern template class ImplicitIce<3>;
 
-/// The entry of this component in the table of sus.
+/// The description of this component for sus.
 simulation::ComponentKind kind();
 
 }  // namespace tushar::ice

@@ -11,13 +11,13 @@ namespace tushar::ice {
 inline constexpr const char* thinWallsPath = "CFD/ICE/thin_walls";
 inline constexpr const char* exchangePath = "MaterialProperties/exchange_properties/exchange_coefficients";
 
-/// Variables that are here by another name.
+/// Variables that have another name here.
 inline const std::vector<std::pair<std::string, std::string>> uintahsNames{
     {"rho_CC", "c.density"},           {"rho_micro_CC", "c.density"},     {"press_CC", "c.pressure"},
     {"press_equil_CC", "c.pressure"},  {"vel_CC", "c.velocity"},          {"temp_CC", "c.temperature"},
     {"sp_vol_CC", "c.specificVolume"}, {"speedSound_CC", "c.soundSpeed"}, {"mach", "c.mach"}};
 
-/// Variables that nobody computes here.
+/// Variables of Uintah that no task computes here.
 inline const std::vector<std::string> uintahsLabels{"vol_frac_CC",
                                                     "delP_Dilatate",
                                                     "delP_MassX",

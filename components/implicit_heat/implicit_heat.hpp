@@ -47,7 +47,7 @@ class ImplicitHeat : public Component {
   Settings settings_;
 };
 
-/// T at the middle of each cell, from the scene's formula. Throws InputError if it is not finite, or k is not greater
+/// T at the centre of each cell, from the scene's formula. Throws InputError if it is not finite, or k is not greater
 /// than 0.
 template <int D>
 void initialize(const Patch& patch, const Settings& settings, CellView<double> temperature);
@@ -67,7 +67,7 @@ void conduct(const RankPatches& patches, const mpi::Communicator& ranks, const S
 template <int D>
 void sumEnergy(const Patch& patch, const Settings& settings, CellView<const double> temperature, Sum& energy);
 
-/// The entry of this component in the table of sus.
+/// The description of this component for sus.
 simulation::ComponentKind kind();
 
 }  // namespace tushar::implicit_heat

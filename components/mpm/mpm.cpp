@@ -11,13 +11,13 @@ namespace {
 
 constexpr std::array modules{"mpm_gas", "mpm_solid", "mpm_implicit"};
 
-simulation::ComponentKind& entryOf(Method method) {
-  static std::array<simulation::ComponentKind, modules.size()> entries;
+MethodKind& entryOf(Method method) {
+  static std::array<MethodKind, modules.size()> entries;
   return entries[static_cast<std::size_t>(method)];
 }
 
 /// Loads the module of a method where it has not been.
-const simulation::ComponentKind& kindOf(Method method) {
+const MethodKind& kindOf(Method method) {
   simulation::loadModule(modules[static_cast<std::size_t>(method)]);
   return entryOf(method);
 }
@@ -31,7 +31,7 @@ Method methodOf(const input::Element& root) {
   return integrator && integrator->text() == "implicit" ? Method::implicitSolid : Method::solid;
 }
 
-void define(Method method, simulation::ComponentKind kind) { entryOf(method) = std::move(kind); }
+void define(Method method, MethodKind kind) { entryOf(method) = std::move(kind); }
 
 simulation::ComponentKind kind() {
   simulation::ComponentKind kind;

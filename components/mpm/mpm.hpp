@@ -4,14 +4,22 @@
 
 namespace tushar::mpm {
 
-/// The methods of this component, each in a module of its own.
+/// The methods of this component, each in a separate module.
 enum class Method { gas, solid, implicitSolid };
 
-/// The method that the <MPM> section of a scene asks for.
+/// The method that the <MPM> section of a scene selects.
 Method methodOf(const input::Element& root);
 
-/// What a method reads, describes and makes; its module calls this when it is loaded.
-void define(Method method, simulation::ComponentKind kind);
+/// How a method is read, described and made: its part of the ComponentKind, whose fields have the same names.
+struct MethodKind {
+  std::function<simulation::MakeComponent(const input::Element& root, input::Diagnostics&)> read;
+  std::function<void(std::ostream&)> describe;
+  std::function<std::vector<std::vector<simulation::SectionForm>>()> forms;
+  std::function<int(const input::Element& root)> nodesBeyond = {};
+};
+
+/// The module of a method calls this when it is loaded.
+void define(Method method, MethodKind kind);
 
 /// All methods as one component.
 simulation::ComponentKind kind();

@@ -6,8 +6,9 @@
 
 namespace tushar::mpmice {
 
-/// Open share of a face between two cells with gas, of which bodies cover `coverage` and leave free `below` and
-/// `above`. More than eight times the free volume beside it is closed: gas cannot rush out of what is all but full.
+/// Open fraction of a face between two cells with gas; bodies cover the fraction `coverage` of the face and leave the
+/// volume fractions `below` and `above` free. More than eight times the free volume beside it is closed: gas cannot
+/// rush out of a cell that is almost full.
 inline double openShare(double coverage, double below, double above, bool thinWalls) {
   double most = 8 * std::min(below, above);
   if (thinWalls) most = std::min(most, std::max(0.0, 1 - 4 * ((1 - below) + (1 - above))));

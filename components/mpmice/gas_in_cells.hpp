@@ -40,8 +40,8 @@ struct GasInCells {
   }
 };
 
-/// Throws NumericalError for a cell of which `free` is left to a gas that cannot be: of a density [kg/m³] and p + p_inf
-/// [Pa].
+/// Throws NumericalError for an impossible gas in the free fraction `free` of a cell, with its density [kg/m³] and p +
+/// p_inf [Pa].
 template <int D>
 [[noreturn]] void refuseGas(const Level& level, const euler::Gas& gas, const Index<D>& cell, double free,
                             double density, double stiff) {

@@ -42,13 +42,15 @@ void checkMomentum(const ice::Exchange& exchange, int solids, bool areRigid, con
   if (exchange.momentum.empty() || !hasAllPairs(exchange.momentum, "momentum", solids, tag, diagnostics)) return;
   forEachPairWithGas(exchange.momentum, solids, [&](int body, double k) {
     if (k >= walls || (areRigid && k == 0)) return;
-    diagnostics.error(tag.child("momentum").value_or(tag),
-                      fmt::format("{:g} between body {} and the gas is not available: bodies have walls, which is 1e9 "
-                                  "and more",
-                                  k, body));
+    diagnostics.error(
+        tag.child("momentum").value_or(tag),
+        fmt::format(
+            "{:g} between body {} and the gas is not available: bodies are walls to the gas, which means 1e9 or more",
+            k, body));
   });
   if (solids > 1)
-    diagnostics.note(tag.child("momentum").value_or(tag), "does nothing between bodies: they act by their <contact>");
+    diagnostics.note(tag.child("momentum").value_or(tag),
+                     "does nothing between bodies: they interact by their <contact>");
 }
 
 /// The coefficients of heat of all pairs; empty where none flows.
@@ -72,7 +74,7 @@ int countSolids(const Element& root) {
 void checkGas(const ice::GasScene& scene, const Element& root, Diagnostics& diagnostics) {
   const auto mpm = root.child("MPM");
   if (const auto radial = mpm ? mpm->child("axisymmetric") : std::nullopt; radial && radial->text() == "true")
-    diagnostics.error(*radial, "not beside a gas: its cells are in a plane or in space");
+    diagnostics.error(*radial, "not beside a gas, whose grid is Cartesian");
   if (scene.gas.cfl > smallFreeVolume)
     diagnostics.error(*root.child("CFD")->child("cfl"),
                       fmt::format("found {:g}, expected at most {:g} beside bodies: cells may be half full",
@@ -141,9 +143,11 @@ simulation::ComponentKind kind(bool areRigid) {
   simulation::ComponentKind kind;
   kind.name = areRigid ? "rmpmice" : "mpmice";
   kind.sentence = areRigid ? "a compressible gas around bodies of particles that move as they started"
-                           : "a compressible gas and bodies of particles that act on each other";
+                           : "a compressible gas and bodies of particles, which interact";
   kind.sections = ice::gasSections();
   kind.sections.insert(kind.sections.end(), {"MPM", "PhysicalBC"});
+  kind.amrSections = {"ICE", "MPM", "MPMICE"};
+  kind.readFirst = {"MaterialProperties/MPM"};  // as in Uintah
   kind.boundaryLabels = {grid::symmetric, euler::boundary::density, euler::boundary::pressure,
                          mpm::boundary::velocity.evenOnPlanes(), mpm::boundary::temperature.evenOnPlanes()};
   kind.takesPartsOfSides = true;

@@ -20,7 +20,7 @@ inline constexpr CellLabel<Vec<D>> coverage{"c.coverage", "1", "share of the low
 template <int D>
 inline constexpr CellLabel<Vec<D>> swept{"c.swept", "1",
                                          "volume of bodies that went up through the lower faces, over that of a cell"};
-/// Of a cell's gas on the walls at its faces.
+/// Pressure of a cell's gas on the walls at its faces.
 template <int D>
 inline constexpr CellLabel<Vec<D>> wallPressureBelow{"c.wallPressureBelow", "Pa", "on walls at the lower faces"};
 template <int D>

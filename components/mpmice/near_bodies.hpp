@@ -8,12 +8,12 @@
 
 namespace tushar::mpmice {
 
-/// Which cells have bodies near them: all others are plain gas.
+/// The cells near bodies; all others contain gas alone.
 template <int D>
 class NearBodies {
  public:
-  /// Of the cells of a box, those within `layers` of a cell with a free volume below 1, or without gas. Both views may
-  /// end at the grid.
+  /// The cells of a box within `layers` of a cell that has a free volume below 1 or no gas. Both views may end at the
+  /// grid.
   NearBodies(const Box& box, int layers, CellView<const double> free, CellView<const double> mass)
       : box_(box), is_near_(box.size(), 0) {
     forEach<D>(free.box().intersect(box.grown(layers, D)), [&](const Index<D>& cell) {

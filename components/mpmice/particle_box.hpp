@@ -6,7 +6,7 @@
 
 namespace tushar::mpmice {
 
-/// The box that stands for a particle: its middle and its edges along the axes, in cells, from the lower corner of the
+/// The box that represents a particle: its centre and its edges along the axes, in cells, from the lower corner of the
 /// cell in which the particle started the step.
 template <int D>
 struct ParticleBox {

@@ -54,8 +54,8 @@ void refuseImbalance(const Level& level, const solvers::Outcome& outcome, double
   const double excess = -outcome.unbalanced / (static_cast<double>(level.cells().size()) * level.cellVolume());
   throw NumericalError(
       fmt::format(
-          "Poisson's equation has no solution: no face keeps a value of Phi, and the source over the whole grid is "
-          "greater by {:.6g} than what the slopes at the faces let in, {:.2g} of all that is summed",
+          "Poisson's equation has no solution: no face prescribes Phi, and the integral of the source exceeds that of "
+          "k dphi/dn over the faces by {:.6g}, {:.2g} of the sum of all contributions",
           -outcome.unbalanced, std::abs(outcome.unbalanced) / outcome.loads),
       fmt::format("a <source> that is smaller by {:.15g} everywhere, or a face with a Dirichlet value", excess),
       "c.phi");

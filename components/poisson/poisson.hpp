@@ -24,7 +24,7 @@ struct Settings {
   solvers::LinearSettings solver;
 };
 
-/// div(k grad phi) = f in D dimensions, by finite volumes, solved anew in every step for the f of its end.
+/// div(k grad phi) = f in D dimensions, by finite volumes, solved in every step with f at its end.
 ///
 /// At a face with `Phi` Dirichlet the value is kept, with Neumann the outward derivative; any other face lets no flux
 /// through. Where no face keeps a value, phi has mean 0, and a source that the faces do not balance is refused. The
@@ -64,7 +64,7 @@ void solve(const RankPatches& patches, const mpi::Communicator& ranks, const Set
            const std::vector<CellView<const double>>& oldPhi, const std::vector<CellView<double>>& phi,
            const SolveTotals& totals);
 
-/// The entry of this component in the table of sus.
+/// The description of this component for sus.
 simulation::ComponentKind kind();
 
 }  // namespace tushar::poisson

@@ -82,7 +82,7 @@ std::string whyNotAmong(const std::vector<GasLaw>& scene, const GasLaw& gas) {
   };
   if (scene.empty() || std::any_of(scene.begin(), scene.end(), isIt)) return {};
   if (scene.size() > 1)
-    return fmt::format("gamma and p_infinity: found {} and {:g} Pa, and no gas of the scene has both", gas.gamma,
+    return fmt::format("gamma and p_infinity: found {:g} and {} Pa, but no gas of the scene has both", gas.gamma,
                        gas.stiffness);
   if (!isClose(gas.gamma, scene.front().gamma))
     return fmt::format("gamma: found {}, but the gas of the scene has {}", gas.gamma, scene.front().gamma);

@@ -19,7 +19,7 @@ const input::Schema<GreshoSection>& greshoSchema() {
           .value("speed", &GreshoSection::speed, 1, "m/s", "the greatest speed around the centre")
           .ours()
           .value("radius", &GreshoSection::radius, 0.2, "m",
-                 "where that speed is reached; beyond twice of it nothing turns", input::positive())
+                 "where that speed is reached; beyond twice that radius the gas does not rotate", input::positive())
           .ours();
   return schema;
 }

@@ -23,7 +23,7 @@ struct IsentropicVortexProblem {
 /// units.
 class IsentropicVortex : public GasReference {
  public:
-  /// Throws std::invalid_argument where a setting is out of range, or the vortex so strong that its middle is empty.
+  /// Throws std::invalid_argument where a setting is out of range, or the vortex so strong that its centre is empty.
   explicit IsentropicVortex(const IsentropicVortexProblem& problem);
 
   GasState at(const Vec3& x, double t) const override;

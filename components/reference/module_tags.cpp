@@ -8,10 +8,9 @@ namespace tushar::reference {
 
 const input::Schema<Region>& regionSchema() {
   static const input::Schema<Region> schema =
-      input::Schema<Region>(
-          "within",
-          "Errors are measured in this box alone: of cells by their middle, of particles and nodes by "
-          "their position. The whole grid if not given.")
+      input::Schema<Region>("within",
+                            "Errors are measured only in this box: of cells by their centre, of particles and nodes by "
+                            "their position. The whole grid if not given.")
           .required("min", &Region::lower, "m", "its lower corner")
           .required("max", &Region::upper, "m", "its upper corner")
           .check([](const Region& region, const input::Element& element, input::Diagnostics& diagnostics) {

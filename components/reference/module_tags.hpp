@@ -50,7 +50,7 @@ input::Schema<S> vortexSchema(const std::string& name, std::string sentence) {
       .value("velocity", memberOf<S>(&VortexTags::velocity), Vec3::Zero(), "m/s", "of the flow that carries it along")
       .ours()
       .template choice<int>("axis", memberOf<S>(&VortexTags::axis), {{"x", 0}, {"y", 1}, {"z", 2}}, 2,
-                            "what it turns around")
+                            "the axis of rotation")
       .ours();
 }
 
@@ -66,8 +66,8 @@ input::Schema<S> radialSchema(const std::string& name, std::string sentence, std
   return gasSchema<S>(name, std::move(sentence), gamma)
       .value("density", memberOf<S>(&RadialTags::density), 1, "kg/m^3", "density at t = 0", input::positive())
       .ours()
-      .value("pressure", memberOf<S>(&RadialTags::pressure), 0, "Pa",
-             "pressure at t = 0, which should be next to nothing", input::nonNegative())
+      .value("pressure", memberOf<S>(&RadialTags::pressure), 0, "Pa", "pressure at t = 0, which should be almost 0",
+             input::nonNegative())
       .ours()
       .value("centre", memberOf<S>(&RadialTags::centre), Vec3::Zero(), "m", std::move(centre))
       .ours();

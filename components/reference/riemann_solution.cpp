@@ -250,7 +250,8 @@ RiemannSolution solveRiemann(const RiemannState& left, const RiemannState& right
   const Side rightSide(right, -1, rightGas);
   const bool vacuum = left.density == 0 || right.density == 0 || leftSide.front() <= -rightSide.front();
   if (vacuum && (leftGas.gamma != rightGas.gamma || leftGas.stiffness > 0 || rightGas.stiffness > 0))
-    throw std::invalid_argument("Two gases part, with vacuum between them: there is no solution for that here.");
+    throw std::invalid_argument(
+        "The two gases separate and leave vacuum between them: there is no solution for that here.");
   vacuum ? fillVacuum(solution, leftSide, rightSide) : fillStar(solution, leftSide, rightSide);
   return solution;
 }

@@ -57,7 +57,7 @@ struct RiemannSolution {
 /// a pressure stands in vacuum, both sides are vacuum, or vacuum is beside or between two different gases.
 RiemannSolution solveRiemann(const RiemannState& left, const RiemannState& right, const GasLaw& leftGas,
                              const GasLaw& rightGas);
-/// The same for one ideal gas on both sides.
+/// The solution with the same ideal gas on both sides.
 RiemannSolution solveRiemann(const RiemannState& left, const RiemannState& right, double gamma);
 
 }  // namespace tushar::reference

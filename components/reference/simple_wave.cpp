@@ -69,8 +69,8 @@ void SimpleWave::checkProfile() const {
           fmt::format("The velocity {} of the simple wave at x = {} leaves no positive sound speed.", u, x));
     }
     if (!std::isfinite(stateOf(u).pressure)) {
-      throw std::invalid_argument(
-          fmt::format("The velocity {} of the simple wave at x = {} makes a pressure beyond all numbers.", u, x));
+      throw std::invalid_argument(fmt::format(
+          "The velocity {} of the simple wave at x = {} gives a pressure beyond the range of a double.", u, x));
     }
   }
 }

@@ -31,7 +31,7 @@ std::vector<double> readField(const output::Hdf5Input& file, const std::string& 
   const auto* reals = std::get_if<std::vector<double>>(&values);
   if (!reals || reals->size() != numbers)
     throw FileError(
-        fmt::format("'{}': {} has not the {} numbers that the grid needs", file.path().string(), path, numbers));
+        fmt::format("'{}': {} does not have the {} numbers that the grid needs", file.path().string(), path, numbers));
   return *reals;
 }
 

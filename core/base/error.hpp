@@ -9,7 +9,7 @@
 
 namespace tushar {
 
-/// What `sus` returns to the shell.
+/// The exit codes of `sus`.
 enum class ExitCode : int {
   success = 0,
   failure = 1,         ///< anything not named below: a file that cannot be written, memory, a defect of ours
@@ -31,7 +31,7 @@ struct Location {
   std::string text() const;
 };
 
-/// Where to look for what several `parts` of a tag got wrong together: the option that overrides one of them, else
+/// Where to report a mistake that several `parts` of a tag make together: the option that overrides one of them, else
 /// `tag`.
 const Location& placeOf(std::initializer_list<const Location*> parts, const Location& tag);
 const Location& placeOf(std::initializer_list<const Location*> parts, const Location&& tag) = delete;  // would dangle
@@ -56,7 +56,7 @@ class InputError : public std::runtime_error {
   std::vector<InputProblem> problems_;
 };
 
-/// A task list that cannot be run: the mistake of whoever wrote the component.
+/// A task list that cannot be run: a mistake in the component.
 class TaskError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -5,9 +5,9 @@ namespace tushar {
 /// From now on the first Ctrl-C or SIGTERM ends the run after the current step, and the second ends it at once. SIGUSR1
 /// asks for the state to be saved after the step.
 void catchInterrupts();
-/// Whether such a signal has come.
+/// Whether such a signal has arrived.
 bool isInterrupted();
-/// Whether SIGUSR1 has come since the last call.
+/// Whether SIGUSR1 has arrived since the last call.
 bool takeSaveSignal();
 
 }  // namespace tushar

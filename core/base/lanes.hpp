@@ -10,8 +10,8 @@
 
 namespace tushar {
 
-/// As many numbers side by side as the processor computes with at once. An operation acts on each of them as it does on
-/// a number alone, to the same bits, so that results do not depend on what shares a register with what.
+/// As many numbers as the processor's vector registers hold. An operation acts on each of them as it does on a number
+/// alone, to the same bits, so that results do not depend on what shares a register with what.
 class Lanes {
  public:
 #if defined(__AVX512F__)
@@ -122,7 +122,7 @@ inline double greatest(Lanes x) {
 
 }  // namespace tushar
 
-/// So that vectors and matrices may hold Lanes.
+/// Lets Eigen's vectors and matrices hold Lanes.
 namespace Eigen {
 template <>
 struct NumTraits<tushar::Lanes> : NumTraits<double> {

@@ -6,13 +6,13 @@ namespace tushar {
 /// Read from the environment that launchers set, so that MPI is not needed to know.
 int launchedRanks();
 
-/// Which of these processes this is, from 0; 0 without a launcher.
+/// The number of this process among them, from 0; 0 without a launcher.
 int launchedRank();
 
 /// How many of them are on this machine.
 int ranksOnThisMachine();
 
-/// Cores that the launcher gave to each process; the greatest int if it does not tell.
+/// Cores that the launcher gave to each process; the greatest int if that is unknown.
 int launchedCoresPerRank();
 
 }  // namespace tushar

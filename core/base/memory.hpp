@@ -2,16 +2,16 @@
 
 namespace tushar {
 
-/// Memory of this process, bytes: now, and at most since it started. Zero if the system does not tell.
+/// Memory of this process, bytes: now, and the peak since it started. Zero if the system gives neither.
 struct ResidentMemory {
   double now = 0, peak = 0;
 };
 ResidentMemory residentMemory();
 
-/// The most that this process has had in memory, bytes; by a call that takes a microsecond.
+/// Peak memory of this process, bytes; the call takes a microsecond.
 double peakMemory();
 
-/// Adds to a number [bytes] by how much the most that this process has had in memory grows while it lives.
+/// Adds the growth of this process's peak memory during its life to a number [bytes].
 class PeakGrowth {
  public:
   explicit PeakGrowth(double& sum) : sum_(sum), before_(peakMemory()) {}

@@ -5,7 +5,7 @@
 
 namespace tushar {
 
-/// The folder of the shared library of the framework, beside which those are that are loaded on demand.
+/// The folder of the framework's shared library and of those that are loaded on demand.
 std::filesystem::path libraryFolder();
 
 /// Builds the target `tushar_NAME`, which the first build has left out, in a folder where Tushar is built: that has the

@@ -26,7 +26,7 @@ inline void append(Bytes& bytes, const void* from, std::size_t length) {
   bytes.insert(bytes.end(), first, first + length);
 }
 
-/// The MPI library that runs, with its version; MPI need not be started.
+/// Name and version of the MPI library in use; MPI need not be initialised.
 std::string libraryVersion();
 
 /// Thrown where another rank has failed; that rank reports why.
@@ -83,8 +83,7 @@ class Communicator {
   std::string broadcast(const std::string& text, int from = 0) const;
   /// The texts of all ranks, by rank, on every rank. Slow: for errors.
   std::vector<std::string> gather(const std::string& mine) const;
-  /// Rank 0 does something that the others do not see fail: throws what it throws there, and FailedElsewhere on
-  /// the others.
+  /// Runs something on rank 0 alone: throws what it throws there, and FailedElsewhere on the others.
   void onFirst(const std::function<void()>& action) const;
 
   /// Waits for the next message of rank `from` with this tag.
@@ -92,7 +91,7 @@ class Communicator {
 
   /// The ranks with the same colour among themselves.
   Communicator split(int colour) const;
-  /// What MPI calls the ranks; null where there is one.
+  /// MPI's communicator; null for a single rank.
   const Native* native() const { return native_.get(); }
 
  private:
@@ -106,7 +105,7 @@ class Outbox {
   explicit Outbox(const Communicator& ranks);
   Outbox(const Outbox&) = delete;
   Outbox& operator=(const Outbox&) = delete;
-  /// What nobody has received yet stays in memory, where MPI reads it.
+  /// Messages that have not been received yet stay in memory, where MPI reads them.
   ~Outbox();
 
   /// Returns at once.

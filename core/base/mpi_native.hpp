@@ -22,7 +22,7 @@ struct Communicator::Native {
   }
 };
 
-/// The ranks as MPI knows them. MPI must have been initialised where there is one rank.
+/// MPI's communicator of the ranks. For a single rank MPI must have been initialised.
 inline MPI_Comm handleOf(const Communicator& ranks) { return ranks.native() ? ranks.native()->ranks : MPI_COMM_SELF; }
 
 }  // namespace tushar::mpi

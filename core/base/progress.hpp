@@ -6,8 +6,8 @@
 
 namespace tushar {
 
-/// Shows how far a run is: a line for each output and, on a terminal, a live line that is drawn over; elsewhere, as in
-/// the log of a batch job, a line a minute of wall time.
+/// Shows the progress of a run: a line for each output and, on a terminal, a live line that is drawn over; elsewhere,
+/// as in the log of a batch job, a line a minute of wall time.
 class Progress {
  public:
   using Clock = std::chrono::steady_clock;

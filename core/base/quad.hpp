@@ -8,7 +8,7 @@
 
 namespace tushar {
 
-/// Four numbers that are worked on at once: a register, or two where the processor's hold two numbers.
+/// Four numbers in one vector register, or in two if registers hold two numbers.
 using Quad = double __attribute__((vector_size(32)));
 using QuadOfIntegers = int __attribute__((vector_size(16)));
 
@@ -39,7 +39,7 @@ template <int Which>
   return __builtin_shufflevector(a, a, Which, Which, Which, Which);
 }
 
-/// The components of a vector, zeros behind them, and a number.
+/// The components of a vector, padded with zeros, and a number in the last lane.
 template <int D>
 [[gnu::always_inline]] inline Quad quadOf(const Vec<D>& v, double number = 0) {
   if constexpr (D == 1)

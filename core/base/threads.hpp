@@ -12,7 +12,7 @@ namespace tushar {
 /// machine; no more than SLURM_CPUS_PER_TASK, where that is set.
 int allowedThreads();
 
-/// The version of TBB that runs.
+/// The version of TBB in use.
 std::string tbbVersion();
 
 /// A fixed number of threads, the caller's among them, that work through loops.

@@ -8,16 +8,16 @@ namespace tushar::trace {
 
 using Clock = std::chrono::steady_clock;
 
-/// What a thread does with its time.
+/// The kinds of activity in a trace.
 enum class Kind { task, message, output, wait };
 
 std::string_view nameOf(Kind kind);
 
-/// From now on spans are recorded; before, one costs a look at a flag.
+/// Starts recording spans; before that, a span costs one test of a flag.
 void start();
 bool isOn();
 
-/// Notes what the calling thread did from `from` to `to`. `name` must outlive the trace; `patch` is -1 where there is
+/// Records what the calling thread did from `from` to `to`. `name` must outlive the trace; `patch` is -1 where there is
 /// none.
 void record(Kind kind, std::string_view name, int patch, Clock::time_point from, Clock::time_point to);
 

@@ -28,7 +28,7 @@ class Gather {
   /// The values of a variable without a copy, on each rank its own: they stay where they are, and are good while the
   /// state is as it is. None if no rank holds it.
   output::Array stream(data::Generation generation, int variable);
-  /// The same in an order of one's own.
+  /// The values without a copy, in the given order.
   output::Array stream(data::Generation generation, int variable, const GridOrder& order);
   /// The same for the part of a variable of cells or nodes that is in a layer; no other part is asked for.
   output::Array stream(data::Generation generation, int variable, const Layer& layer);
@@ -48,14 +48,14 @@ class Gather {
 /// The geometry of the grid as the archive keeps it.
 output::GridInfo gridInfo(const grid::Grid& grid);
 output::GridInfo gridInfo(const grid::Level& level);
-/// That of a layer: the axis across it has one cell, and is not in use.
+/// The geometry of a layer: the axis across it has one cell and is not in use.
 output::GridInfo gridInfo(const grid::Level& level, const Layer& layer);
 
-/// Hash of the old values of the named variables of all materials, in the order above: 16 hexadecimal digits.
-/// Two runs agree in it only if they agree in every bit. Rank 0 has it; all ask.
+/// Hash of the old values of the named variables of all materials, in the order above: 16 hexadecimal digits. Two runs
+/// agree in it only if they agree in every bit. Only rank 0 has it. Collective.
 std::string fingerprint(data::Warehouse& warehouse, const std::vector<std::string>& labels, int materials);
 
-/// Number of particles of all materials, on all ranks, which all ask.
+/// Number of particles of all materials on all ranks. Collective.
 long particleCount(data::Warehouse& warehouse, int materials);
 
 }  // namespace tushar::collect

@@ -12,13 +12,13 @@ namespace tushar::collect {
 /// levels, box after box, the coarsest level first, those of a level along the curve.
 class GridOrder {
  public:
-  /// Those of a box of the only level.
+  /// The cells or nodes of a box of the only level.
   explicit GridOrder(const grid::Box& all) : all_(all) {}
   /// All cells of several levels, in boxes of up to `most` cells along an axis; 0: block by block along the curve.
   GridOrder(const grid::Grid& grid, int most);
 
   std::size_t size() const { return boxes_ ? boxes_->cells() : all_.size(); }
-  /// The cells or nodes that a patch gives, of those that it has.
+  /// The cells or nodes that a patch contributes, of those that it has.
   grid::Box givenBy(const grid::Box& own) const { return boxes_ ? own : own.intersect(all_); }
   /// Calls `visit(place in the order, first cell or node, count)` for each row of a box of a level, as far as it is in
   /// the order; box by box along the curve, so from left to right for a single row.
@@ -47,7 +47,8 @@ class GridOrder {
 /// All cells or nodes that a variable has a value for; of several levels in boxes that suit readers of files.
 GridOrder orderOf(const grid::Grid& grid, bool isNode);
 
-/// The same in a checkpoint: of several levels block by block, of one with the nodes beyond the sides of the grid.
+/// The order in a checkpoint: block by block for several levels; for one level, with the nodes beyond the sides of the
+/// grid.
 GridOrder orderOfState(const grid::Grid& grid, bool isNode);
 
 /// The most cells of a box in a file along an axis.

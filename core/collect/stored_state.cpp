@@ -191,7 +191,7 @@ class StateReader : StateWalk {
 
  private:
   [[noreturn]] void refuse(const std::string& what) const {
-    throw InputError({{{file_.path().string(), 0, 0}, "", what + "; take back what was changed in the scene since"}});
+    throw InputError({{{file_.path().string(), 0, 0}, "", what + "; undo what was changed in the scene since"}});
   }
 
   bool isStored(const Label& label, const std::string& path) const {
@@ -204,9 +204,9 @@ class StateReader : StateWalk {
   /// Refuses a dataset that has not as many numbers as the scene needs, or another type.
   void check(const std::string& path, const Array::Values& found, std::size_t size, const Array::Values& type,
              std::size_t count) const {
-    if (found.index() != type.index()) refuse(fmt::format("the checkpoint has another type of numbers at {}", path));
+    if (found.index() != type.index()) refuse(fmt::format("the checkpoint has another type of number for {}", path));
     if (size != count)
-      refuse(fmt::format("the checkpoint has {} numbers at {}, and the scene needs {}", size, path, count));
+      refuse(fmt::format("the checkpoint has {} numbers for {}, but the scene needs {}", size, path, count));
   }
 
   /// A dataset of so many numbers of a type.

@@ -11,7 +11,7 @@
 
 namespace tushar::collect {
 
-/// Which variables make up a state: those of these names, of no material and of each of these.
+/// The variables of a state: those with these names, without a material and for each of these materials.
 struct StateNames {
   std::vector<std::string> labels, materials;
 };

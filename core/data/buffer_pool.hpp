@@ -6,9 +6,9 @@
 
 namespace tushar::data {
 
-/// Memory that variables have given back, for the next ones. A buffer goes to nobody who needs much less than it holds,
-/// so that each size finds its own again in the next step. What lies free never exceeds a bound: the pool and all that
-/// it has lent hold together no more than `bound()` bytes. Not for several threads at once.
+/// Memory that variables have released, for later ones. A buffer is not given to a variable that needs much less than
+/// it holds, so that each size finds its own again in the next step. What lies free never exceeds a bound: the pool and
+/// all that it has lent hold together no more than `bound()` bytes. Not for several threads at once.
 class BufferPool {
  public:
   /// Makes room for `bytes` in a buffer, from the pool where it has one that fits; the first `keep` bytes stay as they
@@ -18,17 +18,18 @@ class BufferPool {
   Buffer lend(std::size_t bytes);
   /// Takes back the memory of a buffer, which is then empty.
   void takeBack(Buffer& buffer);
-  /// Gives free memory back to the system.
+  /// Returns free memory to the system.
   void release();
-  /// A step begins: what lay free during the whole of the last one goes back to the system.
+  /// Starts a step: memory that was free during the whole previous step returns to the system.
   void beginStep();
 
-  /// How often the pool did not have enough.
+  /// How often the pool had no buffer that fits.
   std::size_t allocations() const { return allocations_; }
-  /// Bytes that lie free, and that buffers hold which came from the pool.
+  /// Free bytes, and bytes in buffers that came from the pool.
   std::size_t free() const { return free_bytes_; }
   std::size_t lent() const { return lent_; }
-  /// Bytes that both together may come to: a quarter more than was lent at once in this step or the last, and little.
+  /// Limit on the sum of both: slightly more than 5/4 of the most that was lent at the same time in this step or the
+  /// last.
   std::size_t bound() const;
 
  private:

@@ -77,7 +77,7 @@ struct FieldLabel : Label {
     components = count * Stored<T>::components;
     bytes = count * sizeof(T);
   }
-  /// What the names of such labels start with, as in Uintah: p. for particles, g. for grid nodes, c. for cells.
+  /// The prefix of such labels' names, as in Uintah: p. for particles, g. for grid nodes, c. for cells.
   static constexpr std::string_view prefix() {
     return C == Centring::particle ? "p." : C == Centring::node ? "g." : "c.";
   }
@@ -100,10 +100,10 @@ struct ReductionLabel : Label {
               1,      sizeof(R), false,   Bound::none,         &data::makeReduction<R>} {}
 };
 
-/// The name of the label that says where particles are: ghosts beyond a periodic face have it moved there.
+/// The name of the label of particle positions, which are shifted for ghosts beyond a periodic face.
 inline constexpr std::string_view positionName = "p.x";
 
 /// Names every particle; kept by the framework in every particle set.
-inline constexpr ParticleLabel<ParticleId> particleId{"p.particleID", "1", "name of the particle for its whole life"};
+inline constexpr ParticleLabel<ParticleId> particleId{"p.particleID", "1", "name of the particle, which never changes"};
 
 }  // namespace tushar::data

@@ -37,7 +37,7 @@ struct GhostRun {
   int to;                   ///< place of the first copy, counted from the first particle of the patch
 };
 
-/// Which particles a patch has of one material, cell by cell.
+/// The particles of one material on a patch, cell by cell.
 ///
 /// Places count from the first particle of the patch. Owned particles stand there, sorted by (cell, id). Ghosts, those
 /// of the cells around the patch that belong to other patches, stand where their own patch has them, if that is on the
@@ -112,7 +112,7 @@ class ParticleSet {
   const std::vector<GhostRun>& ghostRuns() const { return ghost_runs_; }
   bool hasGhosts() const { return has_ghosts_; }
   void markGhosts() { has_ghosts_ = true; }
-  /// The ghosts are out of date: their patches have other particles now.
+  /// Marks the ghosts as out of date: their patches have other particles now.
   void forgetGhosts();
 
  private:

@@ -13,7 +13,7 @@
 
 namespace tushar::data {
 
-/// A few words that say where a value comes from, such as `CFL`: plain bytes, so that a message can carry them.
+/// A short origin of a value, such as `CFL`: plain bytes, so that a message can carry them.
 class Reason {
  public:
   constexpr Reason() = default;
@@ -162,9 +162,9 @@ struct Norm {
 /// The time step; tasks of scheduleComputeStableTimeStep lower it, each with the name of its limit as the reason.
 inline constexpr ReductionLabel<Minimum> delT{"delT", "s", "time step"};
 
-/// What the time step may be multiplied by so that no bound breaks. A task of scheduleTimeAdvance that computes less
-/// than 1 asks for the step to be undone and repeated with a smaller one; the reason names the bound. The step ends
-/// with that task: none after it sees what must not be. The old state stays as it is.
+/// The factor by which the time step may be multiplied without breaking a bound. A task of scheduleTimeAdvance that
+/// computes less than 1 asks for the step to be undone and repeated with a smaller one; the reason names the bound. The
+/// step ends with that task: none after it sees what must not be. The old state stays as it is.
 inline constexpr ReductionLabel<Minimum> recomputeTimeStep{"recomputeTimeStep", "1",
                                                            "factor on the time step that keeps every bound"};
 

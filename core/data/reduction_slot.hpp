@@ -22,7 +22,7 @@ class ReductionSlot {
   virtual void merge(const std::byte* from, std::byte* into) const = 0;
   /// Makes as many empty partial results.
   virtual void divide(std::size_t parts) = 0;
-  /// Adds the partial results to the reducer in their order, whoever computed them when, and empties them.
+  /// Adds the partial results to the reducer in a fixed order and empties them.
   virtual void gather() = 0;
 };
 
@@ -47,7 +47,7 @@ class TypedReduction : public ReductionSlot {
   }
 
  private:
-  /// On a cache line of its own: threads write side by side.
+  /// Has its own cache line, as threads write to neighbours at the same time.
   struct alignas(64) Part {
     R reducer;
   };

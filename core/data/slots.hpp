@@ -10,8 +10,8 @@ namespace tushar::data {
 
 struct Label;
 
-/// Where the patches of a rank stand in the one memory that a variable has, counted in values. Each patch has a slot;
-/// behind the last come copies of particles whose own place is elsewhere: on another rank, or one period away.
+/// The places of a rank's patches in the single buffer of a variable, counted in values. Each patch has a slot; behind
+/// the last come copies of particles whose own place is elsewhere: on another rank, or one period away.
 ///
 /// Layouts do not change: variables that stand alike share one, and where particles need other slots there is a new
 /// one.

@@ -25,8 +25,8 @@ class AccessError : public std::logic_error {
 [[noreturn]] void refuse(const Label* label, const Index3& index, const grid::Box& box);
 [[noreturn]] void refuse(const Label* label, int particle, int count);
 
-/// What a task sees of a particle variable: one T per particle of its patch, and of the ghost cells it declared.
-/// `const T` where it may only read.
+/// A task's view of a particle variable: one T per particle of its patch, and of the ghost cells it declared. `const T`
+/// where it may only read.
 template <class T>
 class ParticleView {
  public:
@@ -57,7 +57,7 @@ class ParticleView {
   /// Number of particles that the patch owns: places 0 to owned() - 1.
   int owned() const { return set_->owned(); }
   const ParticleSet& set() const { return *set_; }
-  /// The value at place 0; those of ghosts may stand before it.
+  /// The value at place 0; values of ghosts may precede it.
   T* values() const { return values_; }
 
  private:
@@ -74,7 +74,7 @@ class ParticleView {
   const Label* label_;
 };
 
-/// What a task sees of a node or cell variable: one T per node or cell of `box()`, the first axis fastest.
+/// A task's view of a node or cell variable: one T per node or cell of `box()`, the first axis fastest.
 template <Centring C, class T>
 class GridView {
  public:

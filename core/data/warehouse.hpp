@@ -113,7 +113,7 @@ class Warehouse {
 
   /// Makes room for all variables named so far, and for the particle sets of `materials` materials.
   void grow(int materials);
-  /// Forgets what stands on patches, for those that the grid gives this rank now; reductions stay.
+  /// Discards all values on patches and adopts the patches that the grid now assigns to this rank; reductions stay.
   void startAnew(int materials);
   /// Room for a node or cell variable on all patches, with all ghosts that tasks read; NaN-filled in the dev preset.
   void allocateGrid(Generation generation, int number);
@@ -122,44 +122,44 @@ class Warehouse {
   /// Room for a particle variable on all patches, where the particles of the sets of generation `set` stand; NaN-filled
   /// in the dev preset.
   void allocateParticles(Generation generation, int number, Generation set);
-  /// Gives the memory of a variable back, for the next one that is allocated.
+  /// Returns the memory of a variable to the pool.
   void free(Generation generation, int number);
 
   /// The sets of a material have their particles on all patches: gives them slots, where possible those of `base`.
   void layOut(Generation generation, int material, Generation base);
-  /// Lets a particle variable that stands where the sets stood before stand where those of generation `set` do now.
-  /// What patches have in slots that stay is kept, wherever that is; patches that have other slots have undefined
-  /// values. Gives the memory that it had before, if it has another one now: give that back.
+  /// Moves a particle variable from the previous places of the sets to those of generation `set`. What patches have in
+  /// slots that stay is kept, wherever that is; patches that have other slots have undefined values. Gives the memory
+  /// that it had before, if it has another one now: give that back.
   Buffer follow(Generation generation, int number, Generation set);
-  /// The memory of a variable, and where the patches stand in it, and those of sets.
+  /// The memory of a variable, and the places of patches and of sets in it.
   std::byte* memory(Generation generation, int number) { return storage(generation, number).memory.data(); }
   const SharedSlots& slots(Generation generation, int number) const;
   const SharedSlots& slotsOfSets(Generation generation, int material) { return layout(generation, material).slots; }
   /// How far behind the first particle of a patch that of another stands.
   int distance(Generation set, int material, int from, int to);
-  /// Place of the next copies of ghosts of a patch, of which there are `count`; counted from its first particle.
+  /// Place of the next `count` ghost copies of a patch, counted from its first particle.
   int placeCopies(Generation set, int material, int patch, int count);
-  /// Room for all copies of ghosts that have a place; what stands in the memory stays.
+  /// Makes room for all ghost copies that have a place; existing values stay.
   void reserveCopies(Generation generation, int number, Generation set);
 
   /// Lends memory for a short time; give it back with takeBack.
   Buffer lend(std::size_t bytes) { return pool_.lend(bytes); }
   void takeBack(Buffer& buffer) { pool_.takeBack(buffer); }
-  /// Gives memory that no variable has back to the system.
+  /// Returns unused memory to the system.
   void releaseFreeMemory();
-  /// A step begins, of all its graphs: memory that the last one never needed goes back to the system.
+  /// Starts a step: memory that the previous one never needed returns to the system.
   void beginStep();
 
   /// Whether any rank has values of a variable. Collective.
   bool isHeld(Generation generation, int number);
 
-  /// What was computed becomes old, and the memory of what was old is free, on every patch.
+  /// Makes the new generation old and frees the previous one, on every patch.
   void makeOld(int number);
   void swapSets(int material);
-  /// No particle set has ghosts any more: the next exchange settles them anew.
+  /// Removes the ghosts of all particle sets: the next exchange plans them again.
   void forgetGhosts();
 
-  /// Allocations made so far; a test shows that variables nobody reads add none.
+  /// Number of allocations so far; variables that nothing reads add none.
   std::size_t allocations() const { return pool_.allocations(); }
 
  private:

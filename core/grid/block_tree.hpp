@@ -21,9 +21,9 @@ struct BlockId {
   friend std::strong_ordering operator<=>(const BlockId& a, const BlockId& b);
 };
 
-/// Which blocks of a grid are leaves: every cell of the grid is in one of them. A block is refined into two along each
-/// axis. Leaves that touch, over an edge or a corner too, differ by one level at most; along periodic axes, their
-/// images do. A tree never changes: regridding makes another.
+/// The tree of blocks of a grid and its leaves: every cell of the grid is in one of them. A block is refined into two
+/// along each axis. Leaves that touch, over an edge or a corner too, differ by one level at most; along periodic axes,
+/// their images do. A tree never changes: regridding makes another.
 class BlockTree {
  public:
   /// Nothing refined yet. `roots`: blocks of level 0 along the kernel axes (1 beyond `dimension`); `periodic[d]` != 0
@@ -45,7 +45,7 @@ class BlockTree {
   int levelAt(const BlockId& block) const;
   /// Place of a leaf on the curve, from 0; the block must be a leaf, not the image of one.
   int placeOf(const BlockId& leaf) const;
-  /// Whether there are finer leaves in a block's place. Along periodic axes, images count.
+  /// Whether a block is refined. Along periodic axes, images count.
   bool isRefined(const BlockId& block) const { return levelAt(block) > block.level; }
 
   /// The tree in which all of `wanted` are refined, of those refined now also those in `kept`, and nothing else but
@@ -62,7 +62,7 @@ class BlockTree {
   static BlockTree fromKeys(int dimension, const Index3& roots, const Index3& periodic, int levels,
                             const std::vector<std::uint64_t>& keys);
 
-  /// The same grid, levels and leaves.
+  /// Equal grid, levels and leaves.
   friend bool operator==(const BlockTree&, const BlockTree&) = default;
 
  private:
@@ -70,9 +70,9 @@ class BlockTree {
 
   std::uint64_t keyOf(const BlockId& block) const;
   BlockId blockOf(std::uint64_t key) const;
-  /// The block, or along periodic axes the one that it is an image of; none outside the grid.
+  /// The block itself, or the one of which it is a periodic image; none outside the grid.
   std::optional<BlockId> inside(const BlockId& block) const;
-  /// The tree in which these blocks of each level are refined, and what follows from that.
+  /// The tree in which these blocks of each level and all blocks that follow from them are refined.
   BlockTree withRefined(std::vector<Keys> refined) const;
   /// Blocks one level coarser that must be refined, so that all blocks around a refined one exist.
   void addRefinedAround(const BlockId& block, Keys& coarser) const;

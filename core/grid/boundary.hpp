@@ -21,7 +21,7 @@ enum class BoundaryKind { symmetry, dirichlet, neumann };
 inline constexpr std::array<std::string_view, 3> boundaryKindNames{"symmetry", "Dirichlet", "Neumann"};
 constexpr std::string_view nameOf(BoundaryKind kind) { return boundaryKindNames[static_cast<std::size_t>(kind)]; }
 
-/// A variable that a scene may give conditions for, whatever its type. Two with the same name are the same variable.
+/// A variable for which a scene may give conditions, of any type. Two with the same name are the same variable.
 struct BoundaryVariable {
   std::string_view name;  ///< the `label` attribute of a `BCType`
   bool isVector = false;  ///< whether its value is one
@@ -42,7 +42,7 @@ struct BoundaryLabel : BoundaryVariable {
 /// Not a variable but the whole state, mirrored in a plane of symmetry.
 inline constexpr BoundaryVariable symmetric{"Symmetric"};
 
-/// One `BCType` of a `Face`: what a variable does at a side of the domain.
+/// One `BCType` of a `Face`: the condition for a variable at a side of the domain.
 struct BoundaryCondition {
   BoundaryVariable variable;
   BoundaryKind kind;

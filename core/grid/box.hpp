@@ -7,7 +7,7 @@
 
 namespace tushar::grid {
 
-/// Where a cell is along an axis on the next coarser level, on either side of 0.
+/// Index of the next coarser cell along an axis, rounded down also below 0.
 constexpr int coarserCell(int cell) { return cell >= 0 ? cell / 2 : -((1 - cell) / 2); }
 
 /// A half-open box of cells or nodes, [lower, upper) along each axis.

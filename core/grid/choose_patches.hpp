@@ -9,7 +9,7 @@ namespace tushar::grid {
 
 inline constexpr int cellsPerThread = 8192;  ///< fewer are not worth a thread
 
-/// How many threads of at most `most` are worth having for so many cells: one at least.
+/// How many threads, from 1 to `most`, pay off for so many cells.
 int usefulThreads(double cells, int cellsOfThread, int most);
 
 /// The ranks and threads that work on a grid.
@@ -19,7 +19,8 @@ struct Workers {
   int ranks = 1;
   std::optional<Index3> layout;  ///< patches along x, y, z that they want, whatever the scene says
 
-  /// The threads of each rank for a grid of `cells` along x, y, z: one with little to do costs more than it gains.
+  /// The threads of each rank for a grid of `cells` along x, y, z: a thread with too few cells costs more than it
+  /// gains.
   int threadsFor(const Index3& cells) const;
   /// How many patches they need to share the work evenly: one where there is one worker.
   int patchesFor(const Index3& cells) const;
@@ -30,7 +31,7 @@ struct Workers {
 /// more patches along an axis than cells. Along x, where memory is contiguous, it is cut last.
 Index3 choosePatches(const Index3& cells, int count);
 
-/// The patches along x, y, z that `4x2x1` stands for; none for what is not three whole numbers from 1 on.
+/// Parses a layout such as `4x2x1`, patches along x, y, z; none unless it is three positive integers.
 std::optional<Index3> parseLayout(std::string_view text);
 
 }  // namespace tushar::grid

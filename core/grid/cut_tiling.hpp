@@ -5,7 +5,7 @@
 
 namespace tushar::grid {
 
-/// The patches that cuts along each axis make of a grid of one level. Nothing is kept for each patch.
+/// The patches of a grid of one level, which is cut along each axis. Needs no memory per patch.
 class CutTiling : public Tiling {
  public:
   explicit CutTiling(MortonCurve::Cuts cuts) : curve_(std::move(cuts)) {}

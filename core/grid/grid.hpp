@@ -39,7 +39,7 @@ class Grid {
   bool isFinest(const Box& cells) const;
   int dimension() const { return level().dimension(); }
 
-  /// Which blocks are refined; there must be several levels.
+  /// The tree of refined blocks; there must be several levels.
   const BlockTree& tree() const { return blocks_->tree(); }
   /// Cells of a block along the kernel axes.
   const Index3& blockCells() const { return blocks_->blockCells(); }
@@ -48,7 +48,7 @@ class Grid {
   const std::set<BlockId>& fixedBlocks() const { return fixed_blocks_; }
   /// The patches that another tree would make.
   std::unique_ptr<BlockTiling> cut(BlockTree tree) const;
-  /// Has other patches from now on, in shares of as many cells as they allow; gives those that there were. What stands
+  /// Replaces the patches, in shares that are as equal in cells as they allow; returns the previous ones. What stands
   /// on patches is the caller's to move: see tasks::regrid.
   std::unique_ptr<Tiling> refine(std::unique_ptr<BlockTiling> tiling);
   /// The patches of this rank, by number.
@@ -71,9 +71,9 @@ class Grid {
   /// Nodes of one of this rank's patches that are its own: all but those on an upper face behind which only patches of
   /// this rank stand, which have these nodes, too. Each node of a patch is an own node of one of the rank's.
   const Box& ownNodes(int patch) const { return own_nodes_[patch - first_patch_]; }
-  /// Which patches each rank has.
+  /// The distribution of patches to ranks.
   RankOffsets rankOffsets() const;
-  /// Gives the patches to the ranks anew. What stands on them is the caller's to move: see tasks::migratePatches.
+  /// Redistributes the patches to the ranks. The caller moves their values: see tasks::migratePatches.
   void share(RankOffsets offsets);
 
   /// The patch that holds a cell of a level, which must be neither refined nor part of a coarser one.

@@ -50,7 +50,7 @@ class Level {
 
   /// 0 for the coarsest.
   int number() const { return number_; }
-  /// The grid that it is a level of, which knows its patches; there must be one.
+  /// The grid to which this level belongs, which has the patches; there must be one.
   const Grid& grid() const { return *grid_; }
   /// The finest level of that grid; this one, where it has no finer ones.
   const Level& finest() const;
@@ -67,12 +67,12 @@ class Level {
   /// The part of a box of cells that lies on the grid or, along periodic axes, on its images.
   Box clipCells(const Box& cells) const { return clip(cells, cells_); }
   Box clipNodes(const Box& nodes) const { return clip(nodes, this->nodes()); }
-  /// What the scene says of the grid, with the cells of this level.
+  /// The scene's description of the grid, with the cells of this level.
   const Domain& domain() const { return domain_; }
 
   /// Cell width along a kernel axis, m.
   double spacing(int kernelAxis) const { return spacing_[kernelAxis]; }
-  /// One over the cell width, 1/m: a division saved wherever kernels go from metres to cells.
+  /// One over the cell width, 1/m: saves a division wherever kernels convert metres to cells.
   double inverseSpacing(int kernelAxis) const { return inverse_spacing_[kernelAxis]; }
   /// Cell width along an axis of the scene, m; 0 where the grid has no extent.
   double cellWidth(int axis) const { return (domain_.upper[axis] - domain_.lower[axis]) / domain_.resolution[axis]; }
@@ -85,7 +85,7 @@ class Level {
   /// Position of a node along a kernel axis, m.
   double nodePosition(int kernelAxis, int node) const { return lower_[kernelAxis] + node * spacing(kernelAxis); }
 
-  /// The middle of a cell, m.
+  /// The centre of a cell, m.
   template <int D>
   Vec<D> cellCentre(const Index<D>& cell) const {
     Vec<D> centre;
@@ -103,7 +103,7 @@ class Level {
     return cell;
   }
 
-  /// The cells of the grid near a box in space [m]: at least all that it reaches.
+  /// The cells of the grid near a box in space [m]: at least all that it touches.
   Box cellsNear(const Vec3& lower, const Vec3& upper) const;
   /// The axes that are left out: `y, z`, or nothing.
   std::string axesLeftOut() const;
@@ -185,7 +185,7 @@ class Level {
   }
   bool isPeriodic(int kernelAxis) const { return domain_.periodic[axis(kernelAxis)] != 0; }
   bool isPeriodic() const { return is_periodic_; }
-  /// How far apart the images of a point are along a kernel axis, m.
+  /// The period along a kernel axis, m.
   double period(int kernelAxis) const {
     return nodePosition(kernelAxis, cells_.upper[kernelAxis]) - nodePosition(kernelAxis, 0);
   }

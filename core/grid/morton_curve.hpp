@@ -8,9 +8,9 @@
 
 namespace tushar::grid {
 
-/// The blocks that cuts along each axis make, in Morton's order (G. M. Morton, A Computer Oriented Geodetic Data Base
-/// and a New Technique in File Sequencing, IBM 1966): neighbours on the curve are near in space, so consecutive blocks
-/// have few faces to others.
+/// Blocks between cuts along each axis, in Morton order (G. M. Morton, A Computer Oriented Geodetic Data Base and a New
+/// Technique in File Sequencing, IBM 1966): neighbours on the curve are near in space, so consecutive blocks have few
+/// faces to others.
 ///
 /// Any number of blocks along an axis. Nothing is kept for each block: a place is found by halving the grid, in as many
 /// steps as the number of blocks has bits.

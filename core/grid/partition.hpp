@@ -12,16 +12,16 @@ struct Share {
   int rank = 0, ranks = 1;
 };
 
-/// Which rank has which patches: each a run of consecutive ones.
+/// The distribution of patches to ranks: each rank has consecutive ones.
 class Partition {
  public:
-  /// Shares of as many cells as whole patches allow. Nothing is kept for each rank. Rank 0 has a patch always.
+  /// Shares as equal in cells as whole patches allow. Needs no memory per rank. Rank 0 always has a patch.
   Partition(const Tiling& tiling, int ranks) : tiling_(&tiling), ranks_(ranks) {}
-  /// Keeps the shares that are given.
+  /// The given shares.
   Partition(const Tiling& tiling, RankOffsets offsets)
       : tiling_(&tiling), ranks_(static_cast<int>(offsets.size()) - 1), offsets_(std::move(offsets)) {}
 
-  /// The first patch of a rank, which is that of the next where it has none.
+  /// The first patch of a rank; for a rank without patches, that of the next rank.
   int firstOf(int rank) const;
   int ownerOf(int patch) const;
 

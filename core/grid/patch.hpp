@@ -19,7 +19,7 @@ class Patch {
   const Box& cells() const { return cells_; }
   /// The nodes of the patch's cells, and those beyond the sides of the grid that it touches.
   Box nodes() const;
-  /// Cells within `width` of the patch that are on the grid or, along periodic axes, images of such.
+  /// Cells within `width` of the patch that are on the grid or, along periodic axes, on its images.
   Box cellsWithin(int width) const;
   /// Nodes within `width` of the patch's nodes that are on the grid or images of such.
   Box nodesWithin(int width) const;

@@ -7,7 +7,7 @@
 
 namespace tushar::grid {
 
-/// A box in space that is at least so fine.
+/// A box in space with a minimum level of refinement.
 struct FineRegion {
   int level = 1;
   Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();  ///< m

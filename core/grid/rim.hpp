@@ -9,7 +9,7 @@ namespace tushar::grid {
 
 class Grid;
 
-/// Faces of a patch behind which cells of one patch of the next finer or coarser level stand.
+/// Faces between a patch and one patch of the next finer or coarser level.
 struct RimPiece {
   int axis, side;     ///< side 0: lower faces of `cells`, 1: upper faces
   Box cells;          ///< of the patch

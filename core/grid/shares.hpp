@@ -4,11 +4,11 @@
 
 namespace tushar::grid {
 
-/// Which patches go to which rank: rank r has those from `offsets[r]` to `offsets[r + 1]`.
+/// A distribution of patches to ranks: rank r has those from `offsets[r]` to `offsets[r + 1]`.
 using RankOffsets = std::vector<int>;
 
-/// Gives consecutive patches to `ranks` ranks so that the busiest rank has as little of the `costs` as possible. Rank 0
-/// always has a patch.
+/// Distributes consecutive patches to `ranks` ranks so that the largest sum of `costs` on a rank is as small as
+/// possible. Rank 0 always has a patch.
 RankOffsets evenShares(const std::vector<double>& costs, int ranks);
 
 /// The sum of costs on the busiest rank.

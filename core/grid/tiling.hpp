@@ -7,14 +7,14 @@
 
 namespace tushar::grid {
 
-/// A patch as a tiling knows it: its number, its level and its cells, counted on that level.
+/// A patch of a tiling: its number, its level and its cells, counted on that level.
 struct Tile {
   int id;
   int level;
   Box cells;
 };
 
-/// How the cells of a grid are cut into patches, which are numbered along a curve. Every rank has the whole of it.
+/// How the cells of a grid are cut into patches, which are numbered along a curve. Every rank has all of it.
 class Tiling {
  public:
   virtual ~Tiling() = default;

@@ -24,7 +24,7 @@ Constraint between(double least, double most);
 inline Constraint positive() { return greaterThan(0); }
 inline Constraint nonNegative() { return atLeast(0); }
 
-/// What a formula for the start of a run must satisfy: to give the same at any time.
+/// A constraint on formulas for the start of a run: they must not depend on time.
 struct WithoutTime {
   std::string allowed = "without t";
 };
@@ -41,7 +41,7 @@ bool satisfies(const VectorExpression& value, const Constraint& constraint);
 inline bool satisfies(const Expression& value, const WithoutTime&) { return !value.dependsOnTime(); }
 inline bool satisfies(const VectorExpression& value, const WithoutTime&) { return !value.dependsOnTime(); }
 
-/// `found '-1', expected a value greater than 0 m`; the unit "1" is not said.
+/// `found '-1', expected a value greater than 0 m`; the unit "1" is omitted.
 std::string violation(const std::string& found, const Constraint& constraint, const std::string& unit);
 std::string violation(const std::string& found, const WithoutTime& constraint, const std::string& unit);
 

@@ -8,7 +8,7 @@
 
 namespace tushar::input {
 
-/// Collects everything wrong with a scene, so that the user sees all of it at once.
+/// Collects all problems of a scene, so that the user sees them at once.
 class Diagnostics {
  public:
   /// `tagPath` may be empty.
@@ -16,14 +16,14 @@ class Diagnostics {
   /// A problem of a tag or of its value.
   void error(const Element& element, std::string sentence);
 
-  /// Something that is accepted but does nothing: the user should know.
+  /// Reports something that is accepted but has no effect.
   void note(const Element& element, std::string sentence);
   void note(const Location& where, std::string tagPath, std::string sentence);
   const std::vector<InputProblem>& notes() const { return notes_; }
 
   bool any() const { return !problems_.empty(); }
   std::size_t size() const { return problems_.size(); }
-  /// Grouped by file in the order in which files were first complained of, then by line and column.
+  /// All problems, grouped by file in the order of each file's first problem, then by line and column.
   std::vector<InputProblem> sorted() const;
   /// Throws InputError with all problems, sorted, if there is any.
   void throwIfAny() const;

@@ -121,7 +121,7 @@ bool TreeBuilder::isCycle(const std::string& path, const Location& where) {
   };
   if (std::none_of(including_.begin(), including_.end(), same)) return false;
   diagnostics_.error(where, {},
-                     fmt::format("cannot include '{}': it is being included already, so it would never end", path));
+                     fmt::format("cannot include '{}': it includes itself, directly or through other files", path));
   return true;
 }
 
@@ -225,6 +225,19 @@ Document Document::parse(std::string_view text, const std::string& name, Diagnos
 void Document::set(const std::string& change, Diagnostics& diagnostics) {
   const Location where{"--set " + change, 0, 0};
   if (const auto parsed = parseOverride(change, where, diagnostics)) apply(*parsed, *root_, where, diagnostics);
+}
+
+void Document::readFirst(std::string_view path) {
+  std::vector<Node*> found{root_.get()};
+  std::istringstream names{std::string(path)};
+  for (std::string name; std::getline(names, name, '/');) {
+    std::vector<Node*> below;
+    for (const Node* node : found)
+      for (const auto& child : node->children)
+        if (child->name == name) below.push_back(child.get());
+    found = std::move(below);
+  }
+  for (Node* node : found) node->isReadFirst = true;
 }
 
 std::string Document::text() const {

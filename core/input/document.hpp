@@ -10,7 +10,7 @@
 
 namespace tushar::input {
 
-/// A scene file as a tree of tags that remember where they stand.
+/// A scene file as a tree of tags with their locations.
 ///
 /// `<include href="other.xml" section="A/B"/>` is replaced by that section of the other file, its tag included (by what
 /// is below the root where no section is given; by what is below the tag with `excludeSectionTag="true"`). `href` is
@@ -18,7 +18,7 @@ namespace tushar::input {
 /// that the scene as text() gives it finds the file from any folder.
 class Document {
  public:
-  /// Reads a file. Whatever is wrong with it goes to `diagnostics`; the document then has a bare root.
+  /// Reads a file. All problems go to `diagnostics`; the document then has a bare root.
   static Document load(const std::string& path, Diagnostics& diagnostics);
   /// Reads a scene from memory; messages and included files treat it as the file `name`.
   static Document parse(std::string_view text, const std::string& name, Diagnostics& diagnostics);
@@ -28,11 +28,15 @@ class Document {
   /// created. What is overridden is from then on at the location `--set PATH=VALUE`.
   void set(const std::string& change, Diagnostics& diagnostics);
 
+  /// Makes the tags at `path`, such as `MaterialProperties/MPM`, count as if they were above their siblings, which can
+  /// then refer to labels in them.
+  void readFirst(std::string_view path);
+
   /// `<Uintah_specification>`.
   Element root() const { return Element(*root_); }
   /// The scene as XML with includes resolved and overrides applied.
   std::string text() const;
-  /// As given to load or parse.
+  /// The path or name given to load or parse.
   const std::string& path() const { return path_; }
 
  private:

@@ -35,8 +35,10 @@ class Element {
   std::vector<Element> children(std::string_view name) const;
   /// None for the root.
   std::optional<Element> parent() const;
+  /// Whether it counts as if it were above its siblings (Document::readFirst).
+  bool isReadFirst() const { return node_->isReadFirst; }
 
-  /// The same tag of the same document.
+  /// Whether both are the same tag of the same document.
   friend bool operator==(const Element&, const Element&) = default;
 
  private:

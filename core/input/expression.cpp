@@ -105,7 +105,7 @@ Parsed<Expression> Expression::parse(std::string_view given) {
   } else if (looksLikeNumber(out.text_)) {
     return Parsed<Expression>::wrong(number.problem);
   }
-  if (assigns(out.text_)) return Parsed<Expression>::wrong(notAFormula(out.text_, "'=' would change a variable"));
+  if (assigns(out.text_)) return Parsed<Expression>::wrong(notAFormula(out.text_, "'=' would assign to a variable"));
   try {
     out.program_ = std::make_unique<Program>(out.text_);
     mu::Parser& parser = out.program_->compiled().parser;

@@ -30,10 +30,10 @@ class Expression {
   static Parsed<Expression> parse(std::string_view text);
 
   double operator()(const Vec3& x, double t = 0) const { return constant_ ? value_ : evaluate(x, t); }
-  /// Whether it is the same everywhere and always.
+  /// Whether it is constant in space and time.
   bool isConstant() const { return constant_; }
   bool dependsOnTime() const { return dependsOnTime_; }
-  /// As it was written.
+  /// The formula as written in the scene.
   const std::string& text() const { return text_; }
   /// The tag that it was read from, or the option that overrides it.
   const Location& where() const { return where_; }

@@ -126,7 +126,7 @@ Kind fromFile(const std::string& name, const std::string& sentence, const std::s
 
 Kind surface() {
   return fromFile(
-      "tri", "What lies within a closed surface of triangles.",
+      "tri", "The inside of a closed surface of triangles.",
       "a file beside the scene: STL (text or binary) if it ends in .stl, else what NAME.pts, a point `x y z` a line, "
       "and NAME.tri, three numbers of points (from 0) a line, hold together",
       [](const std::string& path, const Element& tag, Diagnostics& diagnostics) -> PiecePtr {
@@ -158,11 +158,11 @@ const std::vector<Kind>& kinds() {
       polygon(),
       simple<Polyhedron>(),
       simple<SmoothCylinder>(),
-      combined(operandsSchema("union", "What is in any of its shapes.", false),
+      combined(operandsSchema("union", "The union of its shapes.", false),
                [](std::vector<PiecePtr> pieces) { return std::make_shared<Union>(std::move(pieces)); }),
-      combined(operandsSchema("difference", "What is in its first shape but not in its second.", true),
+      combined(operandsSchema("difference", "The points in its first shape but not in its second.", true),
                [](std::vector<PiecePtr> pieces) { return std::make_shared<Difference>(pieces[0], pieces[1]); }),
-      combined(operandsSchema("intersection", "What is in all of its shapes.", false),
+      combined(operandsSchema("intersection", "The intersection of its shapes.", false),
                [](std::vector<PiecePtr> pieces) { return std::make_shared<Intersection>(std::move(pieces)); })};
   return all;
 }
@@ -196,8 +196,8 @@ bool collectAbove(const Element& from, const Element& until, std::vector<Element
   return false;
 }
 
-/// In the same section of the scene (MaterialProperties, PhysicalBC, …), as each has labels of its own. The shapes of a
-/// gas in <ICE> know those of bodies in <MPM>, wherever that stands, as Uintah reads bodies first.
+/// In the same section of the scene (MaterialProperties, PhysicalBC, …), as each has labels of its own; with those in
+/// parts of the section that are read first.
 std::vector<Element> labelledAbove(const Element& shape) {
   Element section = shape, part = shape;
   while (section.parent() && section.parent()->parent()) {
@@ -206,8 +206,11 @@ std::vector<Element> labelledAbove(const Element& shape) {
   }
   std::vector<Element> found;
   collectAbove(section, shape, found);
-  const auto bodies = part.name() == "ICE" ? section.child("MPM") : std::nullopt;
-  if (bodies && bodies->where().line > part.where().line) collectAbove(*bodies, shape, found);
+  bool isBelow = false;
+  for (const Element& other : section.children()) {
+    if (isBelow && other.isReadFirst() && !part.isReadFirst()) collectAbove(other, shape, found);
+    isBelow |= other == part;
+  }
   return found;
 }
 
@@ -246,7 +249,7 @@ PiecePtr readReference(const Element& reference, const std::string& label, Diagn
 void noteIfTaken(const Element& shape, const std::string& label, Diagnostics& diagnostics) {
   const std::vector<Element> others = definitions(label, labelledAbove(shape));
   if (others.empty()) return;
-  diagnostics.note(shape, fmt::format("the label '{}' is that of the <{}> at {}, too: no tag can refer to it", label,
+  diagnostics.note(shape, fmt::format("the label '{}' is that of the <{}> at {}, too, so no tag can refer to it", label,
                                       others.front().name(), others.front().where().text()));
 }
 

@@ -13,7 +13,7 @@ namespace tushar::input {
 
 /// The tags that are shapes, for Schema::custom to take over: `.custom("shape", …, geometryNames(), …)`.
 std::vector<std::string> geometryNames();
-/// What may stand in them, for Schema::forms.
+/// The allowed content of these tags, for Schema::forms.
 std::vector<TagForm> geometryForms();
 
 /// The shapes among the children of a `<geom_object>` (or the like), united if there are several; other children are

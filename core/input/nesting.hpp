@@ -20,7 +20,7 @@ struct BadNesting {
   bool tooDeep = false;            ///< one tag too many in each other, and nothing else
 };
 
-/// Looks at tags alone: comments, CDATA, declarations and whatever stands between tags are passed over.
+/// Checks only tags: comments, CDATA, declarations and text between tags are skipped.
 std::optional<BadNesting> findBadNesting(std::string_view text);
 
 }  // namespace tushar::input

@@ -6,7 +6,7 @@
 
 namespace tushar::input {
 
-/// What text was read as: a value, or a sentence that says what is wrong with the text.
+/// The result of parsing text: a value, or a sentence that says what is wrong with the text.
 template <class T>
 struct Parsed {
   std::optional<T> value;

@@ -10,7 +10,7 @@
 
 namespace tushar::input {
 
-/// A switch of Uintah's that only stands at `false` or 0 here; `instead` says what there is.
+/// Accepts a switch of Uintah's only if it is `false` or 0; `instead` names the alternative.
 template <class S>
 void refuseSwitch(input::Schema<S>& schema, const std::string& tag, const std::string& instead) {
   schema.custom(
@@ -24,7 +24,7 @@ void refuseSwitch(input::Schema<S>& schema, const std::string& tag, const std::s
   schema.forms({patternForm({tag}, std::string("false|") + zeroPattern)});
 }
 
-/// A switch of Uintah's that only stands at `true` here; `instead` says what there is.
+/// Accepts a switch of Uintah's only if it is `true`; `instead` names the alternative.
 template <class S>
 void requireSwitch(input::Schema<S>& schema, const std::string& tag, const std::string& instead) {
   schema.custom(
@@ -37,7 +37,7 @@ void requireSwitch(input::Schema<S>& schema, const std::string& tag, const std::
   schema.forms({choiceForm({tag}, {"true"})});
 }
 
-/// A tag of Uintah's that only stands at one of some values here; `sentence` says why.
+/// Accepts a tag of Uintah's only with one of some values; `sentence` says why.
 template <class S>
 void refuseOtherValues(input::Schema<S>& schema, const std::string& tag, const std::vector<std::string>& values,
                        const std::string& sentence) {
@@ -62,7 +62,15 @@ void refuseOtherValues(input::Schema<S>& schema, const std::string& tag, const s
   schema.forms({std::move(form)});
 }
 
-/// A tag of Uintah's that is missing here; `instead` says what there is.
+/// Refuses each entry of a list whose `member` is not above that of the entry before it. `tags` are the entries' own.
+template <class T, class Member>
+void refuseDescent(const std::vector<T>& entries, Member T::*member, const std::vector<Element>& tags,
+                   const std::string& problem, Diagnostics& diagnostics) {
+  for (std::size_t k = 1; k < entries.size(); ++k)
+    if (entries[k].*member <= entries[k - 1].*member) diagnostics.error(tags[k], problem);
+}
+
+/// Refuses a tag of Uintah's; `instead` names the alternative.
 template <class S>
 void refuseTag(input::Schema<S>& schema, const std::string& tag, const std::string& instead) {
   schema.custom(
@@ -74,7 +82,7 @@ void refuseTag(input::Schema<S>& schema, const std::string& tag, const std::stri
   schema.forms({noForm({tag})});
 }
 
-/// A tag of Uintah's that means nothing here; `why` is said to whoever gives it.
+/// Accepts a tag of Uintah's that has no effect here, with a note that says `why`.
 template <class S>
 void noteTag(input::Schema<S>& schema, const std::string& tag, const std::string& why) {
   schema.custom(
@@ -86,7 +94,7 @@ void noteTag(input::Schema<S>& schema, const std::string& tag, const std::string
   schema.forms({anyForm({tag})});
 }
 
-/// A choice of Uintah's of which only `available` are there; may be left out.
+/// Accepts only the `available` options of a choice of Uintah's; the tag may be left out.
 template <class S>
 void refuseTypes(input::Schema<S>& schema, const std::string& tag, const std::vector<std::string>& available,
                  const std::string& sentence) {
@@ -104,10 +112,10 @@ void refuseTypes(input::Schema<S>& schema, const std::string& tag, const std::ve
   schema.forms({std::move(form)});
 }
 
-/// Words of Uintah's that are missing here, and what there is instead.
+/// Options of Uintah's that are not available, and the nearest alternative of each.
 using Lacking = std::vector<std::pair<std::string, std::string>>;
 
-/// A tag with one of several words; of those that are `lacking`, the message says what is nearest.
+/// Declares a tag with one of several words; for those that are `lacking`, the message names the nearest.
 template <class S, class E>
 void requiredChoiceOrRefusal(input::Schema<S>& schema, const std::string& tag, E S::*member,
                              const std::type_identity_t<input::Choices<E>>& choices, const Lacking& lacking,
@@ -123,7 +131,7 @@ void requiredChoiceOrRefusal(input::Schema<S>& schema, const std::string& tag, E
           if (given->text() == word) read.*member = value;
         for (const auto& [word, nearest] : lacking)
           if (given->text() == word)
-            return diagnostics.error(*given, "'" + word + "' of Uintah is not available; nearest is " + nearest);
+            return diagnostics.error(*given, "'" + word + "' of Uintah is not available; the nearest is " + nearest);
         const std::string problem = input::choiceProblem(given->text(), words);
         if (!problem.empty()) diagnostics.error(*given, problem);
       },

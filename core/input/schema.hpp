@@ -17,7 +17,7 @@
 
 namespace tushar::input {
 
-/// The names of a choice and what each stands for.
+/// The names of a choice and their values.
 template <class E>
 using Choices = std::vector<std::pair<std::string, E>>;
 
@@ -118,7 +118,7 @@ class Schema : public SchemaBase {
     return put(choiceEntry<E>(member, name, choices, sentence));
   }
 
-  /// The same for attributes.
+  /// As above, for attributes.
   template <class T, class... C>
   Schema& attributeValue(const std::string& name, T S::*member, const std::type_identity_t<T>& byDefault,
                          const std::string& unit, const std::string& sentence, const C&... constraints) {
@@ -184,7 +184,7 @@ class Schema : public SchemaBase {
     return put(std::move(entry));
   }
 
-  /// A tag (with all that is in it) that is accepted and means nothing here; `sentence` says why.
+  /// A tag (with its content) that is accepted but has no effect; `sentence` says why.
   Schema& ignored(const std::string& name, const std::string& sentence) { return put(ignoredEntry(name, sentence)); }
   Schema& ignoredAttribute(const std::string& name, const std::string& sentence) {
     return put(attribute(ignoredEntry(name, sentence)));
@@ -197,8 +197,8 @@ class Schema : public SchemaBase {
     return put(attribute(std::move(entry)));
   }
 
-  /// Reads what declarations cannot say. `read` is called once with the element of *this* schema, whether or not any
-  /// of the tags that it `takes` over (`name` itself if none are listed) is given.
+  /// Reads what declarations cannot express. `read` is called once with the element of *this* schema, whether or not
+  /// any of the tags that it `takes` over (`name` itself if none are listed) is given.
   Schema& custom(const std::string& name, std::function<void(S&, const Element&, Diagnostics&)> read,
                  std::vector<std::string> takes, const std::string& sentence,
                  std::function<void(std::ostream&, int)> describeBelow = {}) {
@@ -212,14 +212,14 @@ class Schema : public SchemaBase {
     return put(std::move(entry));
   }
 
-  /// What may stand in the tags of the last declaration, a custom one, for the schemas of editors; of all of them
-  /// together at least `atLeast` must be given.
+  /// The allowed content of the tags of the last declaration, a custom one, for the schemas of editors; at least
+  /// `atLeast` of these tags must be given in all.
   Schema& forms(std::vector<TagForm> forms, int atLeast = 0) {
     setFormsOfLast(std::move(forms), atLeast);
     return *this;
   }
 
-  /// Keeps where the tag stands or, with the name of an attribute, where that was given.
+  /// Stores the location of the tag or, with the name of an attribute, that of the attribute.
   Schema& location(Location S::*member, std::string attribute = "") {
     addLocate([member, attribute = std::move(attribute)](void* object, const Element& element) {
       static_cast<S*>(object)->*member = element.whereOf(attribute);

@@ -53,7 +53,7 @@ void refuseAttributes(const Element& element, const std::vector<std::string>& al
 /// Reports the text of a tag that holds tags alone.
 void refuseText(const Element& element, Diagnostics& diagnostics);
 
-/// What a Schema does without knowing the structure that it fills.
+/// The part of a Schema that does not depend on the structure that it fills.
 class SchemaBase {
  public:
   const std::string& name() const { return name_; }
@@ -62,12 +62,12 @@ class SchemaBase {
   const std::vector<SchemaEntry>& entries() const { return entries_; }
   /// The tags that may be given, in the order of their declaration.
   std::vector<std::string> tagNames() const;
-  /// The same without those that are known only to be refused with a sentence of their own.
+  /// The tags that may be given, without those that are declared only to be refused.
   std::vector<std::string> acceptedTagNames() const;
   std::vector<std::string> attributeNames() const;
   /// Writes the manual of the tag and of all that it may contain, indented by that many blanks.
   void describe(std::ostream& out, int indent = 0) const;
-  /// The same without the line of the tag itself.
+  /// As describe(), without the line of the tag itself.
   void describeContents(std::ostream& out, int indent = 0) const;
 
  protected:
@@ -82,7 +82,7 @@ class SchemaBase {
   void markLastOurs();
   void markAllOurs() { all_ours_ = true; }
   void explainWordOfLast(const std::string& word, const std::string& sentence);
-  /// What may stand in the tags of the last declaration, which a function reads; at least `atLeast` of them in all.
+  /// Sets the allowed content of the tags of the last declaration, which a function reads; at least `atLeast` in all.
   void setFormsOfLast(std::vector<TagForm> forms, int atLeast);
   void setDefaults(void* object) const;
   void readInto(void* object, const Element& element, Diagnostics& diagnostics) const;

@@ -20,7 +20,7 @@ struct Alternative {
   std::vector<Demand> demands;
 };
 
-/// What may stand in some tags that a function reads: for the schemas of editors, not for reading.
+/// The allowed content of some tags that a function reads: for the schemas of editors, not for reading.
 struct TagForm {
   enum class Kind { anything, nothing, value, section };
 

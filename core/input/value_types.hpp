@@ -20,13 +20,13 @@ const std::vector<ValueType>& valueTypes();
 /// The type that the manual calls `type`; text where there is none.
 const ValueType& valueTypeOf(const std::string& type);
 
-/// What may stand in the tags of a declaration.
+/// The allowed content of the tags of a declaration.
 std::vector<TagForm> formsOf(const SchemaEntry& entry);
 
 /// `number in Pa, greater than 0: its modulus [Tushar's own]`.
 std::string documentationOf(const SchemaEntry& entry);
 
-/// What a tag or an attribute of that name must be; null where nothing is demanded.
+/// The demand on a tag or attribute of that name; null if there is none.
 const Demand* findDemand(const std::vector<Demand>& demands, const std::string& name);
 
 }  // namespace tushar::input

@@ -83,8 +83,7 @@ XmlFile::XmlFile(std::string_view text, std::string name, Diagnostics& diagnosti
 void XmlFile::parse(Diagnostics& diagnostics) {
   const std::optional<BadNesting> bad = findBadNesting(text_);
   if (bad && bad->tooDeep)
-    return diagnostics.error(locate(bad->where), {},
-                             fmt::format("more than {} tags stand in each other here", mostNested));
+    return diagnostics.error(locate(bad->where), {}, fmt::format("tags are nested more than {} deep here", mostNested));
   const unsigned options = pugi::parse_default | pugi::parse_comments;
   const pugi::xml_parse_result result = document_.load_buffer(text_.data(), text_.size(), options, pugi::encoding_utf8);
   if (!result && bad && result.status == pugi::status_end_element_mismatch) {
@@ -107,7 +106,7 @@ std::string XmlFile::sentence(const BadNesting& bad) const {
   const std::string open = fmt::format("<{}> of {}", bad.open, locate(bad.whereOpened).text());
   if (bad.wasOpened || bad.closed.empty())
     return fmt::format("found {} while {} is still open; is its </{}> missing?", found, open, bad.open);
-  return fmt::format("found {}, which nothing opened; the tag that is open here is {}", found, open);
+  return fmt::format("found {}, but no such tag is open; the open tag here is {}", found, open);
 }
 
 Location XmlFile::locate(std::ptrdiff_t offset) const {

@@ -124,7 +124,7 @@ class CellSystem {
     unknowns_.ranks->merge(volume);
     for (double& value : solution_) value -= sum.total() / volume.total();
   }
-  /// The middle of the cell with a number, m; none for one of another rank.
+  /// The centre of the cell with a number, m; none for one of another rank.
   std::optional<Vec3> middleOf(int wanted) const {
     std::optional<Vec3> middle;
     forEachCell([&](std::size_t p, const Index<D>& cell) {

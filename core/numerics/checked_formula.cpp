@@ -20,7 +20,7 @@ double CheckedFormula::positiveAt(const Vec3& x) const {
 
 void CheckedFormula::refuse(double value, const Vec3& x, const char* wanted) const {
   throw InputError({{formula.where(), path,
-                     fmt::format("it is {:g}{}{} at ({:g}, {:g}, {:g}), and must be {} everywhere", value,
+                     fmt::format("it is {:g}{}{} at ({:g}, {:g}, {:g}), but must be {} everywhere", value,
                                  unit.empty() ? "" : " ", unit, x[0], x[1], x[2], wanted)}});
 }
 

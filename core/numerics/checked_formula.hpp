@@ -20,12 +20,12 @@ struct CheckedFormula {
   double finiteAt(const Vec3& x) const;
   /// Throws InputError where the value is not finite and greater than 0.
   double positiveAt(const Vec3& x) const;
-  /// Sets each cell of a patch to the value at its middle. Throws InputError where that is not finite.
+  /// Sets each cell of a patch to the value at its centre. Throws InputError where that is not finite.
   template <int D>
   void fill(const grid::Patch& patch, data::CellView<double> field) const {
     atMiddles<D>(patch, [&](const Index<D>& cell, const Vec3& x) { field[cell] = finiteAt(x); });
   }
-  /// Throws InputError where the value at the middle of a cell is not finite and greater than 0.
+  /// Throws InputError where the value at the centre of a cell is not finite and greater than 0.
   template <int D>
   void requirePositive(const grid::Patch& patch) const {
     atMiddles<D>(patch, [&](const Index<D>&, const Vec3& x) { positiveAt(x); });

@@ -115,7 +115,7 @@ class Diffusion {
         visit(d, side, next, level_.isPeriodic(d) || (next[d] >= 0 && next[d] < level_.cells().upper[d]));
       }
   }
-  /// k in the middle of a cell of the grid or of its periodic images.
+  /// k in the centre of a cell of the grid or of its periodic images.
   double inCell(const Index<D>& cell) const {
     return k_(level_.template expandPoint<D>(level_.template cellCentre<D>(level_.template wrapped<D>(cell))));
   }

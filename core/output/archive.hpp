@@ -23,7 +23,7 @@ struct GlobalSample {
   std::vector<double> values;
 };
 
-/// How far an archive had come when a checkpoint was written.
+/// The extent of an archive when a checkpoint was written.
 struct ArchivePoint {
   int step = 0;
   double time = 0;          ///< s
@@ -51,11 +51,11 @@ class Archive {
   /// Makes the folder `filebase.NNN`, NNN one above the highest there is, and points the link `filebase` to it.
   /// FileError if `filebase` exists and is not a link, or if nothing can be written there.
   Archive(const std::filesystem::path& filebase, const std::string& inputXml, const ArchiveOptions& options = {});
-  /// Goes on in the folder of another run from a point on: what came after it is cut off, outputs and lines of `.dat`
+  /// Continues in the folder of another run from some point: what came later is removed, outputs and lines of `.dat`
   /// files alike. `name` is that of the filebase. Where index.xml or the XDMF file is damaged, the point's is taken.
   Archive(const std::filesystem::path& folder, const std::string& name, const ArchivePoint& from,
           const std::string& inputXml, const ArchiveOptions& options);
-  /// Flushes; an error in that is lost, so call flush() first.
+  /// Flushes; errors are lost, so call flush() first.
   ~Archive();
   Archive(const Archive&) = delete;
   Archive& operator=(const Archive&) = delete;
@@ -68,7 +68,7 @@ class Archive {
   void appendGlobal(const GlobalSample& sample);
   /// Writes index.xml and the XDMF file if they have been behind for long enough. To be called after each step.
   void keepUp();
-  /// Writes them if they are behind at all.
+  /// Writes them if they are out of date.
   void flush();
   /// Writes them, and waits until the lines of globals are on the disk. Where the archive stands then: this, kept in a
   /// checkpoint, makes up for lists that a power cut takes. Outputs may go with it, but for those of the last seconds

@@ -16,8 +16,8 @@ void removeUnlisted(const std::filesystem::path& folder, const ArchiveIndex& ind
 /// The text of an XML file whose outermost tag is `root`; `otherwise` where the file is missing or torn.
 std::string xmlOr(const std::filesystem::path& file, const char* root, const std::string& otherwise);
 
-/// What lists the outputs up to a step, from a file and from what a checkpoint has kept of it: the file may be torn,
-/// and behind where the power failed; the checkpoint has no output that was made after it at the same step.
+/// The fuller list of outputs up to a step, of that in a file and its copy in a checkpoint: the file may be torn, and
+/// behind where the power failed; the checkpoint has no output that was made after it at the same step.
 template <class List>
 std::string fuller(const std::filesystem::path& file, const std::string& kept, int step) {
   const std::string found = xmlOr(file, List::rootName, kept);

@@ -4,7 +4,7 @@
 
 namespace tushar::output {
 
-/// What the disk refused first: the system's error number, 0 while all is well.
+/// The system's error number of the first failed write, or 0.
 struct DiskFailure {
   int error = 0;
 };

@@ -20,7 +20,7 @@ void pointLink(const std::filesystem::path& filebase, const std::filesystem::pat
 /// Puts `text` into the file, in one step: a reader sees the old text or the new. FileError if it cannot.
 void replaceFile(const std::filesystem::path& file, const std::string& text);
 
-/// The same, and on the disk when it returns.
+/// As above, and the file is on the disk when it returns.
 void replaceFileOnDisk(const std::filesystem::path& file, const std::string& text);
 
 /// A file that is open to be added to, without a buffer. Its functions throw FileError.

@@ -10,16 +10,16 @@
 
 namespace tushar::output {
 
-/// The `.dat` files of an archive. Each line is with the system when append() returns, so a killed run loses none.
+/// The `.dat` files of an archive. append() returns when the system has the line, so a killed run loses none.
 class GlobalFiles {
  public:
   explicit GlobalFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
   /// The name of a global's file.
   static std::string nameOf(const std::string& global);
-  /// Adds a line to the file of a global; its first sample makes the file anew. Whether this was the first.
+  /// Adds a line to the file of a global; the first sample replaces the file. Returns whether this was the first.
   bool append(const GlobalSample& sample);
-  /// Goes on in the files of these globals, without the lines after `time` [s].
+  /// Continues the files of these globals, without the lines after `time` [s].
   void resume(const std::vector<std::string>& globals, double time);
   /// Waits until all lines are on the disk.
   void sync() const;

@@ -12,7 +12,7 @@
 
 namespace tushar::output {
 
-/// The version of HDF5 that runs.
+/// The version of HDF5 in use.
 std::string hdf5Version();
 
 /// A dataset of another file that is shown as a box of a virtual one. `file` is relative to the folder of the latter,
@@ -25,7 +25,7 @@ struct VirtualPart {
   std::vector<std::uint64_t> from{};         ///< where what is shown begins in the dataset; empty: at its start
 };
 
-/// Of real numbers in the file: what the file was opened for, or 8 bytes always.
+/// Precision of real numbers in the file: that with which it was opened, or always 8 bytes.
 enum class Precision { asAsked, full };
 
 /// Writes one HDF5 file. It needs no MPI and never starts it. Each function may throw FileError with the path and the
@@ -35,7 +35,7 @@ class Hdf5File {
   /// Creates the file, in place of one that exists. Real numbers are kept in 4 bytes if `doubleAsFloat`, and all are
   /// packed by gzip at level `compression` if that is above 0.
   Hdf5File(std::filesystem::path path, bool doubleAsFloat, int compression);
-  /// Closes the file if close() was not called, and then says nothing of errors.
+  /// Closes the file if close() was not called; errors are then lost.
   ~Hdf5File();
   Hdf5File(const Hdf5File&) = delete;
   Hdf5File& operator=(const Hdf5File&) = delete;
@@ -61,7 +61,7 @@ class Hdf5File {
                       const std::vector<VirtualPart>& parts);
   /// Writes 0, 1, 2, … as signed integers of 8 bytes.
   void sequence(const std::string& name, std::uint64_t count);
-  /// Makes a dataset of `count` equal bytes that takes no place.
+  /// Makes a dataset of `count` equal bytes that takes no space.
   void equalBytes(const std::string& name, std::uint8_t value, std::uint64_t count);
   /// Attributes of a group that exists; `/` is the root.
   void attribute(const std::string& object, const char* name, double value);
@@ -74,7 +74,7 @@ class Hdf5File {
   void attribute(const std::string& object, const char* name, const std::vector<int>& value);
   /// A text of fixed length, in ASCII.
   void fixedText(const std::string& object, const char* name, const std::string& value);
-  /// Writes all to the disk and closes: here a full disk is noticed.
+  /// Writes everything to the disk and closes the file; a full disk is detected here.
   void close();
 
  private:

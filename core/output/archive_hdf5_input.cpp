@@ -45,6 +45,18 @@ Result Hdf5Input::checked(Result result, const std::string& what) const {
   throw FileError(fmt::format("cannot read {} '{}': {}", what, path_.string(), hdf5Reason()));
 }
 
+/// An open dataset, its type, and how many numbers it has, whatever its shape.
+struct Hdf5Input::Dataset {
+  Handle data, space, type;
+  std::size_t numbers;
+
+  Dataset(const Hdf5Input& file, const std::string& name)
+      : data(file.checked(H5Dopen2(file.file_, name.c_str(), H5P_DEFAULT), name + " of"), H5Dclose),
+        space(H5Dget_space(data), H5Sclose),
+        type(H5Dget_type(data), H5Tclose),
+        numbers(static_cast<std::size_t>(file.checked(H5Sget_simple_extent_npoints(space), name + " of"))) {}
+};
+
 Hdf5Input::Hdf5Input(std::filesystem::path path) : path_(std::move(path)) {
   const Silence silence;
   file_ = checked(H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "the file");
@@ -74,17 +86,13 @@ std::vector<std::string> Hdf5Input::names(const std::string& group) const {
 
 Array::Values Hdf5Input::dataset(const std::string& name) const {
   const Silence silence;
-  const Handle data(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
-  checked<hid_t>(data, name + " of");
-  const Handle space(H5Dget_space(data), H5Sclose);
-  const Handle type(H5Dget_type(data), H5Tclose);
-  const auto numbers = checked(H5Sget_simple_extent_npoints(space), name + " of");
-  Array::Values read = valuesLike(type);
+  const Dataset from(*this, name);
+  Array::Values read = valuesLike(from.type);
   std::visit(
       [&](auto& values) {
         using Number = typename std::decay_t<decltype(values)>::value_type;
-        values.resize(numbers);
-        checked(H5Dread(data, memoryType(Number{}), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), name + " of");
+        values.resize(from.numbers);
+        checked(H5Dread(from.data, memoryType(Number{}), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), name + " of");
       },
       read);
   return read;
@@ -92,15 +100,11 @@ Array::Values Hdf5Input::dataset(const std::string& name) const {
 
 Hdf5Input::Placed Hdf5Input::placed(const std::string& name) const {
   const Silence silence;
-  const Handle data(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
-  checked<hid_t>(data, name + " of");
-  const Handle space(H5Dget_space(data), H5Sclose);
-  const Handle type(H5Dget_type(data), H5Tclose);
-  const auto numbers = checked(H5Sget_simple_extent_npoints(space), name + " of");
-  Placed placed{valuesLike(type), static_cast<std::size_t>(numbers)};
+  const Dataset from(*this, name);
+  Placed placed{valuesLike(from.type), from.numbers};
   const hid_t native = std::visit([](const auto& values) { return memoryType(typeOfNumber(values)); }, placed.type);
-  const haddr_t offset = H5Dget_offset(data);
-  const bool isNative = checked(H5Tequal(type, native), name + " of") > 0;
+  const haddr_t offset = H5Dget_offset(from.data);
+  const bool isNative = checked(H5Tequal(from.type, native), name + " of") > 0;
   if (offset != HADDR_UNDEF && isNative) placed.offset = static_cast<std::int64_t>(offset);
   return placed;
 }
@@ -122,7 +126,7 @@ void Hdf5Input::readAttribute(const std::string& object, const char* name, Id ty
   checked<hid_t>(open, what);
   const Handle space(H5Aget_space(open), H5Sclose);
   if (H5Sget_simple_extent_npoints(space) != static_cast<hssize_t>(numbers))
-    throw FileError(fmt::format("cannot read {} '{}': it has another number of components", what, path_.string()));
+    throw FileError(fmt::format("cannot read {} '{}': it has the wrong number of components", what, path_.string()));
   checked(H5Aread(open, type, data), what);
 }
 

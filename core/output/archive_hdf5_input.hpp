@@ -25,7 +25,7 @@ class Hdf5Input {
   std::vector<std::string> names(const std::string& group) const;
   /// The numbers of a dataset, whatever its shape, as they were written.
   Array::Values dataset(const std::string& name) const;
-  /// Where a dataset stands.
+  /// The place of a dataset in the file.
   struct Placed {
     Array::Values type;        ///< no values, of the type that it has
     std::size_t count = 0;     ///< of numbers, whatever the shape
@@ -45,6 +45,7 @@ class Hdf5Input {
 
  private:
   using Id = std::int64_t;  ///< HDF5's hid_t
+  struct Dataset;
   template <class Result>
   Result checked(Result result, const std::string& what) const;
   void readAttribute(const std::string& object, const char* name, Id type, std::size_t numbers, void* data) const;

@@ -8,8 +8,7 @@
 
 namespace tushar::output {
 
-/// A dataset of which parts are read where they are needed, without the rest in memory. Its functions may throw
-/// FileError.
+/// A dataset that is read in parts when they are needed, without the rest in memory. Its functions may throw FileError.
 class Hdf5Parts {
  public:
   /// `file` must outlive it.

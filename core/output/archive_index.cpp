@@ -58,8 +58,9 @@ std::string ArchiveIndex::refusalOf(const std::string& text) {
   const int found = root.attribute("format").as_int();
   return found <= format
              ? ""
-             : fmt::format("the archive has format {}, and this sus knows formats up to {}; version {} wrote it", found,
-                           format, root.attribute("version").as_string());
+             : fmt::format(
+                   "the archive has format {}, but this sus reads formats up to {}; it was written by version {}",
+                   found, format, root.attribute("version").as_string());
 }
 
 std::vector<std::string> ArchiveIndex::globals() const {

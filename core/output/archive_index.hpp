@@ -9,7 +9,7 @@
 
 namespace tushar::output {
 
-/// What `index.xml` says of an archive: its variables, globals and outputs.
+/// The contents of `index.xml`: the variables, globals and outputs of an archive.
 class ArchiveIndex {
  public:
   static constexpr const char* rootName = "tushar_archive";
@@ -17,10 +17,10 @@ class ArchiveIndex {
   static constexpr int uniformFormat = 1;  ///< of archives whose grids have one level
 
   explicit ArchiveIndex(std::string version) : version_(std::move(version)) {}
-  /// Goes on from the text of another index, without its outputs after `step`.
+  /// Continues from the text of another index, without its outputs after `step`.
   ArchiveIndex(std::string version, const std::string& text, int step);
 
-  /// Lists an output. Whether it brings names that were not listed.
+  /// Lists an output. Returns whether it has names that were not listed.
   bool add(const Snapshot& snapshot);
   void add(const GlobalSample& sample, const std::string& file);
   std::vector<std::string> globals() const;

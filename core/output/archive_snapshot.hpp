@@ -15,10 +15,10 @@ namespace tushar::output {
 void writeSnapshot(const std::filesystem::path& file, const Snapshot& snapshot, const ArchiveOptions& options,
                    const Writers& writers = {});
 
-/// Where a particle array stands in the HDF5 file: `/particles/gas/p.density`.
+/// The path of a particle array in the HDF5 file: `/particles/gas/p.density`.
 std::string pathInFile(const ParticleBlock& block, const Array& array);
 
-/// Where a field stands: `/cells/c.temperature` or `/nodes/gas/g.mass`.
+/// The path of a field in the HDF5 file: `/cells/c.temperature` or `/nodes/gas/g.mass`.
 std::string pathInFile(const FieldBlock& field);
 
 /// Whether the array is part of the file; a variable that is not held at this time has no values.

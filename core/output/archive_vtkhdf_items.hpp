@@ -25,7 +25,7 @@ std::vector<Number> numbersIn(const char* text) {
   return numbers;
 }
 
-/// What a DataItem of XDMF names.
+/// The target of an XDMF DataItem.
 Item itemOf(const pugi::xml_node& node);
 
 /// The name in a VTKHDF file of what an Attribute of XDMF shows: `CellData/c.temperature`.

@@ -15,7 +15,7 @@ class XdmfIndex {
   static constexpr const char* rootName = "Xdmf";
 
   explicit XdmfIndex(bool doubleAsFloat);
-  /// Goes on from the text of another, without its times after `step`.
+  /// Continues from the text of another, without its times after `step`.
   XdmfIndex(bool doubleAsFloat, const std::string& text, int step);
 
   /// Adds a time, or replaces that of the same step.

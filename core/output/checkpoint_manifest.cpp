@@ -125,7 +125,7 @@ std::string damageOfLine(const fs::path& folder, const std::string& line) {
   std::error_code error;
   const std::uintmax_t found = fs::file_size(folder / name, error);
   if (error) return fmt::format("{} is missing", name);
-  if (found != size) return fmt::format("{} has {} bytes, and had {}", name, found, size);
+  if (found != size) return fmt::format("{} has {} bytes instead of {}", name, found, size);
   try {
     const bool isByBlocks = hash.find('/') != std::string::npos;
     const std::string now =

@@ -13,8 +13,8 @@ namespace tushar::output {
 /// rank that cannot, FailedElsewhere on the others.
 void writeManifest(const std::filesystem::path& folder, const Writers& writers = {});
 
-/// What is wrong with a folder that has been given a manifest: which file is missing, shorter, longer or has other
-/// bytes. Empty if it is as it was.
+/// The damage in a folder that has a manifest: which file is missing, shorter, longer or has other bytes. Empty if it
+/// is as it was.
 std::string damageOf(const std::filesystem::path& folder);
 
 }  // namespace tushar::output

@@ -9,7 +9,7 @@
 
 namespace tushar::output {
 
-/// The folder `checkpoints` of an archive. It knows nothing of what a checkpoint holds.
+/// The folder `checkpoints` of an archive. It does not depend on the contents of a checkpoint.
 ///
 ///     sod.uda.001/checkpoints/LATEST     the name of the newest, `t00050`
 ///                             t00040/    the one before
@@ -32,7 +32,7 @@ class CheckpointStore {
 
   /// The folder of a step's checkpoint.
   std::filesystem::path folder(int step) const;
-  /// Steps of the checkpoints that there are, whole or not, ascending.
+  /// Steps of the existing checkpoints, intact or not, ascending.
   std::vector<int> steps() const;
   /// The step that LATEST names, or the last that there is where LATEST says nothing; -1 where there are none.
   int latest() const;

@@ -9,14 +9,14 @@ namespace tushar::output {
 /// after the last time, and for 20 times as long as that has taken.
 class Pace {
  public:
-  /// There is something new. What readers cannot do without is `urgent`.
+  /// Notes that there is something new; `urgent` if readers need it.
   void note(bool urgent) {
     behind_ = true;
     urgent_ = urgent_ || urgent;
   }
   bool isBehind() const { return behind_; }
   bool isDue() const { return urgent_ || (behind_ && Clock::now() >= next_); }
-  /// Writes by a function, and is behind no more unless that throws.
+  /// Writes by a function; the list is then up to date, unless that throws.
   template <class Write>
   void catchUp(const Write& write) {
     const auto started = Clock::now();

@@ -21,20 +21,11 @@ using Json = nlohmann::ordered_json;
 std::string dateNow() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
 
 Json entryOf(const RunRecord& record) {
-  Json entry;
-  entry["started"] = dateNow();
-  entry["restart"] = record.restarts;
-  entry["from_step"] = record.step;
-  entry["command"] = record.command;
-  entry["overrides"] = record.overrides;
-  entry["ranks"] = record.ranks;
-  entry["threads"] = record.threads;
-  entry["hosts"] = record.hosts;
-  entry["version"] = record.version;
-  entry["build"] = record.build;
-  entry["commit"] = record.commit;
-  entry["compiler"] = record.compiler;
-  entry["flags"] = record.flags;
+  Json entry = {{"started", dateNow()},      {"restart", record.restarts},    {"from_step", record.step},
+                {"command", record.command}, {"overrides", record.overrides}, {"ranks", record.ranks},
+                {"threads", record.threads}, {"hosts", record.hosts},         {"version", record.version},
+                {"build", record.build},     {"commit", record.commit},       {"compiler", record.compiler},
+                {"flags", record.flags}};
   for (const auto& [name, version] : record.libraries) entry["libraries"][name] = version;
   entry["end"] = nullptr;
   return entry;

@@ -7,7 +7,7 @@
 
 namespace tushar::output {
 
-/// What program a run is of, and how it was started.
+/// The program of a run, and how it was started.
 struct RunRecord {
   std::string version, build, commit, compiler, flags;
   std::vector<std::pair<std::string, std::string>> libraries;  ///< name and version
@@ -27,14 +27,14 @@ class RunLog {
   /// Adds a run that starts now. A file that cannot be read is moved to `run.json.damaged`. FileError if it cannot be
   /// written.
   RunLog(const std::filesystem::path& folder, const RunRecord& record);
-  /// Adds `error` as the end of a run that has said none, and exit code 1.
+  /// Adds `error` and exit code 1 as the end of a run that has none yet.
   ~RunLog();
   RunLog(const RunLog&) = delete;
   RunLog& operator=(const RunLog&) = delete;
 
-  /// Adds a library that the run has loaded on its way; it is in the file after end().
+  /// Adds a library that the run has loaded meanwhile; end() writes it to the file.
   void addLibrary(const std::string& name, const std::string& version);
-  /// Adds how the run ended: why, after which step, and the exit code. What a full disk refuses is lost.
+  /// Adds how the run ended: why, after which step, and the exit code. It is lost if the disk is full.
   void end(const std::string& why, int step, int exitCode);
 
  private:

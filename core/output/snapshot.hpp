@@ -19,7 +19,7 @@ struct Array {
   using Values = std::variant<std::vector<double>, std::vector<std::uint64_t>, std::vector<std::int32_t>>;
   /// Entry by entry: values[entry * components + k].
   Values values;
-  /// Where it is set, it has the values, and `values` has their type alone.
+  /// If set, it has the values, and `values` has only their type.
   std::shared_ptr<const Source> source{};
 
   /// Number of particles, cells, nodes or rows that have a value, on all ranks together.

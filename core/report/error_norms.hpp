@@ -12,7 +12,7 @@ namespace tushar::report {
 /// measured, and errors relative to a field that is 0 everywhere.
 ErrorNorms normsOf(const MeasuredError& error, const std::vector<double>& values);
 
-/// A sentence on the first norm that is not finite: the end of such a run cannot be measured. None if all are.
+/// A sentence on the first norm that is not finite: such a run has no valid errors. None if all are.
 std::optional<std::string> unmeasurable(const std::vector<ErrorNorms>& errors);
 
 }  // namespace tushar::report

@@ -5,7 +5,7 @@
 
 namespace tushar::report {
 
-/// What a rank has in memory after the last step, bytes; and the most that it had.
+/// Memory of a rank after the last step, and its peak, bytes.
 struct MemoryUse {
   double peak = 0;       ///< resident
   double fields = 0;     ///< variables on nodes and cells

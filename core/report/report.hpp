@@ -28,13 +28,13 @@ struct Drift {
   std::string unit;
 };
 
-/// What energy came and went over a run, J.
+/// The energy budget of a run, J.
 struct EnergyBudget {
   std::vector<std::pair<std::string, double>> came, went;  ///< names and amounts; work done on others is negative
 
-  /// The energy that came and is not accounted for.
+  /// The energy that is not accounted for.
   double unaccounted() const;
-  /// The greatest amount: what `unaccounted` is small or great against.
+  /// The greatest amount, the scale for `unaccounted`.
   double greatest() const;
 };
 
@@ -85,9 +85,9 @@ struct Report {
   std::vector<std::string> unusedOptions;  ///< given to PETSc, which no solve has looked at
 };
 
-/// As JSON: the keys are listed in tools/README.md.
+/// The report as JSON, with the keys that tools/README.md lists.
 std::string toJson(const Report& report);
-/// As a table for a terminal.
+/// The report as a table for a terminal.
 std::string toText(const Report& report);
 
 }  // namespace tushar::report

@@ -5,7 +5,7 @@
 
 namespace tushar::report {
 
-/// Where the time of the threads went, s of all threads of all ranks together.
+/// Use of the threads' time, s, summed over all threads of all ranks.
 struct TimeUse {
   double task = 0;       ///< in the bodies of tasks, and moving particles to other cells
   double message = 0;    ///< packing, unpacking and copying ghosts

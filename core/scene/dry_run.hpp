@@ -8,8 +8,8 @@
 
 namespace tushar::scene {
 
-/// What one of many ranks would have to do in a step, and what it takes to find that out: graph and messages are
-/// compiled as in a run, but no other rank is there and no variable has memory.
+/// The work of one of many ranks in a step, and the cost of this estimate: graph and messages are compiled as in a run,
+/// but no other rank is there and no variable has memory.
 struct DryRun {
   int rank = 0, ranks = 1;
   int patches = 0, patchesOfAll = 0;  ///< of this rank, and of the grid
@@ -26,7 +26,7 @@ struct DryRun {
 DryRun dryRun(const std::string& scene, const std::vector<std::string>& overrides,
               const simulation::Catalogue& catalogue, const grid::Workers& workers);
 
-/// As lines for a terminal.
+/// The result as lines for a terminal.
 std::string toText(const DryRun& result);
 
 }  // namespace tushar::scene

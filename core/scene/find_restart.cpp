@@ -26,11 +26,11 @@ namespace {
 fs::path folderOf(const fs::path& uda) {
   if (!fs::exists(uda)) refuse(uda, "there is no such folder; --restart takes the .uda folder of a run");
   if (!fs::is_directory(uda))
-    refuse(uda, "this is no folder; --restart takes the .uda folder of a run (without --restart, sus runs a scene)");
+    refuse(uda, "this is not a folder; --restart takes the .uda folder of a run (without --restart, sus runs a scene)");
   const fs::path path = uda.has_filename() ? uda : uda.parent_path();
   const fs::path folder = fs::is_symlink(path) ? path.parent_path() / fs::read_symlink(path) : path;
   if (!fs::exists(folder / "index.xml") && !fs::exists(folder / "checkpoints"))
-    refuse(uda, "this is no .uda folder: it has neither index.xml nor checkpoints");
+    refuse(uda, "this is not a .uda folder: it has neither index.xml nor checkpoints");
   if (const std::string why = output::ArchiveIndex::refusalOf(output::textOf(folder / "index.xml").value_or(""));
       !why.empty())
     refuse(uda, why);
@@ -64,7 +64,7 @@ int lastWhole(const output::CheckpointStore& store, std::vector<std::string>& no
     notes.push_back(damageSentence(store, step, damage));
     problems.push_back({{}, "", notes.back()});
   }
-  problems.push_back({{}, "", "no checkpoint before it is whole; start the run anew"});
+  problems.push_back({{}, "", "no earlier checkpoint is intact; start the run again from its scene"});
   throw InputError(std::move(problems));
 }
 
@@ -74,7 +74,7 @@ simulation::Restart findRestart(const std::string& uda, std::optional<int> step)
   simulation::Restart restart{folderOf(uda), 0, {}};
   const output::CheckpointStore store(restart.archive, 1);
   if (store.steps().empty())
-    refuse(uda, "there are no checkpoints; a scene asks for them by <checkpoint .../> in its DataArchiver");
+    refuse(uda, "there are no checkpoints; ask for them with <checkpoint .../> in <DataArchiver>");
   restart.step = step ? chosen(restart.archive, store, *step) : lastWhole(store, restart.notes);
   if (output::textOf(restart.scene()).value_or("").empty()) {
     output::replaceFileOnDisk(restart.scene(), output::Hdf5Input(restart.state()).text("/scene"));

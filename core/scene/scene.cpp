@@ -179,8 +179,8 @@ void checkInterval(double interval, const TimeSettings& time, const Element& ele
   const double least = simulation::timeResolution * std::max(std::abs(time.initTime), std::abs(time.maxTime));
   if (interval > 0 && interval <= least)
     diagnostics.error(
-        element, fmt::format("{}found {:g} s, expected more than {:g} s: times up to maxTime cannot tell less apart",
-                             what, interval, least));
+        element, fmt::format("{}found {:g} s, expected more than {:g} s: times up to maxTime cannot resolve less", what,
+                             interval, least));
 }
 
 void checkIntervals(const TimeSettings& time, const ArchiveSettings& archive, const Element& section,
@@ -213,7 +213,7 @@ void checkTakesLevels(const ComponentKind& kind, const Element& grid, const AmrS
   for (const ComponentKind* other : catalogue.components())
     if (other->takesLevels) others.push_back(other->name);
   diagnostics.error(whereOfLevels(grid, amr),
-                    fmt::format("'{}' needs a grid of one level; of several: {}", kind.name, allOf(others)));
+                    fmt::format("'{}' needs a grid of one level; these run on several: {}", kind.name, allOf(others)));
 }
 
 /// Refuses several levels for a component that cannot run on them as the scene has it; what makes the levels.
@@ -276,7 +276,7 @@ void checkLabels(const Component& component, const std::vector<std::unique_ptr<A
                            !phases.saveable().contains(save.label);
     if (isLacking)
       diagnostics.note(save.where, "DataArchiver/save",
-                       fmt::format("'{}' is not saved: nobody computes it here", save.label));
+                       fmt::format("'{}' is not saved: no task computes it here", save.label));
     return isLacking;
   });
   for (const SaveRequest& save : saves)
@@ -342,6 +342,8 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   refuseLooseWords(root, diagnostics);
   const ComponentKind* kind = readComponentKind(root, catalogue, diagnostics);
   if (kind) refuseUnknownSections(root, *kind, diagnostics);
+  if (kind)
+    for (const std::string& first : kind->readFirst) document.readFirst(first);
   readSharedSections(root, problem, diagnostics);
   AmrSettings amr;
   if (const auto given = section(root, "AMR", false, diagnostics)) amr = readAmr(*given, kind, diagnostics);
@@ -382,13 +384,13 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
 const input::SchemaBase& metaForm() { return metaSchema(); }
 const input::SchemaBase& componentForm() { return componentSchema(); }
 
-void describeSharedSections(std::ostream& out) {
+void describeSharedSections(std::ostream& out, const Catalogue& catalogue) {
   metaSchema().describe(out);
   componentSchema().describe(out);
   describeTime(out);
   describeArchive(out);
   describeGrid(out);
-  describeAmr(out);
+  describeAmr(out, catalogue);
 }
 
 }  // namespace tushar::scene

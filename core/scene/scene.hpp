@@ -18,14 +18,15 @@ simulation::Problem readScene(const std::string& path, const std::vector<std::st
                               const simulation::Catalogue& catalogue, const grid::Workers& workers = {},
                               grid::Share share = {});
 
-/// The manual of the sections that every component shares: Time, DataArchiver, Grid, AMR.
-void describeSharedSections(std::ostream& out);
+/// The manual of the sections that every component shares: Time, DataArchiver, Grid, AMR; the last has those of all
+/// components.
+void describeSharedSections(std::ostream& out, const simulation::Catalogue& catalogue);
 
 /// The `Time` section.
 simulation::TimeSettings readTime(const input::Element& section, input::Diagnostics& diagnostics);
 /// The `DataArchiver` section.
 simulation::ArchiveSettings readArchive(const input::Element& section, input::Diagnostics& diagnostics);
-/// The `AMR` section, before it is known what grid it is about.
+/// The `AMR` section, read before the grid is known.
 struct AmrSettings {
   simulation::RegridSettings regrid;
   std::optional<int> maxLevels;               ///< with the coarsest
@@ -53,7 +54,7 @@ grid::Domain readGrid(const input::Element& section, const SideWords& words, con
 void describeTime(std::ostream& out);
 void describeArchive(std::ostream& out);
 void describeGrid(std::ostream& out);
-void describeAmr(std::ostream& out);
+void describeAmr(std::ostream& out, const simulation::Catalogue& catalogue);
 
 /// How the shared sections are read, for the schemas of editors; Grid with the boundary labels of a component, AMR with
 /// its name.

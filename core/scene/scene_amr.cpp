@@ -20,9 +20,6 @@ using Indicator = simulation::Criterion::Indicator;
 
 namespace {
 
-/// Names of components that a part of `AMR` may have in every scene: ours, and Uintah's.
-const std::vector<std::string> componentNames{"Euler", "Heat", "Burgers", "Poisson", "ICE", "MPM", "MPMICE"};
-
 /// The name of a criterion that is no variable: cells with particles, of any material.
 constexpr std::string_view cellsWithParticles = "particles";
 
@@ -72,7 +69,7 @@ void noteIdle(const Element& particles, Diagnostics& diagnostics) {
   for (const input::Attribute& given : particles.attributes())
     if (given.name != "name")
       diagnostics.note(given.where, particles.path(),
-                       fmt::format("{} does nothing: all cells with particles are of the finest level", given.name));
+                       fmt::format("{} does nothing: all cells with particles are on the finest level", given.name));
 }
 
 void checkThresholds(const VariableTag& tag, const Element& element, Diagnostics& diagnostics) {
@@ -114,8 +111,8 @@ const Schema<VariableTag>& variableSchema() {
                             {"above", Indicator::above},
                             {"below", Indicator::below}},
                            Indicator::jump,
-                           "the indicator: half the difference of the cells to both sides over the least size of the "
-                           "three, for what stays away from 0, as it is infinite beside 0; Löhner's second "
+                           "the indicator: half the difference of the neighbours over the least magnitude of the three "
+                           "cells, for quantities that stay away from 0, where it is infinite; Löhner's second "
                            "difference, from 0 to 1; the gradient, unit of the variable over m, which is Uintah's; "
                            "the value itself")
           .ours()
@@ -130,17 +127,17 @@ const Schema<VariableTag>& variableSchema() {
 const Schema<CriteriaSection>& criteriaSchema() {
   static const Schema<CriteriaSection> schema =
       Schema<CriteriaSection>("Refinement_Criteria_Thresholds",
-                              "Where finer cells are wanted; of several reasons the one for the finest counts.")
+                              "Where finer cells are needed; of several reasons, the one for the finest cells decides.")
           .list("Variable", &CriteriaSection::variables, variableSchema(), "a reason for finer cells", 1);
   return schema;
 }
 
 const Schema<ThresholdsSection>& thresholdsSchema() {
   static const Schema<ThresholdsSection> schema = [] {
-    Schema<ThresholdsSection> section("component", "How a component takes to several levels.");
+    Schema<ThresholdsSection> section("component", "How a component runs on several levels.");
     section
         .value("do_Refluxing", &ThresholdsSection::refluxes, true, "1",
-               "what leaves coarse cells is what enters finer ones, to round-off; without, totals drift")
+               "the flux out of coarse cells equals that into finer ones, to round-off; otherwise totals drift")
         .section("Refinement_Criteria_Thresholds", &ThresholdsSection::criteria, criteriaSchema());
     const std::string order = "values between levels are of second order";
     input::noteTag(section, "orderOfInterpolation", order);
@@ -156,11 +153,12 @@ const Schema<ThresholdsSection>& thresholdsSchema() {
 
 void noteOldRegridderTags(Schema<RegridderSection>& section) {
   input::noteTag(section, "max_timestep_interval", "every regrid is due by <min_timestep_interval>");
-  const std::string buffer = "<cell_stability_dilation> alone widens what is refined, by what signals cross besides";
+  const std::string buffer =
+      "<cell_stability_dilation> alone widens the refined region, besides the distance that signals travel";
   for (const char* tag :
        {"cell_regrid_dilation", "cell_deletion_dilation", "min_boundary_cells", "dynamic_dilation", "max_dilation"})
     input::noteTag(section, tag, buffer);
-  const std::string cost = "when and what is refined does not depend on what it costs";
+  const std::string cost = "the refinement does not depend on its cost";
   for (const char* tag : {"amr_overhead_low", "amr_overhead_high"}) input::noteTag(section, tag, cost);
   input::noteTag(section, "patches_per_level_per_proc", "patches are boxes of blocks; -layout sets how many");
 }
@@ -173,8 +171,8 @@ const Schema<RegridderSection>& regridderSchema() {
                          "Uintah's ways to choose patches; both mean blocks here")
         .elsewhere("SingleLevel", "patches of one level are chosen by <patches> of its Box, or -layout")
         .optional("adaptive", &RegridderSection::adaptive, "1",
-                  "whether what is refined follows the state; where it is left out, whether there is a <Variable>. "
-                  "Without one, euler takes jumps above 0.02 of c.density, c.pressure and c.mach; mpm needs none, as "
+                  "whether the refinement follows the state; by default, whether there is a <Variable>. Without one, "
+                  "euler takes jumps above 0.02 of c.density, c.pressure and c.mach; mpm needs none, as "
                   "the finest level follows its particles")
         .value("regrid_once", &RegridderSection::once, false, "1", "only at the start")
         .optional("max_levels", &RegridderSection::maxLevels, "1",
@@ -184,13 +182,13 @@ const Schema<RegridderSection>& regridderSchema() {
         .optional("cell_refinement_ratio", &RegridderSection::ratios, "1",
                   "2 along each axis that the grid uses, for all levels", input::atLeast(1))
         .optional("min_patch_size", &RegridderSection::blocks, "1",
-                  "cells of a block, of which all are finer or none: an even number from 4 on that divides the "
+                  "cells of a block, which is refined as a whole: an even number from 4 on that divides the "
                   "resolution, the same for all levels; without it the greatest up to 8, in one dimension 16",
                   input::atLeast(1))
-        .value("min_timestep_interval", &RegridderSection::interval, 8, "1",
-               "steps from one look at what is refined to the next", input::atLeast(1))
+        .value("min_timestep_interval", &RegridderSection::interval, 8, "1", "steps from one regridding to the next",
+               input::atLeast(1))
         .value("cell_stability_dilation", &RegridderSection::dilation, Index3::filled(1), "1",
-               "cells that are refined around those that signals can reach until the next look; the greatest of the "
+               "cells to refine around those that signals can reach until the next regridding; the greatest of the "
                "three holds along all axes",
                input::nonNegative());
     input::refuseOtherValues(section, "simple_refinement_ratio", {"2"}, "give one more level instead");
@@ -214,17 +212,18 @@ Schema<AmrSection> makeAmrSchema(const std::vector<std::string>& names) {
       for (const Element& given : element.children(name)) read.components.push_back(readThresholds(given, diagnostics));
   };
   section.ignoredAttribute("type", "a grid is adaptive where <Regridder> says so")
-      .value("useLockStep", &AmrSection::usesLockStep, true, "1",
-             "all levels take the same time step, as they always do")
-      .section("Regridder", &AmrSection::regridder, regridderSchema())
-      .custom(names.front(), readComponents, names,
-              "how the component takes to several levels; the name is of no account",
-              [](std::ostream& out, int indent) { thresholdsSchema().describeContents(out, indent); });
-  input::TagForm form = input::sectionForm(names, [] {
-    return std::vector<input::Alternative>{{&thresholdsSchema(), {}}};
-  });
-  form.repeats = false;
-  section.forms({std::move(form)});
+      .value("useLockStep", &AmrSection::usesLockStep, true, "1", "all levels take the same time step; always true")
+      .section("Regridder", &AmrSection::regridder, regridderSchema());
+  if (!names.empty()) {
+    input::TagForm form = input::sectionForm(names, [] {
+      return std::vector<input::Alternative>{{&thresholdsSchema(), {}}};
+    });
+    form.repeats = false;
+    section
+        .custom(names.front(), readComponents, names, "how the component runs on several levels",
+                [](std::ostream& out, int indent) { thresholdsSchema().describeContents(out, indent); })
+        .forms({std::move(form)});
+  }
   input::noteTag(section, "doMultiTaskgraphing", "one graph of tasks has all levels");
   input::noteTag(section, "FineCoarseInterfaces", "values between levels are of second order");
   return section;
@@ -236,18 +235,29 @@ const Schema<AmrSection>& amrSchema(const std::vector<std::string>& names) {
   return known != schemas.end() ? known->second : schemas.emplace(names, makeAmrSchema(names)).first->second;
 }
 
-/// The names of `componentNames`, and that of the section of a component of one's own: `MyFlow` of `my_flow`.
-std::vector<std::string> namesFor(const simulation::ComponentKind* kind) {
-  std::vector<std::string> names = componentNames;
-  if (!kind || !kind->takesLevels) return names;
+/// The sections of `AMR` that belong to a component: those that it names, and one with its own name, `MyFlow` of
+/// `my_flow`.
+std::vector<std::string> amrSectionsOf(const simulation::ComponentKind& kind) {
+  std::vector<std::string> names = kind.amrSections;
+  if (!kind.takesLevels) return names;
   const auto plain = [](std::string name) {
     std::erase(name, '_');
     std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
     return name;
   };
-  for (const std::string& section : kind->sections)
-    if (plain(section) == plain(kind->name) && std::find(names.begin(), names.end(), section) == names.end())
-      names.push_back(section);
+  for (const std::string& section : kind.sections)
+    if (plain(section) == plain(kind.name)) names.push_back(section);
+  return names;
+}
+
+/// Where the component is not known, every tag that is not one of `AMR` itself.
+std::vector<std::string> unknownTagsOf(const Element& amr) {
+  std::vector<std::string> names;
+  const std::vector<std::string> own = amrSchema({}).tagNames();
+  for (const Element& child : amr.children())
+    if (std::find(own.begin(), own.end(), child.name()) == own.end() &&
+        std::find(names.begin(), names.end(), child.name()) == names.end())
+      names.push_back(child.name());
   return names;
 }
 
@@ -267,9 +277,9 @@ void checkBlocks(const Element& amr, const std::optional<std::vector<Index3>>& b
   if (blocks && std::any_of(blocks->begin(), blocks->end(), [&](const Index3& one) { return one != blocks->front(); }))
     diagnostics.error(
         *amr.child("Regridder")->child("min_patch_size"),
-        fmt::format("found {}, expected the same for all levels: a block is refined into blocks of as many "
-                    "cells",
-                    input::toText(*blocks)));
+        fmt::format(
+            "found {}, expected the same for all levels: a block is refined into blocks with as many cells as it has",
+            input::toText(*blocks)));
 }
 
 /// The materials of the variables of cells that a component has, by name; empty for one that belongs to none.
@@ -294,10 +304,11 @@ std::map<std::string, std::vector<std::string>> cellVariables(const simulation::
 /// What is wrong with the variable of a criterion, or nothing. `materials`: those that it belongs to.
 void checkMaterial(Criterion& criterion, const std::vector<std::string>& materials, Diagnostics& diagnostics) {
   if (!materials.empty())
-    diagnostics.error(criterion.where, criterion.path,
-                      fmt::format("'{}' is a variable of materials; the grid is refined by variables of none, and by "
-                                  "'particles'",
-                                  criterion.variable));
+    diagnostics.error(
+        criterion.where, criterion.path,
+        fmt::format(
+            "'{}' belongs to materials; the grid is refined by variables that belong to none, and by 'particles'",
+            criterion.variable));
   if (!materials.empty() || criterion.material.empty()) return;
   diagnostics.note(criterion.where, criterion.path,
                    fmt::format("matl does nothing: '{}' belongs to no material", criterion.variable));
@@ -315,7 +326,7 @@ bool hasParticles(const simulation::Component& component) {
 
 AmrSettings readAmr(const Element& section, const simulation::ComponentKind* kind, Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.size();
-  const AmrSection read = amrSchema(namesFor(kind)).read(section, diagnostics);
+  const AmrSection read = amrSchema(kind ? amrSectionsOf(*kind) : unknownTagsOf(section)).read(section, diagnostics);
   AmrSettings amr;
   amr.tag = section;
   for (const ThresholdsSection& component : read.components) {
@@ -334,8 +345,7 @@ AmrSettings readAmr(const Element& section, const simulation::ComponentKind* kin
   if (regridder.blocks) amr.block = regridder.blocks->front();
   if (!read.usesLockStep)
     diagnostics.note(*section.child("useLockStep"),
-                     "all levels take the same time step: there are no smaller steps yet "
-                     "for finer levels");
+                     "all levels take the same time step: smaller steps on finer levels are not available yet");
   if (!amr.regrid.adaptive)
     for (const Criterion& criterion : amr.regrid.criteria)
       diagnostics.note(criterion.where, criterion.path, "does nothing: the grid is not <adaptive>");
@@ -351,9 +361,9 @@ simulation::RegridSettings settled(AmrSettings amr, const simulation::Component&
   if (criteria.empty() && !followsParticles) {
     criteria = component.criteria();
     if (criteria.empty())
-      diagnostics.error(*amr.tag->child("Regridder")->child("adaptive"),
-                        "<adaptive> true needs a <Variable> in <Refinement_Criteria_Thresholds>, which says where "
-                        "cells are to be finer");
+      diagnostics.error(
+          *amr.tag->child("Regridder")->child("adaptive"),
+          "<adaptive> true needs a <Variable> in <Refinement_Criteria_Thresholds>, which says where to refine");
     return amr.regrid;
   }
   for (const auto& [other, name] : component.otherNames())
@@ -372,7 +382,14 @@ simulation::RegridSettings settled(AmrSettings amr, const simulation::Component&
   return amr.regrid;
 }
 
-const input::SchemaBase& amrForm(const simulation::ComponentKind& kind) { return amrSchema(namesFor(&kind)); }
-void describeAmr(std::ostream& out) { amrSchema(componentNames).describe(out); }
+const input::SchemaBase& amrForm(const simulation::ComponentKind& kind) { return amrSchema(amrSectionsOf(kind)); }
+
+void describeAmr(std::ostream& out, const simulation::Catalogue& catalogue) {
+  std::vector<std::string> names;
+  for (const simulation::ComponentKind* kind : catalogue.components())
+    for (std::string& name : amrSectionsOf(*kind))
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(std::move(name));
+  amrSchema(names).describe(out);
+}
 
 }  // namespace tushar::scene

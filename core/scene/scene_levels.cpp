@@ -25,10 +25,10 @@ const Schema<GridBox>& boxSchema() {
               "patches", &GridBox::patches, "1",
               "patches along x, y, z; where neither this nor autoPatch is given, as many as the threads and ranks need",
               input::atLeast(1))
-          .optional("autoPatch", &GridBox::autoPatch, "1", "about how many patches to make, in place of patches",
+          .optional("autoPatch", &GridBox::autoPatch, "1", "approximate number of patches, in place of patches",
                     input::atLeast(1))
           .value("extraCells", &GridBox::extraCells, Index3{}, "1",
-                 "accepted for Uintah's sake: what a shape function needs around the grid follows from it",
+                 "accepted for Uintah's sake: the shape function determines the extra cells around the grid",
                  input::nonNegative())
           .check([](const GridBox& box, const Element& element, Diagnostics& diagnostics) {
             if (box.patches && box.autoPatch) diagnostics.error(element, "gives both patches and autoPatch; keep one");
@@ -45,7 +45,7 @@ const Schema<GridBox>& boxSchema() {
 const Schema<LevelSection>& levelSchema() {
   static const Schema<LevelSection> schema =
       Schema<LevelSection>(
-          "Level", "A grid of cells of one size; a further one has boxes in which the grid is at least so fine.")
+          "Level", "A grid of cells of one size; each further Level has boxes in which the grid is at least as fine.")
           .list("Box", &LevelSection::boxes, boxSchema(),
                 "the box that is divided into cells; of further Levels any number, each grown to whole "
                 "blocks (see AMR/Regridder/min_patch_size)",
@@ -121,9 +121,10 @@ class Refiner {
     const Element& element = elements_[k];
     const std::vector<Element> boxes = element.children("Box");
     if (element.child("periodic") && !(section.periodic == levels_.front().periodic))
-      diagnostics_.error(*element.child("periodic"),
-                         fmt::format("found {}, but the first Level has {}; all Levels repeat alike",
-                                     input::toText(section.periodic), input::toText(levels_.front().periodic)));
+      diagnostics_.error(
+          *element.child("periodic"),
+          fmt::format("found {}, but the first Level has {}; all Levels are periodic along the same axes",
+                      input::toText(section.periodic), input::toText(levels_.front().periodic)));
     std::optional<int> number;
     for (std::size_t b = 0; b < boxes.size(); ++b) {
       const GridBox& box = section.boxes[b];
@@ -160,7 +161,7 @@ class Refiner {
       if (box.lower[axis] < domain.lower[axis] - slack || box.upper[axis] > domain.upper[axis] + slack)
         diagnostics_.error(
             element,
-            fmt::format("found {:g} to {:g} m along {}, expected a place in the box of the first Level, from "
+            fmt::format("found {:g} to {:g} m along {}, expected a range within the box of the first Level, from "
                         "{:g} to {:g} m",
                         box.lower[axis], box.upper[axis], "xyz"[axis], domain.lower[axis], domain.upper[axis]));
       else if (coarsest_.cellWidth(axis) > 0 && !(box.upper[axis] > box.lower[axis]))
@@ -323,7 +324,7 @@ class Refiner {
       if (grows)
         diagnostics_.note(
             boxes_[k],
-            fmt::format("is grown to whole blocks: from [{:g},{:g},{:g}] to [{:g},{:g},{:g}] m", grown.lower[0],
+            fmt::format("is enlarged to whole blocks: from [{:g},{:g},{:g}] to [{:g},{:g},{:g}] m", grown.lower[0],
                         grown.lower[1], grown.lower[2], grown.upper[0], grown.upper[1], grown.upper[2]));
     }
   }

@@ -9,7 +9,7 @@
 
 namespace tushar::scene {
 
-/// More cells than this cannot be numbered by an int.
+/// The most cells that an int can number.
 inline constexpr double mostCells = 2147483647.0;
 
 /// The tag `Box`.

@@ -24,7 +24,7 @@ void refuseRestartStep(TimeSettings&, const Element& element, Diagnostics& diagn
   const auto given = element.child("override_restart_delt");
   if (given && input::parse<double>(given->text()).value != 0.0)
     diagnostics.error(*given,
-                      fmt::format("found '{}', expected 0: a restart goes on as the run would have", given->text()));
+                      fmt::format("found '{}', expected 0: a restart continues as the run would have", given->text()));
 }
 
 const Schema<TimeSettings>& timeSchema() {
@@ -37,7 +37,7 @@ const Schema<TimeSettings>& timeSchema() {
                  input::nonNegative())
           .value("delt_init", &TimeSettings::deltInit, unlimited, "s", "greatest first time step", input::positive())
           .value("max_delt_increase", &TimeSettings::maxDeltIncrease, unlimited, "1",
-                 "by how much of the one before a time step may be longer; 0 or less is no limit")
+                 "greatest relative growth of the time step from one step to the next; 0 or less is no limit")
           .value("timestep_multiplier", &TimeSettings::timestepMultiplier, 1, "1",
                  "factor on the time step that the physics allow", input::positive())
           .value("max_Timesteps", &TimeSettings::maxTimesteps, std::numeric_limits<int>::max(), "1",
@@ -48,15 +48,14 @@ const Schema<TimeSettings>& timeSchema() {
                  "shorten the last step so that it ends at maxTime")
           .value("clamp_time_to_output", &TimeSettings::clampTimeToOutput, false, "1",
                  "shorten steps so that outputs are at multiples of outputInterval")
-          .value(
-              "recompute_timestep", &TimeSettings::recomputeTimeStep, false, "1",
-              "where a value becomes impossible, undo the step and repeat it with half the time step, up to 20 times")
+          .value("recompute_timestep", &TimeSettings::recomputeTimeStep, false, "1",
+                 "if a value becomes impossible, undo the step and repeat it with half the time step, up to 20 times")
           .ours()
           .value("initial_delt_range", &TimeSettings::initialDeltRange, 0, "s",
                  "time up to which delt_init holds; the first step at least", input::nonNegative())
           .custom(
               "override_restart_delt", refuseRestartStep, {"override_restart_delt"},
-              "only 0: a restart goes on as the run would have; sus --restart --set Time/delt_max=… makes its steps "
+              "only 0: a restart continues as the run would have; sus --restart --set Time/delt_max=… makes its steps "
               "shorter")
           .forms({input::patternForm({"override_restart_delt"}, input::zeroPattern)})
           .check([](const TimeSettings& time, const Element& element, Diagnostics& diagnostics) {
@@ -203,8 +202,9 @@ ArchiveSettings readArchive(const Element& section, Diagnostics& diagnostics) {
   ArchiveSettings archive = archiveSchema().read(section, diagnostics);
   const std::string name = nameOf(archive.filebase);
   if (name != archive.filebase)
-    diagnostics.note(*section.child("filebase"),
-                     fmt::format("the folder is called '{}'; it stands where sus is started or --output says", name));
+    diagnostics.note(
+        *section.child("filebase"),
+        fmt::format("the folder is called '{}'; sus makes it where it is started, or where --output says", name));
   archive.filebase = name;
   takeOutRepeated(archive.saves, section.children("save"), diagnostics);
   return archive;

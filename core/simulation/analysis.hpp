@@ -15,7 +15,7 @@ namespace tushar::simulation {
 using report::EnergyTerm;
 using report::MeasuredError;
 
-/// A `DataAnalysis/Module`: it looks at the state of a run through diagnostic tasks.
+/// A `DataAnalysis/Module`: it measures the state of a run by diagnostic tasks.
 class Analysis {
  public:
   virtual ~Analysis() = default;
@@ -23,20 +23,20 @@ class Analysis {
   virtual void schedule(tasks::TaskList& tasks) const = 0;
   /// The state is now that of `time` [s], `sinceStart` [s] after that of the start. Called before the tasks run.
   virtual void setTime(double time, double sinceStart) = 0;
-  /// What the tasks measure; they are run at the end of the run.
+  /// The errors that the tasks measure; they run at the end of the run.
   virtual std::vector<MeasuredError> errors() const { return {}; }
-  /// What comes and goes of the energy; the report sets it off.
+  /// The terms of the energy budget, which the report adds up.
   virtual std::vector<EnergyTerm> energies() const { return {}; }
-  /// Why errors mean nothing at the time that is set, in a sentence; empty where they do.
+  /// Why errors have no meaning at the time that is set, in a sentence; empty if they have.
   virtual std::string whyUnmeasured() const { return {}; }
-  /// Variables that sample() wants to see, and where the scene asks for them.
+  /// Variables that sample() needs, and where the scene names them.
   virtual std::vector<SaveRequest> samples() const { return {}; }
-  /// The layers of the grid in which it wants to see them, without particles; where there are none: all.
+  /// The layers of the grid in which sample() needs them, without particles; if there are none, everywhere.
   virtual std::vector<collect::Layer> layers() const { return {}; }
   /// Whether sample() is to be called after this step, at the time that is set.
   virtual bool isSampleDue(int /*step*/) const { return false; }
-  /// Looks at what samples() asks for: in each of the layers(), or all. Files of its own go to the folder of the
-  /// archive.
+  /// Processes the variables of samples(): in each of the layers(), or everywhere. Files of its own go to the folder of
+  /// the archive.
   virtual void sample(const std::vector<output::Snapshot>&, const std::filesystem::path&) {}
   /// Completes its files, so that a run that goes on from here finds in them what was sampled so far. Called on the
   /// first rank before each checkpoint is written, and at the end of the run. May throw FileError.

@@ -19,15 +19,15 @@ class Balance {
  public:
   explicit Balance(int ranks) : ranks_(ranks) {}
 
-  /// What a patch costs at the start, in cells.
+  /// The cost of a patch at the start, in cells.
   static double costOf(std::size_t cells, int particles) {
     return static_cast<double>(cells) + particleCost * particles;
   }
 
-  /// Notes that a step is done. Returns whether to measure the costs now.
+  /// Counts a step. Returns whether to measure the costs now.
   bool isDue() { return ranks_ > 1 && ++steps_ >= next_; }
-  /// Other shares, if those of now are to be left: the rank that has most gets a tenth less, and over `costs` (of each
-  /// patch of the grid) that saves more than the change takes.
+  /// New shares if they pay off: the busiest rank gets a tenth less, and over `costs` (of each patch of the grid) that
+  /// saves more than the change takes.
   std::optional<grid::RankOffsets> better(const std::vector<double>& costs, const grid::RankOffsets& now, int step);
   /// Notes how long the change took on the slowest rank [s].
   void noteChange(double seconds) { change_ = seconds; }

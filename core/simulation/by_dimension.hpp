@@ -18,7 +18,7 @@ std::unique_ptr<Component> makeByDimension(const grid::Level& level, const Argum
   return std::make_unique<C<3>>(arguments...);
 }
 
-/// Reads the section that a schema describes from the root of a scene; a missing one is a problem, a second one too.
+/// Reads the section that a schema describes from the root of a scene; a missing one or a second one is a problem.
 template <class S>
 S readSection(const input::Element& root, const input::Schema<S>& schema, input::Diagnostics& diagnostics) {
   const auto sections = root.children(schema.name());
@@ -32,10 +32,21 @@ S readSection(const input::Element& root, const input::Schema<S>& schema, input:
   return schema.read(sections.front(), diagnostics);
 }
 
-/// The same for a section that may be missing: it then has its defaults.
+/// As readSection, but a missing section has its defaults.
 template <class S>
 S readOptionalSection(const input::Element& root, const input::Schema<S>& schema, input::Diagnostics& diagnostics) {
   return root.child(schema.name()) ? readSection(root, schema, diagnostics) : schema.defaults();
+}
+
+/// The conditions (`BCType`) of all faces of the grid, in the order of the scene.
+inline std::vector<input::Element> boundaryConditions(const input::Element& root) {
+  std::vector<input::Element> all;
+  const auto grid = root.child("Grid");
+  const auto group = grid ? grid->child("BoundaryConditions") : std::nullopt;
+  if (!group) return all;
+  for (const input::Element& face : group->children("Face"))
+    for (const input::Element& condition : face.children("BCType")) all.push_back(condition);
+  return all;
 }
 
 /// A component of as many dimensions as the grid has axes that is made of the settings of its one section.

@@ -11,8 +11,7 @@ namespace {
 /// Adds an entry that must be the first of its name.
 template <class Entries, class Value>
 void insert(Entries& entries, const std::string& name, const Value& value) {
-  if (!entries.emplace(name, value).second)
-    throw std::invalid_argument(fmt::format("there are two of the name '{}'", name));
+  if (!entries.emplace(name, value).second) throw std::invalid_argument(fmt::format("the name '{}' is taken", name));
 }
 
 template <class Entries>
@@ -56,7 +55,7 @@ const Kind* Catalogue::find(const Entries<Kind>& entries, std::string_view name)
   if (found == entries.end()) return nullptr;
   if (const auto* load = std::get_if<std::shared_ptr<LoadModule>>(&found->second)) take(*std::shared_ptr(*load));
   const Kind* kind = std::get_if<Kind>(&found->second);
-  if (!kind) throw std::runtime_error(fmt::format("the module that should have '{}' lacks it", name));
+  if (!kind) throw std::runtime_error(fmt::format("the module that should define '{}' does not", name));
   return kind;
 }
 

@@ -27,7 +27,7 @@ struct SectionForm {
   std::vector<input::Demand> demands = {};  ///< what else it takes for the schema to read it
 };
 
-/// A component that sus knows.
+/// The description of a component that sus can run.
 struct ComponentKind {
   std::string name;                                    ///< the `type` of SimulationComponent
   std::string sentence;                                ///< what it is
@@ -43,12 +43,16 @@ struct ComponentKind {
   bool takesLevels = false;           ///< whether its tasks run on grids of several levels
   bool takesPartsOfSides = false;     ///< whether a part of a side may have conditions of its own
   bool takesFormulasAtSides = false;  ///< whether what its conditions give may be formulas
+  /// Tags of AMR for its thresholds, besides the one of `sections` that has its name.
+  std::vector<std::string> amrSections;
+  /// Paths of tags whose labelled shapes their siblings can use, even those that stand above: `MaterialProperties/MPM`.
+  std::vector<std::string> readFirst;
 };
 
 /// Builds a module for a component; throws InputError if the two do not go together.
 using MakeAnalysis = std::function<std::unique_ptr<Analysis>(const Component&, const grid::Level&)>;
 
-/// An on-the-fly analysis that sus knows: a `DataAnalysis/Module name=`.
+/// The description of an on-the-fly analysis: a `DataAnalysis/Module name=`.
 struct AnalysisKind {
   std::string name;
   std::string sentence;
@@ -71,13 +75,13 @@ std::vector<std::string> namesOf(const std::vector<Kind>& kinds) {
   return names;
 }
 
-/// A shared library of components and analyses, and what it has by name; loaded when one of them is first asked for.
+/// A shared library of components and analyses, with their names; loaded when one of them is first needed.
 struct Module {
   std::string name;
   std::vector<std::string> components, analyses;
 };
 
-/// Everything that a scene can pick.
+/// The components and analyses that a scene can select.
 class Catalogue {
  public:
   Catalogue() = default;
@@ -85,14 +89,14 @@ class Catalogue {
 
   /// Adds what another catalogue has, but modules. Throws std::invalid_argument if a name is taken.
   void add(const Catalogue& other);
-  /// `load` brings what the module has. Throws std::invalid_argument if a name is taken.
+  /// `load` returns the contents of the module. Throws std::invalid_argument if a name is taken.
   void addModule(Module module, std::function<Catalogue()> load);
 
   std::vector<std::string> componentNames() const;
   std::vector<std::string> analysisNames() const;
   /// The component of that name, for as long as the catalogue lives; null if there is none. Loads its module.
   const ComponentKind* component(std::string_view name) const;
-  /// As component().
+  /// The analysis of that name, as component().
   const AnalysisKind* analysis(std::string_view name) const;
   /// All in the order of their names; loads all modules.
   std::vector<const ComponentKind*> components() const;
@@ -100,7 +104,7 @@ class Catalogue {
 
  private:
   using LoadModule = std::function<Catalogue()>;
-  /// A kind that is there, or the module that brings it.
+  /// A kind, or the module that provides it.
   template <class Kind>
   using Entries = std::map<std::string, std::variant<Kind, std::shared_ptr<LoadModule>>, std::less<>>;
 

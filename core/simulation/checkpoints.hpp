@@ -16,9 +16,9 @@ class Checkpoints {
 
   /// Reads the checkpoint from which the run continues. Throws InputError for one that does not fit the scene.
   void resume();
-  /// Writes a checkpoint of the start, if the scene asks for checkpoints.
+  /// Writes a checkpoint at the start, if the scene has checkpoints.
   void writeFirst();
-  /// Writes a checkpoint of the end, if the run has an archive and was cut short, or the scene asks for checkpoints.
+  /// Writes a checkpoint at the end, if the scene has checkpoints, or the run has an archive and was cut short.
   void writeLast();
   /// Whether a checkpoint is due after the last step.
   bool isDue() const;
@@ -27,7 +27,7 @@ class Checkpoints {
 
   /// Wall time spent writing, s.
   double seconds() const { return seconds_; }
-  /// By how much that has raised the peak of this rank's memory, bytes.
+  /// The increase of this rank's peak memory by writing, bytes.
   double memory() const { return memory_; }
 
  private:

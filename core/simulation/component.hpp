@@ -11,33 +11,33 @@ namespace tushar::simulation {
 
 /// A physics code: it declares tasks, the framework runs them.
 ///
-/// A component does not change after construction: all that changes lives in the warehouse, so restart and threads
-/// are right by construction. Construct it from a checked scene; everything it needs later it keeps itself.
+/// A component does not change after construction: all that changes lives in the warehouse, so restart and threads are
+/// right by construction. Construct it from a checked scene; it keeps a copy of everything that it needs later.
 class Component {
  public:
   virtual ~Component() = default;
 
   /// The state at the start of a run: `computes` and `newParticles` tasks.
   virtual void scheduleInitialize(tasks::TaskList& tasks) const = 0;
-  /// From the old state, lower `delT` to what the next step may take. A method that is stable with any step adds no
-  /// task: then `Time` alone limits the steps.
+  /// Limits `delT` for the next step, from the old state. A method that is stable with any step adds no task: then
+  /// `Time` alone limits the steps.
   virtual void scheduleComputeStableTimeStep(tasks::TaskList&) const {}
   /// One step, from the old state to a new one.
   virtual void scheduleTimeAdvance(tasks::TaskList& tasks) const = 0;
   /// What a user can try when a value breaks its bound: continues `try `.
   virtual std::string advice() const { return "a smaller time step (timestep_multiplier in <Time>)"; }
-  /// Whether a value that cannot be has the step repeated with half the time step, even where the scene does not ask.
+  /// Whether an impossible value has the step repeated with half the time step even if the scene does not request it.
   virtual bool mayRepeatStep() const { return false; }
   /// Variables that Uintah's component of this kind computes, whichever of them this one does.
   virtual std::vector<std::string> foreignLabels() const { return {}; }
-  /// What Uintah's component of this kind calls variables that have another name here, and that name.
+  /// Pairs of names: of a variable in Uintah's component of this kind, and here.
   virtual std::vector<std::pair<std::string, std::string>> otherNames() const { return {}; }
   /// Why it cannot run on a grid of several levels, if its kind can; empty where it can: continues `needs a grid of one
   /// level: `.
   virtual std::string whyOneLevel() const { return ""; }
   /// Where the grid is to be finer, if the scene refines it and does not say where.
   virtual std::vector<Criterion> criteria() const { return {}; }
-  /// What can be said about a state, from the old state: totals, derived fields. Only what someone asks for is run.
+  /// Diagnostics of the old state: totals, derived fields. Only those that are needed run.
   virtual void scheduleDiagnostics(tasks::TaskList&) const {}
 };
 

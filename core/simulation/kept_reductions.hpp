@@ -18,7 +18,7 @@ class KeptReductions {
       kept_.emplace_back(number, std::vector<std::byte>(bytes.begin(), bytes.end()));
     }
   }
-  /// Gives them these values back; those that had none start anew.
+  /// Restores these values; reductions that had none start empty.
   void restore() const {
     for (const auto& [number, bytes] : kept_)
       bytes.empty() ? warehouse_->resetReduction(number) : warehouse_->restoreReduction(number, bytes);

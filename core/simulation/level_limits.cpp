@@ -16,8 +16,8 @@ std::string blockProblem(const tasks::Task& task, const tasks::Access& access, c
   for (int d = 0; d < grid.dimension(); ++d)
     if (const int cells = grid.blockCells()[d]; cells < fewest)
       return fmt::format(
-          "task {} reads {} up to {} beyond a patch, for which blocks must have {} cells along each axis; they have {} "
-          "along {}: give <min_patch_size> in <Regridder> of <AMR>",
+          "task {} reads {} up to {} beyond a patch, so blocks need {} cells along each axis, but have {} along {}; "
+          "give <min_patch_size> in <Regridder> of <AMR>",
           task.name, access.label->name, counted(access.ghost, "cell"), fewest, cells, "xyz"[grid.level().axis(d)]);
   return "";
 }
@@ -26,7 +26,7 @@ std::string accessProblem(const tasks::Task& task, const tasks::Access& access, 
   const Centring centring = access.label->centring;
   if (centring == Centring::cell && access.ghost > 0) return blockProblem(task, access, grid);
   if (centring == Centring::node && !access.isNew())
-    return fmt::format("task {} reads {} of nodes from the step before, which needs a grid of one level", task.name,
+    return fmt::format("task {} reads {} of nodes from the previous step, which needs a grid of one level", task.name,
                        access.label->name);
   if (centring == Centring::node && access.ghost > 0 && !task.perMaterial())
     return fmt::format("task {} reads {} of nodes beyond a patch, which needs a grid of one level", task.name,

@@ -8,7 +8,7 @@
 
 namespace tushar::simulation {
 
-/// What is wrong with tasks on a grid of several levels, each with the task and its label; nothing where there is one:
+/// The problems of tasks on a grid of several levels, each with the task and its label; none on a single level:
 /// - blocks that are too small for the ghosts that a task reads (see tasks::fewestCellsOfBlock);
 /// - ghosts of nodes, which patches of the same level alone could give. Tasks of materials may read them for their
 ///   particles, which are on the finest level and keep away from coarser cells;

@@ -42,16 +42,17 @@ bool mayBeLibrary(const fs::path& file) {
 /// Opens a shared library and finds its card. Throws std::runtime_error if it is no module, or does not fit.
 const ModuleCard& open(const fs::path& file) {
   if (!mayBeLibrary(file))
-    throw std::runtime_error(fmt::format("{} is no module of Tushar: it is no shared library", file.string()));
+    throw std::runtime_error(fmt::format("{} is not a module of Tushar: it is not a shared library", file.string()));
   void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   const std::string problem = handle ? "" : dlerror();
   // A module for another version may call what is not there; its card is read all the same.
   if (!handle) handle = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL);
   const auto* card = handle ? static_cast<const ModuleCard*>(dlsym(handle, "tusharModule")) : nullptr;
   if (handle && !card)
-    throw std::runtime_error(fmt::format("{} is no module of Tushar: it has no symbol tusharModule", file.string()));
+    throw std::runtime_error(fmt::format("{} is not a module of Tushar: it has no symbol tusharModule", file.string()));
   if (const std::string misfit = card ? misfitOf(card->abi) : ""; !misfit.empty())
-    throw std::runtime_error(fmt::format("the module {} does not fit: {}; build it again", file.string(), misfit));
+    throw std::runtime_error(
+        fmt::format("the module {} does not match this program: {}; rebuild it", file.string(), misfit));
   if (!problem.empty())
     throw std::runtime_error(fmt::format("the module {} cannot be loaded: {}", file.string(), problem));
   return *card;
@@ -118,16 +119,16 @@ std::string misfitOf(const ModuleAbi& module) {
   constexpr ModuleAbi own = abiWith(TUSHAR_INTERFACE);
   using Text = std::string_view;
   if (Text(module.version) != own.version)
-    return fmt::format("it was built for Tushar {}, and this is {}", module.version, own.version);
+    return fmt::format("it was built for Tushar {}, but this is {}", module.version, own.version);
   if (Text(module.compiler) != own.compiler)
-    return fmt::format("it was compiled by {}, and this program by {}", module.compiler, own.compiler);
+    return fmt::format("it was compiled by {}, but this program by {}", module.compiler, own.compiler);
   if (module.checks != own.checks)
-    return fmt::format("it was compiled with{} TUSHAR_CHECKS, and this program with{} it", module.checks ? "" : "out",
+    return fmt::format("it was compiled with{} TUSHAR_CHECKS, but this program with{} it", module.checks ? "" : "out",
                        own.checks ? "" : "out");
   if (module.alignment != own.alignment)
-    return fmt::format("it was compiled for vectors of {} bytes, and this program for {}: use the same -march",
+    return fmt::format("it was compiled for vectors of {} bytes, but this program for {}: use the same -march",
                        module.alignment, own.alignment);
-  if (Text(module.interface) != own.interface) return "it was built with other headers of the same version";
+  if (Text(module.interface) != own.interface) return "it was built with different headers of the same version";
   return "";
 }
 

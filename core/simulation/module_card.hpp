@@ -4,7 +4,7 @@ namespace tushar::simulation {
 
 class Catalogue;
 
-/// What a module and the program that loads it must have in common.
+/// Properties that a module and the program that loads it must share.
 struct ModuleAbi {
   const char* version;    ///< of Tushar
   const char* compiler;   ///< and its version
@@ -13,7 +13,8 @@ struct ModuleAbi {
   int alignment;          ///< of vectors, bytes
 };
 
-/// What a shared library shows as `extern "C" const ModuleCard tusharModule`. tushar_module() of CMake writes it.
+/// The card that a shared library exports as `extern "C" const ModuleCard tusharModule`; tushar_module() of CMake
+/// writes it.
 struct ModuleCard {
   ModuleAbi abi;
   const char* name;
@@ -31,7 +32,7 @@ inline constexpr const char* compilerName = __VERSION__;
 inline constexpr const char* compilerName = "GCC " __VERSION__;
 #endif
 
-/// Of the source file that calls it.
+/// The ABI of the source file that calls it.
 constexpr ModuleAbi abiWith(const char* interface) {
   return {TUSHAR_VERSION, compilerName, interface, checksEveryIndex, __BIGGEST_ALIGNMENT__};
 }

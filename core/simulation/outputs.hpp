@@ -20,23 +20,23 @@ class Outputs {
 
   /// Locks the folder of the run that this one continues. Throws FileError if another process has locked it.
   void lockArchive();
-  /// Makes an archive, if the scene asks for outputs, globals, samples or checkpoints. A restarted run, which has read
-  /// its checkpoint, continues the archive of the run before. Throws FileError.
+  /// Creates an archive, if the scene has outputs, globals, samples or checkpoints. A restarted run, which has read its
+  /// checkpoint, continues the archive of the run before. Throws FileError.
   void open();
-  /// Saves the globals and, if the scene asks for it, an output of the start.
+  /// Saves the globals and, if the scene requests it, an output at the start.
   void saveStart();
   /// Saves the globals, and the samples that are due, after a step.
   void saveGlobals();
   /// Writes an output after a step, if one is due.
   void saveIfDue();
-  /// Writes an output, if the scene asks for any and this step has none.
+  /// Writes an output, if the scene has any and this step has none yet.
   void save();
   /// Brings the lists of the archive up to date, and the files of analysis modules.
   void flush();
-  /// The same for a checkpoint, where there is an archive: how far that has come.
+  /// As above for a checkpoint; if there is an archive, with its current extent.
   output::ArchivePoint sync();
 
-  /// Passes the output times up to now.
+  /// Skips the output times up to now.
   void passMilestones() { times_.pass(run_.time.time()); }
   /// The next output time, s; infinity if the scene gives no interval.
   double nextTime() const { return times_.next(); }
@@ -46,7 +46,7 @@ class Outputs {
   output::Archive* archive() const { return archive_.get(); }
   /// Wall time spent collecting and writing, s.
   double seconds() const { return seconds_; }
-  /// By how much that has raised the peak of this rank's memory, bytes.
+  /// The increase of this rank's peak memory by collecting and writing, bytes.
   double memory() const { return memory_; }
 
  private:

@@ -232,7 +232,7 @@ tasks::TaskList Phases::refinementTasks(const RegridSettings& regrid) const {
     else
       problems.push_back(
           {one.where, one.path,
-           fmt::format("'{}' is no variable of cells that this component computes{}; there {} {}", one.variable,
+           fmt::format("'{}' is not a cell variable that this component computes{}; there {} {}", one.variable,
                        didYouMean(one.variable, known), known.size() == 1 ? "is" : "are", allOf(known))});
   }
   if (!problems.empty()) throw InputError(std::move(problems));
@@ -268,10 +268,10 @@ void Phases::refuseSavedNodes() const {
   std::vector<InputProblem> problems;
   for (const SaveRequest& save : saved_fields_)
     if (save.label.starts_with(data::NodeLabel<double>::prefix()))
-      problems.push_back({save.where, "DataArchiver/save",
-                          fmt::format("'{}' is a variable of nodes; on several levels only those of cells and "
-                                      "particles are saved",
-                                      save.label)});
+      problems.push_back(
+          {save.where, "DataArchiver/save",
+           fmt::format("'{}' is a node variable; on several levels only cell and particle variables are saved",
+                       save.label)});
   if (!problems.empty()) throw InputError(std::move(problems));
 }
 

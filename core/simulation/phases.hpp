@@ -12,7 +12,7 @@
 
 namespace tushar::simulation {
 
-/// The task lists of a run, compiled against each other: what a later one reads, an earlier one must leave behind.
+/// The task lists of a run, compiled against each other: an earlier one must provide what a later one reads.
 ///
 /// The diagnostics are compiled four times from one list, each time for what is asked for then: the totals at the
 /// start, the globals saved in every step, the derived fields of an output, the totals and errors of the report.
@@ -21,12 +21,12 @@ class Phases {
   /// Collects the task lists. Throws TaskError for one that reads what no task writes.
   Phases(const Component& component, const std::vector<std::unique_ptr<Analysis>>& analyses);
 
-  /// What is wrong with the labels and materials that a scene wants saved.
+  /// The problems of the labels and materials that a scene saves.
   std::vector<InputProblem> problemsOf(const std::vector<SaveRequest>& saves,
                                        const std::string& path = "DataArchiver/save") const;
-  /// What is wrong with the labels and materials that analysis modules sample.
+  /// The problems of the labels and materials that analysis modules sample.
   std::vector<InputProblem> problemsOf(const std::vector<std::unique_ptr<Analysis>>& analyses) const;
-  /// What a saved number that is not that of a material means.
+  /// Notes on saved material numbers that are not those of a material.
   std::vector<std::string> remarksOn(const SaveRequest& save) const;
   /// Compiles the lists. Throws InputError for a saved or sampled label that no task computes, and for a task that the
   /// levels of the grid are not for; TaskError for lists that do not fit together.
@@ -64,14 +64,14 @@ class Phases {
   void validateAll() const;
   void noteMaterials();
   bool isMaterial(const std::string& name) const;
-  /// The requests with the names of materials in place of their numbers; the number behind the last stands for all, as
-  /// in Uintah, and those behind it for nothing.
+  /// The requests with the names of materials in place of their numbers; the number after the last means all, as in
+  /// Uintah, and higher ones mean none.
   std::vector<SaveRequest> named(const std::vector<SaveRequest>& saves) const;
   /// The diagnostics with the task behind them that looks where to refine; nothing where the grid stays. Throws
   /// InputError for a criterion of what is no variable of cells.
   tasks::TaskList refinementTasks(const RegridSettings& regrid) const;
   void refuseSavedNodes() const;
-  /// What is saved and sampled: of diagnostics in every step and at outputs, and of the state.
+  /// The saved and sampled variables: of diagnostics in every step and at outputs, and of the state.
   struct Wants {
     tasks::Names everyStep, everyOutput, ofState;
   };

@@ -8,8 +8,8 @@
 
 namespace tushar::simulation {
 
-/// Where criteria ask for finer cells: 0 nowhere, 1 for no coarser ones, 2 for finer ones.
-inline constexpr data::CellLabel<int> refinementMark{"c.refinementMark", "1", "what criteria of refinement ask for"};
+/// Marks of the refinement criteria: 0 for nothing, 1 for no coarser cells, 2 for finer ones.
+inline constexpr data::CellLabel<int> refinementMark{"c.refinementMark", "1", "marks of the refinement criteria"};
 
 /// A criterion with its variable, and whether that is one of the diagnostics or part of the state.
 struct BoundCriterion {

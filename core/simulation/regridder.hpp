@@ -21,14 +21,15 @@ class MarkedBlocks {
 
   /// `mark`: see refinementMark.
   void add(const grid::Level& level, const Index3& cell, int mark);
-  /// Those of all cells of a patch.
+  /// Adds the marks of all cells of a patch.
   void add(const grid::Patch& patch, const int* marks, const grid::Box& stored);
   /// A cell that holds particles: there, and within `margin` cells of the finest level beyond what they can cross, are
   /// no coarser cells.
   void addParticles(const grid::Level& level, const Index3& cell, int margin);
   /// Adds those of all ranks, which all call it.
   void unite(const mpi::Communicator& ranks);
-  /// The tree that they ask for. Of blocks that are refined, only those may be coarsened that have no refined child.
+  /// The tree that the marks require. Of blocks that are refined, only those may be coarsened that have no refined
+  /// child.
   grid::BlockTree tree() const;
 
  private:
@@ -54,14 +55,14 @@ class MarkedBlocks {
   std::set<grid::BlockId> wanted_, kept_;
 };
 
-/// Refines the grid of a run where its criteria ask for it. All ranks make the same calls.
+/// Refines the grid of a run by its criteria. All ranks make the same calls.
 class Regridder {
  public:
   explicit Regridder(RunState& run) : run_(run) {}
 
   /// Whether the state at the start asked for another grid, which the run now has, without values.
   bool refinedStart();
-  /// Changes the grid between two steps, with its values, if that is due and the state asks for it.
+  /// Changes the grid between two steps, with its values, if that is due and the state requires it.
   void regridIfDue();
 
   int regrids() const { return regrids_; }

@@ -18,7 +18,7 @@ namespace tushar::simulation {
 /// Mass, momentum and energy over the whole grid: the components of each, in the order of Phases::totals().
 using Totals = std::vector<std::vector<double>>;
 
-/// What the parts of a run share: the problem, its compiled tasks and variables, and how far the run is.
+/// The state that the parts of a run share: the problem, its compiled tasks and variables, and its progress.
 struct RunState {
   /// Compiles the task graphs. Throws what Phases throws.
   RunState(Problem problem, const RunOptions& options, Clock::time_point startedAt, const mpi::Communicator& ranks);
@@ -36,7 +36,7 @@ struct RunState {
   /// The totals of the state as it is now, by a graph that computes them.
   Totals measureTotals(tasks::TaskGraph& graph);
 
-  /// What outlives a step.
+  /// The variables that outlive a step.
   tasks::MigratedVariables migratedVariables() const;
 
   Problem problem;

@@ -147,7 +147,7 @@ void Simulation::refuseCoarseParticles() {
   }
   if (!outside.empty())
     throw InputError({{run_.problem.regrid.where, "",
-                       fmt::format("particles of {} are in coarser cells, or too near to them; particles are on the "
+                       fmt::format("particles of {} are in coarser cells, or too close to them; particles live on the "
                                    "finest level only: give a larger <Level>, or <adaptive> in <AMR>",
                                    outside)}});
 }
@@ -233,7 +233,7 @@ void Simulation::saveLastGood() {
   if (outputs_.folder().empty()) return;
   outputs_.save();
   checkpoints_.write();
-  failure_ = NumericalError(fmt::format("{}; the last whole step, {} at t = {:.6g} s, is saved: sus --restart {}",
+  failure_ = NumericalError(fmt::format("{}; the last complete step, {:.6g} at t = {} s, is saved: sus --restart {}",
                                         failure_->what(), run_.time.step(), run_.time.time(), outputs_.folder()),
                             failure_->advice(), failure_->value());
 }

@@ -31,7 +31,7 @@ class Simulation {
   /// Makes the state at the start (or reads the checkpoint), and nothing else; the number of particles. Throws what a
   /// run would throw there.
   long tryStart();
-  /// What run.json says of the program and its command line.
+  /// The entry of run.json for the program and its command line.
   void setRecord(output::RunRecord record) { record_ = std::move(record); }
   /// Runs to the end of the scene, to an interrupt, to a file `stop_now` in its archive, or to a value that is not
   /// finite or out of its bounds, which the report then names: the last whole step is saved. Throws TaskError,
@@ -48,7 +48,7 @@ class Simulation {
   void refuseCoarseParticles();
   void loop();
   void step();
-  /// Advances the state by a time step, which is repeated with a shorter one if a task asks for it.
+  /// Advances the state by a time step, which is repeated with a shorter one if a task requires it.
   void advance();
   bool hasEnded() const;
   std::string whyEnded() const;
@@ -74,7 +74,7 @@ class Simulation {
   std::optional<output::RunLog> log_;  ///< on rank 0, of a run that has an archive
 };
 
-/// What sus returns after a run that has come to a report.
+/// The exit code of sus after a run that has a report.
 ExitCode exitCodeOf(const report::Report& report);
 
 }  // namespace tushar::simulation

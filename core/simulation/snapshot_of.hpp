@@ -13,7 +13,7 @@ namespace tushar::simulation {
 /// rank has its own values; they are not copied, and good while the state is as it is. All ranks call it.
 output::Snapshot snapshotOf(RunState& run, const std::vector<SaveRequest>& requests);
 
-/// The same of a layer of the grid, without particles.
+/// A snapshot of a layer of the grid, without particles.
 output::Snapshot snapshotOf(RunState& run, const std::vector<SaveRequest>& requests, const collect::Layer& layer);
 
 }  // namespace tushar::simulation

@@ -33,7 +33,7 @@ double TimeControl::next(const data::Minimum& stable, double nextOutput) {
     throw NumericalError(fmt::format("the time step became {:.6g} s (step {}, time {:.6g} s)", dt, step_ + 1, time_),
                          "a scene in which something moves or has a speed of sound, or <delt_max>");
   if (time_ + dt == time_)
-    throw NumericalError(fmt::format("the time step of {:.6g} s is too small to move time on from {:.6g} s (step {})",
+    throw NumericalError(fmt::format("the time step of {:.6g} s is too small to advance time from {:.6g} s (step {})",
                                      dt, time_, step_ + 1),
                          "delt_min, or whatever keeps speeds finite");
   target_ = time_ + dt;
@@ -68,7 +68,7 @@ double TimeControl::repeat(const data::Minimum& asked) {
     throw NumericalError(
         fmt::format(
             "the bound of {} would break unless the time step fell to {:.6g} s, below {} {}", asked.reason.text(), dt,
-            dt < settings_.deltMin ? fmt::format("delt_min = {:.6g} s", settings_.deltMin) : "what moves time on",
+            dt < settings_.deltMin ? fmt::format("delt_min = {:.6g} s", settings_.deltMin) : "what advances time",
             where),
         advice);
   ++retries_;

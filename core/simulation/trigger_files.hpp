@@ -7,10 +7,10 @@ namespace tushar::simulation {
 /// Files by which a run is asked for something from outside: `output_now` or `stop_now` in the folder of its archive.
 class TriggerFiles {
  public:
-  /// Takes away files that an earlier run has left.
+  /// Removes files that an earlier run has left.
   explicit TriggerFiles(std::filesystem::path folder);
 
-  /// What is asked for.
+  /// The requests that were found.
   struct Found {
     bool output = false, stop = false;
   };

@@ -34,7 +34,7 @@ input::Schema<LinearSettings> schemaOf(const LinearSettings& defaults) {
       .check([](const LinearSettings& read, const input::Element& element, input::Diagnostics& diagnostics) {
         if (read.solver == "preonly" && read.preconditioner != "lu" && read.preconditioner != "cholesky")
           diagnostics.error(element, "preconditioner: found '" + read.preconditioner +
-                                         "', but with <solver> direct it solves the system: take lu or cholesky");
+                                         "', but with <solver> direct it solves the system: use lu or cholesky");
       });
 }
 

@@ -51,7 +51,7 @@ class PetscOptionsOfSolve {
   PetscOptionsOfSolve& operator=(const PetscOptionsOfSolve&) = delete;
   ~PetscOptionsOfSolve();
 
-  /// The options of all solves so far that neither one of them nor PETSc's own start has looked at.
+  /// The options of all solves so far that neither a solve nor the start of PETSc has used.
   static std::vector<std::string> unused();
 
  private:
@@ -76,7 +76,7 @@ class PetscMatrix : public Matrix {
     check(MatAssemblyBegin(matrix_, MAT_FINAL_ASSEMBLY));
     check(MatAssemblyEnd(matrix_, MAT_FINAL_ASSEMBLY));
   }
-  /// A becomes S A S with the diagonal S; what multigrid is told goes along.
+  /// Scales A to S A S with the diagonal S, and the near-null space of multigrid with it.
   void scale(Vec s);
   operator Mat() const { return matrix_; }
 
@@ -108,7 +108,7 @@ class Balance {
   OwnedVec s_, b_;
 };
 
-/// A vector over numbers that somebody else holds: those of the owned unknowns.
+/// A vector over numbers in foreign memory: those of the owned unknowns.
 class PetscVector {
  public:
   PetscVector(const Unknowns& unknowns, std::span<double> values);

@@ -16,17 +16,17 @@ const char* wordsOf(KSPConvergedReason reason) {
       return "the residual grows";
     case KSP_DIVERGED_BREAKDOWN:
     case KSP_DIVERGED_BREAKDOWN_BICG:
-      return "the Krylov method broke down, as it does where the matrix is singular";
+      return "the Krylov method broke down, as happens when the matrix is singular";
     case KSP_DIVERGED_NONSYMMETRIC:
-      return "the matrix is not symmetric, as the method needs it";
+      return "the matrix is not symmetric, which the method requires";
     case KSP_DIVERGED_INDEFINITE_PC:
-      return "the preconditioner is not positive definite, as the method needs it";
+      return "the preconditioner is not positive definite, which the method requires";
     case KSP_DIVERGED_INDEFINITE_MAT:
-      return "the matrix is not positive definite, as the method needs it";
+      return "the matrix is not positive definite, which the method requires";
     case KSP_DIVERGED_NANORINF:
-      return "a number became infinite or none";
+      return "a number became infinite or NaN";
     case KSP_DIVERGED_PC_FAILED:
-      return "the preconditioner could not be made, as where the matrix is singular";
+      return "the preconditioner could not be built, as happens when the matrix is singular";
     default:
       return "";
   }
@@ -37,11 +37,11 @@ const char* wordsOf(SNESConvergedReason reason) {
     case SNES_DIVERGED_MAX_IT:
       return "more iterations than allowed";
     case SNES_DIVERGED_FNORM_NAN:
-      return "the residual became infinite or none";
+      return "the residual became infinite or NaN";
     case SNES_DIVERGED_LINE_SEARCH:
-      return "no part of the last step makes the residual smaller";
+      return "no fraction of the last step reduces the residual";
     case SNES_DIVERGED_FUNCTION_DOMAIN:
-      return "there is no residual where the last step leads";
+      return "the residual is undefined after the last step";
     default:
       return "";
   }

@@ -23,7 +23,7 @@ inline void addTimes(const Outcome& outcome, data::Maximum& assembly, data::Maxi
   solve.add(outcome.solve);
 }
 
-/// The residual at the end over the greatest on the way; 0 where there never was any.
+/// The final residual over the greatest during the solve; 0 if there was none.
 inline double remainderOf(const Outcome& outcome) {
   const double greatest =
       outcome.residuals.empty() ? 0 : *std::max_element(outcome.residuals.begin(), outcome.residuals.end());

@@ -30,7 +30,7 @@ const Solver& load() {
   if (!handle) throw std::runtime_error(fmt::format("the solver cannot be loaded: {}", dlerror()));
   using Entry = const Solver* (*)();
   const auto entry = reinterpret_cast<Entry>(dlsym(handle, "tusharSolver"));
-  if (!entry) throw std::runtime_error(fmt::format("{} is no solver: {}", library, dlerror()));
+  if (!entry) throw std::runtime_error(fmt::format("{} is not a solver: {}", library, dlerror()));
   return *entry();
 }
 

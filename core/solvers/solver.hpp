@@ -67,7 +67,7 @@ class NonlinearProblem {
   virtual bool residual(std::span<const double> u, std::span<double> r) = 0;
   /// dr/du at the u of the last residual.
   virtual void tangent(Matrix& matrix) = 0;
-  /// Whether r(u), of the unknowns that the rank owns, is nothing but rounding; the same on all ranks.
+  /// Whether r(u) of the owned unknowns is mere rounding error; the same on all ranks.
   virtual bool isNegligible(std::span<const double> /*u*/, std::span<const double> /*r*/) const { return false; }
 };
 
@@ -79,7 +79,7 @@ struct NewtonSettings {
   int maxIterations = 25;
 };
 
-/// Solves systems. There is one, in a library that is loaded when the first scene asks for it.
+/// Solves systems. There is one implementation, in a library that is loaded when a scene first needs it.
 class Solver {
  public:
   virtual ~Solver() = default;
@@ -100,9 +100,9 @@ class Solver {
 /// Every rank gets, for the blocks that it owns and for its ghosts, the sum of what all ranks have for them.
 void addUp(const Unknowns& unknowns, std::span<double> values);
 
-/// Whether a scene has asked for the solver so far.
+/// Whether a scene has needed the solver so far.
 bool isLoaded();
-/// Options in PETSc's language that were given, and that no solve so far has looked at.
+/// Options for PETSc that were given and that no solve has used so far.
 std::vector<std::string> unusedOptions();
 
 /// The version of PETSc that would solve, or why it cannot be loaded.

@@ -144,7 +144,7 @@ OptionalAccess<FieldAccess<Label, Kind>> when(bool on, FieldAccess<Label, Kind> 
   return {on, access};
 }
 
-/// An output that a task computes only where something reads it; see `offers`.
+/// An output that a task computes only if something reads it; see `offers`.
 template <class Access>
 struct OfferedAccess {
   Access access;
@@ -154,7 +154,7 @@ struct OfferedAccess {
     return context.isWanted(access.index) ? std::optional(access.bind(context)) : std::nullopt;
   }
 };
-/// An output that costs something and that only some scenes want: as `computes` where a later task, another list or the
+/// An output that is costly and that only some scenes need: as `computes` where a later task, another list or the
 /// scene's outputs read it, else not allocated. The body gets a std::optional view.
 template <data::Centring C, class T>
 OfferedAccess<FieldAccess<data::FieldLabel<C, T>, AccessKind::computes>> offers(const data::FieldLabel<C, T>& label) {
@@ -197,8 +197,8 @@ PlainArgument<T> with(T value) {
   return {std::move(value)};
 }
 
-/// Whether an argument stands for variables of a material on a patch, so that a task that sees several of them gets one
-/// view of each.
+/// Whether an argument represents variables of a material on a patch, so that a task over several of them gets one view
+/// of each.
 template <class Argument>
 inline constexpr bool isOfMaterialAndPatch = false;
 template <data::Centring C, class T, AccessKind Kind>
@@ -210,7 +210,7 @@ inline constexpr bool isOfMaterialAndPatch<OfferedAccess<Access>> = isOfMaterial
 template <class T>
 inline constexpr bool isOfMaterialAndPatch<FluxAccess<T>> = true;
 
-/// Whether an argument stands for a variable; any other is a value of its own, such as the one of `with`.
+/// Whether an argument represents a variable; others are plain values, such as that of `with`.
 template <class Argument>
 inline constexpr bool isOfLabel = isOfMaterialAndPatch<Argument>;
 template <class R, AccessKind Kind>
@@ -232,8 +232,8 @@ struct WithoutMaterial {
   }
   decltype(auto) bind(const TaskContext& context) const { return argument.bind(context); }
 };
-/// In a task of materials, stands for a variable that belongs to none of them: the body gets a single view, or a single
-/// group. perMaterial may only read such variables.
+/// In a task over materials, represents a variable that belongs to none of them: the body gets a single view, or a
+/// single group. perMaterial may only read such variables.
 template <class Argument>
 WithoutMaterial<Argument> withoutMaterial(Argument argument) {
   static_assert(isOfMaterialAndPatch<Argument>, "withoutMaterial(...) takes an access to a variable of a patch");
@@ -252,7 +252,7 @@ inline constexpr bool isCreation<FieldAccess<Label, AccessKind::creates>> = true
 template <class Argument>
 inline constexpr bool isOfRanks = std::is_same_v<Argument, RanksArgument>;
 
-/// What `bind` makes of each of `contexts`.
+/// The results of `bind` for each of `contexts`.
 template <class Contexts, class Bind>
 auto bindEach(const Contexts& contexts, Bind bind) {
   std::vector<std::decay_t<decltype(bind(contexts[0]))>> views;
@@ -260,7 +260,7 @@ auto bindEach(const Contexts& contexts, Bind bind) {
   return views;
 }
 
-/// What an argument becomes for a task that sees all materials: for labels a view of each material.
+/// The value of an argument in a task over all materials: for labels a view of each material.
 template <class Argument>
 decltype(auto) bindAll(const Argument& argument, const TaskContext& context) {
   if constexpr (isOfMaterialAndPatch<Argument>)
@@ -269,7 +269,7 @@ decltype(auto) bindAll(const Argument& argument, const TaskContext& context) {
     return argument.bind(context);
 }
 
-/// What an argument becomes for a task that sees the whole rank: for labels a view of each patch.
+/// The value of an argument in a task over the whole rank: for labels a view of each patch.
 template <class Argument>
 decltype(auto) bindRank(const Argument& argument, const TaskContext& context) {
   if constexpr (isOfMaterialAndPatch<Argument>)
@@ -277,7 +277,7 @@ decltype(auto) bindRank(const Argument& argument, const TaskContext& context) {
   else
     return argument.bind(context);
 }
-/// What an argument becomes for a task that sees all materials of the whole rank: `views[patch][material]`.
+/// The value of an argument in a task over all materials of the whole rank: `views[patch][material]`.
 template <class Argument>
 decltype(auto) bindRankAll(const Argument& argument, const TaskContext& context) {
   if constexpr (isOfMaterialAndPatch<Argument>)

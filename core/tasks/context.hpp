@@ -22,7 +22,7 @@ struct BoundAccess {
   bool own = false;  ///< of nodes: whether only those are used that are the patch's own
 };
 
-/// Everything that a task's body may touch on one patch, for one material.
+/// Everything that a task's body may access on one patch, for one material.
 class TaskContext {
  public:
   TaskContext(data::Warehouse& warehouse, const grid::Patch& patch, int material,
@@ -56,7 +56,7 @@ class TaskContext {
     return {reinterpret_cast<T*>(variable.values), set, cells, &label};
   }
 
-  /// Where the values of an access stand, whatever their type.
+  /// The address of an access's values, of any type.
   data::Variable variable(int access) const {
     const BoundAccess& bound = (*accesses_)[access];
     return warehouse_->variable(bound.generation, bound.variable, patch_->id());
@@ -75,7 +75,7 @@ class TaskContext {
     return {reinterpret_cast<T*>(variable.values), variable.stored, boxOf<C>(bound), &label};
   }
 
-  /// What is known of a reduction.
+  /// The values of a reduction so far.
   template <class R>
   const R& reduction(int access) const {
     return warehouse_->reduction<R>((*accesses_)[access].variable);

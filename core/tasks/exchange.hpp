@@ -60,7 +60,7 @@ class Exchange {
 
   bool movesNothing() const;
   void post(bool hasStopped);
-  /// What patches of this rank have from one another.
+  /// The copies between patches of this rank.
   void fillFromHere();
   void fillFromElsewhere(const BoundGhostFill& fill, bool resolves, ReceivedMessages& messages);
   void copyGrid(const BoundGhostFill& fill, const GhostCopy& copy);

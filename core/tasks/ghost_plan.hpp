@@ -23,13 +23,13 @@ struct GhostCopy {
   int axis = 0, side = 0;  ///< of that piece
 };
 
-/// Ghosts of a patch that stand in coarser cells: they are interpolated from these and those around them.
+/// Ghosts of a patch that lie in coarser cells: they are interpolated from these and those around them.
 struct CoarseGhosts {
   grid::Box ghosts;  ///< cells of the patch's level
   grid::Box cells;   ///< of the coarser level
 };
 
-/// What moves between patches so that each has its ghosts, settled once for a layout. Every rank works out its part
+/// The copies and messages between patches that fill ghosts, planned once for a layout. Every rank works out its part
 /// from the geometry: a receiver and a sender list the copies between them in the same order, without a message.
 ///
 /// All of it comes from cells that patches own, so that one round does for all levels.
@@ -41,7 +41,7 @@ struct GhostPlan {
   std::set<int> incoming;                          ///< ranks that others come from
 };
 
-/// Which ghosts a patch needs. Particles and nodes come from patches of the same level only.
+/// The ghosts that a patch needs. Particles and nodes come from patches of the same level only.
 struct GhostReach {
   data::Centring centring;
   int width;
@@ -60,7 +60,7 @@ GhostPlan planGhosts(const grid::Grid& grid, const GhostReach& reach);
 /// Nodes that patches of this rank have and do not own, by patch: each from one that does.
 std::vector<std::vector<GhostCopy>> planFaces(const grid::Grid& grid);
 
-/// The plans of a layout, each made when it is asked for.
+/// The plans of a layout, each made when it is first needed.
 class GhostPlans {
  public:
   const GhostPlan& of(const grid::Grid& grid, GhostReach reach);

@@ -19,7 +19,7 @@ class ParticleInstaller {
 
   /// First: installs the particle sets, which then have slots.
   void makeSets(const OnPatches& onPatches);
-  /// Then: installs the values of a created label, and drops those of a label that nobody reads.
+  /// Next, installs the values of a created label, and drops those of a label that nothing reads.
   void write(int number, std::size_t access, bool isRead, const OnPatches& onPatches);
   void writeIds(const OnPatches& onPatches);
 

@@ -57,7 +57,7 @@ class ParticleMaker {
   /// Throws data::AccessError for a column of another length.
   void write(std::size_t access, const data::Label& label, std::byte* to);
   void writeIds(ParticleId* to) const;
-  /// Forgets the values of a label that nobody reads, once they are counted.
+  /// Discards the values of a label that nothing reads, once they are counted.
   void drop(std::size_t access, const data::Label& label);
 
  private:

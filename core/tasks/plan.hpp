@@ -18,7 +18,7 @@ struct GhostFill {
   friend bool operator==(const GhostFill&, const GhostFill&) = default;
 };
 
-/// What moves between patches before a task runs. All of it goes in one message per pair of patches' owners.
+/// The transfers between patches before a task runs. All of it goes in one message per pair of patches' owners.
 struct Stage {
   std::vector<GhostFill> fills;
   int ready = -1;  ///< the task after which all of it may be sent, which no earlier stage is read after; -1: at once

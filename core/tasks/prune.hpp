@@ -17,7 +17,7 @@ struct LeftOut {
 struct Pruned {
   std::vector<Task> kept;
   std::vector<LeftOut> leftOut;
-  /// Variables that must be there at the end: what was wanted, and (where the list is repeated) what it reads first.
+  /// Variables that must exist at the end: what was wanted, and (where the list is repeated) what it reads first.
   Names needed;
   /// `liveAfter[t]`: variables of the step in progress that are still to be read after kept task t.
   std::vector<Names> liveAfter;

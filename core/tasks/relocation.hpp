@@ -22,7 +22,7 @@ class Relocation {
  public:
   Relocation(data::Warehouse& warehouse, Threads& threads) : warehouse_(&warehouse), threads_(&threads) {}
 
-  /// Finds out where the particles of a material belong by the new values of `position`. Those that left through a
+  /// Finds the new cells of a material's particles from the new values of `position`. Those that left through a
   /// periodic face come in at the opposite one; those that left through a free face are to be dropped.
   ///
   /// All ranks run it together. False if one of them has stopped before: then nothing is done on any.
@@ -42,9 +42,9 @@ class Relocation {
   void commit() { dropped_ += std::exchange(leaving_, 0); }
   /// Particles that have left the grid from this rank since the start.
   long dropped() const { return dropped_; }
-  /// Goes on counting from what another run had dropped.
+  /// Continues the count from that of another run.
   void setDropped(long dropped) { dropped_ = dropped; }
-  /// What to try where a particle comes too near to coarser cells.
+  /// Advice for a particle that comes too close to coarser cells.
   void setAdviceNearCoarser(std::string advice) { advice_near_coarser_ = std::move(advice); }
 
  private:
@@ -72,7 +72,7 @@ class Relocation {
 
     friend auto operator<=>(const Escape&, const Escape&) = default;
   };
-  /// What all ranks must know before any continues.
+  /// The outcome that all ranks need before any continues.
   struct Verdict {
     bool hasStopped, hasEscape, goFar;
     int rank;  ///< of the escape
@@ -149,7 +149,7 @@ class Relocation {
   /// Sorts the particles that left their patch: which escaped first, how many left the grid, which go to another rank.
   Verdict gather(Moves& moves, bool hasStopped);
   [[noreturn]] void refuseEscape(int position, const Verdict& verdict) const;
-  /// What a particle did that went where none can be.
+  /// The error for a particle that went where none can be.
   template <int D>
   NumericalError refusal(int position, const Escape& escape) const;
   /// Hands particles over to the patches that they come into.
@@ -166,7 +166,7 @@ class Relocation {
   /// Moves the particles that stay to their new places, and inserts those that arrive.
   void moveOn(const Move& move, std::size_t place, Moves& moves);
 
-  /// Whether a cell of the finest level is too near to coarser ones for a particle that comes from a patch.
+  /// Whether a cell of the finest level is too close to coarser ones for a particle that comes from a patch.
   bool isNearCoarser(const grid::Patch& from, const Index3& cell) const;
 
   data::Warehouse* warehouse_;

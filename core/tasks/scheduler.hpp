@@ -73,7 +73,7 @@ class Scheduler {
   void start(const TaskGraph& graph, int end);
   void runTask(TaskGraph& graph, int number, const StepInfo& at);
   void runWork(CompiledTask& task, const StepInfo& at);
-  /// Completes the nodes of which each patch wrote its own.
+  /// Completes node variables of which each patch has written its own nodes.
   void shareFaces(const CompiledTask& task);
   void relocate(const CompiledTask& task, const StepInfo& at);
   template <class Work>
@@ -86,7 +86,7 @@ class Scheduler {
   void runOnPatches(CompiledTask& task, int material, const StepInfo& at);
   void runOnRank(CompiledTask& task, const StepInfo& at);
   void runAcrossMaterials(CompiledTask& task, const grid::Patch& patch, const StepInfo& at);
-  /// What a task has made on all patches becomes the particles of its material.
+  /// Installs the particles that a task has made on all patches as those of its material.
   void install(const CompiledTask& task, int material, const StepInfo& at);
   void runPlaced(CompiledTask& task, const grid::Patch& patch, int material, const StepInfo& at);
   void allocateOutputs(const MaterialBinding& binding);

@@ -10,7 +10,7 @@ namespace tushar::tasks {
 
 class TaskContext;
 
-/// What a task does to a variable.
+/// The ways in which a task uses a variable.
 enum class AccessKind {
   requiresOld,  ///< reads the state at the start of the step
   requiresNew,  ///< reads what an earlier task of the list computed

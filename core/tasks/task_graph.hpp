@@ -44,7 +44,7 @@ struct CompiledTask {
   double seconds = 0;          ///< time spent in it so far
   double exchangeSeconds = 0;  ///< of that, time spent filling ghosts before it
 
-  /// What depends on a material (-1 for a task that belongs to none).
+  /// The binding of a material (-1 for a task that belongs to none).
   const MaterialBinding& of(int material) const {
     return materials[task.perMaterial() ? static_cast<std::size_t>(material) : 0];
   }

@@ -5,7 +5,7 @@
 
 namespace tushar::tasks {
 
-/// Where values of cells stand in memory.
+/// The layout of cell values in memory.
 struct CellValues {
   std::byte* values;
   grid::Box stored;

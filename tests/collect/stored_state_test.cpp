@@ -141,11 +141,11 @@ TEST(StoredState, RefusesWhatDoesNotFitTheScene) {
   fileOf(written);
 
   EXPECT_EQ(refusalOf(larger, {}),
-            "the checkpoint has 35 numbers at /cells/fine/c.heat, and the scene needs 40; take back "
-            "what was changed in the scene since");
-  EXPECT_EQ(refusalOf(same, {"p.mark"}),
-            "the checkpoint has no /particles/fine/p.mark, which the scene needs; take back "
-            "what was changed in the scene since");
+            "the checkpoint has 35 numbers for /cells/fine/c.heat, but the scene needs 40; undo what was changed in "
+            "the scene since");
+  EXPECT_EQ(
+      refusalOf(same, {"p.mark"}),
+      "the checkpoint has no /particles/fine/p.mark, which the scene needs; undo what was changed in the scene since");
   EXPECT_EQ(refusalOf(same, {"p.x"}), "");
 }
 

@@ -1,10 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <sstream>
-
 #include "tests/support/scenes.hpp"
-#include "tests/support/temporary.hpp"
 
 namespace tushar::euler {
 
@@ -21,14 +17,7 @@ double densityError(Overrides overrides, int cells) {
 
 /// Sod's scene with a piece of text replaced.
 std::string changedScene(const std::string& from, const std::string& to) {
-  std::stringstream text;
-  text << std::ifstream("ups/euler/sod.ups").rdbuf();
-  std::string scene = text.str();
-  const std::size_t at = scene.find(from);
-  if (at == std::string::npos) throw std::logic_error("the scene has no " + from);
-  const std::string path = test::temporaryFolder() + "changed.ups";
-  std::ofstream(path) << scene.replace(at, from.size(), to);
-  return path;
+  return test::changedScene("ups/euler/sod.ups", from, to);
 }
 
 /// What is wrong with the scene, without its place.
@@ -90,7 +79,7 @@ TEST(EulerScene, MeasuresCellsAlone) {
 
 TEST(EulerScene, NamesACellThatNoObjectContains) {
   EXPECT_EQ(problemOf(changedScene("<max>[0.5,1,1]</max>", "<max>[0.4,1,1]</max>")),
-            "no geom_object contains the middle of the cell at (0.405, 0.5, 0.5); every cell needs a gas at the start");
+            "no geom_object contains the centre of the cell at (0.405, 0.5, 0.5); every cell needs a gas at the start");
 }
 
 TEST(EulerScene, LetsALaterObjectCountWhereTwoOverlap) {
@@ -118,11 +107,10 @@ TEST(EulerScene, TakesAStiffenedGas) {
 }
 
 TEST(EulerScene, RefusesAFluxAtAFace) {
-  EXPECT_EQ(
-      problemOf(changedScene("<BCType id=\"all\" label=\"Symmetric\" var=\"symmetry\"/>",
-                             "<BCType label=\"Density\" var=\"Neumann\"><value>1</value></BCType>")),
-      "var: found 'Neumann', expected 'Dirichlet' for Density of gas that flows in; a face with no condition lets "
-      "gas out");
+  EXPECT_EQ(problemOf(changedScene("<BCType id=\"all\" label=\"Symmetric\" var=\"symmetry\"/>",
+                                   "<BCType label=\"Density\" var=\"Neumann\"><value>1</value></BCType>")),
+            "var: found 'Neumann', expected 'Dirichlet' for Density of inflowing gas; through a face without a "
+            "condition gas flows out");
 }
 
 TEST(EulerScene, RefusesAnInflowOfNoPressure) {

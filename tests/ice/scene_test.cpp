@@ -7,11 +7,11 @@ namespace tushar::ice {
 namespace {
 
 using Overrides = std::vector<std::string>;
+using test::changedScene;
 
 const std::string sod = "ups/ice/sod.ups", shear = "ups/ice/shear_wave.ups", channel = "ups/ice/channel.ups",
                   heat = "ups/ice/heat_wave.ups";
 
-using test::changedScene;
 using test::driftOf;
 
 /// What is wrong with the scene, without its place; what is noted, if nothing is.
@@ -109,7 +109,7 @@ TEST(IceScene, TakesNeumannConditionsForAnOpenSide) {
 
 TEST(IceScene, RefusesAGradientAtASide) {
   EXPECT_EQ(problemOf(withSide(R"(<BCType id="0" label="Density" var="Neumann"><value>1</value></BCType>)")),
-            "found '1', expected 0: a Neumann condition lets Density continue as it is");
+            "found '1', expected 0: a Neumann condition only extends Density beyond the grid as it is");
 }
 
 TEST(IceScene, RefusesAnInflowOfNoTemperature) {
@@ -153,7 +153,7 @@ TEST(IceScene, RefusesModels) {
 
 TEST(IceScene, NotesAPressureThatDensityAndTemperatureDoNotMake) {
   EXPECT_EQ(problemOf(changedScene(sod, "<density>0.125</density>", "<density>0.125</density><pressure>2</pressure>")),
-            "does nothing: density and temperature make 0.1 Pa");
+            "does nothing: density and temperature give 0.1 Pa");
   EXPECT_EQ(problemOf(changedScene(sod, "<density>0.125</density>", "<density>0.125</density><pressure>.1</pressure>")),
             "");
 }
@@ -181,7 +181,7 @@ TEST(IceScene, RefinesByUintahsNames) {
 
 TEST(IceScene, LeavesOutWhatUintahAloneComputes) {
   EXPECT_EQ(problemOf(changedScene(sod, "rho_CC", "delP_Dilatate")),
-            "'delP_Dilatate' is not saved: nobody computes it here");
+            "'delP_Dilatate' is not saved: no task computes it here");
 }
 
 }  // namespace tushar::ice

@@ -152,7 +152,7 @@ TEXTS = {
                                 "unknown attribute 'name' of <DataAnalysis>"),
     "an attribute of a title": (SOD.replace("<title>", '<title lang="en">'), "", "unknown attribute 'lang' of <title>"),
     "loads on a gas": (SOD.replace("<MaterialProperties>", "<PhysicalBC/><MaterialProperties>"), "",
-                       "PhysicalBC: a gas takes no <PhysicalBC>"),
+                       "PhysicalBC: a gas cannot have <PhysicalBC>"),
     "two checkpoint intervals": (SOD.replace("<filebase>", '<checkpoint interval="1" timestepInterval="2"/><filebase>'),
                                  ":36:6",
                                  "gives more than one of interval, timestepInterval, walltimeInterval and "
@@ -234,7 +234,7 @@ class BrokenScenes(unittest.TestCase):
         stiff = MATERIAL + "constitutive_model/@type=stiffened_gas", MATERIAL + "constitutive_model/p_infinity=6e8"
         measured = ("DataAnalysis/Module/p_infinity=6e8",)
         for scene, sets, sentence in (
-                ("mpm/sod", (), "type: <gas_dynamics> takes an ideal_gas alone; use <conserving_gas_dynamics>"),
+                ("mpm/sod", (), "type: <gas_dynamics> takes only an ideal_gas; use <conserving_gas_dynamics>"),
                 ("stability/sod_moving", measured, "type: a stiffened_gas needs a grid whose sides are symmetry planes "
                                                    "or periodic"),
                 ("stability/sod", (*measured, LEFT + "box/max=[0.4,1,1]"),
@@ -247,17 +247,17 @@ class BrokenScenes(unittest.TestCase):
         method, air = "MPM/conserving_gas_dynamics/", "MaterialProperties/MPM/material[2]/"
         for sets, sentence in (
                 (("MPM/conserving_gas_dynamics/transfer=affine_flip",), "several gases need <transfer> apic"),
-                ((method + "remap/every=4",), "several gases are not mixed by a <remap>; take it out"),
-                ((method + "artificial_heat_conduction=1",), "several gases take no <artificial_heat_conduction>"),
+                ((method + "remap/every=4",), "several gases cannot have a <remap>; take it out"),
+                ((method + "artificial_heat_conduction=1",), "several gases cannot have <artificial_heat_conduction>"),
                 ((air + "relaxation/rate=1", air + "relaxation/internal_energy=1"),
-                 "several gases take no <relaxation>"),
+                 "several gases cannot have <relaxation>"),
                 ((air + "@name=water",), "two materials are called 'water'; give each a name of its own"),
-                ((air + "geom_object/box/min=[0.6,0,0]",), "several gases must fill the grid without overlap, and they "
-                                                           "fill 2 of"),
-                ((air + "geom_object/box/min=[0.8,0,0]",), "several gases must fill the grid without overlap, and they "
-                                                           "fill 0 of"),
+                ((air + "geom_object/box/min=[0.6,0,0]",),
+                  "several gases must fill the grid without overlap, but they fill 2 of"),
+                ((air + "geom_object/box/min=[0.8,0,0]",),
+                  "several gases must fill the grid without overlap, but they fill 0 of"),
                 (("DataAnalysis/Module/right/gamma=1.5",),
-                 "Module: gamma and p_infinity: found 1.5 and 0 Pa, and no gas of the scene has both")):
+                 "Module: gamma and p_infinity: found 1.5 and 0 Pa, but no gas of the scene has both")):
             with self.subTest(sentence):
                 self.assert_refused(run("ups/stability/water_air.ups", *sets, outputs=True), sentence)
 

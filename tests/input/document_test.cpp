@@ -92,7 +92,7 @@ TEST(Document, SaysWhyAFileCannotBeRead) {
 
 TEST(Document, SaysWhereXmlIsMalformed) {
   EXPECT_EQ(problemsOf("<Uintah_specification>\n  <Time></Tme>\n</Uintah_specification>"),
-            Lines{"s.ups:2:11: found </Tme>, which nothing opened; the tag that is open here is <Time> of s.ups:2:4"});
+            Lines{"s.ups:2:11: found </Tme>, but no such tag is open; the open tag here is <Time> of s.ups:2:4"});
   EXPECT_EQ(problemsOf("<Uintah_specification>\n  <Time <Grid/>\n</Uintah_specification>"),
             Lines{"s.ups:2:9: this is not well-formed XML: Error parsing start element tag"});
 }
@@ -114,7 +114,7 @@ TEST(Document, RefusesTagsThatAreNestedTooDeep) {
   for (int k = 0; k < 200000; ++k) text += "</a>";
 
   EXPECT_EQ(problemsOf(text + "</Uintah_specification>"),
-            Lines{"s.ups:1:321: more than 100 tags stand in each other here"});
+            Lines{"s.ups:1:321: tags are nested more than 100 deep here"});
 }
 
 TEST(Document, SaysThatTheRootIsAnother) {
@@ -263,7 +263,7 @@ TEST_F(Include, SaysThatItWouldNeverEnd) {
   const Lines lines = problems("<include href='main.ups'/>");
 
   EXPECT_EQ(lines,
-            Lines{path_ + ":2:8: cannot include '" + path_ + "': it is being included already, so it would never end"});
+            Lines{path_ + ":2:8: cannot include '" + path_ + "': it includes itself, directly or through other files"});
 }
 
 }  // namespace

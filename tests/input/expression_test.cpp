@@ -62,7 +62,7 @@ TEST(Expression, SaysWhyTextIsNoFormula) {
   EXPECT_EQ(Expression::parse("").problem, "found nothing, expected a number or a formula");
   EXPECT_EQ(Expression::parse("1e999").problem, "found '1e999', which is beyond the range of a double");
   EXPECT_EQ(Expression::parse("x=2").problem,
-            "found 'x=2', expected a formula in x, y, z and t: '=' would change a variable");
+            "found 'x=2', expected a formula in x, y, z and t: '=' would assign to a variable");
   EXPECT_EQ(Expression::parse("x,y").problem,
             "found 'x,y', expected a formula in x, y, z and t: it has several values");
   EXPECT_EQ(Expression::parse("1/0").problem, "found '1/0', which is not a finite number");

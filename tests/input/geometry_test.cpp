@@ -202,7 +202,7 @@ TEST(Geometry, NotesThatALabelIsTaken) {
   expectBounds(*piece, {0, 0, 0}, {2, 2, 2});
   ASSERT_EQ(diagnostics.notes().size(), 1u);
   EXPECT_EQ(diagnostics.notes()[0].sentence,
-            "the label 'g' is that of the <box> at s.ups:1:30, too: no tag can refer to it");
+            "the label 'g' is that of the <box> at s.ups:1:30, too, so no tag can refer to it");
 }
 
 TEST(Geometry, SaysThatALabelIsOfTwoShapes) {
@@ -218,6 +218,20 @@ TEST(Geometry, KeepsTheLabelsOfSectionsApart) {
   Diagnostics diagnostics;
 
   const PiecePtr piece = readGeometry(*document.root().child("P")->child("b"), diagnostics);
+
+  ASSERT_NE(piece, nullptr);
+  expectBounds(*piece, {0, 0, 0}, {2, 2, 2});
+}
+
+TEST(Geometry, FindsLabelsBelowInAPartThatIsReadFirst) {
+  Document document =
+      documentOf("<M><gas><box label='g'/></gas><bodies>" + box("[0,0,0]", "[2,2,2]", "g") + "</bodies></M>");
+  const Element gas = *document.root().child("M")->child("gas");
+  Diagnostics before, after;
+
+  EXPECT_EQ(readGeometry(gas, before), nullptr);
+  document.readFirst("M/bodies");
+  const PiecePtr piece = readGeometry(gas, after);
 
   ASSERT_NE(piece, nullptr);
   expectBounds(*piece, {0, 0, 0}, {2, 2, 2});

@@ -41,7 +41,7 @@ class SilentMistakes(unittest.TestCase):
         plane, space = "Grid/Level/Box/resolution=[20,2,1]", "Grid/Level/Box/resolution=[20,2,2]"
         self.assert_refused(run("ups/mpm/sod_redistribute.ups", *sets, plane, outputs=True),
                             "ups/mpm/sod_redistribute.ups:57:8: MPM/gas_dynamics/redistribute: target_particles: 5 in "
-                            "a cell become 9, 3 along each of 2 axes, and max_particles is 8; lower the one or raise "
+                            "a cell become 9, 3 along each of 2 axes, but max_particles is 8; lower the one or raise "
                             "the other")
         self.assertEqual(run("ups/mpm/sod_redistribute.ups", *sets, "Time/max_Timesteps=1").code, 0)
         self.assertEqual(run("ups/mpm/sod_redistribute.ups", *sets, space, "Time/max_Timesteps=1").code, 0)
@@ -74,7 +74,7 @@ class SilentMistakes(unittest.TestCase):
     def test_starts_that_are_not_finite(self):
         self.assert_refused(run("ups/heat/sine.ups", "Heat/temperature=1/(x-0.0078125)", outputs=True),
                             "--set Heat/temperature=1/(x-0.0078125): Heat/temperature: it is inf K at (0.0078125, "
-                            "0.5, 0.5), and must be finite everywhere")
+                            "0.5, 0.5), but must be finite everywhere")
         body = "Euler/geom_object[1]/"
         for change in ("velocity=[sqrt(x-.2),0,0]", "density=1/(x-.005)", "pressure=1/(x-.005)"):
             self.assert_refused(run("ups/euler/sod.ups", body + change, outputs=True),
@@ -97,13 +97,13 @@ class SilentMistakes(unittest.TestCase):
         cold = '<BCType id="all" label="Temperature" var="Dirichlet"><value>0</value></BCType>'
         plane = '<Face side="y-"><BCType id="all" label="Symmetric" var="symmetry"/>'
         refused(cold, cold + cold.replace("Dirichlet", "Neumann"),
-                "SCENE:17:102: Grid/BoundaryConditions/Face/BCType: Temperature has a condition on this face already, "
+                "SCENE:17:102: Grid/BoundaryConditions/Face/BCType: Temperature already has a condition on this face, "
                 "at SCENE:17:24; keep one")
         refused(plane, plane.replace('symmetry"/>', 'Dirichlet"><value>3</value></BCType>'),
                 "found label 'Symmetric' with var 'Dirichlet'; 'Symmetric' goes with 'symmetry', and with nothing else")
         refused(plane, plane.replace("Symmetric", "Temperature"), "found label 'Temperature' with var 'symmetry'")
-        refused(plane, plane + cold, "this face is a plane of symmetry: beside it only a Neumann condition of 0 is "
-                                     "right")
+        refused(plane, plane + cold, "this face is a plane of symmetry: the only other condition that it allows is a "
+                                     "Neumann condition of 0")
         refused(cold, cold.replace("0<", "[1,2,3]<"), "value: found '[1,2,3]', expected a number")
         refused("[2.576693,0,0]", "2.576693", "value: found '2.576693', expected three numbers, as [1,2,3]",
                 scene="ups/euler/shock_bubble.ups")
@@ -118,7 +118,7 @@ class SilentMistakes(unittest.TestCase):
             self.assert_edited_is_refused("ups/mpm/sod.ups", right, box, sentence)
             self.assert_edited_is_refused("ups/mpm/sod_conserving.ups", right, box, "geom_object: it has no particle")
         self.assert_edited_is_refused("ups/euler/sod.ups", right, "<min>[.506,0,0]</min><max>[.509,1,1]",
-                                      "Euler/geom_object: its shape contains the middle of no cell of the grid")
+                                      "Euler/geom_object: its shape contains no cell centre of the grid")
 
     def test_references_of_another_problem(self):
         riemann = "DataAnalysis/Module/"

@@ -53,7 +53,7 @@ REFUSED = {
     "colors of friction that do not ascend":
         (BLOCK, ("friction_LR</type>", "friction_LRVar</type><master_material>0</master_material><variable_friction>"
                  "<entry><color>1</color><mu>0</mu></entry><entry><color>1</color><mu>1</mu></entry>"
-                 "</variable_friction>"), "its color is not above that of the one before"),
+                 "</variable_friction>"), "its color is not above that of the previous one"),
     "a master that turns without a file":
         (BILLET, ("<materials>[0,1]</materials>", "<include_rotation>true</include_rotation>"),
          "needs a contact of type rigid, specified or specified_friction and its <filename>"),
@@ -75,7 +75,7 @@ REFUSED = {
          "MPM/time_integrator=implicit", "MPM/artificial_viscosity=false"),
     "a direct solver that solves nothing":
         (BEAM, ("<preconditioner>lu", "<preconditioner>gamg"),
-         "preconditioner: found 'gamg', but with <solver> direct it solves the system: take lu or cholesky"),
+         "preconditioner: found 'gamg', but with <solver> direct it solves the system: use lu or cholesky"),
     "steps that Uintah would take again":
         (BILLET, ("<MPM>\n    <time", "<MPM>\n    <restartOnLargeNodalVelocity>true</restartOnLargeNodalVelocity>\n    "
                                       "<time"),
@@ -88,10 +88,10 @@ REFUSED = {
          "volumeFraction: found '0.5', expected 1: a body fills its shape"),
     "a first step after a restart":
         (BILLET, ("</Time>", "<override_restart_delt>1e-3</override_restart_delt></Time>"),
-         "override_restart_delt: found '1e-3', expected 0: a restart goes on as the run would have"),
+         "override_restart_delt: found '1e-3', expected 0: a restart continues as the run would have"),
     "a load curve with the number of another load":
         (BEAM, ("<Grid>", HEAT.replace("heat_flux", "pressure").replace("<time_point>", "<id>2</id><time_point>", 1)),
-         "id: found '2', expected 1: loads are counted as they stand in the scene", "MPM/use_load_curves=true"),
+         "id: found '2', expected 1: loads are numbered in the order of the scene", "MPM/use_load_curves=true"),
     "a word in thermal contact":
         (BILLET, ("<contact>", "<thermal_contact><type>none</type></thermal_contact><contact>"), "unknown tag <type>"),
     "a text in thermal contact":
@@ -132,8 +132,8 @@ REFUSED = {
          "for comp_neo_hook, comp_mooney_rivlin, UCNH and comp_neo_hook_plastic; 'rubber' is",
          "MPM/DoPressureStabilization=true"),
     "an energy budget of implicit steps":
-        (BEAM, ("<dynamic>", " <dynamic>"), "only solids by explicit time steps have an energy budget; take the module "
-                                            "out",
+        (BEAM, ("<dynamic>", " <dynamic>"),
+         "only solids with explicit time steps have an energy budget; take the module out",
          "DataAnalysis/Module/@name=energyBudget"),
     "the heat of a viscosity that is not there":
         (SPALL, ("<artificial_viscosity>true", "<artificial_viscosity>false"),
@@ -161,7 +161,7 @@ REFUSED = {
                     "        </geom_object>"), ":43:8: PhysicalBC/MPM: no particle of a body lies along the surface"),
     "a load on a material that is not there":
         (CYLINDER, ("<id>1</id>", "<id>1</id><material>4</material>"),
-         "there is no material 4: they are counted from 0 to 0"),
+         "there is no material 4; materials are numbered from 0 to 0"),
     "particles lighter than may be":
         (BILLET, ("<artificial_viscosity>", "<minimum_particle_mass>1</minimum_particle_mass><artificial_viscosity>"),
          "<minimum_particle_mass> is 1 kg"),

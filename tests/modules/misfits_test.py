@@ -48,22 +48,22 @@ class Misfits(unittest.TestCase):
         """What is said of a module with a card of its own."""
         self.build(CARD % (abi or f'abiWith("{modules.interface()}")'), *flags)
         sentence = self.refused("--load", self.module)
-        self.assertIn(f"the module {self.module} does not fit: ", sentence)
-        self.assertIn("; build it again\n", sentence)
+        self.assertIn(f"the module {self.module} does not match this program: ", sentence)
+        self.assertIn("; rebuild it\n", sentence)
         return sentence
 
     def test_another_version(self):
-        self.assertIn("it was built for Tushar 9.8.7, and this is ",
+        self.assertIn("it was built for Tushar 9.8.7, but this is ",
                       self.misfit(None, "-UTUSHAR_VERSION", '-DTUSHAR_VERSION="9.8.7"'))
 
     def test_another_compiler(self):
-        self.assertIn("it was compiled by clang 99, and this program by ",
+        self.assertIn("it was compiled by clang 99, but this program by ",
                       self.misfit('{TUSHAR_VERSION, "clang 99", "0", checksEveryIndex, __BIGGEST_ALIGNMENT__}'))
 
     def test_other_checks(self):
         has = "-DTUSHAR_CHECKS" in modules.compile_command()
         words = ("out", "") if has else ("", "out")
-        self.assertIn("it was compiled with%s TUSHAR_CHECKS, and this program with%s it" % words,
+        self.assertIn("it was compiled with%s TUSHAR_CHECKS, but this program with%s it" % words,
                       self.misfit(None, "-UTUSHAR_CHECKS" if has else "-DTUSHAR_CHECKS"))
 
     def test_another_alignment(self):
@@ -72,11 +72,12 @@ class Misfits(unittest.TestCase):
         bytes_here = int(said.split("__BIGGEST_ALIGNMENT__ ")[1].split()[0])
         flags = ("-mavx",) if bytes_here == 16 else ("-march=x86-64",)
         there = 32 if bytes_here == 16 else 16
-        self.assertIn(f"it was compiled for vectors of {there} bytes, and this program for {bytes_here}: use the same "
+        self.assertIn(f"it was compiled for vectors of {there} bytes, but this program for {bytes_here}: use the same "
                       "-march", self.misfit(None, *flags))
 
     def test_other_headers(self):
-        self.assertIn("it was built with other headers of the same version", self.misfit('abiWith("0123456789abcdef")'))
+        self.assertIn("it was built with different headers of the same version",
+                      self.misfit('abiWith("0123456789abcdef")'))
 
     def test_the_card_is_read_before_calls_are_looked_up(self):
         self.build((CARD % 'abiWith("0")') + "void nowhere();\nvoid f() { nowhere(); }\n")
@@ -90,11 +91,11 @@ class Misfits(unittest.TestCase):
 
     def test_a_library_that_is_no_module(self):
         self.build("int three() { return 3; }\n")
-        self.assertIn(f"{self.module} is no module of Tushar: it has no symbol tusharModule",
+        self.assertIn(f"{self.module} is not a module of Tushar: it has no symbol tusharModule",
                       self.refused("--load", self.module))
 
     def test_a_file_that_is_no_library(self):
-        sentence = f"sus: {self.module} is no module of Tushar: it is no shared library\n"
+        sentence = f"sus: {self.module} is not a module of Tushar: it is not a shared library\n"
         for text in ("a text\n", ""):
             self.module.write_text(text)
             self.assertEqual(self.refused("--load", self.module), sentence)
@@ -112,9 +113,9 @@ class Misfits(unittest.TestCase):
     def test_a_name_that_is_taken(self):
         heat = modules.BUILD / "modules/tushar_heat.so"
         self.assertEqual(self.refused("--load", heat),
-                         f"sus: the module {heat} cannot be added: there are two of the name 'heat'\n")
+                         f"sus: the module {heat} cannot be added: the name 'heat' is taken\n")
         shutil.copy(heat, self.here / "again.so")
-        self.assertIn("again.so cannot be added: there are two of the name 'heat'",
+        self.assertIn("again.so cannot be added: the name 'heat' is taken",
                       self.refused(TUSHAR_PLUGINS=str(self.here)))
 
     def test_several_ranks_say_it_once(self):

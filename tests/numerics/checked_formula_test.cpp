@@ -45,7 +45,7 @@ TEST(CheckedFormula, SaysWhereItIsNotWhatItMustBe) {
   EXPECT_THROW(formula.finiteAt(Vec3::Zero()), InputError);
   EXPECT_EQ(
       refusal(formula, -0.5),
-      "a.ups:3:5: Heat/temperature: it is -2 K at (-0.5, 0, 0), and must be finite and greater than 0 everywhere");
+      "a.ups:3:5: Heat/temperature: it is -2 K at (-0.5, 0, 0), but must be finite and greater than 0 everywhere");
 }
 
 TEST(CheckedFormula, NamesNoUnitOfANumberWithoutDimension) {
@@ -53,7 +53,7 @@ TEST(CheckedFormula, NamesNoUnitOfANumberWithoutDimension) {
 
   EXPECT_EQ(
       refusal(formula, -0.5),
-      "a.ups:3:5: Poisson/coefficient: it is -2 at (-0.5, 0, 0), and must be finite and greater than 0 everywhere");
+      "a.ups:3:5: Poisson/coefficient: it is -2 at (-0.5, 0, 0), but must be finite and greater than 0 everywhere");
 }
 
 TEST(CheckedFormula, FillsAPatchAndIsCheckedInEveryCell) {

@@ -102,7 +102,7 @@ TEST(CheckpointManifest, NamesEveryKindOfDamage) {
 
   EXPECT_EQ(damage(1, [](const fs::path&) {}), "");
   EXPECT_EQ(damage(2, [](const fs::path& at) { fs::resize_file(at / "state.h5", 4096); }),
-            "state.h5 has 4096 bytes, and had 10000");
+            "state.h5 has 4096 bytes instead of 10000");
   EXPECT_EQ(damage(3, [](const fs::path& at) { write(at / "state.h5", std::string(10000, 't')); }),
             "the content of state.h5 has changed");
   EXPECT_EQ(damage(4, [](const fs::path& at) { fs::remove(at / "input.xml"); }), "input.xml is missing");

@@ -13,22 +13,13 @@ import sys
 import tempfile
 import unittest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools/python"))
-from tushar.interpreter import ensure
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from sus import ROOT
+from vtk_readers import MISSING, Pipeline, h5py, np, vtk_to_numpy, vtkHDFReader
 
-MISSING = None
-try:
-    ensure("h5py", "numpy", "vtkmodules.vtkIOXdmf2", "vtkmodules.vtkIOHDF")
-    import h5py
-    import numpy as np
-    from vtkmodules.util.numpy_support import vtk_to_numpy
+if not MISSING:
     from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
-    from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
-    from vtkmodules.vtkIOHDF import vtkHDFReader
     from vtkmodules.vtkIOXdmf2 import vtkXdmfReader
-except SystemExit:
-    MISSING = "no Python here has h5py and a VTK that reads XDMF and VTKHDF: pip install vtk h5py"
 
 UNIT_TESTS = os.environ.get("UNIT_TESTS", str(ROOT / "build/dev/tests/unit_tests"))
 

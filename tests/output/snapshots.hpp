@@ -60,12 +60,17 @@ inline ParticleBlock particles(const std::string& material, int index, std::size
   return block;
 }
 
-/// Two materials, the second without particles, and fields of 4 × 3 × 2 cells with lower corner (-1, 0, 2).
-inline Snapshot snapshot3d(int step, double time) {
+inline Snapshot emptySnapshot(int step, double time) {
   Snapshot snapshot;
   snapshot.step = step;
   snapshot.time = time;
   snapshot.delT = 0.125;
+  return snapshot;
+}
+
+/// Two materials, the second without particles, and fields of 4 × 3 × 2 cells with lower corner (-1, 0, 2).
+inline Snapshot snapshot3d(int step, double time) {
+  Snapshot snapshot = emptySnapshot(step, time);
   snapshot.grid = {{-1, 0, 2}, {0.5, 0.25, 2}, {{4, 3, 2}}, 3};
   snapshot.particles = {particles("gas", 0, 5, 10 + time), particles("steel ball", 1, 0, 0)};
   snapshot.fields = {{Centring::cell, "", -1, counting("c.temperature", 1, 24, 300 + time)},
@@ -79,10 +84,7 @@ inline Snapshot snapshot3d(int step, double time) {
 /// The left half of 4 × 2 cells, their lower corner (-1, 3), as it is; of the right half, refined once, a quarter
 /// refined twice: 32 cells in 4 boxes. And particles of one material.
 inline Snapshot snapshotRefined(int step, double time) {
-  Snapshot snapshot;
-  snapshot.step = step;
-  snapshot.time = time;
-  snapshot.delT = 0.125;
+  Snapshot snapshot = emptySnapshot(step, time);
   snapshot.grid = {{-1, 3, 0}, {0.1, 0.2, 2}, {{4, 2, 1}}, 2};
   snapshot.grid.boxes = {{0, {{0, 0, 0}}, {{2, 2, 1}}},
                          {1, {{4, 0, 0}}, {{6, 4, 1}}},

@@ -13,20 +13,7 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from sus import ROOT, SUS
-
-sys.path.insert(0, str(ROOT / "tools/python"))
-from tushar.interpreter import ensure
-
-MISSING = None
-try:
-    ensure("h5py", "numpy", "vtkmodules.vtkIOXdmf2", "vtkmodules.vtkIOHDF")
-    import h5py
-    import numpy as np
-    from vtkmodules.util.numpy_support import vtk_to_numpy
-    from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
-    from vtkmodules.vtkIOHDF import vtkHDFReader
-except SystemExit:
-    MISSING = "no Python here has h5py and a VTK that reads VTKHDF: pip install vtk h5py"
+from vtk_readers import MISSING, Pipeline, h5py, np, vtk_to_numpy, vtkHDFReader
 
 NODES = '<save label="g.mass"/><save label="g.velocity"/></DataArchiver>'
 PAIR = ROOT / "ups/solid/two_discs.ups"

@@ -60,14 +60,14 @@ class Crash(unittest.TestCase):
             (folder / "state.h5").write_bytes((folder / "state.h5").read_bytes()[:4096])
 
         for harm, sentence in ((flip, "the content of state.h5 has changed"),
-                               (truncate, f"state.h5 has 4096 bytes, and had {size}"),
+                               (truncate, f"state.h5 has 4096 bytes instead of {size}"),
                                (lambda folder: (folder / "state.h5").unlink(), "state.h5 is missing"),
                                (lambda folder: (folder / "manifest").unlink(), "manifest is missing"),
                                (lambda folder: (folder / "manifest").write_text(""),
                                 "the content of manifest has changed")):
             errors, report = self.damaged(harm)
             self.assertEqual(errors, f"sus: the checkpoint {last.resolve()} is damaged: {sentence} [T502]\n"
-                                     "sus: goes on from the checkpoint of step 200\n")
+                                     "sus: continues from the checkpoint of step 200\n")
             self.assertEqual(report["fingerprint"], fingerprint)
         self.assertEqual(self.damaged(shutil.rmtree)[0], "")
         self.assertEqual(self.damaged(lambda folder: (folder.parent / "LATEST").write_text("t0002"))[0], "")
@@ -80,7 +80,7 @@ class Crash(unittest.TestCase):
         code, errors, _ = self.here.restart()
         self.assertEqual(code, 3)
         self.assertEqual(errors.count("manifest is missing"), 2)
-        self.assertIn("no checkpoint before it is whole; start the run anew", errors)
+        self.assertIn("no earlier checkpoint is intact; start the run again from its scene", errors)
         self.assertEqual(self.files(), before)
 
     def test_the_scene_is_taken_from_the_checkpoint_where_it_is_lost(self):
@@ -106,24 +106,24 @@ class Crash(unittest.TestCase):
             self.assertEqual((found, len(errors.strip().splitlines())), (code, 1), errors)
 
         assert_refused(here.path / "none.uda", "there is no such folder; --restart takes the .uda folder of a run")
-        assert_refused(SOD, "this is no folder; --restart takes the .uda folder of a run (without --restart, "
+        assert_refused(SOD, "this is not a folder; --restart takes the .uda folder of a run (without --restart, "
                             "sus runs a scene)")
-        assert_refused(here.path, "this is no .uda folder: it has neither index.xml nor checkpoints")
-        assert_refused(bare.uda, "there are no checkpoints; a scene asks for them by <checkpoint .../> in its "
-                                 "DataArchiver")
+        assert_refused(here.path, "this is not a .uda folder: it has neither index.xml nor checkpoints")
+        assert_refused(bare.uda, "there are no checkpoints; ask for them with <checkpoint .../> in <DataArchiver>")
         assert_refused(here.uda, "there is no checkpoint of step 50; there are those of steps 0, 100, 200, 218",
                        options=("-t", "50"))
-        assert_refused(here.uda, "the checkpoint has another grid than the scene; patches may change, cells may not",
+        assert_refused(here.uda, "the checkpoint has a different grid from the scene; patches may change, cells "
+                                 "may not",
                        "Grid/Level/Box/resolution=[50,1,1]")
         assert_refused(here.uda, "--output has no meaning with --restart", options=("--output", here.path), code=2)
         found, errors, _ = here.finish([SOD, "-t", "50"], ())
         self.assertEqual(found, 2, errors)
         scene = (here.uda / "input.xml").read_text()
         (here.uda / "input.xml").write_text((ROOT / "ups/heat/sine.ups").read_text())
-        assert_refused(here.uda, "the checkpoint is of component 'mpm', and the scene has 'heat'")
+        assert_refused(here.uda, "the checkpoint is of component 'mpm', but the scene has 'heat'")
         (here.uda / "input.xml").write_text(scene)
         (here.uda / "checkpoints/t00200").rename(here.uda / "checkpoints/t00150")
-        assert_refused(here.uda, "the checkpoint is of step 200; give its folder the name t00200",
+        assert_refused(here.uda, "the checkpoint is of step 200; rename its folder to t00200",
                        options=("-t", "150"))
 
     def test_two_runs_never_write_to_one_folder(self):

@@ -45,7 +45,7 @@ class Damage(unittest.TestCase):
         here.cleanup()
         self.assertEqual((code, report and report["fingerprint"]), (0, self.fingerprint), errors)
         told = re.search(r"sus: the checkpoint \S+t00215 is damaged: .*\n"
-                         r"sus: goes on from the checkpoint of step 210\n", errors)
+                         r"sus: continues from the checkpoint of step 210\n", errors)
         self.assertTrue(told or errors == "", errors)
         return bool(told)
 

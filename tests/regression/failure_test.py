@@ -42,7 +42,8 @@ class Failure(unittest.TestCase):
 
     def test_the_last_whole_step_is_saved_and_can_be_gone_on_from(self):
         said = self.died()
-        archive = re.search(r"the last whole step, (\d+) at t = \S+ s, is saved: sus --restart (\S+) \[T\d+\]\n", said)
+        archive = re.search(r"the last complete step, (\d+) at t = \S+ s, is saved: sus --restart (\S+) \[T\d+\]\n",
+                            said)
         again = run("-restart", archive[2], "--quiet", "--json", f"{self.folder}/again.json")
         self.assertEqual(again.returncode, 4)
         self.assertIn(said[:said.index(" (task")], again.stderr)

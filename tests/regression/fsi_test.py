@@ -267,7 +267,7 @@ class WrongScenes(SceneTest):
         self.assert_refused(PLUG.replace("</geom_object>\n      </material>\n    </ICE>", "</geom_object>"
                                          "<geom_object><box><min>[8,0,0]</min><max>[9,1,1]</max></box>"
                                          "<density>1</density><temperature>1</temperature></geom_object>"
-                                         "</material></ICE>"), "its shape contains the middle of no cell")
+                                         "</material></ICE>"), "its shape contains no cell centre")
 
     def test_gas_beside_bodies_has_no_viscosity(self):
         self.assert_refused(PLUG.replace("<dynamic_viscosity>0", "<dynamic_viscosity>1e-5"), "not beside bodies")

@@ -74,7 +74,7 @@ class PrescribedDeformation(unittest.TestCase):
             path.write_text(PATH.read_text().replace("0.02  ", "0.002 "))
             done = run(SCENE, f"MPM/PrescribedDeformationFile={path}")
             self.assertEqual(done.code, 3)
-            self.assertIn("path.inp:3:1: its time is not after that of the point before", done.err)
+            self.assertIn("path.inp:3:1: its time is not after that of the previous point", done.err)
             done = run(SCENE, "MPM/PrescribedDeformationFile=nowhere.inp")
             self.assertIn("nowhere.inp': there is no such file", done.err)
 

@@ -137,7 +137,8 @@ class Slice(unittest.TestCase):
 
     def test_what_a_module_cannot_show_is_refused(self):
         wrong = {
-            "<plane>z</plane>" + LABELS + STEPS: "plane: found 'z', expected an axis and a coordinate in m, as z = 0.5",
+            "<plane>z</plane>" + LABELS + STEPS:
+                "plane: found 'z', expected an axis and a coordinate in m, such as z = 0.5",
             "<plane>z=0</plane><plane>z = 0.0</plane>" + LABELS + STEPS: "plane: the plane z = 0.0 is given twice",
             "<plane>z=2</plane>" + LABELS + STEPS: "plane: found z = 2 m, expected a place on the grid, from -1.25 to",
             PLANES + "<label>p.x</label>" + STEPS: "found 'p.x', expected a variable of cells (c.) or nodes (g.)",
@@ -147,7 +148,7 @@ class Slice(unittest.TestCase):
                 "gives both outputInterval and outputTimestepInterval; keep one",
             PLANES + LABELS + "<outputInterval>0</outputInterval>": "found '0', expected a value greater than 0 s",
             PLANES + LABELS + "<outputInterval>5e-12</outputInterval>":
-                "outputInterval: found 5e-12 s, expected more than 1e-11 s: times up to maxTime cannot tell less apart",
+                "outputInterval: found 5e-12 s, expected more than 1e-11 s: times up to maxTime cannot resolve less",
             PLANES + LABELS + "<outputTimestepInterval>0</outputTimestepInterval>":
                 "found '0', expected a value greater than 0",
             PLANES + STEPS: "label",
@@ -174,7 +175,7 @@ class Slice(unittest.TestCase):
         ended = subprocess.run([SUS, discs, "-check", "--set", "DataArchiver/save[1]/@label=AccStrainEnergy"], cwd=ROOT,
                                capture_output=True, text=True, timeout=300)
         self.assertEqual(ended.returncode, 0, ended.stderr)
-        self.assertIn("'AccStrainEnergy' is not saved: nobody computes it here", ended.stderr)
+        self.assertIn("'AccStrainEnergy' is not saved: no task computes it here", ended.stderr)
 
     def test_a_film_of_slices(self):
         archive = self.run_in("film", self.scene(VORTEX, PLANES + LABELS + STEPS), *SMALL)

@@ -79,7 +79,7 @@ class UintahsWords(unittest.TestCase):
             path = pathlib.Path(folder, "scene.ups")
             path.write_text((ROOT / DISCS).read_text().replace("<save ", '<save label="AccStrainEnergy"/><save ', 1))
             result = run(path, *FEW, options=())
-            self.assertIn("'AccStrainEnergy' is not saved: nobody computes it here", result.err)
+            self.assertIn("'AccStrainEnergy' is not saved: no task computes it here", result.err)
 
     def test_a_saved_number_means_the_material_of_that_place(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -105,7 +105,7 @@ TEST(Levels, GrowToWholeBlocksWhichANoteSays) {
   const Read found = read(square + level(box(".5,.3125,0", "1.03125,.5,0", "34,12,1")));
 
   EXPECT_EQ(found.problems, Strings{});
-  EXPECT_EQ(found.notes, (Strings{"Grid/Level/Box: is grown to whole blocks: from [0.5,0.25,0] to [1.25,0.5,0] m"}));
+  EXPECT_EQ(found.notes, (Strings{"Grid/Level/Box: is enlarged to whole blocks: from [0.5,0.25,0] to [1.25,0.5,0] m"}));
 }
 
 TEST(Levels, LeaveOutAxesThatTheGridDoesNotUse) {
@@ -138,7 +138,7 @@ TEST(Levels, ThatCannotBeGetASentence) {
   EXPECT_EQ(refused(halved + halved).size(), 1u);
   EXPECT_EQ(
       refused(level(box(".5,.25,0", "2.5,.5,0", "128,16,1"))),
-      (Strings{"Grid/Level/Box: found 0.5 to 2.5 m along x, expected a place in the box of the first Level, from 0 "
+      (Strings{"Grid/Level/Box: found 0.5 to 2.5 m along x, expected a range within the box of the first Level, from 0 "
                "to 2 m"}));
   EXPECT_EQ(refused(level(box(".5,.25,0", ".5,.5,0", "1,16,1"))),
             (Strings{"Grid/Level/Box: the box has no extent along x"}));
@@ -148,7 +148,8 @@ TEST(Levels, ThatCannotBeGetASentence) {
             (Strings{"Grid/Level/Box: its cells are 4 times as fine as those of the first Level, but 2 times in a Box "
                      "above; give it a Level of its own"}));
   EXPECT_EQ(refused("<Level>" + box(".5,.25,0", "1,.5,0", "32,16,1") + "<periodic>[1,0,0]</periodic></Level>"),
-            (Strings{"Grid/Level/periodic: found [1,0,0], but the first Level has [0,0,0]; all Levels repeat alike"}));
+            (Strings{"Grid/Level/periodic: found [1,0,0], but the first Level has [0,0,0]; all Levels are periodic "
+                     "along the same axes"}));
   EXPECT_EQ(refused(level(box("0,0,0", "2,1,0", "4194304,2097152,1"))),
             (Strings{"Grid/Level: its cells are 65536 times as fine as those of the first Level; the most is 32768"}));
 }
@@ -225,10 +226,9 @@ TEST(Blocks, ThatCannotBeGetASentence) {
             (Strings{"AMR/Regridder/min_patch_size: found 5 along x, expected an even number of cells, at least 4"}));
   EXPECT_EQ(refused(along("100"), "<min_patch_size>[[2,1,1]]</min_patch_size>"),
             (Strings{"AMR/Regridder/min_patch_size: found 2 along x, expected an even number of cells, at least 4"}));
-  EXPECT_EQ(
-      refused(along("100"), "<min_patch_size>[[10,1,1],[20,1,1]]</min_patch_size>"),
-      (Strings{"AMR/Regridder/min_patch_size: found [[10,1,1],[20,1,1]], expected the same for all levels: a block "
-               "is refined into blocks of as many cells"}));
+  EXPECT_EQ(refused(along("100"), "<min_patch_size>[[10,1,1],[20,1,1]]</min_patch_size>"),
+            (Strings{"AMR/Regridder/min_patch_size: found [[10,1,1],[20,1,1]], expected the same for all levels: a "
+                     "block is refined into blocks with as many cells as it has"}));
   EXPECT_EQ(refused(along("1048576"), "<max_levels>16</max_levels>"),
             (Strings{"AMR/Regridder/max_levels: 16 levels make 3.44e+10 cells in 2.15e+09 blocks along x; the most is "
                      "2.15e+09 cells, and 1048576 blocks"}));
@@ -315,12 +315,12 @@ TEST(Regridder, NotesWhatOfUintahsDoesNothing) {
   EXPECT_EQ(found.problems, Strings{});
   EXPECT_EQ(
       found.notes,
-      (Strings{"AMR/Regridder/max_timestep_interval: does nothing: every regrid is due by <min_timestep_interval>",
-               "AMR/Regridder/min_boundary_cells: does nothing: <cell_stability_dilation> alone widens what is "
-               "refined, by what signals cross besides",
-               "AMR/ICE/orderOfInterpolation: does nothing: values between levels are of second order",
-               "AMR/useLockStep: all levels take the same time step: there are no smaller steps yet for finer "
-               "levels"}));
+      (Strings{
+          "AMR/Regridder/max_timestep_interval: does nothing: every regrid is due by <min_timestep_interval>",
+          "AMR/Regridder/min_boundary_cells: does nothing: <cell_stability_dilation> alone widens the refined region, "
+          "besides the distance that signals travel",
+          "AMR/ICE/orderOfInterpolation: does nothing: values between levels are of second order",
+          "AMR/useLockStep: all levels take the same time step: smaller steps on finer levels are not available yet"}));
 }
 
 TEST(Regridder, SaysWhatIsMisspelt) {
@@ -387,7 +387,7 @@ TEST(Criteria, NeedAThresholdIfTheyAreOfAVariable) {
   EXPECT_EQ(particles.problems, Strings{});
   EXPECT_EQ(particles.notes, Strings{});
   EXPECT_TRUE(particles.amr.regrid.adaptive);
-  const std::string why = " does nothing: all cells with particles are of the finest level";
+  const std::string why = " does nothing: all cells with particles are on the finest level";
   EXPECT_EQ(read(square, variable("name=\"particles\" value=\"1\" matl=\"0\"")).notes,
             (Strings{path + "value" + why, path + "matl" + why}));
 }

@@ -18,8 +18,11 @@ TEST(Regridder, TakesTheSectionOfAComponentOfOnesOwn) {
   };
 
   EXPECT_EQ(problemsOf("MyFlow", &flow), 0u);
-  EXPECT_EQ(problemsOf("MyFlow", nullptr), 1u);
+  EXPECT_EQ(problemsOf("MyFlow", nullptr), 0u) << "the component is not known: it may have such a section";
   EXPECT_EQ(problemsOf("Tables", &flow), 1u);
+  EXPECT_EQ(problemsOf("ICE", &flow), 1u);
+  flow.amrSections = {"ICE"};
+  EXPECT_EQ(problemsOf("ICE", &flow), 0u);
   flow.takesLevels = false;
   EXPECT_EQ(problemsOf("MyFlow", &flow), 1u);
 }

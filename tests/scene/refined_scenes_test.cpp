@@ -82,14 +82,13 @@ TEST(RefinedScenes, AreRefinedByTheCriteriaOfTheirComponentWhereTheyGiveNone) {
   ASSERT_EQ(gas.regrid.criteria.size(), 3u);
   EXPECT_EQ(gas.regrid.criteria[2].variable, "c.mach");
   std::ostringstream manual;
-  describeAmr(manual);
+  describeAmr(manual, catalogue());
   const std::string told =
       fmt::format("jumps above {:g} of {}, {} and {}", gas.regrid.criteria[0].refine, gas.regrid.criteria[0].variable,
                   gas.regrid.criteria[1].variable, gas.regrid.criteria[2].variable);
   EXPECT_NE(manual.str().find(told), std::string::npos) << told;
   EXPECT_EQ(problemsOf(changed("ups/heat/sine.ups", "</Grid>", adaptive)),
-            "<adaptive> true needs a <Variable> in <Refinement_Criteria_Thresholds>, which says where cells are to be "
-            "finer\n");
+            "<adaptive> true needs a <Variable> in <Refinement_Criteria_Thresholds>, which says where to refine\n");
 }
 
 TEST(RefinedScenes, NameVariablesThatAreThere) {
@@ -108,7 +107,7 @@ TEST(RefinedScenes, NameVariablesThatAreThere) {
 TEST(RefinedScenes, AreRefusedToComponentsOfOneLevel) {
   EXPECT_EQ(
       problemsOf(withLevel("ups/fsi/closed_box.ups"), {"Grid/Level[1]/Box/resolution=[64,1,1]"}),
-      "'mpmice' needs a grid of one level; of several: 'burgers', 'euler', 'heat', 'ice', 'implicit_heat', 'mpm' and "
+      "'mpmice' needs a grid of one level; these run on several: 'burgers', 'euler', 'heat', 'ice', 'implicit_heat', 'mpm' and "
       "'poisson'\n");
 }
 

@@ -102,7 +102,7 @@ TEST(Detection, NamesTheValueTheParticleThePlaceAndTheStepOnAnyPatches) {
         " in cell \\(\\d+\\) at x = 0\\.\\d+ m; around it: .* in its cell, .* in cell \\(\\d+\\).*; no other of \\d+ "
         "particles is broken \\(task spoil, patch \\*, material gas, step \\d+, time 0\\.10\\d* s, time step "
         "0\\.00\\d+ s\\); "
-        "the last whole step, \\d+ at t = 0\\.10\\d* s");
+        "the last complete step, \\d+ at t = 0\\.10\\d* s");
 
     const Report alone = runSpoiled(planted, 1);
 

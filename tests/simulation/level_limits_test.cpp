@@ -55,9 +55,10 @@ TEST(LevelLimits, AskForBlocksThatHaveTheGhostsOfATask) {
   narrow.perPatch("near", readCells, requiresOld(value, 2));
   wide.perPatch("far", readCells, requiresOld(value, 3));
   EXPECT_EQ(problemsOf(narrow), "");
-  EXPECT_EQ(problemsOf(wide),
-            "a.ups:7:3: task far reads c.value up to 3 cells beyond a patch, for which blocks must have 6 cells along "
-            "each axis; they have 4 along x: give <min_patch_size> in <Regridder> of <AMR>\n");
+  EXPECT_EQ(
+      problemsOf(wide),
+      "a.ups:7:3: task far reads c.value up to 3 cells beyond a patch, so blocks need 6 cells along each axis, but "
+      "have 4 along x; give <min_patch_size> in <Regridder> of <AMR>\n");
   EXPECT_EQ(problemsOf(wide, 1), "");
 }
 

@@ -9,16 +9,7 @@ namespace tushar::simulation {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-/// A new folder for the outputs of a test.
-fs::path newFolder(const char* name) {
-  const fs::path folder = test::temporaryFolder() + name;
-  fs::create_directories(folder);
-  return folder;
-}
-
-}  // namespace
+using test::newFolder;
 
 TEST(Outputs, OfASceneThatSavesNothingMakeNoArchive) {
   const fs::path folder = newFolder("nothing");

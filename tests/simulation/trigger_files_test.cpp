@@ -12,11 +12,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-fs::path newFolder(const char* name) {
-  const fs::path folder = test::temporaryFolder() + name;
-  fs::create_directories(folder);
-  return folder;
-}
+using test::newFolder;
 
 void touch(const fs::path& file) { std::ofstream(file) << ""; }
 

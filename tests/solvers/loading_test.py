@@ -42,11 +42,11 @@ class Loading(unittest.TestCase):
                      options=("--quiet", "-petsc", "-ksp_rtol 1e-5 -ksp_monitr -log_view :/dev/null"))
         self.assertEqual(result.code, 0, result.err)
         self.assertEqual(result.report["unused_petsc_options"], ["-ksp_monitr", "-ksp_mxa_it"])
-        self.assertIn("note: PETSc: no solve has looked at the option -ksp_monitr [T702]\n", result.err)
+        self.assertIn("note: PETSc: no solve has used the option -ksp_monitr [T702]\n", result.err)
 
     def test_options_of_a_run_without_a_solve_are_told_to_be_useless(self):
         result = run("ups/heat/sine.ups", "Time/max_Timesteps=1", options=("--quiet", "-petsc", "-ksp_monitor"))
-        said = "note: --petsc: this run has not solved anything by PETSc [T702]\n"
+        said = "note: --petsc: this run has not used PETSc [T702]\n"
         self.assertEqual((result.code, result.err), (0, said))
 
     def test_options_that_one_solve_of_several_looks_at_are_not_named(self):

@@ -29,4 +29,12 @@ grid::Domain unitBox(int cells) {
   return domain;
 }
 
+/// A plane grid of cells of 1 m, without conditions.
+inline grid::Domain unitCells(int x, int y) {
+  grid::Domain domain;
+  domain.upper = Vec3(x, y, 0);
+  domain.resolution = {{x, y, 0}};
+  return domain;
+}
+
 }  // namespace tushar::test

@@ -24,4 +24,11 @@ inline const std::string& temporaryFolder() {
   return folder.path;
 }
 
+/// A new folder in it.
+inline std::filesystem::path newFolder(const std::string& name) {
+  const std::filesystem::path folder = temporaryFolder() + name;
+  std::filesystem::create_directories(folder);
+  return folder;
+}
+
 }  // namespace tushar::test

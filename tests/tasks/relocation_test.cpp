@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <optional>
 
 #include "core/base/error.hpp"
 #include "tests/support/run.hpp"
@@ -135,13 +136,8 @@ void expectSameOnAll(const Index3& resolution, const std::vector<Index3>& layout
     }
 }
 
-/// The sentence of an advance in which everyone moves by `shift`, on a grid with a free upper x face if `open`.
-std::string shifted(double shift, bool open, long& dropped) {
-  grid::Domain domain = test::domain({{8, 1, 1}}, {{2, 1, 1}});
-  if (open) domain.boundaries.face(0, 1).clear();
-  test::Runner run(domain);
-  TaskList start, advance;
-  start.newParticles("create", create<1>, gas, creates(x<1>), creates(mark));
+/// Moves every particle by `shift`.
+void shiftAll(TaskList& advance, double shift) {
   advance.perMaterial(
       "shift",
       [shift](const Patch&, const Material&, ParticleView<const Vec<1>> from, ParticleView<Vec<1>> to) {
@@ -149,15 +145,31 @@ std::string shifted(double shift, bool open, long& dropped) {
       },
       gas, requiresOld(x<1>), computes(x<1>));
   advance.relocate(x<1>, gas);
+}
+
+/// The error of the first step, if there is one.
+std::optional<NumericalError> errorOf(test::Runner& run, const TaskList& start, const TaskList& advance) {
   TaskGraph begin = run.compile(start, {"p.x"}), step = run.compile(advance, {"p.x"}, true);
   run.step(begin);
   try {
     run.step(step);
   } catch (const NumericalError& error) {
-    return error.what();
+    return error;
   }
+  return std::nullopt;
+}
+
+/// The sentence of an advance in which everyone moves by `shift`, on a grid with a free upper x face if `open`.
+std::string shifted(double shift, bool open, long& dropped) {
+  grid::Domain domain = test::domain({{8, 1, 1}}, {{2, 1, 1}});
+  if (open) domain.boundaries.face(0, 1).clear();
+  test::Runner run(domain);
+  TaskList start, advance;
+  start.newParticles("create", create<1>, gas, creates(x<1>), creates(mark));
+  shiftAll(advance, shift);
+  const auto error = errorOf(run, start, advance);
   dropped = run.scheduler.relocation().dropped();
-  return "";
+  return error ? error->what() : "";
 }
 
 }  // namespace
@@ -237,21 +249,9 @@ std::string movedOnLevels(double cells) {
         at.push_back(Vec<1>(32.5 / 64));
       },
       gas, creates(x<1>));
-  advance.perMaterial(
-      "shift",
-      [cells](const Patch&, const Material&, ParticleView<const Vec<1>> from, ParticleView<Vec<1>> to) {
-        for (int p = 0; p < from.owned(); ++p) to[p] = Vec<1>(from[p][0] + cells / 64);
-      },
-      gas, requiresOld(x<1>), computes(x<1>));
-  advance.relocate(x<1>, gas);
-  TaskGraph begin = run.compile(start, {"p.x"}), step = run.compile(advance, {"p.x"}, true);
-  run.step(begin);
-  try {
-    run.step(step);
-  } catch (const NumericalError& error) {
-    return error.what() + ("; try " + error.advice());
-  }
-  return "";
+  shiftAll(advance, cells / 64);
+  const auto error = errorOf(run, start, advance);
+  return error ? error->what() + ("; try " + error->advice()) : "";
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 namespace tushar::euler {
 
-/// What gravity g [m/s²] changes in a cell in a step: rho g dt is added to the momentum and g . (m + m') / 2 dt to the
+/// The change of a cell by gravity g [m/s²] in a step: rho g dt is added to the momentum and g . (m + m') / 2 dt to the
 /// energy, m and m' the momentum before and after. The kinetic energy changes by the work of gravity, the internal
 /// energy does not.
 template <int D>
@@ -14,7 +14,7 @@ void fall(const Vec<D>& gravity, double density, double dt, Vec<D>& momentum, do
   momentum += 2 * half;
 }
 
-/// The same in all cells.
+/// Adds gravity in all cells.
 template <int D>
 void addGravity(const Patch& patch, const Vec3& gravity, CellView<const double> density, double dt,
                 CellView<Vec<D>> momentum, CellView<double> totalEnergy) {

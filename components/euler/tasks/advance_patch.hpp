@@ -18,7 +18,7 @@ struct Sloped {
   static constexpr int reach = 2;
 };
 
-/// What a block of cells needs on the way, around it too.
+/// Work arrays for a block of cells and the cells around it.
 template <int D>
 struct Work {
   /// Room for blocks of a patch.
@@ -112,7 +112,7 @@ void addFluxes(double ratio, const Box& block, const StateViews<D, const double>
   });
 }
 
-/// Keeps those of the fluxes across an axis that are at the rim of the level.
+/// Keeps the fluxes across an axis at the rim of the level.
 template <int D>
 void keepAtRim(const RimFluxes<D>& rims, const Box& faces, int axis, Rows<D>& flux) {
   if (rims.mass.empty()) return;
@@ -136,7 +136,7 @@ void sweep(const Gas& gas, const Level& level, const Box& block, double dt, cons
   addFluxes<D, Axis>(dt / level.spacing(Axis), block, old, work.flux, fresh);
 }
 
-/// Whether the new states of a block can be, looked at while they are in the cache.
+/// Whether the new states of a block are valid, checked while they are in the cache.
 template <int D>
 bool canBe(const Gas& gas, const Box& block, const StateViews<D, double>& fresh) {
   bool fine = true;

@@ -11,8 +11,8 @@
 
 namespace tushar::euler {
 
-/// Whether the states of a row of cells can be: rho > 0 and, without a division, p + p_inf > 0, which is
-/// rho (E - p_inf) > |rho v|² / 2; all of it finite.
+/// Whether the states of a row of cells are valid: rho > 0 and, without a division, p + p_inf > 0, which is rho (E -
+/// p_inf) > |rho v|² / 2; all of it finite.
 template <int D>
 bool canBe(const Gas& gas, const double* density, const double* momentum, const double* totalEnergy, int count) {
   std::uint64_t broken = 0;
@@ -32,7 +32,7 @@ double pressureIn(const Gas& gas, const StateViews<D, T>& state, const Index<D>&
   return gas.pressure(state.totalEnergy[cell] - 0.5 * state.momentum[cell].squaredNorm() / state.density[cell]);
 }
 
-/// Throws NumericalError for a cell whose state cannot be; `before` is the state at the start of the step, with at
+/// Throws NumericalError for a cell with an invalid state; `before` is the state at the start of the step, with at
 /// least one ghost cell, or null.
 template <int D, class T>
 [[noreturn]] void refuseState(const Level& level, const Gas& gas, const Index<D>& cell, const StateViews<D, T>& state,
@@ -65,7 +65,7 @@ template <int D, class T>
   throw NumericalError(text, "", label, level.cellNumber<D>(cell));
 }
 
-/// Throws NumericalError for the first cell of the patch whose state cannot be, if there is one.
+/// Throws NumericalError for the first cell of the patch with an invalid state, if there is one.
 template <int D, class T>
 void refuseBroken(const Patch& patch, const Gas& gas, const StateViews<D, T>& state,
                   const StateViews<D, const double>* before) {

@@ -35,7 +35,7 @@ void checkObjects(const Level& level, const Settings& settings) {
     });
     if (!found)
       problems.push_back(
-          {object.where, settings.section + "/geom_object", "its shape contains the middle of no cell of the grid"});
+          {object.where, settings.section + "/geom_object", "its shape contains no cell centre of the grid"});
   }
   if (!problems.empty()) throw InputError(std::move(problems));
 }
@@ -61,7 +61,7 @@ std::optional<State<D>> stateAt(const Level& level, const Settings& settings, co
 
 void refuseUncovered(const Settings& settings, const Vec3& point) {
   throw InputError({{settings.where, settings.section,
-                     fmt::format("no geom_object contains the middle of the cell at ({:g}, {:g}, {:g}); every cell "
+                     fmt::format("no geom_object contains the centre of the cell at ({:g}, {:g}, {:g}); every cell "
                                  "needs a gas at the start",
                                  point[0], point[1], point[2])}});
 }

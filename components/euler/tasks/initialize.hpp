@@ -7,7 +7,7 @@
 
 namespace tushar::euler {
 
-/// Throws InputError for objects that contain the middle of no cell on the whole grid.
+/// Throws InputError for objects that contain no cell centre of the whole grid.
 template <int D>
 void checkObjects(const Level& level, const Settings& settings);
 
@@ -19,7 +19,7 @@ std::optional<State<D>> stateAt(const Level& level, const Settings& settings, co
 /// Throws InputError: a cell at `point` has no gas at the start.
 [[noreturn]] void refuseUncovered(const Settings& settings, const Vec3& point);
 
-/// The state of the last object that owns the middle of each cell (a face belongs to the object above it), there.
+/// The state of the last object that owns the centre of each cell (a face belongs to the object above it), there.
 /// Throws InputError for objects that contain none, where no object does, and where density or p + p_inf is not
 /// positive or the state not finite.
 template <int D>

@@ -42,8 +42,8 @@ State<D> fluxOf(const Gas& gas, const State<D>& w) {
   return fluxOf<D, Axis>(FaceState<D>{w, conserved<D>(gas, w)[kPressure<D>]});
 }
 
-/// What the fluxes of a cell's own face values across an axis change in half a step (Toro, section 14.4), added to the
-/// change of the axes before; `ratio` is dt / 2 h.
+/// Adds the half-step change of a cell by the fluxes of its own face values across an axis (Toro, section 14.4) to the
+/// change by the previous axes; `ratio` is dt / 2 h.
 template <int D, int Axis>
 void halfStepRow(const Gas& gas, const Pointers<D>& lower, const Pointers<D>& upper, double ratio, int count,
                  const Pointers<D>& change) {

@@ -59,10 +59,10 @@ void refuseMixtures(const MpmSection& method, const GasProperties& properties, D
     refuse("<gas_dynamics> takes one material; give it several <geom_object>s, or use <conserving_gas_dynamics>");
   if (!method.conserving) return;
   if (method.conserving->transfer != conserving::Transfer::apic) refuse("several gases need <transfer> apic");
-  if (method.conserving->remap) refuse("several gases are not mixed by a <remap>; take it out");
-  if (method.conserving->heatConduction > 0) refuse("several gases take no <artificial_heat_conduction>");
+  if (method.conserving->remap) refuse("several gases cannot have a <remap>; take it out");
+  if (method.conserving->heatConduction > 0) refuse("several gases cannot have <artificial_heat_conduction>");
   for (std::size_t k = 0; k < materials.size(); ++k) {
-    if (materials[k].relaxation) refuse("several gases take no <relaxation>");
+    if (materials[k].relaxation) refuse("several gases cannot have <relaxation>");
     for (std::size_t other = 0; other < k; ++other)
       if (materials[k].name == materials[other].name)
         refuse("two materials are called '" + materials[k].name + "'; give each a name of its own");
@@ -74,23 +74,19 @@ void refuseStiffness(const GasProperties& properties, Diagnostics& diagnostics) 
   for (const GasSection& material : properties.mpm.materials)
     if (material.model.type == GasType::stiffened)
       diagnostics.error(material.model.where, "MaterialProperties/MPM/material/constitutive_model",
-                        "type: <gas_dynamics> takes an ideal_gas alone; use <conserving_gas_dynamics>");
+                        "type: <gas_dynamics> takes only an ideal_gas; use <conserving_gas_dynamics>");
 }
 
 /// Refuses sections that only scenes of solids may have.
 void refuseSolidsOnly(const Element& root, Diagnostics& diagnostics) {
   if (const auto constants = root.child("PhysicalConstants"))
-    diagnostics.error(*constants, "a gas knows no <PhysicalConstants>: nothing acts on it but its pressure");
+    diagnostics.error(*constants, "a gas cannot have <PhysicalConstants>: only its pressure acts on it");
   if (const auto loads = root.child("PhysicalBC"))
-    diagnostics.error(*loads, "a gas takes no <PhysicalBC>: no load acts on it but the pressure of its sides");
-  const auto grid = root.child("Grid");
-  const auto conditions = grid ? grid->child("BoundaryConditions") : std::nullopt;
-  if (!conditions) return;
-  for (const Element& face : conditions->children("Face"))
-    for (const Element& condition : face.children("BCType"))
-      if (const auto label = condition.attribute("label");
-          label && (*label == boundary::velocity.name || *label == boundary::temperature.name))
-        diagnostics.error(condition, "label: found '" + *label + "', expected 'Symmetric': a gas takes no other");
+    diagnostics.error(*loads, "a gas cannot have <PhysicalBC>: only the pressure at its sides acts on it");
+  for (const Element& condition : simulation::boundaryConditions(root))
+    if (const auto label = condition.attribute("label");
+        label && (*label == boundary::velocity.name || *label == boundary::temperature.name))
+      diagnostics.error(condition, "label: found '" + *label + "', expected 'Symmetric', the only one for a gas");
 }
 
 std::unique_ptr<Component> makeComponent(const Level& level, const MpmSection& method, const std::vector<Gas>& gases) {
@@ -130,13 +126,6 @@ void describe(std::ostream& out) {
 
 }  // namespace
 
-simulation::ComponentKind kind() {
-  simulation::ComponentKind kind;
-  kind.name = "mpm";
-  kind.read = readScene;
-  kind.forms = forms;
-  kind.describe = describe;
-  return kind;
-}
+MethodKind kind() { return {readScene, describe, forms}; }
 
 }  // namespace tushar::mpm::gas

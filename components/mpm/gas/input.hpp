@@ -1,10 +1,10 @@
 #pragma once
 
-#include "core/simulation/catalogue.hpp"
+#include "components/mpm/mpm.hpp"
 
 namespace tushar::mpm::gas {
 
 /// The gas methods, as a part of the component mpm.
-simulation::ComponentKind kind();
+MethodKind kind();
 
 }  // namespace tushar::mpm::gas

@@ -33,7 +33,7 @@ const Schema<GasObjectSection>& objectSchema() {
                 Placement::midpoint,
                 "particles in the middle of equal parts of a cell, anywhere in these parts, or anywhere in the cell")
         .ours()
-        .value("seed", &GasObjectSection::seed, 0, "1", "another one draws other places", input::nonNegative())
+        .value("seed", &GasObjectSection::seed, 0, "1", "a different seed draws different places", input::nonNegative())
         .ours()
         .check([](const GasObjectSection& object, const Element& element, Diagnostics& diagnostics) {
           if (object.pressure.has_value() == object.temperature.has_value())
@@ -47,7 +47,7 @@ const Schema<GasObjectSection>& objectSchema() {
 
 const Schema<GasModelSection>& modelSchema() {
   static const Schema<GasModelSection> schema =
-      Schema<GasModelSection>("constitutive_model", "How the material answers to being deformed.")
+      Schema<GasModelSection>("constitutive_model", "The response of the material to deformation.")
           .location(&GasModelSection::where)
           .requiredChoiceAttribute("type", &GasModelSection::type,
                                    {{"ideal_gas", GasType::ideal}, {"stiffened_gas", GasType::stiffened}},

@@ -9,8 +9,7 @@
 
 namespace tushar::mpm {
 
-/// What random numbers decide. Each has a stream of its own: without, a particle with many pores would have much
-/// damage.
+/// Quantities drawn at random. Each has a separate stream: otherwise a particle with many pores would have much damage.
 enum class Drawing : std::uint64_t { threshold, yieldStress, damage, porosity };
 
 /// The n-th of four random numbers in (0, 1) of a particle, n = 0 ... 3. It depends on what it decides, the seed and

@@ -17,8 +17,8 @@ inline constexpr ParticleId idsOfCell = 1 << 16;
 template <int D>
 ParticleId idOf(const Level& level, const Index<D>& cell, ParticleId k, const Location& where) {
   if (k >= idsOfCell)
-    throw InputError(
-        {{where, "geom_object", fmt::format("a cell can hold {} particles; bodies fill one with more", idsOfCell)}});
+    throw InputError({{where, "geom_object",
+                       fmt::format("a cell can hold at most {} particles; bodies put more into one", idsOfCell)}});
   return level.cellNumber(cell) * idsOfCell + k;
 }
 

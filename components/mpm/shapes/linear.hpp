@@ -46,7 +46,7 @@ struct Linear {
     return weights([&](int d) { return 1.0 - xi[d]; }, [&](int d) { return xi[d]; });
   }
 
-  /// dS_k/dx_d in the middle of the cell, 1/m.
+  /// dS_k/dx_d in the centre of the cell, 1/m.
   static double centreGradient(const Level& level, int k, int d) {
     constexpr double others = 1.0 / (1 << (D - 1));  // the other axes' factors in the middle, 1/2 each
     return ((k >> d) & 1 ? others : -others) * level.inverseSpacing(d);

@@ -19,9 +19,8 @@ inline constexpr ParticleLabel<Vec<D>> size{"p.size", "1", "extent at the start,
 inline constexpr ParticleLabel<Matrix3> domain{"p.domain", "1", "edges at the start, in cells, one a column"};
 inline constexpr ParticleLabel<double> temperature{"p.temperature", "K", "temperature"};
 inline constexpr ParticleLabel<double> temperatureChange{"p.temperatureChange", "K", "by the work of the step"};
-inline constexpr ParticleLabel<double> damage{"p.damage", "1", "damage, 0 where sound"};
-inline constexpr ParticleLabel<double> failureThreshold{"p.epsf", "Pa, 1 or Pa^(1/2)",
-                                                        "what it bears before it is damaged"};
+inline constexpr ParticleLabel<double> damage{"p.damage", "1", "damage, 0 if intact"};
+inline constexpr ParticleLabel<double> failureThreshold{"p.epsf", "Pa, 1 or Pa^(1/2)", "threshold of damage"};
 inline constexpr ParticleLabel<int> localized{"p.localizedMPM", "1", "1 once it has failed"};
 inline constexpr ParticleLabel<double> failureTime{"p.timeofloc", "s", "when it failed"};
 inline constexpr ParticleLabel<double> color{"p.color", "1", "number that the scene gives to a body"};
@@ -38,7 +37,7 @@ template <int D>
 inline constexpr ParticleLabel<Vec<D>> externalForce{"p.externalforce", "N", "force of loads"};
 inline constexpr ParticleLabel<Matrix3> scaleFactor{"p.scalefactor", "m",
                                                     "edges of the particle, one a column, as F has deformed them"};
-/// What has worked on a particle since the start, J: one number for each of total::work.
+/// The work on a particle since the start, J: one number for each of total::work.
 using Works = Eigen::Matrix<double, 1, 7, Eigen::DontAlign | Eigen::RowMajor>;
 inline constexpr ParticleLabel<Works> work{
     "p.work", "J",
@@ -65,10 +64,11 @@ inline constexpr NodeLabel<NodeRecord> smoothRecord{"g.smoothRecord", "SI units"
 template <int D>
 inline constexpr NodeLabel<Vec<D>> velocityOfForces{"g.velocityOfForces", "m/s", "velocity after the forces of a step"};
 template <int D>
-inline constexpr NodeLabel<Vec<D>> velocityOfContact{"g.velocityOfContact", "m/s", "the same, after contact"};
+inline constexpr NodeLabel<Vec<D>> velocityOfContact{"g.velocityOfContact", "m/s",
+                                                     "velocity after the forces of a step and contact"};
 template <int D>
 inline constexpr NodeLabel<Vec<D>> transmittedForce{"g.transmittedForce", "N",
-                                                    "what contact takes for a material that transmits force"};
+                                                    "force of contact on a material that transmits force"};
 template <int D>
 inline constexpr NodeLabel<Vec<D>> surroundingForce{"g.surroundingForce", "N",
                                                     "force of what surrounds the body, such as a gas"};
@@ -87,13 +87,13 @@ inline constexpr NodeLabel<Vec<D>> separatingNormal{
 inline constexpr NodeLabel<double> prominence{"g.matlProminence", "m",
                                               "how far surface particles reach along g.normAlphaToBeta"};
 inline constexpr NodeLabel<double> color{"g.color", "1", "mean of p.color by mass"};
-inline constexpr NodeLabel<double> frictionHeat{"g.frictionHeat", "J", "heat that rubbing makes in a step"};
+inline constexpr NodeLabel<double> frictionHeat{"g.frictionHeat", "J", "frictional heat in a step"};
 inline constexpr NodeLabel<double> heatCapacity{"g.heatCapacity", "J/K", "heat capacity gathered from particles"};
 inline constexpr NodeLabel<double> temperatureNoBC{"g.temperaturenobc", "K", "temperature gathered from particles"};
-inline constexpr NodeLabel<double> temperature{"g.temperature", "K", "the same, as the sides of the grid have it"};
+inline constexpr NodeLabel<double> temperature{"g.temperature", "K", "temperature with the boundary conditions"};
 inline constexpr NodeLabel<double> heatRate{"g.heatRate", "W", "heat that flows to the node by conduction"};
 inline constexpr NodeLabel<double> contactTemperatureRate{"g.contactTemperatureRate", "K/s",
-                                                          "what contact with other materials changes"};
+                                                          "rate by contact with other materials"};
 inline constexpr NodeLabel<double> temperatureRate{"g.temperatureRate", "K/s", "change of the temperature"};
 }  // namespace g
 

@@ -69,7 +69,7 @@ struct Material {
   std::vector<Body> bodies;
 
   MaterialConstants constants() const { return {density, specificHeat, meltTemperature, roomTemperature}; }
-  /// That of a particle at F = I, kg/m^3: bodies that start under pressure have `density` there and then.
+  /// The density of a particle at F = I, kg/m^3; bodies that start under pressure have `density` at the start.
   double undeformedDensity() const { return density * model->initialVolumeRatio(); }
   /// Whether particles may lose strength, so that they bear less than the constitutive model says.
   bool isDamageable() const { return erosion.acts() || !std::holds_alternative<NoDamage>(damage); }

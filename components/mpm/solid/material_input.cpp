@@ -67,8 +67,8 @@ const std::vector<std::pair<std::string, std::string>> lackingModels{
 void refuseModel(const Element& tag, const std::string& type, Diagnostics& diagnostics) {
   for (const auto& [name, instead] : lackingModels)
     if (type == name)
-      return diagnostics.error(tag,
-                               fmt::format("the model '{}' of Uintah is not available; nearest is {}", name, instead));
+      return diagnostics.error(
+          tag, fmt::format("the model '{}' of Uintah is not available; the nearest is {}", name, instead));
   diagnostics.error(tag, "attribute 'type': " + input::choiceProblem(type, modelNames()));
 }
 
@@ -151,7 +151,7 @@ void describeModels(std::ostream& out, int indent) {
 
 void checkAffine(const Body& body, const Element& element, Diagnostics& diagnostics) {
   if (!(body.affineMatrix().determinant() > 0))
-    diagnostics.error(element, "affineTransformation_A0, …_A1 and …_A2: the determinant of A must be above 0");
+    diagnostics.error(element, "affineTransformation_A0, …_A1 and …_A2: the determinant of A must be positive");
 }
 
 Schema<Body> bodyTags() {
@@ -176,7 +176,7 @@ Schema<Body> bodyTags() {
       .check(checkAffine)
       .ignored("concentration", "belongs to do_scalar_diffusion")
       .ignored("comment", "for readers")
-      .ignored("density", "the material's is taken, as in Uintah")
+      .ignored("density", "that of the material is used, as in Uintah")
       .ignored("pressure", "bodies start without stress")
       .ignored("level", "there is one level")
       .ignoredAttribute("name", "for readers");
@@ -197,7 +197,7 @@ void acceptUintahsTags(Schema<Material>& tags) {
   for (const char* tag : {"water_density", "porosity", "permeability", "initial_pore_pressure"})
     tags.ignored(tag, "belongs to coupled_flow_analysis");
   tags.ignored("heat_transfer_coefficient", "with <thermal_contact> materials share one temperature at a node");
-  tags.ignored("C_p", "the <specific_heat> is taken").ignored("do_conc_reduction", "belongs to do_scalar_diffusion");
+  tags.ignored("C_p", "the <specific_heat> is used").ignored("do_conc_reduction", "belongs to do_scalar_diffusion");
   requireSwitch(tags, "is_active", "every material is there from the start");
   refuseSwitch(tags, "activation_time", "every material is there from the start");
 }
@@ -221,11 +221,10 @@ const Schema<Material>& materialSchema() {
                "explicit steps: its stress exerts no force, and its velocities go by FLIP also with XPIC2; in implicit "
                "steps "
                "bodies are rigid that a <contact> of type rigid or specified makes its master")
-        .value(
-            "is_force_transmitting_material", &Material::transmitsForce, false, "1",
-            "explicit steps: it moves as a rigid whole, by the sum of the loads on it and of what <contact> of type "
-            "rigid or "
-            "specified, whose master it is, takes from others; gravity, damping and sides of the grid do not act on it")
+        .value("is_force_transmitting_material", &Material::transmitsForce, false, "1",
+               "explicit steps: it moves as a rigid whole, by the sum of the loads on it and of the contact forces of "
+               "a <contact> of type rigid or specified whose master it is; gravity, damping and sides of the grid do "
+               "not act on it")
         .value("possible_alpha_material", &Material::mayLeadContact, true, "1",
                "contacts of type friction_LR, friction_LRVar and specified_friction: normals may point out of this "
                "material; false: it slides on others only where two others meet")
@@ -259,8 +258,8 @@ void checkContacts(const MaterialProperties::List& list, const Element& element,
       const auto given = tag.child(name);
       const int number = given ? input::parse<int>(given->text()).value.value_or(0) : 0;
       if (number < 0 || number >= count)
-        diagnostics.error(*given,
-                          fmt::format("there is no material {}: they are counted from 0 to {}", number, count - 1));
+        diagnostics.error(
+            *given, fmt::format("there is no material {}; materials are numbered from 0 to {}", number, count - 1));
     }
 }
 
@@ -270,7 +269,7 @@ const Schema<MaterialProperties>& propertiesSchema(bool besideGas) {
   static const Schema<MaterialProperties::ThermalContact> thermalContact(
       "thermal_contact", "Materials that share nodes share a temperature there.");
   static const Schema<MaterialProperties::List> list =
-      Schema<MaterialProperties::List>("MPM", "The materials of the Material Point Method, and how they touch.")
+      Schema<MaterialProperties::List>("MPM", "The materials of the Material Point Method, and their contact.")
           .list("material", &MaterialProperties::List::materials, materialSchema(), "a material", 1)
           .custom(
               "contact",

@@ -13,7 +13,7 @@ using input::Schema;
 
 const Schema<PhysicalConstants>& constantsSchema(bool besideGas) {
   static const auto make = [] {
-    Schema<PhysicalConstants> tags("PhysicalConstants", "What acts everywhere.");
+    Schema<PhysicalConstants> tags("PhysicalConstants", "Quantities that hold everywhere.");
     tags.value("gravity", &PhysicalConstants::gravity, Vec3::Zero(), "m/s^2", "acceleration of all that has mass");
     for (const char* tag : {"reference_point", "viscosity", "ideal_gas_constant", "pressure"})
       tags.ignored(tag, "belongs to components of flow");

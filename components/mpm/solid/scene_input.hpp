@@ -16,7 +16,7 @@ const input::Schema<PhysicalConstants>& constantsSchema(bool besideGas = false);
 /// The sections of a scene of solids whose <MPM> is read by `mpm`, for the schemas of editors.
 std::vector<simulation::SectionForm> sectionForms(const input::SchemaBase& mpm);
 
-/// Gives every material its number, and a name of its own where the scene gives none or one that a material above has.
+/// Numbers the materials, and names those that have no name or that of a material above.
 void nameMaterials(std::vector<Material>& materials);
 
 /// Heat that works or flows changes a temperature by the heat capacity, which must be there.
@@ -25,7 +25,7 @@ void checkHeat(const Problem& problem, const input::Element& root, input::Diagno
 /// Completes what depends on the grid: how many particles share each load, their size, the width of cells.
 void settleParticles(const Level& level, Problem& problem);
 
-/// Throws InputError where an axisymmetric scene, whose <MPM> stands at `where`, has cells around its axis.
+/// Throws InputError if an axisymmetric scene, with its <MPM> at `where`, has cells around its axis.
 void refuseCellsAround(const Level& level, const Location& where);
 
 /// Layers of nodes that the scene's interpolator needs beyond the sides of the grid.

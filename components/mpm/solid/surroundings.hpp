@@ -5,7 +5,7 @@
 
 namespace tushar::mpm::solid {
 
-/// What surrounds solids and acts on them, such as a gas: its tasks among those of the solids' own.
+/// A medium that surrounds solids and acts on them, such as a gas: it adds its tasks to those of the solids.
 class Surroundings {
  public:
   virtual ~Surroundings() = default;

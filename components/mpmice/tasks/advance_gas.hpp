@@ -6,7 +6,7 @@
 
 namespace tushar::mpmice {
 
-/// What the bodies did in a step, as the gas sees it: walls, and how free volume and faces changed.
+/// The effect of the bodies on the gas in a step: walls, and how free volume and faces changed.
 template <int D>
 struct BodiesInStep {
   KnownWalls<D> walls;
@@ -31,7 +31,7 @@ struct UnsharedGas {
   }
 };
 
-/// What happens to the gas at walls in a step.
+/// The exchange of the gas with walls in a step.
 template <int D>
 class WallExchange {
  public:
@@ -47,7 +47,7 @@ class WallExchange {
         dt_(dt) {}
 
   const euler::Gas& gas() const { return gas_; }
-  /// Of the state beyond the sides of the grid.
+  /// Rules for ghost states beyond the sides of the grid.
   const euler::GhostRules<D>& rules() const { return rules_; }
   const FreeSpace<D>& space() const { return space_; }
 
@@ -109,7 +109,7 @@ class WallExchange {
     held.totalEnergy[cell] += volume * (*u)[euler::kPressure<D>];
   }
 
-  /// Of the donor's gas; where it has none, the receiver's; where that has none either, the mean of what is around the
+  /// The state of the donor's gas; if it has none, that of the receiver; if that has none either, the mean around the
   /// donor.
   std::optional<euler::State<D>> stateOf(const Index<D>& donor, const Index<D>& receiver) const {
     if (!space_.isEmpty(donor)) return cells_.conserved(donor);
@@ -204,7 +204,7 @@ void closeFaces(const Level& level, const FreeSpace<D>& space, const NearBodies<
   });
 }
 
-/// What flows through the faces of a block across an axis, as far as these are open.
+/// The fluxes through the open parts of a block's faces across an axis.
 template <int D, class Flux, class Shape, int Axis>
 void sweepOpen(const euler::Gas& gas, const WallExchange<D>& exchange, const NearBodies<D>& near, const Level& level,
                const Box& block, double ratio, const euler::StateViews<D, const double>& old, euler::Work<D>& work,

@@ -20,7 +20,7 @@ struct WarmBodies {
   }
 };
 
-/// What takes part in the exchange of a cell: bodies in their order, then the gas.
+/// The participants in a cell's heat exchange: bodies in their order, then the gas.
 struct WarmThings {
   Eigen::VectorXd capacity;     ///< J/(m³ K), of the volume of the cell
   Eigen::VectorXd temperature;  ///< K

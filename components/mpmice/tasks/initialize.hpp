@@ -8,8 +8,8 @@ namespace tushar::mpmice {
 /// How far, in cells, a cell that bodies fill in part looks for a gas where its middle has none.
 inline constexpr int gasNearby = 3;
 
-/// The gas of a cell with some room: that at its middle or, as scenes leave out the bodies' shapes, at the nearest
-/// middle of a cell that has one. Throws InputError where there is none.
+/// The gas of a cell with some room: that at its centre or, as scenes leave out the bodies' shapes, at the nearest
+/// centre of a cell that has one. Throws InputError where there is none.
 template <int D>
 euler::State<D> gasOf(const Level& level, const euler::Settings& settings, const Index<D>& cell) {
   const auto at = [&](const Index<D>& of) {

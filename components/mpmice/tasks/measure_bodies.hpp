@@ -48,7 +48,7 @@ auto alongAxes(const Box& reach, Make&& make) {
   return values;
 }
 
-/// What bodies leave free, on a patch.
+/// The volume and the faces that bodies leave free on a patch.
 template <int D>
 struct FreeShares {
   CellView<double> volume;
@@ -147,8 +147,8 @@ Vec<D> withinReach(const Vec<D>& coordinates, const Vec<D>& edges) {
   return coordinates.cwiseMax(least).cwiseMin(most);
 }
 
-/// The same at the end of a step, before particles are relocated, and the volume of bodies that went through faces:
-/// each box moves as it was at the start of the step.
+/// Measures the bodies at the end of a step, before relocation, and the volume of bodies that went through faces: each
+/// box moves as it was at the start of the step.
 template <int D>
 void measureMotion(const Patch& patch, const std::vector<mpm::solid::Material>&,
                    const std::vector<MovedBoxes<D>>& materials, const FreeShares<D>& free, CellView<Vec<D>> swept) {

@@ -5,7 +5,7 @@
 
 namespace tushar::mpmice {
 
-/// Cells beyond a patch that decide what one of its own shares with whom.
+/// Cells beyond a patch that determine what one of its own cells shares, and with which neighbour.
 inline constexpr int shareReach = 3;
 
 /// The state after a step and the room it has, as small cells are to share it.
@@ -69,7 +69,8 @@ class SmallCells {
     });
     return best;
   }
-  /// Of a neighbour with more room; -1 of others. Neighbours that are not small come first.
+  /// The score of a neighbour with more room; -1 for others. Neighbours that are not small come
+  /// first.
   double scoreOf(const Index<D>& cell, const Index<D>& at) const {
     const double room = state_.free[at], own = state_.free[cell];
     if (!(room > own) || room < leastFreeVolume) return -1;

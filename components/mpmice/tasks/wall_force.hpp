@@ -8,7 +8,7 @@
 
 namespace tushar::mpmice {
 
-/// Cells around a patch whose free volume tells what a cell beside it does.
+/// Cells around a patch whose free volume determines the state of a cell beside it.
 inline constexpr int nearLayers = 2;
 
 /// The pressure of a cell's gas on the walls at its lower and upper faces, Pa.

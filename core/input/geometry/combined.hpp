@@ -39,7 +39,7 @@ class Intersection : public GeometryPiece {
   std::vector<PiecePtr> pieces_;
 };
 
-/// Inside the first piece and outside of the second, whose faces so are no part of it.
+/// Inside the first piece and outside of the second, whose faces do not belong to it.
 class Difference : public GeometryPiece {
  public:
   Difference(PiecePtr from, PiecePtr taken) : from_(std::move(from)), taken_(std::move(taken)) {}

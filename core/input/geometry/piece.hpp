@@ -14,7 +14,7 @@ struct Box3 {
   bool isEmpty() const { return !((max - min).array() > 0).all(); }
   /// The smallest box that holds both.
   Box3 hull(const Box3& other) const { return {min.cwiseMin(other.min), max.cwiseMax(other.max)}; }
-  /// What both have in common; may be empty.
+  /// The intersection of both; may be empty.
   Box3 common(const Box3& other) const { return {min.cwiseMax(other.min), max.cwiseMin(other.max)}; }
 };
 
@@ -25,9 +25,9 @@ class GeometryPiece {
   /// Whether a body has a particle there, by Uintah's rule: faces belong to the body (but for `Parallelepiped` and
   /// `Torus`).
   virtual bool contains(const Vec3& point) const = 0;
-  /// The same without the upper flat faces: of two pieces that share a face, just one owns a point of it.
+  /// As contains(), without the upper flat faces: of two pieces that share a face, exactly one owns a point on it.
   virtual bool owns(const Vec3& point) const { return contains(point); }
-  /// A box outside of which no point is contained.
+  /// A box that contains all of the piece.
   virtual Box3 bounds() const = 0;
 };
 

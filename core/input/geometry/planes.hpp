@@ -16,7 +16,7 @@ namespace tushar::input {
 /// of times.
 class Polygon : public GeometryPiece {
  public:
-  /// At least three corners, one after the other around it; their z is not looked at.
+  /// At least three corners, in order around it; their z is ignored.
   explicit Polygon(std::vector<Vec3> corners);
   bool contains(const Vec3& point) const override;
   Box3 bounds() const override { return bounds_; }
@@ -37,7 +37,7 @@ struct HalfSpace {
   std::optional<Vec3> offset;         ///< relative: of the point from the centre of the body (m)
 };
 
-/// What lies on the inner side of all of its planes, or on them.
+/// The points on the inner side of all of its planes, or on them.
 struct Polyhedron : GeometryPiece {
   struct Planes {
     std::vector<HalfSpace> list;

@@ -102,7 +102,7 @@ const Schema<Ellipsoid>& Ellipsoid::schema() {
 
 const Schema<Cone>& Cone::schema() {
   static const Schema<Cone> schema =
-      shapeSchema<Cone>("cone", "A cone, or what is left of one whose tip is cut off.")
+      shapeSchema<Cone>("cone", "A cone or a truncated cone.")
           .required("bottom", &Cone::bottom, "m", "centre of one end")
           .required("top", &Cone::top, "m", "centre of the other end")
           .required("bottom_radius", &Cone::bottomRadius, "m", "radius at the bottom", nonNegative())

@@ -104,7 +104,7 @@ const Schema<SmoothCylinder>& SmoothCylinder::schema() {
         .optional("num_angular", &Self::angular, "1", "particles of a ring; needed for pie_slices", positive())
         .value("arc_start_angle", &Self::startAngle, 0, "degrees", "where its arc begins", between(0, 360))
         .value("arc_angle", &Self::endAngle, 360, "degrees", "where its arc ends", between(0, 360))
-        .ignored("endcap_thickness", "in Uintah, too, end caps have no particles")
+        .ignored("endcap_thickness", "as in Uintah, end caps have no particles")
         .ignored("output_file", "the archive has the particles")
         .check(checkSmoothCylinder);
     return tags;

@@ -29,7 +29,7 @@ struct SmoothCylinder : GeometryPiece {
 
   bool contains(const Vec3& point) const override;
   Box3 bounds() const override;
-  /// Its particles. Rings of pie slices have fewer than told where one would have less than a twentieth of
+  /// Its particles. Rings have fewer pie slices than the scene gives where a slice would have less than a twentieth of
   /// `cellVolume`, m^3.
   std::vector<Particle> particles(double cellVolume) const;
   static const Schema<SmoothCylinder>& schema();
@@ -39,7 +39,7 @@ struct SmoothCylinder : GeometryPiece {
   int particlesOfRing(int ring, double cellVolume) const;
   /// Area of a particle of a ring of `count`, m^2.
   double areaOf(int ring, int count) const;
-  /// Of the arc, rad.
+  /// Angle of the arc, rad.
   double angle() const;
   /// Width of a ring, and height of a layer, m.
   double width() const { return (outerRadius - innerRadius) / radial; }

@@ -14,7 +14,7 @@ namespace tushar::input {
 /// Corners of triangles (m).
 using Triangles = std::vector<std::array<Vec3, 3>>;
 
-/// What lies within a closed surface of triangles.
+/// The points within a closed surface of triangles.
 ///
 /// A line along x through the point crosses the surface an odd number of times on one side. Edges that triangles share
 /// are cut in the same way for both, so that no line slips through between them.
@@ -34,7 +34,8 @@ class Surface : public GeometryPiece {
   std::vector<std::vector<int>> crossing_;  ///< triangles of each bin of lines along x
 };
 
-/// Why triangles do not close a surface: an edge that not two of them (or four, …) share, in a sentence; else empty.
+/// Why triangles do not form a closed surface: a sentence about an edge that an odd number of them share; otherwise
+/// empty.
 std::string whyOpen(const Triangles& triangles);
 
 /// The triangles of a file: STL, as text or binary, where its name ends in `.stl`; else those of NAME.tri, three

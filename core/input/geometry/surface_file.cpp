@@ -64,14 +64,14 @@ Read readText(const std::string& text) {
     std::istringstream words(line);
     if (!(words >> word)) continue;
     if ((word == "endfacet" || (word == "facet" && !read.triangles.empty())) && corner != 3)
-      return failed(fmt::format("line {}: a facet of {} vertices; it has three", number, corner));
+      return failed(fmt::format("line {}: found a facet of {} vertices, expected three", number, corner));
     if (word == "facet") {
       read.triangles.emplace_back();
       corner = 0;
     } else if (word == "vertex") {
       Vec3 x;
       if (read.triangles.empty() || corner == 3)
-        return failed(fmt::format("line {}: a fourth vertex of a facet", number));
+        return failed(fmt::format("line {}: found a fourth vertex in a facet", number));
       if (!(words >> x[0] >> x[1] >> x[2]))
         return failed(fmt::format("line {}: expected `vertex x y z`, found '{}'", number, line));
       read.triangles.back()[corner++] = x;
@@ -127,7 +127,7 @@ Read joinPoints(const std::string& points, const std::string& corners) {
     auto& triangle = read.triangles.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) {
       if (numbers[k] < 0 || numbers[k] >= static_cast<long>(places.size()))
-        return failed(fmt::format(".tri: there is no point {}: they are counted from 0 to {}", numbers[k],
+        return failed(fmt::format(".tri: there is no point {}; points are numbered from 0 to {}", numbers[k],
                                   static_cast<long>(places.size()) - 1));
       const auto& at = places[numbers[k]];
       triangle[k] = Vec3(at[0], at[1], at[2]);
@@ -151,8 +151,7 @@ Read readFile(const std::string& path) {
 Triangles readTriangles(const std::string& path, const Element& tag, Diagnostics& diagnostics) {
   Read read = readFile(path);
   if (read.problem.empty() && read.triangles.empty()) read.problem = "there are no triangles in it";
-  if (read.problem.empty() && !isSound(read.triangles))
-    read.problem = "a corner is nowhere: a coordinate is not finite";
+  if (read.problem.empty() && !isSound(read.triangles)) read.problem = "a corner has a coordinate that is not finite";
   if (read.problem.empty()) read.problem = whyOpen(read.triangles);
   if (read.problem.empty()) return read.triangles;
   diagnostics.error(tag, fmt::format("'{}': {}", path, read.problem));

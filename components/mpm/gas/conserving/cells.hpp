@@ -8,7 +8,7 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// dv_j/dx_k in the middle of each cell, from its nodes [1/s].
+/// dv_j/dx_k in the centre of each cell, from its nodes [1/s].
 template <int D>
 void computeVelocityGradient(const Patch& patch, const Gas&, NodeView<const Vec<D>> velocity,
                              CellView<Tensor<D>> gradient) {

@@ -15,7 +15,7 @@ namespace tushar::mpm::gas::conserving {
 /// of the interval that lie in each cell. An end nearer to a node than 1e-12 h is moved onto it. Nodes and cells that
 /// an interval does not reach have weight and part 0; what lies beyond `Overhang` cells counts to the outermost cell.
 ///
-/// All distances are measured from the middle of the cell that holds the centre, so that the mirror image of an
+/// All distances are measured from the centre of the cell that holds the centre, so that the mirror image of an
 /// interval has the mirrored numbers, to the bit.
 template <int Overhang>
 struct Span {
@@ -110,7 +110,7 @@ struct Span {
     atLower[last] = (start - edge) + 1;
     atUpper[last] = (end - edge) + 1;
   }
-  /// `offset` is that of the middle of the cell from the centre.
+  /// `offset` is that of the centre of the cell from the centre.
   void measureArms(const Lanes& offset, double h) {
     inertia = sumOverNodes<Lanes>([&](int k, Lanes& sum) {
       const auto at = static_cast<std::size_t>(k);

@@ -45,7 +45,7 @@ class GridFields {
     if (near.consecutive_) return Lanes::at(values + near.place_[0]);
     return Lanes::of([&](int lane) { return values[near.place_[lane]]; });
   }
-  /// A field at a node or cell and those beside it along the first axis.
+  /// A field at a node or cell and its neighbours along the first axis.
   Lanes readRow(std::size_t field, const Index<D>& index) const { return Lanes::at(&at(field, index)); }
 
  protected:

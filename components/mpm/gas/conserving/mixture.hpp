@@ -113,7 +113,7 @@ void checkFill(const Patch& patch, const std::vector<Gas>& gases, const CellView
     const Vec3 middle = patch.level().template expandPoint<D>(patch.level().template cellCentre<D>(cell));
     throw InputError(
         {{gases.front().where, "MaterialProperties/MPM/material",
-          fmt::format("several gases must fill the grid without overlap, and they fill {:.6g} of the cell around "
+          fmt::format("several gases must fill the grid without overlap, but they fill {:.6g} of the cell around "
                       "({:g}, {:g}, {:g})",
                       all, middle[0], middle[1], middle[2])}});
   });

@@ -6,7 +6,7 @@
 
 namespace tushar::mpm::gas::conserving {
 
-/// How particles take their velocity from the grid's.
+/// How particles update their velocity from that of the grid.
 enum class Transfer {
   apic,       ///< it replaces theirs, with its gradient: Jiang et al., ACM Trans. Graph. 34 (2015) 51
   affineFlip  ///< its change is added to theirs where the gas is smooth; as apic at shocks

@@ -158,7 +158,7 @@ struct Motion : GridFields<D, 2 * D + 2> {
   using GridFields<D, 2 * D + 2>::GridFields;
 };
 
-/// What updateParticles reads and writes.
+/// The variables that updateParticles reads and writes.
 template <int D>
 struct ParticleUpdate {
   // Particles at the start of the step.

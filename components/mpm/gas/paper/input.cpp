@@ -24,7 +24,7 @@ const Schema<Redistribution>& redistributeSchema() {
           .value("max_particles", &Redistribution::maxParticles, 16, "1", "greatest number in a cell",
                  input::positive())
           .ours()
-          .value("target_particles", &Redistribution::targetParticles, 4, "1", "number in a cell that is seeded anew",
+          .value("target_particles", &Redistribution::targetParticles, 4, "1", "number in a reseeded cell",
                  input::positive())
           .ours()
           .check([](const Redistribution& r, const Element& element, Diagnostics& diagnostics) {
@@ -70,7 +70,7 @@ void checkSeeds(const Redistribution& how, int dimension) {
   if (how.mode != Redistribution::Mode::reseed || seeds <= how.maxParticles) return;
   throw InputError(
       {{how.where, "MPM/gas_dynamics/redistribute",
-        fmt::format("target_particles: {} in a cell become {}, {} along each of {} axes, and max_particles is "
+        fmt::format("target_particles: {} in a cell become {}, {} along each of {} axes, but max_particles is "
                     "{}; lower the one or raise the other",
                     how.targetParticles, seeds, along, dimension, how.maxParticles)}});
 }

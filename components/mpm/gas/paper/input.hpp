@@ -8,8 +8,7 @@ namespace tushar::mpm::gas::paper {
 /// The `gas_dynamics` section of `MPM`.
 const input::Schema<GasDynamics>& methodSchema();
 
-/// Throws InputError if a cell that is seeded anew would have more than max_particles, and so would be seeded in every
-/// step.
+/// Throws InputError if a reseeded cell would have more than max_particles, and so would be reseeded in every step.
 void checkSeeds(const Redistribution& how, int dimension);
 
 }  // namespace tushar::mpm::gas::paper

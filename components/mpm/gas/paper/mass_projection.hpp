@@ -21,7 +21,7 @@ namespace g {
 using namespace gas::g;
 inline constexpr NodeLabel<double> massProjectionError{
     "g.massProjectionError", "kg", "E_m^i: integral of shape function times density, less the mass from particles"};
-inline constexpr NodeLabel<double> massProjectionBound{"g.massProjectionBound", "kg", "what |E_m^i| cannot exceed"};
+inline constexpr NodeLabel<double> massProjectionBound{"g.massProjectionBound", "kg", "bound of |E_m^i|"};
 }  // namespace g
 
 /// The greatest |E_m^i| over the volume of a cell, which is |E_m^i| / h in the paper.

@@ -6,7 +6,7 @@ namespace tushar::mpm::gas::paper {
 
 /// S_ip = S_i(x_p) of (6), (7), (12) and (13) of Tran, Kim & Berzins: Linear, for the particles of one cell.
 ///
-/// Positions are measured in cells from the middle of the cell, so that the factors 1/2 - xi of lower nodes and 1/2 +
+/// Positions are measured in cells from the centre of the cell, so that the factors 1/2 - xi of lower nodes and 1/2 +
 /// xi of upper nodes exchange their bits in the mirror image of a scene. Measured from the lower corner, 1 - xi and xi
 /// would round differently.
 template <int D>

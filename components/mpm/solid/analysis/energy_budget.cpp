@@ -47,7 +47,7 @@ class EnergyBudget : public simulation::Analysis {
 std::unique_ptr<simulation::Analysis> makeModule(const Component& component, const Level&) {
   const auto* solids = dynamic_cast<const Solids*>(&component);
   if (!solids || !solids->measuresWork())
-    throw std::invalid_argument("only solids by explicit time steps have an energy budget; take the module out");
+    throw std::invalid_argument("only solids with explicit time steps have an energy budget; take the module out");
   return std::make_unique<EnergyBudget>(storesAllStrain(solids->problem()));
 }
 
@@ -55,7 +55,7 @@ std::unique_ptr<simulation::Analysis> makeModule(const Component& component, con
 
 simulation::AnalysisKind energyBudgetKind() {
   return simulation::plainModule("energyBudget", "where the energy of solids came from and where it went",
-                                 "Where the energy of solids came from and where it went, in the report.", makeModule);
+                                 "The energy budget of solids in the report.", makeModule);
 }
 
 }  // namespace tushar::mpm::solid

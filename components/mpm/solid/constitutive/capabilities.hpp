@@ -8,8 +8,9 @@
 #include "components/mpm/solid/constitutive/model_types.hpp"
 #include "core/base/lanes.hpp"
 
-/// What a constitutive model can do beyond the members of every model. A model that names a capability must have its
-/// member, with that signature; a model that has the member must name the capability. Anything else does not compile.
+/// Optional capabilities of constitutive models, beyond the members of every model. A model that names a capability
+/// must have its member, with that signature; a model that has the member must name the capability. Anything else does
+/// not compile.
 namespace tushar::mpm::solid::capability {
 
 template <class Variables>
@@ -111,7 +112,7 @@ struct NominalTangent {
 
 // Wave speeds.
 
-/// c_b = sqrt(K / rho), m/s, for the artificial viscosity; without it waveSpeed stands in. Offer it for solids, whose
+/// c_b = sqrt(K / rho), m/s, for the artificial viscosity; without it waveSpeed is used. Offer it for solids, whose
 /// shear stiffness makes the fastest wave faster than the bulk wave.
 struct BulkSpeed {
   struct Name {
@@ -133,7 +134,7 @@ struct BulkSpeed {
   }
 };
 
-/// Speed of the fastest wave for the first time step, m/s; without it waveSpeed at F = I stands in. Offer it where
+/// Speed of the fastest wave for the first time step, m/s; without it waveSpeed at F = I is used. Offer it where
 /// Uintah's first time step comes from another formula.
 struct InitialWaveSpeed {
   struct Name {
@@ -279,8 +280,8 @@ struct Melting {
 
 // Internal variables.
 
-/// Whether the particles keep a State, which depends on the constants of the model; where not, initialState() stands
-/// in. Offer it where plasticity can be switched off.
+/// Whether the particles keep a State, which depends on the constants of the model; if not, initialState() is used.
+/// Offer it where plasticity can be switched off.
 struct OptionalState {
   struct Name {
     int keepsState;

@@ -179,10 +179,10 @@ struct ElasticPlastic {
     });
     return tags;
   }
-  /// Accepts tags of Uintah that have no effect with radial return, and choices of which one is available.
+  /// Accepts tags of Uintah that have no effect with radial return, and choices with only one available option.
   static void acceptWhatDoesNotMatter(input::Schema<ElasticPlastic>& tags) {
     tags.ignored("tolerance", "the return is exact to round-off")
-        .ignored("coeff_thermal_expansion", "the equation of state knows of the temperature")
+        .ignored("coeff_thermal_expansion", "the equation of state includes the temperature")
         .ignored("critical_stress", "Uintah does not read it either")
         .ignored("isothermal", "Uintah does not read it either")
         .ignored("check_failure", "Uintah does not read it either")
@@ -197,20 +197,19 @@ struct ElasticPlastic {
         [](ElasticPlastic&, const input::Element& element, input::Diagnostics& diagnostics) {
           const auto given = element.child("plastic_convergence_algo");
           if (given && given->text() == "biswajit")
-            diagnostics.note(*given, "stresses go back to the yield surface exactly, as with radialReturn");
+            diagnostics.note(*given, "stresses end exactly on the yield surface, as with radialReturn");
           else if (given && given->text() != "radialReturn")
             diagnostics.error(*given, input::choiceProblem(given->text(), {"radialReturn", "biswajit"}));
         },
-        {"plastic_convergence_algo"},
-        "radialReturn or biswajit: stresses go back to the yield surface exactly with both");
+        {"plastic_convergence_algo"}, "radialReturn or biswajit: stresses end exactly on the yield surface with both");
     tags.forms({input::choiceForm({"plastic_convergence_algo"}, {"radialReturn", "biswajit"})});
     typedTag(tags, "yield_condition", &ElasticPlastic::yieldCondition, "the yield surface; vonMises if left out",
              false);
     refuseTypes(tags, "stability_check", {"none", "drucker", "becker", "drucker_becker"},
-                "nothing comes of it: only none where there is an <erosion>");
+                "has no effect; with an <erosion>, only none");
   }
 
-  /// What only the yield condition gurson looks at.
+  /// Tags that only the yield condition gurson uses.
   static void declarePores(input::Schema<ElasticPlastic>& tags) {
     using Self = ElasticPlastic;
     tags.value("evolve_porosity", &Self::poresEvolve, true, "1", "of gurson: pores grow, close and open")
@@ -245,7 +244,7 @@ struct ElasticPlastic {
     return {state.plasticStrain, state.strainRate, c.temperature, modulus, c.density, c.meltTemperature};
   }
   const MaxwellDeviator* maxwell() const { return std::get_if<MaxwellDeviator>(&deviatorModel); }
-  /// What a step leaves of the deviator without strain, in the rotated axes, Pa.
+  /// The relaxed deviator after a step without strain, in the rotated axes, Pa.
   Matrix3 oldDeviator(const Corotated& step, const Deformation& d, const State& state) const {
     if (!maxwell()) return deviator(step.stress);
     Matrix3 sum = Matrix3::Zero();

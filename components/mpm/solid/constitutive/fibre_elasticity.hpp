@@ -65,8 +65,8 @@ struct FibreElasticity {
         .custom("direction_of_symm", readFibre, {"direction_of_symm"},
                 "along the fibres at the start; its length does not matter")
         .forms({input::typeForm({"direction_of_symm"}, std::string(input::typeName<Vec3>), 1)})
-        .ignored("max_fiber_strain", "only Uintah's failure_option 1 looks at it")
-        .ignored("max_matrix_strain", "only Uintah's failure_option 1 looks at it")
+        .ignored("max_fiber_strain", "only Uintah's failure_option 1 uses it")
+        .ignored("max_matrix_strain", "only Uintah's failure_option 1 uses it")
         .ignored("useModifiedEOS", "only Uintah's coupled fluid reads it");
     refuseSwitch(tags, "failure_option", "nothing fails");
   }
@@ -94,7 +94,7 @@ struct FibreElasticity {
     change.diagonal().array() += bulkModulus * h.trace();
     return change;
   }
-  /// Of the undeformed body, Pa.
+  /// P-wave modulus of the undeformed body, Pa.
   double initialModulus() const {
     const RubberSlopes w = rubberSlopes(3);
     return bulkModulus + 8.0 / 3.0 * (w.byFirst + w.bySecond) + fibreSlope(1);

@@ -91,7 +91,7 @@ struct GursonPlastic {
   static Base::State baseOf(const State& state) {
     return {state.plasticStrain, state.plasticStrainRate, state.strainRate, state.energy, {}};
   }
-  /// Of new pores, by the plastic strain.
+  /// Rate of pore nucleation per plastic strain, 1.
   double nucleation(double strain) const {
     if (base.nucleationDeviation == 0) return 0;
     const double away = (strain - base.nucleationStrain) / base.nucleationDeviation;

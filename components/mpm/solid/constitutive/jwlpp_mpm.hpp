@@ -54,9 +54,10 @@ struct JwlppMpm {
     state.growth = state.burned - before;
     return -pressure(state.burned, d.deformationGradient.determinant()) * Matrix3::Identity();
   }
-  /// Of the explosive: J = 1 at the density of the material.
+  /// Wave speed of the unburned explosive, m/s: J = 1 at the density of the material.
   double initialWaveSpeed(double initialDensity) const { return speed(material.density / initialDensity); }
-  /// That of the explosive, also where it has burned, as in Uintah; the products' may be three times as fast.
+  /// Wave speed of the unburned explosive, m/s, even after it has burned, as in Uintah; waves in the products may be
+  /// three times as fast.
   double waveSpeed(double, const Deformation& d, const Matrix3&, const State&) const {
     return speed(d.deformationGradient.determinant());
   }
@@ -121,7 +122,7 @@ struct JwlppMpm {
         .value("max_burned_fraction", &Self::greatestFraction, 1, "1", "no more burns", input::between(0, 1))
         .value("useInitialStress", &Self::startsUnderPressure, false, "1", "bodies start under <initial_pressure>")
         .value("initial_pressure", &Self::initialPressure, 0, "Pa", "pressure at the start", input::nonNegative())
-        .ignored("jwl_rho0", "the material's density is taken, as in Uintah");
+        .ignored("jwl_rho0", "the material's density is used, as in Uintah");
     for (const char* tag : {"max_burn_timestep_size", "doFastStressCompute", "tolerance_for_Newton_iterations",
                             "max_number_of_Newton_iterations"})
       tags.ignored(tag, "the burning is integrated to 1e-9 of the particle, in as many parts as that takes");

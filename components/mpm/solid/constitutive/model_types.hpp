@@ -34,7 +34,7 @@ struct Deformation {
   double time = 0;               ///< at the start of the step, s
 };
 
-/// What a particle is born with that its State may depend on.
+/// Initial properties of a particle on which its State may depend.
 struct Birth {
   ParticleId id = 0;
   double color = 0;  ///< p.color, 1

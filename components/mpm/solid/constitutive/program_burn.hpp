@@ -45,7 +45,7 @@ struct ProgramBurn {
     state.burned = burnedAt(d);
     return -mixedPressure(explosive(), products(), state.burned, volumeOf(d)) * Matrix3::Identity();
   }
-  /// Of the explosive.
+  /// Wave speed of the unburned explosive, m/s.
   double initialWaveSpeed(double initialDensity) const { return speed(explosive(), density / initialDensity); }
   /// c² = -J² dp/dJ / rho_0, of the products as soon as it burns, and of the explosive as long as some is left, which
   /// is the stiffer one at high compression.

@@ -48,7 +48,7 @@ struct NeoHookPlastic {
     using Self = NeoHookPlastic;
     static const input::Schema<Self> schema = [] {
       input::Schema<Self> tags{std::string(name),
-                               "Compressible neo-Hookean elasticity, with J2 plasticity if asked for."};
+                               "Compressible neo-Hookean elasticity, optionally with J2 plasticity."};
       tags.required("bulk_modulus", &Self::bulkModulus, "Pa", "K", input::positive())
           .required("shear_modulus", &Self::shearModulus, "Pa", "G", input::positive())
           .value("usePlasticity", &Self::isPlastic, plasticByDefault, "1", "whether it yields")

@@ -85,7 +85,7 @@ struct UcnhVar {
     state.bElBar = common.bElBar;
     return stress;
   }
-  /// Of the stiffest particles.
+  /// Wave speed of the stiffest particles, m/s.
   double initialWaveSpeed(double initialDensity) const {
     double modulus = 0;
     for (const Entry& entry : table()) modulus = std::max(modulus, entry.bulkModulus + 4.0 / 3.0 * entry.shearModulus);
@@ -137,7 +137,7 @@ struct UcnhVar {
     if (!given) return diagnostics.error(element, "missing tag <variable_properties> (constants by p.color)");
     const Table table = tableSchema().read(*given, diagnostics);
     if (table.entries.size() > mostEntries || !growsInColor(table.entries))
-      return diagnostics.error(*given, "takes at most 32 entries, whose <color> grows from one to the next");
+      return diagnostics.error(*given, "takes at most 32 entries, in the order of increasing <color>");
     std::copy(table.entries.begin(), table.entries.end(), read.entries.begin());
     read.count = table.entries.size();
   }

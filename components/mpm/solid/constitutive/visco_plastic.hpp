@@ -94,7 +94,7 @@ struct ViscoPlastic {
   double bulkSpeed(double initialDensity, const Deformation& d, const Matrix3&, const State&) const {
     return std::sqrt(bulkModulus * d.deformationGradient.determinant() / initialDensity);
   }
-  /// That of failed particles counts no more, as in Uintah.
+  /// Strain energy density, J/m^3; 0 for failed particles, as in Uintah.
   double strainEnergyDensity(const Deformation& d, const Matrix3& oldStress, const Matrix3& stress,
                              const State& state) const {
     return state.failed != 0 ? 0 : stressWork(d, oldStress, stress);

@@ -98,7 +98,7 @@ struct ViscoScram {
     double rate;     ///< 1/tau_n, 1/s
   };
   using Elements = std::array<Element, 5>;
-  /// What opens the cracks in a step.
+  /// The load that opens the cracks in a step.
   struct CrackLoad {
     double pressure;       ///< on the faces of the cracks, Pa; 0 in tension
     double stress;         ///< (s:s)^(1/2) under pressure, (sigma:sigma)^(1/2) in tension, Pa

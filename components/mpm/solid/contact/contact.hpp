@@ -67,7 +67,7 @@ struct Contact {
   std::optional<Vec3> prescribedVelocity(double time) const;
 };
 
-/// Which velocity of a step the records hold.
+/// The stage of the step whose velocity the records hold.
 enum class Moment {
   start,  ///< what came from the particles
   end,    ///< v* after the forces

@@ -87,9 +87,8 @@ const Schema<FrictionTable>& frictionTableSchema() {
       Schema<FrictionTable>("variable_friction", "Friction by the color of the master.")
           .list("entry", &FrictionTable::entries, entry, "colors ascend; straight between two, constant beyond", 2)
           .check([](const FrictionTable& table, const Element& element, Diagnostics& diagnostics) {
-            for (std::size_t k = 1; k < table.entries.size(); ++k)
-              if (table.entries[k].color <= table.entries[k - 1].color)
-                diagnostics.error(element.children("entry")[k], "its color is not above that of the one before");
+            input::refuseDescent(table.entries, &FrictionEntry::color, element.children("entry"),
+                                 "its color is not above that of the previous one", diagnostics);
           });
   return schema;
 }
@@ -130,13 +129,14 @@ void checkContact(const ContactSection& read, const Element& element, Diagnostic
 void addKinds(Schema<ContactSection>& contact) {
   requiredChoiceOrRefusal(
       contact, "type", &ContactSection::kind, kinds, lackingKinds,
-      "not at all; as one body; they follow a master, which is free or moves as told (two words for it); they part "
-      "freely and slide with friction as in Uintah, which asks each body alone whether its stress presses (two words "
-      "for it); the same, but all have one normal and are pressed where the stresses of all press, which keeps "
+      "not at all; as one body; they follow a master, which is free or moves as prescribed (two words for it); they "
+      "part "
+      "freely and slide with friction as in Uintah, which tests the pressure of each body by itself (two words for "
+      "it); the same, but all have one normal and are pressed where the stresses of all press, which keeps "
       "momentum; as in Uintah, but only while they approach each other; they part freely, keep momentum and slide with "
       "friction along the plane that separates their particles, found by logistic regression (Nairn, Hammerquist & "
       "Smith 2020); the same with mu by the color of the master; they part from a master, which is free or moves as "
-      "told, and slide on it along such planes");
+      "prescribed, and slide on it along such planes");
   contact.optional("materials", &ContactSection::materials, "1", "numbers of the materials that take part; else all")
       .optional("OneOrTwoStep", &ContactSection::steps, "1",
                 "1: acts on the velocities at the end of a step only; 2: on those at its start, too. Left out: 1 with "
@@ -174,8 +174,8 @@ void addFriction(Schema<ContactSection>& contact) {
                 input::nonNegative())
       .section("variable_friction", &ContactSection::frictionTable, frictionTableSchema())
       .value("separation_factor", &ContactSection::separationFactor, 9.9e99, "1",
-             "friction, approach (friction_LR and its like need none): what lies farther apart than so many cells "
-             "does not touch",
+             "friction, approach (friction_LR and its like need none): bodies farther apart than so many cells do not "
+             "touch",
              input::positive())
       .value("volume_constraint", &ContactSection::volumeConstraint, 0, "1",
              "friction, approach (friction_LR and its like need none): share of the volume around a node that bodies "
@@ -185,7 +185,7 @@ void addFriction(Schema<ContactSection>& contact) {
 
 const Schema<ContactSection>& contactSchema() {
   static const Schema<ContactSection> schema = [] {
-    Schema<ContactSection> contact("contact", "How materials act on each other where they share nodes.");
+    Schema<ContactSection> contact("contact", "How materials interact where they share nodes.");
     addKinds(contact);
     addMaster(contact);
     addFriction(contact);
@@ -228,14 +228,14 @@ void readMotion(const Element& tag, const ContactSection& read, Contact& contact
       return Vec3(numbers[k + first], numbers[k + first + 1], numbers[k + first + 2]);
     };
     if (!contact.profile.empty() && t <= contact.profile.back().first)
-      diagnostics.error(tag, fmt::format("filename: the times in '{}' do not ascend at {:g} s", path, t));
+      diagnostics.error(tag, fmt::format("filename: the times in '{}' do not increase at {:g} s", path, t));
     contact.profile.emplace_back(t, vector(1));
     if (!read.turns) continue;
     contact.centres.emplace_back(t, vector(4));
     contact.angularVelocity.emplace_back(t, vector(7));
   }
   if (contact.profile.size() < 2)
-    diagnostics.error(tag, fmt::format("filename: '{}' has no two lines `time vx vy vz`", path));
+    diagnostics.error(tag, fmt::format("filename: '{}' has fewer than two lines `time vx vy vz`", path));
 }
 
 Contact::Type typeOf(Kind kind) {

@@ -12,7 +12,7 @@ std::vector<Contact> readContacts(const input::Element& parent, input::Diagnosti
 
 /// The manual, indented by that many blanks.
 void describeContacts(std::ostream& out, int indent);
-/// What may stand in such a tag, for the schemas of editors.
+/// The allowed content of such a tag, for the schemas of editors.
 input::TagForm contactForm();
 
 }  // namespace tushar::mpm::solid

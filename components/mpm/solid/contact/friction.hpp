@@ -40,7 +40,7 @@ struct ContactSurface {
             .volume = take(requiresNew(g::surfaceVolume))};
   }
 };
-/// Those of all materials, and the heat (J) that friction makes at their nodes, where a scene has it.
+/// The surfaces of all materials, and the frictional heat (J) at their nodes, if the scene computes it.
 template <int D>
 using Surfaces = std::vector<ContactSurface<D>>;
 using FrictionHeats = std::vector<std::optional<NodeView<double>>>;

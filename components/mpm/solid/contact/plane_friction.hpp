@@ -37,7 +37,7 @@ struct SeparatingPlane {
             .color = take(when(hasColor, requiresNew(g::color)))};
   }
 };
-/// Those of all materials.
+/// The planes of all materials.
 template <int D>
 using SeparatingPlanes = std::vector<SeparatingPlane<D>>;
 
@@ -55,7 +55,7 @@ template <int D>
 void slideOnMaster(const Patch& patch, const Contact& contact, double time, double dt, const Records& records,
                    const SeparatingPlanes<D>& planes);
 
-/// As sumReaction, over the bodies that slideOnMaster will stop.
+/// As sumReaction, for the bodies that slideOnMaster will stop.
 template <int D>
 void sumSlidingReaction(const Patch& patch, const Contact& contact, const Acceleration& acceleration, double time,
                         double dt, const Records& records, const SeparatingPlanes<D>& planes, VectorSum& reaction);

@@ -117,7 +117,7 @@ struct ThresholdDamage {
   bool isBeyond(const DamageConditions& conditions, const Matrix3& stress, double threshold) const;
 };
 
-/// The same with a mean and a deviation by the p.color of the particles.
+/// As ThresholdDamage, with a mean and a standard deviation for each p.color of the particles.
 struct ThresholdVarDamage : ThresholdDamage {
   static constexpr std::string_view name = "ThresholdVar";
   struct Entry {

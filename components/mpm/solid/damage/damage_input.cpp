@@ -156,7 +156,7 @@ const Schema<ThresholdVarDamage>& ThresholdVarDamage::schema() {
     tags.requiredSection("variable_properties", &Self::table, byColor)
         .check([](const Self& read, const Element& element, Diagnostics& diagnostics) {
           if (!growsInColor(read.table.entries))
-            diagnostics.error(element, "variable_properties: <color> must grow from one entry to the next");
+            diagnostics.error(element, "variable_properties: <color> must increase from one entry to the next");
           for (const Entry& one : read.table.entries)
             if (read.distribution == Distribution::weibull && one.deviation <= 0)
               diagnostics.error(element, "failure_distrib weibull needs a <std>, its modulus, in every entry");
@@ -172,14 +172,15 @@ namespace {
 const Schema<Erosion>& erosionSchema() {
   using Algorithm = Erosion::Algorithm;
   static const Schema<Erosion> schema =
-      Schema<Erosion>("erosion", "What becomes of particles that fail.")
-          .requiredChoiceAttribute("algorithm", &Erosion::algorithm,
-                                   {{"none", Algorithm::none},
-                                    {"AllowNoTension", Algorithm::allowNoTension},
-                                    {"ZeroStress", Algorithm::zeroStress},
-                                    {"AllowNoShear", Algorithm::allowNoShear},
-                                    {"PreserveStress", Algorithm::preserveStress}},
-                                   "bears pressure only, nothing, mean stress only, or is only marked")
+      Schema<Erosion>("erosion", "The treatment of particles that fail.")
+          .requiredChoiceAttribute(
+              "algorithm", &Erosion::algorithm,
+              {{"none", Algorithm::none},
+               {"AllowNoTension", Algorithm::allowNoTension},
+               {"ZeroStress", Algorithm::zeroStress},
+               {"AllowNoShear", Algorithm::allowNoShear},
+               {"PreserveStress", Algorithm::preserveStress}},
+              "a failed particle bears pressure only, nothing, mean stress only, or is only marked")
           .value("char_time", &Erosion::relaxationTime, 1e-99, "s", "time in which lost stress fades to 1/e",
                  input::positive());
   return schema;
@@ -214,8 +215,8 @@ void refuseStabilityChecks(const Element& parent, const Element& erosion, Diagno
   const auto check = model ? model->child("stability_check") : std::nullopt;
   if (check && check->attribute("type") != "none")
     diagnostics.error(*check,
-                      fmt::format("<erosion> on line {} would follow a loss of stability, which is not looked for; "
-                                  "give it the type none, and the particles a <damage_model>",
+                      fmt::format("<erosion> on line {} acts after a loss of stability, which is not detected here; "
+                                  "give the stability_check type none, and the particles a <damage_model>",
                                   erosion.where().line));
 }
 
@@ -228,7 +229,7 @@ void noteWhatDoesNotFail(const Material& material, const Element& parent, const 
   };
   if (material.model && offsetOf(*material.model, "p.plasticStrainRate") >= 0 && !isOff("evolve_porosity") &&
       !isOff("check_TEPLA_failure_criterion"))
-    diagnostics.note(erosion, "particles fail by the <damage_model> and by melting; Uintah's fail by porosity, too");
+    diagnostics.note(erosion, "particles fail by the <damage_model> and by melting, not by porosity as in Uintah");
 }
 
 }  // namespace

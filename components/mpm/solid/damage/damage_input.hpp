@@ -9,7 +9,7 @@ namespace tushar::mpm::solid {
 /// `diagnostics`.
 void readDamage(Material& material, const input::Element& parent, input::Diagnostics& diagnostics);
 void describeDamage(std::ostream& out, int indent);
-/// What may stand in them, for the schemas of editors.
+/// The allowed content of these tags, for the schemas of editors.
 std::vector<input::TagForm> damageForms();
 
 }  // namespace tushar::mpm::solid

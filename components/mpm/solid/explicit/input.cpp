@@ -54,8 +54,8 @@ void addDissipation(Schema<MpmSection>& mpm) {
       .value("artificial_viscosity_coeff2", &MpmSection::quadraticViscosity, 2, "1", "factor of D^2 h^2",
              input::nonNegative())
       .optional("artificial_viscosity_heating", &MpmSection::viscosityHeats, "1",
-                "the work of the artificial viscosity heats elastic_plastic and elastic_plastic_hp: true unless told "
-                "otherwise, where there is one")
+                "the work of the artificial viscosity heats elastic_plastic and elastic_plastic_hp: true by default, "
+                "if there is one")
       .value("artificial_damping_coeff", &MpmSection::damping, 0, "1/s", "acceleration against the velocity",
              input::nonNegative());
 }
@@ -63,15 +63,14 @@ void addDissipation(Schema<MpmSection>& mpm) {
 /// What keeps single particles and nodes from ruling the run.
 void addLimits(Schema<MpmSection>& mpm) {
   mpm.value("minimum_particle_mass", &MpmSection::minimumParticleMass, 3e-15, "kg",
-            "no particle may be as light as that (Uintah takes such out)", input::nonNegative())
+            "no particle may be as light as that (Uintah removes them)", input::nonNegative())
       .value("minimum_mass_for_acc", &MpmSection::minimumMassForAcceleration, 1e-199, "kg",
-             "a node lighter than that is only accelerated by gravity", input::nonNegative())
+             "lighter nodes are only accelerated by gravity", input::nonNegative())
       .optional("maximum_particle_velocity", &MpmSection::maximumParticleVelocity, "m/s",
-                "a particle that becomes faster is slowed down to 9/10 of it", input::positive())
-      .value(
-          "minimum_subcycles_for_F", &MpmSection::minimumSubcycles, 1, "1",
-          "least number of parts in which a step changes the deformation gradient; -n: the exponential series of L dt "
-          "up to its power n takes their place");
+                "faster particles are slowed down to 9/10 of it", input::positive())
+      .value("minimum_subcycles_for_F", &MpmSection::minimumSubcycles, 1, "1",
+             "least number of parts in which a step changes the deformation gradient; -n: uses the exponential series "
+             "of L dt up to power n instead");
 }
 
 /// When stresses are brought forward, and how velocities go from the grid to the particles.
@@ -84,8 +83,7 @@ void addUpdates(Schema<MpmSection>& mpm) {
       .ours()
       .value("XPIC2", &MpmSection::xpic, false, "1", "velocities by extended PIC of order 2")
       .value("UseGradientEnhancedVelocityProjection", &MpmSection::projectsGradient, false, "1",
-             "a particle gives each node the velocity that its velocity gradient makes there; without conduction of "
-             "heat")
+             "particles add their velocity gradient to the velocity that they give to nodes; without heat conduction")
       .value("pic_fraction", &MpmSection::picFraction, 0, "1",
              "share of the grid's own velocity in what particles get; the rest is FLIP", input::between(0, 1))
       .ours()
@@ -99,7 +97,7 @@ void addUpdates(Schema<MpmSection>& mpm) {
 /// Bodies that are driven through a deformation.
 void addPrescribedDeformation(Schema<MpmSection>& mpm) {
   mpm.value("UsePrescribedDeformation", &MpmSection::prescribesDeformation, false, "1",
-            "all bodies move as <PrescribedDeformationFile> says, whatever their stress")
+            "all bodies move as <PrescribedDeformationFile> prescribes, whatever their stress")
       .value("PrescribedDeformationFile", &MpmSection::deformationFile, "time_defgrad_rotation", "1",
              "a file of points in time, each 14 numbers: time (s), the components of the deformation gradient row by "
              "row, and the angle (degrees) and axis of a rotation on the way there");
@@ -130,7 +128,7 @@ void addSurroundings(Schema<MpmSection>& mpm) {
                {"GeneralizedVortex", "GeneralizedVortex"}},
               "", "start as a manufactured solution, under its body force")
       .value("withColor", &MpmSection::withColor, false, "1",
-             "accepted for Uintah's sake: p.color is there where it is saved");
+             "accepted for Uintah's sake: p.color exists if it is saved");
 }
 
 void checkDissipation(const MpmSection& read, const Element& element, Diagnostics& diagnostics) {
@@ -150,13 +148,13 @@ void checkUpdates(const MpmSection& read, const Element& element, Diagnostics& d
                       "axisymmetric and apic");
   if (read.projectsGradient && read.conductsHeat)
     diagnostics.error(element,
-                      "UseGradientEnhancedVelocityProjection: temperatures do not go to the grid with their "
-                      "gradients; set <DoExplicitHeatConduction> to false");
+                      "UseGradientEnhancedVelocityProjection: temperatures are interpolated without their gradients; "
+                      "set <DoExplicitHeatConduction> to false");
   if (read.affine && read.stressUpdate != StressUpdate::last)
     diagnostics.error(element, "apic: only with stress_update usl");
   if (read.momentumForm && read.affine) diagnostics.error(element, "UseMomentumForm: not with apic");
   if (read.affine + read.xpic + (read.picFraction > 0) > 1)
-    diagnostics.error(element, "apic, XPIC2 and pic_fraction are three ways to take the velocity: pick one");
+    diagnostics.error(element, "apic, XPIC2 and pic_fraction are three ways to update the velocity: choose one");
 }
 
 /// Tags of Uintah's that only implicit steps look at.
@@ -183,7 +181,7 @@ void refuseShortDomains(MpmSection& read, const Element& element, Diagnostics& d
   if (!given || read.interpolator != Interpolator::cpdi) return;
   const auto longest = input::parse<double>(given->text()).value;
   if (!longest) return diagnostics.error(*given, "'" + given->text() + "' is not a number");
-  if (read.axisymmetric) return diagnostics.note(*given, "means nothing where axisymmetric, as in Uintah");
+  if (read.axisymmetric) return diagnostics.note(*given, "does nothing with axisymmetric, as in Uintah");
   if (*longest < std::numbers::sqrt3)
     diagnostics.error(*given,
                       "less than 3^(1/2) is not available; a domain of cpdi that reaches farther than a cell "
@@ -195,7 +193,7 @@ void addForeign(Schema<MpmSection>& mpm) {
   addForeignTags(mpm);
   for (const char* tag : implicitOnly) mpm.ignored(tag, "belongs to the implicit method");
   requireSwitch(mpm, "computeColinearNormals", "both sides of a contact have one normal");
-  requireSwitch(mpm, "do_grid_reset", "the grid is where it was at the start of each step");
+  requireSwitch(mpm, "do_grid_reset", "the grid returns to its place after each step");
   mpm.custom("cpdi_lcrit", refuseShortDomains, {"cpdi_lcrit"},
              "at least 3^(1/2): no domain of cpdi reaches farther than a cell from its middle along an axis")
       .forms({input::typeForm({"cpdi_lcrit"}, std::string(input::typeName<double>))});
@@ -303,7 +301,7 @@ void checkLoads(const Problem& problem, const Element& root, Diagnostics& diagno
   for (const SurfaceLoad& load : loads.surfaces)
     if (load.material >= static_cast<int>(problem.materials.size()))
       diagnostics.error(root.child("PhysicalBC").value(),
-                        fmt::format("load_curve/material: there is no material {}: they are counted from 0 to {}",
+                        fmt::format("load_curve/material: there is no material {}; materials are numbered from 0 to {}",
                                     load.material, problem.materials.size() - 1));
   if (loads.hasHeat() && !problem.method.conductsHeat)
     diagnostics.error(root.child("PhysicalBC").value(), "heat_flux: needs <DoExplicitHeatConduction> true");
@@ -384,14 +382,6 @@ void describe(std::ostream& out) {
   describeLoads(out);
 }
 
-simulation::ComponentKind kind() {
-  simulation::ComponentKind kind;
-  kind.name = "mpm";
-  kind.read = readScene;
-  kind.forms = forms;
-  kind.describe = describe;
-  kind.nodesBeyond = nodesBeyond;
-  return kind;
-}
+MethodKind kind() { return {readScene, describe, forms, nodesBeyond}; }
 
 }  // namespace tushar::mpm::solid

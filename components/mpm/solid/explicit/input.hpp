@@ -1,12 +1,12 @@
 #pragma once
 
+#include "components/mpm/mpm.hpp"
 #include "components/mpm/solid/problem.hpp"
-#include "core/simulation/catalogue.hpp"
 
 namespace tushar::mpm::solid {
 
 /// Solids with explicit time steps, as a part of the component mpm.
-simulation::ComponentKind kind();
+MethodKind kind();
 
 /// Prints the manual of the sections.
 void describe(std::ostream& out);

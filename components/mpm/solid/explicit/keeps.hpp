@@ -4,7 +4,7 @@
 
 namespace tushar::mpm::solid {
 
-/// Which optional particle variables a scene has; its materials decide.
+/// The optional particle variables of a scene, which depend on its materials.
 struct Keeps {
   KeptSizes sizes;                               ///< p.size or p.domain: particles do not all start with one size
   bool stress = false;                           ///< p.stress and p.volume: some stress is not a function of F alone

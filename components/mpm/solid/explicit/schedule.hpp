@@ -258,7 +258,7 @@ void SolidMpm<Shape>::scheduleMoveParticles(TaskList& tasks, Reads shaped) const
                     all<MotionUpdate<Shape>>(keepsSizes(), shapedBy(shaped)));
 }
 
-/// What replaces FLIP's velocity; `shaped` reads the F that shape functions follow.
+/// Schedules the update that replaces FLIP's velocity; `shaped` reads the F that shape functions follow.
 template <class Shape>
 template <class Reads>
 void SolidMpm<Shape>::scheduleVelocityUpdate(TaskList& tasks, Reads shaped) const {

@@ -85,7 +85,7 @@ class SolidMpm : public Solids {
     const bool domains = Shape::deforms && problem_.method.keepsDomains;
     return {Shape::hasSize && problem_.method.keepsSizes && !domains, domains};
   }
-  /// Of particles as boxes, whatever the shape functions ask for.
+  /// The sizes of particles as boxes, whether or not the shape functions use them.
   KeptSizes boxSizes() const {
     const Method& method = problem_.method;
     return {method.keepsSizes && !method.keepsDomains, method.keepsDomains};
@@ -101,7 +101,7 @@ class SolidMpm : public Solids {
             .stateSize = state_size_,
             .state = &state_};
   }
-  /// The F that shape functions follow, where they do; `reads` says of which moment.
+  /// The F by which shape functions deform, if they do; `reads` selects the old or the new one.
   template <class Reads>
   static auto shapedBy(Reads reads, int ghost = 0) {
     return when(Shape::deforms, reads(p::deformationMeasure, ghost));

@@ -54,7 +54,7 @@ void declareSteps(Schema<Section>& schema) {
              "more of Newton's iterations: the step is repeated with half the time step", input::atLeast(1))
       .value("num_iters_to_decrease_delT", &Section::decrease, 12, "1",
              "so many of them make the next time step shorter", input::atLeast(1))
-      .value("num_iters_to_increase_delT", &Section::increase, 4, "1", "at most so many make it longer",
+      .value("num_iters_to_increase_delT", &Section::increase, 4, "1", "with at most so many, the next time step grows",
              input::nonNegative())
       .value("delT_decrease_factor", &Section::decreaseFactor, 0.6, "1", "how much shorter", input::between(0.1, 1))
       .value("delT_increase_factor", &Section::increaseFactor, 2, "1", "how much longer", input::atLeast(1));
@@ -71,13 +71,12 @@ const Schema<Section>& sectionSchema() {
         .value("dynamic", &Section::dynamic, true, "1",
                "Newmark's method; false: no inertia, each step ends in equilibrium");
     mpm.value("do_grid_reset", &Section::resetsGrid, true, "1",
-              "false: the grid goes along with the solid, particles keep their places in it, and p.displacement tells "
-              "where "
-              "they are")
-        .value("DoPressureStabilization", &Section::sharesVolume, false, "1",
-               "F-bar: the particles of a cell answer to compression as one, against locking where nothing is "
-               "compressible; "
-               "for comp_neo_hook, comp_mooney_rivlin, UCNH and comp_neo_hook_plastic");
+              "false: the grid moves with the solid, particles keep their places in it, and p.displacement gives their "
+              "positions")
+        .value(
+            "DoPressureStabilization", &Section::sharesVolume, false, "1",
+            "F-bar: the particles of a cell share one change of volume, against locking of incompressible materials; "
+            "for comp_neo_hook, comp_mooney_rivlin, UCNH and comp_neo_hook_plastic");
     declareSteps(mpm);
     mpm.choice("solver", &Section::solver, {{"petsc", 0}, {"simple", 0}, {"amgx", 0}}, 0,
                "what solves the linear systems: PETSc, under three words")
@@ -86,12 +85,13 @@ const Schema<Section>& sectionSchema() {
         .ours()
         .value("use_load_curves", &Section::useLoadCurves, false, "1", "the loads of <PhysicalBC> act")
         .value("withColor", &Section::withColor, false, "1",
-               "accepted for Uintah's sake: p.color is there where it is saved")
+               "accepted for Uintah's sake: p.color exists if it is saved")
         .value("DoImplicitHeatConduction", &Section::heat, false, "1", "heat is conducted, by backward Euler")
         .ignored("DoExplicitHeatConduction", "heat is conducted implicitly, where DoImplicitHeatConduction says so")
-        .choice("DoTransientImplicitHeatConduction", &Section::transient, {{"true", 0}}, 0, "heat takes time to spread")
+        .choice("DoTransientImplicitHeatConduction", &Section::transient, {{"true", 0}}, 0,
+                "heat spreads in time, by conduction")
         .ignored("artificial_damping_coeff", "as in Uintah, only explicit steps are damped")
-        .ignored("minimum_particle_mass", "no particle is taken out")
+        .ignored("minimum_particle_mass", "no particle is removed")
         .ignored("maximum_particle_velocity", "no particle is slowed down");
     refuseSwitch(mpm, "artificial_viscosity", "only explicit steps have one");
     refuseSwitch(mpm, "UsePrescribedDeformation", "explicit steps can be driven through a deformation");
@@ -102,7 +102,7 @@ const Schema<Section>& sectionSchema() {
           "minimum_mass_for_acc", "minimum_subcycles_for_F", "XPIC2", "do_contact_friction_heating", "cpdi_lcrit",
           "computeColinearNormals", "PrescribedDeformationFile", "exactDeformation", "UseMomentumForm",
           "UseGradientEnhancedVelocityProjection"})
-      mpm.ignored(tag, "as in Uintah, only explicit steps look at it");
+      mpm.ignored(tag, "as in Uintah, only explicit steps use it");
     addForeignTags(mpm);
     refuseSwitch(mpm, "use_CBDI_boundary_condition", "a pressure is shared among the particles at its surface");
     return mpm;
@@ -197,23 +197,19 @@ void refuseExplicitOnly(const Problem& problem, const Element& root, Diagnostics
 
 /// Boundary conditions that implicit steps would ignore: those of one material out of several, and a heat flux.
 void refuseConditions(const Problem& problem, const Element& root, Diagnostics& diagnostics) {
-  const auto grid = root.child("Grid");
-  const auto conditions = grid ? grid->child("BoundaryConditions") : std::nullopt;
-  if (!conditions) return;
-  for (const Element& face : conditions->children("Face"))
-    for (const Element& condition : face.children("BCType")) {
-      const std::string id = condition.attribute("id").value_or("all");
-      if (id != "all" && problem.materials.size() > 1)
-        diagnostics.error(condition, "id: found '" + id +
-                                         "'; with <time_integrator> implicit materials share their nodes, and "
-                                         "a condition holds for all of them");
-      const auto value = condition.child("value");
-      const bool flows = value && input::parse<double>(value->text()).value != 0.0;
-      if (condition.attribute("label") == boundary::temperature.name &&
-          condition.attribute("var") == nameOf(grid::BoundaryKind::neumann) && flows)
-        diagnostics.error(condition,
-                          "var: Neumann for Temperature only with <time_integrator> explicit, unless its value is 0");
-    }
+  for (const Element& condition : simulation::boundaryConditions(root)) {
+    const std::string id = condition.attribute("id").value_or("all");
+    if (id != "all" && problem.materials.size() > 1)
+      diagnostics.error(condition, "id: found '" + id +
+                                       "'; with <time_integrator> implicit materials share their nodes, and "
+                                       "a condition holds for all of them");
+    const auto value = condition.child("value");
+    const bool flows = value && input::parse<double>(value->text()).value != 0.0;
+    if (condition.attribute("label") == boundary::temperature.name &&
+        condition.attribute("var") == nameOf(grid::BoundaryKind::neumann) && flows)
+      diagnostics.error(condition,
+                        "var: Neumann for Temperature only with <time_integrator> explicit, unless its value is 0");
+  }
 }
 
 template <template <int> class Shape>
@@ -269,6 +265,7 @@ simulation::ComponentKind implicitKind() {
   kind.name = "impm";
   kind.sentence = "the Material Point Method for solids, with implicit time steps";
   kind.sections = {"MPM", "MaterialProperties", "PhysicalConstants", "PhysicalBC"};
+  kind.amrSections = {"MPM"};
   kind.boundaryLabels = {grid::symmetric, boundary::velocity, boundary::temperature};
   kind.describe = [](std::ostream& out) {
     sectionSchema().describe(out);

@@ -5,7 +5,7 @@ namespace tushar::modules {
 
 simulation::Catalogue mpm_implicit() {
   const simulation::ComponentKind kind = mpm::solid::implicit::implicitKind();
-  mpm::define(mpm::Method::implicitSolid, kind);
+  mpm::define(mpm::Method::implicitSolid, {kind.read, kind.describe, kind.forms, kind.nodesBeyond});
   return {{kind}, {}};
 }
 

@@ -21,7 +21,7 @@ struct LoadCurve {
 /// cylinder, or a sphere.
 using Surface = std::variant<input::Box, input::Cylinder, input::Sphere>;
 
-/// What a load on a surface brings.
+/// The quantity that a surface load prescribes.
 enum class LoadKind { pressure, torque, heatFlux };
 
 /// Area of a surface, m^2; per radian for the side or end of an axisymmetric cylinder.

@@ -95,15 +95,14 @@ const Schema<CurveSection>& curveSchema() {
                                              .required("load", &TimePoint::load, "SI unit of the load", "how much");
   static const Schema<CurveSection> schema =
       Schema<CurveSection>("load_curve", "A load over time, straight between its points.")
-          .value("id", &CurveSection::id, 1, "1", "its number; loads are counted from 1 as they stand in the scene",
+          .value("id", &CurveSection::id, 1, "1", "its number; loads are numbered from 1 in the order of the scene",
                  input::positive())
           .optional("material", &CurveSection::material, "1", "number of the material that it acts on; else all",
                     input::nonNegative())
           .list("time_point", &CurveSection::points, point, "a load at a time", 1)
           .check([](const CurveSection& curve, const Element& element, Diagnostics& diagnostics) {
-            for (std::size_t k = 1; k < curve.points.size(); ++k)
-              if (curve.points[k].time <= curve.points[k - 1].time)
-                diagnostics.error(element.children("time_point")[k], "its time is not after that of the one before");
+            input::refuseDescent(curve.points, &TimePoint::time, element.children("time_point"),
+                                 "its time is not after that of the previous one", diagnostics);
           });
   return schema;
 }
@@ -129,7 +128,7 @@ void checkNumbers(const Element& loads, Diagnostics& diagnostics) {
     const auto curve = load.child("load_curve"), id = curve ? curve->child("id") : std::nullopt;
     if (id && input::parse<int>(id->text()).value != place)
       diagnostics.error(
-          *id, fmt::format("found '{}', expected {}: loads are counted as they stand in the scene", id->text(), place));
+          *id, fmt::format("found '{}', expected {}: loads are numbered in the order of the scene", id->text(), place));
   }
 }
 
@@ -159,7 +158,7 @@ const Schema<PhysicalBC>& loadsSchema() {
         .check([](const LoadsSection& read, const Element& element, Diagnostics& diagnostics) {
           checkNumbers(element, diagnostics);
           if (read.pressures.size() + read.torques.size() + read.heatFluxes.size() + read.forces.size() > 127)
-            diagnostics.error(element, "there can be 127 loads");
+            diagnostics.error(element, "there can be at most 127 loads");
         });
     refuseTag(loads, "pressure_pts", "there are pressure, torque, force and heat_flux");
     for (const char* tag : {"arches_heat_flux", "scalar_flux"}) refuseTag(loads, tag, "there is heat_flux");

@@ -25,7 +25,7 @@ struct ParticleBox {
   std::optional<LoadedFace> face(const Vec3& normal) const;
 };
 
-/// What the loads of a particle do to it at the corners of its face.
+/// The forces of a particle's loads at the corners of its face.
 struct CornerLoad {
   Vec3 force;                   ///< N, a quarter of it at each corner
   std::array<Vec3, 4> corners;  ///< m

@@ -136,7 +136,7 @@ std::optional<PrescribedDeformation> readPrescribedDeformation(const std::string
     points.push_back(pointOf(&numbers.values[k * pointSize]));
     checkPoint(points.back(), where, diagnostics);
     if (k > 0 && points[k].time <= points[k - 1].time)
-      diagnostics.error(where, {}, "its time is not after that of the point before");
+      diagnostics.error(where, {}, "its time is not after that of the previous point");
   }
   if (diagnostics.size() > before) return {};
   return PrescribedDeformation(std::move(points));

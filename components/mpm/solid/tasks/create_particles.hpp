@@ -255,8 +255,8 @@ inline Matrix3 startStress(const Material& material, const Matrix3& f, double te
   return stress;
 }
 
-/// What particles get after their place and mass; `state` holds the internal variables of the constitutive models,
-/// which may differ by id and color.
+/// Initial values of particles besides their position and mass; `state` holds the internal variables of the
+/// constitutive models, which may differ by id and color.
 struct StartOfPoints {
   ParticleView<const double> mass, temperature;
   ParticleView<const Matrix3> deformation;

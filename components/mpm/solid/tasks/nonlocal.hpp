@@ -9,7 +9,8 @@
 namespace tushar::mpm::solid {
 
 namespace p {
-inline constexpr ParticleLabel<double> plasticIncrement{"p.nonlocalSource", "1", "plastic strain that others feel"};
+inline constexpr ParticleLabel<double> plasticIncrement{"p.nonlocalSource", "1",
+                                                        "plastic strain that acts on other particles"};
 }  // namespace p
 
 /// Index among the numbers of the State of a variable of a nonlocal model; -1 for other models.

@@ -23,7 +23,7 @@ void showState(const Patch&, const Material& material, std::string_view name, in
   }
 }
 
-/// A state variable of constitutive models as a label of its own, computed only if a scene saves it.
+/// A state variable of constitutive models as a separate label, computed only if a scene saves it.
 class StateView {
  public:
   virtual ~StateView() = default;

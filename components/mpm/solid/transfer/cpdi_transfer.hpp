@@ -22,14 +22,14 @@ template <int D, class Visit>
   }
 }
 
-/// What each corner brings to the high half of a record, but for its slopes.
+/// The contribution of each corner to the high half of a record, apart from its slopes.
 template <class Stencil>
 [[gnu::always_inline]] inline Quad meanShare(const Stencil& stencil, const Quad& high, const Quad& hoop) {
   if constexpr (Stencil::axisymmetric) return Stencil::share * multiplyAdd(stencil.inverseRadius, hoop, high);
   return Stencil::share * high;
 }
 
-/// As for other shapes (see transfer.hpp): each corner brings its share to the nodes of its cell.
+/// As for other shapes (see transfer.hpp): each corner adds its share to the nodes of its cell.
 template <class Stencil, int D = Stencil::dimension>
 requires(Stencil::corners > 0)
     [[gnu::always_inline]] inline void scatter(const Stencil& stencil, const NodeWindow<NodeRecord, D>& nodes,

@@ -113,7 +113,7 @@ TEST(MaterialInput, RefusesColorsThatDoNotGrow) {
       "<entry><color>1</color><bulk_modulus>7</bulk_modulus><shear_modulus>3</shear_modulus>"
       "<yield_stress>2</yield_stress><hardening_modulus>1</hardening_modulus></entry>";
   const std::string table = "<variable_properties>" + entry + entry + "</variable_properties>";
-  expectProblem(sceneOf("UCNHVar", table), "whose <color> grows from one to the next");
+  expectProblem(sceneOf("UCNHVar", table), "in the order of increasing <color>");
 }
 
 TEST(MaterialInput, KeepsStateOnlyWhereTheConstantsNeedIt) {
@@ -167,7 +167,7 @@ TEST(MaterialInput, NotesWhatDoesNotExpand) {
 }
 
 TEST(MaterialInput, SaysWhatThereIsInsteadOfAModelOfUintah) {
-  expectProblem(sceneOf("camclay", ""), "the model 'camclay' of Uintah is not available; nearest is MohrCoulomb");
+  expectProblem(sceneOf("camclay", ""), "the model 'camclay' of Uintah is not available; the nearest is MohrCoulomb");
   expectProblem(sceneOf("comp_neo_hok", ""), "did you mean 'comp_neo_hook'");
 }
 
@@ -236,7 +236,7 @@ TEST(MaterialInput, ChecksDamageAgainstTheConstitutiveModel) {
                 "Brittle needs a constitutive model with bulk_modulus and shear_modulus");
   expectProblem(sceneOf("elastic_plastic", moduli + flow + "<stability_check type='drucker'/>",
                         "<erosion algorithm='ZeroStress'/>"),
-                "would follow a loss of stability, which is not looked for");
+                "acts after a loss of stability, which is not detected here");
   EXPECT_EQ(sentencesOf(sceneOf("elastic_plastic", moduli + flow + "<stability_check type='drucker'/>")), "");
 }
 

@@ -4,6 +4,7 @@
 #include "components/mpm/solid/constitutive/nonlocal_drucker_prager.hpp"
 #include "components/mpm/solid/tasks/nonlocal.hpp"
 #include "tests/mpm/solid/constitutive/material_point.hpp"
+#include "tests/support/levels.hpp"
 #include "tests/support/particles.hpp"
 
 namespace tushar::mpm::solid::testing {
@@ -116,13 +117,7 @@ TEST(NonlocalDruckerPrager, FlowsFromTheStressInWhichBodiesRest) {
 
 /// A row of four cells of 1 m with a particle in the middle of each.
 struct Row : test::Particles {
-  static grid::Domain domain() {
-    grid::Domain domain;
-    domain.upper = {4, 1, 0};
-    domain.resolution = {{4, 1, 0}};
-    return domain;
-  }
-  Row() : Particles(domain()) {
+  Row() : Particles(test::unitCells(4, 1)) {
     set.reset(grid.patches().front(), 4);
     for (int k = 0; k < 4; ++k) {
       set.at(Index3{{k, 0, 0}}) = {k, k + 1};

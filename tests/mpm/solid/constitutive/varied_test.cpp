@@ -86,6 +86,15 @@ MohrCoulomb soilWith(double friction) {
   return soil;
 }
 
+/// Soil whose pores hold water by suction, 1.7 Pa at the start.
+MohrCoulomb soilWithWater(double specificVolume) {
+  MohrCoulomb soil = soilWith(20);
+  soil.retainsWater = true;
+  std::tie(soil.retentionM, soil.retentionN, soil.retentionAlpha) = std::tuple(0.3, 2.5, 0.8);
+  std::tie(soil.suctionAngle, soil.initialSuction, soil.initialSpecificVolume) = std::tuple(15.0, 1.7, specificVolume);
+  return soil;
+}
+
 TEST(MohrCoulomb, HasTheCohesionOfItsWaterAndItsRate) {
   MaterialPoint<MohrCoulomb> point{soilWith(0)};
   point.model.isWet = true;
@@ -105,13 +114,9 @@ TEST(MohrCoulomb, HasTheCohesionOfItsWaterAndItsRate) {
 }
 
 TEST(MohrCoulomb, GainsCohesionFromTheSuctionOfItsWater) {
-  MaterialPoint<MohrCoulomb> point{soilWith(20)};
-  MohrCoulomb& soil = point.model;
-  soil.retainsWater = true;
-  std::tie(soil.retentionM, soil.retentionN, soil.retentionAlpha) = std::tuple(0.3, 2.5, 0.8);
-  std::tie(soil.suctionAngle, soil.initialSuction, soil.initialSpecificVolume) = std::tuple(15.0, 1.7, 1.9);
-  soil.cohesion = 0.05;
-  point.oldState = soil.initialState();
+  MaterialPoint<MohrCoulomb> point{soilWithWater(1.9)};
+  point.model.cohesion = 0.05;
+  point.oldState = point.model.initialState();
   const auto still = point.state(Matrix3::Identity());
   EXPECT_NEAR(still.suction, 1.7, 1e-13);
   EXPECT_NEAR(still.cohesion, 0.05 + 1.7 * std::tan(15 * std::numbers::pi / 180), 1e-13);
@@ -124,12 +129,8 @@ TEST(MohrCoulomb, GainsCohesionFromTheSuctionOfItsWater) {
 }
 
 TEST(MohrCoulomb, IsFullOfWaterWhereItsPoresHaveClosed) {
-  MaterialPoint<MohrCoulomb> point{soilWith(20)};
-  MohrCoulomb& soil = point.model;
-  soil.retainsWater = true;
-  std::tie(soil.retentionM, soil.retentionN, soil.retentionAlpha) = std::tuple(0.3, 2.5, 0.8);
-  std::tie(soil.suctionAngle, soil.initialSuction, soil.initialSpecificVolume) = std::tuple(15.0, 1.7, 1.02);
-  point.oldState = soil.initialState();
+  MaterialPoint<MohrCoulomb> point{soilWithWater(1.02)};
+  point.oldState = point.model.initialState();
   const double least = std::pow(std::pow(0.99999, -1 / 0.3) - 1, 1 / 2.5) / 0.8;
   for (const double stretch : {0.999, 0.99, 0.98, 0.99, 1.0}) {
     point.advance(stretch * Matrix3::Identity());

@@ -8,6 +8,7 @@
 #include "components/mpm/solid/contact/friction.hpp"
 #include "components/mpm/solid/explicit/tasks/exchange_momentum.hpp"
 #include "components/mpm/solid/explicit/tasks/friction.hpp"
+#include "tests/support/levels.hpp"
 
 // What contacts do at single nodes, on plain fields.
 
@@ -39,13 +40,7 @@ TEST(FrictionImpulse, HoldsPressedBodiesTogether) {
 
 /// Two bodies at the only inner node of a grid: one above, one below, of unit mass each.
 struct TwoBodies {
-  static grid::Domain domain() {
-    grid::Domain domain;
-    domain.upper = {2, 2, 0};
-    domain.resolution = {{2, 2, 0}};
-    return domain;
-  }
-  explicit TwoBodies(const grid::Domain& domain = TwoBodies::domain()) : grid(domain) {
+  explicit TwoBodies(const grid::Domain& domain = test::unitCells(2, 2)) : grid(domain) {
     for (auto* all : {&records[0], &records[1]}) all->assign(nodes.size(), NodeRecord{});
     for (int m : {0, 1}) {
       const auto k = static_cast<std::size_t>(m);
@@ -147,7 +142,7 @@ TEST(Friction, TakesHalfTheDifferenceOfMassGradientsForANormal) {
 }
 
 TEST(Friction, TakesNormalsPerCellIfItSaysSo) {
-  grid::Domain domain = TwoBodies::domain();
+  grid::Domain domain = test::unitCells(2, 2);
   domain.upper = {2, 6, 0};  // cells of 1 by 3 m
   TwoBodies bodies(domain);
   bodies.contact.normalsInCells = true;
@@ -206,7 +201,7 @@ TEST(Friction, DoesNotActWhereTheVolumeIsNotFilled) {
 }
 
 TEST(Surface, PointsOutOfTheBody) {
-  const Grid grid(TwoBodies::domain());
+  const Grid grid(test::unitCells(2, 2));
   const Level& level = grid.level();
   data::ParticleSet set;
   set.reset(grid.patches().front(), LinearShape<2>::reach);

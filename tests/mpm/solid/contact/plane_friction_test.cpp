@@ -5,6 +5,7 @@
 #include "components/mpm/shapes/tensor_shape.hpp"
 #include "components/mpm/solid/constitutive/all.hpp"
 #include "components/mpm/solid/explicit/tasks/separate_bodies.hpp"
+#include "tests/support/levels.hpp"
 
 // Friction along planes that separate the particles of bodies, on plain fields.
 
@@ -44,13 +45,7 @@ TEST(SeparatingNormal, DoesNotDependOnWhereTheNodeIs) {
 
 /// Two bodies at the only inner node of a grid, the second one above the first, of 2 and 1 kg.
 struct TwoBodies {
-  static grid::Domain domain() {
-    grid::Domain domain;
-    domain.upper = {2, 2, 0};
-    domain.resolution = {{2, 2, 0}};
-    return domain;
-  }
-  TwoBodies() : grid(domain()) {
+  TwoBodies() : grid(test::unitCells(2, 2)) {
     for (const std::size_t m : {std::size_t{0}, std::size_t{1}}) {
       records[m].assign(nodes.size(), NodeRecord{});
       normal[m].assign(nodes.size(), Vec<2>::Zero());

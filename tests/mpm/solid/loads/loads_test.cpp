@@ -2,6 +2,7 @@
 
 #include "components/mpm/solid/explicit/tasks/corner_loads.hpp"
 #include "components/mpm/solid/tasks/apply_external_loads.hpp"
+#include "tests/support/levels.hpp"
 #include "tests/support/particles.hpp"
 
 // Loads on particles, on plain fields.
@@ -11,13 +12,7 @@ namespace {
 
 /// A square of one cell with two particles, of 2 and 3 kg.
 struct TwoParticles : test::Particles {
-  static grid::Domain domain() {
-    grid::Domain domain;
-    domain.upper = {1, 1, 0};
-    domain.resolution = {{1, 1, 0}};
-    return domain;
-  }
-  TwoParticles() : Particles(domain()) {
+  TwoParticles() : Particles(test::unitCells(1, 1)) {
     set.reset(grid.patches().front(), 1);
     set.at(Index3{{0, 0, 0}}) = {0, 2};
     set.setOwned(2);

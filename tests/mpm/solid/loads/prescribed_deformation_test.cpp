@@ -98,7 +98,7 @@ TEST(PrescribedDeformation, IsReadFromPointsOf14Numbers) {
 TEST(PrescribedDeformation, SaysWhatIsWrongWithAFileAndWhere) {
   using Sentences = std::vector<std::string>;
   EXPECT_EQ(problemsOf(start + "1 1 0 0 0 x 0 0 0 1 0 0 0 0\n")[0], "2: found 'x', expected a number");
-  EXPECT_EQ(problemsOf(start + start), Sentences{"2: its time is not after that of the point before"});
+  EXPECT_EQ(problemsOf(start + start), Sentences{"2: its time is not after that of the previous point"});
   EXPECT_EQ(problemsOf(start + "1 -1 0 0 0 1 0 0 0 1 0 0 0 0\n"), Sentences{"2: det F is -1, expected more than 0"});
   EXPECT_EQ(problemsOf(start + "1 1 0 0 0 1 0 0 0 1 9 0 0 0\n"),
             Sentences{"2: a rotation needs an axis: its three components are 0"});

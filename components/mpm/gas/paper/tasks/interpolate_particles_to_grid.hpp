@@ -6,7 +6,7 @@
 
 namespace tushar::mpm::gas::paper {
 
-/// What the particles of one cell add to its nodes: mass of (6) [kg] and momentum of (7) [kg m/s].
+/// The contributions of one cell's particles to its nodes: mass of (6) [kg] and momentum of (7) [kg m/s].
 template <int D>
 struct NodalSums {
   std::array<double, Linear<D>::nodes> mass{};

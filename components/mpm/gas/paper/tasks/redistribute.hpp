@@ -20,7 +20,7 @@ struct Redistribution {
   int maxParticles = 16;    ///< per cell
   int targetParticles = 4;  ///< per cell, of `reseed`; along each axis its D-th root, rounded up
 
-  /// Particles along each axis of a cell that is seeded anew.
+  /// Particles along each axis of a reseeded cell.
   int seededAlongAxis(int dimension) const {
     int number = 1;
     while (std::pow(number, dimension) < targetParticles) ++number;

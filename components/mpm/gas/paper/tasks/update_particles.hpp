@@ -20,7 +20,7 @@ struct CellNodes {
     for (std::size_t k = 1; k < s.size(); ++k) sum += s[k] * values[k];
     return sum;
   }
-  /// sum_i f_i . grad S_i in the middle of the cell: the divergence of f there.
+  /// sum_i f_i . grad S_i in the centre of the cell: the divergence of f there.
   double divergence(const Level& level) const {
     double sum = 0;
     for (int k = 0; k < Linear<D>::nodes; ++k)
@@ -29,7 +29,7 @@ struct CellNodes {
   }
 };
 
-/// What updateParticles reads and writes.
+/// The variables that updateParticles reads and writes.
 template <int D>
 struct ParticleUpdate {
   // Particles at t_n.

@@ -8,8 +8,8 @@
 
 namespace tushar::mpm::solid::arenisca {
 
-/// What a scene gives for Arenisca, by the symbols of its publications. Stresses are positive in tension; I1 is the
-/// trace of the stress, J2 the second invariant of its deviator.
+/// The constants of Arenisca in a scene, by the symbols of its publications. Stresses are positive in tension; I1 is
+/// the trace of the stress, J2 the second invariant of its deviator.
 struct Constants {
   double peakI1 = 0;         ///< I1 at the vertex of the yield surface, Pa
   double vertexSlope = 0;    ///< FSLOPE: -d(sqrt J2)/dI1 at the vertex, 1
@@ -18,7 +18,7 @@ struct Constants {
   double flowFactor = 1;     ///< beta: of the deviator in the space of closest points; 1: associated flow
   double b0 = 0, b1 = 0;     ///< bulk modulus at low pressure, and what high pressure adds, Pa
   double b2 = 0;             ///< pressure that takes, times 3, Pa
-  double b3 = 0, b4 = 0;     ///< what plastic compaction takes off the bulk modulus, Pa; strain that takes, 1
+  double b3 = 0, b4 = 0;     ///< reduction of the bulk modulus by plastic compaction, Pa; strain that takes, 1
   double g0 = 0;             ///< shear modulus, Pa
   double g1 = 0, g2 = 0;     ///< Poisson's ratio at low pressure, and what high pressure adds, 1; 0: G = g0
   double p0 = 0;             ///< I1 at which pores begin to collapse, Pa
@@ -46,7 +46,7 @@ struct Constants {
   }
 };
 
-/// Whether the four constants of the limit of strength are one of the forms that YieldSurface knows.
+/// Whether the four constants of the limit of strength have one of the forms that YieldSurface supports.
 inline bool hasLimit(const Constants& c) {
   const bool cone = c.vertexSlope > 0 && c.peakI1 >= 0 && c.strength == 0 && c.pressureSlope == 0;
   const bool cylinder = c.vertexSlope == 0 && c.peakI1 == 0 && c.strength > 0 && c.pressureSlope == 0;
@@ -61,20 +61,20 @@ void check(const M& c, const input::Element& element, input::Diagnostics& diagno
   if (!hasLimit(c))
     diagnostics.error(
         element,
-        "PEAKI1, FSLOPE, STREN and YSLOPE make no limit of strength; allowed: FSLOPE > 0, the other two "
+        "PEAKI1, FSLOPE, STREN and YSLOPE define no limit of strength; allowed: FSLOPE > 0, the other two "
         "0 (a cone); STREN > 0 alone (a cylinder); FSLOPE and STREN > 0, the other two 0; FSLOPE > YSLOPE "
         "> 0 and STREN > YSLOPE PEAKI1");
-  if (c.p0 >= 0) diagnostics.error(element, "p0_crush_curve: pores collapse under compression: give it below 0");
-  if (c.p1 == 0) diagnostics.error(element, "p1_crush_curve: is 0, so that no pressure would collapse the pores");
+  if (c.p0 >= 0) diagnostics.error(element, "p0_crush_curve: must be below 0, as pores collapse under compression");
+  if (c.p1 == 0) diagnostics.error(element, "p1_crush_curve: is 0, so no pressure would collapse the pores");
   if (c.hasPoissonRatio())
     for (const double ratio : {c.g1, c.g1 + c.g2})
       if (ratio <= -1 || ratio >= 0.5)
         diagnostics.error(element,
                           fmt::format("G1 and G1 + G2: Poisson's ratio is {:g}, which leaves no positive shear "
-                                      "modulus; give it between -1 and 0.5",
+                                      "modulus; keep it between -1 and 0.5",
                                       ratio));
   if ((c.t1 > 0) != (c.t2 > 0))
-    diagnostics.error(element, "T1_rate_dependence and T2_rate_dependence: both are 0, or both are positive");
+    diagnostics.error(element, "T1_rate_dependence and T2_rate_dependence: must both be 0 or both be positive");
   if (c.lodeType != 0 && c.lodeType != 1 && c.lodeType != 3)
     diagnostics.error(element, "J3_type: allowed are 0, 1 (Gudehus) and 3 (Mohr and Coulomb)");
 }
@@ -128,12 +128,12 @@ void addSoilTags(input::Schema<M>& schema) {
                input::nonNegative());
   tags.require("BETA_nonassociativity", &Constants::flowFactor, "1", "1: plastic flow is normal to the yield surface",
                input::positive());
-  tags.require("B1", &Constants::b1, "Pa", "what high pressure adds to the bulk modulus", input::nonNegative());
+  tags.require("B1", &Constants::b1, "Pa", "increase of the bulk modulus by high pressure", input::nonNegative());
   tags.require("B2", &Constants::b2, "Pa", "trace of the stress that this takes", input::nonNegative());
-  tags.require("B3", &Constants::b3, "Pa", "what plastic compaction takes off the bulk modulus", input::nonNegative());
+  tags.require("B3", &Constants::b3, "Pa", "reduction of the bulk modulus by plastic compaction", input::nonNegative());
   tags.require("B4", &Constants::b4, "1", "volumetric strain that this takes", input::nonNegative());
   tags.require("G1", &Constants::g1, "1", "Poisson's ratio at low pressure, instead of <G0>");
-  tags.require("G2", &Constants::g2, "1", "what high pressure adds to it; where one of both is 0, <G0> counts");
+  tags.require("G2", &Constants::g2, "1", "increase by high pressure; if one of both is 0, <G0> is used");
   for (const char* unused : {"G3", "G4", "p2_crush_curve"})
     schema.ignored(unused, "as in Uintah, nothing depends on it");
   tags.require("fluid_B0", &Constants::fluidBulk, "Pa", "bulk modulus of the fluid in the pores; 0: they are empty",

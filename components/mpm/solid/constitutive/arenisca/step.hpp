@@ -4,7 +4,7 @@
 
 namespace tushar::mpm::solid::arenisca {
 
-/// What a step changes, in axes that turn with the material.
+/// The quantities that a step changes, in axes that rotate with the material.
 struct Point {
   Matrix3 stress;         ///< quasistatic, Pa
   Matrix3 plasticStrain;  ///< 1

@@ -103,7 +103,7 @@ struct ZerilliArmstrong {
     static const input::Schema<Self> schema =
         input::Schema<Self>("flow_model", "The yield stress of Zerilli and Armstrong.")
             .custom("c_0", readConstantPart, {"c_0", "sigma_g", "k_H", "sqrt_l_inv"},
-                    "part that nothing changes, Pa; or <sigma_g> + <k_H> <sqrt_l_inv>, by the size of the grains")
+                    "constant part, Pa; or <sigma_g> + <k_H> <sqrt_l_inv>, by the size of the grains")
             .forms({input::typeForm({"c_0", "sigma_g", "k_H", "sqrt_l_inv"}, std::string(input::typeName<double>))})
             .required("B", &Self::b, "Pa", "part without hardening", input::nonNegative())
             .required("beta_0", &Self::beta0, "1/K", "its fall with the temperature", input::nonNegative())
@@ -133,7 +133,7 @@ struct ZerilliArmstrong {
       values[k++] = value.value.value_or(0);
     }
     if (!element.child("c_0") && !element.child("sigma_g"))
-      diagnostics.error(element, "missing tag <c_0> in <flow_model> (part that nothing changes)");
+      diagnostics.error(element, "missing tag <c_0> in <flow_model> (the constant part)");
     read.c0 = values[0] + values[1] + values[2] * values[3];
     if (read.c0 < 0) diagnostics.error(element, "c_0 must be at least 0 Pa");
   }

@@ -22,7 +22,7 @@ struct FlowState {
 
 namespace capability {
 
-/// d sigma_y / d e_p at a constant rate, Pa; without it finite differences stand in.
+/// d sigma_y / d e_p at a constant rate, Pa; without it finite differences are used.
 struct Hardening {
   struct Name {
     int hardening;

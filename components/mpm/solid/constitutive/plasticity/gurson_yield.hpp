@@ -70,7 +70,7 @@ inline constexpr double greatestPorosity = 0.999;
 template <class YieldStress, class MeanStress>
 class GursonReturn {
  public:
-  /// What the step makes of the point.
+  /// The state of the point after the step.
   struct Result {
     double plasticStrain = 0;  ///< of the metal, more, 1
     double dilatation = 0;     ///< plastic, more, 1

@@ -51,8 +51,7 @@ struct SteinbergCochranGuinan {
             .ignored("Gamma_0", "the <melting_temp_model> has it")
             .ignored("a", "the <melting_temp_model> has it")
             .check([](const Self& read, const input::Element& element, input::Diagnostics& diagnostics) {
-              if (read.c1 > 0 && read.peierls <= 0)
-                diagnostics.error(element, "where <C1> is given, <Peierls_stress> must be");
+              if (read.c1 > 0 && read.peierls <= 0) diagnostics.error(element, "<C1> needs <Peierls_stress>");
             });
     return schema;
   }

@@ -40,7 +40,7 @@ void addMomentum(const Contact& contact, const Records& records, double share, N
   });
 }
 
-/// The same on the velocities at the end of the step, Uintah's exMomIntegrated: adds the force of rigid
+/// Exchanges momentum between the velocities at the end of the step, Uintah's exMomIntegrated: adds the force of rigid
 /// and specified ones to `reaction`, and for a master that transmits force what it takes from the others,
 /// - sum m (v* after - v* before) / dt at each node, N, to `transmitted`.
 template <int D>

@@ -9,7 +9,7 @@
 
 namespace tushar::mpm::solid {
 
-/// What computeSurface reads and writes.
+/// The variables that computeSurface reads and writes.
 template <class Shape, int D = Shape::dimension>
 struct SurfaceSources {
   ParticleView<const Vec<D>> x;

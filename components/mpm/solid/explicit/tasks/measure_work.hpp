@@ -55,7 +55,7 @@ void computeNodalWork(const Patch& patch, const Material&, const Method& method,
   });
 }
 
-/// What measureWork reads and writes.
+/// The variables that measureWork reads and writes.
 template <class Shape, int D = Shape::dimension>
 struct ParticleWork {
   Placed<Shape> particles;
@@ -108,7 +108,7 @@ struct Stressed {
   }
 };
 
-/// What measureStrainWork reads and writes.
+/// The variables that measureStrainWork reads and writes.
 struct StrainWork {
   ParticleView<const double> mass;
   Stressed before, after;

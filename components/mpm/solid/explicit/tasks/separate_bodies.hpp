@@ -9,7 +9,7 @@
 
 namespace tushar::mpm::solid {
 
-/// What separateBodies reads of a material and writes for it.
+/// The variables of a material that separateBodies reads and writes.
 template <class Shape, int D = Shape::dimension>
 struct PlaneSources {
   Placed<Shape> particles;
@@ -18,7 +18,7 @@ struct PlaneSources {
   NodeView<Vec<D>> normal;
   NodeView<double> prominence;
 
-  /// `ofShape` are the sizes that shape functions ask for.
+  /// `ofShape` are the sizes that shape functions need.
   static PlaneSources from(auto& take, KeptSizes ofShape, bool keepsSizes) {
     return {.particles = Placed<Shape>::from(take, ofShape, Shape::reach),
             .size = take(when(!Shape::hasSize && keepsSizes, requiresOld(p::size<D>, Shape::reach))),
@@ -40,7 +40,7 @@ struct PlaneSources {
   }
 };
 
-/// Which materials a plane may belong to, and which it belongs to before all others.
+/// The materials to which a plane may belong, and the preferred one.
 struct Precedence {
   std::vector<bool> mayLead, isRigid;
 

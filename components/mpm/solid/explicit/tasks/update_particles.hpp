@@ -186,10 +186,11 @@ NumericalError withoutWaveSpeed(const Level& level, const StateUpdate<Shape>& u,
   int p = range.first;
   while (p + 1 < range.last && isSound(p)) ++p;
   const Vec3 x = level.expandPoint<D>(u.x[p]);
-  return {fmt::format(
-              "the wave speed of the particle at ({:g}, {:g}, {:g}) m is no number: det F is {:g}, its speed {:g} m/s",
-              x[0], x[1], x[2], u.deformation[p].determinant(), u.velocity[p].norm()),
-          "", "p.deformationMeasure", level.cellNumber<D>(cell)};
+  return {
+      fmt::format(
+          "the wave speed of the particle at ({:g}, {:g}, {:g}) m is not a number: det F is {:g}, its speed {:g} m/s",
+          x[0], x[1], x[2], u.deformation[p].determinant(), u.velocity[p].norm()),
+      "", "p.deformationMeasure", level.cellNumber<D>(cell)};
 }
 
 /// F, the stress and what goes with it at the end of the step, of the patch's own particles, and how long a step each
