@@ -233,7 +233,7 @@ void Simulation::saveLastGood() {
   if (outputs_.folder().empty()) return;
   outputs_.save();
   checkpoints_.write();
-  failure_ = NumericalError(fmt::format("{}; the last complete step, {:.6g} at t = {} s, is saved: sus --restart {}",
+  failure_ = NumericalError(fmt::format("{}; the last complete step, {} at t = {:.6g} s, is saved: sus --restart {}",
                                         failure_->what(), run_.time.step(), run_.time.time(), outputs_.folder()),
                             failure_->advice(), failure_->value());
 }
