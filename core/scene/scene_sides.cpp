@@ -63,7 +63,8 @@ const Schema<ConditionSection>& conditionSchema() {
       conditionTag()
           .requiredAttribute("label", &ConditionSection::label, "1", "the variable")
           .requiredAttribute("var", &ConditionSection::var, "1", "symmetry, Dirichlet or Neumann")
-          .optional("value", &ConditionSection::value, "SI unit of the variable", "a number or a vector")
+          .optional("value", &ConditionSection::value, "SI unit of the variable",
+                    "a number or a vector; for some components also formulas")
           .check([](const ConditionSection& condition, const Element& element, Diagnostics& diagnostics) {
             if (!isOfFlow(condition.label)) checkKind(condition, element, diagnostics);
             if (const auto number = input::parse<int>(condition.id); condition.id != "all" && !(number && *number >= 0))
@@ -84,7 +85,8 @@ Schema<ConditionSection> conditionFor(const std::vector<grid::BoundaryVariable>&
   else
     tag.requiredChoiceAttribute("label", &ConditionSection::label, wordsOf(names), "the variable");
   return tag.requiredChoiceAttribute("var", &ConditionSection::var, wordsOf(kinds), "what it does")
-      .optional("value", &ConditionSection::value, "SI unit of the variable", "a number or a vector");
+      .optional("value", &ConditionSection::value, "SI unit of the variable",
+                "a number or a vector; for some components also formulas");
 }
 
 Schema<FaceSection> faceTag(const Schema<ConditionSection>& condition) {
