@@ -167,7 +167,7 @@ class Scatter {
 template <class Shape, int D = Shape::dimension>
 void scatterParticles(const Patch& patch, const Material& material, bool clearsAll, ParticleView<const Vec<D>> x,
                       const Scatter<Shape>& scatter, NodeView<NodeRecord> record) {
-  const TouchedRows<D> rows(x, x.cells(), Shape::ghostNodes, record.box());
+  const data::TouchedRows rows = touchedRows<D>(x, Shape::ghostNodes, record.box());
   if (clearsAll)
     record.fill(NodeRecord{});
   else
