@@ -16,6 +16,7 @@ namespace tushar {
 using data::Bound;
 using data::CellLabel;
 using data::CellView;
+using data::Counts;
 using data::delT;
 using data::Maximum;
 using data::Minimum;

@@ -16,6 +16,10 @@ enum class Centring { particle, node, cell, rim, reduction };
 /// How one number of a variable is stored.
 enum class Number { real, id, integer };
 
+/// Where the values of a node variable count: on all nodes, or only on those that particles of its material touch. Then
+/// patches give one another only those (data/touched_rows); the others are undefined, or what each patch wrote.
+enum class Counts { everywhere, nearParticles };
+
 /// A variable's name and nature, whatever its type: what the graph, the archive and messages to users work with.
 /// Two labels with the same name are the same variable.
 struct Label {
@@ -29,6 +33,7 @@ struct Label {
   bool isVector;      ///< components follow the kernel axes
   Bound bound;        ///< looked at after every task that writes the variable; a broken one ends the run or the step
   MakeReduction makeReduction = nullptr;  ///< of reductions
+  Counts counts = Counts::everywhere;
 };
 
 /// How a type is stored in a variable.
@@ -71,6 +76,11 @@ struct FieldLabel : Label {
     if (bounded != Bound::none && Stored<T>::number != Number::real)
       throw std::invalid_argument("only real numbers have bounds");
     if (!called.starts_with(prefix())) throw std::invalid_argument("a label starts with p., g. or c.");
+  }
+  constexpr FieldLabel(std::string_view called, std::string_view inUnit, std::string_view meaning, Counts where)
+      : FieldLabel(called, inUnit, meaning) {
+    if (C != Centring::node) throw std::invalid_argument("only nodes are near particles");
+    counts = where;
   }
   /// Keeps `count` values of T for each particle, node or cell.
   constexpr void setCount(int count) {

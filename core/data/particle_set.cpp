@@ -56,6 +56,7 @@ void ParticleSet::widen(std::size_t row, const Span& cells, const ParticleRange&
 }
 
 void ParticleSet::addGhosts(const grid::Box& box, const ParticleSet& theirs, int offset) {
+  if (theirs.owned_ == 0) return;
   grid::forEach<3>(box.rowStarts(), [&](Index3 cell) {
     Span span = theirs.own_spans_[theirs.rowOf(cell)];
     span = {std::max(span.first, cell[0]), std::min(span.last, box.upper[0])};
@@ -82,7 +83,7 @@ void ParticleSet::addCopies(const Index3& cell, int patch, const ParticleRange& 
 
 void ParticleSet::forgetGhosts() {
   if (!has_ghosts_) return;
-  for (std::size_t row = 0; row < spans_.size(); ++row) {
+  for (std::size_t row = 0; row < spans_.size() && !ghosts_.empty(); ++row) {
     if (spans_[row].first == own_spans_[row].first && spans_[row].last == own_spans_[row].last) continue;
     empty(row, own_spans_[row]);
     spans_[row] = own_spans_[row];

@@ -4,19 +4,28 @@
 
 namespace tushar::grid {
 
-// Where nothing else is given, a patch belongs to rank floor(before · ranks / cells), where `before` counts the cells
-// of the patches before it.
+// Where nothing else is given, cuts stand at rank · cells / ranks, and a patch belongs to the rank between whose cuts
+// its middle is: so halves of 61 and 62 cells are one for each of two ranks. Patch 0 belongs to rank 0.
 
 int Partition::firstOf(int rank) const {
   if (!offsets_.empty()) return offsets_[rank];
+  if (rank == 0) return 0;
   const auto ranks = static_cast<std::uint64_t>(ranks_), wanted = static_cast<std::uint64_t>(rank);
-  return tiling_->patchAfter((wanted * tiling_->cells() + ranks - 1) / ranks);
+  const std::uint64_t cut = wanted * tiling_->cells();
+  const int behind = tiling_->patchAfter((cut + ranks - 1) / ranks);
+  return behind > 1 && twiceMiddle(behind - 1) * ranks > 2 * cut ? behind - 1 : behind;
 }
 
 int Partition::ownerOf(int patch) const {
   if (!offsets_.empty())
     return static_cast<int>(std::upper_bound(offsets_.begin(), offsets_.end(), patch) - offsets_.begin()) - 1;
-  return static_cast<int>(tiling_->cellsBefore(patch) * static_cast<std::uint64_t>(ranks_) / tiling_->cells());
+  if (patch == 0) return 0;
+  return static_cast<int>((twiceMiddle(patch) * static_cast<std::uint64_t>(ranks_) - 1) / (2 * tiling_->cells()));
+}
+
+/// Cells before the middle of a patch, times two.
+std::uint64_t Partition::twiceMiddle(int patch) const {
+  return tiling_->cellsBefore(patch) + tiling_->cellsBefore(patch + 1);
 }
 
 }  // namespace tushar::grid

@@ -26,6 +26,8 @@ class Partition {
   int ownerOf(int patch) const;
 
  private:
+  std::uint64_t twiceMiddle(int patch) const;
+
   const Tiling* tiling_;
   int ranks_;
   RankOffsets offsets_;  ///< empty: by cells

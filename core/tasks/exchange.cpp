@@ -17,18 +17,6 @@ using mpi::Bytes;
 
 namespace {
 
-/// Calls `visit(first, length)` for each row of a box along the first axis.
-template <class Visit>
-void forEachRow(const Box& box, std::size_t bytes, Visit&& visit) {
-  const std::size_t length = static_cast<std::size_t>(box.extent(0)) * bytes;
-  grid::forEach<3>(box.rowStarts(), [&](const Index3& first) { visit(first, length); });
-}
-
-template <class Values>
-std::byte* at(const Values& values, const Index3& place, std::size_t bytes) {
-  return values.values + values.stored.offset(place) * bytes;
-}
-
 /// Moves positions to the image where they are ghosts.
 void shiftPositions(const grid::Level& level, const Index3& shift, double* x, int count) {
   const int dimension = level.dimension();
@@ -38,91 +26,7 @@ void shiftPositions(const grid::Level& level, const Index3& shift, double* x, in
   }
 }
 
-/// The values of a copy that are means, one after the other.
-void means(const grid::Grid& grid, const data::Label& label, const GhostCopy& copy, const Variable& from,
-           std::byte* to) {
-  if (copy.rim >= 0)
-    return meanFluxes(grid, copy, label.components, reinterpret_cast<const double*>(from.values),
-                      reinterpret_cast<double*>(to));
-  restrictTo(label, grid.dimension(), copy.box.shifted(Index3{} - copy.shift), {from.values, from.stored}, to);
-}
-
-/// Appends to a message the values that another rank receives for one ghost fill.
-class Packer {
- public:
-  Packer(Warehouse& warehouse, const BoundGhostFill& fill, Bytes& message)
-      : warehouse_(warehouse), fill_(fill), name_(warehouse.table()[fill.variable]), message_(message) {}
-
-  void addGrid(const GhostCopy& copy) {
-    const Variable from = variable(copy.from);
-    if (copy.isMean) {  // in a message values stand at any byte: numbers are made elsewhere
-      Bytes values(copy.box.size() * name_.label->bytes);
-      means(warehouse_.grid(), *name_.label, copy, from, values.data());
-      return mpi::append(message_, values.data(), values.size());
-    }
-    forEachRow(copy.box.shifted(Index3{} - copy.shift), name_.label->bytes,
-               [&](const Index3& first, std::size_t length) {
-                 mpi::append(message_, at(from, first, name_.label->bytes), length);
-               });
-  }
-  /// How many particles each cell has.
-  void addCounts(const GhostCopy& copy) {
-    forEachCell(copy, [&](const ParticleRange& range) {
-      const std::int32_t count = range.size();
-      mpi::append(message_, &count, sizeof(count));
-    });
-  }
-  void addParticles(const GhostCopy& copy) {
-    const Variable from = variable(copy.from);
-    forEachCell(copy, [&](const ParticleRange& range) {
-      mpi::append(message_, from.values + static_cast<std::size_t>(range.first) * name_.label->bytes,
-                  static_cast<std::size_t>(range.size()) * name_.label->bytes);
-    });
-  }
-
- private:
-  Variable variable(int patch) { return warehouse_.variable(fill_.generation, fill_.variable, patch); }
-  template <class Visit>
-  void forEachCell(const GhostCopy& copy, Visit&& visit) {
-    const ParticleSet& set = warehouse_.particles(fill_.set, name_.material, copy.from);
-    grid::forEach<3>(copy.box.shifted(Index3{} - copy.shift), [&](const Index3& cell) { visit(set.in(cell)); });
-  }
-
-  Warehouse& warehouse_;
-  const BoundGhostFill& fill_;
-  const data::VariableName name_;
-  Bytes& message_;
-};
-
 }  // namespace
-
-/// The messages of the other ranks, read from front to back.
-class Exchange::ReceivedMessages {
- public:
-  void add(int from, Bytes bytes) { messages_[from] = {std::move(bytes), 0}; }
-  /// The next `length` bytes of the message from a rank.
-  const std::byte* next(int from, std::size_t length) {
-    Message& message = messages_.at(from);
-    const std::byte* here = message.bytes.data() + message.read;
-    message.read += length;
-    return here;
-  }
-  /// Particles of the next cell, of which the first stands at `place`.
-  ParticleRange nextRange(int from, int place) {
-    std::int32_t count = 0;
-    std::memcpy(&count, next(from, sizeof(count)), sizeof(count));
-    return {place, place + count};
-  }
-  /// Whether a rank says that it has stopped.
-  bool readStopped(int from) { return *next(from, 1) != std::byte{0}; }
-
- private:
-  struct Message {
-    Bytes bytes;
-    std::size_t read = 0;
-  };
-  std::map<int, Message> messages_;
-};
 
 GhostReach reachOf(const data::VariableTable& table, const BoundGhostFill& fill) {
   const auto [label, material] = table[fill.variable];
@@ -137,6 +41,7 @@ void Exchange::send(std::span<const BoundGhostFill> fills, bool hasStopped) {
   fills_ = fills;
   if (movesNothing()) return;
   noteUnresolved();
+  if (!hasStopped) settleNear();
   if (!warehouse_->ranks().isAlone()) threads_->alone([&] { post(hasStopped); }, trace::Kind::message, "send");
 }
 
@@ -148,7 +53,15 @@ void Exchange::begin(bool hasStopped) {
     const std::set<int>& incoming = planOf(fill).incoming;
     senders_.insert(incoming.begin(), incoming.end());
   }
-  if (!hasStopped) fillFromHere();
+  if (hasStopped) return;
+  settleNear();
+  fillFromHere();
+}
+
+/// Before the exchange settles ghosts: the nodes were computed without those that it settles.
+void Exchange::settleNear() {
+  for (const BoundGhostFill& fill : fills_)
+    if (isNear(fill)) near_.settle(fill.set, warehouse_->table()[fill.variable].material);
 }
 
 bool Exchange::finish() {
@@ -229,15 +142,34 @@ void Exchange::post(bool hasStopped) {
       Packer packer(*warehouse_, fills_[k], message);
       if (resolves_[k])
         for (const GhostCopy& copy : copies->second) packer.addCounts(copy);
-      for (const GhostCopy& copy : copies->second)
-        fills_[k].particles ? packer.addParticles(copy) : packer.addGrid(copy);
+      for (const GhostCopy& copy : copies->second) {
+        if (fills_[k].particles)
+          packer.addParticles(copy);
+        else if (isNear(fills_[k]))
+          packer.addNear(copy, nearRows(fills_[k], copy.from));
+        else
+          packer.addGrid(copy);
+      }
     }
     outbox_.send(rank, mpi::Tag::ghosts, std::move(message));
   }
 }
 
 void Exchange::copyGrid(const BoundGhostFill& fill, const GhostCopy& copy) {
+  if (isNear(fill)) return copyNear(fill, copy);
   copyGridTo(fill, copy, valuesAt(fill, copy));
+}
+
+void Exchange::copyNear(const BoundGhostFill& fill, const GhostCopy& copy) {
+  const data::TouchedRows& rows = nearRows(fill, copy.from);
+  if (rows.empty()) return;
+  const std::size_t bytes = warehouse_->table()[fill.variable].label->bytes;
+  const Variable from = warehouse_->variable(fill.generation, fill.variable, copy.from);
+  const Variable to = warehouse_->variable(fill.generation, fill.variable, copy.to);
+  rows.forEachRow(copy.box.shifted(Index3{} - copy.shift), [&](const Index3& first, int end) {
+    std::memcpy(valueAt(to, first + copy.shift, bytes), valueAt(from, first, bytes),
+                static_cast<std::size_t>(end - first[0]) * bytes);
+  });
 }
 
 /// Where a copy goes: to the patch, or to the faces of its rim for what stands behind them.
@@ -253,14 +185,14 @@ void Exchange::copyGridTo(const BoundGhostFill& fill, const GhostCopy& copy, con
   const data::Label& label = *warehouse_->table()[fill.variable].label;
   const Variable from = warehouse_->variable(fill.generation, fill.variable, copy.from);
   if (!copy.isMean)
-    return forEachRow(copy.box, label.bytes, [&](const Index3& first, std::size_t length) {
-      std::memcpy(at(to, first, label.bytes), at(from, first - copy.shift, label.bytes), length);
+    return forEachRowOf(copy.box, label.bytes, [&](const Index3& first, std::size_t length) {
+      std::memcpy(valueAt(to, first, label.bytes), valueAt(from, first - copy.shift, label.bytes), length);
     });
   Bytes values(copy.box.size() * label.bytes);
   means(warehouse_->grid(), label, copy, from, values.data());
   const std::byte* next = values.data();
-  forEachRow(copy.box, label.bytes, [&](const Index3& first, std::size_t length) {
-    std::memcpy(at(to, first, label.bytes), next, length);
+  forEachRowOf(copy.box, label.bytes, [&](const Index3& first, std::size_t length) {
+    std::memcpy(valueAt(to, first, label.bytes), next, length);
     next += length;
   });
 }
@@ -277,7 +209,10 @@ void Exchange::fillFromCoarser(const BoundGhostFill& fill, std::size_t place, Re
     const CellValues to = copy.coarse < 0
                               ? valuesAt(fill, copy)
                               : CellValues{coarse[copy.coarse].data(), plan.coarse[place][copy.coarse].cells};
-    isHere(copy) ? copyGridTo(fill, copy, to) : takeGrid(fill, copy, to, *messages);
+    if (isHere(copy))
+      copyGridTo(fill, copy, to);
+    else
+      isNear(fill) ? messages->takeNear(copy, label.bytes, to) : messages->takeGrid(copy, label.bytes, to);
   }
   for (std::size_t k = 0; k < coarse.size(); ++k) {
     const CoarseGhosts& part = plan.coarse[place][k];
@@ -298,21 +233,14 @@ void Exchange::fillFromElsewhere(const BoundGhostFill& fill, bool resolves, Rece
       fillFromCoarser(fill, place, &messages);
 }
 
-void Exchange::shareFaces(int variable) {
+void Exchange::shareFaces(int variable, Generation set) {
   const std::vector<Patch>& patches = warehouse_->grid().patches();
   if (patches.size() < 2) return;
   if (faces_.empty()) faces_ = planFaces(warehouse_->grid());
-  const BoundGhostFill fill{variable, Generation::fresh, Generation::fresh, false};
+  const BoundGhostFill fill{variable, Generation::fresh, set, false};
+  if (isNear(fill)) near_.settle(set, warehouse_->table()[variable].material);
   threads_->forEach(static_cast<int>(patches.size()), [&](int place) {
     for (const GhostCopy& copy : faces_[place]) copyGrid(fill, copy);
-  });
-}
-
-void Exchange::takeGrid(const BoundGhostFill& fill, const GhostCopy& copy, const CellValues& to,
-                        ReceivedMessages& messages) {
-  const std::size_t bytes = warehouse_->table()[fill.variable].label->bytes;
-  forEachRow(copy.box, bytes, [&](const Index3& first, std::size_t length) {
-    std::memcpy(at(to, first, bytes), messages.next(copy.rank, length), length);
   });
 }
 
@@ -329,22 +257,23 @@ void Exchange::linkLocalGhosts(const BoundGhostFill& fill, const Patch& patch, c
 
 /// Copies of ghosts have their places: of periodic images on this rank, or of what other ranks have sent.
 void Exchange::placeGhostCopies(const BoundGhostFill& fill, ReceivedMessages* messages) {
+  if (!messages && !warehouse_->grid().level().isPeriodic()) return;
   const int material = warehouse_->table()[fill.variable].material;
   const std::vector<Patch>& patches = warehouse_->grid().patches();
   for (std::size_t place = 0; place < patches.size(); ++place) {
     ParticleSet& set = warehouse_->particles(fill.set, material, patches[place].id());
     for (const GhostCopy& copy : planOf(fill).into[place]) {
       if (isHere(copy) ? messages || copy.shift == Index3{} : !messages) continue;
-      int there = 0;  // place in the message, among those of this copy
-      grid::forEach<3>(copy.box, [&](const Index3& cell) {
-        const ParticleRange range = messages
-                                        ? messages->nextRange(copy.rank, there)
-                                        : warehouse_->particles(fill.set, material, copy.from).in(cell - copy.shift);
-        there = range.last;
-        if (range.empty()) return;
+      const auto add = [&](const Index3& cell, const ParticleRange& range) {
         set.addCopies(cell, copy.from, range, copy.shift,
                       warehouse_->placeCopies(fill.set, material, patches[place].id(), range.size()));
-      });
+      };
+      if (messages)
+        for (const auto& [cell, range] : messages->takeCounts(copy)) add(cell, range);
+      else
+        warehouse_->particles(fill.set, material, copy.from)
+            .forEachOccupied<3>(copy.box.shifted(Index3{} - copy.shift),
+                                [&](const Index3& cell, const ParticleRange& range) { add(cell + copy.shift, range); });
     }
   }
 }

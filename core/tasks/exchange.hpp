@@ -7,18 +7,11 @@
 #include "core/base/mpi.hpp"
 #include "core/base/threads.hpp"
 #include "core/data/warehouse.hpp"
+#include "core/tasks/ghost_messages.hpp"
 #include "core/tasks/ghost_plan.hpp"
-#include "core/tasks/rim_fluxes.hpp"
-#include "core/tasks/transfer.hpp"
+#include "core/tasks/near_rows.hpp"
 
 namespace tushar::tasks {
-
-/// One ghost fill of a variable, by the variable's number.
-struct BoundGhostFill {
-  int variable;
-  data::Generation generation, set;
-  bool particles;
-};
 
 GhostReach reachOf(const data::VariableTable& table, const BoundGhostFill& fill);
 
@@ -30,7 +23,7 @@ GhostReach reachOf(const data::VariableTable& table, const BoundGhostFill& fill)
 class Exchange {
  public:
   Exchange(data::Warehouse& warehouse, Threads& threads)
-      : warehouse_(&warehouse), threads_(&threads), outbox_(warehouse.ranks()) {}
+      : warehouse_(&warehouse), threads_(&threads), outbox_(warehouse.ranks()), near_(warehouse, threads) {}
 
   /// Fills the ghosts of node and cell variables, and of particle variables, in three parts; which particles are ghosts
   /// is determined on first use of their set. All ranks run them for the same fills in the same order, all three of one
@@ -47,27 +40,37 @@ class Exchange {
   bool isUnderWay() const { return !senders_.empty(); }
   /// Between the two calls above: whether the patch at this place of the rank has all its ghosts.
   bool isReady(std::size_t place);
-  /// Copies the new values of a node variable between patches of this rank, from owners to those that share the node.
-  void shareFaces(int variable);
+  /// Copies the new values of a node variable between patches of this rank, from owners to those that share the node;
+  /// `set` are the particles near which they count, if so.
+  void shareFaces(int variable, data::Generation set);
+  /// To be called when a list begins, and after tasks that change particles.
+  void forgetParticles() { near_.forget(); }
   /// To be called when the distribution of patches has changed.
   void forgetLayout() {
     plans_.forget();
     faces_.clear();
+    near_.forget();
   }
 
  private:
-  class ReceivedMessages;
-
   bool movesNothing() const;
   void post(bool hasStopped);
   /// The copies between patches of this rank.
   void fillFromHere();
   void fillFromElsewhere(const BoundGhostFill& fill, bool resolves, ReceivedMessages& messages);
   void copyGrid(const BoundGhostFill& fill, const GhostCopy& copy);
+  void copyNear(const BoundGhostFill& fill, const GhostCopy& copy);
   CellValues valuesAt(const BoundGhostFill& fill, const GhostCopy& copy);
   void copyGridTo(const BoundGhostFill& fill, const GhostCopy& copy, const CellValues& to);
   void fillFromCoarser(const BoundGhostFill& fill, std::size_t place, ReceivedMessages* messages);
-  void takeGrid(const BoundGhostFill& fill, const GhostCopy& copy, const CellValues& to, ReceivedMessages& messages);
+  /// Whether patches give one another only rows of nodes near particles.
+  bool isNear(const BoundGhostFill& fill) const {
+    return fill.generation == data::Generation::fresh && near_.concern(fill.variable);
+  }
+  void settleNear();
+  const data::TouchedRows& nearRows(const BoundGhostFill& fill, int patch) const {
+    return near_.of(fill.set, warehouse_->table()[fill.variable].material, patch);
+  }
   void linkLocalGhosts(const BoundGhostFill& fill, const grid::Patch& patch, const std::vector<GhostCopy>& copies);
   void placeGhostCopies(const BoundGhostFill& fill, ReceivedMessages* messages);
   void reserveCopies(const BoundGhostFill& fill);
@@ -84,6 +87,7 @@ class Exchange {
   data::Warehouse* warehouse_;
   Threads* threads_;
   mpi::Outbox outbox_;
+  NearRows near_;
   GhostPlans plans_;
   std::vector<std::vector<GhostCopy>> faces_;  ///< by place of the patch on this rank; settled on first use
   // The exchange that was sent:

@@ -40,6 +40,9 @@ class Needs {
       if (access.reads() && access.ghost > 0) need(t, task, access, set);
     for (const Access& access : task.accesses)
       if (access.writes()) last_write_[std::string(access.label->name)] = t;
+    for (const Access& access : task.accesses)
+      if (access.kind == AccessKind::computes && access.label->centring == data::Centring::node)
+        made_near_[std::string(access.label->name)] = set;
     if (task.kind != TaskKind::work) last_change_of_set_ = t;
   }
 
@@ -49,7 +52,9 @@ class Needs {
     int ready = access.isNew() && written != last_write_.end() ? written->second : -1;
     if (access.isNew() && access.label->centring == data::Centring::particle)
       ready = std::max(ready, last_change_of_set_);
-    const Need wanted{{access.label, generation, set, task.perMaterial(access)}, ready, t};
+    const auto made = made_near_.find(access.label->name);
+    const Generation near = access.isNew() && made != made_near_.end() ? made->second : set;
+    const Need wanted{{access.label, generation, near, task.perMaterial(access)}, ready, t};
     const bool known = std::any_of(needs_.begin(), needs_.end(),
                                    [&](const Need& n) { return n.fill == wanted.fill && n.ready == wanted.ready; });
     if (!known) needs_.push_back(wanted);
@@ -57,6 +62,7 @@ class Needs {
 
   std::vector<Generation> sets_;
   std::map<std::string, int, std::less<>> last_write_;
+  std::map<std::string, Generation, std::less<>> made_near_;  ///< the particles that nodes were computed from
   int last_change_of_set_ = -1;
   std::vector<Need> needs_;
 };

@@ -12,7 +12,7 @@ namespace tushar::tasks {
 struct GhostFill {
   const data::Label* label;
   data::Generation generation;  ///< of the values
-  data::Generation set;         ///< of the particle set that the values follow
+  data::Generation set;         ///< of the particle set that the values follow, or that nodes were computed from
   bool perMaterial;
 
   friend bool operator==(const GhostFill&, const GhostFill&) = default;

@@ -115,6 +115,7 @@ void Relocation::forgetIncoming(const Patch& patch, PatchMoves& moves) {
   const grid::Box& cells = patch.cells();
   moves.firstIncoming.resize(cells.size(), -1);
   moves.isEntered.resize(cells.rows(), false);
+  if (moves.incoming.empty()) return;
   grid::forEach<3>(cells.rowStarts(), [&](const Index3& first) {
     char& isEntered = moves.isEntered[cells.rowOf(first)];
     if (isEntered) std::fill_n(&moves.firstIncoming[cells.offset(first)], cells.extent(0), -1);
@@ -125,11 +126,11 @@ void Relocation::forgetIncoming(const Patch& patch, PatchMoves& moves) {
 template <int D>
 void Relocation::findMoves(const Patch& patch, const ParticleSet& set, Vec<D>* x, const ParticleId* ids,
                            PatchMoves& moves) {
+  forgetIncoming(patch, moves);
   moves.departed.clear();
   moves.outgoing.clear();
   moves.incoming.clear();
   moves.arrivals.clear();
-  forgetIncoming(patch, moves);
   moves.escape.reset();
   moves.leaving = 0;
   const grid::Level& level = warehouse_->grid().finest();

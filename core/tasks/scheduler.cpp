@@ -160,6 +160,7 @@ void Scheduler::start(const TaskGraph& graph, int end) {
   heard_stop_ = false;
   costs_.resize(warehouse_->grid().patches().size());
   relocation_.start();
+  exchange_.forgetParticles();
   for (const int reduction : graph.reductions()) warehouse_->resetReduction(reduction);
 }
 
@@ -179,6 +180,7 @@ void Scheduler::runTask(TaskGraph& graph, int number, const StepInfo& at) {
     relocate(task, at);
   else if (task.task.perRank ? mayRunTogether() : !hasStopped())
     runWork(task, at);
+  if (task.task.kind != TaskKind::work) exchange_.forgetParticles();
   task.seconds += seconds(Clock::now() - started);
 }
 
@@ -221,8 +223,8 @@ void Scheduler::runWork(CompiledTask& task, const StepInfo& at) {
 
 void Scheduler::shareFaces(const CompiledTask& task) {
   for (const MaterialBinding& binding : task.materials)
-    for (const int number : binding.shared)
-      if (!hasStopped()) exchange_.shareFaces(number);
+    for (const Output& shared : binding.shared)
+      if (!hasStopped()) exchange_.shareFaces(shared.variable, shared.set);
 }
 
 /// All ranks relocate together, or none. A relocation behind which no task comes is made when the step counts.

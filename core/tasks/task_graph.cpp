@@ -101,7 +101,7 @@ MaterialBinding TaskGraph::bindMaterial(std::size_t t, int material, data::Varia
     binding.accesses.push_back({number, generation, set, access.ghost, access.own});
     table.widen(number, access.ghost);
     if (access.ofNone && material > 0) continue;  // once for all materials
-    if (access.own) binding.shared.push_back(number);
+    if (access.own) binding.shared.push_back({number, set});
     if (access.kind == AccessKind::computes && access.label->centring != Centring::reduction)
       binding.outputs.push_back({number, set});
     if (access.writes() && access.label->bound != data::Bound::none)

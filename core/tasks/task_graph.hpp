@@ -28,7 +28,7 @@ struct MaterialBinding {
   std::vector<Carried> carried;  ///< of a relocation
   std::vector<Bounded> bounded;  ///< what it writes and must keep a bound
   std::vector<int> freed;        ///< variables whose memory is free afterwards
-  std::vector<int> shared;  ///< variables of which patches wrote their own nodes and take the others from one another
+  std::vector<Output> shared;    ///< of which patches wrote their own nodes and take the others from one another
 };
 
 /// A task that is kept, with everything settled that the time loop would otherwise have to look up.

@@ -55,12 +55,13 @@ using namespace mpm::g;
 inline constexpr NodeLabel<double> volume{"g.volume", "m^3", "volume gathered from particles"};
 inline constexpr NodeLabel<Matrix3> stress{"g.stressFS", "Pa",
                                            "Cauchy stress, mean over the volume of the particles around"};
-inline constexpr NodeLabel<NodeRecord> record{"g.record", "SI units",
-                                              "velocity, mass, force and volume of a step in progress"};
+inline constexpr NodeLabel<NodeRecord> record{
+    "g.record", "SI units", "velocity, mass, force and volume of a step in progress", Counts::nearParticles};
 inline constexpr NodeLabel<NodeRecord> stressRecord{
-    "g.stressRecord", "SI units", "velocity and mass that stresses follow, where it is not that of a step"};
+    "g.stressRecord", "SI units", "velocity and mass that stresses follow, where it is not that of a step",
+    Counts::nearParticles};
 inline constexpr NodeLabel<NodeRecord> smoothRecord{"g.smoothRecord", "SI units",
-                                                    "velocity of p.velocitySSPlus, and mass"};
+                                                    "velocity of p.velocitySSPlus, and mass", Counts::nearParticles};
 template <int D>
 inline constexpr NodeLabel<Vec<D>> velocityOfForces{"g.velocityOfForces", "m/s", "velocity after the forces of a step"};
 template <int D>
@@ -72,8 +73,8 @@ inline constexpr NodeLabel<Vec<D>> transmittedForce{"g.transmittedForce", "N",
 template <int D>
 inline constexpr NodeLabel<Vec<D>> surroundingForce{"g.surroundingForce", "N",
                                                     "force of what surrounds the body, such as a gas"};
-inline constexpr NodeLabel<NodeRecord> workRecord{"g.workRecord", "SI units",
-                                                  "mean velocity of a step, and work for a unit of mass"};
+inline constexpr NodeLabel<NodeRecord> workRecord{
+    "g.workRecord", "SI units", "mean velocity of a step, and work for a unit of mass", Counts::nearParticles};
 template <int D>
 inline constexpr NodeLabel<Vec<D>> massGradient{"g.massGradient", "kg/m", "gradient of the mass, out of the body"};
 template <int D>

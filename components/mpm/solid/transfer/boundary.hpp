@@ -28,11 +28,12 @@ void setSymmetry(const Patch& patch, int material, NodeView<NodeRecord> record) 
 
 /// The velocity is given on a face, and on the nodes beyond it, as far as particles touch them.
 template <int D>
-void setVelocity(const Patch& patch, int material, const TouchedRows<D>& rows, NodeView<NodeRecord> record) {
+void setVelocity(const Patch& patch, int material, const data::TouchedRows& rows, NodeView<NodeRecord> record) {
   for (int d = 0; d < D; ++d)
     for (const int side : {0, 1}) {
+      if (!patch.isAtBoundary(d, side)) continue;
       const auto given = patch.level().boundary(d, side, boundary::velocity, material);
-      if (!given || !given->isDirichlet() || !patch.isAtBoundary(d, side)) continue;
+      if (!given || !given->isDirichlet()) continue;
       const Vec<D> value = patch.level().reduce<D>(given->value);
       for (const Box& nodes : {patch.faceNodes(d, side), patch.nodesBeyond(d, side)})
         rows.forEachRow(nodes, [&](const Index3& first, int end) {

@@ -19,6 +19,16 @@ struct NodeWindow {
 /// third.
 using RowFactors = Quad;
 
+/// What the second axis gives to the factors of rows j, and the third to those of rows k.
+template <class Stencil>
+[[gnu::always_inline]] inline RowFactors secondFactors(const Stencil& stencil, std::size_t j) {
+  return __builtin_shufflevector(stencil.s[j], stencil.ds[j], 1, 5, 1, 1);
+}
+template <class Stencil>
+[[gnu::always_inline]] inline RowFactors thirdFactors(const Stencil& stencil, std::size_t k) {
+  return __builtin_shufflevector(stencil.s[k], stencil.ds[k], 2, 2, 6, 2);
+}
+
 /// Calls `visit(offset, factors)` for each row of nodes that a particle touches.
 template <class Stencil, int D, class Visit>
 [[gnu::always_inline]] inline void forEachRow(const Stencil& stencil,
@@ -29,12 +39,12 @@ template <class Stencil, int D, class Visit>
     visit(std::ptrdiff_t{0}, quadOf(1.0));
   } else {
     std::array<Quad, n> second;
-    for (std::size_t j = 0; j < n; ++j) second[j] = __builtin_shufflevector(stencil.s[j], stencil.ds[j], 1, 5, 1, 1);
+    for (std::size_t j = 0; j < n; ++j) second[j] = secondFactors(stencil, j);
     if constexpr (D == 2) {
       for (std::size_t j = 0; j < n; ++j) visit(static_cast<std::ptrdiff_t>(j) * stride[1], second[j]);
     } else {
       for (std::size_t k = 0; k < n; ++k) {
-        const Quad third = __builtin_shufflevector(stencil.s[k], stencil.ds[k], 2, 2, 6, 2);
+        const Quad third = thirdFactors(stencil, k);
         for (std::size_t j = 0; j < n; ++j)
           visit(static_cast<std::ptrdiff_t>(j) * stride[1] + static_cast<std::ptrdiff_t>(k) * stride[2],
                 second[j] * third);
@@ -94,17 +104,19 @@ inline void scatterWithin(const Stencil& stencil, const Box& box, const NodeWind
     end[d] = std::min(Stencil::nodes, box.upper[d] - stencil.first[d]);
     if (first[d] >= end[d]) return;
   }
-  std::ptrdiff_t row = 0;
-  forEachRow<Stencil, D>(stencil, nodes.stride, [&](std::ptrdiff_t offset, const RowFactors& f) {
-    const std::ptrdiff_t j = row % Stencil::nodes, k = row / Stencil::nodes;
-    ++row;
-    if constexpr (D > 1)
-      if (j < first[1] || j >= end[1]) return;
-    if constexpr (D > 2)
-      if (k < first[2] || k >= end[2]) return;
+  const auto addRow = [&](std::ptrdiff_t offset, const RowFactors& f) {
     const RowShare share(f, value, slope, hoop);
     for (int i = first[0]; i < end[0]; ++i) share.addTo(nodes.origin[offset + i], stencil, static_cast<std::size_t>(i));
-  });
+  };
+  if constexpr (D == 1) {
+    addRow(0, quadOf(1.0));
+  } else if constexpr (D == 2) {
+    for (int j = first[1]; j < end[1]; ++j) addRow(j * nodes.stride[1], secondFactors(stencil, j));
+  } else {
+    for (int k = first[2]; k < end[2]; ++k)
+      for (int j = first[1]; j < end[1]; ++j)
+        addRow(j * nodes.stride[1] + k * nodes.stride[2], secondFactors(stencil, j) * thirdFactors(stencil, k));
+  }
 }
 
 /// The values that a particle interpolates from the nodes: sum_i S_i record_i; of the low halves the gradient and sum_i

@@ -182,22 +182,6 @@ TEST(DeformationGradient, IsMultipliedByThatOfTheStep) {
   }
 }
 
-TEST(TouchedRows, ClipToABox) {
-  const Cloud<GimpShape<2>> cloud;
-  const TouchedRows<2> rows(cloud.read(cloud.x), cloud.level.cells(), GimpShape<2>::ghostNodes, cloud.level.nodes());
-  const Box box{{{3, 2, 0}}, {{6, 5, 1}}};
-  std::vector<Index3> inBox, clipped;
-  rows.forEachRow([&](const Index3& first, int end) {
-    for (Index3 node = first; node[0] < end; ++node[0])
-      if (box.contains(node)) inBox.push_back(node);
-  });
-  rows.forEachRow(box, [&](const Index3& first, int end) {
-    for (Index3 node = first; node[0] < end; ++node[0]) clipped.push_back(node);
-  });
-  EXPECT_FALSE(clipped.empty());
-  EXPECT_EQ(clipped, inBox);
-}
-
 TEST(Blend, TakesTheGridsVelocityByItsShare) {
   Cloud<GimpShape<2>> cloud;
   cloud.toGrid(false);

@@ -2,6 +2,9 @@
 
 #include <Eigen/LU>
 
+#include <bit>
+#include <cstdint>
+
 #include "components/mpm/solid/explicit/keeps.hpp"
 #include "components/mpm/solid/transfer/boundary.hpp"
 #include "components/mpm/solid/transfer/extent.hpp"
@@ -76,19 +79,31 @@ class Scatter {
     for (int at = range.first; at < range.last; at += stressGroup)
       addGroup<false>(cell, at, std::min(stressGroup, range.last - at));
   }
-  /// The particles of a ghost cell: those that touch the patch's own nodes.
+  /// The particles of a ghost cell: those that touch the patch's own nodes. The stresses of those between the first and
+  /// the last of a group come along, as several cost as much as one.
   void addGhostCell(const Index<D>& cell, const data::ParticleRange& range) const {
     const CellFrame<D> frame(level_, cell);
-    for (int first = range.first; first < range.last;) {
-      while (first < range.last && !touchesOwn(frame, cell, first)) ++first;
-      int end = first;
-      while (end < range.last && end - first < stressGroup && touchesOwn(frame, cell, end)) ++end;
-      if (first < end) addGroup<true>(cell, first, end - first);
-      first = end;
+    const bool touchesAll = hasOwnNode(cell);
+    for (int first = range.first; first < range.last; first += stressGroup) {
+      Touching touching = 0;  // a bit for each of the group
+      for (int k = 0; k < std::min(stressGroup, range.last - first); ++k)
+        touching |= Touching{touchesAll || touchesOwn(frame, cell, first + k)} << k;
+      const int left = std::countr_zero(touching);
+      if (touching != 0) addGroup<true>(cell, first + left, std::bit_width(touching) - left, touching >> left);
     }
   }
 
  private:
+  using Touching = std::uint64_t;
+  static_assert(stressGroup <= 64);
+
+  /// Whether a cell has a node of the view's box.
+  bool hasOwnNode(const Index<D>& cell) const {
+    const Box& nodes = record_.box();
+    bool has = true;
+    for (int d = 0; d < D; ++d) has &= (cell[d] + 1 >= nodes.lower[d]) & (cell[d] < nodes.upper[d]);
+    return has;
+  }
   /// Whether a particle touches a node of the view's box, or nearly.
   bool touchesOwn(const CellFrame<D>& frame, const Index<D>& cell, int p) const {
     constexpr double rounding = 1e-6;
@@ -117,15 +132,17 @@ class Scatter {
       moments[k].diagonal().array() -= volume * viscosity_[p];
     }
   }
-  /// Adds particles of a cell to the nodes around, those of the view's box where `isWithin`, else all: m v and m with
-  /// S_i, -V sigma with its gradient.
+  /// Adds particles of a cell to the nodes around: m v and m with S_i, -V sigma with its gradient. Where `isWithin`,
+  /// only those that have their bit in `touching`, to nodes of the view's box.
   template <bool isWithin>
-  void addGroup(const Index<D>& cell, int first, int count) const {
+  void addGroup(const Index<D>& cell, int first, int count, Touching touching = 0) const {
     std::array<Matrix3, stressGroup> moments;
     forceMoments(first, count, moments.data());
     const CellFrame<D> frame(level_, cell);
     for (int k = 0; k < count; ++k) {
       const int p = first + k;
+      if constexpr (isWithin)
+        if ((touching >> k & 1) == 0) continue;
       const typename Shape::Stencil stencil(frame, cell, x_[p], extents_[p]);
       const Vec<D> force = external_force_ ? external_force_[p] : Vec<D>(Vec<D>::Zero());
       const NodeRecord value{quadOf<D>(mass_[p] * velocity_[p], mass_[p]),
@@ -162,19 +179,30 @@ class Scatter {
   const NodeView<NodeRecord>& record_;
 };
 
+/// The cells whose particles touch nodes of a box: those of the nodes, and `ghostNodes` beyond.
+template <int D>
+Box cellsThatTouch(Box nodes, int ghostNodes) {
+  for (int d = 0; d < D; ++d) {
+    nodes.lower[d] -= 1 + ghostNodes;
+    nodes.upper[d] += ghostNodes;
+  }
+  return nodes;
+}
+
 /// Velocities, masses and forces on the patch's own nodes: complete on all that are touched; what is not touched is 0
 /// where `clearsAll`, else undefined.
 template <class Shape, int D = Shape::dimension>
 void scatterParticles(const Patch& patch, const Material& material, bool clearsAll, ParticleView<const Vec<D>> x,
                       const Scatter<Shape>& scatter, NodeView<NodeRecord> record) {
-  const TouchedRows<D> rows(x, x.cells(), Shape::ghostNodes, record.box());
+  const data::TouchedRows rows = touchedRows<D>(x, Shape::ghostNodes, record.box());
   if (clearsAll)
     record.fill(NodeRecord{});
   else
     rows.forEachRow([&](const Index3& first, int end) {
       std::fill_n(record.values() + record.stored().offset(first), end - first[0], NodeRecord{});
     });
-  x.template forEachOccupied<D>(x.cells(), [&](const Index<D>& cell, const data::ParticleRange& range) {
+  const Box near = cellsThatTouch<D>(record.box(), Shape::ghostNodes).intersect(x.cells());
+  x.template forEachOccupied<D>(near, [&](const Index<D>& cell, const data::ParticleRange& range) {
     if (patch.cells().contains(cell))
       scatter.addCell(cell, range);
     else

@@ -1,0 +1,136 @@
+#include "core/tasks/ghost_messages.hpp"
+
+#include <cstdint>
+#include <cstring>
+
+#include "core/tasks/rim_fluxes.hpp"
+
+namespace tushar::tasks {
+
+using data::ParticleRange;
+using data::Variable;
+using grid::Box;
+
+namespace {
+
+/// A row of nodes or the particles of a cell in a message: where they are, and how many.
+struct PackedRun {
+  Index3 first;
+  std::int32_t count;
+};
+
+}  // namespace
+
+void means(const grid::Grid& grid, const data::Label& label, const GhostCopy& copy, const Variable& from,
+           std::byte* to) {
+  if (copy.rim >= 0)
+    return meanFluxes(grid, copy, label.components, reinterpret_cast<const double*>(from.values),
+                      reinterpret_cast<double*>(to));
+  restrictTo(label, grid.dimension(), copy.box.shifted(Index3{} - copy.shift), {from.values, from.stored}, to);
+}
+
+void Packer::addGrid(const GhostCopy& copy) {
+  const Variable from = variable(copy.from);
+  const std::size_t bytes = name_.label->bytes;
+  if (copy.isMean) {  // in a message values stand at any byte: numbers are made elsewhere
+    mpi::Bytes values(copy.box.size() * bytes);
+    means(warehouse_.grid(), *name_.label, copy, from, values.data());
+    return mpi::append(message_, values.data(), values.size());
+  }
+  forEachRowOf(copy.box.shifted(Index3{} - copy.shift), bytes, [&](const Index3& first, std::size_t length) {
+    mpi::append(message_, valueAt(from, first, bytes), length);
+  });
+}
+
+void Packer::addNear(const GhostCopy& copy, const data::TouchedRows& rows) {
+  const Variable from = variable(copy.from);
+  const std::size_t bytes = name_.label->bytes;
+  const std::size_t start = message_.size();
+  std::int32_t count = 0;
+  mpi::append(message_, &count, sizeof(count));
+  rows.forEachRow(copy.box.shifted(Index3{} - copy.shift), [&](const Index3& first, int end) {
+    const PackedRun piece{first + copy.shift, end - first[0]};
+    mpi::append(message_, &piece, sizeof(piece));
+    mpi::append(message_, valueAt(from, first, bytes), static_cast<std::size_t>(piece.count) * bytes);
+    ++count;
+  });
+  std::memcpy(message_.data() + start, &count, sizeof(count));
+}
+
+void Packer::addCounts(const GhostCopy& copy) {
+  const std::size_t start = message_.size();
+  std::int32_t cells = 0;
+  mpi::append(message_, &cells, sizeof(cells));
+  forEachCell(copy, [&](const Index3& cell, const ParticleRange& range) {
+    const PackedRun piece{cell + copy.shift, range.size()};
+    mpi::append(message_, &piece, sizeof(piece));
+    ++cells;
+  });
+  std::memcpy(message_.data() + start, &cells, sizeof(cells));
+}
+
+void Packer::addParticles(const GhostCopy& copy) {
+  const Variable from = variable(copy.from);
+  const std::size_t bytes = name_.label->bytes;
+  ParticleRange run;  // of cells that follow each other in memory
+  const auto appendRun = [&] {
+    mpi::append(message_, from.values + static_cast<std::size_t>(run.first) * bytes,
+                static_cast<std::size_t>(run.size()) * bytes);
+  };
+  forEachCell(copy, [&](const Index3&, const ParticleRange& range) {
+    if (range.first != run.last) {
+      appendRun();
+      run = range;
+    }
+    run.last = range.last;
+  });
+  appendRun();
+}
+
+template <class Visit>
+void Packer::forEachCell(const GhostCopy& copy, Visit&& visit) {
+  const data::ParticleSet& set = warehouse_.particles(fill_.set, name_.material, copy.from);
+  set.forEachOccupied<3>(copy.box.shifted(Index3{} - copy.shift), std::forward<Visit>(visit));
+}
+
+const std::byte* ReceivedMessages::next(int from, std::size_t length) {
+  Message& message = messages_.at(from);
+  const std::byte* here = message.bytes.data() + message.read;
+  message.read += length;
+  return here;
+}
+
+template <class T>
+T ReceivedMessages::nextNumber(int from) {
+  T number{};
+  std::memcpy(&number, next(from, sizeof(number)), sizeof(number));
+  return number;
+}
+
+std::vector<std::pair<Index3, ParticleRange>> ReceivedMessages::takeCounts(const GhostCopy& copy) {
+  std::vector<std::pair<Index3, ParticleRange>> cells(static_cast<std::size_t>(nextNumber<std::int32_t>(copy.rank)));
+  int place = 0;
+  for (auto& [cell, range] : cells) {
+    const auto piece = nextNumber<PackedRun>(copy.rank);
+    cell = piece.first;
+    range = {place, place + piece.count};
+    place = range.last;
+  }
+  return cells;
+}
+
+void ReceivedMessages::takeGrid(const GhostCopy& copy, std::size_t bytes, const CellValues& to) {
+  forEachRowOf(copy.box, bytes, [&](const Index3& first, std::size_t length) {
+    std::memcpy(valueAt(to, first, bytes), next(copy.rank, length), length);
+  });
+}
+
+void ReceivedMessages::takeNear(const GhostCopy& copy, std::size_t bytes, const CellValues& to) {
+  for (auto left = nextNumber<std::int32_t>(copy.rank); left > 0; --left) {
+    const auto piece = nextNumber<PackedRun>(copy.rank);
+    const std::size_t length = static_cast<std::size_t>(piece.count) * bytes;
+    std::memcpy(valueAt(to, piece.first, bytes), next(copy.rank, length), length);
+  }
+}
+
+}  // namespace tushar::tasks

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "core/base/mpi.hpp"
+#include "core/tasks/ghost_plan.hpp"
+#include "core/tasks/near_rows.hpp"
+#include "core/tasks/transfer.hpp"
+
+namespace tushar::tasks {
+
+/// One ghost fill of a variable, by the variable's number.
+struct BoundGhostFill {
+  int variable;
+  data::Generation generation;
+  data::Generation set;  ///< the particles that values follow, or that nodes are near to
+  bool particles;
+};
+
+/// Calls `visit(first, length)` for each row of a box along the first axis, its length in bytes.
+template <class Visit>
+void forEachRowOf(const grid::Box& box, std::size_t bytes, Visit&& visit) {
+  const std::size_t length = static_cast<std::size_t>(box.extent(0)) * bytes;
+  grid::forEach<3>(box.rowStarts(), [&](const Index3& first) { visit(first, length); });
+}
+
+/// Where the value of a cell or node stands.
+template <class Values>
+std::byte* valueAt(const Values& values, const Index3& place, std::size_t bytes) {
+  return values.values + values.stored.offset(place) * bytes;
+}
+
+/// The values of a copy that are means, one after the other.
+void means(const grid::Grid& grid, const data::Label& label, const GhostCopy& copy, const data::Variable& from,
+           std::byte* to);
+
+/// Appends to a message the values that another rank receives for one ghost fill.
+class Packer {
+ public:
+  Packer(data::Warehouse& warehouse, const BoundGhostFill& fill, mpi::Bytes& message)
+      : warehouse_(warehouse), fill_(fill), name_(warehouse.table()[fill.variable]), message_(message) {}
+
+  void addGrid(const GhostCopy& copy);
+  /// Of nodes only rows near particles: how many, and the place, length and values of each.
+  void addNear(const GhostCopy& copy, const data::TouchedRows& rows);
+  /// How many particles each cell has that has some: how many cells, and the place and number of each.
+  void addCounts(const GhostCopy& copy);
+  void addParticles(const GhostCopy& copy);
+
+ private:
+  data::Variable variable(int patch) { return warehouse_.variable(fill_.generation, fill_.variable, patch); }
+  template <class Visit>
+  void forEachCell(const GhostCopy& copy, Visit&& visit);
+
+  data::Warehouse& warehouse_;
+  const BoundGhostFill& fill_;
+  const data::VariableName name_;
+  mpi::Bytes& message_;
+};
+
+/// The messages of the other ranks, read from front to back.
+class ReceivedMessages {
+ public:
+  void add(int from, mpi::Bytes bytes) { messages_[from] = {std::move(bytes), 0}; }
+  /// The next `length` bytes of the message from a rank.
+  const std::byte* next(int from, std::size_t length);
+  /// The cells that addCounts has packed, with the places of their particles among those of the copy.
+  std::vector<std::pair<Index3, data::ParticleRange>> takeCounts(const GhostCopy& copy);
+  /// Whether a rank says that it has stopped.
+  bool readStopped(int from) { return *next(from, 1) != std::byte{0}; }
+  /// What addGrid or addNear has packed: goes to where values of `bytes` each stand.
+  void takeGrid(const GhostCopy& copy, std::size_t bytes, const CellValues& to);
+  void takeNear(const GhostCopy& copy, std::size_t bytes, const CellValues& to);
+
+ private:
+  template <class T>
+  T nextNumber(int from);
+
+  struct Message {
+    mpi::Bytes bytes;
+    std::size_t read = 0;
+  };
+  std::map<int, Message> messages_;
+};
+
+}  // namespace tushar::tasks

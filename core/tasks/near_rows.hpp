@@ -1,0 +1,44 @@
+#pragma once
+
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "core/base/threads.hpp"
+#include "core/data/touched_rows.hpp"
+#include "core/data/warehouse.hpp"
+
+namespace tushar::tasks {
+
+/// Which nodes of the patches of this rank stand near particles: of variables that count only there
+/// (data::Counts::nearParticles), patches give one another no others.
+///
+/// A patch that computes a node sees all particles that touch it, so it alone knows whether any does. Where ghosts of
+/// particles are not settled, all nodes count as near.
+class NearRows {
+ public:
+  NearRows(data::Warehouse& warehouse, Threads& threads) : warehouse_(&warehouse), threads_(&threads) {}
+
+  /// Whether patches give one another only some nodes of a new variable.
+  bool concern(int variable) const {
+    const auto [label, material] = warehouse_->table()[variable];
+    return label->counts == data::Counts::nearParticles && material >= 0;
+  }
+  /// Finds the rows of all patches for the particles of a material, if that is not done.
+  void settle(data::Generation set, int material);
+  /// The rows of a patch, once they are settled.
+  const data::TouchedRows& of(data::Generation set, int material, int patch) const {
+    return rows_.at({set, material})[static_cast<std::size_t>(patch - warehouse_->grid().firstPatch())];
+  }
+  /// To be called when particles are others, or elsewhere.
+  void forget() { rows_.clear(); }
+
+ private:
+  data::TouchedRows rowsOf(data::Generation set, int material, const grid::Patch& patch) const;
+
+  data::Warehouse* warehouse_;
+  Threads* threads_;
+  std::map<std::pair<data::Generation, int>, std::vector<data::TouchedRows>> rows_;  ///< by place of the patch
+};
+
+}  // namespace tushar::tasks
