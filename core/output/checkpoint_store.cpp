@@ -25,7 +25,8 @@ void makeFolder(const fs::path& folder) {
 
 }  // namespace
 
-CheckpointStore::CheckpointStore(fs::path archive, int cycle) : folder_(archive / "checkpoints"), cycle_(cycle) {}
+CheckpointStore::CheckpointStore(const fs::path& archive, int cycle)
+    : folder_(archive / "checkpoints"), cycle_(cycle) {}
 
 fs::path CheckpointStore::folder(int step) const { return folder_ / stepName(step); }
 

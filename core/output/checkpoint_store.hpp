@@ -19,7 +19,7 @@ namespace tushar::output {
 class CheckpointStore {
  public:
   /// `cycle` is how many checkpoints are kept, at least 1. Nothing is made before the first write().
-  explicit CheckpointStore(std::filesystem::path archive, int cycle);
+  explicit CheckpointStore(const std::filesystem::path& archive, int cycle);
 
   /// Writes a checkpoint: `fill` puts its files into the folder that it is given. Throws FileError, or what `fill`
   /// throws; no trace of the checkpoint is left then.
