@@ -1,8 +1,8 @@
 #include "core/output/archive_vtkhdf_boxes.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <charconv>
+#include <cmath>
 #include <map>
 #include <string>
 #include <string_view>
