@@ -168,7 +168,7 @@ std::string outputName(int step) { return stepName(step) + ".h5"; }
 
 std::optional<int> stepOf(const std::string& name) {
   int step = 0;
-  if (!name.starts_with("t") || std::from_chars(name.data() + 1, name.data() + name.size(), step).ec != std::errc())
+  if (!name.starts_with('t') || std::from_chars(name.data() + 1, name.data() + name.size(), step).ec != std::errc())
     return {};
   return stepName(step) == name ? std::optional(step) : std::nullopt;
 }

@@ -1,10 +1,11 @@
 #include "core/output/archive_vtkhdf_boxes.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/output/archive_vtkhdf_items.hpp"
@@ -47,7 +48,8 @@ Rows rowsOf(const pugi::xml_node& item) {
 
 ShownBox boxOf(const pugi::xml_node& grid) {
   ShownBox box;
-  std::sscanf(grid.attribute("Name").as_string(), "level %d", &box.level);
+  const std::string_view name = grid.attribute("Name").as_string(), before = "level ";
+  if (name.starts_with(before)) std::from_chars(name.data() + before.size(), name.data() + name.size(), box.level);
   box.cells = numbersIn<std::uint64_t>(grid.child("Topology").attribute("Dimensions").as_string());
   for (std::uint64_t& extent : box.cells) --extent;
   const pugi::xml_node corner = grid.child("Geometry").child("DataItem");

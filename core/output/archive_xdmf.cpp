@@ -34,7 +34,8 @@ constexpr std::string_view atStep = " at step ";
 
 int stepOfTime(const std::string& gridName) {
   const std::size_t at = gridName.rfind(atStep);
-  return at == std::string::npos ? 0 : std::atoi(gridName.c_str() + at + atStep.size());
+  return at == std::string::npos ? 0
+                                 : static_cast<int>(std::strtol(gridName.c_str() + at + atStep.size(), nullptr, 10));
 }
 
 /// Removes the grid of a step. Steps ascend, so that looking from the end on takes no longer the more there are.

@@ -25,7 +25,7 @@ void makeFolder(const fs::path& folder) {
 
 }  // namespace
 
-CheckpointStore::CheckpointStore(fs::path archive, int cycle, const Writers& writers)
+CheckpointStore::CheckpointStore(const fs::path& archive, int cycle, const Writers& writers)
     : folder_(archive / "checkpoints"), cycle_(cycle), writers_(writers) {}
 
 fs::path CheckpointStore::folder(int step) const { return folder_ / stepName(step); }

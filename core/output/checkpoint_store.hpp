@@ -21,7 +21,7 @@ namespace tushar::output {
 class CheckpointStore {
  public:
   /// `cycle` is how many checkpoints are kept, at least 1. Nothing is made before the first write().
-  explicit CheckpointStore(std::filesystem::path archive, int cycle, const Writers& writers = {});
+  explicit CheckpointStore(const std::filesystem::path& archive, int cycle, const Writers& writers = {});
 
   /// Writes a checkpoint: `fill` puts its files into the folder that it is given. All ranks of the writers call it.
   /// Throws FileError on a rank that cannot, FailedElsewhere on the others, or what `fill` throws, which must throw on

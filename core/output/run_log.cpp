@@ -33,7 +33,7 @@ Json entryOf(const RunRecord& record) {
 
 /// The runs that a file lists; none where there is no file, or where it is damaged, which moves it away.
 Json runsIn(const fs::path& file) {
-  const Json empty = {{"format", RunLog::format}, {"runs", Json::array()}};
+  Json empty = {{"format", RunLog::format}, {"runs", Json::array()}};
   const auto text = textOf(file);
   if (!text) return empty;
   Json found = Json::parse(*text, nullptr, false);
@@ -55,6 +55,7 @@ RunLog::RunLog(const fs::path& folder, const RunRecord& record) : file_(folder /
   replaceFile(file_, runs_);
 }
 
+// NOLINTNEXTLINE(bugprone-exception-escape): what it parses it has written itself
 RunLog::~RunLog() {
   if (!ended_) end("error", -1, static_cast<int>(ExitCode::failure));
 }
