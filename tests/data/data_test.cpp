@@ -23,6 +23,12 @@ TEST(Label, StartsWithThePrefixOfItsCentring) {
   EXPECT_THROW(CellLabel<double>("mass", "kg", ""), std::invalid_argument);
 }
 
+TEST(Label, CountsNearParticlesOnlyOnNodes) {
+  EXPECT_EQ(NodeLabel<double>("g.mass", "kg", "", Counts::nearParticles).counts, Counts::nearParticles);
+  EXPECT_EQ(NodeLabel<double>("g.mass", "kg", "").counts, Counts::everywhere);
+  EXPECT_THROW(CellLabel<double>("c.mass", "kg", "", Counts::nearParticles), std::invalid_argument);
+}
+
 TEST(Sum, DoesNotDependOnTheOrder) {
   std::mt19937 generator(1);
   std::uniform_real_distribution<double> exponent(-20, 20);
