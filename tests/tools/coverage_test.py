@@ -92,7 +92,13 @@ class Coverage(unittest.TestCase):
         endless = self.covered("--limit", "1.5")["endless.ups"]
         self.assertEqual(endless["result"], "stopped")
         self.assertTrue(1.5 <= endless["wall"] < 15, endless)
-        self.assertIn("stopped after 1.5 s at t = ", endless["problems"][0]["sentence"])
+        self.assertRegex(endless["problems"][0]["sentence"], r"^stopped after \d+ s, \d+ s of processor time, at t = ")
+
+    def test_a_scene_is_stopped_after_its_processor_time(self):
+        self.scene("endless.ups", ENDLESS)
+        endless = self.covered("--processor-limit", ".8", "--limit", "100")["endless.ups"]
+        self.assertEqual(endless["result"], "stopped")
+        self.assertTrue(.8 <= endless["processor"] < 3, endless)
 
     def test_notes_are_counted_and_are_no_problem(self):
         self.scene("noted.ups", NOTED)
@@ -113,9 +119,12 @@ class Coverage(unittest.TestCase):
         self.scene("another.ups", one)
         self.scene("both.ups", one.replace("<density>1<", "<density>-1<"))
         self.scene("right.ups", SINE)
-        self.covered("--jobs", "2", "--markdown", "all.md")
+        (self.here / "named.txt").write_text("right.ups\nboth.ups\nelsewhere.ups\n")
+        self.covered("--jobs", "2", "--markdown", "all.md", "--among", "named.txt")
         known = self.known()
-        self.assertEqual(known["counts"], {"heat": {"ran": 1, "stopped": 0, "refused": 3, "failed": 0, "scenes": 4}})
+        self.assertEqual(known["counts"], {
+            "heat": {"ran": 1, "stopped": 0, "refused": 3, "failed": 0, "scenes": 4},
+            "heat, among those named": {"ran": 1, "stopped": 0, "refused": 1, "failed": 0, "scenes": 2}})
         first, second = known["blockers"]
         self.assertEqual((first["scenes"], first["alone"]), (["another.ups", "both.ups", "one.ups"], 2))
         self.assertEqual((second["scenes"], second["alone"]), (["both.ups"], 0))

@@ -2,6 +2,7 @@
 import concurrent.futures
 import dataclasses
 import json
+import math
 import os
 import pathlib
 import re
@@ -34,9 +35,11 @@ class Scene:
 
 @dataclasses.dataclass(frozen=True)
 class Settings:
-    """How scenes are run. `limit` [s] of wall time each; `check`: they are read, and make no step."""
+    """How scenes are run. Each has `limit` [s] of wall time and `work` [s] of processor time; `check`: they are read,
+    and make no step."""
     sus: str
     limit: float
+    work: float = math.inf
     sets: tuple = ()
     threads: int = 1
     check: bool = False
@@ -165,7 +168,8 @@ class Runner:
                 process.returncode = os.waitstatus_to_exitcode(status)
                 return told is not None, usage
             now = time.monotonic()
-            if told is None and (now - started > self.settings.limit or self._stop.is_set()):
+            isOver = now - started > self.settings.limit or work_of(process.pid) > self.settings.work
+            if told is None and (isOver or self._stop.is_set()):
                 process.send_signal(signal.SIGTERM)
                 told = now
             elif told is not None and now - told > (0 if self._stop.is_set() else GRACE):
@@ -181,16 +185,25 @@ class Runner:
         outcome.steps, outcome.time = report.get("steps", 0), report.get("time", 0)
         outcome.particles, outcome.cells = report.get("particles", 0), report.get("layout", {}).get("cells", 0)
         if outcome.result == "stopped":
-            outcome.problems = [{"sentence": stopped_by(self.settings.limit, report), "number": "", "place": ""}]
+            outcome.problems = [{"sentence": stopped_after(outcome, report), "number": "", "place": ""}]
         elif outcome.result != "ran":
             outcome.problems = problems_of(said) or [{"sentence": ended_by(code), "number": "", "place": ""}]
         return outcome
 
 
-def stopped_by(limit, report):
-    """Why a run was stopped and, if it wrote a report, how far it had come."""
+def work_of(pid):
+    """Processor time that a process has used, s; 0 where the system does not say."""
+    try:
+        words = pathlib.Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+    except OSError:
+        return 0
+    return (int(words[11]) + int(words[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def stopped_after(outcome, report):
+    """When a run was stopped and, if it wrote a report, how far it had come."""
     far = f" at t = {report['time']:.4g} s" if report.get("steps") else ""
-    return f"stopped after {limit:g} s{far}"
+    return f"stopped after {outcome.wall:.0f} s, {outcome.processor:.0f} s of processor time,{far}".rstrip(",")
 
 
 def ended_by(code):
@@ -236,19 +249,20 @@ def blockers(outcomes, result):
 RESULTS = ("ran", "stopped", "refused", "failed")
 
 
-def counts(outcomes):
-    """type -> how many scenes there are of each result, and in all."""
+def counts(outcomes, among=()):
+    """type -> how many scenes there are of each result, and in all; also of those that are named in `among`."""
     table = {}
     for outcome in outcomes:
-        row = table.setdefault(outcome.type, dict.fromkeys((*RESULTS, "scenes"), 0))
-        row[outcome.result] += 1
-        row["scenes"] += 1
+        for name in (outcome.type, f"{outcome.type}, among those named")[:1 + (outcome.scene in among)]:
+            row = table.setdefault(name, dict.fromkeys((*RESULTS, "scenes"), 0))
+            row[outcome.result] += 1
+            row["scenes"] += 1
     return dict(sorted(table.items()))
 
 
-def as_json(outcomes, about):
+def as_json(outcomes, about, among=()):
     """All that is known, for programs."""
-    return json.dumps({**about, "counts": counts(outcomes),
+    return json.dumps({**about, "counts": counts(outcomes, among),
                        "blockers": [{"sentence": sentence, "number": number, "alone": alone, "scenes": names}
                                     for sentence, number, names, alone in blockers(outcomes, "refused")],
                        "scenes": [dataclasses.asdict(outcome) for outcome in outcomes]}, indent=1) + "\n"
@@ -258,10 +272,10 @@ def escaped(text):
     return text.replace("|", "\\|").replace("<", "\\<")
 
 
-def summary(outcomes):
+def summary(outcomes, among=()):
     """Tables of the counts and of what blocks scenes, as Markdown."""
     lines = ["| type | scenes | ran to the end | stopped at the limit | refused | failed |", "|" + "---|" * 6]
-    for name, row in counts(outcomes).items():
+    for name, row in counts(outcomes, among).items():
         lines.append(f"| {name} | {row['scenes']} | " + " | ".join(str(row[result]) for result in RESULTS) + " |")
     for result, title in (("refused", "Refused"), ("failed", "Failed")):
         rows = blockers(outcomes, result)
