@@ -180,10 +180,16 @@ void writeFields(Hdf5File& file, const Times& times, const Image& image) {
 
 void putInPlace(const fs::path& path, const std::function<void(Hdf5File&)>& write) {
   const fs::path temporary = temporaryOf(path);
-  Hdf5File file(temporary, false, 0);
-  write(file);
-  file.close();
-  moveInto(temporary, path);
+  try {
+    Hdf5File file(temporary, false, 0);
+    write(file);
+    file.close();
+    moveInto(temporary, path);
+  } catch (...) {
+    std::error_code ignored;
+    fs::remove(temporary, ignored);
+    throw;
+  }
 }
 
 }  // namespace

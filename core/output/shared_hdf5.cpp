@@ -23,7 +23,7 @@ class ChunkWriter {
  public:
   ChunkWriter(const Writers& writers, const Storage& how, Hdf5File* file)
       : writers_(writers), how_(how), file_(file), pieces_(writers), outbox_(writers.ranks()) {
-    if (writers.mine() >= 0) packer_.emplace(how.compression);
+    if (writers.mine() >= 0) attempt([&] { packer_.emplace(how.compression); });
   }
 
   void run(const Dataset& dataset) {

@@ -41,7 +41,7 @@ class Kills(unittest.TestCase):
 
     def killed(self, here, words, sets):
         """Starts a job, kills one of its processes (or all) at a random instant after its first checkpoint, and waits
-        for         its end. Whether the job was killed before it was done."""
+        for its end. Whether the job was killed before it was done."""
         job = subprocess.Popen(here.command(words, sets), cwd=ROOT, stderr=subprocess.DEVNULL)
         while not list(here.path.glob("*.uda/checkpoints/LATEST")) and job.poll() is None:
             time.sleep(0.002)
@@ -69,7 +69,7 @@ class Kills(unittest.TestCase):
                 self.assertIn("command", run)
 
     def layout(self):
-        return ["-layout", self.chance.choice(LAYOUTS)]
+        return ["-layout", self.chance.choice(LAYOUTS), "-writers", str(self.chance.choice((1, 2, 3)))]
 
     def test_a_run_that_is_killed_ends_with_the_bits_of_the_uncut_one(self):
         uncut = self.folder(1)
