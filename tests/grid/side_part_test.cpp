@@ -36,7 +36,7 @@ const Vec3 middle(0, 0.5, 0.5);
 }  // namespace
 
 TEST(SidePart, CircleHasTheFacesWhoseMiddleIsWithinItsRadius) {
-  EXPECT_EQ(facesOf(SidePart::circle(0, middle, 0.3)),
+  EXPECT_EQ(facesOf(SidePart::circle(0, middle, 0.35)),
             (std::vector<std::string>{"........", "...##...", "..####..", ".######.", ".######.", "..####..",
                                       "...##...", "........"}));
 }
@@ -56,7 +56,7 @@ TEST(SidePart, AnnulusLeavesItsHoleToACircle) {
     for (std::size_t y = 0; y < 8; ++y)
       EXPECT_EQ(static_cast<int>(inHole[z][y] == '#') + static_cast<int>(inRing[z][y] == '#'),
                 static_cast<int>(inAll[z][y] == '#'));
-  EXPECT_EQ(inRing[3], ".##..##.");
+  EXPECT_EQ(inRing[3], ".#....#.");
 }
 
 TEST(SidePart, RectangleHasTheFacesBetweenItsCorners) {
