@@ -40,7 +40,8 @@ struct ComponentKind {
   std::function<int(const input::Element& root)> nodesBeyond;
   /// The sections of a scene, for each way to write one; if the function is empty, `sections` may hold anything.
   std::function<std::vector<std::vector<SectionForm>>()> forms;
-  bool takesLevels = false;  ///< whether its tasks run on grids of several levels
+  bool takesLevels = false;      ///< whether its tasks run on grids of several levels
+  bool refinesByItself = false;  ///< whether it knows without a <Variable> where cells are to be finer
 };
 
 /// Builds a module for a component; throws InputError if the two do not go together.
