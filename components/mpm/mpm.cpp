@@ -52,6 +52,7 @@ simulation::ComponentKind kind() {
     return all;
   };
   kind.takesLevels = true;
+  kind.refinesByItself = true;
   kind.nodesBeyond = [](const input::Element& root) {
     const auto& nodesBeyond = kindOf(methodOf(root)).nodesBeyond;
     return nodesBeyond ? nodesBeyond(root) : 0;

@@ -171,8 +171,9 @@ const Schema<RegridderSection>& regridderSchema() {
                          "Uintah's ways to choose patches; both mean blocks here")
         .elsewhere("SingleLevel", "patches of one level are chosen by <patches> of its Box, or -layout")
         .optional("adaptive", &RegridderSection::adaptive, "1",
-                  "whether the refinement follows the state; by default, whether there is a <Variable>. Without one, "
-                  "euler takes jumps above 0.02 of c.density, c.pressure and c.mach; mpm needs none, as "
+                  "whether the refinement follows the state; by default, whether there is a <Variable> or, for mpm, "
+                  "<max_levels> above 1. Without a <Variable>, euler takes jumps above 0.02 of c.density, c.pressure "
+                  "and c.mach; mpm needs none, as "
                   "the finest level follows its particles")
         .value("regrid_once", &RegridderSection::once, false, "1", "only at the start")
         .optional("max_levels", &RegridderSection::maxLevels, "1",
@@ -334,7 +335,8 @@ AmrSettings readAmr(const Element& section, const simulation::ComponentKind* kin
     for (const VariableTag& tag : component.criteria.variables) amr.regrid.criteria.push_back(criterionOf(tag));
   }
   const RegridderSection& regridder = read.regridder;
-  amr.regrid.adaptive = regridder.adaptive.value_or(!amr.regrid.criteria.empty());
+  const bool refinesByItself = kind && kind->refinesByItself && regridder.maxLevels.value_or(1) > 1;
+  amr.regrid.adaptive = regridder.adaptive.value_or(refinesByItself || !amr.regrid.criteria.empty());
   amr.regrid.once = regridder.once;
   amr.regrid.interval = regridder.interval;
   amr.regrid.dilation = *std::max_element(regridder.dilation.at.begin(), regridder.dilation.at.end());

@@ -260,12 +260,23 @@ class Refiner {
     if (size < fewestCellsOfBlock || size % 2 != 0)
       diagnostics_.error(place, fmt::format("found {} along {}, expected an even number of cells, at least {}", size,
                                             "xyz"[axis], fewestCellsOfBlock));
+    else if (cells % size != 0 && sizes.empty())
+      diagnostics_.error(place, fmt::format("blocks of {} cells do not divide the {} of the grid along {}; no even "
+                                            "number of at least 4 does: choose another <resolution>",
+                                            size, counted(cells, "cell"), "xyz"[axis]));
     else if (cells % size != 0)
-      diagnostics_.error(
-          place, fmt::format("blocks of {} cells do not divide the {} of the grid along {}; {}", size,
-                             counted(cells, "cell"), "xyz"[axis],
-                             sizes.empty() ? "no even number of at least 4 does: choose another <resolution>"
-                                           : namesOfNearest(sizes, size) + (sizes.size() > 1 ? " do" : " does")));
+      takeNearestBlock(axis, cells, size, sizes);
+  }
+
+  /// Blocks that divide the cells, in place of those that the scene asks for.
+  void takeNearestBlock(int axis, int cells, int size, const std::vector<int>& sizes) {
+    const auto distance = [&](int a, int b) { return std::abs(a - size) < std::abs(b - size); };
+    const int nearest = *std::min_element(sizes.begin(), sizes.end(), distance);
+    refinement_.blockCells[axis] = nearest;
+    diagnostics_.note(
+        tagOr(amr_, "min_patch_size", elements_.front()),
+        fmt::format("blocks of {} cells do not divide the {} of the grid along {}: here blocks have {} along it", size,
+                    counted(cells, "cell"), "xyz"[axis], nearest));
   }
 
   /// The even divisors of a number of cells from the fewest of a block on, in their order.

@@ -41,6 +41,7 @@ struct ComponentKind {
   /// The sections of a scene, for each way to write one; if the function is empty, `sections` may hold anything.
   std::function<std::vector<std::vector<SectionForm>>()> forms;
   bool takesLevels = false;           ///< whether its tasks run on grids of several levels
+  bool refinesByItself = false;       ///< whether it knows without a <Variable> where cells are to be finer
   bool takesPartsOfSides = false;     ///< whether a part of a side may have conditions of its own
   bool takesFormulasAtSides = false;  ///< whether what its conditions give may be formulas
   /// Tags of AMR for its thresholds, besides the one of `sections` that has its name.

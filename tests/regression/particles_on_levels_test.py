@@ -42,6 +42,12 @@ class ParticlesOnLevels(unittest.TestCase):
         uniform = changed(self.folder, (r"  <AMR>.*</AMR>\n", ""), (r"\[32,32,1\]", "[256,256,1]"))
         self.assertEqual(self.particles(SCENE, "levels"), self.particles(uniform, "uniform"))
 
+    def test_more_levels_than_the_grid_has_follow_them_unless_the_scene_says_no(self):
+        silent = changed(self.folder, ("<adaptive>true</adaptive>", ""))
+        self.assertEqual(run(silent, *SHORT).report["fingerprint"], run(SCENE, *SHORT).report["fingerprint"])
+        still = changed(self.folder, ("<adaptive>true</adaptive>", "<adaptive>false</adaptive>"))
+        self.assertIn("max_levels: does nothing", run(still, *SHORT[:1], "Time/max_Timesteps=1", options=()).err)
+
     def test_the_finest_level_follows_them(self):
         report = run(SCENE, *SHORT).report
         self.assertGreater(report["regrids"], 0)

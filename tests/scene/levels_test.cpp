@@ -215,10 +215,6 @@ TEST(Blocks, ThatCannotBeGetASentence) {
       (Strings{"Grid/Level/Box: its 25 cells along x cannot be cut into blocks of an even number of cells from 4 to "
                "16; choose another <resolution>"}));
   EXPECT_EQ(
-      refused(along("100"), "<min_patch_size>[[8,1,1]]</min_patch_size>"),
-      (Strings{"AMR/Regridder/min_patch_size: blocks of 8 cells do not divide the 100 cells of the grid along x; 4, "
-               "10, 20, 50 or 100 do"}));
-  EXPECT_EQ(
       refused(along("25"), "<min_patch_size>[[8,1,1]]</min_patch_size>"),
       (Strings{"AMR/Regridder/min_patch_size: blocks of 8 cells do not divide the 25 cells of the grid along x; no "
                "even number of at least 4 does: choose another <resolution>"}));
@@ -241,6 +237,16 @@ TEST(Blocks, AreWhatTheSceneSays) {
   EXPECT_EQ(found.problems, Strings{});
   EXPECT_EQ(found.refinement().blockCells[0], 4);
   EXPECT_EQ(found.refinement().blockCells[1], 16);
+}
+
+TEST(Blocks, ThatDoNotDivideTheGridGiveWayToTheNearestThatDo) {
+  const Read found = read(square, amr(adaptive + "<min_patch_size>[[10,8,1]]</min_patch_size>", criteria));
+
+  EXPECT_EQ(found.problems, Strings{});
+  EXPECT_EQ(found.refinement().blockCells[0], 8);
+  EXPECT_EQ(found.refinement().blockCells[1], 8);
+  EXPECT_EQ(found.notes, (Strings{"AMR/Regridder/min_patch_size: blocks of 10 cells do not divide the 64 cells of the "
+                                  "grid along x: here blocks have 8 along it"}));
 }
 
 TEST(Regridder, SaysHowManyLevelsThereMayBe) {

@@ -130,7 +130,7 @@ class Coverage(unittest.TestCase):
         self.assertEqual((second["scenes"], second["alone"]), (["both.ups"], 0))
         page = (self.here / "all.md").read_text()
         self.assertRegex(page, r"\| Heat/colour: unknown tag .* \| T101 \| 3 \| 2 \|")
-        self.assertRegex(page, r"\| right\.ups \| heat \| ran \| 64 \| \d+ \|")
+        self.assertRegex(page, r"\| right\.ups \| heat \| yes \| ran \| 64 \| \d+ \|")
 
     def test_types_links_and_parts_of_scenes(self):
         self.scene("sine.ups", SINE)

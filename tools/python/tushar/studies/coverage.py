@@ -286,12 +286,14 @@ def summary(outcomes, among=()):
     return "\n".join(lines) + "\n"
 
 
-def table(outcomes):
-    """A row for each scene, as Markdown."""
-    lines = ["| scene | type | result | particles or cells | steps | wall s | processor s | notes | reason |",
-             "|---|---|---|---|---|---|---|---|---|"]
+def table(outcomes, among=()):
+    """A row for each scene, as Markdown; with those named in `among` marked, if there are any."""
+    heads = ["scene", "type", *(["named"] if among else []), "result", "particles or cells", "steps", "wall s",
+             "processor s", "notes", "reason"]
+    lines = ["| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)]
     for one in outcomes:
-        size = one.particles or one.cells or ""
-        lines.append(f"| {one.scene} | {one.type} | {one.result} | {size} | {one.steps or ''} | {one.wall:.2f} | "
-                     f"{one.processor:.2f} | {one.notes or ''} | {escaped(reason_of(one))} |")
+        cells = [one.scene, one.type, *(["yes" if one.scene in among else ""] if among else []), one.result,
+                 one.particles or one.cells or "", one.steps or "", f"{one.wall:.2f}", f"{one.processor:.2f}",
+                 one.notes or "", escaped(reason_of(one))]
+        lines.append("| " + " | ".join(map(str, cells)) + " |")
     return "\n".join(lines) + "\n"
