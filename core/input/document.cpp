@@ -31,6 +31,7 @@ class TreeBuilder {
 
  private:
   std::unique_ptr<Node> makeTag(const XmlFile& file, const pugi::xml_node& xml);
+  void resolvePath(const XmlFile& file, Node& node);
   void addChildren(const XmlFile& file, const pugi::xml_node& xml, Node& parent);
   void addChild(const XmlFile& file, const pugi::xml_node& xml, Node& parent);
   void addAttributes(const pugi::xml_node& xml, Node& node);
@@ -43,16 +44,25 @@ class TreeBuilder {
   std::vector<std::string> including_;
 };
 
-/// The path of a file that a tag of the scene `scene` names: beside the scene, in a folder above it, or where the run
-/// is started.
-std::string resolved(const std::string& path, const std::string& scene) {
+/// Where a file is that a tag names.
+struct FoundFile {
+  std::string path;
+  bool hasMoved = false;  ///< it is not where the tag says
+};
+
+/// Finds a file that a tag of the scene `scene` names: beside the scene, in a folder above it, where the run is started
+/// or, at last, beside the scene without the folders that the tag names.
+FoundFile findFile(const std::string& path, const std::string& scene) {
   const std::filesystem::path beside = std::filesystem::absolute(scene).parent_path();
   const auto at = [&](const std::filesystem::path& folder) { return (folder / path).lexically_normal(); };
   std::error_code unreadable;
   for (std::filesystem::path folder = beside; folder.has_relative_path(); folder = folder.parent_path())
-    if (std::filesystem::exists(at(folder), unreadable)) return at(folder).string();
+    if (std::filesystem::exists(at(folder), unreadable)) return {at(folder).string()};
   const std::filesystem::path here = at(std::filesystem::current_path(unreadable));
-  return (std::filesystem::exists(here, unreadable) ? here : at(beside)).string();
+  if (std::filesystem::exists(here, unreadable)) return {here.string()};
+  const std::filesystem::path moved = beside / std::filesystem::path(path).filename();
+  if (std::filesystem::is_regular_file(moved, unreadable)) return {moved.string(), true};
+  return {at(beside).string()};
 }
 
 /// Whether the text of a tag is the path of a file: it must lead there from the archive's copy of the scene, too.
@@ -62,6 +72,16 @@ bool isPath(const pugi::xml_node& xml) {
          ((parent == "tri" || parent == "line_segment") && name == "name");
 }
 
+/// Gives a tag the absolute path of the file that it names. Scenes are moved to other folders with their files, and
+/// still name the folder where those were.
+void TreeBuilder::resolvePath(const XmlFile& file, Node& node) {
+  const FoundFile found = findFile(node.text, file.name());
+  if (found.hasMoved)
+    diagnostics_.note(node.where, node.name,
+                      fmt::format("there is no '{}': the file of that name beside the scene is taken", node.text));
+  node.text = found.path;
+}
+
 std::unique_ptr<Node> TreeBuilder::makeTag(const XmlFile& file, const pugi::xml_node& xml) {
   auto node = std::make_unique<Node>();
   node->name = xml.name();
@@ -69,7 +89,7 @@ std::unique_ptr<Node> TreeBuilder::makeTag(const XmlFile& file, const pugi::xml_
   addAttributes(xml, *node);
   addChildren(file, xml, *node);
   node->text = trimmed(node->text);
-  if (isPath(xml) && !node->text.empty()) node->text = resolved(node->text, file.name());
+  if (isPath(xml) && !node->text.empty()) resolvePath(file, *node);
   return node;
 }
 

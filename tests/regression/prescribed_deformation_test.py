@@ -78,6 +78,20 @@ class PrescribedDeformation(unittest.TestCase):
             done = run(SCENE, "MPM/PrescribedDeformationFile=nowhere.inp")
             self.assertIn("nowhere.inp': there is no such file", done.err)
 
+    def test_a_file_that_has_moved_with_its_scene_is_found_beside_it(self):
+        with tempfile.TemporaryDirectory() as folder:
+            pathlib.Path(folder, PATH.name).write_text(PATH.read_text())
+            text, named = (ROOT / SCENE).read_text(), f">{PATH.name}<"
+            self.assertIn(named, text)
+            scene = pathlib.Path(folder, "scene.ups")
+            scene.write_text(text.replace(named, f">inputs/of/old/{PATH.name}<"))
+            done = run(scene, "Time/max_Timesteps=2", options=())
+            self.assertEqual(done.code, 0, done.err)
+            self.assertIn(f"there is no 'inputs/of/old/{PATH.name}': the file of that name beside the scene is taken",
+                          done.err)
+            scene.write_text(text.replace(named, ">inputs/of/old/nowhere.inp<"))
+            self.assertIn("nowhere.inp': there is no such file", run(scene).err)
+
     def test_a_flat_grid_is_refused(self):
         done = run(SCENE, "Grid/Level/Box/resolution=[4,4,1]", "Grid/Level/periodic=[0,0,1]")
         self.assertEqual(done.code, 3)
