@@ -81,10 +81,7 @@ bool Outputs::samples() const {
 
 void Outputs::sample(Analysis& analysis) {
   const auto started = Clock::now();
-  std::vector<output::Snapshot> parts;
-  for (const collect::Layer& layer : analysis.layers()) parts.push_back(snapshotOf(run_, analysis.samples(), layer));
-  if (parts.empty()) parts.push_back(snapshotOf(run_, analysis.samples()));
-  for (output::Snapshot& part : parts) output::load(part);
+  const std::vector<output::Snapshot> parts = partsOf(run_, analysis);
   run_.ranks.onFirst([&] { analysis.sample(parts, folder_); });
   seconds_ += secondsSince(started);
 }

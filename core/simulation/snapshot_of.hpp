@@ -12,7 +12,7 @@ namespace tushar::simulation {
 /// are asked for. Rank 0 has the values; they are not copied, and good while the state is as it is. All ranks call it.
 output::Snapshot snapshotOf(RunState& run, const std::vector<SaveRequest>& requests);
 
-/// The same of a layer of the grid, without particles.
-output::Snapshot snapshotOf(RunState& run, const std::vector<SaveRequest>& requests, const collect::Layer& layer);
+/// What an analysis module wants to see of it, in the memory of rank 0. All ranks call it.
+std::vector<output::Snapshot> partsOf(RunState& run, const Analysis& analysis);
 
 }  // namespace tushar::simulation
