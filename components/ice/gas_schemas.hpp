@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "components/ice/gas_input.hpp"
+#include "components/ice/start.hpp"
 #include "core/input/schema.hpp"
 
 // The sections of a scene of Uintah's ICE, as they are written.
@@ -20,6 +21,7 @@ struct IceSection {
   AdvectionSection advection;
   bool isExplicit = false;
   std::optional<bool> thinWalls;
+  std::optional<CustomStart> start;
 };
 
 /// `CFD`.
