@@ -40,6 +40,7 @@ int bodiesOf(const Component& component) {
 
 void checkGas(const std::string& material, const Component& component, const input::Element& module) {
   const std::vector<std::string> gases = component.gasNames();
+  if (gases.size() == 1 && bodiesOf(component) == 0) return;
   if (material.empty() || std::find(gases.begin(), gases.end(), material) != gases.end()) return;
   const std::string problem = gases.empty() ? "the velocity in cells belongs to no material here; take <material> out"
                                             : input::choiceProblem(material, gases);

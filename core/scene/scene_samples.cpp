@@ -27,6 +27,7 @@ struct Known {
   tasks::Names labels;
   std::set<std::string> foreign;
   std::vector<std::string> materials;  ///< by their numbers in the scene
+  std::set<std::string> told;          ///< names of materials that a note is about
 
   Known(const Component& component, const std::vector<std::unique_ptr<Analysis>>& analyses)
       : phases(component, analyses), names(otherNames(component, analyses)), labels(phases.saveable()) {
@@ -55,10 +56,22 @@ int numberOf(const std::string& word, const Known& known, std::string& problem) 
   return -1;
 }
 
-void settleMaterial(SampledVariable& variable, const Known& known, Diagnostics& diagnostics) {
+/// Whether a word can mean the only material, whose name need not be right.
+bool isLoneMaterial(const std::string& word, const Known& known) {
+  return known.materials.size() == 1 && !input::parse<int>(word).value;
+}
+
+void settleMaterial(SampledVariable& variable, Known& known, Diagnostics& diagnostics) {
   simulation::SaveRequest& request = variable.request;
   std::string problem;
   variable.material = numberOf(request.material, known, problem);
+  if (variable.material < 0 && isLoneMaterial(request.material, known)) {  // as Uintah takes it
+    if (known.told.insert(request.material).second)
+      diagnostics.note(request.whereOfMaterial, path,
+                       fmt::format("'{}' is taken for the only material, '{}'", request.material, known.materials[0]));
+    variable.material = 0;
+    problem.clear();
+  }
   const auto& bodies = known.phases.materials();
   if (!problem.empty()) {
     diagnostics.error(request.whereOfMaterial, path, problem);
@@ -78,7 +91,7 @@ void settleMaterial(SampledVariable& variable, const Known& known, Diagnostics& 
 }
 
 /// Whether a variable stays.
-bool settle(SampledVariable& variable, const Known& known, Diagnostics& diagnostics) {
+bool settle(SampledVariable& variable, Known& known, Diagnostics& diagnostics) {
   simulation::SaveRequest& request = variable.request;
   for (const auto& [theirs, ours] : known.names)
     if (theirs == request.label) {
@@ -111,7 +124,7 @@ void settleSamples(const Component& component, const std::vector<std::unique_ptr
                    Diagnostics& diagnostics) {
   const auto looks = [](const auto& analysis) { return analysis->variables() != nullptr; };
   if (std::none_of(analyses.begin(), analyses.end(), looks)) return;
-  const Known known(component, analyses);
+  Known known(component, analyses);
   for (const auto& analysis : analyses)
     if (auto* variables = analysis->variables())
       std::erase_if(*variables, [&](SampledVariable& variable) { return !settle(variable, known, diagnostics); });

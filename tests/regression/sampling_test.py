@@ -220,6 +220,14 @@ class Sampling(unittest.TestCase):
         self.assertEqual((least, greatest), (last["c.pressure"][:].min(), last["c.pressure"][:].max()))
         self.assertEqual(last["c.vorticity"].shape[-1], 3, "in two axes, too")
 
+    def test_the_only_material_goes_by_any_name(self):
+        modules = ('<Module name="vorticity"><material>air</material></Module>' +
+                   module("minMax", "<material>air</material>", ("press_CC", "vel_CC")))
+        ended = subprocess.run([SUS, self.scene(modules, CHANNEL), "-check"], cwd=ROOT, capture_output=True, text=True,
+                               timeout=300)
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        self.assertEqual((ended.stderr + ended.stdout).count("'air' is taken for the only material, 'gas'"), 1)
+
     def test_what_a_module_cannot_show_is_refused(self):
         wrong = {
             module("minMax", variables=("c.densty",)): "computes 'c.densty' (did you mean 'c.density'?)",
@@ -252,10 +260,11 @@ class Sampling(unittest.TestCase):
             ended = sus(self.scene(tags), "-check")
             self.assertEqual(ended.returncode, 3, tags)
             self.assertIn(sentence, ended.stderr, tags)
-        gas = self.scene(module("minMax", "<material>gsa</material>", ("press_CC",)), CHANNEL)
-        self.assertIn("there is no material 'gsa' (did you mean 'gas'?); there is 'gas'", sus(gas, "-check").stderr)
-        curl = self.scene('<Module name="vorticity"><material>gsa</material></Module>', CHANNEL)
-        self.assertIn("found 'gsa', expected 'gas'", sus(curl, "-check").stderr)
+        bodies = ROOT / "ups/fsi/cylinder.ups"
+        gas = self.scene(module("minMax", "<material>nothing</material>", ("press_CC",)), bodies)
+        self.assertIn("there is no material 'nothing'", sus(gas, "-check").stderr)
+        curl = self.scene('<Module name="vorticity"><material>nothing</material></Module>', bodies)
+        self.assertIn("material: found 'nothing', expected", sus(curl, "-check").stderr)
         heat = self.scene(VORTICITY, ROOT / "ups/heat/sine.ups")
         self.assertIn("no velocity of a gas in cells; take the module out", sus(heat, "-check").stderr)
 
