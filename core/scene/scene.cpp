@@ -374,9 +374,8 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   diagnostics.throwIfAny();
   if (problem.component->mayRepeatStep()) problem.time.recomputeTimeStep = true;
   problem.analyses = makeModules(modules, *problem.component, problem.grid->finest());
-  Diagnostics noted;  // for a smaller grid already
   if (labelsAreChecked)
-    settleSamples(*problem.component, problem.analyses, noted);
+    settleSamples(*problem.component, problem.analyses);
   else
     checkLabels(*problem.component, problem.analyses, problem.archive.saves, diagnostics);
   diagnostics.throwIfAny();

@@ -130,4 +130,9 @@ void settleSamples(const Component& component, const std::vector<std::unique_ptr
       std::erase_if(*variables, [&](SampledVariable& variable) { return !settle(variable, known, diagnostics); });
 }
 
+void settleSamples(const Component& component, const std::vector<std::unique_ptr<Analysis>>& analyses) {
+  Diagnostics said;
+  settleSamples(component, analyses, said);
+}
+
 }  // namespace tushar::scene

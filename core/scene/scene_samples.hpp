@@ -21,4 +21,8 @@ std::vector<std::pair<std::string, std::string>> otherNames(
 void settleSamples(const simulation::Component& component,
                    const std::vector<std::unique_ptr<simulation::Analysis>>& analyses, input::Diagnostics& diagnostics);
 
+/// The same where it has been said, of the same modules on another grid.
+void settleSamples(const simulation::Component& component,
+                   const std::vector<std::unique_ptr<simulation::Analysis>>& analyses);
+
 }  // namespace tushar::scene
