@@ -4,12 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <set>
 
+#include "components/analysis/sampling.hpp"
 #include "core/data/label.hpp"
 #include "core/input/schema.hpp"
-#include "core/output/archive_files.hpp"
 #include "core/simulation/module_with_tags.hpp"
 
 namespace tushar::analysis {
@@ -117,15 +115,17 @@ class ParticleExtract : public Analysis {
     });
     if (block == snapshot.particles.end()) return;
     const auto folder = archive / "particleExtract" / "L-0";
-    std::filesystem::create_directories(folder);
+    makeFolder(folder);
     const auto& color = std::get<std::vector<double>>(column(block->arrays, colorLabel).values);
     const auto& ids = std::get<std::vector<std::uint64_t>>(column(block->arrays, data::particleId.name).values);
     std::vector<Array> columns{block->arrays.front()};
     for (const Variable& variable : settings_.variables) columns.push_back(column(block->arrays, variable.label));
     std::stable_sort(columns.begin() + 1, columns.end(),
                      [](const Array& a, const Array& b) { return a.components < b.components; });
+    const std::string header = extractHeader(columns);
     for (std::size_t p = 0; p < ids.size(); ++p)
-      if (color[p] > settings_.threshold) write(folder / std::to_string(ids[p]), columns, p);
+      if (color[p] > settings_.threshold)
+        files_.add(folder / std::to_string(ids[p]), header, extractLine(time_, columns, p), time_);
   }
 
  private:
@@ -133,17 +133,10 @@ class ParticleExtract : public Analysis {
     return {variable.label, settings_.material, variable.where, settings_.where};
   }
 
-  void write(const std::filesystem::path& file, const std::vector<Array>& columns, std::size_t entry) {
-    std::string line = extractLine(time_, columns, entry);
-    if (!files_.insert(file.filename().string()).second) return output::AppendFile(file).append(line);
-    const std::string before = extractLinesBefore(output::textOf(file).value_or(""), time_);
-    output::replaceFile(file, (before.empty() ? extractHeader(columns) : before) + line);
-  }
-
   ExtractSettings settings_;
   double time_ = 0, last_count_ = 0;
   bool due_ = false;
-  std::set<std::string> files_;  ///< that this run has written to
+  SampleFiles files_;
 };
 
 }  // namespace
@@ -177,15 +170,6 @@ std::string extractLine(double time, const std::vector<Array>& columns, std::siz
         columns[k].values);
   }
   return line + '\n';
-}
-
-std::string extractLinesBefore(const std::string& text, double time) {
-  std::string kept;
-  for (std::size_t from = 0, end; (end = text.find('\n', from)) != std::string::npos; from = end + 1) {
-    const std::string line = text.substr(from, end + 1 - from);
-    if (line.starts_with('#') || std::strtod(line.c_str(), nullptr) < time * (1 - 1e-6)) kept += line;
-  }
-  return kept;
 }
 
 AnalysisKind particleExtractKind() {

@@ -15,8 +15,5 @@ simulation::AnalysisKind particleExtractKind();
 std::string extractHeader(const std::vector<output::Array>& columns);
 /// The line of particle `entry`: the time [s], p.x, which is the first column, and the others.
 std::string extractLine(double time, const std::vector<output::Array>& columns, std::size_t entry);
-/// The lines of such a file up to a time [s], which excludes it: what a run has left that is now repeated from there
-/// on. A last line that a kill has torn is left out.
-std::string extractLinesBefore(const std::string& text, double time);
 
 }  // namespace tushar::analysis

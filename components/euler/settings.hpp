@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -37,10 +38,13 @@ struct Method {
 struct Settings {
   Location where;                 ///< in the scene
   std::string section = "Euler";  ///< that has the objects
+  std::string name = {};          ///< of the gas
   Method method;
   double cfl = 0.8;  ///< dt max(sum_d (|v_d| + c) / h_d)
   Gas gas;
   std::vector<GasObject> objects;  ///< where they overlap, the last one counts
+  /// Changes velocity and temperature of objects that have one, at a point where the density is `rho`, at the start.
+  std::function<void(const Vec3& point, double rho, Vec3& velocity, double& temperature)> disturb = {};
 };
 
 }  // namespace tushar::euler

@@ -74,6 +74,7 @@ void noteOtherPressure(const GasBody& body, const euler::Gas& gas, const Element
 }
 
 void readMaterial(const GasMaterial& material, const Element& element, GasScene& scene, Diagnostics& diagnostics) {
+  scene.gas.name = material.name;
   scene.specificHeat = material.specificHeat;
   scene.viscosity = material.viscosity;
   scene.conductivity = material.conductivity;
@@ -144,6 +145,10 @@ GasScene readGas(const Element& root, int solids, Diagnostics& diagnostics) {
   scene.gravity = constants.gravity;
   scene.referencePressure = constants.referencePressure;
   if (isImplicit(cfd.ice)) scene.implicit = implicitPressureOf(cfd.ice);
+  if (cfd.ice.start)
+    scene.gas.disturb = [start = *cfd.ice.start](const Vec3& point, double rho, Vec3& velocity, double& temperature) {
+      start.apply(point, rho, velocity, temperature);
+    };
   if (properties.exchange) scene.exchange = properties.exchange->coefficients;
   readMaterial(properties.ice.materials.front(), *root.child("MaterialProperties")->child("ICE")->child("material"),
                scene, diagnostics);

@@ -103,7 +103,7 @@ const Schema<IceSection>& iceSchema() {
         .section("TimeStepControl", &IceSection::steps, stepSchema(), "the steps of an <ImplicitSolver>");
     input::noteTag(tags, "max_iteration_equilibration", "the pressure follows from density and energy");
     input::noteTag(tags, "ClampSpecificVolume", "the specific volume is that of the density");
-    input::refuseTag(tags, "customInitialization", "give <velocity> or <temperature> a formula in x, y, z");
+    tags.section("customInitialization", &IceSection::start, customStartSchema(), "the state at the start by formulas");
     input::refuseTag(tags, "fixedPressureGradient", "a <gravity> of the gradient over the density drives a flow, too");
     input::refuseTag(tags, "turbulence", "the viscosity is <dynamic_viscosity>");
     input::refuseTag(tags, "wallShearStress", "at a wall with a Velocity the gas sticks");

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "components/ice/gas_input.hpp"
+#include "components/ice/start.hpp"
 #include "core/input/schema.hpp"
 
 // The sections of a scene of Uintah's ICE, as they are written.
@@ -41,6 +42,7 @@ struct IceSection {
   std::optional<StepSection> steps;
   std::optional<ImplicitSection> implicit;
   std::optional<bool> thinWalls;
+  std::optional<CustomStart> start;
 };
 
 /// `CFD`.

@@ -16,6 +16,7 @@ class GasAround : public mpm::solid::Surroundings {
 
   explicit GasAround(Settings settings) : settings_(std::move(settings)) {}
 
+  const std::string& gasName() const { return settings_.gas.name; }
   bool exchangesHeat() const override { return !settings_.heat.empty(); }
   void scheduleStart(TaskList& tasks, const Materials& materials) const override;
   void scheduleForces(TaskList& tasks, const Materials& materials) const override;
@@ -48,6 +49,7 @@ class MpmIce : public Component {
   bool mayRepeatStep() const override { return true; }
   std::vector<std::string> foreignLabels() const override;
   std::vector<std::pair<std::string, std::string>> otherNames() const override;
+  std::vector<std::string> gasNames() const override { return {gas_->gasName()}; }
 
  private:
   std::shared_ptr<const GasAround<D>> gas_;

@@ -91,14 +91,20 @@ output::Array Gather::stream(Generation generation, int number, const GridOrder&
 }
 
 output::Array Gather::stream(Generation generation, int number, const Layer& layer) {
+  const grid::Level& level = warehouse_->grid().level();
+  Window window{level.cells(), level.nodesOfCells()};
+  for (const auto& [box, at] : {std::pair{&window.cells, layer.cell}, {&window.nodes, layer.node}}) {
+    box->lower[layer.axis] = at;
+    box->upper[layer.axis] = at + 1;
+  }
+  return stream(generation, number, window);
+}
+
+output::Array Gather::stream(Generation generation, int number, const Window& window) {
   const Label& label = *warehouse_->table()[number].label;
   output::Array array = emptyArray(label);
   if (!warehouse_->isHeld(generation, number)) return array;
-  const grid::Level& level = warehouse_->grid().level();
-  Box part = label.centring == Centring::node ? level.nodesOfCells() : level.cells();
-  part.lower[layer.axis] = label.centring == Centring::node ? layer.node : layer.cell;
-  part.upper[layer.axis] = part.lower[layer.axis] + 1;
-  streamGrid(generation, number, GridOrder(part), array);
+  streamGrid(generation, number, GridOrder(label.centring == Centring::node ? window.nodes : window.cells), array);
   return array;
 }
 

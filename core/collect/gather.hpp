@@ -17,6 +17,11 @@ struct Layer {
   int axis = 0, cell = 0, node = 0;
 };
 
+/// A box of cells and a box of nodes of a grid of one level.
+struct Window {
+  grid::Box cells, nodes;
+};
+
 /// Variables over the whole grid, in an order that no layout changes: particles by id, nodes and cells with x fastest.
 /// Vectors come out in x, y, z. All ranks ask for the same, while the state is as it is.
 class Gather {
@@ -32,6 +37,8 @@ class Gather {
   output::Array stream(data::Generation generation, int variable, const GridOrder& order);
   /// The same for the part of a variable of cells or nodes that is in a layer; no other part is asked for.
   output::Array stream(data::Generation generation, int variable, const Layer& layer);
+  /// The same for the part that is in a window.
+  output::Array stream(data::Generation generation, int variable, const Window& window);
 
  private:
   using Places = std::shared_ptr<const ParticlePlaces>;

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/input/schema.hpp"
+#include "core/scene/scene_samples.hpp"
 #include "core/simulation/phases.hpp"
 
 namespace tushar::scene {
@@ -246,8 +247,8 @@ Trial tryOut(const MakeComponent& make) {
 }
 
 /// Gives variables that Uintah calls otherwise their name here, with a note; each is saved once.
-void renameLabels(const Component& component, std::vector<SaveRequest>& saves, Diagnostics& diagnostics) {
-  const auto names = component.otherNames();
+void renameLabels(const std::vector<std::pair<std::string, std::string>>& names, std::vector<SaveRequest>& saves,
+                  Diagnostics& diagnostics) {
   std::vector<SaveRequest> kept;
   for (SaveRequest& save : saves) {
     const auto name =
@@ -268,7 +269,8 @@ void renameLabels(const Component& component, std::vector<SaveRequest>& saves, D
 /// here.
 void checkLabels(const Component& component, const std::vector<std::unique_ptr<Analysis>>& analyses,
                  std::vector<SaveRequest>& saves, Diagnostics& diagnostics) {
-  renameLabels(component, saves, diagnostics);
+  renameLabels(otherNames(component, analyses), saves, diagnostics);
+  settleSamples(component, analyses, diagnostics);
   const Phases phases(component, analyses);
   const std::vector<std::string> foreign = component.foreignLabels();
   std::erase_if(saves, [&](const SaveRequest& save) {
@@ -375,7 +377,10 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   diagnostics.throwIfAny();
   if (problem.component->mayRepeatStep()) problem.time.recomputeTimeStep = true;
   problem.analyses = makeModules(modules, *problem.component, problem.grid->finest());
-  if (!labelsAreChecked) checkLabels(*problem.component, problem.analyses, problem.archive.saves, diagnostics);
+  if (labelsAreChecked)
+    settleSamples(*problem.component, problem.analyses);
+  else
+    checkLabels(*problem.component, problem.analyses, problem.archive.saves, diagnostics);
   diagnostics.throwIfAny();
   problem.notes = diagnostics.notes();
   return problem;

@@ -32,6 +32,9 @@ class Component {
   virtual std::vector<std::string> foreignLabels() const { return {}; }
   /// Pairs of names: of a variable in Uintah's component of this kind, and here.
   virtual std::vector<std::pair<std::string, std::string>> otherNames() const { return {}; }
+  /// The gases of the scene, in the order of its material numbers behind all others: materials whose variables belong
+  /// to no material here.
+  virtual std::vector<std::string> gasNames() const { return {}; }
   /// Why it cannot run on a grid of several levels, if its kind can; empty where it can: continues `needs a grid of one
   /// level: `.
   virtual std::string whyOneLevel() const { return ""; }

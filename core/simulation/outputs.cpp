@@ -9,7 +9,6 @@
 #include "core/output/archive_files.hpp"
 #include "core/output/archive_snapshot.hpp"
 #include "core/output/checkpoint_store.hpp"
-#include "core/output/pieces.hpp"
 #include "core/simulation/checkpoint_file.hpp"
 #include "core/simulation/snapshot_of.hpp"
 
@@ -94,10 +93,7 @@ bool Outputs::samples() const {
 
 void Outputs::sample(Analysis& analysis) {
   const auto started = Clock::now();
-  std::vector<output::Snapshot> parts;
-  for (const collect::Layer& layer : analysis.layers()) parts.push_back(snapshotOf(run_, analysis.samples(), layer));
-  if (parts.empty()) parts.push_back(snapshotOf(run_, analysis.samples()));
-  for (output::Snapshot& part : parts) output::load(part, run_.ranks);
+  const std::vector<output::Snapshot> parts = partsOf(run_, analysis);
   run_.ranks.onFirst([&] { analysis.sample(parts, folder_); });
   seconds_ += secondsSince(started);
 }

@@ -126,6 +126,14 @@ bool Phases::isMaterial(const std::string& name) const {
   return std::find(materials_.begin(), materials_.end(), name) != materials_.end();
 }
 
+bool Phases::isOfMaterials(const std::string& label) const {
+  for (const auto* list : {&lists_.initialize, &lists_.timeAdvance, &lists_.diagnostics})
+    for (const tasks::Task& task : list->tasks())
+      for (const tasks::Access& access : task.accesses)
+        if (access.writes() && access.label->name == label) return task.perMaterial(access);
+  return false;
+}
+
 std::vector<SaveRequest> Phases::named(const std::vector<SaveRequest>& saves) const {
   const int count = static_cast<int>(materials_.size());
   std::vector<SaveRequest> all;

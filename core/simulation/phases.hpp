@@ -26,6 +26,8 @@ class Phases {
                                        const std::string& path = "DataArchiver/save") const;
   /// The problems of the labels and materials that analysis modules sample.
   std::vector<InputProblem> problemsOf(const std::vector<std::unique_ptr<Analysis>>& analyses) const;
+  /// Whether tasks compute a variable for each material.
+  bool isOfMaterials(const std::string& label) const;
   /// Notes on saved material numbers that are not those of a material.
   std::vector<std::string> remarksOn(const SaveRequest& save) const;
   /// Compiles the lists. Throws InputError for a saved or sampled label that no task computes, and for a task that the

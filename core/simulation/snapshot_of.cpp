@@ -1,5 +1,7 @@
 #include "core/simulation/snapshot_of.hpp"
 
+#include "core/output/pieces.hpp"
+
 namespace tushar::simulation {
 
 using collect::Gather;
@@ -38,6 +40,12 @@ void addField(RunState& run, const SaveRequest& save, const Stream& stream, outp
     if (number < 0 || save.label == data::positionName || (!save.material.empty() && save.material != material))
       continue;
     const data::Label& label = *run.table[number].label;
+    if (label.centring == Centring::reduction) {
+      const std::vector<double> values = run.reduction(save.label);
+      snapshot.totals.push_back({save.label, std::string(label.unit), std::string(label.description),
+                                 static_cast<int>(values.size()), values});
+      continue;
+    }
     const bool derived = !run.warehouse.isHeld(Generation::old, number);
     output::Array array = stream(derived ? Generation::fresh : Generation::old, number);
     if (label.centring == Centring::particle)
@@ -58,12 +66,54 @@ output::Snapshot snapshotOf(RunState& run, const std::vector<SaveRequest>& reque
   return snapshot;
 }
 
-output::Snapshot snapshotOf(RunState& run, const std::vector<SaveRequest>& requests, const collect::Layer& layer) {
+namespace {
+
+/// The state in a part of the grid, without particles.
+template <class Part>
+output::Snapshot snapshotIn(RunState& run, const std::vector<SaveRequest>& requests, output::GridInfo grid,
+                            const Part& where) {
   Gather gather(run.warehouse);
-  output::Snapshot snapshot = emptySnapshot(run, collect::gridInfo(run.problem.grid->level(), layer));
-  const auto part = [&](Generation generation, int number) { return gather.stream(generation, number, layer); };
+  output::Snapshot snapshot = emptySnapshot(run, std::move(grid));
+  const auto part = [&](Generation generation, int number) { return gather.stream(generation, number, where); };
   for (const SaveRequest& request : requests) addField(run, request, part, snapshot);
   return snapshot;
+}
+
+/// The least of the values, the greatest and their sum.
+std::vector<output::Snapshot> summarySnapshots(RunState& run, const std::vector<SaveRequest>& requests,
+                                               collect::SummaryOver over) {
+  std::vector<output::Snapshot> parts(3, emptySnapshot(run, collect::gridInfo(*run.problem.grid)));
+  for (const SaveRequest& request : requests) {
+    collect::Summary summary;
+    const auto take = [&](Generation generation, int number) {
+      summary = collect::summaryOf(run.warehouse, generation, number, over);
+      return summary.least;
+    };
+    const std::size_t before = parts[0].fields.size();
+    addField(run, request, take, parts[0]);
+    if (parts[0].fields.size() == before) continue;
+    for (const auto& [part, array] : {std::pair{&parts[1], &summary.greatest}, {&parts[2], &summary.sum}}) {
+      part->fields.push_back(parts[0].fields.back());
+      part->fields.back().array = *array;
+    }
+  }
+  return parts;
+}
+
+}  // namespace
+
+std::vector<output::Snapshot> partsOf(RunState& run, const Analysis& analysis) {
+  const std::vector<SaveRequest> requests = analysis.samples();
+  const grid::Grid& grid = *run.problem.grid;
+  if (const auto over = analysis.summary()) return summarySnapshots(run, requests, *over);
+  std::vector<output::Snapshot> parts;
+  for (const collect::Layer& layer : analysis.layers())
+    parts.push_back(snapshotIn(run, requests, collect::gridInfo(grid.level(), layer), layer));
+  for (const collect::Window& window : analysis.windows())
+    parts.push_back(snapshotIn(run, requests, collect::gridInfo(grid), window));
+  if (parts.empty()) parts.push_back(snapshotOf(run, requests));
+  for (output::Snapshot& part : parts) output::load(part, run.ranks);
+  return parts;
 }
 
 }  // namespace tushar::simulation

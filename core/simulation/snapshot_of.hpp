@@ -9,11 +9,11 @@
 namespace tushar::simulation {
 
 /// The state of a run as it is now, from all ranks: the particles of every material with p.x, and the variables that
-/// are asked for. Each
-/// rank has its own values; they are not copied, and good while the state is as it is. All ranks call it.
+/// are asked for. Each rank has its own values; they are not copied, and good while the state is as it is. All ranks
+/// call it.
 output::Snapshot snapshotOf(RunState& run, const std::vector<SaveRequest>& requests);
 
-/// A snapshot of a layer of the grid, without particles.
-output::Snapshot snapshotOf(RunState& run, const std::vector<SaveRequest>& requests, const collect::Layer& layer);
+/// What an analysis module wants to see of it, in the memory of rank 0. All ranks call it.
+std::vector<output::Snapshot> partsOf(RunState& run, const Analysis& analysis);
 
 }  // namespace tushar::simulation

@@ -29,13 +29,5 @@ TEST(ParticleExtract, WritesTimePlaceAndVariablesOfOneParticle) {
   EXPECT_TRUE(line.ends_with("9.000000E+00\n"));
 }
 
-TEST(ParticleExtract, KeepsTheWholeLinesBeforeWhereARunGoesOn) {
-  const std::string before = "# Time    X\n0.000000E+00\t 1\n5.000000E+01\t 2\n";
-  EXPECT_EQ(extractLinesBefore(before + "1.000000E+02\t 3\n1.500000E+02\t 4\n", 100), before);
-  EXPECT_EQ(extractLinesBefore(before + "1.0", 100), before) << "the rest of 1.0e+02 was never written";
-  EXPECT_EQ(extractLinesBefore(before, 200), before);
-  EXPECT_EQ(extractLinesBefore("", 1), "");
-}
-
 }  // namespace
 }  // namespace tushar::analysis

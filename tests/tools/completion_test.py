@@ -61,7 +61,7 @@ class Completion(unittest.TestCase):
 
     def test_manuals_and_schemas(self):
         self.assertEqual(sorted(self.offered("sus --describe m")),
-                         ["manufacturedError", "massProjection", "mpm", "mpmice"])
+                         ["manufacturedError", "massProjection", "minMax", "mpm", "mpmice"])
         self.assertIn("scene", self.offered("sus -describe "))
         self.assertEqual(self.offered("sus --schema "), ["rng", "xsd"])
         self.assertEqual(self.offered("sus --completion "), ["bash"])

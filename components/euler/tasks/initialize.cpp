@@ -47,9 +47,10 @@ std::optional<State<D>> stateAt(const Level& level, const Settings& settings, co
       std::find_if(objects.rbegin(), objects.rend(), [&](const GasObject& one) { return one.shape->owns(point); });
   if (object == objects.rend()) return std::nullopt;
   const double rho = object->density(point);
-  const double p =
-      object->temperature ? settings.gas.gasConstant() * rho * (*object->temperature)(point) : object->pressure(point);
-  const Vec3 wide = object->velocity(point);
+  double temperature = object->temperature ? (*object->temperature)(point) : 0;
+  Vec3 wide = object->velocity(point);
+  if (settings.disturb) settings.disturb(point, rho, wide, temperature);
+  const double p = object->temperature ? settings.gas.gasConstant() * rho * temperature : object->pressure(point);
   checkState(settings, *object, point, rho, p, wide);
   const Vec<D> v = level.reduce<D>(wide);
   State<D> state;

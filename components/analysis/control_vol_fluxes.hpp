@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/core.hpp"
+#include "core/simulation/catalogue.hpp"
+
+namespace tushar::analysis {
+
+/// `controlVolFluxes`: the mass of a gas in boxes of cells over time and what flows through their sides, in a file for
+/// each: `<label>.dat` in the archive, where Uintah writes them. A line has the time [s], the mass [kg], what flows in
+/// along x, y and z less what flows out, and the flux through each side, x- x+ y- y+ z- z+, along the axis [kg/s].
+simulation::AnalysisKind controlVolFluxesKind();
+
+/// The mass in a box, and the flux through each side: 2 * axis + side, along x, y and z.
+struct BoxFlow {
+  Sum mass;
+  std::array<Sum, 6> through;
+
+  void merge(const BoxFlow& other);
+  std::vector<double> values() const;
+};
+
+/// Adds what a patch has of a box of cells. Through a side flows the density of the cell upwind times the mean velocity
+/// of the two cells; where the grid ends, that of the gas inside, nothing through planes of symmetry, and with a given
+/// velocity where the side has one. Density and velocity have a layer of ghosts.
+template <int D>
+void addBoxFlow(const Patch& patch, const Box& box, int material, CellView<const double> density,
+                CellView<const Vec<D>> velocity, BoxFlow& flow);
+
+}  // namespace tushar::analysis

@@ -1,0 +1,132 @@
+#include "components/analysis/extents.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/output/archive_files.hpp"
+
+namespace tushar::analysis {
+
+using grid::Box;
+using grid::Level;
+using input::Schema;
+
+namespace {
+
+constexpr double slack = 1e-9;  ///< of a cell: what counts as the face between two
+
+Schema<Extent> extentSchema(const std::string& tag, const std::string& sentence) {
+  return Schema<Extent>(tag, sentence)
+      .location(&Extent::where)
+      .location(&Extent::whereOfName, "name")
+      .requiredAttribute("name", &Extent::name, "1", "the folder in the archive")
+      .required("startingPt", &Extent::start, "m", "where it begins")
+      .required("endingPt", &Extent::end, "m", "where it ends");
+}
+
+std::string pathOf(int axes) {
+  return axes == 1 ? "DataAnalysis/Module/lines/line" : "DataAnalysis/Module/planes/plane";
+}
+
+/// What is wrong with a name; empty where it can be a folder beside those that an archive has.
+std::string problemOfName(const std::string& name) {
+  static const std::set<std::string> taken{"checkpoints", "slice", "particleExtract", "MinMax", "planeAverage"};
+  const bool isPath = name.empty() || name.starts_with('.') || name.find('/') != std::string::npos;
+  if (isPath) return fmt::format("found '{}', expected the name of a folder, without '/' and leading dots", name);
+  if (taken.contains(name) || output::stepOf(name) || name.find('.') != std::string::npos)
+    return fmt::format("found '{}', which the archive may have for something else; choose another name", name);
+  return {};
+}
+
+/// What is wrong with the points; empty where the grid has cells between them.
+std::string problemOf(const Extent& extent, int axes, const Level& level) {
+  const Vec3 lower = level.domain().lower, upper = level.domain().upper;
+  if (level.domain().refinement.levels > 1)
+    return "it needs a grid of one level; take the module out, or the finer Levels and <AMR>";
+  int along = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double from = extent.start[axis], to = extent.end[axis];
+    const double rounding = slack * (upper[axis] - lower[axis]);
+    if (from > to)
+      return fmt::format("found endingPt at {} = {:g} m, expected {:g} m or more, where it begins", "xyz"[axis], to,
+                         from);
+    if (from < lower[axis] - rounding || to > upper[axis] + rounding)
+      return fmt::format("found {} from {:g} to {:g} m, expected places on the grid, from {:g} to {:g} m", "xyz"[axis],
+                         from, to, lower[axis], upper[axis]);
+    if (from < to) ++along;
+  }
+  if (along == axes) return {};
+  return axes == 1 ? "a line goes along one axis: startingPt and endingPt differ in one coordinate"
+                   : "a plane goes along two axes: startingPt and endingPt differ in two coordinates";
+}
+
+}  // namespace
+
+const Schema<ExtentList>& linesSchema() {
+  static const Schema<Extent> line =
+      extentSchema("line", "A line along an axis.")
+          .value("stepSize", &Extent::step, 0, "m",
+                 "distance of the cells that are written, rounded up to cells; 0: every cell", input::nonNegative());
+  static const Schema<ExtentList> schema =
+      Schema<ExtentList>("lines", "Where it looks.").list("line", &ExtentList::list, line, "a line along an axis", 1);
+  return schema;
+}
+
+const Schema<ExtentList>& planesSchema() {
+  static const Schema<Extent> plane = extentSchema("plane", "A part of a plane across an axis.");
+  static const Schema<ExtentList> schema =
+      Schema<ExtentList>("planes", "Where it looks.")
+          .list("plane", &ExtentList::list, plane, "a part of a plane across an axis", 1);
+  return schema;
+}
+
+void checkExtents(const std::vector<Extent>& extents, int axes, const Level& level) {
+  std::vector<InputProblem> problems;
+  std::set<std::string> names;
+  for (const Extent& extent : extents) {
+    if (const std::string problem = problemOfName(extent.name); !problem.empty())
+      problems.push_back({extent.whereOfName, pathOf(axes), "name: " + problem});
+    else if (!names.insert(extent.name).second)
+      problems.push_back({extent.whereOfName, pathOf(axes), fmt::format("the name '{}' is given twice", extent.name)});
+    if (const std::string problem = problemOf(extent, axes, level); !problem.empty())
+      problems.push_back({extent.where, pathOf(axes), problem});
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+}
+
+Box cellsOf(const Extent& extent, const Level& level) {
+  Box box = level.cells();
+  for (int d = 0; d < level.dimension(); ++d) {
+    const int axis = level.axis(d), cells = level.cells().extent(d);
+    const double from = (extent.start[axis] - level.nodePosition(d, 0)) / level.spacing(d);  // in cells
+    const double to = (extent.end[axis] - level.nodePosition(d, 0)) / level.spacing(d);
+    box.lower[d] = std::clamp(static_cast<int>(std::floor(from + slack)), 0, cells - 1);
+    box.upper[d] = std::clamp(static_cast<int>(std::ceil(to - slack)), box.lower[d] + 1, cells);
+  }
+  return box;
+}
+
+int axisOf(const Extent& line) {
+  for (int axis = 0; axis < 2; ++axis)
+    if (line.start[axis] != line.end[axis]) return axis;
+  return 2;
+}
+
+Index3 sceneIndex(const Index3& cell, const Level& level) {
+  Index3 index{};
+  for (int d = 0; d < level.dimension(); ++d) index[level.axis(d)] = cell[d];
+  return index;
+}
+
+Vec3 placeOf(const Index3& cell, bool isCorner, const Level& level) {
+  Vec3 place = 0.5 * (level.domain().lower + level.domain().upper);
+  for (int d = 0; d < level.dimension(); ++d)
+    place[level.axis(d)] = isCorner ? level.nodePosition(d, cell[d])
+                                    : 0.5 * (level.nodePosition(d, cell[d]) + level.nodePosition(d, cell[d] + 1));
+  return place;
+}
+
+}  // namespace tushar::analysis

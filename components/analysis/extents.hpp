@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/collect/gather.hpp"
+#include "core/input/schema.hpp"
+
+// Lines and planes between two points, as lineExtract and planeExtract have them.
+
+namespace tushar::analysis {
+
+/// A `<line name=>` or `<plane name=>`.
+struct Extent {
+  Location where, whereOfName;
+  std::string name;
+  Vec3 start = Vec3::Zero(), end = Vec3::Zero();  ///< m
+  double step = 0;                                ///< m; 0: every cell
+};
+
+struct ExtentList {
+  std::vector<Extent> list;
+};
+
+/// The schema of `<lines>` with tags `line`; of planes likewise. `fewest` is the number of axes along which one goes.
+const input::Schema<ExtentList>& linesSchema();
+const input::Schema<ExtentList>& planesSchema();
+
+/// Throws InputError for lines (`axes` = 1) or planes (2) that the grid has no cells on, that go along other axes, and
+/// for names that the archive has no folder for.
+void checkExtents(const std::vector<Extent>& extents, int axes, const grid::Level& level);
+
+/// The cells that it goes through, as a box; where it lies between two cells those above it. Nodes are those at the
+/// lower corners of these cells.
+grid::Box cellsOf(const Extent& extent, const grid::Level& level);
+
+/// The axis (0 for x, 1 for y, 2 for z) along which a line goes.
+int axisOf(const Extent& line);
+
+/// The number of a cell along x, y, z: 0 along the axes that the grid leaves out.
+Index3 sceneIndex(const Index3& cell, const grid::Level& level);
+/// The middle of a cell, or its lower corner; the middle of the domain along the axes that the grid leaves out [m].
+Vec3 placeOf(const Index3& cell, bool isCorner, const grid::Level& level);
+
+}  // namespace tushar::analysis

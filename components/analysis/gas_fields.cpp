@@ -1,0 +1,51 @@
+#include "components/analysis/gas_fields.hpp"
+
+#include <algorithm>
+
+#include "core/input/schema.hpp"
+
+namespace tushar::analysis {
+
+using simulation::Component;
+using tasks::TaskList;
+
+namespace {
+
+bool computesInCells(const TaskList& list, std::string_view label) {
+  for (const tasks::Task& task : list.tasks())
+    for (const tasks::Access& access : task.accesses)
+      if (access.writes() && access.label->name == label && access.label->centring == data::Centring::cell &&
+          !task.perMaterial(access))
+        return true;
+  return false;
+}
+
+}  // namespace
+
+std::optional<bool> isDerived(const Component& component, std::string_view label) {
+  TaskList state, derived;
+  component.scheduleInitialize(state);
+  component.scheduleDiagnostics(derived);
+  if (computesInCells(state, label)) return false;
+  return computesInCells(derived, label) ? std::optional(true) : std::nullopt;
+}
+
+int bodiesOf(const Component& component) {
+  TaskList state;
+  component.scheduleInitialize(state);
+  std::size_t bodies = 0;
+  for (const tasks::Task& task : state.tasks()) bodies = std::max(bodies, task.materials.size());
+  return static_cast<int>(bodies);
+}
+
+void checkGas(const std::string& material, const Component& component, const input::Element& module) {
+  const std::vector<std::string> gases = component.gasNames();
+  if (gases.size() == 1 && bodiesOf(component) == 0) return;
+  if (material.empty() || std::find(gases.begin(), gases.end(), material) != gases.end()) return;
+  const std::string problem = gases.empty() ? "the velocity in cells belongs to no material here; take <material> out"
+                                            : input::choiceProblem(material, gases);
+  const auto tag = module.child("material");
+  throw InputError({{(tag ? *tag : module).where(), "DataAnalysis/Module/material", problem}});
+}
+
+}  // namespace tushar::analysis

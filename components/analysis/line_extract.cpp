@@ -1,0 +1,120 @@
+#include "components/analysis/line_extract.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "components/analysis/extents.hpp"
+#include "components/analysis/sampling.hpp"
+#include "core/output/archive_files.hpp"
+#include "core/simulation/module_with_tags.hpp"
+
+namespace tushar::analysis {
+
+using grid::Level;
+using output::Centring;
+using output::Snapshot;
+using simulation::AnalysisKind;
+
+namespace {
+
+struct Settings : Sampling {
+  ExtentList lines;
+};
+
+const input::Schema<Settings>& settingsSchema() {
+  static const input::Schema<Settings> schema =
+      samplingSchema<Settings>("lineExtract", "Variables on lines over time, in a file for each cell.")
+          .requiredSection("lines", &Settings::lines, linesSchema(), "where it looks");
+  return schema;
+}
+
+constexpr int timeColumn = 4;
+
+class LineExtract : public SamplingModule {
+ public:
+  LineExtract(const Settings& settings, const Level& level)
+      : SamplingModule(settings), lines_(settings.lines.list), level_(&level), files_(timeColumn) {
+    checkExtents(lines_, 1, level);
+  }
+
+  std::vector<collect::Window> windows() const override {
+    std::vector<collect::Window> windows;
+    for (const Extent& line : lines_) windows.push_back({cellsOf(line, *level_), cellsOf(line, *level_)});
+    return windows;
+  }
+
+  void sample(const std::vector<Snapshot>& parts, const std::filesystem::path& archive) override {
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      std::vector<Found> columns = findAll(parts[k]);
+      std::stable_sort(columns.begin(), columns.end(), [](const Found& a, const Found& b) {
+        return std::pair(a.field->centring, a.field->array.components) <
+               std::pair(b.field->centring, b.field->array.components);
+      });
+      if (!columns.empty()) write(lines_[k], parts[k], columns, archive / lines_[k].name / "L-0");
+    }
+  }
+
+ private:
+  /// Every how many cells of a line are written.
+  int strideOf(const Extent& line) const {
+    const double width = level_->cellWidth(axisOf(line));
+    return width > 0 ? std::max(1, static_cast<int>(std::ceil(line.step / width - 1e-9))) : 1;
+  }
+
+  void write(const Extent& line, const Snapshot& part, const std::vector<Found>& columns,
+             const std::filesystem::path& folder) {
+    makeFolder(folder);
+    const bool isOfNodes = columns.front().field->centring == Centring::node;
+    const std::string header = headerOf(columns);
+    const int stride = strideOf(line);
+    std::size_t entry = 0;
+    grid::forEach<3>(cellsOf(line, *level_), [&](const Index3& cell) {
+      const std::size_t here = entry++;
+      if (here % static_cast<std::size_t>(stride) != 0) return;
+      const Index3 index = sceneIndex(cell, *level_);
+      const Vec3 place = placeOf(cell, isOfNodes, *level_);
+      std::string text =
+          fmt::format("{:<16E} {:<16E} {:<16E} {:<16} {:<16E}", place[0], place[1], place[2], part.step, part.time);
+      for (const Found& column : columns) {
+        const auto components = static_cast<std::size_t>(column.field->array.components);
+        for (std::size_t i = 0; i < components; ++i)
+          text += fmt::format(" {:<16E}", numberAt(column.field->array, here * components + i));
+      }
+      files_.add(folder / fmt::format("i{}_j{}_k{}", index[0], index[1], index[2]), header, text + '\n', part.time);
+    });
+  }
+
+  std::string headerOf(const std::vector<Found>& columns) const {
+    const bool isOfNodes = columns.front().field->centring == Centring::node;
+    const bool isMixed = columns.back().field->centring != columns.front().field->centring;
+    const std::string_view centre = isOfNodes ? "NC" : "CC";
+    std::string text;
+    if (isMixed) text = "# places are the middles of cells; nodes stand at their lower corners\n";
+    text += fmt::format("{:<16} {:<16} {:<16} {:<16} {:<16}", fmt::format("# X_{}", centre),
+                        fmt::format("Y_{}", centre), fmt::format("Z_{}", centre), "Timestep", "Time [s]");
+    for (const Found& column : columns) {
+      const std::string name = fmt::format("{}_{}", column.variable->called, column.variable->material);
+      const int components = column.field->array.components;
+      for (int k = 0; k < components; ++k)
+        text += fmt::format(" {:<16}", components == 1   ? name
+                                       : components == 3 ? fmt::format("{}.{}", name, "xyz"[k])
+                                                         : fmt::format("{}({},{})", name, k / 3, k % 3));
+    }
+    return text + '\n';
+  }
+
+  std::vector<Extent> lines_;
+  const Level* level_;
+  SampleFiles files_;
+};
+
+}  // namespace
+
+AnalysisKind lineExtractKind() {
+  return simulation::moduleWithTags<LineExtract>("lineExtract", "variables on lines over time, in a file for each cell",
+                                                 settingsSchema());
+}
+
+}  // namespace tushar::analysis

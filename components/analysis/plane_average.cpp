@@ -1,0 +1,140 @@
+#include "components/analysis/plane_average.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "components/analysis/sampling.hpp"
+#include "core/output/archive_files.hpp"
+#include "core/simulation/module_with_tags.hpp"
+
+namespace tushar::analysis {
+
+using grid::Level;
+using output::Snapshot;
+using simulation::AnalysisKind;
+
+namespace {
+
+struct Weight {
+  Location where;
+  std::string label;
+};
+
+struct Settings : Sampling {
+  int axis = 0;  ///< across the planes
+  std::optional<Weight> weight;
+};
+
+void checkWeight(const Settings& read, const input::Element& module, input::Diagnostics& diagnostics) {
+  const auto& all = read.variables.list;
+  const auto isWeighted = [](const Analyzed& one) { return one.weighting == Weighting::weight; };
+  if (!read.weight && std::any_of(all.begin(), all.end(), isWeighted))
+    diagnostics.error(module, "missing tag <weight> in <Module>: a weighting of mass needs a label");
+}
+
+const input::Schema<Settings>& settingsSchema() {
+  static const input::Schema<Weight> weight =
+      input::Schema<Weight>("weight", "What a weighting of mass divides by.")
+          .location(&Weight::where, "label")
+          .requiredAttribute("label", &Weight::label, "1", "a variable of cells, such as c.density");
+  static const input::Schema<Settings> schema =
+      samplingSchema<Settings>("planeAverage", "Means over planes of cells, in a file for each variable at each time.",
+                               weightedSchema())
+          .requiredChoice("planeOrientation", &Settings::axis, {{"YZ", 0}, {"XZ", 1}, {"XY", 2}},
+                          "the axes along which the planes lie")
+          .section("weight", &Settings::weight, weight, "what a weighting of mass divides by")
+          .check(checkWeight);
+  return schema;
+}
+
+class PlaneAverage : public SamplingModule {
+ public:
+  PlaneAverage(const Settings& settings, const Level& level) : SamplingModule(settings), level_(&level) {
+    if (level.domain().refinement.levels > 1)
+      throw InputError(
+          {{settings.where, "DataAnalysis/Module",
+            "planeAverage needs a grid of one level; take the module out, or the finer Levels and <AMR>"}});
+    for (int d = 0; d < level.dimension(); ++d)
+      if (level.axis(d) == settings.axis) across_ = d;
+    for (const Analyzed& one : settings.variables.list) weightings_[one.label] = one.weighting;
+    if (!settings.weight) return;
+    weight_ = settings.weight->label;
+    variables_.push_back({{weight_, settings.material, settings.weight->where, settings.where}, weight_});
+  }
+
+  std::optional<collect::SummaryOver> summary() const override { return collect::SummaryOver{across_}; }
+
+  void sample(const std::vector<Snapshot>& parts, const std::filesystem::path& archive) override {
+    const Snapshot& sums = parts[2];
+    const auto folder = archive / "planeAverage" / output::stepName(sums.step) / "L-0";
+    makeFolder(folder);
+    const std::vector<Found> all = findAll(sums);
+    const auto weight =
+        std::find_if(all.begin(), all.end(), [&](const Found& one) { return one.variable->called == weight_; });
+    for (const Found& found : all) {
+      const auto weighting = weightings_.find(found.variable->called);
+      const bool isOfCells = found.field->centring == output::Centring::cell;
+      if (weighting == weightings_.end() || !isOfCells) continue;
+      const bool isWeighted = weighting->second == Weighting::weight;
+      if (isWeighted && weight == all.end()) continue;  // a note says that nobody computes it
+      const std::string name = fmt::format("{}_{}", found.variable->called, found.variable->material);
+      output::replaceFile(folder / output::nameInPath(name), textOf(sums.time, found.field->array, weighting->second,
+                                                                    isWeighted ? &weight->field->array : nullptr));
+    }
+  }
+
+ private:
+  int cellsPerPlane() const {
+    int cells = 1;
+    for (int d = 0; d < level_->dimension(); ++d)
+      if (d != across_) cells *= level_->cells().extent(d);
+    return cells;
+  }
+
+  Vec3 middleOf(std::size_t plane) const {
+    Vec3 middle = 0.5 * (level_->domain().lower + level_->domain().upper);
+    if (across_ >= 0) {
+      const int cell = static_cast<int>(plane);
+      middle[level_->axis(across_)] =
+          0.5 * (level_->nodePosition(across_, cell) + level_->nodePosition(across_, cell + 1));
+    }
+    return middle;
+  }
+
+  std::string textOf(double time, const output::Array& sums, Weighting weighting, const output::Array* weights) const {
+    std::string text = fmt::format("# Simulation time: {:16.15E}\n# {} [{}] of planes of {} cells\n", time, sums.label,
+                                   sums.unit, cellsPerPlane());
+    text += fmt::format("# X  Y  Z  {}{}\n", weighting == Weighting::none ? "sum" : "average",
+                        weighting == Weighting::none    ? ""
+                        : weighting == Weighting::cells ? "  nCells"
+                                                        : "  weight");
+    const auto components = static_cast<std::size_t>(sums.components);
+    for (std::size_t plane = 0; plane < sums.entries(); ++plane) {
+      const Vec3 middle = middleOf(plane);
+      const double by = weighting == Weighting::none ? 1 : weights ? numberAt(*weights, plane) : cellsPerPlane();
+      text += fmt::format("{:15.14E}  {:15.14E}  {:15.14E} ", middle[0], middle[1], middle[2]);
+      for (std::size_t k = 0; k < components; ++k)
+        text += fmt::format(" {:15.14E}", numberAt(sums, plane * components + k) / by);
+      if (weighting == Weighting::cells) text += fmt::format("  {}", cellsPerPlane());
+      if (weights) text += fmt::format("  {:15.14E}", by);
+      text += '\n';
+    }
+    return text;
+  }
+
+  const Level* level_;
+  int across_ = -1;  ///< kernel axis; -1: the grid leaves it out, and there is one plane
+  std::map<std::string, Weighting> weightings_;
+  std::string weight_;
+};
+
+}  // namespace
+
+AnalysisKind planeAverageKind() {
+  return simulation::moduleWithTags<PlaneAverage>("planeAverage", "means of variables over planes of cells",
+                                                  settingsSchema());
+}
+
+}  // namespace tushar::analysis

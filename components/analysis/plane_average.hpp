@@ -1,0 +1,12 @@
+#pragma once
+
+#include "core/simulation/catalogue.hpp"
+
+namespace tushar::analysis {
+
+/// `planeAverage`: means of variables of cells over each plane of cells across an axis, in a file for each variable at
+/// each time: `planeAverage/t00012/L-0/press_CC_0` in the archive, where Uintah writes them. A line has the middle of a
+/// plane, the mean, and what it was divided by.
+simulation::AnalysisKind planeAverageKind();
+
+}  // namespace tushar::analysis

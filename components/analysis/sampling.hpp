@@ -1,0 +1,148 @@
+#pragma once
+
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/input/schema.hpp"
+#include "core/simulation/analysis.hpp"
+
+// What modules share that look at variables of cells and nodes at chosen times.
+
+namespace tushar::analysis {
+
+/// What a mean is taken by.
+enum class Weighting { none, cells, weight };
+
+/// An `<analyze label= matl=>`.
+struct Analyzed {
+  Location where, whereOfMaterial;
+  std::string label, material;
+  Weighting weighting = Weighting::none;
+};
+
+struct AnalyzedList {
+  std::vector<Analyzed> list;
+};
+
+/// When a module looks, as its tags say.
+struct Times {
+  double frequency = 0, start = 0, stop = 0;  ///< 1/s, s, s
+};
+
+/// The tags of a module that looks at variables.
+struct Sampling : Times {
+  std::string name;
+  Location where;
+  std::string material;  ///< of variables that name none
+  AnalyzedList variables;
+};
+
+const input::Schema<AnalyzedList>& analyzedSchema();
+/// The same with an attribute `weighting`.
+const input::Schema<AnalyzedList>& weightedSchema();
+void checkTimes(const Times& times, const input::Element& module, input::Diagnostics& diagnostics);
+
+/// Adds the tags of times.
+template <class Settings>
+void addTimes(input::Schema<Settings>& schema) {
+  double Settings::*const frequency = &Times::frequency;
+  double Settings::*const start = &Times::start;
+  double Settings::*const stop = &Times::stop;
+  schema
+      .required("samplingFrequency", frequency, "1/s", "samples per second of simulated time; never more than steps",
+                input::positive())
+      .required("timeStart", start, "s", "no sample before")
+      .required("timeStop", stop, "s", "no sample after")
+      .check([](const Settings& read, const input::Element& module, input::Diagnostics& diagnostics) {
+        checkTimes(read, module, diagnostics);
+      });
+}
+
+/// The schema of a module that looks at variables, to which its own tags are added.
+template <class Settings>
+input::Schema<Settings> samplingSchema(const std::string& name, const std::string& sentence,
+                                       const input::Schema<AnalyzedList>& list = analyzedSchema()) {
+  std::string Settings::*const called = &Sampling::name;
+  std::string Settings::*const material = &Sampling::material;
+  AnalyzedList Settings::*const variables = &Sampling::variables;
+  Location Settings::*const where = &Sampling::where;
+  input::Schema<Settings> schema("Module", sentence);
+  schema.requiredAttribute("name", called, "1", name)
+      .location(where)
+      .value("material", material, "", "1", "name of the material of variables that name none; the first");
+  addTimes(schema);
+  return schema.requiredSection("Variables", variables, list, "what is looked at");
+}
+
+/// When samples are due: after the first step in the time from `start` to `stop`, and then after each that passes a
+/// multiple of 1/frequency from `start` on. The initial state is none. What is due depends on the state and on that
+/// before alone, so that a run that goes on from a checkpoint looks at the same ones.
+class SampleTimes {
+ public:
+  SampleTimes(double frequency, double start, double stop) : frequency_(frequency), start_(start), stop_(stop) {}
+  explicit SampleTimes(const Times& times) : SampleTimes(times.frequency, times.start, times.stop) {}
+
+  /// The state is now that of `time`, `sinceStart` after the start of the first run [s].
+  void pass(double time, double sinceStart);
+  bool isDue() const { return due_; }
+
+ private:
+  double frequency_, start_, stop_;
+  double since_start_ = -1, count_ = -1;
+  bool due_ = false;
+};
+
+/// The lines of a file up to a time [s], which excludes it, with comments: what a run has left that is now repeated
+/// from there on. The time stands in a column, counted from 0. A last line that a kill has torn is left out.
+std::string linesBefore(const std::string& text, double time, int column = 0);
+
+/// Text files that get a line for each sample. From one that a run before has left, the lines are taken out that are
+/// now repeated.
+class SampleFiles {
+ public:
+  /// `column`: where the time [s] stands in a line.
+  explicit SampleFiles(int column = 0) : column_(column) {}
+  /// Throws FileError.
+  void add(const std::filesystem::path& file, const std::string& header, const std::string& line, double time);
+
+ private:
+  int column_;
+  std::set<std::string> begun_;
+};
+
+/// A module that looks at variables.
+class SamplingModule : public simulation::Analysis {
+ public:
+  explicit SamplingModule(const Sampling& sampling);
+
+  void schedule(tasks::TaskList&) const override {}
+  void setTime(double time, double sinceStart) override { times_.pass(time, sinceStart); }
+  std::vector<simulation::SaveRequest> samples() const override;
+  std::vector<simulation::SampledVariable>* variables() override { return &variables_; }
+  bool isSampleDue(int) const override { return times_.isDue() && !variables_.empty(); }
+
+ protected:
+  /// The values of a variable; null where they are not known at this time.
+  static const output::FieldBlock* find(const output::Snapshot& snapshot, const simulation::SampledVariable& variable);
+  /// Those of all variables, as far as they are known.
+  struct Found {
+    const simulation::SampledVariable* variable;
+    const output::FieldBlock* field;
+  };
+  std::vector<Found> findAll(const output::Snapshot& snapshot) const;
+
+  std::vector<simulation::SampledVariable> variables_;
+
+ private:
+  SampleTimes times_;
+};
+
+/// A number of an array, whatever its type.
+double numberAt(const output::Array& array, std::size_t place);
+
+/// Makes a folder with its parents. Throws FileError.
+void makeFolder(const std::filesystem::path& folder);
+
+}  // namespace tushar::analysis

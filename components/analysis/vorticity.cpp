@@ -1,0 +1,98 @@
+#include "components/analysis/vorticity.hpp"
+
+#include <optional>
+
+#include "components/analysis/gas_fields.hpp"
+#include "core/input/schema.hpp"
+
+namespace tushar::analysis {
+
+using input::Diagnostics;
+using input::Element;
+using simulation::Analysis;
+using simulation::AnalysisKind;
+using simulation::MakeAnalysis;
+
+namespace {
+
+constexpr std::string_view velocityName = "c.velocity";
+
+struct Settings {
+  std::string name, material;
+};
+
+const input::Schema<Settings>& schema() {
+  static const input::Schema<Settings> schema =
+      input::Schema<Settings>("Module", "The rotation of the velocity of the gas, c.vorticity, to be saved.")
+          .requiredAttribute("name", &Settings::name, "1", "vorticity")
+          .value("material", &Settings::material, "", "1", "name of the gas");
+  return schema;
+}
+
+template <int D>
+class Vorticity : public Analysis {
+ public:
+  explicit Vorticity(bool derived) : derived_(derived) {}
+
+  void schedule(TaskList& tasks) const override {
+    if (derived_)
+      tasks.perPatch("vorticity::compute", computeVorticity<D>, requiresNew(velocity_, 1), computes(vorticityLabel));
+    else
+      tasks.perPatch("vorticity::compute", computeVorticity<D>, requiresOld(velocity_, 1), computes(vorticityLabel));
+  }
+  void setTime(double, double) override {}
+  std::vector<std::pair<std::string, std::string>> otherNames() const override {
+    return {{"vorticity", std::string(vorticityLabel.name)}};
+  }
+
+ private:
+  bool derived_;
+  CellLabel<Vec<D>> velocity_{velocityName, "m/s", "velocity"};
+};
+
+}  // namespace
+
+template <int D>
+void computeVorticity(const Patch& patch, CellView<const Vec<D>> velocity, CellView<Vec3> vorticity) {
+  const Level& level = patch.level();
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    Eigen::Matrix3d slope = Eigen::Matrix3d::Zero();  // slope(i, j) = dv_i / dx_j
+    for (int d = 0; d < D; ++d) {
+      Index<D> above = cell, below = cell;
+      ++above[d];
+      --below[d];
+      if (!velocity.box().contains(above)) above = cell;
+      if (!velocity.box().contains(below)) below = cell;
+      if (above[d] == below[d]) continue;  // one cell
+      const Vec<D> difference = velocity[above] - velocity[below];
+      slope.col(level.axis(d)) = level.expandDirection<D>(difference) / ((above[d] - below[d]) * level.spacing(d));
+    }
+    vorticity[cell] = Vec3(slope(2, 1) - slope(1, 2), slope(0, 2) - slope(2, 0), slope(1, 0) - slope(0, 1));
+  });
+}
+
+template void computeVorticity<1>(const Patch&, CellView<const Vec<1>>, CellView<Vec3>);
+template void computeVorticity<2>(const Patch&, CellView<const Vec<2>>, CellView<Vec3>);
+template void computeVorticity<3>(const Patch&, CellView<const Vec<3>>, CellView<Vec3>);
+
+AnalysisKind vorticityKind() {
+  AnalysisKind kind{"vorticity", "the rotation of the velocity of the gas, as a variable of cells", {}, {}};
+  kind.describe = [](std::ostream& out) { schema().describe(out); };
+  kind.schema = [] { return &schema(); };
+  kind.read = [](const Element& module, Diagnostics& diagnostics) -> MakeAnalysis {
+    const Settings settings = schema().read(module, diagnostics);
+    return [=](const Component& component, const Level& level) -> std::unique_ptr<Analysis> {
+      const std::optional<bool> derived = isDerived(component, velocityName);
+      if (!derived)
+        throw InputError({{module.where(), "DataAnalysis/Module",
+                           "this component has no velocity of a gas in cells; take the module out"}});
+      checkGas(settings.material, component, module);
+      if (level.dimension() == 1) return std::make_unique<Vorticity<1>>(*derived);
+      if (level.dimension() == 2) return std::make_unique<Vorticity<2>>(*derived);
+      return std::make_unique<Vorticity<3>>(*derived);
+    };
+  };
+  return kind;
+}
+
+}  // namespace tushar::analysis

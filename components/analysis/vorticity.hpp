@@ -1,0 +1,20 @@
+#pragma once
+
+#include "core/core.hpp"
+#include "core/simulation/catalogue.hpp"
+
+namespace tushar::analysis {
+
+/// `vorticity`: the rotation of the velocity of the gas as a variable of cells, `c.vorticity`, that can be saved and
+/// that other modules can look at; Uintah's `vorticity`.
+simulation::AnalysisKind vorticityKind();
+
+/// It always has three components: those across the axes that the grid uses are the others.
+inline constexpr CellLabel<Vec3> vorticityLabel{"c.vorticity", "1/s", "rotation of the velocity"};
+
+/// curl v by differences over the two neighbours of a cell, over one at a side of the grid. The velocity has a layer of
+/// ghosts; along the axes that the grid leaves out nothing varies, and it has no component.
+template <int D>
+void computeVorticity(const Patch& patch, CellView<const Vec<D>> velocity, CellView<Vec3> vorticity);
+
+}  // namespace tushar::analysis

@@ -1,0 +1,75 @@
+#include "components/ice/start.hpp"
+
+#include <cmath>
+
+#include "core/input/refuse.hpp"
+
+namespace tushar::ice {
+
+using input::Schema;
+
+namespace {
+
+constexpr double surroundings = 300;  ///< K, as in Uintah
+
+const Schema<VortexList>& vorticesSchema() {
+  static const Schema<Vortex> vortex =
+      Schema<Vortex>("vortex", "A vortex.")
+          .requiredChoice("axis", &Vortex::axis, {{"X", 0}, {"Y", 1}, {"Z", 2}, {"x", 0}, {"y", 1}, {"z", 2}},
+                          "around which the gas turns")
+          .required("origin", &Vortex::origin, "m", "a point of the axis")
+          .required("strength", &Vortex::strength, "kg/(m s)", "C in v = C r / (rho R^2) exp(-r^2 / (2 R^2))")
+          .required("radius", &Vortex::radius, "m", "R; beyond it nothing turns", input::positive());
+  static const Schema<VortexList> schema =
+      Schema<VortexList>("vortices", "Vortices, added to the velocity at the start.")
+          .list("vortex", &VortexList::list, vortex, "a vortex", 1);
+  return schema;
+}
+
+const Schema<GaussianTemperature>& temperatureSchema() {
+  static const Schema<GaussianTemperature> schema =
+      Schema<GaussianTemperature>("gaussianTemperature", "The temperature at the start: 300 K and a bell above it.")
+          .required("amplitude", &GaussianTemperature::amplitude, "K", "height of the bell", input::greaterThan(-300))
+          .required("origin", &GaussianTemperature::origin, "m", "its middle")
+          .required("spread_x", &GaussianTemperature::spreadX, "m", "standard deviation along x", input::positive())
+          .required("spread_y", &GaussianTemperature::spreadY, "m", "standard deviation along y", input::positive());
+  return schema;
+}
+
+void addVortex(const Vortex& vortex, const Vec3& point, double rho, Vec3& velocity) {
+  const int j = vortex.axis == 0 ? 1 : 0, k = vortex.axis == 2 ? 1 : 2;
+  const double y = point[j] - vortex.origin[j], z = point[k] - vortex.origin[k];
+  const double squared = y * y + z * z, radius = vortex.radius;
+  if (squared > radius * radius) return;
+  const double turn = vortex.strength / (rho * radius * radius) * std::exp(-squared / (2 * radius * radius));
+  velocity[j] -= turn * z;
+  velocity[k] += turn * y;
+}
+
+}  // namespace
+
+void CustomStart::apply(const Vec3& point, double rho, Vec3& velocity, double& temperatureThere) const {
+  if (vortices)
+    for (const Vortex& vortex : vortices->list) addVortex(vortex, point, rho, velocity);
+  if (!temperature) return;
+  const double x = (point[0] - temperature->origin[0]) / temperature->spreadX;
+  const double y = (point[1] - temperature->origin[1]) / temperature->spreadY;
+  temperatureThere = surroundings + temperature->amplitude * std::exp(-(x * x + y * y) / 2);
+}
+
+const Schema<CustomStart>& customStartSchema() {
+  static const Schema<CustomStart> schema = [] {
+    Schema<CustomStart> tags("customInitialization",
+                             "The state at the start by formulas; the pressure follows from it.");
+    tags.section("vortices", &CustomStart::vortices, vorticesSchema(), "vortices, added to the velocity")
+        .section("gaussianTemperature", &CustomStart::temperature, temperatureSchema(),
+                 "the temperature, in place of that of the regions");
+    for (const char* tag : {"vortexPairs", "manufacturedSolution", "counterflow", "logLawProfile", "powerLawProfile",
+                            "powerLawProfile2", "DNS_Moser"})
+      input::refuseTag(tags, tag, "give <velocity> or <temperature> a formula in x, y, z");
+    return tags;
+  }();
+  return schema;
+}
+
+}  // namespace tushar::ice

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "core/data/warehouse.hpp"
+#include "core/output/snapshot.hpp"
+
+namespace tushar::collect {
+
+/// What a summary is taken over: the whole grid, or each plane of cells or nodes across a kernel axis of a grid of one
+/// level.
+struct SummaryOver {
+  int axis = -1;  ///< -1: the whole grid
+};
+
+/// The least value of each component, the greatest, and the sum: of all cells or nodes, or of each plane. Sums over
+/// several levels count a cell by its volume over that of the coarsest.
+struct Summary {
+  output::Array least, greatest, sum;
+};
+
+/// The summary of a variable of cells or nodes of a generation, on rank 0; empty arrays on the others. The same bits on
+/// any patches and ranks. All ranks call it. Only what is summed up is sent.
+Summary summaryOf(data::Warehouse& warehouse, data::Generation generation, int variable, SummaryOver over);
+
+}  // namespace tushar::collect

@@ -1,0 +1,138 @@
+#include "core/scene/scene_samples.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "core/input/values.hpp"
+#include "core/simulation/phases.hpp"
+
+namespace tushar::scene {
+
+using input::Diagnostics;
+using simulation::Analysis;
+using simulation::Component;
+using simulation::Phases;
+using simulation::SampledVariable;
+
+namespace {
+
+constexpr const char* path = "DataAnalysis/Module";
+
+/// What the variables of a scene can be, and of what.
+struct Known {
+  Phases phases;
+  std::vector<std::pair<std::string, std::string>> names;
+  tasks::Names labels;
+  std::set<std::string> foreign;
+  std::vector<std::string> materials;  ///< by their numbers in the scene
+  std::set<std::string> told;          ///< names of materials that a note is about
+
+  Known(const Component& component, const std::vector<std::unique_ptr<Analysis>>& analyses)
+      : phases(component, analyses), names(otherNames(component, analyses)), labels(phases.saveable()) {
+    const std::vector<std::string> lacking = component.foreignLabels();
+    foreign.insert(lacking.begin(), lacking.end());
+    materials = phases.materials();
+    const std::vector<std::string> gases = component.gasNames();
+    materials.insert(materials.end(), gases.begin(), gases.end());
+  }
+};
+
+/// The number of a material by its name or number; -1, with what is wrong, where there is none.
+int numberOf(const std::string& word, const Known& known, std::string& problem) {
+  const auto& all = known.materials;
+  if (const auto named = std::find(all.begin(), all.end(), word); named != all.end())
+    return static_cast<int>(named - all.begin());
+  const int count = std::max(1, static_cast<int>(all.size()));
+  const auto number = input::parse<int>(word);
+  if (word.empty()) return 0;
+  if (number.value && *number.value >= 0 && *number.value < count) return *number.value;
+  problem = number.value ? fmt::format("there is no material {}; they are counted from 0 to {}", word, count - 1)
+            : all.empty()
+                ? fmt::format("there is no material '{}': the variables of this component belong to none", word)
+                : fmt::format("there is no material '{}'{}; there {} {}", word, didYouMean(word, all),
+                              all.size() == 1 ? "is" : "are", allOf(all));
+  return -1;
+}
+
+/// Whether a word can mean the only material, whose name need not be right.
+bool isLoneMaterial(const std::string& word, const Known& known) {
+  return known.materials.size() == 1 && !input::parse<int>(word).value;
+}
+
+void settleMaterial(SampledVariable& variable, Known& known, Diagnostics& diagnostics) {
+  simulation::SaveRequest& request = variable.request;
+  std::string problem;
+  variable.material = numberOf(request.material, known, problem);
+  if (variable.material < 0 && isLoneMaterial(request.material, known)) {  // as Uintah takes it
+    if (known.told.insert(request.material).second)
+      diagnostics.note(request.whereOfMaterial, path,
+                       fmt::format("'{}' is taken for the only material, '{}'", request.material, known.materials[0]));
+    variable.material = 0;
+    problem.clear();
+  }
+  const auto& bodies = known.phases.materials();
+  if (!problem.empty()) {
+    diagnostics.error(request.whereOfMaterial, path, problem);
+  } else if (!known.phases.isOfMaterials(request.label)) {
+    request.material.clear();
+    return;
+  } else if (variable.material >= static_cast<int>(bodies.size())) {
+    diagnostics.error(
+        request.where, path,
+        fmt::format("'{}' is no variable of the gas '{}'; give matl, the number of a body from 0 to {}",
+                    variable.called, known.materials[static_cast<std::size_t>(variable.material)], bodies.size() - 1));
+  } else {
+    request.material = bodies[static_cast<std::size_t>(variable.material)];
+    return;
+  }
+  request.material.clear();
+}
+
+/// Whether a variable stays.
+bool settle(SampledVariable& variable, Known& known, Diagnostics& diagnostics) {
+  simulation::SaveRequest& request = variable.request;
+  for (const auto& [theirs, ours] : known.names)
+    if (theirs == request.label) {
+      request.label = ours;
+      break;
+    }
+  if (known.foreign.contains(request.label) && !known.labels.contains(request.label)) {
+    diagnostics.note(request.where, path, fmt::format("'{}' is left out: nobody computes it here", variable.called));
+    return false;
+  }
+  if (!known.labels.contains(request.label)) return true;  // Phases says so
+  if (!request.label.starts_with("c.") && !request.label.starts_with("g."))
+    diagnostics.error(request.where, path,
+                      fmt::format("found '{}', expected a variable of cells (c.) or nodes (g.)", variable.called));
+  settleMaterial(variable, known, diagnostics);
+  return true;
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> otherNames(const Component& component,
+                                                            const std::vector<std::unique_ptr<Analysis>>& analyses) {
+  auto names = component.otherNames();
+  for (const auto& analysis : analyses)
+    for (auto& name : analysis->otherNames()) names.push_back(std::move(name));
+  return names;
+}
+
+void settleSamples(const Component& component, const std::vector<std::unique_ptr<Analysis>>& analyses,
+                   Diagnostics& diagnostics) {
+  const auto looks = [](const auto& analysis) { return analysis->variables() != nullptr; };
+  if (std::none_of(analyses.begin(), analyses.end(), looks)) return;
+  Known known(component, analyses);
+  for (const auto& analysis : analyses)
+    if (auto* variables = analysis->variables())
+      std::erase_if(*variables, [&](SampledVariable& variable) { return !settle(variable, known, diagnostics); });
+}
+
+void settleSamples(const Component& component, const std::vector<std::unique_ptr<Analysis>>& analyses) {
+  Diagnostics said;
+  settleSamples(component, analyses, said);
+}
+
+}  // namespace tushar::scene

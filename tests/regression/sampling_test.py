@@ -1,0 +1,273 @@
+#!/usr/bin/env python3
+"""The modules minMax, lineExtract, planeExtract, planeAverage and vorticity: what they write agrees with the full
+outputs, is the same on any layout and after a restart, and Uintah's names are understood."""
+import pathlib
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from sus import ROOT, SUS, on_ranks
+
+sys.path.insert(0, str(ROOT / "tools/python"))
+from tushar.interpreter import ensure
+
+MISSING = None
+try:
+    ensure("h5py", "numpy")
+    import numpy as np
+    import tushar
+except SystemExit:
+    MISSING = "no Python here has h5py and numpy"
+
+VORTEX = ROOT / "ups/euler/vortex_3d.ups"
+CHANNEL = ROOT / "ups/ice/channel.ups"
+SMALL = ["--set", "Grid/Level/Box/resolution=[12,12,6]", "--set", "Time/max_Timesteps=10", "--set",
+         "DataArchiver/outputInterval=0", "--set", "DataArchiver/outputTimestepInterval=1", "--set",
+         "DataArchiver/checkpoint/@timestepInterval=4"]
+
+
+def module(name, tags="", variables=("c.density", "c.velocity"), frequency="1e10"):
+    looked_at = "".join(f'<analyze label="{label}"/>' if "=" not in label else f"<analyze {label}/>"
+                        for label in variables)
+    times = f"<samplingFrequency>{frequency}</samplingFrequency><timeStart>0</timeStart><timeStop>100</timeStop>"
+    return f'<Module name="{name}">{times}<Variables>{looked_at}</Variables>{tags}</Module>'
+
+
+def point(x, y, z):
+    return f"[{x},{y},{z}]"
+
+
+def extent(tag, name, start, end, more=""):
+    return (f'<{tag} name="{name}"><startingPt>{point(*start)}</startingPt><endingPt>{point(*end)}</endingPt>{more}'
+            f"</{tag}>")
+
+
+LINES = ("<lines>" + extent("line", "along_x", (-5, 1, .3), (5, 1, .3)) +
+         extent("line", "along_z", (0, 0, -1.25), (0, 0, 1.25), "<stepSize>.5</stepSize>") + "</lines>")
+PLANES = "<planes>" + extent("plane", "part", (-2, -5, .3), (3, 5, .3)) + "</planes>"
+VORTICITY = '<Module name="vorticity"/>'
+ALL = (VORTICITY + module("minMax", variables=("c.density", "c.velocity", "vorticity")) + module("lineExtract", LINES) +
+       module("planeExtract", PLANES) +
+       module("planeAverage", '<planeOrientation>XZ</planeOrientation><weight label="c.density"/>',
+              ('label="c.density" weighting="nCells"', 'label="c.pressure" weighting="mass"', "c.velocity")))
+
+
+def sus(*arguments, ranks=1):
+    command = [*on_ranks(ranks), SUS, "--quiet", *map(str, arguments)]
+    return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=300)
+
+
+def numbers(text):
+    """The numbers of the lines that are no comments."""
+    return [[float(word) for word in line.replace("[", " ").replace("]", " ").split()]
+            for line in text.splitlines() if not line.startswith("#")]
+
+
+@unittest.skipIf(MISSING, MISSING)
+class Sampling(unittest.TestCase):
+    maxDiff = None
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def scene(self, modules, of=VORTEX, save=""):
+        """A copy of a scene with these modules."""
+        text = of.read_text()
+        if "</DataAnalysis>" in text:
+            text = text[:text.index("<DataAnalysis>")] + "</Uintah_specification>"
+        text = text.replace("</DataArchiver>", save + "</DataArchiver>")
+        path = self.folder / of.name
+        path.write_text(text.replace("</Uintah_specification>",
+                                     f"<DataAnalysis>{modules}</DataAnalysis></Uintah_specification>"))
+        return path
+
+    def run_in(self, name, scene, *options, ranks=1):
+        """The archive that a run of a scene makes in a folder of that name."""
+        ended = sus(scene, "--output", self.folder / name, *options, ranks=ranks)
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        return next((self.folder / name).glob("*.uda.000"))
+
+    def files_of(self, archive):
+        found = {}
+        for part in ("MinMax", "along_x", "along_z", "part", "planeAverage"):
+            found.update({str(file.relative_to(archive)): file.read_text()
+                          for file in (archive / part).rglob("*") if file.is_file()})
+        return found
+
+    def test_what_is_written_agrees_with_the_full_outputs(self):
+        archive = self.run_in("whole", self.scene(ALL, save='<save label="vorticity"/>'), *SMALL)
+        whole, files = tushar.open(archive), self.files_of(archive)
+        steps = [whole[whole.steps.index(step)] for step in range(1, 11)]
+        for label in ("c.density", "c.velocity", "vorticity"):
+            rows = numbers(files[f"MinMax/L-0/{label}_0"])
+            self.assertEqual(len(rows), 10)
+            for row, step in zip(rows, steps):
+                values = step["c.vorticity" if label == "vorticity" else label][:]
+                flat = values.reshape(-1, values.shape[-1]) if values.ndim == 4 else values.reshape(-1, 1)
+                np.testing.assert_allclose(row[1:], [*flat.min(axis=0), *flat.max(axis=0)], rtol=1e-14)
+        places = {"along_x": [(3, 7, i) for i in range(12)], "along_z": [(k, 6, 6) for k in (0, 2, 4)]}
+        for line, cells in places.items():
+            names = {f"{line}/L-0/i{x}_j{y}_k{z}" for z, y, x in cells}
+            self.assertEqual({name for name in files if name.startswith(line)}, names)
+            for z, y, x in cells:
+                text = files[f"{line}/L-0/i{x}_j{y}_k{z}"]
+                self.assertEqual(text.split()[:6], ["#", "X_CC", "Y_CC", "Z_CC", "Timestep", "Time"])
+                self.assertIn("c.density_0", text)
+                expected = [[-5 + (x + .5) * 10 / 12, -5 + (y + .5) * 10 / 12, -1.25 + (z + .5) * 2.5 / 6, number + 1,
+                             whole.times[whole.steps.index(number + 1)], step["c.density"][:][z, y, x],
+                             *step["c.velocity"][:][z, y, x]] for number, step in enumerate(steps)]
+                np.testing.assert_allclose(numbers(text), expected, rtol=1e-6, atol=1e-12)
+
+    def test_planes_and_means_agree_with_the_full_outputs(self):
+        archive = self.run_in("whole", self.scene(ALL), *SMALL)
+        whole, files = tushar.open(archive), self.files_of(archive)
+        for step in (1, 10):
+            state = whole[whole.steps.index(step)]
+            density, velocity, pressure = (state[name][:] for name in ("c.density", "c.velocity", "c.pressure"))
+            rows = np.array(numbers(files[f"part/t{step:05}/L-0/0:c.velocity_0.dat"]))
+            part = velocity[3, :, 3:10]
+            self.assertEqual(rows.shape, (12 * 7, 6))
+            np.testing.assert_allclose(rows[:, 3:], part.reshape(-1, 3), rtol=1e-14)
+            np.testing.assert_allclose(rows[0, :3], [-5 + 3.5 * 10 / 12, -5 + .5 * 10 / 12, -1.25 + 3.5 * 2.5 / 6])
+            means = np.array(numbers(files[f"planeAverage/t{step:05}/L-0/c.density_0"]))
+            np.testing.assert_allclose(means[:, 1], -5 + (np.arange(12) + .5) * 10 / 12)
+            np.testing.assert_allclose(means[:, 3], density.mean(axis=(0, 2)), rtol=1e-13)
+            np.testing.assert_array_equal(means[:, 4], 72)
+            by_mass = np.array(numbers(files[f"planeAverage/t{step:05}/L-0/c.pressure_0"]))
+            np.testing.assert_allclose(by_mass[:, 3], pressure.sum(axis=(0, 2)) / density.sum(axis=(0, 2)), rtol=1e-13)
+            sums = np.array(numbers(files[f"planeAverage/t{step:05}/L-0/c.velocity_0"]))
+            np.testing.assert_allclose(sums[:, 3:], velocity.sum(axis=(0, 2)), rtol=1e-13)
+
+    def test_vorticity_is_that_of_the_velocity(self):
+        archive = self.run_in("whole", self.scene(VORTICITY, save='<save label="vorticity"/>'), *SMALL)
+        state = tushar.open(archive)[-1]
+        velocity = state["c.velocity"][:]
+        width = (2.5 / 6, 10 / 12, 10 / 12)  # of z, y, x
+
+        def slope(component, axis):
+            values = velocity[..., component]
+            return (np.roll(values, -1, axis) - np.roll(values, 1, axis)) / (2 * width[axis])
+
+        expected = np.stack([slope(2, 1) - slope(1, 0), slope(0, 0) - slope(2, 2), slope(1, 2) - slope(0, 1)], axis=-1)
+        np.testing.assert_allclose(state["c.vorticity"][:], expected, atol=1e-13)
+        self.assertGreater(np.abs(expected[..., 2]).max(), .5)
+
+    def test_the_mass_in_boxes_is_that_of_their_cells(self):
+        boxes = "".join(f'<box label="{name}"><min>{low}</min><max>{high}</max></box>' for name, low, high in (
+            ("all", "[-5,-5,-1.25]", "[5,5,1.25]"), ("part", "[-5,0,-1.25]", "[0,5,1.25]")))
+        tags = module("controlVolFluxes", f"<controlVolumes>{boxes}</controlVolumes>")
+        tags = tags[:tags.index("<Variables>")] + tags[tags.index("</Variables>") + len("</Variables>"):]
+        archive = self.run_in("boxes", self.scene(tags), *SMALL, "--set", "Grid/Level/Box/patches=[2,3,1]")
+        whole, volume = tushar.open(archive), 10 / 12 * 10 / 12 * 2.5 / 6
+        files = {name: np.array(numbers((archive / f"{name}.dat").read_text())) for name in ("all", "part")}
+        for row in range(10):
+            density = whole[whole.steps.index(row + 1)]["c.density"][:]
+            np.testing.assert_allclose(files["all"][row, 1], density.sum() * volume, rtol=1e-13)
+            np.testing.assert_allclose(files["part"][row, 1], density[:, 6:, :6].sum() * volume, rtol=1e-13)
+        np.testing.assert_allclose(files["all"][:, 2:5], 0, atol=1e-13)  # periodic: what leaves comes in
+        self.assertEqual(files["part"].shape, (10, 11))
+        self.assertGreater(files["part"][-1, 6], 0, "the flow goes along +x")
+
+    def test_any_layout_and_a_restart_leave_the_same_bytes(self):
+        scene = self.scene(ALL)
+        expected = self.files_of(self.run_in("one", scene, *SMALL, "-nthreads", "1"))
+        self.assertEqual(len(expected), 3 + 12 + 3 + 10 * 2 + 10 * 3)
+        for name, (ranks, patches) in {"patches": (1, "[2,3,1]"), "ranks": (3, "[2,2,2]")}.items():
+            archive = self.run_in(name, scene, *SMALL, "--set", f"Grid/Level/Box/patches={patches}", ranks=ranks)
+            self.assertEqual(self.files_of(archive), expected, name)
+        cut = self.run_in("cut", scene, *SMALL, "--set", "Time/max_Timesteps=7")
+        ended = sus("-restart", cut, "-t", "4", "--set", "Time/max_Timesteps=10")
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        self.assertEqual(self.files_of(cut), expected, "after a restart")
+
+    def test_a_run_that_is_killed_leaves_the_same_bytes(self):
+        scene = self.scene(ALL.replace("1e10", "5"))
+        many = [*SMALL, "--set", "Time/max_Timesteps=200", "--set", "Time/maxTime=1000", "--set",
+                "DataArchiver/outputTimestepInterval=1000", "--set", "DataArchiver/checkpoint/@timestepInterval=10"]
+        expected = self.files_of(self.run_in("uncut", scene, *many))
+        job = subprocess.Popen([SUS, "--quiet", scene, "--output", self.folder / "cut", *many], cwd=ROOT)
+        latest = self.folder / "cut/vortex_3d.uda/checkpoints/LATEST"
+        while job.poll() is None and not (latest.exists() and latest.read_text().strip() >= "t00010"):
+            time.sleep(.001)
+        job.kill()
+        self.assertNotEqual(job.wait(timeout=300), 0, "the run ended before it was killed")
+        cut = next((self.folder / "cut").glob("*.uda.000"))
+        ended = sus("-restart", cut)
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        self.assertEqual(self.files_of(cut), expected)
+
+    def test_uintahs_names_are_understood(self):
+        modules = ('<Module name="vorticity"><material>gas</material></Module>' +
+                   module("minMax", "<material>gas</material>", ('label="press_CC" matl="0"', "vel_CC", "vorticity",
+                                                                 "uvel_FCME")))
+        scene = self.scene(modules, CHANNEL, '<save label="vorticity"/><save label="press_CC"/>')
+        few = ["--set", "Time/max_Timesteps=3", "--set", "DataArchiver/outputTimestepInterval=1", "--set",
+               "DataArchiver/outputInterval=0"]
+        ended = subprocess.run([SUS, scene, "--output", self.folder / "ice", *few], cwd=ROOT, capture_output=True,
+                               text=True, timeout=300)
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        self.assertIn("'uvel_FCME' is left out: nobody computes it here", ended.stderr + ended.stdout)
+        archive = next((self.folder / "ice").glob("*.uda.000"))
+        self.assertEqual(sorted(file.name for file in (archive / "MinMax/L-0").iterdir()),
+                         ["press_CC_0", "vel_CC_0", "vorticity_0"])
+        last = tushar.open(archive)[-1]
+        least, greatest = numbers((archive / "MinMax/L-0/press_CC_0").read_text())[-1][1:]
+        self.assertEqual((least, greatest), (last["c.pressure"][:].min(), last["c.pressure"][:].max()))
+        self.assertEqual(last["c.vorticity"].shape[-1], 3, "in two axes, too")
+
+    def test_the_only_material_goes_by_any_name(self):
+        modules = ('<Module name="vorticity"><material>air</material></Module>' +
+                   module("minMax", "<material>air</material>", ("press_CC", "vel_CC")))
+        ended = subprocess.run([SUS, self.scene(modules, CHANNEL), "-check"], cwd=ROOT, capture_output=True, text=True,
+                               timeout=300)
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        self.assertEqual((ended.stderr + ended.stdout).count("'air' is taken for the only material, 'gas'"), 1)
+
+    def test_what_a_module_cannot_show_is_refused(self):
+        wrong = {
+            module("minMax", variables=("c.densty",)): "computes 'c.densty' (did you mean 'c.density'?)",
+            module("minMax", "<material>air</material>"):
+                "there is no material 'air': the variables of this component belong to none",
+            module("minMax", variables=('label="c.density" matl="2"',)):
+                "there is no material 2; they are counted from 0 to 0",
+            module("minMax", variables=("TotalMass",)):
+                "found 'TotalMass', expected a variable of cells (c.) or nodes (g.)",
+            module("minMax", variables=()): "analyze",
+            module("minMax").replace("<timeStop>100<", "<timeStop>-1<"): "expected timeStart, 0 s, or later",
+            module("minMax").replace("1e10", "0"): "found '0', expected a value greater than 0",
+            module("minMx"): "did you mean 'minMax'?",
+            module("lineExtract"): "lines",
+            module("lineExtract", "<lines>" + extent("line", "a", (0, 0, 0), (1, 1, 0)) + "</lines>"):
+                "a line goes along one axis",
+            module("lineExtract", "<lines>" + extent("line", "a", (0, 0, 0), (9, 0, 0)) + "</lines>"):
+                "found x from 0 to 9 m, expected places on the grid, from -5 to 5 m",
+            module("lineExtract", "<lines>" + 2 * extent("line", "a", (0, 0, 0), (1, 0, 0)) + "</lines>"):
+                "the name 'a' is given twice",
+            module("lineExtract", "<lines>" + extent("line", "../a", (0, 0, 0), (1, 0, 0)) + "</lines>"):
+                "expected the name of a folder, without '/'",
+            module("planeExtract", "<planes>" + extent("plane", "a", (0, 0, 0), (1, 0, 0)) + "</planes>"):
+                "a plane goes along two axes",
+            module("planeAverage", "<planeOrientation>XX</planeOrientation>"): "found 'XX', expected",
+            module("planeAverage", "<planeOrientation>XY</planeOrientation>",
+                   ('label="c.density" weighting="mass"',)): "a weighting of mass needs a label",
+        }
+        for tags, sentence in wrong.items():
+            ended = sus(self.scene(tags), "-check")
+            self.assertEqual(ended.returncode, 3, tags)
+            self.assertIn(sentence, ended.stderr, tags)
+        bodies = ROOT / "ups/fsi/cylinder.ups"
+        gas = self.scene(module("minMax", "<material>nothing</material>", ("press_CC",)), bodies)
+        self.assertIn("there is no material 'nothing'", sus(gas, "-check").stderr)
+        curl = self.scene('<Module name="vorticity"><material>nothing</material></Module>', bodies)
+        self.assertIn("material: found 'nothing', expected", sus(curl, "-check").stderr)
+        heat = self.scene(VORTICITY, ROOT / "ups/heat/sine.ups")
+        self.assertIn("no velocity of a gas in cells; take the module out", sus(heat, "-check").stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
