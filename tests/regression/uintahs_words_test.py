@@ -40,8 +40,9 @@ RUN = {
     "materials by their numbers": (BILLET, '<save label="p.x"/>', '<save label="p.x" material="0-1"/>'),
     "a list of one without brackets": (BILLET, "<materials>[0,1]</materials>", "<materials>1</materials>"),
     "all materials": (BILLET, '<save label="p.x"/>', '<save label="p.x" material="all"/>'),
-    "constants of damage outside its model": (DISCS, "</constitutive_model>", "</constitutive_model><D1>-2</D1><D2>5</D2>"
-                                              "<D3>-.5</D3><D4>.02</D4><D5>.6</D5>", 1),
+    "constants of damage outside its model":
+        (DISCS, "</constitutive_model>",
+         "</constitutive_model><D1>-2</D1><D2>5</D2><D3>-.5</D3><D4>.02</D4><D5>.6</D5>", 1),
     "a rigid body without moduli":
         (BILLET, "<bulk_modulus>1e9</bulk_modulus><shear_modulus>1e9</shear_modulus>", ""),
     "an older word for a model": (BILLET, "comp_neo_hook_plastic", "cnhp_damage"),

@@ -269,7 +269,8 @@ def as_json(outcomes, about, among=()):
 
 
 def escaped(text):
-    return text.replace("|", "\\|").replace("<", "\\<")
+    """A sentence as a cell of a table: tags are code."""
+    return re.sub(r"(</?[\w-]+>)", r"`\1`", text).replace("|", "/")
 
 
 def summary(outcomes, among=()):
