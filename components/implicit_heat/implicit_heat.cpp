@@ -105,6 +105,7 @@ simulation::ComponentKind kind() {
       simulation::kindWithSection<ImplicitHeat>("implicit_heat", "heat conduction, implicit: stable with any step",
                                                 schema(), {boundary::temperature, grid::symmetric});
   kind.takesLevels = true;
+  kind.amrSections = {"Heat"};
   kind.takesPartsOfSides = true;
   return kind;
 }

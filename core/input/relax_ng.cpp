@@ -164,7 +164,8 @@ class Grammar {
   }
 
   static void writeAttribute(xml_node parent, const SchemaEntry& entry, const Demand* demand) {
-    xml_node attribute = named(often(parent, demand ? 1 : entry.atLeast, false), "attribute", entry.name);
+    xml_node attribute =
+        named(often(parent, demand || entry.isAlternative ? 1 : entry.atLeast, false), "attribute", entry.name);
     document(attribute, documentationOf(entry));
     if (demand && !demand->words.empty())
       writeWords(attribute, demand->words, false);
@@ -185,8 +186,12 @@ class Grammar {
 
   void writeContents(xml_node element, const SchemaBase& schema, const std::vector<Demand>& demands) {
     const auto& entries = schema.entries();
+    const auto isAlternative = [](const SchemaEntry& entry) { return entry.isAlternative; };
+    xml_node one;
+    if (std::any_of(entries.begin(), entries.end(), isAlternative)) one = element.append_child("choice");
     for (const SchemaEntry& entry : entries)
-      if (entry.place == Place::attribute) writeAttribute(element, entry, findDemand(demands, entry.name));
+      if (entry.place == Place::attribute)
+        writeAttribute(entry.isAlternative ? one : element, entry, findDemand(demands, entry.name));
     const auto text =
         std::find_if(entries.begin(), entries.end(), [](const auto& e) { return e.place == Place::text; });
     if (text != entries.end())
@@ -226,7 +231,7 @@ class Grammar {
   /// Any attributes but those that are declared.
   static void allowOtherAttributes(xml_node element) {
     std::vector<Demand> declared;
-    for (const pugi::xpath_node& one : element.select_nodes("attribute|optional/attribute"))
+    for (const pugi::xpath_node& one : element.select_nodes("attribute|optional/attribute|choice/attribute"))
       declared.push_back({one.node().attribute("name").value(), {}});
     allowAttributes(element, declared);
   }

@@ -235,6 +235,12 @@ class Schema : public SchemaBase {
     return *this;
   }
 
+  /// Tells editors that one of the last `count` attributes must be given.
+  Schema& oneOfLast(int count) {
+    markAlternatives(count);
+    return *this;
+  }
+
   /// Adds, to the message about a word that the last choice lacks, where that word is available.
   Schema& elsewhere(const std::string& word, const std::string& sentence) {
     explainWordOfLast(word, sentence);

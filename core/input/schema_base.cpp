@@ -212,6 +212,10 @@ void SchemaBase::markLastOurs() {
   entries_.back().ours = true;
 }
 
+void SchemaBase::markAlternatives(int last) {
+  for (auto entry = entries_.end() - last; entry != entries_.end(); ++entry) entry->isAlternative = true;
+}
+
 void SchemaBase::explainWordOfLast(const std::string& word, const std::string& sentence) {
   assert(!entries_.empty() && !entries_.back().choices.empty());
   entries_.back().assign = [word, sentence, assign = entries_.back().assign](void* object, const std::string& text,

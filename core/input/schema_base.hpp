@@ -29,6 +29,7 @@ struct SchemaEntry {
   std::vector<std::string> takes;  ///< the tags that it reads; empty for attributes and text
   bool ours = false;
   bool repeatable = false;
+  bool isAlternative = false;  ///< of the attributes that are, one must be given
   int atLeast = 0;             ///< how many must be given
   std::vector<TagForm> forms;  ///< what may stand in the tags that a function of the parent reads; empty: anything
   const SchemaBase* nested = nullptr;  ///< what reads a nested tag
@@ -81,6 +82,7 @@ class SchemaBase {
   void addLocate(Locate locate) { locates_.push_back(std::move(locate)); }
   void markLastOurs();
   void markAllOurs() { all_ours_ = true; }
+  void markAlternatives(int last);
   void explainWordOfLast(const std::string& word, const std::string& sentence);
   /// Sets the allowed content of the tags of the last declaration, which a function reads; at least `atLeast` in all.
   void setFormsOfLast(std::vector<TagForm> forms, int atLeast);

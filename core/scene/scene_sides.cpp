@@ -99,6 +99,7 @@ Schema<FaceSection> faceTag(const Schema<ConditionSection>& condition) {
       .optionalChoiceAttribute("ellipse", &FaceSection::ellipse, sides, "the part in an ellipse")
       .optionalChoiceAttribute("rectangle", &FaceSection::rectangle, sides, "the part in a rectangle")
       .optionalChoiceAttribute("rectangulus", &FaceSection::rectangulus, sides, "the part between two rectangles")
+      .oneOfLast(6)
       .optionalAttribute("origin", &FaceSection::origin, "m", point("the middle of a circle, annulus or ellipse"))
       .optionalAttribute("radius", &FaceSection::radius, "m", "of a circle", input::positive())
       .optionalAttribute("inner_radius", &FaceSection::innerRadius, "m", "of an annulus", input::positive())
@@ -168,7 +169,7 @@ std::string contradiction(const grid::BoundaryCondition& condition, bool onOddPl
                        condition.variable.name, nameOf(condition.kind));
   if (!symmetry && onOddPlane &&
       (condition.kind == grid::BoundaryKind::dirichlet || condition.formula || condition.value != Vec3::Zero()))
-    return "this face is a plane of symmetry: beside it only a Neumann condition of 0 is right";
+    return "this face is a plane of symmetry: the only other condition that it allows is a Neumann condition of 0";
   return {};
 }
 
@@ -198,7 +199,7 @@ void readCondition(const ConditionSection& given, const Element& tag, bool onPla
     return;
   }
   if (!label && isOfFlow(given.label))
-    diagnostics.note(tag, given.label + " belongs to components of flow: nothing here depends on it");
+    diagnostics.note(tag, given.label + " is for components of flow: nothing here depends on it");
   else if (!label && !labels.empty())
     errorOf("label", tag, input::choiceProblem(given.label, namesOf(labels)), diagnostics);
   if (label && isOfFlow(given.label)) checkKind(given, tag, diagnostics);
@@ -213,7 +214,7 @@ void readCondition(const ConditionSection& given, const Element& tag, bool onPla
   if (const std::string problem = contradiction(condition, onOddPlane); !problem.empty())
     diagnostics.error(placeOf({&tag.whereOf("var"), &tag.whereOf("label")}, tag.where()), tag.path(), problem);
   if (const auto [first, isNew] = face.seen.emplace(given.label + given.id, tag.where()); !isNew)
-    diagnostics.error(tag, fmt::format("{} has a condition on this face already, at {}; keep one", label->name,
+    diagnostics.error(tag, fmt::format("{} already has a condition on this face, at {}; keep one", label->name,
                                        first->second.text()));
   face.conditions.push_back(std::move(condition));
 }

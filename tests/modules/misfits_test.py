@@ -81,7 +81,7 @@ class Misfits(unittest.TestCase):
 
     def test_the_card_is_read_before_calls_are_looked_up(self):
         self.build((CARD % 'abiWith("0")') + "void nowhere();\nvoid f() { nowhere(); }\n")
-        self.assertIn("does not fit", self.refused("--load", self.module))
+        self.assertIn("does not match this program", self.refused("--load", self.module))
 
     def test_calls_of_what_is_nowhere(self):
         self.build((CARD % f'abiWith("{modules.interface()}")') + "void nowhere();\nvoid f() { nowhere(); }\n")

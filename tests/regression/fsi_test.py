@@ -249,7 +249,7 @@ class WrongScenes(SceneTest):
 
     def test_bodies_have_walls(self):
         self.assert_refused(PLUG.replace("<momentum>[1e15]", "<momentum>[1e3]"),
-                            "1000 between body 0 and the gas is not available: bodies have walls")
+                            "1000 between body 0 and the gas is not available: bodies are walls to the gas")
 
     def test_a_number_for_each_pair_of_materials(self):
         self.assert_refused(PLUG.replace("<momentum>[1e15]", "<momentum>[1e15,1e15]"),

@@ -81,7 +81,7 @@ class ParticlesOnLevels(unittest.TestCase):
     def test_bodies_in_coarse_cells_are_refused(self):
         result = run(self.still("[0.2,0.2,0.0015625]", "[16,16,1]"))
         self.assertEqual(result.code, 3)
-        self.assertRegex(result.err, r"scene\.ups:\d+:\d+: particles of ball, plate are in coarser cells, or too near")
+        self.assertRegex(result.err, r"scene\.ups:\d+:\d+: particles of ball, plate are in coarser cells, or too close")
 
     def test_one_that_leaves_the_finest_cells_ends_the_run(self):
         result = run(self.still("[0.25,0.3,0.0015625]", "[24,32,1]"), SHORT[0])

@@ -122,7 +122,7 @@ class Ranks(unittest.TestCase):
                                stderr=subprocess.PIPE, text=True)
         errors = self.assert_over(job, "sus: made to fail (task faulty::fail, patch 3, step ")
         self.assert_soon(here.path)
-        self.assertEqual(errors.count("(rank 1 of 3)"), 1)
+        self.assertEqual(len(re.findall(r"\(rank [0-2] of 3\)", errors)), 1, errors)  # patches may have moved
         code, errors, report = here.restart()
         self.assertEqual((code, errors, report["ended"]), (0, "", "maxTime"))
 
@@ -207,7 +207,7 @@ class Ranks(unittest.TestCase):
 
     def test_patches_change_ranks_where_particles_are_few_on_some_and_no_bit_changes(self):
         scene, end = "ups/solid/two_discs.ups", "Time/max_Timesteps=20"
-        alone, several = (self.folder(ranks).finish([scene, "-layout", "5x5x1"], [end])[2] for ranks in (1, 3))
+        alone, several = (self.folder(ranks).finish([scene, "-layout", "8x8x1"], [end])[2] for ranks in (1, 3))
         self.assertEqual(several["fingerprint"], alone["fingerprint"])
         changes = several["wall"]["rebalanced"]
         self.assertGreaterEqual(changes["times"], 1)

@@ -129,7 +129,7 @@ class UintahsWords(unittest.TestCase):
             self.assertIn("'c' is saved as 'p.cohesion'", said)
             path.write_text(text)
             said = run(path, *FEW, options=()).err
-            self.assertIn("'p.Suction' is not saved: nobody computes it here", said)
+            self.assertIn("'p.Suction' is not saved: no task computes it here", said)
 
     def test_what_is_saved_of_all_materials_is_saved_once_of_each(self):
         for order in ("all", "billet"), ("billet", "all"):

@@ -105,10 +105,9 @@ TEST(RefinedScenes, NameVariablesThatAreThere) {
 }
 
 TEST(RefinedScenes, AreRefusedToComponentsOfOneLevel) {
-  EXPECT_EQ(
-      problemsOf(withLevel("ups/fsi/closed_box.ups"), {"Grid/Level[1]/Box/resolution=[64,1,1]"}),
-      "'mpmice' needs a grid of one level; these run on several: 'burgers', 'euler', 'heat', 'ice', 'implicit_heat', 'mpm' and "
-      "'poisson'\n");
+  EXPECT_EQ(problemsOf(withLevel("ups/fsi/closed_box.ups"), {"Grid/Level[1]/Box/resolution=[64,1,1]"}),
+            "'mpmice' needs a grid of one level; these run on several: 'burgers', 'euler', 'heat', 'ice', "
+            "'implicit_heat', 'mpm' and 'poisson'\n");
 }
 
 TEST(RefinedScenes, SaveNoFluxesThroughRims) {

@@ -67,7 +67,7 @@ TEST(LevelLimits, RefuseNodesOfTheStepBefore) {
   ofNone.perPatch("read", readNodes, requiresOld(corner));
   ofGas.perMaterial("read", readNodesOfGas, gases, requiresOld(corner));
   const std::string refused =
-      "a.ups:7:3: task read reads g.corner of nodes from the step before, which needs a grid of one level\n";
+      "a.ups:7:3: task read reads g.corner of nodes from the previous step, which needs a grid of one level\n";
   EXPECT_EQ(problemsOf(ofNone), refused);
   EXPECT_EQ(problemsOf(ofGas), refused);
   EXPECT_EQ(problemsOf(ofGas, 1), "");
