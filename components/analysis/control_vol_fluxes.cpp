@@ -28,13 +28,13 @@ struct Boxes {
   std::vector<Extent> list;
 };
 
-struct Settings : Times {
+struct FluxSettings : Times {
   std::string name, material;
   Location where;
   Boxes boxes;
 };
 
-const input::Schema<Settings>& schema() {
+const input::Schema<FluxSettings>& schema() {
   static const input::Schema<Extent> box =
       input::Schema<Extent>("box", "A box.")
           .location(&Extent::where)
@@ -44,13 +44,13 @@ const input::Schema<Settings>& schema() {
           .required("max", &Extent::end, "m", "its upper corner");
   static const input::Schema<Boxes> boxes =
       input::Schema<Boxes>("controlVolumes", "Where it looks.").list("box", &Boxes::list, box, "a box", 1);
-  static const input::Schema<Settings> schema = [] {
-    input::Schema<Settings> tags("Module", "The mass of a gas in boxes, and what flows through their sides.");
-    tags.requiredAttribute("name", &Settings::name, "1", "controlVolFluxes")
-        .location(&Settings::where)
-        .value("material", &Settings::material, "", "1", "name of the gas");
+  static const input::Schema<FluxSettings> schema = [] {
+    input::Schema<FluxSettings> tags("Module", "The mass of a gas in boxes, and what flows through their sides.");
+    tags.requiredAttribute("name", &FluxSettings::name, "1", "controlVolFluxes")
+        .location(&FluxSettings::where)
+        .value("material", &FluxSettings::material, "", "1", "name of the gas");
     addTimes(tags);
-    return tags.requiredSection("controlVolumes", &Settings::boxes, boxes, "where it looks");
+    return tags.requiredSection("controlVolumes", &FluxSettings::boxes, boxes, "where it looks");
   }();
   return schema;
 }
@@ -67,7 +67,7 @@ double velocityAtEnd(const Level& level, int d, int side, int material, const Ve
 template <int D>
 class ControlVolFluxes : public Analysis {
  public:
-  ControlVolFluxes(const Settings& settings, const Level& level, std::array<bool, 2> derived, int material)
+  ControlVolFluxes(const FluxSettings& settings, const Level& level, std::array<bool, 2> derived, int material)
       : boxes_(settings.boxes.list), where_(settings.where), derived_(derived), material_(material), times_(settings) {
     for (const Extent& box : boxes_) {
       cells_.push_back(cellsOf(box, level));
@@ -210,7 +210,7 @@ AnalysisKind controlVolFluxesKind() {
   kind.describe = [](std::ostream& out) { schema().describe(out); };
   kind.schema = [] { return &schema(); };
   kind.read = [](const Element& module, Diagnostics& diagnostics) -> MakeAnalysis {
-    const Settings settings = schema().read(module, diagnostics);
+    const FluxSettings settings = schema().read(module, diagnostics);
     return [=](const Component& component, const Level& level) -> std::unique_ptr<Analysis> {
       const auto density = isDerived(component, densityName), velocity = isDerived(component, velocityName);
       if (!density || !velocity)

@@ -19,14 +19,14 @@ using simulation::AnalysisKind;
 
 namespace {
 
-struct Settings : Sampling {
+struct LineSettings : Sampling {
   ExtentList lines;
 };
 
-const input::Schema<Settings>& settingsSchema() {
-  static const input::Schema<Settings> schema =
-      samplingSchema<Settings>("lineExtract", "Variables on lines over time, in a file for each cell.")
-          .requiredSection("lines", &Settings::lines, linesSchema(), "where it looks");
+const input::Schema<LineSettings>& lineSchema() {
+  static const input::Schema<LineSettings> schema =
+      samplingSchema<LineSettings>("lineExtract", "Variables on lines over time, in a file for each cell.")
+          .requiredSection("lines", &LineSettings::lines, linesSchema(), "where it looks");
   return schema;
 }
 
@@ -34,7 +34,7 @@ constexpr int timeColumn = 4;
 
 class LineExtract : public SamplingModule {
  public:
-  LineExtract(const Settings& settings, const Level& level)
+  LineExtract(const LineSettings& settings, const Level& level)
       : SamplingModule(settings), lines_(settings.lines.list), level_(&level), files_(timeColumn) {
     checkExtents(lines_, 1, level);
   }
@@ -114,7 +114,7 @@ class LineExtract : public SamplingModule {
 
 AnalysisKind lineExtractKind() {
   return simulation::moduleWithTags<LineExtract>("lineExtract", "variables on lines over time, in a file for each cell",
-                                                 settingsSchema());
+                                                 lineSchema());
 }
 
 }  // namespace tushar::analysis

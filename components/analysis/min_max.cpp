@@ -13,7 +13,7 @@ using simulation::AnalysisKind;
 
 namespace {
 
-const input::Schema<Sampling>& settingsSchema() {
+const input::Schema<Sampling>& minMaxSchema() {
   static const input::Schema<Sampling> schema = samplingSchema<Sampling>(
       "minMax", "The least and the greatest value of variables over time, in a file for each.");
   return schema;
@@ -56,7 +56,7 @@ class MinMax : public SamplingModule {
 
 AnalysisKind minMaxKind() {
   return simulation::moduleWithTags<MinMax>("minMax", "the least and the greatest value of variables over time",
-                                            settingsSchema());
+                                            minMaxSchema());
 }
 
 }  // namespace tushar::analysis

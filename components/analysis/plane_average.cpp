@@ -22,36 +22,36 @@ struct Weight {
   std::string label;
 };
 
-struct Settings : Sampling {
+struct AverageSettings : Sampling {
   int axis = 0;  ///< across the planes
   std::optional<Weight> weight;
 };
 
-void checkWeight(const Settings& read, const input::Element& module, input::Diagnostics& diagnostics) {
+void checkWeight(const AverageSettings& read, const input::Element& module, input::Diagnostics& diagnostics) {
   const auto& all = read.variables.list;
   const auto isWeighted = [](const Analyzed& one) { return one.weighting == Weighting::weight; };
   if (!read.weight && std::any_of(all.begin(), all.end(), isWeighted))
     diagnostics.error(module, "missing tag <weight> in <Module>: a weighting of mass needs a label");
 }
 
-const input::Schema<Settings>& settingsSchema() {
+const input::Schema<AverageSettings>& averageSchema() {
   static const input::Schema<Weight> weight =
       input::Schema<Weight>("weight", "What a weighting of mass divides by.")
           .location(&Weight::where, "label")
           .requiredAttribute("label", &Weight::label, "1", "a variable of cells, such as c.density");
-  static const input::Schema<Settings> schema =
-      samplingSchema<Settings>("planeAverage", "Means over planes of cells, in a file for each variable at each time.",
-                               weightedSchema())
-          .requiredChoice("planeOrientation", &Settings::axis, {{"YZ", 0}, {"XZ", 1}, {"XY", 2}},
+  static const input::Schema<AverageSettings> schema =
+      samplingSchema<AverageSettings>(
+          "planeAverage", "Means over planes of cells, in a file for each variable at each time.", weightedSchema())
+          .requiredChoice("planeOrientation", &AverageSettings::axis, {{"YZ", 0}, {"XZ", 1}, {"XY", 2}},
                           "the axes along which the planes lie")
-          .section("weight", &Settings::weight, weight, "what a weighting of mass divides by")
+          .section("weight", &AverageSettings::weight, weight, "what a weighting of mass divides by")
           .check(checkWeight);
   return schema;
 }
 
 class PlaneAverage : public SamplingModule {
  public:
-  PlaneAverage(const Settings& settings, const Level& level) : SamplingModule(settings), level_(&level) {
+  PlaneAverage(const AverageSettings& settings, const Level& level) : SamplingModule(settings), level_(&level) {
     if (level.domain().refinement.levels > 1)
       throw InputError(
           {{settings.where, "DataAnalysis/Module",
@@ -134,7 +134,7 @@ class PlaneAverage : public SamplingModule {
 
 AnalysisKind planeAverageKind() {
   return simulation::moduleWithTags<PlaneAverage>("planeAverage", "means of variables over planes of cells",
-                                                  settingsSchema());
+                                                  averageSchema());
 }
 
 }  // namespace tushar::analysis

@@ -16,20 +16,20 @@ using simulation::AnalysisKind;
 
 namespace {
 
-struct Settings : Sampling {
+struct PlaneSettings : Sampling {
   ExtentList planes;
 };
 
-const input::Schema<Settings>& settingsSchema() {
-  static const input::Schema<Settings> schema =
-      samplingSchema<Settings>("planeExtract", "Variables on parts of planes, in a file for each at each time.")
-          .requiredSection("planes", &Settings::planes, planesSchema(), "where it looks");
+const input::Schema<PlaneSettings>& planeSchema() {
+  static const input::Schema<PlaneSettings> schema =
+      samplingSchema<PlaneSettings>("planeExtract", "Variables on parts of planes, in a file for each at each time.")
+          .requiredSection("planes", &PlaneSettings::planes, planesSchema(), "where it looks");
   return schema;
 }
 
 class PlaneExtract : public SamplingModule {
  public:
-  PlaneExtract(const Settings& settings, const Level& level)
+  PlaneExtract(const PlaneSettings& settings, const Level& level)
       : SamplingModule(settings), planes_(settings.planes.list), level_(&level) {
     checkExtents(planes_, 2, level);
   }
@@ -83,7 +83,7 @@ class PlaneExtract : public SamplingModule {
 
 AnalysisKind planeExtractKind() {
   return simulation::moduleWithTags<PlaneExtract>(
-      "planeExtract", "variables on parts of planes, in a file for each at each time", settingsSchema());
+      "planeExtract", "variables on parts of planes, in a file for each at each time", planeSchema());
 }
 
 }  // namespace tushar::analysis

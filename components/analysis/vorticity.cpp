@@ -17,15 +17,15 @@ namespace {
 
 constexpr std::string_view velocityName = "c.velocity";
 
-struct Settings {
+struct VorticitySettings {
   std::string name, material;
 };
 
-const input::Schema<Settings>& schema() {
-  static const input::Schema<Settings> schema =
-      input::Schema<Settings>("Module", "The rotation of the velocity of the gas, c.vorticity, to be saved.")
-          .requiredAttribute("name", &Settings::name, "1", "vorticity")
-          .value("material", &Settings::material, "", "1", "name of the gas");
+const input::Schema<VorticitySettings>& schema() {
+  static const input::Schema<VorticitySettings> schema =
+      input::Schema<VorticitySettings>("Module", "The rotation of the velocity of the gas, c.vorticity, to be saved.")
+          .requiredAttribute("name", &VorticitySettings::name, "1", "vorticity")
+          .value("material", &VorticitySettings::material, "", "1", "name of the gas");
   return schema;
 }
 
@@ -80,7 +80,7 @@ AnalysisKind vorticityKind() {
   kind.describe = [](std::ostream& out) { schema().describe(out); };
   kind.schema = [] { return &schema(); };
   kind.read = [](const Element& module, Diagnostics& diagnostics) -> MakeAnalysis {
-    const Settings settings = schema().read(module, diagnostics);
+    const VorticitySettings settings = schema().read(module, diagnostics);
     return [=](const Component& component, const Level& level) -> std::unique_ptr<Analysis> {
       const std::optional<bool> derived = isDerived(component, velocityName);
       if (!derived)

@@ -26,8 +26,13 @@ std::string twice(std::string word) {
 COPY = """#pragma once
 
 #include <string>
+#include <vector>
 
-inline std::size_t length(const std::string word) { return word.size(); }
+inline std::size_t length(const std::vector<std::string>& words) {
+  std::size_t sum = 0;
+  for (const std::string word : words) sum += word.size();
+  return sum;
+}
 """
 
 
@@ -72,10 +77,10 @@ class Check(unittest.TestCase):
 
     def test_finds_a_mistake_in_a_header_that_a_source_includes(self):
         said = self.found(one_hpp=COPY, one_cpp='#include "core/a/one.hpp"\n')
-        self.assertRegex(said, r"core/a/one\.hpp:5:45: error: .*\[performance-unnecessary-value-param")
+        self.assertRegex(said, r"core/a/one\.hpp:8:26: error: .*\[performance-for-range-copy")
 
     def test_finds_a_mistake_in_a_header_that_none_includes(self):
-        self.assertIn("core/a/one.hpp:5:45: error", self.found(one_hpp=COPY))
+        self.assertIn("core/a/one.hpp:8:26: error", self.found(one_hpp=COPY))
 
     def test_what_does_not_compile_is_not_clean(self):
         self.assertIn("[clang-diagnostic-error", self.found(one_cpp="int one() { return two; }\n"))
