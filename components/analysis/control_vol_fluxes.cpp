@@ -34,7 +34,7 @@ struct FluxSettings : Times {
   Boxes boxes;
 };
 
-const input::Schema<FluxSettings>& schema() {
+const input::Schema<FluxSettings>& fluxSchema() {
   static const input::Schema<Extent> box =
       input::Schema<Extent>("box", "A box.")
           .location(&Extent::where)
@@ -207,10 +207,10 @@ template void addBoxFlow<3>(const Patch&, const Box&, int, CellView<const double
 
 AnalysisKind controlVolFluxesKind() {
   AnalysisKind kind{"controlVolFluxes", "the mass of a gas in boxes, and what flows through their sides", {}, {}};
-  kind.describe = [](std::ostream& out) { schema().describe(out); };
-  kind.schema = [] { return &schema(); };
+  kind.describe = [](std::ostream& out) { fluxSchema().describe(out); };
+  kind.schema = [] { return &fluxSchema(); };
   kind.read = [](const Element& module, Diagnostics& diagnostics) -> MakeAnalysis {
-    const FluxSettings settings = schema().read(module, diagnostics);
+    const FluxSettings settings = fluxSchema().read(module, diagnostics);
     return [=](const Component& component, const Level& level) -> std::unique_ptr<Analysis> {
       const auto density = isDerived(component, densityName), velocity = isDerived(component, velocityName);
       if (!density || !velocity)

@@ -49,7 +49,7 @@ struct ExactSolutionSettings {
   }
 };
 
-const Schema<ExactSolutionSettings>& schema() {
+const Schema<ExactSolutionSettings>& exactSolutionSchema() {
   static const Schema<ExactSolutionSettings> schema =
       Schema<ExactSolutionSettings>("Module",
                                     "Errors of a variable against a formula, in the middle of cells or at nodes.")
@@ -192,10 +192,10 @@ class ExactSolution : public Analysis {
 
 AnalysisKind exactSolutionKind() {
   AnalysisKind kind{"exactSolution", "errors of a variable against a formula in x, y, z, t", {}, {}};
-  kind.describe = [](std::ostream& out) { schema().describe(out); };
-  kind.schema = [] { return &schema(); };
+  kind.describe = [](std::ostream& out) { exactSolutionSchema().describe(out); };
+  kind.schema = [] { return &exactSolutionSchema(); };
   kind.read = [](const Element& module, Diagnostics& diagnostics) -> MakeAnalysis {
-    const ExactSolutionSettings settings = schema().read(module, diagnostics);
+    const ExactSolutionSettings settings = exactSolutionSchema().read(module, diagnostics);
     const Location where = (module.child("label") ? *module.child("label") : module).where();
     return [=](const Component& component, const Level& level) -> std::unique_ptr<Analysis> {
       const Measurable measured = findMeasurable(component, settings, where);

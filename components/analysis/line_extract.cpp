@@ -13,7 +13,6 @@
 namespace tushar::analysis {
 
 using grid::Level;
-using output::Centring;
 using output::Snapshot;
 using simulation::AnalysisKind;
 
@@ -66,7 +65,7 @@ class LineExtract : public SamplingModule {
   void write(const Extent& line, const Snapshot& part, const std::vector<Found>& columns,
              const std::filesystem::path& folder) {
     makeFolder(folder);
-    const bool isOfNodes = columns.front().field->centring == Centring::node;
+    const bool isOfNodes = columns.front().field->centring == output::Centring::node;
     const std::string header = headerOf(columns);
     const int stride = strideOf(line);
     std::size_t entry = 0;
@@ -87,7 +86,7 @@ class LineExtract : public SamplingModule {
   }
 
   std::string headerOf(const std::vector<Found>& columns) const {
-    const bool isOfNodes = columns.front().field->centring == Centring::node;
+    const bool isOfNodes = columns.front().field->centring == output::Centring::node;
     const bool isMixed = columns.back().field->centring != columns.front().field->centring;
     const std::string_view centre = isOfNodes ? "NC" : "CC";
     std::string text;

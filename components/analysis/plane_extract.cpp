@@ -10,7 +10,6 @@
 namespace tushar::analysis {
 
 using grid::Level;
-using output::Centring;
 using output::Snapshot;
 using simulation::AnalysisKind;
 
@@ -20,7 +19,7 @@ struct PlaneSettings : Sampling {
   ExtentList planes;
 };
 
-const input::Schema<PlaneSettings>& planeSchema() {
+const input::Schema<PlaneSettings>& planeExtractSchema() {
   static const input::Schema<PlaneSettings> schema =
       samplingSchema<PlaneSettings>("planeExtract", "Variables on parts of planes, in a file for each at each time.")
           .requiredSection("planes", &PlaneSettings::planes, planesSchema(), "where it looks");
@@ -65,7 +64,7 @@ class PlaneExtract : public SamplingModule {
     text += '\n';
     std::size_t entry = 0;
     grid::forEach<3>(cellsOf(plane, *level_), [&](const Index3& cell) {
-      const Vec3 place = placeOf(cell, found.field->centring == Centring::node, *level_);
+      const Vec3 place = placeOf(cell, found.field->centring == output::Centring::node, *level_);
       text += fmt::format("{:16.15E} {:16.15E} {:16.15E}    ", place[0], place[1], place[2]);
       for (std::size_t i = 0; i < components; ++i)
         text += fmt::format(" {:16.15E}", numberAt(array, entry * components + i));
@@ -83,7 +82,7 @@ class PlaneExtract : public SamplingModule {
 
 AnalysisKind planeExtractKind() {
   return simulation::moduleWithTags<PlaneExtract>(
-      "planeExtract", "variables on parts of planes, in a file for each at each time", planeSchema());
+      "planeExtract", "variables on parts of planes, in a file for each at each time", planeExtractSchema());
 }
 
 }  // namespace tushar::analysis

@@ -15,13 +15,13 @@ using simulation::MakeAnalysis;
 
 namespace {
 
-constexpr std::string_view velocityName = "c.velocity";
+constexpr std::string_view gasVelocityName = "c.velocity";
 
 struct VorticitySettings {
   std::string name, material;
 };
 
-const input::Schema<VorticitySettings>& schema() {
+const input::Schema<VorticitySettings>& vorticitySchema() {
   static const input::Schema<VorticitySettings> schema =
       input::Schema<VorticitySettings>("Module", "The rotation of the velocity of the gas, c.vorticity, to be saved.")
           .requiredAttribute("name", &VorticitySettings::name, "1", "vorticity")
@@ -47,7 +47,7 @@ class Vorticity : public Analysis {
 
  private:
   bool derived_;
-  CellLabel<Vec<D>> velocity_{velocityName, "m/s", "velocity"};
+  CellLabel<Vec<D>> velocity_{gasVelocityName, "m/s", "velocity"};
 };
 
 }  // namespace
@@ -77,12 +77,12 @@ template void computeVorticity<3>(const Patch&, CellView<const Vec<3>>, CellView
 
 AnalysisKind vorticityKind() {
   AnalysisKind kind{"vorticity", "the rotation of the velocity of the gas, as a variable of cells", {}, {}};
-  kind.describe = [](std::ostream& out) { schema().describe(out); };
-  kind.schema = [] { return &schema(); };
+  kind.describe = [](std::ostream& out) { vorticitySchema().describe(out); };
+  kind.schema = [] { return &vorticitySchema(); };
   kind.read = [](const Element& module, Diagnostics& diagnostics) -> MakeAnalysis {
-    const VorticitySettings settings = schema().read(module, diagnostics);
+    const VorticitySettings settings = vorticitySchema().read(module, diagnostics);
     return [=](const Component& component, const Level& level) -> std::unique_ptr<Analysis> {
-      const std::optional<bool> derived = isDerived(component, velocityName);
+      const std::optional<bool> derived = isDerived(component, gasVelocityName);
       if (!derived)
         throw InputError({{module.where(), "DataAnalysis/Module",
                            "this component has no velocity of a gas in cells; take the module out"}});

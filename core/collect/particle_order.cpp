@@ -65,7 +65,7 @@ void ParticleOrder::sum() {
   for (const std::uint32_t k : order) {
     Row& row = rows_[k];
     const std::int32_t* first = counts_[row.patch].data() + row.from;
-    row.particles = std::accumulate(first, first + row.cells, 0u);
+    row.particles = std::accumulate(first, first + row.cells, 0);
     keys.push_back(row.place);
     weights.push_back(row.particles);
     mine += row.particles;

@@ -105,7 +105,7 @@ class SilentMistakes(unittest.TestCase):
         refused(plane, plane + cold, "this face is a plane of symmetry: the only other condition that it allows is a "
                                      "Neumann condition of 0")
         refused(cold, cold.replace("0<", "[1,2,3]<"), "value: found '[1,2,3]', expected a number")
-        refused("[2.576693,0,0]", "2.576693", "value: found '2.576693', expected three numbers, as [1,2,3]",
+        refused("[2.576693,0,0]", "2.576693", "value: found '2.576693', expected three formulas, as [a,b,c]",
                 scene="ups/euler/shock_bubble.ups")
         refused('side="x-"', 'side="x+"', "SCENE:18:8: Grid/BoundaryConditions/Face: side x+ is given twice, the first "
                 "time at SCENE:17:8")
