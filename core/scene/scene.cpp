@@ -174,16 +174,7 @@ std::vector<std::unique_ptr<Analysis>> makeModules(const std::vector<ReadModule>
   return analyses;
 }
 
-/// Refuses an interval [s] that the times of a run could not tell apart.
-void checkInterval(double interval, const TimeSettings& time, const Element& element, const std::string& what,
-                   Diagnostics& diagnostics) {
-  const double least = simulation::timeResolution * std::max(std::abs(time.initTime), std::abs(time.maxTime));
-  if (interval > 0 && interval <= least)
-    diagnostics.error(
-        element, fmt::format("{}found {:g} s, expected more than {:g} s: times up to maxTime cannot resolve less", what,
-                             interval, least));
-}
-
+/// Refuses intervals that the times of the run could not tell apart.
 void checkIntervals(const TimeSettings& time, const ArchiveSettings& archive, const Element& section,
                     Diagnostics& diagnostics) {
   if (const auto tag = section.child("outputInterval"))
@@ -330,6 +321,20 @@ const std::vector<std::pair<std::string, std::string>>& idleSections() {
   return sections;
 }
 
+namespace {
+
+/// <Grid> for a component; for one that is not known, all that a grid may have.
+grid::Domain readGridFor(const ComponentKind* kind, const Element& section, const AmrSettings& amr,
+                         const Catalogue& catalogue, const grid::Workers& workers, Diagnostics& diagnostics) {
+  SideWords words{{}, true, true};
+  if (kind) words = {kind->boundaryLabels, kind->takesPartsOfSides, kind->takesFormulasAtSides};
+  grid::Domain domain = readGrid(section, words, workers, amr, diagnostics);
+  if (kind && domain.refinement.levels > 1) checkTakesLevels(*kind, section, amr, catalogue, diagnostics);
+  return domain;
+}
+
+}  // namespace
+
 Problem readScene(const std::string& path, const std::vector<std::string>& overrides, const Catalogue& catalogue,
                   const grid::Workers& workers, grid::Share share) {
   Diagnostics diagnostics;
@@ -350,12 +355,8 @@ Problem readScene(const std::string& path, const std::vector<std::string>& overr
   AmrSettings amr;
   if (const auto given = section(root, "AMR", false, diagnostics)) amr = readAmr(*given, kind, diagnostics);
   grid::Domain domain;
-  if (const auto grid = section(root, "Grid", true, diagnostics)) {
-    SideWords words{{}, true, true};
-    if (kind) words = {kind->boundaryLabels, kind->takesPartsOfSides, kind->takesFormulasAtSides};
-    domain = readGrid(*grid, words, workers, amr, diagnostics);
-    if (kind && domain.refinement.levels > 1) checkTakesLevels(*kind, *grid, amr, catalogue, diagnostics);
-  }
+  if (const auto grid = section(root, "Grid", true, diagnostics))
+    domain = readGridFor(kind, *grid, amr, catalogue, workers, diagnostics);
   if (kind && kind->nodesBeyond) domain.nodesBeyond = kind->nodesBeyond(root);
   MakeComponent makeComponent;
   if (kind) makeComponent = kind->read(root, diagnostics);

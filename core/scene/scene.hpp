@@ -24,6 +24,9 @@ void describeSharedSections(std::ostream& out, const simulation::Catalogue& cata
 
 /// The `Time` section.
 simulation::TimeSettings readTime(const input::Element& section, input::Diagnostics& diagnostics);
+/// Refuses an interval [s] at `element` that the times of a run could not tell apart; `what` stands before the message.
+void checkInterval(double interval, const simulation::TimeSettings& time, const input::Element& element,
+                   const std::string& what, input::Diagnostics& diagnostics);
 /// The `DataArchiver` section.
 simulation::ArchiveSettings readArchive(const input::Element& section, input::Diagnostics& diagnostics);
 /// The `AMR` section, read before the grid is known.

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "core/input/schema.hpp"
@@ -208,6 +210,14 @@ ArchiveSettings readArchive(const Element& section, Diagnostics& diagnostics) {
   archive.filebase = name;
   takeOutRepeated(archive.saves, section.children("save"), diagnostics);
   return archive;
+}
+void checkInterval(double interval, const TimeSettings& time, const Element& element, const std::string& what,
+                   Diagnostics& diagnostics) {
+  const double least = simulation::timeResolution * std::max(std::abs(time.initTime), std::abs(time.maxTime));
+  if (interval > 0 && interval <= least)
+    diagnostics.error(
+        element, fmt::format("{}found {:g} s, expected more than {:g} s: times up to maxTime cannot resolve less", what,
+                             interval, least));
 }
 void describeTime(std::ostream& out) { timeSchema().describe(out); }
 const input::SchemaBase& timeForm() { return timeSchema(); }

@@ -69,7 +69,7 @@ class Sides(SceneTest):
 
     def test_the_same_part_twice_with_one_condition(self):
         again = SECOND.replace(CIRCLE, SLOT)
-        self.assert_refused(JET.replace("</Face>", again, 1), "Velocity has a condition on this face already, at SCENE")
+        self.assert_refused(JET.replace("</Face>", again, 1), "Velocity already has a condition on this face, at SCENE")
 
     def test_a_part_of_a_periodic_side(self):
         self.assert_refused(JET.replace("<Level>", "<Level><periodic>[1,0,0]</periodic>"),
