@@ -306,6 +306,16 @@ void readSharedSections(const Element& root, Problem& problem, Diagnostics& diag
   }
 }
 
+/// <Grid> for a component; for one that is not known, all that a grid may have.
+grid::Domain readGridFor(const ComponentKind* kind, const Element& section, const AmrSettings& amr,
+                         const Catalogue& catalogue, const grid::Workers& workers, Diagnostics& diagnostics) {
+  SideWords words{{}, true, true};
+  if (kind) words = {kind->boundaryLabels, kind->takesPartsOfSides, kind->takesFormulasAtSides};
+  grid::Domain domain = readGrid(section, words, workers, amr, diagnostics);
+  if (kind && domain.refinement.levels > 1) checkTakesLevels(*kind, section, amr, catalogue, diagnostics);
+  return domain;
+}
+
 }  // namespace
 
 const std::vector<std::pair<std::string, std::string>>& idleSections() {
@@ -320,20 +330,6 @@ const std::vector<std::pair<std::string, std::string>>& idleSections() {
       {"CFD", "does nothing here: no component reads it"}};
   return sections;
 }
-
-namespace {
-
-/// <Grid> for a component; for one that is not known, all that a grid may have.
-grid::Domain readGridFor(const ComponentKind* kind, const Element& section, const AmrSettings& amr,
-                         const Catalogue& catalogue, const grid::Workers& workers, Diagnostics& diagnostics) {
-  SideWords words{{}, true, true};
-  if (kind) words = {kind->boundaryLabels, kind->takesPartsOfSides, kind->takesFormulasAtSides};
-  grid::Domain domain = readGrid(section, words, workers, amr, diagnostics);
-  if (kind && domain.refinement.levels > 1) checkTakesLevels(*kind, section, amr, catalogue, diagnostics);
-  return domain;
-}
-
-}  // namespace
 
 Problem readScene(const std::string& path, const std::vector<std::string>& overrides, const Catalogue& catalogue,
                   const grid::Workers& workers, grid::Share share) {
