@@ -33,13 +33,12 @@ void TouchedRows::touch(const Index3& cellRow, int low, int high, int ghost, int
     first[d] = std::max(cellRow[d] - ghost, nodes_.lower[d]);
     end[d] = std::min(cellRow[d] + 2 + ghost, nodes_.upper[d]);
   }
-  for (int z = first[2]; z < end[2]; ++z) {
-    std::pair<int, int>* row = &touched_[rows_.rowOf({{0, nodes_.lower[1], z}})] - nodes_.lower[1];
+  for (int z = first[2]; z < end[2]; ++z)
     for (int y = first[1]; y < end[1]; ++y) {
-      row[y].first = std::min(row[y].first, low);
-      row[y].second = std::max(row[y].second, high);
+      auto& [least, most] = touched_[rows_.rowOf({{0, y, z}})];
+      least = std::min(least, low);
+      most = std::max(most, high);
     }
-  }
 }
 
 }  // namespace tushar::data
