@@ -17,7 +17,7 @@ struct DryRun {
   int neighbours = 0;                 ///< ranks that it sends ghosts to
   int messages = 0;                   ///< with ghosts and with particles that move on, sent in a step
   int agreements = 0;                 ///< of all ranks, in a step
-  double bytes = 0;                   ///< of these messages, less those of particles, whose number nobody knows before
+  double bytes = 0;                   ///< in them but for particles, at most: as if all nodes were near particles
   double seconds = 0;                 ///< of the processor, to read the scene and compile
   double megabytes = 0;               ///< of memory that this took
 };
