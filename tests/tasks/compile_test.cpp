@@ -16,6 +16,9 @@ namespace {
 
 using data::CellLabel;
 using data::CellView;
+using data::Generation;
+using data::NodeLabel;
+using data::NodeView;
 using data::ParticleLabel;
 using data::ParticleView;
 using grid::Patch;
@@ -262,6 +265,26 @@ TEST(Plan, SendsAsSoonAsTheLastOfAStageIsComputed) {
   EXPECT_EQ(stages[0].ready, -1);
   ASSERT_EQ(stages[4].fills.size(), 2u);
   EXPECT_EQ(stages[4].ready, 2);
+}
+
+TEST(Plan, TakesNodesNearTheParticlesThatTheyWereComputedFrom) {
+  constexpr NodeLabel<double> before{"g.before", "1", "of the old particles"}, after{"g.after", "1", "of the new ones"};
+  const auto make = [](const Patch&, const Material&, NodeView<double>) {};
+  const auto use = [](const Patch&, const Material&, NodeView<const double>) {};
+  TaskList list;
+  list.perMaterial("move", writeX, gas, computes(x));
+  list.perMaterial("makeBefore", make, gas, computes(before));
+  list.relocate(x, gas);
+  list.perMaterial("useBefore", use, gas, requiresNew(before, 1));
+  list.perMaterial("makeAfter", make, gas, computes(after));
+  list.perMaterial("useAfter", use, gas, requiresNew(after, 1));
+
+  const std::vector<Stage> stages = plan(list.tasks());
+
+  ASSERT_EQ(stages[3].fills.size(), 1u);
+  EXPECT_EQ(stages[3].fills[0].set, Generation::old);
+  ASSERT_EQ(stages[5].fills.size(), 1u);
+  EXPECT_EQ(stages[5].fills[0].set, Generation::fresh);
 }
 
 TEST(TaskGraph, SendsBeforeTheTaskAfterTheOneThatComputes) {
