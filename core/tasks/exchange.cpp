@@ -10,8 +10,6 @@ using data::Generation;
 using data::ParticleRange;
 using data::ParticleSet;
 using data::Variable;
-using data::Warehouse;
-using grid::Box;
 using grid::Patch;
 using mpi::Bytes;
 

@@ -9,7 +9,6 @@ namespace tushar::tasks {
 
 using data::ParticleRange;
 using data::Variable;
-using grid::Box;
 
 namespace {
 
