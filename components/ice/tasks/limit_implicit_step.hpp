@@ -25,18 +25,19 @@ void limitImplicitStep(const Patch& patch, const ImplicitGas& settings, const eu
   const Level& level = patch.level();
   euler::refuseBroken<D, const double>(patch, settings.gas, before, nullptr);
   const double second = 1;
-  const FaceFlow<D> flow(level, settings, patch.cells(), before, time, second);
-  const euler::Rows<D> pushing = flow.withPressure(pressure);
+  const euler::GhostRules<D> rules = euler::ghostRules<D>(level, settings.gas, time);
+  const GasBefore<D> gas(level, settings, rules, patch.cells().grown(1, D), before);
+  const euler::Rows<D> pushing = gas.withPressure(pressure);
   const auto acceleration = [&](const Index<D>& face, int axis) {
     const std::size_t p = euler::kPressure<D>;
-    const double gained = flow.mobility(face, axis);
+    const double gained = gas.mobility(face, axis, second);
     if (gained == 0) return 0.0;
     const double rise = pushing.number(face, p) - pushing.number(face - Index<D>::unit(axis), p);
-    return std::abs(flow.gravity()[axis] - gained * rise);
+    return std::abs(gas.gravity()[axis] - gained * rise);
   };
   double greatest = 0;
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    const euler::State<D> w = flow.old().state(cell);
+    const euler::State<D> w = gas.old().state(cell);
     const double rho = w[euler::kDensity];
     const double sound =
         settings.soundSpeedKnob * std::sqrt(settings.gas.soundSpeedSquared(rho, w[euler::kPressure<D>]));
