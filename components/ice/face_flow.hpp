@@ -94,11 +94,11 @@ class GasBefore {
   }
 
  private:
-  /// The rule at a face that lies in a side of the grid.
+  /// The rule at a face that lies in a side of the grid: that of the cell beyond, where formulas count.
   std::optional<euler::GhostRule<D>> ruleOf(const Index<D>& face, int axis) const {
     const bool isUpper = face[axis] == level_.cells().upper[axis];
     if (level_.isPeriodic(axis) || (face[axis] != 0 && !isUpper)) return {};
-    return euler::ruleAt<D>(level_, rules_, axis, isUpper ? 1 : 0, face);
+    return euler::ruleAt<D>(level_, rules_, axis, isUpper ? 1 : 0, isUpper ? face : face - Index<D>::unit(axis));
   }
 
   const Level& level_;
