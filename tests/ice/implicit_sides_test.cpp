@@ -90,4 +90,12 @@ TEST(ImplicitSides, TakeFormulasInTheMiddleOfTheCellsBeyondBoth) {
   EXPECT_EQ(line.velocityAt(2), std::nullopt);
 }
 
+TEST(ImplicitSides, KeepLayersAtRestWithAVelocityAndAPressure) {
+  const Conditions still{given(label::velocity, 0), varying(label::pressure, "3 - x")};
+  Line line(still, still, -1);
+  for (const double momentum : line.momentumAfter(0.1)) EXPECT_NEAR(momentum, 0, 1e-14);
+  Line walled({given(label::velocity, 0)}, {given(label::velocity, 0)}, -1);
+  for (const double momentum : walled.momentumAfter(0.1)) EXPECT_NEAR(momentum, 0, 1e-14);
+}
+
 }  // namespace tushar::ice

@@ -69,9 +69,10 @@ class ImplicitStep {
     const double together = flow_.old().number(below, v) - flow_.old().number(face, v);
     const double rho = flow_.density(face, axis);
     const double viscous = together > 0 ? 0.5 * (flow_.gas().gamma + 1) * rho * together * together : 0;
-    // At a wall p' is that of the cell, half a cell away.
+    // Where a velocity is given without a pressure, as at a wall, p' is that of the cell, half a cell away.
     double weight = 0;
-    if (flow_.givenVelocity(face, axis)) weight = 0.5 * level_.spacing(axis) * rho * flow_.gravity()[axis];
+    if (flow_.isFree(face, axis) && flow_.givenVelocity(face, axis))
+      weight = 0.5 * level_.spacing(axis) * rho * flow_.gravity()[axis];
     return 0.5 * (after_.number(below, p) + after_.number(face, p)) + viscous + (face[axis] == 0 ? -weight : weight);
   }
   /// rho, v, p of a cell at the face above (1) or below it (-1), half a step later.
