@@ -90,6 +90,13 @@ TEST(ImplicitSides, TakeFormulasInTheMiddleOfTheCellsBeyondBoth) {
   EXPECT_EQ(line.velocityAt(2), std::nullopt);
 }
 
+TEST(ImplicitSides, LimitStepsByWhatFlowsThroughThem) {
+  EXPECT_TRUE(std::isinf(Line({given(label::velocity, 0)}, {}).stableStep())) << "nothing moves";
+  const double width = 0.25, cfl = 0.5;
+  EXPECT_DOUBLE_EQ(Line({given(label::velocity, 8), given(label::density, 1)}, {}).stableStep(), cfl * width / 8);
+  EXPECT_DOUBLE_EQ(Line({}, {given(label::velocity, 4)}).stableStep(), cfl * width / 4);
+}
+
 TEST(ImplicitSides, KeepLayersAtRestWithAVelocityAndAPressure) {
   const Conditions still{given(label::velocity, 0), varying(label::pressure, "3 - x")};
   Line line(still, still, -1);
