@@ -13,7 +13,7 @@ namespace tushar::ice {
 
 namespace {
 
-/// Behind the step of the gas; `gas` and `diffusion` outlive the tasks.
+/// Viscosity and conduction, behind the step of the gas.
 template <int D>
 void scheduleDiffusion(TaskList& tasks, const euler::Gas& gas, const euler::Diffusion& diffusion) {
   if (!diffusion.acts()) return;
