@@ -30,6 +30,9 @@ class Euler : public Component, public reference::GasSolution {
                             const reference::Clock& clock) const override;
   std::vector<reference::MeasuredPlace> measuredPlaces() const override { return {reference::MeasuredPlace::cell}; }
 
+ protected:
+  const Settings& settings() const { return settings_; }
+
  private:
   Settings settings_;
 };

@@ -19,39 +19,28 @@ struct ImplicitGas {
   solvers::LinearSettings solver;
 };
 
-/// The normal velocities at the faces of cells, as the pressure p' at the end of a step makes them:
-///
-///   u_f = u*_f - dt / (rho_f h) (p'_R - p'_L),   u*_f = the mean of v - dt (v . grad) v of both cells + dt g,
-///
-/// rho_f the mean density. A face is named by an axis and the cell above it. Walls, and sides with a Velocity, have
-/// that velocity whatever the pressure; at other sides without a Pressure it is that of the cell next to them, and
-/// nothing pushes.
-/// Source: F. H. Harlow & A. A. Amsden, J. Comput. Phys. 8 (1971) 197; N. Kwatra, J. Su, J. T. Gretarsson & R. Fedkiw,
-/// J. Comput. Phys. 228 (2009) 4146.
+/// The gas before a step, beyond sides of the grid too, and what sides give at their faces. A face is named by an axis
+/// and the cell above it.
 template <int D>
-class FaceFlow {
+class GasBefore {
  public:
-  /// For the faces of the cells in `box`, from the state in two more layers. Formulas at sides count at `time` [s].
-  FaceFlow(const Level& level, const ImplicitGas& settings, const Box& box,
-           const euler::StateViews<D, const double>& before, double time, double dt)
+  /// In the cells of `box`, by the rules at the sides, which outlive this.
+  GasBefore(const Level& level, const ImplicitGas& settings, const euler::GhostRules<D>& rules, const Box& box,
+            const euler::StateViews<D, const double>& before)
       : level_(level),
+        rules_(rules),
         gas_(settings.gas),
         gravity_(level.reduce<D>(settings.gravity)),
-        dt_(dt),
-        rules_(euler::ghostRules<D>(level, gas_, time)),
-        old_(box.grown(2, D).size()),
-        ahead_(old_) {
-    old_.hold(box.grown(2, D));
+        old_(box.size()) {
+    old_.hold(box);
     euler::recover<D>(gas_, level, before, old_);
     euler::fillBeyondGrid<D>(level, rules_, old_);
-    ahead_ = old_;
-    if (settings.hasSlopes) carryVelocities(level.clipCells(box.grown(1, D)));
   }
 
+  const Level& level() const { return level_; }
   const euler::Gas& gas() const { return gas_; }
   const Vec<D>& gravity() const { return gravity_; }
-  const euler::GhostRules<D>& rules() const { return rules_; }
-  /// rho, v and p before the step, beyond sides of the grid too.
+  /// rho, v and p.
   const euler::Rows<D>& old() const { return old_; }
   /// The old state with another pressure in the cells of the grid, beyond sides too.
   euler::Rows<D> withPressure(const CellView<const double>& pressure) const {
@@ -67,7 +56,7 @@ class FaceFlow {
       if (!level_.isPeriodic(d) && (cell[d] < 0 || cell[d] >= level_.cells().upper[d])) return false;
     return true;
   }
-  /// The limited difference of a number of the old state across a cell.
+  /// The limited difference of a number of the state across a cell.
   double slope(const Index<D>& cell, int axis, std::size_t number) const {
     const Index<D> step = Index<D>::unit(axis);
     const double middle = old_.number(cell, number);
@@ -75,63 +64,90 @@ class FaceFlow {
   }
 
   /// The normal velocity of a face that has one whatever the pressure, m/s.
-  std::optional<double> givenVelocity(const Index<D>& cell, int axis) const {
-    const std::optional<euler::GhostRule<D>> rule = ruleOf(cell, axis);
+  std::optional<double> givenVelocity(const Index<D>& face, int axis) const {
+    const std::optional<euler::GhostRule<D>> rule = ruleOf(face, axis);
     if (rule && rule->mirrored) return 0.0;
     if (rule && rule->factor[euler::kVelocity(axis)] == 0) return rule->value[euler::kVelocity(axis)];
     return {};
   }
+  /// Whether a face lies in a side without a pressure.
+  bool isFree(const Index<D>& face, int axis) const {
+    const std::optional<euler::GhostRule<D>> rule = ruleOf(face, axis);
+    return rule && rule->factor[euler::kPressure<D>] != 0;
+  }
   /// rho_f, kg/m³.
-  double density(const Index<D>& cell, int axis) const { return mean(old_, cell, axis, euler::kDensity); }
-  /// The mean of p + p_inf on both sides before the step, Pa.
-  double stiffPressure(const Index<D>& cell, int axis) const {
-    return mean(old_, cell, axis, euler::kPressure<D>) + gas_.pInfinity;
+  double density(const Index<D>& face, int axis) const { return mean(old_, face, axis, euler::kDensity); }
+  /// The mean of p + p_inf on both sides, Pa.
+  double stiffPressure(const Index<D>& face, int axis) const {
+    return mean(old_, face, axis, euler::kPressure<D>) + gas_.pInfinity;
   }
-  /// u*_f, m/s.
-  double withoutPressure(const Index<D>& cell, int axis) const {
-    if (const auto given = givenVelocity(cell, axis)) return *given;
-    const double carried = mean(ahead_, cell, axis, euler::kVelocity(axis));
-    return isFree(cell, axis) ? carried : carried + dt_ * gravity_[axis];
+  /// dt / (rho_f h), m/(s Pa): what the normal velocity loses in a time dt [s] per Pa that the pressure rises by across
+  /// the face; 0 where no pressure pushes.
+  double mobility(const Index<D>& face, int axis, double dt) const {
+    if (isFree(face, axis) || givenVelocity(face, axis)) return 0;
+    return dt * level_.inverseSpacing(axis) / density(face, axis);
   }
-  /// dt / (rho_f h), m/(s Pa); 0 where no pressure pushes.
-  double mobility(const Index<D>& cell, int axis) const {
-    if (isFree(cell, axis) || givenVelocity(cell, axis)) return 0;
-    return dt_ * level_.inverseSpacing(axis) / density(cell, axis);
+
+ protected:
+  static double mean(const euler::Rows<D>& of, const Index<D>& face, int axis, std::size_t number) {
+    return 0.5 * (of.number(face - Index<D>::unit(axis), number) + of.number(face, number));
   }
 
  private:
-  static double mean(const euler::Rows<D>& of, const Index<D>& cell, int axis, std::size_t number) {
-    return 0.5 * (of.number(cell - Index<D>::unit(axis), number) + of.number(cell, number));
-  }
-  /// The rule at a face that lies in a side of the grid.
-  std::optional<euler::GhostRule<D>> ruleOf(const Index<D>& cell, int axis) const {
-    const bool isUpper = cell[axis] == level_.cells().upper[axis];
-    if (level_.isPeriodic(axis) || (cell[axis] != 0 && !isUpper)) return {};
-    return euler::ruleAt<D>(level_, rules_, axis, isUpper ? 1 : 0, cell);
-  }
-  /// Whether a face lies in a side without a pressure.
-  bool isFree(const Index<D>& cell, int axis) const {
-    const std::optional<euler::GhostRule<D>> rule = ruleOf(cell, axis);
-    return rule && rule->factor[euler::kPressure<D>] != 0;
-  }
-  /// The velocities of cells become v - dt (v . grad) v.
-  void carryVelocities(const Box& cells) {
-    forEach<D>(cells, [&](const Index<D>& cell) {
-      const euler::State<D> w = old_.state(cell);
-      const auto ahead = ahead_.at(cell);
-      for (int k = 0; k < D; ++k)
-        for (int d = 0; d < D; ++d)
-          *ahead[euler::kVelocity(k)] -=
-              dt_ * level_.inverseSpacing(d) * w[euler::kVelocity(d)] * slope(cell, d, euler::kVelocity(k));
-    });
+  /// The rule at a face that lies in a side of the grid: that of the cell beyond, where formulas count.
+  std::optional<euler::GhostRule<D>> ruleOf(const Index<D>& face, int axis) const {
+    const bool isUpper = face[axis] == level_.cells().upper[axis];
+    if (level_.isPeriodic(axis) || (face[axis] != 0 && !isUpper)) return {};
+    return euler::ruleAt<D>(level_, rules_, axis, isUpper ? 1 : 0, isUpper ? face : face - Index<D>::unit(axis));
   }
 
   const Level& level_;
+  const euler::GhostRules<D>& rules_;
   euler::Gas gas_;
   Vec<D> gravity_;
+  euler::Rows<D> old_;
+};
+
+/// The normal velocities at the faces of cells, as the pressure p' at the end of a step makes them:
+///
+///   u_f = u*_f - dt / (rho_f h) (p'_R - p'_L),   u*_f = the mean of v - dt (v . grad) v of both cells + dt g,
+///
+/// rho_f the mean density. Walls, and sides with a Velocity, have that velocity whatever the pressure; at other sides
+/// without a Pressure it is that of the cell next to them, and nothing pushes.
+/// Source: F. H. Harlow & A. A. Amsden, J. Comput. Phys. 8 (1971) 197; N. Kwatra, J. Su, J. T. Gretarsson & R. Fedkiw,
+/// J. Comput. Phys. 228 (2009) 4146.
+template <int D>
+class FaceFlow : public GasBefore<D> {
+ public:
+  /// For the faces of the cells in `box`, from the state in two more layers.
+  FaceFlow(const Level& level, const ImplicitGas& settings, const euler::GhostRules<D>& rules, const Box& box,
+           const euler::StateViews<D, const double>& before, double dt)
+      : GasBefore<D>(level, settings, rules, box.grown(2, D), before), dt_(dt), ahead_(this->old()) {
+    if (settings.hasSlopes) carryVelocities(level.clipCells(box.grown(1, D)));
+  }
+
+  /// u*_f, m/s.
+  double withoutPressure(const Index<D>& face, int axis) const {
+    if (const auto given = this->givenVelocity(face, axis)) return *given;
+    const double carried = this->mean(ahead_, face, axis, euler::kVelocity(axis));
+    return this->isFree(face, axis) ? carried : carried + dt_ * this->gravity()[axis];
+  }
+
+ private:
+  /// The velocities of cells become v - dt (v . grad) v.
+  void carryVelocities(const Box& cells) {
+    forEach<D>(cells, [&](const Index<D>& cell) {
+      const euler::State<D> w = this->old().state(cell);
+      const auto ahead = ahead_.at(cell);
+      for (int k = 0; k < D; ++k)
+        for (int d = 0; d < D; ++d)
+          *ahead[euler::kVelocity(k)] -= dt_ * this->level().inverseSpacing(d) * w[euler::kVelocity(d)] *
+                                         this->slope(cell, d, euler::kVelocity(k));
+    });
+  }
+
   double dt_;
-  euler::GhostRules<D> rules_;
-  euler::Rows<D> old_, ahead_;
+  euler::Rows<D> ahead_;
 };
 
 }  // namespace tushar::ice

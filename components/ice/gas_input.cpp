@@ -112,7 +112,7 @@ constexpr double leastTolerance = 1e-12;
 ImplicitPressure implicitPressureOf(const IceSection& ice) {
   ImplicitPressure read;
   read.where = ice.implicit->where;
-  read.soundSpeedKnob = ice.steps ? ice.steps->soundSpeedKnob : 0.5;
+  read.soundSpeedKnob = ice.steps.value_or(StepSection()).soundSpeedKnob;
   if (const auto& hypre = ice.implicit->hypre) {
     read.solver.solver = hypre->solver;
     read.solver.preconditioner = hypre->preconditioner;

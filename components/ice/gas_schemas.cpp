@@ -27,7 +27,7 @@ const Schema<AdvectionSection>& advectionSchema() {
 const Schema<StepSection>& stepSchema() {
   static const Schema<StepSection> schema =
       Schema<StepSection>("TimeStepControl", "How long the steps of an <ImplicitSolver> are.")
-          .value("knob_for_speedSound", &StepSection::soundSpeedKnob, 0, "1",
+          .value("knob_for_speedSound", &StepSection::soundSpeedKnob, StepSection().soundSpeedKnob, "1",
                  "part of the speed of sound that limits the steps, beside the flow and what accelerates it",
                  input::between(0, 1))
           .ignored("knob_for_diffusion", "viscosity and conduction are explicit, and limit the steps in full")

@@ -18,7 +18,7 @@ struct AdvectionSection {
 
 /// `CFD/ICE/TimeStepControl`.
 struct StepSection {
-  double soundSpeedKnob = 0;
+  double soundSpeedKnob = 0.5;
 };
 
 /// `CFD/ICE/ImplicitSolver/Parameters`, in hypre's words.

@@ -13,7 +13,7 @@ namespace tushar::ice {
 
 namespace {
 
-/// Behind the step of the gas; `gas` and `diffusion` outlive the tasks.
+/// Viscosity and conduction, behind the step of the gas.
 template <int D>
 void scheduleDiffusion(TaskList& tasks, const euler::Gas& gas, const euler::Diffusion& diffusion) {
   if (!diffusion.acts()) return;
@@ -28,15 +28,15 @@ template <int D>
 void Ice<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
   euler::Euler<D>::scheduleComputeStableTimeStep(tasks);
   if (diffusion_.acts())
-    tasks.perPatch("euler::limitDiffusion", euler::limitDiffusion<D>, with(gas_), with(diffusion_), with(cfl_),
-                   requiresOld(euler::c::density), requiresOld(euler::c::momentum<D>),
+    tasks.perPatch("euler::limitDiffusion", euler::limitDiffusion<D>, with(this->settings().gas), with(diffusion_),
+                   with(this->settings().cfl), requiresOld(euler::c::density), requiresOld(euler::c::momentum<D>),
                    requiresOld(euler::c::totalEnergy), computes(delT));
 }
 
 template <int D>
 void Ice<D>::scheduleTimeAdvance(TaskList& tasks) const {
   euler::Euler<D>::scheduleTimeAdvance(tasks);
-  scheduleDiffusion<D>(tasks, gas_, diffusion_);
+  scheduleDiffusion<D>(tasks, this->settings().gas, diffusion_);
   if (!gravity_.isZero(0))
     tasks.perPatch("euler::addGravity", euler::addGravity<D>, with(gravity_), requiresNew(euler::c::density),
                    requiresOld(delT), modifies(euler::c::momentum<D>), modifies(euler::c::totalEnergy));
@@ -48,10 +48,12 @@ void Ice<D>::scheduleDiagnostics(TaskList& tasks) const {
   tasks.perPatch("ice::sumInternalEnergy", sumInternalEnergy<D>, requiresOld(euler::c::density),
                  requiresOld(euler::c::momentum<D>), requiresOld(euler::c::totalEnergy),
                  computes(total::internalEnergy));
-  tasks.perPatch("ice::computeTemperature", computeTemperature<D>, with(gas_), requiresOld(euler::c::density),
-                 requiresOld(euler::c::momentum<D>), requiresOld(euler::c::totalEnergy), computes(c::temperature));
-  tasks.perPatch("ice::computeSoundSpeed", computeSoundSpeed<D>, with(gas_), requiresOld(euler::c::density),
-                 requiresOld(euler::c::momentum<D>), requiresOld(euler::c::totalEnergy), computes(c::soundSpeed));
+  tasks.perPatch("ice::computeTemperature", computeTemperature<D>, with(this->settings().gas),
+                 requiresOld(euler::c::density), requiresOld(euler::c::momentum<D>), requiresOld(euler::c::totalEnergy),
+                 computes(c::temperature));
+  tasks.perPatch("ice::computeSoundSpeed", computeSoundSpeed<D>, with(this->settings().gas),
+                 requiresOld(euler::c::density), requiresOld(euler::c::momentum<D>), requiresOld(euler::c::totalEnergy),
+                 computes(c::soundSpeed));
   tasks.perPatch("ice::computeSpecificVolume", computeSpecificVolume<D>, requiresOld(euler::c::density),
                  computes(c::specificVolume));
 }

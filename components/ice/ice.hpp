@@ -14,12 +14,7 @@ template <int D>
 class Ice : public euler::Euler<D> {
  public:
   explicit Ice(const GasScene& scene)
-      : euler::Euler<D>(scene.gas),
-        name_(scene.gas.name),
-        gas_(scene.gas.gas),
-        cfl_(scene.gas.cfl),
-        diffusion_{scene.viscosity, scene.conductivity},
-        gravity_(scene.gravity) {}
+      : euler::Euler<D>(scene.gas), diffusion_{scene.viscosity, scene.conductivity}, gravity_(scene.gravity) {}
 
   void scheduleComputeStableTimeStep(TaskList& tasks) const override;
   void scheduleTimeAdvance(TaskList& tasks) const override;
@@ -27,12 +22,9 @@ class Ice : public euler::Euler<D> {
   std::string advice() const override { return "a smaller CFD/cfl, or CFD/ICE/advection of type FirstOrder"; }
   std::vector<std::string> foreignLabels() const override;
   std::vector<std::pair<std::string, std::string>> otherNames() const override;
-  std::vector<std::string> gasNames() const override { return {name_}; }
+  std::vector<std::string> gasNames() const override { return {this->settings().name}; }
 
  private:
-  std::string name_;
-  euler::Gas gas_;
-  double cfl_;
   euler::Diffusion diffusion_;
   Vec3 gravity_;
 };

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <list>
-#include <map>
 
 #include "core/grid/choose_patches.hpp"
 #include "core/input/schema.hpp"
@@ -14,8 +13,6 @@ namespace tushar::scene {
 using input::Diagnostics;
 using input::Element;
 using input::Schema;
-using simulation::findKind;
-using simulation::namesOf;
 
 namespace {
 

@@ -117,6 +117,12 @@ TEST(ImplicitIce, LimitsStepsByAPartOfSound) {
             "found '2', expected a value from 0 to 1");
 }
 
+TEST(ImplicitIce, TakesHalfOfSoundUnlessTold) {
+  const std::string half = test::runScene(sod, {"CFD/ICE/TimeStepControl/knob_for_speedSound=0.5"}).fingerprint;
+  EXPECT_EQ(test::runScene(changedScene(sod, control, ""), {}).fingerprint, half);
+  EXPECT_NE(test::runScene(sod, {}).fingerprint, half);
+}
+
 TEST(ImplicitIce, TakesTheWordsOfUintahsScenes) {
   const std::string words =
       "<ImplicitSolver><max_outer_iterations>20</max_outer_iterations><outer_iteration_tolerance>1e-8"

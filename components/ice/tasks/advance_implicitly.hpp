@@ -8,11 +8,11 @@ namespace tushar::ice {
 template <int D>
 class ImplicitStep {
  public:
-  ImplicitStep(const Level& level, const ImplicitGas& settings, const Box& block, const euler::OldState<D>& before,
-               const CellView<const double>& pressure, double time, double dt)
+  ImplicitStep(const Level& level, const ImplicitGas& settings, const euler::GhostRules<D>& rules, const Box& block,
+               const euler::OldState<D>& before, const CellView<const double>& pressure, double dt)
       : level_(level),
         dt_(dt),
-        flow_(level, settings, block, before, time, dt),
+        flow_(level, settings, rules, block, before, dt),
         after_(flow_.withPressure(pressure)),
         middle_(flow_.old()),
         flux_(flow_.old()),
@@ -61,7 +61,7 @@ class ImplicitStep {
   double velocity(const Index<D>& face, int axis) const {
     const std::size_t p = euler::kPressure<D>;
     return flow_.withoutPressure(face, axis) -
-           flow_.mobility(face, axis) * (after_.number(face, p) - after_.number(face - Index<D>::unit(axis), p));
+           flow_.mobility(face, axis, dt_) * (after_.number(face, p) - after_.number(face - Index<D>::unit(axis), p));
   }
   double pressure(const Index<D>& face, int axis) const {
     const std::size_t p = euler::kPressure<D>, v = euler::kVelocity(axis);
@@ -69,9 +69,10 @@ class ImplicitStep {
     const double together = flow_.old().number(below, v) - flow_.old().number(face, v);
     const double rho = flow_.density(face, axis);
     const double viscous = together > 0 ? 0.5 * (flow_.gas().gamma + 1) * rho * together * together : 0;
-    // At a wall p' is that of the cell, half a cell away.
+    // Where a velocity is given without a pressure, as at a wall, p' is that of the cell, half a cell away.
     double weight = 0;
-    if (flow_.givenVelocity(face, axis)) weight = 0.5 * level_.spacing(axis) * rho * flow_.gravity()[axis];
+    if (flow_.isFree(face, axis) && flow_.givenVelocity(face, axis))
+      weight = 0.5 * level_.spacing(axis) * rho * flow_.gravity()[axis];
     return 0.5 * (after_.number(below, p) + after_.number(face, p)) + viscous + (face[axis] == 0 ? -weight : weight);
   }
   /// rho, v, p of a cell at the face above (1) or below it (-1), half a step later.
@@ -112,10 +113,11 @@ template <int D>
 void advanceImplicitly(const Patch& patch, const ImplicitGas& settings, const euler::OldState<D>& before, double time,
                        double dt, CellView<const double> pressure, const euler::NewState<D>& fresh) {
   const Level& level = patch.level();
+  const euler::GhostRules<D> rules = euler::ghostRules<D>(level, settings.gas, time);
   double most = 0;
   bool fine = true;
   euler::forEachBlock<D>(patch.cells(), [&](const Box& block) {
-    ImplicitStep<D> step(level, settings, block, before, pressure, time, dt);
+    ImplicitStep<D> step(level, settings, rules, block, before, pressure, dt);
     const auto sweep = [&]<int Axis>() {
       Box faces = block;
       ++faces.upper[Axis];

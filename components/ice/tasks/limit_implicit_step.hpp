@@ -15,35 +15,43 @@ void initializePressure(const Patch& patch, const euler::Gas& gas, CellView<cons
 
 /// dt = cfl / s, s = (r + sqrt(r² + 4 sum_d a_d / h_d)) / 2, r = sum_d (|v_d| + k c) / h_d + 2 nu / h_d²: the rate at
 /// which gas crosses a cell, with the acceleration a_d = |g_d - (dp/dx_d) / rho| that it has, so that it does not from
-/// rest cross cells within the step. p is the pressure that the last step ended with: that of the gas has besides what
-/// conduction brought in, which sound evens out before it moves anything. k is Uintah's `knob_for_speedSound`, nu the
-/// greatest diffusivity. Throws NumericalError where a density, or p + p_inf, is not positive. Source: N. Kwatra & al.,
-/// J. Comput. Phys. 228 (2009) 4146, section 3.3.
+/// rest cross cells within the step. |v_d| is the greatest of the cell and of what sides give at its faces. p is the
+/// pressure that the last step ended with: that of the gas has besides what conduction brought in, which sound evens
+/// out before it moves anything. k is Uintah's `knob_for_speedSound`, nu the greatest diffusivity. Throws
+/// NumericalError where a density, or p + p_inf, is not positive. Source: N. Kwatra & al., J. Comput. Phys. 228 (2009)
+/// 4146, section 3.3.
 template <int D>
 void limitImplicitStep(const Patch& patch, const ImplicitGas& settings, const euler::OldState<D>& before, double time,
                        CellView<const double> pressure, Minimum& dt) {
   const Level& level = patch.level();
   euler::refuseBroken<D, const double>(patch, settings.gas, before, nullptr);
   const double second = 1;
-  const FaceFlow<D> flow(level, settings, patch.cells(), before, time, second);
-  const euler::Rows<D> pushing = flow.withPressure(pressure);
+  const euler::GhostRules<D> rules = euler::ghostRules<D>(level, settings.gas, time);
+  const GasBefore<D> gas(level, settings, rules, patch.cells().grown(1, D), before);
+  const euler::Rows<D> pushing = gas.withPressure(pressure);
   const auto acceleration = [&](const Index<D>& face, int axis) {
     const std::size_t p = euler::kPressure<D>;
-    const double gained = flow.mobility(face, axis);
+    const double gained = gas.mobility(face, axis, second);
     if (gained == 0) return 0.0;
     const double rise = pushing.number(face, p) - pushing.number(face - Index<D>::unit(axis), p);
-    return std::abs(flow.gravity()[axis] - gained * rise);
+    return std::abs(gas.gravity()[axis] - gained * rise);
+  };
+  const auto speed = [&](const Index<D>& cell, int axis) {
+    double most = std::abs(gas.old().number(cell, euler::kVelocity(axis)));
+    for (const Index<D>& face : {cell, cell + Index<D>::unit(axis)})
+      if (const auto given = gas.givenVelocity(face, axis)) most = std::max(most, std::abs(*given));
+    return most;
   };
   double greatest = 0;
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
-    const euler::State<D> w = flow.old().state(cell);
+    const euler::State<D> w = gas.old().state(cell);
     const double rho = w[euler::kDensity];
     const double sound =
         settings.soundSpeedKnob * std::sqrt(settings.gas.soundSpeedSquared(rho, w[euler::kPressure<D>]));
     double rate = 0, rates = 0;
     for (int d = 0; d < D; ++d) {
       const double perWidth = level.inverseSpacing(d);
-      rate += (std::abs(w[euler::kVelocity(d)]) + sound) * perWidth;
+      rate += (speed(cell, d) + sound) * perWidth;
       if (settings.diffusion.acts()) rate += 2 * settings.diffusion.greatest(settings.gas, rho) * perWidth * perWidth;
       rates += perWidth * std::max(acceleration(cell, d), acceleration(cell + Index<D>::unit(d), d));
     }

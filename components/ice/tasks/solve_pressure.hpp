@@ -45,7 +45,7 @@ numerics::CellEquation<D> pressureEquation(const Level& level, const FaceFlow<D>
       const double rise = flow.old().number(next, p) - flow.old().number(cell, p);
       equation.right -= out * enthalpy * flow.withoutPressure(face, d);
       equation.right += 0.5 * (gamma - 1) * out * velocity * rise;
-      const double weight = ratio * enthalpy * flow.mobility(face, d);
+      const double weight = ratio * enthalpy * flow.mobility(face, d, dt);
       equation.right += weight * rise;
       left.weights[0] += weight;
       if (!flow.isOnGrid(next)) continue;
@@ -66,11 +66,12 @@ void solvePressure(const RankPatches& patches, const mpi::Communicator& ranks, c
                    const SolveTotals& totals) {
   const Level& level = patches.front()->level();
   const std::size_t number = euler::kPressure<D>;
+  const euler::GhostRules<D> rules = euler::ghostRules<D>(level, settings.gas, time);
   std::vector<FaceFlow<D>> flows;
   std::vector<CellView<const double>> rise;
   for (std::size_t p = 0; p < patches.size(); ++p) {
     const CellView<double>& view = pressure[p];
-    flows.emplace_back(level, settings, patches[p]->cells(), before[p], time, dt);
+    flows.emplace_back(level, settings, rules, patches[p]->cells(), before[p], dt);
     forEach<D>(patches[p]->cells(),
                [&](const Index<D>& cell) { view[cell] = guess[p][cell] - flows[p].old().number(cell, number); });
     rise.emplace_back(view.values(), view.stored(), view.box());

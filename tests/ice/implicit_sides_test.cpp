@@ -1,0 +1,108 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "components/ice/tasks/advance_implicitly.hpp"
+#include "components/ice/tasks/limit_implicit_step.hpp"
+#include "tests/euler/gas_box.hpp"
+
+// What sides of the grid give an implicit step, by the bodies of the tasks alone.
+
+namespace tushar::ice {
+
+namespace {
+
+using Conditions = std::vector<grid::BoundaryCondition>;
+namespace label = euler::boundary;
+
+grid::BoundaryCondition given(const grid::BoundaryVariable& variable, double value) {
+  return {variable, BoundaryKind::dirichlet, Vec3(value, 0, 0)};
+}
+grid::BoundaryCondition varying(const grid::BoundaryVariable& variable, const std::string& formula) {
+  grid::BoundaryCondition condition = given(variable, 0);
+  condition.formula = std::make_shared<const input::VectorExpression>(
+      input::VectorExpression({*input::Expression::parse(formula), input::Expression(), input::Expression()}));
+  return condition;
+}
+
+grid::Domain lineWith(const Conditions& lower, const Conditions& upper) {
+  grid::Domain domain = euler::openBox(1, 4);
+  domain.boundaries.face(0, 0) = lower;
+  domain.boundaries.face(0, 1) = upper;
+  return domain;
+}
+
+/// A line of four cells of 1/4 m with gas of 1 kg/m³ at rest, and with a pressure of 3 Pa that `rise` [Pa/m] changes.
+class Line {
+ public:
+  Line(const Conditions& lower, const Conditions& upper, double rise = 0) : grid_(lineWith(lower, upper)) {
+    settings_.gravity = Vec3(rise, 0, 0);
+    for (int i = 0; i < 4; ++i) {
+      pressure_[i] = 3 + rise * level().cellCentre<1>(Index<1>{{i}})[0];
+      energy_[i] = settings_.gas.internalEnergy(pressure_[i]);
+    }
+  }
+
+  double stableStep() {
+    Minimum dt;
+    limitImplicitStep<1>(patch(), settings_, before(), 0, seen<const double>(pressure_, 1), dt);
+    return dt.value;
+  }
+  /// The momentum after a step that ends with the pressure that there is, kg/(m² s).
+  std::vector<double> momentumAfter(double dt) {
+    std::vector<double> density(4), energy(4), pushed;
+    std::vector<Vec<1>> momentum(4);
+    advanceImplicitly<1>(patch(), settings_, before(), 0, dt, seen<const double>(pressure_, 2),
+                         {{seen<double>(density, 0), seen<Vec<1>>(momentum, 0), seen<double>(energy, 0)}});
+    for (const Vec<1>& one : momentum) pushed.push_back(one[0]);
+    return pushed;
+  }
+  std::optional<double> velocityAt(int face) {
+    const euler::GhostRules<1> rules = euler::ghostRules<1>(level(), settings_.gas);
+    const GasBefore<1> gas(level(), settings_, rules, level().cells().grown(1, 1), before());
+    return gas.givenVelocity(Index<1>{{face}}, 0);
+  }
+
+ private:
+  const Level& level() const { return grid_.level(); }
+  const Patch& patch() const { return grid_.patches().front(); }
+  euler::OldState<1> before() {
+    return {{seen<const double>(density_, 2), seen<const Vec<1>>(momentum_, 2), seen<const double>(energy_, 2)}};
+  }
+  template <class T, class Values>
+  CellView<T> seen(Values& values, int ghost) const {
+    return {values.data(), level().cells(), patch().cellsWithin(ghost)};
+  }
+
+  Grid grid_;
+  ImplicitGas settings_;
+  std::vector<double> density_ = std::vector<double>(4, 1.0), energy_ = std::vector<double>(4),
+                      pressure_ = std::vector<double>(4);
+  std::vector<Vec<1>> momentum_ = std::vector<Vec<1>>(4, Vec<1>::Zero());
+};
+
+}  // namespace
+
+TEST(ImplicitSides, TakeFormulasInTheMiddleOfTheCellsBeyondBoth) {
+  Line line({varying(label::velocity, "3 + x")}, {varying(label::velocity, "3 + x")});
+  EXPECT_EQ(line.velocityAt(0), 3 - 0.125);
+  EXPECT_EQ(line.velocityAt(4), 3 + 1.125);
+  EXPECT_EQ(line.velocityAt(2), std::nullopt);
+}
+
+TEST(ImplicitSides, LimitStepsByWhatFlowsThroughThem) {
+  EXPECT_TRUE(std::isinf(Line({given(label::velocity, 0)}, {}).stableStep())) << "nothing moves";
+  const double width = 0.25, cfl = 0.5;
+  EXPECT_DOUBLE_EQ(Line({given(label::velocity, 8), given(label::density, 1)}, {}).stableStep(), cfl * width / 8);
+  EXPECT_DOUBLE_EQ(Line({}, {given(label::velocity, 4)}).stableStep(), cfl * width / 4);
+}
+
+TEST(ImplicitSides, KeepLayersAtRestWithAVelocityAndAPressure) {
+  const Conditions still{given(label::velocity, 0), varying(label::pressure, "3 - x")};
+  Line line(still, still, -1);
+  for (const double momentum : line.momentumAfter(0.1)) EXPECT_NEAR(momentum, 0, 1e-14);
+  Line walled({given(label::velocity, 0)}, {given(label::velocity, 0)}, -1);
+  for (const double momentum : walled.momentumAfter(0.1)) EXPECT_NEAR(momentum, 0, 1e-14);
+}
+
+}  // namespace tushar::ice
