@@ -28,22 +28,27 @@ void initialize(const Patch& patch, const Settings& settings, CellView<double> p
 
 namespace {
 
+/// Whether Phi is given at a face of some cell, of any rank. A part of a side may be so small that only finer cells
+/// have a face in it.
 template <int D>
-bool keepsValueSomewhere(const Level& level) {
-  const BoundarySides<double> sides = level.sides(boundary::phi);
+bool keepsValueSomewhere(const RankPatches& patches, const mpi::Communicator& ranks) {
   bool keeps = false;
-  for (int d = 0; d < D; ++d)
-    for (const int side : {0, 1}) {
-      if (level.isPeriodic(d)) continue;
-      Box faces = level.cells();
-      if (level.parts(d, side).empty()) faces.upper = Index3::filled(1);
-      faces.upper[d] = 1;
-      forEach<D>(faces, [&](const Index<D>& cell) {
-        const auto& given = sides(d, side, cell);
-        keeps |= given && given->isDirichlet();
-      });
-    }
-  return keeps;
+  for (const Patch* patch : patches) {
+    const Level& level = patch->level();
+    const BoundarySides<double> sides = level.sides(boundary::phi);
+    for (int d = 0; d < D; ++d)
+      for (const int side : {0, 1}) {
+        Box faces = patch->cells();
+        const bool isAtSide = side == 0 ? faces.lower[d] == 0 : faces.upper[d] == level.cells().upper[d];
+        if (!isAtSide || level.isPeriodic(d)) continue;
+        faces.upper[d] = faces.lower[d] + 1;  // how far a cell is from the side does not matter
+        forEach<D>(faces, [&](const Index<D>& cell) {
+          const auto& given = sides(d, side, cell);
+          keeps |= given && given->isDirichlet();
+        });
+      }
+  }
+  return ranks.any(keeps);
 }
 
 /// Where no face keeps a value, integral f dV must be what the slopes at the faces bring in, k dphi/dn dA; or else
@@ -79,7 +84,7 @@ void solve(const RankPatches& patches, const mpi::Communicator& ranks, const Set
     return numerics::CellEquation<D>{std::move(balance), right};
   };
   numerics::CellSystem<D> system(patches, ranks);
-  if (!keepsValueSomewhere<D>(level)) system.freeConstant();
+  if (!keepsValueSomewhere<D>(patches, ranks)) system.freeConstant();
   const solvers::Outcome outcome = system.solve(settings.solver, oldPhi, equationOf);
   refuseImbalance(level, outcome, settings.solver.tolerance);
   system.requireConvergence(outcome, "Poisson's equation", "Poisson", "c.phi");

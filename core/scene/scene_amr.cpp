@@ -247,7 +247,8 @@ std::vector<std::string> amrSectionsOf(const simulation::ComponentKind& kind) {
     return name;
   };
   for (const std::string& section : kind.sections)
-    if (plain(section) == plain(kind.name)) names.push_back(section);
+    if (plain(section) == plain(kind.name) && std::find(names.begin(), names.end(), section) == names.end())
+      names.push_back(section);
   return names;
 }
 

@@ -60,6 +60,17 @@ TEST(PoissonOnLevels, HasTheMeanZeroOverTheVolumeWhereAConstantIsFree) {
   EXPECT_GT(std::abs(sum / double(found.phi.size())), 1e-3);
 }
 
+TEST(PoissonOnLevels, KeepsTheValueOfAPartThatOnlyFinerCellsHave) {
+  // The middle of one face of the finer cells is in the part, that of the coarse cell in its place is not.
+  grid::Domain domain = test::unitBox<2>(8);
+  domain.refinement = {2, {{4, 4, 1}}, {}, {{1, {0.5, 0.5, 0}, {1, 1, 0}}}};
+  const auto part = grid::SidePart::rectangle(0, Vec3(1, 0.96, -1), Vec3(1, 0.98, 2));
+  domain.boundaries.parts[1] = {{part, {{boundary::phi, BoundaryKind::dirichlet, Vec3(3, 0, 0)}}}};
+  Settings settings = settingsOf("0");
+  settings.solver = {"preonly", "lu", 1e-10, 1, ""};
+  EXPECT_LT(solved<2>(domain, settings, "3").worst, 1e-9);
+}
+
 TEST(PoissonOnLevels, NeedsHardlyMoreIterationsThanOnAUniformGrid) {
   const Settings settings = settingsOf("1");
   const double uniform = solved<3>(keptAtOne<3>(16), settings, "0").iterations;

@@ -12,14 +12,14 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from sus import ROOT
-from uda import Folder
+from uda import FolderTest
 
 SUS = os.environ.get("SUS", "build/dev/sus")
 SOD = "ups/mpm/sod.ups"
 FINE = "Grid/Level/Box/resolution=[2000,1,1]"
 
 
-class Interrupt(unittest.TestCase):
+class Interrupt(FolderTest):
     def interrupted(self, number):
         """Exit code, report and files of a long run that gets a signal once it has begun to write."""
         with tempfile.TemporaryDirectory() as folder:
@@ -71,11 +71,6 @@ class Interrupt(unittest.TestCase):
                 run.send_signal(signal.SIGINT)
                 self.assertLess(run.wait(timeout=5), 0, (options, apart))
 
-    def folder(self):
-        here = Folder()
-        self.addCleanup(here.cleanup)
-        return here
-
     def assert_goes_on_to_the_bits_of_the_uncut_run(self, here):
         self.assertEqual(len(here.checkpoints), 1)
         step = int(here.checkpoints[0].name[1:])
@@ -98,8 +93,7 @@ class Interrupt(unittest.TestCase):
 
     def started(self, ranks=1):
         """A run that has written its first output, and that would go on for minutes."""
-        here = Folder(ranks=ranks)
-        self.addCleanup(here.cleanup)
+        here = self.folder(ranks)
         run = subprocess.Popen(here.command([SOD, "--output", here.path], ("Grid/Level/Box/resolution=[20000,1,1]",)),
                                cwd=ROOT)
         self.addCleanup(run.wait)

@@ -16,7 +16,7 @@ import numpy as np
 
 from sus import run
 from tushar.archive import Archive
-from uda import Folder
+from uda import FolderTest
 
 REGRIDDER = "AMR/Regridder/"
 BASE = "Grid/Level/Box/resolution="
@@ -85,19 +85,8 @@ def levels_like(grid):
     return text
 
 
-class Levels(unittest.TestCase):
+class Levels(FolderTest):
     maxDiff = None
-
-    def folder(self, ranks=1):
-        folder = Folder(ranks=ranks)
-        self.addCleanup(folder.cleanup)
-        return folder
-
-    def well(self, result):
-        """The report of a run that ended well."""
-        code, errors, report = result
-        self.assertEqual((code, errors), (0, ""))
-        return report
 
     def ran(self, text, *sets):
         """The archive and the report of a scene given as text."""

@@ -12,7 +12,7 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from sus import FAULTY_SUS, ROOT, SUS, on_ranks
-from uda import Folder
+from uda import FolderTest
 
 SOD = "ups/mpm/sod.ups"
 PATCHES = "Grid/Level/Box/patches=[7,1,1]"
@@ -22,12 +22,7 @@ PATIENCE = 200  # seconds after which a job hangs, even on a machine with much e
 OVER = 10  # seconds after which a job that has lost a rank, or its disk, hangs
 
 
-class Ranks(unittest.TestCase):
-    def folder(self, ranks, on_disk=False):
-        here = Folder(on_disk, ranks)
-        self.addCleanup(here.cleanup)
-        return here
-
+class Ranks(FolderTest):
     def start(self, here, words, sets):
         """A job in a process group of its own."""
         return subprocess.Popen(here.command(words, sets), cwd=ROOT, stderr=subprocess.PIPE, text=True,

@@ -5,7 +5,7 @@ import sys
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from uda import Folder
+from uda import FolderTest
 
 EVERY = "DataArchiver/checkpoint/@timestepInterval={}"
 ALL = "Time/max_Timesteps=100000"
@@ -22,27 +22,17 @@ def light_files(uda):
             if path.is_file() and path.name not in ("input.xml", "run.json")}
 
 
-class Restart(unittest.TestCase):
-    def folder(self):
-        folder = Folder()
-        self.addCleanup(folder.cleanup)
-        return folder
-
-    def assert_well(self, result):
-        code, errors, report = result
-        self.assertEqual((code, errors), (0, ""))
-        return report
-
+class Restart(FolderTest):
     def assert_same(self, scene, *sets, cut, until=ALL, before="[1,1,1]", after="[1,1,1]"):
         """A run that is cut after some steps, and goes on from a checkpoint before that, ends like the uncut one."""
         uncut, pieces = self.folder(), self.folder()
         every = EVERY.format(max(1, cut // 3))
-        expected = self.assert_well(uncut.run(scene, until, *sets))
-        self.assert_well(pieces.run(scene, every, f"Time/max_Timesteps={cut}",
-                                    "DataArchiver/outputLastTimestep=false", *sets, layout=before))
+        expected = self.well(uncut.run(scene, until, *sets))
+        self.well(pieces.run(scene, every, f"Time/max_Timesteps={cut}",
+                             "DataArchiver/outputLastTimestep=false", *sets, layout=before))
         step = int(pieces.checkpoints[0].name[1:])
         self.assertLess(step, cut)
-        report = self.assert_well(pieces.restart(until, step=step, layout=after))
+        report = self.well(pieces.restart(until, step=step, layout=after))
         for key in ("fingerprint", "steps", "time", "particles", "particles_dropped", "drift", "errors"):
             self.assertEqual(report[key], expected[key], f"{scene} {sets} {key}")
         return uncut, pieces
@@ -87,7 +77,7 @@ class Restart(unittest.TestCase):
         right = "MaterialProperties/MPM/material/geom_object[2]/"
         wind = (right + "velocity=[0.5,0,0]", right + "res=[8,1,1]")
         self.assert_same(scene, *wind, cut=100, after="[3,1,1]")
-        self.assertGreater(self.assert_well(folder.run(scene, *wind))["particles_dropped"], 0)
+        self.assertGreater(self.well(folder.run(scene, *wind))["particles_dropped"], 0)
 
     def test_two_and_three_dimensions(self):
         self.assert_same("ups/mpm/sod.ups", *PLANE, cut=40, before="[3,2,1]", after="[40,6,1]")
@@ -114,15 +104,15 @@ class Restart(unittest.TestCase):
         sets = ("Time/end_at_max_time_exactly=false", "DataArchiver/outputLastTimestep=false")
         longer, extended = self.folder(), self.folder()
         every = EVERY.format(1000)
-        expected = self.assert_well(longer.run("ups/mpm/sod.ups", "Time/maxTime=0.25", *sets))
-        finished = self.assert_well(extended.run("ups/mpm/sod.ups", every, *sets))
-        again = self.assert_well(extended.restart())
+        expected = self.well(longer.run("ups/mpm/sod.ups", "Time/maxTime=0.25", *sets))
+        finished = self.well(extended.run("ups/mpm/sod.ups", every, *sets))
+        again = self.well(extended.restart())
         self.assertEqual(again["fingerprint"], finished["fingerprint"])
         self.assertEqual(again["errors"], finished["errors"])
-        report = self.assert_well(extended.restart("Time/maxTime=0.25"))
+        report = self.well(extended.restart("Time/maxTime=0.25"))
         self.assertEqual(report["fingerprint"], expected["fingerprint"])
         self.assertEqual(light_files(extended.uda), light_files(longer.uda))
-        self.assertEqual(self.assert_well(extended.restart())["steps"], expected["steps"])
+        self.assertEqual(self.well(extended.restart())["steps"], expected["steps"])
 
     def test_a_scene_that_saves_nothing_restarts_too(self):
         text = pathlib.Path("ups/heat/sine.ups").read_text()
@@ -130,10 +120,10 @@ class Restart(unittest.TestCase):
         folder = self.folder()
         scene = folder.path / "bare.ups"
         scene.write_text(text[:start] + text[text.index("/>", end) + 2:])
-        full = self.assert_well(folder.run(scene))
+        full = self.well(folder.run(scene))
         self.assertEqual(list(folder.path.glob("*.uda*")), [])
-        self.assert_well(folder.run(scene, EVERY.format(10), "Time/max_Timesteps=25"))
-        self.assertEqual(self.assert_well(folder.restart(ALL, step=20))["fingerprint"], full["fingerprint"])
+        self.well(folder.run(scene, EVERY.format(10), "Time/max_Timesteps=25"))
+        self.assertEqual(self.well(folder.restart(ALL, step=20))["fingerprint"], full["fingerprint"])
         self.assertEqual(sorted(path.name for path in folder.uda.iterdir()),
                          ["checkpoints", "index.xml", "input.xml", "run.json"])
 

@@ -16,7 +16,7 @@ import numpy as np
 
 from sus import ROOT, run
 from tushar.archive import Archive
-from uda import Folder
+from uda import FolderTest
 
 POISSON, HEAT = "ups/poisson/levels.ups", "ups/heat/implicit_levels.ups"
 ONE_SOLVE = ("Time/delt_init=1", "Time/delt_max=1")
@@ -53,18 +53,7 @@ def adaptive(scene, section, criterion):
 FADING = adaptive(HEAT, "Heat", '<Variable name="c.temperature" type="gradient" value="3"/>')
 
 
-class SolvesOnLevels(unittest.TestCase):
-    def folder(self, ranks=1):
-        folder = Folder(ranks=ranks)
-        self.addCleanup(folder.cleanup)
-        return folder
-
-    def well(self, result):
-        """The report of a run that ended well."""
-        code, errors, report = result
-        self.assertEqual((code, errors), (0, ""))
-        return report
-
+class SolvesOnLevels(FolderTest):
     def written(self, text, name="solve.ups"):
         """A file with the text of a scene."""
         path = self.folder().path / name

@@ -11,7 +11,7 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from sus import ROOT, SUS
-from uda import Folder
+from uda import FolderTest
 
 BOX = "Grid/Level/Box"
 SOD, SINE = "ups/mpm/sod.ups", "ups/heat/sine.ups"
@@ -33,12 +33,7 @@ LITTLE = 64e6  # bytes that a rank may need beyond its state to write
 PATIENCE = 200  # seconds after which a job hangs, even on a machine with much else to do
 
 
-class Writers(unittest.TestCase):
-    def folder(self, ranks, on_disk=False):
-        here = Folder(on_disk, ranks)
-        self.addCleanup(here.cleanup)
-        return here
-
+class Writers(FolderTest):
     def run_by(self, here, scene, sets, writers, layout):
         words = [scene, "--output", here.path, "-layout", layout, *(["-writers", writers] if here.ranks > 1 else [])]
         code, errors, report = here.finish(words, (*sets, *EVERY))

@@ -1,3 +1,6 @@
+#include <algorithm>
+
+#include "core/input/schema_base.hpp"
 #include "core/scene/scene.hpp"
 #include "tests/input/support.hpp"
 
@@ -23,6 +26,11 @@ TEST(Regridder, TakesTheSectionOfAComponentOfOnesOwn) {
   EXPECT_EQ(problemsOf("ICE", &flow), 1u);
   flow.amrSections = {"ICE"};
   EXPECT_EQ(problemsOf("ICE", &flow), 0u);
+  flow.amrSections = {"MyFlow"};
+  EXPECT_EQ(problemsOf("MyFlow", &flow), 0u);
+  const std::vector<std::string> tags = amrForm(flow).tagNames();
+  EXPECT_EQ(std::count(tags.begin(), tags.end(), "MyFlow"), 1) << "the component has named its own section";
+  flow.amrSections.clear();
   flow.takesLevels = false;
   EXPECT_EQ(problemsOf("MyFlow", &flow), 1u);
 }

@@ -104,6 +104,11 @@ TEST(RefinedScenes, NameVariablesThatAreThere) {
   }
 }
 
+TEST(RefinedScenes, NameASectionOfTheirComponent) {
+  const std::string problems = problemsOf(changed("ups/euler/sod.ups", "</Grid>", "<AMR><Euller/></AMR>"));
+  EXPECT_TRUE(problems.starts_with("unknown tag <Euller> in <AMR> (did you mean 'Euler'?")) << problems;
+}
+
 TEST(RefinedScenes, AreRefusedToComponentsOfOneLevel) {
   EXPECT_EQ(problemsOf(withLevel("ups/fsi/closed_box.ups"), {"Grid/Level[1]/Box/resolution=[64,1,1]"}),
             "'mpmice' needs a grid of one level; these run on several: 'burgers', 'euler', 'heat', 'ice', "

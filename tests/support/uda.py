@@ -4,6 +4,7 @@ import os
 import pathlib
 import subprocess
 import tempfile
+import unittest
 
 from sus import ROOT, SUS, on_ranks
 
@@ -60,3 +61,19 @@ class Folder:
     def checkpoints(self):
         """Folders of the checkpoints, by step; one that a killed run has not finished ends in .tmp and is none."""
         return sorted(path for path in (self.uda / "checkpoints").iterdir() if path.is_dir() and path.suffix != ".tmp")
+
+
+class FolderTest(unittest.TestCase):
+    """A test that runs scenes in folders of its own."""
+
+    def folder(self, ranks=1, on_disk=False):
+        """A folder for as long as the test takes."""
+        folder = Folder(on_disk, ranks)
+        self.addCleanup(folder.cleanup)
+        return folder
+
+    def well(self, result):
+        """The report of a run that ended well."""
+        code, errors, report = result
+        self.assertEqual((code, errors), (0, ""))
+        return report

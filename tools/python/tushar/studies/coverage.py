@@ -168,8 +168,8 @@ class Runner:
                 process.returncode = os.waitstatus_to_exitcode(status)
                 return told is not None, usage
             now = time.monotonic()
-            isOver = now - started > self.settings.limit or work_of(process.pid) > self.settings.work
-            if told is None and (isOver or self._stop.is_set()):
+            is_over = now - started > self.settings.limit or work_of(process.pid) > self.settings.work
+            if told is None and (is_over or self._stop.is_set()):
                 process.send_signal(signal.SIGTERM)
                 told = now
             elif told is not None and now - told > (0 if self._stop.is_set() else GRACE):
