@@ -70,7 +70,7 @@ class PlaneAverage : public SamplingModule {
   void sample(const std::vector<Snapshot>& parts, const std::filesystem::path& archive) override {
     const Snapshot& sums = parts[2];
     const auto folder = archive / "planeAverage" / output::stepName(sums.step) / "L-0";
-    makeFolder(folder);
+    output::makeFolder(folder);
     const std::vector<Found> all = findAll(sums);
     const auto weight = std::find_if(all.begin(), all.end(),
                                      [&](const Found& one) { return one.variable->request.where.text() == weight_; });
