@@ -8,15 +8,14 @@
 #include "components/analysis/extents.hpp"
 #include "components/analysis/gas_fields.hpp"
 #include "components/analysis/sampling.hpp"
+#include "core/simulation/module_with_tags.hpp"
 
 namespace tushar::analysis {
 
-using input::Diagnostics;
 using input::Element;
 using output::Snapshot;
 using simulation::Analysis;
 using simulation::AnalysisKind;
-using simulation::MakeAnalysis;
 using simulation::SaveRequest;
 
 namespace {
@@ -206,26 +205,18 @@ template void addBoxFlow<2>(const Patch&, const Box&, int, CellView<const double
 template void addBoxFlow<3>(const Patch&, const Box&, int, CellView<const double>, CellView<const Vec<3>>, BoxFlow&);
 
 AnalysisKind controlVolFluxesKind() {
-  AnalysisKind kind{"controlVolFluxes", "the mass of a gas in boxes, and what flows through their sides", {}, {}};
-  kind.describe = [](std::ostream& out) { fluxSchema().describe(out); };
-  kind.schema = [] { return &fluxSchema(); };
-  kind.read = [](const Element& module, Diagnostics& diagnostics) -> MakeAnalysis {
-    const FluxSettings settings = fluxSchema().read(module, diagnostics);
-    return [=](const Component& component, const Level& level) -> std::unique_ptr<Analysis> {
-      const auto density = isDerived(component, densityName), velocity = isDerived(component, velocityName);
-      if (!density || !velocity)
-        throw InputError({{module.where(), "DataAnalysis/Module",
-                           "this component has no density and velocity of a gas in cells; take the module out"}});
-      checkGas(settings.material, component, module);
-      checkBoxes(settings.boxes.list, level, module);
-      const std::array<bool, 2> derived{*density, *velocity};
-      const int gas = bodiesOf(component);
-      if (level.dimension() == 1) return std::make_unique<ControlVolFluxes<1>>(settings, level, derived, gas);
-      if (level.dimension() == 2) return std::make_unique<ControlVolFluxes<2>>(settings, level, derived, gas);
-      return std::make_unique<ControlVolFluxes<3>>(settings, level, derived, gas);
-    };
-  };
-  return kind;
+  return simulation::moduleMadeBy(
+      "controlVolFluxes", "the mass of a gas in boxes, and what flows through their sides", fluxSchema(),
+      [](const FluxSettings& settings, const Element& module, const Component& component, const Level& level) {
+        const auto density = isDerived(component, densityName), velocity = isDerived(component, velocityName);
+        if (!density || !velocity)
+          throw InputError({{module.where(), "DataAnalysis/Module",
+                             "this component has no density and velocity of a gas in cells; take the module out"}});
+        checkGas(settings.material, component, module);
+        checkBoxes(settings.boxes.list, level, module);
+        const std::array<bool, 2> derived{*density, *velocity};
+        return simulation::analysisByDimension<ControlVolFluxes>(level, settings, level, derived, bodiesOf(component));
+      });
 }
 
 }  // namespace tushar::analysis

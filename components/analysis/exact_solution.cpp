@@ -9,6 +9,7 @@
 
 #include "core/data/reduction.hpp"
 #include "core/input/schema.hpp"
+#include "core/simulation/module_with_tags.hpp"
 #include "core/tasks/task_list.hpp"
 
 namespace tushar::analysis {
@@ -22,13 +23,11 @@ using data::ReductionLabel;
 using grid::forEach;
 using grid::Level;
 using grid::Patch;
-using input::Diagnostics;
 using input::Element;
 using input::Schema;
 using simulation::Analysis;
 using simulation::AnalysisKind;
 using simulation::Component;
-using simulation::MakeAnalysis;
 using simulation::MeasuredError;
 using tasks::computes;
 using tasks::requiresNew;
@@ -191,20 +190,13 @@ class ExactSolution : public Analysis {
 }  // namespace
 
 AnalysisKind exactSolutionKind() {
-  AnalysisKind kind{"exactSolution", "errors of a variable against a formula in x, y, z, t", {}, {}};
-  kind.describe = [](std::ostream& out) { exactSolutionSchema().describe(out); };
-  kind.schema = [] { return &exactSolutionSchema(); };
-  kind.read = [](const Element& module, Diagnostics& diagnostics) -> MakeAnalysis {
-    const ExactSolutionSettings settings = exactSolutionSchema().read(module, diagnostics);
-    const Location where = (module.child("label") ? *module.child("label") : module).where();
-    return [=](const Component& component, const Level& level) -> std::unique_ptr<Analysis> {
-      const Measurable measured = findMeasurable(component, settings, where);
-      if (level.dimension() == 1) return std::make_unique<ExactSolution<1>>(settings, measured);
-      if (level.dimension() == 2) return std::make_unique<ExactSolution<2>>(settings, measured);
-      return std::make_unique<ExactSolution<3>>(settings, measured);
-    };
-  };
-  return kind;
+  return simulation::moduleMadeBy(
+      "exactSolution", "errors of a variable against a formula in x, y, z, t", exactSolutionSchema(),
+      [](const ExactSolutionSettings& settings, const Element& module, const Component& component, const Level& level) {
+        const Location where = (module.child("label") ? *module.child("label") : module).where();
+        return simulation::analysisByDimension<ExactSolution>(level, settings,
+                                                              findMeasurable(component, settings, where));
+      });
 }
 
 }  // namespace tushar::analysis

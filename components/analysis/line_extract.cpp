@@ -64,7 +64,7 @@ class LineExtract : public SamplingModule {
 
   void write(const Extent& line, const Snapshot& part, const std::vector<Found>& columns,
              const std::filesystem::path& folder) {
-    makeFolder(folder);
+    output::makeFolder(folder);
     const bool isOfNodes = columns.front().field->centring == output::Centring::node;
     const std::string header = headerOf(columns);
     const int stride = strideOf(line);

@@ -35,7 +35,7 @@ class MinMax : public SamplingModule {
 
   void sample(const std::vector<Snapshot>& parts, const std::filesystem::path& archive) override {
     const auto folder = archive / "MinMax" / "L-0";
-    makeFolder(folder);
+    output::makeFolder(folder);
     for (const Found& found : findAll(parts[0])) {
       const auto* greatest = find(parts[1], *found.variable);
       const double time = parts[0].time;

@@ -8,6 +8,7 @@
 #include "components/analysis/sampling.hpp"
 #include "core/data/label.hpp"
 #include "core/input/schema.hpp"
+#include "core/output/archive_files.hpp"
 #include "core/simulation/module_with_tags.hpp"
 
 namespace tushar::analysis {
@@ -115,7 +116,7 @@ class ParticleExtract : public Analysis {
     });
     if (block == snapshot.particles.end()) return;
     const auto folder = archive / "particleExtract" / "L-0";
-    makeFolder(folder);
+    output::makeFolder(folder);
     const auto& color = std::get<std::vector<double>>(column(block->arrays, colorLabel).values);
     const auto& ids = std::get<std::vector<std::uint64_t>>(column(block->arrays, data::particleId.name).values);
     std::vector<Array> columns{block->arrays.front()};

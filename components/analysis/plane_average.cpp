@@ -58,10 +58,11 @@ class PlaneAverage : public SamplingModule {
             "planeAverage needs a grid of one level; take the module out, or the finer Levels and <AMR>"}});
     for (int d = 0; d < level.dimension(); ++d)
       if (level.axis(d) == settings.axis) across_ = d;
-    for (const Analyzed& one : settings.variables.list) weightings_[one.label] = one.weighting;
+    for (const Analyzed& one : settings.variables.list) weightings_[one.where.text()] = one.weighting;
     if (!settings.weight) return;
-    weight_ = settings.weight->label;
-    variables_.push_back({{weight_, settings.material, settings.weight->where, settings.where}, weight_});
+    const auto& [where, label] = *settings.weight;
+    weight_ = where.text();
+    variables_.push_back({{label, settings.material, where, settings.where}, label});
   }
 
   std::optional<collect::SummaryOver> summary() const override { return collect::SummaryOver{across_}; }
@@ -69,12 +70,12 @@ class PlaneAverage : public SamplingModule {
   void sample(const std::vector<Snapshot>& parts, const std::filesystem::path& archive) override {
     const Snapshot& sums = parts[2];
     const auto folder = archive / "planeAverage" / output::stepName(sums.step) / "L-0";
-    makeFolder(folder);
+    output::makeFolder(folder);
     const std::vector<Found> all = findAll(sums);
-    const auto weight =
-        std::find_if(all.begin(), all.end(), [&](const Found& one) { return one.variable->called == weight_; });
+    const auto weight = std::find_if(all.begin(), all.end(),
+                                     [&](const Found& one) { return one.variable->request.where.text() == weight_; });
     for (const Found& found : all) {
-      const auto weighting = weightings_.find(found.variable->called);
+      const auto weighting = weightings_.find(found.variable->request.where.text());
       const bool isOfCells = found.field->centring == output::Centring::cell;
       if (weighting == weightings_.end() || !isOfCells) continue;
       const bool isWeighted = weighting->second == Weighting::weight;
@@ -125,9 +126,9 @@ class PlaneAverage : public SamplingModule {
   }
 
   const Level* level_;
-  int across_ = -1;  ///< kernel axis; -1: the grid leaves it out, and there is one plane
-  std::map<std::string, Weighting> weightings_;
-  std::string weight_;
+  int across_ = -1;                              ///< kernel axis; -1: the grid leaves it out, and there is one plane
+  std::map<std::string, Weighting> weightings_;  ///< by where the scene names the variable
+  std::string weight_;                           ///< where it names that of <weight>
 };
 
 }  // namespace

@@ -42,7 +42,7 @@ class PlaneExtract : public SamplingModule {
   void sample(const std::vector<Snapshot>& parts, const std::filesystem::path& archive) override {
     for (std::size_t k = 0; k < parts.size(); ++k) {
       const auto folder = archive / planes_[k].name / output::stepName(parts[k].step) / "L-0";
-      makeFolder(folder);
+      output::makeFolder(folder);
       for (const Found& found : findAll(parts[k])) {
         const std::string name = fmt::format("{}_{}", found.variable->called, found.variable->material);
         output::replaceFile(folder / ("0:" + output::nameInPath(name) + ".dat"), textOf(planes_[k], parts[k], found));

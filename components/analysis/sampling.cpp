@@ -115,10 +115,4 @@ double numberAt(const output::Array& array, std::size_t place) {
   return std::visit([&](const auto& values) { return static_cast<double>(values[place]); }, array.values);
 }
 
-void makeFolder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw FileError(fmt::format("cannot make the folder '{}': {}", folder.string(), error.message()));
-}
-
 }  // namespace tushar::analysis

@@ -142,7 +142,4 @@ class SamplingModule : public simulation::Analysis {
 /// A number of an array, whatever its type.
 double numberAt(const output::Array& array, std::size_t place);
 
-/// Makes a folder with its parents. Throws FileError.
-void makeFolder(const std::filesystem::path& folder);
-
 }  // namespace tushar::analysis

@@ -11,6 +11,7 @@
 
 #include "core/input/schema.hpp"
 #include "core/output/archive.hpp"
+#include "core/output/archive_files.hpp"
 #include "core/simulation/module_with_tags.hpp"
 #include "core/simulation/time_control.hpp"
 
@@ -179,9 +180,7 @@ class Slice : public Analysis {
   std::unique_ptr<Archive> open(std::size_t plane, const Snapshot& first, const std::filesystem::path& folder) const {
     const Plane at = *planeOf(settings_.planes[plane].text);
     const auto own = folder / "slice" / fmt::format("{}={}", nameOf(at.axis), at.at);
-    std::error_code error;
-    std::filesystem::create_directories(own, error);
-    if (error) throw FileError(fmt::format("cannot make the folder '{}': {}", own.string(), error.message()));
+    output::makeFolder(own);
     std::ostringstream scene;
     scene << std::ifstream(folder / "input.xml").rdbuf();
     return std::make_unique<Archive>(own, "slice", output::ArchivePoint{first.step - 1, first.time, "", ""},

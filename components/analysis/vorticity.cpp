@@ -4,14 +4,13 @@
 
 #include "components/analysis/gas_fields.hpp"
 #include "core/input/schema.hpp"
+#include "core/simulation/module_with_tags.hpp"
 
 namespace tushar::analysis {
 
-using input::Diagnostics;
 using input::Element;
 using simulation::Analysis;
 using simulation::AnalysisKind;
-using simulation::MakeAnalysis;
 
 namespace {
 
@@ -76,23 +75,16 @@ template void computeVorticity<2>(const Patch&, CellView<const Vec<2>>, CellView
 template void computeVorticity<3>(const Patch&, CellView<const Vec<3>>, CellView<Vec3>);
 
 AnalysisKind vorticityKind() {
-  AnalysisKind kind{"vorticity", "the rotation of the velocity of the gas, as a variable of cells", {}, {}};
-  kind.describe = [](std::ostream& out) { vorticitySchema().describe(out); };
-  kind.schema = [] { return &vorticitySchema(); };
-  kind.read = [](const Element& module, Diagnostics& diagnostics) -> MakeAnalysis {
-    const VorticitySettings settings = vorticitySchema().read(module, diagnostics);
-    return [=](const Component& component, const Level& level) -> std::unique_ptr<Analysis> {
-      const std::optional<bool> derived = isDerived(component, gasVelocityName);
-      if (!derived)
-        throw InputError({{module.where(), "DataAnalysis/Module",
-                           "this component has no velocity of a gas in cells; take the module out"}});
-      checkGas(settings.material, component, module);
-      if (level.dimension() == 1) return std::make_unique<Vorticity<1>>(*derived);
-      if (level.dimension() == 2) return std::make_unique<Vorticity<2>>(*derived);
-      return std::make_unique<Vorticity<3>>(*derived);
-    };
-  };
-  return kind;
+  return simulation::moduleMadeBy(
+      "vorticity", "the rotation of the velocity of the gas, as a variable of cells", vorticitySchema(),
+      [](const VorticitySettings& settings, const Element& module, const Component& component, const Level& level) {
+        const std::optional<bool> derived = isDerived(component, gasVelocityName);
+        if (!derived)
+          throw InputError({{module.where(), "DataAnalysis/Module",
+                             "this component has no velocity of a gas in cells; take the module out"}});
+        checkGas(settings.material, component, module);
+        return simulation::analysisByDimension<Vorticity>(level, *derived);
+      });
 }
 
 }  // namespace tushar::analysis

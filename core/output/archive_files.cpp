@@ -70,14 +70,19 @@ void writeText(const fs::path& file, const std::string& text) {
 
 fs::path makeNextFolder(const fs::path& filebase) {
   refuseToReplace(filebase);
+  makeFolder(parentOf(filebase));
   std::error_code error;
-  fs::create_directories(parentOf(filebase), error);
-  if (error) fail("make the folder", parentOf(filebase), error);
   for (int number = nextNumber(filebase);; ++number) {
     const fs::path folder = fmt::format("{}.{:03}", filebase.string(), number);
     if (fs::create_directory(folder, error)) return folder;
     if (error) fail("make the folder", folder, error);
   }
+}
+
+void makeFolder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) fail("make the folder", folder, error);
 }
 
 void pointLink(const fs::path& filebase, const fs::path& folder) {

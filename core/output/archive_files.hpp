@@ -14,6 +14,9 @@ namespace tushar::output {
 /// FileError if it cannot be made, or if `filebase` itself exists and is not a link.
 std::filesystem::path makeNextFolder(const std::filesystem::path& filebase);
 
+/// Makes a folder with its parents, where they are not there yet. FileError if it cannot.
+void makeFolder(const std::filesystem::path& folder);
+
 /// Points the relative link `filebase` to `folder`, in one step.
 void pointLink(const std::filesystem::path& filebase, const std::filesystem::path& folder);
 

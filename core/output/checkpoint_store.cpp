@@ -1,11 +1,8 @@
 #include "core/output/checkpoint_store.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <system_error>
 
-#include "core/base/error.hpp"
 #include "core/output/archive_files.hpp"
 #include "core/output/checkpoint_manifest.hpp"
 
@@ -16,12 +13,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* latestName = "LATEST";
-
-void makeFolder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw FileError(fmt::format("cannot make the folder '{}': {}", folder.string(), error.message()));
-}
 
 }  // namespace
 

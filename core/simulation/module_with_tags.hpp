@@ -11,23 +11,40 @@
 
 namespace tushar::simulation {
 
-/// The module `name` with tags of its own, which `schema` reads; that must outlive it. An `A` is made from the settings
-/// and, if it takes them, the component and the grid.
-template <class A, class Settings>
-AnalysisKind moduleWithTags(std::string name, std::string sentence, const input::Schema<Settings>& schema) {
-  const auto read = [&schema](const input::Element& module, input::Diagnostics& diagnostics) -> MakeAnalysis {
-    return [settings = schema.read(module, diagnostics)]([[maybe_unused]] const Component& component,
-                                                         const grid::Level& level) {
-      if constexpr (std::is_constructible_v<A, Settings, const Component&, const grid::Level&>)
-        return std::make_unique<A>(settings, component, level);
-      else if constexpr (std::is_constructible_v<A, Settings, const grid::Level&>)
-        return std::make_unique<A>(settings, level);
-      else
-        return std::make_unique<A>(settings);
-    };
+/// The module `name` with tags of its own, which `schema` reads; that must outlive it. It is made by
+/// `make(settings, its tag, component, grid)`.
+template <class Settings, class Make>
+AnalysisKind moduleMadeBy(std::string name, std::string sentence, const input::Schema<Settings>& schema, Make make) {
+  const auto read = [&schema, make](const input::Element& module, input::Diagnostics& diagnostics) -> MakeAnalysis {
+    return
+        [settings = schema.read(module, diagnostics), module, make](
+            const Component& component, const grid::Level& level) { return make(settings, module, component, level); };
   };
   return {std::move(name), std::move(sentence), read, [&schema](std::ostream& out) { schema.describe(out); },
           [&schema] { return &schema; }};
+}
+
+/// The same for an `A` that is made from the settings and, if it takes them, the component and the grid.
+template <class A, class Settings>
+AnalysisKind moduleWithTags(std::string name, std::string sentence, const input::Schema<Settings>& schema) {
+  const auto make = [](const Settings& settings, const input::Element&, [[maybe_unused]] const Component& component,
+                       [[maybe_unused]] const grid::Level& level) {
+    if constexpr (std::is_constructible_v<A, Settings, const Component&, const grid::Level&>)
+      return std::make_unique<A>(settings, component, level);
+    else if constexpr (std::is_constructible_v<A, Settings, const grid::Level&>)
+      return std::make_unique<A>(settings, level);
+    else
+      return std::make_unique<A>(settings);
+  };
+  return moduleMadeBy(std::move(name), std::move(sentence), schema, make);
+}
+
+/// A module of as many dimensions as the grid has axes.
+template <template <int> class A, class... Arguments>
+std::unique_ptr<Analysis> analysisByDimension(const grid::Level& level, const Arguments&... arguments) {
+  if (level.dimension() == 1) return std::make_unique<A<1>>(arguments...);
+  if (level.dimension() == 2) return std::make_unique<A<2>>(arguments...);
+  return std::make_unique<A<3>>(arguments...);
 }
 
 }  // namespace tushar::simulation

@@ -67,10 +67,14 @@ void Outputs::saveStart() {
 }
 
 void Outputs::saveGlobals() {
-  if (folder_.empty() || (run_.phases.savedGlobals().empty() && !samples())) return;
-  run_.diagnose(run_.phases.everyStep);
+  if (folder_.empty()) return;
+  run_.setTimeOfAnalyses();
+  std::vector<Analysis*> due;
   for (const auto& analysis : run_.problem.analyses)
-    if (analysis->isSampleDue(run_.time.step())) sample(*analysis);
+    if (analysis->isSampleDue(run_.time.step())) due.push_back(analysis.get());
+  if (due.empty() && run_.phases.savedGlobals().empty()) return;
+  run_.scheduler.run(run_.phases.everyStep, {run_.time.step(), run_.time.time()});
+  for (Analysis* analysis : due) sample(*analysis);
   if (archive_) appendGlobals();
 }
 

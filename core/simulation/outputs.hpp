@@ -53,7 +53,7 @@ class Outputs {
   void makeArchive(const output::ArchiveOptions& how);
   void reopenArchive(const output::ArchiveOptions& how);
   bool isDue() const;
-  /// Whether some analysis module samples particles during the run.
+  /// Whether some analysis module samples variables during the run.
   bool samples() const;
   void sample(Analysis& analysis);
   void flushAnalyses();

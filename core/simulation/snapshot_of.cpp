@@ -1,5 +1,7 @@
 #include "core/simulation/snapshot_of.hpp"
 
+#include <algorithm>
+
 #include "core/output/pieces.hpp"
 
 namespace tushar::simulation {
@@ -19,14 +21,16 @@ output::Snapshot emptySnapshot(const RunState& run, output::GridInfo grid) {
   return snapshot;
 }
 
-/// The particles of every material, with p.x alone.
-output::Snapshot positions(const RunState& run, Gather& gather) {
+/// The particles of every material, with p.x alone; of those that are not wanted without it.
+template <class IsWanted>
+output::Snapshot positions(const RunState& run, Gather& gather, const IsWanted& isWanted) {
   output::Snapshot snapshot = emptySnapshot(run, collect::gridInfo(*run.problem.grid));
   for (std::size_t m = 0; m < run.phases.materials().size(); ++m) {
     const int number = run.table.find(data::positionName, static_cast<int>(m));
     if (number < 0) continue;
     snapshot.particles.push_back({run.phases.materials()[m], static_cast<int>(m), {}});
-    snapshot.particles.back().arrays.push_back(gather.stream(Generation::old, number));
+    if (isWanted(static_cast<int>(m)))
+      snapshot.particles.back().arrays.push_back(gather.stream(Generation::old, number));
   }
   return snapshot;
 }
@@ -56,17 +60,22 @@ void addField(RunState& run, const SaveRequest& save, const Stream& stream, outp
   }
 }
 
-}  // namespace
-
-output::Snapshot snapshotOf(RunState& run, const std::vector<SaveRequest>& requests) {
+/// The state everywhere, with the particles of the materials that are wanted.
+template <class IsWanted>
+output::Snapshot snapshotWith(RunState& run, const std::vector<SaveRequest>& requests, const IsWanted& isWanted) {
   Gather gather(run.warehouse);
-  output::Snapshot snapshot = positions(run, gather);
+  output::Snapshot snapshot = positions(run, gather, isWanted);
   const auto whole = [&](Generation generation, int number) { return gather.stream(generation, number); };
   for (const SaveRequest& request : requests) addField(run, request, whole, snapshot);
   return snapshot;
 }
 
-namespace {
+/// Whether a request is for particles of a material.
+bool isOfParticles(const RunState& run, const SaveRequest& request, int material) {
+  const int number = run.table.find(request.label, material);
+  const bool isOfMaterial = request.material.empty() || request.material == run.phases.materials()[material];
+  return isOfMaterial && number >= 0 && run.table[number].label->centring == Centring::particle;
+}
 
 /// The state in a part of the grid, without particles.
 template <class Part>
@@ -102,6 +111,10 @@ std::vector<output::Snapshot> summarySnapshots(RunState& run, const std::vector<
 
 }  // namespace
 
+output::Snapshot snapshotOf(RunState& run, const std::vector<SaveRequest>& requests) {
+  return snapshotWith(run, requests, [](int) { return true; });
+}
+
 std::vector<output::Snapshot> partsOf(RunState& run, const Analysis& analysis) {
   const std::vector<SaveRequest> requests = analysis.samples();
   const grid::Grid& grid = *run.problem.grid;
@@ -111,7 +124,11 @@ std::vector<output::Snapshot> partsOf(RunState& run, const Analysis& analysis) {
     parts.push_back(snapshotIn(run, requests, collect::gridInfo(grid.level(), layer), layer));
   for (const collect::Window& window : analysis.windows())
     parts.push_back(snapshotIn(run, requests, collect::gridInfo(grid), window));
-  if (parts.empty()) parts.push_back(snapshotOf(run, requests));
+  if (parts.empty())
+    parts.push_back(snapshotWith(run, requests, [&](int material) {
+      return std::any_of(requests.begin(), requests.end(),
+                         [&](const SaveRequest& request) { return isOfParticles(run, request, material); });
+    }));
   for (output::Snapshot& part : parts) output::load(part, run.ranks);
   return parts;
 }

@@ -143,6 +143,15 @@ class Sampling(unittest.TestCase):
             sums = np.array(numbers(files[f"planeAverage/t{step:05}/L-0/c.velocity_0"]))
             np.testing.assert_allclose(sums[:, 3:], velocity.sum(axis=(0, 2)), rtol=1e-13)
 
+    def test_a_variable_of_each_material_has_a_weighting_of_its_own(self):
+        tags = module("planeAverage", "<planeOrientation>YZ</planeOrientation>",
+                      ('label="c.mass" matl="0" weighting="nCells"', 'label="c.mass" matl="1"'))
+        archive = self.run_in("two", self.scene(tags, ROOT / "ups/stability/water_air.ups"), "--set",
+                              "Time/max_Timesteps=1")
+        folder = archive / "planeAverage/t00001/L-0"
+        heads = {file.name: file.read_text().splitlines()[2] for file in folder.iterdir()}
+        self.assertEqual(heads, {"c.mass_0": "# X  Y  Z  average  nCells", "c.mass_1": "# X  Y  Z  sum"})
+
     def test_vorticity_is_that_of_the_velocity(self):
         archive = self.run_in("whole", self.scene(VORTICITY, save='<save label="vorticity"/>'), *SMALL)
         state = tushar.open(archive)[-1]
