@@ -109,6 +109,17 @@ Box cellsOf(const Extent& extent, const Level& level) {
   return box;
 }
 
+ExtentModule::ExtentModule(const ExtentSettings& settings, int axes, const Level& level)
+    : SamplingModule(settings), extents_(settings.extents.list), level_(&level) {
+  checkExtents(extents_, axes, level);
+}
+
+std::vector<collect::Window> ExtentModule::windows() const {
+  std::vector<collect::Window> windows;
+  for (const Extent& extent : extents_) windows.push_back({cellsOf(extent, *level_), cellsOf(extent, *level_)});
+  return windows;
+}
+
 int axisOf(const Extent& line) {
   for (int axis = 0; axis < 2; ++axis)
     if (line.start[axis] != line.end[axis]) return axis;

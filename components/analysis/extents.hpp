@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "components/analysis/sampling.hpp"
 #include "core/collect/gather.hpp"
 #include "core/input/schema.hpp"
 
@@ -33,6 +34,23 @@ void checkExtents(const std::vector<Extent>& extents, int axes, const grid::Leve
 /// The cells that it goes through, as a box; where it lies between two cells those above it. Nodes are those at the
 /// lower corners of these cells.
 grid::Box cellsOf(const Extent& extent, const grid::Level& level);
+
+/// The tags of a module that looks at variables in extents.
+struct ExtentSettings : Sampling {
+  ExtentList extents;
+};
+
+/// A module that looks at variables in extents: it gets a part for each. Throws what checkExtents throws.
+class ExtentModule : public SamplingModule {
+ public:
+  ExtentModule(const ExtentSettings& settings, int axes, const grid::Level& level);
+
+  std::vector<collect::Window> windows() const override;
+
+ protected:
+  std::vector<Extent> extents_;
+  const grid::Level* level_;
+};
 
 /// The axis (0 for x, 1 for y, 2 for z) along which a line goes.
 int axisOf(const Extent& line);

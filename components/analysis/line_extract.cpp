@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "components/analysis/extents.hpp"
-#include "components/analysis/sampling.hpp"
 #include "core/output/archive_files.hpp"
 #include "core/simulation/module_with_tags.hpp"
 
@@ -18,31 +17,19 @@ using simulation::AnalysisKind;
 
 namespace {
 
-struct LineSettings : Sampling {
-  ExtentList lines;
-};
-
-const input::Schema<LineSettings>& lineSchema() {
-  static const input::Schema<LineSettings> schema =
-      samplingSchema<LineSettings>("lineExtract", "Variables on lines over time, in a file for each cell.")
-          .requiredSection("lines", &LineSettings::lines, linesSchema(), "where it looks");
+const input::Schema<ExtentSettings>& lineSchema() {
+  static const input::Schema<ExtentSettings> schema =
+      samplingSchema<ExtentSettings>("lineExtract", "Variables on lines over time, in a file for each cell.")
+          .requiredSection("lines", &ExtentSettings::extents, linesSchema(), "where it looks");
   return schema;
 }
 
 constexpr int timeColumn = 4;
 
-class LineExtract : public SamplingModule {
+class LineExtract : public ExtentModule {
  public:
-  LineExtract(const LineSettings& settings, const Level& level)
-      : SamplingModule(settings), lines_(settings.lines.list), level_(&level), files_(timeColumn) {
-    checkExtents(lines_, 1, level);
-  }
-
-  std::vector<collect::Window> windows() const override {
-    std::vector<collect::Window> windows;
-    for (const Extent& line : lines_) windows.push_back({cellsOf(line, *level_), cellsOf(line, *level_)});
-    return windows;
-  }
+  LineExtract(const ExtentSettings& settings, const Level& level)
+      : ExtentModule(settings, 1, level), files_(timeColumn) {}
 
   void sample(const std::vector<Snapshot>& parts, const std::filesystem::path& archive) override {
     for (std::size_t k = 0; k < parts.size(); ++k) {
@@ -51,7 +38,7 @@ class LineExtract : public SamplingModule {
         return std::pair(a.field->centring, a.field->array.components) <
                std::pair(b.field->centring, b.field->array.components);
       });
-      if (!columns.empty()) write(lines_[k], parts[k], columns, archive / lines_[k].name / "L-0");
+      if (!columns.empty()) write(extents_[k], parts[k], columns, archive / extents_[k].name / "L-0");
     }
   }
 
@@ -96,16 +83,11 @@ class LineExtract : public SamplingModule {
     for (const Found& column : columns) {
       const std::string name = fmt::format("{}_{}", column.variable->called, column.variable->material);
       const int components = column.field->array.components;
-      for (int k = 0; k < components; ++k)
-        text += fmt::format(" {:<16}", components == 1   ? name
-                                       : components == 3 ? fmt::format("{}.{}", name, "xyz"[k])
-                                                         : fmt::format("{}({},{})", name, k / 3, k % 3));
+      for (int k = 0; k < components; ++k) text += fmt::format(" {:<16}", nameOfComponent(name, k, components));
     }
     return text + '\n';
   }
 
-  std::vector<Extent> lines_;
-  const Level* level_;
   SampleFiles files_;
 };
 

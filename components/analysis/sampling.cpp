@@ -111,6 +111,12 @@ std::vector<SamplingModule::Found> SamplingModule::findAll(const output::Snapsho
   return all;
 }
 
+std::string nameOfComponent(const std::string& name, int component, int components) {
+  if (components == 1) return name;
+  if (components == 3) return fmt::format("{}.{}", name, "xyz"[component]);
+  return fmt::format("{}({},{})", name, component / 3, component % 3);
+}
+
 double numberAt(const output::Array& array, std::size_t place) {
   return std::visit([&](const auto& values) { return static_cast<double>(values[place]); }, array.values);
 }

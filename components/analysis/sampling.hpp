@@ -139,6 +139,9 @@ class SamplingModule : public simulation::Analysis {
   SampleTimes times_;
 };
 
+/// What the heads of files call a component of a variable: `v`, `v.x` of a vector, `v(0,1)` of a tensor.
+std::string nameOfComponent(const std::string& name, int component, int components);
+
 /// A number of an array, whatever its type.
 double numberAt(const output::Array& array, std::size_t place);
 
