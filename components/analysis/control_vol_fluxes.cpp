@@ -194,7 +194,7 @@ void addBoxFlow(const Patch& patch, const Box& box, int material, CellView<const
                                : 0.5 * (velocity[cell][d] + velocity[behind][d]);
         const bool isFromInside = isEnd || (side == 0 ? v <= 0 : v > 0);
         const double rho = density[isFromInside ? cell : behind];
-        const auto place = static_cast<std::size_t>(2 * level.axis(d) + side);
+        const std::size_t place = 2 * level.axis(d) + side;
         flow.through[place].add(rho * v * level.cellVolume() / level.spacing(d));
       }
   });

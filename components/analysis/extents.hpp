@@ -11,6 +11,9 @@
 
 namespace tushar::analysis {
 
+using grid::Level;
+using output::Snapshot;
+
 /// A `<line name=>` or `<plane name=>`.
 struct Extent {
   Location where, whereOfName;

@@ -11,8 +11,6 @@
 
 namespace tushar::analysis {
 
-using grid::Level;
-using output::Snapshot;
 using simulation::AnalysisKind;
 
 namespace {
@@ -64,7 +62,7 @@ class LineExtract : public ExtentModule {
       std::string text =
           fmt::format("{:<16E} {:<16E} {:<16E} {:<16} {:<16E}", place[0], place[1], place[2], part.step, part.time);
       for (const Found& column : columns) {
-        const auto components = static_cast<std::size_t>(column.field->array.components);
+        const std::size_t components = column.field->array.components;
         for (std::size_t i = 0; i < components; ++i)
           text += fmt::format(" {:<16E}", numberAt(column.field->array, here * components + i));
       }

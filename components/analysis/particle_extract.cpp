@@ -157,7 +157,7 @@ std::string extractHeader(const std::vector<Array>& columns) {
 std::string extractLine(double time, const std::vector<Array>& columns, std::size_t entry) {
   std::string line = fmt::format("{:E}\t", time);
   for (std::size_t k = 0; k < columns.size(); ++k) {
-    const auto components = static_cast<std::size_t>(columns[k].components);
+    const std::size_t components = columns[k].components;
     std::visit(
         [&](const auto& values) {
           for (std::size_t i = 0; i < components; ++i) {

@@ -111,7 +111,7 @@ class PlaneAverage : public SamplingModule {
                         weighting == Weighting::none    ? ""
                         : weighting == Weighting::cells ? "  nCells"
                                                         : "  weight");
-    const auto components = static_cast<std::size_t>(sums.components);
+    const std::size_t components = sums.components;
     for (std::size_t plane = 0; plane < sums.entries(); ++plane) {
       const Vec3 middle = middleOf(plane);
       const double by = weighting == Weighting::none ? 1 : weights ? numberAt(*weights, plane) : cellsPerPlane();

@@ -8,8 +8,6 @@
 
 namespace tushar::analysis {
 
-using grid::Level;
-using output::Snapshot;
 using simulation::AnalysisKind;
 
 namespace {
@@ -39,7 +37,7 @@ class PlaneExtract : public ExtentModule {
  private:
   std::string textOf(const Extent& plane, const Snapshot& part, const Found& found) const {
     const output::Array& array = found.field->array;
-    const auto components = static_cast<std::size_t>(array.components);
+    const std::size_t components = array.components;
     const std::string name = fmt::format("{}({})", found.variable->called, found.variable->material);
     std::string text =
         fmt::format("# Simulation time: {:16.15E}\n#    X                      Y                     Z ", part.time);

@@ -40,9 +40,7 @@ class Vorticity : public Analysis {
       tasks.perPatch("vorticity::compute", computeVorticity<D>, requiresOld(velocity_, 1), computes(vorticityLabel));
   }
   void setTime(double, double) override {}
-  std::vector<std::pair<std::string, std::string>> otherNames() const override {
-    return {{"vorticity", std::string(vorticityLabel.name)}};
-  }
+  simulation::OtherNames otherNames() const override { return {{"vorticity", std::string(vorticityLabel.name)}}; }
 
  private:
   bool derived_;

@@ -22,6 +22,13 @@ inline constexpr Index3 kBlock = D == 1   ? Index3{{256, 1, 1}}
                                  : D == 2 ? Index3{{128, 16, 1}}
                                           : Index3{{64, 8, 8}};
 
+/// A box as large as the largest block of a box.
+template <int D>
+Box largestBlock(Box box) {
+  for (int d = 0; d < D; ++d) box.upper[d] = std::min(box.lower[d] + kBlock<D>[d], box.upper[d]);
+  return box;
+}
+
 /// Calls `visit(block)` for boxes that tile the box, none larger than kBlock.
 template <int D, class Visit>
 void forEachBlock(const Box& box, Visit&& visit) {

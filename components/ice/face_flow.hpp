@@ -3,20 +3,18 @@
 #include <optional>
 
 #include "components/euler/diffusion.hpp"
+#include "components/euler/settings.hpp"
 #include "components/euler/tasks/advance_patch.hpp"
 #include "core/solvers/solver.hpp"
 
 namespace tushar::ice {
 
-/// How a gas goes on in steps that sound does not limit.
-struct ImplicitGas {
-  euler::Gas gas;
+/// What acts on a gas besides its pressure, and how steps are made that sound does not limit.
+struct IceSettings {
   euler::Diffusion diffusion;
   Vec3 gravity = Vec3::Zero();  ///< m/s²
-  double cfl = 0.5;             ///< dt times the greatest rate at which cells are crossed
-  double soundSpeedKnob = 0;    ///< part of the speed of sound in that rate; 0: steps follow the flow alone
-  bool hasSlopes = true;        ///< whether cells have van Leer's slopes, or are constant
-  solvers::LinearSettings solver;
+  double soundSpeedKnob = 0;    ///< part of the speed of sound that limits implicit steps; 0: the flow alone does
+  solvers::LinearSettings solver = {};
 };
 
 /// The gas before a step, beyond sides of the grid too, and what sides give at their faces. A face is named by an axis
@@ -24,17 +22,16 @@ struct ImplicitGas {
 template <int D>
 class GasBefore {
  public:
-  /// In the cells of `box`, by the rules at the sides, which outlive this.
-  GasBefore(const Level& level, const ImplicitGas& settings, const euler::GhostRules<D>& rules, const Box& box,
-            const euler::StateViews<D, const double>& before)
-      : level_(level),
-        rules_(rules),
-        gas_(settings.gas),
-        gravity_(level.reduce<D>(settings.gravity)),
-        old_(box.size()) {
+  /// Room for boxes of up to `cells` cells; the rules at the sides outlive this.
+  GasBefore(const Level& level, const euler::Gas& gas, const Vec3& gravity, const euler::GhostRules<D>& rules,
+            std::size_t cells)
+      : level_(level), rules_(rules), gas_(gas), gravity_(level.reduce<D>(gravity)), old_(cells) {}
+
+  /// From now on the gas in the cells of `box`.
+  void hold(const Box& box, const euler::StateViews<D, const double>& before) {
     old_.hold(box);
-    euler::recover<D>(gas_, level, before, old_);
-    euler::fillBeyondGrid<D>(level, rules_, old_);
+    euler::recover<D>(gas_, level_, before, old_);
+    euler::fillBeyondGrid<D>(level_, rules_, old_);
   }
 
   const Level& level() const { return level_; }
@@ -42,13 +39,12 @@ class GasBefore {
   const Vec<D>& gravity() const { return gravity_; }
   /// rho, v and p.
   const euler::Rows<D>& old() const { return old_; }
-  /// The old state with another pressure in the cells of the grid, beyond sides too.
-  euler::Rows<D> withPressure(const CellView<const double>& pressure) const {
-    euler::Rows<D> rows = old_;
+  /// Fills `rows` with the old state, but with another pressure in the cells of the grid; beyond sides too.
+  void fillWithPressure(const CellView<const double>& pressure, euler::Rows<D>& rows) const {
+    rows = old_;
     forEach<D>(level_.clipCells(rows.box()),
                [&](const Index<D>& cell) { *rows.at(cell)[euler::kPressure<D>] = pressure[cell]; });
     euler::fillBeyondGrid<D>(level_, rules_, rows);
-    return rows;
   }
   /// Whether a cell is on the grid, or an image of one that is.
   bool isOnGrid(const Index<D>& cell) const {
@@ -103,7 +99,7 @@ class GasBefore {
 
   const Level& level_;
   const euler::GhostRules<D>& rules_;
-  euler::Gas gas_;
+  const euler::Gas& gas_;
   Vec<D> gravity_;
   euler::Rows<D> old_;
 };
@@ -119,12 +115,22 @@ class GasBefore {
 template <int D>
 class FaceFlow : public GasBefore<D> {
  public:
-  /// For the faces of the cells in `box`, from the state in two more layers.
-  FaceFlow(const Level& level, const ImplicitGas& settings, const euler::GhostRules<D>& rules, const Box& box,
-           const euler::StateViews<D, const double>& before, double dt)
-      : GasBefore<D>(level, settings, rules, box.grown(2, D), before), dt_(dt), ahead_(this->old()) {
-    if (settings.hasSlopes) carryVelocities(level.clipCells(box.grown(1, D)));
+  /// Room for boxes no larger than `largest`.
+  FaceFlow(const Level& level, const euler::Settings& method, const IceSettings& settings,
+           const euler::GhostRules<D>& rules, const Box& largest, double dt)
+      : GasBefore<D>(level, method.gas, settings.gravity, rules, largest.grown(2, D).size()),
+        dt_(dt),
+        hasSlopes_(method.method.reconstruction != euler::Reconstruction::firstOrder),
+        ahead_(this->old()) {}
+
+  /// From now on the faces of the cells in `box`, from the state in two more layers.
+  void hold(const Box& box, const euler::StateViews<D, const double>& before) {
+    GasBefore<D>::hold(box.grown(2, D), before);
+    ahead_ = this->old();
+    if (hasSlopes_) carryVelocities(this->level().clipCells(box.grown(1, D)));
   }
+  /// Whether cells have van Leer's slopes, or are constant.
+  bool hasSlopes() const { return hasSlopes_; }
 
   /// u*_f, m/s.
   double withoutPressure(const Index<D>& face, int axis) const {
@@ -147,6 +153,7 @@ class FaceFlow : public GasBefore<D> {
   }
 
   double dt_;
+  bool hasSlopes_;
   euler::Rows<D> ahead_;
 };
 

@@ -27,18 +27,18 @@ void scheduleDiffusion(TaskList& tasks, const euler::Gas& gas, const euler::Diff
 template <int D>
 void Ice<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
   euler::Euler<D>::scheduleComputeStableTimeStep(tasks);
-  if (diffusion_.acts())
-    tasks.perPatch("euler::limitDiffusion", euler::limitDiffusion<D>, with(this->settings().gas), with(diffusion_),
-                   with(this->settings().cfl), requiresOld(euler::c::density), requiresOld(euler::c::momentum<D>),
-                   requiresOld(euler::c::totalEnergy), computes(delT));
+  if (acting_.diffusion.acts())
+    tasks.perPatch("euler::limitDiffusion", euler::limitDiffusion<D>, with(this->settings().gas),
+                   with(acting_.diffusion), with(this->settings().cfl), requiresOld(euler::c::density),
+                   requiresOld(euler::c::momentum<D>), requiresOld(euler::c::totalEnergy), computes(delT));
 }
 
 template <int D>
 void Ice<D>::scheduleTimeAdvance(TaskList& tasks) const {
   euler::Euler<D>::scheduleTimeAdvance(tasks);
-  scheduleDiffusion<D>(tasks, this->settings().gas, diffusion_);
-  if (!gravity_.isZero(0))
-    tasks.perPatch("euler::addGravity", euler::addGravity<D>, with(gravity_), requiresNew(euler::c::density),
+  scheduleDiffusion<D>(tasks, this->settings().gas, acting_.diffusion);
+  if (!acting_.gravity.isZero(0))
+    tasks.perPatch("euler::addGravity", euler::addGravity<D>, with(acting_.gravity), requiresNew(euler::c::density),
                    requiresOld(delT), modifies(euler::c::momentum<D>), modifies(euler::c::totalEnergy));
 }
 
@@ -64,42 +64,33 @@ std::vector<std::string> Ice<D>::foreignLabels() const {
 }
 
 template <int D>
-std::vector<std::pair<std::string, std::string>> Ice<D>::otherNames() const {
+simulation::OtherNames Ice<D>::otherNames() const {
   return uintahsNames;
 }
 
 template <int D>
-ImplicitIce<D>::ImplicitIce(const GasScene& scene)
-    : Ice<D>(scene),
-      settings_{.gas = scene.gas.gas,
-                .diffusion = {scene.viscosity, scene.conductivity},
-                .gravity = scene.gravity,
-                .cfl = scene.gas.cfl,
-                .soundSpeedKnob = scene.implicit->soundSpeedKnob,
-                .hasSlopes = scene.gas.method.reconstruction != euler::Reconstruction::firstOrder,
-                .solver = scene.implicit->solver} {}
-
-template <int D>
 void ImplicitIce<D>::scheduleInitialize(TaskList& tasks) const {
   Ice<D>::scheduleInitialize(tasks);
-  tasks.perPatch("ice::initializePressure", initializePressure<D>, with(settings_.gas), requiresNew(euler::c::density),
-                 requiresNew(euler::c::momentum<D>), requiresNew(euler::c::totalEnergy), computes(c::pressureAtEnd));
+  tasks.perPatch("ice::initializePressure", initializePressure<D>, with(this->settings().gas),
+                 requiresNew(euler::c::density), requiresNew(euler::c::momentum<D>), requiresNew(euler::c::totalEnergy),
+                 computes(c::pressureAtEnd));
 }
 
 template <int D>
 void ImplicitIce<D>::scheduleComputeStableTimeStep(TaskList& tasks) const {
-  tasks.perPatch("ice::limitImplicitStep", limitImplicitStep<D>, with(settings_), all<euler::OldState<D>>(2),
-                 startTime(), requiresOld(c::pressureAtEnd, 2), computes(delT));
+  tasks.perPatch("ice::limitImplicitStep", limitImplicitStep<D>, with(this->settings()), with(this->acting()),
+                 all<euler::OldState<D>>(2), startTime(), requiresOld(c::pressureAtEnd, 2), computes(delT));
 }
 
 template <int D>
 void ImplicitIce<D>::scheduleTimeAdvance(TaskList& tasks) const {
-  tasks.perRank("ice::solvePressure", solvePressure<D>, togetherOnRanks(), with(settings_), startTime(),
-                requiresOld(delT), all<euler::OldState<D>>(2), requiresOld(c::pressureAtEnd),
+  tasks.perRank("ice::solvePressure", solvePressure<D>, togetherOnRanks(), with(this->settings()), with(this->acting()),
+                startTime(), requiresOld(delT), all<euler::OldState<D>>(2), requiresOld(c::pressureAtEnd),
                 computes(c::pressureAtEnd), totals<SolveTotals>());
-  tasks.perPatch("ice::advanceImplicitly", advanceImplicitly<D>, with(settings_), all<euler::OldState<D>>(2),
-                 startTime(), requiresOld(delT), requiresNew(c::pressureAtEnd, 2), all<euler::NewState<D>>());
-  scheduleDiffusion<D>(tasks, settings_.gas, settings_.diffusion);
+  tasks.perPatch("ice::advanceImplicitly", advanceImplicitly<D>, with(this->settings()), with(this->acting()),
+                 all<euler::OldState<D>>(2), startTime(), requiresOld(delT), requiresNew(c::pressureAtEnd, 2),
+                 all<euler::NewState<D>>());
+  scheduleDiffusion<D>(tasks, this->settings().gas, this->acting().diffusion);
 }
 
 template class ImplicitIce<1>;

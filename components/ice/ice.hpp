@@ -14,19 +14,26 @@ template <int D>
 class Ice : public euler::Euler<D> {
  public:
   explicit Ice(const GasScene& scene)
-      : euler::Euler<D>(scene.gas), diffusion_{scene.viscosity, scene.conductivity}, gravity_(scene.gravity) {}
+      : euler::Euler<D>(scene.gas),
+        acting_{.diffusion = {scene.viscosity, scene.conductivity}, .gravity = scene.gravity} {
+    if (!scene.implicit) return;
+    acting_.soundSpeedKnob = scene.implicit->soundSpeedKnob;
+    acting_.solver = scene.implicit->solver;
+  }
 
   void scheduleComputeStableTimeStep(TaskList& tasks) const override;
   void scheduleTimeAdvance(TaskList& tasks) const override;
   void scheduleDiagnostics(TaskList& tasks) const override;
   std::string advice() const override { return "a smaller CFD/cfl, or CFD/ICE/advection of type FirstOrder"; }
   std::vector<std::string> foreignLabels() const override;
-  std::vector<std::pair<std::string, std::string>> otherNames() const override;
+  simulation::OtherNames otherNames() const override;
   std::vector<std::string> gasNames() const override { return {this->settings().name}; }
 
+ protected:
+  const IceSettings& acting() const { return acting_; }
+
  private:
-  euler::Diffusion diffusion_;
-  Vec3 gravity_;
+  IceSettings acting_;
 };
 
 /// The same in steps that sound does not limit: the pressure at the end of a step is the solution of a linear system,
@@ -34,7 +41,7 @@ class Ice : public euler::Euler<D> {
 template <int D>
 class ImplicitIce : public Ice<D> {
  public:
-  explicit ImplicitIce(const GasScene& scene);
+  using Ice<D>::Ice;
 
   void scheduleInitialize(TaskList& tasks) const override;
   void scheduleComputeStableTimeStep(TaskList& tasks) const override;
@@ -43,9 +50,6 @@ class ImplicitIce : public Ice<D> {
   std::string whyOneLevel() const override {
     return "the pressure of an <ImplicitSolver> is solved for on one; CFD/ICE/explicit=true passes over it";
   }
-
- private:
-  ImplicitGas settings_;
 };
 
 extern template class Ice<1>;

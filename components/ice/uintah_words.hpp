@@ -1,8 +1,9 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
+
+#include "core/simulation/settings.hpp"
 
 // What scenes of Uintah's ICE call the variables of a gas.
 
@@ -12,7 +13,7 @@ inline constexpr const char* thinWallsPath = "CFD/ICE/thin_walls";
 inline constexpr const char* exchangePath = "MaterialProperties/exchange_properties/exchange_coefficients";
 
 /// Variables that have another name here.
-inline const std::vector<std::pair<std::string, std::string>> uintahsNames{
+inline const simulation::OtherNames uintahsNames{
     {"rho_CC", "c.density"},           {"rho_micro_CC", "c.density"},     {"press_CC", "c.pressure"},
     {"press_equil_CC", "c.pressure"},  {"vel_CC", "c.velocity"},          {"temp_CC", "c.temperature"},
     {"sp_vol_CC", "c.specificVolume"}, {"speedSound_CC", "c.soundSpeed"}, {"mach", "c.mach"}};

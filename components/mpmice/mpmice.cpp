@@ -107,9 +107,9 @@ std::vector<std::string> MpmIce<D>::foreignLabels() const {
 }
 
 template <int D>
-std::vector<std::pair<std::string, std::string>> MpmIce<D>::otherNames() const {
-  std::vector<std::pair<std::string, std::string>> names = uintahsNames;
-  const std::vector<std::pair<std::string, std::string>> ofSolids = solids_->otherNames();
+simulation::OtherNames MpmIce<D>::otherNames() const {
+  simulation::OtherNames names = uintahsNames;
+  const simulation::OtherNames ofSolids = solids_->otherNames();
   names.insert(names.end(), ice::uintahsNames.begin(), ice::uintahsNames.end());
   names.insert(names.end(), ofSolids.begin(), ofSolids.end());
   return names;

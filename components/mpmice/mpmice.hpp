@@ -48,7 +48,7 @@ class MpmIce : public Component {
   std::string advice() const override { return "a smaller CFD/cfl, or more particles per cell along surfaces (res)"; }
   bool mayRepeatStep() const override { return true; }
   std::vector<std::string> foreignLabels() const override;
-  std::vector<std::pair<std::string, std::string>> otherNames() const override;
+  simulation::OtherNames otherNames() const override;
   std::vector<std::string> gasNames() const override { return {gas_->gasName()}; }
 
  private:

@@ -7,7 +7,6 @@
 namespace tushar::mpmice {
 
 /// Variables that are here by another name.
-inline const std::vector<std::pair<std::string, std::string>> uintahsNames{{"rho_micro_CC", "c.gasDensity"},
-                                                                           {"vol_frac_CC", "c.freeVolume"}};
+inline const simulation::OtherNames uintahsNames{{"rho_micro_CC", "c.gasDensity"}, {"vol_frac_CC", "c.freeVolume"}};
 
 }  // namespace tushar::mpmice

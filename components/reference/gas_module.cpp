@@ -97,7 +97,7 @@ simulation::MakeAnalysis measureAgainst(std::function<ReferencePointer(const Lev
   const auto problem = [where = module.where(), path = module.path()](const std::string& sentence) {
     return InputError({InputProblem{where, path, sentence}});
   };
-  return [build, problem, gases, name = tags.name, within = tags.within](
+  return [build = std::move(build), problem, gases, name = tags.name, within = tags.within](
              const Component& component, const Level& level) -> std::unique_ptr<simulation::Analysis> {
     const auto* solution = dynamic_cast<const GasSolution*>(&component);
     if (!solution) throw problem("measures a gas, but this component does not solve for one; take the module out");

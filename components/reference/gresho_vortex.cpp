@@ -8,12 +8,7 @@
 namespace tushar::reference {
 
 GreshoVortex::GreshoVortex(const GreshoProblem& problem) : problem_(problem) {
-  if (!(problem.density > 0 && problem.pressure > 0 && problem.gamma > 1 && problem.radius > 0))
-    throw std::invalid_argument(fmt::format(
-        "A Gresho vortex needs a positive density, pressure and radius and a gamma above 1, not {}, {}, {} and {}.",
-        problem.density, problem.pressure, problem.radius, problem.gamma));
-  if (problem.axis < 0 || problem.axis > 2)
-    throw std::invalid_argument(fmt::format("The axis of a vortex is 0, 1 or 2, not {}.", problem.axis));
+  problem.requireGas("A Gresho vortex");
   for (int d = 0; d < 3; ++d) {
     const double period = problem.frame.periods[d];
     if (d != problem.axis && period > 0 && period < 4 * problem.radius)

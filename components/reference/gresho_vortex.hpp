@@ -1,22 +1,21 @@
 #pragma once
 
-#include "components/reference/moving_frame.hpp"
+#include "components/reference/vortex.hpp"
 
 namespace tushar::reference {
 
 /// A vortex of two rings in which the pressure balances the turning, carried along by a uniform flow.
-struct GreshoProblem {
-  double density = 1;   ///< everywhere, kg/m^3
-  double pressure = 5;  ///< in the middle, Pa
-  double gamma = 1.4;   ///< ratio of specific heats
-  double speed = 1;     ///< the greatest around the centre, m/s
-  double radius = 0.2;  ///< where that speed is reached, m; the gas beyond twice of it does not turn
-  int axis = 2;         ///< 0, 1 or 2: what it turns around; it is the same all along it
-  MovingFrame frame;    ///< its centre; the velocity is that of the flow
+struct GreshoProblem : VortexProblem {
+  /// A radius of 0.2 m and 5 Pa in the middle; beyond twice the radius the gas does not turn.
+  GreshoProblem() {
+    pressure = 5;
+    radius = 0.2;
+  }
+  double speed = 1;  ///< the greatest around the centre, m/s
 };
 
 /// The Gresho vortex. With s = distance from the axis / radius the velocity around it is speed (s; 2 - s; 0) and
-/// (p - p0) / (rho speed²) = (s²/2; s²/2 + 4 (ln s + 1 - s); 4 ln 2 - 2) where s < 1; s < 2; else.
+/// (p - p0) / (rho0 speed²) = (s²/2; s²/2 + 4 (ln s + 1 - s); 4 ln 2 - 2) where s < 1; s < 2; else.
 ///
 /// Its speed jumps in slope at both radii. Where the grid repeats, the values are those of the nearest image.
 /// Source: P. M. Gresho & S. T. Chan, Int. J. Numer. Methods Fluids 11 (1990) 621; for gas: R. Liska & B. Wendroff,

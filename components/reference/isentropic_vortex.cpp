@@ -9,12 +9,7 @@ namespace tushar::reference {
 
 IsentropicVortex::IsentropicVortex(const IsentropicVortexProblem& problem)
     : problem_(problem), temperature_(problem.pressure / problem.density) {
-  if (!(problem.density > 0 && problem.pressure > 0 && problem.gamma > 1 && problem.radius > 0))
-    throw std::invalid_argument(fmt::format(
-        "A vortex needs a positive density, pressure and radius and a gamma above 1, not {}, {}, {} and {}.",
-        problem.density, problem.pressure, problem.radius, problem.gamma));
-  if (problem.axis < 0 || problem.axis > 2)
-    throw std::invalid_argument(fmt::format("The axis of a vortex is 0, 1 or 2, not {}.", problem.axis));
+  problem.requireGas("A vortex");
   const double limit = 2 * M_PI * std::sqrt(2 * problem.gamma * temperature_ / ((problem.gamma - 1) * M_E));
   if (!(std::abs(problem.strength) < limit))
     throw std::invalid_argument(

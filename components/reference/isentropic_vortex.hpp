@@ -1,18 +1,12 @@
 #pragma once
 
-#include "components/reference/moving_frame.hpp"
+#include "components/reference/vortex.hpp"
 
 namespace tushar::reference {
 
 /// A smooth vortex that a uniform flow carries along.
-struct IsentropicVortexProblem {
-  double density = 1;   ///< far away, kg/m^3
-  double pressure = 1;  ///< far away, Pa
-  double gamma = 1.4;   ///< ratio of specific heats
+struct IsentropicVortexProblem : VortexProblem {
   double strength = 5;  ///< beta, m/s: the greatest speed around the centre is beta / 2 pi
-  double radius = 1;    ///< where that speed is reached, m
-  int axis = 2;         ///< 0, 1 or 2: what it turns around; it is the same all along it
-  MovingFrame frame;    ///< its centre; the velocity is that of the flow
 };
 
 /// The exact solution of the isentropic vortex.

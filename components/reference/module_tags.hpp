@@ -62,14 +62,15 @@ struct RadialTags : GasTags {
 
 /// The schema of the module `name` with those tags; S is derived from RadialTags, and `centre` says what is there.
 template <class S>
-input::Schema<S> radialSchema(const std::string& name, std::string sentence, std::string centre, double gamma = 1.4) {
+input::Schema<S> radialSchema(const std::string& name, std::string sentence, const std::string& centre,
+                              double gamma = 1.4) {
   return gasSchema<S>(name, std::move(sentence), gamma)
       .value("density", memberOf<S>(&RadialTags::density), 1, "kg/m^3", "density at t = 0", input::positive())
       .ours()
       .value("pressure", memberOf<S>(&RadialTags::pressure), 0, "Pa", "pressure at t = 0, which should be almost 0",
              input::nonNegative())
       .ours()
-      .value("centre", memberOf<S>(&RadialTags::centre), Vec3::Zero(), "m", std::move(centre))
+      .value("centre", memberOf<S>(&RadialTags::centre), Vec3::Zero(), "m", centre)
       .ours();
 }
 

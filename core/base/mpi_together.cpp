@@ -35,10 +35,10 @@ std::uint64_t sumBefore(const Communicator& ranks, std::uint64_t mine) {
 std::vector<std::uint64_t> allOf(const Communicator& ranks, std::span<const std::uint64_t> mine) {
   if (ranks.isAlone()) return {mine.begin(), mine.end()};
   const int count = static_cast<int>(mine.size());
-  std::vector<int> counts(static_cast<std::size_t>(ranks.size())), before(counts.size() + 1, 0);
+  std::vector<int> counts(ranks.size()), before(counts.size() + 1, 0);
   MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, ranks.native()->ranks);
   for (std::size_t rank = 0; rank < counts.size(); ++rank) before[rank + 1] = before[rank] + counts[rank];
-  std::vector<std::uint64_t> all(static_cast<std::size_t>(before.back()));
+  std::vector<std::uint64_t> all(before.back());
   MPI_Allgatherv(mine.data(), count, MPI_UINT64_T, all.data(), counts.data(), before.data(), MPI_UINT64_T,
                  ranks.native()->ranks);
   return all;
@@ -60,8 +60,8 @@ std::vector<int> firstOfNodes(const Communicator& ranks) {
 void exchange(const Communicator& ranks, Outbox& outbox, std::vector<Letter> letters,
               const std::function<void(int, const Bytes&)>& take) {
   if (ranks.isAlone()) return;
-  std::vector<int> counts(static_cast<std::size_t>(ranks.size()), 0);
-  for (const Letter& letter : letters) ++counts[static_cast<std::size_t>(letter.rank)];
+  std::vector<int> counts(ranks.size(), 0);
+  for (const Letter& letter : letters) ++counts[letter.rank];
   const int expected = sumForMe(ranks, counts);
   for (Letter& letter : letters) outbox.send(letter.rank, Tag::output, std::move(letter.bytes));
   for (int k = 0; k < expected; ++k) {

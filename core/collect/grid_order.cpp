@@ -8,10 +8,10 @@ GridOrder::GridOrder(const grid::Grid& grid, int most) : is_by_level_(most > 0) 
   Index3 cells = grid.blockCells();
   for (int d = 0; d < grid.dimension(); ++d) cells[d] *= std::max(1, most / cells[d]);
   boxes_ = std::make_shared<const grid::BlockTiling>(grid.tree(), grid.blockCells(), cells);
-  before_.resize(static_cast<std::size_t>(boxes_->count()));
+  before_.resize(boxes_->count());
   std::size_t next = 0;
   for (const grid::Tile& tile : boxes()) {
-    before_[static_cast<std::size_t>(tile.id)] = next;
+    before_[tile.id] = next;
     next += tile.cells.size();
   }
 }

@@ -26,7 +26,7 @@ class GridOrder {
   void forEachRow(int level, const grid::Box& box, Visit&& visit) const {
     if (!boxes_) return rowsOf(0, all_, box.intersect(all_), visit);
     for (const grid::Tile& tile : boxes_->overlapping(level, box))
-      rowsOf(before_[static_cast<std::size_t>(tile.id)], tile.cells, box.intersect(tile.cells), visit);
+      rowsOf(before_[tile.id], tile.cells, box.intersect(tile.cells), visit);
   }
 
   /// The boxes of several levels, in the order.

@@ -244,7 +244,7 @@ class StateReader : StateWalk {
 
   /// Entries of a variable, from a place in the file on.
   static output::Hdf5Parts::Part partOf(const Label& label, std::size_t place, std::size_t count, std::byte* to) {
-    const auto components = static_cast<std::size_t>(label.components);
+    const std::size_t components = label.components;
     return {place * components, count * components, to};
   }
 

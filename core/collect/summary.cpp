@@ -51,7 +51,7 @@ double numberAt(const Label& label, const std::byte* values, std::size_t place) 
 
 void addPatch(const Patch& patch, const Label& label, const data::Variable& variable, SummaryOver over,
               std::vector<Extremes>& extremes) {
-  const auto components = static_cast<std::size_t>(label.components);
+  const std::size_t components = label.components;
   const double weight = patch.level().weight();
   grid::forEach<3>(countedBy(patch, label), [&](const Index3& at) {
     const std::size_t plane = over.axis < 0 ? 0 : static_cast<std::size_t>(at[over.axis]);

@@ -15,7 +15,7 @@ constexpr std::uint64_t samplesOfRank = 64;
 
 /// The least key of each section but the first.
 std::vector<std::uint64_t> cutsOf(const mpi::Communicator& ranks, std::span<const std::uint64_t> keys) {
-  const auto sections = static_cast<std::size_t>(ranks.size());
+  const std::size_t sections = ranks.size();
   const auto all = static_cast<std::uint64_t>(ranks.sum(static_cast<long>(keys.size())));
   const std::uint64_t every = std::max<std::uint64_t>(1, all / (samplesOfRank * sections));
   std::vector<std::uint64_t> mine;
@@ -102,7 +102,7 @@ class Sections {
     std::vector<Part> parts;
     std::vector<mpi::Letter> letters;
     for (int rank = 0; rank < ranks_.size(); ++rank) {
-      const auto place = static_cast<std::size_t>(rank);
+      const std::size_t place = rank;
       if (sizeOf(place) == 0) continue;
       mpi::Bytes bytes = bytesOf(of(keys_, place), of(weights_, place));
       if (rank == ranks_.rank())
@@ -119,8 +119,7 @@ class Sections {
   std::vector<std::uint64_t> handedBack(const std::vector<Part>& parts, std::uint64_t before) {
     std::vector<std::uint64_t> sums(keys_.size());
     const auto take = [&](int from, std::span<const std::uint64_t> words) {
-      std::copy(words.begin(), words.end(),
-                sums.begin() + static_cast<std::ptrdiff_t>(starts_[static_cast<std::size_t>(from)]));
+      std::copy(words.begin(), words.end(), sums.begin() + static_cast<std::ptrdiff_t>(starts_[from]));
     };
     std::vector<mpi::Letter> letters;
     for (const Part& part : parts) {

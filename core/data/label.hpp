@@ -17,7 +17,7 @@ enum class Centring { particle, node, cell, rim, reduction };
 enum class Number { real, id, integer };
 
 /// Where the values of a node variable count: on all nodes, or only on those that particles of its material touch. Then
-/// patches give one another only those (data/touched_rows); the others are undefined, or what each patch wrote.
+/// patches give one another only those (tasks/near_rows); the others are undefined, or what each patch wrote.
 enum class Counts { everywhere, nearParticles };
 
 /// A variable's name and nature, whatever its type: what the graph, the archive and messages to users work with.

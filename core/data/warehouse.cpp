@@ -31,10 +31,10 @@ int VariableTable::find(std::string_view name, int material) const {
 }
 
 void VariableTable::widen(int number, int ghost) {
-  const auto at = static_cast<std::size_t>(number);
+  const std::size_t at = number;
   ghosts_[at] = std::max(ghosts_[at], ghost);
   if (names_[at].label->centring != Centring::particle) return;
-  const auto material = static_cast<std::size_t>(names_[at].material);
+  const std::size_t material = names_[at].material;
   if (reaches_.size() <= material) reaches_.resize(material + 1, 0);
   reaches_[material] = std::max(reaches_[material], ghost);
 }

@@ -23,19 +23,19 @@ BlockTiling::BlockTiling(BlockTree tree, const Index3& blockCells, const Index3&
   for (std::size_t id = 0; id < patches_.size(); ++id) {
     const auto& [level, cells] = patches_[id];
     forEach<3>(blocksOver(cells, block_cells_), [&, level = level](const Index3& block) {
-      patch_of_leaf_[static_cast<std::size_t>(tree_.placeOf({level, block}))] = static_cast<int>(id);
+      patch_of_leaf_[tree_.placeOf({level, block})] = static_cast<int>(id);
     });
     cells_before_.push_back(cells_before_.back() + cells.size());
   }
 }
 
 Tile BlockTiling::tile(int id) const {
-  const auto& [level, cells] = patches_[static_cast<std::size_t>(id)];
+  const auto& [level, cells] = patches_[id];
   return {id, level, cells};
 }
 
 int BlockTiling::patchOf(const BlockId& block) const {
-  return tree_.levelAt(block) == block.level ? patch_of_leaf_[static_cast<std::size_t>(tree_.placeOf(block))] : -1;
+  return tree_.levelAt(block) == block.level ? patch_of_leaf_[tree_.placeOf(block)] : -1;
 }
 
 Tile BlockTiling::tileOf(int level, const Index3& cell) const {

@@ -23,7 +23,7 @@ class BlockTiling : public Tiling {
   Tile tileOf(int level, const Index3& cell) const override;
   std::vector<Tile> overlapping(int level, const Box& cells) const override;
   std::uint64_t cells() const override { return cells_before_.back(); }
-  std::uint64_t cellsBefore(int id) const override { return cells_before_[static_cast<std::size_t>(id)]; }
+  std::uint64_t cellsBefore(int id) const override { return cells_before_[id]; }
   int patchAfter(std::uint64_t cells) const override;
 
  private:

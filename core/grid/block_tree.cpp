@@ -131,11 +131,10 @@ int BlockTree::placeOf(const BlockId& leaf) const {
 }
 
 BlockTree BlockTree::regridded(const std::set<BlockId>& wanted, const std::set<BlockId>& kept) const {
-  std::vector<Keys> refined(static_cast<std::size_t>(levels_));
+  std::vector<Keys> refined(levels_);
   const auto add = [&](const BlockId& block) {
     if (block.level >= levels_ - 1) return;
-    if (const std::optional<BlockId> known = inside(block))
-      refined[static_cast<std::size_t>(known->level)].push_back(keyOf(*known));
+    if (const std::optional<BlockId> known = inside(block)) refined[known->level].push_back(keyOf(*known));
   };
   for (const BlockId& block : wanted) add(block);
   for (const BlockId& block : kept)
@@ -170,7 +169,7 @@ void BlockTree::addRefinedAround(const BlockId& block, Keys& coarser) const {
 void BlockTree::setLeaves(const std::vector<Keys>& refined) {
   keys_.clear();
   const auto addUnlessRefined = [&](const BlockId& block) {
-    const Keys& finer = refined[static_cast<std::size_t>(block.level)];
+    const Keys& finer = refined[block.level];
     const std::uint64_t key = keyOf(block);
     if (!std::binary_search(finer.begin(), finer.end(), key)) keys_.push_back(key);
   };
@@ -189,9 +188,9 @@ void BlockTree::setLeaves(const std::vector<Keys>& refined) {
 BlockTree BlockTree::fromKeys(int dimension, const Index3& roots, const Index3& periodic, int levels,
                               const std::vector<std::uint64_t>& keys) {
   const BlockTree unrefined(dimension, roots, periodic, levels);
-  std::vector<Keys> refined(static_cast<std::size_t>(levels));
+  std::vector<Keys> refined(levels);
   for (const std::uint64_t key : keys) {
-    const auto level = static_cast<std::size_t>(key & keyLevelMask);
+    const std::size_t level = key & keyLevelMask;
     if (level == 0 || level >= refined.size()) continue;
     if (const std::optional<BlockId> parent = unrefined.inside(parentOf(unrefined.blockOf(key))))
       refined[level - 1].push_back(unrefined.keyOf(*parent));

@@ -35,9 +35,9 @@ struct Box {
 
   /// Place of an index in memory that holds the box, the first axis fastest.
   constexpr std::size_t offset(const Index3& at) const {
-    const auto x = static_cast<std::size_t>(at[0] - lower[0]);
-    const auto y = static_cast<std::size_t>(at[1] - lower[1]);
-    const auto z = static_cast<std::size_t>(at[2] - lower[2]);
+    const std::size_t x = at[0] - lower[0];
+    const std::size_t y = at[1] - lower[1];
+    const std::size_t z = at[2] - lower[2];
     return x + static_cast<std::size_t>(extent(0)) * (y + static_cast<std::size_t>(extent(1)) * z);
   }
 

@@ -15,7 +15,7 @@ MortonCurve::Cuts cutsOf(const Level& level) {
   for (int d = 0; d < level.dimension(); ++d) {
     const int cells = level.cells().upper[d];
     const int parts = std::max(1, std::min(level.domain().patches[level.axis(d)], cells));
-    std::vector<int>& along = cuts[static_cast<std::size_t>(d)];
+    std::vector<int>& along = cuts[d];
     along.clear();
     for (int part = 0; part <= parts; ++part)
       along.push_back(static_cast<int>(static_cast<long>(cells) * part / parts));

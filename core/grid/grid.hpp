@@ -30,7 +30,7 @@ class Grid {
   Grid& operator=(const Grid&) = delete;
 
   /// 0: the coarsest.
-  const Level& level(int number = 0) const { return levels_[static_cast<std::size_t>(number)]; }
+  const Level& level(int number = 0) const { return levels_[number]; }
   int levels() const { return static_cast<int>(levels_.size()); }
   const Level& finest() const { return levels_.back(); }
   bool isFinest(const Patch& patch) const { return &patch.level() == &finest(); }

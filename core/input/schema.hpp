@@ -104,7 +104,7 @@ class Schema : public SchemaBase {
   /// A tag with one of several words.
   template <class E>
   Schema& choice(const std::string& name, E S::*member, const std::type_identity_t<Choices<E>>& choices,
-                 std::type_identity_t<E> byDefault, const std::string& sentence) {
+                 const std::type_identity_t<E>& byDefault, const std::string& sentence) {
     return put(withDefaultChoice(choiceEntry<E>(member, name, choices, sentence), member, choices, byDefault));
   }
   template <class E>
@@ -136,7 +136,7 @@ class Schema : public SchemaBase {
   }
   template <class E>
   Schema& choiceAttribute(const std::string& name, E S::*member, const std::type_identity_t<Choices<E>>& choices,
-                          std::type_identity_t<E> byDefault, const std::string& sentence) {
+                          const std::type_identity_t<E>& byDefault, const std::string& sentence) {
     return put(
         attribute(withDefaultChoice(choiceEntry<E>(member, name, choices, sentence), member, choices, byDefault)));
   }
@@ -147,8 +147,8 @@ class Schema : public SchemaBase {
   }
 
   template <class E>
-  Schema& optionalChoiceAttribute(std::string name, std::optional<E> S::*member,
-                                  std::type_identity_t<Choices<E>> choices, std::string sentence) {
+  Schema& optionalChoiceAttribute(const std::string& name, std::optional<E> S::*member,
+                                  const std::type_identity_t<Choices<E>>& choices, const std::string& sentence) {
     return put(attribute(choiceEntry<E>(member, name, choices, sentence)));
   }
 

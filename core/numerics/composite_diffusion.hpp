@@ -51,7 +51,7 @@ class CompositeDiffusion {
   }
 
  private:
-  const Diffusion<D>& on(int level) const { return ofLevels_[static_cast<std::size_t>(level)]; }
+  const Diffusion<D>& on(int level) const { return ofLevels_[level]; }
 
   /// Calls `visit` for the cells of the next level in a cell that touch the face of the one before it.
   template <class Visit>

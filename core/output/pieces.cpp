@@ -93,12 +93,12 @@ std::size_t entryBytes(const Array& array) {
 std::span<std::byte> Pieces::bring(const Array& array, std::span<const Piece> of) {
   const std::size_t bytes = entryBytes(array);
   const mpi::Communicator& ranks = writers_->ranks();
-  const Piece mine = writers_->mine() < 0 ? Piece{} : of[static_cast<std::size_t>(writers_->mine())];
+  const Piece mine = writers_->mine() < 0 ? Piece{} : of[writers_->mine()];
   piece_.resize(std::max(piece_.size(), mine.count * bytes));
   if (mine.count > 0) array.source->read(mine.first, mine.count, piece_.data());
   std::vector<mpi::Letter> letters;
   for (int writer = 0; !ranks.isAlone() && writer < writers_->count(); ++writer) {
-    const Piece& piece = of[static_cast<std::size_t>(writer)];
+    const Piece& piece = of[writer];
     if (writer == writers_->mine() || piece.count == 0) continue;
     mpi::Bytes message = packed(*array.source, piece, bytes, outbox_);
     if (!message.empty()) letters.push_back({writers_->rankOf(writer), std::move(message)});

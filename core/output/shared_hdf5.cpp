@@ -31,7 +31,7 @@ class ChunkWriter {
     const Chunks chunks(shape);
     if (chunks.count() == 0) return;
     if (packer_) attempt([&] { packer_->begin(dataset.array, shape, isNarrowed(how_, dataset.array)); });
-    const auto most = static_cast<std::size_t>(writers_.count());
+    const std::size_t most = writers_.count();
     for (std::size_t first = 0; first < chunks.count(); first += most) writeRound(dataset, chunks, first);
   }
 
@@ -53,7 +53,7 @@ class ChunkWriter {
   }
 
   void writeRound(const Dataset& dataset, const Chunks& chunks, std::size_t first) {
-    std::vector<Piece> of(static_cast<std::size_t>(writers_.count()));
+    std::vector<Piece> of(writers_.count());
     for (std::size_t k = 0; k < of.size() && first + k < chunks.count(); ++k)
       of[k] = chunks.entries(first + k, dataset.array.components);
     const std::span<const std::byte> entries = pieces_.bring(dataset.array, of);

@@ -68,7 +68,7 @@ class SlabWriter {
     if (entries.empty()) return;
     if (slab_.asFloat) entries = narrowed(entries);
     const ByteRange bytes = next(writers_.mine(), done);
-    const std::uint64_t start = slab_.offset + of[static_cast<std::size_t>(writers_.mine())].first * entry_bytes_;
+    const std::uint64_t start = slab_.offset + of[writers_.mine()].first * entry_bytes_;
     file_->write(bytes.first, entries.data() + (bytes.first - start), bytes.size(), slab_.name);
   }
 

@@ -21,7 +21,7 @@ class Writers {
 
   const mpi::Communicator& ranks() const { return *ranks_; }
   int count() const { return static_cast<int>(writers_.size()); }
-  int rankOf(int writer) const { return writers_[static_cast<std::size_t>(writer)]; }
+  int rankOf(int writer) const { return writers_[writer]; }
   /// Which of the writers this rank is; -1: none.
   int mine() const { return mine_; }
 

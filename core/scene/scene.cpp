@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <set>
+#include <utility>
 
 #include "core/input/schema.hpp"
 #include "core/scene/scene_samples.hpp"
@@ -238,20 +239,16 @@ Trial tryOut(const MakeComponent& make) {
 }
 
 /// Gives variables that Uintah calls otherwise their name here, with a note; each is saved once.
-void renameLabels(const std::vector<std::pair<std::string, std::string>>& names, std::vector<SaveRequest>& saves,
-                  Diagnostics& diagnostics) {
+void renameLabels(const simulation::OtherNames& names, std::vector<SaveRequest>& saves, Diagnostics& diagnostics) {
   std::vector<SaveRequest> kept;
   for (SaveRequest& save : saves) {
-    const auto name =
-        std::find_if(names.begin(), names.end(), [&](const auto& one) { return one.first == save.label; });
-    if (name != names.end()) {
-      diagnostics.note(save.where, "DataArchiver/save",
-                       fmt::format("'{}' is saved as '{}'", name->first, name->second));
-      save.label = name->second;
-    }
+    const std::string given = std::exchange(save.label, nameHere(names, save.label));
+    const bool isRenamed = save.label != given;
+    if (isRenamed)
+      diagnostics.note(save.where, "DataArchiver/save", fmt::format("'{}' is saved as '{}'", given, save.label));
     const bool isThere =
         std::any_of(kept.begin(), kept.end(), [&](const SaveRequest& other) { return other.label == save.label; });
-    if (name == names.end() || !isThere) kept.push_back(save);
+    if (!isRenamed || !isThere) kept.push_back(save);
   }
   saves = std::move(kept);
 }

@@ -8,6 +8,7 @@
 #include "core/input/refuse.hpp"
 #include "core/input/schema.hpp"
 #include "core/scene/scene.hpp"
+#include "core/scene/scene_samples.hpp"
 #include "core/tasks/task_list.hpp"
 
 namespace tushar::scene {
@@ -369,9 +370,8 @@ simulation::RegridSettings settled(AmrSettings amr, const simulation::Component&
           "<adaptive> true needs a <Variable> in <Refinement_Criteria_Thresholds>, which says where to refine");
     return amr.regrid;
   }
-  for (const auto& [other, name] : component.otherNames())
-    for (Criterion& criterion : criteria)
-      if (criterion.variable == other) criterion.variable = name;
+  const simulation::OtherNames otherNames = component.otherNames();
+  for (Criterion& criterion : criteria) criterion.variable = nameHere(otherNames, criterion.variable);
   const auto variables = cellVariables(component);
   std::vector<std::string> names;
   if (followsParticles) names.emplace_back(cellsWithParticles);

@@ -23,7 +23,7 @@ constexpr const char* path = "DataAnalysis/Module";
 /// What the variables of a scene can be, and of what.
 struct Known {
   Phases phases;
-  std::vector<std::pair<std::string, std::string>> names;
+  simulation::OtherNames names;
   tasks::Names labels;
   std::set<std::string> foreign;
   std::vector<std::string> materials;  ///< by their numbers in the scene
@@ -79,12 +79,11 @@ void settleMaterial(SampledVariable& variable, Known& known, Diagnostics& diagno
     request.material.clear();
     return;
   } else if (variable.material >= static_cast<int>(bodies.size())) {
-    diagnostics.error(
-        request.where, path,
-        fmt::format("'{}' is no variable of the gas '{}'; give matl, the number of a body from 0 to {}",
-                    variable.called, known.materials[static_cast<std::size_t>(variable.material)], bodies.size() - 1));
+    diagnostics.error(request.where, path,
+                      fmt::format("'{}' is no variable of the gas '{}'; give matl, the number of a body from 0 to {}",
+                                  variable.called, known.materials[variable.material], bodies.size() - 1));
   } else {
-    request.material = bodies[static_cast<std::size_t>(variable.material)];
+    request.material = bodies[variable.material];
     return;
   }
   request.material.clear();
@@ -93,11 +92,7 @@ void settleMaterial(SampledVariable& variable, Known& known, Diagnostics& diagno
 /// Whether a variable stays.
 bool settle(SampledVariable& variable, Known& known, Diagnostics& diagnostics) {
   simulation::SaveRequest& request = variable.request;
-  for (const auto& [theirs, ours] : known.names)
-    if (theirs == request.label) {
-      request.label = ours;
-      break;
-    }
+  request.label = nameHere(known.names, request.label);
   if (known.foreign.contains(request.label) && !known.labels.contains(request.label)) {
     diagnostics.note(request.where, path, fmt::format("'{}' is left out: nobody computes it here", variable.called));
     return false;
@@ -112,12 +107,17 @@ bool settle(SampledVariable& variable, Known& known, Diagnostics& diagnostics) {
 
 }  // namespace
 
-std::vector<std::pair<std::string, std::string>> otherNames(const Component& component,
-                                                            const std::vector<std::unique_ptr<Analysis>>& analyses) {
-  auto names = component.otherNames();
+simulation::OtherNames otherNames(const Component& component, const std::vector<std::unique_ptr<Analysis>>& analyses) {
+  simulation::OtherNames names = component.otherNames();
   for (const auto& analysis : analyses)
     for (auto& name : analysis->otherNames()) names.push_back(std::move(name));
   return names;
+}
+
+std::string nameHere(const simulation::OtherNames& names, const std::string& name) {
+  const auto isIt = [&](const auto& pair) { return pair.first == name; };
+  const auto found = std::find_if(names.begin(), names.end(), isIt);
+  return found == names.end() ? name : found->second;
 }
 
 void settleSamples(const Component& component, const std::vector<std::unique_ptr<Analysis>>& analyses,

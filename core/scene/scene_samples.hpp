@@ -12,8 +12,10 @@
 namespace tushar::scene {
 
 /// What Uintah calls variables of a component and its modules that have another name here, and that name.
-std::vector<std::pair<std::string, std::string>> otherNames(
-    const simulation::Component& component, const std::vector<std::unique_ptr<simulation::Analysis>>& analyses);
+simulation::OtherNames otherNames(const simulation::Component& component,
+                                  const std::vector<std::unique_ptr<simulation::Analysis>>& analyses);
+/// The name here of a variable that a scene may call as Uintah does; any other name as it is.
+std::string nameHere(const simulation::OtherNames& names, const std::string& name);
 
 /// Gives the variables that modules look at the names and materials that they have here, and takes out, with a note,
 /// what Uintah has and nobody computes here. Names materials that there are not, and variables that are neither of

@@ -31,8 +31,6 @@ const std::vector<FaceWord>& faceWords() {
   return words;
 }
 
-const char* sideName(int face) { return std::array{"x-", "x+", "y-", "y+", "z-", "z+"}[face]; }
-
 /// Three numbers between blanks or commas, as Uintah has them; also in brackets.
 std::optional<Vec3> pointOf(const std::optional<std::string>& text, const Element& tag, const char* attribute,
                             Diagnostics& diagnostics) {
@@ -144,7 +142,7 @@ bool liesInSide(const GivenPart& part, const grid::Domain& domain, Diagnostics& 
     if (!point || std::abs((*point)[axis] - at) <= slack) continue;
     diagnostics.error(part.tag.whereOf(name), part.tag.path(),
                       fmt::format("attribute '{}': {} = {:g} m is not in side {}, which is at {} = {:g} m", name,
-                                  "xyz"[axis], (*point)[axis], sideName(part.face), "xyz"[axis], at));
+                                  "xyz"[axis], (*point)[axis], sideNames[part.face], "xyz"[axis], at));
   }
   return diagnostics.size() == before;
 }
@@ -245,7 +243,7 @@ void checkParts(const std::vector<GivenPart>& parts, const grid::Domain& domain,
       diagnostics.note(parts[k].tag,
                        fmt::format("does nothing: no face of the finest cells on side {} has its middle in "
                                    "this part",
-                                   sideName(parts[k].face)));
+                                   sideNames[parts[k].face]));
 }
 
 }  // namespace tushar::scene

@@ -90,7 +90,8 @@ Schema<ConditionSection> conditionFor(const std::vector<grid::BoundaryVariable>&
 }
 
 Schema<FaceSection> faceTag(const Schema<ConditionSection>& condition) {
-  const input::Choices<int> sides{{"x-", 0}, {"x+", 1}, {"y-", 2}, {"y+", 3}, {"z-", 4}, {"z+", 5}};
+  input::Choices<int> sides;
+  for (const std::string_view name : sideNames) sides.emplace_back(name, static_cast<int>(sides.size()));
   const auto point = [](const char* what) { return std::string(what) + ", as 0 0.5 0.5"; };
   return Schema<FaceSection>("Face", "A side of the grid, or a part of one.")
       .optionalChoiceAttribute("side", &FaceSection::side, sides, "all of this side but its parts")
@@ -272,10 +273,9 @@ std::vector<GivenPart> readFaces(const Element& section, const FacesSection& fac
 void checkPeriodic(const Element& section, const grid::Domain& domain, Diagnostics& diagnostics) {
   const auto group = section.child("BoundaryConditions");
   if (!group) return;
-  const std::string sides[] = {"x-", "x+", "y-", "y+", "z-", "z+"};
   for (const Element& face : group->children("Face"))
     for (int k = 0; k < 6; ++k)
-      if (domain.periodic[k / 2] != 0 && face.attribute("side") == sides[k])
+      if (domain.periodic[k / 2] != 0 && face.attribute("side") == sideNames[k])
         diagnostics.note(face,
                          fmt::format("does nothing: {} is periodic, so this side can have no condition", "xyz"[k / 2]));
 }

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/input/schema.hpp"
@@ -9,13 +11,16 @@
 
 namespace tushar::scene {
 
+/// The sides of a grid by their numbers.
+inline constexpr std::array<std::string_view, 6> sideNames{"x-", "x+", "y-", "y+", "z-", "z+"};
+
 /// The tag `BCType`.
 struct ConditionSection {
   std::string id, label, var;
   std::optional<std::string> value;
 };
 
-/// The tag `Face`: a side of the grid, 0 to 5 for x-, x+, y-, y+, z-, z+, or a part of one. Points are as written.
+/// The tag `Face`: a side of the grid, as its place in sideNames, or a part of one. Points are as written.
 struct FaceSection {
   std::optional<int> side, circle, annulus, ellipse, rectangle, rectangulus;
   std::optional<double> radius, innerRadius, outerRadius, minorRadius, majorRadius, angle;

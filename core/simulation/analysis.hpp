@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/collect/gather.hpp"
@@ -45,8 +44,8 @@ class Analysis {
   /// The variables among samples() whose names the scene puts in place: as Uintah calls them, they come with another
   /// name, and those that nobody computes here are taken out. Null where there are none.
   virtual std::vector<SampledVariable>* variables() { return nullptr; }
-  /// What Uintah calls the variables that the module itself computes, and their names here.
-  virtual std::vector<std::pair<std::string, std::string>> otherNames() const { return {}; }
+  /// The variables of the module itself that Uintah calls otherwise.
+  virtual OtherNames otherNames() const { return {}; }
   /// The layers of the grid in which sample() needs them, without particles; if there are none, everywhere.
   virtual std::vector<collect::Layer> layers() const { return {}; }
   /// The parts of a grid of one level in which it wants to see them, likewise.

@@ -23,7 +23,7 @@ std::vector<std::string> keysOf(const Entries& entries) {
 
 }  // namespace
 
-Catalogue::Catalogue(std::vector<ComponentKind> components, std::vector<AnalysisKind> analyses) {
+Catalogue::Catalogue(const std::vector<ComponentKind>& components, const std::vector<AnalysisKind>& analyses) {
   for (const ComponentKind& kind : components) insert(components_, kind.name, kind);
   for (const AnalysisKind& kind : analyses) insert(analyses_, kind.name, kind);
 }
@@ -33,7 +33,7 @@ void Catalogue::add(const Catalogue& other) {
   for (const AnalysisKind* kind : other.analyses()) insert(analyses_, kind->name, *kind);
 }
 
-void Catalogue::addModule(Module module, std::function<Catalogue()> load) {
+void Catalogue::addModule(const Module& module, std::function<Catalogue()> load) {
   const auto shared = std::make_shared<LoadModule>(std::move(load));
   for (const std::string& name : module.components) insert(components_, name, shared);
   for (const std::string& name : module.analyses) insert(analyses_, name, shared);

@@ -41,7 +41,7 @@ struct ComponentKind {
   /// The sections of a scene, for each way to write one; if the function is empty, `sections` may hold anything.
   std::function<std::vector<std::vector<SectionForm>>()> forms;
   bool takesLevels = false;           ///< whether its tasks run on grids of several levels
-  bool refinesByItself = false;       ///< whether it knows without a <Variable> where cells are to be finer
+  bool refinesByItself = false;       ///< whether <max_levels> above 1 makes the grid adaptive without a <Variable>
   bool takesPartsOfSides = false;     ///< whether a part of a side may have conditions of its own
   bool takesFormulasAtSides = false;  ///< whether what its conditions give may be formulas
   /// Tags of AMR for its thresholds, besides the one of `sections` that has its name.
@@ -86,12 +86,12 @@ struct Module {
 class Catalogue {
  public:
   Catalogue() = default;
-  Catalogue(std::vector<ComponentKind> components, std::vector<AnalysisKind> analyses);
+  Catalogue(const std::vector<ComponentKind>& components, const std::vector<AnalysisKind>& analyses);
 
   /// Adds what another catalogue has, but modules. Throws std::invalid_argument if a name is taken.
   void add(const Catalogue& other);
   /// `load` returns the contents of the module. Throws std::invalid_argument if a name is taken.
-  void addModule(Module module, std::function<Catalogue()> load);
+  void addModule(const Module& module, std::function<Catalogue()> load);
 
   std::vector<std::string> componentNames() const;
   std::vector<std::string> analysisNames() const;

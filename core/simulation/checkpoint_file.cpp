@@ -89,9 +89,9 @@ void writeHeader(output::Hdf5File& file, const RunState& run, const CheckpointTa
   file.text("/archive/index", target.point.index);
   file.text("/archive/xdmf", target.point.xdmf);
   for (std::size_t k = 0; k < run.totalsAtStart.size(); ++k) {
-    const auto& [name, label] = run.phases.totals()[k];
+    const ConservedTotal& of = run.phases.totals()[k];
     const std::vector<double>& total = run.totalsAtStart[k];
-    file.dataset("/totals/" + name, {name, "", label, 1, total}, {total.size()});
+    file.dataset("/totals/" + of.name(), {of.name(), "", of.label, 1, total}, {total.size()});
   }
 }
 
@@ -110,8 +110,8 @@ void readCheckpoint(RunState& run) {
   collect::readState(file, run.warehouse, stateNames(run), run.phases.state());
   run.time.resume(file.integer("/", "step"), file.real("/", "time"), file.real("/", "delT"));
   if (run.ranks.isFirst()) run.scheduler.relocation().setDropped(static_cast<long>(file.count("/", "dropped")));
-  for (const auto& total : run.phases.totals())
-    run.totalsAtStart.push_back(std::get<std::vector<double>>(file.dataset("/totals/" + total.first)));
+  for (const ConservedTotal& total : run.phases.totals())
+    run.totalsAtStart.push_back(std::get<std::vector<double>>(file.dataset("/totals/" + total.name())));
 }
 
 output::ArchivePoint archivePointOf(const RunState& run) {

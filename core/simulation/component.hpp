@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/simulation/settings.hpp"
@@ -30,8 +29,8 @@ class Component {
   virtual bool mayRepeatStep() const { return false; }
   /// Variables that Uintah's component of this kind computes, whichever of them this one does.
   virtual std::vector<std::string> foreignLabels() const { return {}; }
-  /// Pairs of names: of a variable in Uintah's component of this kind, and here.
-  virtual std::vector<std::pair<std::string, std::string>> otherNames() const { return {}; }
+  /// The variables that Uintah's component of this kind calls otherwise.
+  virtual OtherNames otherNames() const { return {}; }
   /// The gases of the scene, in the order of its material numbers behind all others: materials whose variables belong
   /// to no material here.
   virtual std::vector<std::string> gasNames() const { return {}; }

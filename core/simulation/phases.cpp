@@ -35,13 +35,13 @@ Names united(Names a, const Names& b) {
   return a;
 }
 
-using NamedTotals = std::vector<std::pair<std::string, std::string>>;
-/// What is conserved and the total that says how much of it there is, of those that are diagnosed.
-NamedTotals totalsAmong(const Names& diagnosed) {
-  NamedTotals totals;
-  for (const auto& [quantity, label] :
-       {std::pair{"mass", "TotalMass"}, {"momentum", "TotalMomentum"}, {"energy", "TotalEnergy"}})
-    if (diagnosed.contains(label)) totals.emplace_back(quantity, label);
+/// The totals of what is conserved, of those that are diagnosed.
+std::vector<ConservedTotal> totalsAmong(const Names& diagnosed) {
+  std::vector<ConservedTotal> totals;
+  for (const auto& [quantity, label] : {std::pair{Conserved::mass, "TotalMass"},
+                                        {Conserved::momentum, "TotalMomentum"},
+                                        {Conserved::energy, "TotalEnergy"}})
+    if (diagnosed.contains(label)) totals.push_back({quantity, label});
   return totals;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <iosfwd>
 #include <memory>
 #include <string>
@@ -11,6 +12,18 @@
 #include "core/tasks/scheduler.hpp"
 
 namespace tushar::simulation {
+
+/// What a method may conserve.
+enum class Conserved { mass, momentum, energy };
+
+/// The reduction that has the total of what is conserved.
+struct ConservedTotal {
+  Conserved quantity;
+  std::string label;
+
+  /// As reports and checkpoints have it.
+  std::string name() const { return std::array{"mass", "momentum", "energy"}[static_cast<std::size_t>(quantity)]; }
+};
 
 /// The task lists of a run, compiled against each other: an earlier one must provide what a later one reads.
 ///
@@ -51,8 +64,8 @@ class Phases {
   /// Saved reductions.
   const std::vector<std::string>& savedGlobals() const { return saved_globals_; }
   const std::vector<std::string>& materials() const { return materials_; }
-  /// Totals whose drift the component can report, as pairs of what they are (mass, momentum, energy) and their label.
-  const std::vector<std::pair<std::string, std::string>>& totals() const { return totals_; }
+  /// Totals whose drift the component can report.
+  const std::vector<ConservedTotal>& totals() const { return totals_; }
 
   void printSchedule(std::ostream& out) const;
   void printDot(std::ostream& out) const;
@@ -83,7 +96,7 @@ class Phases {
   Lists lists_;
   std::vector<std::string> state_, lasting_, saved_globals_, materials_;
   std::vector<SaveRequest> saved_fields_;
-  std::vector<std::pair<std::string, std::string>> totals_;
+  std::vector<ConservedTotal> totals_;
 };
 
 }  // namespace tushar::simulation

@@ -101,7 +101,7 @@ void raiseMarksOfJumps(const grid::Patch& patch, const Criterion& criterion, con
 void raiseMarks(const grid::Patch& patch, const BoundCriterion& bound, const data::Variable& values,
                 const data::Variable& marks) {
   const grid::Level& level = patch.level();
-  const auto dimension = static_cast<std::size_t>(level.dimension());
+  const std::size_t dimension = level.dimension();
   const int components = bound.label->components;
   if (components == 1 && bound.criterion.indicator == Indicator::jump)
     return raiseMarksOfJumps(patch, bound.criterion, values, marks);

@@ -81,10 +81,8 @@ void MarkedBlocks::add(const grid::Patch& patch, const int* marks, const Box& st
   std::array<std::vector<std::pair<int, int>>, 3> along;
   for (int d = 0; d < 3; ++d)
     for (int at = cells.lower[d]; at < cells.upper[d]; ++at)
-      along[static_cast<std::size_t>(d)].push_back(blocksAlong(level, d, at, crossed(level) + dilation_));
-  const auto rangeOf = [&](int axis, int at) {
-    return along[static_cast<std::size_t>(axis)][static_cast<std::size_t>(at - cells.lower[axis])];
-  };
+      along[d].push_back(blocksAlong(level, d, at, crossed(level) + dilation_));
+  const auto rangeOf = [&](int axis, int at) { return along[axis][at - cells.lower[axis]]; };
   grid::forEachRow<3>(cells, [&](const Index3& first, int count) {
     const int* row = marks + stored.offset(first);
     Box blocks;
@@ -92,7 +90,7 @@ void MarkedBlocks::add(const grid::Patch& patch, const int* marks, const Box& st
     std::pair<int, int> last;
     int lastMark = 0;
     for (int k = 0; k < count; ++k) {
-      const std::pair<int, int> now = along[0][static_cast<std::size_t>(k)];
+      const std::pair<int, int> now = along[0][k];
       if (row[k] == 0 || (row[k] == lastMark && now == last)) continue;
       last = now;
       lastMark = row[k];

@@ -70,10 +70,10 @@ void RunReport::addLayout(Report& report) {
   report.spacing = problem.grid->finest().minSpacing();
   report.cells = static_cast<long>(problem.grid->cellCount());
   report.updates = updates_;
-  report.levels.resize(static_cast<std::size_t>(problem.grid->levels()));
+  report.levels.resize(problem.grid->levels());
   for (int id = 0; report.levels.size() > 1 && id < problem.grid->patchCount(); ++id) {
     const grid::Patch patch = problem.grid->patch(id);
-    report.levels[static_cast<std::size_t>(patch.level().number())] += static_cast<long>(patch.cells().size());
+    report.levels[patch.level().number()] += static_cast<long>(patch.cells().size());
   }
 }
 
@@ -107,14 +107,14 @@ void RunReport::addTasks(Report& report) {
 namespace {
 
 /// The greatest momentum that the mass could have by the energy, sqrt(2 m E); 0 where one of them is not known.
-double greatestMomentum(const Totals& totals, const std::vector<std::pair<std::string, std::string>>& names) {
-  double twice = 2;
-  for (const std::string_view factor : {"mass", "energy"}) {
-    const auto isFactor = [&](const auto& total) { return total.first == factor; };
-    const auto found = static_cast<std::size_t>(std::find_if(names.begin(), names.end(), isFactor) - names.begin());
-    twice *= found < totals.size() && !totals[found].empty() ? std::abs(totals[found].front()) : 0;
+double greatestMomentum(const Totals& totals, const std::vector<ConservedTotal>& kinds) {
+  double mass = 0, energy = 0;
+  for (std::size_t k = 0; k < totals.size(); ++k) {
+    if (totals[k].empty()) continue;
+    if (kinds[k].quantity == Conserved::mass) mass = totals[k].front();
+    if (kinds[k].quantity == Conserved::energy) energy = totals[k].front();
   }
-  return std::sqrt(twice);
+  return std::sqrt(2 * std::abs(mass) * std::abs(energy));
 }
 
 }  // namespace
@@ -123,10 +123,10 @@ void RunReport::addDrifts(Report& report) {
   const Totals& before = run_.totalsAtStart;
   const Totals after = run_.measureTotals(run_.phases.report);
   for (std::size_t k = 0; k < before.size(); ++k) {
-    const auto& [name, label] = run_.phases.totals()[k];
-    const std::string unit(run_.table[run_.table.find(label, -1)].label->unit);
-    const double scale = name == "momentum" ? greatestMomentum(before, run_.phases.totals()) : 0;
-    report.drifts.push_back(report::driftOf(name, before[k], after[k], unit, scale));
+    const ConservedTotal& total = run_.phases.totals()[k];
+    const std::string unit(run_.table[run_.table.find(total.label, -1)].label->unit);
+    const double scale = total.quantity == Conserved::momentum ? greatestMomentum(before, run_.phases.totals()) : 0;
+    report.drifts.push_back(report::driftOf(total.name(), before[k], after[k], unit, scale));
   }
 }
 

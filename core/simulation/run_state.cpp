@@ -34,7 +34,7 @@ std::vector<double> RunState::reduction(std::string_view label) const {
 Totals RunState::measureTotals(tasks::TaskGraph& graph) {
   diagnose(graph);
   Totals totals;
-  for (const auto& total : phases.totals()) totals.push_back(reduction(total.second));
+  for (const auto& total : phases.totals()) totals.push_back(reduction(total.label));
   return totals;
 }
 

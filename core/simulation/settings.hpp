@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -9,6 +10,9 @@
 #include "core/simulation/time_control.hpp"
 
 namespace tushar::simulation {
+
+/// Pairs of names of a variable: what Uintah calls it, and what it is called here.
+using OtherNames = std::vector<std::pair<std::string, std::string>>;
 
 /// One `<save label= material=>`.
 struct SaveRequest {

@@ -141,7 +141,7 @@ Outcome solveNewton(const Unknowns& unknowns, NonlinearProblem& problem, const N
   const PetscOptionsOfSolve options(settings.linear.petsc);
   PetscMatrix matrix(unknowns);
   GhostedVector seen(unknowns), added(unknowns);
-  const auto owned = static_cast<std::size_t>(unknowns.block * unknowns.owned);
+  const std::size_t owned = unknowns.block * unknowns.owned;
   std::vector<double> values(owned);
   const PetscVector solution(unknowns, u.first(owned)), r(unknowns, values);
   Balance balance(r);

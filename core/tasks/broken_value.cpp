@@ -29,7 +29,7 @@ const double* numbersOf(const Variable& variable) { return reinterpret_cast<cons
 bool keepsBound(Warehouse& warehouse, const Bounded& written, const Patch& patch) {
   const auto [label, material] = warehouse.table()[written.variable];
   const Variable variable = warehouse.variable(Generation::fresh, written.variable, patch.id());
-  const auto components = static_cast<std::size_t>(label->components);
+  const std::size_t components = label->components;
   if (label->centring == Centring::particle) {
     const int owned = warehouse.particles(written.set, material, patch.id()).owned();
     return holds(label->bound, numbersOf(variable), static_cast<std::size_t>(owned) * components);
@@ -134,7 +134,7 @@ class Search {
   void lookAtParticles(const Patch& patch) {
     grid::forEach<3>(patch.cells(), [&](const Index3& cell) {
       for (const int p : set(written_.set, patch.id()).in(cell)) {
-        const auto place = static_cast<std::size_t>(p);
+        const std::size_t place = p;
         look(numbers(Generation::fresh, patch.id(), place),
              {patch.level().cellNumber(cell), ids(written_.set, patch.id())[p]}, patch.id(), cell, place);
       }
@@ -198,7 +198,7 @@ class Search {
     std::string text;
     int count = 0;
     for (const int p : set(written_.set, patch).in(cell)) {
-      const auto place = static_cast<std::size_t>(p);
+      const std::size_t place = p;
       if (patch == found_.patch && place == place_) continue;
       if (++count <= 4)
         text += (count > 1 ? ", " : "") + textOf(numbers(Generation::fresh, patch, place), label_.components);

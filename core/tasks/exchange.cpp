@@ -89,7 +89,7 @@ template <class Work>
 void Exchange::forEach(const Work& work) {
   const std::vector<Patch>& patches = warehouse_->grid().patches();
   const auto workOn = [&](int place) {
-    const auto at = static_cast<std::size_t>(place);
+    const std::size_t at = place;
     const trace::Span span(trace::Kind::message, "fill ghosts", patches[at].id());
     for (std::size_t k = 0; k < fills_.size(); ++k) work(fills_[k], resolves_[k], patches[at], at);
   };
@@ -174,7 +174,7 @@ void Exchange::copyNear(const BoundGhostFill& fill, const GhostCopy& copy) {
 CellValues Exchange::valuesAt(const BoundGhostFill& fill, const GhostCopy& copy) {
   const Variable to = warehouse_->variable(fill.generation, fill.variable, copy.to);
   if (copy.rim < 0) return {to.values, to.stored};
-  const grid::RimPiece& piece = warehouse_->grid().rims(copy.to)[static_cast<std::size_t>(copy.rim)];
+  const grid::RimPiece& piece = warehouse_->grid().rims(copy.to)[copy.rim];
   const std::size_t bytes = warehouse_->table()[fill.variable].label->bytes;
   return {to.values + (piece.first + piece.cells.size()) * bytes, piece.cells};
 }
@@ -187,7 +187,7 @@ void Exchange::copyGridTo(const BoundGhostFill& fill, const GhostCopy& copy, con
       std::memcpy(valueAt(to, first, label.bytes), valueAt(from, first - copy.shift, label.bytes), length);
     });
   Bytes values(copy.box.size() * label.bytes);
-  means(warehouse_->grid(), label, copy, from, values.data());
+  writeMeans(warehouse_->grid(), label, copy, from, values.data());
   const std::byte* next = values.data();
   forEachRowOf(copy.box, label.bytes, [&](const Index3& first, std::size_t length) {
     std::memcpy(valueAt(to, first, label.bytes), next, length);

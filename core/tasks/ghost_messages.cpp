@@ -20,8 +20,8 @@ struct PackedRun {
 
 }  // namespace
 
-void means(const grid::Grid& grid, const data::Label& label, const GhostCopy& copy, const Variable& from,
-           std::byte* to) {
+void writeMeans(const grid::Grid& grid, const data::Label& label, const GhostCopy& copy, const Variable& from,
+                std::byte* to) {
   if (copy.rim >= 0)
     return meanFluxes(grid, copy, label.components, reinterpret_cast<const double*>(from.values),
                       reinterpret_cast<double*>(to));
@@ -33,7 +33,7 @@ void Packer::addGrid(const GhostCopy& copy) {
   const std::size_t bytes = name_.label->bytes;
   if (copy.isMean) {  // in a message values stand at any byte: numbers are made elsewhere
     mpi::Bytes values(copy.box.size() * bytes);
-    means(warehouse_.grid(), *name_.label, copy, from, values.data());
+    writeMeans(warehouse_.grid(), *name_.label, copy, from, values.data());
     return mpi::append(message_, values.data(), values.size());
   }
   forEachRowOf(copy.box.shifted(Index3{} - copy.shift), bytes, [&](const Index3& first, std::size_t length) {
@@ -107,7 +107,7 @@ T ReceivedMessages::nextNumber(int from) {
 }
 
 std::vector<std::pair<Index3, ParticleRange>> ReceivedMessages::takeCounts(const GhostCopy& copy) {
-  std::vector<std::pair<Index3, ParticleRange>> cells(static_cast<std::size_t>(nextNumber<std::int32_t>(copy.rank)));
+  std::vector<std::pair<Index3, ParticleRange>> cells(nextNumber<std::int32_t>(copy.rank));
   int place = 0;
   for (auto& [cell, range] : cells) {
     const auto piece = nextNumber<PackedRun>(copy.rank);

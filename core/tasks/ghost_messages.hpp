@@ -33,9 +33,9 @@ std::byte* valueAt(const Values& values, const Index3& place, std::size_t bytes)
   return values.values + values.stored.offset(place) * bytes;
 }
 
-/// The values of a copy that are means, one after the other.
-void means(const grid::Grid& grid, const data::Label& label, const GhostCopy& copy, const data::Variable& from,
-           std::byte* to);
+/// Writes the values of a copy that are means of finer ones to `to`, one after the other.
+void writeMeans(const grid::Grid& grid, const data::Label& label, const GhostCopy& copy, const data::Variable& from,
+                std::byte* to);
 
 /// Appends to a message the values that another rank receives for one ghost fill.
 class Packer {

@@ -13,7 +13,7 @@ void NearRows::settle(data::Generation set, int material) {
   threads_->forEach(
       static_cast<int>(patches.size()),
       [&](int place) {
-        const auto at = static_cast<std::size_t>(place);
+        const std::size_t at = place;
         ofPatches[at] = rowsOf(set, material, patches[at]);
       },
       trace::Kind::message);

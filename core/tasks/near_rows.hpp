@@ -28,7 +28,7 @@ class NearRows {
   void settle(data::Generation set, int material);
   /// The rows of a patch, once they are settled.
   const data::TouchedRows& of(data::Generation set, int material, int patch) const {
-    return rows_.at({set, material})[static_cast<std::size_t>(patch - warehouse_->grid().firstPatch())];
+    return rows_.at({set, material})[patch - warehouse_->grid().firstPatch()];
   }
   /// To be called when particles are others, or elsewhere.
   void forget() { rows_.clear(); }

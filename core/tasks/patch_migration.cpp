@@ -151,7 +151,7 @@ std::vector<Patch> patchesFrom(const grid::Grid& grid, int first, int end) {
 void migratePatches(grid::Grid& grid, data::Warehouse& warehouse, const MigratedVariables& migrated,
                     const grid::RankOffsets& offsets) {
   const mpi::Communicator& ranks = warehouse.ranks();
-  const auto me = static_cast<std::size_t>(ranks.rank());
+  const std::size_t me = ranks.rank();
   const grid::RankOffsets before = grid.rankOffsets();
   mpi::Outbox outbox(ranks);
   std::map<int, Bytes> parts;

@@ -184,7 +184,7 @@ void Relocation::moveOn(const Move& move, std::size_t place, Moves& all) {
       from = move.packed + (moves.packed + static_cast<std::size_t>(source)) * move.bytes;
     } else {
       const Arrival& arrival = moves.arrivals[-1 - source];
-      const auto at = static_cast<std::size_t>(arrival.place);
+      const std::size_t at = arrival.place;
       from = arrival.patch < 0 ? move.migrants + at * move.bytes
                                : move.packed + (of(all, arrival.patch).packed + at) * move.bytes;
     }

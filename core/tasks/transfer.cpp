@@ -24,7 +24,7 @@ class Cells {
   Number* at(const Index3& cell) const {
     return numbers_ + static_cast<std::ptrdiff_t>(stored_.offset(cell)) * components_;
   }
-  std::ptrdiff_t stride(int axis) const { return stride_[static_cast<std::size_t>(axis)]; }
+  std::ptrdiff_t stride(int axis) const { return stride_[axis]; }
   bool hasBoth(const Index3& cell, int axis) const {
     return cell[axis] > stored_.lower[axis] && cell[axis] + 1 < stored_.upper[axis];
   }
@@ -62,7 +62,7 @@ void interpolate(const CellValues& from, const Box& box, const CellValues& to, i
     std::array<std::ptrdiff_t, 3> stride{};
     std::array<double, 3> side{};
     for (int d = 0; d < D; ++d) {
-      const auto axis = static_cast<std::size_t>(d);
+      const std::size_t axis = d;
       parent[d] = grid::coarserCell(cell[d]);
       stride[axis] = coarse.hasBoth(parent, d) ? coarse.stride(d) : 0;
       side[axis] = cell[d] == 2 * parent[d] ? -0.25 : 0.25;

@@ -39,27 +39,29 @@ class Line {
     settings_.gravity = Vec3(rise, 0, 0);
     for (int i = 0; i < 4; ++i) {
       pressure_[i] = 3 + rise * level().cellCentre<1>(Index<1>{{i}})[0];
-      energy_[i] = settings_.gas.internalEnergy(pressure_[i]);
+      energy_[i] = method_.gas.internalEnergy(pressure_[i]);
     }
   }
 
   double stableStep() {
     Minimum dt;
-    limitImplicitStep<1>(patch(), settings_, before(), 0, seen<const double>(pressure_, 1), dt);
+    limitImplicitStep<1>(patch(), method_, settings_, before(), 0, seen<const double>(pressure_, 1), dt);
     return dt.value;
   }
   /// The momentum after a step that ends with the pressure that there is, kg/(m² s).
   std::vector<double> momentumAfter(double dt) {
     std::vector<double> density(4), energy(4), pushed;
     std::vector<Vec<1>> momentum(4);
-    advanceImplicitly<1>(patch(), settings_, before(), 0, dt, seen<const double>(pressure_, 2),
+    advanceImplicitly<1>(patch(), method_, settings_, before(), 0, dt, seen<const double>(pressure_, 2),
                          {{seen<double>(density, 0), seen<Vec<1>>(momentum, 0), seen<double>(energy, 0)}});
     for (const Vec<1>& one : momentum) pushed.push_back(one[0]);
     return pushed;
   }
   std::optional<double> velocityAt(int face) {
-    const euler::GhostRules<1> rules = euler::ghostRules<1>(level(), settings_.gas);
-    const GasBefore<1> gas(level(), settings_, rules, level().cells().grown(1, 1), before());
+    const euler::GhostRules<1> rules = euler::ghostRules<1>(level(), method_.gas);
+    const Box cells = level().cells().grown(1, 1);
+    GasBefore<1> gas(level(), method_.gas, settings_.gravity, rules, cells.size());
+    gas.hold(cells, before());
     return gas.givenVelocity(Index<1>{{face}}, 0);
   }
 
@@ -75,7 +77,8 @@ class Line {
   }
 
   Grid grid_;
-  ImplicitGas settings_;
+  euler::Settings method_{.cfl = 0.5};
+  IceSettings settings_;
   std::vector<double> density_ = std::vector<double>(4, 1.0), energy_ = std::vector<double>(4),
                       pressure_ = std::vector<double>(4);
   std::vector<Vec<1>> momentum_ = std::vector<Vec<1>>(4, Vec<1>::Zero());

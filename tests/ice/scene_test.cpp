@@ -136,19 +136,18 @@ TEST(IceScene, RefusesASecondGas) {
             "a second gas is not available; keep one <material>");
 }
 
-TEST(IceScene, RefusesSolids) {
-  EXPECT_EQ(problemOf(changedScene(sod, "<MaterialProperties>", "<MaterialProperties><MPM/>")),
-            "'ice' has no solids: keep the gas alone");
-}
-
-TEST(IceScene, RefusesOtherEquationsOfState) {
-  EXPECT_EQ(problemOf(changedScene(sod, "<EOS type=\"ideal_gas\"/>", "<EOS type=\"JWL\"><A>1</A></EOS>")),
-            "attribute 'type': found 'JWL', expected 'ideal_gas'");
-}
-
-TEST(IceScene, RefusesModels) {
-  EXPECT_EQ(problemOf(changedScene(sod, "  <CFD>", "  <Models><Model type=\"PassiveScalar\"/></Models>\n  <CFD>")),
-            "is not available; take it out: nothing burns or is carried along");
+TEST(IceScene, RefusesWhatItDoesNotHave) {
+  struct Foreign {
+    std::string there, given, problem;
+  };
+  const std::vector<Foreign> all{
+      {"<MaterialProperties>", "<MaterialProperties><MPM/>", "'ice' has no solids: keep the gas alone"},
+      {"<EOS type=\"ideal_gas\"/>", "<EOS type=\"JWL\"><A>1</A></EOS>",
+       "attribute 'type': found 'JWL', expected 'ideal_gas'"},
+      {"  <CFD>", "  <Models><Model type=\"PassiveScalar\"/></Models>\n  <CFD>",
+       "is not available; take it out: nothing burns or is carried along"}};
+  for (const Foreign& one : all)
+    EXPECT_EQ(problemOf(changedScene(sod, one.there, one.given)), one.problem) << one.given;
 }
 
 TEST(IceScene, NotesAPressureThatDensityAndTemperatureDoNotMake) {

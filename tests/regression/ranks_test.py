@@ -132,11 +132,7 @@ class Ranks(FolderTest):
 
     def test_a_full_disk_ends_all_and_leaves_the_last_checkpoint_whole(self):
         here = self.folder(3)
-        small = here.path / "small"
-        small.mkdir()
-        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=700k", "none", small], capture_output=True).returncode:
-            self.skipTest("only root may make a small disk")
-        self.addCleanup(subprocess.run, ["umount", small], check=True)
+        small = self.small_disk(here.path, "700k")
         job = self.start(here, [SOD, "--output", small], (*EVERY, "DataArchiver/outputTimestepInterval=1",
                                                           "DataArchiver/outputInterval=0"))
         self.assert_over(job, "No space left on device")

@@ -2,14 +2,12 @@
 """The modules minMax, lineExtract, planeExtract, planeAverage and vorticity: what they write agrees with the full
 outputs, is the same on any layout and after a restart, and Uintah's names are understood."""
 import pathlib
-import subprocess
 import sys
-import tempfile
-import time
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from sus import ROOT, SUS, on_ranks
+from module_runs import SMALL, VORTEX, ModuleTest, sus
+from sus import ROOT
 
 sys.path.insert(0, str(ROOT / "tools/python"))
 from tushar.interpreter import ensure
@@ -22,11 +20,7 @@ try:
 except SystemExit:
     MISSING = "no Python here has h5py and numpy"
 
-VORTEX = ROOT / "ups/euler/vortex_3d.ups"
 CHANNEL = ROOT / "ups/ice/channel.ups"
-SMALL = ["--set", "Grid/Level/Box/resolution=[12,12,6]", "--set", "Time/max_Timesteps=10", "--set",
-         "DataArchiver/outputInterval=0", "--set", "DataArchiver/outputTimestepInterval=1", "--set",
-         "DataArchiver/checkpoint/@timestepInterval=4"]
 
 
 def module(name, tags="", variables=("c.density", "c.velocity"), frequency="1e10"):
@@ -55,11 +49,6 @@ ALL = (VORTICITY + module("minMax", variables=("c.density", "c.velocity", "vorti
               ('label="c.density" weighting="nCells"', 'label="c.pressure" weighting="mass"', "c.velocity")))
 
 
-def sus(*arguments, ranks=1):
-    command = [*on_ranks(ranks), SUS, "--quiet", *map(str, arguments)]
-    return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=300)
-
-
 def numbers(text):
     """The numbers of the lines that are no comments."""
     return [[float(word) for word in line.replace("[", " ").replace("]", " ").split()]
@@ -67,30 +56,11 @@ def numbers(text):
 
 
 @unittest.skipIf(MISSING, MISSING)
-class Sampling(unittest.TestCase):
+class Sampling(ModuleTest):
     maxDiff = None
 
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
     def scene(self, modules, of=VORTEX, save=""):
-        """A copy of a scene with these modules."""
-        text = of.read_text()
-        if "</DataAnalysis>" in text:
-            text = text[:text.index("<DataAnalysis>")] + "</Uintah_specification>"
-        text = text.replace("</DataArchiver>", save + "</DataArchiver>")
-        path = self.folder / of.name
-        path.write_text(text.replace("</Uintah_specification>",
-                                     f"<DataAnalysis>{modules}</DataAnalysis></Uintah_specification>"))
-        return path
-
-    def run_in(self, name, scene, *options, ranks=1):
-        """The archive that a run of a scene makes in a folder of that name."""
-        ended = sus(scene, "--output", self.folder / name, *options, ranks=ranks)
-        self.assertEqual(ended.returncode, 0, ended.stderr)
-        return next((self.folder / name).glob("*.uda.000"))
+        return self.with_modules(of, modules, save)
 
     def files_of(self, archive):
         found = {}
@@ -183,32 +153,11 @@ class Sampling(unittest.TestCase):
         self.assertGreater(files["part"][-1, 6], 0, "the flow goes along +x")
 
     def test_any_layout_and_a_restart_leave_the_same_bytes(self):
-        scene = self.scene(ALL)
-        expected = self.files_of(self.run_in("one", scene, *SMALL, "-nthreads", "1"))
-        self.assertEqual(len(expected), 3 + 12 + 3 + 10 * 2 + 10 * 3)
-        for name, (ranks, patches) in {"patches": (1, "[2,3,1]"), "ranks": (3, "[2,2,2]")}.items():
-            archive = self.run_in(name, scene, *SMALL, "--set", f"Grid/Level/Box/patches={patches}", ranks=ranks)
-            self.assertEqual(self.files_of(archive), expected, name)
-        cut = self.run_in("cut", scene, *SMALL, "--set", "Time/max_Timesteps=7")
-        ended = sus("-restart", cut, "-t", "4", "--set", "Time/max_Timesteps=10")
-        self.assertEqual(ended.returncode, 0, ended.stderr)
-        self.assertEqual(self.files_of(cut), expected, "after a restart")
+        files = 3 + 12 + 3 + 10 * 2 + 10 * 3
+        self.assert_same_bytes_on_any_layout(self.scene(ALL), lambda found: self.assertEqual(len(found), files))
 
     def test_a_run_that_is_killed_leaves_the_same_bytes(self):
-        scene = self.scene(ALL.replace("1e10", "5"))
-        many = [*SMALL, "--set", "Time/max_Timesteps=200", "--set", "Time/maxTime=1000", "--set",
-                "DataArchiver/outputTimestepInterval=1000", "--set", "DataArchiver/checkpoint/@timestepInterval=10"]
-        expected = self.files_of(self.run_in("uncut", scene, *many))
-        job = subprocess.Popen([SUS, "--quiet", scene, "--output", self.folder / "cut", *many], cwd=ROOT)
-        latest = self.folder / "cut/vortex_3d.uda/checkpoints/LATEST"
-        while job.poll() is None and not (latest.exists() and latest.read_text().strip() >= "t00010"):
-            time.sleep(.001)
-        job.kill()
-        self.assertNotEqual(job.wait(timeout=300), 0, "the run ended before it was killed")
-        cut = next((self.folder / "cut").glob("*.uda.000"))
-        ended = sus("-restart", cut)
-        self.assertEqual(ended.returncode, 0, ended.stderr)
-        self.assertEqual(self.files_of(cut), expected)
+        self.assert_same_bytes_after_a_kill(self.scene(ALL.replace("1e10", "5")), steps=200, step=10)
 
     def test_uintahs_names_are_understood(self):
         modules = ('<Module name="vorticity"><material>gas</material></Module>' +
@@ -217,8 +166,7 @@ class Sampling(unittest.TestCase):
         scene = self.scene(modules, CHANNEL, '<save label="vorticity"/><save label="press_CC"/>')
         few = ["--set", "Time/max_Timesteps=3", "--set", "DataArchiver/outputTimestepInterval=1", "--set",
                "DataArchiver/outputInterval=0"]
-        ended = subprocess.run([SUS, scene, "--output", self.folder / "ice", *few], cwd=ROOT, capture_output=True,
-                               text=True, timeout=300)
+        ended = sus(scene, "--output", self.folder / "ice", *few, options=())
         self.assertEqual(ended.returncode, 0, ended.stderr)
         self.assertIn("'uvel_FCME' is left out: nobody computes it here", ended.stderr + ended.stdout)
         archive = next((self.folder / "ice").glob("*.uda.000"))
@@ -233,8 +181,7 @@ class Sampling(unittest.TestCase):
     def test_the_only_material_goes_by_any_name(self):
         modules = ('<Module name="vorticity"><material>air</material></Module>' +
                    module("minMax", "<material>air</material>", ("press_CC", "vel_CC")))
-        ended = subprocess.run([SUS, self.scene(modules, CHANNEL), "-check"], cwd=ROOT, capture_output=True, text=True,
-                               timeout=300)
+        ended = sus(self.scene(modules, CHANNEL), "-check", options=())
         self.assertEqual(ended.returncode, 0, ended.stderr)
         self.assertEqual((ended.stderr + ended.stdout).count("'air' is taken for the only material, 'gas'"), 1)
 

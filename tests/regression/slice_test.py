@@ -3,12 +3,11 @@
 import pathlib
 import subprocess
 import sys
-import tempfile
-import time
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from sus import ROOT, SUS, on_ranks
+from module_runs import SMALL, VORTEX, ModuleTest, sus
+from sus import ROOT
 
 sys.path.insert(0, str(ROOT / "tools/python"))
 from tushar.interpreter import ensure
@@ -21,43 +20,17 @@ try:
 except SystemExit:
     MISSING = "no Python here has h5py and numpy"
 
-VORTEX = ROOT / "ups/euler/vortex_3d.ups"
 DISCS = ROOT / "ups/solid/two_discs.ups"
 STEPS = "<outputTimestepInterval>3</outputTimestepInterval>"
 PLANES = "<plane>z = 0</plane><plane>x=1.3</plane>"
 LABELS = "<label>c.density</label><label>c.velocity</label>"
-SMALL = ["--set", "Grid/Level/Box/resolution=[12,12,6]", "--set", "Time/max_Timesteps=10", "--set",
-         "DataArchiver/outputInterval=0", "--set", "DataArchiver/outputTimestepInterval=1", "--set",
-         "DataArchiver/checkpoint/@timestepInterval=4"]
-
-
-def sus(*arguments, ranks=1):
-    command = [*on_ranks(ranks), SUS, "--quiet", *map(str, arguments)]
-    return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=300)
 
 
 @unittest.skipIf(MISSING, MISSING)
-class Slice(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
+class Slice(ModuleTest):
     def scene(self, of, tags):
         """A copy of a scene with the module."""
-        module = f'<DataAnalysis><Module name="slice">{tags}</Module></DataAnalysis></Uintah_specification>'
-        text = of.read_text()
-        if "</DataAnalysis>" in text:
-            text = text[:text.index("<DataAnalysis>")] + "</Uintah_specification>"
-        path = self.folder / of.name
-        path.write_text(text.replace("</Uintah_specification>", module))
-        return path
-
-    def run_in(self, name, scene, *options, ranks=1):
-        """The archive that a run of a scene makes in a folder of that name."""
-        ended = sus(scene, "--output", self.folder / name, *options, ranks=ranks)
-        self.assertEqual(ended.returncode, 0, ended.stderr)
-        return next((self.folder / name).glob("*.uda.000"))
+        return self.with_modules(of, f'<Module name="slice">{tags}</Module>')
 
     def files_of(self, archive):
         files = [file for file in (archive / "slice").rglob("*") if file.is_file() and file.name != "input.xml"]
@@ -95,33 +68,12 @@ class Slice(unittest.TestCase):
         self.assertEqual(part.grid.dimension, whole.grid.dimension - 1)
 
     def test_any_layout_and_a_restart_leave_the_same_bytes(self):
-        scene = self.scene(VORTEX, PLANES + LABELS + STEPS)
-        expected = self.files_of(self.run_in("one", scene, *SMALL, "-nthreads", "1"))
-        self.assertEqual(sum(name.endswith(".h5") for name in expected), 8)
-        layouts = {"patches": (1, "[2,3,1]"), "ranks": (3, "[2,2,2]")}
-        for name, (ranks, patches) in layouts.items():
-            archive = self.run_in(name, scene, *SMALL, "--set", f"Grid/Level/Box/patches={patches}", ranks=ranks)
-            self.assertEqual(self.files_of(archive), expected, name)
-        cut = self.run_in("cut", scene, *SMALL, "--set", "Time/max_Timesteps=7")
-        ended = sus("-restart", cut, "-t", "4", "--set", "Time/max_Timesteps=10")
-        self.assertEqual(ended.returncode, 0, ended.stderr)
-        self.assertEqual(self.files_of(cut), expected, "after a restart")
+        self.assert_same_bytes_on_any_layout(
+            self.scene(VORTEX, PLANES + LABELS + STEPS),
+            lambda files: self.assertEqual(sum(name.endswith(".h5") for name in files), 8))
 
     def test_a_run_that_is_killed_after_a_checkpoint_keeps_its_slices(self):
-        scene = self.scene(VORTEX, PLANES + LABELS + STEPS)
-        many = [*SMALL, "--set", "Time/max_Timesteps=400", "--set", "Time/maxTime=1000", "--set",
-                "DataArchiver/outputTimestepInterval=1000", "--set", "DataArchiver/checkpoint/@timestepInterval=20"]
-        expected = self.files_of(self.run_in("uncut", scene, *many))
-        job = subprocess.Popen([SUS, "--quiet", scene, "--output", self.folder / "cut", *many], cwd=ROOT)
-        latest = self.folder / "cut/vortex_3d.uda/checkpoints/LATEST"
-        while job.poll() is None and not (latest.exists() and latest.read_text().strip() >= "t00020"):
-            time.sleep(.001)
-        job.kill()
-        self.assertNotEqual(job.wait(timeout=300), 0, "the run ended before it was killed")
-        cut = next((self.folder / "cut").glob("*.uda.000"))
-        ended = sus("-restart", cut)
-        self.assertEqual(ended.returncode, 0, ended.stderr)
-        self.assertEqual(self.files_of(cut), expected)
+        self.assert_same_bytes_after_a_kill(self.scene(VORTEX, PLANES + LABELS + STEPS), steps=400, step=20)
 
     def test_slices_by_time_and_after_a_restart(self):
         scene = self.scene(VORTEX, "<plane>z=0</plane><label>c.density</label><outputInterval>.5</outputInterval>")
@@ -172,8 +124,7 @@ class Slice(unittest.TestCase):
         self.assertIn("DataAnalysis/Module: no task of this component computes 'c.densty' (did you mean 'c.density'?)",
                       ended.stderr)
         discs = self.scene(DISCS, "<plane>y=.52</plane><label>g.mass</label>" + STEPS)
-        ended = subprocess.run([SUS, discs, "-check", "--set", "DataArchiver/save[1]/@label=AccStrainEnergy"], cwd=ROOT,
-                               capture_output=True, text=True, timeout=300)
+        ended = sus(discs, "-check", "--set", "DataArchiver/save[1]/@label=AccStrainEnergy", options=())
         self.assertEqual(ended.returncode, 0, ended.stderr)
         self.assertIn("'AccStrainEnergy' is not saved: no task computes it here", ended.stderr)
 

@@ -143,11 +143,7 @@ class Writers(FolderTest):
 
     def test_a_full_disk_is_told_once_by_several_writers(self):
         here = self.folder(3)
-        small = here.path / "small"
-        small.mkdir()
-        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=14m", "none", small], capture_output=True).returncode:
-            self.skipTest("only root may make a small disk")
-        self.addCleanup(subprocess.run, ["umount", small], check=True)
+        small = self.small_disk(here.path, "14m")
         job = self.start(here, [SOD, "--output", small, "-writers", "3"],
                          (*PLANE, *EVERY, "DataArchiver/outputTimestepInterval=1", "Time/max_Timesteps=100"))
         errors = job.communicate(timeout=PATIENCE)[1]

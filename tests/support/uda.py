@@ -72,6 +72,15 @@ class FolderTest(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         return folder
 
+    def small_disk(self, folder, size):
+        """A disk of that size, below a folder; skips the test where none can be made."""
+        disk = folder / "small"
+        disk.mkdir()
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}", "none", disk], capture_output=True).returncode:
+            self.skipTest("only root may make a small disk")
+        self.addCleanup(subprocess.run, ["umount", disk], check=True)
+        return disk
+
     def well(self, result):
         """The report of a run that ended well."""
         code, errors, report = result

@@ -22,16 +22,11 @@ struct Sloped {
 template <int D>
 struct Work {
   /// Room for blocks of a patch.
-  Work(const Box& cells, int reach) : w(roomFor(cells, reach)), flux(roomFor(cells, reach)) {
+  Work(const Box& cells, int reach) : w(largestBlock<D>(cells).grown(reach, D).size()), flux(w) {
     for (int d = 0; d < D && reach > 1; ++d) {
-      lower.emplace_back(roomFor(cells, reach));
-      upper.emplace_back(roomFor(cells, reach));
+      lower.push_back(w);
+      upper.push_back(w);
     }
-  }
-  static std::size_t roomFor(const Box& cells, int reach) {
-    std::size_t room = 1;
-    for (int d = 0; d < D; ++d) room *= std::min(cells.extent(d), kBlock<D>[d]) + 2 * reach;
-    return room;
   }
   void hold(const Box& box) {
     w.hold(box);

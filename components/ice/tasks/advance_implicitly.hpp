@@ -4,20 +4,28 @@
 
 namespace tushar::ice {
 
-/// What a step does to the cells of a block, once the pressure at its end is known.
+/// What a step does to the cells of one block after the other, once the pressure at its end is known.
 template <int D>
 class ImplicitStep {
  public:
-  ImplicitStep(const Level& level, const ImplicitGas& settings, const euler::GhostRules<D>& rules, const Box& block,
-               const euler::OldState<D>& before, const CellView<const double>& pressure, double dt)
+  /// Room for blocks no larger than `largest`.
+  ImplicitStep(const Level& level, const euler::Settings& method, const IceSettings& settings,
+               const euler::GhostRules<D>& rules, const Box& largest, double dt)
       : level_(level),
         dt_(dt),
-        flow_(level, settings, rules, block, before, dt),
-        after_(flow_.withPressure(pressure)),
+        flow_(level, method, settings, rules, largest, dt),
+        after_(flow_.old()),
         middle_(flow_.old()),
-        flux_(flow_.old()),
-        hasSlopes_(settings.hasSlopes) {
-    if (hasSlopes_) forEach<D>(level.clipCells(block.grown(1, D)), [&](const Index<D>& cell) { goHalfway(cell); });
+        flux_(flow_.old()) {}
+
+  /// From now on the cells of `block`.
+  void hold(const Box& block, const euler::OldState<D>& before, const CellView<const double>& pressure) {
+    flow_.hold(block, before);
+    flow_.fillWithPressure(pressure, after_);
+    middle_ = flow_.old();
+    flux_.hold(flow_.old().box());
+    if (flow_.hasSlopes())
+      forEach<D>(level_.clipCells(block.grown(1, D)), [&](const Index<D>& cell) { goHalfway(cell); });
   }
 
   /// The fluxes through the lower faces of `faces` across an axis: what flows with u_f is that of the cell that it
@@ -78,7 +86,7 @@ class ImplicitStep {
   /// rho, v, p of a cell at the face above (1) or below it (-1), half a step later.
   euler::State<D> atFace(const Index<D>& cell, int axis, int side) const {
     euler::State<D> w = middle_.state(cell);
-    if (!hasSlopes_ || !flow_.isOnGrid(cell)) return w;
+    if (!flow_.hasSlopes() || !flow_.isOnGrid(cell)) return w;
     for (std::size_t k = 0; k < w.size(); ++k) w[k] += 0.5 * side * flow_.slope(cell, axis, k);
     const bool fine = w[euler::kDensity] > 0 && w[euler::kPressure<D>] + flow_.gas().pInfinity > 0;
     return fine ? w : flow_.old().state(cell);
@@ -101,7 +109,6 @@ class ImplicitStep {
   double dt_;
   FaceFlow<D> flow_;
   euler::Rows<D> after_, middle_, flux_;
-  bool hasSlopes_;
 };
 
 /// One step on a patch with the pressure at its end, p' [Pa]: U' = U - dt sum_d (F_{d,i+1/2} - F_{d,i-1/2}) / h_d with
@@ -110,14 +117,16 @@ class ImplicitStep {
 /// Throws NumericalError where a density or p + p_inf would not be positive, or gas would cross more than a cell.
 /// Source: as FaceFlow; J. von Neumann & R. D. Richtmyer, J. Appl. Phys. 21 (1950) 232, for the shocks.
 template <int D>
-void advanceImplicitly(const Patch& patch, const ImplicitGas& settings, const euler::OldState<D>& before, double time,
-                       double dt, CellView<const double> pressure, const euler::NewState<D>& fresh) {
+void advanceImplicitly(const Patch& patch, const euler::Settings& method, const IceSettings& settings,
+                       const euler::OldState<D>& before, double time, double dt, CellView<const double> pressure,
+                       const euler::NewState<D>& fresh) {
   const Level& level = patch.level();
-  const euler::GhostRules<D> rules = euler::ghostRules<D>(level, settings.gas, time);
+  const euler::GhostRules<D> rules = euler::ghostRules<D>(level, method.gas, time);
+  ImplicitStep<D> step(level, method, settings, rules, euler::largestBlock<D>(patch.cells()), dt);
   double most = 0;
   bool fine = true;
   euler::forEachBlock<D>(patch.cells(), [&](const Box& block) {
-    ImplicitStep<D> step(level, settings, rules, block, before, pressure, dt);
+    step.hold(block, before, pressure);
     const auto sweep = [&]<int Axis>() {
       Box faces = block;
       ++faces.upper[Axis];
@@ -128,9 +137,9 @@ void advanceImplicitly(const Patch& patch, const ImplicitGas& settings, const eu
     sweep.template operator()<0>();
     if constexpr (D > 1) sweep.template operator()<1>();
     if constexpr (D > 2) sweep.template operator()<2>();
-    fine &= euler::canBe<D>(settings.gas, block, fresh);
+    fine &= euler::canBe<D>(method.gas, block, fresh);
   });
-  if (!fine) euler::refuseBroken<D, double>(patch, settings.gas, fresh, &before);
+  if (!fine) euler::refuseBroken<D, double>(patch, method.gas, fresh, &before);
   if (!(most <= 1))
     throw NumericalError(fmt::format("gas would cross {:.3g} cells in a step of {:.3g} s", most, dt),
                          "a smaller CFD/cfl", "c.velocity");

@@ -21,14 +21,17 @@ void initializePressure(const Patch& patch, const euler::Gas& gas, CellView<cons
 /// NumericalError where a density, or p + p_inf, is not positive. Source: N. Kwatra & al., J. Comput. Phys. 228 (2009)
 /// 4146, section 3.3.
 template <int D>
-void limitImplicitStep(const Patch& patch, const ImplicitGas& settings, const euler::OldState<D>& before, double time,
-                       CellView<const double> pressure, Minimum& dt) {
+void limitImplicitStep(const Patch& patch, const euler::Settings& method, const IceSettings& settings,
+                       const euler::OldState<D>& before, double time, CellView<const double> pressure, Minimum& dt) {
   const Level& level = patch.level();
-  euler::refuseBroken<D, const double>(patch, settings.gas, before, nullptr);
+  euler::refuseBroken<D, const double>(patch, method.gas, before, nullptr);
   const double second = 1;
-  const euler::GhostRules<D> rules = euler::ghostRules<D>(level, settings.gas, time);
-  const GasBefore<D> gas(level, settings, rules, patch.cells().grown(1, D), before);
-  const euler::Rows<D> pushing = gas.withPressure(pressure);
+  const euler::GhostRules<D> rules = euler::ghostRules<D>(level, method.gas, time);
+  const Box cells = patch.cells().grown(1, D);
+  GasBefore<D> gas(level, method.gas, settings.gravity, rules, cells.size());
+  gas.hold(cells, before);
+  euler::Rows<D> pushing = gas.old();
+  gas.fillWithPressure(pressure, pushing);
   const auto acceleration = [&](const Index<D>& face, int axis) {
     const std::size_t p = euler::kPressure<D>;
     const double gained = gas.mobility(face, axis, second);
@@ -46,18 +49,17 @@ void limitImplicitStep(const Patch& patch, const ImplicitGas& settings, const eu
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     const euler::State<D> w = gas.old().state(cell);
     const double rho = w[euler::kDensity];
-    const double sound =
-        settings.soundSpeedKnob * std::sqrt(settings.gas.soundSpeedSquared(rho, w[euler::kPressure<D>]));
+    const double sound = settings.soundSpeedKnob * std::sqrt(method.gas.soundSpeedSquared(rho, w[euler::kPressure<D>]));
     double rate = 0, rates = 0;
     for (int d = 0; d < D; ++d) {
       const double perWidth = level.inverseSpacing(d);
       rate += (speed(cell, d) + sound) * perWidth;
-      if (settings.diffusion.acts()) rate += 2 * settings.diffusion.greatest(settings.gas, rho) * perWidth * perWidth;
+      if (settings.diffusion.acts()) rate += 2 * settings.diffusion.greatest(method.gas, rho) * perWidth * perWidth;
       rates += perWidth * std::max(acceleration(cell, d), acceleration(cell + Index<D>::unit(d), d));
     }
     greatest = std::max(greatest, 0.5 * (rate + std::sqrt(rate * rate + 4 * rates)));
   });
-  if (greatest > 0) dt.add(settings.cfl / greatest, "CFL");
+  if (greatest > 0) dt.add(method.cfl / greatest, "CFL");
 }
 
 }  // namespace tushar::ice

@@ -60,18 +60,18 @@ numerics::CellEquation<D> pressureEquation(const Level& level, const FaceFlow<D>
 /// where the last step's is a first guess.
 /// Throws NumericalError if the solver gives up.
 template <int D>
-void solvePressure(const RankPatches& patches, const mpi::Communicator& ranks, const ImplicitGas& settings, double time,
-                   double dt, const std::vector<euler::OldState<D>>& before,
+void solvePressure(const RankPatches& patches, const mpi::Communicator& ranks, const euler::Settings& method,
+                   const IceSettings& settings, double time, double dt, const std::vector<euler::OldState<D>>& before,
                    const std::vector<CellView<const double>>& guess, const std::vector<CellView<double>>& pressure,
                    const SolveTotals& totals) {
   const Level& level = patches.front()->level();
   const std::size_t number = euler::kPressure<D>;
-  const euler::GhostRules<D> rules = euler::ghostRules<D>(level, settings.gas, time);
+  const euler::GhostRules<D> rules = euler::ghostRules<D>(level, method.gas, time);
   std::vector<FaceFlow<D>> flows;
   std::vector<CellView<const double>> rise;
   for (std::size_t p = 0; p < patches.size(); ++p) {
     const CellView<double>& view = pressure[p];
-    flows.emplace_back(level, settings, rules, patches[p]->cells(), before[p], dt);
+    flows.emplace_back(level, method, settings, rules, patches[p]->cells(), dt).hold(patches[p]->cells(), before[p]);
     forEach<D>(patches[p]->cells(),
                [&](const Index<D>& cell) { view[cell] = guess[p][cell] - flows[p].old().number(cell, number); });
     rise.emplace_back(view.values(), view.stored(), view.box());

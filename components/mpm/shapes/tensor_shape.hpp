@@ -65,7 +65,7 @@ struct TensorShape {
         double value = 1;
         Vec<D> gradient = Vec<D>::Ones();
         for (int d = 0; d < D; ++d) {
-          const auto node = static_cast<std::size_t>(k[d]);
+          const std::size_t node = k[d];
           value *= s[node][d];
           for (int e = 0; e < D; ++e) gradient[e] *= (e == d ? ds : s)[node][d];
         }

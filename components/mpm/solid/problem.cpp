@@ -6,6 +6,6 @@ namespace tushar::mpm::solid {
 
 std::vector<std::string> Solids::foreignLabels() const { return uintahsLabels; }
 
-std::vector<std::pair<std::string, std::string>> Solids::otherNames() const { return soilNames; }
+simulation::OtherNames Solids::otherNames() const { return soilNames; }
 
 }  // namespace tushar::mpm::solid

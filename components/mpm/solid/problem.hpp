@@ -32,7 +32,7 @@ class Solids : public Component {
   }
   const Problem& problem() const { return problem_; }
   std::vector<std::string> foreignLabels() const override;
-  std::vector<std::pair<std::string, std::string>> otherNames() const override;
+  simulation::OtherNames otherNames() const override;
   /// Whether p.work can be had.
   virtual bool measuresWork() const { return false; }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/input/refuse.hpp"
+#include "core/simulation/settings.hpp"
 
 // Tags of Uintah's <MPM> section that neither explicit nor implicit steps here have.
 
@@ -78,7 +79,7 @@ inline const std::vector<std::string> uintahsLabels{"AccStrainEnergy",
                                                     "BndyContactCellArea_zplus"};
 
 /// Variables of particles that Uintah's MohrCoulomb saves by names without p.
-inline const std::vector<std::pair<std::string, std::string>> soilNames{
+inline const simulation::OtherNames soilNames{
     {"Suction", "p.Suction"}, {"SpecificVol", "p.SpecificVol"}, {"c", "p.cohesion"}};
 
 template <class S>

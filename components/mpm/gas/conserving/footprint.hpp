@@ -91,7 +91,7 @@ struct Span {
     const Lanes scale = 1 / (to - from);
     Lanes start = -0.5 - below, end = start, carried = 0;
     for (int k = 0; k < cells; ++k) {
-      const auto at = static_cast<std::size_t>(k);
+      const std::size_t at = k;
       const int j = k - below;
       const Lanes a = j == -Overhang ? min(from, j + 0.5) : clamp(from, j - 0.5, j + 0.5);
       const Lanes b = j == Overhang ? max(to, j - 0.5) : clamp(to, j - 0.5, j + 0.5);
@@ -104,7 +104,7 @@ struct Span {
       start = a;
       end = b;
     }
-    const auto last = static_cast<std::size_t>(cells);
+    const std::size_t last = cells;
     const double edge = cells - below - 0.5;
     weight[last] = carried;
     atLower[last] = (start - edge) + 1;
@@ -113,7 +113,7 @@ struct Span {
   /// `offset` is that of the centre of the cell from the centre.
   void measureArms(const Lanes& offset, double h) {
     inertia = sumOverNodes<Lanes>([&](int k, Lanes& sum) {
-      const auto at = static_cast<std::size_t>(k);
+      const std::size_t at = k;
       arm[at] = offset + (k - below - 0.5) * h;
       sum += weight[at] * arm[at] * arm[at];
     });
@@ -227,7 +227,7 @@ struct Footprint {
   void weights(Index<D>& k, const Lanes& weight, const Field<Axis>& field, Visit& visit) const {
     const auto& span = along[Axis];
     for (k[Axis] = 0; k[Axis] < span.nodes(); ++k[Axis]) {
-      const auto at = static_cast<std::size_t>(k[Axis]);
+      const std::size_t at = k[Axis];
       const Lanes w = weight * span.weight[at];
       if constexpr (Axis == 0)
         visit(k, w, LanesVec<D>(field[0] + span.arm[at] * field[1]));

@@ -200,7 +200,7 @@ Motion<D> motionOn(const Patch& patch, const ParticleUpdate<D>& update, double d
   Motion<D> motion(patch.cells());
   forEach<D>(update.nodeVelocity.box(), [&](const Index<D>& node) {
     for (int d = 0; d < D; ++d) {
-      motion.at(static_cast<std::size_t>(d), node) = update.nodeVelocity[node][d];
+      motion.at(d, node) = update.nodeVelocity[node][d];
       motion.at(Motion<D>::change + static_cast<std::size_t>(d), node) = dt * update.acceleration[node][d];
     }
   });
@@ -223,7 +223,7 @@ template <int D, class Scheme>
 [[gnu::always_inline]] inline void addNode(const Footprint<D>& footprint, const Index<D>& at, const Reader<D>& read,
                                            const LanesVec<D>& field, Gathered<D, 0>& sum) {
   const auto& span = footprint.along[0];
-  const auto k = static_cast<std::size_t>(at[0]);
+  const std::size_t k = at[0];
   const Lanes w = span.weight[k];
   LanesVec<D> v, dv;
   for (int d = 0; d < D; ++d) {
@@ -271,7 +271,7 @@ template <int D, class Scheme, int Axis>
   const auto& span = footprint.along[Axis];
   return span.template sumOverNodes<Gathered<D, Axis>>([&](int node, Gathered<D, Axis>& sum) {
     at[Axis] = node;
-    const auto k = static_cast<std::size_t>(node);
+    const std::size_t k = node;
     if constexpr (Axis == 0)
       addNode<D, Scheme>(footprint, at, read, field[0] + span.arm[k] * field[1], sum);
     else

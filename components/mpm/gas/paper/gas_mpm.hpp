@@ -15,7 +15,7 @@ namespace tushar::mpm::gas::paper {
 template <int D>
 class GasMpm : public Component, public reference::GasSolution {
  public:
-  GasMpm(GasDynamics method, std::vector<Gas> materials) : method_(method), materials_(std::move(materials)) {}
+  GasMpm(const GasDynamics& method, std::vector<Gas> materials) : method_(method), materials_(std::move(materials)) {}
 
   const GasDynamics& method() const { return method_; }
   const std::vector<Gas>& materials() const { return materials_; }

@@ -98,7 +98,7 @@ Vec<D> masterVelocity(const Patch& patch, const Contact& contact, const std::opt
 
 template <int D>
 void followMaster(const Patch& patch, const Contact& contact, double time, double dt, const Records& records) {
-  const auto master = static_cast<std::size_t>(contact.master);
+  const std::size_t master = contact.master;
   const auto motion = contact.prescribedMotion(time);
   forEach<D>(records.front().box(), [&](const Index<D>& node) {
     if (!isAt<D>(contact, records, node)) return;

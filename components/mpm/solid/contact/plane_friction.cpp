@@ -46,7 +46,7 @@ int foremost(const SeparatingPlanes<D>& planes, const Index<D>& node) {
 /// Whether a body reaches through the plane into that of the first at a node.
 template <int D>
 bool overlaps(const SeparatingPlanes<D>& planes, int first, std::size_t m, const Index<D>& node) {
-  return (*planes[m].prominence)[node] <= (*planes[static_cast<std::size_t>(first)].prominence)[node];
+  return (*planes[m].prominence)[node] <= (*planes[first].prominence)[node];
 }
 
 /// mu at a node.
@@ -54,7 +54,7 @@ template <int D>
 double frictionAt(const Contact& contact, const SeparatingPlanes<D>& planes, const Index<D>& node) {
   const auto& table = contact.frictionOfColor;
   if (table.empty()) return contact.friction;
-  const double color = (*planes[static_cast<std::size_t>(contact.master)].color)[node];
+  const double color = (*planes[contact.master].color)[node];
   if (color <= table.front().first) return table.front().second;
   if (color >= table.back().first) return table.back().second;
   const auto next =
@@ -82,7 +82,7 @@ void forEachTouch(const Patch& patch, const Contact& contact, double time, doubl
     const int first = foremost<D>(planes, node);
     if (first < 0 || isExcluded<D>(contact, records, node)) return;
     const Vec<D> moving = masterVelocity<D>(patch, contact, motion, dt, records, node);
-    const Vec<D> normal = -(*planes[static_cast<std::size_t>(first)].normal)[node];
+    const Vec<D> normal = -(*planes[first].normal)[node];
     for (std::size_t m = 0; m < records.size(); ++m) {
       if (!meetsMaster<D>(contact, records, planes, first, m, node)) continue;
       const Touch<D> touch{normal, lanes<D>(records[m][node], lane::velocity) - moving, false};
@@ -125,7 +125,7 @@ void slideAlongPlanes(const Contact& contact, const Records& records, const Sepa
       momentum += records[m][node][lane::mass] * lanes<D>(records[m][node], lane::velocity);
       mass += records[m][node][lane::mass];
     }
-    const Vec<D> normal = -(*planes[static_cast<std::size_t>(first)].normal)[node];
+    const Vec<D> normal = -(*planes[first].normal)[node];
     NodeRecord& body = records[first][node];
     for (std::size_t m = 0; m < records.size(); ++m) {
       NodeRecord& record = records[m][node];

@@ -82,7 +82,7 @@ struct Loads {
 template <class OnSurface, class OnBody>
 void forEachLoad(const Loads& loads, int packed, OnSurface&& onSurface, OnBody&& onBody) {
   for (int ids = packed; ids > 0; ids /= 256) {
-    const auto k = static_cast<std::size_t>(ids % 256 - 1);
+    const std::size_t k = ids % 256 - 1;
     if (k < loads.surfaces.size())
       onSurface(loads.surfaces[k]);
     else

@@ -81,14 +81,12 @@ inline ViscoTransIsoHyper relaxingLigament() {
   return model;
 }
 inline MwViscoElastic springBesideMaxwell() {
-  MwViscoElastic model;
-  model.springShear = 1;
-  model.springBulk = 2;
-  model.maxwellShear = 3;
-  model.maxwellBulk = 5;
-  model.shearViscosity = 0.6;
-  model.bulkViscosity = 3;
-  return model;
+  return {.springShear = 1,
+          .springBulk = 2,
+          .maxwellShear = 3,
+          .maxwellBulk = 5,
+          .bulkViscosity = 3,
+          .shearViscosity = 0.6};
 }
 inline ElasticPlasticHp relaxingMetal(const FlowModel& flow) {
   auto model = elasticPlastic(flow);

@@ -13,13 +13,7 @@ namespace {
 constexpr double roundOff = 1e-12;  ///< some hundred operations, each exact to 1e-16
 
 NonlocalDruckerPrager soil() {
-  NonlocalDruckerPrager model;
-  model.bulkModulus = 7;
-  model.shearModulus = 3;
-  model.friction = 0.2;
-  model.dilation = 0.1;
-  model.strength = 0.1;
-  return model;
+  return {.bulkModulus = 7, .shearModulus = 3, .friction = 0.2, .dilation = 0.1, .strength = 0.1};
 }
 /// J2^(1/2) + alpha I1
 double loadOf(const NonlocalDruckerPrager& model, const Matrix3& stress) {

@@ -70,7 +70,7 @@ void addForceAt(const Level& level, const Vec<D>& x, const Vec<D>& force, NodeVi
     const Index<D> node = Linear<D>::node(cell, k);
     if (!record.box().contains(node)) continue;
     NodeRecord& at = record[node];
-    setLanes<D>(at, lane::force, lanes<D>(at, lane::force) + weights[static_cast<std::size_t>(k)] * force);
+    setLanes<D>(at, lane::force, lanes<D>(at, lane::force) + weights[k] * force);
   }
 }
 

@@ -52,7 +52,7 @@ void exchangeMomentumAtEnd(const Patch& patch, const std::vector<Material>& mate
     if (force) force->fill(Vec<D>::Zero());
   for (const Contact& contact : contacts) {
     const bool isSpecified = contact.type == Contact::Type::specified;
-    const auto master = static_cast<std::size_t>(contact.master);
+    const std::size_t master = contact.master;
     const bool transmits = isSpecified && materials[master].transmitsForce;
     if (transmits) addMomentum<D>(contact, records, 1 / dt, *transmitted[master]);
     if (isSpecified) sumReaction<D>(patch, contact, acceleration, dt, records, reaction);

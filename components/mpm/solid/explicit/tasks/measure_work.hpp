@@ -137,7 +137,7 @@ inline void measureStrainWork(const Patch&, const Material& material, const Stra
     stressMoments(material, u.after.source(), first, count, startVolume, after.data());
     for (int k = 0; k < count; ++k) {
       const int p = first + k;
-      const auto at = static_cast<std::size_t>(k);
+      const std::size_t at = k;
       const Matrix3& f = u.after.deformation[p];
       const Matrix3 forth = f * u.before.deformation[p].inverse(), back = forth.inverse();
       const Matrix3 unit = Matrix3::Identity();

@@ -50,7 +50,7 @@ struct Precedence {
       isRigid.push_back(material.isRigid);
     }
     for (const Contact& contact : contacts) {
-      const auto master = static_cast<std::size_t>(contact.master);
+      const std::size_t master = contact.master;
       if (contact.type == Contact::Type::specified) mayLead[master] = false;
       if (contact.type == Contact::Type::specifiedFriction) isRigid[master] = true;
     }
@@ -122,7 +122,7 @@ void gatherParticles(const Patch& patch, const Vec3& commonSize, const PlaneSour
       if (k < 0 || s <= 1e-8) return;
       Vec<D> away;
       for (int d = 0; d < D; ++d) away[d] = x[p][d] - patch.level().nodePosition(d, node[d]);
-      nodes.particles[static_cast<std::size_t>(k)].push_back({away, m != nodes.leader[static_cast<std::size_t>(k)]});
+      nodes.particles[k].push_back({away, m != nodes.leader[k]});
     });
   });
 }
@@ -157,10 +157,10 @@ void measureProminence(const Patch& patch, const Vec3& commonSize, int m, const 
     stencil.forEachNode([&](const Index<D>& node, double s, const Vec<D>&) {
       const int k = nodes[node];
       if (k < 0 || s <= 0) return;
-      const Vec<D>& normal = normals[static_cast<std::size_t>(k)];
+      const Vec<D>& normal = normals[k];
       const double middle = x[p].dot(normal), half = (edges.transpose() * normal).cwiseAbs().maxCoeff();
       double& reach = of.prominence[node];
-      if (m == nodes.leader[static_cast<std::size_t>(k)])
+      if (m == nodes.leader[k])
         reach = std::max(reach, middle + half);
       else
         reach = reach == noProminence ? middle - half : std::min(reach, middle - half);
@@ -181,7 +181,7 @@ void separateBodies(const Patch& patch, const std::vector<Material>& materials, 
   std::vector<Vec<D>> normals;
   for (std::size_t k = 0; k < nodes.node.size(); ++k) {
     normals.push_back(normalAt<D>(patch, nodes, k));
-    of[static_cast<std::size_t>(nodes.leader[k])].normal[nodes.node[k]] = normals.back();
+    of[nodes.leader[k]].normal[nodes.node[k]] = normals.back();
   }
   for (std::size_t m = 0; m < of.size(); ++m)
     measureProminence<Shape>(patch, commonSize, static_cast<int>(m), nodes, normals, of[m]);

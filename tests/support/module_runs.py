@@ -1,0 +1,75 @@
+"""Runs scenes with analysis modules that write files: what these are on any layout, after a restart and a kill."""
+import pathlib
+import subprocess
+import tempfile
+import time
+import unittest
+
+from sus import ROOT, SUS, on_ranks
+
+VORTEX = ROOT / "ups/euler/vortex_3d.ups"
+SMALL = ["--set", "Grid/Level/Box/resolution=[12,12,6]", "--set", "Time/max_Timesteps=10", "--set",
+         "DataArchiver/outputInterval=0", "--set", "DataArchiver/outputTimestepInterval=1", "--set",
+         "DataArchiver/checkpoint/@timestepInterval=4"]
+
+
+def sus(*arguments, ranks=1, options=("--quiet",)):
+    command = [*on_ranks(ranks), SUS, *options, *map(str, arguments)]
+    return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=300)
+
+
+class ModuleTest(unittest.TestCase):
+    """A test of modules that has `files_of(archive)`: what they have written, by the names of the files."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def with_modules(self, of, modules, save=""):
+        """A copy of a scene with these modules in place of its own."""
+        text = of.read_text()
+        if "</DataAnalysis>" in text:
+            text = text[:text.index("<DataAnalysis>")] + "</Uintah_specification>"
+        text = text.replace("</DataArchiver>", save + "</DataArchiver>")
+        path = self.folder / of.name
+        path.write_text(text.replace("</Uintah_specification>",
+                                     f"<DataAnalysis>{modules}</DataAnalysis></Uintah_specification>"))
+        return path
+
+    def well(self, ended):
+        """The standard output of a run that ended well."""
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        return ended.stdout
+
+    def run_in(self, name, scene, *options, ranks=1):
+        """The archive that a run of a scene makes in a folder of that name."""
+        self.well(sus(scene, "--output", self.folder / name, *options, ranks=ranks))
+        return next((self.folder / name).glob("*.uda.000"))
+
+    def assert_same_bytes_on_any_layout(self, scene, is_whole):
+        """The files of the vortex do not depend on layout and restarts; `is_whole` looks at those of one patch."""
+        expected = self.files_of(self.run_in("one", scene, *SMALL, "-nthreads", "1"))
+        is_whole(expected)
+        for name, (ranks, patches) in {"patches": (1, "[2,3,1]"), "ranks": (3, "[2,2,2]")}.items():
+            archive = self.run_in(name, scene, *SMALL, "--set", f"Grid/Level/Box/patches={patches}", ranks=ranks)
+            self.assertEqual(self.files_of(archive), expected, name)
+        cut = self.run_in("cut", scene, *SMALL, "--set", "Time/max_Timesteps=7")
+        self.well(sus("-restart", cut, "-t", "4", "--set", "Time/max_Timesteps=10"))
+        self.assertEqual(self.files_of(cut), expected, "after a restart")
+
+    def assert_same_bytes_after_a_kill(self, scene, steps, step):
+        """Killed after the checkpoint of a step and restarted, the vortex leaves the files of a run that was not."""
+        many = [*SMALL, "--set", f"Time/max_Timesteps={steps}", "--set", "Time/maxTime=1000", "--set",
+                "DataArchiver/outputTimestepInterval=1000", "--set",
+                f"DataArchiver/checkpoint/@timestepInterval={step}"]
+        expected = self.files_of(self.run_in("uncut", scene, *many))
+        job = subprocess.Popen([SUS, "--quiet", scene, "--output", self.folder / "cut", *many], cwd=ROOT)
+        latest = self.folder / "cut/vortex_3d.uda/checkpoints/LATEST"
+        while job.poll() is None and not (latest.exists() and latest.read_text().strip() >= f"t{step:05}"):
+            time.sleep(.001)
+        job.kill()
+        self.assertNotEqual(job.wait(timeout=300), 0, "the run ended before it was killed")
+        cut = next((self.folder / "cut").glob("*.uda.000"))
+        self.well(sus("-restart", cut))
+        self.assertEqual(self.files_of(cut), expected)
