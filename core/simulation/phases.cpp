@@ -308,7 +308,7 @@ void Phases::compile(const std::vector<std::unique_ptr<Analysis>>& analyses, con
   const Names stepped = united(producedBy(lists.initialize.tasks()), producedBy(lists.timeAdvance.tasks()));
   totals_ = totalsAmong(producedBy(lists.diagnostics.tasks()));
   Names totals;
-  for (const auto& total : totals_) totals.insert(total.second);
+  for (const auto& total : totals_) totals.insert(total.label);
   const Names reported = united(totals, measuredBy(analyses));
   const Wants wants = wantsOf(samples, stepped);
 

@@ -36,6 +36,7 @@ grid::Domain lineWith(const Conditions& lower, const Conditions& upper) {
 class Line {
  public:
   Line(const Conditions& lower, const Conditions& upper, double rise = 0) : grid_(lineWith(lower, upper)) {
+    method_.cfl = 0.5;
     settings_.gravity = Vec3(rise, 0, 0);
     for (int i = 0; i < 4; ++i) {
       pressure_[i] = 3 + rise * level().cellCentre<1>(Index<1>{{i}})[0];
@@ -77,7 +78,7 @@ class Line {
   }
 
   Grid grid_;
-  euler::Settings method_{.cfl = 0.5};
+  euler::Settings method_;
   IceSettings settings_;
   std::vector<double> density_ = std::vector<double>(4, 1.0), energy_ = std::vector<double>(4),
                       pressure_ = std::vector<double>(4);
