@@ -81,11 +81,10 @@ void declareWorkers(CLI::App& app, Arguments& arguments) {
       "most blocks of a patch");
   app.add_option_function<int>(
          "--nthreads", [&](int count) { setThreads(count, arguments.workers); },
-         "threads to run on; without it as many as there are cores for and as pay")
+         "threads to run on; by default as many as there are cores for, and as the grid is worth")
       ->check(CLI::Range(1, 1024));
   app.add_option("--writers", arguments.run.writers,
-                 "ranks that put outputs and checkpoints on the disk; without it one on each node. No number changes a "
-                 "byte of a file")
+                 "ranks that write outputs and checkpoints; by default one on each node. The files do not depend on it")
       ->check(CLI::Range(1, 1'000'000));
 }
 
@@ -119,9 +118,10 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.add_option("--petsc", arguments.petsc,
                  "options for PETSc, in one word: --petsc \"-ksp_monitor -ksp_type gmres\"");
   app.add_flag("--quiet", arguments.run.quiet, "no progress, no report on the screen");
-  app.add_flag("--check,--validate", arguments.check, "check the scene and make its start; run and write nothing");
+  app.add_flag("--check,--validate", arguments.check,
+               "check the scene and compute its initial state; run and write nothing");
   app.add_option("--dry-run", arguments.dryRun,
-                 "compile what one of so many ranks would do, and say what that takes; run nothing")
+                 "compile the tasks of one of so many ranks and print what they need; run nothing")
       ->check(CLI::Range(1, 10'000'000));
   app.add_flag("--schedule", arguments.schedule,
                "print the tasks in order, what they read and write, what is left out");
@@ -131,7 +131,7 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.add_option("--schema", arguments.schema, "print a schema of all scenes for editors: rng (RELAX NG) or xsd")
       ->check(CLI::IsMember({"rng", "xsd"}));
   app.add_option("--completion", arguments.completion,
-                 "print what makes a shell complete the words after sus: source <(sus --completion bash)")
+                 "print a script by which a shell completes the words after sus: source <(sus --completion bash)")
       ->check(CLI::IsMember({"bash"}));
   app.add_option("--paths", arguments.paths, "print the paths of a scene that --set may change")->group("");
   app.add_flag("-V,--version", arguments.version, "version, commit, compiler and libraries");

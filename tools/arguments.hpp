@@ -11,7 +11,7 @@
 
 namespace tushar {
 
-/// What the command line asks for.
+/// The options and names on the command line.
 struct Arguments {
   std::string scene, describe, graph, petsc, trace, schema, completion, paths;
   std::vector<std::string> overrides, words;  ///< of --set; all of the command line, with the program's name
@@ -25,7 +25,7 @@ struct Arguments {
   grid::Workers workers{allowedThreads(), true, 1, {}};
   simulation::RunOptions run;
 
-  /// Whether the command line only asks what sus can do.
+  /// Whether the command line only requests information on sus.
   bool isQuestion() const {
     return version || list || !(describe.empty() && schema.empty() && completion.empty() && paths.empty());
   }

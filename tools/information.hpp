@@ -6,7 +6,7 @@
 
 namespace tushar {
 
-/// Answers what the command line asks of sus itself: version, lists, manuals, schemas, completion. The exit code.
+/// Prints what the command line requests of sus itself: version, lists, manuals, schemas, completion. The exit code.
 /// Throws InputError for a scene whose paths are asked for and that cannot be read.
 ExitCode answer(const Arguments& arguments, const simulation::Catalogue& known);
 

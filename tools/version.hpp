@@ -8,7 +8,7 @@ namespace tushar {
 
 /// The commit that was configured, in 12 digits; `unknown` outside a clone.
 extern const char* const buildCommit;
-/// What the compiler was told, in all of the program.
+/// The flags of the compiler, for all of the program.
 extern const char* const buildFlags;
 
 /// Version, commit, compiler and libraries but for PETSc, which only a solve loads; and nothing of a run.

@@ -49,7 +49,7 @@ const input::Schema<FluxSettings>& fluxSchema() {
         .location(&FluxSettings::where)
         .value("material", &FluxSettings::material, "", "1", "name of the gas");
     addTimes(tags);
-    return tags.requiredSection("controlVolumes", &FluxSettings::boxes, boxes, "where it looks");
+    return tags.requiredSection("controlVolumes", &FluxSettings::boxes, boxes, "where it samples");
   }();
   return schema;
 }

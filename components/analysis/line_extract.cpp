@@ -18,7 +18,7 @@ namespace {
 const input::Schema<ExtentSettings>& lineSchema() {
   static const input::Schema<ExtentSettings> schema =
       samplingSchema<ExtentSettings>("lineExtract", "Variables on lines over time, in a file for each cell.")
-          .requiredSection("lines", &ExtentSettings::extents, linesSchema(), "where it looks");
+          .requiredSection("lines", &ExtentSettings::extents, linesSchema(), "where it samples");
   return schema;
 }
 

@@ -79,7 +79,7 @@ class PlaneAverage : public SamplingModule {
       const bool isOfCells = found.field->centring == output::Centring::cell;
       if (weighting == weightings_.end() || !isOfCells) continue;
       const bool isWeighted = weighting->second == Weighting::weight;
-      if (isWeighted && weight == all.end()) continue;  // a note says that nobody computes it
+      if (isWeighted && weight == all.end()) continue;  // a note says that no task computes it
       const std::string name = fmt::format("{}_{}", found.variable->called, found.variable->material);
       output::replaceFile(folder / output::nameInPath(name), textOf(sums.time, found.field->array, weighting->second,
                                                                     isWeighted ? &weight->field->array : nullptr));

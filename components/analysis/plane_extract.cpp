@@ -15,7 +15,7 @@ namespace {
 const input::Schema<ExtentSettings>& planeExtractSchema() {
   static const input::Schema<ExtentSettings> schema =
       samplingSchema<ExtentSettings>("planeExtract", "Variables on parts of planes, in a file for each at each time.")
-          .requiredSection("planes", &ExtentSettings::extents, planesSchema(), "where it looks");
+          .requiredSection("planes", &ExtentSettings::extents, planesSchema(), "where it samples");
   return schema;
 }
 

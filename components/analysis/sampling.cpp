@@ -25,7 +25,7 @@ Schema<Analyzed> variableSchema() {
       .location(&Analyzed::whereOfMaterial, "matl")
       .requiredAttribute("label", &Analyzed::label, "1", "its name, such as press_CC or c.pressure")
       .attributeValue("matl", &Analyzed::material, "", "1", "number of its material; that of the module")
-      .ignoredAttribute("level", "what is looked at is all of the grid");
+      .ignoredAttribute("level", "the module samples the whole grid");
 }
 
 Schema<AnalyzedList> listSchema(const Schema<Analyzed>& variable) {

@@ -73,7 +73,7 @@ input::Schema<Settings> samplingSchema(const std::string& name, const std::strin
       .location(where)
       .value("material", material, "", "1", "name of the material of variables that name none; the first");
   addTimes(schema);
-  return schema.requiredSection("Variables", variables, list, "what is looked at");
+  return schema.requiredSection("Variables", variables, list, "what it samples");
 }
 
 /// When samples are due: after the first step in the time from `start` to `stop`, and then after each that passes a

@@ -34,7 +34,7 @@ class BurgersWave {
   double at(double x, double t) const;
   /// Mean of u over [lower, upper], m. Throws as at() does.
   double average(double lower, double upper, double t) const;
-  /// Not before t = 0, nor so early that viscosity has spread less than the table can tell, (2 nu t)^(1/2) < 2 steps.
+  /// Not before t = 0, nor so early that viscosity has spread less than the table resolves, (2 nu t)^(1/2) < 2 steps.
   bool holdsAt(double t) const;
 
  private:

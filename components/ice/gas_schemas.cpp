@@ -63,7 +63,7 @@ const Schema<HypreSection>& hypreSchema() {
                 multigrid, "BoomerAMG of hypre for any of its multigrids, the diagonal, or none")
         .value("tolerance", &HypreSection::tolerance, 1e-10, "1", "residual over right-hand side, at least 1e-12",
                input::positive())
-        .value("maxiterations", &HypreSection::maxIterations, 1000, "1", "more of them are a failure",
+        .value("maxiterations", &HypreSection::maxIterations, 1000, "1", "the solve fails if it needs more",
                input::atLeast(1));
     for (const char* tag : {"npre", "npost", "skip", "jump", "logging", "norm", "criteria", "relax_type",
                             "initial_tolerance", "setupFrequency", "updateCoefFrequency", "solveFrequency"})
@@ -143,7 +143,7 @@ const Schema<GasBody>& bodySchema() {
                   input::WithoutTime())
         .value("velocity", &GasBody::velocity, input::VectorExpression(), "m/s", "velocity at the start",
                input::WithoutTime())
-        .optional("pressure", &GasBody::pressure, "Pa", "of no account: it follows from density and temperature")
+        .optional("pressure", &GasBody::pressure, "Pa", "has no effect: it follows from density and temperature")
         .ignored("res", "a cell has the gas at its middle")
         .ignoredAttribute("name", "for readers");
     input::refuseOtherValues(tags, "volumeFraction", {"1"}, "the gas fills the region");

@@ -35,7 +35,7 @@ class Gather {
   output::Array stream(data::Generation generation, int variable);
   /// The values without a copy, in the given order.
   output::Array stream(data::Generation generation, int variable, const GridOrder& order);
-  /// The same for the part of a variable of cells or nodes that is in a layer; no other part is asked for.
+  /// The same for the part of a variable of cells or nodes that is in a layer; no other part is read.
   output::Array stream(data::Generation generation, int variable, const Layer& layer);
   /// The same for the part that is in a window.
   output::Array stream(data::Generation generation, int variable, const Window& window);

@@ -21,7 +21,7 @@ std::size_t nextSkew() {
 
 std::size_t roundedUp(std::size_t bytes, std::size_t to) { return (bytes + to - 1) / to * to; }
 
-/// Asks for large pages where the system has them for who asks: much memory is then found with few table entries. For
+/// Requests large pages where the system gives them on request: much memory is then found with few table entries. For
 /// all of a mapping: what is grown must be of one kind.
 void adviseLargePages(void* memory, std::size_t bytes) { madvise(memory, bytes, MADV_HUGEPAGE); }
 

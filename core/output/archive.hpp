@@ -27,7 +27,7 @@ struct GlobalSample {
 struct ArchivePoint {
   int step = 0;
   double time = 0;          ///< s
-  std::string index, xdmf;  ///< what index.xml and the XDMF file said
+  std::string index, xdmf;  ///< contents of index.xml and of the XDMF file
 };
 
 /// The `.uda` folder of a run: the scene, an index, an HDF5 file per output, an XDMF file that shows them to ParaView,

@@ -95,7 +95,7 @@ herr_t read(H5FD_t* base, H5FD_mem_t, hid_t, haddr_t from, size_t count, void* b
   return 0;
 }
 
-/// Lets the disk begin with a large part while the next is made; how that goes is seen when the file is synchronised.
+/// Starts to write a large part to the disk while the next is made; failures show when the file is synchronised.
 void startOnDisk(const DiskFile& file, haddr_t from, size_t count) {
   constexpr size_t large = size_t{1} << 18;
   if (count >= large)

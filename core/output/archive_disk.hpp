@@ -10,8 +10,9 @@ struct DiskFailure {
 };
 
 /// HDF5 file access properties (to be closed by H5Pclose) of plain files whose writes never fail in HDF5's eyes: the
-/// first failure is noted in `failure`, and the rest is let go. HDF5 cannot unwind from a full disk: its files then
-/// crash the program when they are closed. `failure` must live until the file is closed. Negative if it cannot be made.
+/// first failure is noted in `failure`, and later writes are dropped. HDF5 cannot unwind from a full disk: its files
+/// then crash the program when they are closed. `failure` must live until the file is closed. Negative if it cannot be
+/// made.
 std::int64_t diskAccess(DiskFailure& failure);
 
 }  // namespace tushar::output

@@ -73,7 +73,7 @@ void CheckpointStore::goBackTo(int step) const {
 
 void CheckpointStore::setLatest(int step) const { replaceFileOnDisk(folder_ / latestName, stepName(step) + "\n"); }
 
-/// Takes its name away first, so that nobody takes what is half removed for a checkpoint.
+/// Renames it first, so that a half-removed folder is not taken for a checkpoint.
 void CheckpointStore::remove(int step) const {
   moveInto(folder(step), temporaryOf(folder(step)));
   removeLeftovers();

@@ -8,8 +8,7 @@
 namespace tushar::output {
 
 /// A file that there is, of which this process writes parts; others may write other parts at the same time. The first
-/// failure is kept, and what comes after it is let go: so a process that fails still takes part in what others wait
-/// for.
+/// failure is kept, and later writes are dropped: so a process that fails still takes part in what others wait for.
 class SharedFile {
  public:
   explicit SharedFile(std::filesystem::path path);

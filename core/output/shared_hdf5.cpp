@@ -17,8 +17,8 @@ bool isNarrowed(const Storage& how, const Array& array) {
   return how.doubleAsFloat && std::holds_alternative<std::vector<double>>(array.values);
 }
 
-/// Compresses datasets: the writers a chunk each at a time, which the first rank puts into the file in their order.
-/// That has the file.
+/// Compresses datasets: each writer one chunk at a time; the first rank, which has the file, writes the chunks in their
+/// order.
 class ChunkWriter {
  public:
   ChunkWriter(const Writers& writers, const Storage& how, Hdf5File* file)

@@ -6,7 +6,7 @@
 
 namespace tushar::output {
 
-/// Ranks that have files to write together, and which of them put the bytes there. The first of these is rank 0.
+/// Ranks that write files together, and those among them that write the bytes. The first of these is rank 0.
 class Writers {
  public:
   /// One process on its own.

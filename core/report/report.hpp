@@ -68,7 +68,7 @@ struct Report {
   double wallStartup = 0, wallLoop = 0, wallOutput = 0;  ///< s
   TimeUse use;
   Rebalancing rebalancing;
-  std::vector<long> levels;  ///< cells of each level at the end, the coarsest first; of one level nothing is told
+  std::vector<long> levels;  ///< cells of each level at the end, the coarsest first; 0 for a single level
   double updates = 0;        ///< of cells: the sum over steps of the cells of all levels
   int regrids = 0;           ///< how often the grid became another
   double wallRegrid = 0;     ///< s of the loop spent choosing and making other grids

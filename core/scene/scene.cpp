@@ -175,7 +175,7 @@ std::vector<std::unique_ptr<Analysis>> makeModules(const std::vector<ReadModule>
   return analyses;
 }
 
-/// Refuses intervals that the times of the run could not tell apart.
+/// Refuses intervals that the times of the run could not resolve.
 void checkIntervals(const TimeSettings& time, const ArchiveSettings& archive, const Element& section,
                     Diagnostics& diagnostics) {
   if (const auto tag = section.child("outputInterval"))
@@ -198,7 +198,7 @@ Element whereOfLevels(const Element& grid, const AmrSettings& amr) {
   return levels.size() > 1 ? levels[1] : *amr.tag;
 }
 
-/// Refuses several levels for a component that knows of one.
+/// Refuses several levels for a component that runs on one.
 void checkTakesLevels(const ComponentKind& kind, const Element& grid, const AmrSettings& amr,
                       const Catalogue& catalogue, Diagnostics& diagnostics) {
   if (kind.takesLevels) return;

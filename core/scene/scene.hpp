@@ -24,7 +24,7 @@ void describeSharedSections(std::ostream& out, const simulation::Catalogue& cata
 
 /// The `Time` section.
 simulation::TimeSettings readTime(const input::Element& section, input::Diagnostics& diagnostics);
-/// Refuses an interval [s] at `element` that the times of a run could not tell apart; `what` stands before the message.
+/// Refuses an interval [s] at `element` that the times of a run could not resolve; `what` stands before the message.
 void checkInterval(double interval, const simulation::TimeSettings& time, const input::Element& element,
                    const std::string& what, input::Diagnostics& diagnostics);
 /// The `DataArchiver` section.

@@ -268,7 +268,7 @@ class Refiner {
       takeNearestBlock(axis, cells, size, sizes);
   }
 
-  /// Blocks that divide the cells, in place of those that the scene asks for.
+  /// Blocks that divide the cells, in place of those that the scene requests.
   void takeNearestBlock(int axis, int cells, int size, const std::vector<int>& sizes) {
     const auto distance = [&](int a, int b) { return std::abs(a - size) < std::abs(b - size); };
     const int nearest = *std::min_element(sizes.begin(), sizes.end(), distance);

@@ -94,7 +94,7 @@ bool settle(SampledVariable& variable, Known& known, Diagnostics& diagnostics) {
   simulation::SaveRequest& request = variable.request;
   request.label = nameHere(known.names, request.label);
   if (known.foreign.contains(request.label) && !known.labels.contains(request.label)) {
-    diagnostics.note(request.where, path, fmt::format("'{}' is left out: nobody computes it here", variable.called));
+    diagnostics.note(request.where, path, fmt::format("'{}' is left out: no task computes it here", variable.called));
     return false;
   }
   if (!known.labels.contains(request.label)) return true;  // Phases says so

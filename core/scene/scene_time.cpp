@@ -82,12 +82,12 @@ const Schema<SaveRequest>& saveSchema() {
   return schema;
 }
 
-/// Whether `one` asks for all that `other` asks for.
+/// Whether `one` requests all that `other` requests.
 bool covers(const SaveRequest& one, const SaveRequest& other) {
   return one.label == other.label && (one.material.empty() || one.material == other.material);
 }
 
-/// Takes out what another save asks for, too.
+/// Removes saves that another one includes.
 void takeOutRepeated(std::vector<SaveRequest>& saves, const std::vector<Element>& tags, Diagnostics& diagnostics) {
   if (saves.size() != tags.size()) return;
   std::vector<SaveRequest> kept;

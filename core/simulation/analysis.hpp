@@ -17,8 +17,8 @@ namespace tushar::simulation {
 using report::EnergyTerm;
 using report::MeasuredError;
 
-/// A variable of cells or nodes that a module looks at, of one material or of none. The scene puts the names in place
-/// that variable and material have here.
+/// A variable of cells or nodes that a module samples, of one material or of none. The scene replaces Uintah's names of
+/// variable and material by those used here.
 struct SampledVariable {
   SaveRequest request;
   std::string called;  ///< its name in the scene
@@ -31,7 +31,7 @@ class Analysis {
   virtual ~Analysis() = default;
   /// Adds diagnostic tasks. They see the state as old.
   virtual void schedule(tasks::TaskList& tasks) const = 0;
-  /// The state is now that of `time` [s], `sinceStart` [s] after that of the start. Called before the tasks run.
+  /// Sets the time of the state [s] and the time since the start [s]. Called before the tasks run.
   virtual void setTime(double time, double sinceStart) = 0;
   /// The errors that the tasks measure; they run at the end of the run.
   virtual std::vector<MeasuredError> errors() const { return {}; }
@@ -41,16 +41,16 @@ class Analysis {
   virtual std::string whyUnmeasured() const { return {}; }
   /// Variables that sample() needs, and where the scene names them.
   virtual std::vector<SaveRequest> samples() const { return {}; }
-  /// The variables among samples() whose names the scene puts in place: as Uintah calls them, they come with another
-  /// name, and those that nobody computes here are taken out. Null where there are none.
+  /// The variables among samples() whose names the scene replaces where they are Uintah's; it removes those that no
+  /// task computes. Null if there are none.
   virtual std::vector<SampledVariable>* variables() { return nullptr; }
   /// The variables of the module itself that Uintah calls otherwise.
   virtual OtherNames otherNames() const { return {}; }
   /// The layers of the grid in which sample() needs them, without particles; if there are none, everywhere.
   virtual std::vector<collect::Layer> layers() const { return {}; }
-  /// The parts of a grid of one level in which it wants to see them, likewise.
+  /// The parts of a grid of one level in which sample() needs them, likewise.
   virtual std::vector<collect::Window> windows() const { return {}; }
-  /// Whether it wants to see the least and the greatest of the values and their sum instead: a snapshot of each.
+  /// Over what sample() needs the least values, the greatest and the sums instead: a snapshot of each.
   virtual std::optional<collect::SummaryOver> summary() const { return {}; }
   /// Whether sample() is to be called after this step, at the time that is set.
   virtual bool isSampleDue(int /*step*/) const { return false; }

@@ -24,7 +24,7 @@ struct SectionForm {
   std::string name;
   const input::SchemaBase* schema = nullptr;  ///< null: anything may stand in it
   bool required = true;
-  std::vector<input::Demand> demands = {};  ///< what else it takes for the schema to read it
+  std::vector<input::Demand> demands = {};  ///< what else must hold for the schema to apply
 };
 
 /// The description of a component that sus can run.
@@ -32,7 +32,7 @@ struct ComponentKind {
   std::string name;                                    ///< the `type` of SimulationComponent
   std::string sentence;                                ///< what it is
   std::vector<std::string> sections;                   ///< tags below the root that it reads
-  std::vector<grid::BoundaryVariable> boundaryLabels;  ///< that it has conditions for
+  std::vector<grid::BoundaryVariable> boundaryLabels;  ///< that its conditions are for
   /// Reads its sections from the root of the scene; every problem goes to the diagnostics.
   std::function<MakeComponent(const input::Element& root, input::Diagnostics&)> read;
   std::function<void(std::ostream&)> describe;  ///< its manual
@@ -43,7 +43,7 @@ struct ComponentKind {
   bool takesLevels = false;           ///< whether its tasks run on grids of several levels
   bool refinesByItself = false;       ///< whether <max_levels> above 1 makes the grid adaptive without a <Variable>
   bool takesPartsOfSides = false;     ///< whether a part of a side may have conditions of its own
-  bool takesFormulasAtSides = false;  ///< whether what its conditions give may be formulas
+  bool takesFormulasAtSides = false;  ///< whether values of its conditions may be formulas
   /// Tags of AMR for its thresholds, besides the one of `sections` that has its name.
   std::vector<std::string> amrSections;
   /// Paths of tags whose labelled shapes their siblings can use, even those that stand above: `MaterialProperties/MPM`.
@@ -88,7 +88,7 @@ class Catalogue {
   Catalogue() = default;
   Catalogue(const std::vector<ComponentKind>& components, const std::vector<AnalysisKind>& analyses);
 
-  /// Adds what another catalogue has, but modules. Throws std::invalid_argument if a name is taken.
+  /// Adds the entries of another catalogue, except its modules. Throws std::invalid_argument if a name is taken.
   void add(const Catalogue& other);
   /// `load` returns the contents of the module. Throws std::invalid_argument if a name is taken.
   void addModule(const Module& module, std::function<Catalogue()> load);

@@ -74,7 +74,7 @@ void checkScene(const output::Hdf5Input& file, const Problem& problem) {
 
 collect::StateNames stateNames(const RunState& run) { return {run.phases.lasting(), run.phases.materials()}; }
 
-/// All but the state.
+/// Writes all but the state.
 void writeHeader(output::Hdf5File& file, const RunState& run, const CheckpointTarget& target) {
   file.attribute("/", "format", format);
   file.attribute("/", "step", run.time.step());

@@ -16,10 +16,10 @@ namespace tushar::simulation {
 //     /totals/<name>     mass, momentum and energy at the very start, for the drift of the report
 //     and the state: see core/collect/stored_state.hpp
 
-/// A place for the file of a checkpoint, and what it holds beside the state.
+/// Where the file of a checkpoint goes, and what it holds besides the state.
 struct CheckpointTarget {
   std::filesystem::path path;
-  output::ArchivePoint point;  ///< how far the archive is; rank 0 knows
+  output::ArchivePoint point;  ///< extent of the archive; on rank 0 only
   long dropped = 0;            ///< particles that have left the grid, on all ranks
 };
 
@@ -31,7 +31,7 @@ void writeCheckpoint(RunState& run, const CheckpointTarget& target);
 /// at the start. Throws InputError for a checkpoint of another format, step, component or grid. All ranks call it.
 void readCheckpoint(RunState& run);
 
-/// How far the archive was when the checkpoint of a restarted run was written; the run has read the checkpoint.
+/// The extent of the archive when the checkpoint of a restarted run was written; the run has read the checkpoint.
 output::ArchivePoint archivePointOf(const RunState& run);
 
 }  // namespace tushar::simulation

@@ -27,7 +27,7 @@ class Component {
   virtual std::string advice() const { return "a smaller time step (timestep_multiplier in <Time>)"; }
   /// Whether an impossible value has the step repeated with half the time step even if the scene does not request it.
   virtual bool mayRepeatStep() const { return false; }
-  /// Variables that Uintah's component of this kind computes, whichever of them this one does.
+  /// Variables that Uintah's component of this kind computes, whether or not this one does.
   virtual std::vector<std::string> foreignLabels() const { return {}; }
   /// The variables that Uintah's component of this kind calls otherwise.
   virtual OtherNames otherNames() const { return {}; }

@@ -10,7 +10,7 @@ namespace {
 
 using data::Centring;
 
-/// What is wrong with blocks for the ghosts of an access, or nothing.
+/// Why blocks are too small for the ghosts of an access, or nothing.
 std::string blockProblem(const tasks::Task& task, const tasks::Access& access, const grid::Grid& grid) {
   const int fewest = tasks::fewestCellsOfBlock(access.ghost);
   for (int d = 0; d < grid.dimension(); ++d)

@@ -31,7 +31,7 @@ OwnModules& ownModules() {
   return modules;
 }
 
-/// Whether a file begins as shared libraries do, or cannot be read, of which dlopen says why.
+/// Whether a file begins as shared libraries do, or cannot be read, which dlopen then explains.
 bool mayBeLibrary(const fs::path& file) {
   constexpr std::string_view magic = "\177ELF";
   std::string start(magic.size(), ' ');

@@ -55,8 +55,8 @@ Names measuredBy(const std::vector<std::unique_ptr<Analysis>>& analyses) {
   return names;
 }
 
-/// What is needed of a step for the next, less what is decided anew before each, and with the particles' names where
-/// there are particles.
+/// What the next step needs of a step, without what is computed anew before each, and with the ids of particles if
+/// there are any.
 std::vector<std::string> namesOfState(Names needed, const Names& decided, const Names& computed) {
   std::erase_if(
       needed, [&](const std::string& name) { return decided.contains(name) || name == data::recomputeTimeStep.name; });
@@ -160,8 +160,9 @@ std::vector<std::string> Phases::remarksOn(const SaveRequest& save) const {
   if (isMaterial(save.material)) return remarks;
   for (const int number : numbersIn(save.material))
     if (number == count)
-      remarks.push_back(fmt::format(
-          "in Uintah material {} is all materials together; here '{}' is saved of each of them", number, save.label));
+      remarks.push_back(
+          fmt::format("in Uintah material {} means all materials together; here '{}' is saved for each of them", number,
+                      save.label));
     else if (number > count)
       remarks.push_back(fmt::format("does nothing for {}: materials are counted from 0 to {}", number, count - 1));
   return remarks;
@@ -250,7 +251,7 @@ tasks::TaskList Phases::refinementTasks(const RegridSettings& regrid) const {
 
 namespace {
 
-/// Cells are interpolated from those around them, also of materials.
+/// Variables of cells are interpolated from the cells around, those of materials too.
 void widenForRegridding(const std::vector<std::string>& lasting, int materials, data::VariableTable& table) {
   for (const std::string& name : lasting)
     for (int material = -1; material < materials; ++material)
@@ -259,7 +260,7 @@ void widenForRegridding(const std::vector<std::string>& lasting, int materials, 
         table.widen(number, 1);
 }
 
-/// Throws InputError if lists have tasks that a grid of several levels is not for.
+/// Throws InputError for tasks that cannot run on a grid of several levels.
 void checkOnLevels(std::initializer_list<const Pruned*> lists, const grid::Grid& grid, const Location& where) {
   std::vector<InputProblem> problems;
   for (const Pruned* list : lists)

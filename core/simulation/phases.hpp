@@ -27,8 +27,8 @@ struct ConservedTotal {
 
 /// The task lists of a run, compiled against each other: an earlier one must provide what a later one reads.
 ///
-/// The diagnostics are compiled four times from one list, each time for what is asked for then: the totals at the
-/// start, the globals saved in every step, the derived fields of an output, the totals and errors of the report.
+/// The diagnostics are compiled four times from one list, each time for another purpose: the totals at the start, the
+/// globals saved in every step, the derived fields of an output, the totals and errors of the report.
 class Phases {
  public:
   /// Collects the task lists. Throws TaskError for one that reads what no task writes.
@@ -43,8 +43,8 @@ class Phases {
   bool isOfMaterials(const std::string& label) const;
   /// Notes on saved material numbers that are not those of a material.
   std::vector<std::string> remarksOn(const SaveRequest& save) const;
-  /// Compiles the lists. Throws InputError for a saved or sampled label that no task computes, and for a task that the
-  /// levels of the grid are not for; TaskError for lists that do not fit together.
+  /// Compiles the lists. Throws InputError for a saved or sampled label that no task computes, and for a task that
+  /// cannot run on the levels of the grid; TaskError for lists that do not fit together.
   void compile(const std::vector<std::unique_ptr<Analysis>>& analyses, const std::vector<SaveRequest>& saves,
                const grid::Grid& grid, data::VariableTable& table, const RegridSettings& regrid = {});
 
@@ -82,8 +82,8 @@ class Phases {
   /// The requests with the names of materials in place of their numbers; the number after the last means all, as in
   /// Uintah, and higher ones mean none.
   std::vector<SaveRequest> named(const std::vector<SaveRequest>& saves) const;
-  /// The diagnostics with the task behind them that looks where to refine; nothing where the grid stays. Throws
-  /// InputError for a criterion of what is no variable of cells.
+  /// The diagnostics, followed by the task that marks cells to refine; nothing if the grid does not change. Throws
+  /// InputError for a criterion whose variable is not one of cells.
   tasks::TaskList refinementTasks(const RegridSettings& regrid) const;
   void refuseSavedNodes() const;
   /// The saved and sampled variables: of diagnostics in every step and at outputs, and of the state.

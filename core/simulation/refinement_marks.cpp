@@ -66,7 +66,7 @@ double gradient(std::span<const Neighbours> axes, std::span<const double> spacin
   return std::sqrt(sum);
 }
 
-/// What one criterion asks for, 0, 1 or 2.
+/// The mark of one criterion, 0, 1 or 2.
 int markOf(const Criterion& criterion, std::span<const Neighbours> axes, std::span<const double> spacing,
            int components) {
   const double value = indicatorOf(criterion.indicator, axes, spacing, components);
@@ -96,7 +96,7 @@ void raiseMarksOfJumps(const grid::Patch& patch, const Criterion& criterion, con
   });
 }
 
-/// Raises the marks of a patch to what one criterion asks for. What is stored goes beyond the patch but where the grid
+/// Raises the marks of a patch to those of one criterion. Stored values extend beyond the patch, except where the grid
 /// ends.
 void raiseMarks(const grid::Patch& patch, const BoundCriterion& bound, const data::Variable& values,
                 const data::Variable& marks) {

@@ -10,8 +10,8 @@
 
 namespace tushar::simulation {
 
-/// Cells of one level that a criterion has marked ask for blocks: those that must be refined, and those whose children
-/// must stay. Both follow from the tree and the marks alone.
+/// The blocks that marked cells require: those that must be refined, and those whose children must stay. Both follow
+/// from the tree and the marks alone.
 class MarkedBlocks {
  public:
   /// Marks count for all blocks within a distance of their cell: what signals cross in `interval` steps, one cell of
@@ -37,13 +37,13 @@ class MarkedBlocks {
 
   const grid::Grid& grid_;
   int interval_, dilation_;
-  /// Asks for blocks of a level that are near a cell with a mark.
+  /// Marks the blocks of a level that are near a marked cell.
   void ask(const grid::Level& level, const grid::Box& blocks, int mark);
   /// The blocks along an axis, [lower, upper), within a distance of a cell of a level, on the grid or its images.
   std::pair<int, int> blocksAlong(const grid::Level& level, int axis, int cell, int distance) const;
   /// Blocks of a level within a distance of a cell of it, on the grid or its images.
   grid::Box blocksNear(const grid::Level& level, const Index3& cell, int distance) const;
-  /// Calls `visit(block)` for each of a box of them, once for each mark: rows of cells ask for the same boxes again.
+  /// Calls `visit(block)` for each of a box of them, once for each mark: cells of a row often have the same box.
   template <class Visit>
   void forEachNear(const grid::Level& level, const grid::Box& blocks, int mark, Visit&& visit);
   /// Steps' worth of cells of a level.
@@ -60,7 +60,7 @@ class Regridder {
  public:
   explicit Regridder(RunState& run) : run_(run) {}
 
-  /// Whether the state at the start asked for another grid, which the run now has, without values.
+  /// Whether the state at the start required another grid, which the run now has, without values.
   bool refinedStart();
   /// Changes the grid between two steps, with its values, if that is due and the state requires it.
   void regridIfDue();

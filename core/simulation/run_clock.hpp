@@ -17,8 +17,8 @@ inline double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// The wall clock of a run, and what it is asked for from outside by signals and files. All ranks share its last
-/// reading, so that they end the run, save the state and write checkpoints after the same step.
+/// The wall clock of a run, and requests from outside, by signals and files. All ranks share its last reading, so that
+/// they end the run, save the state and write checkpoints after the same step.
 class RunClock {
  public:
   /// `startedAt` is when the process started.
@@ -28,7 +28,7 @@ class RunClock {
   double now() const { return secondsSince(started_at_); }
   /// From now on this rank, the first, looks for files in the folder of the archive.
   void watch(const std::filesystem::path& folder) { files_.emplace(folder); }
-  /// Reads the clock, and what any rank was asked for. All ranks call it.
+  /// Reads the clock, and the requests to any rank. All ranks call it.
   void agree(const mpi::Communicator& ranks);
   /// Time since the process started, at the last reading of all ranks, s.
   double elapsed() const { return elapsed_; }
@@ -36,7 +36,7 @@ class RunClock {
   bool isInterrupted() const { return interrupted_; }
   /// Whether a file is to end the run.
   bool isStopped() const { return stopped_; }
-  /// Whether the state is to be saved now; not again until it is asked for again.
+  /// Whether the state is to be saved now; true once for each request.
   bool takeSaveRequest() { return std::exchange(save_asked_, false); }
 
  private:

@@ -13,7 +13,7 @@ class RunReport {
  public:
   explicit RunReport(RunState& run) : run_(run) {}
 
-  /// Notes that the start-up is over. Modules that had to be built first are no part of it.
+  /// Notes that the start-up is over. Modules that had to be built first do not count.
   void noteStartUp(double outputSeconds) { start_up_ = run_.clock.now() - outputSeconds - secondsOfBuilds(); }
   void beginLoop(double outputSeconds);
   /// Notes that a step has been taken.

@@ -27,7 +27,7 @@ struct RunState {
 
   /// Number of materials.
   int materials() const { return static_cast<int>(phases.materials().size()); }
-  /// Tells the analysis modules what time it is.
+  /// Gives the analysis modules the time.
   void setTimeOfAnalyses();
   /// Runs diagnostics on the state as it is now.
   void diagnose(tasks::TaskGraph& graph);

@@ -20,7 +20,7 @@ std::string hostName() {
   return name;
 }
 
-/// What keeps particles among the finest cells that the scene does not do yet.
+/// Settings that would keep particles in the finest cells, and that the scene lacks.
 std::string adviceNearCoarser(const RegridSettings& regrid) {
   if (!regrid.adaptive)
     return "<adaptive>true</adaptive> in <AMR>, so that the finest cells follow; or a larger <Level>";
@@ -95,7 +95,7 @@ void Simulation::saveNow() {
     return run_.progress.line("nothing is saved: the scene asks for no outputs, globals or checkpoints");
   outputs_.save();
   checkpoints_.write();
-  run_.progress.line(fmt::format("step {:>6}  t = {:<12.6g} saved as asked for; sus --restart {} goes on from here",
+  run_.progress.line(fmt::format("step {:>6}  t = {:<12.6g} saved on request; sus --restart {} goes on from here",
                                  run_.time.step(), run_.time.time(), outputs_.folder()));
 }
 
@@ -116,7 +116,7 @@ void Simulation::resume() {
   run_.setTimeOfAnalyses();  // what was due up to now, the run before has sampled
 }
 
-/// On finer and finer cells, as far as the state asks for them: finer cells have the finer state of the scene.
+/// On finer and finer cells, as far as the state requires them: finer cells have the finer state of the scene.
 void Simulation::initialize() {
   do {
     initializeOnce();

@@ -26,8 +26,8 @@ input::Schema<LinearSettings> schemaOf(const LinearSettings& defaults) {
       .value("tolerance", &LinearSettings::tolerance, defaults.tolerance, "1", "residual over right-hand side",
              input::positive(), input::atMost(0.1))
       .ours()
-      .value("maxiterations", &LinearSettings::maxIterations, defaults.maxIterations, "1", "more of them are a failure",
-             input::atLeast(1))
+      .value("maxiterations", &LinearSettings::maxIterations, defaults.maxIterations, "1",
+             "the solve fails if it needs more", input::atLeast(1))
       .ours()
       .value("petsc", &LinearSettings::petsc, "", "1", "options in PETSc's language; sus --petsc wins")
       .ours()

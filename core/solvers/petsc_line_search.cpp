@@ -27,7 +27,7 @@ Trial tryStep(SNESLineSearch search, double length) {
 }
 
 /// Half of the way, again and again, until there is a residual and the slope is smaller than at the start: a perfectly
-/// plastic solid has steps that lead far out. (To where the secant of the slope is 0 is further back than helps.)
+/// plastic solid has steps that lead far out. (The point where the secant of the slope is 0 would be too far back.)
 Trial chooseStep(SNESLineSearch search, double slopeAtStart) {
   Trial trial = tryStep(search, 1);
   while (!(trial.isFinite && std::abs(trial.slope) <= 0.8 * std::abs(slopeAtStart)) && trial.length > 1e-3)

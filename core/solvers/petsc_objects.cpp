@@ -11,7 +11,7 @@ namespace tushar::solvers {
 
 namespace {
 
-/// What PETSc said of the error that it is about to return.
+/// PETSc's message about the error that it is about to return.
 std::string& lastMessage() {
   static std::string message;
   return message;

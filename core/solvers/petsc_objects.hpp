@@ -89,16 +89,16 @@ class PetscMatrix : public Matrix {
   OwnedNullSpace rigid_;  ///< motions without strain of the matrix as it was assembled
 };
 
-/// Solves A x = b as (S A S) y = S b, x = S y. S brings the diagonal to its greatest entry everywhere: as they are, the
-/// residuals of unknowns that hardly anything holds drown in the norm of all, and multigrid's answer to a force on them
-/// is so large that a Krylov method sees its rounding.
+/// Solves A x = b as (S A S) y = S b, x = S y. S brings the diagonal to its greatest entry everywhere: unscaled, the
+/// residuals of weakly held unknowns would not show in the norm of all, and multigrid would move them so far under a
+/// force that its rounding would stall a Krylov method.
 class Balance {
  public:
   /// For a right-hand side like `b`.
   explicit Balance(Vec b);
   /// Chooses S, and scales the matrix.
   void scale(PetscMatrix& matrix);
-  /// The solves of `krylov`, with a matrix that has been scaled, take b and give x as they were.
+  /// Makes solves of `krylov`, whose matrix has been scaled, take the unscaled b and return the unscaled x.
   void attach(KSP krylov);
 
  private:

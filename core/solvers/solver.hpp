@@ -48,14 +48,14 @@ struct Outcome {
   std::vector<double> krylovResiduals;  ///< of the linear solve that ended Newton's method, if one did
   int worst = -1;  ///< number of the unknown with the greatest residual at the end; -1: of another rank
   double assembly = 0, setup = 0, solve = 0;  ///< s: matrix, preconditioner, iterations
-  /// Where a constant is free: the sum of b, without which it was solved, and that of its sizes.
+  /// Where a constant is free: the sum of b, which was taken out before the solve, and that of |b|.
   double unbalanced = 0, loads = 0;
 };
 
 /// A x = b.
 struct LinearProblem {
   std::function<void(Matrix&)> assemble;  ///< fills A; may fill b, too
-  std::span<const double> rightHandSide;  ///< b of the owned unknowns, looked at once A is there
+  std::span<const double> rightHandSide;  ///< b of the owned unknowns, read once A is filled
 };
 
 /// r(u) = 0.

@@ -168,7 +168,7 @@ class Sampling(ModuleTest):
                "DataArchiver/outputInterval=0"]
         ended = sus(scene, "--output", self.folder / "ice", *few, options=())
         self.assertEqual(ended.returncode, 0, ended.stderr)
-        self.assertIn("'uvel_FCME' is left out: nobody computes it here", ended.stderr + ended.stdout)
+        self.assertIn("'uvel_FCME' is left out: no task computes it here", ended.stderr + ended.stdout)
         archive = next((self.folder / "ice").glob("*.uda.000"))
         self.assertEqual(sorted(file.name for file in (archive / "MinMax/L-0").iterdir()),
                          ["press_CC_0", "vel_CC_0", "vorticity_0"])

@@ -72,7 +72,7 @@ void refuseModel(const Element& tag, const std::string& type, Diagnostics& diagn
   diagnostics.error(tag, "attribute 'type': " + input::choiceProblem(type, modelNames()));
 }
 
-/// The model that a tag asks for, by the name that it has here.
+/// The model that a tag names, by its name here.
 std::string typeOf(const Element& tag) {
   const std::string type = tag.attribute("type").value_or("");
   const auto yields = tag.child("usePlasticity");

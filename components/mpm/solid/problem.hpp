@@ -33,7 +33,7 @@ class Solids : public Component {
   const Problem& problem() const { return problem_; }
   std::vector<std::string> foreignLabels() const override;
   simulation::OtherNames otherNames() const override;
-  /// Whether p.work can be had.
+  /// Whether p.work is available.
   virtual bool measuresWork() const { return false; }
 
  protected:

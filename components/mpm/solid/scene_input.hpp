@@ -10,7 +10,7 @@ namespace tushar::mpm::solid {
 struct PhysicalConstants {
   Vec3 gravity = Vec3::Zero();  ///< m/s^2
 };
-/// How the section is read; `besideGas`: it also says something of a gas, which another schema reads.
+/// How the section is read; `besideGas`: it also describes a gas, which another schema reads.
 const input::Schema<PhysicalConstants>& constantsSchema(bool besideGas = false);
 
 /// The sections of a scene of solids whose <MPM> is read by `mpm`, for the schemas of editors.
@@ -19,7 +19,7 @@ std::vector<simulation::SectionForm> sectionForms(const input::SchemaBase& mpm);
 /// Numbers the materials, and names those that have no name or that of a material above.
 void nameMaterials(std::vector<Material>& materials);
 
-/// Heat that works or flows changes a temperature by the heat capacity, which must be there.
+/// Requires heat capacities where work or conduction changes temperatures.
 void checkHeat(const Problem& problem, const input::Element& root, input::Diagnostics& diagnostics);
 
 /// Completes what depends on the grid: how many particles share each load, their size, the width of cells.

@@ -11,9 +11,9 @@ class Surroundings {
   virtual ~Surroundings() = default;
   /// Whether they change p.temperature.
   virtual bool exchangesHeat() const { return false; }
-  /// Behind the tasks that make the particles of `materials`, which outlive the list.
+  /// After the tasks that make the particles of `materials`, which outlive the list.
   virtual void scheduleStart(TaskList& tasks, const std::vector<Material>& materials) const = 0;
-  /// Behind the task that gives g.record velocities and masses, and before forces move anything: computes
+  /// After the task that gives g.record velocities and masses, and before forces accelerate nodes: computes
   /// g.surroundingForce.
   virtual void scheduleForces(TaskList& tasks, const std::vector<Material>& materials) const = 0;
   /// When p.x has both its values, of the start and of the end of the step, and g.record the velocities of both, before

@@ -73,7 +73,7 @@ struct JwlppMpm {
   double speed(double j) const { return j * std::sqrt(explosive().stiffness(j) / material.density); }
 
   /// F at the end of a step in which J grows at a constant rate, to 1e-9: with u = -ln(1 - F), du/dt = G p^b, by the
-  /// fourth-order method of Kutta, Z. Math. Phys. 46 (1901) 435, in as many steps as halving them asks for.
+  /// fourth-order method of Kutta, Z. Math. Phys. 46 (1901) 435, with steps halved as often as needed.
   double burn(double before, const Deformation& d) const {
     constexpr double wanted = 1e-9, done = 30;  // exp(-done) is left: nothing
     const double start = d.oldDeformationGradient.determinant();

@@ -141,7 +141,7 @@ struct MohrCoulomb : IsotropicModuli {
       refuseSwitch(tags, tag, "stiffness is that of <G> and <K> throughout, strength does not soften");
     for (const char* tag : {"m_modul", "nuy", "strain_95", "a", "y_ref", "y", "n", "tFE", "tShear", "n_nonlocalMC",
                             "l_nonlocal", "WR_Param4"})
-      tags.ignored(tag, "belongs to what only stands at false");
+      tags.ignored(tag, "belongs to a switch that must be false");
     tags.ignored("beta", "Uintah does not read it either: the exponent of the rate is <beta_rate>");
     return tags;
   }

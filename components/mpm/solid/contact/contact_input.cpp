@@ -147,7 +147,7 @@ void addKinds(Schema<ContactSection>& contact) {
       .ignored("vel_fields", "an old word for materials");
 }
 
-/// What contacts with a master say of its motion.
+/// The motion of the master, for contacts that have one.
 void addMaster(Schema<ContactSection>& contact) {
   contact
       .optional("direction", &ContactSection::direction, "1",

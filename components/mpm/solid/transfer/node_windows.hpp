@@ -11,7 +11,7 @@ data::TouchedRows touchedRows(const View& particles, int ghostNodes, const Box& 
   return {particles.set(), particles.cells(), ghostNodes, nodes, D};
 }
 
-/// The records as one sees them from a node, which may lie beyond those that are stored.
+/// The records relative to a node, which may lie outside of those that are stored.
 template <class Record, int D>
 NodeWindow<Record, D> windowFrom(const NodeView<Record>& records, const Index<D>& first) {
   const Box& stored = records.stored();

@@ -4,7 +4,7 @@
 
 namespace tushar::mpm::solid {
 
-/// The particles of a material as shape functions see them: where they are, how large, how deformed.
+/// What shape functions read of the particles of a material: their positions, sizes and deformations.
 template <class Shape, int D = Shape::dimension>
 struct Placed {
   ParticleView<const Vec<D>> x;             ///< m

@@ -8,7 +8,7 @@
 
 namespace tushar::mpm::solid {
 
-/// Records of nodes as one sees them from a node: those along x are next to each other.
+/// Records of nodes relative to one of them: those along x are next to each other.
 template <class Record, int D>
 struct NodeWindow {
   Record* origin;                          ///< of the first node that a particle touches

@@ -13,7 +13,7 @@ namespace tushar::mpm::solid {
 template <class Shape, int D = Shape::dimension>
 struct PlaneSources {
   Placed<Shape> particles;
-  OptionalView<const Vec<D>> size;  ///< at the start, in cells, where shape functions do not ask for it
+  OptionalView<const Vec<D>> size;  ///< at the start, in cells, where shape functions do not need it
   ParticleView<const int> surface;
   NodeView<Vec<D>> normal;
   NodeView<double> prominence;

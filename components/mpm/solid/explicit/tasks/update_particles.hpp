@@ -51,7 +51,7 @@ template <int D>
 }
 
 /// L_p = sum_i v*_i grad S_i (and L_theta = sum_i v*_r S_i / r where axisymmetric),   F_p = (I + L_p dt) F_p, in
-/// parts or with the terms of its series that the scene asks for.
+/// parts or with the terms of its series that the scene requests.
 template <class Shape, int D = Shape::dimension>
 [[gnu::always_inline]] inline void deformParticle(const Level& level, const Method& method, double dt,
                                                   const Gathered<D>& sums, const Erosion& erosion,
