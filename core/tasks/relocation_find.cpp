@@ -13,8 +13,6 @@ namespace tushar::tasks {
 
 using data::Generation;
 using data::ParticleRange;
-using data::ParticleSet;
-using data::Variable;
 using grid::Patch;
 
 namespace {
@@ -124,7 +122,7 @@ void Relocation::forgetIncoming(const Patch& patch, PatchMoves& moves) {
 }
 
 template <int D>
-void Relocation::findMoves(const Patch& patch, const ParticleSet& set, Vec<D>* x, const ParticleId* ids,
+void Relocation::findMoves(const Patch& patch, const data::ParticleSet& set, Vec<D>* x, const ParticleId* ids,
                            PatchMoves& moves) {
   forgetIncoming(patch, moves);
   moves.departed.clear();
@@ -230,7 +228,7 @@ template <int D>
 NumericalError Relocation::refusal(int position, const Escape& escape) const {
   const grid::Level& level = warehouse_->grid().finest();
   const auto at = [&](Generation generation) {
-    const Variable x = warehouse_->variable(generation, position, escape.patch);
+    const data::Variable x = warehouse_->variable(generation, position, escape.patch);
     return reinterpret_cast<const Vec<D>*>(x.values)[escape.place];
   };
   const Vec<D> x = at(Generation::fresh);

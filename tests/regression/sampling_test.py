@@ -6,19 +6,8 @@ import sys
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from module_runs import SMALL, VORTEX, ModuleTest, sus
+from module_runs import SMALL, VORTEX, ModuleTest, np, sus, tushar
 from sus import ROOT
-
-sys.path.insert(0, str(ROOT / "tools/python"))
-from tushar.interpreter import ensure
-
-MISSING = None
-try:
-    ensure("h5py", "numpy")
-    import numpy as np
-    import tushar
-except SystemExit:
-    MISSING = "no Python here has h5py and numpy"
 
 CHANNEL = ROOT / "ups/ice/channel.ups"
 
@@ -55,7 +44,6 @@ def numbers(text):
             for line in text.splitlines() if not line.startswith("#")]
 
 
-@unittest.skipIf(MISSING, MISSING)
 class Sampling(ModuleTest):
     maxDiff = None
 

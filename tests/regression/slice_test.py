@@ -6,19 +6,8 @@ import sys
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from module_runs import SMALL, VORTEX, ModuleTest, sus
+from module_runs import SMALL, VORTEX, ModuleTest, np, sus, tushar
 from sus import ROOT
-
-sys.path.insert(0, str(ROOT / "tools/python"))
-from tushar.interpreter import ensure
-
-MISSING = None
-try:
-    ensure("h5py", "numpy")
-    import numpy as np
-    import tushar
-except SystemExit:
-    MISSING = "no Python here has h5py and numpy"
 
 DISCS = ROOT / "ups/solid/two_discs.ups"
 STEPS = "<outputTimestepInterval>3</outputTimestepInterval>"
@@ -26,7 +15,6 @@ PLANES = "<plane>z = 0</plane><plane>x=1.3</plane>"
 LABELS = "<label>c.density</label><label>c.velocity</label>"
 
 
-@unittest.skipIf(MISSING, MISSING)
 class Slice(ModuleTest):
     def scene(self, of, tags):
         """A copy of a scene with the module."""

@@ -1,11 +1,24 @@
 """Runs scenes with analysis modules that write files: what these are on any layout, after a restart and a kill."""
 import pathlib
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
 
 from sus import ROOT, SUS, on_ranks
+
+sys.path.insert(0, str(ROOT / "tools/python"))
+from tushar.interpreter import ensure
+
+MISSING = None
+try:
+    ensure("h5py", "numpy")
+    import numpy as np
+    import tushar
+except SystemExit:
+    np = tushar = None
+    MISSING = "no Python here has h5py and numpy"
 
 VORTEX = ROOT / "ups/euler/vortex_3d.ups"
 SMALL = ["--set", "Grid/Level/Box/resolution=[12,12,6]", "--set", "Time/max_Timesteps=10", "--set",
@@ -18,6 +31,7 @@ def sus(*arguments, ranks=1, options=("--quiet",)):
     return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=300)
 
 
+@unittest.skipIf(MISSING, MISSING)
 class ModuleTest(unittest.TestCase):
     """A test of modules that has `files_of(archive)`: what they have written, by the names of the files."""
 
