@@ -30,7 +30,7 @@ class Format(unittest.TestCase):
         self.assertEqual(checked.returncode, 0, checked.stderr)
 
     def test_no_line_is_longer_than_120_characters(self):
-        long = [f"{path}:{number}" for path in tree.cpp_files() + tree.python_files()
+        long = [f"{path}:{number}" for path in tree.cpp_files() + tree.python_files() + tree.build_files()
                 for number, line in enumerate(tree.read(path).splitlines(), 1) if len(line) > LONGEST_LINE]
         self.assertEqual(long, [])
 

@@ -29,6 +29,12 @@ def python_files():
     return sorted(files(".py") + commands)
 
 
+def build_files():
+    """What CMake reads, and the parts of scripts."""
+    lists = [path for path in files(".txt") if path.endswith("CMakeLists.txt")]
+    return sorted(["CMakeLists.txt", *lists, *files(".cmake", ".sh")])
+
+
 def read(path):
     return (ROOT / path).read_text()
 

@@ -41,7 +41,8 @@ install_missing() {
   export DEBIAN_FRONTEND=noninteractive
   local log
   log=$(mktemp)
-  if ! { $sudo apt-get update -qq && $sudo apt-get install -y -qq --no-install-recommends "${missing[@]}"; } >"$log" 2>&1; then
+  if ! { $sudo apt-get update -qq &&
+    $sudo apt-get install -y -qq --no-install-recommends "${missing[@]}"; } >"$log" 2>&1; then
     tail -n 20 "$log" >&2
     say "apt-get could not install them (above: its last lines); install them by hand and try again"
     exit 1
@@ -131,12 +132,14 @@ built_modules() {
   done
 }
 
-# vtk_python: a Python of our own in build/python with the newest libraries that the package tushar can work with, and with
-# the XDMF reader that ParaView has; Debian's vtk lacks it. Without a network the tests that need it are skipped, and say so.
+# vtk_python: a Python of our own in build/python with the newest libraries that the package tushar can work with, and
+# with the XDMF reader that ParaView has; Debian's vtk lacks it. Without a network the tests that need it are skipped,
+# and say so.
 vtk_python() {
   local python=$root/build/python
   local libraries=(vtk h5py matplotlib scipy pandas xarray pyvista yt nbclient ipykernel mypy)
-  "$python/bin/python3" -c 'import h5py, vtkmodules.vtkIOXdmf2, pandas, pyvista, yt, nbclient, mypy' 2>/dev/null && return 0
+  "$python/bin/python3" -c 'import h5py, vtkmodules.vtkIOXdmf2, pandas, pyvista, yt, nbclient, mypy' 2>/dev/null &&
+    return 0
   say "installing VTK, pandas, xarray, pyvista and yt for the tests of Python into build/python"
   if ! { python3 -m venv "$python" &&
     "$python/bin/python3" -m pip install --quiet --disable-pip-version-check "${libraries[@]}"; } >&2; then
@@ -144,7 +147,7 @@ vtk_python() {
   fi
 }
 
-# python_tool NAME VERSION: a program from PyPI, in this very version, in build/python/bin. Without a network it stays away.
+# python_tool NAME VERSION: a program from PyPI, in this very version, in build/python/bin; without a network, none.
 python_tool() {
   local python=$root/build/python
   "$python/bin/$1" --version 2>/dev/null | grep -qwF "$2" && return 0
