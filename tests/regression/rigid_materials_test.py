@@ -60,8 +60,9 @@ class Rigid(Scenes):
     def test_its_stress_exerts_no_force(self):
         stretched = BARS.replace("<velocity>[1,0,0]", "<velocity>[0.5*x-0.5,0,0]").replace("[1.2,0,0]</min><max>[3.2",
                                                                                            "[2.2,0,0]</min><max>[3.2")
-        for text, keeps in ((stretched, False), (stretched.replace('name="flyer">',
-                                                                   'name="flyer"><is_rigid>true</is_rigid>'), True)):
+        rigid = stretched.replace('name="flyer">', 'name="flyer"><is_rigid>true</is_rigid>')
+        master = stretched.replace("friction_conserving</type>", "rigid</type>").replace("<mu>0</mu>", "")
+        for text, keeps in ((stretched, False), (rigid, True), (master, True)):
             energies = [line[1] for line in self.lines(text, "KineticEnergy", until=.01)]
             self.assertEqual(abs(energies[-1] / energies[0] - 1) < 1e-12, keeps)
 

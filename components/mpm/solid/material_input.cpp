@@ -219,10 +219,11 @@ const Schema<Material>& materialSchema() {
         .value("linear_thermal_expansion_coef", &Material::thermalExpansion, 0, "1/K",
                "growth of lengths with the temperature above <room_temp>, of neo-Hookean models in explicit steps",
                input::nonNegative())
-        .value("is_rigid", &Material::isRigid, false, "1",
-               "explicit steps: its stress exerts no force, and its velocities go by FLIP also with XPIC2; in implicit "
-               "steps "
-               "bodies are rigid that a <contact> of type rigid or specified makes its master")
+        .value(
+            "is_rigid", &Material::isRigid, false, "1",
+            "explicit steps: its stress exerts no force, and its velocities go by FLIP also with XPIC2, as is always "
+            "so for the master of a contact; in implicit steps bodies are rigid that a <contact> of type rigid or "
+            "specified makes its master")
         .value("is_force_transmitting_material", &Material::transmitsForce, false, "1",
                "explicit steps: it moves as a rigid whole, by the sum of the loads on it and of the contact forces of "
                "a <contact> of type rigid or specified whose master it is; gravity, damping and sides of the grid do "

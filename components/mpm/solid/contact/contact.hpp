@@ -59,6 +59,8 @@ struct Contact {
   double volumeConstraint = 0;  ///< friction: the share of the volume around a node that must be filled for a contact
 
   bool concerns(int material) const;
+  /// Whether the others follow or meet a master.
+  bool hasMaster() const { return type == Type::specified || type == Type::specifiedFriction; }
   /// Whether bodies touch along planes that separate their particles.
   bool usesPlanes() const { return type == Type::planeFriction || type == Type::specifiedFriction; }
   /// The master's motion at a time, if it is given.

@@ -129,14 +129,13 @@ void checkContact(const ContactSection& read, const Element& element, Diagnostic
 void addKinds(Schema<ContactSection>& contact) {
   requiredChoiceOrRefusal(
       contact, "type", &ContactSection::kind, kinds, lackingKinds,
-      "not at all; as one body; they follow a master, which is free or moves as prescribed (two words for it); they "
-      "part "
-      "freely and slide with friction as in Uintah, which tests the pressure of each body by itself (two words for "
-      "it); the same, but all have one normal and are pressed where the stresses of all press, which keeps "
-      "momentum; as in Uintah, but only while they approach each other; they part freely, keep momentum and slide with "
-      "friction along the plane that separates their particles, found by logistic regression (Nairn, Hammerquist & "
-      "Smith 2020); the same with mu by the color of the master; they part from a master, which is free or moves as "
-      "prescribed, and slide on it along such planes");
+      "not at all; as one body; they follow a master, on which no stress acts, or which moves as prescribed (two "
+      "words for it); they part freely and slide with friction as in Uintah, which tests the pressure of each body by "
+      "itself (two words for it); the same, but all have one normal and are pressed where the stresses of all press, "
+      "which keeps momentum; as in Uintah, but only while they approach each other; they part freely, keep momentum "
+      "and slide with friction along the plane that separates their particles, found by logistic regression (Nairn, "
+      "Hammerquist & Smith 2020); the same with mu by the color of the master; they part from such a master, and "
+      "slide on it along such planes");
   contact.optional("materials", &ContactSection::materials, "1", "numbers of the materials that take part; else all")
       .optional("OneOrTwoStep", &ContactSection::steps, "1",
                 "1: acts on the velocities at the end of a step only; 2: on those at its start, too. Left out: 1 with "

@@ -326,6 +326,8 @@ std::optional<ReadSolids> readSolids(const Element& root, bool besideGas, Diagno
   for (Contact& contact : problem.contacts) {
     contact.actsTwice = contact.actsTwice || (read.xpic && contact.type != Contact::Type::planeFriction);
     contact.normalsInCells = read.axisymmetric;
+    if (contact.hasMaster())
+      problem.materials[static_cast<std::size_t>(contact.master)].isRigid = true;  // as in Uintah
   }
   problem.method.thermalContact = properties.mpm.thermalContact.has_value();
   problem.start = {read.axisymmetric, readLoads(root, read.useLoadCurves, diagnostics),
