@@ -30,6 +30,20 @@ inline constexpr CellLabel<double> unsharedDensity{"c.unsharedDensity", "kg/m^3"
 template <int D>
 inline constexpr CellLabel<Vec<D>> unsharedMomentum{"c.unsharedMomentum", "kg/(m^2 s)", "before small cells share it"};
 inline constexpr CellLabel<double> unsharedEnergy{"c.unsharedEnergy", "J/m^3", "before small cells share it"};
+/// What the gas gave to bodies in a step, per volume of the cell, and since the start.
+template <int D>
+inline constexpr CellLabel<Vec<D>> impulse{"c.impulseOnBodies", "N s/m^3", "of the gas on walls in the step"};
+inline constexpr CellLabel<double> work{"c.workOnBodies", "J/m^3", "of the gas on walls in the step"};
+inline constexpr CellLabel<double> heat{"c.heatToBodies", "J/m^3", "from the gas in the step"};
+template <int D>
+inline constexpr CellLabel<Vec<D>> impulseSinceStart{"c.impulseSinceStart", "N s/m^3", "of the gas on walls"};
+inline constexpr CellLabel<double> workSinceStart{"c.workSinceStart", "J/m^3", "of the gas on walls"};
+inline constexpr CellLabel<double> heatSinceStart{"c.heatSinceStart", "J/m^3", "from the gas to bodies"};
+template <int D>
+inline constexpr CellLabel<Vec<D>> massFlow{"c.massFlow", "kg/m^3",
+                                            "gas that passed bodies upward through the open lower faces, over a cell"};
+inline constexpr CellLabel<double> leakSinceStart{"c.leakSinceStart", "kg/m^3",
+                                                  "gas that went through bodies in the cell"};
 inline constexpr CellLabel<double> gasDensity{"c.gasDensity", "kg/m^3", "mass per volume of the gas; 0 where none is"};
 }  // namespace c
 
@@ -52,6 +66,13 @@ inline constexpr ReductionLabel<Sum> gasKineticEnergy{"GasKineticEnergy", "J", "
 inline constexpr ReductionLabel<VectorSum> forceOnBodies{"GasForceOnBodies", "N",
                                                          "force of the gas on all bodies, above reference_pressure"};
 inline constexpr ReductionLabel<Sum> powerOnBodies{"GasPowerOnBodies", "W", "work of the gas on all bodies, over time"};
+inline constexpr ReductionLabel<VectorSum> impulse{"GasImpulseOnBodies", "N s",
+                                                   "momentum that the gas has given to walls since the start"};
+inline constexpr ReductionLabel<Sum> work{"GasWorkOnBodies", "J", "work of the gas on walls since the start"};
+inline constexpr ReductionLabel<Sum> heat{"GasHeatToBodies", "J", "heat from the gas to bodies since the start"};
+inline constexpr ReductionLabel<Sum> leak{"GasLeak", "kg", "gas that went through bodies since the start"};
+inline constexpr ReductionLabel<Sum> mergedCells{"MergedCells", "1",
+                                                 "cells that gave their gas to a neighbour in the last step"};
 inline constexpr ReductionLabel<Minimum> leastFreeVolume{"LeastFreeVolume", "1",
                                                          "least share of a cell that holds gas"};
 }  // namespace total

@@ -32,6 +32,9 @@ void GasAround<D>::scheduleStart(TaskList& tasks, const Materials& materials) co
                         withoutMaterial(all<FreeShares<D>>(&c::freeVolume)));
   tasks.perPatch("mpmice::initialize", initialize<D>, with(settings_), requiresNew(c::freeVolume), computes(c::density),
                  computes(c::momentum<D>), computes(c::totalEnergy));
+  tasks.perPatch("mpmice::startImpulse", startSum<D, Vec<D>>, computes(c::impulseSinceStart<D>));
+  for (const CellLabel<double>* sum : {&c::workSinceStart, &c::heatSinceStart, &c::leakSinceStart})
+    tasks.perPatch("mpmice::startSum", startSum<D, double>, computes(*sum));
 }
 
 template <int D>
@@ -58,16 +61,35 @@ void GasAround<D>::scheduleMotion(TaskList& tasks, const Materials& materials) c
       "mpmice::advanceGas", advanceBody<D>(settings_.gas.method), materials, with(settings_), requiresOld(delT),
       withoutMaterial(all<GasInCells<D>>(readsOld, typename GasInCells<D>::Reach{.state = 2, .mass = 2, .room = 3})),
       withoutMaterial(all<BodiesInStep<D>>()), requiresNew(g::record, 1), withoutMaterial(all<UnsharedGas<D>>()),
-      computes(total::powerOnBodies));
-  tasks.perPatch("mpmice::shareSmallCells", shareSmallCells<D>, with(settings_), all<Unshared<D>>(), all<NewGas<D>>());
+      withoutMaterial(all<OfferedExchange<D>>()), computes(total::powerOnBodies));
+  tasks.perPatch("mpmice::shareSmallCells", shareSmallCells<D>, with(settings_), all<Unshared<D>>(), all<NewGas<D>>(),
+                 computes(total::mergedCells));
   if (exchangesHeat())
     tasks.acrossMaterials("mpmice::exchangeHeat", exchangeHeat<D>, materials, with(settings_), requiresOld(delT),
                           withoutMaterial(requiresNew(c::freeVolume)), withoutMaterial(requiresNew(c::density)),
                           withoutMaterial(requiresNew(c::momentum<D>)), withoutMaterial(modifies(c::totalEnergy)),
-                          all<WarmBodies>());
+                          all<WarmBodies>(), withoutMaterial(offers(c::heat)));
   if (!settings_.gravity.isZero(0))
     tasks.perPatch("mpmice::addGravity", addGravity<D>, with(settings_.gravity), requiresNew(c::freeVolume),
                    requiresNew(c::density), requiresOld(delT), modifies(c::momentum<D>), modifies(c::totalEnergy));
+  scheduleSums(tasks, materials);
+}
+
+/// What went from the gas to bodies since the start, and through them; each only if something asks for it.
+template <int D>
+void GasAround<D>::scheduleSums(TaskList& tasks, const Materials& materials) const {
+  tasks.perPatch("mpmice::addImpulse", addToSum<D, Vec<D>>, requiresNew(c::impulse<D>),
+                 requiresOld(c::impulseSinceStart<D>), computes(c::impulseSinceStart<D>));
+  tasks.perPatch("mpmice::addWork", addToSum<D, double>, requiresNew(c::work), requiresOld(c::workSinceStart),
+                 computes(c::workSinceStart));
+  if (exchangesHeat())
+    tasks.perPatch("mpmice::addHeat", addToSum<D, double>, requiresNew(c::heat), requiresOld(c::heatSinceStart),
+                   computes(c::heatSinceStart));
+  tasks.acrossMaterials(
+      "mpmice::measureLeak", measureLeak<D>, materials, all<Boxes<D>>(readsOld), with(settings_),
+      withoutMaterial(all<GasInCells<D>>(readsOld, typename GasInCells<D>::Reach{.mass = 1, .room = 1})),
+      withoutMaterial(requiresNew(c::massFlow<D>, 1)), withoutMaterial(requiresOld(c::leakSinceStart)),
+      withoutMaterial(computes(c::leakSinceStart)));
 }
 
 template <int D>
@@ -97,6 +119,15 @@ void GasAround<D>::scheduleDiagnostics(TaskList& tasks) const {
   tasks.perPatch("mpmice::sumKineticEnergy", sumKineticEnergy<D>, gas, computes(total::gasKineticEnergy),
                  computes(euler::total::kineticEnergy));
   tasks.perPatch("mpmice::findLeastFreeVolume", findLeastFreeVolume<D>, gas, computes(total::leastFreeVolume));
+  tasks.perPatch("mpmice::sumImpulse", sumVectorOverVolume<D>, requiresOld(c::impulseSinceStart<D>),
+                 computes(total::impulse));
+  tasks.perPatch("mpmice::sumWork", sumOverVolume<D>, requiresOld(c::workSinceStart), computes(total::work));
+  if (exchangesHeat())
+    tasks.perPatch("mpmice::sumHeat", sumOverVolume<D>, requiresOld(c::heatSinceStart), computes(total::heat));
+  else
+    tasks.perPatch(
+        "mpmice::sumHeat", [](const Patch&, Sum&) {}, computes(total::heat));
+  tasks.perPatch("mpmice::sumLeak", sumOverVolume<D>, requiresOld(c::leakSinceStart), computes(total::leak));
 }
 
 template <int D>

@@ -25,6 +25,8 @@ class GasAround : public mpm::solid::Surroundings {
   void scheduleDiagnostics(TaskList& tasks) const;
 
  private:
+  void scheduleSums(TaskList& tasks, const Materials& materials) const;
+
   Settings settings_;
 };
 

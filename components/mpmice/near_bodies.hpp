@@ -8,6 +8,14 @@
 
 namespace tushar::mpmice {
 
+/// The place of a cell in a box, row by row.
+template <int D>
+std::size_t offsetIn(const Box& box, const Index<D>& cell) {
+  Index3 wide{};
+  for (int d = 0; d < D; ++d) wide[d] = cell[d];
+  return box.offset(wide);
+}
+
 /// The cells near bodies; all others contain gas alone.
 template <int D>
 class NearBodies {
@@ -51,11 +59,7 @@ class NearBodies {
   }
 
  private:
-  std::size_t offset(const Index<D>& cell) const {
-    Index3 wide{};
-    for (int d = 0; d < D; ++d) wide[d] = cell[d];
-    return box_.offset(wide);
-  }
+  std::size_t offset(const Index<D>& cell) const { return offsetIn<D>(box_, cell); }
 
   Box box_;
   std::vector<std::uint8_t> is_near_;

@@ -21,8 +21,9 @@ struct Sharing {
     return {.held = before.gas().held, .free = before.free.seen(), .coverage = before.coverage.seen()};
   }
   void share() {
+    merged = {};
     const NewGas<D> fresh{{after.density.cells(), after.momentum.cells(), after.energy.cells()}, after.free.cells()};
-    for (const Patch& patch : grid.patches()) shareSmallCells<D>(patch, Settings{}, unshared(), fresh);
+    for (const Patch& patch : grid.patches()) shareSmallCells<D>(patch, Settings{}, unshared(), fresh, merged);
   }
   /// Gives a cell so much room, filled with gas of a density at rest of pressure 1.
   void fill(const Index<D>& cell, double free, double density = 1) {
@@ -37,6 +38,7 @@ struct Sharing {
 
   Grid grid;
   GasFields<D> before, after;
+  Sum merged;
 };
 
 double sumOf(const std::vector<double>& values) {
@@ -57,6 +59,8 @@ TEST(SmallCells, GiveTheirGasToTheNeighbourWithTheWidestWay) {
   EXPECT_EQ(gas.targetOf({5}), Index<1>{6});
   EXPECT_EQ(gas.targetOf({1}), Index<1>{1});
   EXPECT_EQ(gas.targetOf({3}), Index<1>{3});
+  gas.share();
+  EXPECT_EQ(gas.merged.total(), 2);
   gas.fill({3}, 0.6);  // room on both sides: the lower one
   gas.fill({4}, 1);
   gas.fill({1}, 0.6);

@@ -34,6 +34,11 @@ def saving(text, *names):
     return text.replace('<save label="GasEnergy"/>', saves)
 
 
+def also(text, *names):
+    """A scene that saves these besides, if it does not yet."""
+    return saving(text, "GasEnergy", *(name for name in names if f'label="{name}"' not in text))
+
+
 class Exactness(unittest.TestCase):
     def assert_exact(self, errors):
         for name, error in errors.items():
@@ -122,6 +127,75 @@ class Conservation(SceneTest):
         mass = globals_of(self.scene(BALL), "GasMass", sets=("Grid/Level/Box/resolution=[20,10,10]",
                                                              "Time/max_Timesteps=60"))["GasMass"]
         self.assertLess(max(abs(line[1] / mass[0][1] - 1) for line in mass), 1e-13)
+
+
+GIVEN = ("GasImpulseOnBodies", "GasWorkOnBodies", "GasHeatToBodies", "GasLeak", "MergedCells")
+# A box with warm gas and a cold plug that swings, as the pressures are unlike.
+WARM = changed(also(PLUG, *GIVEN), ("<heat>[0]", "<heat>[500]"),
+               ("</constitutive_model>", "</constitutive_model><specific_heat>1</specific_heat>"
+                                         "<thermal_conductivity>0</thermal_conductivity>"),
+               ("<res>[4,1,1]</res>", "<res>[4,1,1]</res><temperature>0.3</temperature>"))
+
+
+def thin_plug(width):
+    """The scene of the plug with one that is so many cells of .01 m thick, of the same mass."""
+    return changed(also(PLUG, *GIVEN), ("[0.95,0,0]", "[1,0,0]"), ("[1.05,1,1]", f"[{1 + .01 * width},1,1]"),
+                   ("<density>5<", f"<density>{50 / width}<"))
+
+
+class Given(SceneTest):
+    """What went from the gas to bodies since the start, and through them."""
+
+    def given(self, text, *sets):
+        return globals_of(self.scene(text), *TOTALS, *GIVEN, sets=sets)
+
+    def test_is_what_bodies_got(self):
+        found = self.given(WARM, "Time/maxTime=0.3")
+        start, end = ({name: lines[k][1] for name, lines in found.items()} for k in (0, -1))
+        gained = {name: end[name] - start[name] for name in end}
+        momentum = gained["TotalMomentum"] - gained["GasMomentum"]
+        kinetic = gained["KineticEnergy"] - gained["GasKineticEnergy"]
+        self.assertGreater(gained["GasHeatToBodies"], .01)
+        self.assertGreater(gained["GasWorkOnBodies"], .001)
+        self.assertAlmostEqual(gained["GasImpulseOnBodies"] / momentum, 1, delta=1e-12)
+        self.assertAlmostEqual(gained["GasWorkOnBodies"] / kinetic, 1, delta=1e-12)
+        lost = gained["GasWorkOnBodies"] + gained["GasHeatToBodies"]
+        self.assertLess(abs(gained["GasEnergy"] + lost), 1e-14 * start["GasEnergy"])
+
+    def test_leaks_through_a_plate_are_what_gets_behind_it(self):
+        scene = self.scene(thin_plug(.75))
+        archive = archive_of(scene, scene.parent)
+        place = globals_of(scene, "CenterOfMassPosition")["CenterOfMassPosition"][-1][1] / .5
+        found = columns(archive, "c.density")
+        behind = sum(.01 * rho for x, rho in zip(found["x [m]"], found["c.density [kg/m^3]"]) if x > place)
+        leak = globals_of(scene, "GasLeak")["GasLeak"][-1][1]
+        self.assertAlmostEqual(behind - 1.4 * .9925, leak, delta=.1 * leak)
+
+    def test_nothing_leaks_through_thick_bodies(self):
+        self.assertEqual(self.given(thin_plug(2), "Time/maxTime=0.1")["GasLeak"][-1][1], 0)
+        carried = saving(DISC, "GasLeak", "GasMass")
+        found = globals_of(self.scene(carried), "GasLeak", "GasMass", sets=fsi.resolution("carried_disc", 25))
+        self.assertLess(found["GasLeak"][-1][1], 1e-13 * found["GasMass"][0][1])
+
+    def test_a_small_cell_beside_the_plug_is_merged(self):
+        merged = self.given(thin_plug(10), "Time/max_Timesteps=1")["MergedCells"]
+        self.assertEqual(merged[-1][1], 2, "the gas presses both ends in")
+
+    def test_has_the_same_bits_on_patches_on_ranks_and_after_a_restart(self):
+        def result(folder, outcome):
+            code, errors, report = outcome
+            self.assertEqual((code, errors), (0, ""))
+            return [report["fingerprint"], *((folder.uda / f"{name}.dat").read_text() for name in GIVEN)]
+
+        scene, found = self.scene(WARM), []
+        often = ("DataArchiver/outputInterval=0", "DataArchiver/checkpoint/@timestepInterval=20")
+        for layout, ranks, steps in (("[1,1,1]", 1, 41), ("[7,1,1]", 1, 41), ("[50,1,1]", 3, 41), ("[1,1,1]", 1, 21)):
+            folder = Folder(ranks=ranks)
+            self.addCleanup(folder.cleanup)
+            found.append(result(folder, folder.run(scene, *often, f"Time/max_Timesteps={steps}", layout=layout)))
+        found[-1] = result(folder, folder.restart("Time/max_Timesteps=41", step=20))
+        for other in found[1:]:
+            self.assertEqual(other, found[0])
 
 
 class Bits(unittest.TestCase):

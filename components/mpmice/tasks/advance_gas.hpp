@@ -2,6 +2,7 @@
 
 #include "components/euler/tasks/advance_patch.hpp"
 #include "components/mpm/solid/material.hpp"
+#include "components/mpmice/tasks/measure_exchange.hpp"
 #include "components/mpmice/tasks/wall_force.hpp"
 
 namespace tushar::mpmice {
@@ -31,6 +32,13 @@ struct UnsharedGas {
   }
 };
 
+/// What the gas of a cell gives to walls in a step, per volume of the cell.
+template <int D>
+struct Given {
+  Vec<D> impulse = Vec<D>::Zero();  ///< N s/m³
+  double work = 0;                  ///< J/m³
+};
+
 /// The exchange of the gas with walls in a step.
 template <int D>
 class WallExchange {
@@ -52,9 +60,9 @@ class WallExchange {
   const FreeSpace<D>& space() const { return space_; }
 
   /// Adds to the content of a cell what walls at its faces push, and what gas flows in behind walls that move. Returns
-  /// the work of the gas on the walls, J/m³ of the cell.
-  double addTo(const Index<D>& cell, const euler::StateViews<D, double>& held) const {
-    double work = 0;
+  /// what the gas gives to the walls.
+  Given<D> addTo(const Index<D>& cell, const euler::StateViews<D, double>& held) const {
+    Given<D> given;
     for (int d = 0; d < D; ++d) {
       const OpenFaces faces = space_.faces(cell, d);
       for (int side = 0; side < 2; ++side) {
@@ -63,18 +71,28 @@ class WallExchange {
         const bool flows = !space_.isAtSide(cell, d, side) && mayFlow(face, d);
         if (!(wall > 0) && !flows) continue;
         const Vec<D> after = nodes_.velocityAt(face, d, mpm::solid::lane::velocity);
-        if (wall > 0) work += push(cell, d, side, wall, after, held);
+        if (wall > 0) push(cell, d, side, wall, after, held, given);
         if (flows) flow(cell, d, side, after[d], held);
       }
     }
-    return work;
+    return given;
+  }
+
+  /// Mass of gas that goes up through the open share of a cell's lower face, over a cell's volume, if it moves with the
+  /// bodies there.
+  double carriedThrough(const Index<D>& cell, int axis) const {
+    const double open = space_.aperture(cell, axis, 0);
+    if (!(open > 0)) return 0;
+    const double velocity = nodes_.velocityAt(cell, axis, mpm::solid::lane::velocity)[axis];
+    const Index<D> donor = velocity > 0 ? cell - Index<D>::unit(axis) : cell;
+    const double density = cells_.held.density[donor] / cells_.free[donor];
+    return open * density * velocity * dt_ * level_.inverseSpacing(axis);
   }
 
  private:
-  /// Momentum and work of a wall: its pressure, at the mean of its velocities before and after the step. Returns the
-  /// work of the gas.
-  double push(const Index<D>& cell, int axis, int side, double wall, const Vec<D>& after,
-              const euler::StateViews<D, double>& held) const {
+  /// Momentum and work of a wall: its pressure, at the mean of its velocities before and after the step.
+  void push(const Index<D>& cell, int axis, int side, double wall, const Vec<D>& after,
+            const euler::StateViews<D, double>& held, Given<D>& given) const {
     const Index<D> face = side == 0 ? cell : cell + Index<D>::unit(axis);
     const Vec<D> before = nodes_.velocityAt(face, axis, mpm::solid::lane::before);
     const double pressure = side == 0 ? step_.walls.below[cell][axis] : step_.walls.above[cell][axis];
@@ -82,7 +100,8 @@ class WallExchange {
     held.momentum[cell][axis] += impulse;
     const double work = impulse * (0.5 * (before[axis] + after[axis]));
     held.totalEnergy[cell] += work;
-    return -work;
+    given.impulse[axis] -= impulse;
+    given.work -= work;
   }
 
   /// Whether bodies are at the face below a cell, or went through it.
@@ -204,16 +223,28 @@ void closeFaces(const Level& level, const FreeSpace<D>& space, const NearBodies<
   });
 }
 
+/// Keeps the mass that flows up through the lower faces of the cells of a block across an axis, over a cell's volume,
+/// past what moves as the bodies at the face do.
+template <int D>
+void keepMassFlow(const WallExchange<D>& exchange, const NearBodies<D>& near, const Box& block, int axis, double ratio,
+                  const euler::Rows<D>& flux, const CellView<Vec<D>>& flow) {
+  near.forEachIn(block, [&](const Index<D>& cell) {
+    if (exchange.space().isAtSide(cell, axis, 0)) return;
+    flow[cell][axis] = ratio * flux.number(cell, euler::kDensity) - exchange.carriedThrough(cell, axis);
+  });
+}
+
 /// The fluxes through the open parts of a block's faces across an axis.
 template <int D, class Flux, class Shape, int Axis>
 void sweepOpen(const euler::Gas& gas, const WallExchange<D>& exchange, const NearBodies<D>& near, const Level& level,
                const Box& block, double ratio, const euler::StateViews<D, const double>& old, euler::Work<D>& work,
-               const euler::StateViews<D, double>& fresh) {
+               const euler::StateViews<D, double>& fresh, const std::optional<CellView<Vec<D>>>& flow) {
   Box faces = block;
   ++faces.upper[Axis];
   euler::computeFluxes<D, Flux, Shape, Axis>(gas, faces, work);
   closeFaces<D>(level, exchange.space(), near, faces, Axis, work.flux);
   euler::addFluxes<D, Axis>(ratio, block, old, work.flux, fresh);
+  if (flow) keepMassFlow<D>(exchange, near, block, Axis, ratio, work.flux, *flow);
 }
 
 /// A step of a block with bodies in it or around: `euler`'s, through open faces alone, and what walls do. Returns
@@ -221,7 +252,7 @@ void sweepOpen(const euler::Gas& gas, const WallExchange<D>& exchange, const Nea
 template <int D, class Flux, class Shape>
 bool advanceAtBodies(const Level& level, double dt, const Box& block, const GasInCells<D>& cells,
                      const WallExchange<D>& exchange, const NearBodies<D>& near, euler::Work<D>& work,
-                     const euler::StateViews<D, double>& fresh, Sum& power) {
+                     const euler::StateViews<D, double>& fresh, const OfferedExchange<D>& offered, Sum& power) {
   const euler::Gas& gas = exchange.gas();
   const double perStep = level.cellVolume() / dt;
   work.hold(block.grown(Shape::reach, D));
@@ -231,13 +262,16 @@ bool advanceAtBodies(const Level& level, double dt, const Box& block, const GasI
   flattenAtBodies<D>(level, block.grown(1, D), cells, near, work);
   const auto sweep = [&]<int Axis>() {
     sweepOpen<D, Flux, Shape, Axis>(gas, exchange, near, level, block, dt / level.spacing(Axis), cells.held, work,
-                                    fresh);
+                                    fresh, offered.massFlow);
   };
   sweep.template operator()<0>();
   if constexpr (D > 1) sweep.template operator()<1>();
   if constexpr (D > 2) sweep.template operator()<2>();
   near.forEachIn(block, [&](const Index<D>& cell) {
-    if (const double done = exchange.addTo(cell, fresh); done != 0) power.add(done * perStep);
+    const Given<D> given = exchange.addTo(cell, fresh);
+    if (given.work != 0) power.add(given.work * perStep);
+    if (offered.impulse) (*offered.impulse)[cell] = given.impulse;
+    if (offered.work) (*offered.work)[cell] = given.work;
   });
   bool fine = true;
   forEach<D>(block, [&](const Index<D>& cell) {
@@ -253,16 +287,19 @@ bool advanceAtBodies(const Level& level, double dt, const Box& block, const GasI
 template <int D, class Flux, class Shape>
 void advanceGas(const Patch& patch, const std::vector<mpm::solid::Material>&, const Settings& settings, double dt,
                 const GasInCells<D>& cells, const BodiesInStep<D>& bodies,
-                const typename BodiesAtNodes<D>::Records& records, const UnsharedGas<D>& fresh, Sum& power) {
+                const typename BodiesAtNodes<D>::Records& records, const UnsharedGas<D>& fresh,
+                const OfferedExchange<D>& offered, Sum& power) {
   const Level& level = patch.level();
   const euler::Gas& gas = settings.gas.gas;
   const NearBodies<D> near(patch.cells().grown(2, D), nearLayers, cells.free, cells.held.density);
   const WallExchange<D> exchange(level, settings, cells, bodies, records, dt);
   euler::Work<D> work(patch.cells(), Shape::reach);
+  offered.clear();
   bool fine = true;
   euler::forEachBlock<D>(patch.cells(), [&](const Box& block) {
     if (near.anyIn(block.grown(1, D))) {
-      fine &= advanceAtBodies<D, Flux, Shape>(level, dt, block, cells, exchange, near, work, fresh.held, power);
+      fine &=
+          advanceAtBodies<D, Flux, Shape>(level, dt, block, cells, exchange, near, work, fresh.held, offered, power);
       return;
     }
     euler::advanceBlock<D, Flux, Shape>(gas, level, exchange.rules(), block, dt, cells.held, work, fresh.held, {});

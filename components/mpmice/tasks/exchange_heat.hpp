@@ -61,8 +61,9 @@ class HeatExchange {
                CellView<const double> free, const std::vector<WarmBodies>& bodies)
       : patch_(patch), materials_(materials), settings_(settings), free_(free), bodies_(bodies) {}
 
-  void apply(const Index<D>& cell, double dt, CellView<const double> density, CellView<const Vec<D>> momentum,
-             CellView<double> totalEnergy) const {
+  /// Returns what the gas of the cell gives, J/m³ of the cell.
+  double apply(const Index<D>& cell, double dt, CellView<const double> density, CellView<const Vec<D>> momentum,
+               CellView<double> totalEnergy) const {
     const auto gas = static_cast<Eigen::Index>(bodies_.size());
     WarmThings things = bodiesIn(cell);
     if (free_[cell] >= leastFreeVolume && density[cell] > 0) {
@@ -72,14 +73,17 @@ class HeatExchange {
       things.temperature[gas] = internal / (mass * specific);
       things.volume[gas] = free_[cell];
     }
-    if ((things.capacity.array() > 0).count() < 2) return;
+    if ((things.capacity.array() > 0).count() < 2) return 0;
+    double given = 0;
     const Eigen::VectorXd after = temperaturesAfter(things, settings_.heat, dt);
     for (Eigen::Index m = 0; m < gas; ++m) {
       if (!(things.capacity[m] > 0)) continue;
       const double change = after[m] - things.temperature[m];
-      if (things.capacity[gas] > 0) totalEnergy[cell] -= things.capacity[m] * change;
+      if (things.capacity[gas] > 0) given += things.capacity[m] * change;
       for (const int p : bodies_[m].mass.template in<D>(cell)) bodies_[m].temperature[p] += change;
     }
+    totalEnergy[cell] -= given;
+    return given;
   }
 
  private:
@@ -113,14 +117,16 @@ class HeatExchange {
 template <int D>
 void exchangeHeat(const Patch& patch, const std::vector<mpm::solid::Material>& materials, const Settings& settings,
                   double dt, CellView<const double> free, CellView<const double> density,
-                  CellView<const Vec<D>> momentum, CellView<double> totalEnergy,
-                  const std::vector<WarmBodies>& bodies) {
+                  CellView<const Vec<D>> momentum, CellView<double> totalEnergy, const std::vector<WarmBodies>& bodies,
+                  const std::optional<CellView<double>>& heat) {
+  if (heat) heat->fill(0);
   const HeatExchange<D> exchange(patch, materials, settings, free, bodies);
   forEach<D>(patch.cells(), [&](const Index<D>& cell) {
     if (std::all_of(bodies.begin(), bodies.end(),
                     [&](const WarmBodies& body) { return body.mass.template in<D>(cell).size() == 0; }))
       return;
-    exchange.apply(cell, dt, density, momentum, totalEnergy);
+    const double given = exchange.apply(cell, dt, density, momentum, totalEnergy);
+    if (heat) (*heat)[cell] = given;
   });
 }
 

@@ -163,9 +163,10 @@ void checkGas(const Level& level, const euler::Gas& gas, const Index<D>& cell, c
   refuseGas<D>(level, gas, cell, free, density, stiff);
 }
 
-/// The state after a step: small cells share theirs with neighbours.
+/// The state after a step: small cells share theirs with neighbours. Counts them.
 template <int D>
-void shareSmallCells(const Patch& patch, const Settings& settings, const Unshared<D>& state, const NewGas<D>& fresh) {
+void shareSmallCells(const Patch& patch, const Settings& settings, const Unshared<D>& state, const NewGas<D>& fresh,
+                     Sum& merged) {
   const Level& level = patch.level();
   forEachRow<D>(patch.cells(), [&](const Index<D>& first, int count) {
     std::copy_n(euler::rowOf(state.held.density, first, count), count, euler::rowOf(fresh.held.density, first, count));
@@ -179,6 +180,7 @@ void shareSmallCells(const Patch& patch, const Settings& settings, const Unshare
   const SmallCells<D> small(level, settings.thinWalls, state);
   near.forEachIn(patch.cells(), [&](const Index<D>& cell) {
     const Index<D> centre = small.targetOf(cell);
+    if (!(centre == cell)) merged.add(1);
     shareAt<D>(small, state, cell, centre, fresh.held);
     if (state.free[centre] < narrowFreeVolume) fresh.free[cell] = 0;  // a hole: what it holds waits until there is room
   });

@@ -1,0 +1,148 @@
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#include "components/mpmice/free_space.hpp"
+#include "components/mpmice/near_bodies.hpp"
+#include "components/mpmice/tasks/measure_bodies.hpp"
+
+namespace tushar::mpmice {
+
+/// What the gas of each cell gives to walls in a step, and what flows through open faces, where something asks for it.
+template <int D>
+struct OfferedExchange {
+  std::optional<CellView<Vec<D>>> impulse;
+  std::optional<CellView<double>> work;
+  std::optional<CellView<Vec<D>>> massFlow;
+
+  static OfferedExchange from(auto& take) {
+    return {.impulse = take(offers(c::impulse<D>)),
+            .work = take(offers(c::work)),
+            .massFlow = take(offers(c::massFlow<D>))};
+  }
+  void clear() const {
+    if (impulse) impulse->fill(Vec<D>::Zero());
+    if (work) work->fill(0);
+    if (massFlow) massFlow->fill(Vec<D>::Zero());
+  }
+};
+
+/// now = before + the part of the step.
+template <int D, class T>
+void addToSum(const Patch& patch, CellView<const T> part, CellView<const T> before, CellView<T> now) {
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) { now[cell] = before[cell] + part[cell]; });
+}
+
+/// Nothing has been given yet.
+template <int D, class T>
+void startSum(const Patch&, CellView<T> sum) {
+  if constexpr (std::is_same_v<T, double>)
+    sum.fill(0);
+  else
+    sum.fill(T::Zero());
+}
+
+/// The sum over cells of an amount per volume.
+template <int D>
+void sumOverVolume(const Patch& patch, CellView<const double> amount, Sum& sum) {
+  const double volume = patch.level().cellVolume();
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) { sum.add(volume * amount[cell]); });
+}
+template <int D>
+void sumVectorOverVolume(const Patch& patch, CellView<const Vec<D>> amount, VectorSum& sum) {
+  const Level& level = patch.level();
+  const double volume = level.cellVolume();
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    if (!amount[cell].isZero(0)) sum.add(level.template expandDirection<D>(volume * amount[cell]));
+  });
+}
+
+/// The strips of a cell along each axis in which bodies are, as bits: 64 in a plane, 8 x 8 in space, one on a line.
+template <int D>
+class BlockedStrips {
+ public:
+  static constexpr int perAxis = D == 1 ? 1 : D == 2 ? 64 : 8;
+  static constexpr int count = D == 1 ? 1 : 64;
+
+  /// Adds a box with coordinates from the lower corner of the cell.
+  void add(const ParticleBox<D>& box, const Index<D>& k) {
+    for (int d = 0; d < D; ++d)
+      if (!(box.lengthIn(d, k[d]) > 0)) return;
+    for (int axis = 0; axis < D; ++axis) {
+      std::uint64_t bits = 1;
+      int width = 1;
+      for (int d = 0; d < D; ++d)
+        if (d != axis) bits = spread(bits, width, along(box, d, k[d])), width *= perAxis;
+      strips_[axis] |= bits;
+    }
+  }
+  /// The share of a cell's cross-section that no body is in front of.
+  double open(int axis) const { return 1 - std::popcount(strips_[axis]) * (1.0 / count); }
+
+ private:
+  /// The strips across an axis whose middles are in the box.
+  static std::uint64_t along(const ParticleBox<D>& box, int axis, int k) {
+    std::uint64_t bits = 0;
+    for (int i = 0; i < perAxis; ++i) {
+      const double middle = k + (i + 0.5) / perAxis;
+      if (std::abs(middle - box.middle[axis]) <= 0.5 * box.edges[axis]) bits |= std::uint64_t{1} << i;
+    }
+    return bits;
+  }
+  /// The pattern `bits` of `width` bits in each place of `places`.
+  static std::uint64_t spread(std::uint64_t bits, int width, std::uint64_t places) {
+    std::uint64_t all = 0;
+    for (int i = 0; i < perAxis; ++i)
+      if (places >> i & 1) all |= bits << (i * width);
+    return all;
+  }
+
+  std::array<std::uint64_t, D> strips_{};
+};
+
+/// Which strips of the cells of a patch bodies block, at the start of a step.
+template <int D>
+std::vector<BlockedStrips<D>> blockedStrips(const Patch& patch, const std::vector<Boxes<D>>& materials) {
+  const Box& cells = patch.cells();
+  std::vector<BlockedStrips<D>> strips(cells.size());
+  for (const Boxes<D>& boxes : materials)
+    forEachParticle<D>(patch.level(), boxes.x, [&](const Index<D>& origin, const mpm::CellFrame<D>& frame, int p) {
+      const ParticleBox<D> box = boxes.of(frame, p);
+      forEach<D>(box.reach(), [&](const Index<D>& k) {
+        const Index<D> cell = origin + k;
+        if (cells.contains(cell)) strips[offsetIn<D>(cells, cell)].add(box, k);
+      });
+    });
+  return strips;
+}
+
+/// The mass that leaks through bodies along an axis in a step, over a cell's volume: of what comes in through one face
+/// and leaves through the other, the part for which there is no straight way past the bodies in the cell.
+inline double leakAlong(double in, double out, double openIn, double openOut, double straight) {
+  if (!(in * out > 0)) return 0;
+  const double through = std::min(std::abs(in), std::abs(out)), width = std::min(openIn, openOut);
+  return width > straight ? through * (1 - straight / width) : 0;
+}
+
+/// Adds the leak of a step to that since the start.
+template <int D>
+void measureLeak(const Patch& patch, const std::vector<mpm::solid::Material>&, const std::vector<Boxes<D>>& materials,
+                 const Settings& settings, const GasInCells<D>& cells, CellView<const Vec<D>> flow,
+                 CellView<const double> before, CellView<double> leak) {
+  const FreeSpace<D> space(patch.level(), settings, cells);
+  const std::vector<BlockedStrips<D>> strips = blockedStrips<D>(patch, materials);
+  forEach<D>(patch.cells(), [&](const Index<D>& cell) {
+    leak[cell] = before[cell];
+    if (!(cells.free[cell] < 1) || cells.isEmpty(cell)) return;
+    for (int d = 0; d < D; ++d) {
+      if (space.isAtSide(cell, d, 0) || space.isAtSide(cell, d, 1)) continue;
+      const OpenFaces faces = space.faces(cell, d);
+      leak[cell] += leakAlong(flow[cell][d], flow[cell + Index<D>::unit(d)][d], faces.open[0], faces.open[1],
+                              strips[offsetIn<D>(patch.cells(), cell)].open(d));
+    }
+  });
+}
+
+}  // namespace tushar::mpmice
