@@ -37,6 +37,7 @@ class Phases {
 
   tasks::TaskGraph initialize, stableTimeStep, timeAdvance, startTotals, everyStep, everyOutput, report;
   tasks::TaskGraph refinement;  ///< where criteria ask for finer cells
+  tasks::TaskGraph refined;     ///< what a component does with cells that have become finer
 
   /// Names of the variables that a step and the totals need of the step before, sorted: the state of a run, whatever
   /// is saved and measured besides.
@@ -61,7 +62,7 @@ class Phases {
 
  private:
   struct Lists {
-    tasks::TaskList initialize, stableTimeStep, timeAdvance, diagnostics;
+    tasks::TaskList initialize, stableTimeStep, timeAdvance, diagnostics, errorEstimate, refine;
   };
   void validateAll() const;
   void noteMaterials();
@@ -69,10 +70,11 @@ class Phases {
   /// The requests with the names of materials in place of their numbers; the number after the last means all, as in
   /// Uintah, and higher ones mean none.
   std::vector<SaveRequest> named(const std::vector<SaveRequest>& saves) const;
-  /// The diagnostics with the task behind them that looks where to refine; nothing where the grid stays. Throws
+  /// The diagnostics with the tasks behind them that look where to refine; nothing where the grid stays. Throws
   /// InputError for a criterion of what is no variable of cells.
   tasks::TaskList refinementTasks(const RegridSettings& regrid) const;
-  void refuseSavedNodes() const;
+  /// Throws InputError for node variables that are saved, or sampled in parts of the grid.
+  void refuseSavedNodes(const std::vector<std::unique_ptr<Analysis>>& analyses) const;
   /// The saved and sampled variables: of diagnostics in every step and at outputs, and of the state.
   struct Wants {
     tasks::Names everyStep, everyOutput, ofState;
