@@ -49,7 +49,7 @@ class Analysis {
   virtual std::vector<std::pair<std::string, std::string>> otherNames() const { return {}; }
   /// The layers of the grid in which sample() needs them, without particles; if there are none, everywhere.
   virtual std::vector<collect::Layer> layers() const { return {}; }
-  /// The parts of a grid of one level in which it wants to see them, likewise.
+  /// The parts of the grid in which it wants to see them, likewise.
   virtual std::vector<collect::Window> windows() const { return {}; }
   /// Whether it wants to see the least and the greatest of the values and their sum instead: a snapshot of each.
   virtual std::optional<collect::SummaryOver> summary() const { return {}; }
